@@ -1,0 +1,98 @@
+/// \file
+/// How the camera moved between two frames, and the strapdown integration that finds it from an IMU.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+
+namespace lcs {
+
+/// Motion of the camera from frame k-1 to frame k.
+struct EgoMotion {
+  double dt_s = 0;  ///< t_f; 0 in the first frame
+  /// Takes camera coordinates of frame k-1 to those of frame k (rotation part).
+  Eigen::Matrix3d R_cur_prev = Eigen::Matrix3d::Identity();
+  /// Mean velocity of the camera over the interval, in the camera frame of k.
+  Eigen::Vector3d v_C_mps = Eigen::Vector3d::Zero();
+  /// Mean body rate of the camera over the interval, in the camera frame: R_cur_prev = exp(-[w] dt).
+  Eigen::Vector3d w_C_radps = Eigen::Vector3d::Zero();
+};
+
+/// Rotations (only) of the sensors, and their lever arms, in the rover's frame B.
+struct Mounting {
+  Eigen::Matrix3d R_BC = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d p_BC_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d R_BS = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d p_BS_m = Eigen::Vector3d::Zero();
+};
+
+/// Noise that the estimator expects; used only to weigh odometry against the IMU.
+struct EgoMotionNoise {
+  double gyro_density = 1.7e-4;   ///< rad/s/sqrt(Hz)
+  double gyro_walk = 2.0e-5;      ///< rad/s^2/sqrt(Hz)
+  double accel_density = 2.0e-3;  ///< m/s^2/sqrt(Hz)
+  double accel_walk = 3.0e-3;     ///< m/s^3/sqrt(Hz)
+  double odometry_mps = 0.02;     ///< standard deviation of one odometry velocity, per axis
+};
+
+/// Strapdown integration of gyro and accelerometer from a known start, in the world frame W (z up,
+/// gravity along -z), with an error-state Kalman filter on (attitude, velocity, gyro bias, accelerometer
+/// bias) that takes wheel odometry where there is some. Without odometry it is plain dead reckoning.
+class EgoMotionEstimator {
+ public:
+  struct Start {
+    std::int64_t t_ns = 0;
+    Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d v_WB_mps = Eigen::Vector3d::Zero();
+    double gravity_mps2 = 9.81;
+  };
+
+  EgoMotionEstimator(const Mounting& mounting, const EgoMotionNoise& noise, const Start& start);
+
+  /// A reading of the IMU in its frame S. Times must not decrease; a reading that is not finite or
+  /// older than the last is dropped and counted.
+  void add_imu(std::int64_t t_ns, const Eigen::Vector3d& gyro_radps,
+               const Eigen::Vector3d& accel_mps2);
+
+  /// Velocity of the rover's origin, in B, from its wheels. Integrates up to `t_ns` first.
+  void add_odometry(std::int64_t t_ns, const Eigen::Vector3d& velocity_B_mps);
+
+  /// Integrates up to a frame's time, and returns the motion since the last frame.
+  EgoMotion frame(std::int64_t t_ns);
+
+  const Eigen::Matrix3d& R_WS() const { return R_WS_; }
+  const Eigen::Vector3d& v_WS_mps() const { return v_WS_; }
+  int dropped() const { return dropped_; }
+
+ private:
+  using Matrix12 = Eigen::Matrix<double, 12, 12>;
+  void propagate_to(std::int64_t t_ns);
+  Eigen::Vector3d camera_velocity_W() const;
+
+  Mounting mounting_;
+  EgoMotionNoise noise_;
+  Eigen::Vector3d gravity_W_;
+  std::int64_t t_ns_;
+  Eigen::Matrix3d R_WS_;
+  Eigen::Vector3d v_WS_;
+  Eigen::Vector3d gyro_bias_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d accel_bias_ = Eigen::Vector3d::Zero();
+  Matrix12 covariance_ = Matrix12::Zero();  ///< of (attitude in W, velocity in W, biases)
+  struct Reading {
+    std::int64_t t_ns;
+    Eigen::Vector3d gyro, accel;
+  };
+  std::optional<Reading> last_;  ///< newest reading
+  int dropped_ = 0;
+
+  struct Frame {
+    std::int64_t t_ns;
+    Eigen::Matrix3d R_WC;
+  };
+  std::optional<Frame> last_frame_;
+  Eigen::Vector3d displacement_W_ = Eigen::Vector3d::Zero();  ///< of the camera, since the last frame
+};
+
+}  // namespace lcs

@@ -1,0 +1,51 @@
+/// \file
+/// The LCS filter: a frame's corners and the ego-motion in, layers and a verdict for each corner out.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "filter/camera.h"
+#include "filter/ego_motion.h"
+#include "filter/layers.h"
+#include "filter/parameters.h"
+
+namespace lcs {
+
+/// Wall time of each expert in the last frame. For reports only: nothing in the filter reads it.
+struct StageTimes {
+  double line_ms = 0;
+  double circle_ms = 0;
+  double square_ms = 0;
+};
+
+/// What `Filter::step` has to say of a frame.
+struct FrameResult {
+  Layers layers;
+  std::vector<Verdict> verdicts;  ///< one for each corner, in the caller's order
+  StageTimes times;
+};
+
+/// Deterministic: the same corners and motions give the same bits, in whatever order the corners of a
+/// frame come.
+class Filter {
+ public:
+  /// \throws std::invalid_argument for parameters out of range or a camera without pixels.
+  Filter(const Intrinsics& camera, const Parameters& parameters);
+  ~Filter();
+  Filter(Filter&&) noexcept;
+  Filter& operator=(Filter&&) noexcept;
+
+  /// \param corners_px of this frame (chi before the Line expert).
+  /// \param motion since the last frame.
+  /// \return the filter's own storage: valid until the next step.
+  const FrameResult& step(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& motion);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lcs

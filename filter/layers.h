@@ -1,0 +1,109 @@
+/// \file
+/// What the filter knows at the end of a frame: its edges, circles and squares, and the regions and
+/// collectors that it hands to the next frame. Plain values; the paper's symbol stands beside each.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "filter/camera.h"
+
+namespace lcs {
+
+/// Number that a landmark or layer keeps for its whole life; unique within a run and kind.
+using Id = std::uint32_t;
+
+/// A tracked corner: E_n where it moves as the static world must, E_r (rebel) where it does not.
+struct Edge {
+  Id id = 0;
+  bool rebel = false;
+  Vec2 location = Vec2::Zero();   ///< L, px
+  Vec2 origin = Vec2::Zero();     ///< O, px: first sighting (rebel), FOE or start of its path (normal)
+  Vec2 predicted = Vec2::Zero();  ///< L~, px: where this frame's corner was expected
+  double speed = 0;               ///< V, px/s, along beta; never negative
+  double depth_ratio = 1;         ///< V / V_v = Z_ref / Z, what landmarks of one depth share
+  double angle = 0;               ///< beta, of the direction of motion seen from O
+  double mu = 0;                  ///< normal: radius of detection, px; rebel: deviation angle, rad
+  int trust = 0;                  ///< Tr
+  int age = 0;                    ///< frames since it was made, 0 in its first
+  int corner = -1;                ///< index in chi of the corner that supports it, -1: none this frame
+  int circle = -1;                ///< index in its kind's circles, -1: in none
+};
+
+/// A group of edges of like motion: C_n or C_r.
+struct Circle {
+  Id id = 0;
+  bool rebel = false;
+  Vec2 location = Vec2::Zero();  ///< L, px
+  Vec2 origin = Vec2::Zero();    ///< O, px
+  double radius = 0;             ///< R, px
+  double speed = 0;              ///< V, px/s
+  double depth_ratio = 1;        ///< V / V_v
+  double angle = 0;              ///< beta
+  int trust = 0;                 ///< Tr
+  int age = 0;
+  int members = 0;               ///< edges grouped into it in this frame; 0 while it coasts
+};
+
+/// An object (or a layer of objects at one depth): S, an axis-aligned rectangle.
+struct Square {
+  Id id = 0;
+  Vec2 location = Vec2::Zero();     ///< L, px, its centre
+  Vec2 half_size = Vec2::Zero();    ///< R, px
+  Vec2 origin = Vec2::Zero();       ///< O, px
+  double speed = 0;                 ///< V, px/s
+  double depth_ratio = 1;           ///< V / V_v
+  double angle = 0;                 ///< beta
+  int trust = 0;                    ///< Tr
+  int age = 0;
+  int circles = 0;                  ///< grouped into it in this frame; 0 while it coasts
+  int rebel_circles = 0;            ///< of these
+};
+
+/// Ignorance region psi: corners inside are not looked at in the next frame.
+struct IgnoreRegion {
+  enum class Shape : std::uint8_t { circle = 1, rectangle = 2 };  ///< Ty
+  Shape shape = Shape::circle;
+  Vec2 location = Vec2::Zero();  ///< L_psi, px
+  Vec2 size = Vec2::Zero();      ///< R_psi, px: radius in x (circle), half sizes (rectangle)
+};
+
+/// Collector lambda: a region in which corners are grouped for a trusted circle.
+struct Collector {
+  Vec2 location = Vec2::Zero();  ///< L_lambda, px
+  double radius = 0;             ///< mu_lambda, px
+};
+
+/// A row of alpha: a corner's sightings on the way to becoming a rebel edge.
+struct Chain {
+  std::array<Vec2, 3> sightings;  ///< oldest first, all in this frame's pixels (rotation removed)
+  int count = 0;
+};
+
+struct Layers {
+  std::vector<Edge> normal_edges;        ///< E_n
+  std::vector<Edge> rebel_edges;         ///< E_r
+  std::vector<Circle> normal_circles;    ///< C_n
+  std::vector<Circle> rebel_circles;     ///< C_r
+  std::vector<Square> squares;           ///< S
+  std::vector<IgnoreRegion> ignored;     ///< psi that was applied to this frame's corners
+  std::vector<Collector> collectors;     ///< lambda that grouped this frame's corners
+  std::vector<Chain> chains;             ///< alpha after this frame
+
+  /// |E_n| + |E_r| + |C_n| + |C_r| + |S|, the paper's dimensionality.
+  std::size_t dimension() const {
+    return normal_edges.size() + rebel_edges.size() + normal_circles.size() +
+           rebel_circles.size() + squares.size();
+  }
+};
+
+/// What became of a corner.
+enum class Verdict : std::uint8_t {
+  ignored,  ///< inside psi
+  pending,  ///< new, or a candidate in alpha
+  normal,   ///< supports a normal edge
+  rebel,    ///< supports a rebel edge
+};
+
+}  // namespace lcs

@@ -1,0 +1,178 @@
+/// \file
+/// What a run is made of: the typed form of a scenario file.
+///
+/// A `Scenario` is validated when it is loaded (`scenarios/load.h`) and never changed afterwards. All
+/// values are SI with angles in radians, whatever the YAML wrote; the YAML vocabulary and the units it
+/// accepts are in `scenarios/README.md`.
+///
+/// World frame W: z up, right-handed, metres. Rover frame B: x forward, y left, z up, origin on the
+/// ground below the middle of the rover.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace lcs::scenario {
+
+/// Where a value was written, so that what is found wrong with it later (a body that the scene does
+/// not have) can still be reported at its line. Line 0 means that it was given by `--set`.
+struct Source {
+  std::string file;
+  int line = 0;
+};
+
+/// The one message that a user gets: "file:line: what is wrong; what to do".
+class Error : public std::runtime_error {
+ public:
+  Error(const Source& where, const std::string& what_and_remedy);
+};
+
+enum class Drive {
+  holonomic,  ///< planar base that follows any velocity command at once: the paper's assumption
+  wheeled,    ///< two driven wheels and two casters on contacts; the camera shakes on rough ground
+};
+
+/// The command that the ego follows from `at_s` on, until the next phase begins.
+struct EgoPhase {
+  double at_s = 0;
+  double speed_mps = 0;          ///< at the start of the phase, >= 0
+  double acceleration_mps2 = 0;  ///< along the direction of travel; speed stops at 0
+  double direction_rad = 0;      ///< of travel from the heading, ccw: pi/2 is to the left, pi is reverse
+  double yaw_rate_radps = 0;     ///< ccw
+};
+
+struct Ego {
+  Drive drive = Drive::holonomic;
+  Eigen::Vector2d start_m = Eigen::Vector2d::Zero();
+  double heading_rad = 0;
+  std::vector<EgoPhase> phases;  ///< at least one; the first is at 0, times increase
+};
+
+struct Camera {
+  int width_px = 640;
+  int height_px = 480;
+  double fovy_rad = 0;  ///< vertical field of view, (0, pi)
+  double rate_hz = 0;
+  Eigen::Vector3d mount_position_m = Eigen::Vector3d::Zero();  ///< of the camera in B
+  Eigen::Vector3d mount_rpy_rad = Eigen::Vector3d::Zero();     ///< 0 0 0 looks along B's x, upright
+};
+
+/// Kalibr's noise model, see `sim/imu_noise.h`. All 0 is the ideal IMU.
+struct ImuNoise {
+  double gyroscope_noise_density = 0;      ///< rad/s/sqrt(Hz)
+  double gyroscope_random_walk = 0;        ///< rad/s^2/sqrt(Hz)
+  double accelerometer_noise_density = 0;  ///< m/s^2/sqrt(Hz)
+  double accelerometer_random_walk = 0;    ///< m/s^3/sqrt(Hz)
+};
+
+struct Imu {
+  std::string preset;  ///< adis16448, tumvi, esim, ideal, or custom when a key overrides the preset
+  ImuNoise noise;
+  double rate_hz = 200;
+};
+
+/// Wheel odometry: velocity of B in B, at its own rate.
+struct Odometry {
+  bool enabled = false;
+  double rate_hz = 50;
+  double noise_mps = 0.01;     ///< white, per sample and axis
+  double scale_error = 0.005;  ///< standard deviation of a scale drawn once a run
+};
+
+enum class EgoMotionSource {
+  imu,    ///< strapdown integration of the simulated IMU (and odometry where enabled)
+  truth,  ///< exact poses, for experiments that say so by name
+};
+
+/// \name Trajectories of actors, on the ground plane. An actor heads the way that it moves.
+///@{
+struct Still {
+  std::optional<Eigen::Vector2d> position_m;  ///< none: where the scene has the body
+  std::optional<double> heading_rad;
+};
+struct Line {
+  std::optional<Eigen::Vector2d> from_m;  ///< none: where the scene has the body
+  std::optional<double> heading_rad;      ///< none: the heading that the scene gives the body
+  double speed_mps = 0;                   ///< >= 0
+  double acceleration_mps2 = 0;           ///< a speed that reaches 0 stays 0: "comes and parks"
+};
+struct Waypoint {
+  double at_s = 0;  ///< after the start trigger
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
+};
+struct Waypoints {
+  std::vector<Waypoint> points;  ///< at least two, times increase; straight and uniform in between
+};
+struct Circular {
+  Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
+  double radius_m = 0;       ///< > 0
+  double start_angle_rad = 0;
+  double speed_mps = 0;      ///< > 0 is ccw
+};
+///@}
+using Trajectory = std::variant<Still, Line, Waypoints, Circular>;
+
+/// An actor waits at the first point of its trajectory until its trigger fires.
+struct StartTrigger {
+  double at_s = 0;                       ///< not before this time
+  std::optional<double> ego_within_m;    ///< and not before the ego is as near as this
+};
+
+enum class Shape { box, cylinder, pedestrian, car };
+
+struct Actor {
+  std::string name;
+  Source source;
+  std::optional<std::string> body;  ///< moves this body of the scene; else an actor of `shape` is added
+  Shape shape = Shape::box;
+  std::optional<Eigen::Vector3d> size_m;  ///< length (x), width (y), height (z); none: the shape's own
+  std::string texture;                    ///< style of the procedural texture, or a PNG file; "": own
+  Trajectory trajectory;
+  StartTrigger start;
+};
+
+/// Settings for the filter in the filter's own words; the scenario only carries them.
+struct FilterSetting {
+  std::string key;    ///< as in "circle.mu_0"
+  std::string value;  ///< as written
+  Source source;
+};
+
+/// A bound on a metric of the run; a failed required one makes the command exit with 1.
+struct Criterion {
+  std::string metric;  ///< a key of metrics.json
+  std::optional<double> min;
+  std::optional<double> max;
+  bool required = true;
+  Source source;
+};
+
+struct Scenario {
+  std::string name;            ///< the file's stem
+  std::filesystem::path file;
+  std::string purpose;         ///< one line
+  std::filesystem::path scene;  ///< the MJCF file, which exists
+  Source scene_source;
+  std::uint64_t seed = 1;      ///< textures, IMU noise, odometry; independent streams by name
+  int frames = 0;              ///< > 0
+  Ego ego;
+  Camera camera;
+  Imu imu;
+  Odometry odometry;
+  EgoMotionSource ego_motion = EgoMotionSource::imu;
+  int fast_threshold = 20;     ///< grey levels, 1 to 254
+  double truth_min_depth_m = 0.5;  ///< nearest depth of the static segment (`radial`)
+  std::vector<Actor> actors;
+  std::string filter_preset;   ///< "" is the filter's default
+  Source filter_preset_source;
+  std::vector<FilterSetting> filter;
+  std::vector<Criterion> criteria;
+};
+
+}  // namespace lcs::scenario

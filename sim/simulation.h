@@ -1,0 +1,90 @@
+/// \file
+/// A scenario brought to life: a MuJoCo world with a rover, actors, a camera and an IMU that hands
+/// out one `Observation` a frame.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/scenario.h"
+#include "sim/pose.h"
+#include "sim/truth.h"
+
+namespace lcs::sim {
+
+/// One reading, in the IMU's frame S. At rest the accelerometer reads +9.81 m/s^2 upwards.
+struct ImuSample {
+  std::int64_t t_ns = 0;
+  Eigen::Vector3d gyro_radps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d accel_mps2 = Eigen::Vector3d::Zero();
+};
+
+/// Velocity of the rover's frame B, in B, as its wheels tell it.
+struct OdometrySample {
+  std::int64_t t_ns = 0;
+  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
+};
+
+struct Observation {
+  int index = 0;           ///< k, from 0
+  std::int64_t t_ns = 0;   ///< k / rate, from 0
+  cv::Mat3b image;         ///< BGR
+  std::vector<ImuSample> imu;            ///< t(k-1) < t <= t(k); the first frame has the sample at 0
+  std::vector<OdometrySample> odometry;  ///< likewise; empty when disabled
+  FrameTruth truth;
+  std::vector<ObjectTruth> objects;      ///< those with at least one visible pixel, by id
+};
+
+/// What the filter's user knows before the first frame: where the sensors are mounted, and the state
+/// that dead reckoning starts from.
+struct Calibration {
+  Pinhole camera;
+  Pose T_BC;  ///< camera in the rover
+  Pose T_BS;  ///< IMU in the rover
+  Pose T_WB_start;
+  Eigen::Vector3d v_WB_start_mps = Eigen::Vector3d::Zero();
+  double gravity_mps2 = 9.81;  ///< along -z of W
+};
+
+/// Thrown when MuJoCo warns or fails (bad qacc and the like): names the simulated time.
+class PhysicsError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Owns the world and the GL context; to be used from the thread that made it. Two runs of one
+/// scenario give the same bits.
+class Simulation {
+ public:
+  /// Loads and checks everything, so that nothing about the scenario can fail later.
+  /// \throws scenario::Error for what is wrong in the scenario (a body that the scene lacks),
+  ///   std::runtime_error for what is wrong with the machine (GL that will not start).
+  explicit Simulation(const scenario::Scenario& scenario);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  const Calibration& calibration() const;
+  const std::vector<Object>& objects() const;
+
+  /// The next frame, or nothing after the scenario's last one.
+  /// \throws PhysicsError
+  std::optional<Observation> next();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Versions in use, for `lcs --version` and manifests. Starts GL to ask it.
+struct Versions {
+  std::string mujoco;       ///< of the library that was loaded
+  std::string gl_renderer;  ///< as "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6"
+};
+Versions versions();
+
+}  // namespace lcs::sim
