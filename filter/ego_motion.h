@@ -69,7 +69,6 @@ class EgoMotionEstimator {
  private:
   using Matrix12 = Eigen::Matrix<double, 12, 12>;
   void propagate_to(std::int64_t t_ns);
-  Eigen::Vector3d camera_velocity_W() const;
 
   Mounting mounting_;
   EgoMotionNoise noise_;

@@ -1,23 +1,118 @@
 /// \file
-/// Every number that the filter can be tuned by, by expert, with the paper's symbol and table.
+/// Every number that the filter can be tuned by, expert by expert. The paper's symbol and value
+/// (Table 1, "lab") stand beside each; keys for `set` are "expert.field", as in "circle.mu_0". Angles
+/// are radians in the structs and degrees in text.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "filter/trust.h"
+
 namespace lcs {
 
-struct Parameters;
+/// How stored locations follow the rotation of the camera.
+enum class RotationModel {
+  first_order,  ///< the motion field integrated once: the paper's, good for small rotations
+  homography,   ///< x' ~ K dR K^-1 x, exact
+};
 
-/// Preset by name: "default", or the paper's "lab" (Table 1) and "cars" (section 5.2).
+/// From where the angular span delta_v of a normal edge is seen.
+enum class SpanApex {
+  origin,    ///< from O_I, as the paper has it: a corridor that is wide far from the FOE
+  landmark,  ///< from where the landmark was: what its motion itself may deviate by
+};
+
+/// How an edge's speed follows its measurement.
+enum class SpeedRule {
+  paper,    ///< V~ = (V + V_v)/2, V^ = V~ +- residual/t_f: half prior, and all of the measurement
+  trusted,  ///< V~ = V carried on at its depth, V^ by the trust estimate that L has
+};
+
+/// Kinematics.
+struct FieldParameters {
+  RotationModel rotation = RotationModel::homography;
+  double reference_depth_m = 3;    ///< Z_ref: V_v(x) is the image speed of a static point this far
+  double nearest_depth_m = 0.5;    ///< no static point is nearer than this (z_min)
+  double still_speed_mps = 0.005;  ///< slower than this the camera stands still: there is no field
+};
+
+/// Line expert.
+struct LineParameters {
+  bool ignore = true;  ///< apply psi; off, every corner is looked at in every frame
+};
+
+/// Circle expert: edges, alpha, circles.
+struct CircleParameters {
+  TrustRanks trust{2, 3, 5};       ///< Tr^c
+  double delta_v = 0;              ///< delta_v, 9 deg: half angle of the error span
+  SpanApex span_apex = SpanApex::landmark;
+  SpeedRule speed_rule = SpeedRule::trusted;
+  double mu_0 = 25;                ///< mu_0, px: radius of detection of a new normal edge
+  double mu_min = 3;               ///< px: bounds on mu, which the paper leaves open
+  double mu_max = 25;              ///< px
+  double corner_noise = 1.5;       ///< px: how far a corner may lie off for no reason
+  double trust_bonus = 0.25;       ///< px of distance that a step of trust is worth in assignment
+
+  double alpha_reach = 25;         ///< px: between two sightings in alpha
+  double alpha_deviation = 0;      ///< rad: mu_r, bend of the line through three sightings
+  double alpha_stretch = 0.35;     ///< share by which the second step may differ from the first
+  double rebel_reach = 0.35;       ///< share of the predicted displacement by which a rebel may err
+  int alpha_branches = 4;          ///< rows that one sighting may branch into
+
+  double epsilon_beta_n = 0;       ///< eps_beta,n, 20 deg
+  double epsilon_beta_r = 0;       ///< eps_beta,r, 50 deg
+  double epsilon_v_n = 0.4;        ///< eps_v,n, 40 % of V_v
+  double epsilon_v_r = 1.0;        ///< eps_v,r, 100 % of V_v
+  double epsilon_v = 0.7;          ///< eps_v, of V_v, between a predicted circle and a group
+  double rho_c = 40;               ///< rho_c, %: overlap of a group with the predicted circle
+  double reach = 50;               ///< px: how far apart the edges of one circle may lie
+  int min_members = 3;             ///< edges that make a new circle
+  int rebel_support = 3;           ///< edges of its circle that a rebel needs to be called one
+};
+
+/// Square expert.
+struct SquareParameters {
+  TrustRanks trust{3, 5, 7};       ///< Tr^s
+  double delta_beta_1 = 0;         ///< delta_beta,1, 90 deg: between the circles of a corner (case 1)
+  double delta_beta_2 = 0;         ///< delta_beta,2, 0 deg: between aligned circles (case 2)
+  double epsilon_beta_1 = 0;       ///< eps_beta,1, 15 deg
+  double epsilon_beta_2 = 0;       ///< eps_beta,2, 35 deg
+  double epsilon_beta = 0;         ///< eps_beta, 20 deg: of minor circles
+  double epsilon_beta_s = 0;       ///< eps_beta,s, 20 deg: between predicted and mean square
+  double epsilon_v = 0.7;          ///< eps_v, of V_v: between circles
+  double epsilon_v_s = 0.7;        ///< eps_v,s, of V_v: between predicted and mean square
+  double rho_c = 40;               ///< rho_c, %: least overlap
+  double d_t = 1.0;                ///< start of d_t, as a share of the image's diagonal
+  bool mix_kinds = true;           ///< normal and rebel circles may form one square
+};
+
+struct Parameters {
+  FieldParameters field;
+  LineParameters line;
+  CircleParameters circle;
+  SquareParameters square;
+};
+
+/// Preset by name: "default" (this project's), or the paper's: "lab" (Table 1), "cars" (section 5.2).
 /// \throws std::invalid_argument naming the known presets.
 Parameters preset(std::string_view name);
+std::vector<std::string> preset_names();
 
 /// Sets one parameter from text, as in set(p, "circle.mu_0", "25").
-/// \throws std::invalid_argument: unknown key (with the nearest known one), not a number, out of range.
+/// \throws std::invalid_argument: unknown key (with the nearest known one), not a value of its kind,
+///   out of range.
 void set(Parameters& parameters, std::string_view key, std::string_view value);
 
-struct Parameters {};
+/// \throws std::invalid_argument naming the first parameter that is out of its range, or ranks of
+///   trust out of order.
+void validate(const Parameters& parameters);
+
+/// One line a parameter: key, value, unit, range, symbol. For `--help` and manifests.
+struct ParameterInfo {
+  std::string key, value, unit, range, symbol;
+};
+std::vector<ParameterInfo> describe(const Parameters& parameters);
 
 }  // namespace lcs

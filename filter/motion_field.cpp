@@ -1,0 +1,74 @@
+#include "filter/motion_field.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "filter/geometry.h"
+
+namespace lcs {
+namespace {
+
+/// Farther from the principal point than this many focal lengths, the FOE is at infinity.
+constexpr double kFarFoe = 100;
+
+Eigen::Matrix3d rotation_homography(const Intrinsics& camera, const Eigen::Matrix3d& R) {
+  Eigen::Matrix3d K;
+  K << camera.focal_px, 0, camera.centre_px.x(), 0, camera.focal_px, camera.centre_px.y(), 0, 0, 1;
+  return K * R * K.inverse();
+}
+
+}  // namespace
+
+MotionField::MotionField(const Intrinsics& camera, const EgoMotion& motion,
+                         const FieldParameters& parameters)
+    : centre_px_(camera.centre_px),
+      focal_px_(camera.focal_px),
+      dt_s_(motion.dt_s),
+      rotation_(parameters.rotation),
+      homography_(rotation_homography(camera, motion.R_cur_prev)),
+      w_dt_(motion.w_C_radps * motion.dt_s),
+      v_C_mps_(motion.v_C_mps),
+      reference_depth_m_(parameters.reference_depth_m),
+      nearest_depth_m_(parameters.nearest_depth_m),
+      moving_(motion.dt_s > 0 && motion.v_C_mps.norm() > parameters.still_speed_mps) {
+  if (moving_ && std::abs(v_C_mps_.z()) * kFarFoe > v_C_mps_.head<2>().norm()) {
+    foe_ = centre_px_ + focal_px_ * v_C_mps_.head<2>() / v_C_mps_.z();
+  }
+}
+
+Vec2 MotionField::rotated(const Vec2& x_px) const {
+  if (rotation_ == RotationModel::homography) {
+    const Eigen::Vector3d h = homography_ * x_px.homogeneous();
+    // Turned behind the camera: no image. Keep it where it is; it is out of sight and will go.
+    return h.z() > 1e-6 ? Vec2(h.hnormalized()) : x_px;
+  }
+  const Vec2 x = x_px - centre_px_;
+  const double f = focal_px_;
+  return x_px + Vec2(x.x() * x.y() / f * w_dt_.x() - (f + x.x() * x.x() / f) * w_dt_.y() +
+                         x.y() * w_dt_.z(),
+                     (f + x.y() * x.y() / f) * w_dt_.x() - x.x() * x.y() / f * w_dt_.y() -
+                         x.x() * w_dt_.z());
+}
+
+Vec2 MotionField::flow(const Vec2& x_px) const {
+  if (!moving_) return Vec2::Zero();
+  return v_C_mps_.z() * (x_px - centre_px_) - focal_px_ * v_C_mps_.head<2>();
+}
+
+Vec2 MotionField::direction(const Vec2& x_px) const {
+  const Vec2 g = flow(x_px);
+  const double length = g.norm();
+  return length > 1e-9 ? Vec2(g / length) : Vec2::Zero();
+}
+
+double MotionField::advanced_ratio(double depth_ratio) const {
+  const double shrink = 1 - depth_ratio * v_C_mps_.z() * dt_s_ / reference_depth_m_;
+  return shrink > 0 ? std::min(depth_ratio / shrink, 2 * max_ratio()) : 2 * max_ratio();
+}
+
+Vec2 MotionField::origin(const Vec2& x_px) const {
+  if (foe_) return *foe_;
+  return x_px - direction(x_px) * (kFarFoe * focal_px_);
+}
+
+}  // namespace lcs

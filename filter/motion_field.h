@@ -1,0 +1,83 @@
+/// \file
+/// How the image of the static world moves while the camera does: the motion field
+/// (Longuet-Higgins & Prazdny 1980; the paper's section "Kinematics", corrected).
+///
+/// With x measured from the principal point, camera velocity v, body rate w and depth Z,
+///   xdot = (x v_z - f v_x)/Z + (x y/f) w_x - (f + x^2/f) w_y + y w_z
+///   ydot = (y v_z - f v_y)/Z + (f + y^2/f) w_x - (x y/f) w_y - x w_z
+/// The rotation part needs no depth. The translation part is g(x)/Z with g(x) = v_z (x - c) - f v_xy: it
+/// points away from the focus of expansion (FOE) c + f v_xy / v_z, towards it in reverse, is parallel
+/// when v_z = 0, and absent when the camera stands still.
+#pragma once
+
+#include <optional>
+
+#include "filter/camera.h"
+#include "filter/ego_motion.h"
+#include "filter/parameters.h"
+
+namespace lcs {
+
+/// The field over one interval, from frame k-1 to k.
+class MotionField {
+ public:
+  MotionField(const Intrinsics& camera, const EgoMotion& motion, const FieldParameters& parameters);
+
+  double dt_s() const { return dt_s_; }
+
+  /// Where a location of frame k-1 lies after the rotation alone: what every stored location is
+  /// moved by first.
+  Vec2 rotated(const Vec2& x_px) const;
+
+  /// False while the camera stands still: there is no direction of flow then.
+  bool moving() const { return moving_; }
+
+  /// Unit vector of the flow at a rotated location; null while still, or on the FOE itself.
+  Vec2 direction(const Vec2& x_px) const;
+
+  /// V_v(x) = |g(x)| / Z_ref, px/s: image speed of a static point at the reference depth.
+  double reference_speed(const Vec2& x_px) const { return flow(x_px).norm() / reference_depth_m_; }
+
+  /// Where a static point comes to, given its rotated location and, at the end of the interval,
+  /// Z_ref / Z. Exact: the depth's own change is in it.
+  Vec2 translated(const Vec2& rotated_px, double depth_ratio) const {
+    return rotated_px + flow(rotated_px) * (depth_ratio * dt_s_ / reference_depth_m_);
+  }
+
+  /// Z_ref / Z at the end of the interval from the one at its start. A point that the camera passes
+  /// within the interval gets the largest plausible ratio.
+  double advanced_ratio(double depth_ratio) const;
+
+  /// By how much a patch grows that is at `depth_ratio` at the end of the interval: Z(k-1) / Z(k).
+  double expansion(double depth_ratio) const {
+    return 1 + depth_ratio * v_C_mps_.z() * dt_s_ / reference_depth_m_;
+  }
+
+  /// Largest Z_ref / Z of a static point: at the nearest plausible depth.
+  double max_ratio() const { return reference_depth_m_ / nearest_depth_m_; }
+
+  /// Point that the flow is seen to come from: the FOE, or, where that is at infinity, a point far
+  /// behind along the flow, so that directions and homotheties about it stay what they should be.
+  Vec2 origin(const Vec2& x_px) const;
+
+  /// The paper's O_I in general; none while still or moving sideways.
+  std::optional<Vec2> foe() const { return foe_; }
+
+ private:
+  /// g(x), m/s * px: the flow times the depth.
+  Vec2 flow(const Vec2& x_px) const;
+
+  Vec2 centre_px_;
+  double focal_px_;
+  double dt_s_;
+  RotationModel rotation_;
+  Eigen::Matrix3d homography_;   // K dR K^-1
+  Eigen::Vector3d w_dt_;         // rotation over the interval, rad
+  Eigen::Vector3d v_C_mps_;
+  double reference_depth_m_;
+  double nearest_depth_m_;
+  bool moving_;
+  std::optional<Vec2> foe_;
+};
+
+}  // namespace lcs

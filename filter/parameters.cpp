@@ -1,0 +1,296 @@
+#include "filter/parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include "filter/geometry.h"
+
+namespace lcs {
+namespace {
+
+constexpr double kDegree = kPi / 180;
+
+/// A value that is one of a few words.
+struct Choice {
+  int (*get)(const Parameters&);
+  void (*put)(Parameters&, int);
+  std::vector<std::string> words;
+};
+
+template <typename T>
+using Field = T& (*)(Parameters&);
+
+struct Entry {
+  std::string key;
+  std::string symbol;
+  std::string unit;  // "deg" fields are radians in the struct
+  double min = 0, max = 0;
+  std::variant<Field<double>, Field<int>, Field<bool>, Choice> field;
+};
+
+// A captureless lambda that names the member: the table below reads as a list of fields.
+#define LCS_FIELD(type, member) \
+  Field<type>([](Parameters & p) -> type& { return p.member; })
+#define LCS_CHOICE(type, member, ...)                                                       \
+  Choice {                                                                                  \
+    [](const Parameters& p) { return static_cast<int>(p.member); },                         \
+        [](Parameters& p, int i) { p.member = static_cast<type>(i); }, std::vector<std::string> { \
+      __VA_ARGS__                                                                           \
+    }                                                                                       \
+  }
+
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> table = {
+      {"field.rotation", "", "", 0, 0,
+       LCS_CHOICE(RotationModel, field.rotation, "first_order", "homography")},
+      {"field.reference_depth", "Z_ref", "m", 1e-3, 1e4, LCS_FIELD(double, field.reference_depth_m)},
+      {"field.nearest_depth", "z_min", "m", 1e-3, 1e4, LCS_FIELD(double, field.nearest_depth_m)},
+      {"field.still_speed", "", "m/s", 0, 10, LCS_FIELD(double, field.still_speed_mps)},
+      {"line.ignore", "psi", "", 0, 0, LCS_FIELD(bool, line.ignore)},
+      {"circle.Tr_c", "Tr^c_c", "", 0, 1000, LCS_FIELD(int, circle.trust.critical)},
+      {"circle.Tr_s", "Tr^c_s", "", 0, 1000, LCS_FIELD(int, circle.trust.standard)},
+      {"circle.Tr_m", "Tr^c_m", "", 0, 1000, LCS_FIELD(int, circle.trust.maximum)},
+      {"circle.delta_v", "delta_v", "deg", 0, 90, LCS_FIELD(double, circle.delta_v)},
+      {"circle.span_apex", "", "", 0, 0,
+       LCS_CHOICE(SpanApex, circle.span_apex, "origin", "landmark")},
+      {"circle.speed_rule", "", "", 0, 0,
+       LCS_CHOICE(SpeedRule, circle.speed_rule, "paper", "trusted")},
+      {"circle.mu_0", "mu_0", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_0)},
+      {"circle.mu_min", "", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_min)},
+      {"circle.mu_max", "", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_max)},
+      {"circle.corner_noise", "", "px", 0, 100, LCS_FIELD(double, circle.corner_noise)},
+      {"circle.trust_bonus", "", "px", 0, 100, LCS_FIELD(double, circle.trust_bonus)},
+      {"circle.alpha_reach", "", "px", 0, 1000, LCS_FIELD(double, circle.alpha_reach)},
+      {"circle.alpha_deviation", "mu_r", "deg", 0, 180, LCS_FIELD(double, circle.alpha_deviation)},
+      {"circle.alpha_stretch", "", "", 0, 10, LCS_FIELD(double, circle.alpha_stretch)},
+      {"circle.alpha_branches", "", "", 1, 100, LCS_FIELD(int, circle.alpha_branches)},
+      {"circle.rebel_reach", "", "", 0, 10, LCS_FIELD(double, circle.rebel_reach)},
+      {"circle.epsilon_beta_n", "eps_beta,n", "deg", 0, 180, LCS_FIELD(double, circle.epsilon_beta_n)},
+      {"circle.epsilon_beta_r", "eps_beta,r", "deg", 0, 180, LCS_FIELD(double, circle.epsilon_beta_r)},
+      {"circle.epsilon_v_n", "eps_v,n", "V_v", 0, 1000, LCS_FIELD(double, circle.epsilon_v_n)},
+      {"circle.epsilon_v_r", "eps_v,r", "V_v", 0, 1000, LCS_FIELD(double, circle.epsilon_v_r)},
+      {"circle.epsilon_v", "eps_v", "V_v", 0, 1000, LCS_FIELD(double, circle.epsilon_v)},
+      {"circle.rho_c", "rho_c", "%", 0, 100, LCS_FIELD(double, circle.rho_c)},
+      {"circle.reach", "", "px", 0.1, 10000, LCS_FIELD(double, circle.reach)},
+      {"circle.min_members", "", "", 1, 1000, LCS_FIELD(int, circle.min_members)},
+      {"circle.rebel_support", "", "", 1, 1000, LCS_FIELD(int, circle.rebel_support)},
+      {"square.Tr_c", "Tr^s_c", "", 0, 1000, LCS_FIELD(int, square.trust.critical)},
+      {"square.Tr_s", "Tr^s_s", "", 0, 1000, LCS_FIELD(int, square.trust.standard)},
+      {"square.Tr_m", "Tr^s_m", "", 0, 1000, LCS_FIELD(int, square.trust.maximum)},
+      {"square.delta_beta_1", "delta_beta,1", "deg", 0, 180, LCS_FIELD(double, square.delta_beta_1)},
+      {"square.delta_beta_2", "delta_beta,2", "deg", 0, 180, LCS_FIELD(double, square.delta_beta_2)},
+      {"square.epsilon_beta_1", "eps_beta,1", "deg", 0, 180, LCS_FIELD(double, square.epsilon_beta_1)},
+      {"square.epsilon_beta_2", "eps_beta,2", "deg", 0, 180, LCS_FIELD(double, square.epsilon_beta_2)},
+      {"square.epsilon_beta", "eps_beta", "deg", 0, 180, LCS_FIELD(double, square.epsilon_beta)},
+      {"square.epsilon_beta_s", "eps_beta,s", "deg", 0, 180, LCS_FIELD(double, square.epsilon_beta_s)},
+      {"square.epsilon_v", "eps_v", "V_v", 0, 1000, LCS_FIELD(double, square.epsilon_v)},
+      {"square.epsilon_v_s", "eps_v,s", "V_v", 0, 1000, LCS_FIELD(double, square.epsilon_v_s)},
+      {"square.rho_c", "rho_c", "%", 0, 100, LCS_FIELD(double, square.rho_c)},
+      {"square.d_t", "d_t", "diagonals", 0, 10, LCS_FIELD(double, square.d_t)},
+      {"square.mix_kinds", "", "", 0, 0, LCS_FIELD(bool, square.mix_kinds)},
+  };
+  return table;
+}
+
+#undef LCS_FIELD
+#undef LCS_CHOICE
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t above = row[j + 1];
+      row[j + 1] = std::min({above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row.back();
+}
+
+const Entry& find(std::string_view key) {
+  const auto& all = entries();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Entry& e) { return e.key == key; });
+  if (found != all.end()) return *found;
+  const auto nearest = std::min_element(all.begin(), all.end(), [&](const Entry& a, const Entry& b) {
+    return edit_distance(a.key, key) < edit_distance(b.key, key);
+  });
+  throw std::invalid_argument("the filter has no parameter '" + std::string(key) +
+                              "'; the nearest is '" + nearest->key + "'");
+}
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+double parse(const Entry& entry, std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  while (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
+  if (error != std::errc() || (!rest.empty() && rest != entry.unit) || !std::isfinite(value)) {
+    throw std::invalid_argument("'" + entry.key + "' takes a number" +
+                                (entry.unit.empty() ? "" : " in " + entry.unit) + ", not '" +
+                                std::string(text) + "'");
+  }
+  return value;
+}
+
+std::string range(const Entry& entry) { return number(entry.min) + " to " + number(entry.max); }
+
+void check(const Entry& entry, double value) {
+  if (value >= entry.min && value <= entry.max) return;
+  throw std::invalid_argument("'" + entry.key + "' is " + number(value) + "; it may be " +
+                              range(entry) + (entry.unit.empty() ? "" : " " + entry.unit));
+}
+
+double scale(const Entry& entry) { return entry.unit == "deg" ? kDegree : 1.0; }
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+void set_entry(Parameters& parameters, const Entry& entry, std::string_view value) {
+  if (const auto* real = std::get_if<Field<double>>(&entry.field)) {
+    const double parsed = parse(entry, value);
+    check(entry, parsed);
+    (*real)(parameters) = parsed * scale(entry);
+  } else if (const auto* whole = std::get_if<Field<int>>(&entry.field)) {
+    const double parsed = parse(entry, value);
+    check(entry, parsed);
+    if (parsed != std::floor(parsed)) {
+      throw std::invalid_argument("'" + entry.key + "' takes a whole number, not '" +
+                                  std::string(value) + "'");
+    }
+    (*whole)(parameters) = static_cast<int>(parsed);
+  } else if (const auto* flag = std::get_if<Field<bool>>(&entry.field)) {
+    if (value != "true" && value != "false") {
+      throw std::invalid_argument("'" + entry.key + "' takes true or false, not '" +
+                                  std::string(value) + "'");
+    }
+    (*flag)(parameters) = value == "true";
+  } else {
+    const auto& choice = std::get<Choice>(entry.field);
+    const auto word = std::find(choice.words.begin(), choice.words.end(), value);
+    if (word == choice.words.end()) {
+      throw std::invalid_argument("'" + entry.key + "' takes one of " + joined(choice.words) +
+                                  ", not '" + std::string(value) + "'");
+    }
+    choice.put(parameters, static_cast<int>(word - choice.words.begin()));
+  }
+}
+
+void check_ranks(const TrustRanks& ranks, const std::string& expert) {
+  if (ranks.critical <= ranks.standard && ranks.standard <= ranks.maximum) return;
+  throw std::invalid_argument("the ranks of trust of '" + expert + "' must be Tr_c <= Tr_s <= Tr_m");
+}
+
+void set_degrees(CircleParameters& circle, SquareParameters& square) {
+  circle.delta_v = 9 * kDegree;
+  circle.alpha_deviation = 20 * kDegree;
+  circle.epsilon_beta_n = 20 * kDegree;
+  circle.epsilon_beta_r = 50 * kDegree;
+  square.delta_beta_1 = 90 * kDegree;
+  square.delta_beta_2 = 0;
+  square.epsilon_beta_1 = 15 * kDegree;
+  square.epsilon_beta_2 = 35 * kDegree;
+  square.epsilon_beta = 20 * kDegree;
+  square.epsilon_beta_s = 20 * kDegree;
+}
+
+/// Table 1, with the rules as printed wherever this project has others.
+Parameters lab() {
+  Parameters p;
+  set_degrees(p.circle, p.square);
+  p.circle.span_apex = SpanApex::origin;
+  p.circle.speed_rule = SpeedRule::paper;
+  p.circle.rebel_support = 1;
+  return p;
+}
+
+Parameters cars() {
+  Parameters p = lab();
+  p.circle.trust = {1, 4, 7};
+  p.square.trust = {2, 5, 8};
+  p.field.reference_depth_m = 10;
+  return p;
+}
+
+Parameters project_default() {
+  Parameters p;
+  set_degrees(p.circle, p.square);
+  return p;
+}
+
+}  // namespace
+
+std::vector<std::string> preset_names() { return {"default", "lab", "cars"}; }
+
+Parameters preset(std::string_view name) {
+  if (name == "default") return project_default();
+  if (name == "lab") return lab();
+  if (name == "cars") return cars();
+  throw std::invalid_argument("the filter has no preset '" + std::string(name) + "'; there are " +
+                              joined(preset_names()));
+}
+
+void set(Parameters& parameters, std::string_view key, std::string_view value) {
+  set_entry(parameters, find(key), value);
+}
+
+void validate(const Parameters& parameters) {
+  Parameters copy = parameters;  // the table's accessors are not const
+  for (const Entry& entry : entries()) {
+    if (const auto* real = std::get_if<Field<double>>(&entry.field)) {
+      // The round trip through radians may leave a bound by one unit in the last place.
+      const double value = (*real)(copy) / scale(entry);
+      check(entry, std::abs(value - entry.max) < 1e-9 ? entry.max : value);
+    } else if (const auto* whole = std::get_if<Field<int>>(&entry.field)) {
+      check(entry, (*whole)(copy));
+    }
+  }
+  check_ranks(parameters.circle.trust, "circle");
+  check_ranks(parameters.square.trust, "square");
+  if (parameters.circle.mu_min > parameters.circle.mu_max) {
+    throw std::invalid_argument("'circle.mu_min' is above 'circle.mu_max'");
+  }
+}
+
+std::vector<ParameterInfo> describe(const Parameters& parameters) {
+  Parameters copy = parameters;
+  std::vector<ParameterInfo> infos;
+  for (const Entry& entry : entries()) {
+    ParameterInfo info{entry.key, "", entry.unit, "", entry.symbol};
+    if (const auto* real = std::get_if<Field<double>>(&entry.field)) {
+      info.value = number((*real)(copy) / scale(entry));
+      info.range = range(entry);
+    } else if (const auto* whole = std::get_if<Field<int>>(&entry.field)) {
+      info.value = number((*whole)(copy));
+      info.range = range(entry);
+    } else if (const auto* flag = std::get_if<Field<bool>>(&entry.field)) {
+      info.value = (*flag)(copy) ? "true" : "false";
+      info.range = "true, false";
+    } else {
+      const auto& choice = std::get<Choice>(entry.field);
+      info.value = choice.words[static_cast<std::size_t>(choice.get(parameters))];
+      info.range = joined(choice.words);
+    }
+    infos.push_back(std::move(info));
+  }
+  return infos;
+}
+
+}  // namespace lcs
