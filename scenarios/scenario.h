@@ -1,9 +1,9 @@
 /// \file
 /// What a run is made of: the typed form of a scenario file.
 ///
-/// A `Scenario` is validated when it is loaded (`scenarios/load.h`) and never changed afterwards. All
-/// values are SI with angles in radians, whatever the YAML wrote; the YAML vocabulary and the units it
-/// accepts are in `scenarios/README.md`.
+/// A `Scenario` is validated when it is loaded (`scenarios/load.h`) and never changed afterwards.
+/// All values are SI with angles in radians, whatever the YAML wrote; the YAML vocabulary and the
+/// units it accepts are in `scenarios/README.md`.
 ///
 /// World frame W: z up, right-handed, metres. Rover frame B: x forward, y left, z up, origin on the
 /// ground below the middle of the rover.
@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -21,13 +22,14 @@
 namespace lcs::scenario {
 
 /// Where a value was written, so that what is found wrong with it later (a body that the scene does
-/// not have) can still be reported at its line. Line 0 means that it was given by `--set`.
+/// not have) can still be reported at its line.
 struct Source {
-  std::string file;
-  int line = 0;
+  std::string file;  ///< or the whole assignment, as in "--set ego.speed=1"
+  int line = 0;      ///< from 1; 0 is the file as a whole, or an assignment
 };
 
-/// The one message that a user gets: "file:line: what is wrong; what to do".
+/// The one message that a user gets: "file:line: what is wrong; what to do", without the line where
+/// there is none.
 class Error : public std::runtime_error {
  public:
   Error(const Source& where, const std::string& what_and_remedy);
@@ -43,8 +45,9 @@ struct EgoPhase {
   double at_s = 0;
   double speed_mps = 0;          ///< at the start of the phase, >= 0
   double acceleration_mps2 = 0;  ///< along the direction of travel; speed stops at 0
-  double direction_rad = 0;      ///< of travel from the heading, ccw: pi/2 is to the left, pi is reverse
-  double yaw_rate_radps = 0;     ///< ccw
+  double direction_rad =
+      0;  ///< of travel from the heading, ccw: pi/2 is to the left, pi is reverse
+  double yaw_rate_radps = 0;  ///< ccw
 };
 
 struct Ego {
@@ -57,10 +60,12 @@ struct Ego {
 struct Camera {
   int width_px = 640;
   int height_px = 480;
-  double fovy_rad = 0;  ///< vertical field of view, (0, pi)
-  double rate_hz = 0;
-  Eigen::Vector3d mount_position_m = Eigen::Vector3d::Zero();  ///< of the camera in B
-  Eigen::Vector3d mount_rpy_rad = Eigen::Vector3d::Zero();     ///< 0 0 0 looks along B's x, upright
+  double fovy_rad = std::numbers::pi / 3;  ///< vertical field of view, (0, pi)
+  double rate_hz = 10;
+  Eigen::Vector3d mount_position_m{0.2, 0, 0.45};  ///< of the camera in B
+  /// Roll, pitch, yaw about B's fixed x, y, z in this order: R = Rz(yaw) Ry(pitch) Rx(roll). All 0
+  /// looks along B's x, upright; positive pitch looks down, positive yaw to the left.
+  Eigen::Vector3d mount_rpy_rad = Eigen::Vector3d::Zero();
 };
 
 /// Kalibr's noise model, see `sim/imu_noise.h`. All 0 is the ideal IMU.
@@ -69,10 +74,13 @@ struct ImuNoise {
   double gyroscope_random_walk = 0;        ///< rad/s^2/sqrt(Hz)
   double accelerometer_noise_density = 0;  ///< m/s^2/sqrt(Hz)
   double accelerometer_random_walk = 0;    ///< m/s^3/sqrt(Hz)
+
+  bool operator==(const ImuNoise&) const = default;
 };
 
 struct Imu {
-  std::string preset;  ///< adis16448, tumvi, esim, ideal, or custom when a key overrides the preset
+  /// adis16448, tumvi, esim, ideal, or custom when a key overrides the preset.
+  std::string preset = "adis16448";
   ImuNoise noise;
   double rate_hz = 200;
 };
@@ -111,17 +119,17 @@ struct Waypoints {
 };
 struct Circular {
   Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
-  double radius_m = 0;       ///< > 0
+  double radius_m = 0;  ///< > 0
   double start_angle_rad = 0;
-  double speed_mps = 0;      ///< > 0 is ccw
+  double speed_mps = 0;  ///< > 0 is ccw
 };
 ///@}
 using Trajectory = std::variant<Still, Line, Waypoints, Circular>;
 
 /// An actor waits at the first point of its trajectory until its trigger fires.
 struct StartTrigger {
-  double at_s = 0;                       ///< not before this time
-  std::optional<double> ego_within_m;    ///< and not before the ego is as near as this
+  double at_s = 0;                     ///< not before this time
+  std::optional<double> ego_within_m;  ///< and not before the ego is as near as this
 };
 
 enum class Shape { box, cylinder, pedestrian, car };
@@ -129,10 +137,12 @@ enum class Shape { box, cylinder, pedestrian, car };
 struct Actor {
   std::string name;
   Source source;
-  std::optional<std::string> body;  ///< moves this body of the scene; else an actor of `shape` is added
+  std::optional<std::string>
+      body;  ///< moves this body of the scene; else an actor of `shape` is added
   Shape shape = Shape::box;
-  std::optional<Eigen::Vector3d> size_m;  ///< length (x), width (y), height (z); none: the shape's own
-  std::string texture;                    ///< style of the procedural texture, or a PNG file; "": own
+  std::optional<Eigen::Vector3d>
+      size_m;           ///< length (x), width (y), height (z); none: the shape's own
+  std::string texture;  ///< style of the procedural texture, or a PNG file; "": own
   Trajectory trajectory;
   StartTrigger start;
 };
@@ -154,22 +164,22 @@ struct Criterion {
 };
 
 struct Scenario {
-  std::string name;            ///< the file's stem
+  std::string name;  ///< the file's stem
   std::filesystem::path file;
-  std::string purpose;         ///< one line
+  std::string purpose;          ///< one line
   std::filesystem::path scene;  ///< the MJCF file, which exists
   Source scene_source;
-  std::uint64_t seed = 1;      ///< textures, IMU noise, odometry; independent streams by name
-  int frames = 0;              ///< > 0
+  std::uint64_t seed = 1;  ///< textures, IMU noise, odometry; independent streams by name
+  int frames = 0;          ///< > 0
   Ego ego;
   Camera camera;
   Imu imu;
   Odometry odometry;
   EgoMotionSource ego_motion = EgoMotionSource::imu;
-  int fast_threshold = 20;     ///< grey levels, 1 to 254
+  int fast_threshold = 20;         ///< grey levels, 1 to 254
   double truth_min_depth_m = 0.5;  ///< nearest depth of the static segment (`radial`)
   std::vector<Actor> actors;
-  std::string filter_preset;   ///< "" is the filter's default
+  std::string filter_preset;  ///< "" is the filter's default
   Source filter_preset_source;
   std::vector<FilterSetting> filter;
   std::vector<Criterion> criteria;

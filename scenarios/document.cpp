@@ -1,0 +1,304 @@
+#include "scenarios/document.h"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <system_error>
+
+namespace lcs::scenario {
+namespace {
+
+/// No scenario is larger; a picture or a recording given by mistake is.
+constexpr std::size_t largest_file_bytes = 1 << 20;
+
+Entry* find(Value& map, std::string_view key) {
+  const auto found = std::find_if(map.entries.begin(), map.entries.end(),
+                                  [&](const Entry& entry) { return entry.key == key; });
+  return found == map.entries.end() ? nullptr : &*found;
+}
+
+/// Grows the tree as yaml-cpp reads.
+class TreeBuilder : public YAML::EventHandler {
+ public:
+  explicit TreeBuilder(const Source& where) : first_line_(where) {}
+
+  Value take() { return std::move(root_); }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
+    add({Value::Kind::null, at(mark)});
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    throw Error(at(mark), "YAML aliases are not known here; write the value out");
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                const std::string& text) override {
+    refuse_tag(mark, tag);
+    add({Value::Kind::scalar, at(mark), text});
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    refuse_tag(mark, tag);
+    open({Value::Kind::list, at(mark)});
+  }
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    refuse_tag(mark, tag);
+    open({Value::Kind::map, at(mark)});
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapEnd() override { close(); }
+
+ private:
+  /// A list or map that has begun and not ended; in a map, perhaps with a key that waits for its
+  /// value.
+  struct Open {
+    Value value;
+    std::optional<Entry> waiting;
+  };
+
+  Source at(const YAML::Mark& mark) const {
+    return {first_line_.file, first_line_.line == 0 ? 0 : first_line_.line + mark.line};
+  }
+
+  /// yaml-cpp says "?" for what is plain and "!" for what is quoted.
+  void refuse_tag(const YAML::Mark& mark, const std::string& tag) const {
+    if (tag.empty() || tag == "?" || tag == "!") return;
+    throw Error(at(mark), "YAML tags such as '" + tag + "' are not known here; remove it");
+  }
+
+  void open(Value value) { stack_.push_back({std::move(value), std::nullopt}); }
+
+  void close() {
+    Value value = std::move(stack_.back().value);
+    stack_.pop_back();
+    add(std::move(value));
+  }
+
+  void add(Value value) {
+    if (stack_.empty()) {
+      root_ = std::move(value);
+    } else if (Open& parent = stack_.back(); parent.value.kind == Value::Kind::list) {
+      parent.value.items.push_back(std::move(value));
+    } else if (parent.waiting) {
+      if (value.kind != Value::Kind::scalar) value.where = parent.waiting->where;
+      parent.waiting->value = std::move(value);
+      parent.value.entries.push_back(std::move(*parent.waiting));
+      parent.waiting.reset();
+    } else {
+      parent.waiting = key(parent.value, std::move(value));
+    }
+  }
+
+  static Entry key(Value& map, Value value) {
+    if (value.kind != Value::Kind::scalar || value.text.empty()) {
+      throw Error(value.where, "a key is " + std::string(kind_name(value.kind)) + "; give a name");
+    }
+    if (const Entry* first = find(map, value.text)) {
+      throw Error(value.where, "key '" + value.text + "' is given twice, first in line " +
+                                   std::to_string(first->where.line) + "; remove one");
+    }
+    return {std::move(value.text), std::move(value.where), {}};
+  }
+
+  Source first_line_;
+  std::vector<Open> stack_;
+  Value root_;
+};
+
+/// The length of the UTF-8 sequence at the start of `bytes`, 0 when there is none (Unicode 3.9,
+/// table 3-7: no overlong forms, no surrogates).
+std::size_t utf8_length(std::string_view bytes) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
+  const auto between = [&](std::size_t i, unsigned low, unsigned high) {
+    return i < bytes.size() && byte(i) >= low && byte(i) <= high;
+  };
+  const std::uint8_t lead = byte(0);
+  if (lead < 0x80) return 1;
+  if (lead >= 0xC2 && lead <= 0xDF) return between(1, 0x80, 0xBF) ? 2 : 0;
+  if (lead >= 0xE0 && lead <= 0xEF) {
+    const unsigned low = lead == 0xE0 ? 0xA0 : 0x80;
+    const unsigned high = lead == 0xED ? 0x9F : 0xBF;
+    return between(1, low, high) && between(2, 0x80, 0xBF) ? 3 : 0;
+  }
+  if (lead >= 0xF0 && lead <= 0xF4) {
+    const unsigned low = lead == 0xF0 ? 0x90 : 0x80;
+    const unsigned high = lead == 0xF4 ? 0x8F : 0xBF;
+    const bool whole = between(1, low, high) && between(2, 0x80, 0xBF) && between(3, 0x80, 0xBF);
+    return whole ? 4 : 0;
+  }
+  return 0;
+}
+
+/// yaml-cpp takes control characters for ends of file and guesses at other encodings.
+void refuse_bad_text(std::string_view text, const Source& where) {
+  Source here = where;
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0) throw Error(here, "this is not UTF-8; save the file as UTF-8");
+    const auto lead = static_cast<std::uint8_t>(text.front());
+    if (lead == 0x7F || (lead < 0x20 && lead != '\t' && lead != '\n' && lead != '\r')) {
+      throw Error(here, "there is a control character; is this a text file? remove it");
+    }
+    if (lead == '\n' && here.line > 0) ++here.line;
+    text.remove_prefix(length);
+  }
+}
+
+std::string read_bytes(const std::filesystem::path& file) {
+  const Source where{file.string(), 0};
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) {
+    throw Error(where, "there is no such file; give the path of a scenario file (.yaml)");
+  }
+  if (std::filesystem::is_directory(status)) {
+    throw Error(where, "this is a folder; give the path of a scenario file (.yaml)");
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes(largest_file_bytes + 1, '\0');
+  if (stream) stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (stream.bad() || (stream.fail() && !stream.eof())) {
+    throw Error(where, "the file cannot be read; check its permissions");
+  }
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  if (bytes.size() > largest_file_bytes) {
+    throw Error(where, "the file is larger than 1 MiB; give the path of a scenario file (.yaml)");
+  }
+  return bytes;
+}
+
+/// "ego.speed" -> {"ego", "speed"}; "filter.circle.mu_0" -> {"filter", "circle.mu_0"}
+std::vector<std::string> split_path(std::string_view path, const Source& where) {
+  std::vector<std::string> parts;
+  for (bool more = true; more;) {
+    const bool filter_key = parts.size() == 1 && parts[0] == "filter";
+    const std::size_t dot = filter_key ? std::string_view::npos : path.find('.');
+    more = dot != std::string_view::npos;
+    parts.emplace_back(path.substr(0, dot));
+    if (parts.back().empty()) {
+      throw Error(where, "there is an empty part in the key; write it as in ego.speed=0.7");
+    }
+    if (more) path.remove_prefix(dot + 1);
+  }
+  return parts;
+}
+
+Value& item(Value& list, const std::string& part, const std::string& path, const Source& where) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+  if (error != std::errc() || end != part.data() + part.size() || index >= list.items.size()) {
+    throw Error(where, path + " is a list of " + std::to_string(list.items.size()) +
+                           " with no item '" + part + "'; give an index from 0");
+  }
+  return list.items[index];
+}
+
+/// The value under `part`, made when the map lacks it.
+Value& child(Value& parent, const std::string& part, const std::string& path, const Source& where) {
+  if (parent.kind == Value::Kind::list) return item(parent, part, path, where);
+  if (parent.kind == Value::Kind::scalar) {
+    throw Error(where, path + " is '" + parent.text + "', which has no '" + part + "' in it; set " +
+                           path + " itself");
+  }
+  parent.kind = Value::Kind::map;
+  if (Entry* entry = find(parent, part)) return entry->value;
+  parent.entries.push_back({part, where, {Value::Kind::null, where}});
+  return parent.entries.back().value;
+}
+
+void remove(Value& parent, const std::string& part, const Source& where) {
+  const Entry* entry = parent.kind == Value::Kind::map ? find(parent, part) : nullptr;
+  if (!entry) throw Error(where, "there is nothing to remove; give a value after the '='");
+  parent.entries.erase(parent.entries.begin() + (entry - parent.entries.data()));
+}
+
+}  // namespace
+
+std::string_view kind_name(Value::Kind kind) {
+  switch (kind) {
+    case Value::Kind::null:
+      return "nothing";
+    case Value::Kind::scalar:
+      return "a single value";
+    case Value::Kind::list:
+      return "a list";
+    case Value::Kind::map:
+      return "a map";
+  }
+  return "";
+}
+
+Value parse_text(const std::string& text, const Source& where) {
+  refuse_bad_text(text, where);
+  std::istringstream stream(text);
+  TreeBuilder builder(where);
+  try {
+    YAML::Parser parser(stream);
+    parser.HandleNextDocument(builder);
+    Value root = builder.take();
+    if (parser) {
+      TreeBuilder second(where);
+      if (parser.HandleNextDocument(second)) {
+        throw Error(where, "there is more than one YAML document; keep one (remove '---')");
+      }
+    }
+    return root;
+  } catch (const YAML::Exception& error) {
+    Source here = where;
+    if (here.line > 0 && !error.mark.is_null()) here.line += error.mark.line;
+    throw Error(
+        here, "this is not YAML: " + error.msg + "; check indentation, brackets and quotes" +
+                  (error.mark.is_null() ? std::string()
+                                        : " near column " + std::to_string(error.mark.column + 1)));
+  }
+}
+
+Value parse_file(const std::filesystem::path& file) {
+  const std::string bytes = read_bytes(file);
+  Value root = parse_text(bytes, {file.string(), 1});
+  if (root.kind == Value::Kind::null) {
+    throw Error({file.string(), 0},
+                "the file is empty; see scenarios/README.md for a first scenario");
+  }
+  if (root.kind != Value::Kind::map) {
+    throw Error({file.string(), 1}, "a scenario is a map of keys, and this is " +
+                                        std::string(kind_name(root.kind)) +
+                                        "; begin as in 'scene: lab'");
+  }
+  root.where = {file.string(), 1};
+  return root;
+}
+
+void apply_set(Value& root, const std::string& assignment) {
+  const Source where{"--set " + assignment, 0};
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw Error(where, "this is not of the form key=value; write it as in ego.speed=0.7");
+  }
+  const std::vector<std::string> parts = split_path(assignment.substr(0, equals), where);
+  Value value = parse_text(assignment.substr(equals + 1), where);
+
+  Value* node = &root;
+  std::string path;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    node = &child(*node, parts[i], path, where);
+    path += (path.empty() ? "" : ".") + parts[i];
+  }
+  if (value.kind == Value::Kind::null) return remove(*node, parts.back(), where);
+  Value& target = child(*node, parts.back(), path, where);
+  target = std::move(value);
+  if (Entry* entry = node->kind == Value::Kind::map ? find(*node, parts.back()) : nullptr) {
+    entry->where = where;
+  }
+}
+
+}  // namespace lcs::scenario

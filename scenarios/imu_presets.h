@@ -1,0 +1,21 @@
+/// \file
+/// Noise of known IMUs, in Kalibr's units. Sources: the calibration files of EuRoC MAV (ADIS16448)
+/// and TUM-VI (BMI160), and the defaults of the simulator ESIM.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenarios/scenario.h"
+
+namespace lcs::scenario {
+
+/// "adis16448", "tumvi", "esim", and "ideal", which has no noise.
+std::vector<std::string> imu_preset_names();
+
+/// None for a name that is not one of them.
+std::optional<ImuNoise> imu_preset(std::string_view name);
+
+}  // namespace lcs::scenario

@@ -1,0 +1,280 @@
+#include "scenarios/load.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+#include "scenarios/document.h"
+#include "scenarios/imu_presets.h"
+#include "scenarios/load_actor.h"
+#include "scenarios/quantities.h"
+
+namespace lcs::scenario {
+namespace {
+
+constexpr int kMostFrames = 1'000'000;
+constexpr int kSmallestImagePx = 16;
+constexpr int kLargestImagePx = 8192;
+const Value empty_map(Value::Kind::map, {});
+
+std::filesystem::path scenes_folder() {
+  const char* const folder = std::getenv("LCS_SCENES");
+  return folder && *folder ? folder : LCS_SCENES_DIR;
+}
+
+/// "; scenes there: lab, street", or nothing when there are none.
+std::string scenes_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
+    if (file.path().extension() == ".xml") names.push_back(file.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? " (it has " : ", ") + name;
+  return text.empty() ? text : text + ")";
+}
+
+std::filesystem::path find_scene(const Value& value, const std::filesystem::path& folder) {
+  const std::string& text = as_text(value, "scene");
+  if (text.ends_with(".xml")) {
+    const std::filesystem::path file = folder / text;
+    if (std::filesystem::is_regular_file(file)) return file;
+    throw Error(value.where, "there is no scene file " + file.string() +
+                                 "; give its path relative to the scenario file");
+  }
+  const std::filesystem::path scenes = scenes_folder();
+  const std::filesystem::path file = scenes / (text + ".xml");
+  if (std::filesystem::is_regular_file(file)) return file;
+  throw Error(value.where, "there is no scene '" + text + "' at " + file.string() +
+                               "; give the name of a scene in that folder" + scenes_in(scenes) +
+                               " or a path that ends in .xml");
+}
+
+EgoPhase first_phase(Reader& reader) {
+  EgoPhase phase;
+  reader.read("speed", kSpeed, phase.speed_mps);
+  reader.read("acceleration", kAcceleration, phase.acceleration_mps2);
+  reader.read("direction", kAngle, phase.direction_rad);
+  reader.read("yaw_rate", kAngularRate, phase.yaw_rate_radps);
+  return phase;
+}
+
+/// What the phase before has become at `at_s`.
+EgoPhase carried_on(const EgoPhase& before, double at_s) {
+  EgoPhase phase = before;
+  phase.at_s = at_s;
+  phase.speed_mps =
+      std::max(0.0, before.speed_mps + before.acceleration_mps2 * (at_s - before.at_s));
+  return phase;
+}
+
+EgoPhase next_phase(Reader reader, const EgoPhase& before) {
+  const Value* at = reader.require("at");
+  EgoPhase given = first_phase(reader);
+  reader.finish();
+  const double at_s = as_quantity(*at, reader.path_of("at"), kTime);
+  if (at_s <= before.at_s) {
+    throw Error(at->where, reader.path_of("at") + " is '" + at->text +
+                               "', not after the phase before (" + number_text(before.at_s) +
+                               " s); make the times increase");
+  }
+  EgoPhase phase = carried_on(before, at_s);
+  if (reader.find("speed")) phase.speed_mps = given.speed_mps;
+  if (reader.find("acceleration")) phase.acceleration_mps2 = given.acceleration_mps2;
+  if (reader.find("direction")) phase.direction_rad = given.direction_rad;
+  if (reader.find("yaw_rate")) phase.yaw_rate_radps = given.yaw_rate_radps;
+  return phase;
+}
+
+Ego read_ego(Reader reader) {
+  Ego ego;
+  if (const auto drive = reader.choice("drive", {"holonomic", "wheeled"})) {
+    ego.drive = static_cast<Drive>(*drive);
+  }
+  reader.read("start", kPosition, ego.start_m);
+  reader.read("heading", kAngle, ego.heading_rad);
+  ego.phases.push_back(first_phase(reader));
+  if (const Value* phases = reader.find("phases")) {
+    const std::string path = reader.path_of("phases");
+    for (const Value& phase : as_list(*phases, path)) {
+      const std::string index = std::to_string(ego.phases.size() - 1);
+      ego.phases.push_back(next_phase({phase, path + "." + index}, ego.phases.back()));
+    }
+  }
+  reader.finish();
+  return ego;
+}
+
+Camera read_camera(Reader reader) {
+  Camera camera;
+  if (const Value* size = reader.find("size")) {
+    const std::string path = reader.path_of("size");
+    const std::vector<Value>& list = as_list(*size, path, 2);
+    const auto pixels = [&](std::size_t i) {
+      return static_cast<int>(
+          as_integer(list[i], path + "." + std::to_string(i), kSmallestImagePx, kLargestImagePx));
+    };
+    camera.width_px = pixels(0);
+    camera.height_px = pixels(1);
+  }
+  reader.read("fovy", kFieldOfView, camera.fovy_rad);
+  reader.read("rate", kCameraRate, camera.rate_hz);
+  reader.read("position", kPosition, camera.mount_position_m);
+  reader.read("rotation", kAngle, camera.mount_rpy_rad);
+  reader.finish();
+  return camera;
+}
+
+Imu read_imu(Reader reader) {
+  Imu imu;
+  const std::vector<std::string> presets = imu_preset_names();
+  if (const auto preset = reader.choice("preset", presets)) imu.preset = presets[*preset];
+  const ImuNoise preset_noise = imu_preset(imu.preset).value();
+  imu.noise = preset_noise;
+  reader.read("gyroscope_noise_density", kNoiseDensity, imu.noise.gyroscope_noise_density);
+  reader.read("gyroscope_random_walk", kNoiseDensity, imu.noise.gyroscope_random_walk);
+  reader.read("accelerometer_noise_density", kNoiseDensity, imu.noise.accelerometer_noise_density);
+  reader.read("accelerometer_random_walk", kNoiseDensity, imu.noise.accelerometer_random_walk);
+  reader.read("rate", kSensorRate, imu.rate_hz);
+  reader.finish();
+  if (imu.noise != preset_noise) imu.preset = "custom";
+  return imu;
+}
+
+Odometry read_odometry(Reader reader) {
+  Odometry odometry;
+  odometry.enabled = true;
+  reader.read("rate", kSensorRate, odometry.rate_hz);
+  reader.read("noise", kSpeed, odometry.noise_mps);
+  reader.read("scale_error", kRatio, odometry.scale_error);
+  reader.finish();
+  return odometry;
+}
+
+int read_corners(Reader reader) {
+  int threshold = Scenario{}.fast_threshold;
+  reader.read("threshold", 1, 254, threshold);
+  reader.finish();
+  return threshold;
+}
+
+double read_truth(Reader reader) {
+  double min_depth_m = Scenario{}.truth_min_depth_m;
+  reader.read("min_depth", kDistance, min_depth_m);
+  reader.finish();
+  return min_depth_m;
+}
+
+/// The names and ranges are the filter's to check; what no number may be is refused here.
+void read_filter(const Value& value, Scenario& scenario) {
+  const Reader reader(value, "filter");
+  for (const Entry& entry : value.entries) {
+    const std::string path = reader.path_of(entry.key);
+    const std::string& text = as_text(entry.value, path);
+    if (entry.key == "preset") {
+      scenario.filter_preset = text;
+      scenario.filter_preset_source = entry.value.where;
+      continue;
+    }
+    double number = 0;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    if (!std::isfinite(number)) {
+      throw Error(entry.value.where, path + ": '" + text + "' is not finite; give a number");
+    }
+    scenario.filter.push_back({entry.key, text, entry.value.where});
+  }
+}
+
+Criterion read_criterion(Reader reader) {
+  Criterion criterion;
+  criterion.source = reader.where();
+  reader.require("metric");
+  reader.read("metric", criterion.metric);
+  reader.read("min", kBound, criterion.min);
+  reader.read("max", kBound, criterion.max);
+  reader.read("required", criterion.required);
+  reader.finish();
+  if (!criterion.min && !criterion.max) {
+    throw Error(criterion.source, reader.path() + " has no bound; give min, max or both");
+  }
+  if (criterion.min && criterion.max && *criterion.min > *criterion.max) {
+    throw Error(criterion.source, reader.path() + " has a min above its max; no value would pass");
+  }
+  return criterion;
+}
+
+/// Frames at 0, 1/rate, 2/rate, ... that lie before the end.
+int frames_before(double duration_s, double rate_hz, const Value& duration) {
+  constexpr double rounding = 1e-6;  // 0.3 s at 10 Hz is 3 frames, whatever 0.3 * 10 is in binary
+  const double frames = std::ceil(duration_s * rate_hz - rounding);
+  if (frames <= kMostFrames) return std::max(1, static_cast<int>(frames));
+  throw Error(duration.where, "duration '" + duration.text + "' makes more than " +
+                                  std::to_string(kMostFrames) + " frames; shorten it");
+}
+
+int read_frames(Reader& reader, double rate_hz) {
+  int frames = 0;
+  reader.read("frames", 1, kMostFrames, frames);
+  double duration_s = 0;
+  reader.read("duration", kDuration, duration_s);
+  const auto given = reader.exactly_one_of({"frames", "duration"});
+  return given == "duration" ? frames_before(duration_s, rate_hz, *reader.find("duration"))
+                             : frames;
+}
+
+void read_top(Reader& reader, const std::filesystem::path& folder, Scenario& scenario) {
+  // A section under its key, when it is given.
+  const auto section = [&](std::string_view key, auto&& read, auto& out) {
+    if (const Value* value = reader.find(key)) out = read(Reader(*value, reader.path_of(key)));
+  };
+  reader.read("purpose", scenario.purpose);
+  if (const Value* scene = reader.require("scene")) {
+    scenario.scene = find_scene(*scene, folder);
+    scenario.scene_source = scene->where;
+  }
+  if (const Value* seed = reader.find("seed")) scenario.seed = as_seed(*seed, "seed");
+  if (reader.require("ego")) section("ego", read_ego, scenario.ego);
+  section("camera", read_camera, scenario.camera);
+  scenario.frames = read_frames(reader, scenario.camera.rate_hz);
+  const Value* imu = reader.find("imu");
+  scenario.imu = read_imu({imu ? *imu : empty_map, "imu"});
+  section("odometry", read_odometry, scenario.odometry);
+  if (const auto source = reader.choice("ego_motion", {"imu", "truth"})) {
+    scenario.ego_motion = static_cast<EgoMotionSource>(*source);
+  }
+  section("corners", read_corners, scenario.fast_threshold);
+  section("truth", read_truth, scenario.truth_min_depth_m);
+  if (const Value* actors = reader.find("actors")) {
+    const Reader names(*actors, "actors");
+    for (const Entry& entry : actors->entries) {
+      scenario.actors.push_back(read_actor(entry, folder));
+    }
+  }
+  if (const Value* filter = reader.find("filter")) read_filter(*filter, scenario);
+  if (const Value* criteria = reader.find("criteria")) {
+    for (const Value& item : as_list(*criteria, "criteria")) {
+      const std::string index = std::to_string(scenario.criteria.size());
+      scenario.criteria.push_back(read_criterion({item, "criteria." + index}));
+    }
+  }
+}
+
+}  // namespace
+
+Scenario load(const std::filesystem::path& file, const LoadOptions& options) {
+  Value root = parse_file(file);
+  for (const std::string& assignment : options.sets) apply_set(root, assignment);
+
+  Scenario scenario;
+  scenario.name = file.stem().string();
+  scenario.file = file;
+  Reader reader(root, "");
+  read_top(reader, file.parent_path(), scenario);
+  reader.finish();
+  if (options.seed) scenario.seed = *options.seed;
+  return scenario;
+}
+
+}  // namespace lcs::scenario

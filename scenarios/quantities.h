@@ -1,0 +1,27 @@
+/// \file
+/// What the numbers of a scenario may be. The outer bounds are generous: they keep a slip of the
+/// unit (km for m) out of the physics, not a large experiment.
+#pragma once
+
+#include "scenarios/reader.h"
+
+namespace lcs::scenario {
+
+inline constexpr Quantity kPosition{Dimension::length, {-10000, 10000}};
+inline constexpr Quantity kSize{Dimension::length, {0, 100, true}};
+inline constexpr Quantity kDistance{Dimension::length, {0, 10000, true}};
+inline constexpr Quantity kTime{Dimension::time, {0, 100000}};
+inline constexpr Quantity kDuration{Dimension::time, {0, 100000, true}};
+inline constexpr Quantity kSpeed{Dimension::speed, {0, 100}};
+inline constexpr Quantity kSignedSpeed{Dimension::speed, {-100, 100}};
+inline constexpr Quantity kAcceleration{Dimension::acceleration, {-100, 100}};
+inline constexpr Quantity kAngle{Dimension::angle, {-360, 360}};
+inline constexpr Quantity kFieldOfView{Dimension::angle, {0, 180, true, true}};
+inline constexpr Quantity kAngularRate{Dimension::angular_rate, {-720, 720}};
+inline constexpr Quantity kCameraRate{Dimension::frequency, {0, 1000, true}};
+inline constexpr Quantity kSensorRate{Dimension::frequency, {0, 10000, true}};
+inline constexpr Quantity kNoiseDensity{Dimension::number, {0, 1000}};
+inline constexpr Quantity kRatio{Dimension::number, {0, 1}};
+inline constexpr Quantity kBound{Dimension::number, {}};
+
+}  // namespace lcs::scenario

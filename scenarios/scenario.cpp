@@ -1,0 +1,18 @@
+#include "scenarios/scenario.h"
+
+namespace lcs::scenario {
+
+namespace {
+
+std::string place(const Source& where) {
+  std::string text = where.file;
+  if (where.line > 0) text.append(":").append(std::to_string(where.line));
+  return text;
+}
+
+}  // namespace
+
+Error::Error(const Source& where, const std::string& what_and_remedy)
+    : std::runtime_error(place(where) + ": " + what_and_remedy) {}
+
+}  // namespace lcs::scenario
