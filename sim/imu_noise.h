@@ -1,0 +1,86 @@
+/// \file
+/// Noise of the inertial and wheel sensors.
+///
+/// IMU: Kalibr's model (as in OpenVINS). At step dt = 1 / rate, for each axis,
+///
+///     measured_k = true_k + b_k + sigma / sqrt(dt) * N(0, 1)
+///     b_0 = 0,   b_k = b_{k-1} + sigma_b * sqrt(dt) * N(0, 1)
+///
+/// with sigma the noise density and sigma_b the random walk of `scenario::ImuNoise`. White noise
+/// and walk of each sensor have a random stream each, so that a change to one of the four figures
+/// leaves the numbers drawn for the others as they were.
+///
+/// Wheel odometry: a scale drawn once a run, and white noise in x and y of B.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string_view>
+
+#include "scenarios/scenario.h"
+#include "sim/imu.h"
+#include "sim/random.h"
+
+namespace lcs::sim {
+
+/// White noise and a random walk on three axes.
+class Noise3 {
+ public:
+  /// \throws std::invalid_argument unless both figures are finite and >= 0, and the rate is above
+  /// 0.
+  Noise3(double density, double random_walk, double rate_hz, std::uint64_t seed,
+         std::string_view name);
+
+  Eigen::Vector3d corrupt(const Eigen::Vector3d& truth);
+
+  /// b_k of the sample that was corrupted last.
+  const Eigen::Vector3d& bias() const { return bias_; }
+
+ private:
+  double white_step_;  ///< sigma / sqrt(dt)
+  double walk_step_;   ///< sigma_b * sqrt(dt)
+  RandomStream white_;
+  RandomStream walk_;
+  Eigen::Vector3d bias_ = Eigen::Vector3d::Zero();
+  bool started_ = false;
+};
+
+class ImuNoiseModel {
+ public:
+  /// \param name of the IMU; two of them in one run draw different noise.
+  /// \throws std::invalid_argument as for `Noise3`.
+  ImuNoiseModel(const scenario::ImuNoise& noise, double rate_hz, std::uint64_t seed,
+                std::string_view name = "imu0");
+
+  /// Samples have to come one by one, a step of 1 / rate apart.
+  ImuSample corrupt(const ImuSample& truth);
+
+  /// \name Biases in the sample that was corrupted last.
+  ///@{
+  const Eigen::Vector3d& gyro_bias_radps() const { return gyro_.bias(); }
+  const Eigen::Vector3d& accel_bias_mps2() const { return accel_.bias(); }
+  ///@}
+
+ private:
+  Noise3 gyro_;
+  Noise3 accel_;
+};
+
+class OdometryNoiseModel {
+ public:
+  /// \throws std::invalid_argument unless noise and scale error are finite and >= 0.
+  OdometryNoiseModel(const scenario::Odometry& odometry, std::uint64_t seed,
+                     std::string_view name = "odometry0");
+
+  /// Wheels on the ground tell x and y of B; their z is 0.
+  OdometrySample corrupt(const OdometrySample& truth);
+
+  double scale() const { return scale_; }
+
+ private:
+  double noise_mps_;
+  RandomStream white_;
+  double scale_;
+};
+
+}  // namespace lcs::sim
