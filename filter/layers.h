@@ -20,6 +20,7 @@ struct Edge {
   bool rebel = false;
   Vec2 location = Vec2::Zero();   ///< L, px
   Vec2 origin = Vec2::Zero();     ///< O, px: first sighting (rebel), FOE or start of its path (normal)
+  Vec2 rotated = Vec2::Zero();    ///< L of the frame before, moved by the rotation alone, px
   Vec2 predicted = Vec2::Zero();  ///< L~, px: where this frame's corner was expected
   double speed = 0;               ///< V, px/s, along beta; never negative
   double depth_ratio = 1;         ///< V / V_v = Z_ref / Z, what landmarks of one depth share
@@ -44,6 +45,7 @@ struct Circle {
   int trust = 0;                 ///< Tr
   int age = 0;
   int members = 0;               ///< edges grouped into it in this frame; 0 while it coasts
+  bool ignoring = false;         ///< reached Tr_m: makes a region of psi in the next frame
 };
 
 /// An object (or a layer of objects at one depth): S, an axis-aligned rectangle.
@@ -59,6 +61,7 @@ struct Square {
   int age = 0;
   int circles = 0;                  ///< grouped into it in this frame; 0 while it coasts
   int rebel_circles = 0;            ///< of these
+  bool ignoring = false;            ///< reached Tr_m: makes a region of psi in the next frame
 };
 
 /// Ignorance region psi: corners inside are not looked at in the next frame.
@@ -73,12 +76,14 @@ struct IgnoreRegion {
 struct Collector {
   Vec2 location = Vec2::Zero();  ///< L_lambda, px
   double radius = 0;             ///< mu_lambda, px
+  double depth_ratio = 1;        ///< of its circle: what a new edge inside it starts from
 };
 
 /// A row of alpha: a corner's sightings on the way to becoming a rebel edge.
 struct Chain {
-  std::array<Vec2, 3> sightings;  ///< oldest first, all in this frame's pixels (rotation removed)
-  int count = 0;
+  std::array<Vec2, 2> sightings;  ///< oldest first, in this frame's pixels (rotation removed)
+  int count = 0;                  ///< 1 or 2: with the third it becomes a rebel edge, or nothing
+  double off_field_px = 0;        ///< how far its steps so far leave what a static point may do
 };
 
 struct Layers {

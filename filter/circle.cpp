@@ -1,0 +1,248 @@
+#include "filter/circle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "filter/geometry.h"
+#include "filter/line.h"
+
+namespace lcs {
+namespace {
+
+bool within(double angle_rad, double about_rad, double epsilon_rad) {
+  return angle_between(angle_rad, about_rad) <= epsilon_rad;
+}
+
+}  // namespace
+
+CircleExpert::CircleExpert(const Intrinsics& camera, const CircleParameters& parameters)
+    : camera_(camera), parameters_(parameters) {}
+
+void CircleExpert::predict(Layers& layers, const MotionField& field) const {
+  for (Circle& circle : layers.normal_circles) {
+    const Vec2 rotated = field.rotated(circle.location);
+    if (field.moving()) circle.depth_ratio = field.advanced_ratio(circle.depth_ratio);
+    circle.location = field.translated(rotated, circle.depth_ratio);
+    circle.radius *= std::max(0.0, field.expansion(circle.depth_ratio));
+    circle.origin = field.origin(circle.location);
+    circle.speed = circle.depth_ratio * field.reference_speed(rotated);
+    const Vec2 along = field.direction(circle.location);
+    if (!along.isZero()) circle.angle = angle_of(along);
+  }
+  for (Circle& circle : layers.rebel_circles) {
+    circle.origin = field.rotated(circle.origin);
+    circle.location = field.rotated(circle.location) +
+                      circle.speed * field.dt_s() * unit_vector(circle.angle);
+  }
+}
+
+void CircleExpert::feed_back(const Layers& layers, std::vector<IgnoreRegion>& psi,
+                             std::vector<Collector>& lambda) const {
+  for (const Circle& circle : layers.normal_circles) {
+    if (circle.ignoring) {
+      psi.push_back({IgnoreRegion::Shape::circle, circle.location, {circle.radius, circle.radius}});
+    } else if (circle.trust >= parameters_.trust.standard) {
+      lambda.push_back({circle.location, circle.radius, circle.depth_ratio});
+    }
+  }
+}
+
+/// Like direction, like depth (normal) or like speed (rebel).
+bool CircleExpert::alike(const Edge& a, const Edge& b, const MotionField& field) const {
+  if (a.rebel) {
+    const double tolerance = parameters_.epsilon_v_r * field.reference_speed(a.location);
+    return within(a.angle, b.angle, parameters_.epsilon_beta_r) &&
+           std::abs(a.speed - b.speed) <= std::max(tolerance, 0.5 * std::max(a.speed, b.speed));
+  }
+  const bool directions = !field.moving() || within(a.angle, b.angle, parameters_.epsilon_beta_n);
+  return directions && std::abs(a.depth_ratio - b.depth_ratio) <= parameters_.epsilon_v_n;
+}
+
+CircleExpert::Group CircleExpert::mean_circle(const std::vector<Edge>& edges, std::size_t first,
+                                              std::size_t count, const MotionField& field) const {
+  Group group;
+  group.first = first;
+  group.count = count;
+  Circle& mean = group.mean;
+  AngleMean angle;
+  mean.depth_ratio = mean.speed = 0;
+  for (std::size_t i = first; i < first + count; ++i) {
+    const Edge& edge = edges[grouped_[i]];
+    mean.location += edge.location;
+    mean.origin += edge.origin;
+    mean.speed += edge.speed;
+    mean.depth_ratio += edge.depth_ratio;
+    // The deviation mu_r that the paper adds to beta of a rebel is unsigned here, and so widens the
+    // gate (zeta_r) instead of turning the mean.
+    angle.add(edge.angle);
+  }
+  const double n = static_cast<double>(count);
+  mean.rebel = edges[grouped_[first]].rebel;
+  mean.location /= n;
+  mean.origin /= n;
+  mean.speed /= n;
+  mean.depth_ratio /= n;
+  mean.angle = angle.value();
+  if (mean.rebel) {
+    const double reference = field.reference_speed(mean.location);
+    mean.depth_ratio = reference > 0 ? std::min(mean.speed / reference, 2 * field.max_ratio()) : 0;
+  }
+  for (std::size_t i = first; i < first + count; ++i) {
+    mean.radius = std::max(mean.radius, (edges[grouped_[i]].location - mean.location).norm());
+  }
+  mean.radius += parameters_.corner_noise;
+  mean.members = static_cast<int>(count);
+  return group;
+}
+
+/// The groups C_m: each starts from the most trusted edge that is still free, and takes the edges near
+/// it that are like it.
+void CircleExpert::group(const std::vector<Edge>& edges, const MotionField& field) {
+  points_.clear();
+  for (const Edge& edge : edges) points_.push_back(edge.location);
+  grid_.build(points_, parameters_.reach);
+  seeds_.resize(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) seeds_[i] = i;
+  std::stable_sort(seeds_.begin(), seeds_.end(), [&](std::size_t a, std::size_t b) {
+    return std::tuple(-edges[a].trust, -edges[a].age) < std::tuple(-edges[b].trust, -edges[b].age);
+  });
+  taken_.assign(edges.size(), 0);
+  grouped_.clear();
+  groups_.clear();
+  for (const std::size_t seed : seeds_) {
+    if (taken_[seed] || edges[seed].trust < parameters_.trust.standard) continue;
+    const std::size_t first = grouped_.size();
+    grid_.visit_within(edges[seed].location, parameters_.reach, [&](int other, double) {
+      if (!taken_[other] && alike(edges[seed], edges[other], field)) grouped_.push_back(other);
+    });
+    std::sort(grouped_.begin() + static_cast<std::ptrdiff_t>(first), grouped_.end());
+    const std::size_t count = grouped_.size() - first;
+    if (static_cast<int>(count) < parameters_.min_members) {
+      grouped_.resize(first);
+      continue;
+    }
+    for (std::size_t i = first; i < grouped_.size(); ++i) taken_[grouped_[i]] = 1;
+    groups_.push_back(mean_circle(edges, first, count, field));
+  }
+}
+
+/// Per[ |L_e - L~_c| < R_c ]: share of the group's edges inside the predicted circle, %.
+double CircleExpert::overlap(const Circle& circle, const Group& group,
+                             const std::vector<Edge>& edges) const {
+  int inside = 0;
+  for (std::size_t i = group.first; i < group.first + group.count; ++i) {
+    inside += (edges[grouped_[i]].location - circle.location).norm() < circle.radius;
+  }
+  return 100.0 * inside / static_cast<double>(group.count);
+}
+
+void CircleExpert::estimate_circle(Circle& circle, const Circle& mean, bool aligned) const {
+  const TrustRanks& ranks = parameters_.trust;
+  circle.location = estimate(circle.trust, ranks, circle.location, mean.location);
+  circle.radius = estimate(circle.trust, ranks, circle.radius, mean.radius);
+  circle.angle = wrap_angle(circle.angle +
+                            estimate(circle.trust, ranks, 0.0, wrap_angle(mean.angle - circle.angle)));
+  if (circle.rebel) circle.angle = mean.angle;
+  circle.origin = mean.origin;
+  circle.speed = mean.speed;
+  circle.depth_ratio = mean.depth_ratio;
+  circle.members = mean.members;
+  circle.trust = aligned ? ranks.raised(circle.trust) : circle.trust - 1;
+}
+
+void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
+                         const Layers& layers, const MotionField& field) {
+  group(edges, field);
+  for (Edge& edge : edges) edge.circle = -1;
+
+  struct Pair {
+    double overlap, distance;
+    std::size_t circle, group;
+    bool aligned;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t c = 0; c < circles.size(); ++c) {
+    const Circle& circle = circles[c];
+    const double epsilon_beta = circle.rebel ? parameters_.epsilon_beta_r : parameters_.epsilon_beta_n;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      const Circle& mean = groups_[g].mean;
+      const double distance = (mean.location - circle.location).norm();
+      if (distance > circle.radius + mean.radius) continue;
+      const double share = overlap(circle, groups_[g], edges);
+      if (share < parameters_.rho_c) continue;
+      const double tolerance =
+          circle.rebel ? std::max(parameters_.epsilon_v_r * field.reference_speed(mean.location),
+                                  0.5 * std::max(circle.speed, mean.speed))
+                       : 0;
+      const bool speeds =
+          circle.rebel ? std::abs(circle.speed - mean.speed) <= tolerance
+                       : std::abs(circle.depth_ratio - mean.depth_ratio) <= parameters_.epsilon_v;
+      if (!speeds) continue;
+      const bool aligned = (!circle.rebel && !field.moving()) ||
+                           within(circle.angle, mean.angle, epsilon_beta);
+      pairs.push_back({share, distance, c, g, aligned});
+    }
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    return std::tuple(!a.aligned, -a.overlap, a.distance, a.circle, a.group) <
+           std::tuple(!b.aligned, -b.overlap, b.distance, b.circle, b.group);
+  });
+  std::vector<int> circle_of_group(groups_.size(), -1);
+  std::vector<char> matched(circles.size(), 0);
+  for (const Pair& pair : pairs) {
+    if (matched[pair.circle] || circle_of_group[pair.group] >= 0) continue;
+    matched[pair.circle] = 1;
+    circle_of_group[pair.group] = static_cast<int>(pair.circle);
+    ++circles[pair.circle].age;
+    estimate_circle(circles[pair.circle], groups_[pair.group].mean, pair.aligned);
+  }
+  for (std::size_t c = 0; c < circles.size(); ++c) {
+    if (matched[c]) continue;
+    ++circles[c].age;
+    circles[c].members = 0;
+    // A region that was not looked at had no chance to show its edges.
+    if (!inside_any(layers.ignored, circles[c].location)) --circles[c].trust;
+  }
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (circle_of_group[g] >= 0) continue;
+    Circle circle = groups_[g].mean;
+    circle.id = next_id_++;
+    circle.trust = circle.rebel ? parameters_.trust.initial_rebel()
+                                : parameters_.trust.initial_normal();
+    circle_of_group[g] = static_cast<int>(circles.size());
+    circles.push_back(circle);
+  }
+
+  // Deletion shifts the indices that edges keep.
+  std::vector<int> index(circles.size(), -1);
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < circles.size(); ++c) {
+    const Vec2& x = circles[c].location;
+    const bool outside = x.x() < 0 || x.y() < 0 || x.x() > camera_.width_px || x.y() > camera_.height_px;
+    if (!parameters_.trust.alive(circles[c].trust) || outside) continue;
+    index[c] = static_cast<int>(kept);
+    circles[kept++] = circles[c];
+  }
+  circles.resize(kept);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Group& group = groups_[g];
+    for (std::size_t i = group.first; i < group.first + group.count; ++i) {
+      edges[grouped_[i]].circle = index[static_cast<std::size_t>(circle_of_group[g])];
+    }
+  }
+}
+
+void CircleExpert::update(Layers& layers, const MotionField& field) {
+  match(layers.normal_edges, layers.normal_circles, layers, field);
+  match(layers.rebel_edges, layers.rebel_circles, layers, field);
+}
+
+void CircleExpert::update_ignorance(Layers& layers) const {
+  for (Circle& circle : layers.normal_circles) {
+    circle.ignoring = circle.trust >= parameters_.trust.maximum;
+    if (circle.ignoring) circle.trust = parameters_.trust.after_ignoring();
+  }
+}
+
+}  // namespace lcs

@@ -1,0 +1,105 @@
+#include "filter/filter.h"
+
+#include <chrono>
+#include <stdexcept>
+
+#include "filter/circle.h"
+#include "filter/edges.h"
+#include "filter/line.h"
+#include "filter/motion_field.h"
+#include "filter/square.h"
+
+namespace lcs {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double lap_ms(Clock::time_point& since) {
+  const auto now = Clock::now();
+  const double elapsed = std::chrono::duration<double, std::milli>(now - since).count();
+  since = now;
+  return elapsed;
+}
+
+const Intrinsics& checked(const Intrinsics& camera) {
+  if (!(camera.focal_px > 0) || camera.width_px <= 0 || camera.height_px <= 0) {
+    throw std::invalid_argument("the filter needs a camera with a focal length and pixels");
+  }
+  return camera;
+}
+
+const Parameters& checked(const Parameters& parameters) {
+  validate(parameters);
+  return parameters;
+}
+
+}  // namespace
+
+struct Filter::Impl {
+  Impl(const Intrinsics& camera_in, const Parameters& parameters_in)
+      : camera(checked(camera_in)),
+        parameters(checked(parameters_in)),
+        line(camera.centre_px),
+        edges(camera, parameters.circle),
+        circles(camera, parameters.circle),
+        squares(camera, parameters.square) {}
+
+  /// A rebel is called one when the edges of its circle bear it out.
+  void call_verdicts() {
+    for (const Edge& edge : result.layers.rebel_edges) {
+      if (edge.corner < 0) continue;
+      const int support =
+          edge.circle < 0 ? 1 : result.layers.rebel_circles[edge.circle].members;
+      result.verdicts[edge.corner] =
+          support >= parameters.circle.rebel_support ? Verdict::rebel : Verdict::pending;
+    }
+  }
+
+  Intrinsics camera;
+  Parameters parameters;
+  LineExpert line;
+  EdgeExpert edges;
+  CircleExpert circles;
+  SquareExpert squares;
+  FrameResult result;
+};
+
+Filter::Filter(const Intrinsics& camera, const Parameters& parameters)
+    : impl_(std::make_unique<Impl>(camera, parameters)) {}
+Filter::~Filter() = default;
+Filter::Filter(Filter&&) noexcept = default;
+Filter& Filter::operator=(Filter&&) noexcept = default;
+
+const FrameResult& Filter::step(std::span<const Eigen::Vector2f> corners_px,
+                                const EgoMotion& motion) {
+  Impl& f = *impl_;
+  Layers& layers = f.result.layers;
+  auto clock = Clock::now();
+
+  // What the frame before left is moved to where this frame should show it.
+  const MotionField field(f.camera, motion, f.parameters.field);
+  f.edges.predict(layers, field);
+  f.circles.predict(layers, field);
+  f.squares.predict(layers, field);
+  layers.ignored.clear();
+  layers.collectors.clear();
+  f.circles.feed_back(layers, layers.ignored, layers.collectors);
+  f.squares.feed_back(layers, layers.ignored);
+
+  // Transition I: chi, reduced and grouped, goes to the Circle expert.
+  const Chi& chi = f.line.collect(corners_px, layers.ignored, layers.collectors, f.result.verdicts);
+  f.result.times.line_ms = lap_ms(clock);
+
+  f.edges.update(layers, chi, field, f.result.verdicts);
+  f.circles.update(layers, field);
+  f.call_verdicts();
+  if (f.parameters.line.ignore) f.circles.update_ignorance(layers);  // transition II
+  f.result.times.circle_ms = lap_ms(clock);
+
+  f.squares.update(layers, field);                                   // transition III
+  if (f.parameters.line.ignore) f.squares.update_ignorance(layers);  // transition IV
+  f.result.times.square_ms = lap_ms(clock);
+  return f.result;
+}
+
+}  // namespace lcs

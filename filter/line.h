@@ -1,0 +1,48 @@
+/// \file
+/// Line expert: removes the corners inside psi and groups the others by lambda.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "filter/layers.h"
+
+namespace lcs {
+
+/// chi after the Line expert: the corners that are looked at, in an order that does not depend on the
+/// caller's (nearest to the principal point first).
+struct Chi {
+  std::vector<Vec2> locations;   ///< px
+  std::vector<int> sources;      ///< index of each in the caller's corners
+  std::vector<int> groups;       ///< collector that each falls into (the nearest one), -1: a single landmark
+
+  std::size_t size() const { return locations.size(); }
+};
+
+/// True for x inside a region of psi, border included.
+bool contains(const IgnoreRegion& region, const Vec2& x);
+bool inside_any(std::span<const IgnoreRegion> regions, const Vec2& x);
+
+class LineExpert {
+ public:
+  explicit LineExpert(const Vec2& centre_px) : centre_px_(centre_px) {}
+
+  /// \param verdicts one for each corner: set to `ignored` inside psi, to `pending` elsewhere. Corners
+  ///   that are not finite stay `pending` and go no further.
+  const Chi& collect(std::span<const Eigen::Vector2f> corners_px,
+                     std::span<const IgnoreRegion> psi, std::span<const Collector> lambda,
+                     std::vector<Verdict>& verdicts);
+
+ private:
+  Vec2 centre_px_;
+  Chi chi_;
+  struct Entry {
+    double distance2;
+    Vec2 location;
+    int source;
+  };
+  std::vector<Entry> entries_;
+};
+
+}  // namespace lcs
