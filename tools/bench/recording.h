@@ -1,25 +1,30 @@
 /// \file
-/// The recording of a run: what the filter said and what was true, frame by frame. Scores are computed
-/// from it alone, so that a live run, a stored one and a stranger's detector go through the same door.
+/// The recording of a run: what the filter said and what was true, frame by frame. Scores are
+/// computed from it alone, so that a live run, a stored one and a stranger's detector go through
+/// the same door.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "filter/ego_motion.h"
 #include "filter/layers.h"
 #include "sim/truth.h"
 
 namespace lcs::bench {
 
-/// Wall times of one frame.
+/// Wall times of one frame. The only part of a recording that differs between two runs.
 struct FrameTimes {
-  double detect_ms = 0;  ///< `cv::FAST` on this frame: the yardstick
+  double simulate_ms = 0;  ///< physics and rendering
+  double detect_ms = 0;    ///< `cv::FAST` on this frame: the yardstick
   double line_ms = 0;
   double circle_ms = 0;
   double square_ms = 0;
   double filter_ms = 0;  ///< whole step
+  double truth_ms = 0;   ///< labelling of the corners
 };
 
 struct FrameRecord {
@@ -28,17 +33,18 @@ struct FrameRecord {
   std::vector<Eigen::Vector2f> corners_px;  ///< chi
   std::vector<Verdict> verdicts;            ///< of each corner
   Layers layers;
+  EgoMotion motion;                            ///< since the last frame, as the tracker was told
+  EgoMotion true_motion;                       ///< likewise, from the exact poses
   std::vector<sim::CornerTruth> corner_truth;  ///< of each corner
   std::vector<sim::ObjectTruth> object_truth;
-  FrameTimes times;
+  std::optional<FrameTimes> times;  ///< none in a recording that was stored
 };
 
 struct Recording {
   std::string scenario;
   std::uint64_t seed = 0;
   std::vector<sim::Object> objects;
-  std::vector<FrameRecord> frames;
-  double simulated_frames_per_second = 0;  ///< rendered and scored, wall time
+  std::vector<FrameRecord> frames;  ///< by index
 };
 
 }  // namespace lcs::bench

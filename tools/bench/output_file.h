@@ -1,0 +1,42 @@
+/// \file
+/// A file being written, with every error reported.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace lcs::bench {
+
+/// What is wrong with where results go, and what to do about it.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Created (or emptied) on construction. Whoever has not called `close` does not know whether all
+/// of it arrived.
+class OutputFile {
+ public:
+  /// \throws OutputError
+  explicit OutputFile(const std::filesystem::path& path);
+
+  /// \throws OutputError, as when the disk is full.
+  void write(std::string_view text);
+  /// Writes out what is still buffered. \throws OutputError
+  void close();
+
+ private:
+  struct Closer {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  [[noreturn]] void fail(int error) const;
+
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, Closer> file_;
+};
+
+}  // namespace lcs::bench

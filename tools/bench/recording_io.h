@@ -1,0 +1,47 @@
+/// \file
+/// A recording on disk, times apart: `layers.jsonl`, what the tracker was given and said, and
+/// `truth.jsonl`, what was true. A JSON object a line, a line a frame; `truth.jsonl` begins with
+/// one line more about the run. Lists of items are stored by column, as {"id": [1, 2], "x": [3.5,
+/// 4]}.
+///
+/// Numbers are written in the shortest form that reads back to the same bits, so that scoring a
+/// recording that was stored gives the same figures. JSON knows no infinity: null stands for +inf
+/// (the depth of the sky).
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "tools/bench/output_file.h"
+#include "tools/bench/recording.h"
+
+namespace lcs::bench {
+
+inline constexpr const char* kLayersFile = "layers.jsonl";
+inline constexpr const char* kTruthFile = "truth.jsonl";
+
+/// Lines of one frame, without the line end. \throws std::invalid_argument for a number that is NaN
+/// or -inf, naming frame and field.
+std::string layers_line(const FrameRecord& frame);
+std::string truth_line(const FrameRecord& frame);
+
+/// Writes both files into a folder that exists, frame by frame.
+class RecordingWriter {
+ public:
+  /// \param run whose frames are not written here. \throws OutputError
+  RecordingWriter(const std::filesystem::path& folder, const Recording& run);
+
+  /// \throws OutputError; std::invalid_argument as `layers_line`.
+  void write(const FrameRecord& frame);
+  /// \throws OutputError
+  void close();
+
+ private:
+  OutputFile layers_;
+  OutputFile truth_;
+};
+
+/// Reads both files back. \throws std::runtime_error naming file and line.
+Recording read_recording(const std::filesystem::path& folder);
+
+}  // namespace lcs::bench

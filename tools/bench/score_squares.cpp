@@ -1,0 +1,166 @@
+#include "tools/bench/score_squares.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "tools/bench/scoring.h"
+#include "tools/bench/statistics.h"
+
+namespace lcs::bench {
+namespace {
+
+/// \name What makes a truth box one that a square can be asked to find.
+///@{
+constexpr int kMinArea_px2 = 400;
+constexpr int kMinCorners = 4;
+constexpr double kMinVisibleFraction = 0.5;
+///@}
+
+struct Box {
+  Vec2 min, max;
+  double area() const { return (max - min).prod(); }
+};
+
+/// Pixel edges against pixel centres: the box of pixels l to r-1 reaches from l - 1/2 to r - 1/2.
+Box box_of(const sim::ObjectTruth& truth) {
+  return {Vec2(truth.left - 0.5, truth.top - 0.5), Vec2(truth.right - 0.5, truth.bottom - 0.5)};
+}
+
+Box box_of(const Square& square) {
+  return {square.location - square.half_size, square.location + square.half_size};
+}
+
+double intersection_over_union(const Box& a, const Box& b) {
+  const Vec2 overlap = (a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min)).cwiseMax(0.0);
+  const double common = overlap.prod();
+  const double all = a.area() + b.area() - common;
+  return all > 0 ? common / all : 0;
+}
+
+bool is_eligible(const sim::ObjectTruth& truth, const FrameRecord& frame) {
+  const int area = (truth.right - truth.left) * (truth.bottom - truth.top);
+  const auto corners =
+      std::count_if(frame.corner_truth.begin(), frame.corner_truth.end(),
+                    [&](const sim::CornerTruth& corner) { return corner.object == truth.object; });
+  return area >= kMinArea_px2 && corners >= kMinCorners &&
+         truth.visible_fraction >= kMinVisibleFraction;
+}
+
+struct Pair {
+  double iou = 0;
+  int object = 0;
+  Id square = 0;
+};
+
+/// What squares and objects of one frame have to do with each other, at any threshold.
+struct FrameSquares {
+  std::set<int> eligible;      ///< objects
+  std::vector<Pair> pairs;     ///< of eligible objects and squares, one to one, greedy: best first
+  std::vector<Pair> best_box;  ///< of each square, among all boxes; object 0 where none overlaps
+};
+
+FrameSquares compare(const FrameRecord& frame) {
+  FrameSquares result;
+  for (const sim::ObjectTruth& truth : frame.object_truth) {
+    if (is_eligible(truth, frame)) result.eligible.insert(truth.object);
+  }
+
+  std::vector<Pair> candidates;
+  for (const Square& square : frame.layers.squares) {
+    Pair best{0, 0, square.id};
+    for (const sim::ObjectTruth& truth : frame.object_truth) {
+      const double iou = intersection_over_union(box_of(truth), box_of(square));
+      const bool eligible = result.eligible.contains(truth.object);
+      if (iou > 0 && eligible) candidates.push_back({iou, truth.object, square.id});
+      if (iou > best.iou || (iou == best.iou && iou > 0 && eligible)) {
+        best = {iou, truth.object, square.id};
+      }
+    }
+    result.best_box.push_back(best);
+  }
+
+  // Ids settle ties, so that the order in which squares and objects come does not matter.
+  std::sort(candidates.begin(), candidates.end(), [](const Pair& a, const Pair& b) {
+    return std::tuple(-a.iou, a.object, a.square) < std::tuple(-b.iou, b.object, b.square);
+  });
+  std::set<int> taken_objects;
+  std::set<Id> taken_squares;
+  for (const Pair& pair : candidates) {
+    if (taken_objects.contains(pair.object) || taken_squares.contains(pair.square)) continue;
+    taken_objects.insert(pair.object);
+    taken_squares.insert(pair.square);
+    result.pairs.push_back(pair);
+  }
+  return result;
+}
+
+SquareCounts count(const FrameSquares& frame, double threshold) {
+  SquareCounts counts;
+  counts.boxes = static_cast<int>(frame.eligible.size());
+  std::set<Id> matched;
+  for (const Pair& pair : frame.pairs) {
+    if (pair.iou >= threshold) matched.insert(pair.square);
+  }
+  counts.matched = static_cast<int>(matched.size());
+  for (const Pair& best : frame.best_box) {
+    const bool on_other_object = best.iou >= threshold && !frame.eligible.contains(best.object);
+    counts.squares += matched.contains(best.square) || !on_other_object;
+  }
+  return counts;
+}
+
+void add(SquareCounts& sum, const SquareCounts& counts) {
+  sum.boxes += counts.boxes;
+  sum.matched += counts.matched;
+  sum.squares += counts.squares;
+}
+
+std::set<int> movers(const Recording& recording) {
+  std::set<int> result;
+  for (const FrameRecord& frame : recording.frames) {
+    for (const sim::ObjectTruth& truth : frame.object_truth) {
+      if (truth.moving) result.insert(truth.object);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<double> SquareCounts::recall() const {
+  return ratio(matched, boxes);
+}
+std::optional<double> SquareCounts::precision() const {
+  return ratio(matched, squares);
+}
+
+SquareScore score_squares(const Recording& recording) {
+  constexpr double kMiddle = 0.5;
+  SquareScore score;
+  const std::set<int> moving = movers(recording);
+  std::map<int, Id> last_square;  // of each object, where it was last matched
+  for (const FrameRecord& frame : recording.frames) {
+    if (frame.index < kSightings) continue;
+    const FrameSquares squares = compare(frame);
+    add(score.at_30, count(squares, 0.3));
+    add(score.at_50, count(squares, kMiddle));
+    add(score.at_70, count(squares, 0.7));
+    for (const int object : squares.eligible) {
+      ++(moving.contains(object) ? score.movers_50 : score.static_50).boxes;
+    }
+    for (const Pair& pair : squares.pairs) {
+      if (pair.iou < kMiddle) continue;
+      const bool mover = moving.contains(pair.object);
+      ++(mover ? score.movers_50 : score.static_50).matched;
+      (mover ? score.movers_iou : score.static_iou).push_back(pair.iou);
+      const auto [last, first_time] = last_square.try_emplace(pair.object, pair.square);
+      score.identity_switches += last->second != pair.square;
+      last->second = pair.square;
+    }
+  }
+  return score;
+}
+
+}  // namespace lcs::bench

@@ -1,0 +1,38 @@
+/// \file
+/// Means, quantiles and ratios that are undefined, not 0, where there is nothing to take them of.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+namespace lcs::bench {
+
+/// part / whole; undefined for an empty whole.
+inline std::optional<double> ratio(double part, double whole) {
+  if (whole == 0) return std::nullopt;
+  return part / whole;
+}
+
+inline std::optional<double> mean(const std::vector<double>& values) {
+  return ratio(std::accumulate(values.begin(), values.end(), 0.0),
+               static_cast<double>(values.size()));
+}
+
+/// Linear between the two nearest ranks (type 7, as NumPy's default). \param q in [0, 1].
+inline std::optional<double> quantile(std::vector<double> values, double q) {
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const double rank = q * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(std::floor(rank));
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return std::lerp(values[below], values[above], rank - std::floor(rank));
+}
+
+inline std::optional<double> median(const std::vector<double>& values) {
+  return quantile(values, 0.5);
+}
+
+}  // namespace lcs::bench
