@@ -38,6 +38,7 @@ struct CornerRow {
 /// A row of alpha, with as many sightings as it has.
 struct ChainRow {
   std::vector<Vec2> sightings;
+  double off_field_px = 0;
 };
 
 // Each `fields` calls visit(name, reference to the member) for every stored field, in file order.
@@ -52,6 +53,7 @@ void fields(CornerRow& corner, Visit&& visit) {
 template <class Visit>
 void fields(ChainRow& chain, Visit&& visit) {
   visit("sightings", chain.sightings);
+  visit("off_field_px", chain.off_field_px);
 }
 
 template <class Visit>
@@ -61,6 +63,8 @@ void fields(Edge& edge, Visit&& visit) {
   visit("y", edge.location.y());
   visit("origin_x", edge.origin.x());
   visit("origin_y", edge.origin.y());
+  visit("rotated_x", edge.rotated.x());
+  visit("rotated_y", edge.rotated.y());
   visit("predicted_x", edge.predicted.x());
   visit("predicted_y", edge.predicted.y());
   visit("speed", edge.speed);
@@ -87,6 +91,7 @@ void fields(Circle& circle, Visit&& visit) {
   visit("trust", circle.trust);
   visit("age", circle.age);
   visit("members", circle.members);
+  visit("ignoring", circle.ignoring);
 }
 
 template <class Visit>
@@ -105,6 +110,7 @@ void fields(Square& square, Visit&& visit) {
   visit("age", square.age);
   visit("circles", square.circles);
   visit("rebel_circles", square.rebel_circles);
+  visit("ignoring", square.ignoring);
 }
 
 template <class Visit>
@@ -121,6 +127,7 @@ void fields(Collector& collector, Visit&& visit) {
   visit("x", collector.location.x());
   visit("y", collector.location.y());
   visit("radius", collector.radius);
+  visit("depth_ratio", collector.depth_ratio);
 }
 
 template <class Visit>

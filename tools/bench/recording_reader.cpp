@@ -89,6 +89,7 @@ std::vector<Chain> chains_of(const std::vector<ChainRow>& rows) {
       throw std::runtime_error("a chain has too many sightings");
     }
     std::copy(row.sightings.begin(), row.sightings.end(), chain.sightings.begin());
+    chain.off_field_px = row.off_field_px;
     chain.count = static_cast<int>(row.sightings.size());
   }
   return chains;

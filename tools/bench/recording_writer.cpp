@@ -154,7 +154,8 @@ std::vector<CornerRow> corner_rows(const FrameRecord& frame) {
 std::vector<ChainRow> chain_rows(const std::vector<Chain>& chains) {
   std::vector<ChainRow> rows;
   for (const Chain& chain : chains) {
-    rows.push_back({{chain.sightings.begin(), chain.sightings.begin() + chain.count}});
+    rows.push_back(
+        {{chain.sightings.begin(), chain.sightings.begin() + chain.count}, chain.off_field_px});
   }
   return rows;
 }
