@@ -138,9 +138,11 @@ std::size_t utf8_length(std::string_view bytes) {
   return 0;
 }
 
-/// yaml-cpp takes control characters for ends of file and guesses at other encodings.
+/// yaml-cpp takes control characters for ends of file, guesses at other encodings, and explains a
+/// tab in the indentation by what it makes of the text after it.
 void refuse_bad_text(std::string_view text, const Source& where) {
   Source here = where;
+  bool indentation = true;
   while (!text.empty()) {
     const std::size_t length = utf8_length(text);
     if (length == 0) throw Error(here, "this is not UTF-8; save the file as UTF-8");
@@ -148,7 +150,11 @@ void refuse_bad_text(std::string_view text, const Source& where) {
     if (lead == 0x7F || (lead < 0x20 && lead != '\t' && lead != '\n' && lead != '\r')) {
       throw Error(here, "there is a control character; is this a text file? remove it");
     }
+    if (lead == '\t' && indentation) {
+      throw Error(here, "a tab indents this line; indent with spaces");
+    }
     if (lead == '\n' && here.line > 0) ++here.line;
+    indentation = lead == '\n' || (indentation && lead == ' ');
     text.remove_prefix(length);
   }
 }
@@ -253,12 +259,11 @@ Value parse_text(const std::string& text, const Source& where) {
     }
     return root;
   } catch (const YAML::Exception& error) {
-    Source here = where;
-    if (here.line > 0 && !error.mark.is_null()) here.line += error.mark.line;
-    throw Error(
-        here, "this is not YAML: " + error.msg + "; check indentation, brackets and quotes" +
-                  (error.mark.is_null() ? std::string()
-                                        : " near column " + std::to_string(error.mark.column + 1)));
+    std::string message =
+        "this is not YAML: " + error.msg + "; check indentation, brackets and quotes";
+    if (where.line == 0 || error.mark.is_null()) throw Error(where, message);
+    message += " near column " + std::to_string(error.mark.column + 1);
+    throw Error({where.file, where.line + error.mark.line}, message);
   }
 }
 

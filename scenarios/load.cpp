@@ -167,6 +167,16 @@ double read_truth(Reader reader) {
   return min_depth_m;
 }
 
+/// False for nan and inf, as YAML (".inf") or C++ ("inf") write them.
+bool is_finite(std::string_view text) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('.')) text.remove_prefix(1);
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = end == text.data() + text.size();
+  return !whole || (error == std::errc() && std::isfinite(number));
+}
+
 /// The names and ranges are the filter's to check; what no number may be is refused here.
 void read_filter(const Value& value, Scenario& scenario) {
   const Reader reader(value, "filter");
@@ -178,9 +188,7 @@ void read_filter(const Value& value, Scenario& scenario) {
       scenario.filter_preset_source = entry.value.where;
       continue;
     }
-    double number = 0;
-    std::from_chars(text.data(), text.data() + text.size(), number);
-    if (!std::isfinite(number)) {
+    if (!is_finite(text)) {
       throw Error(entry.value.where, path + ": '" + text + "' is not finite; give a number");
     }
     scenario.filter.push_back({entry.key, text, entry.value.where});
@@ -200,7 +208,7 @@ Criterion read_criterion(Reader reader) {
     throw Error(criterion.source, reader.path() + " has no bound; give min, max or both");
   }
   if (criterion.min && criterion.max && *criterion.min > *criterion.max) {
-    throw Error(criterion.source, reader.path() + " has a min above its max; no value would pass");
+    throw Error(criterion.source, reader.path() + " has its min above its max; exchange them");
   }
   return criterion;
 }

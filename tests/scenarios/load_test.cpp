@@ -1,0 +1,312 @@
+#include "scenarios/load.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/scenarios/scenario_file.h"
+
+namespace lcs::scenario {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+TEST(Load, TheSmallestScenarioHasTheDocumentedDefaults) {
+  const Scenario s = load_text(smallest);
+  EXPECT_EQ(s.name, "test");
+  EXPECT_EQ(s.scene.filename(), "room.xml");
+  EXPECT_EQ(s.scene_source.line, 1);
+  EXPECT_EQ(s.seed, 1u);
+  EXPECT_EQ(s.frames, 3);
+  EXPECT_EQ(s.ego.drive, Drive::holonomic);
+  EXPECT_EQ(s.ego.start_m, Eigen::Vector2d(0, 0));
+  ASSERT_EQ(s.ego.phases.size(), 1u);
+  EXPECT_EQ(s.ego.phases[0].at_s, 0);
+  EXPECT_EQ(s.ego.phases[0].speed_mps, 0.5);
+  EXPECT_EQ(s.ego.phases[0].acceleration_mps2, 0);
+  EXPECT_EQ(s.camera.width_px, 640);
+  EXPECT_EQ(s.camera.height_px, 480);
+  EXPECT_DOUBLE_EQ(s.camera.fovy_rad, pi / 3);
+  EXPECT_EQ(s.camera.rate_hz, 10);
+  EXPECT_EQ(s.camera.mount_position_m, Eigen::Vector3d(0.2, 0, 0.45));
+  EXPECT_EQ(s.camera.mount_rpy_rad, Eigen::Vector3d(0, 0, 0));
+  EXPECT_EQ(s.imu.preset, "adis16448");
+  EXPECT_EQ(s.imu.rate_hz, 200);
+  EXPECT_EQ(s.imu.noise.accelerometer_random_walk, 3.0e-3);
+  EXPECT_FALSE(s.odometry.enabled);
+  EXPECT_EQ(s.ego_motion, EgoMotionSource::imu);
+  EXPECT_EQ(s.fast_threshold, 20);
+  EXPECT_EQ(s.truth_min_depth_m, 0.5);
+  EXPECT_TRUE(s.actors.empty());
+  EXPECT_TRUE(s.filter.empty());
+  EXPECT_TRUE(s.criteria.empty());
+}
+
+TEST(Load, EveryKeyOfTheRoverAndItsSensorsArrives) {
+  const Scenario s = load_text(R"(
+purpose: all keys
+scene: room.xml
+seed: 18446744073709551615
+duration: 2 s
+ego:
+  drive: wheeled
+  start: [-3 m, 150 cm]
+  heading: 90 deg
+  speed: 36 km/h
+  acceleration: 5 cm/s^2
+  direction: -90 deg
+  yaw_rate: 9 deg/s
+camera:
+  size: [1280, 960]
+  fovy: 45 deg
+  rate: 30 Hz
+  position: [0.1 m, 0.2 m, 0.3 m]
+  rotation: [1 deg, 2 deg, 3 deg]
+imu: {preset: tumvi, rate: 1 kHz, gyroscope_random_walk: 1e-5}
+odometry: {rate: 20 Hz, noise: 2 cm/s, scale_error: 0.01}
+ego_motion: truth
+corners: {threshold: 30}
+truth: {min_depth: 30 cm}
+)");
+  EXPECT_EQ(s.purpose, "all keys");
+  EXPECT_EQ(s.seed, 18446744073709551615u);
+  EXPECT_EQ(s.frames, 60);
+  EXPECT_EQ(s.ego.drive, Drive::wheeled);
+  EXPECT_EQ(s.ego.start_m, Eigen::Vector2d(-3, 1.5));
+  EXPECT_EQ(s.ego.heading_rad, pi / 2);
+  EXPECT_EQ(s.ego.phases[0].speed_mps, 10);
+  EXPECT_EQ(s.ego.phases[0].acceleration_mps2, 0.05);
+  EXPECT_EQ(s.ego.phases[0].direction_rad, -pi / 2);
+  EXPECT_DOUBLE_EQ(s.ego.phases[0].yaw_rate_radps, pi / 20);
+  EXPECT_EQ(s.camera.width_px, 1280);
+  EXPECT_EQ(s.camera.height_px, 960);
+  EXPECT_EQ(s.camera.fovy_rad, pi / 4);
+  EXPECT_EQ(s.camera.rate_hz, 30);
+  EXPECT_EQ(s.camera.mount_position_m, Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_TRUE(s.camera.mount_rpy_rad.isApprox(Eigen::Vector3d(1, 2, 3) * pi / 180, 1e-15));
+  EXPECT_EQ(s.imu.preset, "custom");
+  EXPECT_EQ(s.imu.rate_hz, 1000);
+  EXPECT_EQ(s.imu.noise.gyroscope_random_walk, 1e-5);
+  EXPECT_EQ(s.imu.noise.gyroscope_noise_density, 1.6e-4);
+  EXPECT_TRUE(s.odometry.enabled);
+  EXPECT_EQ(s.odometry.rate_hz, 20);
+  EXPECT_EQ(s.odometry.noise_mps, 0.02);
+  EXPECT_EQ(s.odometry.scale_error, 0.01);
+  EXPECT_EQ(s.ego_motion, EgoMotionSource::truth);
+  EXPECT_EQ(s.fast_threshold, 30);
+  EXPECT_EQ(s.truth_min_depth_m, 0.3);
+}
+
+TEST(Load, ImuPresetsCarryTheFiguresOfTheirSources) {
+  const auto noise = [](const std::string& preset) {
+    return load_text(smallest + "imu: {preset: " + preset + "}").imu.noise;
+  };
+  EXPECT_EQ(noise("adis16448"), (ImuNoise{1.6968e-4, 1.9393e-5, 2.0e-3, 3.0e-3}));
+  EXPECT_EQ(noise("tumvi"), (ImuNoise{1.6e-4, 2.2e-5, 2.8e-3, 8.6e-4}));
+  EXPECT_EQ(noise("esim"), (ImuNoise{1.86e-4, 2.66e-5, 1.86e-3, 4.33e-4}));
+  EXPECT_EQ(noise("ideal"), (ImuNoise{0, 0, 0, 0}));
+}
+
+TEST(Load, OdometryWithoutKeysHasItsDefaults) {
+  const Scenario s = load_text(smallest + "odometry: {}");
+  EXPECT_TRUE(s.odometry.enabled);
+  EXPECT_EQ(s.odometry.rate_hz, 50);
+  EXPECT_EQ(s.odometry.noise_mps, 0.01);
+  EXPECT_EQ(s.odometry.scale_error, 0.005);
+}
+
+TEST(Load, DurationMakesTheFramesThatLieBeforeItsEnd) {
+  const auto frames = [](const std::string& duration, const std::string& rate) {
+    return load_text("scene: room.xml\nego: {}\nduration: " + duration +
+                     "\ncamera: {rate: " + rate + "}\n")
+        .frames;
+  };
+  EXPECT_EQ(frames("6 s", "10 Hz"), 60);
+  EXPECT_EQ(frames("0.3 s", "10 Hz"), 3);  // 0.1 * 3 is not 0.3 in binary
+  EXPECT_EQ(frames("0.31 s", "10 Hz"), 4);
+  EXPECT_EQ(frames("1 ms", "10 Hz"), 1);
+  EXPECT_EQ(frames("0.7 s", "30 Hz"), 21);
+}
+
+TEST(Load, APhaseKeepsWhatItDoesNotSay) {
+  const Scenario s = load_text(R"(
+scene: room.xml
+frames: 3
+ego:
+  speed: 1 m/s
+  acceleration: -0.25 m/s^2
+  direction: 90 deg
+  phases:
+    - {at: 2 s, yaw_rate: 90 deg/s}
+    - {at: 10 s, acceleration: 0.5 m/s^2}
+    - {at: 11 s, speed: 2 m/s, acceleration: 0, direction: 0}
+)");
+  const auto& phases = s.ego.phases;
+  ASSERT_EQ(phases.size(), 4u);
+  EXPECT_EQ(phases[1].at_s, 2);
+  EXPECT_EQ(phases[1].speed_mps, 0.5);
+  EXPECT_EQ(phases[1].acceleration_mps2, -0.25);
+  EXPECT_EQ(phases[1].direction_rad, pi / 2);
+  EXPECT_EQ(phases[1].yaw_rate_radps, pi / 2);
+  EXPECT_EQ(phases[2].speed_mps, 0) << "braking ends at a stand";
+  EXPECT_EQ(phases[2].acceleration_mps2, 0.5);
+  EXPECT_EQ(phases[3].speed_mps, 2);
+  EXPECT_EQ(phases[3].acceleration_mps2, 0);
+  EXPECT_EQ(phases[3].direction_rad, 0);
+  EXPECT_EQ(phases[3].yaw_rate_radps, pi / 2);
+}
+
+TEST(Load, EveryKindOfActorArrives) {
+  const ScenarioFolder folder;
+  folder.write("brick.png", "");
+  const Scenario s = load(folder.write("test.yaml", R"(
+scene: room.xml
+frames: 3
+ego: {}
+actors:
+  box1:
+    shape: box
+    size: [0.5 m, 40 cm, 0.6 m]
+    texture: rects
+    trajectory: {line: {from: [2 m, -2 m], heading: 90 deg, speed: 0.5 m/s, acceleration: -0.1}}
+    start: {time: 1 s, ego_within: 4 m}
+  pillar:
+    shape: cylinder
+    texture: brick.png
+    trajectory: {still: {position: [1, 2]}}
+  walker:
+    shape: pedestrian
+    trajectory: {waypoints: [[0 s, 1 m, 2 m], [500 ms, 3 m, 4 m]]}
+  taxi:
+    shape: car
+    trajectory: {circle: {centre: [1, 1], radius: 2 m, start_angle: 90 deg, speed: -1 m/s}}
+  door:
+    body: front_door
+    trajectory: {line: {speed: 1 m/s}}
+  shelf:
+    body: shelf
+    trajectory: {still: {}}
+)"));
+  ASSERT_EQ(s.actors.size(), 6u);
+  const Actor& box = s.actors[0];
+  EXPECT_EQ(box.name, "box1");
+  EXPECT_EQ(box.source.line, 6);
+  EXPECT_FALSE(box.body);
+  EXPECT_EQ(box.shape, Shape::box);
+  EXPECT_EQ(box.size_m.value(), Eigen::Vector3d(0.5, 0.4, 0.6));
+  EXPECT_EQ(box.texture, "rects");
+  const auto& line = std::get<Line>(box.trajectory);
+  EXPECT_EQ(line.from_m.value(), Eigen::Vector2d(2, -2));
+  EXPECT_EQ(line.heading_rad.value(), pi / 2);
+  EXPECT_EQ(line.speed_mps, 0.5);
+  EXPECT_EQ(line.acceleration_mps2, -0.1);
+  EXPECT_EQ(box.start.at_s, 1);
+  EXPECT_EQ(box.start.ego_within_m.value(), 4);
+
+  const Actor& pillar = s.actors[1];
+  EXPECT_EQ(pillar.shape, Shape::cylinder);
+  EXPECT_FALSE(pillar.size_m);
+  EXPECT_EQ(pillar.texture, (folder.path() / "brick.png").string());
+  EXPECT_EQ(std::get<Still>(pillar.trajectory).position_m.value(), Eigen::Vector2d(1, 2));
+  EXPECT_EQ(pillar.start.at_s, 0);
+  EXPECT_FALSE(pillar.start.ego_within_m);
+
+  const Actor& walker = s.actors[2];
+  EXPECT_EQ(walker.shape, Shape::pedestrian);
+  const auto& points = std::get<Waypoints>(walker.trajectory).points;
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[1].at_s, 0.5);
+  EXPECT_EQ(points[1].position_m, Eigen::Vector2d(3, 4));
+
+  const Actor& taxi = s.actors[3];
+  EXPECT_EQ(taxi.shape, Shape::car);
+  const auto& circle = std::get<Circular>(taxi.trajectory);
+  EXPECT_EQ(circle.centre_m, Eigen::Vector2d(1, 1));
+  EXPECT_EQ(circle.radius_m, 2);
+  EXPECT_EQ(circle.start_angle_rad, pi / 2);
+  EXPECT_EQ(circle.speed_mps, -1);
+
+  EXPECT_EQ(s.actors[4].body.value(), "front_door");
+  EXPECT_FALSE(std::get<Line>(s.actors[4].trajectory).from_m);
+  EXPECT_FALSE(std::get<Line>(s.actors[4].trajectory).heading_rad);
+  EXPECT_FALSE(std::get<Still>(s.actors[5].trajectory).position_m);
+}
+
+TEST(Load, FilterSettingsPassAsWrittenWithTheirLines) {
+  const Scenario s =
+      load_text(smallest + "filter:\n  preset: lab\n  circle.mu_0: 25\n  line.on: yes\n");
+  EXPECT_EQ(s.filter_preset, "lab");
+  EXPECT_EQ(s.filter_preset_source.line, 5);
+  ASSERT_EQ(s.filter.size(), 2u);
+  EXPECT_EQ(s.filter[0].key, "circle.mu_0");
+  EXPECT_EQ(s.filter[0].value, "25");
+  EXPECT_EQ(s.filter[0].source.line, 6);
+  EXPECT_EQ(s.filter[1].value, "yes");
+}
+
+TEST(Load, CriteriaArriveWithTheirLines) {
+  const Scenario s = load_text(smallest +
+                               "criteria:\n"
+                               "  - {metric: rebel.f1, min: 0.4}\n"
+                               "  - {metric: dimension.mean, min: 1, max: 90, required: false}\n");
+  ASSERT_EQ(s.criteria.size(), 2u);
+  EXPECT_EQ(s.criteria[0].metric, "rebel.f1");
+  EXPECT_EQ(s.criteria[0].min.value(), 0.4);
+  EXPECT_FALSE(s.criteria[0].max);
+  EXPECT_TRUE(s.criteria[0].required);
+  EXPECT_EQ(s.criteria[0].source.line, 5);
+  EXPECT_EQ(s.criteria[1].max.value(), 90);
+  EXPECT_FALSE(s.criteria[1].required);
+  EXPECT_EQ(s.criteria[1].source.line, 6);
+}
+
+TEST(Load, ASceneIsFoundByNameWhereTheEnvironmentSays) {
+  const ScenarioFolder folder;
+  const ScenarioFolder elsewhere;
+  ASSERT_EQ(setenv("LCS_SCENES", folder.path().c_str(), 1), 0);
+  const Scenario s = load(elsewhere.write("test.yaml", "scene: room\nframes: 1\nego: {}\n"));
+  EXPECT_EQ(s.scene, folder.path() / "room.xml");
+  ASSERT_EQ(unsetenv("LCS_SCENES"), 0);
+}
+
+TEST(Load, TheSeedGivenReplacesTheFiles) {
+  EXPECT_EQ(load_text(smallest + "seed: 5", {.sets = {}, .seed = 9}).seed, 9u);
+}
+
+class Shipped : public testing::TestWithParam<std::string> {};
+
+TEST_P(Shipped, Loads) {
+  const Scenario s = load(std::filesystem::path(LCS_SOURCE_DIR) / "scenarios" / GetParam());
+  EXPECT_FALSE(s.purpose.empty());
+  EXPECT_GT(s.frames, 0);
+}
+
+std::vector<std::string> shipped_files() {
+  std::vector<std::string> names;
+  const std::filesystem::path folder = std::filesystem::path(LCS_SOURCE_DIR) / "scenarios";
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    if (file.path().extension() == ".yaml") names.push_back(file.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, Shipped, testing::ValuesIn(shipped_files()),
+                         [](const auto& test) {
+                           return std::filesystem::path(test.param).stem().string();
+                         });
+
+TEST(Shipped, TheLabRunIsThePapers) {
+  const Scenario s = load(std::filesystem::path(LCS_SOURCE_DIR) / "scenarios/lab.yaml");
+  EXPECT_EQ(s.frames, 37);
+  EXPECT_EQ(s.camera.rate_hz, 1);
+  EXPECT_EQ(s.camera.width_px, 640);
+  EXPECT_EQ(s.camera.height_px, 480);
+  ASSERT_EQ(s.ego.phases.size(), 1u);
+  EXPECT_EQ(s.ego.phases[0].speed_mps, 0.03);
+  EXPECT_EQ(s.ego.phases[0].acceleration_mps2, 0.0005);
+  EXPECT_TRUE(s.actors.empty());
+}
+
+}  // namespace
+}  // namespace lcs::scenario
