@@ -245,7 +245,8 @@ std::string_view kind_name(Value::Kind kind) {
 
 Value parse_text(const std::string& text, const Source& where) {
   refuse_bad_text(text, where);
-  std::istringstream stream(text);
+  // yaml-cpp overlooks a quote that is never closed when blanks end the text.
+  std::istringstream stream(text.substr(0, text.find_last_not_of(" \t\r\n") + 1));
   TreeBuilder builder(where);
   try {
     YAML::Parser parser(stream);

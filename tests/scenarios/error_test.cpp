@@ -337,9 +337,9 @@ TEST(Refused, WhatIsNotYamlWithItsLine) {
               std::string::npos)
         << message;
   };
-  expect_not_yaml(smallest + "camera: {rate: 5\n", 5);
+  expect_not_yaml(smallest + "camera: {rate: 5\n", 4);
   expect_not_yaml(smallest + "camera:\n  rate: 5\n   size: 5\n", 6);
-  expect_not_yaml(smallest + "purpose: 'no end\n", 5);
+  expect_not_yaml(smallest + "purpose: 'no end\nseed: 4\n", 5);
   expect_not_yaml(smallest + "imu: *not_defined\n", 4);
   expect_not_yaml("scene: " + std::string(100'000, '['), 1);
 }
