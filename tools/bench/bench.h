@@ -1,0 +1,28 @@
+/// \file
+/// The loop of a run: observation -> corners -> ego-motion -> tracker -> record with truth.
+#pragma once
+
+#include <functional>
+#include <opencv2/core.hpp>
+
+#include "scenarios/scenario.h"
+#include "sim/simulation.h"
+#include "tools/bench/recording.h"
+#include "tools/bench/tracker.h"
+
+namespace lcs::bench {
+
+/// Called with every finished frame and its image (BGR), in order. What it throws ends the run.
+using FrameSink = std::function<void(const FrameRecord&, const cv::Mat3b& image)>;
+
+/// A recording of the scenario without frames yet.
+Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulation& simulation);
+
+/// Runs the simulation to its end.
+/// \param scenario that the simulation was made of.
+/// \param recording is given every frame before the sink sees it.
+/// \throws sim::PhysicsError, and what the tracker and the sink throw.
+void run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracker& tracker,
+         Recording& recording, const FrameSink& sink);
+
+}  // namespace lcs::bench

@@ -1,0 +1,57 @@
+#include "tools/bench/criteria.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "scenarios/reader.h"
+
+namespace lcs::bench {
+namespace {
+
+std::string bounds(const scenario::Criterion& criterion) {
+  std::string text;
+  if (criterion.min) text += fmt::format("at least {}", *criterion.min);
+  if (criterion.min && criterion.max) text += " and ";
+  if (criterion.max) text += fmt::format("at most {}", *criterion.max);
+  return text;
+}
+
+bool is_met(const scenario::Criterion& criterion, std::optional<double> figure) {
+  return figure && (!criterion.min || *figure >= *criterion.min) &&
+         (!criterion.max || *figure <= *criterion.max);
+}
+
+}  // namespace
+
+void require_known_metrics(const std::vector<scenario::Criterion>& criteria) {
+  std::vector<std::string> names;
+  for (const auto& [name, figure] : score(Recording{})) names.push_back(name);
+  for (const scenario::Criterion& criterion : criteria) {
+    if (std::find(names.begin(), names.end(), criterion.metric) != names.end()) continue;
+    const std::optional<std::string> near = scenario::nearest(criterion.metric, names);
+    throw scenario::Error(criterion.source,
+                          fmt::format("no metric is called '{}'; {}", criterion.metric,
+                                      near ? fmt::format("did you mean '{}'?", *near)
+                                           : "tools/bench/SCORING.md names them all"));
+  }
+}
+
+std::vector<FailedCriterion> failed_criteria(const std::vector<scenario::Criterion>& criteria,
+                                             const Metrics& metrics) {
+  std::vector<FailedCriterion> failed;
+  for (const scenario::Criterion& criterion : criteria) {
+    const std::optional<double> figure = value(metrics, criterion.metric);
+    if (is_met(criterion, figure)) continue;
+    failed.push_back(
+        {criterion.required,
+         fmt::format("{} is {}, must be {} ({}:{})", criterion.metric,
+                     figure ? fmt::format("{:.4g}", *figure) : "undefined", bounds(criterion),
+                     criterion.source.file, criterion.source.line)});
+  }
+  return failed;
+}
+
+}  // namespace lcs::bench

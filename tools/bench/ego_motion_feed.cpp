@@ -1,0 +1,86 @@
+#include "tools/bench/ego_motion_feed.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace lcs::bench {
+namespace {
+
+/// Odometry without any noise would leave the estimator's gain undefined.
+constexpr double kLeastOdometryNoise_mps = 1e-3;
+
+Mounting mounting_of(const sim::Calibration& calibration) {
+  return {.R_BC = calibration.T_BC.R,
+          .p_BC_m = calibration.T_BC.p,
+          .R_BS = calibration.T_BS.R,
+          .p_BS_m = calibration.T_BS.p};
+}
+
+EgoMotionNoise noise_of(const scenario::Scenario& scenario) {
+  const scenario::ImuNoise& imu = scenario.imu.noise;
+  return {.gyro_density = imu.gyroscope_noise_density,
+          .gyro_walk = imu.gyroscope_random_walk,
+          .accel_density = imu.accelerometer_noise_density,
+          .accel_walk = imu.accelerometer_random_walk,
+          .odometry_mps = std::max(scenario.odometry.noise_mps, kLeastOdometryNoise_mps)};
+}
+
+EgoMotionEstimator::Start start_of(const sim::Calibration& calibration) {
+  return {.t_ns = 0,
+          .R_WB = calibration.T_WB_start.R,
+          .v_WB_mps = calibration.v_WB_start_mps,
+          .gravity_mps2 = calibration.gravity_mps2};
+}
+
+}  // namespace
+
+EgoMotion motion_between(const sim::Pose& T_WC_before, const sim::Pose& T_WC_now, double dt_s) {
+  EgoMotion motion;
+  motion.dt_s = dt_s;
+  motion.R_cur_prev = T_WC_now.R.transpose() * T_WC_before.R;
+  motion.v_C_mps = T_WC_now.R.transpose() * (T_WC_now.p - T_WC_before.p) / dt_s;
+  const Eigen::AngleAxisd turned(motion.R_cur_prev.transpose());
+  motion.w_C_radps = turned.angle() / dt_s * turned.axis();
+  return motion;
+}
+
+EgoMotionFeed::EgoMotionFeed(const scenario::Scenario& scenario,
+                             const sim::Calibration& calibration)
+    : source_(scenario.ego_motion),
+      estimator_(mounting_of(calibration), noise_of(scenario), start_of(calibration)) {}
+
+EgoMotionFeed::Motions EgoMotionFeed::next(const sim::Observation& observation) {
+  Motions motions;
+  motions.exact = exact(observation);
+  motions.told =
+      source_ == scenario::EgoMotionSource::truth ? motions.exact : estimated(observation);
+  return motions;
+}
+
+EgoMotion EgoMotionFeed::exact(const sim::Observation& observation) {
+  const Frame now{observation.t_ns, observation.truth.now.T_WC};
+  EgoMotion motion;
+  if (last_) {
+    motion =
+        motion_between(last_->T_WC, now.T_WC, static_cast<double>(now.t_ns - last_->t_ns) * 1e-9);
+  }
+  last_ = now;
+  return motion;
+}
+
+EgoMotion EgoMotionFeed::estimated(const sim::Observation& observation) {
+  auto odometry = observation.odometry.begin();
+  const auto add_odometry_before = [&](std::int64_t t_ns) {
+    for (; odometry != observation.odometry.end() && odometry->t_ns < t_ns; ++odometry) {
+      estimator_.add_odometry(odometry->t_ns, odometry->velocity_mps);
+    }
+  };
+  for (const sim::ImuSample& sample : observation.imu) {
+    add_odometry_before(sample.t_ns);  // of the same moment, the IMU comes first
+    estimator_.add_imu(sample.t_ns, sample.gyro_radps, sample.accel_mps2);
+  }
+  add_odometry_before(observation.t_ns + 1);
+  return estimator_.frame(observation.t_ns);
+}
+
+}  // namespace lcs::bench

@@ -1,0 +1,116 @@
+#include "tools/bench/output_folder.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <system_error>
+
+namespace lcs::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(std::string_view what, const fs::path& path, const std::error_code& error) {
+  throw OutputError(fmt::format("cannot {} {}: {}; choose another folder with --out", what,
+                                path.string(), error.message()));
+}
+
+/// Absolute, links resolved, without a trailing slash.
+fs::path resolved(const fs::path& target) {
+  std::error_code error;
+  fs::path path = fs::weakly_canonical(fs::absolute(target), error);
+  if (error) fail("use", target, error);
+  path = path.lexically_normal();
+  return path.has_filename() ? path : path.parent_path();
+}
+
+fs::path beside(const fs::path& target, std::string_view suffix) {
+  fs::path path = target;
+  path += fmt::format(".{}-{}", suffix, ::getpid());
+  return path;
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const fs::path& target, std::vector<std::string> files)
+    : files_(std::move(files)), target_(resolved(target)), staging_(beside(target_, "partial")) {
+  require_replaceable();
+  make_parents();
+  std::error_code error;
+  fs::create_directory(staging_, error);
+  if (error) fail("create", staging_, error);
+}
+
+OutputFolder::~OutputFolder() {
+  if (committed_) return;
+  std::error_code ignored;  // there is nobody left to tell
+  fs::remove_all(staging_, ignored);
+  // `remove` leaves folders that are not empty alone.
+  std::for_each(made_parents_.rbegin(), made_parents_.rend(),
+                [&](const fs::path& parent) { fs::remove(parent, ignored); });
+}
+
+void OutputFolder::require_replaceable() const {
+  std::error_code error;
+  const fs::file_status status = fs::status(target_, error);
+  if (status.type() == fs::file_type::not_found) return;
+  if (status.type() == fs::file_type::none) fail("use", target_, error);
+  if (status.type() != fs::file_type::directory) {
+    throw OutputError(target_.string() + " is not a folder; choose another one with --out");
+  }
+  bool is_empty = true;
+  for (fs::directory_iterator entry(target_, error); !error && entry != fs::directory_iterator();
+       entry.increment(error)) {
+    is_empty = false;
+    const std::string name = entry->path().filename().string();
+    if (std::find(files_.begin(), files_.end(), name) == files_.end()) {
+      throw OutputError(fmt::format(
+          "{} holds {}, which is not a result of an earlier run and would be lost; choose another "
+          "folder with --out, or move it away",
+          target_.string(), name));
+    }
+  }
+  if (error) fail("read", target_, error);
+  if (!is_empty && !fs::exists(target_ / files_.front())) {
+    throw OutputError(fmt::format(
+        "{} has no {}, so it is not a result of an earlier run, and is not replaced; choose "
+        "another folder with --out",
+        target_.string(), files_.front()));
+  }
+}
+
+void OutputFolder::make_parents() {
+  std::vector<fs::path> missing;
+  for (fs::path parent = target_.parent_path(); !fs::exists(parent);
+       parent = parent.parent_path()) {
+    missing.push_back(parent);
+  }
+  std::for_each(missing.rbegin(), missing.rend(), [&](const fs::path& parent) {
+    std::error_code error;
+    if (fs::create_directory(parent, error)) made_parents_.push_back(parent);
+    if (error) fail("create", parent, error);
+  });
+}
+
+void OutputFolder::commit() {
+  require_replaceable();  // it may have changed since
+  const fs::path old = beside(target_, "old");
+  std::error_code error;
+  const bool replaces = fs::exists(target_);
+  if (replaces) {
+    fs::rename(target_, old, error);
+    if (error) fail("replace", target_, error);
+  }
+  fs::rename(staging_, target_, error);
+  if (error) {
+    std::error_code ignored;
+    if (replaces) fs::rename(old, target_, ignored);
+    fail("create", target_, error);
+  }
+  committed_ = true;
+  if (replaces) fs::remove_all(old, error);
+  if (error) fail("remove", old, error);
+}
+
+}  // namespace lcs::bench

@@ -1,0 +1,88 @@
+#include "tools/bench/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lcs::bench {
+namespace {
+
+/// A row by the names of its columns, so that header and values cannot part.
+class Row {
+ public:
+  template <class Number>
+  Row& operator()(const char* name, Number value) {
+    return add(name, fmt::format("{}", value));
+  }
+  Row& operator()(const char* name, std::optional<double> value) {
+    return add(name, value ? fmt::format("{:.6g}", *value) : "");
+  }
+  const std::string& header() const { return header_; }
+  const std::string& values() const { return values_; }
+
+ private:
+  Row& add(const char* name, const std::string& value) {
+    const char* separator = header_.empty() ? "" : ",";
+    header_ += separator;
+    header_ += name;
+    values_ += separator;
+    values_ += value;
+    return *this;
+  }
+  std::string header_, values_;
+};
+
+Row row_of(const FrameRecord& frame, const RebelCounts& rebels) {
+  const auto time = [&](double FrameTimes::*stage) {
+    return frame.times ? std::optional((*frame.times).*stage) : std::nullopt;
+  };
+  const Layers& layers = frame.layers;
+  Row row;
+  row("frame", frame.index)("t_s", static_cast<double>(frame.t_ns) * 1e-9);
+  row("corners", frame.corners_px.size());
+  row("ignored_corners",
+      std::count(frame.verdicts.begin(), frame.verdicts.end(), Verdict::ignored));
+  row("psi", layers.ignored.size())("lambda", layers.collectors.size());
+  row("alpha", layers.chains.size());
+  row("normal_edges", layers.normal_edges.size())("rebel_edges", layers.rebel_edges.size());
+  row("normal_circles", layers.normal_circles.size());
+  row("rebel_circles", layers.rebel_circles.size());
+  row("squares", layers.squares.size())("dimension", layers.dimension());
+  row("true_rebels", rebels.true_rebels)("false_rebels", rebels.false_rebels);
+  row("found_rebels", rebels.found_rebels)("missed_rebels", rebels.missed_rebels);
+  row("precision", rebels.precision())("recall", rebels.recall());
+  row("detect_ms", time(&FrameTimes::detect_ms))("line_ms", time(&FrameTimes::line_ms));
+  row("circle_ms", time(&FrameTimes::circle_ms))("square_ms", time(&FrameTimes::square_ms));
+  row("filter_ms", time(&FrameTimes::filter_ms))("simulate_ms", time(&FrameTimes::simulate_ms));
+  row("truth_ms", time(&FrameTimes::truth_ms));
+  return row;
+}
+
+}  // namespace
+
+void write_metrics(const std::filesystem::path& path, const Metrics& metrics) {
+  std::string text = "{";
+  for (const auto& [name, figure] : metrics) {
+    if (text.back() != '{') text += ',';
+    text += fmt::format("\n  \"{}\": {}", name, figure ? fmt::format("{}", *figure) : "null");
+  }
+  text += "\n}\n";
+  OutputFile file(path);
+  file.write(text);
+  file.close();
+}
+
+void write_frames(const std::filesystem::path& path, const Recording& recording) {
+  const std::vector<RebelCounts> rebels = score_frames(recording);
+  OutputFile file(path);
+  file.write(row_of(FrameRecord{}, RebelCounts{}).header() + '\n');
+  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
+    file.write(row_of(recording.frames[i], rebels[i]).values() + '\n');
+  }
+  file.close();
+}
+
+}  // namespace lcs::bench

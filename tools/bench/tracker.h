@@ -1,0 +1,47 @@
+/// \file
+/// What is under test: something that says of each corner of a frame whether it moves by itself.
+/// The LCS filter is one, a comparator another; the bench treats all alike.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <span>
+
+#include "filter/filter.h"
+#include "scenarios/scenario.h"
+#include "sim/pose.h"
+
+namespace lcs::bench {
+
+/// All that a tracker is told of a frame.
+struct TrackerInput {
+  const cv::Mat3b& image;  ///< BGR
+  std::span<const Eigen::Vector2f> corners_px;
+  const EgoMotion& motion;  ///< since the last frame
+};
+
+class Tracker {
+ public:
+  virtual ~Tracker() = default;
+
+  /// \return a verdict for each corner, in the order given, the layers if there are any, and the
+  /// times
+  ///   of stages. Valid until the next step.
+  virtual const FrameResult& step(const TrackerInput& input) = 0;
+};
+
+/// The LCS filter. It sees corners and ego-motion, never the image.
+class LcsTracker : public Tracker {
+ public:
+  LcsTracker(const sim::Pinhole& camera, const Parameters& parameters);
+  const FrameResult& step(const TrackerInput& input) override;
+
+ private:
+  Filter filter_;
+};
+
+/// The scenario's preset with its settings on top.
+/// \throws scenario::Error at the line of a preset, key or value that the filter does not take.
+Parameters filter_parameters(const scenario::Scenario& scenario);
+
+}  // namespace lcs::bench
