@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "filter/circle.h"
-#include "filter/edges.h"
+#include "filter/edge_expert.h"
 #include "filter/line.h"
 #include "filter/motion_field.h"
 #include "filter/square.h"
@@ -40,25 +40,14 @@ struct Filter::Impl {
       : camera(checked(camera_in)),
         parameters(checked(parameters_in)),
         line(camera.centre_px),
-        edges(camera, parameters.circle),
+        edges(make_edge_expert(camera, parameters.circle)),
         circles(camera, parameters.circle),
         squares(camera, parameters.square) {}
-
-  /// A rebel is called one when the edges of its circle bear it out.
-  void call_verdicts() {
-    for (const Edge& edge : result.layers.rebel_edges) {
-      if (edge.corner < 0) continue;
-      const int support =
-          edge.circle < 0 ? 1 : result.layers.rebel_circles[edge.circle].members;
-      result.verdicts[edge.corner] =
-          support >= parameters.circle.rebel_support ? Verdict::rebel : Verdict::pending;
-    }
-  }
 
   Intrinsics camera;
   Parameters parameters;
   LineExpert line;
-  EdgeExpert edges;
+  std::unique_ptr<EdgeExpert> edges;
   CircleExpert circles;
   SquareExpert squares;
   FrameResult result;
@@ -78,7 +67,7 @@ const FrameResult& Filter::step(std::span<const Eigen::Vector2f> corners_px,
 
   // What the frame before left is moved to where this frame should show it.
   const MotionField field(f.camera, motion, f.parameters.field);
-  f.edges.predict(layers, field);
+  f.edges->predict(layers, field);
   f.circles.predict(layers, field);
   f.squares.predict(layers, field);
   layers.ignored.clear();
@@ -90,9 +79,8 @@ const FrameResult& Filter::step(std::span<const Eigen::Vector2f> corners_px,
   const Chi& chi = f.line.collect(corners_px, layers.ignored, layers.collectors, f.result.verdicts);
   f.result.times.line_ms = lap_ms(clock);
 
-  f.edges.update(layers, chi, field, f.result.verdicts);
+  f.edges->update(layers, chi, field, f.result.verdicts);
   f.circles.update(layers, field);
-  f.call_verdicts();
   if (f.parameters.line.ignore) f.circles.update_ignorance(layers);  // transition II
   f.result.times.circle_ms = lap_ms(clock);
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -28,8 +29,12 @@ struct Edge {
   double mu = 0;                  ///< normal: radius of detection, px; rebel: deviation angle, rad
   int trust = 0;                  ///< Tr
   int age = 0;                    ///< frames since it was made, 0 in its first
+  double off_field_px = 0;        ///< rebel: by how much its motion of late leaves the static images
   int corner = -1;                ///< index in chi of the corner that supports it, -1: none this frame
   int circle = -1;                ///< index in its kind's circles, -1: in none
+
+  /// px/s, rotation removed.
+  Vec2 velocity() const { return speed * Vec2(std::cos(angle), std::sin(angle)); }
 };
 
 /// A group of edges of like motion: C_n or C_r.

@@ -25,6 +25,7 @@ MotionField::MotionField(const Intrinsics& camera, const EgoMotion& motion,
       focal_px_(camera.focal_px),
       dt_s_(motion.dt_s),
       rotation_(parameters.rotation),
+      R_cur_prev_(motion.R_cur_prev),
       homography_(rotation_homography(camera, motion.R_cur_prev)),
       w_dt_(motion.w_C_radps * motion.dt_s),
       v_C_mps_(motion.v_C_mps),
@@ -59,6 +60,28 @@ Vec2 MotionField::direction(const Vec2& x_px) const {
   const Vec2 g = flow(x_px);
   const double length = g.norm();
   return length > 1e-9 ? Vec2(g / length) : Vec2::Zero();
+}
+
+Vec2 MotionField::earlier(const Vec2& x_px, double depth_ratio,
+                          const Eigen::Vector3d& displacement_C_m) const {
+  const double w = depth_ratio / reference_depth_m_;  // 1 / Z
+  const Eigen::Vector3d h((x_px.x() - centre_px_.x()) / focal_px_ + w * displacement_C_m.x(),
+                          (x_px.y() - centre_px_.y()) / focal_px_ + w * displacement_C_m.y(),
+                          1 + w * displacement_C_m.z());
+  // In reverse a near point may have been behind the camera: it was nowhere in the image.
+  if (h.z() < 1e-3) return Vec2::Constant(-1e6);
+  return centre_px_ + focal_px_ * h.head<2>() / h.z();
+}
+
+double MotionField::ratio_from(const Vec2& x_px, const Vec2& earlier_px,
+                               const Eigen::Vector3d& displacement_C_m) const {
+  // earlier = (x + w K d) / (1 + w d_z)  =>  w (K d_xy + (c - earlier) d_z) = earlier - x
+  const Vec2 parallax =
+      focal_px_ * displacement_C_m.head<2>() + (centre_px_ - earlier_px) * displacement_C_m.z();
+  const double length2 = parallax.squaredNorm();
+  if (length2 < 1e-12) return 0;
+  const double w = (earlier_px - x_px).dot(parallax) / length2;
+  return std::clamp(w * reference_depth_m_, 0.0, max_ratio());
 }
 
 double MotionField::advanced_ratio(double depth_ratio) const {

@@ -44,6 +44,19 @@ class MotionField {
     return rotated_px + flow(rotated_px) * (depth_ratio * dt_s_ / reference_depth_m_);
   }
 
+  /// Where a static point that is seen at `x_px` now was seen (rotation removed) before the camera
+  /// moved by `displacement_C_m`, given Z_ref / Z now.
+  Vec2 earlier(const Vec2& x_px, double depth_ratio, const Eigen::Vector3d& displacement_C_m) const;
+
+  /// Z_ref / Z now of the static point that would have been nearest to `earlier_px`, within
+  /// [0, max_ratio()]. 0 where the displacement shows no parallax.
+  double ratio_from(const Vec2& x_px, const Vec2& earlier_px,
+                    const Eigen::Vector3d& displacement_C_m) const;
+
+  /// Of the camera over the interval, in the camera frame of k.
+  Eigen::Vector3d displacement_C_m() const { return v_C_mps_ * dt_s_; }
+  const Eigen::Matrix3d& R_cur_prev() const { return R_cur_prev_; }
+
   /// Z_ref / Z at the end of the interval from the one at its start. A point that the camera passes
   /// within the interval gets the largest plausible ratio.
   double advanced_ratio(double depth_ratio) const;
@@ -71,6 +84,7 @@ class MotionField {
   double focal_px_;
   double dt_s_;
   RotationModel rotation_;
+  Eigen::Matrix3d R_cur_prev_;
   Eigen::Matrix3d homography_;   // K dR K^-1
   Eigen::Vector3d w_dt_;         // rotation over the interval, rad
   Eigen::Vector3d v_C_mps_;

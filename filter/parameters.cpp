@@ -58,10 +58,8 @@ const std::vector<Entry>& entries() {
       {"circle.Tr_s", "Tr^c_s", "", 0, 1000, LCS_FIELD(int, circle.trust.standard)},
       {"circle.Tr_m", "Tr^c_m", "", 0, 1000, LCS_FIELD(int, circle.trust.maximum)},
       {"circle.delta_v", "delta_v", "deg", 0, 90, LCS_FIELD(double, circle.delta_v)},
-      {"circle.span_apex", "", "", 0, 0,
-       LCS_CHOICE(SpanApex, circle.span_apex, "origin", "landmark")},
-      {"circle.speed_rule", "", "", 0, 0,
-       LCS_CHOICE(SpeedRule, circle.speed_rule, "paper", "trusted")},
+      {"circle.edge_rule", "", "", 0, 0,
+       LCS_CHOICE(EdgeRule, circle.edge_rule, "paper", "constellation")},
       {"circle.mu_0", "mu_0", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_0)},
       {"circle.mu_min", "", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_min)},
       {"circle.mu_max", "", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_max)},
@@ -72,6 +70,26 @@ const std::vector<Entry>& entries() {
       {"circle.alpha_stretch", "", "", 0, 10, LCS_FIELD(double, circle.alpha_stretch)},
       {"circle.alpha_branches", "", "", 1, 100, LCS_FIELD(int, circle.alpha_branches)},
       {"circle.rebel_reach", "", "", 0, 10, LCS_FIELD(double, circle.rebel_reach)},
+      {"constellation.normal_along", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.normal_along)},
+      {"constellation.normal_along_growth", "", "", 0, 10, LCS_FIELD(double, circle.constellation.normal_along_growth)},
+      {"constellation.normal_across", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.normal_across)},
+      {"constellation.rebel_gate", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.rebel_gate)},
+      {"constellation.rebel_growth", "", "", 0, 10, LCS_FIELD(double, circle.constellation.rebel_growth)},
+      {"constellation.rebel_gate_max", "", "px", 0, 1000, LCS_FIELD(double, circle.constellation.rebel_gate_max)},
+      {"constellation.max_step", "", "px", 0, 10000, LCS_FIELD(double, circle.constellation.max_step)},
+      {"constellation.max_speed", "", "px/s", 0, 100000, LCS_FIELD(double, circle.constellation.max_speed)},
+      {"constellation.hit_1", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.hit_1)},
+      {"constellation.hit_2", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.hit_2)},
+      {"constellation.radius", "", "px", 0, 10000, LCS_FIELD(double, circle.constellation.radius)},
+      {"constellation.neighbours", "", "", 1, 100, LCS_FIELD(int, circle.constellation.neighbours)},
+      {"constellation.vote_floor", "", "", 0, 1, LCS_FIELD(double, circle.constellation.vote_floor)},
+      {"constellation.vote_margin", "", "", 0, 1, LCS_FIELD(double, circle.constellation.vote_margin)},
+      {"constellation.off_field", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.off_field)},
+      {"constellation.established", "", "", 0, 1000, LCS_FIELD(int, circle.constellation.established)},
+      {"constellation.support", "", "", 1, 1000, LCS_FIELD(int, circle.constellation.support)},
+      {"constellation.support_off_field", "", "", 0, 1, LCS_FIELD(double, circle.constellation.support_off_field)},
+      {"constellation.inherit_radius", "", "px", 0, 10000, LCS_FIELD(double, circle.constellation.inherit_radius)},
+      {"constellation.inherit_share", "", "", 0, 1, LCS_FIELD(double, circle.constellation.inherit_share)},
       {"circle.epsilon_beta_n", "eps_beta,n", "deg", 0, 180, LCS_FIELD(double, circle.epsilon_beta_n)},
       {"circle.epsilon_beta_r", "eps_beta,r", "deg", 0, 180, LCS_FIELD(double, circle.epsilon_beta_r)},
       {"circle.epsilon_v_n", "eps_v,n", "V_v", 0, 1000, LCS_FIELD(double, circle.epsilon_v_n)},
@@ -80,7 +98,6 @@ const std::vector<Entry>& entries() {
       {"circle.rho_c", "rho_c", "%", 0, 100, LCS_FIELD(double, circle.rho_c)},
       {"circle.reach", "", "px", 0.1, 10000, LCS_FIELD(double, circle.reach)},
       {"circle.min_members", "", "", 1, 1000, LCS_FIELD(int, circle.min_members)},
-      {"circle.rebel_support", "", "", 1, 1000, LCS_FIELD(int, circle.rebel_support)},
       {"square.Tr_c", "Tr^s_c", "", 0, 1000, LCS_FIELD(int, square.trust.critical)},
       {"square.Tr_s", "Tr^s_s", "", 0, 1000, LCS_FIELD(int, square.trust.standard)},
       {"square.Tr_m", "Tr^s_m", "", 0, 1000, LCS_FIELD(int, square.trust.maximum)},
@@ -211,27 +228,27 @@ void set_degrees(CircleParameters& circle, SquareParameters& square) {
   square.epsilon_beta_s = 20 * kDegree;
 }
 
-/// Table 1, with the rules as printed wherever this project has others.
+/// Table 1. Its rules are the printed ones.
 Parameters lab() {
   Parameters p;
   set_degrees(p.circle, p.square);
-  p.circle.span_apex = SpanApex::origin;
-  p.circle.speed_rule = SpeedRule::paper;
-  p.circle.rebel_support = 1;
+  p.circle.edge_rule = EdgeRule::paper;
   return p;
 }
 
+/// Section 5.2: the ranks of trust are re-tuned, the rest has "minor changes" that are not printed.
 Parameters cars() {
   Parameters p = lab();
   p.circle.trust = {1, 4, 7};
   p.square.trust = {2, 5, 8};
-  p.field.reference_depth_m = 10;
   return p;
 }
 
 Parameters project_default() {
   Parameters p;
   set_degrees(p.circle, p.square);
+  p.circle.trust = {2, 3, 7};
+  p.line.ignore = false;
   return p;
 }
 

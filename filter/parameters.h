@@ -18,16 +18,10 @@ enum class RotationModel {
   homography,   ///< x' ~ K dR K^-1 x, exact
 };
 
-/// From where the angular span delta_v of a normal edge is seen.
-enum class SpanApex {
-  origin,    ///< from O_I, as the paper has it: a corridor that is wide far from the FOE
-  landmark,  ///< from where the landmark was: what its motion itself may deviate by
-};
-
-/// How an edge's speed follows its measurement.
-enum class SpeedRule {
-  paper,    ///< V~ = (V + V_v)/2, V^ = V~ +- residual/t_f: half prior, and all of the measurement
-  trusted,  ///< V~ = V carried on at its depth, V^ by the trust estimate that L has
+/// How edges are matched and rebels are told.
+enum class EdgeRule {
+  paper,          ///< the five cases xi, and alpha: three sightings of a single corner in line
+  constellation,  ///< a corner and its neighbours move alike over three frames
 };
 
 /// Kinematics.
@@ -43,23 +37,47 @@ struct LineParameters {
   bool ignore = true;  ///< apply psi; off, every corner is looked at in every frame
 };
 
+/// The constellation rule of the Circle expert, which stands in for xi and alpha. A gate is an ellipse
+/// about the prediction, along and across the displacement; it grows with the displacement's length.
+struct ConstellationParameters {
+  double normal_along = 2;           ///< px
+  double normal_along_growth = 0.05; ///< of the displacement
+  double normal_across = 1.3;        ///< px
+  double rebel_gate = 1.2;           ///< px
+  double rebel_growth = 0.3;         ///< of the displacement, until
+  double rebel_gate_max = 3.5;       ///< px
+  double max_step = 45;              ///< px: furthest that a rebel is looked for, or
+  double max_speed = 450;            ///< px/s: as far as this takes it, if farther
+  double hit_1 = 2;                  ///< px: a sighting one frame ago counts within this
+  double hit_2 = 3;                  ///< px: and two frames ago within this
+  double radius = 35;                ///< px: how far neighbours are
+  int neighbours = 8;                ///< that vote, at the most
+  double vote_floor = 0.45;          ///< share of the votes that a motion needs
+  double vote_margin = 0.15;         ///< by which it must beat the static explanation
+  double off_field = 1.5;            ///< px that it must leave the static images by
+  int established = 4;               ///< trust from which a normal edge explains its corner
+  int support = 4;                   ///< rebels near each other that bear each other out
+  double support_off_field = 0.4;    ///< share of them that are off the field by more than 1 px
+  double inherit_radius = 40;        ///< px
+  double inherit_share = 0.45;       ///< of the nearest decided neighbours that are rebels
+};
+
 /// Circle expert: edges, alpha, circles.
 struct CircleParameters {
   TrustRanks trust{2, 3, 5};       ///< Tr^c
-  double delta_v = 0;              ///< delta_v, 9 deg: half angle of the error span
-  SpanApex span_apex = SpanApex::landmark;
-  SpeedRule speed_rule = SpeedRule::trusted;
+  EdgeRule edge_rule = EdgeRule::constellation;
+  ConstellationParameters constellation;
+  double delta_v = 0;              ///< delta_v, 9 deg: half angle of the error span, seen from O_I
   double mu_0 = 25;                ///< mu_0, px: radius of detection of a new normal edge
   double mu_min = 3;               ///< px: bounds on mu, which the paper leaves open
   double mu_max = 25;              ///< px
   double corner_noise = 1.5;       ///< px: how far a corner may lie off for no reason
   double trust_bonus = 0.25;       ///< px of distance that a step of trust is worth in assignment
-
   double alpha_reach = 25;         ///< px: between two sightings in alpha
-  double alpha_deviation = 0;      ///< rad: mu_r, bend of the line through three sightings
+  double alpha_deviation = 0;      ///< mu_r, 20 deg: bend of the line through three sightings
   double alpha_stretch = 0.35;     ///< share by which the second step may differ from the first
-  double rebel_reach = 0.35;       ///< share of the predicted displacement by which a rebel may err
   int alpha_branches = 4;          ///< rows that one sighting may branch into
+  double rebel_reach = 0.35;       ///< share of the predicted displacement by which a rebel may err
 
   double epsilon_beta_n = 0;       ///< eps_beta,n, 20 deg
   double epsilon_beta_r = 0;       ///< eps_beta,r, 50 deg
@@ -69,7 +87,6 @@ struct CircleParameters {
   double rho_c = 40;               ///< rho_c, %: overlap of a group with the predicted circle
   double reach = 50;               ///< px: how far apart the edges of one circle may lie
   int min_members = 3;             ///< edges that make a new circle
-  int rebel_support = 3;           ///< edges of its circle that a rebel needs to be called one
 };
 
 /// Square expert.

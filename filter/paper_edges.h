@@ -1,15 +1,11 @@
 /// \file
-/// Circle expert, first part: corners are matched to the predicted edges, classified (xi_1 to xi_5, zeta_r),
-/// and what is left goes to alpha or becomes a new normal edge.
+/// The paper's edges: corners are matched to the predicted edges, classified (xi_1 to xi_5, zeta_r), and
+/// what is left goes to alpha or becomes a new normal edge.
 #pragma once
 
 #include <vector>
 
-#include "filter/layers.h"
-#include "filter/line.h"
-#include "filter/motion_field.h"
-#include "filter/parameters.h"
-#include "filter/point_grid.h"
+#include "filter/edge_expert.h"
 
 namespace lcs {
 
@@ -24,54 +20,38 @@ enum class Xi {
   five,   ///< outside the span: to alpha
 };
 
-class EdgeExpert {
+class PaperEdges : public EdgeExpert {
  public:
-  EdgeExpert(const Intrinsics& camera, const CircleParameters& parameters);
+  PaperEdges(const Intrinsics& camera, const CircleParameters& parameters);
 
-  /// Moves edges and chains to where this frame should show them.
-  void predict(Layers& layers, const MotionField& field);
-
-  /// Matches, estimates, updates trust, deletes, and makes new edges.
-  /// \param verdicts by the caller's order; `normal` or `rebel` is written for matched corners.
+  void predict(Layers& layers, const MotionField& field) override;
   void update(Layers& layers, const Chi& chi, const MotionField& field,
-              std::vector<Verdict>& verdicts);
+              std::vector<Verdict>& verdicts) override;
 
   /// The case of corner `x` with regard to a predicted normal edge.
   Xi classify(const Edge& edge, const Vec2& x, const MotionField& field) const;
 
  private:
-  struct Pair {
-    double cost;
-    int edge;    // normal edges first, rebels behind them
-    int corner;  // in chi
-  };
-
   bool in_span(const Edge& edge, const Vec2& x, const MotionField& field) const;
   bool plausible_speed(const Edge& edge, const Vec2& x, const MotionField& field) const;
   double rebel_reach(const Edge& edge, const MotionField& field) const;
   bool matches_rebel(const Edge& edge, const Vec2& x, const MotionField& field) const;
   void assign(const Layers& layers, const Chi& chi, const MotionField& field);
-  void update_normal(Edge& edge, const Vec2& x, Xi xi, const Chi& chi, const MotionField& field);
+  void update_normal(Edge& edge, const Vec2& x, const Chi& chi, const MotionField& field);
   void update_rebel(Edge& edge, const Vec2& x, const MotionField& field);
-  double spread(const Edge& edge, const Chi& chi, int corner) const;
-  void coast(Edge& edge, const std::vector<IgnoreRegion>& psi) const;
-  void bury(std::vector<Edge>& edges) const;
+  double spread(const Edge& edge, const Chi& chi) const;
   void classify_rest(const Layers& layers, const Chi& chi, const MotionField& field);
-  void grow_chains(Layers& layers, const Chi& chi, const MotionField& field);
+  void complete_chains(Layers& layers, const Chi& chi, const MotionField& field);
+  void branch_chains(const Layers& layers, const Chi& chi, const MotionField& field);
   double off_field(const Vec2& from, const Vec2& to, const MotionField& field) const;
   Edge make_rebel(const Chain& chain, const Vec2& x, const MotionField& field);
-  void add_normals(Layers& layers, const Chi& chi, const MotionField& field);
 
-  Intrinsics camera_;
   CircleParameters parameters_;
-  Id next_id_ = 1;
 
   // Of the current frame; kept for their memory.
-  PointGrid corner_grid_, edge_grid_;
-  std::vector<Vec2> scratch_points_;
-  std::vector<Pair> pairs_;
-  std::vector<int> match_of_edge_, match_of_corner_;  // -1: none
-  std::vector<char> to_alpha_, to_normal_;            // what becomes of the unmatched corners
+  PointGrid edge_grid_;
+  std::vector<Vec2> predictions_;
+  std::vector<char> to_alpha_, to_normal_;  // what becomes of the unmatched corners
   std::vector<Chain> grown_;
 };
 

@@ -1,0 +1,61 @@
+#include "filter/edge_expert.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "filter/constellation_edges.h"
+#include "filter/geometry.h"
+#include "filter/paper_edges.h"
+
+namespace lcs {
+
+void EdgeExpert::assign_one_to_one(std::size_t edges, std::size_t corners) {
+  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
+    return std::tuple(a.cost, a.edge, a.corner) < std::tuple(b.cost, b.edge, b.corner);
+  });
+  match_of_edge_.assign(edges, -1);
+  match_of_corner_.assign(corners, -1);
+  for (const Pair& pair : pairs_) {
+    if (match_of_edge_[pair.edge] >= 0 || match_of_corner_[pair.corner] >= 0) continue;
+    match_of_edge_[pair.edge] = pair.corner;
+    match_of_corner_[pair.corner] = pair.edge;
+  }
+}
+
+void EdgeExpert::coast(Edge& edge, const std::vector<IgnoreRegion>& psi) const {
+  edge.corner = -1;
+  edge.location = edge.predicted;
+  if (!inside_any(psi, edge.predicted)) --edge.trust;
+}
+
+void EdgeExpert::bury(std::vector<Edge>& edges) const {
+  std::erase_if(edges, [&](const Edge& edge) {
+    return !trust_.alive(edge.trust) || edge.location.x() < -0.5 || edge.location.y() < -0.5 ||
+           edge.location.x() > camera_.width_px - 0.5 || edge.location.y() > camera_.height_px - 0.5;
+  });
+}
+
+Edge EdgeExpert::make_normal(const Vec2& x, double depth_ratio, double mu,
+                             const MotionField& field) {
+  Edge edge;
+  edge.id = next_id();
+  edge.location = edge.rotated = edge.predicted = x;
+  edge.origin = field.origin(x);
+  edge.depth_ratio = depth_ratio;
+  edge.speed = depth_ratio * field.reference_speed(x);
+  const Vec2 along = field.direction(x);
+  edge.angle = angle_of(along.isZero() ? Vec2(x - camera_.centre_px) : along);
+  edge.mu = mu;
+  edge.trust = trust_.initial_normal();
+  return edge;
+}
+
+std::unique_ptr<EdgeExpert> make_edge_expert(const Intrinsics& camera,
+                                             const CircleParameters& parameters) {
+  if (parameters.edge_rule == EdgeRule::paper) {
+    return std::make_unique<PaperEdges>(camera, parameters);
+  }
+  return std::make_unique<ConstellationEdges>(camera, parameters);
+}
+
+}  // namespace lcs

@@ -1,0 +1,72 @@
+/// \file
+/// Circle expert, first part: which corner belongs to which edge, which edges are new, and which are
+/// rebels. Two rules for it stand side by side; what they share is here.
+///
+/// Both predict normal edges by the motion field and rebels by their own motion, assign corners to
+/// edges one to one, and keep trust. They differ in how a rebel is told: `PaperEdges` by single
+/// corners that line up over three frames (alpha), `ConstellationEdges` by groups of corners that do.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "filter/layers.h"
+#include "filter/line.h"
+#include "filter/motion_field.h"
+#include "filter/parameters.h"
+#include "filter/point_grid.h"
+
+namespace lcs {
+
+class EdgeExpert {
+ public:
+  virtual ~EdgeExpert() = default;
+
+  /// Moves edges, and what else is remembered, to where this frame should show them.
+  virtual void predict(Layers& layers, const MotionField& field) = 0;
+
+  /// Matches, estimates, updates trust, deletes, and makes new edges.
+  /// \param verdicts by the caller's order; `normal` or `rebel` is written for decided corners.
+  virtual void update(Layers& layers, const Chi& chi, const MotionField& field,
+                      std::vector<Verdict>& verdicts) = 0;
+
+ protected:
+  EdgeExpert(const Intrinsics& camera, const TrustRanks& trust) : camera_(camera), trust_(trust) {}
+
+  /// A corner inside an edge's gate, and how badly it fits. Normal edges come first, rebels behind.
+  struct Pair {
+    double cost;
+    int edge;
+    int corner;  // in chi
+  };
+
+  /// Takes pairs_ cheapest first, each edge and each corner once, into the two lists of matches.
+  void assign_one_to_one(std::size_t edges, std::size_t corners);
+
+  /// An edge without a corner follows its prediction. It loses trust for that, unless it lies in a
+  /// region that was not looked at.
+  void coast(Edge& edge, const std::vector<IgnoreRegion>& psi) const;
+
+  /// Deletes what is no longer trusted, or has left the image.
+  void bury(std::vector<Edge>& edges) const;
+
+  /// A normal edge at a corner, with V = depth_ratio * V_v.
+  Edge make_normal(const Vec2& x, double depth_ratio, double mu, const MotionField& field);
+
+  Id next_id() { return next_id_++; }
+
+  const Intrinsics camera_;
+  const TrustRanks trust_;
+  PointGrid corner_grid_;
+  std::vector<Pair> pairs_;
+  std::vector<int> match_of_edge_, match_of_corner_;  // -1: none
+
+ private:
+  Id next_id_ = 1;
+};
+
+/// The rule that the parameters name.
+std::unique_ptr<EdgeExpert> make_edge_expert(const Intrinsics& camera,
+                                             const CircleParameters& parameters);
+
+}  // namespace lcs
