@@ -13,13 +13,15 @@
 
 namespace lcs::sim {
 
-/// A named body of the scene, or an actor: what a square should find. Ids are 1..n, in a fixed order.
+/// A named body of the scene, or an actor: what a square should find. Ids are 1..n, in a fixed
+/// order.
 struct Object {
   int id = 0;
   std::string name;
 };
 
-/// Poses at one moment. `T_WO[id]` is the pose of object `id`; index 0 is the fixed world (identity).
+/// Poses at one moment. `T_WO[id]` is the pose of object `id`; index 0 is the fixed world
+/// (identity).
 struct Snapshot {
   Pose T_WC;
   std::vector<Pose> T_WO;
@@ -32,31 +34,38 @@ struct FrameTruth {
   /// Per pixel: id of an object, 0 for the fixed setting (floor, walls), -1 for what is no landmark
   /// (sky, the rover itself).
   cv::Mat1i object;
-  Snapshot now;   ///< at frame k
-  Snapshot next;  ///< at frame k+1, also for the last frame
-  Eigen::Vector3d v_WC_mps = Eigen::Vector3d::Zero();    ///< velocity of the camera, in W
-  Eigen::Vector3d w_C_radps = Eigen::Vector3d::Zero();   ///< body rate of the camera, in C
+  Snapshot now;                                         ///< at frame k
+  Snapshot next;                                        ///< at frame k+1, also for the last frame
+  Eigen::Vector3d v_WC_mps = Eigen::Vector3d::Zero();   ///< velocity of the camera, in W
+  Eigen::Vector3d w_C_radps = Eigen::Vector3d::Zero();  ///< body rate of the camera, in C
 };
 
 enum class Label {
   none,        ///< the sky or the rover: no landmark, left out of every count
   fixed,       ///< its body does not move between k and k+1 ("static")
-  indistinct,  ///< its body moves, but the image of the corner by less than 1 px against a static one
+  indistinct,  ///< its body moves, but the image of the corner by less than 1 px against a static
+               ///< one
   rebel,       ///< its body moves, and |u - u_s| >= 1 px
 };
 
+/// Whether a body is elsewhere at k+1: by more than 0.01 mm or 0.01 mrad, which is far below what
+/// an image shows and far above the creep of a body that rests on contacts.
+bool moved(const Pose& now, const Pose& next);
+
+/// All motions are from k to k+1. They are NaN for a point that is behind the camera at k+1; a
+/// corner on a moving body is then `indistinct`.
 struct CornerTruth {
   Label label = Label::none;
-  /// A rebel whose u lies within 1 px of the static segment: the images at k+1 of the same corner as a
-  /// fixed point at every depth from `min_depth_m` to infinity. No two-frame test can tell it.
+  /// A rebel whose u lies within 1 px of the static segment: the images at k+1 of the same corner
+  /// as a fixed point at every depth from `min_depth_m` to infinity. No two-frame test can tell it.
   bool radial = false;
-  int object = -1;        ///< as in FrameTruth::object
-  double depth_m = 0;     ///< of the nearest surface in the 3x3 pixels round the corner
+  int object = -1;     ///< as in FrameTruth::object
+  double depth_m = 0;  ///< of the nearest surface in the 3x3 pixels round the corner
   Eigen::Vector2d motion_px = Eigen::Vector2d::Zero();         ///< u: carried by its body, k to k+1
   Eigen::Vector2d static_motion_px = Eigen::Vector2d::Zero();  ///< u_s: the same point, fixed in W
 };
 
-/// \param corners_px in frame k.
+/// \param corners_px in frame k; one outside of the image has label `none`.
 /// \param min_depth_m nearest depth of the static segment (z_min), > 0.
 std::vector<CornerTruth> label_corners(const Pinhole& camera, const FrameTruth& truth,
                                        std::span<const Eigen::Vector2f> corners_px,
@@ -67,9 +76,14 @@ struct ObjectTruth {
   int object = 0;
   /// Pixel edges: [left, right) x [top, bottom), so that the area is (right-left) * (bottom-top).
   int left = 0, top = 0, right = 0, bottom = 0;
-  int visible_px = 0;            ///< pixels of the mask
-  double visible_fraction = 0;   ///< of the full silhouette, parts outside the image included
-  bool moving = false;           ///< its pose at k+1 differs from that at k
+  int visible_px = 0;  ///< pixels of the mask
+  /// Of the full silhouette, parts outside the image included; 0 where the body reaches behind the
+  /// camera, as its silhouette has no bounds then.
+  double visible_fraction = 0;
+  bool moving = false;  ///< its pose at k+1 differs from that at k
 };
+
+/// Boxes and pixel counts of objects 1..count in an image of ids; the rest of each is left open.
+std::vector<ObjectTruth> modal_boxes(const cv::Mat1i& object, int count);
 
 }  // namespace lcs::sim

@@ -1,0 +1,173 @@
+#include "sim/camera_renderer.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/gl_context.h"
+
+namespace lcs::sim {
+namespace {
+
+constexpr double kNear = 0.05;     // m
+constexpr double kLeastFar = 100;  // m
+// Room for what MuJoCo draws besides the geoms of the model.
+constexpr int kSpareGeoms = 64;
+
+void prepare(mjModel& m, int width_px, int height_px, int samples) {
+  m.vis.global.offwidth = width_px;
+  m.vis.global.offheight = height_px;
+  m.vis.quality.offsamples = samples;
+  m.vis.quality.shadowsize = 0;
+  // MuJoCo gives its clipping planes in lengths of the scene
+  const double extent = m.stat.extent;
+  m.vis.map.znear = static_cast<float>(kNear / extent);
+  m.vis.map.zfar = static_cast<float>(std::max(kLeastFar, 4 * extent) / extent);
+  // a light that moves with the camera is no property of the world
+  auto& head = m.vis.headlight;
+  for (int c = 0; c < 3; ++c) {
+    head.ambient[c] = std::min(1.F, head.ambient[c] + head.diffuse[c] / 2);
+    head.diffuse[c] = 0;
+    head.specular[c] = 0;
+  }
+}
+
+}  // namespace
+
+struct CameraRenderer::Impl {
+  Model& model;
+  int width_px, height_px;
+  GlContext gl;
+  mjvScene scene;
+  mjvOption option;
+  mjvPerturb perturb;
+  mjvCamera camera;
+  mjrContext context;
+  std::vector<unsigned char> rgb;
+  std::vector<float> z;
+
+  Impl(Model& model_, int camera_id, int width_px_, int height_px_, int samples)
+      : model(model_), width_px(width_px_), height_px(height_px_) {
+    prepare(model.m(), width_px, height_px, samples);
+    mjv_defaultScene(&scene);
+    mjr_defaultContext(&context);
+    mjv_defaultOption(&option);
+    mjv_defaultPerturb(&perturb);
+    mjv_defaultCamera(&camera);
+    std::fill(std::begin(option.sitegroup), std::end(option.sitegroup), mjtByte{0});
+    camera.type = mjCAMERA_FIXED;
+    camera.fixedcamid = camera_id;
+    rgb.resize(std::size_t(width_px) * height_px * 3);
+    z.resize(std::size_t(width_px) * height_px);
+    try {
+      start();
+    } catch (...) {
+      release();
+      throw;
+    }
+  }
+  ~Impl() { release(); }
+
+  void start() {
+    mjv_makeScene(&model.m(), &scene, static_cast<int>(model.m().ngeom) + kSpareGeoms);
+    scene.flags[mjRND_SHADOW] = 0;
+    scene.flags[mjRND_REFLECTION] = 0;
+    scene.flags[mjRND_FOG] = 0;
+    scene.flags[mjRND_HAZE] = 0;
+    mjr_makeContext(&model.m(), &context, mjFONTSCALE_100);
+    mjr_setBuffer(mjFB_OFFSCREEN, &context);
+    const mjrRect buffer = mjr_maxViewport(&context);
+    if (context.currentBuffer != mjFB_OFFSCREEN || buffer.width < width_px ||
+        buffer.height < height_px) {
+      throw std::runtime_error("software GL cannot render images of " + std::to_string(width_px) +
+                               "x" + std::to_string(height_px) + "; choose a smaller camera size");
+    }
+  }
+
+  void release() {
+    mjr_freeContext(&context);
+    mjv_freeScene(&scene);
+  }
+
+  mjrRect viewport() const { return {0, 0, width_px, height_px}; }
+
+  void render(float* depth) {
+    gl.make_current();
+    mjr_setBuffer(mjFB_OFFSCREEN, &context);
+    mjr_render(viewport(), &scene, &context);
+    mjr_readPixels(rgb.data(), depth, viewport(), &context);
+  }
+
+  // Read-back is bottom row first.
+  std::size_t row(int y) const { return std::size_t(height_px - 1 - y) * width_px; }
+
+  int geom_of(const unsigned char* pixel) const {
+    const int index = (pixel[0] | pixel[1] << 8 | pixel[2] << 16) - 1;
+    if (index < 0 || index >= scene.ngeom) return -1;
+    const mjvGeom& drawn = scene.geoms[index];
+    return drawn.objtype == mjOBJ_GEOM ? drawn.objid : -1;
+  }
+};
+
+CameraRenderer::CameraRenderer(Model& model, int camera, int width_px, int height_px, int samples)
+    : impl_(std::make_unique<Impl>(model, camera, width_px, height_px, samples)) {}
+
+CameraRenderer::~CameraRenderer() {
+  if (impl_) impl_->gl.make_current();
+}
+
+void CameraRenderer::update() {
+  Impl& s = *impl_;
+  mjv_updateScene(&s.model.m(), &s.model.d(), &s.option, &s.perturb, &s.camera, mjCAT_ALL,
+                  &s.scene);
+  if (s.model.d().warning[mjWARN_VGEOMFULL].number > 0) {
+    throw MujocoError("the scene has more to draw than " + std::to_string(s.scene.maxgeom) +
+                      " geoms");
+  }
+}
+
+void CameraRenderer::render_colour(cv::Mat3b& bgr) {
+  Impl& s = *impl_;
+  s.render(nullptr);
+  bgr.create(s.height_px, s.width_px);
+  for (int y = 0; y < s.height_px; ++y) {
+    const unsigned char* from = s.rgb.data() + 3 * s.row(y);
+    cv::Vec3b* to = bgr[y];
+    for (int x = 0; x < s.width_px; ++x, from += 3) to[x] = {from[2], from[1], from[0]};
+  }
+}
+
+void CameraRenderer::render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom) {
+  Impl& s = *impl_;
+  s.scene.flags[mjRND_SEGMENT] = 1;
+  s.scene.flags[mjRND_IDCOLOR] = 1;
+  s.render(s.z.data());
+  s.scene.flags[mjRND_SEGMENT] = 0;
+  s.scene.flags[mjRND_IDCOLOR] = 0;
+
+  depth_m.create(s.height_px, s.width_px);
+  geom.create(s.height_px, s.width_px);
+  const float n = s.scene.camera[0].frustum_near;
+  const float f = s.scene.camera[0].frustum_far;
+  for (int y = 0; y < s.height_px; ++y) {
+    const unsigned char* id = s.rgb.data() + 3 * s.row(y);
+    const float* z = s.z.data() + s.row(y);
+    float* depth = depth_m[y];
+    int* to = geom[y];
+    for (int x = 0; x < s.width_px; ++x, id += 3) {
+      to[x] = s.geom_of(id);
+      depth[x] = to[x] < 0 ? std::numeric_limits<float>::infinity() : n * f / (f - z[x] * (f - n));
+    }
+  }
+}
+
+double CameraRenderer::near_m() const {
+  return impl_->scene.camera[0].frustum_near;
+}
+double CameraRenderer::far_m() const {
+  return impl_->scene.camera[0].frustum_far;
+}
+
+}  // namespace lcs::sim

@@ -1,0 +1,33 @@
+/// \file
+/// An actor's shape as MJCF: its fragment, scaled to the size asked for and painted.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "scenarios/scenario.h"
+#include "sim/xml.h"
+
+namespace lcs::sim {
+
+/// Folder of `lab.xml`, `ego/`, `actors/`: the environment's LCS_SCENES, else that of the source
+/// tree.
+std::filesystem::path scenes_folder();
+
+/// Scales the geoms of a fragment's body from the natural size that it states (the numeric `size`:
+/// length, width, height in m). Boxes and ellipsoids take any three factors; a cylinder or capsule
+/// stays round, at the mean of the factors across it.
+void scale_fragment(xml::Element& root, const Eigen::Vector3d& size_m);
+
+/// Texture of an actor that shows a picture from a file, within its fragment.
+inline constexpr const char* kPictureTexture = "picture";
+
+bool has_picture(const scenario::Actor& actor);
+
+/// The fragment of an actor, scaled, painted, and with the actor's name before every name in it.
+/// \throws scenario::Error
+xml::Document actor_fragment(const scenario::Actor& actor);
+
+}  // namespace lcs::sim

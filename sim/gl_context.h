@@ -1,0 +1,31 @@
+/// \file
+/// An OSMesa context: the software GL that MuJoCo renders with, without a display.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace lcs::sim {
+
+/// Current in the thread that made it, from construction on. Its own buffer is tiny: MuJoCo renders
+/// into a frame buffer object of its own.
+class GlContext {
+ public:
+  /// \throws std::runtime_error with a remedy.
+  GlContext();
+  ~GlContext();
+  GlContext(const GlContext&) = delete;
+  GlContext& operator=(const GlContext&) = delete;
+
+  /// Makes it current again, where another one was used in between. \throws std::runtime_error
+  void make_current();
+
+  /// As in "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6".
+  std::string renderer() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lcs::sim

@@ -1,0 +1,86 @@
+#include "sim/model.h"
+
+#include <Eigen/Core>
+#include <array>
+#include <utility>
+
+namespace lcs::sim {
+namespace {
+
+thread_local std::string first_warning;
+
+void on_error(const char* message) {
+  throw MujocoError(message);
+}
+
+void on_warning(const char* message) {
+  if (first_warning.empty()) first_warning = message;
+}
+
+Pose pose(const mjtNum* position, const mjtNum* rotation) {
+  return {Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation),
+          Eigen::Map<const Eigen::Vector3d>(position)};
+}
+
+}  // namespace
+
+void install_mujoco_handlers() {
+  mju_user_error = on_error;
+  mju_user_warning = on_warning;
+}
+
+std::string take_warning() {
+  return std::exchange(first_warning, {});
+}
+
+Model::Model(const std::string& mjcf) {
+  install_mujoco_handlers();
+  // the file system is 2 MB of name tables before version 3
+  const auto vfs = std::make_unique<mjVFS>();
+  mj_defaultVFS(vfs.get());
+  const auto release = [](mjVFS* v) { mj_deleteVFS(v); };
+  const std::unique_ptr<mjVFS, decltype(release)> guard(vfs.get(), release);
+  constexpr const char* kName = "scene.xml";
+  mj::add_to_vfs(*vfs, kName, mjcf);
+
+  std::array<char, 2000> message{};
+  model_.reset(mj_loadXML(kName, vfs.get(), message.data(), static_cast<int>(message.size())));
+  const std::string warning = take_warning();
+  if (!model_ || message[0] != '\0') throw MujocoError(message.data());
+  if (!warning.empty()) throw MujocoError(warning);
+  data_.reset(mj_makeData(model_.get()));
+  if (!data_) throw MujocoError("no memory for the state of the scene");
+}
+
+int Model::id(mjtObj type, const std::string& name) const {
+  const int id = mj_name2id(model_.get(), type, name.c_str());
+  if (id < 0) throw MujocoError(std::string(mju_type2Str(type)) + " '" + name + "' is missing");
+  return id;
+}
+
+std::string_view Model::name(mjtObj type, int id) const {
+  const char* name = mj_id2name(model_.get(), type, id);
+  return name ? std::string_view(name) : std::string_view();
+}
+
+Pose Model::body_pose(int body) const {
+  return pose(data_->xpos + 3 * body, data_->xmat + 9 * body);
+}
+
+Pose Model::geom_pose(int geom) const {
+  return pose(data_->geom_xpos + 3 * geom, data_->geom_xmat + 9 * geom);
+}
+
+Pose Model::site_pose(int site) const {
+  return pose(data_->site_xpos + 3 * site, data_->site_xmat + 9 * site);
+}
+
+Pose Model::camera_pose(int camera) const {
+  Pose T = pose(data_->cam_xpos + 3 * camera, data_->cam_xmat + 9 * camera);
+  // MuJoCo's camera looks along its -z with y up
+  T.R.col(1) = -T.R.col(1);
+  T.R.col(2) = -T.R.col(2);
+  return T;
+}
+
+}  // namespace lcs::sim

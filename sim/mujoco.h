@@ -1,0 +1,58 @@
+/// \file
+/// MuJoCo, from Debian's 2.2.2 to 3.x: the one place that includes it, and that knows what changed
+/// in between. Nothing outside `sim/` includes this.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+namespace lcs::sim::mj {
+
+/// Puts a file into MuJoCo's virtual file system.
+inline void add_to_vfs(mjVFS& vfs, const char* name, const std::string& content) {
+#if mjVERSION_HEADER >= 313
+  const int failed = mj_addBufferVFS(&vfs, name, content.data(), static_cast<int>(content.size()));
+#else
+  const int failed = mj_makeEmptyFileVFS(&vfs, name, static_cast<int>(content.size()));
+  if (!failed) {
+    std::memcpy(vfs.filedata[mj_findFileVFS(&vfs, name)], content.data(), content.size());
+  }
+#endif
+  if (failed) throw std::runtime_error("MuJoCo's virtual file system is full");
+}
+
+/// Bytes of one texture, `channels(m, id)` a pixel, rows top first.
+inline mjtByte* texture_bytes(mjModel& m, int texture) {
+#if mjVERSION_HEADER >= 321
+  return m.tex_data + m.tex_adr[texture];
+#else
+  return m.tex_rgb + m.tex_adr[texture];
+#endif
+}
+
+inline int texture_channels([[maybe_unused]] const mjModel& m, [[maybe_unused]] int texture) {
+#if mjVERSION_HEADER >= 321
+  return m.tex_nchannel[texture];
+#else
+  return 3;
+#endif
+}
+
+/// Distance along `direction` (in its lengths) to the nearest visible geom, and that geom; -1 if
+/// none.
+inline double ray(const mjModel& m, const mjData& d, const double from[3],
+                  const double direction[3], int exclude_body, int& geom) {
+  int hit[1] = {-1};
+#if mjVERSION_HEADER >= 3005000
+  const double distance = mj_ray(&m, &d, from, direction, nullptr, 1, exclude_body, hit, nullptr);
+#else
+  const double distance = mj_ray(&m, &d, from, direction, nullptr, 1, exclude_body, hit);
+#endif
+  geom = hit[0];
+  return distance;
+}
+
+}  // namespace lcs::sim::mj

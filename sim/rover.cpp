@@ -1,0 +1,205 @@
+#include "sim/rover.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "sim/scene_builder.h"
+
+namespace lcs::sim {
+namespace {
+
+using scenario::EgoPhase;
+
+/// Index into qpos and qvel of a joint of the rover.
+struct Joint {
+  int qpos, qvel;
+
+  Joint(const Model& model, const char* name) {
+    const int id = model.id(mjOBJ_JOINT, std::string(kEgoPrefix) + name);
+    qpos = model.m().jnt_qposadr[id];
+    qvel = model.m().jnt_dofadr[id];
+  }
+};
+
+int actuator(const Model& model, const char* name) {
+  return model.id(mjOBJ_ACTUATOR, std::string(kEgoPrefix) + name);
+}
+
+/// Two slides along W's x and y and a hinge about z, each with a stiff velocity actuator.
+class HolonomicRover : public Rover {
+ public:
+  HolonomicRover(const scenario::Ego& ego, const Model& model)
+      : ego_(ego),
+        joints_{Joint(model, "x"), Joint(model, "y"), Joint(model, "yaw")},
+        actuators_{actuator(model, "x"), actuator(model, "y"), actuator(model, "yaw")} {}
+
+  void start(Model& model) override {
+    mjData& d = model.d();
+    const std::array<double, 3> position = {ego_.start_m.x(), ego_.start_m.y(), ego_.heading_rad};
+    for (std::size_t i = 0; i < 3; ++i) d.qpos[joints_[i].qpos] = position[i];
+    const std::array<double, 3> velocity = wanted(model, 0);
+    for (std::size_t i = 0; i < 3; ++i) d.qvel[joints_[i].qvel] = velocity[i];
+  }
+
+  void command(Model& model, std::int64_t t_ns) override {
+    const std::array<double, 3> velocity = wanted(model, t_ns);
+    for (std::size_t i = 0; i < 3; ++i) model.d().ctrl[actuators_[i]] = velocity[i];
+  }
+
+  Eigen::Vector3d odometry(const Model& model) const override {
+    const mjData& d = model.d();
+    const Eigen::Rotation2Dd R_BW(-d.qpos[joints_[2].qpos]);
+    const Eigen::Vector2d v_W(d.qvel[joints_[0].qvel], d.qvel[joints_[1].qvel]);
+    const Eigen::Vector2d v_B = R_BW * v_W;
+    return {v_B.x(), v_B.y(), 0};
+  }
+
+ private:
+  /// Of the joints: x and y of W, and yaw.
+  std::array<double, 3> wanted(const Model& model, std::int64_t t_ns) const {
+    const PlanarVelocity v = commanded_velocity(ego_.phases, t_ns);
+    const Eigen::Vector2d v_W = Eigen::Rotation2Dd(model.d().qpos[joints_[2].qpos]) * v.linear_mps;
+    return {v_W.x(), v_W.y(), v.yaw_rate_radps};
+  }
+
+  scenario::Ego ego_;
+  std::array<Joint, 3> joints_;
+  std::array<int, 3> actuators_;
+};
+
+/// Two driven wheels and two casters on contacts.
+class WheeledRover : public Rover {
+ public:
+  WheeledRover(const scenario::Scenario& scenario, const Model& model)
+      : ego_(scenario.ego),
+        base_(model, "base"),
+        joints_{Joint(model, "left"), Joint(model, "right")},
+        actuators_{actuator(model, "left"), actuator(model, "right")} {
+    check(scenario);
+    const int left = model.id(mjOBJ_BODY, std::string(kEgoPrefix) + "left_wheel");
+    const int right = model.id(mjOBJ_BODY, std::string(kEgoPrefix) + "right_wheel");
+    const mjModel& m = model.m();
+    track_m_ = m.body_pos[3 * left + 1] - m.body_pos[3 * right + 1];
+    radius_m_ = m.geom_size[3 * m.body_geomadr[left]];
+  }
+
+  void start(Model& model) override {
+    mjModel& m = model.m();
+    mjData& d = model.d();
+    place(d, ground_m(model) + kDrop_m);
+    std::fill_n(d.ctrl, m.nu, 0.0);
+    m.opt.timestep = kSettlingStep_s;
+    for (int i = 0; i < static_cast<int>(kSettling_s / kSettlingStep_s); ++i) mj_step(&m, &d);
+
+    // as it came to rest, but where it shall start, and rolling
+    place(d, d.qpos[base_.qpos + 2]);
+    const PlanarVelocity v = commanded_velocity(ego_.phases, 0);
+    const Eigen::Vector2d v_W = Eigen::Rotation2Dd(ego_.heading_rad) * v.linear_mps;
+    std::fill_n(d.qvel + base_.qvel, 6, 0.0);
+    d.qvel[base_.qvel] = v_W.x();
+    d.qvel[base_.qvel + 1] = v_W.y();
+    d.qvel[base_.qvel + 5] = v.yaw_rate_radps;
+    const std::array<double, 2> wheels = wheel_rates(v);
+    for (std::size_t i = 0; i < 2; ++i) d.qvel[joints_[i].qvel] = wheels[i];
+  }
+
+  void command(Model& model, std::int64_t t_ns) override {
+    const std::array<double, 2> wheels = wheel_rates(commanded_velocity(ego_.phases, t_ns));
+    for (std::size_t i = 0; i < 2; ++i) model.d().ctrl[actuators_[i]] = wheels[i];
+  }
+
+  Eigen::Vector3d odometry(const Model& model) const override {
+    const double left = model.d().qvel[joints_[0].qvel];
+    const double right = model.d().qvel[joints_[1].qvel];
+    return {radius_m_ * (left + right) / 2, 0, 0};
+  }
+
+ private:
+  static constexpr double kDrop_m = 0.01;
+  static constexpr double kAbove_m = 1.5;  // below a ceiling, above rough ground
+  static constexpr double kSettling_s = 1.0;
+  static constexpr double kSettlingStep_s = 0.002;
+
+  static void check(const scenario::Scenario& scenario) {
+    for (const EgoPhase& phase : scenario.ego.phases) {
+      constexpr double kTolerance = 1e-6;
+      if (std::abs(std::sin(phase.direction_rad)) > kTolerance) {
+        throw scenario::Error(
+            {scenario.file.string(), 0},
+            fmt::format(
+                "a wheeled rover cannot drive sideways: the ego's direction at {} s is {:g} "
+                "deg; make it 0 or 180 deg, or the drive holonomic",
+                phase.at_s, phase.direction_rad * 180 / std::numbers::pi));
+      }
+    }
+  }
+
+  /// Height of what lies under the start; 0 where there is nothing.
+  double ground_m(Model& model) const {
+    mjData& d = model.d();
+    place(d, 2 * kAbove_m);  // out of the way
+    mj_kinematics(&model.m(), &d);
+    const std::array<double, 3> from = {ego_.start_m.x(), ego_.start_m.y(), kAbove_m};
+    const std::array<double, 3> down = {0, 0, -1};
+    int geom = -1;
+    const double distance = mj::ray(model.m(), d, from.data(), down.data(), -1, geom);
+    return geom < 0 ? 0.0 : kAbove_m - distance;
+  }
+
+  void place(mjData& d, double z) const {
+    double* q = d.qpos + base_.qpos;
+    q[0] = ego_.start_m.x();
+    q[1] = ego_.start_m.y();
+    q[2] = z;
+    // turn to the heading, keeping what roll and pitch the ground gives
+    const Eigen::Quaterniond R(q[3], q[4], q[5], q[6]);
+    const Eigen::Vector3d x = R * Eigen::Vector3d::UnitX();
+    const Eigen::Quaterniond turned(
+        Eigen::AngleAxisd(ego_.heading_rad - std::atan2(x.y(), x.x()), Eigen::Vector3d::UnitZ()) *
+        R);
+    q[3] = turned.w();
+    q[4] = turned.x();
+    q[5] = turned.y();
+    q[6] = turned.z();
+  }
+
+  std::array<double, 2> wheel_rates(const PlanarVelocity& v) const {
+    const double half = v.yaw_rate_radps * track_m_ / 2;
+    return {(v.linear_mps.x() - half) / radius_m_, (v.linear_mps.x() + half) / radius_m_};
+  }
+
+  scenario::Ego ego_;
+  Joint base_;
+  std::array<Joint, 2> joints_;
+  std::array<int, 2> actuators_;
+  double track_m_ = 0;
+  double radius_m_ = 0;
+};
+
+}  // namespace
+
+PlanarVelocity commanded_velocity(const std::vector<EgoPhase>& phases, std::int64_t t_ns) {
+  const auto later = std::upper_bound(
+      phases.begin(), phases.end(), t_ns,
+      [](std::int64_t t, const EgoPhase& p) { return t < std::llround(p.at_s * 1e9); });
+  if (later == phases.begin()) return {};
+  const EgoPhase& phase = *std::prev(later);
+  const double since = 1e-9 * static_cast<double>(t_ns) - phase.at_s;
+  const double speed = std::max(0.0, phase.speed_mps + phase.acceleration_mps2 * since);
+  return {speed * Eigen::Vector2d(std::cos(phase.direction_rad), std::sin(phase.direction_rad)),
+          phase.yaw_rate_radps};
+}
+
+std::unique_ptr<Rover> make_rover(const scenario::Scenario& scenario, const Model& model) {
+  if (scenario.ego.drive == scenario::Drive::holonomic) {
+    return std::make_unique<HolonomicRover>(scenario.ego, model);
+  }
+  return std::make_unique<WheeledRover>(scenario, model);
+}
+
+}  // namespace lcs::sim

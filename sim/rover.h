@@ -1,0 +1,43 @@
+/// \file
+/// The ego: what the scenario commands, and the two drives that carry it out.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "scenarios/scenario.h"
+#include "sim/model.h"
+
+namespace lcs::sim {
+
+/// Velocity of the rover's frame B, in B.
+struct PlanarVelocity {
+  Eigen::Vector2d linear_mps = Eigen::Vector2d::Zero();
+  double yaw_rate_radps = 0;  ///< ccw
+};
+
+/// What the phases command at a time: the last one that has begun, with its speed grown by its
+/// acceleration and never below 0.
+PlanarVelocity commanded_velocity(const std::vector<scenario::EgoPhase>& phases, std::int64_t t_ns);
+
+/// Drives the body `ego/base` through actuators of its fragment.
+class Rover {
+ public:
+  virtual ~Rover() = default;
+
+  /// Puts the model into the state at t = 0: at its start, settled on the ground, moving as
+  /// commanded.
+  virtual void start(Model& model) = 0;
+  /// Sets the controls for the next step.
+  virtual void command(Model& model, std::int64_t t_ns) = 0;
+  /// Velocity of B in B as the wheels tell it, without noise.
+  virtual Eigen::Vector3d odometry(const Model& model) const = 0;
+};
+
+/// \throws scenario::Error for a command that the drive cannot carry out (a wheeled rover
+/// sideways).
+std::unique_ptr<Rover> make_rover(const scenario::Scenario& scenario, const Model& model);
+
+}  // namespace lcs::sim

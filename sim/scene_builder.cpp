@@ -1,0 +1,207 @@
+#include "sim/scene_builder.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "sim/fragment.h"
+#include "sim/xml.h"
+
+namespace lcs::sim {
+namespace {
+
+using scenario::Actor;
+using scenario::Scenario;
+
+std::vector<std::string> body_names(xml::Element& worldbody) {
+  std::vector<std::string> names;
+  for (auto* e = worldbody.FirstChildElement("body"); e; e = e->NextSiblingElement("body")) {
+    if (const std::string name = xml::attribute(*e, "name"); !name.empty()) names.push_back(name);
+  }
+  return names;
+}
+
+/// Levenshtein's, by rows.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substitute = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
+    }
+  }
+  return row.back();
+}
+
+[[noreturn]] void fail_no_body(const Actor& actor, std::vector<std::string> names) {
+  constexpr std::size_t kMentioned = 3;
+  std::stable_sort(names.begin(), names.end(), [&](const auto& a, const auto& b) {
+    return edit_distance(a, *actor.body) < edit_distance(b, *actor.body);
+  });
+  names.resize(std::min(names.size(), kMentioned));
+  throw scenario::Error(
+      actor.source,
+      names.empty()
+          ? fmt::format("actor '{}' moves body '{}', but the scene has no named body below its "
+                        "worldbody; give the actor a shape instead",
+                        actor.name, *actor.body)
+          : fmt::format("actor '{}' moves body '{}', which the scene lacks; the nearest are {}",
+                        actor.name, *actor.body, fmt::join(names, ", ")));
+}
+
+/// Takes a body of the scene out of the physics: from now on it is where it is put.
+void make_mocap(xml::Element& worldbody, const Actor& actor) {
+  xml::Element* body = xml::child_named(worldbody, "body", *actor.body);
+  if (!body) fail_no_body(actor, body_names(worldbody));
+  if (!actor.texture.empty() || actor.size_m) {
+    throw scenario::Error(
+        actor.source, fmt::format("actor '{}' moves a body of the scene, which has its size and "
+                                  "texture already; remove these keys",
+                                  actor.name));
+  }
+  for (const char* kind : {"joint", "freejoint"}) {
+    while (xml::Element* joint = body->FirstChildElement(kind)) body->DeleteChild(joint);
+  }
+  body->SetAttribute("mocap", "true");
+}
+
+/// Adds the sections of a fragment that make up what it is. The rest (its custom size, options and
+/// the look that it has alone in a viewer) is not for the scene.
+void merge_fragment(xml::Element& scene, const xml::Element& fragment) {
+  constexpr std::array<const char*, 5> kParts = {"default", "asset", "worldbody", "actuator",
+                                                 "sensor"};
+  for (const char* kind : kParts) {
+    for (const auto* part = fragment.FirstChildElement(kind); part;
+         part = part->NextSiblingElement(kind)) {
+      xml::append_children(xml::section(scene, kind), *part);
+    }
+  }
+}
+
+/// \throws scenario::Error where a shape leaves open what only a body of the scene has.
+void check_placed(const Actor& actor) {
+  const auto* line = std::get_if<scenario::Line>(&actor.trajectory);
+  const auto* still = std::get_if<scenario::Still>(&actor.trajectory);
+  if ((line && !line->from_m) || (still && !still->position_m)) {
+    throw scenario::Error(
+        actor.source, fmt::format("actor '{}' is added to the scene: say where ({})", actor.name,
+                                  line ? "line: from" : "still: position"));
+  }
+}
+
+void add_actor(xml::Element& scene, const Actor& actor, ComposedScene& composed) {
+  check_placed(actor);
+  const xml::Document fragment = actor_fragment(actor);
+  const std::string prefix = actor.name + "/";
+  xml::Element* body = xml::child_named(xml::section(*fragment->RootElement(), "worldbody"), "body",
+                                        prefix + "base");
+  if (!body) throw std::runtime_error("an actor's fragment needs a body called 'base'");
+  // the object is called as the actor is
+  body->SetAttribute("name", actor.name.c_str());
+  body->SetAttribute("mocap", "true");
+  merge_fragment(scene, *fragment->RootElement());
+  if (has_picture(actor)) {
+    composed.pictures.push_back({prefix + kPictureTexture, actor.texture, actor.source});
+  }
+}
+
+void add_actors(xml::Element& scene, const Scenario& scenario, ComposedScene& composed) {
+  xml::Element& worldbody = xml::section(scene, "worldbody");
+  const std::vector<std::string> bodies = body_names(worldbody);
+  std::set<std::string> taken;
+  for (const Actor& actor : scenario.actors) {
+    const std::string object = actor.body.value_or(actor.name);
+    const bool is_body = std::find(bodies.begin(), bodies.end(), actor.name) != bodies.end();
+    if (is_body && object != actor.name) {
+      throw scenario::Error(actor.source,
+                            fmt::format("actor '{}' is called like another body of the "
+                                        "scene; choose another name",
+                                        actor.name));
+    }
+    if (is_body && !actor.body) {
+      throw scenario::Error(actor.source,
+                            fmt::format("actor '{}' is called like a body of the scene; choose "
+                                        "another name, or move that body (body: {})",
+                                        actor.name, actor.name));
+    }
+    if (!taken.insert(object).second) {
+      throw scenario::Error(actor.source,
+                            fmt::format("'{}' is moved by two actors; keep one of them", object));
+    }
+    if (actor.body) {
+      make_mocap(worldbody, actor);
+    } else {
+      add_actor(scene, actor, composed);
+    }
+    composed.actor_bodies.push_back(object);
+  }
+}
+
+/// Axes of a MuJoCo camera (x right, y up, looking along -z) in B.
+Eigen::Matrix3d mujoco_camera_axes(const Eigen::Vector3d& rpy) {
+  Eigen::Matrix3d forward;
+  forward.col(0) = -Eigen::Vector3d::UnitY();
+  forward.col(1) = Eigen::Vector3d::UnitZ();
+  forward.col(2) = -Eigen::Vector3d::UnitX();
+  return (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()))
+             .toRotationMatrix() *
+         forward;
+}
+
+void add_camera(xml::Element& base, const scenario::Camera& camera) {
+  const Eigen::Matrix3d R = mujoco_camera_axes(camera.mount_rpy_rad);
+  const Eigen::Vector3d& p = camera.mount_position_m;
+  xml::Element* e = base.InsertNewChildElement("camera");
+  e->SetAttribute("name", kCamera);
+  e->SetAttribute("pos", fmt::format("{:.17g} {:.17g} {:.17g}", p.x(), p.y(), p.z()).c_str());
+  e->SetAttribute("xyaxes", fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", R(0, 0),
+                                        R(1, 0), R(2, 0), R(0, 1), R(1, 1), R(2, 1))
+                                .c_str());
+  e->SetAttribute("fovy", fmt::format("{:.17g}", camera.fovy_rad * 180 / std::numbers::pi).c_str());
+}
+
+void add_ego(xml::Element& scene, const Scenario& scenario) {
+  const char* file =
+      scenario.ego.drive == scenario::Drive::holonomic ? "holonomic.xml" : "wheeled.xml";
+  const xml::Document fragment = xml::load(scenes_folder() / "ego" / file, scenario.scene_source);
+  xml::Element& root = *fragment->RootElement();
+  xml::prefix_names(root, kEgoPrefix);
+  xml::Element* base = xml::child_named(xml::section(root, "worldbody"), "body", kEgoBody);
+  if (!base) throw std::runtime_error("the rover's fragment needs a body called 'base'");
+  add_camera(*base, scenario.camera);
+  merge_fragment(scene, root);
+}
+
+/// What would undo the meaning of bodies and names.
+void set_compiler(xml::Element& scene) {
+  for (auto* c = scene.FirstChildElement("compiler"); c; c = c->NextSiblingElement("compiler")) {
+    c->SetAttribute("fusestatic", "false");
+    c->SetAttribute("discardvisual", "false");
+  }
+}
+
+}  // namespace
+
+ComposedScene compose(const Scenario& scenario) {
+  ComposedScene composed;
+  const xml::Document document = xml::load(scenario.scene, scenario.scene_source);
+  xml::Element& scene = *document->RootElement();
+  set_compiler(scene);
+  add_actors(scene, scenario, composed);
+  add_ego(scene, scenario);
+  composed.mjcf = xml::print(*document);
+  return composed;
+}
+
+}  // namespace lcs::sim

@@ -1,0 +1,295 @@
+#include "sim/texture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+namespace lcs::sim {
+namespace {
+
+using Colour = cv::Vec3b;
+
+/// What a style paints with: whole pixels and grey levels from one stream.
+class Brush {
+ public:
+  Brush(cv::Mat3b& picture, RandomStream random) : picture_(picture), random_(random) {}
+
+  int width() const { return picture_.cols; }
+  int height() const { return picture_.rows; }
+
+  /// Uniform in [low, high).
+  double between(double low, double high) { return low + (high - low) * random_.uniform(); }
+
+  /// A grey, tinted by up to `tint` grey levels a channel.
+  Colour grey(double low, double high, double tint) {
+    const double value = between(low, high);
+    Colour c;
+    for (int i = 0; i < 3; ++i) c[i] = cv::saturate_cast<uchar>(value + between(-tint, tint));
+    return c;
+  }
+
+  Colour& at(int y, int x) { return picture_(y, x); }
+
+  void fill(const Colour& c) { picture_.setTo(c); }
+
+  /// Corners as shares of the picture's sides.
+  void rectangle(double left, double top, double right, double bottom, const Colour& c) {
+    const cv::Point a(px(left, width()), px(top, height()));
+    const cv::Point b(px(right, width()) - 1, px(bottom, height()) - 1);
+    if (a.x <= b.x && a.y <= b.y) cv::rectangle(picture_, a, b, c, cv::FILLED);
+  }
+
+  /// A rectangle of the given range of sizes, wholly inside the margins.
+  void rectangle_anywhere(double least, double most, double margin, const Colour& c) {
+    const double w = between(least, most);
+    const double h = between(least, most);
+    const double x = between(margin, 1 - margin - w);
+    const double y = between(margin, 1 - margin - h);
+    rectangle(x, y, x + w, y + h, c);
+  }
+
+  void polygon(double cx, double cy, double radius, int corners, const Colour& c) {
+    const double turn = between(0, 2 * CV_PI);
+    std::vector<cv::Point> points;
+    for (int i = 0; i < corners; ++i) {
+      const double a = turn + 2 * CV_PI * i / corners;
+      points.emplace_back(px(cx + radius * std::cos(a), width()),
+                          px(cy + radius * std::sin(a), height()));
+    }
+    cv::fillConvexPoly(picture_, points, c, cv::LINE_AA);
+  }
+
+ private:
+  static int px(double share, int side) { return static_cast<int>(std::lround(share * side)); }
+
+  cv::Mat3b& picture_;
+  RandomStream random_;
+};
+
+void paint_fewrects(Brush& b) {
+  b.fill(b.grey(150, 185, 8));
+  for (int i = 0; i < 6; ++i) b.rectangle_anywhere(0.12, 0.3, 0.06, b.grey(25, 90, 12));
+}
+
+/// Cartons and cabinets: a border, and two patches inside.
+void paint_panel(Brush& b) {
+  b.fill(b.grey(95, 120, 6));
+  b.rectangle(0.06, 0.06, 0.94, 0.94, b.grey(165, 190, 6));
+  const double split = b.between(0.35, 0.6);
+  b.rectangle(0.16, 0.16, 0.84, split - 0.05, b.grey(30, 70, 8));
+  b.rectangle(b.between(0.16, 0.4), split + 0.08, b.between(0.6, 0.84), 0.84, b.grey(90, 120, 8));
+}
+
+/// Sheet metal: light, with a smooth change of shade.
+void paint_metal(Brush& b) {
+  const double base = b.between(185, 200);
+  for (int y = 0; y < b.height(); ++y) {
+    const double v = base + 12 * std::cos(CV_PI * (y + 0.5) / b.height());
+    for (int x = 0; x < b.width(); ++x) b.at(y, x) = Colour::all(cv::saturate_cast<uchar>(v));
+  }
+}
+
+void paint_rects(Brush& b) {
+  b.fill(b.grey(110, 130, 8));
+  for (int i = 0; i < 40; ++i) {
+    const Colour c = i % 2 ? b.grey(20, 70, 20) : b.grey(170, 230, 20);
+    b.rectangle_anywhere(0.06, 0.2, 0, c);
+  }
+}
+
+void paint_polygons(Brush& b) {
+  b.fill(b.grey(120, 150, 10));
+  for (int i = 0; i < 24; ++i) {
+    const int corners = 3 + i % 3;
+    const Colour c = i % 2 ? b.grey(20, 80, 25) : b.grey(180, 235, 15);
+    const double x = b.between(0.1, 0.9);
+    const double y = b.between(0.1, 0.9);
+    b.polygon(x, y, b.between(0.06, 0.14), corners, c);
+  }
+}
+
+/// A house front: rows of dark windows with a light bar, tiling without a seam.
+void paint_windows(Brush& b) {
+  b.fill(b.grey(165, 195, 12));
+  constexpr int kAcross = 4;
+  constexpr int kUp = 4;
+  for (int row = 0; row < kUp; ++row) {
+    for (int column = 0; column < kAcross; ++column) {
+      const double w = 1.0 / kAcross;
+      const double h = 1.0 / kUp;
+      const double x = column * w + 0.22 * w;
+      const double y = row * h + 0.18 * h;
+      const Colour pane = b.grey(25, 80, 12);
+      b.rectangle(x, y, x + 0.56 * w, y + 0.62 * h, pane);
+      b.rectangle(x + 0.26 * w, y, x + 0.30 * w, y + 0.62 * h, b.grey(200, 215, 5));
+    }
+  }
+}
+
+void paint_bricks(Brush& b) {
+  b.fill(b.grey(165, 180, 5));
+  constexpr int kAcross = 4;
+  constexpr int kUp = 8;
+  constexpr double kJoint = 0.012;
+  for (int row = 0; row < kUp; ++row) {
+    const double shift = row % 2 ? 0.5 / kAcross : 0;
+    for (int column = -1; column < kAcross; ++column) {
+      const double x = column / double(kAcross) + shift;
+      const double v = b.between(70, 120);
+      const Colour c(cv::saturate_cast<uchar>(v * 1.25), cv::saturate_cast<uchar>(v * 0.8),
+                     cv::saturate_cast<uchar>(v * 0.7));
+      b.rectangle(std::max(0.0, x + kJoint), row / double(kUp) + kJoint, x + 1.0 / kAcross - kJoint,
+                  (row + 1.0) / kUp - kJoint, c);
+    }
+  }
+}
+
+/// A painting: sky, land, and a few large shapes before them.
+void paint_picture(Brush& b) {
+  const double horizon = b.between(0.45, 0.65);
+  b.fill(b.grey(185, 215, 15));
+  b.rectangle(0, horizon, 1, 1, b.grey(90, 130, 25));
+  for (int i = 0; i < 4; ++i) {
+    const double x = b.between(0.05, 0.7);
+    const double w = b.between(0.12, 0.25);
+    const double top = b.between(0.15, 0.5);
+    const double bottom = b.between(horizon, 0.92);
+    b.rectangle(x, top, x + w, bottom, i % 2 ? b.grey(20, 60, 18) : b.grey(200, 235, 15));
+  }
+  const double x = b.between(0.2, 0.8);
+  b.polygon(x, b.between(0.15, 0.3), b.between(0.07, 0.12), 3 + int(b.between(0, 3)),
+            b.grey(30, 70, 25));
+}
+
+/// Band-limited noise of low contrast: ground that is not flat grey and has no corners to speak of.
+void paint_ground(Brush& b) {
+  const Colour base = b.grey(105, 125, 4);
+  b.fill(base);
+  // a few waves of whole periods: smooth, and tiling without a seam
+  struct Wave {
+    int across, down;
+    double phase, amplitude;
+  };
+  std::array<Wave, 12> waves;
+  for (Wave& w : waves) {
+    w = {static_cast<int>(b.between(-7, 8)), static_cast<int>(b.between(1, 8)),
+         b.between(0, 2 * CV_PI), b.between(0.5, 2.5)};
+  }
+  for (int y = 0; y < b.height(); ++y) {
+    for (int x = 0; x < b.width(); ++x) {
+      double v = 0;
+      for (const Wave& w : waves) {
+        v += w.amplitude *
+             std::sin(2 * CV_PI *
+                          (w.across * (x + 0.5) / b.width() + w.down * (y + 0.5) / b.height()) +
+                      w.phase);
+      }
+      b.at(y, x) = {cv::saturate_cast<uchar>(base[0] + v), cv::saturate_cast<uchar>(base[1] + v),
+                    cv::saturate_cast<uchar>(base[2] + v)};
+    }
+  }
+}
+
+struct Style {
+  std::string_view name;
+  void (*paint)(Brush&);
+};
+constexpr std::array<Style, 9> kStyles = {{{"bricks", paint_bricks},
+                                           {"fewrects", paint_fewrects},
+                                           {"ground", paint_ground},
+                                           {"metal", paint_metal},
+                                           {"panel", paint_panel},
+                                           {"picture", paint_picture},
+                                           {"polygons", paint_polygons},
+                                           {"rects", paint_rects},
+                                           {"windows", paint_windows}}};
+
+/// A face of a cube texture as GL stores it, from the picture that shall be seen upright from
+/// outside with z up. GL's convention has y up, hence the turns; top and bottom have no upright.
+cv::Mat3b as_cube_face(const cv::Mat3b& picture, int face) {
+  cv::Mat3b out;
+  switch (face) {
+    case 0:  // +x
+      cv::rotate(picture, out, cv::ROTATE_90_CLOCKWISE);
+      return out;
+    case 1:  // -x
+      cv::rotate(picture, out, cv::ROTATE_90_COUNTERCLOCKWISE);
+      return out;
+    case 2:  // +y
+      cv::rotate(picture, out, cv::ROTATE_180);
+      return out;
+    default:
+      return picture;
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& texture_styles() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Style& s : kStyles) all.emplace_back(s.name);
+    return all;
+  }();
+  return names;
+}
+
+std::string_view procedural_style(std::string_view texture_name) {
+  const std::size_t at = texture_name.find(kProceduralPrefix);
+  if (at == std::string_view::npos) return {};
+  const std::string_view style = texture_name.substr(at + kProceduralPrefix.size());
+  return style.substr(0, style.find(':'));
+}
+
+cv::Mat3b paint(std::string_view style, int width_px, int height_px, RandomStream random) {
+  const auto* found =
+      std::find_if(kStyles.begin(), kStyles.end(), [&](const Style& s) { return s.name == style; });
+  if (found == kStyles.end()) {
+    std::string known;
+    for (const Style& s : kStyles) known += (known.empty() ? "" : ", ") + std::string(s.name);
+    throw std::invalid_argument("no texture style is called '" + std::string(style) +
+                                "'; there are " + known);
+  }
+  cv::Mat3b picture(height_px, width_px);
+  Brush brush(picture, random);
+  found->paint(brush);
+  return picture;
+}
+
+void fill_texture(Model& model, int texture, const cv::Mat3b& picture) {
+  const mjModel& m = model.m();
+  const int width = m.tex_width[texture];
+  const int channels = mj::texture_channels(m, texture);
+  const bool cube = m.tex_type[texture] != mjTEXTURE_2D;
+  const int faces = cube ? m.tex_height[texture] / width : 1;
+  const int face_height = m.tex_height[texture] / faces;
+  cv::Mat3b scaled;
+  cv::resize(picture, scaled, {width, face_height}, 0, 0, cv::INTER_AREA);
+
+  mjtByte* to = mj::texture_bytes(model.m(), texture);
+  for (int face = 0; face < faces; ++face) {
+    const cv::Mat3b image = cube ? as_cube_face(scaled, face) : scaled;
+    for (const Colour& pixel : image) {
+      for (int c = 0; c < channels; ++c) *to++ = c < 3 ? pixel[c] : 255;
+    }
+  }
+}
+
+void fill_procedural_textures(Model& model, std::uint64_t scenario_seed) {
+  const mjModel& m = model.m();
+  for (int texture = 0; texture < m.ntex; ++texture) {
+    const std::string_view name = model.name(mjOBJ_TEXTURE, texture);
+    const std::string_view style = procedural_style(name);
+    if (style.empty()) continue;
+    const int width = m.tex_width[texture];
+    const int height = m.tex_type[texture] == mjTEXTURE_2D ? m.tex_height[texture] : width;
+    const RandomStream random(scenario_seed, "texture/" + std::string(name));
+    fill_texture(model, texture, paint(style, width, height, random));
+  }
+}
+
+}  // namespace lcs::sim

@@ -1,0 +1,288 @@
+#include "sim/world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "sim/texture.h"
+
+namespace lcs::sim {
+namespace {
+
+constexpr std::int64_t kLongestStep_ns = 2'000'000;
+
+Model load(const scenario::Scenario& scenario, const ComposedScene& composed) {
+  try {
+    return Model(composed.mjcf);
+  } catch (const MujocoError& e) {
+    throw scenario::Error({scenario.scene.string(), 0},
+                          fmt::format("MuJoCo refuses the scene: {}; correct the scene", e.what()));
+  }
+}
+
+void fill_textures(Model& model, const scenario::Scenario& scenario,
+                   const ComposedScene& composed) {
+  try {
+    fill_procedural_textures(model, scenario.seed);
+  } catch (const std::invalid_argument& e) {
+    throw scenario::Error({scenario.scene.string(), 0}, e.what());
+  }
+  for (const PictureTexture& picture : composed.pictures) {
+    cv::Mat3b image = cv::imread(picture.file.string(), cv::IMREAD_COLOR);
+    if (image.empty()) {
+      throw scenario::Error(picture.source,
+                            fmt::format("'{}' is no picture that can be read; give a PNG file",
+                                        picture.file.string()));
+    }
+    cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
+    fill_texture(model, model.id(mjOBJ_TEXTURE, picture.texture), image);
+  }
+}
+
+double yaw(const Eigen::Matrix3d& R) {
+  return std::atan2(R(1, 0), R(0, 0));
+}
+
+Eigen::Quaterniond about_z(double angle_rad) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()));
+}
+
+/// Velocity of an element's frame in W.
+struct Twist {
+  Eigen::Vector3d angular, linear;
+};
+
+Twist velocity(const Model& model, mjtObj type, int id) {
+  std::array<mjtNum, 6> v{};
+  mj_objectVelocity(&model.m(), &model.d(), type, id, v.data(), 0);
+  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+
+}  // namespace
+
+std::int64_t event_time_ns(std::int64_t k, double rate_hz) {
+  return std::llround(static_cast<double>(k) * 1e9 / rate_hz);
+}
+
+World::World(const scenario::Scenario& scenario) : World(scenario, compose(scenario)) {}
+
+World::World(const scenario::Scenario& scenario, const ComposedScene& composed)
+    : scenario_(scenario),
+      model_(load(scenario, composed)),
+      imu_noise_(scenario.imu.noise, scenario.imu.rate_hz, scenario.seed),
+      odometry_noise_(scenario.odometry, scenario.seed),
+      camera_(model_.id(mjOBJ_CAMERA, kCamera)),
+      base_(model_.id(mjOBJ_BODY, kEgoBody)),
+      imu_site_(model_.id(mjOBJ_SITE, "ego/imu")),
+      accelerometer_(model_.m().sensor_adr[model_.id(mjOBJ_SENSOR, "ego/accelerometer")]),
+      gyro_(model_.m().sensor_adr[model_.id(mjOBJ_SENSOR, "ego/gyro")]) {
+  fill_textures(model_, scenario_, composed);
+  set_options();
+  rover_ = make_rover(scenario_, model_);
+  find_objects();
+  guarded([&] {
+    mj_kinematics(&model_.m(), &model_.d());
+    find_actors(composed);
+    rover_->start(model_);
+    mj_kinematics(&model_.m(), &model_.d());
+    forward();
+  });
+}
+
+/// The physics that the readings rely on, whatever the scene says.
+void World::set_options() {
+  mjOption& option = model_.m().opt;
+  // the only one whose accelerometer is the difference of its velocities
+  option.integrator = mjINT_EULER;
+  option.disableflags &=
+      ~(mjDSBL_SENSOR | mjDSBL_ACTUATION | mjDSBL_CLAMPCTRL | mjDSBL_FILTERPARENT);
+  const mjtNum* g = option.gravity;
+  const bool upright = g[0] == 0 && g[1] == 0 && g[2] <= 0;
+  if (!upright) {
+    throw scenario::Error({scenario_.scene.string(), 0},
+                          "gravity must point along -z of the world; correct <option gravity>");
+  }
+  gravity_mps2_ = option.disableflags & mjDSBL_GRAVITY ? 0 : -g[2];
+}
+
+void World::find_objects() {
+  const mjModel& m = model_.m();
+  object_bodies_ = {0};
+  std::vector<int> object_of_body(static_cast<std::size_t>(m.nbody), 0);
+  for (int body = 1; body < m.nbody; ++body) {
+    const auto b = static_cast<std::size_t>(body);
+    const std::string name(model_.name(mjOBJ_BODY, body));
+    const bool moves = m.body_dofnum[body] > 0;
+    const auto refuse = [&](const std::string& what) {
+      throw scenario::Error({scenario_.scene.string(), 0}, what);
+    };
+    if (m.body_parentid[body] != 0) {
+      object_of_body[b] = object_of_body[static_cast<std::size_t>(m.body_parentid[body])];
+      if (moves && object_of_body[b] >= 0) {
+        refuse(
+            fmt::format("body '{}' has a joint inside another body; an object moves as one: take "
+                        "the joint away, or make it a body of the worldbody",
+                        name));
+      }
+    } else if (name == kEgoBody) {
+      object_of_body[b] = -1;
+    } else if (!name.empty()) {
+      object_of_body[b] = static_cast<int>(object_bodies_.size());
+      objects_.push_back({object_of_body[b], name});
+      object_bodies_.push_back(body);
+    } else if (moves) {
+      refuse("a body of the worldbody that can move needs a name; give it one");
+    }
+  }
+  for (int geom = 0; geom < m.ngeom; ++geom) {
+    object_of_geom_.push_back(object_of_body[static_cast<std::size_t>(m.geom_bodyid[geom])]);
+  }
+}
+
+void World::find_actors(const ComposedScene& composed) {
+  for (std::size_t i = 0; i < scenario_.actors.size(); ++i) {
+    const scenario::Actor& actor = scenario_.actors[i];
+    const int body = model_.id(mjOBJ_BODY, composed.actor_bodies[i]);
+    const Pose T_WA = model_.body_pose(body);
+    const PlanarPose home{T_WA.p.head<2>(), yaw(T_WA.R)};
+    actors_.push_back({model_.m().body_mocapid[body], T_WA.p.z(),
+                       about_z(-home.heading_rad) * Eigen::Quaterniond(T_WA.R), home,
+                       actor.trajectory, Trigger(actor.start)});
+    place(actors_.back(), pose_on(actor.trajectory, home, 0));
+  }
+}
+
+void World::place(const MovingActor& actor, const PlanarPose& pose) {
+  mjtNum* p = model_.d().mocap_pos + 3 * actor.mocap;
+  mjtNum* q = model_.d().mocap_quat + 4 * actor.mocap;
+  const Eigen::Quaterniond attitude = about_z(pose.heading_rad) * actor.upright;
+  p[0] = pose.position_m.x();
+  p[1] = pose.position_m.y();
+  p[2] = actor.height_m;
+  q[0] = attitude.w();
+  q[1] = attitude.x();
+  q[2] = attitude.y();
+  q[3] = attitude.z();
+}
+
+void World::move_actors() {
+  const mjData& d = model_.d();
+  const Eigen::Map<const Eigen::Vector2d> ego(d.xpos + 3 * base_);
+  for (MovingActor& actor : actors_) {
+    const Eigen::Map<const Eigen::Vector2d> here(d.mocap_pos + 3 * actor.mocap);
+    const double since_start = actor.trigger.update(t_ns_, (here - ego).norm());
+    place(actor, pose_on(actor.trajectory, actor.home, since_start));
+  }
+}
+
+template <typename Action>
+void World::guarded(Action action) const {
+  std::string problem;
+  try {
+    action();
+    problem = take_warning();
+  } catch (const MujocoError& e) {
+    problem = e.what();
+  }
+  if (!problem.empty()) {
+    throw PhysicsError(fmt::format("the physics failed at {:.4f} s of simulated time: {}",
+                                   1e-9 * static_cast<double>(t_ns_), problem));
+  }
+}
+
+/// Everything that is read at the present time.
+void World::forward() {
+  // counted in nanoseconds, never summed up in steps
+  model_.d().time = 1e-9 * static_cast<double>(t_ns_);
+  rover_->command(model_, t_ns_);
+  move_actors();
+  mj_forward(&model_.m(), &model_.d());
+}
+
+std::int64_t World::next_event_ns(std::int64_t until_ns) const {
+  std::int64_t next = std::min(until_ns, event_time_ns(imu_count_, scenario_.imu.rate_hz));
+  if (scenario_.odometry.enabled) {
+    next = std::min(next, event_time_ns(odometry_count_, scenario_.odometry.rate_hz));
+  }
+  for (const scenario::EgoPhase& phase : scenario_.ego.phases) {
+    const std::int64_t at = std::llround(phase.at_s * 1e9);
+    if (at > t_ns_) next = std::min(next, at);
+  }
+  return next;
+}
+
+void World::step_to(std::int64_t t_ns) {
+  const std::int64_t start_ns = t_ns_;
+  const std::int64_t span_ns = t_ns - start_ns;
+  const std::int64_t steps = (span_ns + kLongestStep_ns - 1) / kLongestStep_ns;
+  mjModel& m = model_.m();
+  m.opt.timestep = 1e-9 * static_cast<double>(span_ns) / static_cast<double>(steps);
+  // counted, as MuJoCo sets its own time back to 0 when it diverges
+  for (std::int64_t i = 0; i < steps; ++i) {
+    guarded([&] {
+      rover_->command(model_, t_ns_);
+      move_actors();
+      mj_step(&m, &model_.d());
+    });
+    t_ns_ = start_ns + span_ns * (i + 1) / steps;
+  }
+  guarded([&] { forward(); });
+}
+
+void World::read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample>& odometry) {
+  const mjtNum* readings = model_.d().sensordata;
+  if (event_time_ns(imu_count_, scenario_.imu.rate_hz) == t_ns_) {
+    ++imu_count_;
+    imu.push_back(
+        imu_noise_.corrupt({t_ns_, Eigen::Map<const Eigen::Vector3d>(readings + gyro_),
+                            Eigen::Map<const Eigen::Vector3d>(readings + accelerometer_)}));
+  }
+  if (scenario_.odometry.enabled &&
+      event_time_ns(odometry_count_, scenario_.odometry.rate_hz) == t_ns_) {
+    ++odometry_count_;
+    odometry.push_back(odometry_noise_.corrupt({t_ns_, rover_->odometry(model_)}));
+  }
+}
+
+void World::advance_to(std::int64_t t_ns, std::vector<ImuSample>& imu,
+                       std::vector<OdometrySample>& odometry) {
+  read_sensors(imu, odometry);  // those at 0, which no step leads to
+  while (t_ns_ < t_ns) {
+    step_to(next_event_ns(t_ns));
+    read_sensors(imu, odometry);
+  }
+}
+
+Snapshot World::snapshot() const {
+  Snapshot s;
+  s.T_WC = model_.camera_pose(camera_);
+  s.T_WO.reserve(object_bodies_.size());
+  for (const int body : object_bodies_) s.T_WO.push_back(model_.body_pose(body));
+  return s;
+}
+
+Pose World::T_WB() const {
+  return model_.body_pose(base_);
+}
+Pose World::T_WS() const {
+  return model_.site_pose(imu_site_);
+}
+
+Eigen::Vector3d World::v_WB_mps() const {
+  return velocity(model_, mjOBJ_XBODY, base_).linear;
+}
+Eigen::Vector3d World::v_WC_mps() const {
+  return velocity(model_, mjOBJ_CAMERA, camera_).linear;
+}
+
+Eigen::Vector3d World::w_C_radps() const {
+  return model_.camera_pose(camera_).R.transpose() *
+         velocity(model_, mjOBJ_CAMERA, camera_).angular;
+}
+
+}  // namespace lcs::sim

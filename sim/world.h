@@ -1,0 +1,99 @@
+/// \file
+/// The physics of a run, without any picture: rover, actors and what else moves, and the readings
+/// of IMU and odometry. Needs no GL.
+///
+/// Events (frames, readings, phases of the ego) fall on exact times k / rate; the steps between two
+/// of them are equal and at most 2 ms long. What is read at an event belongs to its very time:
+/// forward quantities are computed anew there.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scenarios/scenario.h"
+#include "sim/actor.h"
+#include "sim/imu_noise.h"
+#include "sim/model.h"
+#include "sim/rover.h"
+#include "sim/scene_builder.h"
+#include "sim/simulation.h"
+
+namespace lcs::sim {
+
+/// Time of event k of something that happens `rate_hz` times a second, from 0.
+std::int64_t event_time_ns(std::int64_t k, double rate_hz);
+
+class World {
+ public:
+  /// Stands at t = 0 afterwards.
+  /// \throws scenario::Error, PhysicsError
+  explicit World(const scenario::Scenario& scenario);
+
+  /// Moves on to a time, and appends the readings after the last time up to and including this one.
+  /// The very first call, with 0, gives those at 0.
+  /// \throws PhysicsError
+  void advance_to(std::int64_t t_ns, std::vector<ImuSample>& imu,
+                  std::vector<OdometrySample>& odometry);
+
+  Model& model() { return model_; }
+  const Model& model() const { return model_; }
+  int camera_id() const { return camera_; }
+  double gravity_mps2() const { return gravity_mps2_; }
+
+  const std::vector<Object>& objects() const { return objects_; }
+  /// Body of an object; index 0 is the world.
+  int body_of(int object) const { return object_bodies_.at(static_cast<std::size_t>(object)); }
+  /// What FrameTruth::object says of a geom.
+  int object_of_geom(int geom) const { return object_of_geom_[static_cast<std::size_t>(geom)]; }
+
+  Snapshot snapshot() const;
+  Pose T_WB() const;
+  Pose T_WS() const;
+  Eigen::Vector3d v_WB_mps() const;
+  Eigen::Vector3d v_WC_mps() const;
+  Eigen::Vector3d w_C_radps() const;
+
+ private:
+  struct MovingActor {
+    int mocap = 0;
+    double height_m = 0;                                          ///< of the body's origin
+    Eigen::Quaterniond upright = Eigen::Quaterniond::Identity();  ///< attitude at heading 0
+    PlanarPose home;
+    scenario::Trajectory trajectory;
+    Trigger trigger;
+  };
+
+  World(const scenario::Scenario& scenario, const ComposedScene& composed);
+  void set_options();
+  void find_objects();
+  void find_actors(const ComposedScene& composed);
+  void place(const MovingActor& actor, const PlanarPose& pose);
+  void move_actors();
+  void forward();
+  void step_to(std::int64_t t_ns);
+  void check_warnings() const;
+  template <typename Action>
+  void guarded(Action action) const;
+  std::int64_t next_event_ns(std::int64_t until_ns) const;
+  void read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample>& odometry);
+
+  scenario::Scenario scenario_;
+  Model model_;
+  std::unique_ptr<Rover> rover_;
+  std::vector<MovingActor> actors_;
+  std::vector<Object> objects_;
+  std::vector<int> object_bodies_;
+  std::vector<int> object_of_geom_;
+  ImuNoiseModel imu_noise_;
+  OdometryNoiseModel odometry_noise_;
+  int camera_, base_, imu_site_, accelerometer_, gyro_;
+  double gravity_mps2_ = 0;
+  std::int64_t t_ns_ = 0;
+  std::int64_t imu_count_ = 0;  ///< readings given out
+  std::int64_t odometry_count_ = 0;
+};
+
+}  // namespace lcs::sim

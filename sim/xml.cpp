@@ -1,0 +1,165 @@
+#include "sim/xml.h"
+
+#include <array>
+#include <string_view>
+
+namespace lcs::sim::xml {
+namespace {
+
+namespace fs = std::filesystem;
+using tinyxml2::XMLDocument;
+using tinyxml2::XMLNode;
+
+// Attributes that hold the path of a file.
+constexpr std::array<const char*, 7> kFiles = {"file",     "fileright", "fileleft", "fileup",
+                                               "filedown", "filefront", "fileback"};
+
+// Attributes that hold the name of another element.
+constexpr std::array<std::string_view, 18> kReferences = {
+    "texture", "material", "class",   "childclass", "mesh",     "hfield",
+    "joint",   "site",     "body",    "body1",      "body2",    "geom1",
+    "geom2",   "target",   "objname", "tendon",     "actuator", "geom"};
+
+[[noreturn]] void fail(const fs::path& file, int line, const std::string& message) {
+  throw scenario::Error({file.string(), line}, message);
+}
+
+Document parse(const fs::path& file, const scenario::Source& where) {
+  auto document = std::make_unique<XMLDocument>();
+  const tinyxml2::XMLError status = document->LoadFile(file.c_str());
+  if (status == tinyxml2::XML_ERROR_FILE_NOT_FOUND ||
+      status == tinyxml2::XML_ERROR_FILE_COULD_NOT_BE_OPENED ||
+      status == tinyxml2::XML_ERROR_FILE_READ_ERROR) {
+    throw scenario::Error(where,
+                          "cannot read '" + file.string() + "'; give the path of an MJCF file");
+  }
+  if (status != tinyxml2::XML_SUCCESS) {
+    fail(file, document->ErrorLineNum(),
+         std::string("is not well-formed XML (") + XMLDocument::ErrorIDToName(status) +
+             "); correct the file");
+  }
+  const Element* root = document->RootElement();
+  const std::string_view kind = root ? root->Name() : "";
+  if (kind != "mujoco" && kind != "mujocoinclude") {
+    fail(file, root ? root->GetLineNum() : 1, "is not MJCF: its root element must be <mujoco>");
+  }
+  return document;
+}
+
+/// Where a document's files are looked for.
+struct Folders {
+  fs::path base, meshes, textures;
+};
+
+Folders folders_of(const Element& root, const fs::path& file) {
+  Folders folders{fs::absolute(file).parent_path(), "", ""};
+  for (const Element* c = root.FirstChildElement("compiler"); c;
+       c = c->NextSiblingElement("compiler")) {
+    if (const char* both = c->Attribute("assetdir")) folders.meshes = folders.textures = both;
+    if (const char* dir = c->Attribute("meshdir")) folders.meshes = dir;
+    if (const char* dir = c->Attribute("texturedir")) folders.textures = dir;
+  }
+  return folders;
+}
+
+void make_absolute(Element& root, const fs::path& file) {
+  const Folders folders = folders_of(root, file);
+  const auto resolve = [&](Element& e) {
+    const bool picture = std::string_view(e.Name()) == "texture";
+    for (const char* key : kFiles) {
+      const char* value = e.Attribute(key);
+      if (!value) continue;
+      const fs::path path = folders.base / (picture ? folders.textures : folders.meshes) / value;
+      if (!fs::is_regular_file(path)) {
+        fail(file, e.GetLineNum(),
+             "file '" + path.lexically_normal().string() +
+                 "' is missing; put it there or correct the name");
+      }
+      e.SetAttribute(key, path.lexically_normal().c_str());
+    }
+  };
+  for (Element* s = root.FirstChildElement("asset"); s; s = s->NextSiblingElement("asset")) {
+    for_each(*s, resolve);
+  }
+}
+
+void expand_includes(Element& parent, const fs::path& main_file, const fs::path& file, int depth) {
+  constexpr int kDeepest = 16;  // a file that includes itself never ends
+  for (Element* e = parent.FirstChildElement(); e;) {
+    Element* next = e->NextSiblingElement();
+    if (std::string_view(e->Name()) != "include") {
+      expand_includes(*e, main_file, file, depth);
+      e = next;
+      continue;
+    }
+    const scenario::Source here{file.string(), e->GetLineNum()};
+    if (depth >= kDeepest) throw scenario::Error(here, "includes are nested too deep");
+    // relative to the main file, as MuJoCo has it
+    const fs::path path = main_file.parent_path() / attribute(*e, "file");
+    const Document included = parse(path, here);
+    expand_includes(*included->RootElement(), main_file, path, depth + 1);
+    XMLNode* after = e;
+    for (const XMLNode* n = included->RootElement()->FirstChild(); n; n = n->NextSibling()) {
+      after = parent.InsertAfterChild(after, n->DeepClone(parent.GetDocument()));
+    }
+    parent.DeleteChild(e);
+    e = next;
+  }
+}
+
+}  // namespace
+
+Document load(const fs::path& file, const scenario::Source& where) {
+  Document document = parse(file, where);
+  expand_includes(*document->RootElement(), file, file, 0);
+  make_absolute(*document->RootElement(), file);
+  return document;
+}
+
+void for_each(Element& element, const std::function<void(Element&)>& visit) {
+  visit(element);
+  for (Element* e = element.FirstChildElement(); e; e = e->NextSiblingElement())
+    for_each(*e, visit);
+}
+
+void prefix_names(Element& root, const std::string& prefix) {
+  const auto put = [&](Element& e, const char* key) {
+    if (const char* value = e.Attribute(key)) e.SetAttribute(key, (prefix + value).c_str());
+  };
+  const auto rename = [&](Element& e) {
+    put(e, "name");
+    for (const std::string_view key : kReferences) put(e, key.data());
+  };
+  for (Element* e = root.FirstChildElement(); e; e = e->NextSiblingElement()) for_each(*e, rename);
+}
+
+void append_children(Element& to, const Element& from) {
+  for (const XMLNode* n = from.FirstChild(); n; n = n->NextSibling()) {
+    to.InsertEndChild(n->DeepClone(to.GetDocument()));
+  }
+}
+
+Element& section(Element& root, const char* kind) {
+  if (Element* found = root.FirstChildElement(kind)) return *found;
+  return *root.InsertNewChildElement(kind);
+}
+
+Element* child_named(Element& parent, const char* kind, const std::string& name) {
+  for (Element* e = parent.FirstChildElement(kind); e; e = e->NextSiblingElement(kind)) {
+    if (attribute(*e, "name") == name) return e;
+  }
+  return nullptr;
+}
+
+std::string attribute(const Element& element, const char* name) {
+  const char* value = element.Attribute(name);
+  return value ? value : "";
+}
+
+std::string print(const XMLDocument& document) {
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  return printer.CStr();
+}
+
+}  // namespace lcs::sim::xml
