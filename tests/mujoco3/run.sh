@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# Usage: run.sh SOURCE WORK CMAKE
+#
+# Downloads the newest wheel of MuJoCo 3 (it has the headers and the library), builds SOURCE against
+# it in WORK, and runs a few frames. Exits with 77, skipped, when the download is not possible here.
+set -euo pipefail
+source=$1 work=$2 cmake=$3
+frames=5
+
+skip() {
+  printf 'SKIPPED: %s\n' "$*"
+  exit 77
+}
+fail() {
+  printf 'FAILED: %s\n' "$*"
+  exit 1
+}
+
+# The wheel for this machine, or a reason why there is none.
+download() {
+  python3 -m pip --version >/dev/null 2>&1 ||
+    skip "the download needs pip (Debian: python3-pip, which tools/test --all installs)"
+  rm -rf "$work/wheel" "$work/mujoco"
+  mkdir -p "$work/wheel"
+  local log=$work/pip.log
+  if ! python3 -m pip download --disable-pip-version-check --no-deps --only-binary :all: \
+    --retries 1 --timeout 30 --dest "$work/wheel" 'mujoco>=3,<4' >"$log" 2>&1; then
+    cat "$log"
+    if grep -qE 'Retrying|Max retries|Connection|timed out|ProxyError|name resolution' "$log"; then
+      skip "the Python package registry is not reachable, so there is no MuJoCo 3 to build against"
+    fi
+    fail "pip found no wheel of MuJoCo 3 for this machine"
+  fi
+  python3 -m zipfile --extract "$work"/wheel/mujoco-*.whl "$work/unpacked"
+  mv "$work/unpacked/mujoco" "$work/mujoco"
+  rm -rf "$work/unpacked"
+}
+
+build() {
+  "$cmake" -S "$source" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+    -DLCS_MUJOCO_ROOT="$work/mujoco"
+  "$cmake" --build "$work/build" --target lcs
+}
+
+run() {
+  "$work/build/lcs" --version | tee "$work/version.txt"
+  grep -qE 'MuJoCo +3\.' "$work/version.txt" || fail "the program does not run on MuJoCo 3"
+  rm -rf "$work/out"
+  "$work/build/lcs" run "$source/scenarios/crossing.yaml" --set frames="$frames" --out "$work/out"
+  local file
+  for file in metrics.json frames.csv layers.jsonl video.mp4; do
+    [[ -s $work/out/$file ]] || fail "the run left no $file"
+  done
+  grep -qE "\"frames\": *$frames(\.0)?[,}]?$" "$work/out/metrics.json" ||
+    fail "metrics.json does not tell of $frames frames"
+  [[ $(wc -l <"$work/out/frames.csv") -eq $((frames + 1)) ]] ||
+    fail "frames.csv does not have a header and $frames rows"
+}
+
+mkdir -p "$work"
+download
+build
+run

@@ -1,0 +1,86 @@
+# Sourced by tools/run and tools/test. Brings the machine and build/ up to date:
+#   install_packages PACKAGE...   installs those that are missing, or says how and exits with 2
+#   build_release TARGET...       configures and builds the release preset
+# Made for Debian 12, whose packages have the versions that the project is tested with.
+# shellcheck shell=bash
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+
+# What building and running need. Without --no-install-recommends OpenCV brings a desktop along.
+packages=(
+  g++ cmake ninja-build pkg-config
+  libmujoco-dev libosmesa6-dev libopencv-dev libeigen3-dev
+  libyaml-cpp-dev libtinyxml2-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev
+)
+
+say() { printf '%s\n' "$*" >&2; }
+
+missing_packages() {
+  local installed
+  installed=" $(dpkg-query --show --showformat='${Package}=${db:Status-Status} ' "$@" 2>/dev/null) "
+  local package
+  for package in "$@"; do
+    [[ $installed == *" $package=installed "* ]] || printf '%s\n' "$package"
+  done
+}
+
+# Sets as_root to what runs a command as root, or fails.
+find_root() {
+  if [[ $EUID -eq 0 ]]; then
+    as_root=(env)
+  elif sudo -n true 2>/dev/null; then
+    as_root=(sudo -n)
+  else
+    return 1
+  fi
+}
+
+warn_unless_debian_12() {
+  local ID='' VERSION_ID='' PRETTY_NAME='this system'
+  # shellcheck source=/dev/null
+  [[ -r /etc/os-release ]] && . /etc/os-release
+  [[ $ID == debian && $VERSION_ID == 12 ]] ||
+    say "This is made for Debian 12 and untested on $PRETTY_NAME; trying all the same."
+}
+
+install_packages() {
+  if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    warn_unless_debian_12
+    say "There is no apt-get here; these have to be installed by other means: $*"
+    return
+  fi
+  local missing
+  mapfile -t missing < <(missing_packages "$@")
+  [[ ${#missing[@]} -gt 0 ]] || return 0
+
+  warn_unless_debian_12
+  local as_root install="apt-get install -y --no-install-recommends ${missing[*]}"
+  if ! find_root; then
+    say "Packages are missing, and there is neither root nor sudo without a password here. As root:"
+    say "  apt-get update && $install"
+    exit 2
+  fi
+  say "Installing ${missing[*]}"
+  local apt=("${as_root[@]}" DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=600)
+  if ! { "${apt[@]}" update && "${apt[@]}" install -y --no-install-recommends "${missing[@]}"; } >&2
+  then
+    say "apt-get failed, see above. As root, and when that is mended:"
+    say "  apt-get update && $install"
+    exit 2
+  fi
+}
+
+# Configures when nothing has yet, when the presets changed, or when the checkout was moved. What else
+# changes, ninja notices by itself.
+configure_release() {
+  local ninja_file=$root/build/build.ninja cache=$root/build/CMakeCache.txt
+  if [[ ! -f $ninja_file ]] || ! grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then
+    cmake --preset release --fresh
+  elif [[ $root/CMakePresets.json -nt $ninja_file ]]; then
+    cmake --preset release
+  fi
+}
+
+build_release() {
+  (cd "$root" && configure_release && cmake --build --preset release --target "$@") >&2
+}
