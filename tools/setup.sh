@@ -16,11 +16,11 @@ packages=(
 say() { printf '%s\n' "$*" >&2; }
 
 missing_packages() {
-  local installed
-  installed=" $(dpkg-query --show --showformat='${Package}=${db:Status-Status} ' "$@" 2>/dev/null) "
-  local package
+  # dpkg-query fails on packages that it has never heard of: they are just not in its answer
+  local package installed
+  installed=$(dpkg-query --show --showformat='${Package}=${db:Status-Status} ' "$@" 2>/dev/null) || true
   for package in "$@"; do
-    [[ $installed == *" $package=installed "* ]] || printf '%s\n' "$package"
+    [[ " $installed" == *" $package=installed "* ]] || printf '%s\n' "$package"
   done
 }
 
