@@ -32,8 +32,8 @@ void CircleExpert::predict(Layers& layers, const MotionField& field) const {
   }
   for (Circle& circle : layers.rebel_circles) {
     circle.origin = field.rotated(circle.origin);
-    circle.location = field.rotated(circle.location) +
-                      circle.speed * field.dt_s() * unit_vector(circle.angle);
+    circle.location =
+        field.rotated(circle.location) + circle.speed * field.dt_s() * unit_vector(circle.angle);
   }
 }
 
@@ -96,8 +96,8 @@ CircleExpert::Group CircleExpert::mean_circle(const std::vector<Edge>& edges, st
   return group;
 }
 
-/// The groups C_m: each starts from the most trusted edge that is still free, and takes the edges near
-/// it that are like it.
+/// The groups C_m: each starts from the most trusted edge that is still free, and takes the edges
+/// near it that are like it.
 void CircleExpert::group(const std::vector<Edge>& edges, const MotionField& field) {
   points_.clear();
   for (const Edge& edge : edges) points_.push_back(edge.location);
@@ -141,8 +141,8 @@ void CircleExpert::estimate_circle(Circle& circle, const Circle& mean, bool alig
   const TrustRanks& ranks = parameters_.trust;
   circle.location = estimate(circle.trust, ranks, circle.location, mean.location);
   circle.radius = estimate(circle.trust, ranks, circle.radius, mean.radius);
-  circle.angle = wrap_angle(circle.angle +
-                            estimate(circle.trust, ranks, 0.0, wrap_angle(mean.angle - circle.angle)));
+  circle.angle = wrap_angle(
+      circle.angle + estimate(circle.trust, ranks, 0.0, wrap_angle(mean.angle - circle.angle)));
   if (circle.rebel) circle.angle = mean.angle;
   circle.origin = mean.origin;
   circle.speed = mean.speed;
@@ -164,7 +164,8 @@ void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
   std::vector<Pair> pairs;
   for (std::size_t c = 0; c < circles.size(); ++c) {
     const Circle& circle = circles[c];
-    const double epsilon_beta = circle.rebel ? parameters_.epsilon_beta_r : parameters_.epsilon_beta_n;
+    const double epsilon_beta =
+        circle.rebel ? parameters_.epsilon_beta_r : parameters_.epsilon_beta_n;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       const Circle& mean = groups_[g].mean;
       const double distance = (mean.location - circle.location).norm();
@@ -179,8 +180,8 @@ void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
           circle.rebel ? std::abs(circle.speed - mean.speed) <= tolerance
                        : std::abs(circle.depth_ratio - mean.depth_ratio) <= parameters_.epsilon_v;
       if (!speeds) continue;
-      const bool aligned = (!circle.rebel && !field.moving()) ||
-                           within(circle.angle, mean.angle, epsilon_beta);
+      const bool aligned =
+          (!circle.rebel && !field.moving()) || within(circle.angle, mean.angle, epsilon_beta);
       pairs.push_back({share, distance, c, g, aligned});
     }
   }
@@ -208,8 +209,8 @@ void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
     if (circle_of_group[g] >= 0) continue;
     Circle circle = groups_[g].mean;
     circle.id = next_id_++;
-    circle.trust = circle.rebel ? parameters_.trust.initial_rebel()
-                                : parameters_.trust.initial_normal();
+    circle.trust =
+        circle.rebel ? parameters_.trust.initial_rebel() : parameters_.trust.initial_normal();
     circle_of_group[g] = static_cast<int>(circles.size());
     circles.push_back(circle);
   }
@@ -219,7 +220,8 @@ void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
   std::size_t kept = 0;
   for (std::size_t c = 0; c < circles.size(); ++c) {
     const Vec2& x = circles[c].location;
-    const bool outside = x.x() < 0 || x.y() < 0 || x.x() > camera_.width_px || x.y() > camera_.height_px;
+    const bool outside =
+        x.x() < 0 || x.y() < 0 || x.x() > camera_.width_px || x.y() > camera_.height_px;
     if (!parameters_.trust.alive(circles[c].trust) || outside) continue;
     index[c] = static_cast<int>(kept);
     circles[kept++] = circles[c];

@@ -1,6 +1,6 @@
 /// \file
-/// Circle expert, second part: edges of like motion become circles, which are matched to the predicted
-/// ones ("Normal Edge Circling", "Rebel Edge Circling").
+/// Circle expert, second part: edges of like motion become circles, which are matched to the
+/// predicted ones ("Normal Edge Circling", "Rebel Edge Circling").
 #pragma once
 
 #include <vector>
@@ -27,8 +27,8 @@ class CircleExpert {
   /// Groups the edges and matches, estimates, makes and deletes circles of both kinds.
   void update(Layers& layers, const MotionField& field);
 
-  /// Transition II: normal circles that reached Tr_m will be ignored in the next frame, and their trust
-  /// falls, so that they are looked at again after it. Rebels are never ignored.
+  /// Transition II: normal circles that reached Tr_m will be ignored in the next frame, and their
+  /// trust falls, so that they are looked at again after it. Rebels are never ignored.
   void update_ignorance(Layers& layers) const;
 
  private:

@@ -58,7 +58,7 @@ void ConstellationEdges::remember(const Chi& chi) {
   remembered_ = std::min(remembered_ + 1, 2);
 }
 
-void ConstellationEdges::assign(const Layers& layers, const Chi& chi, const MotionField& field) {
+void ConstellationEdges::assign(const Layers& layers, const Chi& chi) {
   const ConstellationParameters& p = parameters_.constellation;
   pairs_.clear();
   const auto gate = [&](const Edge& edge, int index, double along, double across) {
@@ -87,15 +87,14 @@ void ConstellationEdges::assign(const Layers& layers, const Chi& chi, const Moti
     const double base = std::min(p.rebel_gate_max, p.rebel_gate + p.rebel_growth * length);
     gate(edge, normals + static_cast<int>(i), base + 0.08 * length, base + 0.04 * length);
   }
-  (void)field;
   assign_one_to_one(layers.normal_edges.size() + layers.rebel_edges.size(), chi.size());
 }
 
 void ConstellationEdges::update_normal(Edge& edge, const Vec2& x, const MotionField& field) const {
   if (field.moving()) {
     const double measured = field.ratio_from(x, edge.rotated, field.displacement_C_m());
-    edge.depth_ratio = estimate(std::max(edge.trust, trust_.critical + 1), trust_,
-                                edge.depth_ratio, measured);
+    edge.depth_ratio =
+        estimate(std::max(edge.trust, trust_.critical + 1), trust_, edge.depth_ratio, measured);
   }
   edge.location = (edge.predicted + 2 * x) / 3;
   edge.speed = edge.depth_ratio * field.reference_speed(edge.location);
@@ -113,8 +112,8 @@ void ConstellationEdges::set_velocity(Edge& edge, const Vec2& velocity_pxps, dou
 /// By how much a step leaves the images that a static point at any plausible depth may take, px.
 double ConstellationEdges::off_field(const Vec2& x, const Vec2& before,
                                      const MotionField& field) const {
-  return distance_to_segment(
-      before, x, field.earlier(x, field.max_ratio(), field.displacement_C_m()));
+  return distance_to_segment(before, x,
+                             field.earlier(x, field.max_ratio(), field.displacement_C_m()));
 }
 
 void ConstellationEdges::update_rebel(Edge& edge, const Vec2& x, const MotionField& field) const {
@@ -176,12 +175,11 @@ void ConstellationEdges::seek_static_past(const Chi& chi, const MotionField& fie
   }
 }
 
-/// Votes for the displacement `step` (from `before` to x) at a change of size by `scale`: for each
-/// voter, whether it has a predecessor at its place in the displaced constellation, and that one
-/// another. Gives up when it can no longer beat `best`.
-int ConstellationEdges::count_votes(const Chi& chi, const Vec2& x, const Vec2& before,
-                                    const Vec2& step, double scale, int own, double best) const {
-  (void)step;
+/// Votes for the displacement from `before` to x at a change of size by `scale`: for each voter,
+/// whether it has a predecessor at its place in the displaced constellation, and that one another.
+/// Gives up when it can no longer beat `best`.
+int ConstellationEdges::count_votes(const Chi& chi, const Vec2& x, const Vec2& before, double scale,
+                                    int own, int best) const {
   int votes = own;
   int left = static_cast<int>(voters_.size());
   for (const int voter : voters_) {
@@ -223,7 +221,7 @@ void ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Motio
     const Vec2 step = x - before;
     const int own = past_[1].map.at(before - step) >= 0 ? 2 : 1;
     for (const double scale : kScales) {
-      const int votes = count_votes(chi, x, before, step, scale, own, best);
+      const int votes = count_votes(chi, x, before, scale, own, best);
       if (votes > best) {
         best = votes;
         best_step = step;
@@ -237,8 +235,7 @@ void ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Motio
                     off_field(x, x - best_step, field) > p.off_field;
 }
 
-void ConstellationEdges::vote(const Layers& layers, const Chi& chi, const MotionField& field) {
-  (void)layers;
+void ConstellationEdges::vote(const Chi& chi, const MotionField& field) {
   past_grid_.build(past_[0].corners, 16);
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (candidates_[c].residual) vote_on(c, chi, field);
@@ -270,15 +267,15 @@ void ConstellationEdges::make_edges(Layers& layers, const Chi& chi, const Motion
       layers.rebel_edges.back().corner = static_cast<int>(c);
     } else if (candidate.residual && links_[c].kind == Kind::none && candidate.static_hits >= 2) {
       links_[c] = {Kind::normal, static_cast<int>(layers.normal_edges.size())};
-      layers.normal_edges.push_back(make_normal(
-          x, candidate.static_ratio, parameters_.constellation.normal_along, field));
+      layers.normal_edges.push_back(
+          make_normal(x, candidate.static_ratio, parameters_.constellation.normal_along, field));
       layers.normal_edges.back().corner = static_cast<int>(c);
     }
   }
 }
 
-/// Rebels near each other that move alike, and of which enough move as no static point does, bear each
-/// other out. Those that do not hold together lose trust.
+/// Rebels near each other that move alike, and of which enough move as no static point does, bear
+/// each other out. Those that do not hold together lose trust.
 void ConstellationEdges::support(Layers& layers, const MotionField& field) {
   const ConstellationParameters& p = parameters_.constellation;
   std::vector<Edge>& rebels = layers.rebel_edges;
@@ -326,8 +323,8 @@ void ConstellationEdges::support(Layers& layers, const MotionField& field) {
   smooth(rebels, field.dt_s());
 }
 
-/// A shift and a change of size are fitted to the velocities of each component, and pull them; an edge
-/// that is far off the fit loses trust.
+/// A shift and a change of size are fitted to the velocities of each component, and pull them; an
+/// edge that is far off the fit loses trust.
 void ConstellationEdges::smooth(std::vector<Edge>& rebels, double dt_s) {
   std::vector<std::vector<std::size_t>> members(rebels.size());
   for (std::size_t i = 0; i < rebels.size(); ++i) {
@@ -383,8 +380,8 @@ bool ConstellationEdges::confirms(const Vec2& x, const Vec2& step) const {
   return past_[1].map.at(before - 0.5 * (x - before + step)) >= 0;
 }
 
-/// A corner most of whose decided neighbours are rebels is one; it becomes a rebel edge where its own
-/// past confirms their motion. A trusted normal edge is not overruled without that.
+/// A corner most of whose decided neighbours are rebels is one; it becomes a rebel edge where its
+/// own past confirms their motion. A trusted normal edge is not overruled without that.
 void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionField& field) {
   const ConstellationParameters& p = parameters_.constellation;
   const std::vector<char> decided = called_;
@@ -395,8 +392,8 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
     corner_grid_.visit_within(x, p.inherit_radius, [&](int other, double distance2) {
       if (other == static_cast<int>(c)) return;
       const Link& link = links_[other];
-      const bool normal = link.kind == Kind::normal &&
-                          layers.normal_edges[link.index].trust >= p.established;
+      const bool normal =
+          link.kind == Kind::normal && layers.normal_edges[link.index].trust >= p.established;
       if (decided[other] || normal) near_.emplace_back(distance2, other);
     });
     std::sort(near_.begin(), near_.end());
@@ -437,7 +434,7 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
 void ConstellationEdges::update(Layers& layers, const Chi& chi, const MotionField& field,
                                 std::vector<Verdict>& verdicts) {
   corner_grid_.build(chi.locations, 16);
-  assign(layers, chi, field);
+  assign(layers, chi);
   const std::size_t normals = layers.normal_edges.size();
   for (std::size_t i = 0; i < normals; ++i) {
     Edge& edge = layers.normal_edges[i];
@@ -465,7 +462,7 @@ void ConstellationEdges::update(Layers& layers, const Chi& chi, const MotionFiel
     past_[0].map.build(past_[0].corners, parameters_.constellation.hit_1);
     past_[1].map.build(past_[1].corners, parameters_.constellation.hit_2);
     seek_static_past(chi, field);
-    vote(layers, chi, field);
+    vote(chi, field);
     make_edges(layers, chi, field);
     support(layers, field);
     for (std::size_t c = 0; c < chi.size(); ++c) {

@@ -1,11 +1,13 @@
 /// \file
-/// Edges told by groups. With corners 5 to 6 px apart, a chain of three single corners in line is found
-/// by chance everywhere; that a corner and its neighbours all find predecessors at one and the same
-/// displacement, twice, is not. This rule stands in for xi and alpha of the paper:
+/// Edges told by groups. With corners 5 to 6 px apart, a chain of three single corners in line is
+/// found by chance everywhere; that a corner and its neighbours all find predecessors at one and
+/// the same displacement, twice, is not. This rule stands in for xi and alpha of the paper:
 ///
-/// 1. Normal edges are predicted by their own depth, rebels by their own image velocity, and both compete
+/// 1. Normal edges are predicted by their own depth, rebels by their own image velocity, and both
+/// compete
 ///    for corners in narrow gates.
-/// 2. A corner that no trusted edge explains looks for its static past: a depth at which both of the last
+/// 2. A corner that no trusted edge explains looks for its static past: a depth at which both of
+/// the last
 ///    two frames show a corner. Two hits make a normal edge, born with that depth.
 /// 3. It also lets its neighbours vote on a common displacement. A motion that beats the static
 ///    explanation of the same corners makes a rebel edge.
@@ -55,7 +57,7 @@ class ConstellationEdges : public EdgeExpert {
   };
 
   void remember(const Chi& chi);
-  void assign(const Layers& layers, const Chi& chi, const MotionField& field);
+  void assign(const Layers& layers, const Chi& chi);
   void update_normal(Edge& edge, const Vec2& x, const MotionField& field) const;
   void update_rebel(Edge& edge, const Vec2& x, const MotionField& field) const;
   void set_velocity(Edge& edge, const Vec2& velocity_pxps, double dt_s) const;
@@ -63,10 +65,10 @@ class ConstellationEdges : public EdgeExpert {
   void find_residuals(const Layers& layers, const Chi& chi);
   void seek_static_past(const Chi& chi, const MotionField& field);
   int static_hits(const Vec2& x, double depth_ratio, const MotionField& field) const;
-  void vote(const Layers& layers, const Chi& chi, const MotionField& field);
+  void vote(const Chi& chi, const MotionField& field);
   void vote_on(std::size_t corner, const Chi& chi, const MotionField& field);
-  int count_votes(const Chi& chi, const Vec2& x, const Vec2& before, const Vec2& step, double scale,
-                  int own, double best) const;
+  int count_votes(const Chi& chi, const Vec2& x, const Vec2& before, double scale, int own,
+                  int best) const;
   void make_edges(Layers& layers, const Chi& chi, const MotionField& field);
   Edge make_rebel(const Vec2& x, const Vec2& velocity_pxps, double dt_s);
   void support(Layers& layers, const MotionField& field);
@@ -81,13 +83,13 @@ class ConstellationEdges : public EdgeExpert {
   // Of the current frame; kept for their memory.
   PointGrid past_grid_, rebel_grid_;
   std::vector<Candidate> candidates_;
-  std::vector<Link> links_;            // of each corner
-  std::vector<char> borne_out_;        // of each rebel edge
-  std::vector<char> called_;           // corners that leave as rebels
+  std::vector<Link> links_;      // of each corner
+  std::vector<char> borne_out_;  // of each rebel edge
+  std::vector<char> called_;     // corners that leave as rebels
   std::vector<std::pair<double, int>> near_;
   std::vector<int> voters_;
   std::vector<Vec2> points_;
-  std::vector<int> component_;         // of each rebel edge
+  std::vector<int> component_;  // of each rebel edge
 };
 
 }  // namespace lcs

@@ -31,7 +31,8 @@ void EdgeExpert::coast(Edge& edge, const std::vector<IgnoreRegion>& psi) const {
 void EdgeExpert::bury(std::vector<Edge>& edges) const {
   std::erase_if(edges, [&](const Edge& edge) {
     return !trust_.alive(edge.trust) || edge.location.x() < -0.5 || edge.location.y() < -0.5 ||
-           edge.location.x() > camera_.width_px - 0.5 || edge.location.y() > camera_.height_px - 0.5;
+           edge.location.x() > camera_.width_px - 0.5 ||
+           edge.location.y() > camera_.height_px - 0.5;
   });
 }
 

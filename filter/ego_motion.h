@@ -1,5 +1,6 @@
 /// \file
-/// How the camera moved between two frames, and the strapdown integration that finds it from an IMU.
+/// How the camera moved between two frames, and the strapdown integration that finds it from an
+/// IMU.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +17,8 @@ struct EgoMotion {
   Eigen::Matrix3d R_cur_prev = Eigen::Matrix3d::Identity();
   /// Mean velocity of the camera over the interval, in the camera frame of k.
   Eigen::Vector3d v_C_mps = Eigen::Vector3d::Zero();
-  /// Mean body rate of the camera over the interval, in the camera frame: R_cur_prev = exp(-[w] dt).
+  /// Mean body rate of the camera over the interval, in the camera frame: R_cur_prev = exp(-[w]
+  /// dt).
   Eigen::Vector3d w_C_radps = Eigen::Vector3d::Zero();
 };
 
@@ -38,8 +40,9 @@ struct EgoMotionNoise {
 };
 
 /// Strapdown integration of gyro and accelerometer from a known start, in the world frame W (z up,
-/// gravity along -z), with an error-state Kalman filter on (attitude, velocity, gyro bias, accelerometer
-/// bias) that takes wheel odometry where there is some. Without odometry it is plain dead reckoning.
+/// gravity along -z), with an error-state Kalman filter on (attitude, velocity, gyro bias,
+/// accelerometer bias) that takes wheel odometry where there is some. Without odometry it is plain
+/// dead reckoning.
 class EgoMotionEstimator {
  public:
   struct Start {
@@ -91,7 +94,8 @@ class EgoMotionEstimator {
     Eigen::Matrix3d R_WC;
   };
   std::optional<Frame> last_frame_;
-  Eigen::Vector3d displacement_W_ = Eigen::Vector3d::Zero();  ///< of the camera, since the last frame
+  Eigen::Vector3d displacement_W_ =
+      Eigen::Vector3d::Zero();  ///< of the camera, since the last frame
 };
 
 }  // namespace lcs

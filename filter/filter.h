@@ -1,5 +1,6 @@
 /// \file
-/// The LCS filter: a frame's corners and the ego-motion in, layers and a verdict for each corner out.
+/// The LCS filter: a frame's corners and the ego-motion in, layers and a verdict for each corner
+/// out.
 #pragma once
 
 #include <memory>
@@ -28,8 +29,8 @@ struct FrameResult {
   StageTimes times;
 };
 
-/// Deterministic: the same corners and motions give the same bits, in whatever order the corners of a
-/// frame come.
+/// Deterministic: the same corners and motions give the same bits, in whatever order the corners of
+/// a frame come.
 class Filter {
  public:
   /// \throws std::invalid_argument for parameters out of range or a camera without pixels.

@@ -19,14 +19,22 @@ inline double wrap_angle(double angle_rad) {
 }
 
 /// |a - b| on the circle, in [0, pi].
-inline double angle_between(double a_rad, double b_rad) { return std::abs(wrap_angle(a_rad - b_rad)); }
+inline double angle_between(double a_rad, double b_rad) {
+  return std::abs(wrap_angle(a_rad - b_rad));
+}
 
 /// Direction of a vector; 0 for the null vector.
-inline double angle_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
+inline double angle_of(const Vec2& v) {
+  return std::atan2(v.y(), v.x());
+}
 
-inline Vec2 unit_vector(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
+inline Vec2 unit_vector(double angle_rad) {
+  return {std::cos(angle_rad), std::sin(angle_rad)};
+}
 
-inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+inline double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 /// Circular mean, gathered one angle at a time. Opposite angles cancel: the mean of none is 0.
 class AngleMean {

@@ -19,8 +19,8 @@ using Id = std::uint32_t;
 struct Edge {
   Id id = 0;
   bool rebel = false;
-  Vec2 location = Vec2::Zero();   ///< L, px
-  Vec2 origin = Vec2::Zero();     ///< O, px: first sighting (rebel), FOE or start of its path (normal)
+  Vec2 location = Vec2::Zero();  ///< L, px
+  Vec2 origin = Vec2::Zero();  ///< O, px: first sighting (rebel), FOE or start of its path (normal)
   Vec2 rotated = Vec2::Zero();    ///< L of the frame before, moved by the rotation alone, px
   Vec2 predicted = Vec2::Zero();  ///< L~, px: where this frame's corner was expected
   double speed = 0;               ///< V, px/s, along beta; never negative
@@ -29,9 +29,9 @@ struct Edge {
   double mu = 0;                  ///< normal: radius of detection, px; rebel: deviation angle, rad
   int trust = 0;                  ///< Tr
   int age = 0;                    ///< frames since it was made, 0 in its first
-  double off_field_px = 0;        ///< rebel: by how much its motion of late leaves the static images
-  int corner = -1;                ///< index in chi of the corner that supports it, -1: none this frame
-  int circle = -1;                ///< index in its kind's circles, -1: in none
+  double off_field_px = 0;  ///< rebel: by how much its motion of late leaves the static images
+  int corner = -1;          ///< index in chi of the corner that supports it, -1: none this frame
+  int circle = -1;          ///< index in its kind's circles, -1: in none
 
   /// px/s, rotation removed.
   Vec2 velocity() const { return speed * Vec2(std::cos(angle), std::sin(angle)); }
@@ -49,24 +49,24 @@ struct Circle {
   double angle = 0;              ///< beta
   int trust = 0;                 ///< Tr
   int age = 0;
-  int members = 0;               ///< edges grouped into it in this frame; 0 while it coasts
-  bool ignoring = false;         ///< reached Tr_m: makes a region of psi in the next frame
+  int members = 0;        ///< edges grouped into it in this frame; 0 while it coasts
+  bool ignoring = false;  ///< reached Tr_m: makes a region of psi in the next frame
 };
 
 /// An object (or a layer of objects at one depth): S, an axis-aligned rectangle.
 struct Square {
   Id id = 0;
-  Vec2 location = Vec2::Zero();     ///< L, px, its centre
-  Vec2 half_size = Vec2::Zero();    ///< R, px
-  Vec2 origin = Vec2::Zero();       ///< O, px
-  double speed = 0;                 ///< V, px/s
-  double depth_ratio = 1;           ///< V / V_v
-  double angle = 0;                 ///< beta
-  int trust = 0;                    ///< Tr
+  Vec2 location = Vec2::Zero();   ///< L, px, its centre
+  Vec2 half_size = Vec2::Zero();  ///< R, px
+  Vec2 origin = Vec2::Zero();     ///< O, px
+  double speed = 0;               ///< V, px/s
+  double depth_ratio = 1;         ///< V / V_v
+  double angle = 0;               ///< beta
+  int trust = 0;                  ///< Tr
   int age = 0;
-  int circles = 0;                  ///< grouped into it in this frame; 0 while it coasts
-  int rebel_circles = 0;            ///< of these
-  bool ignoring = false;            ///< reached Tr_m: makes a region of psi in the next frame
+  int circles = 0;        ///< grouped into it in this frame; 0 while it coasts
+  int rebel_circles = 0;  ///< of these
+  bool ignoring = false;  ///< reached Tr_m: makes a region of psi in the next frame
 };
 
 /// Ignorance region psi: corners inside are not looked at in the next frame.
@@ -92,19 +92,19 @@ struct Chain {
 };
 
 struct Layers {
-  std::vector<Edge> normal_edges;        ///< E_n
-  std::vector<Edge> rebel_edges;         ///< E_r
-  std::vector<Circle> normal_circles;    ///< C_n
-  std::vector<Circle> rebel_circles;     ///< C_r
-  std::vector<Square> squares;           ///< S
-  std::vector<IgnoreRegion> ignored;     ///< psi that was applied to this frame's corners
-  std::vector<Collector> collectors;     ///< lambda that grouped this frame's corners
-  std::vector<Chain> chains;             ///< alpha after this frame
+  std::vector<Edge> normal_edges;      ///< E_n
+  std::vector<Edge> rebel_edges;       ///< E_r
+  std::vector<Circle> normal_circles;  ///< C_n
+  std::vector<Circle> rebel_circles;   ///< C_r
+  std::vector<Square> squares;         ///< S
+  std::vector<IgnoreRegion> ignored;   ///< psi that was applied to this frame's corners
+  std::vector<Collector> collectors;   ///< lambda that grouped this frame's corners
+  std::vector<Chain> chains;           ///< alpha after this frame
 
   /// |E_n| + |E_r| + |C_n| + |C_r| + |S|, the paper's dimensionality.
   std::size_t dimension() const {
-    return normal_edges.size() + rebel_edges.size() + normal_circles.size() +
-           rebel_circles.size() + squares.size();
+    return normal_edges.size() + rebel_edges.size() + normal_circles.size() + rebel_circles.size() +
+           squares.size();
   }
 };
 

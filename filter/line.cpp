@@ -17,8 +17,8 @@ bool inside_any(std::span<const IgnoreRegion> regions, const Vec2& x) {
 }
 
 const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
-                               std::span<const IgnoreRegion> psi,
-                               std::span<const Collector> lambda, std::vector<Verdict>& verdicts) {
+                               std::span<const IgnoreRegion> psi, std::span<const Collector> lambda,
+                               std::vector<Verdict>& verdicts) {
   verdicts.assign(corners_px.size(), Verdict::pending);
   entries_.clear();
   for (std::size_t i = 0; i < corners_px.size(); ++i) {

@@ -10,12 +10,13 @@
 
 namespace lcs {
 
-/// chi after the Line expert: the corners that are looked at, in an order that does not depend on the
-/// caller's (nearest to the principal point first).
+/// chi after the Line expert: the corners that are looked at, in an order that does not depend on
+/// the caller's (nearest to the principal point first).
 struct Chi {
-  std::vector<Vec2> locations;   ///< px
-  std::vector<int> sources;      ///< index of each in the caller's corners
-  std::vector<int> groups;       ///< collector that each falls into (the nearest one), -1: a single landmark
+  std::vector<Vec2> locations;  ///< px
+  std::vector<int> sources;     ///< index of each in the caller's corners
+  std::vector<int>
+      groups;  ///< collector that each falls into (the nearest one), -1: a single landmark
 
   std::size_t size() const { return locations.size(); }
 };
@@ -28,11 +29,11 @@ class LineExpert {
  public:
   explicit LineExpert(const Vec2& centre_px) : centre_px_(centre_px) {}
 
-  /// \param verdicts one for each corner: set to `ignored` inside psi, to `pending` elsewhere. Corners
+  /// \param verdicts one for each corner: set to `ignored` inside psi, to `pending` elsewhere.
+  /// Corners
   ///   that are not finite stay `pending` and go no further.
-  const Chi& collect(std::span<const Eigen::Vector2f> corners_px,
-                     std::span<const IgnoreRegion> psi, std::span<const Collector> lambda,
-                     std::vector<Verdict>& verdicts);
+  const Chi& collect(std::span<const Eigen::Vector2f> corners_px, std::span<const IgnoreRegion> psi,
+                     std::span<const Collector> lambda, std::vector<Verdict>& verdicts);
 
  private:
   Vec2 centre_px_;

@@ -5,9 +5,9 @@
 /// With x measured from the principal point, camera velocity v, body rate w and depth Z,
 ///   xdot = (x v_z - f v_x)/Z + (x y/f) w_x - (f + x^2/f) w_y + y w_z
 ///   ydot = (y v_z - f v_y)/Z + (f + y^2/f) w_x - (x y/f) w_y - x w_z
-/// The rotation part needs no depth. The translation part is g(x)/Z with g(x) = v_z (x - c) - f v_xy: it
-/// points away from the focus of expansion (FOE) c + f v_xy / v_z, towards it in reverse, is parallel
-/// when v_z = 0, and absent when the camera stands still.
+/// The rotation part needs no depth. The translation part is g(x)/Z with g(x) = v_z (x - c) - f
+/// v_xy: it points away from the focus of expansion (FOE) c + f v_xy / v_z, towards it in reverse,
+/// is parallel when v_z = 0, and absent when the camera stands still.
 #pragma once
 
 #include <optional>
@@ -85,8 +85,8 @@ class MotionField {
   double dt_s_;
   RotationModel rotation_;
   Eigen::Matrix3d R_cur_prev_;
-  Eigen::Matrix3d homography_;   // K dR K^-1
-  Eigen::Vector3d w_dt_;         // rotation over the interval, rad
+  Eigen::Matrix3d homography_;  // K dR K^-1
+  Eigen::Vector3d w_dt_;        // rotation over the interval, rad
   Eigen::Vector3d v_C_mps_;
   double reference_depth_m_;
   double nearest_depth_m_;

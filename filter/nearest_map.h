@@ -1,6 +1,6 @@
 /// \file
-/// Which point lies nearest to a pixel: an image of indices, for many cheap look-ups about one set of
-/// points. Answers to the pixel; `PointGrid` answers exactly.
+/// Which point lies nearest to a pixel: an image of indices, for many cheap look-ups about one set
+/// of points. Answers to the pixel; `PointGrid` answers exactly.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,8 @@ class NearestMap {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec2& x = points[i];
       if (!inside(x)) continue;
-      const int cx = static_cast<int>(std::lround(x.x())), cy = static_cast<int>(std::lround(x.y()));
+      const int cx = static_cast<int>(std::lround(x.x())),
+                cy = static_cast<int>(std::lround(x.y()));
       for (int v = std::max(0, cy - reach); v <= std::min(height_ - 1, cy + reach); ++v) {
         for (int u = std::max(0, cx - reach); u <= std::min(width_ - 1, cx + reach); ++u) {
           const double distance2 = (Vec2(u, v) - x).squaredNorm();

@@ -48,7 +48,8 @@ bool PaperEdges::in_span(const Edge& edge, const Vec2& x, const MotionField& fie
   const Vec2 ray = x - edge.origin;
   const double reach = std::min(ray.norm(), 0.5 * std::hypot(camera_.width_px, camera_.height_px));
   return ray.dot(axis) >= -parameters_.corner_noise &&
-         std::abs(cross(axis, ray)) <= reach * std::sin(parameters_.delta_v) + parameters_.corner_noise;
+         std::abs(cross(axis, ray)) <=
+             reach * std::sin(parameters_.delta_v) + parameters_.corner_noise;
 }
 
 bool PaperEdges::plausible_speed(const Edge& edge, const Vec2& x, const MotionField& field) const {
@@ -59,8 +60,9 @@ bool PaperEdges::plausible_speed(const Edge& edge, const Vec2& x, const MotionFi
 
 Xi PaperEdges::classify(const Edge& edge, const Vec2& x, const MotionField& field) const {
   if (!in_span(edge, x, field)) return Xi::five;
+  if (!plausible_speed(edge, x, field)) return Xi::four;
   const Vec2 residual = x - edge.predicted;
-  if (residual.norm() > edge.mu) return plausible_speed(edge, x, field) ? Xi::one : Xi::four;
+  if (residual.norm() > edge.mu) return Xi::one;
   const double ahead = residual.dot(field.direction(edge.rotated));
   return ahead >= -parameters_.corner_noise ? Xi::two : Xi::three;
 }
@@ -70,7 +72,8 @@ double PaperEdges::rebel_reach(const Edge& edge, const MotionField& field) const
                   parameters_.rebel_reach * edge.speed * field.dt_s());
 }
 
-/// zeta_r: near the prediction, and in its direction (delta_v and the deviation mu_r) from its origin.
+/// zeta_r: near the prediction, and in its direction (delta_v and the deviation mu_r) from its
+/// origin.
 bool PaperEdges::matches_rebel(const Edge& edge, const Vec2& x, const MotionField& field) const {
   if ((x - edge.predicted).norm() > rebel_reach(edge, field)) return false;
   const Vec2 ray = x - edge.origin;
@@ -106,8 +109,8 @@ void PaperEdges::assign(const Layers& layers, const Chi& chi, const MotionField&
   assign_one_to_one(layers.normal_edges.size() + layers.rebel_edges.size(), chi.size());
 }
 
-/// Cor of the group's x and y, 1 - rho^2: small when the corners that the landmark was matched among
-/// lie on a line. 1 for fewer than three, which have no correlation to speak of.
+/// Cor of the group's x and y, 1 - rho^2: small when the corners that the landmark was matched
+/// among lie on a line. 1 for fewer than three, which have no correlation to speak of.
 double PaperEdges::spread(const Edge& edge, const Chi& chi) const {
   double n = 0, xx = 0, yy = 0, xy = 0;
   Vec2 sum = Vec2::Zero();
@@ -126,7 +129,8 @@ double PaperEdges::spread(const Edge& edge, const Chi& chi) const {
   return product > 0 ? std::clamp(1 - covariance * covariance / product, 0.0, 1.0) : 0.0;
 }
 
-void PaperEdges::update_normal(Edge& edge, const Vec2& x, const Chi& chi, const MotionField& field) {
+void PaperEdges::update_normal(Edge& edge, const Vec2& x, const Chi& chi,
+                               const MotionField& field) {
   const Xi xi = classify(edge, x, field);
   const double reference_step = field.reference_speed(edge.rotated) * field.dt_s();
   // mu^ = ( |V_v - V~| t_f / Cor + mu ) / 2, with a length in place of the printed speed.
@@ -179,8 +183,8 @@ void PaperEdges::classify_rest(const Layers& layers, const Chi& chi, const Motio
   }
 }
 
-/// By how much a step between two sightings (rotation removed) leaves the images that a static point
-/// at any plausible depth may take, px.
+/// By how much a step between two sightings (rotation removed) leaves the images that a static
+/// point at any plausible depth may take, px.
 double PaperEdges::off_field(const Vec2& from, const Vec2& to, const MotionField& field) const {
   return distance_to_segment(to, from, field.translated(from, field.max_ratio()));
 }
@@ -241,8 +245,8 @@ void PaperEdges::complete_chains(Layers& layers, const Chi& chi, const MotionFie
   }
 }
 
-/// Rows of one sighting branch into rows of two, and what is left starts rows of one. A row that found
-/// no continuation is gone: it lives three frames at the most.
+/// Rows of one sighting branch into rows of two, and what is left starts rows of one. A row that
+/// found no continuation is gone: it lives three frames at the most.
 void PaperEdges::branch_chains(const Layers& layers, const Chi& chi, const MotionField& field) {
   grown_.clear();
   std::vector<std::pair<double, int>> nearest;

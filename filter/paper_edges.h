@@ -1,6 +1,6 @@
 /// \file
-/// The paper's edges: corners are matched to the predicted edges, classified (xi_1 to xi_5, zeta_r), and
-/// what is left goes to alpha or becomes a new normal edge.
+/// The paper's edges: corners are matched to the predicted edges, classified (xi_1 to xi_5,
+/// zeta_r), and what is left goes to alpha or becomes a new normal edge.
 #pragma once
 
 #include <vector>
@@ -9,14 +9,16 @@
 
 namespace lcs {
 
-/// How a corner stands to a predicted normal edge: inside its radius mu, inside the span delta_v about
-/// its predicted motion, and at a speed that a static point may have. The paper's five cases overlap
-/// as printed; here every corner falls into exactly one.
+/// How a corner stands to a predicted normal edge: inside the span delta_v about its predicted
+/// motion, at a speed that a static point may have, inside its radius mu, and at the prediction or
+/// short of it. The paper's five cases overlap as printed; asked in this order, every corner is one
+/// of them.
 enum class Xi {
-  one,    ///< outside mu, inside the span, at a plausible speed: a further normal edge of the layer
-  two,    ///< inside both, at the prediction or beyond: the match that raises trust
-  three,  ///< inside both, but short of the prediction: matched, and costs trust
-  four,   ///< outside mu, inside the span, against the field or too fast for it: to alpha
+  one,    ///< in the span, plausible, outside mu: a further normal edge of the layer
+  two,    ///< in the span, plausible, inside mu, at the prediction or beyond: a match that raises
+          ///< trust
+  three,  ///< the same, but short of the prediction: a match that costs trust
+  four,   ///< in the span, but against the field or too fast for it: to alpha
   five,   ///< outside the span: to alpha
 };
 

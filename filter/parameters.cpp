@@ -36,21 +36,21 @@ struct Entry {
 };
 
 // A captureless lambda that names the member: the table below reads as a list of fields.
-#define LCS_FIELD(type, member) \
-  Field<type>([](Parameters & p) -> type& { return p.member; })
-#define LCS_CHOICE(type, member, ...)                                                       \
-  Choice {                                                                                  \
-    [](const Parameters& p) { return static_cast<int>(p.member); },                         \
+#define LCS_FIELD(type, member) Field<type>([](Parameters& p) -> type& { return p.member; })
+#define LCS_CHOICE(type, member, ...)                                                             \
+  Choice {                                                                                        \
+    [](const Parameters& p) { return static_cast<int>(p.member); },                               \
         [](Parameters& p, int i) { p.member = static_cast<type>(i); }, std::vector<std::string> { \
-      __VA_ARGS__                                                                           \
-    }                                                                                       \
+      __VA_ARGS__                                                                                 \
+    }                                                                                             \
   }
 
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> table = {
       {"field.rotation", "", "", 0, 0,
        LCS_CHOICE(RotationModel, field.rotation, "first_order", "homography")},
-      {"field.reference_depth", "Z_ref", "m", 1e-3, 1e4, LCS_FIELD(double, field.reference_depth_m)},
+      {"field.reference_depth", "Z_ref", "m", 1e-3, 1e4,
+       LCS_FIELD(double, field.reference_depth_m)},
       {"field.nearest_depth", "z_min", "m", 1e-3, 1e4, LCS_FIELD(double, field.nearest_depth_m)},
       {"field.still_speed", "", "m/s", 0, 10, LCS_FIELD(double, field.still_speed_mps)},
       {"line.ignore", "psi", "", 0, 0, LCS_FIELD(bool, line.ignore)},
@@ -70,28 +70,45 @@ const std::vector<Entry>& entries() {
       {"circle.alpha_stretch", "", "", 0, 10, LCS_FIELD(double, circle.alpha_stretch)},
       {"circle.alpha_branches", "", "", 1, 100, LCS_FIELD(int, circle.alpha_branches)},
       {"circle.rebel_reach", "", "", 0, 10, LCS_FIELD(double, circle.rebel_reach)},
-      {"constellation.normal_along", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.normal_along)},
-      {"constellation.normal_along_growth", "", "", 0, 10, LCS_FIELD(double, circle.constellation.normal_along_growth)},
-      {"constellation.normal_across", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.normal_across)},
-      {"constellation.rebel_gate", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.rebel_gate)},
-      {"constellation.rebel_growth", "", "", 0, 10, LCS_FIELD(double, circle.constellation.rebel_growth)},
-      {"constellation.rebel_gate_max", "", "px", 0, 1000, LCS_FIELD(double, circle.constellation.rebel_gate_max)},
-      {"constellation.max_step", "", "px", 0, 10000, LCS_FIELD(double, circle.constellation.max_step)},
-      {"constellation.max_speed", "", "px/s", 0, 100000, LCS_FIELD(double, circle.constellation.max_speed)},
+      {"constellation.normal_along", "", "px", 0, 100,
+       LCS_FIELD(double, circle.constellation.normal_along)},
+      {"constellation.normal_along_growth", "", "", 0, 10,
+       LCS_FIELD(double, circle.constellation.normal_along_growth)},
+      {"constellation.normal_across", "", "px", 0, 100,
+       LCS_FIELD(double, circle.constellation.normal_across)},
+      {"constellation.rebel_gate", "", "px", 0, 100,
+       LCS_FIELD(double, circle.constellation.rebel_gate)},
+      {"constellation.rebel_growth", "", "", 0, 10,
+       LCS_FIELD(double, circle.constellation.rebel_growth)},
+      {"constellation.rebel_gate_max", "", "px", 0, 1000,
+       LCS_FIELD(double, circle.constellation.rebel_gate_max)},
+      {"constellation.max_step", "", "px", 0, 10000,
+       LCS_FIELD(double, circle.constellation.max_step)},
+      {"constellation.max_speed", "", "px/s", 0, 100000,
+       LCS_FIELD(double, circle.constellation.max_speed)},
       {"constellation.hit_1", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.hit_1)},
       {"constellation.hit_2", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.hit_2)},
       {"constellation.radius", "", "px", 0, 10000, LCS_FIELD(double, circle.constellation.radius)},
       {"constellation.neighbours", "", "", 1, 100, LCS_FIELD(int, circle.constellation.neighbours)},
-      {"constellation.vote_floor", "", "", 0, 1, LCS_FIELD(double, circle.constellation.vote_floor)},
-      {"constellation.vote_margin", "", "", 0, 1, LCS_FIELD(double, circle.constellation.vote_margin)},
-      {"constellation.off_field", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.off_field)},
-      {"constellation.established", "", "", 0, 1000, LCS_FIELD(int, circle.constellation.established)},
+      {"constellation.vote_floor", "", "", 0, 1,
+       LCS_FIELD(double, circle.constellation.vote_floor)},
+      {"constellation.vote_margin", "", "", 0, 1,
+       LCS_FIELD(double, circle.constellation.vote_margin)},
+      {"constellation.off_field", "", "px", 0, 100,
+       LCS_FIELD(double, circle.constellation.off_field)},
+      {"constellation.established", "", "", 0, 1000,
+       LCS_FIELD(int, circle.constellation.established)},
       {"constellation.support", "", "", 1, 1000, LCS_FIELD(int, circle.constellation.support)},
-      {"constellation.support_off_field", "", "", 0, 1, LCS_FIELD(double, circle.constellation.support_off_field)},
-      {"constellation.inherit_radius", "", "px", 0, 10000, LCS_FIELD(double, circle.constellation.inherit_radius)},
-      {"constellation.inherit_share", "", "", 0, 1, LCS_FIELD(double, circle.constellation.inherit_share)},
-      {"circle.epsilon_beta_n", "eps_beta,n", "deg", 0, 180, LCS_FIELD(double, circle.epsilon_beta_n)},
-      {"circle.epsilon_beta_r", "eps_beta,r", "deg", 0, 180, LCS_FIELD(double, circle.epsilon_beta_r)},
+      {"constellation.support_off_field", "", "", 0, 1,
+       LCS_FIELD(double, circle.constellation.support_off_field)},
+      {"constellation.inherit_radius", "", "px", 0, 10000,
+       LCS_FIELD(double, circle.constellation.inherit_radius)},
+      {"constellation.inherit_share", "", "", 0, 1,
+       LCS_FIELD(double, circle.constellation.inherit_share)},
+      {"circle.epsilon_beta_n", "eps_beta,n", "deg", 0, 180,
+       LCS_FIELD(double, circle.epsilon_beta_n)},
+      {"circle.epsilon_beta_r", "eps_beta,r", "deg", 0, 180,
+       LCS_FIELD(double, circle.epsilon_beta_r)},
       {"circle.epsilon_v_n", "eps_v,n", "V_v", 0, 1000, LCS_FIELD(double, circle.epsilon_v_n)},
       {"circle.epsilon_v_r", "eps_v,r", "V_v", 0, 1000, LCS_FIELD(double, circle.epsilon_v_r)},
       {"circle.epsilon_v", "eps_v", "V_v", 0, 1000, LCS_FIELD(double, circle.epsilon_v)},
@@ -101,12 +118,17 @@ const std::vector<Entry>& entries() {
       {"square.Tr_c", "Tr^s_c", "", 0, 1000, LCS_FIELD(int, square.trust.critical)},
       {"square.Tr_s", "Tr^s_s", "", 0, 1000, LCS_FIELD(int, square.trust.standard)},
       {"square.Tr_m", "Tr^s_m", "", 0, 1000, LCS_FIELD(int, square.trust.maximum)},
-      {"square.delta_beta_1", "delta_beta,1", "deg", 0, 180, LCS_FIELD(double, square.delta_beta_1)},
-      {"square.delta_beta_2", "delta_beta,2", "deg", 0, 180, LCS_FIELD(double, square.delta_beta_2)},
-      {"square.epsilon_beta_1", "eps_beta,1", "deg", 0, 180, LCS_FIELD(double, square.epsilon_beta_1)},
-      {"square.epsilon_beta_2", "eps_beta,2", "deg", 0, 180, LCS_FIELD(double, square.epsilon_beta_2)},
+      {"square.delta_beta_1", "delta_beta,1", "deg", 0, 180,
+       LCS_FIELD(double, square.delta_beta_1)},
+      {"square.delta_beta_2", "delta_beta,2", "deg", 0, 180,
+       LCS_FIELD(double, square.delta_beta_2)},
+      {"square.epsilon_beta_1", "eps_beta,1", "deg", 0, 180,
+       LCS_FIELD(double, square.epsilon_beta_1)},
+      {"square.epsilon_beta_2", "eps_beta,2", "deg", 0, 180,
+       LCS_FIELD(double, square.epsilon_beta_2)},
       {"square.epsilon_beta", "eps_beta", "deg", 0, 180, LCS_FIELD(double, square.epsilon_beta)},
-      {"square.epsilon_beta_s", "eps_beta,s", "deg", 0, 180, LCS_FIELD(double, square.epsilon_beta_s)},
+      {"square.epsilon_beta_s", "eps_beta,s", "deg", 0, 180,
+       LCS_FIELD(double, square.epsilon_beta_s)},
       {"square.epsilon_v", "eps_v", "V_v", 0, 1000, LCS_FIELD(double, square.epsilon_v)},
       {"square.epsilon_v_s", "eps_v,s", "V_v", 0, 1000, LCS_FIELD(double, square.epsilon_v_s)},
       {"square.rho_c", "rho_c", "%", 0, 100, LCS_FIELD(double, square.rho_c)},
@@ -136,11 +158,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 const Entry& find(std::string_view key) {
   const auto& all = entries();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Entry& e) { return e.key == key; });
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Entry& e) { return e.key == key; });
   if (found != all.end()) return *found;
-  const auto nearest = std::min_element(all.begin(), all.end(), [&](const Entry& a, const Entry& b) {
-    return edit_distance(a.key, key) < edit_distance(b.key, key);
-  });
+  const auto nearest =
+      std::min_element(all.begin(), all.end(), [&](const Entry& a, const Entry& b) {
+        return edit_distance(a.key, key) < edit_distance(b.key, key);
+      });
   throw std::invalid_argument("the filter has no parameter '" + std::string(key) +
                               "'; the nearest is '" + nearest->key + "'");
 }
@@ -164,7 +188,9 @@ double parse(const Entry& entry, std::string_view text) {
   return value;
 }
 
-std::string range(const Entry& entry) { return number(entry.min) + " to " + number(entry.max); }
+std::string range(const Entry& entry) {
+  return number(entry.min) + " to " + number(entry.max);
+}
 
 void check(const Entry& entry, double value) {
   if (value >= entry.min && value <= entry.max) return;
@@ -172,7 +198,9 @@ void check(const Entry& entry, double value) {
                               range(entry) + (entry.unit.empty() ? "" : " " + entry.unit));
 }
 
-double scale(const Entry& entry) { return entry.unit == "deg" ? kDegree : 1.0; }
+double scale(const Entry& entry) {
+  return entry.unit == "deg" ? kDegree : 1.0;
+}
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
@@ -212,7 +240,8 @@ void set_entry(Parameters& parameters, const Entry& entry, std::string_view valu
 
 void check_ranks(const TrustRanks& ranks, const std::string& expert) {
   if (ranks.critical <= ranks.standard && ranks.standard <= ranks.maximum) return;
-  throw std::invalid_argument("the ranks of trust of '" + expert + "' must be Tr_c <= Tr_s <= Tr_m");
+  throw std::invalid_argument("the ranks of trust of '" + expert +
+                              "' must be Tr_c <= Tr_s <= Tr_m");
 }
 
 void set_degrees(CircleParameters& circle, SquareParameters& square) {
@@ -254,7 +283,9 @@ Parameters project_default() {
 
 }  // namespace
 
-std::vector<std::string> preset_names() { return {"default", "lab", "cars"}; }
+std::vector<std::string> preset_names() {
+  return {"default", "lab", "cars"};
+}
 
 Parameters preset(std::string_view name) {
   if (name == "default") return project_default();

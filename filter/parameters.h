@@ -1,7 +1,7 @@
 /// \file
 /// Every number that the filter can be tuned by, expert by expert. The paper's symbol and value
-/// (Table 1, "lab") stand beside each; keys for `set` are "expert.field", as in "circle.mu_0". Angles
-/// are radians in the structs and degrees in text.
+/// (Table 1, "lab") stand beside each; keys for `set` are "expert.field", as in "circle.mu_0".
+/// Angles are radians in the structs and degrees in text.
 #pragma once
 
 #include <string>
@@ -28,7 +28,7 @@ enum class EdgeRule {
 struct FieldParameters {
   RotationModel rotation = RotationModel::homography;
   double reference_depth_m = 3;    ///< Z_ref: V_v(x) is the image speed of a static point this far
-  double nearest_depth_m = 0.5;    ///< no static point is nearer than this (z_min)
+  double nearest_depth_m = 0.8;    ///< no static point is nearer than this (z_min)
   double still_speed_mps = 0.005;  ///< slower than this the camera stands still: there is no field
 };
 
@@ -37,72 +37,73 @@ struct LineParameters {
   bool ignore = true;  ///< apply psi; off, every corner is looked at in every frame
 };
 
-/// The constellation rule of the Circle expert, which stands in for xi and alpha. A gate is an ellipse
-/// about the prediction, along and across the displacement; it grows with the displacement's length.
+/// The constellation rule of the Circle expert, which stands in for xi and alpha. A gate is an
+/// ellipse about the prediction, along and across the displacement; it grows with the
+/// displacement's length.
 struct ConstellationParameters {
-  double normal_along = 2;           ///< px
-  double normal_along_growth = 0.05; ///< of the displacement
-  double normal_across = 1.3;        ///< px
-  double rebel_gate = 1.2;           ///< px
-  double rebel_growth = 0.3;         ///< of the displacement, until
-  double rebel_gate_max = 3.5;       ///< px
-  double max_step = 45;              ///< px: furthest that a rebel is looked for, or
-  double max_speed = 450;            ///< px/s: as far as this takes it, if farther
-  double hit_1 = 2;                  ///< px: a sighting one frame ago counts within this
-  double hit_2 = 3;                  ///< px: and two frames ago within this
-  double radius = 35;                ///< px: how far neighbours are
-  int neighbours = 8;                ///< that vote, at the most
-  double vote_floor = 0.45;          ///< share of the votes that a motion needs
-  double vote_margin = 0.15;         ///< by which it must beat the static explanation
-  double off_field = 1.5;            ///< px that it must leave the static images by
-  int established = 4;               ///< trust from which a normal edge explains its corner
-  int support = 4;                   ///< rebels near each other that bear each other out
-  double support_off_field = 0.4;    ///< share of them that are off the field by more than 1 px
-  double inherit_radius = 40;        ///< px
-  double inherit_share = 0.45;       ///< of the nearest decided neighbours that are rebels
+  double normal_along = 2;            ///< px
+  double normal_along_growth = 0.05;  ///< of the displacement
+  double normal_across = 1.3;         ///< px
+  double rebel_gate = 1.2;            ///< px
+  double rebel_growth = 0.3;          ///< of the displacement, until
+  double rebel_gate_max = 3.5;        ///< px
+  double max_step = 45;               ///< px: furthest that a rebel is looked for, or
+  double max_speed = 450;             ///< px/s: as far as this takes it, if farther
+  double hit_1 = 2;                   ///< px: a sighting one frame ago counts within this
+  double hit_2 = 3;                   ///< px: and two frames ago within this
+  double radius = 35;                 ///< px: how far neighbours are
+  int neighbours = 8;                 ///< that vote, at the most
+  double vote_floor = 0.45;           ///< share of the votes that a motion needs
+  double vote_margin = 0.15;          ///< by which it must beat the static explanation
+  double off_field = 1.5;             ///< px that it must leave the static images by
+  int established = 4;                ///< trust from which a normal edge explains its corner
+  int support = 4;                    ///< rebels near each other that bear each other out
+  double support_off_field = 0.4;     ///< share of them that are off the field by more than 1 px
+  double inherit_radius = 40;         ///< px
+  double inherit_share = 0.45;        ///< of the nearest decided neighbours that are rebels
 };
 
 /// Circle expert: edges, alpha, circles.
 struct CircleParameters {
-  TrustRanks trust{2, 3, 5};       ///< Tr^c
+  TrustRanks trust{2, 3, 5};  ///< Tr^c
   EdgeRule edge_rule = EdgeRule::constellation;
   ConstellationParameters constellation;
-  double delta_v = 0;              ///< delta_v, 9 deg: half angle of the error span, seen from O_I
-  double mu_0 = 25;                ///< mu_0, px: radius of detection of a new normal edge
-  double mu_min = 3;               ///< px: bounds on mu, which the paper leaves open
-  double mu_max = 25;              ///< px
-  double corner_noise = 1.5;       ///< px: how far a corner may lie off for no reason
-  double trust_bonus = 0.25;       ///< px of distance that a step of trust is worth in assignment
-  double alpha_reach = 25;         ///< px: between two sightings in alpha
-  double alpha_deviation = 0;      ///< mu_r, 20 deg: bend of the line through three sightings
-  double alpha_stretch = 0.35;     ///< share by which the second step may differ from the first
-  int alpha_branches = 4;          ///< rows that one sighting may branch into
-  double rebel_reach = 0.35;       ///< share of the predicted displacement by which a rebel may err
+  double delta_v = 0;           ///< delta_v, 9 deg: half angle of the error span, seen from O_I
+  double mu_0 = 25;             ///< mu_0, px: radius of detection of a new normal edge
+  double mu_min = 3;            ///< px: bounds on mu, which the paper leaves open
+  double mu_max = 25;           ///< px
+  double corner_noise = 1.5;    ///< px: how far a corner may lie off for no reason
+  double trust_bonus = 0.25;    ///< px of distance that a step of trust is worth in assignment
+  double alpha_reach = 50;      ///< px: between two sightings in alpha
+  double alpha_deviation = 0;   ///< mu_r, 20 deg: bend of the line through three sightings
+  double alpha_stretch = 0.35;  ///< share by which the second step may differ from the first
+  int alpha_branches = 4;       ///< rows that one sighting may branch into
+  double rebel_reach = 0.35;    ///< share of the predicted displacement by which a rebel may err
 
-  double epsilon_beta_n = 0;       ///< eps_beta,n, 20 deg
-  double epsilon_beta_r = 0;       ///< eps_beta,r, 50 deg
-  double epsilon_v_n = 0.4;        ///< eps_v,n, 40 % of V_v
-  double epsilon_v_r = 1.0;        ///< eps_v,r, 100 % of V_v
-  double epsilon_v = 0.7;          ///< eps_v, of V_v, between a predicted circle and a group
-  double rho_c = 40;               ///< rho_c, %: overlap of a group with the predicted circle
-  double reach = 50;               ///< px: how far apart the edges of one circle may lie
-  int min_members = 3;             ///< edges that make a new circle
+  double epsilon_beta_n = 0;  ///< eps_beta,n, 20 deg
+  double epsilon_beta_r = 0;  ///< eps_beta,r, 50 deg
+  double epsilon_v_n = 0.4;   ///< eps_v,n, 40 % of V_v
+  double epsilon_v_r = 1.0;   ///< eps_v,r, 100 % of V_v
+  double epsilon_v = 0.7;     ///< eps_v, of V_v, between a predicted circle and a group
+  double rho_c = 40;          ///< rho_c, %: overlap of a group with the predicted circle
+  double reach = 50;          ///< px: how far apart the edges of one circle may lie
+  int min_members = 3;        ///< edges that make a new circle
 };
 
 /// Square expert.
 struct SquareParameters {
-  TrustRanks trust{3, 5, 7};       ///< Tr^s
-  double delta_beta_1 = 0;         ///< delta_beta,1, 90 deg: between the circles of a corner (case 1)
-  double delta_beta_2 = 0;         ///< delta_beta,2, 0 deg: between aligned circles (case 2)
-  double epsilon_beta_1 = 0;       ///< eps_beta,1, 15 deg
-  double epsilon_beta_2 = 0;       ///< eps_beta,2, 35 deg
-  double epsilon_beta = 0;         ///< eps_beta, 20 deg: of minor circles
-  double epsilon_beta_s = 0;       ///< eps_beta,s, 20 deg: between predicted and mean square
-  double epsilon_v = 0.7;          ///< eps_v, of V_v: between circles
-  double epsilon_v_s = 0.7;        ///< eps_v,s, of V_v: between predicted and mean square
-  double rho_c = 40;               ///< rho_c, %: least overlap
-  double d_t = 1.0;                ///< start of d_t, as a share of the image's diagonal
-  bool mix_kinds = true;           ///< normal and rebel circles may form one square
+  TrustRanks trust{3, 5, 7};  ///< Tr^s
+  double delta_beta_1 = 0;    ///< delta_beta,1, 90 deg: between the circles of a corner (case 1)
+  double delta_beta_2 = 0;    ///< delta_beta,2, 0 deg: between aligned circles (case 2)
+  double epsilon_beta_1 = 0;  ///< eps_beta,1, 15 deg
+  double epsilon_beta_2 = 0;  ///< eps_beta,2, 35 deg
+  double epsilon_beta = 0;    ///< eps_beta, 20 deg: of minor circles
+  double epsilon_beta_s = 0;  ///< eps_beta,s, 20 deg: between predicted and mean square
+  double epsilon_v = 0.7;     ///< eps_v, of V_v: between circles
+  double epsilon_v_s = 0.7;   ///< eps_v,s, of V_v: between predicted and mean square
+  double rho_c = 40;          ///< rho_c, %: least overlap
+  double d_t = 1.0;           ///< start of d_t, as a share of the image's diagonal
+  bool mix_kinds = true;      ///< normal and rebel circles may form one square
 };
 
 struct Parameters {
@@ -112,13 +113,14 @@ struct Parameters {
   SquareParameters square;
 };
 
-/// Preset by name: "default" (this project's), or the paper's: "lab" (Table 1), "cars" (section 5.2).
-/// \throws std::invalid_argument naming the known presets.
+/// Preset by name: "default" (this project's), or the paper's: "lab" (Table 1), "cars"
+/// (section 5.2). \throws std::invalid_argument naming the known presets.
 Parameters preset(std::string_view name);
 std::vector<std::string> preset_names();
 
 /// Sets one parameter from text, as in set(p, "circle.mu_0", "25").
-/// \throws std::invalid_argument: unknown key (with the nearest known one), not a value of its kind,
+/// \throws std::invalid_argument: unknown key (with the nearest known one), not a value of its
+/// kind,
 ///   out of range.
 void set(Parameters& parameters, std::string_view key, std::string_view value);
 

@@ -1,5 +1,6 @@
 /// \file
-/// Neighbours of a point among many: a uniform grid that is rebuilt each frame into the same memory.
+/// Neighbours of a point among many: a uniform grid that is rebuilt each frame into the same
+/// memory.
 #pragma once
 
 #include <algorithm>

@@ -40,7 +40,8 @@ bool parts(const Circle& between, const Circle& a, const Circle& b) {
   const double advance = ac.dot(ab) / d_ab;
   if (advance <= 0 || advance >= d_ab) return false;
   // asin(R / d) >= beta_m, the angle between the lines from a to b and from a to b'.
-  return std::asin(std::min(1.0, between.radius / d_ac)) >= angle_between(angle_of(ab), angle_of(ac));
+  return std::asin(std::min(1.0, between.radius / d_ac)) >=
+         angle_between(angle_of(ab), angle_of(ac));
 }
 
 SquareExpert::SquareExpert(const Intrinsics& camera, const SquareParameters& parameters)
@@ -133,8 +134,7 @@ Square SquareExpert::mean_square(std::size_t a, const MotionField& field) const 
   square.depth_ratio = n > 0 ? 0.5 * (circle.depth_ratio + ratio / n) : circle.depth_ratio;
   square.location = 0.5 * (low + high);
   square.half_size = 0.5 * (high - low);
-  const Vec2 along =
-      square.rebel_circles > 0 ? step : field.direction(square.location);
+  const Vec2 along = square.rebel_circles > 0 ? step : field.direction(square.location);
   square.angle = angle_of(along.isZero() ? Vec2(square.location - square.origin) : along);
   return square;
 }
@@ -149,7 +149,8 @@ void SquareExpert::add_minor_circles(std::size_t a, double d_t, const MotionFiel
     if ((minor.location - circles_[a].location).norm() >= d_t) continue;
     if (!parameters_.mix_kinds && minor.rebel != circles_[a].rebel) continue;
     if (std::abs(minor.depth_ratio - square.depth_ratio) > parameters_.epsilon_v) continue;
-    if (angle_between(minor.angle, square.angle) <= parameters_.epsilon_beta) partners_.push_back(c);
+    if (angle_between(minor.angle, square.angle) <= parameters_.epsilon_beta)
+      partners_.push_back(c);
   }
 }
 

@@ -1,6 +1,6 @@
 /// \file
-/// Square expert: circles that belong together become rectangles, which are matched to the predicted
-/// ones ("Geometric Layering", "Mean Square", "Square Estimation").
+/// Square expert: circles that belong together become rectangles, which are matched to the
+/// predicted ones ("Geometric Layering", "Mean Square", "Square Estimation").
 #pragma once
 
 #include <span>
@@ -16,8 +16,8 @@ namespace lcs {
 /// disjoint ones, 100 where one contains the other, 0 where one has no area.
 double overlap_percent(const Square& a, const Square& b);
 
-/// What parts the couple a, b: a slower circle (farther away) that the segment between their centres
-/// crosses and that lies between them.
+/// What parts the couple a, b: a slower circle (farther away) that the segment between their
+/// centres crosses and that lies between them.
 bool parts(const Circle& between, const Circle& a, const Circle& b);
 
 class SquareExpert {
@@ -50,7 +50,7 @@ class SquareExpert {
   Id next_id_ = 1;
 
   // Of the current frame; kept for their memory.
-  std::vector<Circle> circles_;       // C_n and C_r
+  std::vector<Circle> circles_;  // C_n and C_r
   std::vector<char> used_;
   std::vector<std::size_t> partners_;  // C_b of the couple at hand
   std::vector<Square> means_;          // S_m

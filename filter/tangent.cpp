@@ -47,7 +47,9 @@ std::optional<Extent> predict_by_tangents(const Extent& square, const Vec2& orig
   predicted.location = square.location + travelled_px * (square.location - origin) / to_centre;
   if (to_centre + travelled_px <= 0) return std::nullopt;
   // Either point serves; the one farther from an axis is the better conditioned.
-  const auto conditioning = [&](const Vec2& t) { return (t - square.location).cwiseAbs().minCoeff(); };
+  const auto conditioning = [&](const Vec2& t) {
+    return (t - square.location).cwiseAbs().minCoeff();
+  };
   const Vec2 touch =
       conditioning(points->first) >= conditioning(points->second) ? points->first : points->second;
   const double to_touch = (touch - origin).norm();

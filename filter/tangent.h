@@ -4,9 +4,9 @@
 /// The paper finds the points L_t where lines from the origin O touch the ellipse, moves them along
 /// those lines by d_r, and solves for the ellipse that touches there. With the first case of d_r
 /// (the second contradicts it: the split is printed as a ratio of norms against 0), that is the
-/// homothety about O by s = (|O L| + dr) / |O L|: L~ = O + s (L - O), R~ = s R. The construction is void
-/// where O lies inside the ellipse, and singular where a tangent or its chord is parallel to an axis;
-/// the homothety is the answer everywhere.
+/// homothety about O by s = (|O L| + dr) / |O L|: L~ = O + s (L - O), R~ = s R. The construction is
+/// void where O lies inside the ellipse, and singular where a tangent or its chord is parallel to
+/// an axis; the homothety is the answer everywhere.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
 /// \file
-/// The trust factor Tr: how far a landmark or layer is believed (the paper's section "Trust Factor").
+/// The trust factor Tr: how far a landmark or layer is believed (the paper's section "Trust
+/// Factor").
 #pragma once
 
 #include <algorithm>
@@ -18,7 +19,8 @@ struct TrustRanks {
   int initial_rebel() const { return std::min(standard + 2, maximum); }
   /// New squares.
   int initial_square() const { return standard; }
-  /// After making an ignorance region a layer is looked at for two frames before it can make another.
+  /// After making an ignorance region a layer is looked at for two frames before it can make
+  /// another.
   int after_ignoring() const { return std::max(maximum - 2, critical); }
 
   int raised(int trust) const { return std::min(trust + 1, maximum); }
