@@ -28,6 +28,17 @@ inline const auto& names_of(IgnoreRegion::Shape) {
 }
 ///@}
 
+/// \name Numbers that need not be finite: JSON knows only finite ones, and null stands for the
+/// other.
+///@{
+struct OrInfinite {  ///< +inf, as the depth of the sky
+  double& number;
+};
+struct OrNan {  ///< NaN, as the motion of a point that leaves the camera's front
+  double& number;
+};
+///@}
+
 /// A corner with its verdict, as `layers.jsonl` has them.
 struct CornerRow {
   double x = 0;
@@ -41,7 +52,8 @@ struct ChainRow {
   double off_field_px = 0;
 };
 
-// Each `fields` calls visit(name, reference to the member) for every stored field, in file order.
+// Each `fields` calls visit(name, member) with a reference to the member, or one of the above, for
+// every stored field, in file order.
 
 template <class Visit>
 void fields(CornerRow& corner, Visit&& visit) {
@@ -73,6 +85,7 @@ void fields(Edge& edge, Visit&& visit) {
   visit("mu", edge.mu);
   visit("trust", edge.trust);
   visit("age", edge.age);
+  visit("off_field_px", edge.off_field_px);
   visit("corner", edge.corner);
   visit("circle", edge.circle);
 }
@@ -135,11 +148,11 @@ void fields(sim::CornerTruth& truth, Visit&& visit) {
   visit("label", truth.label);
   visit("radial", truth.radial);
   visit("object", truth.object);
-  visit("depth_m", truth.depth_m);
-  visit("motion_x", truth.motion_px.x());
-  visit("motion_y", truth.motion_px.y());
-  visit("static_motion_x", truth.static_motion_px.x());
-  visit("static_motion_y", truth.static_motion_px.y());
+  visit("depth_m", OrInfinite{truth.depth_m});
+  visit("motion_x", OrNan{truth.motion_px.x()});
+  visit("motion_y", OrNan{truth.motion_px.y()});
+  visit("static_motion_x", OrNan{truth.static_motion_px.x()});
+  visit("static_motion_y", OrNan{truth.static_motion_px.y()});
 }
 
 template <class Visit>

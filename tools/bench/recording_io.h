@@ -20,8 +20,8 @@ namespace lcs::bench {
 inline constexpr const char* kLayersFile = "layers.jsonl";
 inline constexpr const char* kTruthFile = "truth.jsonl";
 
-/// Lines of one frame, without the line end. \throws std::invalid_argument for a number that is NaN
-/// or -inf, naming frame and field.
+/// Lines of one frame, without the line end. \throws std::invalid_argument for any other number
+/// that is not finite, naming frame and field.
 std::string layers_line(const FrameRecord& frame);
 std::string truth_line(const FrameRecord& frame);
 

@@ -22,7 +22,13 @@ void read(const Json& json, std::string& text) {
   text = json.get<std::string>();
 }
 void read(const Json& json, double& number) {
-  number = json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
+  number = json.get<double>();
+}
+void read(const Json& json, OrInfinite value) {
+  value.number = json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
+}
+void read(const Json& json, OrNan value) {
+  value.number = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 template <class Integer>
 requires std::is_integral_v<Integer>
@@ -64,7 +70,7 @@ std::vector<Item> read_columns(const Json& list) {
   items.reserve(size);
   for (std::size_t row = 0; row < size; ++row) {
     std::size_t column = 0;
-    fields(item, [&](const char*, auto& value) { read(columns[column++]->at(row), value); });
+    fields(item, [&](const char*, auto&& value) { read(columns[column++]->at(row), value); });
     items.push_back(item);
   }
   return items;

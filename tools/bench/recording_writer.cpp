@@ -44,10 +44,22 @@ void append(std::string& out, double number) {
     out += std::signbit(number) ? "-0.0" : "0";  // "-0" would read back as the integer 0
   } else if (std::isfinite(number)) {
     append_digits(out, number);
-  } else if (number == std::numeric_limits<double>::infinity()) {
+  } else {
+    throw std::invalid_argument("is not a finite number");
+  }
+}
+void append(std::string& out, OrInfinite value) {
+  if (value.number == std::numeric_limits<double>::infinity()) {
     out += "null";
   } else {
-    throw std::invalid_argument("is not a number");
+    append(out, value.number);
+  }
+}
+void append(std::string& out, OrNan value) {
+  if (std::isnan(value.number)) {
+    out += "null";
+  } else {
+    append(out, value.number);
   }
 }
 void append(std::string& out, const std::string& text) {

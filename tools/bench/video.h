@@ -10,6 +10,8 @@
 
 namespace lcs::bench {
 
+inline constexpr const char* kVideoFile = "video.mp4";
+
 class Video {
  public:
   /// H.264 where this machine's OpenCV can encode it, MPEG-4 part 2 where not.

@@ -1,0 +1,14 @@
+/// \file
+/// What the command tells its caller.
+#pragma once
+
+namespace lcs::tools {
+
+enum ExitCode : int {
+  kFine = 0,
+  kCriterionFailed = 1,  ///< the run is whole, but not what the scenario asks for
+  kError = 2,            ///< one message on stderr says what, where, and what to do
+  kInterrupted = 130,    ///< by SIGINT or SIGTERM, as shells have it
+};
+
+}  // namespace lcs::tools

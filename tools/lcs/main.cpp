@@ -1,0 +1,64 @@
+/// \file
+/// The `lcs` command.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/core/utils/logger.hpp>
+
+#include "tools/lcs/exit_codes.h"
+#include "tools/lcs/interrupt.h"
+#include "tools/lcs/run.h"
+#include "tools/lcs/version.h"
+
+namespace {
+
+using namespace lcs::tools;
+
+constexpr const char* kHelp =
+    R"(A rover drives through a simulated world, the Line-Circle-Square filter watches
+through its camera and IMU, and the simulator's truth scores what the filter says.
+
+  lcs run scenarios/crossing.yaml     run a scenario; results are in out/crossing
+  lcs run --help                      all about it)";
+
+int fail(const std::string& message) {
+  fmt::print(stderr, "lcs: {}\n", message);
+  return kError;
+}
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app("Test bench for the Line-Circle-Square filter", "lcs");
+  app.set_version_flag("--version", version_text,
+                       "Print the versions of this program, MuJoCo, the renderer and OpenCV");
+  app.require_subcommand(1);
+  app.footer(kHelp);
+  RunOptions run_options;
+  const CLI::App& run_command = add_run_command(app, run_options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    return app.exit(help_or_version);
+  } catch (const CLI::ParseError& error) {
+    return fail(
+        fmt::format("{}; see lcs {}--help", error.what(), run_command.parsed() ? "run " : ""));
+  }
+  return run(run_options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // The same bits whatever the machine's cores; what OpenCV has to say arrives as an exception.
+  cv::setNumThreads(0);
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  try {
+    return run_command_line(argc, argv);
+  } catch (const Interrupted&) {
+    fmt::print(stderr, "lcs: interrupted; nothing was written\n");
+    return kInterrupted;
+  } catch (const std::exception& error) {
+    return fail(error.what());
+  }
+}

@@ -1,0 +1,144 @@
+#include "tools/lcs/run.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <vector>
+
+#include "scenarios/load.h"
+#include "sim/simulation.h"
+#include "tools/bench/bench.h"
+#include "tools/bench/criteria.h"
+#include "tools/bench/frame_painter.h"
+#include "tools/bench/output_folder.h"
+#include "tools/bench/recording_io.h"
+#include "tools/bench/report.h"
+#include "tools/bench/table.h"
+#include "tools/bench/tracker.h"
+#include "tools/bench/video.h"
+#include "tools/lcs/interrupt.h"
+#include "tools/lcs/progress.h"
+
+namespace lcs::tools {
+namespace {
+
+constexpr const char* kHelp = R"(Examples:
+  lcs run scenarios/crossing.yaml
+  lcs run scenarios/crossing.yaml --seed 7 --out out/seed7
+  lcs run scenarios/lab.yaml --set "ego.speed=10 cm/s" --set filter.circle.mu_0=20
+
+Files written to the folder, all or none:
+  metrics.json   every figure, flat; null where it is not defined (tools/bench/SCORING.md)
+  frames.csv     a row a frame: sizes of all layers, precision, recall, times
+  layers.jsonl   a line a frame: corners, verdicts, every layer
+  truth.jsonl    a line a frame: the truth of every corner and object
+  video.mp4      the paper's four panels: corners, edges, circles, squares
+
+Exit codes:
+  0  fine
+  1  a required criterion of the scenario is not met
+  2  error: nothing was written, an earlier result is as it was
+  130  interrupted (Ctrl-C): likewise)";
+
+std::vector<std::string> result_files() {
+  return {bench::kMetricsFile, bench::kFramesFile, bench::kLayersFile, bench::kTruthFile,
+          bench::kVideoFile};
+}
+
+std::filesystem::path target_of(const RunOptions& options, const scenario::Scenario& scenario) {
+  if (!options.out.empty()) return options.out;
+  return std::filesystem::path("out") / scenario.name;
+}
+
+/// Runs the scenario to its end, writing what is written frame by frame.
+bench::Recording record(const scenario::Scenario& scenario, sim::Simulation& simulation,
+                        bench::Tracker& tracker, const std::filesystem::path& folder,
+                        const InterruptGuard& interrupt, const RunOptions& options) {
+  const sim::Pinhole& camera = simulation.calibration().camera;
+  const bench::FramePainter painter({camera.width_px, camera.height_px});
+  bench::Recording recording = bench::begin_recording(scenario, simulation);
+  bench::RecordingWriter writer(folder, recording);
+  std::optional<bench::Video> video;
+  if (!options.no_video) {
+    video.emplace(folder / bench::kVideoFile, painter.size_px(), scenario.camera.rate_hz);
+  }
+  Progress progress(scenario.name, scenario.frames, options.quiet);
+  bench::run(scenario, simulation, tracker, recording,
+             [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
+               interrupt.check();
+               writer.write(frame);
+               if (video) video->write(painter.paint(frame, image));
+               progress.show(frame.index + 1);
+             });
+  writer.close();
+  if (video) video->close();
+  return recording;
+}
+
+void print_result(const scenario::Scenario& scenario, const bench::Metrics& metrics,
+                  const std::filesystem::path& folder) {
+  fmt::print("{}: {} frames, seed {}, {:.1f} frames/s\n", scenario.name, scenario.frames,
+             scenario.seed, bench::value(metrics, "sim.frames_per_second").value_or(0));
+  fmt::print("{}  files    {}\n", bench::table(metrics), folder.string());
+}
+
+/// One line each, on stderr. \return whether a required one is among them.
+bool report_failures(const std::vector<bench::FailedCriterion>& failures) {
+  bool required = false;
+  for (const bench::FailedCriterion& failure : failures) {
+    fmt::print(stderr, "{}: {}\n", failure.required ? "failed" : "missed (not required)",
+               failure.message);
+    required |= failure.required;
+  }
+  return required;
+}
+
+}  // namespace
+
+CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
+  CLI::App& command = *app.add_subcommand(
+      "run", "Simulate a scenario, run the LCS filter on it, and score the filter by the truth");
+  command.add_option("scenario", options.scenario, "The scenario, a YAML file")
+      ->required()
+      ->type_name("SCENARIO");
+  command.add_option("--out", options.out, "Folder for the results; out/<scenario> if not given")
+      ->type_name("DIR");
+  command.add_option("--seed", options.seed, "Seed, instead of the scenario's")->type_name("N");
+  command
+      .add_option("--set", options.sets,
+                  "Set a value of the scenario, as \"ego.speed=0.7 m/s\"; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command.add_flag("--no-video", options.no_video, "Write no video.mp4");
+  command.add_flag("--quiet", options.quiet,
+                   "Print neither progress nor figures, only what went wrong");
+  command.footer(kHelp);
+  return command;
+}
+
+ExitCode run(const RunOptions& options) {
+  const InterruptGuard interrupt;
+
+  // All that can be wrong with what was asked for is found before any output is begun.
+  const scenario::Scenario scenario =
+      scenario::load(options.scenario, {.sets = options.sets, .seed = options.seed});
+  const Parameters parameters = bench::filter_parameters(scenario);
+  bench::require_known_metrics(scenario.criteria);
+  sim::Simulation simulation(scenario);
+  bench::LcsTracker tracker(simulation.calibration().camera, parameters);
+
+  bench::OutputFolder folder(target_of(options, scenario), result_files());
+  const bench::Recording recording =
+      record(scenario, simulation, tracker, folder.staging(), interrupt, options);
+  const bench::Metrics metrics = bench::score(recording);
+  bench::write_metrics(folder.staging() / bench::kMetricsFile, metrics);
+  bench::write_frames(folder.staging() / bench::kFramesFile, recording);
+  interrupt.check();
+  folder.commit();
+
+  if (!options.quiet) print_result(scenario, metrics, folder.target());
+  const bool failed = report_failures(bench::failed_criteria(scenario.criteria, metrics));
+  return failed ? kCriterionFailed : kFine;
+}
+
+}  // namespace lcs::tools

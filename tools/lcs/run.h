@@ -1,0 +1,33 @@
+/// \file
+/// `lcs run`: a scenario simulated, filtered, scored and reported.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/lcs/exit_codes.h"
+
+namespace lcs::tools {
+
+struct RunOptions {
+  std::string scenario;  ///< file
+  std::string out;       ///< folder; "" is out/<scenario's name>
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> sets;  ///< "key=value"
+  bool no_video = false;
+  bool quiet = false;
+};
+
+/// Adds the sub-command to the program's. \param options are filled in by parsing.
+CLI::App& add_run_command(CLI::App& app, RunOptions& options);
+
+/// \throws scenario::Error, bench::OutputError, sim::PhysicsError, Interrupted, std::exception;
+/// then
+///   there is no new output, and an earlier one is as it was.
+ExitCode run(const RunOptions& options);
+
+}  // namespace lcs::tools
