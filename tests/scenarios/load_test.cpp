@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
 #include <numbers>
+#include <vector>
 
 #include "tests/scenarios/scenario_file.h"
 
@@ -295,6 +298,23 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, Shipped, testing::ValuesIn(shipped_files()),
                          [](const auto& test) {
                            return std::filesystem::path(test.param).stem().string();
                          });
+
+// The first block of YAML in scenarios/README.md is what a newcomer copies.
+TEST(Shipped, TheFirstScenarioOfTheReadmeLoads) {
+  std::ifstream stream(std::filesystem::path(LCS_SOURCE_DIR) / "scenarios/README.md");
+  const std::string readme{std::istreambuf_iterator<char>(stream), {}};
+  const std::string fence = "```yaml\n";
+  const std::size_t begin = readme.find(fence) + fence.size();
+  ASSERT_GE(begin, fence.size());
+  const ScenarioFolder folder;
+  const std::string yaml = readme.substr(begin, readme.find("```", begin) - begin);
+  const Scenario s = load(folder.write("first.yaml", yaml),
+                          {.sets = {"ego.speed=0.7", "actors.my_box.start.time=2 s"}, .seed = {}});
+  EXPECT_EQ(s.frames, 60);
+  EXPECT_EQ(s.ego.phases[0].speed_mps, 0.7);
+  ASSERT_EQ(s.actors.size(), 1u);
+  EXPECT_EQ(s.actors[0].start.at_s, 2);
+}
 
 TEST(Shipped, TheLabRunIsThePapers) {
   const Scenario s = load(std::filesystem::path(LCS_SOURCE_DIR) / "scenarios/lab.yaml");
