@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,13 +14,15 @@ namespace {
 
 constexpr double kNear = 0.05;     // m
 constexpr double kLeastFar = 100;  // m
+// Standard deviation of the lens's point spread.
+constexpr double kLensBlur_px = 0.6;
 // Room for what MuJoCo draws besides the geoms of the model.
 constexpr int kSpareGeoms = 64;
 
-void prepare(mjModel& m, int width_px, int height_px, int samples) {
+void prepare(mjModel& m, int width_px, int height_px) {
   m.vis.global.offwidth = width_px;
   m.vis.global.offheight = height_px;
-  m.vis.quality.offsamples = samples;
+  m.vis.quality.offsamples = 0;
   m.vis.quality.shadowsize = 0;
   // MuJoCo gives its clipping planes in lengths of the scene
   const double extent = m.stat.extent;
@@ -48,9 +51,9 @@ struct CameraRenderer::Impl {
   std::vector<unsigned char> rgb;
   std::vector<float> z;
 
-  Impl(Model& model_, int camera_id, int width_px_, int height_px_, int samples)
+  Impl(Model& model_, int camera_id, int width_px_, int height_px_)
       : model(model_), width_px(width_px_), height_px(height_px_) {
-    prepare(model.m(), width_px, height_px, samples);
+    prepare(model.m(), width_px, height_px);
     mjv_defaultScene(&scene);
     mjr_defaultContext(&context);
     mjv_defaultOption(&option);
@@ -111,8 +114,8 @@ struct CameraRenderer::Impl {
   }
 };
 
-CameraRenderer::CameraRenderer(Model& model, int camera, int width_px, int height_px, int samples)
-    : impl_(std::make_unique<Impl>(model, camera, width_px, height_px, samples)) {}
+CameraRenderer::CameraRenderer(Model& model, int camera, int width_px, int height_px)
+    : impl_(std::make_unique<Impl>(model, camera, width_px, height_px)) {}
 
 CameraRenderer::~CameraRenderer() {
   if (impl_) impl_->gl.make_current();
@@ -137,6 +140,7 @@ void CameraRenderer::render_colour(cv::Mat3b& bgr) {
     cv::Vec3b* to = bgr[y];
     for (int x = 0; x < s.width_px; ++x, from += 3) to[x] = {from[2], from[1], from[0]};
   }
+  cv::GaussianBlur(bgr, bgr, {}, kLensBlur_px);
 }
 
 void CameraRenderer::render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom) {

@@ -17,9 +17,8 @@ class CameraRenderer {
  public:
   /// Writes the camera's needs (buffer size, clipping planes, lights) into the model first.
   /// \param model outlives the renderer; textures must be complete, as they are uploaded here.
-  /// \param samples of each pixel of the colour image; 0 is one.
   /// \throws std::runtime_error if GL does not start or the image is larger than it can render.
-  CameraRenderer(Model& model, int camera, int width_px, int height_px, int samples = 0);
+  CameraRenderer(Model& model, int camera, int width_px, int height_px);
   ~CameraRenderer();
   CameraRenderer(const CameraRenderer&) = delete;
   CameraRenderer& operator=(const CameraRenderer&) = delete;

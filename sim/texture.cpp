@@ -70,18 +70,24 @@ class Brush {
   RandomStream random_;
 };
 
+/// A light face with four dark patches, one in each quarter, none touching another.
 void paint_fewrects(Brush& b) {
   b.fill(b.grey(150, 185, 8));
-  for (int i = 0; i < 6; ++i) b.rectangle_anywhere(0.12, 0.3, 0.06, b.grey(25, 90, 12));
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const double w = b.between(0.18, 0.32);
+    const double h = b.between(0.18, 0.32);
+    const double x = (quarter % 2) * 0.46 + b.between(0.08, 0.44 - w);
+    const double y = (quarter / 2) * 0.46 + b.between(0.08, 0.44 - h);
+    b.rectangle(x, y, x + w, y + h, b.grey(25, 80, 12));
+  }
 }
 
-/// Cartons and cabinets: a border, and two patches inside.
+/// Cartons and cabinets: a light face with one dark patch.
 void paint_panel(Brush& b) {
-  b.fill(b.grey(95, 120, 6));
-  b.rectangle(0.06, 0.06, 0.94, 0.94, b.grey(165, 190, 6));
-  const double split = b.between(0.35, 0.6);
-  b.rectangle(0.16, 0.16, 0.84, split - 0.05, b.grey(30, 70, 8));
-  b.rectangle(b.between(0.16, 0.4), split + 0.08, b.between(0.6, 0.84), 0.84, b.grey(90, 120, 8));
+  b.fill(b.grey(150, 180, 6));
+  const double left = b.between(0.15, 0.3);
+  const double top = b.between(0.15, 0.3);
+  b.rectangle(left, top, b.between(0.7, 0.85), b.between(0.5, 0.8), b.grey(40, 75, 8));
 }
 
 /// Sheet metal: light, with a smooth change of shade.
@@ -148,21 +154,16 @@ void paint_bricks(Brush& b) {
   }
 }
 
-/// A painting: sky, land, and a few large shapes before them.
+/// A painting: dark land under a dark sky, and two large light shapes before them.
 void paint_picture(Brush& b) {
-  const double horizon = b.between(0.45, 0.65);
-  b.fill(b.grey(185, 215, 15));
-  b.rectangle(0, horizon, 1, 1, b.grey(90, 130, 25));
-  for (int i = 0; i < 4; ++i) {
-    const double x = b.between(0.05, 0.7);
-    const double w = b.between(0.12, 0.25);
-    const double top = b.between(0.15, 0.5);
-    const double bottom = b.between(horizon, 0.92);
-    b.rectangle(x, top, x + w, bottom, i % 2 ? b.grey(20, 60, 18) : b.grey(200, 235, 15));
-  }
-  const double x = b.between(0.2, 0.8);
-  b.polygon(x, b.between(0.15, 0.3), b.between(0.07, 0.12), 3 + int(b.between(0, 3)),
-            b.grey(30, 70, 25));
+  const double horizon = b.between(0.5, 0.65);
+  b.fill(b.grey(70, 85, 12));
+  b.rectangle(0, horizon, 1, 1, b.grey(80, 95, 15));
+  const double house = b.between(0.1, 0.25);
+  b.rectangle(house, b.between(0.25, 0.4), house + b.between(0.25, 0.35), b.between(0.75, 0.85),
+              b.grey(170, 205, 18));
+  b.polygon(b.between(0.65, 0.75), b.between(0.5, 0.6), b.between(0.16, 0.22), 3,
+            b.grey(150, 190, 20));
 }
 
 /// Band-limited noise of low contrast: ground that is not flat grey and has no corners to speak of.
