@@ -8,7 +8,7 @@
 namespace lcs {
 namespace {
 
-constexpr double kDim = 0.6;        // of the image's brightness, so that thin lines stand out
+constexpr double kDim = 0.75;       // of the image's brightness, so that thin lines stand out
 constexpr int kFractionBits = 4;    // OpenCV draws at 1/16 px
 constexpr double kDotRadius = 1.6;  // px on the sheet, as all that follow
 constexpr double kPredictedHalf = 2;
@@ -50,10 +50,12 @@ class Pen {
   void box(const Vec2& min, const Vec2& max, const cv::Scalar& colour, int line) {
     outline(place(min), place(max), colour, line);
   }
+  /// Parts the panel from its neighbours, too.
   void caption(const std::string& text) {
     constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
     constexpr double kSize = 0.42;
     constexpr int kBand = 18;
+    cv::rectangle(panel_, {0, 0, panel_.cols, panel_.rows}, cv::Scalar::all(0), 1);
     cv::rectangle(panel_, {0, 0, panel_.cols, kBand}, cv::Scalar::all(0), cv::FILLED);
     cv::putText(panel_, text, {5, kBand - 5}, kFont, kSize, cv::Scalar::all(255), 1, cv::LINE_AA);
   }

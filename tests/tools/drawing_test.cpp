@@ -1,0 +1,273 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "filter/detect/fast.h"
+#include "filter/draw/panels.h"
+
+namespace lcs {
+namespace {
+
+/// A frame with an empty filter, to be filled.
+struct Scene {
+  cv::Mat3b image = cv::Mat3b(480, 640, {80, 80, 80});
+  std::vector<Eigen::Vector2f> corners;
+  std::vector<Verdict> verdicts;
+  Layers layers;
+  std::vector<TruthBox> truth;
+
+  cv::Mat3b draw(const PanelSheet& sheet) const {
+    return sheet.draw({.image = image,
+                       .corners_px = corners,
+                       .verdicts = verdicts,
+                       .layers = layers,
+                       .truth = truth,
+                       .caption = "frame 1"});
+  }
+};
+
+double difference(const cv::Vec3b& pixel, const cv::Scalar& colour) {
+  double largest = 0;
+  for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(pixel[c] - colour[c]));
+  return largest;
+}
+
+/// Whether a colour is to be seen at a place of the image, or a pixel beside it. Lines are
+/// smoothed, so a pixel need only come near (a quarter of the range) to the colour.
+bool shows(const cv::Mat3b& drawn, const PanelSheet& sheet, Panel panel, Vec2 at,
+           const cv::Scalar& colour) {
+  const Vec2 place = sheet.at(panel, at);
+  const cv::Point centre(static_cast<int>(std::lround(place.x())),
+                         static_cast<int>(std::lround(place.y())));
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const cv::Point pixel = centre + cv::Point(dx, dy);
+      if (!cv::Rect({}, drawn.size()).contains(pixel)) continue;
+      if (difference(drawn(pixel), colour) < 64) return true;
+    }
+  }
+  return false;
+}
+
+/// Whether nothing but the background is there and in the pixels around.
+bool is_bare(const cv::Mat3b& drawn, const PanelSheet& sheet, Panel panel, Vec2 at) {
+  const Vec2 place = sheet.at(panel, at);
+  const cv::Mat3b around =
+      drawn(cv::Rect(static_cast<int>(place.x()) - 1, static_cast<int>(place.y()) - 1, 3, 3));
+  return std::all_of(around.begin(), around.end(), [](const cv::Vec3b& pixel) {
+    // The image is dimmed, never brightened or coloured.
+    return pixel[0] == pixel[1] && pixel[1] == pixel[2] && pixel[0] <= 80 && pixel[0] >= 40;
+  });
+}
+
+constexpr Panel kAllPanels[] = {Panel::corners, Panel::edges, Panel::circles, Panel::squares};
+
+Edge edge_at(Vec2 location, Vec2 predicted) {
+  Edge edge;
+  edge.location = location;
+  edge.predicted = predicted;
+  return edge;
+}
+
+Circle circle_at(Vec2 location, double radius) {
+  Circle circle;
+  circle.location = location;
+  circle.radius = radius;
+  return circle;
+}
+
+TEST(PanelSheet, IsTwoByTwoPanelsOfEvenSizeWhateverTheCamera) {
+  EXPECT_EQ(PanelSheet({640, 480}).size_px(), cv::Size(1280, 960));
+  EXPECT_EQ(PanelSheet({1280, 960}).size_px(), cv::Size(1280, 960));
+  EXPECT_EQ(PanelSheet({320, 240}).size_px(), cv::Size(1280, 960));
+  for (const cv::Size camera : {cv::Size(641, 479), cv::Size(333, 777), cv::Size(2000, 20)}) {
+    const cv::Size sheet = PanelSheet(camera).size_px();
+    EXPECT_EQ(sheet.width % 4, 0);  // each panel even, and two of them
+    EXPECT_EQ(sheet.height % 4, 0);
+    EXPECT_LE(std::max(sheet.width, sheet.height), 1280);
+  }
+}
+
+TEST(PanelSheet, RefusesSizesThatCannotBeDrawn) {
+  EXPECT_THROW(PanelSheet({0, 480}), std::invalid_argument);
+  EXPECT_THROW(PanelSheet({640, 8}), std::invalid_argument);
+  EXPECT_THROW(PanelSheet({640, 480}, 4), std::invalid_argument);
+}
+
+TEST(PanelSheet, RefusesAnotherImageAndCornersWithoutVerdicts) {
+  const PanelSheet sheet({640, 480});
+  Scene other;
+  other.image = cv::Mat3b(240, 320);
+  EXPECT_THROW(other.draw(sheet), std::invalid_argument);
+  Scene unpaired;
+  unpaired.corners = {{10, 10}};
+  EXPECT_THROW(unpaired.draw(sheet), std::invalid_argument);
+}
+
+TEST(PanelSheet, PutsAPixelOfTheImageAtTheSamePlaceOfEveryPanel) {
+  const PanelSheet sheet({1280, 960});
+  // Half the size: the image's corner, half a pixel off its first pixel's centre, stays put.
+  EXPECT_TRUE(sheet.at(Panel::corners, {-0.5, -0.5}).isApprox(Vec2(-0.5, -0.5)));
+  EXPECT_TRUE(sheet.at(Panel::edges, {-0.5, -0.5}).isApprox(Vec2(639.5, -0.5)));
+  EXPECT_TRUE(sheet.at(Panel::circles, {99.5, 199.5}).isApprox(Vec2(49.5, 480 + 99.5)));
+  EXPECT_TRUE(sheet.at(Panel::squares, {1279.5, 959.5}).isApprox(Vec2(1279.5, 959.5)));
+}
+
+class Panels : public testing::TestWithParam<cv::Size> {
+ protected:
+  Panels() : sheet_(GetParam()) { scene_.image = cv::Mat3b(GetParam(), {80, 80, 80}); }
+  PanelSheet sheet_;
+  Scene scene_;
+};
+// At the sheet's own scale, drawn smaller, and drawn larger.
+INSTANTIATE_TEST_SUITE_P(Cameras, Panels,
+                         testing::Values(cv::Size(640, 480), cv::Size(1280, 960),
+                                         cv::Size(400, 300)));
+
+TEST_P(Panels, ShowTheDimmedImageWhereThereIsNothing) {
+  const cv::Mat3b drawn = scene_.draw(sheet_);
+  for (const Panel panel : kAllPanels) EXPECT_TRUE(is_bare(drawn, sheet_, panel, {200, 150}));
+}
+
+TEST_P(Panels, CornersAreYellowAndIgnoredOnesRedInTheFirstPanelOnly) {
+  scene_.corners = {{100, 100}, {200, 150}, {250, 250}};
+  scene_.verdicts = {Verdict::normal, Verdict::ignored, Verdict::rebel};
+  const cv::Mat3b drawn = scene_.draw(sheet_);
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::corners, {100, 100}, colour::kCorner));
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::corners, {200, 150}, colour::kIgnoredCorner));
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::corners, {250, 250}, colour::kCorner));
+  for (const Panel panel : {Panel::edges, Panel::circles, Panel::squares}) {
+    EXPECT_TRUE(is_bare(drawn, sheet_, panel, {100, 100}));
+  }
+}
+
+TEST_P(Panels, CollectorsAreWhiteCirclesAtTheirRadius) {
+  scene_.layers.collectors = {{.location = {200, 150}, .radius = 50}};
+  const cv::Mat3b drawn = scene_.draw(sheet_);
+  for (const Vec2& on : {Vec2(250, 150), Vec2(150, 150), Vec2(200, 100), Vec2(200, 200)}) {
+    EXPECT_TRUE(shows(drawn, sheet_, Panel::corners, on, colour::kCollector));
+  }
+  EXPECT_TRUE(is_bare(drawn, sheet_, Panel::corners, {200, 150}));
+  EXPECT_TRUE(is_bare(drawn, sheet_, Panel::corners, {240, 150}));
+  EXPECT_TRUE(is_bare(drawn, sheet_, Panel::circles, {250, 150}));
+}
+
+TEST_P(Panels, EdgesAreBlueOrRedWithTheirPredictionYellow) {
+  scene_.layers.normal_edges = {edge_at({100, 100}, {130, 100})};
+  scene_.layers.rebel_edges = {edge_at({100, 200}, {130, 200})};
+  const cv::Mat3b drawn = scene_.draw(sheet_);
+  // Squares of 7 px on the sheet: probe the middle of their right side.
+  const double half = 3.0 * GetParam().width / 640;
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::edges, {100 + half, 100}, colour::kNormalEdge));
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::edges, {100 + half, 200}, colour::kRebel));
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::edges, {130 + half, 100}, colour::kPredicted));
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::edges, {130 + half, 200}, colour::kPredicted));
+  EXPECT_FALSE(shows(drawn, sheet_, Panel::edges, {100 + half, 100}, colour::kRebel));
+  for (const Panel panel : {Panel::corners, Panel::circles, Panel::squares}) {
+    EXPECT_TRUE(is_bare(drawn, sheet_, panel, {100 + half, 100}));
+  }
+}
+
+TEST_P(Panels, CirclesAreGreenOrRedAndCircularIgnoranceYellow) {
+  scene_.layers.normal_circles = {circle_at({100, 100}, 40)};
+  scene_.layers.rebel_circles = {circle_at({200, 100}, 40)};
+  scene_.layers.ignored = {
+      {.shape = IgnoreRegion::Shape::circle, .location = {300, 100}, .size = {40, 0}}};
+  const cv::Mat3b drawn = scene_.draw(sheet_);
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::circles, {100, 140}, colour::kNormalCircle));
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::circles, {200, 140}, colour::kRebel));
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::circles, {300, 140}, colour::kIgnoreRegion));
+  for (const double x : {100.0, 200.0, 300.0}) {
+    EXPECT_TRUE(is_bare(drawn, sheet_, Panel::circles, {x, 100}));
+    EXPECT_TRUE(is_bare(drawn, sheet_, Panel::squares, {x, 140}));
+  }
+}
+
+TEST_P(Panels, SquaresAreMagentaAndRectangularIgnoranceYellow) {
+  Square square;
+  square.location = {100, 150};
+  square.half_size = {30, 60};
+  scene_.layers.squares = {square};
+  scene_.layers.ignored = {
+      {.shape = IgnoreRegion::Shape::rectangle, .location = {250, 150}, .size = {30, 60}}};
+  const cv::Mat3b drawn = scene_.draw(sheet_);
+  for (const Vec2& on : {Vec2(-30, 0), Vec2(30, 0), Vec2(0, -60), Vec2(0, 60)}) {
+    EXPECT_TRUE(shows(drawn, sheet_, Panel::squares, Vec2(100, 150) + on, colour::kSquare));
+    EXPECT_TRUE(shows(drawn, sheet_, Panel::squares, Vec2(250, 150) + on, colour::kIgnoreRegion));
+  }
+  EXPECT_TRUE(is_bare(drawn, sheet_, Panel::squares, {100, 150}));
+  EXPECT_TRUE(is_bare(drawn, sheet_, Panel::squares, {250, 150}));
+  EXPECT_TRUE(is_bare(drawn, sheet_, Panel::circles, {280, 150}));
+}
+
+TEST_P(Panels, TruthIsInEveryPanelCyanWhereItMovesAndBeneathTheLayers) {
+  scene_.truth = {{{80, 80}, {120, 160}, true}, {{200, 80}, {240, 160}, false}};
+  Square square;
+  square.location = {100, 120};
+  square.half_size = {20, 40};
+  scene_.layers.squares = {square};
+  const cv::Mat3b drawn = scene_.draw(sheet_);
+  for (const Panel panel : {Panel::corners, Panel::edges, Panel::circles}) {
+    EXPECT_TRUE(shows(drawn, sheet_, panel, {120, 120}, colour::kMovingTruth));
+    EXPECT_TRUE(shows(drawn, sheet_, panel, {240, 120}, colour::kStaticTruth));
+  }
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::squares, {120, 120}, colour::kSquare));
+  EXPECT_FALSE(shows(drawn, sheet_, Panel::squares, {120, 120}, colour::kMovingTruth));
+}
+
+TEST_P(Panels, LayersFarOutsideTheImageLeaveNoTrace) {
+  const cv::Mat3b bare = scene_.draw(sheet_);
+  constexpr double kFar = 1e12;
+  Square square;
+  square.location = {-kFar, 100};
+  square.half_size = {10, 10};
+  scene_.layers.squares = {square};
+  scene_.layers.collectors = {{.location = {kFar, kFar}, .radius = 10}};
+  const cv::Mat3b drawn = scene_.draw(sheet_);
+  // Below the captions, which count them.
+  const cv::Rect below(0, 30, bare.cols, bare.rows / 2 - 30);
+  EXPECT_EQ(cv::norm(bare(below), drawn(below), cv::NORM_INF), 0);
+}
+
+TEST_P(Panels, NoPanelPaintsOverAnother) {
+  scene_.layers.collectors = {{.location = {0, 0}, .radius = 90}};
+  const double right = GetParam().width - 1;
+  scene_.layers.collectors.push_back({.location = {right, 200}, .radius = 90});
+  const cv::Mat3b drawn = scene_.draw(sheet_);
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::corners, {right - 90, 200}, colour::kCollector));
+  EXPECT_TRUE(is_bare(drawn, sheet_, Panel::edges, {89, 200}));
+}
+
+// ---- The detector, beside the drawing
+
+/// Dots of one pixel: each has the whole circle of 16 against it.
+cv::Mat1b dots(uchar ground, uchar dot) {
+  cv::Mat1b image(100, 120, ground);
+  image(30, 40) = dot;
+  image(30, 70) = dot;
+  image(60, 20) = dot;
+  return image;
+}
+
+TEST(FastDetector, FindsDotsWhereTheyAreRowByRow) {
+  const std::vector<Eigen::Vector2f> expected{{40, 30}, {70, 30}, {20, 60}};
+  EXPECT_EQ(FastDetector(20).detect(dots(50, 200)), expected);
+  EXPECT_EQ(FastDetector(20).detect(dots(200, 50)), expected);
+  EXPECT_TRUE(FastDetector(20).detect(cv::Mat1b(100, 120, uchar{50})).empty());
+}
+
+TEST(FastDetector, ThresholdIsTheContrastThatACornerMustExceed) {
+  EXPECT_EQ(FastDetector(29).detect(dots(50, 80)).size(), 3u);
+  EXPECT_EQ(FastDetector(30).detect(dots(50, 80)).size(), 0u);
+}
+
+TEST(FastDetector, RefusesAThresholdThatIsNoContrast) {
+  EXPECT_THROW(FastDetector(0), std::invalid_argument);
+  EXPECT_THROW(FastDetector(255), std::invalid_argument);
+  EXPECT_NO_THROW(FastDetector(1));
+  EXPECT_NO_THROW(FastDetector(254));
+}
+
+}  // namespace
+}  // namespace lcs
