@@ -18,6 +18,14 @@ constexpr std::array<double, 5> kScales = {1.0, 1.04, 1.1, 1.2, 0.94};
 constexpr int kMaxDepths = 60;
 constexpr double kDepthSpacing_px = 1.5;
 
+/// The middle value, of an even number the mean of the middle two, so that -x has the median -m.
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
 /// A static residual beyond this says that a rebel's motion cannot be static, px; more than
 /// kFullResidual_px says no more.
 constexpr double kOffField_px = 1.0, kFullResidual_px = 6.0;
@@ -58,17 +66,16 @@ void ConstellationEdges::remember(const Chi& chi) {
   remembered_ = std::min(remembered_ + 1, 2);
 }
 
-void ConstellationEdges::assign(const Layers& layers, const Chi& chi) {
+void ConstellationEdges::assign(const Layers& layers, const Chi& chi, const MotionField& field) {
   const ConstellationParameters& p = parameters_.constellation;
   pairs_.clear();
-  const auto gate = [&](const Edge& edge, int index, double along, double across) {
-    const Vec2 displacement = edge.predicted - edge.rotated;
-    const double length = displacement.norm();
-    const Vec2 axis = length > 1e-3 ? Vec2(displacement / length) : Vec2(1, 0);
+  const auto gate = [&](const Edge& edge, int index, const Vec2& axis, double along,
+                        double across) {
     corner_grid_.visit_within(edge.predicted, std::max(along, across), [&](int corner, double) {
       const Vec2 residual = chi.locations[corner] - edge.predicted;
       const double a = residual.dot(axis) / along, b = cross(axis, residual) / across;
-      const double fit = a * a + b * b;
+      // Where there is no direction the gate is a disc.
+      const double fit = axis.isZero() ? residual.squaredNorm() / (across * across) : a * a + b * b;
       if (fit > 1) return;
       const double bonus = 0.08 * (edge.trust - trust_.standard);
       pairs_.push_back({fit - bonus, index, corner});
@@ -79,13 +86,15 @@ void ConstellationEdges::assign(const Layers& layers, const Chi& chi) {
     const Edge& edge = layers.normal_edges[i];
     const double length = (edge.predicted - edge.rotated).norm();
     const double base = edge.trust >= p.established ? p.normal_along : 1.6 * p.normal_along;
-    gate(edge, i, base + p.normal_along_growth * length, p.normal_across);
+    gate(edge, i, field.direction(edge.rotated), base + p.normal_along_growth * length,
+         p.normal_across);
   }
   for (std::size_t i = 0; i < layers.rebel_edges.size(); ++i) {
     const Edge& edge = layers.rebel_edges[i];
     const double length = (edge.predicted - edge.rotated).norm();
     const double base = std::min(p.rebel_gate_max, p.rebel_gate + p.rebel_growth * length);
-    gate(edge, normals + static_cast<int>(i), base + 0.08 * length, base + 0.04 * length);
+    gate(edge, normals + static_cast<int>(i), unit_vector(edge.angle), base + 0.08 * length,
+         base + 0.04 * length);
   }
   assign_one_to_one(layers.normal_edges.size() + layers.rebel_edges.size(), chi.size());
 }
@@ -183,7 +192,7 @@ int ConstellationEdges::count_votes(const Chi& chi, const Vec2& x, const Vec2& b
   int votes = own;
   int left = static_cast<int>(voters_.size());
   for (const int voter : voters_) {
-    if (votes + 2 * left <= best) return votes;
+    if (votes + 2 * left < best) return votes;
     --left;
     const Vec2& y = chi.locations[voter];
     const int once = past_[0].map.at(before + (y - x) / scale);
@@ -222,7 +231,8 @@ void ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Motio
     const int own = past_[1].map.at(before - step) >= 0 ? 2 : 1;
     for (const double scale : kScales) {
       const int votes = count_votes(chi, x, before, scale, own, best);
-      if (votes > best) {
+      // Of equal motions the slower one, so that the order of the search does not matter.
+      if (votes > best || (votes == best && step.squaredNorm() < best_step.squaredNorm())) {
         best = votes;
         best_step = step;
       }
@@ -330,11 +340,6 @@ void ConstellationEdges::smooth(std::vector<Edge>& rebels, double dt_s) {
   for (std::size_t i = 0; i < rebels.size(); ++i) {
     if (trust_.alive(rebels[i].trust)) members[component_[i]].push_back(i);
   }
-  const auto median = [](std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-  };
   std::vector<double> vx, vy;
   for (const auto& group : members) {
     if (group.size() < 4) continue;
@@ -434,7 +439,7 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
 void ConstellationEdges::update(Layers& layers, const Chi& chi, const MotionField& field,
                                 std::vector<Verdict>& verdicts) {
   corner_grid_.build(chi.locations, 16);
-  assign(layers, chi);
+  assign(layers, chi, field);
   const std::size_t normals = layers.normal_edges.size();
   for (std::size_t i = 0; i < normals; ++i) {
     Edge& edge = layers.normal_edges[i];

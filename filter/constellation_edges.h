@@ -57,7 +57,7 @@ class ConstellationEdges : public EdgeExpert {
   };
 
   void remember(const Chi& chi);
-  void assign(const Layers& layers, const Chi& chi);
+  void assign(const Layers& layers, const Chi& chi, const MotionField& field);
   void update_normal(Edge& edge, const Vec2& x, const MotionField& field) const;
   void update_rebel(Edge& edge, const Vec2& x, const MotionField& field) const;
   void set_velocity(Edge& edge, const Vec2& velocity_pxps, double dt_s) const;

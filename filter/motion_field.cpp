@@ -91,6 +91,7 @@ double MotionField::advanced_ratio(double depth_ratio) const {
 
 Vec2 MotionField::origin(const Vec2& x_px) const {
   if (foe_) return *foe_;
+  if (!moving_) return centre_px_;
   return x_px - direction(x_px) * (kFarFoe * focal_px_);
 }
 

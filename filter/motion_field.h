@@ -71,6 +71,7 @@ class MotionField {
 
   /// Point that the flow is seen to come from: the FOE, or, where that is at infinity, a point far
   /// behind along the flow, so that directions and homotheties about it stay what they should be.
+  /// The principal point while still.
   Vec2 origin(const Vec2& x_px) const;
 
   /// The paper's O_I in general; none while still or moving sideways.

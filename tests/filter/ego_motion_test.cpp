@@ -1,0 +1,192 @@
+#include "filter/ego_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "tests/filter/world.h"
+
+namespace lcs {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using testing::Random;
+using testing::rotation;
+
+constexpr double kGravity = 9.81;
+constexpr std::int64_t kImuStep_ns = 5'000'000;
+
+/// A rover whose pose is known in closed form.
+struct Path {
+  std::function<Matrix3d(double)> R_WB;
+  std::function<Vector3d(double)> p_WB;
+};
+
+Vector3d derivative(const std::function<Vector3d(double)>& f, double t) {
+  const double h = 1e-4;
+  return (f(t + h) - f(t - h)) / (2 * h);
+}
+
+Vector3d rate_S(const Path& path, const Mounting& m, double t) {
+  const double h = 1e-4;
+  const Matrix3d dR = path.R_WB(t - h).transpose() * path.R_WB(t + h);
+  const Eigen::AngleAxisd turn(dR);
+  return m.R_BS.transpose() * turn.axis() * turn.angle() / (2 * h);
+}
+
+Vector3d force_S(const Path& path, const Mounting& m, double t) {
+  const auto p_WS = [&](double s) -> Vector3d { return path.p_WB(s) + path.R_WB(s) * m.p_BS_m; };
+  const auto v_WS = [&](double s) -> Vector3d { return derivative(p_WS, s); };
+  const Vector3d a = derivative(v_WS, t) + Vector3d(0, 0, kGravity);
+  return (path.R_WB(t) * m.R_BS).transpose() * a;
+}
+
+Mounting mounting() {
+  Mounting m;
+  m.R_BC << 0, 0, 1, -1, 0, 0, 0, -1, 0;  // looks along B's x
+  m.p_BC_m = {0.2, 0.03, 0.4};
+  m.R_BS = rotation({0.1, -0.2, 0.3});
+  m.p_BS_m = {-0.1, 0.05, 0.1};
+  return m;
+}
+
+EgoMotionEstimator start(const Path& path, const Mounting& m) {
+  return {m, {}, {0, path.R_WB(0), derivative(path.p_WB, 0), kGravity}};
+}
+
+struct Camera {
+  Matrix3d R;
+  Vector3d p;
+};
+Camera camera(const Path& path, const Mounting& m, double t) {
+  return {path.R_WB(t) * m.R_BC, path.p_WB(t) + path.R_WB(t) * m.p_BC_m};
+}
+
+/// Runs the exact readings of a path through the estimator and compares every frame's motion.
+void expect_exact(const Path& path, double frame_hz, double rotation_rad, double displacement_m) {
+  const Mounting m = mounting();
+  EgoMotionEstimator estimator = start(path, m);
+  std::int64_t t_ns = 0;
+  for (int k = 0; k <= static_cast<int>(2 * frame_hz); ++k) {
+    const auto frame_ns = static_cast<std::int64_t>(std::llround(k * 1e9 / frame_hz));
+    for (; t_ns <= frame_ns; t_ns += kImuStep_ns) {
+      const double t = static_cast<double>(t_ns) * 1e-9;
+      estimator.add_imu(t_ns, rate_S(path, m, t), force_S(path, m, t));
+    }
+    const EgoMotion motion = estimator.frame(frame_ns);
+    if (k == 0) continue;
+    const double now = static_cast<double>(frame_ns) * 1e-9;
+    const Camera before = camera(path, m, now - 1 / frame_hz), after = camera(path, m, now);
+    const Matrix3d R_cur_prev = after.R.transpose() * before.R;
+    EXPECT_LT(Eigen::AngleAxisd(motion.R_cur_prev * R_cur_prev.transpose()).angle(), rotation_rad);
+    const Vector3d displacement = after.R.transpose() * (after.p - before.p);
+    EXPECT_LT((motion.v_C_mps * motion.dt_s - displacement).norm(), displacement_m)
+        << "frame " << k;
+    EXPECT_NEAR(motion.dt_s, 1 / frame_hz, 1e-9);
+    // The mean body rate and the rotation say the same.
+    EXPECT_TRUE(rotation(-motion.w_C_radps * motion.dt_s).isApprox(motion.R_cur_prev, 1e-9));
+  }
+}
+
+// Tolerances: the trapezoid over 5 ms errs by its third-order term, which for these paths is below
+// 1e-6 of the motion a frame, and over 2 s adds up to below a tenth of a millimetre a frame.
+
+TEST(EgoMotion, StraightAndAcceleratingIsExact) {
+  expect_exact({[](double) { return Matrix3d::Identity(); },
+                [](double t) { return Vector3d(0.5 * t + 0.3 * t * t, 0.1 * t, 0); }},
+               10, 1e-6, 1e-5);
+}
+
+TEST(EgoMotion, TurningOnTheSpotMovesTheLeveredCamera) {
+  expect_exact({[](double t) {
+                  return rotation({0, 0, 0.6 * t});
+                },
+                [](double) { return Vector3d(0, 0, 0); }},
+               10, 1e-6, 1e-4);
+}
+
+TEST(EgoMotion, ACurveWithRollAndPitchIsFollowed) {
+  expect_exact(
+      {[](double t) {
+         return Matrix3d(rotation({0, 0, 0.4 * t}) *
+                         rotation({0.05 * std::sin(3 * t), 0.03 * std::sin(5 * t), 0}));
+       },
+       [](double t) { return Vector3d(std::sin(t), 1 - std::cos(t), 0.02 * std::sin(4 * t)); }},
+      10, 1e-4, 3e-4);
+}
+
+TEST(EgoMotion, FramesBetweenReadingsAreCarriedOn) {
+  // 30 frames/s against 200 readings/s: frames fall between readings, held for at most 5 ms.
+  expect_exact({[](double t) {
+                  return rotation({0, 0, 0.3 * t});
+                },
+                [](double t) { return Vector3d(0.5 * t, 0, 0); }},
+               30, 1e-5, 1e-4);
+}
+
+TEST(EgoMotion, OdometryHoldsTheDriftOfABiasedImu) {
+  const Path path{[](double) { return Matrix3d::Identity(); },
+                  [](double t) { return Vector3d(0.03 * t, 0, 0); }};
+  const Mounting m = mounting();
+  const Vector3d gyro_bias(1e-3, -1e-3, 5e-4), accel_bias(0.02, -0.03, 0.01);
+  double error[2];
+  for (const bool odometry : {false, true}) {
+    EgoMotionEstimator estimator = start(path, m);
+    for (std::int64_t t_ns = 0; t_ns <= 30'000'000'000; t_ns += kImuStep_ns) {
+      const double t = static_cast<double>(t_ns) * 1e-9;
+      estimator.add_imu(t_ns, rate_S(path, m, t) + gyro_bias, force_S(path, m, t) + accel_bias);
+      if (odometry && t_ns % 20'000'000 == 0) estimator.add_odometry(t_ns, {0.03, 0, 0});
+    }
+    error[odometry] = (estimator.v_WS_mps() - Vector3d(0.03, 0, 0)).norm();
+  }
+  EXPECT_GT(error[0], 0.5);   // 30 s of these biases
+  EXPECT_LT(error[1], 0.01);  // a third of the speed, from 2 cm/s of odometry noise assumed
+}
+
+TEST(EgoMotion, ACorrectionIsNoMotionOfTheFrame) {
+  // Odometry that disagrees turns the attitude; the frame's rotation stays the gyro's.
+  const Path path{[](double) { return Matrix3d::Identity(); },
+                  [](double t) { return Vector3d(1.0 * t, 0, 0); }};
+  const Mounting m = mounting();
+  EgoMotionEstimator estimator = start(path, m);
+  std::int64_t t_ns = 0;
+  for (int k = 1; k <= 50; ++k) {
+    for (; t_ns <= k * 100'000'000LL; t_ns += kImuStep_ns) {
+      const double t = static_cast<double>(t_ns) * 1e-9;
+      estimator.add_imu(t_ns, rate_S(path, m, t), force_S(path, m, t));
+      if (t_ns % 20'000'000 == 0) estimator.add_odometry(t_ns, {1.0, 0.05, 0});
+    }
+    const EgoMotion motion = estimator.frame(k * 100'000'000LL);
+    if (k > 1) {
+      EXPECT_LT(Eigen::AngleAxisd(motion.R_cur_prev).angle(), 2e-4);  // the learnt gyro bias only
+    }
+  }
+}
+
+TEST(EgoMotion, BadReadingsAreDroppedAndCounted) {
+  const Path path{[](double) { return Matrix3d::Identity(); },
+                  [](double t) { return Vector3d(0.5 * t, 0, 0); }};
+  const Mounting m = mounting();
+  EgoMotionEstimator estimator = start(path, m);
+  const Vector3d up = force_S(path, m, 0);
+  estimator.add_imu(0, Vector3d::Zero(), up);
+  estimator.add_imu(10'000'000, Vector3d::Zero(), up);
+  estimator.add_imu(5'000'000, Vector3d::Zero(), up);  // older than the last
+  estimator.add_imu(15'000'000, Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()), up);
+  estimator.add_odometry(20'000'000, Vector3d::Constant(std::numeric_limits<double>::infinity()));
+  EXPECT_EQ(estimator.dropped(), 3);
+  EXPECT_TRUE(estimator.v_WS_mps().allFinite());
+}
+
+TEST(EgoMotion, TheFirstFrameHasNoMotion) {
+  EgoMotionEstimator estimator(mounting(), {}, {});
+  const EgoMotion motion = estimator.frame(0);
+  EXPECT_EQ(motion.dt_s, 0);
+  EXPECT_TRUE(motion.R_cur_prev.isIdentity());
+}
+
+}  // namespace
+}  // namespace lcs

@@ -1,0 +1,378 @@
+/// Properties of the whole filter, for both rules of the Circle expert.
+#include "filter/filter.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "filter/geometry.h"
+#include "tests/filter/world.h"
+
+namespace lcs {
+namespace {
+
+using Eigen::Vector3d;
+using testing::Random;
+using testing::sparse_world;
+using testing::steady_motion;
+using testing::World;
+
+/// A crowded world with a moving cluster, and a camera that moves and turns.
+struct Scene {
+  explicit Scene(std::uint64_t seed) {
+    Random random(seed);
+    for (int i = 0; i < 150; ++i) {
+      world.add({random.uniform(5, 634), random.uniform(5, 474)}, random.uniform(1.5, 8));
+    }
+    for (int i = 0; i < 20; ++i) {
+      world.add({random.uniform(380, 440), random.uniform(180, 240)}, 2.5, {-0.6, 0, 0});
+    }
+    motion = steady_motion({0.05, 0.02, 0.5}, {0.02, -0.05, 0.03}, 0.1);
+  }
+  World world;
+  EgoMotion motion;
+};
+
+/// Corners of `frames` frames of a scene, on a grid of 1/64 px, so that mirrored ones are exact.
+std::vector<std::vector<Eigen::Vector2f>> record(Scene& scene, int frames) {
+  std::vector<std::vector<Eigen::Vector2f>> recorded;
+  for (int k = 0; k < frames; ++k) {
+    recorded.push_back(scene.world.corners());
+    for (auto& x : recorded.back()) x = (64 * x).array().round() / 64;
+    scene.world.advance(scene.motion);
+  }
+  return recorded;
+}
+
+struct FilterWith : ::testing::TestWithParam<std::string> {
+  Parameters parameters() const { return preset(GetParam()); }
+  TrustRanks circle_ranks() const { return parameters().circle.trust; }
+};
+INSTANTIATE_TEST_SUITE_P(Presets, FilterWith, ::testing::Values("default", "lab", "cars"),
+                         [](const auto& preset_info) { return preset_info.param; });
+
+TEST_P(FilterWith, OrderOfTheCornersMakesNoDifference) {
+  Scene scene(1);
+  const auto frames = record(scene, 10);
+  Filter forward(scene.world.camera, parameters()), backward(scene.world.camera, parameters());
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const EgoMotion motion = k == 0 ? EgoMotion{} : scene.motion;
+    auto reversed = frames[k];
+    std::reverse(reversed.begin(), reversed.end());
+    const FrameResult& a = forward.step(frames[k], motion);
+    const FrameResult& b = backward.step(reversed, motion);
+    auto verdicts = b.verdicts;
+    std::reverse(verdicts.begin(), verdicts.end());
+    EXPECT_EQ(a.verdicts, verdicts);
+    ASSERT_EQ(a.layers.normal_edges.size(), b.layers.normal_edges.size());
+    for (std::size_t i = 0; i < a.layers.normal_edges.size(); ++i) {
+      EXPECT_EQ(a.layers.normal_edges[i].location, b.layers.normal_edges[i].location);
+      EXPECT_EQ(a.layers.normal_edges[i].id, b.layers.normal_edges[i].id);
+    }
+    ASSERT_EQ(a.layers.squares.size(), b.layers.squares.size());
+    for (std::size_t i = 0; i < a.layers.squares.size(); ++i) {
+      EXPECT_EQ(a.layers.squares[i].location, b.layers.squares[i].location);
+    }
+  }
+}
+
+/// Compares the layers of a filter with those of one that sees the world transformed.
+/// \param pixel moves a pixel; \param turn a vector of the camera.
+void expect_equivariant(const Parameters& parameters, const Intrinsics& other_camera,
+                        const std::function<Vec2(const Vec2&)>& pixel,
+                        const Eigen::Matrix3d& turn) {
+  Scene scene(2);
+  const auto frames = record(scene, 8);
+  Filter straight(scene.world.camera, parameters), transformed(other_camera, parameters);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    EgoMotion motion, turned;
+    if (k > 0) {
+      motion = turned = scene.motion;
+      turned.v_C_mps = turn * motion.v_C_mps;
+      turned.R_cur_prev = turn * motion.R_cur_prev * turn.transpose();
+      turned.w_C_radps = turn.determinant() * (turn * motion.w_C_radps);
+    }
+    std::vector<Eigen::Vector2f> corners;
+    for (const auto& x : frames[k]) corners.push_back(pixel(x.cast<double>()).cast<float>());
+    const FrameResult& a = straight.step(frames[k], motion);
+    const FrameResult& b = transformed.step(corners, turned);
+    ASSERT_EQ(a.verdicts, b.verdicts) << "frame " << k;
+    // Sums run in another order on both sides.
+    const auto expect_same_points = [&](const auto& from, const auto& to, const char* what) {
+      ASSERT_EQ(from.size(), to.size()) << what << ", frame " << k;
+      for (const auto& item : from) {
+        const Vec2 expected = pixel(item.location);
+        const bool found = std::any_of(to.begin(), to.end(), [&](const auto& other) {
+          return (other.location - expected).norm() < 1e-6 && other.trust == item.trust;
+        });
+        EXPECT_TRUE(found) << what << ", frame " << k;
+      }
+    };
+    expect_same_points(a.layers.normal_edges, b.layers.normal_edges, "normal edges");
+    expect_same_points(a.layers.rebel_edges, b.layers.rebel_edges, "rebel edges");
+    expect_same_points(a.layers.normal_circles, b.layers.normal_circles, "normal circles");
+    expect_same_points(a.layers.rebel_circles, b.layers.rebel_circles, "rebel circles");
+    expect_same_points(a.layers.squares, b.layers.squares, "squares");
+  }
+}
+
+TEST_P(FilterWith, MirroringTheImageMirrorsTheLayers) {
+  const Intrinsics camera = testing::vga();
+  expect_equivariant(
+      parameters(), camera, [](const Vec2& x) { return Vec2(639 - x.x(), x.y()); },
+      Vector3d(-1, 1, 1).asDiagonal());
+}
+
+TEST_P(FilterWith, AQuarterTurnOfTheImageTurnsTheLayers) {
+  const Intrinsics camera{testing::vga().focal_px, {239.5, 319.5}, 480, 640};
+  Eigen::Matrix3d turn;
+  turn << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  expect_equivariant(
+      parameters(), camera, [](const Vec2& x) { return Vec2(479 - x.y(), x.x()); }, turn);
+}
+
+TEST_P(FilterWith, ASparseStaticWorldUnderExactMotionHasNoRebel) {
+  for (const Vector3d& v : {Vector3d(0, 0, 0.5), Vector3d(0.3, 0, 0), Vector3d(0, 0, -0.4),
+                            Vector3d(0.1, -0.05, 0.4), Vector3d(0, 0, 0)}) {
+    World world = sparse_world(5);
+    const EgoMotion motion = steady_motion(v, {0.01, 0.05, -0.02}, 0.1);
+    Filter filter(world.camera, parameters());
+    for (int k = 0; k < 20; ++k) {
+      const FrameResult& result = filter.step(world.corners(), k == 0 ? EgoMotion{} : motion);
+      EXPECT_EQ(std::count(result.verdicts.begin(), result.verdicts.end(), Verdict::rebel), 0)
+          << "v = " << v.transpose() << ", frame " << k;
+      world.advance(motion);
+    }
+  }
+}
+
+TEST_P(FilterWith, ASparseStaticWorldIsTrackedAndItsDepthsAreLearnt) {
+  World world = sparse_world(6);
+  const EgoMotion motion = steady_motion({0, 0, 0.5}, Vector3d::Zero(), 0.1);
+  Filter filter(world.camera, parameters());
+  const FrameResult* result = nullptr;
+  for (int k = 0; k < 12; ++k) {
+    result = &filter.step(world.corners(), k == 0 ? EgoMotion{} : motion);
+    if (k < 11) world.advance(motion);
+  }
+  // Edges with a corner are nearly all trusted, and sit on a corner.
+  const auto corners = world.corners();
+  const auto& edges = result->layers.normal_edges;
+  ASSERT_GT(edges.size(), corners.size() / 2);
+  const auto supported =
+      std::count_if(edges.begin(), edges.end(), [](const Edge& edge) { return edge.corner >= 0; });
+  const auto looked_at = std::count_if(result->verdicts.begin(), result->verdicts.end(),
+                                       [](Verdict v) { return v != Verdict::ignored; });
+  // The paper's V~ = (V + V_v)/2 puts landmarks away from Z_ref beside their corners for good, and
+  // xi_3 costs those that it overshoots their trust: under its rule part of them come and go.
+  const double share = parameters().circle.edge_rule == EdgeRule::paper ? 0.5 : 0.95;
+  EXPECT_GT(static_cast<double>(supported), share * static_cast<double>(looked_at));
+  for (const Edge& edge : edges) {
+    if (edge.corner < 0) continue;
+    EXPECT_LT((edge.location - corners[edge.corner].cast<double>()).norm(), 5);
+  }
+}
+
+TEST_P(FilterWith, TrustOfTheLivingStaysBetweenItsRanks) {
+  Scene scene(7);
+  const auto frames = record(scene, 25);
+  Filter filter(scene.world.camera, parameters());
+  const TrustRanks circle = parameters().circle.trust, square = parameters().square.trust;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const Layers& layers = filter.step(frames[k], k == 0 ? EgoMotion{} : scene.motion).layers;
+    const auto expect_within = [](const auto& items, const TrustRanks& ranks) {
+      for (const auto& item : items) {
+        EXPECT_GE(item.trust, ranks.critical);
+        EXPECT_LE(item.trust, ranks.maximum);
+      }
+    };
+    expect_within(layers.normal_edges, circle);
+    expect_within(layers.rebel_edges, circle);
+    expect_within(layers.normal_circles, circle);
+    expect_within(layers.rebel_circles, circle);
+    expect_within(layers.squares, square);
+  }
+}
+
+TEST_P(FilterWith, OneCornerNeverFeedsTwoLandmarks) {
+  Scene scene(8);
+  const auto frames = record(scene, 20);
+  Filter filter(scene.world.camera, parameters());
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const Layers& layers = filter.step(frames[k], k == 0 ? EgoMotion{} : scene.motion).layers;
+    std::set<int> used;
+    for (const auto* edges : {&layers.normal_edges, &layers.rebel_edges}) {
+      for (const Edge& edge : *edges) {
+        if (edge.corner >= 0) {
+          EXPECT_TRUE(used.insert(edge.corner).second);
+        }
+      }
+    }
+  }
+}
+
+TEST_P(FilterWith, LandmarksInsidePsiLoseNoTrust) {
+  Parameters p = parameters();
+  p.line.ignore = true;
+  Scene scene(9);
+  const auto frames = record(scene, 25);
+  Filter filter(scene.world.camera, p);
+  std::map<Id, int> trust_before;
+  int coasted = 0;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const Layers& layers = filter.step(frames[k], k == 0 ? EgoMotion{} : scene.motion).layers;
+    const auto inside = [&](const Vec2& x) {
+      return std::any_of(layers.ignored.begin(), layers.ignored.end(), [&](const IgnoreRegion& r) {
+        const Vec2 d = (x - r.location).cwiseAbs();
+        return r.shape == IgnoreRegion::Shape::circle ? d.norm() <= r.size.x()
+                                                      : d.x() <= r.size.x() && d.y() <= r.size.y();
+      });
+    };
+    std::map<Id, int> trust_now;
+    for (const Edge& edge : layers.normal_edges) {
+      trust_now[edge.id] = edge.trust;
+      if (edge.corner >= 0 || edge.age == 0 || !inside(edge.predicted)) continue;
+      ++coasted;
+      EXPECT_GE(edge.trust, trust_before.at(edge.id));
+    }
+    trust_before = trust_now;
+  }
+  EXPECT_GT(coasted, 20) << "the scene gave psi nothing to do";
+}
+
+TEST_P(FilterWith, IgnoredCornersAreThoseInsidePsi) {
+  Parameters p = parameters();
+  p.line.ignore = true;
+  Scene scene(10);
+  const auto frames = record(scene, 20);
+  Filter filter(scene.world.camera, p);
+  int ignored = 0;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const FrameResult& result = filter.step(frames[k], k == 0 ? EgoMotion{} : scene.motion);
+    for (std::size_t i = 0; i < frames[k].size(); ++i) {
+      if (result.verdicts[i] == Verdict::ignored) ++ignored;
+      if (result.layers.ignored.empty()) {
+        EXPECT_NE(result.verdicts[i], Verdict::ignored);
+      }
+    }
+  }
+  EXPECT_GT(ignored, 0);
+}
+
+TEST_P(FilterWith, DegenerateCornersLeaveAFiniteState) {
+  const Vec2 foe = testing::vga().centre_px;
+  const std::vector<std::vector<Eigen::Vector2f>> cases = {
+      {},
+      {{100, 100}},
+      {{100, 100}, {110, 100}},
+      std::vector<Eigen::Vector2f>(20, Eigen::Vector2f(200, 200)),    // coincident
+      std::vector<Eigen::Vector2f>(5, foe.cast<float>()),             // on the FOE
+      {{0, 0}, {639, 0}, {0, 479}, {639, 479}},                       // the image's corners
+      {{10, 50}, {30, 50}, {50, 50}, {70, 50}, {90, 50}, {110, 50}},  // on a line
+  };
+  for (const auto& corners : cases) {
+    for (const Vector3d& v :
+         {Vector3d(0, 0, 0.5), Vector3d(0.5, 0, 0), Vector3d(0, 0, -1), Vector3d(0, 0, 0)}) {
+      Filter filter(testing::vga(), parameters());
+      for (int k = 0; k < 10; ++k) {
+        const EgoMotion motion = k == 0 ? EgoMotion{} : steady_motion(v, {0, 0.05, 0}, 0.1);
+        const FrameResult& result = filter.step(corners, motion);
+        ASSERT_EQ(result.verdicts.size(), corners.size());
+        for (const auto* edges : {&result.layers.normal_edges, &result.layers.rebel_edges}) {
+          for (const Edge& edge : *edges) {
+            ASSERT_TRUE(edge.location.allFinite() && std::isfinite(edge.speed) &&
+                        std::isfinite(edge.angle) && std::isfinite(edge.depth_ratio) &&
+                        std::isfinite(edge.mu));
+          }
+        }
+        for (const Square& square : result.layers.squares) {
+          ASSERT_TRUE(square.location.allFinite() && square.half_size.allFinite());
+        }
+      }
+    }
+  }
+}
+
+TEST_P(FilterWith, RecoversAfterTenFramesWithoutCorners) {
+  Scene scene(11);
+  const auto frames = record(scene, 24);
+  Filter filter(scene.world.camera, parameters());
+  Filter fresh(scene.world.camera, parameters());
+  // Corners that are explained: matched to a normal edge, or ignored as well known.
+  const auto explained = [](const FrameResult& result) {
+    return std::count_if(result.verdicts.begin(), result.verdicts.end(),
+                         [](Verdict v) { return v == Verdict::normal || v == Verdict::ignored; });
+  };
+  double after_gap = 0, from_scratch = 0;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const bool dark = k >= 4 && k < 14;
+    const EgoMotion motion = k == 0 ? EgoMotion{} : scene.motion;
+    const FrameResult& result =
+        filter.step(dark ? std::vector<Eigen::Vector2f>{} : frames[k], motion);
+    after_gap = static_cast<double>(explained(result));
+    if (k >= 14) {
+      from_scratch =
+          static_cast<double>(explained(fresh.step(frames[k], k == 14 ? EgoMotion{} : motion)));
+    }
+  }
+  EXPECT_GT(after_gap, 0.9 * from_scratch);
+}
+
+TEST_P(FilterWith, AStandingCameraStillFindsWhatMoves) {
+  World world;
+  Random random(12);
+  for (int i = 0; i < 100; ++i) {
+    world.add({random.uniform(5, 634), random.uniform(5, 150)}, random.uniform(2, 8));
+  }
+  for (int i = 0; i < 15; ++i) {
+    world.add({random.uniform(300, 360), random.uniform(300, 360)}, 3, {0.8, 0, 0});
+  }
+  const EgoMotion motion = steady_motion(Vector3d::Zero(), Vector3d::Zero(), 0.1);
+  Parameters p = parameters();
+  p.line.ignore = false;
+  Filter filter(world.camera, p);
+  for (int k = 0; k < 8; ++k) {
+    const FrameResult& result = filter.step(world.corners(), k == 0 ? EgoMotion{} : motion);
+    if (k >= 4) {
+      const auto rebels = [&](std::size_t first, std::size_t last) {
+        return std::count(result.verdicts.begin() + static_cast<std::ptrdiff_t>(first),
+                          result.verdicts.begin() + static_cast<std::ptrdiff_t>(last),
+                          Verdict::rebel);
+      };
+      EXPECT_EQ(rebels(0, 100), 0) << "frame " << k;
+      EXPECT_GE(rebels(100, 115), 10) << "frame " << k;
+    }
+    world.advance(motion);
+  }
+}
+
+TEST(Filter, AMovingGroupIsFoundAtItsThirdSightingByTheDefaultRule) {
+  Scene scene(13);
+  Filter filter(scene.world.camera, preset("default"));
+  const auto frames = record(scene, 3);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const FrameResult& result = filter.step(frames[k], k == 0 ? EgoMotion{} : scene.motion);
+    const auto rebels = std::count(result.verdicts.begin(), result.verdicts.end(), Verdict::rebel);
+    if (k < 2) {
+      EXPECT_EQ(rebels, 0);
+    }
+    if (k == 2) {
+      EXPECT_GE(rebels, 15) << "of 20";
+    }
+  }
+}
+
+TEST(Filter, RefusesACameraWithoutPixelsAndBadParameters) {
+  EXPECT_THROW(Filter({0, {0, 0}, 640, 480}, preset("default")), std::invalid_argument);
+  EXPECT_THROW(Filter({400, {0, 0}, 0, 480}, preset("default")), std::invalid_argument);
+  Parameters bad = preset("default");
+  bad.circle.mu_0 = -1;
+  EXPECT_THROW(Filter(testing::vga(), bad), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace lcs

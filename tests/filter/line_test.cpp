@@ -1,0 +1,91 @@
+#include "filter/line.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "tests/filter/world.h"
+
+namespace lcs {
+namespace {
+
+using testing::Random;
+
+const Vec2 kCentre(319.5, 239.5);
+
+IgnoreRegion disc(const Vec2& at, double radius) {
+  return {IgnoreRegion::Shape::circle, at, {radius, radius}};
+}
+IgnoreRegion rectangle(const Vec2& at, const Vec2& half) {
+  return {IgnoreRegion::Shape::rectangle, at, half};
+}
+
+TEST(LineExpert, RemovesExactlyTheCornersInsidePsi) {
+  Random random(1);
+  const std::vector<IgnoreRegion> psi = {disc({100, 100}, 60), rectangle({400, 300}, {120, 40})};
+  std::vector<Eigen::Vector2f> corners;
+  for (int i = 0; i < 500; ++i) {
+    corners.emplace_back(random.uniform(0, 639), random.uniform(0, 479));
+  }
+  LineExpert line(kCentre);
+  std::vector<Verdict> verdicts;
+  const Chi& chi = line.collect(corners, psi, {}, verdicts);
+  std::size_t outside = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2 x = corners[i].cast<double>();
+    const bool in_disc = (x - Vec2(100, 100)).norm() <= 60;
+    const bool in_rectangle = std::abs(x.x() - 400) <= 120 && std::abs(x.y() - 300) <= 40;
+    EXPECT_EQ(verdicts[i] == Verdict::ignored, in_disc || in_rectangle);
+    outside += !in_disc && !in_rectangle;
+  }
+  EXPECT_EQ(chi.size(), outside);
+}
+
+TEST(LineExpert, GroupsByTheNearestCollectorAndLeavesTheRestSingle) {
+  const std::vector<Collector> lambda = {{{100, 100}, 50}, {{160, 100}, 50}};
+  const std::vector<Eigen::Vector2f> corners = {{90, 100}, {140, 100}, {300, 300}};
+  LineExpert line(kCentre);
+  std::vector<Verdict> verdicts;
+  const Chi& chi = line.collect(corners, {}, lambda, verdicts);
+  std::vector<int> group(3, -2);
+  for (std::size_t c = 0; c < chi.size(); ++c) group[chi.sources[c]] = chi.groups[c];
+  EXPECT_EQ(group, (std::vector<int>{0, 1, -1}));  // 140 is within both, and nearer to 160
+}
+
+TEST(LineExpert, OrderOfTheCornersMakesNoDifference) {
+  Random random(2);
+  std::vector<Eigen::Vector2f> corners;
+  for (int i = 0; i < 100; ++i) {
+    corners.emplace_back(random.uniform(0, 639), random.uniform(0, 479));
+  }
+  LineExpert a(kCentre), b(kCentre);
+  std::vector<Verdict> verdicts;
+  const std::vector<Vec2> forward = a.collect(corners, {}, {}, verdicts).locations;
+  std::reverse(corners.begin(), corners.end());
+  const std::vector<Vec2> backward = b.collect(corners, {}, {}, verdicts).locations;
+  EXPECT_EQ(forward, backward);
+}
+
+TEST(LineExpert, CornersThatAreNotFiniteStayPendingAndGoNoFurther) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float inf = std::numeric_limits<float>::infinity();
+  const std::vector<Eigen::Vector2f> corners = {{nan, 3}, {4, inf}, {5, 5}};
+  LineExpert line(kCentre);
+  std::vector<Verdict> verdicts;
+  EXPECT_EQ(line.collect(corners, {}, {}, verdicts).size(), 1u);
+  EXPECT_EQ(verdicts, (std::vector<Verdict>(3, Verdict::pending)));
+}
+
+TEST(LineExpert, NothingOrEverythingIgnoredIsAnEmptyChi) {
+  LineExpert line(kCentre);
+  std::vector<Verdict> verdicts;
+  EXPECT_EQ(line.collect({}, {}, {}, verdicts).size(), 0u);
+  const std::vector<Eigen::Vector2f> corners = {{10, 10}, {20, 20}};
+  const std::vector<IgnoreRegion> psi = {rectangle({0, 0}, {100, 100})};
+  EXPECT_EQ(line.collect(corners, psi, {}, verdicts).size(), 0u);
+  EXPECT_EQ(verdicts, (std::vector<Verdict>(2, Verdict::ignored)));
+}
+
+}  // namespace
+}  // namespace lcs
