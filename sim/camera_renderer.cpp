@@ -125,7 +125,9 @@ void CameraRenderer::update() {
   Impl& s = *impl_;
   mjv_updateScene(&s.model.m(), &s.model.d(), &s.option, &s.perturb, &s.camera, mjCAT_ALL,
                   &s.scene);
-  if (s.model.d().warning[mjWARN_VGEOMFULL].number > 0) {
+  // a full buffer is only warned of, and then draws a part
+  if (const std::string warning = take_warning(); !warning.empty()) throw MujocoError(warning);
+  if (s.scene.ngeom >= s.scene.maxgeom) {
     throw MujocoError("the scene has more to draw than " + std::to_string(s.scene.maxgeom) +
                       " geoms");
   }
