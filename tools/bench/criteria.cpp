@@ -11,6 +11,10 @@
 namespace lcs::bench {
 namespace {
 
+std::string place(const scenario::Source& source) {
+  return source.line > 0 ? fmt::format("{}:{}", source.file, source.line) : source.file;
+}
+
 std::string bounds(const scenario::Criterion& criterion) {
   std::string text;
   if (criterion.min) text += fmt::format("at least {}", *criterion.min);
@@ -47,9 +51,8 @@ std::vector<FailedCriterion> failed_criteria(const std::vector<scenario::Criteri
     if (is_met(criterion, figure)) continue;
     failed.push_back(
         {criterion.required,
-         fmt::format("{} is {}, must be {} ({}:{})", criterion.metric,
-                     figure ? fmt::format("{:.4g}", *figure) : "undefined", bounds(criterion),
-                     criterion.source.file, criterion.source.line)});
+         fmt::format("{}: {} is {}, must be {}", place(criterion.source), criterion.metric,
+                     figure ? fmt::format("{:.4g}", *figure) : "undefined", bounds(criterion))});
   }
   return failed;
 }

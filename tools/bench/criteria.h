@@ -17,7 +17,7 @@ void require_known_metrics(const std::vector<scenario::Criterion>& criteria);
 
 struct FailedCriterion {
   bool required = true;
-  std::string message;  ///< as "rebel.f1 is 0.41, must be at least 0.6 (crossing.yaml:31)"
+  std::string message;  ///< as "crossing.yaml:31: rebel.f1 is 0.41, must be at least 0.6"
 };
 
 /// Those not met, in the scenario's order. An undefined figure meets no bound.

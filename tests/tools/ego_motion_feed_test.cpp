@@ -1,0 +1,147 @@
+#include "tools/bench/ego_motion_feed.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+namespace lcs::bench {
+namespace {
+
+using Eigen::AngleAxisd;
+using Eigen::Vector3d;
+
+/// Camera looks along the rover's x: its z forward, its x to the right, its y down.
+sim::Pose camera_mount() {
+  sim::Pose T_BC;
+  T_BC.R << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  T_BC.p = {0.2, 0, 0.45};
+  return T_BC;
+}
+
+/// A rover that drives in a circle: all that its sensors see is known in closed form.
+struct CircularDrive {
+  double speed_mps = 0.5;
+  double yaw_rate_radps = 0.3;
+
+  sim::Pose T_WB(double t) const {
+    const double radius = speed_mps / yaw_rate_radps, yaw = yaw_rate_radps * t;
+    return {AngleAxisd(yaw, Vector3d::UnitZ()).matrix(),
+            {radius * std::sin(yaw), radius * (1 - std::cos(yaw)), 0}};
+  }
+  /// At the rover's origin: the centripetal acceleration to its left, and gravity.
+  sim::ImuSample imu(std::int64_t t_ns) const {
+    return {t_ns, {0, 0, yaw_rate_radps}, {0, speed_mps * yaw_rate_radps, 9.81}};
+  }
+  sim::Calibration calibration() const {
+    sim::Calibration calibration;
+    calibration.T_BC = camera_mount();
+    calibration.T_WB_start = T_WB(0);
+    calibration.v_WB_start_mps = {speed_mps, 0, 0};
+    return calibration;
+  }
+  /// Frame k of a camera at 10 frames/s with an IMU at 200 Hz.
+  sim::Observation observation(int k) const {
+    sim::Observation observation;
+    observation.index = k;
+    observation.t_ns = k * std::int64_t{100'000'000};
+    for (int i = k == 0 ? 0 : 20 * (k - 1) + 1; i <= 20 * k; ++i) {
+      observation.imu.push_back(imu(i * std::int64_t{5'000'000}));
+    }
+    observation.truth.now.T_WC = T_WB(0.1 * k) * camera_mount();
+    return observation;
+  }
+};
+
+scenario::Scenario with_source(scenario::EgoMotionSource source) {
+  scenario::Scenario scenario;
+  scenario.ego_motion = source;
+  return scenario;
+}
+
+TEST(MotionBetween, MovesAFixedPointFromOneCameraToTheNext) {
+  const sim::Pose before{AngleAxisd(0.3, Vector3d(1, 2, 3).normalized()).matrix(), {1, 2, 3}};
+  const sim::Pose now{AngleAxisd(0.5, Vector3d(3, 1, 2).normalized()).matrix(), {1.2, 1.9, 3.4}};
+  const double dt = 0.25;
+  const EgoMotion motion = motion_between(before, now, dt);
+  const Vector3d x_W(5, -2, 7);
+  const Vector3d expected = now.inverse() * x_W;
+  const Vector3d moved = motion.R_cur_prev * (before.inverse() * x_W) - dt * motion.v_C_mps;
+  EXPECT_LT((moved - expected).norm(), 1e-12);
+}
+
+TEST(MotionBetween, TheRotationIsTheExponentialOfTheBodyRate) {
+  const Vector3d rate(0.2, -0.4, 0.1);  // rad/s, in the camera frame
+  const double dt = 0.5;
+  const sim::Pose before{AngleAxisd(0.7, Vector3d(1, -1, 2).normalized()).matrix(), {}};
+  const sim::Pose now{before.R * AngleAxisd(rate.norm() * dt, rate.normalized()).matrix(), {}};
+  EXPECT_LT((motion_between(before, now, dt).w_C_radps - rate).norm(), 1e-12);
+}
+
+TEST(EgoMotionFeed, TheFirstFrameHasNoMotion) {
+  const CircularDrive drive;
+  for (const auto source : {scenario::EgoMotionSource::imu, scenario::EgoMotionSource::truth}) {
+    EgoMotionFeed feed(with_source(source), drive.calibration());
+    const EgoMotionFeed::Motions motions = feed.next(drive.observation(0));
+    EXPECT_EQ(motions.told.dt_s, 0);
+    EXPECT_EQ(motions.exact.dt_s, 0);
+    EXPECT_TRUE(motions.told.R_cur_prev.isIdentity());
+  }
+}
+
+TEST(EgoMotionFeed, AnIdealImuTellsTheMotionThatThePosesHad) {
+  // Trapezoids over 5 ms of a motion on a circle are exact to far below a micrometre a frame.
+  const CircularDrive drive;
+  EgoMotionFeed feed(with_source(scenario::EgoMotionSource::imu), drive.calibration());
+  feed.next(drive.observation(0));
+  for (int k = 1; k <= 50; ++k) {
+    const EgoMotionFeed::Motions motions = feed.next(drive.observation(k));
+    EXPECT_DOUBLE_EQ(motions.told.dt_s, 0.1);
+    EXPECT_LT((motions.told.R_cur_prev - motions.exact.R_cur_prev).norm(), 1e-9) << k;
+    EXPECT_LT((motions.told.v_C_mps - motions.exact.v_C_mps).norm(), 1e-5) << k;
+    EXPECT_LT((motions.told.w_C_radps - motions.exact.w_C_radps).norm(), 1e-8) << k;
+    EXPECT_NEAR(motions.told.v_C_mps.z(), 0.5, 0.01) << "forwards";
+  }
+}
+
+TEST(EgoMotionFeed, TheTruthIsToldOnlyWhereTheScenarioSaysSo) {
+  const CircularDrive drive;
+  const auto told = [&](scenario::EgoMotionSource source) {
+    EgoMotionFeed feed(with_source(source), drive.calibration());
+    feed.next(drive.observation(0));
+    sim::Observation observation = drive.observation(1);
+    for (sim::ImuSample& sample : observation.imu) sample.gyro_radps.z() += 0.1;  // a bad gyro
+    return feed.next(observation);
+  };
+  const auto by_imu = told(scenario::EgoMotionSource::imu);
+  EXPECT_NEAR(by_imu.told.w_C_radps.norm(), 0.4, 0.01);
+  EXPECT_NEAR(by_imu.exact.w_C_radps.norm(), 0.3, 1e-9);
+  const auto by_truth = told(scenario::EgoMotionSource::truth);
+  EXPECT_EQ(by_truth.told.w_C_radps, by_truth.exact.w_C_radps);
+}
+
+TEST(EgoMotionFeed, OdometryHoldsTheDriftOfABiasedAccelerometer) {
+  const CircularDrive drive;
+  const auto error_after_5s = [&](bool odometry) {
+    scenario::Scenario scenario = with_source(scenario::EgoMotionSource::imu);
+    scenario.imu.noise = {1.7e-4, 1.9e-5, 2e-3, 3e-3};
+    EgoMotionFeed feed(scenario, drive.calibration());
+    double error = 0;
+    for (int k = 0; k <= 50; ++k) {
+      sim::Observation observation = drive.observation(k);
+      for (sim::ImuSample& sample : observation.imu) sample.accel_mps2.x() += 0.05;
+      if (odometry) {
+        for (const sim::ImuSample& sample : observation.imu) {
+          observation.odometry.push_back({sample.t_ns, {drive.speed_mps, 0, 0}});
+        }
+      }
+      const EgoMotionFeed::Motions motions = feed.next(observation);
+      error = (motions.told.v_C_mps - motions.exact.v_C_mps).norm();
+    }
+    return error;
+  };
+  EXPECT_GT(error_after_5s(false), 0.15);
+  EXPECT_LT(error_after_5s(true), 0.02);
+}
+
+}  // namespace
+}  // namespace lcs::bench

@@ -1,0 +1,156 @@
+#include "tools/bench/report.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/tools/recordings.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/bench/table.h"
+
+namespace lcs::bench {
+namespace {
+
+using sim::Label;
+
+Recording five_frames(bool with_times) {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < 5; ++k) {
+    FrameMaker frame(k);
+    frame.corners(2, Verdict::rebel, Label::fixed).corners(3, Verdict::ignored, Label::fixed);
+    if (k == 4) frame.corners(6, Verdict::rebel, Label::rebel, 1);
+    frame.square(1, {0, 0, 30, 30}).rebel_circle({100, 100}, 5);
+    Layers& layers = frame.record().layers;
+    layers.normal_edges.resize(7);
+    layers.rebel_edges.resize(4);
+    layers.normal_circles.resize(3);
+    layers.ignored.resize(2);
+    layers.collectors.resize(5);
+    layers.chains.resize(9);
+    if (with_times) frame.record().times = FrameTimes{.detect_ms = 0.25, .filter_ms = 1.5};
+    frames.push_back(frame);
+  }
+  return recording_of(frames);
+}
+
+/// Rows by column name; every row must have as many fields as the header.
+std::vector<std::map<std::string, std::string>> read_csv(const std::filesystem::path& path) {
+  const auto split = [](const std::string& line) {
+    std::vector<std::string> fields(1);
+    for (const char c : line) {
+      if (c == ',') {
+        fields.emplace_back();
+      } else {
+        fields.back() += c;
+      }
+    }
+    return fields;
+  };
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  const std::vector<std::string> header = split(line);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(file, line)) {
+    const std::vector<std::string> fields = split(line);
+    EXPECT_EQ(fields.size(), header.size()) << line;
+    for (std::size_t i = 0; i < std::min(fields.size(), header.size()); ++i) {
+      if (i == 0) rows.emplace_back();
+      rows.back()[header[i]] = fields[i];
+    }
+  }
+  return rows;
+}
+
+TEST(FramesCsv, HasARowAFrameWithTheSizesOfAllLayers) {
+  const TemporaryFolder folder;
+  write_frames(folder.path() / kFramesFile, five_frames(true));
+  const auto rows = read_csv(folder.path() / kFramesFile);
+  ASSERT_EQ(rows.size(), 5u);
+  const std::map<std::string, std::string> expected{
+      {"frame", "3"},           {"t_s", "0.3"},         {"corners", "5"},
+      {"ignored_corners", "3"}, {"psi", "2"},           {"lambda", "5"},
+      {"alpha", "9"},           {"normal_edges", "7"},  {"rebel_edges", "4"},
+      {"normal_circles", "3"},  {"rebel_circles", "1"}, {"squares", "1"},
+      {"dimension", "16"},      {"false_rebels", "2"},  {"true_rebels", "0"},
+      {"detect_ms", "0.25"},    {"filter_ms", "1.5"}};
+  for (const auto& [column, field] : expected) {
+    ASSERT_TRUE(rows[3].contains(column)) << column;
+    EXPECT_NEAR(std::stod(rows[3].at(column)), std::stod(field), 1e-9) << column;
+  }
+}
+
+TEST(FramesCsv, LeavesUndefinedFieldsEmpty) {
+  const TemporaryFolder folder;
+  write_frames(folder.path() / kFramesFile, five_frames(false));
+  const auto rows = read_csv(folder.path() / kFramesFile);
+  EXPECT_EQ(rows[0].at("precision"), "") << "a frame of the warm-up";
+  EXPECT_EQ(rows[4].at("precision"), "0.75");
+  EXPECT_EQ(rows[4].at("recall"), "") << "the object is excused for its first frames";
+  EXPECT_EQ(rows[4].at("filter_ms"), "") << "there were no times";
+}
+
+TEST(FramesCsv, OfNoFramesIsItsHeader) {
+  const TemporaryFolder folder;
+  write_frames(folder.path() / kFramesFile, recording_of({}));
+  EXPECT_TRUE(read_csv(folder.path() / kFramesFile).empty());
+  EXPECT_GT(std::filesystem::file_size(folder.path() / kFramesFile), 0u);
+}
+
+TEST(MetricsJson, IsFlatWithEveryMetricInOrderAndNullForWhatIsUndefined) {
+  const TemporaryFolder folder;
+  const Metrics metrics = score(five_frames(true));
+  write_metrics(folder.path() / kMetricsFile, metrics);
+  std::ifstream file(folder.path() / kMetricsFile);
+  const auto json = nlohmann::ordered_json::parse(file);
+  ASSERT_EQ(json.size(), metrics.size());
+  auto entry = json.begin();
+  int undefined = 0;
+  for (const auto& [name, figure] : metrics) {
+    EXPECT_EQ(entry.key(), name);
+    if (figure) {
+      EXPECT_EQ(entry.value().get<double>(), *figure) << "to the last bit";
+    } else {
+      EXPECT_TRUE(entry.value().is_null()) << name;
+      ++undefined;
+    }
+    ++entry;
+  }
+  EXPECT_GT(undefined, 0);
+}
+
+TEST(Table, IsAFewLinesThatFitATerminalAndShowsADashForWhatIsUndefined) {
+  for (const Recording& recording : {Recording{}, five_frames(true)}) {
+    std::istringstream text(table(score(recording)));
+    int lines = 0;
+    for (std::string line; std::getline(text, line); ++lines) EXPECT_LE(line.size(), 100u) << line;
+    EXPECT_EQ(lines, 5);
+  }
+  const std::string empty = table(score(Recording{}));
+  EXPECT_NE(empty.find("recall    -"), std::string::npos) << empty;
+  const std::string some = table(score(five_frames(true)));
+  EXPECT_NE(some.find("precision 0.60"), std::string::npos) << some;
+}
+
+TEST(Reports, AFileThatCannotBeWrittenIsNamedWithTheReason) {
+  const std::filesystem::path nowhere = "/no/such/folder/metrics.json";
+  try {
+    write_metrics(nowhere, score(Recording{}));
+    FAIL() << "wrote " << nowhere;
+  } catch (const OutputError& error) {
+    EXPECT_NE(std::string(error.what()).find(nowhere.string()), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Reports, AFullDiskIsNoticed) {
+  // The kernel's always-full device.
+  EXPECT_THROW(write_metrics("/dev/full", score(Recording{})), OutputError);
+  EXPECT_THROW(write_frames("/dev/full", five_frames(true)), OutputError);
+}
+
+}  // namespace
+}  // namespace lcs::bench
