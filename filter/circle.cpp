@@ -96,6 +96,11 @@ CircleExpert::Group CircleExpert::mean_circle(const std::vector<Edge>& edges, st
   return group;
 }
 
+/// Trusted, and a rebel only where it is called one.
+bool CircleExpert::groupable(const Edge& edge) const {
+  return edge.trust >= parameters_.trust.standard && (!edge.rebel || edge.called);
+}
+
 /// The groups C_m: each starts from the most trusted edge that is still free, and takes the edges
 /// near it that are like it.
 void CircleExpert::group(const std::vector<Edge>& edges, const MotionField& field) {
@@ -111,10 +116,11 @@ void CircleExpert::group(const std::vector<Edge>& edges, const MotionField& fiel
   grouped_.clear();
   groups_.clear();
   for (const std::size_t seed : seeds_) {
-    if (taken_[seed] || edges[seed].trust < parameters_.trust.standard) continue;
+    if (!groupable(edges[seed]) || taken_[seed]) continue;
     const std::size_t first = grouped_.size();
     grid_.visit_within(edges[seed].location, parameters_.reach, [&](int other, double) {
-      if (!taken_[other] && alike(edges[seed], edges[other], field)) grouped_.push_back(other);
+      if (!taken_[other] && groupable(edges[other]) && alike(edges[seed], edges[other], field))
+        grouped_.push_back(other);
     });
     std::sort(grouped_.begin() + static_cast<std::ptrdiff_t>(first), grouped_.end());
     const std::size_t count = grouped_.size() - first;

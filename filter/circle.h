@@ -38,6 +38,7 @@ class CircleExpert {
     std::size_t first = 0, count = 0;  // of its edges in grouped_
   };
 
+  bool groupable(const Edge& edge) const;
   bool alike(const Edge& a, const Edge& b, const MotionField& field) const;
   void group(const std::vector<Edge>& edges, const MotionField& field);
   Group mean_circle(const std::vector<Edge>& edges, std::size_t first, std::size_t count,

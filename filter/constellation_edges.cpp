@@ -43,6 +43,7 @@ void ConstellationEdges::predict(Layers& layers, const MotionField& field) {
     if (field.moving()) edge.depth_ratio = field.advanced_ratio(edge.depth_ratio);
     edge.predicted = field.translated(edge.rotated, edge.depth_ratio);
     edge.origin = field.origin(edge.predicted);
+    predict_path(edge, field);
     edge.speed = edge.depth_ratio * field.reference_speed(edge.rotated);
   }
   for (Edge& edge : layers.rebel_edges) {
@@ -105,6 +106,7 @@ void ConstellationEdges::update_normal(Edge& edge, const Vec2& x, const MotionFi
     edge.depth_ratio =
         estimate(std::max(edge.trust, trust_.critical + 1), trust_, edge.depth_ratio, measured);
   }
+  measure_path(edge, x, field);
   edge.location = (edge.predicted + 2 * x) / 3;
   edge.speed = edge.depth_ratio * field.reference_speed(edge.location);
   const Vec2 along = field.direction(edge.location);
@@ -431,6 +433,7 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
     edge.trust = trust_.standard;
     edge.off_field_px = std::min(model.off_field_px, kOffField_px);
     edge.corner = static_cast<int>(c);
+    edge.called = true;
     links_[c] = {Kind::rebel, static_cast<int>(layers.rebel_edges.size())};
     layers.rebel_edges.push_back(edge);
   }
@@ -470,6 +473,9 @@ void ConstellationEdges::update(Layers& layers, const Chi& chi, const MotionFiel
     vote(chi, field);
     make_edges(layers, chi, field);
     support(layers, field);
+    for (std::size_t i = 0; i < layers.rebel_edges.size(); ++i) {
+      layers.rebel_edges[i].called = borne_out_[i];
+    }
     for (std::size_t c = 0; c < chi.size(); ++c) {
       called_[c] = links_[c].kind == Kind::rebel && borne_out_[links_[c].index];
     }

@@ -29,6 +29,11 @@ struct Edge {
   double mu = 0;                  ///< normal: radius of detection, px; rebel: deviation angle, rad
   int trust = 0;                  ///< Tr
   int age = 0;                    ///< frames since it was made, 0 in its first
+  Vec2 anchor = Vec2::Zero();     ///< normal: first sighting, moved by the rotations since, px
+  Eigen::Vector3d travelled_C_m = Eigen::Vector3d::Zero();  ///< by the camera since then
+  double path_ratio = 1;    ///< Z_ref / Z from the whole path since the anchor
+  double path_weight = 0;   ///< its information, px^2 of parallax at Z_ref; 0: none yet
+  bool called = false;      ///< rebel: borne out enough to be called one
   double off_field_px = 0;  ///< rebel: by how much its motion of late leaves the static images
   int corner = -1;          ///< index in chi of the corner that supports it, -1: none this frame
   int circle = -1;          ///< index in its kind's circles, -1: in none
@@ -88,7 +93,12 @@ struct Collector {
 struct Chain {
   std::array<Vec2, 2> sightings;  ///< oldest first, in this frame's pixels (rotation removed)
   int count = 0;                  ///< 1 or 2: with the third it becomes a rebel edge, or nothing
-  double off_field_px = 0;        ///< how far its steps so far leave what a static point may do
+  Vec2 anchor = Vec2::Zero();     ///< normal: first sighting, moved by the rotations since, px
+  Eigen::Vector3d travelled_C_m = Eigen::Vector3d::Zero();  ///< by the camera since then
+  double path_ratio = 1;    ///< Z_ref / Z from the whole path since the anchor
+  double path_weight = 0;   ///< its information, px^2 of parallax at Z_ref; 0: none yet
+  bool called = false;      ///< rebel: borne out enough to be called one
+  double off_field_px = 0;  ///< how far its steps so far leave what a static point may do
 };
 
 struct Layers {

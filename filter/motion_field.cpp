@@ -73,6 +73,13 @@ Vec2 MotionField::earlier(const Vec2& x_px, double depth_ratio,
   return centre_px_ + focal_px_ * h.head<2>() / h.z();
 }
 
+double MotionField::parallax(const Vec2& earlier_px,
+                             const Eigen::Vector3d& displacement_C_m) const {
+  return (focal_px_ * displacement_C_m.head<2>() + (centre_px_ - earlier_px) * displacement_C_m.z())
+             .norm() /
+         reference_depth_m_;
+}
+
 double MotionField::ratio_from(const Vec2& x_px, const Vec2& earlier_px,
                                const Eigen::Vector3d& displacement_C_m) const {
   // earlier = (x + w K d) / (1 + w d_z)  =>  w (K d_xy + (c - earlier) d_z) = earlier - x

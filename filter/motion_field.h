@@ -53,6 +53,12 @@ class MotionField {
   double ratio_from(const Vec2& x_px, const Vec2& earlier_px,
                     const Eigen::Vector3d& displacement_C_m) const;
 
+  /// By how many px `earlier` moves for a step of 1 in the depth ratio: what a measured ratio rests
+  /// on.
+  double parallax(const Vec2& earlier_px, const Eigen::Vector3d& displacement_C_m) const;
+
+  double reference_depth_m() const { return reference_depth_m_; }
+
   /// Of the camera over the interval, in the camera frame of k.
   Eigen::Vector3d displacement_C_m() const { return v_C_mps_ * dt_s_; }
   const Eigen::Matrix3d& R_cur_prev() const { return R_cur_prev_; }

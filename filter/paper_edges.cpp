@@ -195,7 +195,7 @@ Edge PaperEdges::make_rebel(const Chain& chain, const Vec2& x, const MotionField
   const Vec2& second = chain.sightings[1];
   Edge edge;
   edge.id = next_id();
-  edge.rebel = true;
+  edge.rebel = edge.called = true;
   edge.location = edge.predicted = x;
   edge.rotated = second;
   edge.origin = first;

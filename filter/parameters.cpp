@@ -118,6 +118,23 @@ const std::vector<Entry>& entries() {
       {"square.Tr_c", "Tr^s_c", "", 0, 1000, LCS_FIELD(int, square.trust.critical)},
       {"square.Tr_s", "Tr^s_s", "", 0, 1000, LCS_FIELD(int, square.trust.standard)},
       {"square.Tr_m", "Tr^s_m", "", 0, 1000, LCS_FIELD(int, square.trust.maximum)},
+      {"square.layer_rule", "", "", 0, 0,
+       LCS_CHOICE(LayerRule, square.layer_rule, "couples", "links")},
+      {"link.spacing", "", "", 0, 100, LCS_FIELD(double, square.link.spacing)},
+      {"link.reach_min", "", "px", 0, 10000, LCS_FIELD(double, square.link.reach_min)},
+      {"link.reach_max", "", "px", 0, 10000, LCS_FIELD(double, square.link.reach_max)},
+      {"link.depth_share", "", "", 0, 10, LCS_FIELD(double, square.link.depth_share)},
+      {"link.depth_spread", "", "m", 0, 100, LCS_FIELD(double, square.link.depth_spread)},
+      {"link.mean_spread", "", "m", 0, 100, LCS_FIELD(double, square.link.mean_spread)},
+      {"link.corner_sigma", "", "px", 0, 100, LCS_FIELD(double, square.link.corner_sigma)},
+      {"link.rebel_speed_share", "", "", 0, 10, LCS_FIELD(double, square.link.rebel_speed_share)},
+      {"link.rebel_speed_px", "", "px", 0, 1000, LCS_FIELD(double, square.link.rebel_speed_px)},
+      {"link.min_edges", "", "", 1, 1000, LCS_FIELD(int, square.link.min_edges)},
+      {"link.min_rebels", "", "", 1, 1000, LCS_FIELD(int, square.link.min_rebels)},
+      {"link.trim", "", "", 0, 0.4, LCS_FIELD(double, square.link.trim)},
+      {"link.min_area", "", "px^2", 0, 1000000000.0, LCS_FIELD(double, square.link.min_area)},
+      {"link.max_width", "", "", 0, 1, LCS_FIELD(double, square.link.max_width)},
+      {"link.max_height", "", "", 0, 1, LCS_FIELD(double, square.link.max_height)},
       {"square.delta_beta_1", "delta_beta,1", "deg", 0, 180,
        LCS_FIELD(double, square.delta_beta_1)},
       {"square.delta_beta_2", "delta_beta,2", "deg", 0, 180,
@@ -262,6 +279,7 @@ Parameters lab() {
   Parameters p;
   set_degrees(p.circle, p.square);
   p.circle.edge_rule = EdgeRule::paper;
+  p.square.layer_rule = LayerRule::couples;
   return p;
 }
 

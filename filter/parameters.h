@@ -24,6 +24,12 @@ enum class EdgeRule {
   constellation,  ///< a corner and its neighbours move alike over three frames
 };
 
+/// How circles or edges become squares.
+enum class LayerRule {
+  couples,  ///< the paper's: the furthest couple of like circles, and what lies inside it
+  links,    ///< edges near each other at one depth, or of one motion
+};
+
 /// Kinematics.
 struct FieldParameters {
   RotationModel rotation = RotationModel::homography;
@@ -90,9 +96,31 @@ struct CircleParameters {
   int min_members = 3;        ///< edges that make a new circle
 };
 
+/// The links rule of the Square expert: neighbours are linked when they lie within a few local
+/// spacings and at one depth, and linked groups merge, best link first, while their means agree.
+struct LinkParameters {
+  double spacing = 1.8;             ///< local spacings that a link may span
+  double reach_min = 15;            ///< px: and never less than this,
+  double reach_max = 45;            ///< px: nor more
+  double depth_share = 0.08;        ///< by which the inverse depths of neighbours may differ
+  double depth_spread = 0.1;        ///< m: the same, growing with the inverse depth squared
+  double mean_spread = 0.2;         ///< m: likewise for the means of two groups
+  double corner_sigma = 0.7;        ///< px: what a path's two ends may be off
+  double rebel_speed_share = 0.35;  ///< by which rebels' velocities may differ
+  double rebel_speed_px = 3;        ///< px a frame: and by this in any case
+  int min_edges = 4;                ///< that make a square
+  int min_rebels = 4;
+  double trim = 0.02;        ///< share of the edges cut off at each side of a box
+  double min_area = 250;     ///< px^2
+  double max_width = 0.45;   ///< of the image
+  double max_height = 0.75;  ///< of the image
+};
+
 /// Square expert.
 struct SquareParameters {
   TrustRanks trust{3, 5, 7};  ///< Tr^s
+  LayerRule layer_rule = LayerRule::links;
+  LinkParameters link;
   double delta_beta_1 = 0;    ///< delta_beta,1, 90 deg: between the circles of a corner (case 1)
   double delta_beta_2 = 0;    ///< delta_beta,2, 0 deg: between aligned circles (case 2)
   double epsilon_beta_1 = 0;  ///< eps_beta,1, 15 deg

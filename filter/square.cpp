@@ -45,7 +45,7 @@ bool parts(const Circle& between, const Circle& a, const Circle& b) {
 }
 
 SquareExpert::SquareExpert(const Intrinsics& camera, const SquareParameters& parameters)
-    : camera_(camera), parameters_(parameters) {}
+    : camera_(camera), parameters_(parameters), links_(camera, parameters.link) {}
 
 void SquareExpert::predict(Layers& layers, const MotionField& field) const {
   for (Square& square : layers.squares) {
@@ -256,7 +256,11 @@ void SquareExpert::match(Layers& layers) {
 }
 
 void SquareExpert::update(Layers& layers, const MotionField& field) {
-  layer_circles(layers, field);
+  if (parameters_.layer_rule == LayerRule::couples) {
+    layer_circles(layers, field);
+  } else {
+    means_ = links_.layer(layers, field);
+  }
   match(layers);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "filter/layers.h"
+#include "filter/links.h"
 #include "filter/motion_field.h"
 #include "filter/parameters.h"
 
@@ -54,6 +55,7 @@ class SquareExpert {
   std::vector<char> used_;
   std::vector<std::size_t> partners_;  // C_b of the couple at hand
   std::vector<Square> means_;          // S_m
+  LinkLayering links_;
 };
 
 }  // namespace lcs

@@ -1,0 +1,200 @@
+#include "filter/links.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "filter/geometry.h"
+
+namespace lcs {
+namespace {
+
+/// The local spacing is the distance of this neighbour, looked for up to this far.
+constexpr std::size_t kSpacingNeighbour = 6;
+constexpr double kSpacingReach_px = 60;
+
+/// Linked neighbours differ by more than the plain tolerance where their depths are poorly known,
+/// but never by more than this many times it.
+constexpr double kUncertainTolerance = 3;
+
+/// However long its path, a depth is not known better than this share.
+constexpr double kDepthFloor = 0.015;
+
+}  // namespace
+
+LinkLayering::LinkLayering(const Intrinsics& camera, const LinkParameters& parameters)
+    : camera_(camera), parameters_(parameters) {}
+
+void LinkLayering::gather(const std::vector<Edge>& edges, const MotionField& field) {
+  nodes_.clear();
+  points_.clear();
+  for (const Edge& edge : edges) {
+    if (edge.corner < 0 || (edge.rebel && !edge.called)) continue;
+    Node node;
+    node.location = edge.location;
+    node.edge = &edge;
+    if (edge.rebel) {
+      node.velocity_pxps = edge.velocity();
+    } else {
+      if (edge.path_weight <= 0) continue;
+      node.w = edge.path_ratio / field.reference_depth_m();
+      node.sigma =
+          std::max(kDepthFloor * node.w, parameters_.corner_sigma / std::sqrt(edge.path_weight) /
+                                             field.reference_depth_m());
+    }
+    nodes_.push_back(node);
+    points_.push_back(node.location);
+  }
+  grid_.build(points_, parameters_.reach_max);
+  parent_.resize(nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) parent_[i] = static_cast<int>(i);
+  measure_spacing();
+}
+
+void LinkLayering::measure_spacing() {
+  for (Node& node : nodes_) {
+    distances_.clear();
+    grid_.visit_within(node.location, kSpacingReach_px,
+                       [&](int, double distance2) { distances_.push_back(distance2); });
+    if (distances_.size() <= kSpacingNeighbour) {
+      node.spacing = kSpacingReach_px;
+      continue;
+    }
+    const auto nth = distances_.begin() + kSpacingNeighbour;  // the first is the node itself
+    std::nth_element(distances_.begin(), nth, distances_.end());
+    node.spacing = std::sqrt(*nth);
+  }
+}
+
+double LinkLayering::reach(const Node& a, const Node& b) const {
+  return std::clamp(parameters_.spacing * std::min(a.spacing, b.spacing), parameters_.reach_min,
+                    parameters_.reach_max);
+}
+
+int LinkLayering::root(int i) {
+  while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+  return i;
+}
+
+void LinkLayering::link_by_depth() {
+  links_.clear();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& a = nodes_[i];
+    grid_.visit_within(a.location, parameters_.reach_max, [&](int j, double distance2) {
+      if (j <= static_cast<int>(i)) return;
+      const Node& b = nodes_[j];
+      const double distance = std::sqrt(distance2), longest = reach(a, b);
+      if (distance > longest) return;
+      const double w = 0.5 * (a.w + b.w);
+      const double plain = parameters_.depth_share * w + parameters_.depth_spread * w * w;
+      const double tolerance =
+          std::clamp(std::hypot(a.sigma, b.sigma), plain, kUncertainTolerance * plain);
+      const double difference = std::abs(a.w - b.w);
+      if (!(difference < tolerance)) return;
+      links_.push_back({2 * difference / tolerance + distance / longest, static_cast<int>(i), j});
+    });
+  }
+  std::sort(links_.begin(), links_.end(), [](const Link& x, const Link& y) {
+    return std::tuple(x.cost, x.a, x.b) < std::tuple(y.cost, y.a, y.b);
+  });
+  weight_.resize(nodes_.size());
+  mean_.resize(nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const double sigma = std::max(nodes_[i].sigma, 1e-3);
+    weight_[i] = 1 / (sigma * sigma);
+    mean_[i] = nodes_[i].w;
+  }
+  for (const Link& link : links_) {
+    const int a = root(link.a), b = root(link.b);
+    if (a == b) continue;
+    const double w = 0.5 * (mean_[a] + mean_[b]);
+    const double tolerance = parameters_.depth_share * w + parameters_.mean_spread * w * w +
+                             2 * std::sqrt(1 / weight_[a] + 1 / weight_[b]);
+    if (!(std::abs(mean_[a] - mean_[b]) < tolerance)) continue;
+    parent_[b] = a;
+    mean_[a] = (weight_[a] * mean_[a] + weight_[b] * mean_[b]) / (weight_[a] + weight_[b]);
+    weight_[a] += weight_[b];
+  }
+}
+
+void LinkLayering::link_by_velocity(double dt_s) {
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& a = nodes_[i];
+    grid_.visit_within(a.location, parameters_.reach_max, [&](int j, double) {
+      if (j <= static_cast<int>(i)) return;
+      const Node& b = nodes_[j];
+      const double step = (a.velocity_pxps - b.velocity_pxps).norm() * dt_s;
+      const double mean = 0.5 * (a.velocity_pxps.norm() + b.velocity_pxps.norm()) * dt_s;
+      if (step < std::max(parameters_.rebel_speed_px, parameters_.rebel_speed_share * mean)) {
+        parent_[root(j)] = root(static_cast<int>(i));
+      }
+    });
+  }
+}
+
+void LinkLayering::make_squares(int least, const MotionField& field) {
+  groups_.assign(nodes_.size(), {});
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    groups_[root(static_cast<int>(i))].push_back(static_cast<int>(i));
+  }
+  for (const std::vector<int>& group : groups_) {
+    if (static_cast<int>(group.size()) < least) continue;
+    xs_.clear();
+    ys_.clear();
+    const double n = static_cast<double>(group.size());
+    Square square;
+    Vec2 velocity = Vec2::Zero(), origin = Vec2::Zero();
+    double ratio = 0, speed = 0, weights = 0;
+    for (const int i : group) {
+      const Node& node = nodes_[i];
+      xs_.push_back(node.location.x());
+      ys_.push_back(node.location.y());
+      const double weight = node.edge->rebel ? 1 : node.edge->path_weight;
+      ratio += weight * (node.edge->rebel ? node.edge->depth_ratio : node.edge->path_ratio);
+      weights += weight;
+      speed += node.edge->speed / n;
+      velocity += node.edge->velocity() / n;
+      origin += node.edge->origin / n;
+    }
+    std::sort(xs_.begin(), xs_.end());
+    std::sort(ys_.begin(), ys_.end());
+    const auto cut = static_cast<std::size_t>(parameters_.trim * n);
+    const Vec2 low(xs_[cut], ys_[cut]);
+    const Vec2 high(xs_[xs_.size() - 1 - cut], ys_[ys_.size() - 1 - cut]);
+    const Vec2 size = high - low;
+    if (size.x() * size.y() < parameters_.min_area ||
+        size.x() > parameters_.max_width * camera_.width_px ||
+        size.y() > parameters_.max_height * camera_.height_px) {
+      continue;
+    }
+    const bool rebel = nodes_[group.front()].edge->rebel;
+    square.location = 0.5 * (low + high);
+    square.half_size = 0.5 * size;
+    square.origin = origin;
+    square.depth_ratio = ratio / weights;
+    square.speed = rebel ? velocity.norm() : speed;
+    const Vec2 along = rebel ? velocity : field.direction(square.location);
+    square.angle = angle_of(along.isZero() ? Vec2(square.location - origin) : along);
+    // The circles that the layer's edges are in.
+    std::vector<int> circles;
+    for (const int i : group) circles.push_back(nodes_[i].edge->circle);
+    std::sort(circles.begin(), circles.end());
+    circles.erase(std::unique(circles.begin(), circles.end()), circles.end());
+    square.circles = std::max(1, static_cast<int>(circles.size()));
+    square.rebel_circles = rebel ? square.circles : 0;
+    squares_.push_back(square);
+  }
+}
+
+const std::vector<Square>& LinkLayering::layer(const Layers& layers, const MotionField& field) {
+  squares_.clear();
+  gather(layers.normal_edges, field);
+  link_by_depth();
+  make_squares(parameters_.min_edges, field);
+  gather(layers.rebel_edges, field);
+  link_by_velocity(field.dt_s());
+  make_squares(parameters_.min_rebels, field);
+  return squares_;
+}
+
+}  // namespace lcs

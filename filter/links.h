@@ -1,0 +1,66 @@
+/// \file
+/// Layers from linked edges, beside the paper's couples of circles: what lies close together at one
+/// depth, or moves as one, is one object.
+///
+/// With furthest-first couples of circles, a layer takes in whatever is at a like depth across half
+/// the image; boxes come out too large to be objects, as the paper says itself. Here every normal
+/// edge brings the depth of its whole path; neighbours are linked, and linked groups merge best
+/// link first (Kruskal) only where their means agree, so that a chain of small steps does not join
+/// a near object to a far one. Rebels are linked by their own velocities.
+#pragma once
+
+#include <vector>
+
+#include "filter/layers.h"
+#include "filter/motion_field.h"
+#include "filter/parameters.h"
+#include "filter/point_grid.h"
+
+namespace lcs {
+
+class LinkLayering {
+ public:
+  LinkLayering(const Intrinsics& camera, const LinkParameters& parameters);
+
+  /// Mean squares S_m of this frame, valid until the next call.
+  const std::vector<Square>& layer(const Layers& layers, const MotionField& field);
+
+ private:
+  /// An edge that may be linked.
+  struct Node {
+    Vec2 location;
+    Vec2 velocity_pxps;  // rebels
+    double w = 0;        // inverse depth, 1/m (normal edges)
+    double sigma = 0;    // of w
+    double spacing = 0;  // local, px
+    const Edge* edge = nullptr;
+  };
+  struct Link {
+    double cost;
+    int a, b;
+  };
+
+  void gather(const std::vector<Edge>& edges, const MotionField& field);
+  void measure_spacing();
+  void link_by_depth();
+  void link_by_velocity(double dt_s);
+  void make_squares(int least, const MotionField& field);
+  double reach(const Node& a, const Node& b) const;
+  int root(int i);
+
+  Intrinsics camera_;
+  LinkParameters parameters_;
+
+  // Of the current frame; kept for their memory.
+  std::vector<Node> nodes_;
+  std::vector<Vec2> points_;
+  PointGrid grid_;
+  std::vector<Link> links_;
+  std::vector<int> parent_;
+  std::vector<double> weight_, mean_;  // of the group that a root stands for
+  std::vector<std::vector<int>> groups_;
+  std::vector<double> distances_, xs_, ys_;
+  std::vector<Square> squares_;
+};
+
+}  // namespace lcs
