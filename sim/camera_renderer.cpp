@@ -62,8 +62,6 @@ struct CameraRenderer::Impl {
     std::fill(std::begin(option.sitegroup), std::end(option.sitegroup), mjtByte{0});
     camera.type = mjCAMERA_FIXED;
     camera.fixedcamid = camera_id;
-    rgb.resize(std::size_t(width_px) * height_px * 3);
-    z.resize(std::size_t(width_px) * height_px);
     try {
       start();
     } catch (...) {
@@ -79,14 +77,23 @@ struct CameraRenderer::Impl {
     scene.flags[mjRND_REFLECTION] = 0;
     scene.flags[mjRND_FOG] = 0;
     scene.flags[mjRND_HAZE] = 0;
-    mjr_makeContext(&model.m(), &context, mjFONTSCALE_100);
-    mjr_setBuffer(mjFB_OFFSCREEN, &context);
-    const mjrRect buffer = mjr_maxViewport(&context);
+    std::string problem;
+    try {
+      mjr_makeContext(&model.m(), &context, mjFONTSCALE_100);
+      mjr_setBuffer(mjFB_OFFSCREEN, &context);
+    } catch (const MujocoError& e) {
+      problem = e.what();
+    }
+    if (problem.empty()) problem = take_warning();
+    const mjrRect buffer = problem.empty() ? mjr_maxViewport(&context) : mjrRect{0, 0, 0, 0};
     if (context.currentBuffer != mjFB_OFFSCREEN || buffer.width < width_px ||
         buffer.height < height_px) {
-      throw std::runtime_error("software GL cannot render images of " + std::to_string(width_px) +
-                               "x" + std::to_string(height_px) + "; choose a smaller camera size");
+      throw std::runtime_error("software GL does not render images of " + std::to_string(width_px) +
+                               "x" + std::to_string(height_px) + " (" + problem +
+                               "); choose a smaller camera size");
     }
+    rgb.resize(std::size_t(width_px) * height_px * 3);
+    z.resize(std::size_t(width_px) * height_px);
   }
 
   void release() {

@@ -64,6 +64,13 @@ Eigen::Vector3d local_factors(const Eigen::Matrix3d& R, const Eigen::Vector3d& f
   return (factor.asDiagonal() * R).colwise().norm();
 }
 
+/// Factor of the radius of what is round about an axis: what lies, as a wheel does, must keep
+/// standing on the ground, so it grows with the height; what stands takes the mean of the factors
+/// across.
+double radius_factor(const Eigen::Vector3d& axis, const Eigen::Vector3d& factor) {
+  return std::abs(axis.z()) < std::sqrt(0.5) ? factor.z() : std::sqrt(factor.x() * factor.y());
+}
+
 void scale_vector(xml::Element& geom, const char* key, const Eigen::Vector3d& factor) {
   std::vector<double> values = numbers(geom, key);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] *= factor[i % 3];
@@ -76,18 +83,15 @@ void scale_geom(xml::Element& geom, const Eigen::Vector3d& factor) {
   scale_vector(geom, "pos", factor);
 
   if (std::vector<double> ends = numbers(geom, "fromto"); ends.size() == 6) {
-    // a limb: its ends move, its radius grows by what lies across it
     const Eigen::Vector3d along =
         Eigen::Vector3d(ends[3] - ends[0], ends[4] - ends[1], ends[5] - ends[2]).normalized();
-    const Eigen::Matrix3d R =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), along).toRotationMatrix();
-    const Eigen::Vector3d local = local_factors(R, factor);
     scale_vector(geom, "fromto", factor);
-    set_numbers(geom, "size", {size.at(0) * std::sqrt(local.x() * local.y())});
+    set_numbers(geom, "size", {size.at(0) * radius_factor(along, factor)});
     return;
   }
   if (type == "mesh") return;  // its asset is scaled
-  const Eigen::Vector3d local = local_factors(rotation(geom), factor);
+  const Eigen::Matrix3d R = rotation(geom);
+  const Eigen::Vector3d local = local_factors(R, factor);
   if (type == "box" || type == "ellipsoid") {
     set_numbers(geom, "size",
                 {size.at(0) * local.x(), size.at(1) * local.y(), size.at(2) * local.z()});
@@ -97,7 +101,7 @@ void scale_geom(xml::Element& geom, const Eigen::Vector3d& factor) {
     set_numbers(geom, "size", {r * local.x(), r * local.y(), r * local.z()});
   } else {
     set_numbers(geom, "size",
-                {size.at(0) * std::sqrt(local.x() * local.y()), size.at(1) * local.z()});
+                {size.at(0) * radius_factor(R.col(2), factor), size.at(1) * local.z()});
   }
 }
 

@@ -17,8 +17,8 @@ namespace lcs::sim {
 std::filesystem::path scenes_folder();
 
 /// Scales the geoms of a fragment's body from the natural size that it states (the numeric `size`:
-/// length, width, height in m). Boxes and ellipsoids take any three factors; a cylinder or capsule
-/// stays round, at the mean of the factors across it.
+/// length, width, height in m). Boxes and ellipsoids take any three factors; what is round about an axis
+/// stays round.
 void scale_fragment(xml::Element& root, const Eigen::Vector3d& size_m);
 
 /// Texture of an actor that shows a picture from a file, within its fragment.

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "sim/scene_builder.h"
 
@@ -35,6 +36,7 @@ class HolonomicRover : public Rover {
  public:
   HolonomicRover(const scenario::Ego& ego, const Model& model)
       : ego_(ego),
+        command_(ego.phases),
         joints_{Joint(model, "x"), Joint(model, "y"), Joint(model, "yaw")},
         actuators_{actuator(model, "x"), actuator(model, "y"), actuator(model, "yaw")} {}
 
@@ -42,12 +44,12 @@ class HolonomicRover : public Rover {
     mjData& d = model.d();
     const std::array<double, 3> position = {ego_.start_m.x(), ego_.start_m.y(), ego_.heading_rad};
     for (std::size_t i = 0; i < 3; ++i) d.qpos[joints_[i].qpos] = position[i];
-    const std::array<double, 3> velocity = wanted(model, 0);
+    const std::array<double, 3> velocity = joint_rates(model, command_.at(0));
     for (std::size_t i = 0; i < 3; ++i) d.qvel[joints_[i].qvel] = velocity[i];
   }
 
   void command(Model& model, std::int64_t t_ns) override {
-    const std::array<double, 3> velocity = wanted(model, t_ns);
+    const std::array<double, 3> velocity = joint_rates(model, command_.at(t_ns));
     for (std::size_t i = 0; i < 3; ++i) model.d().ctrl[actuators_[i]] = velocity[i];
   }
 
@@ -61,13 +63,13 @@ class HolonomicRover : public Rover {
 
  private:
   /// Of the joints: x and y of W, and yaw.
-  std::array<double, 3> wanted(const Model& model, std::int64_t t_ns) const {
-    const PlanarVelocity v = commanded_velocity(ego_.phases, t_ns);
+  std::array<double, 3> joint_rates(const Model& model, const PlanarVelocity& v) const {
     const Eigen::Vector2d v_W = Eigen::Rotation2Dd(model.d().qpos[joints_[2].qpos]) * v.linear_mps;
     return {v_W.x(), v_W.y(), v.yaw_rate_radps};
   }
 
   scenario::Ego ego_;
+  SmoothCommand command_;
   std::array<Joint, 3> joints_;
   std::array<int, 3> actuators_;
 };
@@ -77,6 +79,7 @@ class WheeledRover : public Rover {
  public:
   WheeledRover(const scenario::Scenario& scenario, const Model& model)
       : ego_(scenario.ego),
+        command_(scenario.ego.phases),
         base_(model, "base"),
         joints_{Joint(model, "left"), Joint(model, "right")},
         actuators_{actuator(model, "left"), actuator(model, "right")} {
@@ -98,7 +101,7 @@ class WheeledRover : public Rover {
 
     // as it came to rest, but where it shall start, and rolling
     place(d, d.qpos[base_.qpos + 2]);
-    const PlanarVelocity v = commanded_velocity(ego_.phases, 0);
+    const PlanarVelocity v = command_.at(0);
     const Eigen::Vector2d v_W = Eigen::Rotation2Dd(ego_.heading_rad) * v.linear_mps;
     std::fill_n(d.qvel + base_.qvel, 6, 0.0);
     d.qvel[base_.qvel] = v_W.x();
@@ -109,7 +112,7 @@ class WheeledRover : public Rover {
   }
 
   void command(Model& model, std::int64_t t_ns) override {
-    const std::array<double, 2> wheels = wheel_rates(commanded_velocity(ego_.phases, t_ns));
+    const std::array<double, 2> wheels = wheel_rates(command_.at(t_ns));
     for (std::size_t i = 0; i < 2; ++i) model.d().ctrl[actuators_[i]] = wheels[i];
   }
 
@@ -174,6 +177,7 @@ class WheeledRover : public Rover {
   }
 
   scenario::Ego ego_;
+  SmoothCommand command_;
   Joint base_;
   std::array<Joint, 2> joints_;
   std::array<int, 2> actuators_;
@@ -193,6 +197,30 @@ PlanarVelocity commanded_velocity(const std::vector<EgoPhase>& phases, std::int6
   const double speed = std::max(0.0, phase.speed_mps + phase.acceleration_mps2 * since);
   return {speed * Eigen::Vector2d(std::cos(phase.direction_rad), std::sin(phase.direction_rad)),
           phase.yaw_rate_radps};
+}
+
+SmoothCommand::SmoothCommand(std::vector<EgoPhase> phases)
+    : phases_(std::move(phases)),
+      max_acceleration_mps2_(kMaxAcceleration_mps2),
+      now_(commanded_velocity(phases_, 0)) {
+  for (const EgoPhase& phase : phases_) {
+    max_acceleration_mps2_ = std::max(max_acceleration_mps2_, std::abs(phase.acceleration_mps2));
+  }
+}
+
+PlanarVelocity SmoothCommand::at(std::int64_t t_ns) {
+  const double dt = 1e-9 * static_cast<double>(t_ns - t_ns_);
+  t_ns_ = t_ns;
+  const PlanarVelocity target = commanded_velocity(phases_, t_ns);
+  const Eigen::Vector2d change = target.linear_mps - now_.linear_mps;
+  const double most = max_acceleration_mps2_ * dt;
+  now_.linear_mps = change.norm() <= most
+                        ? target.linear_mps
+                        : Eigen::Vector2d(now_.linear_mps + most * change.normalized());
+  const double most_yaw = kMaxYawAcceleration_radps2 * dt;
+  now_.yaw_rate_radps +=
+      std::clamp(target.yaw_rate_radps - now_.yaw_rate_radps, -most_yaw, most_yaw);
+  return now_;
 }
 
 std::unique_ptr<Rover> make_rover(const scenario::Scenario& scenario, const Model& model) {

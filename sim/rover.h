@@ -22,6 +22,27 @@ struct PlanarVelocity {
 /// acceleration and never below 0.
 PlanarVelocity commanded_velocity(const std::vector<scenario::EgoPhase>& phases, std::int64_t t_ns);
 
+/// The command as something with mass can follow it: where a phase begins at another velocity, the
+/// change is spread over as long as these limits make it take. A jump within one reading of the IMU
+/// could not be integrated from its readings.
+class SmoothCommand {
+ public:
+  static constexpr double kMaxAcceleration_mps2 = 5;
+  static constexpr double kMaxYawAcceleration_radps2 = 10;
+
+  /// Starts at the velocity commanded at 0.
+  explicit SmoothCommand(std::vector<scenario::EgoPhase> phases);
+
+  /// \param t_ns not before that of the last call.
+  PlanarVelocity at(std::int64_t t_ns);
+
+ private:
+  std::vector<scenario::EgoPhase> phases_;
+  double max_acceleration_mps2_;  ///< what a phase asks for by name is always granted
+  PlanarVelocity now_;
+  std::int64_t t_ns_ = 0;
+};
+
 /// Drives the body `ego/base` through actuators of its fragment.
 class Rover {
  public:

@@ -215,10 +215,10 @@ cv::Mat3b as_cube_face(const cv::Mat3b& picture, int face) {
   cv::Mat3b out;
   switch (face) {
     case 0:  // +x
-      cv::rotate(picture, out, cv::ROTATE_90_CLOCKWISE);
+      cv::rotate(picture, out, cv::ROTATE_90_COUNTERCLOCKWISE);
       return out;
     case 1:  // -x
-      cv::rotate(picture, out, cv::ROTATE_90_COUNTERCLOCKWISE);
+      cv::rotate(picture, out, cv::ROTATE_90_CLOCKWISE);
       return out;
     case 2:  // +y
       cv::rotate(picture, out, cv::ROTATE_180);

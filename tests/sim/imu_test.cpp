@@ -1,0 +1,170 @@
+// The IMU against figures from physics. All with ideal sensors: their noise has a test of its own.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "sim/world.h"
+#include "tests/sim/support.h"
+
+namespace lcs::sim {
+namespace {
+
+using Eigen::Vector3d;
+using std::numbers::pi;
+using test::floor_with;
+using test::scenario_in_mjcf;
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr double kGravity = 9.81;
+
+std::vector<ImuSample> read(World& world, std::int64_t until_ns) {
+  std::vector<ImuSample> imu;
+  std::vector<OdometrySample> odometry;
+  world.advance_to(until_ns, imu, odometry);
+  return imu;
+}
+
+TEST(Imu, AtRestReadsGravityUpwards) {
+  World world(scenario_in_mjcf(floor_with(""), 0, 1));
+  EXPECT_EQ(world.gravity_mps2(), kGravity);
+  for (const ImuSample& s : read(world, kSecond)) {
+    EXPECT_NEAR((s.accel_mps2 - Vector3d(0, 0, kGravity)).norm(), 0, 1e-9);
+    EXPECT_NEAR(s.gyro_radps.norm(), 0, 1e-12);
+  }
+}
+
+TEST(Imu, OnWheelsAtRestReadsGravityUpwards) {
+  auto s = scenario_in_mjcf(floor_with(""), 0, 1);
+  s.ego.drive = scenario::Drive::wheeled;
+  World world(s);
+  for (const ImuSample& sample : read(world, kSecond)) {
+    // contacts are still settling by micrometres
+    EXPECT_NEAR((sample.accel_mps2 - Vector3d(0, 0, kGravity)).norm(), 0, 0.01);
+    EXPECT_NEAR(sample.gyro_radps.norm(), 0, 1e-3);
+  }
+}
+
+TEST(Imu, FeelsTheGravityOfTheScene) {
+  std::string moon = floor_with("");
+  moon.insert(moon.find("<statistic"), "<option gravity=\"0 0 -1.62\"/>");
+  World world(scenario_in_mjcf(moon, 0, 1));
+  EXPECT_EQ(world.gravity_mps2(), 1.62);
+  EXPECT_NEAR(read(world, 0).at(0).accel_mps2.z(), 1.62, 1e-9);
+}
+
+// A point at r from the axis of a turn at w is accelerated by w^2 r towards it.
+TEST(Imu, OnALeverArmUnderConstantRotationReadsTheCentripetalAcceleration) {
+  auto s = scenario_in_mjcf(floor_with(""), 0, 1);
+  constexpr double kRate = 1.5;
+  s.ego.phases = {{.yaw_rate_radps = kRate}};
+  World world(s);
+  const Vector3d arm(0.3, -0.1, 0.2);
+  double* site = world.model().m().site_pos + 3 * world.model().id(mjOBJ_SITE, "ego/imu");
+  Eigen::Map<Vector3d>(site, 3) = arm;
+  const Vector3d expected(-kRate * kRate * arm.x(), -kRate * kRate * arm.y(), kGravity);
+  for (const ImuSample& sample : read(world, 2 * kSecond)) {
+    if (sample.t_ns < kSecond / 10)
+      continue;  // moved after the first forward pass; the base settles
+    EXPECT_NEAR((sample.accel_mps2 - expected).norm(), 0, 1e-3 * kRate * kRate);
+    EXPECT_NEAR((sample.gyro_radps - Vector3d(0, 0, kRate)).norm(), 0, 3e-4);
+  }
+}
+
+// On a circle at v the acceleration is v w to the left.
+TEST(Imu, OnACircleReadsSpeedTimesTurnRateToTheLeft) {
+  auto s = scenario_in_mjcf(floor_with(""), 0.5, 1);
+  s.ego.phases[0].yaw_rate_radps = 0.4;
+  World world(s);
+  for (const ImuSample& sample : read(world, 2 * kSecond)) {
+    if (sample.t_ns < kSecond / 10) continue;  // the base takes up its lag of 4 ms
+    // the lag turns the force by w tau = 1.6 mrad, and shows the gyro's in full
+    EXPECT_NEAR((sample.accel_mps2 - Vector3d(0, 0.2, kGravity)).norm(), 0, 2e-3);
+  }
+}
+
+struct Integrated {
+  Vector3d velocity_mps;  ///< from the readings, gravity taken off
+  Vector3d truth_mps;
+};
+
+/// Sums R a dt over the steps of a reading each, with the attitude of the truth at each reading.
+Integrated integrate(World& world, double rate_hz, double seconds) {
+  const double dt = 1 / rate_hz;
+  const Vector3d before = world.v_WB_mps();
+  Vector3d sum = Vector3d::Zero();
+  const auto count = static_cast<std::int64_t>(seconds * rate_hz);
+  for (std::int64_t i = 0; i < count; ++i) {
+    const ImuSample sample = read(world, event_time_ns(i, rate_hz)).back();
+    sum += (world.T_WS().R * sample.accel_mps2 - Vector3d(0, 0, kGravity)) * dt;
+  }
+  read(world, event_time_ns(count, rate_hz));
+  return {before + sum, world.v_WB_mps()};
+}
+
+// At 500 Hz each reading stands for one step, and Euler's integrator makes it the difference of the
+// velocities but for roundings.
+TEST(Imu, IntegratesToTheVelocityExactlyWhereEachReadingIsAStep) {
+  auto s = scenario_in_mjcf(floor_with(""), 0.2, 1);
+  s.ego.phases = {{.speed_mps = 0.2, .acceleration_mps2 = 0.4, .yaw_rate_radps = 0.5},
+                  {.at_s = 1, .speed_mps = 0.1, .direction_rad = pi / 2}};
+  s.imu.rate_hz = 500;
+  World world(s);
+  const Integrated v = integrate(world, 500, 2);
+  EXPECT_NEAR((v.velocity_mps - v.truth_mps).norm(), 0, 1e-9);
+}
+
+// At 200 Hz it samples: a jump from 1 m/s to 0 comes out right to 2 %, half a reading at 5 m/s^2
+// and more at both ends of it.
+TEST(Imu, IntegratesToTheVelocityAcrossAJumpOfTheCommand) {
+  auto s = scenario_in_mjcf(floor_with(""), 1, 1);
+  s.ego.phases = {{.speed_mps = 1}, {.at_s = 0.5, .speed_mps = 0}};
+  World world(s);
+  const Integrated v = integrate(world, 200, 1);
+  EXPECT_NEAR(v.truth_mps.norm(), 0, 1e-3);
+  EXPECT_NEAR((v.velocity_mps - v.truth_mps).norm(), 0, 0.02);
+}
+
+TEST(Imu, OnWheelsIntegratesToTheVelocity) {
+  auto s = scenario_in_mjcf(floor_with(""), 0.3, 1);
+  s.ego.drive = scenario::Drive::wheeled;
+  s.ego.phases[0].yaw_rate_radps = 0.3;
+  s.imu.rate_hz = 500;
+  World world(s);
+  const Integrated v = integrate(world, 500, 2);
+  const Vector3d lever = world.T_WS().p - world.T_WB().p;
+  // B and S differ by the lever arm: 0.2 m above each other, on a rover that pitches by little
+  EXPECT_NEAR((v.velocity_mps - v.truth_mps).norm(), 0, 0.01) << lever.transpose();
+}
+
+TEST(Imu, ReadingsFallOnWholeMultiplesOfThePeriod) {
+  auto s = scenario_in_mjcf(floor_with(""), 0.5, 1);
+  s.imu.rate_hz = 300;  // a period that no decimal fraction of a second is
+  World world(s);
+  const std::vector<ImuSample> imu = read(world, 10 * kSecond);
+  ASSERT_EQ(imu.size(), 3001u);
+  for (std::size_t i = 0; i < imu.size(); ++i) {
+    EXPECT_EQ(imu[i].t_ns, std::llround(static_cast<double>(i) * 1e9 / 300));
+  }
+}
+
+TEST(Imu, ReadingsAreTheSameHoweverManyFramesLieBetween) {
+  const auto s = scenario_in_mjcf(floor_with(""), 0.5, 1);
+  World often(s);
+  World seldom(s);
+  std::vector<ImuSample> imu;
+  for (int k = 0; k <= 20; ++k) {
+    for (const ImuSample& sample : read(often, k * kSecond / 20)) imu.push_back(sample);
+  }
+  const std::vector<ImuSample> expected = read(seldom, kSecond);
+  ASSERT_EQ(imu.size(), expected.size());
+  for (std::size_t i = 0; i < imu.size(); ++i) {
+    EXPECT_EQ(imu[i].t_ns, expected[i].t_ns);
+    EXPECT_EQ(imu[i].accel_mps2, expected[i].accel_mps2);
+    EXPECT_EQ(imu[i].gyro_radps, expected[i].gyro_radps);
+  }
+}
+
+}  // namespace
+}  // namespace lcs::sim

@@ -1,0 +1,229 @@
+// What the renderer says against rays cast through the model, which know nothing of GL.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "sim/camera_renderer.h"
+#include "sim/world.h"
+#include "tests/sim/support.h"
+
+namespace lcs::sim {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using test::floor_with;
+using test::line_actor;
+using test::scenario_in;
+using test::scenario_in_mjcf;
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+struct Hit {
+  double depth_m = kNone;
+  int geom = -1;
+};
+
+/// Along the ray of a pixel. Directions have z-depth 1, so that the distance is the z-depth.
+Hit cast(const World& world, const Pinhole& camera, int x, int y) {
+  const Pose T_WC = world.snapshot().T_WC;
+  const Vector3d direction = T_WC.R * camera.back_project({x, y}, 1);
+  const int rover = world.model().id(mjOBJ_BODY, kEgoBody);
+  Hit hit;
+  const double distance = mj::ray(world.model().m(), world.model().d(), T_WC.p.data(),
+                                  direction.data(), rover, hit.geom);
+  if (hit.geom >= 0) hit.depth_m = distance;
+  return hit;
+}
+
+struct Agreement {
+  int pixels = 0, same_geom = 0, hits = 0, same_depth = 0;
+};
+
+/// On every seventh pixel of every fifth row.
+Agreement compare(const scenario::Scenario& s) {
+  World world(s);
+  const Pinhole camera =
+      Pinhole::from_fovy(s.camera.width_px, s.camera.height_px, s.camera.fovy_rad);
+  CameraRenderer renderer(world.model(), world.camera_id(), camera.width_px, camera.height_px);
+  renderer.update();
+  cv::Mat1f depth;
+  cv::Mat1i geom;
+  renderer.render_depth_and_geoms(depth, geom);
+  Agreement a;
+  for (int y = 2; y < camera.height_px; y += 5) {
+    for (int x = 3; x < camera.width_px; x += 7) {
+      const Hit hit = cast(world, camera, x, y);
+      ++a.pixels;
+      if (hit.geom != geom(y, x)) continue;
+      ++a.same_geom;
+      if (hit.geom < 0) continue;
+      ++a.hits;
+      a.same_depth += std::abs(depth(y, x) - hit.depth_m) <= 0.01 * hit.depth_m;
+    }
+  }
+  return a;
+}
+
+void expect_agreement(const Agreement& a) {
+  // rays and GL may part on pixels that an edge runs through to the last digit: allowed 0.5 %
+  EXPECT_GE(a.same_geom, 0.995 * a.pixels);
+  // and where they see the same geom, the depth is right everywhere
+  EXPECT_EQ(a.same_depth, a.hits);
+  EXPECT_GT(a.hits, a.pixels / 2) << "a view of something";
+  testing::Test::RecordProperty("pixels", a.pixels);
+  testing::Test::RecordProperty("same_geom", a.same_geom);
+}
+
+TEST(Render, DepthAndGeomsOfTheLabAgreeWithRays) {
+  auto s = scenario_in("lab", 0.5, 1);
+  s.actors = {line_actor("walker", scenario::Shape::pedestrian, {1, 0.5}, 2, 0.5)};
+  expect_agreement(compare(s));
+}
+
+TEST(Render, DepthAndGeomsOfTheStreetAgreeWithRays) {
+  auto s = scenario_in("street", 1, 1);
+  s.ego.start_m = {-9, 0};
+  s.camera.width_px = 1280;
+  s.camera.height_px = 960;
+  s.actors = {line_actor("other", scenario::Shape::car, {9, 0.3}, 3, 1)};
+  expect_agreement(compare(s));
+}
+
+TEST(Render, AgreesWithRaysForACameraThatIsTiltedAndMountedAside) {
+  auto s = scenario_in("lab", 0.5, 1);
+  s.ego.heading_rad = 0.3;
+  s.camera.mount_position_m = {0.1, 0.2, 0.9};
+  s.camera.mount_rpy_rad = {0.2, 0.25, -0.4};
+  s.camera.fovy_rad = 90 * test::kDegree;
+  s.camera.width_px = 320;
+  s.camera.height_px = 400;
+  expect_agreement(compare(s));
+}
+
+/// Middle of the pixels that a mask marks.
+Vector2d centroid(const cv::Mat1b& mask) {
+  const cv::Moments m = cv::moments(mask, true);
+  return {m.m10 / m.m00, m.m01 / m.m00};
+}
+
+// Small balls off the middle, so that a flipped or swapped axis, or half a pixel, shows.
+TEST(Render, APointLandsOnThePixelThatThePinholeSays) {
+  const std::vector<Vector3d> targets = {
+      {4, 1.4, 1.2}, {5, -2.1, 0.2}, {6, 2.0, 0.1}, {3, -0.5, 1.1}};
+  std::string balls;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const Vector3d& p = targets[i];
+    balls += "<body name='ball" + std::to_string(i) + "' pos='" + std::to_string(p.x()) + " " +
+             std::to_string(p.y()) + " " + std::to_string(p.z()) +
+             "'><geom type='sphere' size='.05' rgba='1 .1 .1 1'/></body>";
+  }
+  std::string mjcf = floor_with(balls);
+  // evenly lit, so that the middle of a ball's colour is the middle of the ball
+  mjcf.insert(mjcf.find("<worldbody>"), "<visual><headlight ambient='1 1 1'/></visual>");
+  mjcf.erase(mjcf.find("<light"), mjcf.find("<geom name=\"floor\"") - mjcf.find("<light"));
+  Simulation simulation(scenario_in_mjcf(mjcf, 0, 1));
+  const Observation o = simulation.next().value();
+  const Calibration& calibration = simulation.calibration();
+  const Pose T_CW = (calibration.T_WB_start * calibration.T_BC).inverse();
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const Vector2d expected = calibration.camera.project(T_CW * targets[i]);
+    cv::Mat1b mask;
+    cv::compare(o.truth.object, simulation.objects()[i].id, mask, cv::CMP_EQ);
+    ASSERT_GT(cv::countNonZero(mask), 20) << "ball " << i << " is not where it is expected";
+    // pixels are counted whole: the middle of some 50 of them is good to a quarter
+    EXPECT_NEAR((centroid(mask) - expected).norm(), 0, 0.25) << "ball " << i;
+    // the colour image is that of the ids: the ball is redder than anything around
+    std::vector<cv::Mat1b> bgr;
+    cv::split(o.image, bgr);
+    cv::Mat1b red;
+    cv::compare(bgr[2], 2 * bgr[1] + 40, red, cv::CMP_GT);
+    const cv::Rect around(static_cast<int>(expected.x()) - 12, static_cast<int>(expected.y()) - 12,
+                          25, 25);
+    EXPECT_NEAR((centroid(red(around)) + Vector2d(around.x, around.y) - expected).norm(), 0, 0.35)
+        << "ball " << i;
+  }
+}
+
+TEST(Render, DepthIsAlongTheOpticalAxisAndNotAlongTheRay) {
+  // a wall across the view, 5 m before the camera
+  const auto s =
+      scenario_in_mjcf(floor_with("<geom type='box' pos='5.7 0 0' size='.5 20 20'/>"), 0, 1);
+  Simulation simulation(s);
+  const Observation o = simulation.next().value();
+  for (const cv::Point px : {cv::Point(320, 100), cv::Point(2, 2), cv::Point(637, 3)}) {
+    EXPECT_NEAR(o.truth.depth_m(px), 5, 1e-3);
+  }
+}
+
+TEST(Render, SkyIsInfinitelyFarAndNoLandmark) {
+  Simulation simulation(scenario_in_mjcf(floor_with(""), 0, 1));
+  const Observation o = simulation.next().value();
+  EXPECT_TRUE(std::isinf(o.truth.depth_m(10, 320)));
+  EXPECT_EQ(o.truth.object(10, 320), -1);
+  EXPECT_EQ(o.truth.object(470, 320), 0);
+}
+
+TEST(Render, TheRoverItselfIsNoLandmark) {
+  auto s = scenario_in_mjcf(floor_with(""), 0, 1);
+  s.camera.mount_position_m = {-0.6, 0, 0.6};  // looks at its own back
+  s.camera.mount_rpy_rad = {0, 0.4, 0};
+  Simulation simulation(s);
+  const Observation o = simulation.next().value();
+  int rover_px = 0;
+  for (int y = 0; y < 480; ++y) {
+    for (int x = 0; x < 640; ++x) {
+      rover_px += o.truth.object(y, x) == -1 && std::isfinite(o.truth.depth_m(y, x));
+    }
+  }
+  EXPECT_GT(rover_px, 1000);
+}
+
+TEST(Render, TheGroundTruthPassLeavesNoTraceInTheColourImage) {
+  World world(scenario_in("lab", 0, 1));
+  CameraRenderer renderer(world.model(), world.camera_id(), 640, 480);
+  cv::Mat3b before;
+  cv::Mat3b after;
+  cv::Mat1f depth;
+  cv::Mat1i geom;
+  renderer.update();
+  renderer.render_colour(before);
+  renderer.render_depth_and_geoms(depth, geom);
+  renderer.render_colour(after);
+  EXPECT_EQ(cv::norm(before, after, cv::NORM_INF), 0);
+}
+
+TEST(Render, TwoRenderersInOneProcessDoNotDisturbEachOther) {
+  World world(scenario_in("lab", 0, 1));
+  World small_world(scenario_in("lab", 0, 1));
+  CameraRenderer renderer(world.model(), world.camera_id(), 640, 480);
+  renderer.update();
+  cv::Mat3b alone;
+  renderer.render_colour(alone);
+  cv::Mat3b beside;
+  {
+    CameraRenderer other(small_world.model(), small_world.camera_id(), 64, 48);
+    other.update();
+    cv::Mat3b small;
+    other.render_colour(small);
+    renderer.render_colour(beside);
+    EXPECT_EQ(cv::norm(alone, beside, cv::NORM_INF), 0);
+  }
+  renderer.render_colour(beside);
+  EXPECT_EQ(cv::norm(alone, beside, cv::NORM_INF), 0) << "after the other one is gone";
+}
+
+TEST(Render, AnImageLargerThanGlCanDrawIsAnErrorAndNotClipped) {
+  World world(scenario_in_mjcf(floor_with(""), 0, 1));
+  try {
+    CameraRenderer(world.model(), world.camera_id(), 100'000, 100'000);
+    FAIL() << "nothing was noticed";
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find("100000x100000"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace lcs::sim

@@ -1,0 +1,341 @@
+// What is right and what is wrong with scenes and actors, as a user meets it.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+
+#include "sim/fragment.h"
+#include "sim/silhouette.h"
+#include "sim/world.h"
+#include "tests/sim/support.h"
+
+namespace lcs::sim {
+namespace {
+
+using Eigen::Vector3d;
+using scenario::Shape;
+using test::floor_with;
+using test::line_actor;
+using test::scenario_error;
+using test::scenario_in;
+using test::scenario_in_mjcf;
+
+constexpr const char* kTwoBodies =
+    "<body name='statue' pos='2 0 .5'><geom type='box' size='.2 .2 .5'/></body>"
+    "<body name='crate' pos='3 1 .5'><geom type='box' size='.2 .2 .5'/></body>";
+
+void load(const scenario::Scenario& s) {
+  World world(s);
+}
+
+void expect_error(const scenario::Scenario& s, const std::vector<std::string>& parts) {
+  const std::string message = scenario_error([&] { load(s); });
+  for (const std::string& part : parts) {
+    EXPECT_NE(message.find(part), std::string::npos) << message << "\n  lacks: " << part;
+  }
+}
+
+scenario::Actor moving_body(const std::string& name, const std::string& body) {
+  scenario::Actor actor = line_actor(name, Shape::box, {1, 1}, 0, 0.5);
+  actor.body = body;
+  return actor;
+}
+
+TEST(Scene, ObjectsAreNamedBodiesOfTheWorldThenActors) {
+  auto s = scenario_in_mjcf(
+      floor_with(std::string(kTwoBodies) + "<body pos='5 5 1'><geom size='.1'/></body>"), 0, 1);
+  s.actors = {line_actor("walker", Shape::pedestrian, {4, 0}, 0, 1)};
+  const World world(s);
+  ASSERT_EQ(world.objects().size(), 3u);
+  EXPECT_EQ(world.objects()[0].name, "statue");
+  EXPECT_EQ(world.objects()[1].name, "crate");
+  EXPECT_EQ(world.objects()[2].name, "walker");
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(world.objects()[static_cast<std::size_t>(i)].id, i + 1);
+}
+
+TEST(Scene, AMovedBodyStaysTheObjectThatItWas) {
+  auto s = scenario_in_mjcf(floor_with(kTwoBodies), 0, 1);
+  s.actors = {moving_body("thief", "statue")};
+  World world(s);
+  ASSERT_EQ(world.objects().size(), 2u);
+  EXPECT_EQ(world.objects()[0].name, "statue");
+  std::vector<ImuSample> imu;
+  std::vector<OdometrySample> odometry;
+  world.advance_to(2'000'000'000, imu, odometry);
+  // along the line, and at the height that the scene gives it
+  EXPECT_NEAR((world.snapshot().T_WO.at(1).p - Vector3d(2, 1, 0.5)).norm(), 0, 1e-9);
+  EXPECT_EQ(world.snapshot().T_WO.at(2).p, Vector3d(3, 1, 0.5));
+}
+
+TEST(Scene, AMovedBodyKeepsItsTiltAndTurnsToItsHeading) {
+  auto s = scenario_in_mjcf(
+      floor_with("<body name='statue' pos='2 0 .5' euler='0 20 50'><geom size='.1'/></body>"), 0,
+      1);
+  s.actors = {moving_body("thief", "statue")};
+  auto& line = std::get<scenario::Line>(s.actors[0].trajectory);
+  line.heading_rad.reset();
+  line.from_m.reset();
+  const World still(s);
+  line.heading_rad = 1.0;
+  const World turned(s);
+  const Eigen::Matrix3d before = still.snapshot().T_WO.at(1).R;
+  const Eigen::Matrix3d after = turned.snapshot().T_WO.at(1).R;
+  EXPECT_NEAR(std::atan2(after(1, 0), after(0, 0)), 1.0, 1e-9);
+  EXPECT_NEAR((after.row(2) - before.row(2)).norm(), 0, 1e-9) << "same tilt against the vertical";
+  EXPECT_EQ(still.snapshot().T_WO.at(1).p, Vector3d(2, 0, 0.5));
+}
+
+TEST(Scene, AnActorOnABodyThatTheSceneLacksNamesTheNearest) {
+  auto s = scenario_in_mjcf(floor_with(kTwoBodies), 0, 1);
+  s.actors = {moving_body("thief", "statu")};
+  expect_error(s, {"test.yaml:7", "'statu'", "statue"});
+  s.scene = scenario_in_mjcf(floor_with(""), 0, 1).scene;
+  expect_error(s, {"test.yaml:7", "no named body"});
+}
+
+TEST(Scene, TwoActorsCannotMoveOneBody) {
+  auto s = scenario_in_mjcf(floor_with(kTwoBodies), 0, 1);
+  s.actors = {moving_body("a", "statue"), moving_body("b", "statue")};
+  expect_error(s, {"test.yaml:7", "'statue'", "two actors"});
+}
+
+TEST(Scene, AnActorCannotBeCalledLikeABody) {
+  auto s = scenario_in_mjcf(floor_with(kTwoBodies), 0, 1);
+  s.actors = {line_actor("crate", Shape::box, {1, 1}, 0, 1)};
+  expect_error(s, {"test.yaml:7", "'crate'"});
+  s.actors = {moving_body("crate", "statue")};
+  expect_error(s, {"test.yaml:7", "'crate'"});
+  s.actors = {moving_body("crate", "crate")};
+  EXPECT_NO_THROW(load(s));
+}
+
+TEST(Scene, AnAddedActorNeedsAPlace) {
+  auto s = scenario_in_mjcf(floor_with(""), 0, 1);
+  s.actors = {line_actor("walker", Shape::pedestrian, {0, 0}, 0, 1)};
+  std::get<scenario::Line>(s.actors[0].trajectory).from_m.reset();
+  expect_error(s, {"test.yaml:7", "'walker'", "from"});
+}
+
+TEST(Scene, ABodyOfTheSceneHasItsSizeAndTextureAlready) {
+  auto s = scenario_in_mjcf(floor_with(kTwoBodies), 0, 1);
+  s.actors = {moving_body("thief", "statue")};
+  s.actors[0].texture = "bricks";
+  expect_error(s, {"test.yaml:7"});
+  s.actors[0].texture.clear();
+  s.actors[0].size_m = Vector3d(1, 1, 1);
+  expect_error(s, {"test.yaml:7"});
+}
+
+TEST(Scene, MissingOrMalformedFilesAreNamedWithTheirLine) {
+  auto s = scenario_in("lab", 0, 1);
+  s.scene = "/nonexistent/scene.xml";
+  expect_error(s, {"test.yaml:2", "/nonexistent/scene.xml"});
+
+  s = scenario_in_mjcf("<mujoco>\n  <worldbody>\n  <geom size='1'>\n</mujoco>\n", 0, 1);
+  expect_error(s, {s.scene.string() + ":", "XML"});
+
+  s = scenario_in_mjcf("<robot/>", 0, 1);
+  expect_error(s, {s.scene.string() + ":1", "MJCF"});
+
+  s = scenario_in_mjcf("", 0, 1);
+  expect_error(s, {s.scene.string()});
+}
+
+TEST(Scene, WhatMujocoRefusesIsPassedOn) {
+  const auto s = scenario_in_mjcf(floor_with("<geom type='box' size='-1 1 1'/>"), 0, 1);
+  expect_error(s, {s.scene.string(), "size"});
+}
+
+TEST(Scene, AMissingTextureFileIsNamedWithItsLine) {
+  std::string mjcf = floor_with("");
+  mjcf.insert(mjcf.find("<worldbody>"),
+              "<asset>\n<texture name='t' type='2d' file='gone.png'/>\n</asset>");
+  const auto s = scenario_in_mjcf(mjcf, 0, 1);
+  expect_error(s, {s.scene.string() + ":4", "gone.png"});
+}
+
+TEST(Scene, TexturesAndIncludesBesideTheSceneAreFound) {
+  const std::filesystem::path folder(testing::TempDir());
+  cv::imwrite((folder / "beside.png").string(), cv::Mat3b(8, 8, cv::Vec3b(0, 0, 255)));
+  std::ofstream(folder / "beside.xml")
+      << "<mujoco><worldbody><body name='included' pos='3 0 0'><geom type='box' size='.5 .5 .5' "
+         "material='m'/></body></worldbody></mujoco>";
+  std::string mjcf = floor_with("");
+  mjcf.insert(mjcf.find("<worldbody>"),
+              "<asset><texture name='t' type='2d' file='beside.png'/>"
+              "<material name='m' texture='t'/></asset><include file='beside.xml'/>");
+  const World world(scenario_in_mjcf(mjcf, 0, 1));
+  EXPECT_EQ(world.objects().at(0).name, "included");
+}
+
+TEST(Scene, AnIncludeOfItselfEnds) {
+  std::string mjcf = floor_with("");
+  const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+  mjcf.insert(mjcf.find("<worldbody>"), "<include file='" + name + ".xml'/>");
+  expect_error(scenario_in_mjcf(mjcf, 0, 1), {"nested too deep"});
+}
+
+TEST(Scene, AnUnknownTextureStyleOfTheSceneNamesTheKnownOnes) {
+  std::string mjcf = floor_with("");
+  mjcf.insert(mjcf.find("<worldbody>"),
+              "<asset><texture name='procedural:brocks' type='2d' builtin='flat' width='8' "
+              "height='8'/></asset>");
+  const auto s = scenario_in_mjcf(mjcf, 0, 1);
+  expect_error(s, {s.scene.string(), "brocks", "bricks"});
+}
+
+TEST(Scene, GravityMustPointDown) {
+  std::string mjcf = floor_with("");
+  mjcf.insert(mjcf.find("<statistic"), "<option gravity='0 1 -9.81'/>");
+  expect_error(scenario_in_mjcf(mjcf, 0, 1), {"gravity"});
+}
+
+TEST(Scene, ABodyThatCanMoveNeedsANameAndMovesAsOne) {
+  expect_error(
+      scenario_in_mjcf(floor_with("<body pos='0 3 1'><freejoint/><geom size='.1'/></body>"), 0, 1),
+      {"name"});
+  expect_error(
+      scenario_in_mjcf(floor_with("<body name='door' pos='0 3 1'><geom size='.1'/>"
+                                  "<body name='wing'><joint/><geom size='.1'/></body></body>"),
+                       0, 1),
+      {"'wing'"});
+}
+
+/// Extent of a body's geoms along x, y, z of a body that stands at the origin heading along x.
+Vector3d extent(const scenario::Actor& actor) {
+  auto s = scenario_in_mjcf(floor_with(""), 0, 1);
+  s.actors = {actor};
+  World world(s);
+  mj_forward(&world.model().m(), &world.model().d());
+  Vector3d low = Vector3d::Constant(1e9);
+  Vector3d high = -low;
+  for (int geom = 0; geom < world.model().m().ngeom; ++geom) {
+    if (world.object_of_geom(geom) != 1) continue;
+    const Pose T_WG = world.model().geom_pose(geom);
+    const Eigen::Matrix3Xd hull = (T_WG.R * geom_hull(world.model().m(), geom)).colwise() + T_WG.p;
+    low = low.cwiseMin(hull.rowwise().minCoeff());
+    high = high.cwiseMax(hull.rowwise().maxCoeff());
+  }
+  EXPECT_NEAR(low.z(), 0, 0.01) << "stands on the ground";
+  return high - low;
+}
+
+TEST(ActorShape, HasTheNaturalSizeThatItStates) {
+  // sizes in the fragments' `size`; rounded limbs are given to a centimetre or two
+  const auto actor = [](Shape shape) { return line_actor("a", shape, {0, 0}, 0, 0); };
+  EXPECT_NEAR((extent(actor(Shape::box)) - Vector3d(0.5, 0.5, 0.5)).norm(), 0, 1e-9);
+  EXPECT_NEAR((extent(actor(Shape::cylinder)) - Vector3d(0.5, 0.5, 0.8)).norm(), 0, 1e-3);
+  EXPECT_NEAR((extent(actor(Shape::pedestrian)) - Vector3d(0.7, 0.56, 1.76)).norm(), 0, 0.03);
+  EXPECT_NEAR((extent(actor(Shape::car)) - Vector3d(4.2, 1.8, 1.44)).norm(), 0, 0.03);
+}
+
+TEST(ActorShape, IsScaledToTheSizeAskedFor) {
+  const std::vector<std::pair<Shape, Vector3d>> asked = {{Shape::box, {1.2, 0.3, 0.7}},
+                                                         {Shape::cylinder, {0.9, 0.9, 0.4}},
+                                                         {Shape::pedestrian, {0.6, 0.5, 1.6}},
+                                                         {Shape::car, {5, 2, 1.5}}};
+  for (const auto& [shape, size] : asked) {
+    scenario::Actor actor = line_actor("a", shape, {0, 0}, 0, 0);
+    actor.size_m = size;
+    // what is round stays round where the factors differ: within 3 % of the whole
+    EXPECT_LT(((extent(actor) - size).cwiseQuotient(size)).cwiseAbs().maxCoeff(), 0.04)
+        << extent(actor).transpose();
+  }
+}
+
+TEST(ActorShape, ACylinderIsRound) {
+  auto s = scenario_in_mjcf(floor_with(""), 0, 1);
+  s.actors = {line_actor("drum", Shape::cylinder, {1, 0}, 0, 0)};
+  s.actors[0].size_m = Vector3d(1, 0.5, 1);
+  expect_error(s, {"test.yaml:7", "round"});
+}
+
+TEST(ActorShape, TextureIsAStyleOrAPictureAndElseAnError) {
+  auto s = scenario_in_mjcf(floor_with(""), 0, 1);
+  for (const Shape shape : {Shape::box, Shape::cylinder, Shape::pedestrian, Shape::car}) {
+    s.actors = {line_actor("a", shape, {2, 0}, 0, 0)};
+    s.actors[0].texture = "bricks";
+    EXPECT_NO_THROW(load(s));
+    s.actors[0].texture = "brocks";
+    expect_error(s, {"test.yaml:7", "brocks", "bricks"});
+  }
+  const std::string file = testing::TempDir() + "/no_picture.png";
+  std::ofstream(file) << "text";
+  s.actors[0].texture = file;
+  expect_error(s, {"test.yaml:7", "no_picture.png"});
+}
+
+TEST(ActorShape, APictureIsShownUprightAndNotMirrored) {
+  // white, its upper left quarter blue, as a box before the camera must show it on its face
+  cv::Mat3b picture(64, 64, cv::Vec3b(255, 255, 255));
+  picture(cv::Rect(0, 0, 32, 32)).setTo(cv::Vec3b(255, 0, 0));
+  const std::string file = testing::TempDir() + "/quarter.png";
+  cv::imwrite(file, picture);
+  for (const double heading : {0.0, 90.0, 180.0, 270.0}) {
+    auto s = scenario_in_mjcf(floor_with(""), 0, 1);
+    s.actors = {line_actor("box", Shape::box, {2, 0}, heading * test::kDegree, 0)};
+    s.actors[0].size_m = Vector3d(1, 1, 0.9);
+    s.actors[0].texture = file;
+    const Observation o = Simulation(s).next().value();
+    const ObjectTruth box = o.objects.at(0);
+    const auto bluish = [&](double across, double down) {
+      const cv::Vec3b c = o.image(static_cast<int>(box.top + down * (box.bottom - box.top)),
+                                  static_cast<int>(box.left + across * (box.right - box.left)));
+      return c[0] > 2 * c[2];
+    };
+    EXPECT_TRUE(bluish(0.25, 0.25)) << "heading " << heading;
+    EXPECT_FALSE(bluish(0.75, 0.25)) << "heading " << heading;
+    EXPECT_FALSE(bluish(0.25, 0.75)) << "heading " << heading;
+    EXPECT_FALSE(bluish(0.75, 0.75)) << "heading " << heading;
+  }
+}
+
+TEST(Scene, ActorsOfOneShapeDoNotClash) {
+  auto s = scenario_in("lab", 0, 1);
+  for (int i = 0; i < 4; ++i) {
+    s.actors.push_back(line_actor("car" + std::to_string(i), Shape::car, {0, i}, 0, 1));
+  }
+  EXPECT_NO_THROW(load(s));
+}
+
+// A scene made for a viewer says other things of the simulation too; the readings need their own.
+TEST(Scene, OptionsOfASceneDoNotSpoilTheSensors) {
+  std::string mjcf = floor_with("");
+  mjcf.insert(mjcf.find("<statistic"),
+              "<compiler fusestatic='true'/><option integrator='RK4' timestep='0.05'>"
+              "<flag sensor='disable' actuation='disable'/></option>");
+  mjcf.insert(mjcf.find("</worldbody>"), "<body name='b' pos='3 0 1'><geom size='.1'/></body>");
+  World world(scenario_in_mjcf(mjcf, 0.5, 1));
+  EXPECT_EQ(world.objects().size(), 1u);
+  std::vector<ImuSample> imu;
+  std::vector<OdometrySample> odometry;
+  world.advance_to(1'000'000'000, imu, odometry);
+  EXPECT_NEAR(imu.back().accel_mps2.z(), 9.81, 1e-6);
+  EXPECT_NEAR(world.v_WB_mps().x(), 0.5, 1e-6);
+}
+
+TEST(Physics, ADivergingModelEndsTheRunWithTheSimulatedTime) {
+  // a ball on a spring with k h^2 / m = 4.4 at steps of 5/3 ms: beyond 4 each swing outdoes the last
+  // the last
+  const std::string unstable =
+      "<body name='ball' pos='0 3 2'><joint type='slide' axis='0 0 1' stiffness='160000' "
+      "springref='.01'/><geom size='.1' mass='.1'/></body>";
+  World world(scenario_in_mjcf(floor_with(unstable), 0, 1));
+  std::vector<ImuSample> imu;
+  std::vector<OdometrySample> odometry;
+  try {
+    world.advance_to(5'000'000'000, imu, odometry);
+    FAIL() << "nothing was noticed";
+  } catch (const PhysicsError& e) {
+    const std::string message = e.what();
+    EXPECT_NE(message.find(" s of simulated time"), std::string::npos) << message;
+    const double t = std::stod(message.substr(message.find("at ") + 3));
+    EXPECT_GT(t, 0);
+    EXPECT_LT(t, 5);
+  }
+}
+
+}  // namespace
+}  // namespace lcs::sim
