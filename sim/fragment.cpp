@@ -20,13 +20,13 @@ using scenario::Shape;
 const char* file_of(Shape shape) {
   switch (shape) {
     case Shape::box:
-      return "box.xml";
+      return "actors/box.xml";
     case Shape::cylinder:
-      return "cylinder.xml";
+      return "actors/cylinder.xml";
     case Shape::pedestrian:
-      return "pedestrian.xml";
+      return "actors/pedestrian.xml";
     case Shape::car:
-      return "car.xml";
+      return "actors/car.xml";
   }
   throw std::invalid_argument("unknown shape of an actor");
 }
@@ -137,9 +137,10 @@ void paint_fragment(xml::Element& root, const scenario::Actor& actor) {
 
 }  // namespace
 
-std::filesystem::path scenes_folder() {
+std::filesystem::path fragment_file(const std::filesystem::path& relative) {
   const char* const folder = std::getenv("LCS_SCENES");
-  return folder && *folder ? folder : LCS_SCENES_DIR;
+  if (folder && *folder && std::filesystem::exists(folder / relative)) return folder / relative;
+  return LCS_SCENES_DIR / relative;
 }
 
 void scale_fragment(xml::Element& root, const Eigen::Vector3d& size_m) {
@@ -160,8 +161,7 @@ bool has_picture(const scenario::Actor& actor) {
 }
 
 xml::Document actor_fragment(const scenario::Actor& actor) {
-  xml::Document document =
-      xml::load(scenes_folder() / "actors" / file_of(actor.shape), actor.source);
+  xml::Document document = xml::load(fragment_file(file_of(actor.shape)), actor.source);
   xml::Element& root = *document->RootElement();
   if (actor.size_m) {
     const Eigen::Vector3d& size = *actor.size_m;

@@ -12,13 +12,13 @@
 
 namespace lcs::sim {
 
-/// Folder of `lab.xml`, `ego/`, `actors/`: the environment's LCS_SCENES, else that of the source
-/// tree.
-std::filesystem::path scenes_folder();
+/// A file of the rover or of an actor, as in "ego/wheeled.xml": from the folder that the
+/// environment's LCS_SCENES names, if it is there, else from the scenes of the source tree.
+std::filesystem::path fragment_file(const std::filesystem::path& relative);
 
 /// Scales the geoms of a fragment's body from the natural size that it states (the numeric `size`:
-/// length, width, height in m). Boxes and ellipsoids take any three factors; what is round about an axis
-/// stays round.
+/// length, width, height in m). Boxes and ellipsoids take any three factors; what is round about an
+/// axis stays round.
 void scale_fragment(xml::Element& root, const Eigen::Vector3d& size_m);
 
 /// Texture of an actor that shows a picture from a file, within its fragment.

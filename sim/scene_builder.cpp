@@ -172,9 +172,9 @@ void add_camera(xml::Element& base, const scenario::Camera& camera) {
 }
 
 void add_ego(xml::Element& scene, const Scenario& scenario) {
-  const char* file =
-      scenario.ego.drive == scenario::Drive::holonomic ? "holonomic.xml" : "wheeled.xml";
-  const xml::Document fragment = xml::load(scenes_folder() / "ego" / file, scenario.scene_source);
+  const bool holonomic = scenario.ego.drive == scenario::Drive::holonomic;
+  const auto file = fragment_file(holonomic ? "ego/holonomic.xml" : "ego/wheeled.xml");
+  const xml::Document fragment = xml::load(file, scenario.scene_source);
   xml::Element& root = *fragment->RootElement();
   xml::prefix_names(root, kEgoPrefix);
   xml::Element* base = xml::child_named(xml::section(root, "worldbody"), "body", kEgoBody);

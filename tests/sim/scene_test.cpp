@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -292,6 +294,31 @@ TEST(ActorShape, APictureIsShownUprightAndNotMirrored) {
   }
 }
 
+TEST(Scene, AFolderOfOnesOwnScenesNeedsNoRoversAndActors) {
+  setenv("LCS_SCENES", testing::TempDir().c_str(), 1);
+  auto s = scenario_in("lab", 0, 1);
+  s.actors = {line_actor("a", Shape::box, {2, 0}, 0, 0)};
+  EXPECT_NO_THROW(load(s));
+  unsetenv("LCS_SCENES");
+}
+
+// What is painted later is plain there, but the file is whole.
+TEST(Scene, EachFileLoadsAloneAsAViewerLoadsIt) {
+  install_mujoco_handlers();
+  const std::filesystem::path scenes = std::filesystem::path(LCS_SOURCE_DIR) / "scenes";
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(scenes)) {
+    if (entry.path().extension() != ".xml") continue;
+    ++files;
+    std::array<char, 1000> message{};
+    const std::unique_ptr<mjModel, ModelDeleter> model(
+        mj_loadXML(entry.path().c_str(), nullptr, message.data(), message.size()));
+    EXPECT_TRUE(model) << entry.path() << ": " << message.data();
+    EXPECT_STREQ(message.data(), "") << entry.path();
+  }
+  EXPECT_EQ(files, 8);
+}
+
 TEST(Scene, ActorsOfOneShapeDoNotClash) {
   auto s = scenario_in("lab", 0, 1);
   for (int i = 0; i < 4; ++i) {
@@ -317,8 +344,8 @@ TEST(Scene, OptionsOfASceneDoNotSpoilTheSensors) {
 }
 
 TEST(Physics, ADivergingModelEndsTheRunWithTheSimulatedTime) {
-  // a ball on a spring with k h^2 / m = 4.4 at steps of 5/3 ms: beyond 4 each swing outdoes the last
-  // the last
+  // a ball on a spring with k h^2 / m = 4.4 at steps of 5/3 ms: beyond 4 each swing outdoes the
+  // last the last
   const std::string unstable =
       "<body name='ball' pos='0 3 2'><joint type='slide' axis='0 0 1' stiffness='160000' "
       "springref='.01'/><geom size='.1' mass='.1'/></body>";
