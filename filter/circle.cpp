@@ -31,6 +31,7 @@ void CircleExpert::predict(Layers& layers, const MotionField& field) const {
     if (!along.isZero()) circle.angle = angle_of(along);
   }
   for (Circle& circle : layers.rebel_circles) {
+    circle.angle = field.turned(circle.angle, circle.location, circle.origin);
     circle.origin = field.rotated(circle.origin);
     circle.location =
         field.rotated(circle.location) + circle.speed * field.dt_s() * unit_vector(circle.angle);

@@ -51,6 +51,13 @@ Vec2 MotionField::rotated(const Vec2& x_px) const {
                          x.x() * w_dt_.z());
 }
 
+double MotionField::turned(double angle_rad, const Vec2& location_px, const Vec2& origin_px) const {
+  const Vec2 before = location_px - origin_px;
+  const Vec2 after = rotated(location_px) - rotated(origin_px);
+  if (before.isZero() || after.isZero()) return angle_rad;
+  return wrap_angle(angle_rad + angle_of(after) - angle_of(before));
+}
+
 Vec2 MotionField::flow(const Vec2& x_px) const {
   if (!moving_) return Vec2::Zero();
   return v_C_mps_.z() * (x_px - centre_px_) - focal_px_ * v_C_mps_.head<2>();

@@ -29,6 +29,10 @@ class MotionField {
   /// moved by first.
   Vec2 rotated(const Vec2& x_px) const;
 
+  /// A direction of motion beta after the rotation: turned by as much as the line from `origin` to
+  /// `location`, both before the rotation.
+  double turned(double angle_rad, const Vec2& location_px, const Vec2& origin_px) const;
+
   /// False while the camera stands still: there is no direction of flow then.
   bool moving() const { return moving_; }
 

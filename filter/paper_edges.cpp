@@ -25,6 +25,8 @@ void PaperEdges::predict(Layers& layers, const MotionField& field) {
     edge.predicted = field.translated(edge.rotated, edge.depth_ratio);
     edge.origin = field.origin(edge.predicted);
     edge.speed = edge.depth_ratio * field.reference_speed(edge.rotated);
+    const Vec2 along = field.direction(edge.predicted);
+    if (!along.isZero()) edge.angle = angle_of(along);
   }
   for (Edge& edge : layers.rebel_edges) {
     edge.rotated = field.rotated(edge.location);

@@ -19,6 +19,36 @@ double side_overlap(double a, double half_a, double b, double half_b) {
   return std::max(0.0, std::min(a + half_a, b + half_b) - std::max(a - half_a, b - half_b));
 }
 
+/// A square with rebels is carried by its own motion; how its size changes is not known before the
+/// circles say so.
+void carry_on(Square& square, const MotionField& field) {
+  square.angle = field.turned(square.angle, square.location, square.origin);
+  square.origin = field.rotated(square.origin);
+  square.location =
+      field.rotated(square.location) + square.speed * field.dt_s() * unit_vector(square.angle);
+}
+
+/// A static square moves away from the focus of expansion, and grows about it.
+void expand(Square& square, const MotionField& field) {
+  const Vec2 rotated = field.rotated(square.location);
+  square.location = rotated;
+  square.origin = field.origin(rotated);
+  if (!field.moving()) return;
+  square.depth_ratio = field.advanced_ratio(square.depth_ratio);
+  square.speed = square.depth_ratio * field.reference_speed(rotated);
+  const Vec2 outwards = rotated - square.origin;
+  const double distance = outwards.norm();
+  if (distance <= 0) return;
+  const Vec2 moved = field.translated(rotated, square.depth_ratio);
+  const double travelled = (moved - rotated).dot(outwards) / distance;  // Delta r
+  const Extent extent{rotated, square.half_size};
+  const Extent next = predict_by_tangents(extent, square.origin, travelled)
+                          .value_or(predict_by_homothety(extent, square.origin, travelled));
+  square.location = next.location;
+  square.half_size = next.half_size;
+  square.angle = angle_of(field.direction(square.location));
+}
+
 }  // namespace
 
 double overlap_percent(const Square& a, const Square& b) {
@@ -49,26 +79,11 @@ SquareExpert::SquareExpert(const Intrinsics& camera, const SquareParameters& par
 
 void SquareExpert::predict(Layers& layers, const MotionField& field) const {
   for (Square& square : layers.squares) {
-    const Vec2 rotated = field.rotated(square.location);
-    square.origin = field.rotated(square.origin);
-    square.location = rotated;
     if (square.rebel_circles > 0) {
-      // Carried by its own motion; how its size changes is not known before the circles say so.
-      square.location += square.speed * field.dt_s() * unit_vector(square.angle);
-      continue;
+      carry_on(square, field);
+    } else {
+      expand(square, field);
     }
-    if (!field.moving()) continue;
-    square.depth_ratio = field.advanced_ratio(square.depth_ratio);
-    const Vec2 moved = field.translated(rotated, square.depth_ratio);
-    const Vec2 outwards = rotated - square.origin;
-    const double distance = outwards.norm();
-    if (distance <= 0) continue;
-    const double travelled = (moved - rotated).dot(outwards) / distance;  // Delta r
-    const Extent extent{rotated, square.half_size};
-    const Extent next = predict_by_tangents(extent, square.origin, travelled)
-                            .value_or(predict_by_homothety(extent, square.origin, travelled));
-    square.location = next.location;
-    square.half_size = next.half_size;
   }
 }
 
