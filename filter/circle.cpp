@@ -202,8 +202,13 @@ void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
     if (matched[pair.circle] || circle_of_group[pair.group] >= 0) continue;
     matched[pair.circle] = 1;
     circle_of_group[pair.group] = static_cast<int>(pair.circle);
-    ++circles[pair.circle].age;
-    estimate_circle(circles[pair.circle], groups_[pair.group].mean, pair.aligned);
+    Circle& circle = circles[pair.circle];
+    ++circle.age;
+    // Edges that coast in psi carry their circle along, but prove nothing.
+    const bool unseen = inside_any(layers.ignored, circle.location);
+    const int trust = circle.trust;
+    estimate_circle(circle, groups_[pair.group].mean, pair.aligned);
+    if (unseen) circle.trust = trust;
   }
   for (std::size_t c = 0; c < circles.size(); ++c) {
     if (matched[c]) continue;

@@ -238,6 +238,8 @@ void SquareExpert::match(Layers& layers) {
     matched[pair.square] = used[pair.mean] = 1;
     Square& square = layers.squares[pair.square];
     const Square& mean = means_[pair.mean];
+    // Circles that coast in psi carry their square along, but prove nothing.
+    const bool unseen = inside_any(layers.ignored, square.location);
     square.location = estimate(square.trust, ranks, square.location, mean.location);
     square.half_size = estimate(square.trust, ranks, square.half_size, mean.half_size);
     square.speed = mean.speed;
@@ -247,7 +249,7 @@ void SquareExpert::match(Layers& layers) {
     square.circles = mean.circles;
     square.rebel_circles = mean.rebel_circles;
     ++square.age;
-    square.trust = pair.aligned ? ranks.raised(square.trust) : square.trust - 1;
+    if (!unseen) square.trust = pair.aligned ? ranks.raised(square.trust) : square.trust - 1;
   }
   for (std::size_t s = 0; s < layers.squares.size(); ++s) {
     if (matched[s]) continue;
