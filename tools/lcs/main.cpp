@@ -21,7 +21,8 @@ constexpr const char* kHelp =
 through its camera and IMU, and the simulator's truth scores what the filter says.
 
   lcs run scenarios/crossing.yaml     run a scenario; results are in out/crossing
-  lcs run --help                      all about it)";
+  lcs run --help                      all about it
+)";
 
 int fail(const std::string& message) {
   fmt::print(stderr, "lcs: {}\n", message);

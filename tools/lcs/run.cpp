@@ -38,7 +38,8 @@ Exit codes:
   0  fine
   1  a required criterion of the scenario is not met
   2  error: nothing was written, an earlier result is as it was
-  130  interrupted (Ctrl-C): likewise)";
+  130  interrupted (Ctrl-C): likewise
+)";
 
 std::vector<std::string> result_files() {
   return {bench::kMetricsFile, bench::kFramesFile, bench::kLayersFile, bench::kTruthFile,
@@ -98,9 +99,9 @@ bool report_failures(const std::vector<bench::FailedCriterion>& failures) {
 CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
   CLI::App& command = *app.add_subcommand(
       "run", "Simulate a scenario, run the LCS filter on it, and score the filter by the truth");
-  command.add_option("scenario", options.scenario, "The scenario, a YAML file")
+  command.add_option("SCENARIO", options.scenario, "The scenario, a YAML file")
       ->required()
-      ->type_name("SCENARIO");
+      ->type_name("");
   command.add_option("--out", options.out, "Folder for the results; out/<scenario> if not given")
       ->type_name("DIR");
   command.add_option("--seed", options.seed, "Seed, instead of the scenario's")->type_name("N");

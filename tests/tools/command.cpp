@@ -1,0 +1,89 @@
+#include "tests/tools/command.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace lcs::bench {
+namespace {
+
+/// In the child, up to and with exec; does nothing that a forked process may not.
+[[noreturn]] void become(const char* const* arguments, const char* folder, const char* out,
+                         const char* err, const rlimit* largest_file) {
+  const int flags = O_WRONLY | O_CREAT | O_TRUNC;
+  if (::dup2(::open(out, flags, 0600), STDOUT_FILENO) < 0) ::_exit(126);
+  if (::dup2(::open(err, flags, 0600), STDERR_FILENO) < 0) ::_exit(126);
+  if (::chdir(folder) != 0) ::_exit(126);
+  if (largest_file != nullptr) {
+    ::signal(SIGXFSZ, SIG_IGN);  // so that writing fails with an error instead
+    ::setrlimit(RLIMIT_FSIZE, largest_file);
+  }
+  ::execv(LCS_PROGRAM, const_cast<char* const*>(arguments));
+  ::_exit(127);
+}
+
+std::string read_all(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+Command::Command(const std::vector<std::string>& arguments, const CommandOptions& options) {
+  std::string capture = (std::filesystem::temp_directory_path() / "lcs-command-XXXXXX").string();
+  if (::mkdtemp(capture.data()) == nullptr) throw std::runtime_error("mkdtemp failed");
+  capture_ = capture;
+
+  std::vector<const char*> pointers{LCS_PROGRAM};
+  for (const std::string& argument : arguments) pointers.push_back(argument.c_str());
+  pointers.push_back(nullptr);
+  const std::string out = capture_ / "out", err = capture_ / "err";
+  const std::size_t bytes = options.largest_file.value_or(0);
+  const rlimit limit{bytes, bytes};
+
+  pid_ = ::fork();
+  if (pid_ < 0) throw std::runtime_error("fork failed");
+  if (pid_ == 0) {
+    become(pointers.data(), options.folder.c_str(), out.c_str(), err.c_str(),
+           options.largest_file ? &limit : nullptr);
+  }
+}
+
+Command::~Command() {
+  wait();
+  std::filesystem::remove_all(capture_);
+}
+
+void Command::send(int signal) const {
+  ::kill(pid_, signal);
+}
+
+bool Command::is_running() {
+  int status = 0;
+  if (!status_ && ::waitpid(pid_, &status, WNOHANG) == pid_) status_ = status;
+  return !status_;
+}
+
+CommandResult Command::wait() {
+  if (!status_) {
+    int status = 0;
+    ::waitpid(pid_, &status, 0);
+    status_ = status;
+  }
+  return {.exit_code = WIFEXITED(*status_) ? WEXITSTATUS(*status_) : 128 + WTERMSIG(*status_),
+          .out = read_all(capture_ / "out"),
+          .err = read_all(capture_ / "err")};
+}
+
+CommandResult run_lcs(const std::vector<std::string>& arguments, const CommandOptions& options) {
+  return Command(arguments, options).wait();
+}
+
+}  // namespace lcs::bench

@@ -1,0 +1,46 @@
+/// \file
+/// The real `lcs` program as a child process.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lcs::bench {
+
+struct CommandResult {
+  int exit_code = -1;  ///< 128 + signal when it was killed by one
+  std::string out;
+  std::string err;
+};
+
+struct CommandOptions {
+  std::filesystem::path folder;                  ///< that it runs in
+  std::optional<std::size_t> largest_file = {};  ///< bytes; writing more fails, as on a full disk
+};
+
+/// Started on construction; waited for at the latest on destruction.
+class Command {
+ public:
+  /// \param arguments after the program's name.
+  Command(const std::vector<std::string>& arguments, const CommandOptions& options);
+  ~Command();
+  Command(const Command&) = delete;
+  Command& operator=(const Command&) = delete;
+
+  void send(int signal) const;
+  bool is_running();
+  CommandResult wait();
+
+ private:
+  std::filesystem::path capture_;  ///< folder with what it printed
+  pid_t pid_ = -1;
+  std::optional<int> status_;
+};
+
+CommandResult run_lcs(const std::vector<std::string>& arguments, const CommandOptions& options);
+
+}  // namespace lcs::bench

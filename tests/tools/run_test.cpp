@@ -1,0 +1,318 @@
+// The `lcs` program from its command line to its files, on short versions of the shipped scenarios.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/videoio.hpp>
+#include <set>
+#include <thread>
+
+#include "tests/tools/command.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/bench/recording_io.h"
+#include "tools/bench/report.h"
+#include "tools/bench/scoring.h"
+
+namespace lcs::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kScenarios = LCS_SCENARIOS_DIR;
+
+std::string read(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  EXPECT_TRUE(file) << path;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::set<std::string> entries(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
+  return names;
+}
+
+std::ptrdiff_t lines(const std::string& text) {
+  return std::count(text.begin(), text.end(), '\n');
+}
+
+class Run : public testing::Test {
+ protected:
+  /// In an empty folder of its own, where a default output would land.
+  CommandResult run(std::vector<std::string> arguments,
+                    std::optional<std::size_t> largest_file = {}) {
+    arguments.insert(arguments.begin(), "run");
+    return run_lcs(arguments, {.folder = folder_.path(), .largest_file = largest_file});
+  }
+  /// The quickest run that there is.
+  static std::vector<std::string> brief(std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{kScenarios / "crossing.yaml", "--set", "frames=4",
+                                       "--no-video"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  nlohmann::json metrics(const fs::path& result) {
+    return nlohmann::json::parse(read(folder_.path() / result / kMetricsFile));
+  }
+
+  const TemporaryFolder folder_;
+};
+
+// ---- A run that is fine
+
+class ShippedScenario : public Run, public testing::WithParamInterface<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenarios, ShippedScenario,
+                         testing::Values("lab", "crossing", "approaching"),
+                         [](const auto& test) { return test.param; });
+
+TEST_P(ShippedScenario, LeavesWholeFilesThatAgreeWithEachOther) {
+  const std::string name = GetParam();
+  constexpr int kFrames = 8;
+  const CommandResult result = run({kScenarios / (name + ".yaml"), "--set", "frames=8", "--quiet"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err + result.out, "") << "--quiet";
+  EXPECT_EQ(entries(folder_.path()), std::set<std::string>{"out"});
+  const fs::path out = folder_.path() / "out" / name;
+  EXPECT_EQ(entries(out), (std::set<std::string>{"metrics.json", "frames.csv", "layers.jsonl",
+                                                 "truth.jsonl", "video.mp4"}));
+
+  EXPECT_EQ(lines(read(out / kFramesFile)), 1 + kFrames);
+  const Recording recording = read_recording(out);
+  ASSERT_EQ(recording.frames.size(), std::size_t{kFrames});
+  EXPECT_EQ(recording.scenario, name);
+  EXPECT_FALSE(recording.objects.empty());
+  for (const FrameRecord& frame : recording.frames) {
+    EXPECT_GT(frame.corners_px.size(), 20u) << "frame " << frame.index;
+    EXPECT_FALSE(frame.object_truth.empty()) << "frame " << frame.index;
+  }
+
+  // Scored again from its files, the run has the same figures to the last bit, times apart.
+  const nlohmann::json stored = metrics(fs::path("out") / name);
+  for (const auto& [metric, figure] : score(recording)) {
+    ASSERT_TRUE(stored.contains(metric)) << metric;
+    if (metric.starts_with("time.") || metric.starts_with("sim.")) {
+      EXPECT_TRUE(stored[metric].is_number()) << metric;
+    } else if (figure) {
+      EXPECT_EQ(stored[metric].get<double>(), *figure) << metric;
+    } else {
+      EXPECT_TRUE(stored[metric].is_null()) << metric;
+    }
+  }
+
+  cv::VideoCapture video((out / "video.mp4").string(), cv::CAP_FFMPEG);
+  ASSERT_TRUE(video.isOpened());
+  cv::Mat picture;
+  int pictures = 0;
+  while (video.read(picture)) ++pictures;
+  EXPECT_EQ(pictures, kFrames);
+}
+
+TEST_F(Run, TwoProcessesWriteTheSameLayersAndTruthToTheByte) {
+  ASSERT_EQ(run(brief({"--out", "a"})).exit_code, 0);
+  ASSERT_EQ(run(brief({"--out", "b"})).exit_code, 0);
+  for (const char* file : {kLayersFile, kTruthFile}) {
+    const std::string a = read(folder_.path() / "a" / file);
+    EXPECT_GT(a.size(), 10'000u);
+    EXPECT_TRUE(a == read(folder_.path() / "b" / file)) << file;
+  }
+}
+
+TEST_F(Run, AnotherSeedIsAnotherRun) {
+  ASSERT_EQ(run(brief({"--out", "a", "--seed", "1"})).exit_code, 0);
+  ASSERT_EQ(run(brief({"--out", "b", "--seed", "2"})).exit_code, 0);
+  EXPECT_FALSE(read(folder_.path() / "a" / kLayersFile) ==
+               read(folder_.path() / "b" / kLayersFile));
+  EXPECT_EQ(read_recording(folder_.path() / "b").seed, 2u);
+}
+
+TEST_F(Run, EgoMotionIsExactOnlyWhereTheScenarioSaysSo) {
+  ASSERT_EQ(run(brief({"--out", "imu"})).exit_code, 0);
+  ASSERT_EQ(run(brief({"--out", "truth", "--set", "ego_motion=truth"})).exit_code, 0);
+  EXPECT_GT(metrics("imu")["ego.velocity_error_mps_median"].get<double>(), 0);
+  EXPECT_EQ(metrics("truth")["ego.velocity_error_mps_median"].get<double>(), 0);
+  EXPECT_EQ(metrics("truth")["ego.rotation_error_mrad_median"].get<double>(), 0);
+}
+
+TEST_F(Run, AFilterSettingReachesTheFilter) {
+  ASSERT_EQ(run(brief({"--out", "a"})).exit_code, 0);
+  ASSERT_EQ(run(brief({"--out", "b", "--set", "filter.circle.min_members=6"})).exit_code, 0);
+  EXPECT_FALSE(read(folder_.path() / "a" / kLayersFile) ==
+               read(folder_.path() / "b" / kLayersFile));
+}
+
+TEST_F(Run, PrintsProgressOnStderrAndTheTableOnStdout) {
+  const CommandResult result = run(brief());
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("4/4 frames"), std::string::npos) << result.err;
+  for (const char* part : {"crossing: 4 frames, seed 1", "rebels", "squares", "out/crossing"}) {
+    EXPECT_NE(result.out.find(part), std::string::npos) << part << " in\n" << result.out;
+  }
+}
+
+TEST_F(Run, ReplacesAnEarlierResult) {
+  ASSERT_EQ(run(brief()).exit_code, 0);
+  ASSERT_EQ(run(brief({"--set", "frames=5"})).exit_code, 0);
+  EXPECT_EQ(metrics("out/crossing")["frames"].get<double>(), 5);
+  EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"crossing"});
+}
+
+// ---- Criteria
+
+TEST_F(Run, ARequiredCriterionThatFailsExitsWithOneAndKeepsTheResult) {
+  const CommandResult result =
+      run(brief({"--quiet", "--set", "criteria=[{metric: frames, min: 5}]"}));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(lines(result.err), 1);
+  EXPECT_NE(result.err.find("frames is 4, must be at least 5"), std::string::npos) << result.err;
+  EXPECT_EQ(metrics("out/crossing")["frames"].get<double>(), 4);
+}
+
+TEST_F(Run, ACriterionThatIsMetOrNotRequiredExitsWithZero) {
+  EXPECT_EQ(run(brief({"--set", "criteria=[{metric: frames, min: 4}]"})).exit_code, 0);
+  const CommandResult result =
+      run(brief({"--quiet", "--set", "criteria=[{metric: frames, min: 5, required: false}]"}));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("frames is 4"), std::string::npos) << result.err;
+}
+
+// ---- Errors
+
+struct Mistake {
+  const char* name;
+  std::vector<std::string> arguments;
+  const char* said;  ///< part of the message
+};
+
+class RunMistake : public Run, public testing::WithParamInterface<Mistake> {};
+
+TEST_P(RunMistake, IsToldInOneLineWithExitCodeTwoBeforeAnyOutputIsBegun) {
+  const CommandResult result = run(GetParam().arguments);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(lines(result.err), 1) << result.err;
+  EXPECT_NE(result.err.find(GetParam().said), std::string::npos) << result.err;
+  EXPECT_TRUE(entries(folder_.path()).empty()) << "something was written";
+}
+
+const std::string kCrossing = kScenarios / "crossing.yaml";
+INSTANTIATE_TEST_SUITE_P(
+    All, RunMistake,
+    testing::Values(
+        Mistake{"no_scenario", {}, "SCENARIO"},
+        Mistake{"missing_scenario", {"no_such.yaml"}, "no_such.yaml"},
+        Mistake{"unknown_option", {kCrossing, "--fast"}, "--fast"},
+        Mistake{"seed_that_is_no_number", {kCrossing, "--seed", "many"}, "many"},
+        Mistake{"unknown_key", {kCrossing, "--set", "ego.sped=1 m/s"}, "speed"},
+        Mistake{"wrong_unit", {kCrossing, "--set", "ego.speed=1 kg"}, "kg"},
+        Mistake{"rate_of_zero", {kCrossing, "--set", "camera.rate=0 Hz"}, "rate"},
+        Mistake{"not_a_number", {kCrossing, "--set", "ego.speed=.nan m/s"}, "ego.speed"},
+        Mistake{"missing_scene", {kCrossing, "--set", "scene=moon"}, "moon"},
+        Mistake{"missing_body",
+                {kCrossing, "--set", "actors={walker: {body: ghost, trajectory: {still: {}}}}"},
+                "moves body 'ghost'"},
+        Mistake{"unknown_preset", {kCrossing, "--set", "filter.preset=best"}, "best"},
+        Mistake{"unknown_parameter", {kCrossing, "--set", "filter.circle.mu_9=1"}, "circle.mu"},
+        Mistake{"parameter_out_of_range", {kCrossing, "--set", "filter.circle.mu_0=-1"}, "mu_0"},
+        Mistake{"unknown_metric",
+                {kCrossing, "--set", "criteria=[{metric: rebel.f2, min: 1}]"},
+                "rebel.f1"},
+        Mistake{"unwritable_folder", {kCrossing, "--out", "/proc/lcs"}, "/proc/lcs"}),
+    [](const auto& test) { return test.param.name; });
+
+TEST_F(Run, AFolderThatHoldsSomethingElseIsRefusedAndUntouched) {
+  fs::create_directory(folder_.path() / "papers");
+  std::ofstream(folder_.path() / "papers" / "thesis.tex") << "precious";
+  const CommandResult result = run(brief({"--out", "papers"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(lines(result.err), 1) << result.err;
+  EXPECT_NE(result.err.find("thesis.tex"), std::string::npos) << result.err;
+  EXPECT_EQ(entries(folder_.path()), std::set<std::string>{"papers"});
+  EXPECT_EQ(read(folder_.path() / "papers" / "thesis.tex"), "precious");
+}
+
+TEST_F(Run, ADiskThatFillsUpIsToldInOneLineAndLeavesNothingBehind) {
+  const CommandResult result = run(brief({"--quiet"}), 20'000);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(lines(result.err), 1) << result.err;
+  EXPECT_NE(result.err.find(".jsonl: File too large; "), std::string::npos) << result.err;
+  EXPECT_TRUE(entries(folder_.path()).empty());
+}
+
+TEST_F(Run, AVideoThatTheDiskCannotHoldIsToldLikewise) {
+  // All other files of so short a run fit, or the message would name one of them.
+  const CommandResult result =
+      run({kCrossing, "--set", "frames=2", "--set", "corners.threshold=100", "--quiet"}, 20'000);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(lines(result.err), 1) << result.err;
+  EXPECT_NE(result.err.find("video.mp4"), std::string::npos) << result.err;
+  EXPECT_TRUE(entries(folder_.path()).empty());
+}
+
+// ---- Interruption
+
+class RunInterrupted : public Run, public testing::WithParamInterface<int> {};
+INSTANTIATE_TEST_SUITE_P(Signals, RunInterrupted, testing::Values(SIGINT, SIGTERM),
+                         [](const auto& test) {
+                           return test.param == SIGINT ? "SIGINT" : "SIGTERM";
+                         });
+
+TEST_P(RunInterrupted, LeavesTheEarlierResultAsItWasAndExitsWith130) {
+  ASSERT_EQ(run(brief()).exit_code, 0);
+  const std::string before = read(folder_.path() / "out" / "crossing" / kLayersFile);
+
+  Command command({"run", kCrossing, "--set", "frames=1000"}, {.folder = folder_.path()});
+  // Once a staging folder stands beside the result, the run is under way.
+  while (command.is_running() && entries(folder_.path() / "out").size() < 2) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ASSERT_TRUE(command.is_running());
+  command.send(GetParam());
+  const CommandResult result = command.wait();
+
+  EXPECT_EQ(result.exit_code, 130);
+  EXPECT_NE(result.err.find("interrupted"), std::string::npos) << result.err;
+  EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"crossing"});
+  EXPECT_EQ(read(folder_.path() / "out" / "crossing" / kLayersFile), before);
+}
+
+// ---- The program itself
+
+CommandResult lcs_with(const std::vector<std::string>& arguments) {
+  const TemporaryFolder folder;
+  return run_lcs(arguments, {.folder = folder.path()});
+}
+
+TEST(Program, NamesTheVersionsOfWhatItRunsOn) {
+  const CommandResult result = lcs_with({"--version"});
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* part : {"lcs ", "MuJoCo ", "Mesa ", "OpenCV "}) {
+    EXPECT_NE(result.out.find(part), std::string::npos) << part << " in\n" << result.out;
+  }
+}
+
+TEST(Program, HelpTeachesExamplesFilesAndExitCodes) {
+  const CommandResult top = lcs_with({"--help"});
+  EXPECT_EQ(top.exit_code, 0);
+  EXPECT_NE(top.out.find("lcs run scenarios/crossing.yaml"), std::string::npos) << top.out;
+  const CommandResult run = lcs_with({"run", "--help"});
+  EXPECT_EQ(run.exit_code, 0);
+  for (const char* part : {"Examples", "metrics.json", "Exit codes", "130", "--seed", "--set"}) {
+    EXPECT_NE(run.out.find(part), std::string::npos) << part << " in\n" << run.out;
+  }
+}
+
+TEST(Program, WithoutOrWithAnUnknownSubCommandSaysHowToGetHelp) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{}, std::vector<std::string>{"ruin"}}) {
+    const CommandResult result = lcs_with(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(lines(result.err), 1) << result.err;
+    EXPECT_NE(result.err.find("--help"), std::string::npos) << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace lcs::bench
