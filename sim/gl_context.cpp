@@ -6,6 +6,14 @@
 #include <stdexcept>
 #include <string_view>
 
+#ifdef __SANITIZE_ADDRESS__
+// Mesa keeps some hundred bytes of each context until the process ends.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libOSMesa";
+}
+#endif
+
 namespace lcs::sim {
 namespace {
 
