@@ -101,7 +101,7 @@ struct CircleParameters {
 struct LinkParameters {
   double spacing = 1.8;             ///< local spacings that a link may span
   double reach_min = 15;            ///< px: and never less than this,
-  double reach_max = 45;            ///< px: nor more
+  double reach_max = 80;            ///< px: nor more
   double depth_share = 0.08;        ///< by which the inverse depths of neighbours may differ
   double depth_spread = 0.1;        ///< m: the same, growing with the inverse depth squared
   double mean_spread = 0.2;         ///< m: likewise for the means of two groups
