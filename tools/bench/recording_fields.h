@@ -53,124 +53,147 @@ struct ChainRow {
 };
 
 // Each `fields` calls visit(name, member) with a reference to the member, or one of the above, for
-// every stored field, in file order.
+// every stored field, in file order. Binding all members by name makes a new one that is forgotten
+// here fail to compile.
 
 template <class Visit>
 void fields(CornerRow& corner, Visit&& visit) {
-  visit("x", corner.x);
-  visit("y", corner.y);
-  visit("verdict", corner.verdict);
+  auto& [x, y, verdict] = corner;
+  visit("x", x);
+  visit("y", y);
+  visit("verdict", verdict);
 }
 
 template <class Visit>
 void fields(ChainRow& chain, Visit&& visit) {
-  visit("sightings", chain.sightings);
-  visit("off_field_px", chain.off_field_px);
+  auto& [sightings, off_field_px] = chain;
+  visit("sightings", sightings);
+  visit("off_field_px", off_field_px);
 }
 
 template <class Visit>
 void fields(Edge& edge, Visit&& visit) {
-  visit("id", edge.id);
-  visit("x", edge.location.x());
-  visit("y", edge.location.y());
-  visit("origin_x", edge.origin.x());
-  visit("origin_y", edge.origin.y());
-  visit("rotated_x", edge.rotated.x());
-  visit("rotated_y", edge.rotated.y());
-  visit("predicted_x", edge.predicted.x());
-  visit("predicted_y", edge.predicted.y());
-  visit("speed", edge.speed);
-  visit("depth_ratio", edge.depth_ratio);
-  visit("angle", edge.angle);
-  visit("mu", edge.mu);
-  visit("trust", edge.trust);
-  visit("age", edge.age);
-  visit("off_field_px", edge.off_field_px);
-  visit("corner", edge.corner);
-  visit("circle", edge.circle);
+  auto& [id, rebel, location, origin, rotated, predicted, speed, depth_ratio, angle, mu, trust, age,
+         anchor, travelled_C_m, path_ratio, path_weight, called, off_field_px, corner, circle] =
+      edge;
+  visit("id", id);
+  visit("x", location.x());
+  visit("y", location.y());
+  visit("origin_x", origin.x());
+  visit("origin_y", origin.y());
+  visit("rotated_x", rotated.x());
+  visit("rotated_y", rotated.y());
+  visit("predicted_x", predicted.x());
+  visit("predicted_y", predicted.y());
+  visit("speed", speed);
+  visit("depth_ratio", depth_ratio);
+  visit("angle", angle);
+  visit("mu", mu);
+  visit("trust", trust);
+  visit("age", age);
+  visit("anchor_x", anchor.x());
+  visit("anchor_y", anchor.y());
+  visit("travelled_x_m", travelled_C_m.x());
+  visit("travelled_y_m", travelled_C_m.y());
+  visit("travelled_z_m", travelled_C_m.z());
+  visit("path_ratio", path_ratio);
+  visit("path_weight", path_weight);
+  visit("called", called);
+  visit("off_field_px", off_field_px);
+  visit("corner", corner);
+  visit("circle", circle);
 }
 
 template <class Visit>
 void fields(Circle& circle, Visit&& visit) {
-  visit("id", circle.id);
-  visit("x", circle.location.x());
-  visit("y", circle.location.y());
-  visit("origin_x", circle.origin.x());
-  visit("origin_y", circle.origin.y());
-  visit("radius", circle.radius);
-  visit("speed", circle.speed);
-  visit("depth_ratio", circle.depth_ratio);
-  visit("angle", circle.angle);
-  visit("trust", circle.trust);
-  visit("age", circle.age);
-  visit("members", circle.members);
-  visit("ignoring", circle.ignoring);
+  auto& [id, rebel, location, origin, radius, speed, depth_ratio, angle, trust, age, members,
+         ignoring] = circle;
+  visit("id", id);
+  visit("x", location.x());
+  visit("y", location.y());
+  visit("origin_x", origin.x());
+  visit("origin_y", origin.y());
+  visit("radius", radius);
+  visit("speed", speed);
+  visit("depth_ratio", depth_ratio);
+  visit("angle", angle);
+  visit("trust", trust);
+  visit("age", age);
+  visit("members", members);
+  visit("ignoring", ignoring);
 }
 
 template <class Visit>
 void fields(Square& square, Visit&& visit) {
-  visit("id", square.id);
-  visit("x", square.location.x());
-  visit("y", square.location.y());
-  visit("half_width", square.half_size.x());
-  visit("half_height", square.half_size.y());
-  visit("origin_x", square.origin.x());
-  visit("origin_y", square.origin.y());
-  visit("speed", square.speed);
-  visit("depth_ratio", square.depth_ratio);
-  visit("angle", square.angle);
-  visit("trust", square.trust);
-  visit("age", square.age);
-  visit("circles", square.circles);
-  visit("rebel_circles", square.rebel_circles);
-  visit("ignoring", square.ignoring);
+  auto& [id, location, half_size, origin, speed, depth_ratio, angle, trust, age, circles,
+         rebel_circles, ignoring] = square;
+  visit("id", id);
+  visit("x", location.x());
+  visit("y", location.y());
+  visit("half_width", half_size.x());
+  visit("half_height", half_size.y());
+  visit("origin_x", origin.x());
+  visit("origin_y", origin.y());
+  visit("speed", speed);
+  visit("depth_ratio", depth_ratio);
+  visit("angle", angle);
+  visit("trust", trust);
+  visit("age", age);
+  visit("circles", circles);
+  visit("rebel_circles", rebel_circles);
+  visit("ignoring", ignoring);
 }
 
 template <class Visit>
 void fields(IgnoreRegion& region, Visit&& visit) {
-  visit("shape", region.shape);
-  visit("x", region.location.x());
-  visit("y", region.location.y());
-  visit("size_x", region.size.x());
-  visit("size_y", region.size.y());
+  auto& [shape, location, size] = region;
+  visit("shape", shape);
+  visit("x", location.x());
+  visit("y", location.y());
+  visit("size_x", size.x());
+  visit("size_y", size.y());
 }
 
 template <class Visit>
 void fields(Collector& collector, Visit&& visit) {
-  visit("x", collector.location.x());
-  visit("y", collector.location.y());
-  visit("radius", collector.radius);
-  visit("depth_ratio", collector.depth_ratio);
+  auto& [location, radius, depth_ratio] = collector;
+  visit("x", location.x());
+  visit("y", location.y());
+  visit("radius", radius);
+  visit("depth_ratio", depth_ratio);
 }
 
 template <class Visit>
 void fields(sim::CornerTruth& truth, Visit&& visit) {
-  visit("label", truth.label);
-  visit("radial", truth.radial);
-  visit("object", truth.object);
-  visit("depth_m", OrInfinite{truth.depth_m});
-  visit("motion_x", OrNan{truth.motion_px.x()});
-  visit("motion_y", OrNan{truth.motion_px.y()});
-  visit("static_motion_x", OrNan{truth.static_motion_px.x()});
-  visit("static_motion_y", OrNan{truth.static_motion_px.y()});
+  auto& [label, radial, object, depth_m, motion_px, static_motion_px] = truth;
+  visit("label", label);
+  visit("radial", radial);
+  visit("object", object);
+  visit("depth_m", OrInfinite{depth_m});
+  visit("motion_x", OrNan{motion_px.x()});
+  visit("motion_y", OrNan{motion_px.y()});
+  visit("static_motion_x", OrNan{static_motion_px.x()});
+  visit("static_motion_y", OrNan{static_motion_px.y()});
 }
 
 template <class Visit>
 void fields(sim::ObjectTruth& truth, Visit&& visit) {
-  visit("object", truth.object);
-  visit("left", truth.left);
-  visit("top", truth.top);
-  visit("right", truth.right);
-  visit("bottom", truth.bottom);
-  visit("visible_px", truth.visible_px);
-  visit("visible_fraction", truth.visible_fraction);
-  visit("moving", truth.moving);
+  auto& [object, left, top, right, bottom, visible_px, visible_fraction, moving] = truth;
+  visit("object", object);
+  visit("left", left);
+  visit("top", top);
+  visit("right", right);
+  visit("bottom", bottom);
+  visit("visible_px", visible_px);
+  visit("visible_fraction", visible_fraction);
+  visit("moving", moving);
 }
 
 template <class Visit>
 void fields(sim::Object& object, Visit&& visit) {
-  visit("id", object.id);
-  visit("name", object.name);
+  auto& [id, name] = object;
+  visit("id", id);
+  visit("name", name);
 }
 
 }  // namespace lcs::bench
