@@ -89,16 +89,21 @@ void draw_truth(Pen& pen, std::span<const TruthBox> truth) {
   }
 }
 
-void draw_ignored(Pen& pen, const std::vector<IgnoreRegion>& regions, IgnoreRegion::Shape shape) {
+/// On top of the layers: a region and the layer that made it often coincide. \return how many.
+std::size_t draw_ignored(Pen& pen, const std::vector<IgnoreRegion>& regions,
+                         IgnoreRegion::Shape shape) {
+  std::size_t drawn = 0;
   for (const IgnoreRegion& region : regions) {
     if (region.shape != shape) continue;
+    ++drawn;
     if (shape == IgnoreRegion::Shape::circle) {
-      pen.circle(region.location, region.size.x(), colour::kIgnoreRegion, 1);
+      pen.circle(region.location, region.size.x(), colour::kIgnoreRegion, kLayerLine);
     } else {
       pen.box(region.location - region.size, region.location + region.size, colour::kIgnoreRegion,
-              1);
+              kLayerLine);
     }
   }
+  return drawn;
 }
 
 std::string count(std::size_t number, const char* what) {
@@ -139,25 +144,25 @@ void draw_edges(Pen& pen, const PanelContent& content) {
 
 void draw_circles(Pen& pen, const PanelContent& content) {
   const Layers& layers = content.layers;
-  draw_ignored(pen, layers.ignored, IgnoreRegion::Shape::circle);
   for (const Circle& circle : layers.normal_circles) {
     pen.circle(circle.location, circle.radius, colour::kNormalCircle, kLayerLine);
   }
   for (const Circle& circle : layers.rebel_circles) {
     pen.circle(circle.location, circle.radius, colour::kRebel, kLayerLine);
   }
+  const std::size_t ignored = draw_ignored(pen, layers.ignored, IgnoreRegion::Shape::circle);
   pen.caption(content.caption + count(layers.normal_circles.size(), "normal circles") +
-              count(layers.rebel_circles.size(), "rebel"));
+              count(layers.rebel_circles.size(), "rebel") + count(ignored, "psi"));
 }
 
 void draw_squares(Pen& pen, const PanelContent& content) {
   const Layers& layers = content.layers;
-  draw_ignored(pen, layers.ignored, IgnoreRegion::Shape::rectangle);
   for (const Square& square : layers.squares) {
     pen.box(square.location - square.half_size, square.location + square.half_size, colour::kSquare,
             kLayerLine);
   }
-  pen.caption(content.caption + count(layers.squares.size(), "squares"));
+  const std::size_t ignored = draw_ignored(pen, layers.ignored, IgnoreRegion::Shape::rectangle);
+  pen.caption(content.caption + count(layers.squares.size(), "squares") + count(ignored, "psi"));
 }
 
 }  // namespace
