@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 #include "scenarios/document.h"
 #include "scenarios/imu_presets.h"
 #include "scenarios/load_actor.h"
 #include "scenarios/quantities.h"
+#include "scenarios/scenes.h"
 
 namespace lcs::scenario {
 namespace {
@@ -18,50 +18,14 @@ constexpr int kSmallestImagePx = 16;
 constexpr int kLargestImagePx = 8192;
 const Value empty_map(Value::Kind::map, {});
 
-std::filesystem::path scenes_folder() {
-  const char* const folder = std::getenv("LCS_SCENES");
-  return folder && *folder ? folder : LCS_SCENES_DIR;
-}
-
-/// "; scenes there: lab, street", or nothing when there are none.
-std::string scenes_in(const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
-    if (file.path().extension() == ".xml") names.push_back(file.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? " (it has " : ", ") + name;
-  return text.empty() ? text : text + ")";
-}
-
-std::filesystem::path find_scene(const Value& value, const std::filesystem::path& folder) {
-  const std::string& text = as_text(value, "scene");
-  if (text.ends_with(".xml")) {
-    const std::filesystem::path file = folder / text;
-    if (std::filesystem::is_regular_file(file)) return file;
-    throw Error(value.where, "there is no scene file " + file.string() +
-                                 "; give its path relative to the scenario file");
-  }
-  const std::filesystem::path scenes = scenes_folder();
-  const std::filesystem::path file = scenes / (text + ".xml");
-  if (std::filesystem::is_regular_file(file)) return file;
-  throw Error(value.where, "there is no scene '" + text + "' at " + file.string() +
-                               "; give the name of a scene in that folder" + scenes_in(scenes) +
-                               " or a path that ends in .xml");
-}
-
-EgoPhase first_phase(Reader& reader) {
-  EgoPhase phase;
+void read_motion(Reader& reader, EgoPhase& phase) {
   reader.read("speed", kSpeed, phase.speed_mps);
   reader.read("acceleration", kAcceleration, phase.acceleration_mps2);
   reader.read("direction", kAngle, phase.direction_rad);
   reader.read("yaw_rate", kAngularRate, phase.yaw_rate_radps);
-  return phase;
 }
 
-/// What the phase before has become at `at_s`.
+/// What a phase has become at `at_s`.
 EgoPhase carried_on(const EgoPhase& before, double at_s) {
   EgoPhase phase = before;
   phase.at_s = at_s;
@@ -71,20 +35,17 @@ EgoPhase carried_on(const EgoPhase& before, double at_s) {
 }
 
 EgoPhase next_phase(Reader reader, const EgoPhase& before) {
+  double at_s = before.at_s;
   const Value* at = reader.require("at");
-  EgoPhase given = first_phase(reader);
+  reader.read("at", kTime, at_s);
+  EgoPhase phase = carried_on(before, at_s);
+  read_motion(reader, phase);
   reader.finish();
-  const double at_s = as_quantity(*at, reader.path_of("at"), kTime);
   if (at_s <= before.at_s) {
     throw Error(at->where, reader.path_of("at") + " is '" + at->text +
                                "', not after the phase before (" + number_text(before.at_s) +
                                " s); make the times increase");
   }
-  EgoPhase phase = carried_on(before, at_s);
-  if (reader.find("speed")) phase.speed_mps = given.speed_mps;
-  if (reader.find("acceleration")) phase.acceleration_mps2 = given.acceleration_mps2;
-  if (reader.find("direction")) phase.direction_rad = given.direction_rad;
-  if (reader.find("yaw_rate")) phase.yaw_rate_radps = given.yaw_rate_radps;
   return phase;
 }
 
@@ -95,7 +56,7 @@ Ego read_ego(Reader reader) {
   }
   reader.read("start", kPosition, ego.start_m);
   reader.read("heading", kAngle, ego.heading_rad);
-  ego.phases.push_back(first_phase(reader));
+  read_motion(reader, ego.phases.emplace_back());
   if (const Value* phases = reader.find("phases")) {
     const std::string path = reader.path_of("phases");
     for (const Value& phase : as_list(*phases, path)) {

@@ -1,0 +1,19 @@
+/// \file
+/// Where scenes are found.
+#pragma once
+
+#include <filesystem>
+
+#include "scenarios/document.h"
+
+namespace lcs::scenario {
+
+/// The environment's LCS_SCENES, else `scenes/` of the source tree.
+std::filesystem::path scenes_folder();
+
+/// The file of a scene that is given by name, or by a path ending in ".xml".
+/// \param folder that such a path starts from.
+/// \throws Error saying where it was looked for, and what is there.
+std::filesystem::path find_scene(const Value& value, const std::filesystem::path& folder);
+
+}  // namespace lcs::scenario
