@@ -152,7 +152,7 @@ Actor read_actor(const Entry& entry, const std::filesystem::path& folder) {
   if (const Value* start = reader.find("start")) {
     actor.start = read_start({*start, reader.path_of("start")});
   }
-  for (const char* key : {"size", "texture"}) reader.find(key);
+  for (const char* key : {"size", "texture"}) reader.find(key);  // known, if for shapes alone
   reader.finish();
 
   actor.trajectory = read_trajectory(*trajectory, reader.path_of("trajectory"));
