@@ -97,6 +97,11 @@ struct CameraRenderer::Impl {
   }
 
   void release() {
+    try {
+      gl.make_current();
+    } catch (const std::runtime_error&) {
+      return;  // what cannot be made current went with its context
+    }
     mjr_freeContext(&context);
     mjv_freeScene(&scene);
   }
@@ -124,9 +129,7 @@ struct CameraRenderer::Impl {
 CameraRenderer::CameraRenderer(Model& model, int camera, int width_px, int height_px)
     : impl_(std::make_unique<Impl>(model, camera, width_px, height_px)) {}
 
-CameraRenderer::~CameraRenderer() {
-  if (impl_) impl_->gl.make_current();
-}
+CameraRenderer::~CameraRenderer() = default;
 
 void CameraRenderer::update() {
   Impl& s = *impl_;
@@ -178,9 +181,6 @@ void CameraRenderer::render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom)
 
 double CameraRenderer::near_m() const {
   return impl_->scene.camera[0].frustum_near;
-}
-double CameraRenderer::far_m() const {
-  return impl_->scene.camera[0].frustum_far;
 }
 
 }  // namespace lcs::sim

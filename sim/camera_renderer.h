@@ -32,8 +32,7 @@ class CameraRenderer {
   /// \param geom id in the model, -1 where there is nothing. Both without multisampling.
   void render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom);
 
-  double near_m() const;
-  double far_m() const;
+  double near_m() const;  ///< what is nearer than this to the camera's plane is not drawn
 
  private:
   struct Impl;

@@ -183,11 +183,13 @@ void add_ego(xml::Element& scene, const Scenario& scenario) {
   merge_fragment(scene, root);
 }
 
-/// What would undo the meaning of bodies and names.
+/// Takes back what would undo the meaning of bodies and names, or change the rover's mass.
 void set_compiler(xml::Element& scene) {
   for (auto* c = scene.FirstChildElement("compiler"); c; c = c->NextSiblingElement("compiler")) {
-    c->SetAttribute("fusestatic", "false");
-    c->SetAttribute("discardvisual", "false");
+    for (const char* key : {"fusestatic", "discardvisual", "inertiafromgeom", "settotalmass",
+                            "boundmass", "boundinertia"}) {
+      c->DeleteAttribute(key);
+    }
   }
 }
 

@@ -21,9 +21,8 @@ std::vector<ConvexParts> outlines(const World& world) {
     // as things stand before the first step; a body is rigid
     const Pose T_OW = world.model().body_pose(world.body_of(object)).inverse();
     const Pose T_OG = T_OW * world.model().geom_pose(geom);
-    Eigen::Matrix3Xd hull = geom_hull(m, geom);
-    hull = (T_OG.R * hull).colwise() + T_OG.p;
-    parts[static_cast<std::size_t>(object)].push_back(std::move(hull));
+    parts[static_cast<std::size_t>(object)].push_back((T_OG.R * geom_hull(m, geom)).colwise() +
+                                                      T_OG.p);
   }
   return parts;
 }

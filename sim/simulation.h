@@ -18,17 +18,17 @@
 namespace lcs::sim {
 
 struct Observation {
-  int index = 0;           ///< k, from 0
-  std::int64_t t_ns = 0;   ///< k / rate, from 0
-  cv::Mat3b image;         ///< BGR
-  std::vector<ImuSample> imu;            ///< t(k-1) < t <= t(k); the first frame has the sample at 0
+  int index = 0;               ///< k, from 0
+  std::int64_t t_ns = 0;       ///< k / rate, from 0
+  cv::Mat3b image;             ///< BGR
+  std::vector<ImuSample> imu;  ///< t(k-1) < t <= t(k); the first frame has the sample at 0
   std::vector<OdometrySample> odometry;  ///< likewise; empty when disabled
   FrameTruth truth;
-  std::vector<ObjectTruth> objects;      ///< those with at least one visible pixel, by id
+  std::vector<ObjectTruth> objects;  ///< those with at least one visible pixel, by id
 };
 
-/// What the filter's user knows before the first frame: where the sensors are mounted, and the state
-/// that dead reckoning starts from.
+/// What the filter's user knows before the first frame: where the sensors are mounted, and the
+/// state that dead reckoning starts from.
 struct Calibration {
   Pinhole camera;
   Pose T_BC;  ///< camera in the rover

@@ -112,15 +112,15 @@ void World::set_options() {
 
 void World::find_objects() {
   const mjModel& m = model_.m();
+  const auto refuse = [&](const std::string& what) {
+    throw scenario::Error({scenario_.scene.string(), 0}, what);
+  };
   object_bodies_ = {0};
   std::vector<int> object_of_body(static_cast<std::size_t>(m.nbody), 0);
   for (int body = 1; body < m.nbody; ++body) {
     const auto b = static_cast<std::size_t>(body);
     const std::string name(model_.name(mjOBJ_BODY, body));
     const bool moves = m.body_dofnum[body] > 0;
-    const auto refuse = [&](const std::string& what) {
-      throw scenario::Error({scenario_.scene.string(), 0}, what);
-    };
     if (m.body_parentid[body] != 0) {
       object_of_body[b] = object_of_body[static_cast<std::size_t>(m.body_parentid[body])];
       if (moves && object_of_body[b] >= 0) {
@@ -140,7 +140,14 @@ void World::find_objects() {
     }
   }
   for (int geom = 0; geom < m.ngeom; ++geom) {
-    object_of_geom_.push_back(object_of_body[static_cast<std::size_t>(m.geom_bodyid[geom])]);
+    const int object = object_of_body[static_cast<std::size_t>(m.geom_bodyid[geom])];
+    object_of_geom_.push_back(object);
+    if (object > 0 && (m.geom_type[geom] == mjGEOM_PLANE || m.geom_type[geom] == mjGEOM_HFIELD)) {
+      refuse(
+          fmt::format("body '{}' has a plane or height field; these are setting: put them right "
+                      "into the worldbody",
+                      objects_[static_cast<std::size_t>(object - 1)].name));
+    }
   }
 }
 

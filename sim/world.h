@@ -74,7 +74,6 @@ class World {
   void move_actors();
   void forward();
   void step_to(std::int64_t t_ns);
-  void check_warnings() const;
   template <typename Action>
   void guarded(Action action) const;
   std::int64_t next_event_ns(std::int64_t until_ns) const;

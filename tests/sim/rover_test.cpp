@@ -180,6 +180,38 @@ TEST(WheeledRover, StandsOnTheGroundThatItFinds) {
   EXPECT_NEAR(World(s).T_WB().p.z(), 0.2, 1e-3);
 }
 
+TEST(WheeledRover, DrivesOnTheFloorsOfTheProjectsScenes) {
+  for (const char* scene : {"lab", "street"}) {
+    auto s = test::scenario_in(scene, 0.5, 1);
+    s.ego.drive = scenario::Drive::wheeled;
+    World world(s);
+    advance(world, kSecond);
+    EXPECT_NEAR((world.T_WB().p - Vector3d(-3.5, 0, 0)).norm(), 0, 0.01) << scene;
+  }
+}
+
+// A scene's defaults are for the scene: a rover in it keeps its mass, its joints and its contacts.
+TEST(Rovers, DriveAlikeWhateverTheDefaultsOfTheSceneAre) {
+  std::string mjcf = floor_with("");
+  mjcf.insert(mjcf.find("<statistic"),
+              "<compiler inertiafromgeom='true' settotalmass='1'/><default><geom contype='0' "
+              "conaffinity='0' density='1'/><joint damping='30' armature='9'/><velocity kv='0.1' "
+              "ctrllimited='true' ctrlrange='-.1 .1'/></default>");
+  mjcf.insert(mjcf.find("rgba=\".5"), "contype='1' conaffinity='1' ");
+  for (const auto drive : {scenario::Drive::holonomic, scenario::Drive::wheeled}) {
+    auto plain = scenario_in_mjcf(floor_with(""), 0.5, 1);
+    plain.ego.drive = drive;
+    World expected(plain);
+    advance(expected, kSecond);
+    auto odd = scenario_in_mjcf(mjcf, 0.5, 1);
+    odd.ego.drive = drive;
+    World world(odd);
+    advance(world, kSecond);
+    EXPECT_NEAR((world.T_WB().p - expected.T_WB().p).norm(), 0, 1e-6);
+    EXPECT_NEAR(world.T_WB().p.x(), 0.5, 0.005);
+  }
+}
+
 TEST(WheeledRover, RefusesToDriveSideways) {
   auto s = scenario_in_mjcf(floor_with(""), 0.5, 1);
   s.ego.drive = scenario::Drive::wheeled;

@@ -194,6 +194,13 @@ TEST(Scene, GravityMustPointDown) {
   expect_error(scenario_in_mjcf(mjcf, 0, 1), {"gravity"});
 }
 
+TEST(Scene, APlaneIsSettingAndNoObject) {
+  expect_error(scenario_in_mjcf(floor_with("<body name='rug'><geom type='plane' size='1 1 1' "
+                                           "contype='0' conaffinity='0'/></body>"),
+                                0, 1),
+               {"'rug'", "plane"});
+}
+
 TEST(Scene, ABodyThatCanMoveNeedsANameAndMovesAsOne) {
   expect_error(
       scenario_in_mjcf(floor_with("<body pos='0 3 1'><freejoint/><geom size='.1'/></body>"), 0, 1),
