@@ -170,6 +170,17 @@ TEST(RecordingIo, EveryFieldComesBackToTheSameBits) {
   }
 }
 
+TEST(RecordingIo, TheSignOfZeroComesBack) {
+  FrameMaker maker(0);
+  maker.rebel_circle({-0.0, 0.0}, 3);
+  Recording recording = recording_of({maker});
+  const TemporaryFolder folder;
+  write(recording, folder.path());
+  const Vec2 back = read_recording(folder.path()).frames[0].layers.rebel_circles[0].location;
+  EXPECT_TRUE(std::signbit(back.x()));
+  EXPECT_FALSE(std::signbit(back.y()));
+}
+
 TEST(RecordingIo, AStoredRunScoresTheSameToTheBit) {
   const Recording recording = scorable();
   const TemporaryFolder folder;
