@@ -1,29 +1,13 @@
 #include "tools/bench/bench.h"
 
-#include <chrono>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "filter/detect/fast.h"
 #include "tools/bench/ego_motion_feed.h"
+#include "tools/bench/timed.h"
 
 namespace lcs::bench {
-namespace {
-
-/// Runs `work`, and says in `ms` how long it took.
-template <class Work>
-decltype(auto) timed(double& ms, Work&& work) {
-  using Clock = std::chrono::steady_clock;
-  struct Stopwatch {
-    double& ms;
-    Clock::time_point start = Clock::now();
-    ~Stopwatch() { ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
-  } stopwatch{ms};
-  return work();
-}
-
-}  // namespace
-
 Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulation& simulation) {
   Recording recording;
   recording.scenario = scenario.name;

@@ -108,6 +108,22 @@ void add_dimensions(Metrics& metrics, const Recording& recording) {
   metrics.emplace_back("dimension.accumulative_final", quantile(accumulated, 1));
 }
 
+/// Of the normal edges of a frame, the share that has a corner in the next one.
+void add_edges(Metrics& metrics, const Recording& recording) {
+  double edges = 0, rematched = 0;
+  for (std::size_t k = 1; k < recording.frames.size(); ++k) {
+    std::set<Id> supported;
+    for (const Edge& edge : recording.frames[k].layers.normal_edges) {
+      if (edge.corner >= 0) supported.insert(edge.id);
+    }
+    for (const Edge& edge : recording.frames[k - 1].layers.normal_edges) {
+      edges += 1;
+      rematched += static_cast<double>(supported.count(edge.id));
+    }
+  }
+  metrics.emplace_back("edges.rematched", ratio(rematched, edges));
+}
+
 void add_ego_motion(Metrics& metrics, const Recording& recording) {
   std::vector<double> rotation_mrad, velocity_mps;
   for (const FrameRecord& frame : recording.frames) {
@@ -214,6 +230,7 @@ Metrics score(const Recording& recording) {
   add_rebels(metrics, recording);
   add_squares(metrics, recording);
   add_dimensions(metrics, recording);
+  add_edges(metrics, recording);
   add_ego_motion(metrics, recording);
   add_times(metrics, recording);
   return metrics;

@@ -9,6 +9,7 @@
 
 #include "tools/lcs/exit_codes.h"
 #include "tools/lcs/interrupt.h"
+#include "tools/lcs/replay.h"
 #include "tools/lcs/run.h"
 #include "tools/lcs/version.h"
 
@@ -21,7 +22,8 @@ constexpr const char* kHelp =
 through its camera and IMU, and the simulator's truth scores what the filter says.
 
   lcs run scenarios/crossing.yaml     run a scenario; results are in out/crossing
-  lcs run --help                      all about it
+  lcs replay --images DIR ...         the filter on a folder of pictures
+  lcs run --help                      all about a command
 )";
 
 int fail(const std::string& message) {
@@ -36,16 +38,19 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(kHelp);
   RunOptions run_options;
-  const CLI::App& run_command = add_run_command(app, run_options);
+  add_run_command(app, run_options);
+  ReplayOptions replay_options;
+  const CLI::App& replay_command = add_replay_command(app, replay_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
-    return fail(
-        fmt::format("{}; see lcs {}--help", error.what(), run_command.parsed() ? "run " : ""));
+    const auto commands = app.get_subcommands();  // what was named, if anything
+    const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
+    return fail(fmt::format("{}; see lcs {}--help", error.what(), command));
   }
-  return run(run_options);
+  return replay_command.parsed() ? replay(replay_options) : run(run_options);
 }
 
 }  // namespace

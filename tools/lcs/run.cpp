@@ -9,13 +9,9 @@
 #include "sim/simulation.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/criteria.h"
-#include "tools/bench/frame_painter.h"
-#include "tools/bench/output_folder.h"
-#include "tools/bench/recording_io.h"
-#include "tools/bench/report.h"
+#include "tools/bench/result.h"
 #include "tools/bench/table.h"
 #include "tools/bench/tracker.h"
-#include "tools/bench/video.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/progress.h"
 
@@ -41,39 +37,9 @@ Exit codes:
   130  interrupted (Ctrl-C): likewise
 )";
 
-std::vector<std::string> result_files() {
-  return {bench::kMetricsFile, bench::kFramesFile, bench::kLayersFile, bench::kTruthFile,
-          bench::kVideoFile};
-}
-
 std::filesystem::path target_of(const RunOptions& options, const scenario::Scenario& scenario) {
   if (!options.out.empty()) return options.out;
   return std::filesystem::path("out") / scenario.name;
-}
-
-/// Runs the scenario to its end, writing what is written frame by frame.
-bench::Recording record(const scenario::Scenario& scenario, sim::Simulation& simulation,
-                        bench::Tracker& tracker, const std::filesystem::path& folder,
-                        const InterruptGuard& interrupt, const RunOptions& options) {
-  const sim::Pinhole& camera = simulation.calibration().camera;
-  const bench::FramePainter painter({camera.width_px, camera.height_px});
-  bench::Recording recording = bench::begin_recording(scenario, simulation);
-  bench::RecordingWriter writer(folder, recording);
-  std::optional<bench::Video> video;
-  if (!options.no_video) {
-    video.emplace(folder / bench::kVideoFile, painter.size_px(), scenario.camera.rate_hz);
-  }
-  Progress progress(scenario.name, scenario.frames, options.quiet);
-  bench::run(scenario, simulation, tracker, recording,
-             [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
-               interrupt.check();
-               writer.write(frame);
-               if (video) video->write(painter.paint(frame, image));
-               progress.show(frame.index + 1);
-             });
-  writer.close();
-  if (video) video->close();
-  return recording;
 }
 
 void print_result(const scenario::Scenario& scenario, const bench::Metrics& metrics,
@@ -128,16 +94,23 @@ ExitCode run(const RunOptions& options) {
   sim::Simulation simulation(scenario);
   bench::LcsTracker tracker(simulation.calibration().camera, parameters);
 
-  bench::OutputFolder folder(target_of(options, scenario), result_files());
-  const bench::Recording recording =
-      record(scenario, simulation, tracker, folder.staging(), interrupt, options);
-  const bench::Metrics metrics = bench::score(recording);
-  bench::write_metrics(folder.staging() / bench::kMetricsFile, metrics);
-  bench::write_frames(folder.staging() / bench::kFramesFile, recording);
+  const sim::Pinhole& camera = simulation.calibration().camera;
+  bench::Recording recording = bench::begin_recording(scenario, simulation);
+  bench::Result result(target_of(options, scenario), recording, {camera.width_px, camera.height_px},
+                       options.no_video ? std::nullopt : std::optional(scenario.camera.rate_hz));
+  {
+    Progress progress(scenario.name, scenario.frames, options.quiet);
+    bench::run(scenario, simulation, tracker, recording,
+               [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
+                 interrupt.check();
+                 result.add(frame, image);
+                 progress.show(frame.index + 1);
+               });
+  }
   interrupt.check();
-  folder.commit();
+  const bench::Metrics metrics = result.finish(recording);
 
-  if (!options.quiet) print_result(scenario, metrics, folder.target());
+  if (!options.quiet) print_result(scenario, metrics, result.target());
   const bool failed = report_failures(bench::failed_criteria(scenario.criteria, metrics));
   return failed ? kCriterionFailed : kFine;
 }

@@ -1,0 +1,32 @@
+#include "tools/bench/result.h"
+
+#include "tools/bench/report.h"
+
+namespace lcs::bench {
+
+Result::Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,
+               std::optional<double> frames_per_second)
+    : folder_(target, {kMetricsFile, kFramesFile, kLayersFile, kTruthFile, kVideoFile}),
+      writer_(folder_.staging(), run),
+      painter_(image_px) {
+  if (frames_per_second) {
+    video_.emplace(folder_.staging() / kVideoFile, painter_.size_px(), *frames_per_second);
+  }
+}
+
+void Result::add(const FrameRecord& frame, const cv::Mat3b& image) {
+  writer_.write(frame);
+  if (video_) video_->write(painter_.paint(frame, image));
+}
+
+Metrics Result::finish(const Recording& run) {
+  writer_.close();
+  if (video_) video_->close();
+  Metrics metrics = score(run);
+  write_metrics(folder_.staging() / kMetricsFile, metrics);
+  write_frames(folder_.staging() / kFramesFile, run);
+  folder_.commit();
+  return metrics;
+}
+
+}  // namespace lcs::bench

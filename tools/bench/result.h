@@ -1,0 +1,41 @@
+/// \file
+/// The files of a run, written frame by frame, whole or absent in the end.
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "tools/bench/frame_painter.h"
+#include "tools/bench/output_folder.h"
+#include "tools/bench/recording_io.h"
+#include "tools/bench/scoring.h"
+#include "tools/bench/video.h"
+
+namespace lcs::bench {
+
+class Result {
+ public:
+  /// \param run whose frames will come.
+  /// \param frames_per_second of the video; none: no video.
+  /// \throws OutputError for a target that cannot be written, or holds something else.
+  Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,
+         std::optional<double> frames_per_second);
+
+  /// \throws OutputError
+  void add(const FrameRecord& frame, const cv::Mat3b& image);
+
+  /// Scores the run, writes what depends on all of it, and puts the folder in its place.
+  /// \throws OutputError; then an earlier result is still there.
+  Metrics finish(const Recording& run);
+
+  const std::filesystem::path& target() const { return folder_.target(); }
+
+ private:
+  OutputFolder folder_;
+  RecordingWriter writer_;
+  FramePainter painter_;
+  std::optional<Video> video_;
+};
+
+}  // namespace lcs::bench
