@@ -196,6 +196,22 @@ TEST_F(CircleMatch, NeedsALikeVelocity) {
   }
 }
 
+/// Printed with one side only: V_m <= V_c + eps_v,r V_v.
+TEST_F(CircleMatch, RebelsNeedALikeVelocityOnEitherSide) {
+  const double v_v = ahead().reference_speed({400, 200});
+  const auto taken = [&](double predicted_speed, double found_speed) {
+    Circle circle = predicted({400, 200}, 20);
+    circle.rebel = true;
+    circle.angle = 1;
+    circle.speed = predicted_speed * v_v;
+    return after(circle, three(rebel({400, 200}, 1, found_speed * v_v))).second;
+  };
+  EXPECT_TRUE(taken(0.1, 1.05));
+  EXPECT_TRUE(taken(1.05, 0.1));
+  EXPECT_FALSE(taken(0.1, 1.3));
+  EXPECT_FALSE(taken(1.3, 0.1));
+}
+
 TEST_F(CircleMatch, AnAlignedOneGainsTrustAndADeviatingOneLosesItThoughBothAreTaken) {
   for (const double turn : {-19.0, 19.0, -21.0, 21.0, 170.0}) {
     SCOPED_TRACE(turn);
