@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
+#include <regex>
 
 #include "tests/tools/recordings.h"
 
@@ -78,6 +80,18 @@ TEST(Scoring, EveryMetricThatUsersRelyOnExistsOnce) {
     EXPECT_EQ(1, std::count_if(metrics.begin(), metrics.end(),
                                [&](const auto& metric) { return metric.first == name; }))
         << name;
+  }
+}
+
+TEST(Scoring, EveryMetricIsDefinedInItsDocument) {
+  std::ifstream file(LCS_SCORING_MD);
+  ASSERT_TRUE(file);
+  const std::string document{std::istreambuf_iterator<char>(file), {}};
+  for (const auto& [name, figure] : score(Recording{})) {
+    // Times are defined once for all stages.
+    const std::string written =
+        std::regex_replace(name, std::regex("^time\\.[a-z]+_(ms|over)"), "time.<stage>_$1");
+    EXPECT_NE(document.find('`' + written + '`'), std::string::npos) << name;
   }
 }
 
@@ -579,6 +593,20 @@ TEST(Dimensions, AreCountedBesideStoresOfCorners) {
   EXPECT_DOUBLE_EQ(get(metrics, "dimension.eight_frame_mean"), 21.6);
   EXPECT_DOUBLE_EQ(get(metrics, "dimension.accumulative"), 22);
   EXPECT_DOUBLE_EQ(get(metrics, "dimension.accumulative_final"), 55);
+}
+
+TEST(Edges, AreRematchedWhereTheSameOneHasACornerInTheNextFrame) {
+  // Ids 1 2 3 in every frame, of which 3 never has a corner, and 2 has none in the last.
+  const Metrics metrics = score(frames(3, [](FrameMaker& frame) {
+    const int k = frame.record().index;
+    for (const Id id : {1u, 2u, 3u}) {
+      Edge edge;
+      edge.id = id;
+      edge.corner = id == 3 || (id == 2 && k == 2) ? -1 : 0;
+      frame.record().layers.normal_edges.push_back(edge);
+    }
+  }));
+  EXPECT_DOUBLE_EQ(get(metrics, "edges.rematched"), 3.0 / 6);
 }
 
 TEST(EgoMotionError, IsTheAngleAndSpeedBetweenWhatWasToldAndWhatWasTrue) {
