@@ -204,6 +204,14 @@ TEST(RecordingIo, LinesAreJsonWithAKeyForEveryLayer) {
   }
 }
 
+TEST(RecordingIo, ANameThatIsNotUtf8IsStoredWithItsBadBytesReplaced) {
+  Recording recording = recording_of({});
+  recording.scenario = "caf\xe9";
+  const TemporaryFolder folder;
+  write(recording, folder.path());
+  EXPECT_EQ(read_recording(folder.path()).scenario, "caf\xef\xbf\xbd");
+}
+
 TEST(RecordingIo, AnEmptyRunComesBackEmpty) {
   const TemporaryFolder folder;
   write(recording_of({}), folder.path());

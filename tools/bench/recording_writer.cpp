@@ -63,7 +63,8 @@ void append(std::string& out, OrNan value) {
   }
 }
 void append(std::string& out, const std::string& text) {
-  out += nlohmann::json(text).dump();
+  // A file's name may hold any bytes; JSON only UTF-8.
+  out += nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 template <class Enum>
 requires std::is_enum_v<Enum>
