@@ -97,13 +97,13 @@ void SquareExpert::feed_back(const Layers& layers, std::vector<IgnoreRegion>& ps
 
 /// V_b - eps_v <= V_a <= V_b + eps_v, on the ratios V / V_v that layers of one depth share.
 bool SquareExpert::like_speed(const Circle& a, const Circle& b) const {
-  return std::abs(a.depth_ratio - b.depth_ratio) <= parameters_.epsilon_v &&
-         (parameters_.mix_kinds || a.rebel == b.rebel);
+  return std::abs(a.depth_ratio - b.depth_ratio) <= parameters_.epsilon_v;
 }
 
 /// Case 1: directions at a right angle (the corners of a square about O). Case 2: aligned.
 bool SquareExpert::couple(const Circle& a, const Circle& b) const {
   if (!like_speed(a, b)) return false;
+  if (!parameters_.mix_kinds && a.rebel != b.rebel) return false;
   const double turn = angle_between(a.angle, b.angle);
   return std::abs(turn - parameters_.delta_beta_1) <= parameters_.epsilon_beta_1 ||
          turn <= parameters_.delta_beta_2 + parameters_.epsilon_beta_2;

@@ -157,6 +157,23 @@ TEST(PartingCondition, LeavesTheCirclesBeyondTheReducedDtOut) {
   }
 }
 
+/// d_t = d_t - d_bb': from 300 px to 170, which also leaves out what lies within d_ab off the line.
+TEST(PartingCondition, ReducesDtByTheDistanceOfThePartingCircleFromB) {
+  const Vec2 a_px(100, 100);
+  SquareParameters p = kLab;
+  p.d_t = 300.0 / 800;
+  const auto partners_of_a = [&](double distance_of_c) {
+    std::vector<Circle> circles = {circle(a_px, 8, 2), circle(a_px + Vec2(280, 0), 8, 2),
+                                   circle(a_px + Vec2(150, 0), 20, 0.4),
+                                   circle(a_px + distance_of_c * unit_vector(kPi / 3), 8, 2)};
+    for (Circle& c : circles) c.angle = 0;
+    circles[0].trust = 5;
+    return squares_of(circles, p).front().circles - 1;
+  };
+  EXPECT_EQ(partners_of_a(160), 1);
+  EXPECT_EQ(partners_of_a(180), 0);
+}
+
 // ------------------------------------------------------------------------------------- mean square
 
 TEST(MeanSquare, HasTheExtentsOfItsCirclesAndWeighsAAsMuchAsAllOfB) {
@@ -233,6 +250,29 @@ TEST(MinorCircle, JoinsWhenInsideAtOneVelocityAndAligned) {
   }
   // Outside, though near and alike.
   EXPECT_EQ(members(circle(o + Vec2(100, 180), 5)).circles, 2);
+}
+
+TEST(MinorCircle, MustBeNearerThanDt) {
+  // It lies in the extent of b, beyond its centre.
+  std::vector<Circle> circles = {circle({400, 240}, 5), circle({500, 240}, 30),
+                                 circle({525, 240}, 2)};
+  circles[0].trust = 5;
+  SquareParameters p = kLab;
+  p.d_t = 110.0 / 800;
+  EXPECT_EQ(squares_of(circles, p).front().circles, 2);
+  p.d_t = 124.0 / 800;
+  EXPECT_EQ(squares_of(circles, p).front().circles, 2);
+}
+
+TEST(MinorCircle, IsOfTheSameKindWhereKindsDoNotMix) {
+  const double v_v = ahead().reference_speed({450, 240});
+  std::vector<Circle> circles = {circle({400, 240}, 10), circle({500, 240}, 10),
+                                 rebel({450, 242}, 5, 0, v_v)};
+  circles[0].trust = circles[1].trust = 5;
+  EXPECT_EQ(squares_of(circles).front().circles, 3);
+  SquareParameters apart = kLab;
+  apart.mix_kinds = false;
+  EXPECT_EQ(squares_of(circles, apart).front().circles, 2);
 }
 
 TEST(MeanSquare, ACircleWithoutAPartnerIsASquareByItself) {
@@ -331,6 +371,17 @@ TEST_F(SquareMatch, OverlapMustExceedRhoC) {
   EXPECT_EQ(layers.squares.size(), 2u);  // the circle is a new square then
 }
 
+TEST_F(SquareMatch, WhatHasLeftTheImageIsDeleted) {
+  for (const Vec2& outside : {Vec2(-5, 200), Vec2(645, 200), Vec2(300, -5), Vec2(300, 485)}) {
+    layers = {};
+    layers.squares = {predicted(), predicted()};
+    layers.squares[0].location = outside;
+    SquareExpert(vga(), kLab).update(layers, ahead());
+    ASSERT_EQ(layers.squares.size(), 1u);
+    EXPECT_EQ(layers.squares[0].location, found.location);
+  }
+}
+
 TEST_F(SquareMatch, LocationAndSizeAreEstimatedByTheTrustOfTheFrameBefore) {
   Random random(4);
   for (int i = 0; i < 100; ++i) {
@@ -338,6 +389,10 @@ TEST_F(SquareMatch, LocationAndSizeAreEstimatedByTheTrustOfTheFrameBefore) {
     square.location += Vec2(random.uniform(-8, 8), random.uniform(-8, 8));
     square.half_size += Vec2(random.uniform(-5, 5), random.uniform(-5, 5));
     square.trust = kRanks.critical + static_cast<int>(random.uniform(0, 4.999));
+    square.angle += random.uniform(-0.3, 0.3);
+    square.speed = 1;
+    square.origin = {1, 1};
+    square.rebel_circles = 1;  // it was a rebel's before
     ASSERT_TRUE(after(square).second);
     const Square& now = layers.squares.front();
     const double w = square.trust - kRanks.critical;
@@ -346,6 +401,10 @@ TEST_F(SquareMatch, LocationAndSizeAreEstimatedByTheTrustOfTheFrameBefore) {
     EXPECT_TRUE(
         now.half_size.isApprox(Vec2((w * square.half_size + Vec2(20, 20)) / (w + 1)), 1e-9));
     EXPECT_DOUBLE_EQ(now.depth_ratio, found.depth_ratio);
+    EXPECT_DOUBLE_EQ(now.speed, found.speed);
+    EXPECT_EQ(now.origin, found.origin);
+    EXPECT_DOUBLE_EQ(now.angle, found.angle);
+    EXPECT_EQ(now.rebel_circles, 0);
     EXPECT_EQ(now.trust, std::min(square.trust + 1, kRanks.maximum));
   }
 }
