@@ -241,6 +241,24 @@ TEST_F(CircleMatch, LocationRadiusAndAngleAreEstimatedByTheTrustOfTheFrameBefore
     EXPECT_NEAR(wrap_angle(now.angle - circle.angle),
                 wrap_angle(mean.angle - circle.angle) / (w + 1), 1e-9);
     EXPECT_DOUBLE_EQ(now.depth_ratio, mean.depth_ratio);
+    EXPECT_DOUBLE_EQ(now.speed, mean.speed);
+    EXPECT_EQ(now.origin, mean.origin);
+  }
+}
+
+TEST(NewCircle, StartsWithTheTrustOfItsKind) {
+  ASSERT_NE(kRanks.initial_normal(), kRanks.initial_rebel());
+  EXPECT_EQ(circles_of(three(normal({400, 200}))).front().trust, kRanks.initial_normal());
+  EXPECT_EQ(circles_of(three(rebel({400, 200}, 1, 80))).front().trust, kRanks.initial_rebel());
+}
+
+TEST_F(CircleMatch, WhatHasLeftTheImageIsDeleted) {
+  for (const Vec2& outside : {Vec2(-5, 200), Vec2(645, 200), Vec2(300, -5), Vec2(300, 485)}) {
+    layers = {};
+    layers.normal_circles = {predicted(outside, 20), predicted({300, 200}, 20)};
+    CircleExpert(vga(), kLab).update(layers, ahead());
+    ASSERT_EQ(layers.normal_circles.size(), 1u);
+    EXPECT_EQ(layers.normal_circles[0].location, Vec2(300, 200));
   }
 }
 

@@ -136,6 +136,20 @@ TEST_P(Rotation, CarriesARebelOnInItsTurnedDirection) {
   EXPECT_TRUE(layers.rebel_circles[0].location.isApprox(vga().centre_px + Vec2(0, -40), 1e-9));
 }
 
+TEST(Kinematics, WhileStillTheOriginIsThePrincipalPoint) {
+  const MotionField still(vga(), steady_motion(Vector3d::Zero(), {0, 0.1, 0}, 0.1), {});
+  EXPECT_FALSE(still.foe());
+  EXPECT_EQ(still.origin({100, 50}), vga().centre_px);
+}
+
+/// What turns behind the camera has no image; it stays finite and where it was.
+TEST(Kinematics, WhatTurnsBehindTheCameraStaysWhereItWas) {
+  const MotionField field(vga(), steady_motion(Vector3d::Zero(), {0, 3.1, 0}, 1), {});
+  for (const Vec2& x : {Vec2(10, 20), Vec2(320, 240), Vec2(630, 470)}) {
+    EXPECT_EQ(field.rotated(x), x);
+  }
+}
+
 /// Camera that drives and turns, and static patches of known depth.
 struct Driving : ::testing::Test {
   Random random{3};

@@ -339,6 +339,79 @@ TEST(Xi, FourAndFiveGoToAlpha) {
   }
 }
 
+/// Only an edge that lost its own corner has a layer to extend.
+TEST(Xi, OneOfAnEdgeWithACornerOfItsOwnIsACandidate) {
+  const MotionField field(vga(), steady_motion({-0.5, 0, 0}, Vector3d::Zero(), 0.1),
+                          FieldParameters{});
+  Edge edge;
+  edge.location = {300, 240};
+  edge.mu = 4;
+  edge.trust = 4;
+  Layers layers;
+  layers.normal_edges = {edge};
+  PaperEdges experts(vga(), kLab);
+  const Vec2 predicted = field.translated(edge.location, 1);
+  step(experts, layers, {predicted, predicted + Vec2(8, 0)}, field);
+  ASSERT_EQ(layers.chains.size(), 1u);
+  EXPECT_EQ(layers.chains[0].sightings[0], predicted + Vec2(8, 0));
+}
+
+/// With the focus far off, the span would widen to the whole image.
+TEST(Xi, TheSpanWidensUpToHalfADiagonal) {
+  const MotionField field(vga(), steady_motion({-0.5, 0, 0}, Vector3d::Zero(), 0.1),
+                          FieldParameters{});
+  Layers layers;
+  layers.normal_edges.resize(1);
+  layers.normal_edges[0].location = {300, 240};
+  layers.normal_edges[0].mu = 200;
+  PaperEdges experts(vga(), kLab);
+  experts.predict(layers, field);
+  const Edge& edge = layers.normal_edges[0];
+  const double half_width = 400 * std::sin(kLab.delta_v) + kLab.corner_noise;
+  for (const double side : {-1.0, 1.0}) {
+    const auto at = [&](double aside) {
+      return experts.classify(edge, edge.predicted + Vec2(0, side * aside), field);
+    };
+    EXPECT_EQ(at(half_width - 1), Xi::two);
+    EXPECT_EQ(at(half_width + 1), Xi::five);
+  }
+}
+
+/// Two edges predicted on either side of one corner, on the line of the flow.
+struct Competing : ::testing::Test {
+  const MotionField field{vga(), steady_motion({-0.5, 0, 0}, Vector3d::Zero(), 0.1),
+                          FieldParameters{}};
+  /// Whether the edge predicted at `first` from the corner gets it, or the one at `second`.
+  bool first_wins(const Vec2& first, int first_trust, const Vec2& second, int second_trust) {
+    const Vec2 corner(400, 240), back = field.translated(corner, 1) - corner;
+    Layers layers;
+    layers.normal_edges.resize(2);
+    layers.normal_edges[0].location = corner + first - back;
+    layers.normal_edges[1].location = corner + second - back;
+    layers.normal_edges[0].trust = first_trust;
+    layers.normal_edges[1].trust = second_trust;
+    for (Edge& edge : layers.normal_edges) edge.mu = 20;
+    PaperEdges experts(vga(), kLab);
+    step(experts, layers, {corner}, field);
+    EXPECT_NE(layers.normal_edges[0].corner < 0, layers.normal_edges[1].corner < 0);
+    return layers.normal_edges[0].corner >= 0;
+  }
+};
+
+TEST_F(Competing, TheNearestEdgeGetsTheCornerUnlessAnotherIsTrustedEnoughMore) {
+  EXPECT_TRUE(first_wins({0, 2}, 4, {0, -2.4}, 4));
+  EXPECT_FALSE(first_wins({0, 2.4}, 4, {0, -2}, 4));
+  // Two steps of trust are worth half a pixel.
+  EXPECT_FALSE(first_wins({0, 2}, 3, {0, -2.4}, 5));
+  EXPECT_TRUE(first_wins({0, 2}, 3, {0, -2.6}, 5));
+}
+
+TEST_F(Competing, AMatchThatRaisesTrustComesBeforeOneThatCostsIt) {
+  // The first is overshot by 3 px (xi_3), the second fallen short of by 4 (xi_2).
+  EXPECT_FALSE(first_wins({3, 0}, 4, {-4, 0}, 4));
+  EXPECT_TRUE(first_wins({3, 0}, 4, {-5, 0}, 4));
+}
+
 // ------------------------------------------------------------------------------------------- alpha
 
 /// A camera that turns on the spot: all that moves otherwise is a rebel.
@@ -404,6 +477,87 @@ TEST(Alpha, ABendBeyondMuROrAChangeOfSpeedEndsARow) {
   EXPECT_FALSE(becomes_rebel({length, 0}, {length * (1 + 1.1 * kLab.alpha_stretch), 0}));
   EXPECT_FALSE(becomes_rebel({length, 0}, {-length, 0}));
   EXPECT_FALSE(becomes_rebel({kLab.alpha_reach + 1, 0}, {kLab.alpha_reach + 1, 0}));
+}
+
+/// In the presets the gate of `alpha_stretch` is the tighter one; where it is wide, mu_r decides.
+TEST(Alpha, TheBendOfTheLineIsAtMostMuR) {
+  CircleParameters p = kLab;
+  p.alpha_stretch = 1;
+  const auto found = [&](double bend) {
+    PaperEdges experts(vga(), p);
+    Layers layers;
+    const Vec2 a(320, 240), b = a + Vec2(30, 0), c = a + 55 * unit_vector(bend);
+    for (const Vec2& x : {a, b, c}) step(experts, layers, {x}, standing());
+    return !layers.rebel_edges.empty();
+  };
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_TRUE(found(sign * (p.alpha_deviation - 0.01)));
+    EXPECT_FALSE(found(sign * (p.alpha_deviation + 0.01)));
+  }
+}
+
+/// A row of two sightings and the corners that come: how many rebels.
+std::size_t rebels_after(const std::vector<Chain>& chains, const std::vector<Vec2>& corners,
+                         const MotionField& field) {
+  PaperEdges experts(vga(), kLab);
+  Layers layers;
+  layers.chains = chains;
+  step(experts, layers, corners, field);
+  return layers.rebel_edges.size();
+}
+Chain row(const Vec2& a, const Vec2& b) {
+  return {.sightings = {a, b}, .count = 2};
+}
+
+TEST(Alpha, WhatAStaticPointOfAnyPlausibleDepthMayDoIsNoRebel) {
+  const MotionField field(vga(), steady_motion({-0.5, 0, 0}, Vector3d::Zero(), 0.1),
+                          FieldParameters{});
+  const double step_px = field.reference_speed({300, 240}) * 0.1;
+  const Vec2 a(300, 240);
+  const auto found = [&](const Vec2& motion) {
+    return rebels_after({row(a, a + motion)}, {a + 2 * motion}, field);
+  };
+  for (double ratio = 0; ratio < field.max_ratio(); ratio += 0.25) {
+    EXPECT_EQ(found({ratio * step_px, 0}), 0u) << ratio;
+  }
+  EXPECT_EQ(found({field.max_ratio() * step_px + 4, 0}), 1u);
+  EXPECT_EQ(found({-4, 0}), 1u);
+  EXPECT_EQ(found({step_px, 4}), 1u);
+}
+
+TEST(Alpha, ASightingThatRowsShareBecomesOneRebel) {
+  const Vec2 b(320, 240);
+  EXPECT_EQ(rebels_after({row(b - Vec2(20, 3), b), row(b - Vec2(20, -3), b)},
+                         {b + Vec2(20, 3), b + Vec2(20, -3)}, standing()),
+            1u);
+}
+
+TEST(Alpha, ASightingBranchesIntoTheNearestOnly) {
+  PaperEdges experts(vga(), kLab);
+  Layers layers;
+  const Vec2 a(320, 240);
+  std::vector<Vec2> candidates;
+  for (int i = 0; i < 7; ++i) candidates.push_back(a + (5.0 + 3 * i) * unit_vector(i));
+  step(experts, layers, {a}, standing());
+  step(experts, layers, candidates, standing());
+  std::vector<Vec2> seconds;
+  for (const Chain& chain : layers.chains) {
+    if (chain.count == 2) seconds.push_back(chain.sightings[1]);
+  }
+  ASSERT_EQ(seconds.size(), static_cast<std::size_t>(kLab.alpha_branches));
+  for (int i = 0; i < kLab.alpha_branches; ++i) EXPECT_EQ(seconds[i], candidates[i]);
+}
+
+TEST(Alpha, TwoFramesOfOneTimeMakeNoRebelAndKeepTheRows) {
+  PaperEdges experts(vga(), kLab);
+  Layers layers;
+  const Vec2 a(320, 240);
+  layers.chains = {row(a, a + Vec2(20, 0))};
+  const MotionField no_time(vga(), EgoMotion{}, FieldParameters{});
+  step(experts, layers, {a + Vec2(40, 0)}, no_time);
+  EXPECT_TRUE(layers.rebel_edges.empty());
+  ASSERT_EQ(layers.chains.size(), 1u);
+  EXPECT_EQ(layers.chains[0].sightings[1], a + Vec2(20, 0));
 }
 
 TEST(Alpha, ARowBranchesIntoEveryCornerNearAndTheRightOneBecomesTheRebel) {

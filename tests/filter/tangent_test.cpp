@@ -101,5 +101,16 @@ TEST(Tangents, ASquareOnItsOriginStays) {
   EXPECT_TRUE(predict_by_homothety(extent, {320, 240}, 7).location.isApprox(extent.location));
 }
 
+/// In reverse a square nears its origin; a step that would take it beyond ends there.
+TEST(Tangents, NothingIsPredictedBeyondTheOrigin) {
+  const Extent extent{{400, 300}, {30, 20}};
+  const Vec2 origin(320, 240);  // 100 px off
+  EXPECT_TRUE(predict_by_tangents(extent, origin, -99));
+  EXPECT_FALSE(predict_by_tangents(extent, origin, -101));
+  const Extent gone = predict_by_homothety(extent, origin, -101);
+  EXPECT_EQ(gone.location, origin);
+  EXPECT_TRUE(gone.half_size.isZero());
+}
+
 }  // namespace
 }  // namespace lcs
