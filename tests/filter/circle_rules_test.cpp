@@ -231,7 +231,8 @@ TEST_F(CircleMatch, LocationRadiusAndAngleAreEstimatedByTheTrustOfTheFrameBefore
     circle.trust = kRanks.critical + 1 + static_cast<int>(random.uniform(0, 2.999));
     const Vec2 at = circle.location + Vec2(random.uniform(-9, 9), random.uniform(-9, 9));
     if ((at - vga().centre_px).norm() < 60) continue;
-    const auto edges = three(normal(at));
+    auto edges = three(normal(at));
+    for (Edge& edge : edges) edge.origin += Vec2(random.uniform(-5, 5), random.uniform(-5, 5));
     const Circle mean = circles_of(edges).front();
     after(circle, edges);
     const Circle& now = layers.normal_circles.front();

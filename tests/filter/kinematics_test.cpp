@@ -142,6 +142,26 @@ TEST(Kinematics, WhileStillTheOriginIsThePrincipalPoint) {
   EXPECT_EQ(still.origin({100, 50}), vga().centre_px);
 }
 
+/// A drift below the still speed is none: static layers keep place, size and depth.
+TEST(Kinematics, WhileStillStaticLayersStay) {
+  const MotionField still(vga(), steady_motion({0, 0, 0.004}, Vector3d::Zero(), 0.1), {});
+  Circle circle;
+  circle.location = {450, 300};
+  circle.radius = 20;
+  Square square;
+  square.location = {450, 300};
+  square.half_size = {20, 10};
+  Layers layers;
+  layers.normal_circles = {circle};
+  layers.squares = {square};
+  predict_all(layers, still);
+  EXPECT_TRUE(layers.normal_circles[0].location.isApprox(circle.location, 1e-12));
+  EXPECT_TRUE(layers.squares[0].location.isApprox(square.location, 1e-12));
+  EXPECT_EQ(layers.squares[0].half_size, square.half_size);
+  EXPECT_EQ(layers.squares[0].depth_ratio, 1);
+  EXPECT_EQ(layers.normal_circles[0].depth_ratio, 1);
+}
+
 /// What turns behind the camera has no image; it stays finite and where it was.
 TEST(Kinematics, WhatTurnsBehindTheCameraStaysWhereItWas) {
   const MotionField field(vga(), steady_motion(Vector3d::Zero(), {0, 3.1, 0}, 1), {});

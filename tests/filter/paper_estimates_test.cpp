@@ -443,6 +443,7 @@ TEST(RebelInitial, ValuesAreThoseOfTheThreeSightings) {
     const Edge& edge = layers.rebel_edges[0];
     EXPECT_TRUE(edge.origin.isApprox(a2, 1e-12));
     EXPECT_EQ(edge.location, c);
+    EXPECT_TRUE(edge.rotated.isApprox(b2, 1e-12));
     EXPECT_NEAR(edge.speed, (c - b2).norm() / 0.1, 1e-9);
     EXPECT_NEAR(angle_between(edge.angle, angle_of(c - a2)), 0, 1e-12);
     EXPECT_NEAR(edge.mu, angle_between(angle_of(c - a2), angle_of(b2 - a2)), 1e-12);
