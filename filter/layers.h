@@ -93,11 +93,6 @@ struct Collector {
 struct Chain {
   std::array<Vec2, 2> sightings;  ///< oldest first, in this frame's pixels (rotation removed)
   int count = 0;                  ///< 1 or 2: with the third it becomes a rebel edge, or nothing
-  Vec2 anchor = Vec2::Zero();     ///< normal: first sighting, moved by the rotations since, px
-  Eigen::Vector3d travelled_C_m = Eigen::Vector3d::Zero();  ///< by the camera since then
-  double path_ratio = 1;    ///< Z_ref / Z from the whole path since the anchor
-  double path_weight = 0;   ///< its information, px^2 of parallax at Z_ref; 0: none yet
-  bool called = false;      ///< rebel: borne out enough to be called one
   double off_field_px = 0;  ///< how far its steps so far leave what a static point may do
 };
 

@@ -162,11 +162,8 @@ void LinkLayering::make_squares(int least, const MotionField& field) {
     const Vec2 low(xs_[cut], ys_[cut]);
     const Vec2 high(xs_[xs_.size() - 1 - cut], ys_[ys_.size() - 1 - cut]);
     const Vec2 size = high - low;
-    if (size.x() * size.y() < parameters_.min_area ||
-        size.x() > parameters_.max_width * camera_.width_px ||
-        size.y() > parameters_.max_height * camera_.height_px) {
-      continue;
-    }
+    const double longest = parameters_.max_side * std::max(camera_.width_px, camera_.height_px);
+    if (size.prod() < parameters_.min_area || size.maxCoeff() > longest) continue;
     const bool rebel = nodes_[group.front()].edge->rebel;
     square.location = 0.5 * (low + high);
     square.half_size = 0.5 * size;

@@ -110,10 +110,9 @@ struct LinkParameters {
   double rebel_speed_px = 3;        ///< px a frame: and by this in any case
   int min_edges = 4;                ///< that make a square
   int min_rebels = 4;
-  double trim = 0.02;        ///< share of the edges cut off at each side of a box
-  double min_area = 250;     ///< px^2
-  double max_width = 0.45;   ///< of the image
-  double max_height = 0.75;  ///< of the image
+  double trim = 0.02;     ///< share of the edges cut off at each side of a box
+  double min_area = 250;  ///< px^2
+  double max_side = 0.5;  ///< of the image's longer side: what spans more is background
 };
 
 /// Square expert.
