@@ -93,7 +93,7 @@ struct Collector {
 struct Chain {
   std::array<Vec2, 2> sightings;  ///< oldest first, in this frame's pixels (rotation removed)
   int count = 0;                  ///< 1 or 2: with the third it becomes a rebel edge, or nothing
-  double off_field_px = 0;  ///< how far its steps so far leave what a static point may do
+  double off_field_px = 0;        ///< how far its steps so far leave what a static point may do
 };
 
 struct Layers {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "scenarios/spelling.h"
+
 namespace lcs::scenario {
 namespace {
 
@@ -26,22 +28,6 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& kn
   if (const auto near = nearest(word, known)) return "did you mean '" + *near + "'?";
   if (known.empty()) return "remove it";
   return "known are " + joined(known, " and ");
-}
-
-/// Letters to insert, remove, replace or swap with their neighbour (optimal string alignment).
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
-  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, replaced});
-      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-      if (swapped) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-    }
-  }
-  return d[a.size()][b.size()];
 }
 
 /// "above 0 and at most 100 m/s"
@@ -80,20 +66,6 @@ Integer integer(const Value& value, const std::string& path, Integer low, Intege
 }
 
 }  // namespace
-
-std::optional<std::string> nearest(std::string_view name, const std::vector<std::string>& names) {
-  std::optional<std::string> best;
-  // A third of the letters wrong is a misspelling, more is another word.
-  std::size_t reach = std::max<std::size_t>(1, name.size() / 3) + 1;
-  for (const std::string& candidate : names) {
-    const std::size_t distance = edit_distance(name, candidate);
-    if (distance < reach && distance < candidate.size()) {
-      reach = distance;
-      best = candidate;
-    }
-  }
-  return best;
-}
 
 double as_quantity(const Value& value, const std::string& path, const Quantity& quantity) {
   const auto [dimension, range] = quantity;

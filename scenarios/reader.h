@@ -25,9 +25,6 @@
 
 namespace lcs::scenario {
 
-/// The name nearest to `name` by edit distance, if one is near enough to be a misspelling of it.
-std::optional<std::string> nearest(std::string_view name, const std::vector<std::string>& names);
-
 /// Numbers that a key takes, in its base unit.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();

@@ -31,6 +31,11 @@ std::filesystem::path scenes_folder() {
   return folder && *folder ? folder : LCS_SCENES_DIR;
 }
 
+std::filesystem::path shipped_file(const std::filesystem::path& relative) {
+  const std::filesystem::path file = scenes_folder() / relative;
+  return std::filesystem::exists(file) ? file : LCS_SCENES_DIR / relative;
+}
+
 std::filesystem::path find_scene(const Value& value, const std::filesystem::path& folder) {
   const std::string& text = as_text(value, "scene");
   if (text.ends_with(".xml")) {

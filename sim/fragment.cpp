@@ -5,11 +5,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <sstream>
 #include <string_view>
 #include <vector>
 
+#include "scenarios/scenes.h"
 #include "sim/texture.h"
 
 namespace lcs::sim {
@@ -137,12 +137,6 @@ void paint_fragment(xml::Element& root, const scenario::Actor& actor) {
 
 }  // namespace
 
-std::filesystem::path fragment_file(const std::filesystem::path& relative) {
-  const char* const folder = std::getenv("LCS_SCENES");
-  if (folder && *folder && std::filesystem::exists(folder / relative)) return folder / relative;
-  return LCS_SCENES_DIR / relative;
-}
-
 void scale_fragment(xml::Element& root, const Eigen::Vector3d& size_m) {
   const Eigen::Vector3d factor = size_m.cwiseQuotient(natural_size(root));
   if (factor.isApproxToConstant(1)) return;
@@ -161,7 +155,7 @@ bool has_picture(const scenario::Actor& actor) {
 }
 
 xml::Document actor_fragment(const scenario::Actor& actor) {
-  xml::Document document = xml::load(fragment_file(file_of(actor.shape)), actor.source);
+  xml::Document document = xml::load(scenario::shipped_file(file_of(actor.shape)), actor.source);
   xml::Element& root = *document->RootElement();
   if (actor.size_m) {
     const Eigen::Vector3d& size = *actor.size_m;

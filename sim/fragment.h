@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -11,10 +10,6 @@
 #include "sim/xml.h"
 
 namespace lcs::sim {
-
-/// A file of the rover or of an actor, as in "ego/wheeled.xml": from the folder that the
-/// environment's LCS_SCENES names, if it is there, else from the scenes of the source tree.
-std::filesystem::path fragment_file(const std::filesystem::path& relative);
 
 /// Scales the geoms of a fragment's body from the natural size that it states (the numeric `size`:
 /// length, width, height in m). Boxes and ellipsoids take any three factors; what is round about an

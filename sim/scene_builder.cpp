@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "scenarios/scenes.h"
+#include "scenarios/spelling.h"
 #include "sim/fragment.h"
 #include "sim/xml.h"
 
@@ -27,26 +29,9 @@ std::vector<std::string> body_names(xml::Element& worldbody) {
   return names;
 }
 
-/// Levenshtein's, by rows.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substitute = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
-    }
-  }
-  return row.back();
-}
-
 [[noreturn]] void fail_no_body(const Actor& actor, std::vector<std::string> names) {
   constexpr std::size_t kMentioned = 3;
-  std::stable_sort(names.begin(), names.end(), [&](const auto& a, const auto& b) {
-    return edit_distance(a, *actor.body) < edit_distance(b, *actor.body);
-  });
+  names = scenario::nearest_first(*actor.body, std::move(names));
   names.resize(std::min(names.size(), kMentioned));
   throw scenario::Error(
       actor.source,
@@ -173,7 +158,7 @@ void add_camera(xml::Element& base, const scenario::Camera& camera) {
 
 void add_ego(xml::Element& scene, const Scenario& scenario) {
   const bool holonomic = scenario.ego.drive == scenario::Drive::holonomic;
-  const auto file = fragment_file(holonomic ? "ego/holonomic.xml" : "ego/wheeled.xml");
+  const auto file = scenario::shipped_file(holonomic ? "ego/holonomic.xml" : "ego/wheeled.xml");
   const xml::Document fragment = xml::load(file, scenario.scene_source);
   xml::Element& root = *fragment->RootElement();
   xml::prefix_names(root, kEgoPrefix);

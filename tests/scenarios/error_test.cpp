@@ -4,7 +4,7 @@
 
 #include <ostream>
 
-#include "scenarios/reader.h"
+#include "scenarios/spelling.h"
 #include "tests/scenarios/scenario_file.h"
 
 namespace lcs::scenario {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "scenarios/reader.h"
+#include "scenarios/spelling.h"
 
 namespace lcs::bench {
 namespace {
