@@ -1,0 +1,67 @@
+/// \file
+/// What a suite of runs came to: each scenario, with each of its seeds, and what it was asked to
+/// reach. Written as `suite.json`; compared and shown from there alone.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/bench/scoring.h"
+
+namespace lcs::suite {
+
+inline constexpr const char* kSuiteFile = "suite.json";
+
+enum class Outcome {
+  passed,
+  failed,  ///< a required criterion is not met
+  error,   ///< there are no figures: a broken scenario, scene, file or GL
+};
+
+struct CriterionResult {
+  std::string metric;
+  std::optional<double> min, max;
+  std::optional<double> value;  ///< none: undefined, which meets no bound
+  bool required = true;
+  bool met = false;
+  std::string message;  ///< as `bench::FailedCriterion`; empty where met
+};
+
+struct RunResult {
+  std::uint64_t seed = 0;
+  Outcome outcome = Outcome::error;
+  std::string error;       ///< the command's message, for an error
+  bench::Metrics metrics;  ///< empty for an error
+  std::vector<CriterionResult> criteria;
+  std::filesystem::path folder;  ///< of the run's own files, relative to the suite's
+  double wall_s = 0;
+};
+
+/// One scenario, or one point of the grid that it sweeps.
+struct ScenarioResult {
+  std::string name;  ///< unique in the suite
+  std::string purpose;
+  std::filesystem::path file;
+  std::vector<std::string> groups;
+  std::vector<std::pair<std::string, std::string>> point;  ///< swept keys and values, as given
+  std::vector<RunResult> runs;                             ///< by seed, in the order asked for
+};
+
+struct SuiteResult {
+  std::string detector;           ///< lcs, klt or homography
+  std::vector<std::string> sets;  ///< "key=value", as given
+  std::string version;            ///< of the program
+  std::vector<ScenarioResult> scenarios;
+};
+
+/// \throws bench::OutputError
+void write_suite(const std::filesystem::path& file, const SuiteResult& suite);
+
+/// \throws std::runtime_error naming file and what is wrong with it.
+SuiteResult read_suite(const std::filesystem::path& file);
+
+}  // namespace lcs::suite
