@@ -7,6 +7,7 @@
 #include "scenarios/document.h"
 #include "scenarios/imu_presets.h"
 #include "scenarios/load_actor.h"
+#include "scenarios/load_sweep.h"
 #include "scenarios/quantities.h"
 #include "scenarios/scenes.h"
 
@@ -199,6 +200,7 @@ void read_top(Reader& reader, const std::filesystem::path& folder, Scenario& sce
     if (const Value* value = reader.find(key)) out = read(Reader(*value, reader.path_of(key)));
   };
   reader.read("purpose", scenario.purpose);
+  if (const Value* groups = reader.find("groups")) scenario.groups = read_groups(*groups);
   if (const Value* scene = reader.require("scene")) {
     scenario.scene = find_scene(*scene, folder);
     scenario.scene_source = scene->where;
@@ -228,6 +230,7 @@ void read_top(Reader& reader, const std::filesystem::path& folder, Scenario& sce
       scenario.criteria.push_back(read_criterion({item, "criteria." + index}));
     }
   }
+  if (const Value* sweep = reader.find("sweep")) scenario.sweep = read_sweep(*sweep);
 }
 
 }  // namespace

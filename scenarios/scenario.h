@@ -163,11 +163,23 @@ struct Criterion {
   Source source;
 };
 
+/// A key that a sweep gives several values; each is YAML text, fit for `--set`.
+struct SweptKey {
+  struct Value {
+    std::string text;
+    Source source;
+  };
+  std::string key;  ///< as in "ego.speed"
+  std::vector<Value> values;
+  Source source;
+};
+
 struct Scenario {
   std::string name;  ///< the file's stem
   std::filesystem::path file;
-  std::string purpose;          ///< one line
-  std::filesystem::path scene;  ///< the MJCF file, which exists
+  std::string purpose;                          ///< one line
+  std::vector<std::string> groups = {"short"};  ///< that it belongs to, at least one
+  std::filesystem::path scene;                  ///< the MJCF file, which exists
   Source scene_source;
   std::uint64_t seed = 1;  ///< textures, IMU noise, odometry; independent streams by name
   int frames = 0;          ///< > 0
@@ -183,6 +195,9 @@ struct Scenario {
   Source filter_preset_source;
   std::vector<FilterSetting> filter;
   std::vector<Criterion> criteria;
+  /// A run of the scenario itself leaves these as the file has them outside of `sweep`; see
+  /// `scenarios/sweep.h`.
+  std::vector<SweptKey> sweep;
 };
 
 }  // namespace lcs::scenario

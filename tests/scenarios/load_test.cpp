@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "scenarios/sweep.h"
 #include "tests/scenarios/scenario_file.h"
 
 namespace lcs::scenario {
@@ -282,13 +283,15 @@ TEST_P(Shipped, Loads) {
   const Scenario s = load(std::filesystem::path(LCS_SOURCE_DIR) / "scenarios" / GetParam());
   EXPECT_FALSE(s.purpose.empty());
   EXPECT_GT(s.frames, 0);
+  EXPECT_FALSE(sweep_points(s.file).empty());
 }
 
 std::vector<std::string> shipped_files() {
   std::vector<std::string> names;
   const std::filesystem::path folder = std::filesystem::path(LCS_SOURCE_DIR) / "scenarios";
-  for (const auto& file : std::filesystem::directory_iterator(folder)) {
-    if (file.path().extension() == ".yaml") names.push_back(file.path().filename().string());
+  for (const auto& file : std::filesystem::recursive_directory_iterator(folder)) {
+    if (file.path().extension() != ".yaml") continue;
+    names.push_back(std::filesystem::relative(file.path(), folder).string());
   }
   std::sort(names.begin(), names.end());
   return names;

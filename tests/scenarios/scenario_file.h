@@ -48,18 +48,21 @@ inline Scenario load_text(const std::string& text, const LoadOptions& options = 
   return load(folder.write("test.yaml", text), options);
 }
 
+inline std::string without_folder(std::string message, const ScenarioFolder& folder) {
+  const std::string prefix = folder.path().string() + "/";
+  for (std::size_t at; (at = message.find(prefix)) != std::string::npos;) {
+    message.erase(at, prefix.size());
+  }
+  return message;
+}
+
 /// The message that a text is refused with, without the folder's name.
 inline std::string refusal(const std::string& text, const LoadOptions& options = {}) {
   const ScenarioFolder folder;
   try {
     load(folder.write("test.yaml", text), options);
   } catch (const Error& error) {
-    std::string message = error.what();
-    const std::string prefix = folder.path().string() + "/";
-    for (std::size_t at; (at = message.find(prefix)) != std::string::npos;) {
-      message.erase(at, prefix.size());
-    }
-    return message;
+    return without_folder(error.what(), folder);
   }
   return "nothing was refused";
 }

@@ -1,0 +1,83 @@
+#include "scenarios/sweep.h"
+
+#include <string_view>
+
+#include "scenarios/load.h"
+
+namespace lcs::scenario {
+namespace {
+
+/// A slip, such as a list too many, rather than days of runs.
+constexpr std::size_t kMostPoints = 1000;
+
+std::string assignment(const std::pair<std::string, std::string>& setting) {
+  return setting.first + "=" + setting.second;
+}
+
+std::string text_of(const SweepPoint& point) {
+  std::string text;
+  for (const auto& setting : point.settings) {
+    text += (text.empty() ? "" : ", ") + assignment(setting);
+  }
+  return text;
+}
+
+/// The point with this number; the digits of `index` are places in the lists.
+SweepPoint point_at(const std::vector<SweptKey>& sweep, std::size_t index) {
+  SweepPoint point;
+  point.settings.resize(sweep.size());
+  for (std::size_t i = sweep.size(); i-- > 0;) {
+    const std::vector<SweptKey::Value>& values = sweep[i].values;
+    point.settings[i] = {sweep[i].key, values[index % values.size()].text};
+    index /= values.size();
+  }
+  return point;
+}
+
+Source source_of(const SweptKey& swept, const std::string& text) {
+  for (const SweptKey::Value& value : swept.values) {
+    if (value.text == text) return value.source;
+  }
+  return swept.source;
+}
+
+/// Loads the point, and says where in the file lies what is wrong with it.
+void check(const std::filesystem::path& file, const std::vector<SweptKey>& sweep,
+           const SweepPoint& point) {
+  LoadOptions options;
+  for (const auto& setting : point.settings) options.sets.push_back(assignment(setting));
+  try {
+    load(file, options);
+  } catch (const Error& error) {
+    const std::string_view message = error.what();
+    for (std::size_t i = 0; i < sweep.size(); ++i) {
+      const std::string prefix = "--set " + options.sets[i] + ": ";
+      if (!message.starts_with(prefix)) continue;
+      throw Error(source_of(sweep[i], point.settings[i].second),
+                  "sweep." + sweep[i].key + ": " + std::string(message.substr(prefix.size())));
+    }
+    throw Error(sweep.front().source, "sweep, at " + text_of(point) + ": " + std::string(message));
+  }
+}
+
+}  // namespace
+
+std::vector<SweepPoint> sweep_points(const std::filesystem::path& file) {
+  const std::vector<SweptKey> sweep = load(file).sweep;
+  std::size_t count = 1;
+  for (const SweptKey& swept : sweep) {
+    count *= swept.values.size();
+    if (count > kMostPoints) {
+      throw Error(sweep.front().source, "sweep has more than " + std::to_string(kMostPoints) +
+                                            " points; shorten its lists");
+    }
+  }
+  std::vector<SweepPoint> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    points.push_back(point_at(sweep, i));
+    if (!sweep.empty()) check(file, sweep, points.back());
+  }
+  return points;
+}
+
+}  // namespace lcs::scenario
