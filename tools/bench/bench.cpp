@@ -40,7 +40,7 @@ void run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracke
     frame.true_motion = motions.exact;
 
     const FrameResult& result = timed(times.filter_ms, [&]() -> const FrameResult& {
-      return tracker.step({observation->image, frame.corners_px, frame.motion});
+      return tracker.step({observation->image, grey, frame.corners_px, frame.motion});
     });
     frame.verdicts = result.verdicts;
     frame.layers = result.layers;

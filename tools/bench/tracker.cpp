@@ -4,12 +4,15 @@
 
 namespace lcs::bench {
 
+Intrinsics intrinsics(const sim::Pinhole& camera) {
+  return {.focal_px = camera.focal_px,
+          .centre_px = camera.centre_px,
+          .width_px = camera.width_px,
+          .height_px = camera.height_px};
+}
+
 LcsTracker::LcsTracker(const sim::Pinhole& camera, const Parameters& parameters)
-    : filter_({.focal_px = camera.focal_px,
-               .centre_px = camera.centre_px,
-               .width_px = camera.width_px,
-               .height_px = camera.height_px},
-              parameters) {}
+    : filter_(intrinsics(camera), parameters) {}
 
 const FrameResult& LcsTracker::step(const TrackerInput& input) {
   return filter_.step(input.corners_px, input.motion);

@@ -16,6 +16,7 @@ namespace lcs::bench {
 /// All that a tracker is told of a frame.
 struct TrackerInput {
   const cv::Mat3b& image;  ///< BGR
+  const cv::Mat1b& grey;   ///< the same: what the corners were found in
   std::span<const Eigen::Vector2f> corners_px;
   const EgoMotion& motion;  ///< since the last frame
 };
@@ -29,6 +30,9 @@ class Tracker {
   ///   of stages. Valid until the next step.
   virtual const FrameResult& step(const TrackerInput& input) = 0;
 };
+
+/// The camera as trackers on the filter's geometry take it.
+Intrinsics intrinsics(const sim::Pinhole& camera);
 
 /// The LCS filter. It sees corners and ego-motion, never the image.
 class LcsTracker : public Tracker {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "scenarios/load.h"
@@ -12,6 +13,7 @@
 #include "tools/bench/result.h"
 #include "tools/bench/table.h"
 #include "tools/bench/tracker.h"
+#include "tools/comparators/detectors.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/progress.h"
 
@@ -22,6 +24,7 @@ constexpr const char* kHelp = R"(Examples:
   lcs run scenarios/crossing.yaml
   lcs run scenarios/crossing.yaml --seed 7 --out out/seed7
   lcs run scenarios/lab.yaml --set "ego.speed=10 cm/s" --set filter.circle.mu_0=20
+  lcs run scenarios/crossing.yaml --detector klt --out out/crossing-klt
 
 Files written to the folder, all or none:
   metrics.json   every figure, flat; null where it is not defined (tools/bench/SCORING.md)
@@ -64,7 +67,8 @@ bool report_failures(const std::vector<bench::FailedCriterion>& failures) {
 
 CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
   CLI::App& command = *app.add_subcommand(
-      "run", "Simulate a scenario, run the LCS filter on it, and score the filter by the truth");
+      "run",
+      "Simulate a scenario, run the LCS filter (or a comparator) on it, and score it by the truth");
   command.add_option("SCENARIO", options.scenario, "The scenario, a YAML file")
       ->required()
       ->type_name("");
@@ -76,6 +80,10 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
                   "Set a value of the scenario, as \"ego.speed=0.7 m/s\"; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  command
+      .add_option("--detector", options.detector,
+                  "What watches: lcs (the filter), or klt or homography to compare it with")
+      ->type_name("NAME");
   command.add_flag("--no-video", options.no_video, "Write no video.mp4");
   command.add_flag("--quiet", options.quiet,
                    "Print neither progress nor figures, only what went wrong");
@@ -86,21 +94,22 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
 ExitCode run(const RunOptions& options) {
   const InterruptGuard interrupt;
 
+  const comparators::Detector& detector = comparators::detector(options.detector);
   // All that can be wrong with what was asked for is found before any output is begun.
   const scenario::Scenario scenario =
       scenario::load(options.scenario, {.sets = options.sets, .seed = options.seed});
-  const Parameters parameters = bench::filter_parameters(scenario);
+  bench::filter_parameters(scenario);  // whoever reads them: what is wrong is told
   bench::require_known_metrics(scenario.criteria);
   sim::Simulation simulation(scenario);
-  bench::LcsTracker tracker(simulation.calibration().camera, parameters);
-
   const sim::Pinhole& camera = simulation.calibration().camera;
+  const std::unique_ptr<bench::Tracker> tracker = detector.make(camera, scenario);
+
   bench::Recording recording = bench::begin_recording(scenario, simulation);
   bench::Result result(target_of(options, scenario), recording, {camera.width_px, camera.height_px},
                        options.no_video ? std::nullopt : std::optional(scenario.camera.rate_hz));
   {
     Progress progress(scenario.name, scenario.frames, options.quiet);
-    bench::run(scenario, simulation, tracker, recording,
+    bench::run(scenario, simulation, *tracker, recording,
                [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
                  interrupt.check();
                  result.add(frame, image);

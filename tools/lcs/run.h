@@ -1,5 +1,5 @@
 /// \file
-/// `lcs run`: a scenario simulated, filtered, scored and reported.
+/// `lcs run`: a scenario simulated, watched by a detector, scored and reported.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,6 +18,7 @@ struct RunOptions {
   std::string out;       ///< folder; "" is out/<scenario's name>
   std::optional<std::uint64_t> seed;
   std::vector<std::string> sets;  ///< "key=value"
+  std::string detector = "lcs";
   bool no_video = false;
   bool quiet = false;
 };

@@ -1,0 +1,54 @@
+#include "tools/comparators/backward_flow.h"
+
+#include <opencv2/video/tracking.hpp>
+#include <utility>
+
+namespace lcs::comparators {
+
+BackwardFlow::BackwardFlow(const FlowParameters& parameters) : parameters_(parameters) {}
+
+std::span<const std::optional<Vec2>> BackwardFlow::track(
+    const cv::Mat1b& grey, std::span<const Eigen::Vector2f> corners_px,
+    std::span<const Vec2> guesses_px) {
+  const cv::Size window(parameters_.window_px, parameters_.window_px);
+  std::swap(last_, now_);
+  cv::buildOpticalFlowPyramid(grey, now_, window, parameters_.levels, /*withDerivatives=*/true,
+                              cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT,
+                              /*tryReuseInputImage=*/false);
+  result_.assign(corners_px.size(), std::nullopt);
+  if (last_.empty() || corners_px.empty()) return result_;
+
+  corners_.clear();
+  before_.clear();
+  for (std::size_t i = 0; i < corners_px.size(); ++i) {
+    corners_.emplace_back(corners_px[i].x(), corners_px[i].y());
+    before_.emplace_back(cv::Point2d(guesses_px[i].x(), guesses_px[i].y()));
+  }
+  lucas_kanade(now_, last_, corners_, before_, found_);
+
+  // Back again from where it was found, with the guess that the way there began with.
+  again_.clear();
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const cv::Point2f guess(cv::Point2d(guesses_px[i].x(), guesses_px[i].y()));
+    again_.push_back(before_[i] + (corners_[i] - guess));
+  }
+  lucas_kanade(last_, now_, before_, again_, found_again_);
+
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    if (!found_[i] || !found_again_[i]) continue;
+    if (cv::norm(again_[i] - corners_[i]) > parameters_.round_trip_px) continue;
+    result_[i] = Vec2(before_[i].x, before_[i].y);
+  }
+  return result_;
+}
+
+void BackwardFlow::lucas_kanade(const Pyramid& from, const Pyramid& to, const Points& here,
+                                Points& there, std::vector<unsigned char>& found) const {
+  const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS,
+                               parameters_.max_iterations, parameters_.least_step_px);
+  cv::calcOpticalFlowPyrLK(from, to, here, there, found, cv::noArray(),
+                           {parameters_.window_px, parameters_.window_px}, parameters_.levels,
+                           until, cv::OPTFLOW_USE_INITIAL_FLOW, parameters_.least_eigenvalue);
+}
+
+}  // namespace lcs::comparators

@@ -1,0 +1,38 @@
+/// \file
+/// The comparator `homography`: the last image is laid over this one by a single homography, fitted
+/// to the tracked corners by RANSAC; what does not fit moves by itself. No IMU; right for a far or
+/// flat world and for a camera that only turns, which is what most published code for moving
+/// cameras assumes.
+#pragma once
+
+#include "tools/bench/tracker.h"
+#include "tools/comparators/backward_flow.h"
+#include "tools/comparators/rebel_groups.h"
+
+namespace lcs::comparators {
+
+struct HomographyParameters {
+  FlowParameters flow;
+  int least_corners = 8;      ///< tracked, to fit a homography to, >= 4; fewer: nothing is told
+  double inlier_px = 3;       ///< RANSAC: distance at which a corner supports a hypothesis
+  int max_iterations = 2000;  ///< of RANSAC
+  double confidence = 0.995;
+  double residual_px = 3;  ///< distance from where the homography takes it that a corner may have
+  GroupParameters groups;
+};
+
+class HomographyTracker : public bench::Tracker {
+ public:
+  explicit HomographyTracker(const HomographyParameters& parameters = {});
+  const FrameResult& step(const bench::TrackerInput& input) override;
+
+ private:
+  HomographyParameters parameters_;
+  BackwardFlow flow_;
+  RebelGroups groups_;
+  std::vector<Vec2> guesses_;  // of the current frame; kept for their memory
+  std::vector<cv::Point2d> before_, now_;
+  std::vector<CornerMotion> motions_;
+};
+
+}  // namespace lcs::comparators
