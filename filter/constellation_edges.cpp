@@ -143,6 +143,7 @@ void ConstellationEdges::update_rebel(Edge& edge, const Vec2& x, const MotionFie
 void ConstellationEdges::find_residuals(const Layers& layers, const Chi& chi) {
   candidates_.assign(chi.size(), {});
   links_.assign(chi.size(), {});
+  reasons_.assign(chi.size(), remembered_ < 2 ? Reason::no_past : Reason::no_time);
   const int normals = static_cast<int>(layers.normal_edges.size());
   for (std::size_t c = 0; c < chi.size(); ++c) {
     const int edge = match_of_corner_[c];
@@ -150,6 +151,7 @@ void ConstellationEdges::find_residuals(const Layers& layers, const Chi& chi) {
       candidates_[c].residual = true;
     } else if (edge < normals) {
       links_[c] = {Kind::normal, edge};
+      reasons_[c] = Reason::normal_edge;
       candidates_[c].residual =
           layers.normal_edges[edge].trust < parameters_.constellation.established;
     } else {
@@ -206,7 +208,9 @@ int ConstellationEdges::count_votes(const Chi& chi, const Vec2& x, const Vec2& b
   return votes;
 }
 
-void ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const MotionField& field) {
+/// Sets the displacement that the neighbours of a corner agree on, if any. \return `voted`, or what
+/// speaks against it.
+Reason ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const MotionField& field) {
   const ConstellationParameters& p = parameters_.constellation;
   const Vec2& x = chi.locations[corner];
   near_.clear();
@@ -216,7 +220,7 @@ void ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Motio
   });
   std::sort(near_.begin(), near_.end());
   if (near_.size() > static_cast<std::size_t>(p.neighbours)) near_.resize(p.neighbours);
-  if (near_.size() < 2) return;
+  if (near_.size() < 2) return Reason::few_neighbours;
   voters_.clear();
   int static_votes = candidates_[corner].static_hits;
   for (const auto& [distance2, other] : near_) {
@@ -241,16 +245,19 @@ void ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Motio
     }
   });
   const double all = 2.0 * static_cast<double>(voters_.size() + 1);
-  Candidate& candidate = candidates_[corner];
-  candidate.step = best_step;
-  candidate.voted = best >= p.vote_floor * all && best >= static_votes + p.vote_margin * all &&
-                    off_field(x, x - best_step, field) > p.off_field;
+  candidates_[corner].step = best_step;
+  if (!(best >= p.vote_floor * all)) return Reason::vote_floor;
+  if (!(best >= static_votes + p.vote_margin * all)) return Reason::static_wins;
+  if (!(off_field(x, x - best_step, field) > p.off_field)) return Reason::vote_on_field;
+  return Reason::voted;
 }
 
 void ConstellationEdges::vote(const Chi& chi, const MotionField& field) {
   past_grid_.build(past_[0].corners, 16);
   for (std::size_t c = 0; c < chi.size(); ++c) {
-    if (candidates_[c].residual) vote_on(c, chi, field);
+    if (!candidates_[c].residual) continue;
+    reasons_[c] = vote_on(c, chi, field);
+    candidates_[c].voted = reasons_[c] == Reason::voted;
   }
 }
 
@@ -295,6 +302,7 @@ void ConstellationEdges::support(Layers& layers, const MotionField& field) {
   for (const Edge& edge : rebels) points_.push_back(edge.location);
   rebel_grid_.build(points_, p.radius);
   borne_out_.assign(rebels.size(), 0);
+  support_.assign(rebels.size(), Reason::rebel_alone);
 
   // Connected components of like velocity.
   component_.resize(rebels.size());
@@ -326,6 +334,7 @@ void ConstellationEdges::support(Layers& layers, const MotionField& field) {
     });
     const bool moves = off >= p.support_off_field * near;
     borne_out_[i] = near >= p.support && moves;
+    if (near >= p.support && !moves) support_[i] = Reason::rebel_on_field;
     stray[i] = !moves && rebels[i].age >= 2;
   }
   for (std::size_t i = 0; i < rebels.size(); ++i) {
@@ -333,6 +342,19 @@ void ConstellationEdges::support(Layers& layers, const MotionField& field) {
   }
   for (std::size_t i = 0; i < rebels.size(); ++i) component_[i] = root(static_cast<int>(i));
   smooth(rebels, field.dt_s());
+}
+
+/// Corners of rebel edges are rebels where these are borne out.
+void ConstellationEdges::settle_rebels() {
+  for (std::size_t c = 0; c < links_.size(); ++c) {
+    if (links_[c].kind != Kind::rebel) continue;
+    called_[c] = borne_out_[links_[c].index];
+    if (!called_[c]) {
+      reasons_[c] = support_[links_[c].index];
+    } else if (!candidates_[c].voted) {
+      reasons_[c] = Reason::rebel_edge;
+    }
+  }
 }
 
 /// A shift and a change of size are fitted to the velocities of each component, and pull them; an
@@ -419,12 +441,17 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
 
     Edge* normal = links_[c].kind == Kind::normal ? &layers.normal_edges[links_[c].index] : nullptr;
     if (normal && normal->trust >= trust_.maximum) {
-      if (!confirmed || share < 0.75) continue;
+      if (!confirmed || share < 0.75) {
+        reasons_[c] = Reason::normal_stands;
+        continue;
+      }
       called_[c] = 1;
+      reasons_[c] = Reason::inherited;
       normal->trust -= 2;
       continue;
     }
     called_[c] = 1;
+    reasons_[c] = Reason::inherited;
     if (!confirmed || links_[c].kind == Kind::rebel) continue;
     if (normal && normal->trust >= p.established) continue;
     if (normal) normal->trust = 0;
@@ -476,9 +503,7 @@ void ConstellationEdges::update(Layers& layers, const Chi& chi, const MotionFiel
     for (std::size_t i = 0; i < layers.rebel_edges.size(); ++i) {
       layers.rebel_edges[i].called = borne_out_[i];
     }
-    for (std::size_t c = 0; c < chi.size(); ++c) {
-      called_[c] = links_[c].kind == Kind::rebel && borne_out_[links_[c].index];
-    }
+    settle_rebels();
     inherit(layers, chi, field);
   }
 

@@ -66,9 +66,10 @@ class ConstellationEdges : public EdgeExpert {
   void seek_static_past(const Chi& chi, const MotionField& field);
   int static_hits(const Vec2& x, double depth_ratio, const MotionField& field) const;
   void vote(const Chi& chi, const MotionField& field);
-  void vote_on(std::size_t corner, const Chi& chi, const MotionField& field);
+  Reason vote_on(std::size_t corner, const Chi& chi, const MotionField& field);
   int count_votes(const Chi& chi, const Vec2& x, const Vec2& before, double scale, int own,
                   int best) const;
+  void settle_rebels();
   void make_edges(Layers& layers, const Chi& chi, const MotionField& field);
   Edge make_rebel(const Vec2& x, const Vec2& velocity_pxps, double dt_s);
   void support(Layers& layers, const MotionField& field);
@@ -85,6 +86,7 @@ class ConstellationEdges : public EdgeExpert {
   std::vector<Candidate> candidates_;
   std::vector<Link> links_;      // of each corner
   std::vector<char> borne_out_;  // of each rebel edge
+  std::vector<Reason> support_;  // of each rebel edge, why it is not borne out
   std::vector<char> called_;     // corners that leave as rebels
   std::vector<std::pair<double, int>> near_;
   std::vector<int> voters_;

@@ -16,6 +16,7 @@
 #include "filter/motion_field.h"
 #include "filter/parameters.h"
 #include "filter/point_grid.h"
+#include "filter/reason.h"
 
 namespace lcs {
 
@@ -30,6 +31,9 @@ class EdgeExpert {
   /// \param verdicts by the caller's order; `normal` or `rebel` is written for decided corners.
   virtual void update(Layers& layers, const Chi& chi, const MotionField& field,
                       std::vector<Verdict>& verdicts) = 0;
+
+  /// What settled each corner of the last chi.
+  const std::vector<Reason>& reasons() const { return reasons_; }
 
  protected:
   EdgeExpert(const Intrinsics& camera, const TrustRanks& trust) : camera_(camera), trust_(trust) {}
@@ -66,6 +70,7 @@ class EdgeExpert {
   PointGrid corner_grid_;
   std::vector<Pair> pairs_;
   std::vector<int> match_of_edge_, match_of_corner_;  // -1: none
+  std::vector<Reason> reasons_;
 
  private:
   Id next_id_ = 1;

@@ -33,6 +33,16 @@ const Parameters& checked(const Parameters& parameters) {
   return parameters;
 }
 
+/// Those of the corners that the Line expert kept are the Circle expert's.
+void gather_reasons(const Chi& chi, const std::vector<Reason>& of_chi,
+                    const std::vector<Verdict>& verdicts, std::vector<Reason>& reasons) {
+  reasons.assign(verdicts.size(), Reason::not_finite);
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    if (verdicts[i] == Verdict::ignored) reasons[i] = Reason::in_psi;
+  }
+  for (std::size_t c = 0; c < chi.size(); ++c) reasons[chi.sources[c]] = of_chi[c];
+}
+
 }  // namespace
 
 struct Filter::Impl {
@@ -80,6 +90,7 @@ const FrameResult& Filter::step(std::span<const Eigen::Vector2f> corners_px,
   f.result.times.line_ms = lap_ms(clock);
 
   f.edges->update(layers, chi, field, f.result.verdicts);
+  gather_reasons(chi, f.edges->reasons(), f.result.verdicts, f.result.reasons);
   f.circles.update(layers, field);
   if (f.parameters.line.ignore) f.circles.update_ignorance(layers);  // transition II
   f.result.times.circle_ms = lap_ms(clock);

@@ -12,6 +12,7 @@
 #include "filter/ego_motion.h"
 #include "filter/layers.h"
 #include "filter/parameters.h"
+#include "filter/reason.h"
 
 namespace lcs {
 
@@ -26,6 +27,7 @@ struct StageTimes {
 struct FrameResult {
   Layers layers;
   std::vector<Verdict> verdicts;  ///< one for each corner, in the caller's order
+  std::vector<Reason> reasons;    ///< of each verdict; empty where a tracker gives none
   StageTimes times;
 };
 

@@ -85,6 +85,11 @@ bool PaperEdges::matches_rebel(const Edge& edge, const Vec2& x, const MotionFiel
          std::max(2 * parameters_.corner_noise, ray.norm() * std::sin(span));
 }
 
+/// Of all that turned a corner away, the one that came nearest to taking it.
+void PaperEdges::came_to(int corner, Reason reason) {
+  reasons_[corner] = std::max(reasons_[corner], reason);
+}
+
 void PaperEdges::assign(const Layers& layers, const Chi& chi, const MotionField& field) {
   const int normals = static_cast<int>(layers.normal_edges.size());
   const int rebels = static_cast<int>(layers.rebel_edges.size());
@@ -92,6 +97,7 @@ void PaperEdges::assign(const Layers& layers, const Chi& chi, const MotionField&
     return std::sqrt(distance2) - parameters_.trust_bonus * (edge.trust - trust_.critical);
   };
   pairs_.clear();
+  reasons_.assign(chi.size(), Reason::alpha_first);
   for (int i = 0; i < normals; ++i) {
     const Edge& edge = layers.normal_edges[i];
     corner_grid_.visit_within(edge.predicted, edge.mu, [&](int corner, double distance2) {
@@ -99,6 +105,9 @@ void PaperEdges::assign(const Layers& layers, const Chi& chi, const MotionField&
       const double base = cost(edge, distance2);
       if (xi == Xi::two) pairs_.push_back({base, i, corner});
       if (xi == Xi::three) pairs_.push_back({base + parameters_.corner_noise, i, corner});
+      came_to(corner, xi == Xi::five   ? Reason::xi_5
+                      : xi == Xi::four ? Reason::xi_4
+                                       : Reason::outbid);
     });
   }
   for (int i = 0; i < rebels; ++i) {
@@ -107,6 +116,7 @@ void PaperEdges::assign(const Layers& layers, const Chi& chi, const MotionField&
     corner_grid_.visit_within(edge.predicted, reach, [&](int corner, double distance2) {
       if (!matches_rebel(edge, chi.locations[corner], field)) return;
       pairs_.push_back({cost(edge, distance2), normals + i, corner});
+      came_to(corner, Reason::outbid);
     });
   }
   assign_one_to_one(layers.normal_edges.size() + layers.rebel_edges.size(), chi.size());
@@ -152,6 +162,7 @@ void PaperEdges::update_normal(Edge& edge, const Vec2& x, const Chi& chi,
   const Vec2 along = field.direction(edge.location);
   if (!along.isZero()) edge.angle = angle_of(along);
   edge.trust = xi == Xi::two ? trust_.raised(edge.trust) : edge.trust - 1;
+  reasons_[edge.corner] = xi == Xi::two ? Reason::xi_2 : Reason::xi_3;
 }
 
 void PaperEdges::update_rebel(Edge& edge, const Vec2& x, const MotionField& field) {
@@ -165,6 +176,7 @@ void PaperEdges::update_rebel(Edge& edge, const Vec2& x, const MotionField& fiel
   const Vec2 path = edge.location - edge.origin;
   if (!path.isZero()) edge.angle = angle_of(path);
   edge.trust = trust_.raised(edge.trust);
+  reasons_[edge.corner] = Reason::rebel_edge;
 }
 
 /// What becomes of the corners that no edge took. By xi_1 a corner belongs to the layer of a normal
@@ -184,6 +196,7 @@ void PaperEdges::classify_rest(const Layers& layers, const Chi& chi, const Motio
     });
     to_normal_[c] = 1;
     to_alpha_[c] = !further;
+    if (further) reasons_[c] = Reason::xi_1;
   }
 }
 
@@ -226,9 +239,12 @@ void PaperEdges::complete_chains(Layers& layers, const Chi& chi, const MotionFie
       const Vec2 path = x - chain.sightings[0];
       const double bend = angle_between(angle_of(path), angle_of(step));
       const double deviation = path.norm() * std::sin(std::min(bend, kPi / 2));
+      came_to(corner, Reason::alpha_bend);
       if (bend > parameters_.alpha_deviation && deviation > parameters_.corner_noise) return;
+      came_to(corner, Reason::alpha_on_field);
       const double off = chain.off_field_px + off_field(chain.sightings[1], x, field);
       if (off < 2 * parameters_.corner_noise) return;
+      came_to(corner, Reason::alpha_taken);
       pairs_.push_back({distance2, static_cast<int>(i), corner});
     });
   }
@@ -246,6 +262,7 @@ void PaperEdges::complete_chains(Layers& layers, const Chi& chi, const MotionFie
     layers.rebel_edges.push_back(make_rebel(chain, chi.locations[pair.corner], field));
     layers.rebel_edges.back().corner = pair.corner;
     to_alpha_[pair.corner] = to_normal_[pair.corner] = 0;
+    reasons_[pair.corner] = Reason::alpha_third;
   }
 }
 
@@ -264,6 +281,7 @@ void PaperEdges::branch_chains(const Layers& layers, const Chi& chi, const Motio
     std::sort(nearest.begin(), nearest.end());
     const auto branches = std::min(nearest.size(), std::size_t(parameters_.alpha_branches));
     for (std::size_t b = 0; b < branches; ++b) {
+      came_to(nearest[b].second, Reason::alpha_second);
       Chain longer = chain;
       longer.sightings[1] = chi.locations[nearest[b].second];
       longer.count = 2;
@@ -301,6 +319,10 @@ void PaperEdges::update(Layers& layers, const Chi& chi, const MotionField& field
   if (field.dt_s() > 0 || layers.chains.empty()) {
     branch_chains(layers, chi, field);
     layers.chains.swap(grown_);
+  } else {
+    for (std::size_t c = 0; c < chi.size(); ++c) {
+      if (to_alpha_[c]) reasons_[c] = Reason::no_time;
+    }
   }
 
   for (auto* edges : {&layers.normal_edges, &layers.rebel_edges}) {

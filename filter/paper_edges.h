@@ -39,6 +39,7 @@ class PaperEdges : public EdgeExpert {
   double rebel_reach(const Edge& edge, const MotionField& field) const;
   bool matches_rebel(const Edge& edge, const Vec2& x, const MotionField& field) const;
   void assign(const Layers& layers, const Chi& chi, const MotionField& field);
+  void came_to(int corner, Reason reason);
   void update_normal(Edge& edge, const Vec2& x, const Chi& chi, const MotionField& field);
   void update_rebel(Edge& edge, const Vec2& x, const MotionField& field);
   double spread(const Edge& edge, const Chi& chi) const;

@@ -83,6 +83,7 @@ FrameRecord full_frame(Filler& filler, int index) {
   for (int i = 0; i < 6; ++i) {
     frame.corners_px.emplace_back(static_cast<float>(i) + 0.1f, 1.0f / static_cast<float>(i + 3));
     frame.verdicts.push_back(static_cast<Verdict>(i % 4));
+    frame.reasons.push_back(static_cast<Reason>((7 * index + i) % kReasons.size()));
   }
   frame.motion = filler.motion();
   frame.true_motion = filler.motion();
@@ -160,6 +161,7 @@ TEST(RecordingIo, EveryFieldComesBackToTheSameBits) {
     EXPECT_EQ(truth_line(back.frames[k]), truth_line(recording.frames[k]));
     EXPECT_EQ(back.frames[k].corners_px, recording.frames[k].corners_px);
     EXPECT_EQ(back.frames[k].verdicts, recording.frames[k].verdicts);
+    EXPECT_EQ(back.frames[k].reasons, recording.frames[k].reasons);
     EXPECT_EQ(back.frames[k].t_ns, recording.frames[k].t_ns);
     EXPECT_EQ(back.frames[k].motion.R_cur_prev, recording.frames[k].motion.R_cur_prev);
     EXPECT_TRUE(back.frames[k].layers.rebel_edges.front().rebel);
@@ -202,6 +204,15 @@ TEST(RecordingIo, LinesAreJsonWithAKeyForEveryLayer) {
                           "squares", "ignored", "collectors", "chains"}) {
     EXPECT_TRUE(layers.contains(key)) << key;
   }
+}
+
+TEST(RecordingIo, ReasonsThatATrackerDoesNotGiveAreUnknown) {
+  FrameMaker maker(0);
+  maker.corners(2, Verdict::rebel, sim::Label::fixed);
+  const TemporaryFolder folder;
+  write(recording_of({maker}), folder.path());
+  EXPECT_EQ(read_recording(folder.path()).frames[0].reasons,
+            std::vector<Reason>(2, Reason::unknown));
 }
 
 TEST(RecordingIo, ANameThatIsNotUtf8IsStoredWithItsBadBytesReplaced) {

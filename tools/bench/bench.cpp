@@ -43,6 +43,7 @@ void run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracke
       return tracker.step({observation->image, grey, frame.corners_px, frame.motion});
     });
     frame.verdicts = result.verdicts;
+    frame.reasons = result.reasons;
     frame.layers = result.layers;
     times.line_ms = result.times.line_ms;
     times.circle_ms = result.times.circle_ms;

@@ -12,6 +12,7 @@
 
 #include "filter/ego_motion.h"
 #include "filter/layers.h"
+#include "filter/reason.h"
 #include "sim/truth.h"
 
 namespace lcs::bench {
@@ -32,6 +33,7 @@ struct FrameRecord {
   std::int64_t t_ns = 0;
   std::vector<Eigen::Vector2f> corners_px;  ///< chi
   std::vector<Verdict> verdicts;            ///< of each corner
+  std::vector<Reason> reasons;              ///< of each verdict; empty where none are given
   Layers layers;
   EgoMotion motion;                            ///< since the last frame, as the tracker was told
   EgoMotion true_motion;                       ///< likewise, from the exact poses

@@ -7,6 +7,7 @@
 
 #include "filter/ego_motion.h"
 #include "filter/layers.h"
+#include "filter/reason.h"
 #include "sim/truth.h"
 
 namespace lcs::bench {
@@ -17,8 +18,17 @@ inline constexpr std::array<const char*, 4> kVerdicts{"ignored", "pending", "nor
 inline constexpr std::array<const char*, 4> kLabels{"none", "fixed", "indistinct", "rebel"};
 inline constexpr std::array<const char*, 3> kShapes{"", "circle", "rectangle"};  // Ty begins at 1
 
+inline constexpr auto kReasonWords = [] {
+  std::array<const char*, kReasons.size()> words{};
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] = kReasons[i].word;
+  return words;
+}();
+
 inline const auto& names_of(Verdict) {
   return kVerdicts;
+}
+inline const auto& names_of(Reason) {
+  return kReasonWords;
 }
 inline const auto& names_of(sim::Label) {
   return kLabels;
@@ -39,11 +49,12 @@ struct OrNan {  ///< NaN, as the motion of a point that leaves the camera's fron
 };
 ///@}
 
-/// A corner with its verdict, as `layers.jsonl` has them.
+/// A corner with its verdict and the rule that settled it, as `layers.jsonl` has them.
 struct CornerRow {
   double x = 0;
   double y = 0;
   Verdict verdict = Verdict::pending;
+  Reason reason = Reason::unknown;
 };
 
 /// A row of alpha, with as many sightings as it has.
@@ -58,10 +69,11 @@ struct ChainRow {
 
 template <class Visit>
 void fields(CornerRow& corner, Visit&& visit) {
-  auto& [x, y, verdict] = corner;
+  auto& [x, y, verdict, reason] = corner;
   visit("x", x);
   visit("y", y);
   visit("verdict", verdict);
+  visit("reason", reason);
 }
 
 template <class Visit>

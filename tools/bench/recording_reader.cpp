@@ -108,6 +108,7 @@ void read_layers(const Json& json, FrameRecord& frame) {
   for (const CornerRow& corner : read_columns<CornerRow>(json.at("corners"))) {
     frame.corners_px.push_back(Vec2(corner.x, corner.y).cast<float>());
     frame.verdicts.push_back(corner.verdict);
+    frame.reasons.push_back(corner.reason);
   }
   Layers& layers = frame.layers;
   layers.normal_edges = read_columns<Edge>(json.at("normal_edges"));

@@ -159,7 +159,8 @@ std::vector<CornerRow> corner_rows(const FrameRecord& frame) {
   std::vector<CornerRow> rows;
   rows.reserve(frame.corners_px.size());
   for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
-    rows.push_back({frame.corners_px[i].x(), frame.corners_px[i].y(), frame.verdicts.at(i)});
+    rows.push_back({frame.corners_px[i].x(), frame.corners_px[i].y(), frame.verdicts.at(i),
+                    frame.reasons.empty() ? Reason::unknown : frame.reasons.at(i)});
   }
   return rows;
 }

@@ -173,6 +173,7 @@ ExitCode replay(const ReplayOptions& options) {
       return filter->step(frame.corners_px, frame.motion);
     });
     frame.verdicts = said.verdicts;
+    frame.reasons = said.reasons;
     frame.layers = said.layers;
     times.line_ms = said.times.line_ms;
     times.circle_ms = said.times.circle_ms;

@@ -1,0 +1,100 @@
+/// \file
+/// Which rule settled a corner: for every verdict the branch that it came from, so that a rebel
+/// that was missed, or a false one, can be traced to its cause.
+///
+/// A corner passes several tests in a row; the reason is the last one that decided. Where several
+/// edges or rows turned a corner away, the one that came nearest to taking it counts: the reasons
+/// of the paper's rule are declared in that order.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace lcs {
+
+enum class Reason : std::uint8_t {
+  unknown,  // The tracker gives no reasons.
+
+  // Both rules.
+  not_finite,
+  in_psi,
+  no_past,
+  no_time,
+  normal_edge,
+  rebel_edge,
+
+  // `EdgeRule::constellation`: the vote of the neighbours, on corners that no trusted edge
+  // explains,
+  few_neighbours,
+  vote_floor,
+  static_wins,
+  vote_on_field,
+  voted,
+  // then the support of the rebel edges that came of it or were there before,
+  rebel_alone,
+  rebel_on_field,
+  // then the neighbours' verdicts.
+  normal_stands,
+  inherited,
+
+  // `EdgeRule::paper`: no edge took the corner, so that it starts a row of alpha,
+  alpha_first,
+  xi_5,
+  xi_4,
+  outbid,
+  // or belongs to a normal edge's layer,
+  xi_1,
+  // or goes on with a row of alpha,
+  alpha_second,
+  alpha_bend,
+  alpha_on_field,
+  alpha_taken,
+  alpha_third,
+  // or a normal edge took it.
+  xi_3,
+  xi_2,
+};
+
+struct ReasonText {
+  const char* word;     ///< in files
+  const char* meaning;  ///< for people, to stand behind a share of corners
+};
+
+/// By the order of `Reason`. For each, the verdicts that it may come with.
+inline constexpr std::array<ReasonText, 28> kReasons{{
+    {"unknown", "no reason given"},
+    {"not_finite", "its place is not a number"},                                  // pending
+    {"in_psi", "inside a region psi that was not looked at"},                     // ignored
+    {"no_past", "too few frames seen so far"},                                    // pending
+    {"no_time", "no time has passed since the frame before"},                     // pending
+    {"normal_edge", "taken by a normal edge"},                                    // normal
+    {"rebel_edge", "taken by a rebel edge"},                                      // rebel
+    {"few_neighbours", "too few undecided neighbours to vote"},                   // normal, pending
+    {"vote_floor", "no motion has enough of the neighbours' votes"},              // normal, pending
+    {"static_wins", "a static explanation of the neighbours is as good"},         // normal, pending
+    {"vote_on_field", "the motion voted for may be a static point's"},            // normal, pending
+    {"voted", "the neighbours' vote made it a rebel edge"},                       // rebel
+    {"rebel_alone", "its rebel edge has too few others of like motion near"},     // pending
+    {"rebel_on_field", "its rebel edge's group moves as static points may"},      // pending
+    {"normal_stands", "among rebels, but a fully trusted normal edge has it"},    // normal
+    {"inherited", "most of its decided neighbours are rebels"},                   // rebel
+    {"alpha_first", "near no edge and on no row of alpha: starts one"},           // pending
+    {"xi_5", "outside the span of the edges near it: starts a row of alpha"},     // pending
+    {"xi_4", "against the field or too fast for it: starts a row of alpha"},      // pending
+    {"outbid", "fits an edge that took a better corner: starts a row of alpha"},  // pending
+    {"xi_1", "a further corner of a normal edge's layer, outside its radius mu"},        // pending
+    {"alpha_second", "second of a row of alpha, third of none"},                         // pending
+    {"alpha_bend", "broke a row of alpha at its third: off the line (deviation)"},       // pending
+    {"alpha_on_field", "broke a row of alpha at its third: static points may move so"},  // pending
+    {"alpha_taken", "third of a row of alpha that took a better corner"},                // pending
+    {"alpha_third", "third of a row of alpha: a new rebel edge"},                        // rebel
+    {"xi_3", "taken by a normal edge, short of its prediction"},                         // normal
+    {"xi_2", "taken by a normal edge, at its prediction or beyond"},                     // normal
+}};
+static_assert(kReasons.size() == static_cast<std::size_t>(Reason::xi_2) + 1);
+
+constexpr const ReasonText& text_of(Reason reason) {
+  return kReasons[static_cast<std::size_t>(reason)];
+}
+
+}  // namespace lcs
