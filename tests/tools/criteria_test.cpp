@@ -33,6 +33,17 @@ TEST(Criteria, AFailureNamesMetricValueBoundsAndLine) {
   EXPECT_FALSE(failed[0].required);
 }
 
+TEST(Criteria, ThoseThatAreMetAreJudgedToo) {
+  const auto judged =
+      judge({criterion("rebel.f1", 0.4, {}), criterion("rebel.f1", 0.6, {})}, kMetrics);
+  ASSERT_EQ(judged.size(), 2u);
+  EXPECT_TRUE(judged[0].met);
+  EXPECT_EQ(judged[0].figure, 0.5);
+  EXPECT_EQ(judged[0].message, "");
+  EXPECT_FALSE(judged[1].met);
+  EXPECT_NE(judged[1].message, "");
+}
+
 TEST(Criteria, AnUnknownMetricIsRefusedAtItsLineWithTheNearestOne) {
   EXPECT_NO_THROW(require_known_metrics({criterion("rebel.f1", 0.6, {})}));
   try {

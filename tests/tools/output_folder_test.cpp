@@ -129,6 +129,65 @@ TEST_F(OutputFolderTest, WhatBecameForeignDuringTheRunIsNotReplaced) {
   EXPECT_EQ(read(top_ / "run" / "thesis.tex"), "precious");
 }
 
+class NestedOutputFolder : public OutputFolderTest {
+ protected:
+  const std::vector<std::string> kNested{"suite.json", "runs/*/seed-*/metrics.json"};
+  NestedOutputFolder() {
+    OutputFolder folder(target_, kNested);
+    write(folder.staging() / "suite.json", "old");
+    fs::create_directories(folder.staging() / "runs" / "near" / "seed-1");
+    write(folder.staging() / "runs" / "near" / "seed-1" / "metrics.json", "old");
+    folder.commit();
+  }
+  std::string refusal() const {
+    try {
+      const OutputFolder folder(target_, kNested);
+    } catch (const OutputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  const fs::path target_ = top_ / "suite";
+};
+
+TEST_F(NestedOutputFolder, IsReplacedAsAWhole) {
+  {
+    OutputFolder folder(target_, kNested);
+    write(folder.staging() / "suite.json", "new");
+    folder.commit();
+  }
+  EXPECT_EQ(read(target_ / "suite.json"), "new");
+  EXPECT_EQ(entries(target_), std::set<std::string>{"suite.json"});
+  EXPECT_EQ(entries(top_), std::set<std::string>{"suite"});
+}
+
+TEST_F(NestedOutputFolder, IsRefusedWhateverForeignLiesHoweverDeep) {
+  for (const fs::path foreign :
+       {"runs/thesis.tex", "runs/near/thesis.tex", "runs/near/seed-1/thesis.tex",
+        "runs/near/seed-1/thesis/metrics.json", "runs/near/notes/metrics.json", "metrics.json",
+        "runs/metrics.json", "suite.json/thesis.tex"}) {
+    const bool replaces_file = foreign.parent_path() == "suite.json";
+    if (replaces_file) fs::remove(target_ / "suite.json");
+    fs::create_directories((target_ / foreign).parent_path());
+    write(target_ / foreign, "precious");
+    const std::string refused = refusal();
+    EXPECT_NE(refused.find("would be lost"), std::string::npos) << foreign;
+    EXPECT_EQ(read(target_ / foreign), "precious");
+    fs::remove(target_ / foreign);
+    for (const char* folder : {"runs/near/seed-1/thesis", "runs/near/notes"}) {
+      fs::remove(target_ / folder);
+    }
+  }
+}
+
+TEST_F(NestedOutputFolder, ALinkInsideItIsForeignAndNotFollowed) {
+  fs::create_directory(top_ / "papers");
+  write(top_ / "papers" / "metrics.json", "precious");
+  fs::create_directory_symlink(top_ / "papers", target_ / "runs" / "near" / "seed-2");
+  EXPECT_NE(refusal().find("runs/near/seed-2"), std::string::npos) << refusal();
+  EXPECT_EQ(read(top_ / "papers" / "metrics.json"), "precious");
+}
+
 TEST_F(OutputFolderTest, ATargetThatCannotBeIsRefusedWithTheReason) {
   write(top_ / "file", "");
   EXPECT_NE(refusal(top_ / "file").find("is not a folder"), std::string::npos);

@@ -122,6 +122,31 @@ TEST(MetricsJson, IsFlatWithEveryMetricInOrderAndNullForWhatIsUndefined) {
   EXPECT_GT(undefined, 0);
 }
 
+TEST(MetricsJson, ComesBackToTheLastBit) {
+  const TemporaryFolder folder;
+  const Metrics metrics = score(five_frames(true));
+  write_metrics(folder.path() / kMetricsFile, metrics);
+  EXPECT_EQ(read_metrics(folder.path() / kMetricsFile), metrics);
+}
+
+TEST(MetricsJson, ThatIsMissingOrDamagedIsNamed) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / kMetricsFile;
+  const auto refusal = [&]() -> std::string {
+    try {
+      read_metrics(path);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal().find(path.string()), std::string::npos) << "missing";
+  for (const char* text : {"", "{\"rebel.f1\": 0.5", "{\"rebel.f1\": \"much\"}"}) {
+    std::ofstream(path) << text;
+    EXPECT_NE(refusal().find(path.string()), std::string::npos) << text;
+  }
+}
+
 TEST(Table, IsAFewLinesThatFitATerminalAndShowsADashForWhatIsUndefined) {
   for (const Recording& recording : {Recording{}, five_frames(true)}) {
     std::istringstream text(table(score(recording)));

@@ -43,16 +43,27 @@ void require_known_metrics(const std::vector<scenario::Criterion>& criteria) {
   }
 }
 
+std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& criteria,
+                                   const Metrics& metrics) {
+  std::vector<JudgedCriterion> judged;
+  for (const scenario::Criterion& criterion : criteria) {
+    JudgedCriterion& one = judged.emplace_back();
+    one.figure = value(metrics, criterion.metric);
+    one.met = is_met(criterion, one.figure);
+    if (one.met) continue;
+    one.message = fmt::format("{}: {} is {}, must be {}", place(criterion.source), criterion.metric,
+                              one.figure ? fmt::format("{:.4g}", *one.figure) : "undefined",
+                              bounds(criterion));
+  }
+  return judged;
+}
+
 std::vector<FailedCriterion> failed_criteria(const std::vector<scenario::Criterion>& criteria,
                                              const Metrics& metrics) {
+  const std::vector<JudgedCriterion> judged = judge(criteria, metrics);
   std::vector<FailedCriterion> failed;
-  for (const scenario::Criterion& criterion : criteria) {
-    const std::optional<double> figure = value(metrics, criterion.metric);
-    if (is_met(criterion, figure)) continue;
-    failed.push_back(
-        {criterion.required,
-         fmt::format("{}: {} is {}, must be {}", place(criterion.source), criterion.metric,
-                     figure ? fmt::format("{:.4g}", *figure) : "undefined", bounds(criterion))});
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    if (!judged[i].met) failed.push_back({criteria[i].required, judged[i].message});
   }
   return failed;
 }

@@ -31,6 +31,23 @@ fs::path beside(const fs::path& target, std::string_view suffix) {
   return path;
 }
 
+bool name_fits(std::string_view name, std::string_view pattern) {
+  if (pattern == "*") return true;
+  if (pattern.ends_with('*')) return name.starts_with(pattern.substr(0, pattern.size() - 1));
+  if (pattern.starts_with('*')) return name.ends_with(pattern.substr(1));
+  return name == pattern;
+}
+
+/// A file fits a pattern as a whole, a folder the beginning of one.
+bool fits(const fs::path& within, bool is_folder, const fs::path& pattern) {
+  auto part = pattern.begin();
+  for (const fs::path& name : within) {
+    if (part == pattern.end() || !name_fits(name.native(), part->native())) return false;
+    ++part;
+  }
+  return (part != pattern.end()) == is_folder;
+}
+
 }  // namespace
 
 OutputFolder::OutputFolder(const fs::path& target, std::vector<std::string> files)
@@ -60,16 +77,16 @@ void OutputFolder::require_replaceable() const {
     throw OutputError(target_.string() + " is not a folder; choose another one with --out");
   }
   bool is_empty = true;
-  for (fs::directory_iterator entry(target_, error); !error && entry != fs::directory_iterator();
-       entry.increment(error)) {
+  for (fs::recursive_directory_iterator entry(target_, error);
+       !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
     is_empty = false;
-    const std::string name = entry->path().filename().string();
-    if (std::find(files_.begin(), files_.end(), name) == files_.end()) {
-      throw OutputError(fmt::format(
-          "{} holds {}, which is not a result of an earlier run and would be lost; choose another "
-          "folder with --out, or move it away",
-          target_.string(), name));
-    }
+    const fs::path within = entry->path().lexically_relative(target_);
+    const bool is_folder = entry->symlink_status().type() == fs::file_type::directory;
+    if (is_own(within, is_folder)) continue;
+    throw OutputError(fmt::format(
+        "{} holds {}, which is not a result of an earlier run and would be lost; choose another "
+        "folder with --out, or move it away",
+        target_.string(), within.string()));
   }
   if (error) fail("read", target_, error);
   if (!is_empty && !fs::exists(target_ / files_.front())) {
@@ -78,6 +95,11 @@ void OutputFolder::require_replaceable() const {
         "another folder with --out",
         target_.string(), files_.front()));
   }
+}
+
+bool OutputFolder::is_own(const fs::path& within, bool is_folder) const {
+  return std::any_of(files_.begin(), files_.end(),
+                     [&](const std::string& pattern) { return fits(within, is_folder, pattern); });
 }
 
 void OutputFolder::make_parents() {

@@ -15,8 +15,9 @@ namespace lcs::bench {
 class OutputFolder {
  public:
   /// Makes the staging folder, and the folders above it where they are missing.
-  /// \param files names that a result may consist of. A target that holds any other file, or lacks
-  ///   the first of them, is not an earlier result.
+  /// \param files that a result may consist of, as paths within it. A name may start or end with
+  ///   `*`, which stands for anything: "runs/*/seed-*/metrics.json". A target that holds anything
+  ///   else, or lacks the first of them, is not an earlier result.
   /// \throws OutputError for a target that cannot be written, or holds something else.
   OutputFolder(const std::filesystem::path& target, std::vector<std::string> files);
 
@@ -35,6 +36,7 @@ class OutputFolder {
 
  private:
   void require_replaceable() const;
+  bool is_own(const std::filesystem::path& within, bool is_folder) const;
   void make_parents();
 
   std::vector<std::string> files_;

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -73,6 +76,22 @@ void write_metrics(const std::filesystem::path& path, const Metrics& metrics) {
   OutputFile file(path);
   file.write(text);
   file.close();
+}
+
+Metrics read_metrics(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot read " + path.string());
+  try {
+    const auto json = nlohmann::ordered_json::parse(file);
+    Metrics metrics;
+    for (const auto& [name, figure] : json.items()) {
+      metrics.emplace_back(name,
+                           figure.is_null() ? std::nullopt : std::optional(figure.get<double>()));
+    }
+    return metrics;
+  } catch (const std::exception& error) {
+    throw std::runtime_error(path.string() + ": " + error.what());
+  }
 }
 
 void write_frames(const std::filesystem::path& path, const Recording& recording) {

@@ -16,6 +16,10 @@ inline constexpr const char* kFramesFile = "frames.csv";
 /// Flat JSON, null for what is undefined. \throws OutputError
 void write_metrics(const std::filesystem::path& path, const Metrics& metrics);
 
+/// What `write_metrics` wrote, to the last bit.
+/// \throws std::runtime_error naming file and what is wrong with it.
+Metrics read_metrics(const std::filesystem::path& path);
+
 /// A header and a row a frame: sizes, counts of rebels, precision and recall (empty where
 /// undefined), times in ms (empty for a recording without). \throws OutputError;
 /// std::invalid_argument as `score`.
