@@ -4,9 +4,13 @@
 
 namespace lcs::bench {
 
+std::vector<std::string> result_files() {
+  return {kMetricsFile, kFramesFile, kLayersFile, kTruthFile, kVideoFile};
+}
+
 Result::Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,
                std::optional<double> frames_per_second)
-    : folder_(target, {kMetricsFile, kFramesFile, kLayersFile, kTruthFile, kVideoFile}),
+    : folder_(target, result_files()),
       writer_(folder_.staging(), run),
       painter_(image_px) {
   if (frames_per_second) {

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "tools/bench/frame_painter.h"
 #include "tools/bench/output_folder.h"
@@ -13,6 +15,9 @@
 #include "tools/bench/video.h"
 
 namespace lcs::bench {
+
+/// Names of all files that a run's folder may hold; the first one always is there.
+std::vector<std::string> result_files();
 
 class Result {
  public:
