@@ -12,6 +12,7 @@
 
 #include "tests/tools/command.h"
 #include "tests/tools/temporary_folder.h"
+#include "tools/bench/events.h"
 #include "tools/bench/recording_io.h"
 #include "tools/bench/report.h"
 #include "tools/bench/scoring.h"
@@ -141,6 +142,40 @@ TEST_F(Run, AFilterSettingReachesTheFilter) {
   ASSERT_EQ(run(brief({"--out", "b", "--set", "filter.circle.min_members=6"})).exit_code, 0);
   EXPECT_FALSE(read(folder_.path() / "a" / kLayersFile) ==
                read(folder_.path() / "b" / kLayersFile));
+}
+
+TEST_F(Run, EventsAreWrittenWithPicturesAndChangeNothingElse) {
+  // Frames in which the movers come: the first that count are missed.
+  const std::vector<std::string> some{kScenarios / "approaching.yaml", "--set", "frames=16",
+                                      "--no-video"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), some.begin(), some.end());
+    return run(more);
+  };
+  ASSERT_EQ(with({"--out", "plain"}).exit_code, 0);
+  ASSERT_EQ(with({"--out", "told", "--events"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_.path() / "plain" / kEventsFile));
+  EXPECT_EQ(read(folder_.path() / "plain" / kLayersFile),
+            read(folder_.path() / "told" / kLayersFile));
+
+  const std::vector<Event> events = read_events(folder_.path() / "told" / kEventsFile);
+  ASSERT_FALSE(events.empty());
+  double missed = 0;
+  for (const Event& event : events) {
+    int of_reasons = 0;
+    for (const auto& [reason, corners] : event.reasons) of_reasons += corners;
+    EXPECT_EQ(of_reasons, event.corners);
+    EXPECT_GE(event.views.size(), 3u);
+    for (const EventView& view : event.views) {
+      EXPECT_EQ(view.jpeg_base64.rfind("/9j/", 0), 0u);  // how every JPEG begins
+    }
+    missed += event.of > 0 ? event.corners : 0;
+  }
+  const nlohmann::json told = metrics("told");
+  const double all_missed =
+      told["truth.rebel_corners"].get<double>() * (1 - told["rebel.recall"].get<double>());
+  EXPECT_GT(missed, 0);
+  EXPECT_LE(missed, all_missed + 0.5);
 }
 
 TEST_F(Run, PrintsProgressOnStderrAndTheTableOnStdout) {

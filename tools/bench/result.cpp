@@ -5,22 +5,23 @@
 namespace lcs::bench {
 
 std::vector<std::string> result_files() {
-  return {kMetricsFile, kFramesFile, kLayersFile, kTruthFile, kVideoFile};
+  return {kMetricsFile, kFramesFile, kLayersFile, kTruthFile, kVideoFile, kEventsFile};
 }
 
 Result::Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,
-               std::optional<double> frames_per_second)
-    : folder_(target, result_files()),
-      writer_(folder_.staging(), run),
-      painter_(image_px) {
-  if (frames_per_second) {
-    video_.emplace(folder_.staging() / kVideoFile, painter_.size_px(), *frames_per_second);
+               const ResultOptions& options)
+    : folder_(target, result_files()), writer_(folder_.staging(), run), painter_(image_px) {
+  if (options.video_frames_per_second) {
+    video_.emplace(folder_.staging() / kVideoFile, painter_.size_px(),
+                   *options.video_frames_per_second);
   }
+  if (options.events) pictures_.emplace();
 }
 
 void Result::add(const FrameRecord& frame, const cv::Mat3b& image) {
   writer_.write(frame);
   if (video_) video_->write(painter_.paint(frame, image));
+  if (pictures_) pictures_->add(image);
 }
 
 Metrics Result::finish(const Recording& run) {
@@ -29,6 +30,11 @@ Metrics Result::finish(const Recording& run) {
   Metrics metrics = score(run);
   write_metrics(folder_.staging() / kMetricsFile, metrics);
   write_frames(folder_.staging() / kFramesFile, run);
+  if (pictures_) {
+    std::vector<Event> events = find_events(run);
+    paint_events(run, *pictures_, events);
+    write_events(folder_.staging() / kEventsFile, events);
+  }
   folder_.commit();
   return metrics;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/event_pictures.h"
 #include "tools/bench/frame_painter.h"
 #include "tools/bench/output_folder.h"
 #include "tools/bench/recording_io.h"
@@ -19,13 +20,18 @@ namespace lcs::bench {
 /// Names of all files that a run's folder may hold; the first one always is there.
 std::vector<std::string> result_files();
 
+/// What a result holds beside its figures.
+struct ResultOptions {
+  std::optional<double> video_frames_per_second;  ///< none: no video
+  bool events = false;                            ///< where the run went wrong, with pictures
+};
+
 class Result {
  public:
   /// \param run whose frames will come.
-  /// \param frames_per_second of the video; none: no video.
   /// \throws OutputError for a target that cannot be written, or holds something else.
   Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,
-         std::optional<double> frames_per_second);
+         const ResultOptions& options);
 
   /// \throws OutputError
   void add(const FrameRecord& frame, const cv::Mat3b& image);
@@ -41,6 +47,7 @@ class Result {
   RecordingWriter writer_;
   FramePainter painter_;
   std::optional<Video> video_;
+  std::optional<FramePictures> pictures_;
 };
 
 }  // namespace lcs::bench

@@ -7,9 +7,6 @@
 namespace lcs::bench {
 namespace {
 
-/// At least this many rebel corners on an object count as having found it.
-constexpr int kCornersToFind = 3;
-
 /// In which frames an object is distinct: some corner of it is labelled rebel.
 struct Distinct {
   int first = 0;  ///< k0
@@ -31,20 +28,26 @@ std::map<int, Distinct> distinct_objects(const Recording& recording) {
   return found;
 }
 
-RebelCounts counts(bool said_rebel, sim::Label label, bool counted_by_recall) {
-  RebelCounts counts;
+CornerOutcome outcome(bool said_rebel, sim::Label label, bool counted_by_recall) {
   if (label == sim::Label::fixed) {
-    counts.false_rebels = said_rebel;
-  } else {
-    counts.true_rebels = said_rebel;
-    counts.found_rebels = said_rebel && counted_by_recall;
-    counts.missed_rebels = !said_rebel && counted_by_recall;
+    return said_rebel ? CornerOutcome::false_rebel : CornerOutcome::fixed;
   }
+  if (counted_by_recall) return said_rebel ? CornerOutcome::found : CornerOutcome::missed;
+  return said_rebel ? CornerOutcome::found_early : CornerOutcome::missed_early;
+}
+
+RebelCounts counts(CornerOutcome outcome) {
+  RebelCounts counts;
+  const bool found = outcome == CornerOutcome::found;
+  counts.true_rebels = found || outcome == CornerOutcome::found_early;
+  counts.false_rebels = outcome == CornerOutcome::false_rebel;
+  counts.found_rebels = found;
+  counts.missed_rebels = outcome == CornerOutcome::missed;
   return counts;
 }
 
-/// First frame from k0 on with enough rebel corners on the object; -1 for none.
-int found_at(const Recording& recording, int object, int k0) {
+/// First frame from k0 on with enough rebel corners on the object.
+std::optional<int> found_at(const Recording& recording, int object, int k0) {
   for (const FrameRecord& frame : recording.frames) {
     if (frame.index < k0) continue;
     int rebels = 0;
@@ -53,7 +56,7 @@ int found_at(const Recording& recording, int object, int k0) {
     }
     if (rebels >= kCornersToFind) return frame.index;
   }
-  return -1;
+  return std::nullopt;
 }
 
 std::set<int> moving_objects(const FrameRecord& frame) {
@@ -70,20 +73,6 @@ bool contains(const sim::ObjectTruth& box, const Vec2& px) {
          px.y() >= box.top - 0.5 && px.y() <= box.bottom - 0.5;
 }
 
-bool has_moving_object_under(const Circle& circle, const FrameRecord& frame,
-                             const std::set<int>& moving) {
-  const bool centre_in_box = std::any_of(frame.object_truth.begin(), frame.object_truth.end(),
-                                         [&](const sim::ObjectTruth& truth) {
-                                           return truth.moving && contains(truth, circle.location);
-                                         });
-  if (centre_in_box) return true;
-  for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
-    const double distance = (frame.corners_px[i].cast<double>() - circle.location).norm();
-    if (distance <= circle.radius && moving.contains(frame.corner_truth[i].object)) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 RebelCornerScore& RebelCornerScore::operator+=(const RebelCornerScore& other) {
@@ -94,11 +83,11 @@ RebelCornerScore& RebelCornerScore::operator+=(const RebelCornerScore& other) {
   return *this;
 }
 
-std::vector<RebelCornerScore> score_rebel_corners(const Recording& recording) {
+std::vector<std::vector<CornerOutcome>> corner_outcomes(const Recording& recording) {
   const std::map<int, Distinct> distinct = distinct_objects(recording);
-  std::vector<RebelCornerScore> scores;
+  std::vector<std::vector<CornerOutcome>> outcomes;
   for (const FrameRecord& frame : recording.frames) {
-    RebelCornerScore& score = scores.emplace_back();
+    auto& of_frame = outcomes.emplace_back(frame.corner_truth.size(), CornerOutcome::uncounted);
     if (frame.index < kSightings) continue;
     for (std::size_t i = 0; i < frame.corner_truth.size(); ++i) {
       const sim::CornerTruth& truth = frame.corner_truth[i];
@@ -106,33 +95,75 @@ std::vector<RebelCornerScore> score_rebel_corners(const Recording& recording) {
       if (!is_rebel && truth.label != sim::Label::fixed) continue;
       const bool by_recall =
           is_rebel && frame.index >= distinct.at(truth.object).first + kSightings;
-      const RebelCounts of_corner =
-          counts(frame.verdicts[i] == Verdict::rebel, truth.label, by_recall);
+      of_frame[i] = outcome(frame.verdicts[i] == Verdict::rebel, truth.label, by_recall);
+    }
+  }
+  return outcomes;
+}
+
+std::vector<RebelCornerScore> score_rebel_corners(const Recording& recording) {
+  std::vector<RebelCornerScore> scores;
+  for (const std::vector<CornerOutcome>& outcomes : corner_outcomes(recording)) {
+    const FrameRecord& frame = recording.frames[scores.size()];
+    RebelCornerScore& score = scores.emplace_back();
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      const sim::CornerTruth& truth = frame.corner_truth[i];
+      const RebelCounts of_corner = counts(outcomes[i]);
       score.overall += of_corner;
-      (is_rebel && truth.radial ? score.radial : score.distinct) += of_corner;
-      score.fixed_corners += !is_rebel;
+      const bool is_radial = truth.label == sim::Label::rebel && truth.radial;
+      (is_radial ? score.radial : score.distinct) += of_corner;
+      score.fixed_corners +=
+          outcomes[i] == CornerOutcome::fixed || outcomes[i] == CornerOutcome::false_rebel;
     }
   }
   return scores;
 }
 
+std::vector<ObjectDetection> detect_objects(const Recording& recording) {
+  std::vector<ObjectDetection> detections;
+  for (const auto& [object, distinct] : distinct_objects(recording)) {
+    detections.push_back({.object = object,
+                          .first_distinct = distinct.first,
+                          .distinct_frames = distinct.frames,
+                          .found_at = found_at(recording, object, distinct.first)});
+  }
+  return detections;
+}
+
+bool has_mover_under(const FrameRecord& frame, const Vec2& centre_px, double radius_px) {
+  const bool centre_in_box = std::any_of(
+      frame.object_truth.begin(), frame.object_truth.end(),
+      [&](const sim::ObjectTruth& truth) { return truth.moving && contains(truth, centre_px); });
+  if (centre_in_box) return true;
+  const std::set<int> moving = moving_objects(frame);
+  for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
+    const double distance = (frame.corners_px[i].cast<double>() - centre_px).norm();
+    if (distance <= radius_px && moving.contains(frame.corner_truth[i].object)) return true;
+  }
+  return false;
+}
+
+std::vector<const Circle*> false_circles(const FrameRecord& frame) {
+  std::vector<const Circle*> alone;
+  for (const Circle& circle : frame.layers.rebel_circles) {
+    if (!has_mover_under(frame, circle.location, circle.radius)) alone.push_back(&circle);
+  }
+  return alone;
+}
+
 RebelObjectScore score_rebel_objects(const Recording& recording) {
   RebelObjectScore score;
-  for (const auto& [object, distinct] : distinct_objects(recording)) {
-    if (distinct.frames < kSightings) continue;
+  for (const ObjectDetection& object : detect_objects(recording)) {
+    if (object.distinct_frames < kSightings) continue;
     ++score.objects;
-    const int found = found_at(recording, object, distinct.first);
-    if (found < 0) continue;
+    if (!object.found_at) continue;
     ++score.found;
-    score.latencies.push_back(found - distinct.first);
+    score.latencies.push_back(*object.found_at - object.first_distinct);
   }
   for (const FrameRecord& frame : recording.frames) {
     if (frame.index < kSightings) continue;
     ++score.frames;
-    const std::set<int> moving = moving_objects(frame);
-    for (const Circle& circle : frame.layers.rebel_circles) {
-      score.false_circles += !has_moving_object_under(circle, frame, moving);
-    }
+    score.false_circles += static_cast<int>(false_circles(frame).size());
   }
   return score;
 }

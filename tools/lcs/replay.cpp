@@ -153,8 +153,10 @@ ExitCode replay(const ReplayOptions& options) {
       filter.emplace(
           Intrinsics{options.focal_px, 0.5 * (size - Vec2(1, 1)), image->cols, image->rows},
           parameters);
-      result.emplace(target_of(options), recording, image->size(),
-                     options.no_video ? std::nullopt : std::optional(options.fps));
+      result.emplace(
+          target_of(options), recording, image->size(),
+          bench::ResultOptions{.video_frames_per_second =
+                                   options.no_video ? std::nullopt : std::optional(options.fps)});
     }
     bench::FrameRecord& frame = recording.frames.emplace_back();
     frame.index = static_cast<int>(recording.frames.size()) - 1;

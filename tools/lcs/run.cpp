@@ -32,6 +32,8 @@ Files written to the folder, all or none:
   layers.jsonl   a line a frame: corners, verdicts, every layer
   truth.jsonl    a line a frame: the truth of every corner and object
   video.mp4      the paper's four panels: corners, edges, circles, squares
+  events.json    with --events: the worst misses and false alarms, with the rules that the corners
+                 met their end by, and JPEG pictures
 
 Exit codes:
   0  fine
@@ -85,6 +87,8 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
                   "What watches: lcs (the filter), or klt or homography to compare it with")
       ->type_name("NAME");
   command.add_flag("--no-video", options.no_video, "Write no video.mp4");
+  command.add_flag("--events", options.events,
+                   "Write events.json: where rebels were missed or false, why, and pictures of it");
   command.add_flag("--quiet", options.quiet,
                    "Print neither progress nor figures, only what went wrong");
   command.footer(kHelp);
@@ -105,8 +109,11 @@ ExitCode run(const RunOptions& options) {
   const std::unique_ptr<bench::Tracker> tracker = detector.make(camera, scenario);
 
   bench::Recording recording = bench::begin_recording(scenario, simulation);
-  bench::Result result(target_of(options, scenario), recording, {camera.width_px, camera.height_px},
-                       options.no_video ? std::nullopt : std::optional(scenario.camera.rate_hz));
+  bench::Result result(
+      target_of(options, scenario), recording, {camera.width_px, camera.height_px},
+      {.video_frames_per_second =
+           options.no_video ? std::nullopt : std::optional(scenario.camera.rate_hz),
+       .events = options.events});
   {
     Progress progress(scenario.name, scenario.frames, options.quiet);
     bench::run(scenario, simulation, *tracker, recording,

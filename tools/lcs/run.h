@@ -20,6 +20,7 @@ struct RunOptions {
   std::vector<std::string> sets;  ///< "key=value"
   std::string detector = "lcs";
   bool no_video = false;
+  bool events = false;
   bool quiet = false;
 };
 
