@@ -11,6 +11,7 @@
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/replay.h"
 #include "tools/lcs/run.h"
+#include "tools/lcs/suite.h"
 #include "tools/lcs/version.h"
 
 namespace {
@@ -22,6 +23,7 @@ constexpr const char* kHelp =
 through its camera and IMU, and the simulator's truth scores what the filter says.
 
   lcs run scenarios/crossing.yaml     run a scenario; results are in out/crossing
+  lcs suite                           run all short scenarios, with several seeds each
   lcs replay --images DIR ...         the filter on a folder of pictures
   lcs run --help                      all about a command
 )";
@@ -41,6 +43,8 @@ int run_command_line(int argc, char** argv) {
   add_run_command(app, run_options);
   ReplayOptions replay_options;
   const CLI::App& replay_command = add_replay_command(app, replay_options);
+  SuiteOptions suite_options;
+  const CLI::App& suite_command = add_suite_command(app, suite_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
@@ -50,6 +54,7 @@ int run_command_line(int argc, char** argv) {
     const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
     return fail(fmt::format("{}; see lcs {}--help", error.what(), command));
   }
+  if (suite_command.parsed()) return suite(suite_options);
   return replay_command.parsed() ? replay(replay_options) : run(run_options);
 }
 

@@ -1,0 +1,194 @@
+#include "tools/lcs/suite.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <thread>
+
+#include "tools/bench/output_folder.h"
+#include "tools/comparators/detectors.h"
+#include "tools/lcs/interrupt.h"
+#include "tools/lcs/suite_progress.h"
+#include "tools/lcs/version.h"
+#include "tools/suite/junit.h"
+#include "tools/suite/plan.h"
+#include "tools/suite/suite_run.h"
+#include "tools/suite/suite_table.h"
+#include "tools/suite/summary.h"
+
+namespace lcs::tools {
+namespace {
+
+constexpr int kMostJobs = 1024;
+constexpr int kMostSeeds = 1000;
+
+constexpr const char* kHelp = R"(Examples:
+  lcs suite                                       every short scenario of the project, 3 seeds each
+  lcs suite --seeds 1 --worst-first               quicker, and where to look first
+  lcs suite --filter crossing --set filter.circle.mu_0=20 --out out/mu20
+  lcs suite --group sweep --filter distance       a sweep: one run a point and seed
+  lcs suite my_scenarios other.yaml               other scenarios; of files any group
+  lcs suite --group all --list                    what there is
+  lcs compare out/before out/suite                what two suites differ in, beyond noise
+
+Seeds are the scenario's own and those that follow. Each run is a process of its own; one that
+crashes, or a scenario that is broken, is an error, and the others still run.
+
+Files written to the folder, all or none:
+  suite.json    every figure and criterion of every run
+  junit.xml     a test case a criterion, for continuous integration
+  runs/NAME/seed-N/   what `lcs run` leaves, without a video
+
+Exit codes:
+  0  fine
+  1  a required criterion is not met
+  2  a run ended with an error, or nothing could be run
+  130  interrupted (Ctrl-C): nothing was written, an earlier suite is as it was
+)";
+
+namespace fs = std::filesystem;
+
+std::size_t jobs_at_once(const SuiteOptions& options) {
+  if (options.jobs > 0) return static_cast<std::size_t>(options.jobs);
+  return std::max(1U, std::thread::hardware_concurrency());
+}
+
+/// The earlier suite at the target, if there is one that can be read: it only helps to plan.
+std::optional<suite::SuiteResult> former_suite(const fs::path& target) {
+  try {
+    return suite::read_suite(target / suite::kSuiteFile);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+std::string version_line() {
+  std::string text = version_text();
+  for (std::size_t i = text.find('\n'); i != std::string::npos; i = text.find('\n')) {
+    text.replace(i, 1, ", ");
+  }
+  return text;
+}
+
+ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
+  std::size_t longest = 0;
+  for (const suite::PlannedScenario& planned : plan)
+    longest = std::max(longest, planned.name.size());
+  bool is_broken = false;
+  for (const suite::PlannedScenario& planned : plan) {
+    if (planned.scenario) {
+      fmt::print("{:<{}}  {:>4} frames, {} criteria [{}] {}\n", planned.name, longest,
+                 planned.scenario->frames, planned.scenario->criteria.size(),
+                 fmt::join(planned.scenario->groups, ", "), planned.scenario->purpose);
+    } else {
+      fmt::print(stderr, "error: {}\n", planned.error);
+      is_broken = true;
+    }
+  }
+  return is_broken ? kError : kFine;
+}
+
+ExitCode exit_code(suite::Outcome outcome) {
+  switch (outcome) {
+    case suite::Outcome::passed:
+      return kFine;
+    case suite::Outcome::failed:
+      return kCriterionFailed;
+    case suite::Outcome::error:
+      return kError;
+  }
+  return kError;
+}
+
+}  // namespace
+
+CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
+  CLI::App& command = *app.add_subcommand(
+      "suite", "Run many scenarios with several seeds each, in parallel, and sum them up");
+  command
+      .add_option("PATH", options.paths,
+                  "Scenario files, and folders of them; the project's own if not given")
+      ->type_name("");
+  command
+      .add_option("--group", options.group,
+                  "Only scenarios of this group; 'all' for any. If not given: short, but any for "
+                  "scenario files that are named")
+      ->type_name("NAME");
+  command
+      .add_option("--filter", options.filter,
+                  "Only scenarios with this regular expression in their name")
+      ->type_name("REGEX");
+  command
+      .add_option("--jobs", options.jobs,
+                  "Runs at a time; if not given, as many as there are processors")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMostJobs));
+  command.add_option("--seeds", options.seeds, "Runs of each scenario; 3 if not given")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMostSeeds));
+  command
+      .add_option("--detector", options.detector,
+                  "What watches: lcs (the filter), or klt or homography to compare it with")
+      ->type_name("NAME");
+  command
+      .add_option("--set", options.sets,
+                  "Set a value in every scenario, as \"camera.rate=5 Hz\"; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--out", options.out, "Folder for the results; out/suite if not given")
+      ->type_name("DIR");
+  command
+      .add_option("--baseline", options.baseline,
+                  "An earlier suite.json or its folder, to show changes against")
+      ->type_name("FILE");
+  command.add_flag("--worst-first", options.worst_first, "Sort the table by F1");
+  command.add_flag("--list", options.list, "Only list what would be run");
+  command.add_flag("--quiet", options.quiet,
+                   "Print neither progress nor the table, only what went wrong");
+  command.footer(kHelp);
+  return command;
+}
+
+ExitCode suite(const SuiteOptions& options) {
+  const InterruptGuard interrupt;
+
+  comparators::detector(options.detector);  // one that is not known is told before anything runs
+  const std::vector<suite::PlannedScenario> plan =
+      suite::plan({.paths = {options.paths.begin(), options.paths.end()},
+                   .group = options.group,
+                   .filter = options.filter,
+                   .sets = options.sets,
+                   .seeds = options.seeds});
+  if (options.list) return list_plan(plan);
+
+  bench::OutputFolder folder(options.out, suite::suite_files());
+  SuiteProgress progress(options.quiet);
+  const suite::SuiteResult result = suite::run_suite(
+      plan, {.detector = options.detector,
+             .sets = options.sets,
+             .version = version_line(),
+             .jobs = jobs_at_once(options),
+             .folder = folder.staging(),
+             .former = former_suite(folder.target()),
+             .on_run = [&](const suite::SuiteProgress& done, const suite::ScenarioResult& scenario,
+                           const suite::RunResult& run) { progress.finished(done, scenario, run); },
+             .on_tick =
+                 [&](const suite::SuiteProgress& now) {
+                   interrupt.check();
+                   progress.show(now);
+                 }});
+  interrupt.check();
+  progress.wipe();
+  suite::write_suite(folder.staging() / suite::kSuiteFile, result);
+  suite::write_junit(folder.staging() / suite::kJunitFile, result);
+  folder.commit();
+
+  if (!options.quiet) {
+    fmt::print("{}{}; results in {}\n", suite::suite_table(result, options.worst_first),
+               suite::totals(result), folder.target().string());
+  }
+  for (const std::string& problem : suite::problems(result)) fmt::print(stderr, "{}\n", problem);
+  return exit_code(suite::outcome_of(result));
+}
+
+}  // namespace lcs::tools

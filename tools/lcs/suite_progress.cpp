@@ -1,0 +1,73 @@
+#include "tools/lcs/suite_progress.h"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <string>
+
+#include "tools/suite/summary.h"
+
+namespace lcs::tools {
+namespace {
+
+constexpr std::chrono::milliseconds kPeriod(200);
+constexpr std::size_t kUsualWidth = 80;
+
+std::size_t terminal_width() {
+  winsize size = {};
+  const bool is_known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return is_known ? size.ws_col : kUsualWidth;
+}
+
+std::string outcome_text(const suite::RunResult& run) {
+  switch (run.outcome) {
+    case suite::Outcome::passed:
+      return "passed";
+    case suite::Outcome::failed:
+      return "failed";
+    case suite::Outcome::error:
+      return "error";
+  }
+  return "";
+}
+
+}  // namespace
+
+SuiteProgress::SuiteProgress(bool quiet)
+    : quiet_(quiet), is_terminal_(::isatty(STDERR_FILENO) != 0) {}
+
+SuiteProgress::~SuiteProgress() {
+  wipe();
+}
+
+void SuiteProgress::wipe() {
+  if (is_shown_) fmt::print(stderr, "\r\x1b[K");
+  is_shown_ = false;
+}
+
+void SuiteProgress::finished(const suite::SuiteProgress& progress,
+                             const suite::ScenarioResult& scenario, const suite::RunResult& run) {
+  if (quiet_) return;
+  wipe();
+  const std::optional<double> f1 = suite::figure_of(run, "rebel.f1");
+  fmt::print(stderr, "[{}/{}] {} seed {}: {}{}, {:.1f} s\n", progress.done, progress.total,
+             scenario.name, run.seed, outcome_text(run), f1 ? fmt::format(", F1 {:.2f}", *f1) : "",
+             run.wall_s);
+  shown_ = {};
+}
+
+void SuiteProgress::show(const suite::SuiteProgress& progress) {
+  const Clock::time_point now = Clock::now();
+  if (quiet_ || !is_terminal_ || now - shown_ < kPeriod) return;
+  shown_ = now;
+  wipe();
+  std::string line = fmt::format("[{}/{}]", progress.done, progress.total);
+  if (progress.left_s) line += fmt::format(" {:.0f} s left,", *progress.left_s);
+  line += fmt::format(" running {}", fmt::join(progress.running, ", "));
+  fmt::print(stderr, "{}", line.substr(0, terminal_width() - 1));
+  std::fflush(stderr);
+  is_shown_ = true;
+}
+
+}  // namespace lcs::tools

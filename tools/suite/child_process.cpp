@@ -1,0 +1,161 @@
+#include "tools/suite/child_process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <list>
+#include <system_error>
+#include <thread>
+
+extern char** environ;
+
+namespace lcs::suite {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Runs take seconds.
+constexpr auto kPollPeriod = 10ms;
+constexpr auto kPatience = 10s;
+constexpr off_t kMostErr = 1 << 16;
+
+void require(int error, const char* what) {
+  if (error != 0) throw std::system_error(error, std::generic_category(), what);
+}
+
+/// What goes where in the child.
+class FileActions {
+ public:
+  FileActions() { require(::posix_spawn_file_actions_init(&actions_), "posix_spawn"); }
+  ~FileActions() { ::posix_spawn_file_actions_destroy(&actions_); }
+  FileActions(const FileActions&) = delete;
+  FileActions& operator=(const FileActions&) = delete;
+
+  void open(int as, const char* path, int flags) {
+    require(::posix_spawn_file_actions_addopen(&actions_, as, path, flags, 0), "posix_spawn");
+  }
+  void copy(int from, int as) {
+    require(::posix_spawn_file_actions_adddup2(&actions_, from, as), "posix_spawn");
+  }
+  const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+ private:
+  posix_spawn_file_actions_t actions_;
+};
+
+std::string read_end(int file) {
+  struct stat status = {};
+  if (::fstat(file, &status) != 0) return "";
+  const off_t begin = std::max<off_t>(0, status.st_size - kMostErr);
+  std::string text(static_cast<std::size_t>(status.st_size - begin), '\0');
+  const ssize_t got = ::pread(file, text.data(), text.size(), begin);
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  return text;
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
+  std::vector<char*> argv{const_cast<char*>("lcs")};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+
+  FileActions actions;
+  err_ = ::memfd_create("stderr", MFD_CLOEXEC);
+  if (err_ < 0) require(errno, "memfd_create");
+  try {
+    actions.open(STDIN_FILENO, "/dev/null", O_RDONLY);
+    actions.open(STDOUT_FILENO, "/dev/null", O_WRONLY);
+    actions.copy(err_, STDERR_FILENO);
+    // Not a path that a rebuild may replace meanwhile.
+    require(::posix_spawn(&pid_, "/proc/self/exe", actions.get(), nullptr, argv.data(), environ),
+            "posix_spawn");
+  } catch (...) {
+    ::close(err_);
+    throw;
+  }
+}
+
+ChildProcess::~ChildProcess() {
+  if (!poll()) {
+    ask_to_end();
+    const Clock::time_point deadline = Clock::now() + kPatience;
+    while (!poll() && Clock::now() < deadline) std::this_thread::sleep_for(kPollPeriod);
+    if (!poll()) ::kill(pid_, SIGKILL);
+    while (!poll()) std::this_thread::sleep_for(kPollPeriod);
+  }
+  ::close(err_);
+}
+
+std::optional<Exit> ChildProcess::poll() {
+  int status = 0;
+  if (exit_ || ::waitpid(pid_, &status, WNOHANG) != pid_) return exit_;
+  exit_.emplace();
+  exit_->code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+  exit_->signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  exit_->err = read_end(err_);
+  exit_->wall_s = std::chrono::duration<double>(Clock::now() - start_).count();
+  return exit_;
+}
+
+void ChildProcess::ask_to_end() const {
+  if (!exit_) ::kill(pid_, SIGTERM);
+}
+
+namespace {
+
+struct Running {
+  Running(std::size_t place_, const std::vector<std::string>& arguments)
+      : place(place_), process(arguments) {}
+  std::size_t place;
+  ChildProcess process;
+};
+
+/// All are asked before the first one is waited for.
+class Pool : public std::list<Running> {
+ public:
+  Pool() = default;
+  ~Pool() {
+    for (const Running& child : *this) child.process.ask_to_end();
+  }
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
+};
+
+}  // namespace
+
+void run_all(const std::vector<std::vector<std::string>>& commands, std::size_t at_once,
+             const std::function<void(std::size_t, const Exit&)>& on_exit,
+             const std::function<void(const std::vector<std::size_t>&)>& on_tick) {
+  Pool pool;
+  std::size_t next = 0;
+  while (next < commands.size() || !pool.empty()) {
+    while (next < commands.size() && pool.size() < at_once) {
+      pool.emplace_back(next, commands[next]);
+      ++next;
+    }
+    for (auto child = pool.begin(); child != pool.end();) {
+      const std::optional<Exit> exit = child->process.poll();
+      if (!exit) {
+        ++child;
+        continue;
+      }
+      const std::size_t place = child->place;
+      child = pool.erase(child);
+      on_exit(place, *exit);
+    }
+    std::vector<std::size_t> running;
+    for (const Running& child : pool) running.push_back(child.place);
+    on_tick(running);
+    std::this_thread::sleep_for(kPollPeriod);
+  }
+}
+
+}  // namespace lcs::suite

@@ -1,0 +1,137 @@
+#include "tools/suite/junit.h"
+
+#include <fmt/format.h>
+#include <tinyxml2.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "scenarios/utf8.h"
+#include "tools/bench/output_file.h"
+
+namespace lcs::suite {
+namespace {
+
+using tinyxml2::XMLElement;
+
+/// XML knows no control characters, escaped or not.
+std::string xml_text(std::string_view text) {
+  std::string clean;
+  while (!text.empty()) {
+    const std::size_t length = scenario::utf8_length(text);
+    const auto lead = static_cast<std::uint8_t>(text.front());
+    const bool is_control = lead == 0x7F || (lead < 0x20 && lead != '\t' && lead != '\n');
+    if (length == 0 || is_control) {
+      clean += '?';
+    } else {
+      clean += text.substr(0, length);
+    }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return clean;
+}
+
+void set(XMLElement& element, const char* name, const std::string& value) {
+  element.SetAttribute(name, xml_text(value).c_str());
+}
+
+struct Counts {
+  int tests = 0, failures = 0, errors = 0;
+  double time_s = 0;
+
+  void write(XMLElement& element) const {
+    element.SetAttribute("tests", tests);
+    element.SetAttribute("failures", failures);
+    element.SetAttribute("errors", errors);
+    element.SetAttribute("skipped", 0);
+    set(element, "time", fmt::format("{:.3f}", time_s));
+  }
+  Counts& operator+=(const Counts& other) {
+    tests += other.tests;
+    failures += other.failures;
+    errors += other.errors;
+    time_s += other.time_s;
+    return *this;
+  }
+};
+
+std::string name_of(const CriterionResult& criterion, std::uint64_t seed) {
+  std::string name = criterion.metric;
+  if (criterion.min) name += fmt::format(" >= {}", *criterion.min);
+  if (criterion.max) name += fmt::format(" <= {}", *criterion.max);
+  return name + fmt::format(", seed {}", seed);
+}
+
+/// The time of a run is that of its first case, so that sums are right.
+XMLElement& add_case(XMLElement& parent, const ScenarioResult& scenario, const std::string& name,
+                     double time_s) {
+  XMLElement& element = *parent.InsertNewChildElement("testcase");
+  set(element, "classname", "lcs." + scenario.name);
+  set(element, "name", name);
+  set(element, "time", fmt::format("{:.3f}", time_s));
+  return element;
+}
+
+void add_problem(XMLElement& element, const char* kind, const std::string& message) {
+  XMLElement& problem = *element.InsertNewChildElement(kind);
+  set(problem, "message", message.substr(0, message.find('\n')));
+  problem.SetText(xml_text(message).c_str());
+}
+
+Counts add_run(XMLElement& parent, const ScenarioResult& scenario, const RunResult& run) {
+  Counts counts;
+  counts.time_s = run.wall_s;
+  if (run.outcome == Outcome::error || run.criteria.empty()) {
+    XMLElement& element =
+        add_case(parent, scenario, fmt::format("runs, seed {}", run.seed), run.wall_s);
+    ++counts.tests;
+    if (run.outcome == Outcome::error) {
+      ++counts.errors;
+      add_problem(element, "error", run.error);
+    }
+    return counts;
+  }
+  for (const CriterionResult& criterion : run.criteria) {
+    XMLElement& element = add_case(parent, scenario, name_of(criterion, run.seed),
+                                   counts.tests == 0 ? run.wall_s : 0);
+    ++counts.tests;
+    if (criterion.met) continue;
+    if (criterion.required) {
+      ++counts.failures;
+      add_problem(element, "failure", criterion.message);
+    } else {
+      element.InsertNewChildElement("system-out")
+          ->SetText(xml_text("missed (not required): " + criterion.message).c_str());
+    }
+  }
+  return counts;
+}
+
+}  // namespace
+
+void write_junit(const std::filesystem::path& file, const SuiteResult& suite) {
+  tinyxml2::XMLDocument document;
+  document.InsertEndChild(document.NewDeclaration());
+  XMLElement& root = *document.NewElement("testsuites");
+  document.InsertEndChild(&root);
+  set(root, "name", "lcs suite, detector " + suite.detector);
+  Counts total;
+  for (const ScenarioResult& scenario : suite.scenarios) {
+    XMLElement& element = *root.InsertNewChildElement("testsuite");
+    set(element, "name", scenario.name);
+    Counts counts;
+    for (const RunResult& run : scenario.runs) counts += add_run(element, scenario, run);
+    counts.write(element);
+    total += counts;
+  }
+  total.write(root);
+
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  bench::OutputFile output(file);
+  output.write(printer.CStr());
+  output.close();
+}
+
+}  // namespace lcs::suite

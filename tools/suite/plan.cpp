@@ -1,0 +1,206 @@
+#include "tools/suite/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <regex>
+#include <set>
+#include <stdexcept>
+
+#include "scenarios/load.h"
+#include "scenarios/sweep.h"
+#include "tools/bench/criteria.h"
+
+namespace lcs::suite {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kAnyGroup = "all";
+constexpr const char* kDefaultGroup = "short";
+
+struct File {
+  fs::path path;
+  bool is_named = false;  ///< and not found in a folder
+};
+
+/// Relative to the current folder for files below it, so that what is written down holds elsewhere.
+fs::path as_people_write(const fs::path& path) {
+  std::error_code error;
+  const fs::path relative = fs::proximate(path, error);
+  return error || relative.empty() || *relative.begin() == ".." ? path : relative;
+}
+
+void add_folder(const fs::path& folder, std::vector<File>& files) {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file() && entry.path().extension() == ".yaml") {
+      found.push_back(as_people_write(entry.path()));
+    }
+  }
+  if (found.empty()) {
+    throw std::runtime_error(fmt::format("there is no .yaml file in {}", folder.string()));
+  }
+  std::sort(found.begin(), found.end());
+  for (const fs::path& path : found) files.push_back({path, false});
+}
+
+/// Each once, whatever way it was named.
+std::vector<File> files_of(std::vector<fs::path> paths) {
+  if (paths.empty()) paths.push_back(LCS_SCENARIOS_DIR);
+  std::vector<File> files;
+  for (const fs::path& path : paths) {
+    if (fs::is_directory(path)) {
+      add_folder(path, files);
+    } else if (fs::exists(path)) {
+      files.push_back({path, true});
+    } else {
+      throw std::runtime_error(fmt::format(
+          "there is no file or folder {}; give scenario files or folders of them", path.string()));
+    }
+  }
+  std::vector<File> once;
+  std::set<fs::path> seen;
+  for (const File& file : files) {
+    if (seen.insert(fs::weakly_canonical(file.path)).second) once.push_back(file);
+  }
+  return once;
+}
+
+/// A value as a part of a name: "0.5 m/s" is "0.5mps", "[4 m, -1.3 m]" is "4m_-1.3m".
+std::string name_part(const std::string& value) {
+  std::string part;
+  for (const char c : value) {
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '_') part += c;
+    if (c == '/') part += 'p';
+    if (c == ',') part += '_';
+  }
+  return part;
+}
+
+std::string name_of(const fs::path& file, const scenario::SweepPoint& point) {
+  std::string name = file.stem().string();
+  char separator = '@';
+  for (const auto& [key, value] : point.settings) {
+    name += separator + name_part(value);
+    separator = ',';
+  }
+  return name;
+}
+
+PlannedScenario broken(const fs::path& file, const std::string& name, const std::string& error) {
+  PlannedScenario planned;
+  planned.name = name;
+  planned.file = file;
+  planned.error = error;
+  planned.seeds = {0};
+  return planned;
+}
+
+PlannedScenario plan_point(const fs::path& file, const scenario::SweepPoint& point,
+                           const PlanOptions& options) {
+  PlannedScenario planned;
+  planned.name = name_of(file, point);
+  planned.file = file;
+  planned.sets = options.sets;
+  planned.point = point.settings;
+  for (const auto& [key, value] : point.settings) planned.sets.push_back(key + "=" + value);
+  try {
+    planned.scenario = scenario::load(file, {.sets = planned.sets, .seed = {}});
+    bench::require_known_metrics(planned.scenario->criteria);
+    for (int i = 0; i < options.seeds; ++i) {
+      planned.seeds.push_back(planned.scenario->seed + static_cast<std::uint64_t>(i));
+    }
+    return planned;
+  } catch (const std::exception& error) {
+    return broken(file, planned.name, error.what());
+  }
+}
+
+std::vector<PlannedScenario> plan_file(const fs::path& file, const PlanOptions& options) {
+  std::vector<PlannedScenario> all;
+  try {
+    for (const scenario::SweepPoint& point : scenario::sweep_points(file)) {
+      all.push_back(plan_point(file, point, options));
+    }
+  } catch (const std::exception& error) {
+    return {broken(file, file.stem().string(), error.what())};
+  }
+  return all;
+}
+
+bool is_in_group(const PlannedScenario& planned, const std::string& group) {
+  if (!planned.scenario || group == kAnyGroup) return true;
+  const std::vector<std::string>& groups = planned.scenario->groups;
+  return std::find(groups.begin(), groups.end(), group) != groups.end();
+}
+
+std::regex regex_of(const std::string& text) {
+  try {
+    return std::regex(text);
+  } catch (const std::regex_error&) {
+    throw std::runtime_error(fmt::format(
+        "--filter {} is not a regular expression; give a part of a name, or as 'cross.*far'",
+        text));
+  }
+}
+
+/// Two points of a sweep may read alike; two files may not.
+void make_names_unique(std::vector<PlannedScenario>& all) {
+  std::map<std::string, fs::path> first;
+  std::map<std::string, int> count;
+  for (PlannedScenario& planned : all) {
+    const auto [found, is_new] = first.emplace(planned.name, planned.file);
+    if (!is_new && found->second != planned.file) {
+      throw std::runtime_error(fmt::format("{} and {} are both called {}; rename one of them",
+                                           found->second.string(), planned.file.string(),
+                                           planned.name));
+    }
+    if (const int number = ++count[planned.name]; number > 1) {
+      planned.name += fmt::format("#{}", number);
+    }
+  }
+}
+
+std::string group_names(const std::vector<PlannedScenario>& all) {
+  std::set<std::string> names;
+  for (const PlannedScenario& planned : all) {
+    if (planned.scenario) {
+      names.insert(planned.scenario->groups.begin(), planned.scenario->groups.end());
+    }
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::vector<PlannedScenario> plan(const PlanOptions& options) {
+  const std::regex filter = regex_of(options.filter);
+  std::vector<PlannedScenario> all, chosen;
+  for (const File& file : files_of(options.paths)) {
+    const std::string group = options.group.value_or(file.is_named ? kAnyGroup : kDefaultGroup);
+    for (PlannedScenario& planned : plan_file(file.path, options)) {
+      if (is_in_group(planned, group) && std::regex_search(planned.name, filter)) {
+        chosen.push_back(planned);
+      }
+      all.push_back(std::move(planned));
+    }
+  }
+  if (chosen.empty()) {
+    throw std::runtime_error(fmt::format(
+        "none of the {} scenarios is in the group and fits the filter; the groups are {}; see "
+        "lcs suite --group all --list",
+        all.size(), group_names(all)));
+  }
+  make_names_unique(chosen);
+  return chosen;
+}
+
+double work(const scenario::Scenario& scenario) {
+  return static_cast<double>(scenario.frames) * scenario.camera.width_px *
+         scenario.camera.height_px;
+}
+
+}  // namespace lcs::suite

@@ -1,0 +1,207 @@
+#include "tools/suite/suite_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <numeric>
+
+#include "tools/bench/criteria.h"
+#include "tools/bench/report.h"
+#include "tools/bench/result.h"
+#include "tools/suite/child_process.h"
+#include "tools/suite/junit.h"
+
+namespace lcs::suite {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of a run of whose kind nothing is known: the order of magnitude is enough.
+constexpr double kSecondsPerWork = 1e-7;
+
+/// One run: where it belongs, and how long it may take.
+struct Job {
+  std::size_t scenario, run;
+  double seconds;
+};
+
+fs::path folder_of(const PlannedScenario& planned, std::uint64_t seed) {
+  return fs::path("runs") / planned.name / fmt::format("seed-{}", seed);
+}
+
+std::vector<std::string> command_of(const PlannedScenario& planned, std::uint64_t seed,
+                                    const SuiteRunOptions& options) {
+  std::vector<std::string> command{
+      "run",        planned.file.string(),
+      "--seed",     std::to_string(seed),
+      "--detector", options.detector,
+      "--out",      (options.folder / folder_of(planned, seed)).string(),
+      "--no-video", "--quiet"};
+  for (const std::string& set : planned.sets) command.insert(command.end(), {"--set", set});
+  return command;
+}
+
+std::optional<double> former_seconds(const std::optional<SuiteResult>& former,
+                                     const std::string& name, std::uint64_t seed) {
+  if (!former) return std::nullopt;
+  for (const ScenarioResult& scenario : former->scenarios) {
+    if (scenario.name != name) continue;
+    for (const RunResult& run : scenario.runs) {
+      if (run.seed == seed && run.outcome != Outcome::error) return run.wall_s;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Longest first: what is left for the end is short, and all processors are busy until then.
+std::vector<Job> jobs_of(const std::vector<PlannedScenario>& plan,
+                         const std::optional<SuiteResult>& former) {
+  std::vector<Job> jobs;
+  std::vector<bool> is_known;
+  double known_seconds = 0, known_work = 0;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (!plan[i].scenario) continue;
+    for (std::size_t k = 0; k < plan[i].seeds.size(); ++k) {
+      const auto seconds = former_seconds(former, plan[i].name, plan[i].seeds[k]);
+      jobs.push_back({i, k, seconds.value_or(work(*plan[i].scenario))});
+      is_known.push_back(seconds.has_value());
+      if (!seconds) continue;
+      known_seconds += *seconds;
+      known_work += work(*plan[i].scenario);
+    }
+  }
+  const double seconds_per_work = known_work > 0 ? known_seconds / known_work : kSecondsPerWork;
+  for (std::size_t j = 0; j < jobs.size(); ++j) {
+    if (!is_known[j]) jobs[j].seconds *= seconds_per_work;
+  }
+  std::stable_sort(jobs.begin(), jobs.end(),
+                   [](const Job& a, const Job& b) { return a.seconds > b.seconds; });
+  return jobs;
+}
+
+ScenarioResult begin_scenario(const PlannedScenario& planned) {
+  ScenarioResult result;
+  result.name = planned.name;
+  result.file = planned.file;
+  result.point = planned.point;
+  if (planned.scenario) {
+    result.purpose = planned.scenario->purpose;
+    result.groups = planned.scenario->groups;
+  }
+  for (const std::uint64_t seed : planned.seeds) {
+    RunResult& run = result.runs.emplace_back();
+    run.seed = seed;
+    run.error = planned.error;
+  }
+  return result;
+}
+
+std::string trimmed(std::string text) {
+  constexpr std::string_view kOwnName = "lcs: ";
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.starts_with(kOwnName) ? text.substr(kOwnName.size()) : text;
+}
+
+/// What went wrong with a run that left no figures.
+std::string error_of(const Exit& exit) {
+  const std::string said = trimmed(exit.err);
+  if (exit.signal != 0) {
+    return fmt::format("crashed: ended by signal {} ({}){}{}", exit.signal,
+                       ::strsignal(exit.signal), said.empty() ? "" : "; it said: ", said);
+  }
+  if (exit.code == 2 && !said.empty()) return said;
+  return fmt::format("exited with {}{}{}", exit.code, said.empty() ? "" : "; it said: ", said);
+}
+
+void judge_run(const scenario::Scenario& scenario, RunResult& run) {
+  const std::vector<bench::JudgedCriterion> judged = bench::judge(scenario.criteria, run.metrics);
+  run.outcome = Outcome::passed;
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    const scenario::Criterion& criterion = scenario.criteria[i];
+    run.criteria.push_back({criterion.metric, criterion.min, criterion.max, judged[i].figure,
+                            criterion.required, judged[i].met, judged[i].message});
+    if (criterion.required && !judged[i].met) run.outcome = Outcome::failed;
+  }
+}
+
+void finish_run(const PlannedScenario& planned, const Exit& exit, const fs::path& suite_folder,
+                RunResult& run) {
+  run.wall_s = exit.wall_s;
+  const bool has_figures = exit.signal == 0 && (exit.code == 0 || exit.code == 1);
+  if (!has_figures) {
+    run.error = error_of(exit);
+    return;
+  }
+  run.folder = folder_of(planned, run.seed);
+  try {
+    run.metrics = bench::read_metrics(suite_folder / run.folder / bench::kMetricsFile);
+    judge_run(*planned.scenario, run);
+  } catch (const std::exception& error) {
+    run.outcome = Outcome::error;
+    run.error = error.what();
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> suite_files() {
+  std::vector<std::string> files{kSuiteFile, kJunitFile, "report.html"};
+  for (const std::string& file : bench::result_files()) files.push_back("runs/*/seed-*/" + file);
+  return files;
+}
+
+SuiteResult run_suite(const std::vector<PlannedScenario>& plan, const SuiteRunOptions& options) {
+  SuiteResult suite;
+  suite.detector = options.detector;
+  suite.sets = options.sets;
+  suite.version = options.version;
+  for (const PlannedScenario& planned : plan) suite.scenarios.push_back(begin_scenario(planned));
+
+  const std::vector<Job> jobs = jobs_of(plan, options.former);
+  std::vector<std::vector<std::string>> commands;
+  for (const Job& job : jobs) {
+    const PlannedScenario& planned = plan[job.scenario];
+    // Here, as one child would take away a folder that another one is about to use.
+    fs::create_directories(options.folder / "runs" / planned.name);
+    commands.push_back(command_of(planned, planned.seeds[job.run], options));
+  }
+
+  SuiteProgress progress;
+  progress.total = jobs.size();
+  const double all_seconds = std::accumulate(
+      jobs.begin(), jobs.end(), 0.0, [](double sum, const Job& job) { return sum + job.seconds; });
+  double done_seconds = 0;
+  const auto start = std::chrono::steady_clock::now();
+  const auto on_exit = [&](std::size_t place, const Exit& exit) {
+    const Job& job = jobs[place];
+    ScenarioResult& scenario = suite.scenarios[job.scenario];
+    RunResult& run = scenario.runs[job.run];
+    finish_run(plan[job.scenario], exit, options.folder, run);
+    done_seconds += job.seconds;
+    const double took_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    ++progress.done;
+    progress.left_s = took_s * (all_seconds - done_seconds) / done_seconds;
+    options.on_run(progress, scenario, run);
+  };
+  const auto on_tick = [&](const std::vector<std::size_t>& running) {
+    progress.running.clear();
+    for (const std::size_t place : running) {
+      const ScenarioResult& scenario = suite.scenarios[jobs[place].scenario];
+      progress.running.push_back(
+          fmt::format("{} seed {}", scenario.name, scenario.runs[jobs[place].run].seed));
+    }
+    options.on_tick(progress);
+  };
+  run_all(commands, options.jobs, on_exit, on_tick);
+
+  std::error_code ignored;  // folders of scenarios without a single result are left out if they can
+  for (const PlannedScenario& planned : plan) {
+    fs::remove(options.folder / "runs" / planned.name, ignored);
+  }
+  return suite;
+}
+
+}  // namespace lcs::suite

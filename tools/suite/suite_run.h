@@ -1,0 +1,41 @@
+/// \file
+/// A suite's plan carried out: every run in a process of its own.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/suite/plan.h"
+#include "tools/suite/suite_result.h"
+
+namespace lcs::suite {
+
+/// Files that a suite's folder may hold, in the form that `bench::OutputFolder` takes.
+std::vector<std::string> suite_files();
+
+/// What is told while runs are under way.
+struct SuiteProgress {
+  std::size_t done = 0, total = 0;   ///< runs
+  std::vector<std::string> running;  ///< as "crossing seed 2"
+  std::optional<double> left_s;      ///< none before the first has ended
+};
+
+struct SuiteRunOptions {
+  std::string detector;
+  std::vector<std::string> sets;
+  std::string version;
+  std::size_t jobs = 1;               ///< runs at a time, >= 1
+  std::filesystem::path folder;       ///< gets runs/<name>/seed-<n>/
+  std::optional<SuiteResult> former;  ///< whose times tell which runs are long
+  /// Called when a run has ended.
+  std::function<void(const SuiteProgress&, const ScenarioResult&, const RunResult&)> on_run;
+  /// Called some times a second. What it throws ends the suite and its children.
+  std::function<void(const SuiteProgress&)> on_tick;
+};
+
+SuiteResult run_suite(const std::vector<PlannedScenario>& plan, const SuiteRunOptions& options);
+
+}  // namespace lcs::suite

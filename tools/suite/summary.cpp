@@ -1,0 +1,73 @@
+#include "tools/suite/summary.h"
+
+#include <algorithm>
+
+#include "tools/bench/statistics.h"
+
+namespace lcs::suite {
+namespace {
+
+std::optional<double> metric_of(const RunResult& run, std::string_view name) {
+  const auto found = std::find_if(run.metrics.begin(), run.metrics.end(),
+                                  [&](const auto& metric) { return metric.first == name; });
+  return found == run.metrics.end() ? std::nullopt : found->second;
+}
+
+bool is_in(const ScenarioResult& scenario, const std::string& group) {
+  return std::find(scenario.groups.begin(), scenario.groups.end(), group) != scenario.groups.end();
+}
+
+}  // namespace
+
+std::optional<double> figure_of(const RunResult& run, std::string_view name) {
+  if (name != kSizeShare) return metric_of(run, name);
+  const std::optional<double> size = metric_of(run, "dimension.mean");
+  const std::optional<double> store = metric_of(run, "dimension.five_frame_mean");
+  return size && store ? bench::ratio(*size, *store) : std::nullopt;
+}
+
+std::optional<Spread> over_seeds(const ScenarioResult& scenario, std::string_view name) {
+  std::vector<double> figures;
+  for (const RunResult& run : scenario.runs) {
+    if (const auto figure = figure_of(run, name)) figures.push_back(*figure);
+  }
+  if (figures.empty()) return std::nullopt;
+  const auto [least, greatest] = std::minmax_element(figures.begin(), figures.end());
+  return Spread{*bench::mean(figures), (*greatest - *least) / 2, static_cast<int>(figures.size())};
+}
+
+std::optional<double> over_group(const SuiteResult& suite, const std::string& group,
+                                 std::string_view name) {
+  std::vector<double> figures;
+  for (const ScenarioResult& scenario : suite.scenarios) {
+    if (!is_in(scenario, group)) continue;
+    if (const auto spread = over_seeds(scenario, name)) figures.push_back(spread->mean);
+  }
+  return bench::mean(figures);
+}
+
+std::vector<std::string> groups_of(const SuiteResult& suite) {
+  std::vector<std::string> groups;
+  for (const ScenarioResult& scenario : suite.scenarios) {
+    for (const std::string& group : scenario.groups) {
+      if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
+    }
+  }
+  return groups;
+}
+
+Outcome outcome_of(const ScenarioResult& scenario) {
+  Outcome worst = scenario.runs.empty() ? Outcome::error : Outcome::passed;
+  for (const RunResult& run : scenario.runs) worst = std::max(worst, run.outcome);
+  return worst;
+}
+
+Outcome outcome_of(const SuiteResult& suite) {
+  Outcome worst = suite.scenarios.empty() ? Outcome::error : Outcome::passed;
+  for (const ScenarioResult& scenario : suite.scenarios) {
+    worst = std::max(worst, outcome_of(scenario));
+  }
+  return worst;
+}
+
+}  // namespace lcs::suite

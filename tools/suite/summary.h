@@ -1,0 +1,42 @@
+/// \file
+/// A suite's figures in fewer numbers: over the seeds of a scenario, over the scenarios of a group.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/suite/suite_result.h"
+
+namespace lcs::suite {
+
+/// `dimension.mean` over `dimension.five_frame_mean`: the size of all layers beside that of a store
+/// of the last five frames' corners. A figure of `figure_of`, not of metrics.json.
+inline constexpr std::string_view kSizeShare = "size_share";
+
+/// A metric of a run, or `kSizeShare`; none where undefined, unknown, or the run has no figures.
+std::optional<double> figure_of(const RunResult& run, std::string_view name);
+
+struct Spread {
+  double mean = 0;
+  double half = 0;  ///< of the distance between the least and the greatest
+  int count = 0;    ///< seeds that have the figure, >= 1
+};
+
+/// None where no seed has the figure.
+std::optional<Spread> over_seeds(const ScenarioResult& scenario, std::string_view name);
+
+/// The mean of a group's scenarios, each with its mean over seeds; those without the figure are
+/// left out, and none is left where all are.
+std::optional<double> over_group(const SuiteResult& suite, const std::string& group,
+                                 std::string_view name);
+
+/// In the order in which they first appear.
+std::vector<std::string> groups_of(const SuiteResult& suite);
+
+/// The worst of the runs'; `error` for no runs.
+Outcome outcome_of(const ScenarioResult& scenario);
+Outcome outcome_of(const SuiteResult& suite);
+
+}  // namespace lcs::suite
