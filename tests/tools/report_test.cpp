@@ -100,6 +100,71 @@ TEST(FramesCsv, OfNoFramesIsItsHeader) {
   EXPECT_GT(std::filesystem::file_size(folder.path() / kFramesFile), 0u);
 }
 
+TEST(FramesCsv, GivesARecordingItsTimesAgainToTheLastBit) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / kFramesFile;
+  Recording written = five_frames(true);
+  written.frames[1].times = FrameTimes{.simulate_ms = 1.0 / 3,
+                                       .detect_ms = 0.1 + 0.2,
+                                       .line_ms = 1e-7,
+                                       .circle_ms = 2.0 / 7,
+                                       .square_ms = 12345.678901234567,
+                                       .filter_ms = 1e22,
+                                       .truth_ms = 5e-324};
+  written.frames[2].times.reset();
+  write_frames(path, written);
+  Recording read = five_frames(false);
+  read_times(path, read);
+  EXPECT_FALSE(read.frames[2].times);
+  const FrameTimes &a = written.frames[1].times.value(), &b = read.frames[1].times.value();
+  for (const auto member : {&FrameTimes::simulate_ms, &FrameTimes::detect_ms, &FrameTimes::line_ms,
+                            &FrameTimes::circle_ms, &FrameTimes::square_ms, &FrameTimes::filter_ms,
+                            &FrameTimes::truth_ms}) {
+    EXPECT_EQ(a.*member, b.*member);
+  }
+  EXPECT_EQ(score(written), score(read));
+}
+
+TEST(FramesCsv, LeavesOutWhatADetectorWithoutLayersDoesNotHave) {
+  const TemporaryFolder folder;
+  Recording recording = five_frames(true);
+  recording.detector = {.name = "klt", .layered = false};
+  write_frames(folder.path() / kFramesFile, recording);
+  const auto rows = read_csv(folder.path() / kFramesFile);
+  for (const char* empty : {"dimension", "line_ms", "circle_ms", "square_ms"}) {
+    EXPECT_EQ(rows[3].at(empty), "") << empty;
+  }
+  EXPECT_EQ(rows[3].at("filter_ms"), "1.5");
+}
+
+TEST(FramesCsv, ThatDoesNotFitTheRecordingIsRefusedAtItsLine) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / kFramesFile;
+  Recording recording = five_frames(true);
+  const std::string header =
+      "frame,simulate_ms,detect_ms,line_ms,circle_ms,square_ms,filter_ms,truth_ms\n";
+  const std::pair<std::string, const char*> wrong[] = {
+      {"", ":1: has no column frame"},
+      {"frame,simulate_ms\n0,1\n", ":2: has no column detect_ms"},
+      {header + "0,1,1,1,1,1,1\n", ":2: has 7 fields, the header 8"},
+      {header + "1,1,1,1,1,1,1,1\n", ":2: is of frame '1', and should be of 0"},
+      {header + "0,1,1,1,fast,1,1,1\n", ":2: circle_ms is 'fast', not a number"},
+      {header + "0,,,,,,,\n1,1,1,1,1,1,1,1\n", ":4: the row of frame 2 is missing"},
+      {header + "0,,,,,,,\n1,,,,,,,\n2,,,,,,,\n3,,,,,,,\n4,,,,,,,\n5,,,,,,,\n",
+       ":7: there are more rows than the recording has frames"},
+  };
+  for (const auto& [text, message] : wrong) {
+    std::ofstream(path) << text;
+    try {
+      read_times(path, recording);
+      ADD_FAILURE() << message;
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(error.what(), path.string() + message);
+    }
+  }
+  EXPECT_THROW(read_times(folder.path() / "none.csv", recording), std::runtime_error);
+}
+
 TEST(MetricsJson, IsFlatWithEveryMetricInOrderAndNullForWhatIsUndefined) {
   const TemporaryFolder folder;
   const Metrics metrics = score(five_frames(true));

@@ -1,6 +1,7 @@
 #include "tools/bench/output_file.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <system_error>
@@ -24,6 +25,27 @@ void OutputFile::fail(int error) const {
   throw OutputError(
       fmt::format("cannot write {}: {}; make room there, or choose another folder with --out",
                   path_.string(), std::generic_category().message(error)));
+}
+
+void write_whole(const std::filesystem::path& path,
+                 const std::function<void(const std::filesystem::path&)>& write) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status there = fs::status(path, error);
+  if (fs::exists(there) && !fs::is_regular_file(there)) return write(path);
+
+  fs::path beside = fs::exists(there) ? fs::canonical(path) : path;
+  const fs::path target = beside;
+  beside += fmt::format(".{}.partial", ::getpid());
+  try {
+    write(beside);
+    fs::rename(beside, target, error);
+    if (error)
+      throw OutputError(fmt::format("cannot write {}: {}", path.string(), error.message()));
+  } catch (...) {
+    fs::remove(beside, error);
+    throw;
+  }
 }
 
 }  // namespace lcs::bench

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -38,5 +39,11 @@ class OutputFile {
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Closer> file_;
 };
+
+/// Writes a file that appears whole or not at all: `write` is given a path beside it to write to.
+/// What is there and no plain file, as a pipe or /dev/stdout, is written to as it is.
+/// \throws OutputError, and what `write` throws; then an earlier file is as it was.
+void write_whole(const std::filesystem::path& path,
+                 const std::function<void(const std::filesystem::path&)>& write);
 
 }  // namespace lcs::bench

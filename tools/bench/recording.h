@@ -42,9 +42,19 @@ struct FrameRecord {
   std::optional<FrameTimes> times;  ///< none in a recording that was stored
 };
 
+/// Who said what a recording holds of each corner.
+struct Speaker {
+  std::string name = "lcs";
+  /// Its stages and layers are the filter's: the layers are all that it remembers of former frames,
+  /// so that their size is a figure. False for a comparator or a stranger's detector, which give
+  /// boxes and no more.
+  bool layered = true;
+};
+
 struct Recording {
   std::string scenario;
   std::uint64_t seed = 0;
+  Speaker detector;
   std::vector<sim::Object> objects;
   std::vector<FrameRecord> frames;  ///< by index
 };

@@ -1,8 +1,8 @@
 /// \file
 /// A recording on disk, times apart: `layers.jsonl`, what the tracker was given and said, and
 /// `truth.jsonl`, what was true. A JSON object a line, a line a frame; `truth.jsonl` begins with
-/// one line more about the run. Lists of items are stored by column, as {"id": [1, 2], "x": [3.5,
-/// 4]}.
+/// one line more about the run and its detector. Lists of items are stored by column, as {"id": [1,
+/// 2], "x": [3.5, 4]}.
 ///
 /// Numbers are written in the shortest form that reads back to the same bits, so that scoring a
 /// recording that was stored gives the same figures. JSON knows no infinity: null stands for +inf

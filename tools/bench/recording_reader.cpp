@@ -169,6 +169,8 @@ Recording read_recording(const std::filesystem::path& folder) {
   const bool has_header = truth.next([&](const Json& json) {
     read(json.at("scenario"), recording.scenario);
     read(json.at("seed"), recording.seed);
+    read(json.at("detector"), recording.detector.name);
+    read(json.at("layered"), recording.detector.layered);
     recording.objects = read_columns<sim::Object>(json.at("objects"));
   });
   if (!has_header) truth.fail("is empty");

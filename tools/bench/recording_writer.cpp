@@ -194,6 +194,10 @@ std::string header_line(const Recording& run) {
   append(out, run.scenario);
   append_key(out, "seed");
   append(out, run.seed);
+  append_key(out, "detector");
+  append(out, run.detector.name);
+  append_key(out, "layered");
+  append(out, run.detector.layered);
   append_columns(out, "objects", run.objects);
   out += '}';
   return out;

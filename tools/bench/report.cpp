@@ -21,7 +21,7 @@ class Row {
     return add(name, fmt::format("{}", value));
   }
   Row& operator()(const char* name, std::optional<double> value) {
-    return add(name, value ? fmt::format("{:.6g}", *value) : "");
+    return add(name, value ? fmt::format("{}", *value) : "");  // shortest that reads back alike
   }
   const std::string& header() const { return header_; }
   const std::string& values() const { return values_; }
@@ -38,9 +38,12 @@ class Row {
   std::string header_, values_;
 };
 
-Row row_of(const FrameRecord& frame, const RebelCounts& rebels) {
+Row row_of(const FrameRecord& frame, const RebelCounts& rebels, bool layered) {
   const auto time = [&](double FrameTimes::*stage) {
     return frame.times ? std::optional((*frame.times).*stage) : std::nullopt;
+  };
+  const auto stage_time = [&](double FrameTimes::*stage) {
+    return layered ? time(stage) : std::nullopt;
   };
   const Layers& layers = frame.layers;
   Row row;
@@ -53,12 +56,14 @@ Row row_of(const FrameRecord& frame, const RebelCounts& rebels) {
   row("normal_edges", layers.normal_edges.size())("rebel_edges", layers.rebel_edges.size());
   row("normal_circles", layers.normal_circles.size());
   row("rebel_circles", layers.rebel_circles.size());
-  row("squares", layers.squares.size())("dimension", layers.dimension());
+  row("squares", layers.squares.size());
+  row("dimension", layered ? std::optional<double>(layers.dimension()) : std::nullopt);
   row("true_rebels", rebels.true_rebels)("false_rebels", rebels.false_rebels);
   row("found_rebels", rebels.found_rebels)("missed_rebels", rebels.missed_rebels);
   row("precision", rebels.precision())("recall", rebels.recall());
-  row("detect_ms", time(&FrameTimes::detect_ms))("line_ms", time(&FrameTimes::line_ms));
-  row("circle_ms", time(&FrameTimes::circle_ms))("square_ms", time(&FrameTimes::square_ms));
+  row("detect_ms", time(&FrameTimes::detect_ms))("line_ms", stage_time(&FrameTimes::line_ms));
+  row("circle_ms", stage_time(&FrameTimes::circle_ms));
+  row("square_ms", stage_time(&FrameTimes::square_ms));
   row("filter_ms", time(&FrameTimes::filter_ms))("simulate_ms", time(&FrameTimes::simulate_ms));
   row("truth_ms", time(&FrameTimes::truth_ms));
   return row;
@@ -96,10 +101,11 @@ Metrics read_metrics(const std::filesystem::path& path) {
 
 void write_frames(const std::filesystem::path& path, const Recording& recording) {
   const std::vector<RebelCounts> rebels = score_frames(recording);
+  const bool layered = recording.detector.layered;
   OutputFile file(path);
-  file.write(row_of(FrameRecord{}, RebelCounts{}).header() + '\n');
+  file.write(row_of(FrameRecord{}, RebelCounts{}, layered).header() + '\n');
   for (std::size_t i = 0; i < recording.frames.size(); ++i) {
-    file.write(row_of(recording.frames[i], rebels[i]).values() + '\n');
+    file.write(row_of(recording.frames[i], rebels[i], layered).values() + '\n');
   }
   file.close();
 }

@@ -21,8 +21,12 @@ void write_metrics(const std::filesystem::path& path, const Metrics& metrics);
 Metrics read_metrics(const std::filesystem::path& path);
 
 /// A header and a row a frame: sizes, counts of rebels, precision and recall (empty where
-/// undefined), times in ms (empty for a recording without). \throws OutputError;
-/// std::invalid_argument as `score`.
+/// undefined), times in ms (empty for a recording without). Numbers are in the shortest form that
+/// reads back to the same bits. \throws OutputError; std::invalid_argument as `score`.
 void write_frames(const std::filesystem::path& path, const Recording& recording);
+
+/// Gives a recording that was stored the times of its frames again, from its `frames.csv`.
+/// \throws std::runtime_error naming file, line and what is wrong there.
+void read_times(const std::filesystem::path& frames_csv, Recording& recording);
 
 }  // namespace lcs::bench

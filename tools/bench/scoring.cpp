@@ -95,7 +95,9 @@ void add_dimensions(Metrics& metrics, const Recording& recording) {
   std::vector<double> corners, dimensions;
   for (const FrameRecord& frame : recording.frames) {
     corners.push_back(static_cast<double>(frame.corners_px.size()));
-    dimensions.push_back(static_cast<double>(frame.layers.dimension()));
+    if (recording.detector.layered) {
+      dimensions.push_back(static_cast<double>(frame.layers.dimension()));
+    }
   }
   const std::vector<double> accumulated = store_sizes(corners, corners.size());
 
@@ -111,7 +113,8 @@ void add_dimensions(Metrics& metrics, const Recording& recording) {
 /// Of the normal edges of a frame, the share that has a corner in the next one.
 void add_edges(Metrics& metrics, const Recording& recording) {
   double edges = 0, rematched = 0;
-  for (std::size_t k = 1; k < recording.frames.size(); ++k) {
+  const std::size_t end = recording.detector.layered ? recording.frames.size() : 0;
+  for (std::size_t k = 1; k < end; ++k) {
     std::set<Id> supported;
     for (const Edge& edge : recording.frames[k].layers.normal_edges) {
       if (edge.corner >= 0) supported.insert(edge.id);
@@ -140,19 +143,21 @@ void add_ego_motion(Metrics& metrics, const Recording& recording) {
 struct Stage {
   const char* name;
   double FrameTimes::*time_ms;
+  bool of_layers = false;  ///< undefined for a detector without
 };
 
 void add_times(Metrics& metrics, const Recording& recording) {
   constexpr Stage kDetect{"detect", &FrameTimes::detect_ms};
-  constexpr Stage kStages[] = {{"line", &FrameTimes::line_ms},
-                               {"circle", &FrameTimes::circle_ms},
-                               {"square", &FrameTimes::square_ms},
+  constexpr Stage kStages[] = {{"line", &FrameTimes::line_ms, true},
+                               {"circle", &FrameTimes::circle_ms, true},
+                               {"square", &FrameTimes::square_ms, true},
                                {"filter", &FrameTimes::filter_ms}};
   constexpr Stage kBench[] = {{"simulate", &FrameTimes::simulate_ms},
                               {"truth", &FrameTimes::truth_ms}};
 
   const auto all = [&](const Stage& stage) {
     std::vector<double> times;
+    if (stage.of_layers && !recording.detector.layered) return times;
     for (const FrameRecord& frame : recording.frames) {
       if (frame.times) times.push_back((*frame.times).*stage.time_ms);
     }

@@ -15,6 +15,7 @@ namespace lcs::comparators {
 struct Detector {
   std::string_view name;
   std::string_view purpose;  ///< one line for people
+  bool layered = false;      ///< as in `bench::Speaker`
   /// \throws scenario::Error for parameters that the detector does not take.
   std::unique_ptr<bench::Tracker> (*make)(const sim::Pinhole& camera,
                                           const scenario::Scenario& scenario);

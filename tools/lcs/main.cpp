@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <functional>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 
@@ -11,6 +12,7 @@
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/replay.h"
 #include "tools/lcs/run.h"
+#include "tools/lcs/score.h"
 #include "tools/lcs/suite.h"
 #include "tools/lcs/version.h"
 
@@ -25,6 +27,7 @@ through its camera and IMU, and the simulator's truth scores what the filter say
   lcs run scenarios/crossing.yaml     run a scenario; results are in out/crossing
   lcs suite                           run all short scenarios, with several seeds each
   lcs replay --images DIR ...         the filter on a folder of pictures
+  lcs score DIR --detections FILE     someone else's detector, by a run's truth
   lcs run --help                      all about a command
 )";
 
@@ -40,22 +43,31 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(kHelp);
   RunOptions run_options;
-  add_run_command(app, run_options);
   ReplayOptions replay_options;
-  const CLI::App& replay_command = add_replay_command(app, replay_options);
+  ScoreOptions score_options;
   SuiteOptions suite_options;
-  const CLI::App& suite_command = add_suite_command(app, suite_options);
+  const struct {
+    const CLI::App& command;
+    std::function<ExitCode()> carry_out;
+  } commands[] = {
+      {add_run_command(app, run_options), [&] { return run(run_options); }},
+      {add_replay_command(app, replay_options), [&] { return replay(replay_options); }},
+      {add_score_command(app, score_options), [&] { return score(score_options); }},
+      {add_suite_command(app, suite_options), [&] { return suite(suite_options); }},
+  };
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
-    const auto commands = app.get_subcommands();  // what was named, if anything
-    const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
+    const auto named = app.get_subcommands();  // what was named, if anything
+    const std::string command = named.empty() ? "" : named.front()->get_name() + " ";
     return fail(fmt::format("{}; see lcs {}--help", error.what(), command));
   }
-  if (suite_command.parsed()) return suite(suite_options);
-  return replay_command.parsed() ? replay(replay_options) : run(run_options);
+  for (const auto& [command, carry_out] : commands) {
+    if (command.parsed()) return carry_out();
+  }
+  return fail("no command was given; see lcs --help");
 }
 
 }  // namespace

@@ -47,9 +47,10 @@ std::filesystem::path target_of(const RunOptions& options, const scenario::Scena
   return std::filesystem::path("out") / scenario.name;
 }
 
-void print_result(const scenario::Scenario& scenario, const bench::Metrics& metrics,
-                  const std::filesystem::path& folder) {
-  fmt::print("{}: {} frames, seed {}, {:.1f} frames/s\n", scenario.name, scenario.frames,
+void print_result(const scenario::Scenario& scenario, const comparators::Detector& detector,
+                  const bench::Metrics& metrics, const std::filesystem::path& folder) {
+  const std::string by = detector.layered ? "" : fmt::format(" by {}", detector.name);
+  fmt::print("{}{}: {} frames, seed {}, {:.1f} frames/s\n", scenario.name, by, scenario.frames,
              scenario.seed, bench::value(metrics, "sim.frames_per_second").value_or(0));
   fmt::print("{}  files    {}\n", bench::table(metrics), folder.string());
 }
@@ -109,6 +110,7 @@ ExitCode run(const RunOptions& options) {
   const std::unique_ptr<bench::Tracker> tracker = detector.make(camera, scenario);
 
   bench::Recording recording = bench::begin_recording(scenario, simulation);
+  recording.detector = {std::string(detector.name), detector.layered};
   bench::Result result(
       target_of(options, scenario), recording, {camera.width_px, camera.height_px},
       {.video_frames_per_second =
@@ -126,7 +128,7 @@ ExitCode run(const RunOptions& options) {
   interrupt.check();
   const bench::Metrics metrics = result.finish(recording);
 
-  if (!options.quiet) print_result(scenario, metrics, result.target());
+  if (!options.quiet) print_result(scenario, detector, metrics, result.target());
   const bool failed = report_failures(bench::failed_criteria(scenario.criteria, metrics));
   return failed ? kCriterionFailed : kFine;
 }

@@ -1,0 +1,151 @@
+// `lcs score` from its command line, on what `lcs run` leaves.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/command.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/bench/recording_io.h"
+#include "tools/bench/report.h"
+
+namespace lcs::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  EXPECT_TRUE(file) << path;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Score : public testing::Test {
+ protected:
+  CommandResult lcs(const std::vector<std::string>& arguments) {
+    return run_lcs(arguments, {.folder = folder_.path()});
+  }
+  /// A short run, in the folder `run`.
+  void make_run(const std::string& detector, const char* frames = "frames=12") {
+    const CommandResult result =
+        lcs({"run", fs::path(LCS_SCENARIOS_DIR) / "crossing.yaml", "--set", frames, "--no-video",
+             "--quiet", "--out", "run", "--detector", detector});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+  }
+  nlohmann::json json(const char* file) {
+    return nlohmann::json::parse(read(folder_.path() / file));
+  }
+
+  const TemporaryFolder folder_;
+};
+
+class ScoreOfDetector : public Score, public testing::WithParamInterface<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Names, ScoreOfDetector, testing::Values("lcs", "klt", "homography"),
+                         [](const auto& test) { return test.param; });
+
+TEST_P(ScoreOfDetector, GivesTheRunsOwnFiguresToTheLastBitTimesIncluded) {
+  make_run(GetParam());
+  const CommandResult result = lcs({"score", "run", "--out", "again.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(read(folder_.path() / "again.json"), read(folder_.path() / "run/metrics.json"));
+  const nlohmann::json figures = json("again.json");
+  EXPECT_GT(figures["time.filter_ms_median"].get<double>(), 0);
+  const bool layered = GetParam() == std::string("lcs");
+  for (const char* of_layers :
+       {"dimension.mean", "edges.rematched", "time.line_ms_median", "time.square_over_fast"}) {
+    EXPECT_EQ(figures[of_layers].is_null(), !layered) << of_layers;
+  }
+  EXPECT_NE(result.out.find("crossing by " + std::string(GetParam())), std::string::npos)
+      << result.out;
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_P(ScoreOfDetector, ExportedAndScoredAgainItHasTheSameFiguresOfRebelsAndSquares) {
+  make_run(GetParam());
+  ASSERT_EQ(lcs({"score", "run", "--write-detections", "said.csv", "--quiet"}).exit_code, 0);
+  const CommandResult result = lcs(
+      {"score", "--sequence", "run", "--detections", "said.csv", "--out", "said.json", "--quiet"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out + result.err, "");
+  const nlohmann::json own = json("run/metrics.json"), said = json("said.json");
+  EXPECT_GT(own["rebel.recall"].get<double>(), 0);
+  int compared = 0;
+  for (const auto& [name, figure] : own.items()) {
+    if (name.starts_with("rebel.") || name.starts_with("square.") || name.starts_with("truth.")) {
+      EXPECT_EQ(said[name], figure) << name;
+      ++compared;
+    } else if (name.starts_with("time.")) {
+      EXPECT_TRUE(said[name].is_null()) << name;
+    }
+  }
+  EXPECT_GT(compared, 25);
+}
+
+TEST_F(Score, LeavesTheRunAsItWas) {
+  make_run("lcs", "frames=4");
+  const std::string before = read(folder_.path() / "run/metrics.json");
+  std::ofstream(folder_.path() / "none.csv");
+  ASSERT_EQ(lcs({"score", "run", "--detections", "none.csv"}).exit_code, 0);
+  EXPECT_EQ(read(folder_.path() / "run/metrics.json"), before);
+}
+
+TEST_F(Score, ReportsVerdictsOnNoCorner) {
+  make_run("lcs", "frames=4");
+  std::ofstream(folder_.path() / "far.csv") << "3,rebel,-50,-50\n3,rebel,0\n3,rebel,-60,-50\n";
+  const CommandResult result = lcs({"score", "run", "--detections", "far.csv", "--quiet"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "2 of 3 verdicts are on no corner: there is none within 0.5 px\n");
+}
+
+TEST_F(Score, WithoutFramesCsvHasNoTimes) {
+  make_run("lcs", "frames=4");
+  fs::remove(folder_.path() / "run" / kFramesFile);
+  ASSERT_EQ(lcs({"score", "run", "--out", "again.json"}).exit_code, 0);
+  EXPECT_TRUE(json("again.json")["time.filter_ms_median"].is_null());
+  EXPECT_FALSE(json("again.json")["dimension.mean"].is_null());
+}
+
+TEST_F(Score, MistakesAreToldInOneLineAndNothingIsWritten) {
+  make_run("lcs", "frames=4");
+  std::ofstream(folder_.path() / "bad.csv") << "3,rebel,0\n4,rebel,0\n";
+  fs::create_directory(folder_.path() / "empty");
+  const struct {
+    std::vector<std::string> arguments;
+    std::string message;
+  } mistakes[] = {
+      {{"score"}, "--sequence is required"},
+      {{"score", "none"}, "none is no folder; name one that lcs run has left"},
+      {{"score", "empty"}, "cannot read empty/layers.jsonl"},
+      {{"score", "run", "--detections", "bad.csv"},
+       "bad.csv:2: there is no frame 4: the sequence has 0 to 3"},
+      {{"score", "run", "--detections", "none.csv"}, "cannot read none.csv"},
+      {{"score", "run", "--out", "no/folder/x.json"}, "cannot write no/folder/x.json"},
+  };
+  for (const auto& [arguments, message] : mistakes) {
+    std::vector<std::string> all = arguments;
+    if (all.size() > 1 && all[all.size() - 2] != "--out") {
+      all.insert(all.end(), {"--out", "new.json"});
+    }
+    const CommandResult result = lcs(all);
+    EXPECT_EQ(result.exit_code, 2) << message;
+    EXPECT_EQ(result.out, "");
+    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(fs::exists(folder_.path() / "new.json"));
+  }
+}
+
+TEST_F(Score, AFullDiskIsNoticedAndLeavesTheEarlierFile) {
+  make_run("lcs", "frames=4");
+  std::ofstream(folder_.path() / "old.json") << "old";
+  const CommandResult result = run_lcs({"score", "run", "--out", "old.json"},
+                                       {.folder = folder_.path(), .largest_file = 1000});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(read(folder_.path() / "old.json"), "old");
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(folder_.path())) files += entry.is_regular_file();
+  EXPECT_EQ(files, 1) << "nothing half-written is left";
+}
+
+}  // namespace
+}  // namespace lcs::bench

@@ -1,0 +1,45 @@
+/// \file
+/// Someone else's detector: what it says of the corners of a sequence, and the boxes that it finds,
+/// in a CSV file. The format is described in `tools/bench/DETECTIONS.md`.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "tools/bench/output_file.h"
+#include "tools/bench/recording.h"
+
+namespace lcs::bench {
+
+/// What is wrong with a file of detections: "file:line: what; what to do".
+class DetectionsError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A verdict that gives a place is one on the nearest corner within this distance.
+inline constexpr double kCornerReach_px = 0.5;
+
+struct Detections {
+  /// The sequence with the detector's verdicts and boxes in place of what it had; no times.
+  Recording recording;
+  int verdicts = 0;  ///< rows
+  /// \name Of these, rows by place that name no corner, and so were left out.
+  ///@{
+  int without_corner = 0;  ///< no corner within reach
+  int repeated = 0;        ///< only corners that an earlier row names
+  int corners() const { return verdicts - without_corner - repeated; }
+  ///@}
+};
+
+/// \param sequence whose corners and truth the detections are of.
+/// \throws DetectionsError
+Detections read_detections(const std::filesystem::path& csv, const Recording& sequence);
+
+/// Writes what a recording says in the same format, so that reading it gives the same figures of
+/// rebels and squares to the last bit. \throws OutputError
+void write_detections(const std::filesystem::path& csv, const Recording& recording);
+
+}  // namespace lcs::bench

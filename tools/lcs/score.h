@@ -1,0 +1,26 @@
+/// \file
+/// `lcs score`: the figures of a run from its files, or of someone else's detector on them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "tools/lcs/exit_codes.h"
+
+namespace lcs::tools {
+
+struct ScoreOptions {
+  std::string sequence;          ///< folder of a run
+  std::string detections;        ///< CSV; "": the run's own detector
+  std::string out;               ///< file for the figures; "": none
+  std::string write_detections;  ///< file for the verdicts; "": none
+  bool quiet = false;
+};
+
+/// Adds the sub-command to the program's. \param options are filled in by parsing.
+CLI::App& add_score_command(CLI::App& app, ScoreOptions& options);
+
+/// \throws bench::DetectionsError, bench::OutputError, std::exception.
+ExitCode score(const ScoreOptions& options);
+
+}  // namespace lcs::tools
