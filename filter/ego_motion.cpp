@@ -31,7 +31,12 @@ constexpr int kAttitude = 0, kVelocity = 3, kGyroBias = 6, kAccelBias = 9;
 
 // What the given start may be off by.
 constexpr double kStartAttitude_rad = 1e-3, kStartVelocity_mps = 1e-2;
-constexpr double kStartGyroBias_radps = 1e-5, kStartAccelBias_mps2 = 1e-3;
+
+// The IMU is silent once it is overdue by as many of its periods. What it then does not see: turns
+// of 0.2 rad/s and accelerations of 2 m/s^2 that last for some tenths of a second.
+constexpr int kSilentPeriods = 4;
+constexpr double kUnseenTurn = 0.1;          // rad/s/sqrt(Hz), about the vertical
+constexpr double kUnseenAcceleration = 1.0;  // m/s^2/sqrt(Hz)
 
 }  // namespace
 
@@ -48,8 +53,8 @@ EgoMotionEstimator::EgoMotionEstimator(const Mounting& mounting, const EgoMotion
   };
   block(kAttitude, kStartAttitude_rad);
   block(kVelocity, kStartVelocity_mps);
-  block(kGyroBias, kStartGyroBias_radps);
-  block(kAccelBias, kStartAccelBias_mps2);
+  block(kGyroBias, noise.gyro_turn_on_bias);
+  block(kAccelBias, noise.accel_turn_on_bias);
 }
 
 void EgoMotionEstimator::add_imu(std::int64_t t_ns, const Vector3d& gyro_radps,
@@ -67,6 +72,8 @@ void EgoMotionEstimator::add_imu(std::int64_t t_ns, const Vector3d& gyro_radps,
   // Over the interval that ends with this reading both rates are taken to change linearly.
   last_->gyro = 0.5 * (last_->gyro + gyro_radps);
   last_->accel = 0.5 * (last_->accel + accel_mps2);
+  const std::int64_t since_ns = t_ns - last_->t_ns;
+  if (since_ns > 0) period_ns_ = period_ns_ == 0 ? since_ns : std::min(period_ns_, since_ns);
   propagate_to(t_ns);
   last_ = reading;
 }
@@ -99,6 +106,10 @@ void EgoMotionEstimator::propagate_to(std::int64_t t_ns) {
   add_noise(kVelocity, noise_.accel_density);
   add_noise(kGyroBias, noise_.gyro_walk);
   add_noise(kAccelBias, noise_.accel_walk);
+  if (period_ns_ > 0 && t_ns - last_->t_ns > kSilentPeriods * period_ns_) {
+    covariance_(kAttitude + 2, kAttitude + 2) += kUnseenTurn * kUnseenTurn * dt;
+    add_noise(kVelocity, kUnseenAcceleration);
+  }
 }
 
 void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocity_B_mps) {

@@ -37,12 +37,18 @@ struct EgoMotionNoise {
   double accel_density = 2.0e-3;  ///< m/s^2/sqrt(Hz)
   double accel_walk = 3.0e-3;     ///< m/s^3/sqrt(Hz)
   double odometry_mps = 0.02;     ///< standard deviation of one odometry velocity, per axis
+  /// \name Standard deviation of what each bias may be at the start, per axis.
+  ///@{
+  double gyro_turn_on_bias = 1e-5;   ///< rad/s
+  double accel_turn_on_bias = 1e-3;  ///< m/s^2
+  ///@}
 };
 
 /// Strapdown integration of gyro and accelerometer from a known start, in the world frame W (z up,
 /// gravity along -z), with an error-state Kalman filter on (attitude, velocity, gyro bias,
 /// accelerometer bias) that takes wheel odometry where there is some. Without odometry it is plain
-/// dead reckoning.
+/// dead reckoning. Where the IMU falls silent its last reading is held, and odometry is believed
+/// more.
 class EgoMotionEstimator {
  public:
   struct Start {
@@ -87,6 +93,7 @@ class EgoMotionEstimator {
     Eigen::Vector3d gyro, accel;
   };
   std::optional<Reading> last_;  ///< newest reading
+  std::int64_t period_ns_ = 0;   ///< shortest time between two readings so far
   int dropped_ = 0;
 
   struct Frame {

@@ -7,6 +7,7 @@
 #include "scenarios/document.h"
 #include "scenarios/imu_presets.h"
 #include "scenarios/load_actor.h"
+#include "scenarios/load_image.h"
 #include "scenarios/load_sweep.h"
 #include "scenarios/quantities.h"
 #include "scenarios/scenes.h"
@@ -89,6 +90,23 @@ Camera read_camera(Reader reader) {
   return camera;
 }
 
+/// The estimator takes the state at 0 from the first reading, so there is one.
+std::vector<TimeSpan> read_gaps(const Value& value, const std::string& path) {
+  std::vector<TimeSpan> gaps;
+  for (const Value& item : as_list(value, path)) {
+    const std::string item_path = path + "." + std::to_string(gaps.size());
+    const std::vector<Value>& pair = as_list(item, item_path, 2);
+    const TimeSpan gap{as_quantity(pair[0], item_path + ".0", kDuration),
+                       as_quantity(pair[1], item_path + ".1", kDuration)};
+    if (gap.to_s <= gap.from_s || (!gaps.empty() && gap.from_s < gaps.back().to_s)) {
+      throw Error(item.where, item_path + " is [" + pair[0].text + ", " + pair[1].text +
+                                  "]; make the times increase, from each gap to the next");
+    }
+    gaps.push_back(gap);
+  }
+  return gaps;
+}
+
 Imu read_imu(Reader reader) {
   Imu imu;
   const std::vector<std::string> presets = imu_preset_names();
@@ -99,6 +117,10 @@ Imu read_imu(Reader reader) {
   reader.read("gyroscope_random_walk", kNoiseDensity, imu.noise.gyroscope_random_walk);
   reader.read("accelerometer_noise_density", kNoiseDensity, imu.noise.accelerometer_noise_density);
   reader.read("accelerometer_random_walk", kNoiseDensity, imu.noise.accelerometer_random_walk);
+  reader.read("gyroscope_turn_on_bias", kTurnOnRate, imu.noise.gyroscope_turn_on_bias_radps);
+  reader.read("accelerometer_turn_on_bias", kTurnOnAcceleration,
+              imu.noise.accelerometer_turn_on_bias_mps2);
+  if (const Value* gaps = reader.find("gaps")) imu.gaps = read_gaps(*gaps, reader.path_of("gaps"));
   reader.read("rate", kSensorRate, imu.rate_hz);
   reader.finish();
   if (imu.noise != preset_noise) imu.preset = "custom";
@@ -217,6 +239,8 @@ void read_top(Reader& reader, const std::filesystem::path& folder, Scenario& sce
   }
   section("corners", read_corners, scenario.fast_threshold);
   section("truth", read_truth, scenario.truth_min_depth_m);
+  section("image", read_image, scenario.image);
+  section("ground", read_ground, scenario.ground);
   if (const Value* actors = reader.find("actors")) {
     const Reader names(*actors, "actors");
     for (const Entry& entry : actors->entries) {

@@ -21,6 +21,18 @@ inline constexpr Quantity kAngularRate{Dimension::angular_rate, {-720, 720}};
 inline constexpr Quantity kCameraRate{Dimension::frequency, {0, 1000, true}};
 inline constexpr Quantity kSensorRate{Dimension::frequency, {0, 10000, true}};
 inline constexpr Quantity kNoiseDensity{Dimension::number, {0, 1000}};
+inline constexpr Quantity kIlluminance{Dimension::illuminance, {0, 200000}};
+inline constexpr Quantity kIntensity{Dimension::intensity, {0, 1000000}};
+inline constexpr Quantity kBeam{Dimension::angle, {0, 90, true}};
+inline constexpr Quantity kBlur{Dimension::number, {0, 50}};
+inline constexpr Quantity kRainRate{Dimension::number, {0, 200}};
+inline constexpr Quantity kExposure{Dimension::time, {0, 10, true}};
+inline constexpr Quantity kGain{Dimension::number, {0, 1000, true}};
+inline constexpr Quantity kElectrons{Dimension::number, {0, 1000000}};
+inline constexpr Quantity kFullWell{Dimension::number, {0, 1000000, true}};
+inline constexpr Quantity kTurnOnRate{Dimension::angular_rate, {0, 720}};
+inline constexpr Quantity kTurnOnAcceleration{Dimension::acceleration, {0, 100}};
+inline constexpr Quantity kRoughness{Dimension::length, {0, 1, true}};
 inline constexpr Quantity kRatio{Dimension::number, {0, 1}};
 inline constexpr Quantity kBound{Dimension::number, {}};
 

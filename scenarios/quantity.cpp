@@ -42,6 +42,9 @@ constexpr std::array units = {
     Unit{"rad", Dimension::angle, 1, 1},
     Unit{"deg/s", Dimension::angular_rate, pi, 180},
     Unit{"rad/s", Dimension::angular_rate, 1, 1},
+    Unit{"lx", Dimension::illuminance, 1, 1},
+    Unit{"klx", Dimension::illuminance, 1000, 1},
+    Unit{"cd", Dimension::intensity, 1, 1},
 };
 
 const Unit* base(Dimension dimension) {
@@ -77,6 +80,10 @@ std::string_view noun(Dimension dimension) {
       return "an angle";
     case Dimension::angular_rate:
       return "an angular rate";
+    case Dimension::illuminance:
+      return "an illuminance";
+    case Dimension::intensity:
+      return "a luminous intensity";
   }
   return "";
 }

@@ -17,6 +17,8 @@ enum class Dimension {
   frequency,     ///< Hz
   angle,         ///< deg
   angular_rate,  ///< deg/s
+  illuminance,   ///< lx
+  intensity,     ///< cd, of a lamp
 };
 
 /// The base unit, "" for a number.

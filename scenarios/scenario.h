@@ -68,14 +68,26 @@ struct Camera {
   Eigen::Vector3d mount_rpy_rad = Eigen::Vector3d::Zero();
 };
 
-/// Kalibr's noise model, see `sim/imu_noise.h`. All 0 is the ideal IMU.
+/// Kalibr's noise model and a turn-on bias, see `sim/imu_noise.h`. All 0 is the ideal IMU.
 struct ImuNoise {
   double gyroscope_noise_density = 0;      ///< rad/s/sqrt(Hz)
   double gyroscope_random_walk = 0;        ///< rad/s^2/sqrt(Hz)
   double accelerometer_noise_density = 0;  ///< m/s^2/sqrt(Hz)
   double accelerometer_random_walk = 0;    ///< m/s^3/sqrt(Hz)
+  /// \name Standard deviation of a bias drawn for each axis once a run, as it differs from one time
+  /// that the IMU is switched on to the next.
+  ///@{
+  double gyroscope_turn_on_bias_radps = 0;
+  double accelerometer_turn_on_bias_mps2 = 0;
+  ///@}
 
   bool operator==(const ImuNoise&) const = default;
+};
+
+/// From `from_s` on, until before `to_s`.
+struct TimeSpan {
+  double from_s = 0;
+  double to_s = 0;
 };
 
 struct Imu {
@@ -83,6 +95,7 @@ struct Imu {
   std::string preset = "adis16448";
   ImuNoise noise;
   double rate_hz = 200;
+  std::vector<TimeSpan> gaps;  ///< without readings, in order; each from above 0
 };
 
 /// Wheel odometry: velocity of B in B, at its own rate.
@@ -96,6 +109,44 @@ struct Odometry {
 enum class EgoMotionSource {
   imu,    ///< strapdown integration of the simulated IMU (and odometry where enabled)
   truth,  ///< exact poses, for experiments that say so by name
+};
+
+/// What the camera makes of the scene: `sim/photograph.h` has the model. As it stands here it
+/// leaves the rendered picture, which shows a white surface in daylight as white, as it is.
+struct Image {
+  static constexpr double kDaylight_lx = 10000;  ///< an overcast day
+  static constexpr double kDaylightExposure_s = 1e-3;
+
+  struct Headlights {
+    double intensity_cd = 0;                 ///< along the optical axis
+    double beam_rad = std::numbers::pi / 9;  ///< standard deviation of the beam round it
+  };
+  struct Rain {
+    double rate_mmph = 0;    ///< that falls, millimetres an hour
+    int lens_drops = 0;      ///< on the window before the lens at any time
+    double drop_life_s = 4;  ///< mean time until one runs off and another lands
+  };
+  struct Noise {
+    double full_well_e = 10000;  ///< electrons of a pixel that is saturated
+    double read_e = 5;           ///< standard deviation of what reading adds, electrons
+  };
+
+  double light_lx = kDaylight_lx;  ///< on the scene, the rover's own lights aside
+  std::optional<Headlights> headlights;
+  std::optional<double> visibility_m;  ///< at which contrast falls to 2 %; none: clear air
+  std::optional<Rain> rain;
+  double blur_px = 0;  ///< standard deviation, on top of the lens's own
+  double exposure_s = kDaylightExposure_s;
+  double gain = 1;
+  std::optional<Noise> noise;
+};
+
+/// Bumps on the floor that wheels feel and the camera sees: a Gaussian random field.
+struct Ground {
+  double roughness_m = 0.01;  ///< standard deviation of the height
+  double wavelength_m = 0.6;  ///< of the shortest waves; the longest are three times as long
+  std::optional<Eigen::Vector2d> centre_m;  ///< none: where the ego starts
+  Eigen::Vector2d size_m{8, 4};             ///< along x and y; level at its edges
 };
 
 /// \name Trajectories of actors, on the ground plane. An actor heads the way that it moves.
@@ -190,6 +241,8 @@ struct Scenario {
   EgoMotionSource ego_motion = EgoMotionSource::imu;
   int fast_threshold = 20;         ///< grey levels, 1 to 254
   double truth_min_depth_m = 0.5;  ///< nearest depth of the static segment (`radial`)
+  std::optional<Image> image;      ///< none: the picture as it is rendered
+  std::optional<Ground> ground;    ///< none: as level as the scene has it
   std::vector<Actor> actors;
   std::string filter_preset;  ///< "" is the filter's default
   Source filter_preset_source;

@@ -29,12 +29,15 @@ Eigen::Vector3d normal3(RandomStream& stream) {
 
 }  // namespace
 
-Noise3::Noise3(double density, double random_walk, double rate_hz, std::uint64_t seed,
-               std::string_view name)
+Noise3::Noise3(double density, double random_walk, double turn_on_bias, double rate_hz,
+               std::uint64_t seed, std::string_view name)
     : white_step_(not_negative(density, "a noise density") * std::sqrt(positive_rate(rate_hz))),
       walk_step_(not_negative(random_walk, "a random walk") / std::sqrt(rate_hz)),
       white_(seed, stream_name(name, "white")),
-      walk_(seed, stream_name(name, "walk")) {}
+      walk_(seed, stream_name(name, "walk")) {
+  RandomStream turn_on(seed, stream_name(name, "turn_on"));
+  bias_ = not_negative(turn_on_bias, "a turn-on bias") * normal3(turn_on);
+}
 
 Eigen::Vector3d Noise3::corrupt(const Eigen::Vector3d& truth) {
   if (started_) bias_ += walk_step_ * normal3(walk_);
@@ -44,10 +47,10 @@ Eigen::Vector3d Noise3::corrupt(const Eigen::Vector3d& truth) {
 
 ImuNoiseModel::ImuNoiseModel(const scenario::ImuNoise& noise, double rate_hz, std::uint64_t seed,
                              std::string_view name)
-    : gyro_(noise.gyroscope_noise_density, noise.gyroscope_random_walk, rate_hz, seed,
-            stream_name(name, "gyro")),
-      accel_(noise.accelerometer_noise_density, noise.accelerometer_random_walk, rate_hz, seed,
-             stream_name(name, "accel")) {}
+    : gyro_(noise.gyroscope_noise_density, noise.gyroscope_random_walk,
+            noise.gyroscope_turn_on_bias_radps, rate_hz, seed, stream_name(name, "gyro")),
+      accel_(noise.accelerometer_noise_density, noise.accelerometer_random_walk,
+             noise.accelerometer_turn_on_bias_mps2, rate_hz, seed, stream_name(name, "accel")) {}
 
 ImuSample ImuNoiseModel::corrupt(const ImuSample& truth) {
   return {truth.t_ns, gyro_.corrupt(truth.gyro_radps), accel_.corrupt(truth.accel_mps2)};

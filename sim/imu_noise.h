@@ -4,11 +4,12 @@
 /// IMU: Kalibr's model (as in OpenVINS). At step dt = 1 / rate, for each axis,
 ///
 ///     measured_k = true_k + b_k + sigma / sqrt(dt) * N(0, 1)
-///     b_0 = 0,   b_k = b_{k-1} + sigma_b * sqrt(dt) * N(0, 1)
+///     b_0 = beta * N(0, 1),   b_k = b_{k-1} + sigma_b * sqrt(dt) * N(0, 1)
 ///
-/// with sigma the noise density and sigma_b the random walk of `scenario::ImuNoise`. White noise
-/// and walk of each sensor have a random stream each, so that a change to one of the four figures
-/// leaves the numbers drawn for the others as they were.
+/// with sigma the noise density, sigma_b the random walk and beta the turn-on bias of
+/// `scenario::ImuNoise`. White noise, walk and turn-on bias of each sensor have a random stream
+/// each, so that a change to one of the figures leaves the numbers drawn for the others as they
+/// were.
 ///
 /// Wheel odometry: a scale drawn once a run, and white noise in x and y of B.
 #pragma once
@@ -23,13 +24,12 @@
 
 namespace lcs::sim {
 
-/// White noise and a random walk on three axes.
+/// White noise and a bias that walks, on three axes.
 class Noise3 {
  public:
-  /// \throws std::invalid_argument unless both figures are finite and >= 0, and the rate is above
-  /// 0.
-  Noise3(double density, double random_walk, double rate_hz, std::uint64_t seed,
-         std::string_view name);
+  /// \throws std::invalid_argument unless the figures are finite and >= 0, and the rate is above 0.
+  Noise3(double density, double random_walk, double turn_on_bias, double rate_hz,
+         std::uint64_t seed, std::string_view name);
 
   Eigen::Vector3d corrupt(const Eigen::Vector3d& truth);
 
@@ -41,7 +41,7 @@ class Noise3 {
   double walk_step_;   ///< sigma_b * sqrt(dt)
   RandomStream white_;
   RandomStream walk_;
-  Eigen::Vector3d bias_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d bias_;
   bool started_ = false;
 };
 

@@ -13,6 +13,7 @@
 #include "scenarios/scenes.h"
 #include "scenarios/spelling.h"
 #include "sim/fragment.h"
+#include "sim/ground.h"
 #include "sim/xml.h"
 
 namespace lcs::sim {
@@ -186,6 +187,7 @@ ComposedScene compose(const Scenario& scenario) {
   xml::Element& scene = *document->RootElement();
   set_compiler(scene);
   add_actors(scene, scenario, composed);
+  if (scenario.ground) add_ground(scene, *scenario.ground, scenario.ego.start_m);
   add_ego(scene, scenario);
   composed.mjcf = xml::print(*document);
   return composed;

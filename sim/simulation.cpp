@@ -5,6 +5,7 @@
 
 #include "sim/camera_renderer.h"
 #include "sim/gl_context.h"
+#include "sim/photograph.h"
 #include "sim/silhouette.h"
 #include "sim/world.h"
 
@@ -35,6 +36,7 @@ struct Simulation::Impl {
   CameraRenderer renderer;
   std::vector<ConvexParts> parts;
   Calibration calibration;
+  std::optional<Photographer> photographer;
   Snapshot snapshot;           ///< at the frame that comes next
   std::vector<ImuSample> imu;  ///< since the last frame
   std::vector<OdometrySample> odometry;
@@ -48,6 +50,9 @@ struct Simulation::Impl {
         parts(outlines(world)),
         calibration(calibrate()),
         snapshot(world.snapshot()) {
+    if (s.image) {
+      photographer.emplace(*s.image, calibration.camera, s.camera.rate_hz, s.seed);
+    }
     world.advance_to(0, imu, odometry);
   }
 
@@ -91,6 +96,7 @@ struct Simulation::Impl {
     renderer.update();
     renderer.render_colour(o.image);
     renderer.render_depth_and_geoms(o.truth.depth_m, geoms);
+    if (photographer) photographer->develop(o.image, o.truth.depth_m, o.index);
     o.truth.object.create(geoms.size());
     std::transform(geoms.begin(), geoms.end(), o.truth.object.begin(),
                    [&](int geom) { return geom < 0 ? -1 : world.object_of_geom(geom); });

@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/ground.h"
 #include "sim/texture.h"
 
 namespace lcs::sim {
@@ -63,6 +64,12 @@ Twist velocity(const Model& model, mjtObj type, int id) {
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
+bool in_gap(const std::vector<scenario::TimeSpan>& gaps, std::int64_t t_ns) {
+  return std::any_of(gaps.begin(), gaps.end(), [&](const scenario::TimeSpan& gap) {
+    return t_ns >= std::llround(gap.from_s * 1e9) && t_ns < std::llround(gap.to_s * 1e9);
+  });
+}
+
 }  // namespace
 
 std::int64_t event_time_ns(std::int64_t k, double rate_hz) {
@@ -82,6 +89,7 @@ World::World(const scenario::Scenario& scenario, const ComposedScene& composed)
       accelerometer_(model_.m().sensor_adr[model_.id(mjOBJ_SENSOR, "ego/accelerometer")]),
       gyro_(model_.m().sensor_adr[model_.id(mjOBJ_SENSOR, "ego/gyro")]) {
   fill_textures(model_, scenario_, composed);
+  if (scenario_.ground) raise_ground(model_, *scenario_.ground, scenario_.seed);
   set_options();
   rover_ = make_rover(scenario_, model_);
   find_objects();
@@ -245,9 +253,11 @@ void World::read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample
   const mjtNum* readings = model_.d().sensordata;
   if (event_time_ns(imu_count_, scenario_.imu.rate_hz) == t_ns_) {
     ++imu_count_;
-    imu.push_back(
+    // drawn in a gap too, so that the readings after it are those of a run without one
+    const ImuSample reading =
         imu_noise_.corrupt({t_ns_, Eigen::Map<const Eigen::Vector3d>(readings + gyro_),
-                            Eigen::Map<const Eigen::Vector3d>(readings + accelerometer_)}));
+                            Eigen::Map<const Eigen::Vector3d>(readings + accelerometer_)});
+    if (!in_gap(scenario_.imu.gaps, t_ns_)) imu.push_back(reading);
   }
   if (scenario_.odometry.enabled &&
       event_time_ns(odometry_count_, scenario_.odometry.rate_hz) == t_ns_) {

@@ -50,8 +50,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         added("UnknownNear", "sede: 5\n", "4: unknown key 'sede'; did you mean 'seed'?"),
         added("UnknownFar", "weather: rain\n",
-              "4: unknown key 'weather'; known are purpose, groups, scene, seed, ego, camera, frames, "
-              "duration, imu, odometry, ego_motion, corners, truth, actors, filter, criteria and sweep"),
+              "4: unknown key 'weather'; known are purpose, groups, scene, seed, ego, camera, "
+              "frames, "
+              "duration, imu, odometry, ego_motion, corners, truth, image, ground, actors, filter, "
+              "criteria and sweep"),
         added("UnknownInSection", "camera:\n  rate: 5\n  fov: 60\n",
               "6: unknown key 'fov' in camera; did you mean 'fovy'?"),
         added("UnknownBeforeMissing",

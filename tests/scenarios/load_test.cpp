@@ -132,6 +132,94 @@ TEST(Load, DurationMakesTheFramesThatLieBeforeItsEnd) {
   EXPECT_EQ(frames("0.7 s", "30 Hz"), 21);
 }
 
+TEST(Load, EveryKeyOfTheImageAndTheGroundArrives) {
+  const Scenario s = load_text(smallest + R"(
+image:
+  light: 2 klx
+  headlights: {intensity: 3000 cd, beam: 15 deg}
+  visibility: 0.2 km
+  rain: {rate: 15, lens_drops: 25, drop_life: 3 s}
+  blur: 0.7
+  exposure: 20 ms
+  gain: 8
+  noise: {full_well: 8000, read: 3}
+ground: {roughness: 4 mm, wavelength: 40 cm, centre: [1 m, 2 m], size: [6 m, 3 m]}
+)");
+  ASSERT_TRUE(s.image);
+  EXPECT_EQ(s.image->light_lx, 2000);
+  EXPECT_EQ(s.image->headlights.value().intensity_cd, 3000);
+  EXPECT_DOUBLE_EQ(s.image->headlights->beam_rad, pi / 12);
+  EXPECT_EQ(s.image->visibility_m, 200);
+  EXPECT_EQ(s.image->rain.value().rate_mmph, 15);
+  EXPECT_EQ(s.image->rain->lens_drops, 25);
+  EXPECT_EQ(s.image->rain->drop_life_s, 3);
+  EXPECT_EQ(s.image->blur_px, 0.7);
+  EXPECT_EQ(s.image->exposure_s, 0.02);
+  EXPECT_EQ(s.image->gain, 8);
+  EXPECT_EQ(s.image->noise.value().full_well_e, 8000);
+  EXPECT_EQ(s.image->noise->read_e, 3);
+  ASSERT_TRUE(s.ground);
+  EXPECT_EQ(s.ground->roughness_m, 0.004);
+  EXPECT_EQ(s.ground->wavelength_m, 0.4);
+  EXPECT_EQ(s.ground->centre_m, Eigen::Vector2d(1, 2));
+  EXPECT_EQ(s.ground->size_m, Eigen::Vector2d(6, 3));
+}
+
+TEST(Load, ImageAndGroundAreLeftOutOrHaveTheirDefaults) {
+  EXPECT_FALSE(load_text(smallest).image);
+  EXPECT_FALSE(load_text(smallest).ground);
+  const Scenario s = load_text(smallest + "image: {noise: {}}\nground: {}\n");
+  EXPECT_EQ(s.image->light_lx, 10000);
+  EXPECT_EQ(s.image->exposure_s, 1e-3);
+  EXPECT_EQ(s.image->gain, 1);
+  EXPECT_FALSE(s.image->headlights || s.image->rain || s.image->visibility_m);
+  EXPECT_EQ(s.image->noise->full_well_e, 10000);
+  EXPECT_EQ(s.ground->roughness_m, 0.01);
+  EXPECT_FALSE(s.ground->centre_m);
+}
+
+TEST(Load, TurnOnBiasAndGapsOfTheImuArrive) {
+  const Scenario s = load_text(
+      smallest +
+      "imu: {gyroscope_turn_on_bias: 90 deg/s, accelerometer_turn_on_bias: 5 cm/s^2, gaps: "
+      "[[1.5 s, 2 s], [3, 3.2]]}\n");
+  EXPECT_EQ(s.imu.preset, "custom");
+  EXPECT_EQ(s.imu.noise.gyroscope_turn_on_bias_radps, pi / 2);
+  EXPECT_EQ(s.imu.noise.accelerometer_turn_on_bias_mps2, 0.05);
+  ASSERT_EQ(s.imu.gaps.size(), 2u);
+  EXPECT_EQ(s.imu.gaps[0].from_s, 1.5);
+  EXPECT_EQ(s.imu.gaps[0].to_s, 2);
+  EXPECT_EQ(s.imu.gaps[1].to_s, 3.2);
+}
+
+TEST(Load, WhatIsWrongInTheImageTheGroundOrAGapIsRefusedAtItsLine) {
+  const auto said = [](const std::string& line) { return refusal(smallest + line + "\n"); };
+  EXPECT_EQ(
+      said("image: {light: 5 cd}"),
+      "test.yaml:4: image.light: '5 cd' is a luminous intensity; give an illuminance in lx or "
+      "klx");
+  EXPECT_EQ(
+      said("image: {headlights: {beam: 20 deg}}"),
+      "test.yaml:4: image.headlights needs 'intensity'; add it (scenarios/README.md shows how)");
+  EXPECT_EQ(
+      said("image: {rain: {drops: 5}}"),
+      "test.yaml:4: unknown key 'drops' in image.rain; known are rate, lens_drops and drop_life");
+  EXPECT_EQ(said("image: {exposure: 0}"),
+            "test.yaml:4: image.exposure is '0'; it must be above 0 and at most 10 s");
+  EXPECT_EQ(said("image: {noise: {full_well: 0}}"),
+            "test.yaml:4: image.noise.full_well is '0'; it must be above 0 and at most 1000000");
+  EXPECT_EQ(said("ground: {roughness: 0}"),
+            "test.yaml:4: ground.roughness is '0'; it must be above 0 and at most 1 m");
+  EXPECT_EQ(
+      said("imu: {gaps: [[2, 1]]}"),
+      "test.yaml:4: imu.gaps.0 is [2, 1]; make the times increase, from each gap to the next");
+  EXPECT_EQ(
+      said("imu: {gaps: [[1, 2], [1.5, 3]]}"),
+      "test.yaml:4: imu.gaps.1 is [1.5, 3]; make the times increase, from each gap to the next");
+  EXPECT_EQ(said("imu: {gaps: [[0, 1]]}"),
+            "test.yaml:4: imu.gaps.0.0 is '0'; it must be above 0 and at most 100000 s");
+}
+
 TEST(Load, APhaseKeepsWhatItDoesNotSay) {
   const Scenario s = load_text(R"(
 scene: room.xml

@@ -98,6 +98,30 @@ TEST(Simulation, AnotherSeedPaintsAndShakesOtherwiseButMovesAlike) {
   EXPECT_EQ(a.truth, b.truth);
 }
 
+TEST(Simulation, InAGapOfTheImuReadingsAreMissingAndNoOthersChange) {
+  auto s = busy(scenario::Drive::holonomic);
+  Simulation whole(s);
+  s.imu.gaps = {{0.2, 0.35}};
+  Simulation gapped(s);
+  std::vector<ImuSample> all, some;
+  while (const auto o = whole.next()) {
+    all.insert(all.end(), o->imu.begin(), o->imu.end());
+    const auto other = gapped.next();
+    some.insert(some.end(), other->imu.begin(), other->imu.end());
+    EXPECT_EQ(o->odometry.size(), other->odometry.size());
+  }
+  EXPECT_EQ(some.size() + 30, all.size());  // 0.15 s at 200 Hz
+  auto next = some.begin();
+  for (const ImuSample& reading : all) {
+    if (reading.t_ns >= 200'000'000 && reading.t_ns < 350'000'000) continue;
+    ASSERT_NE(next, some.end());
+    EXPECT_EQ(next->t_ns, reading.t_ns);
+    EXPECT_EQ(next->gyro_radps, reading.gyro_radps);
+    EXPECT_EQ(next->accel_mps2, reading.accel_mps2);
+    ++next;
+  }
+}
+
 TEST(Simulation, GivesAsManyFramesAsAskedAtTheirTimes) {
   auto s = scenario_in_mjcf(floor_with(""), 0.5, 5);
   s.camera.rate_hz = 30;

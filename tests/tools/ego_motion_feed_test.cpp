@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 namespace lcs::bench {
 namespace {
@@ -141,6 +142,65 @@ TEST(EgoMotionFeed, OdometryHoldsTheDriftOfABiasedAccelerometer) {
   };
   EXPECT_GT(error_after_5s(false), 0.15);
   EXPECT_LT(error_after_5s(true), 0.02);
+}
+
+/// Drives straight on, brakes from 1 s to 1.6 s, and goes on slowly.
+struct BrakingDrive {
+  static double speed_mps(double t) { return 0.5 - 0.5 * std::clamp(t - 1.0, 0.0, 0.6); }
+  static double position_m(double t) {
+    const double braked = std::clamp(t - 1.0, 0.0, 0.6);
+    return 0.5 * t - 0.25 * braked * braked - 0.3 * std::max(0.0, t - 1.6);
+  }
+};
+
+/// Largest error of the velocity told, m/s, where the IMU says nothing from 0.9 s to 1.7 s.
+double error_through_a_gap(bool odometry) {
+  CircularDrive at_rest;
+  sim::Calibration calibration = at_rest.calibration();
+  scenario::Scenario scenario = with_source(scenario::EgoMotionSource::imu);
+  scenario.imu.noise = {1.7e-4, 1.9e-5, 2e-3, 3e-3};
+  scenario.odometry.noise_mps = 0.01;
+  EgoMotionFeed feed(scenario, calibration);
+  double worst = 0;
+  for (int k = 0; k <= 30; ++k) {
+    sim::Observation observation;
+    observation.index = k;
+    observation.t_ns = k * std::int64_t{100'000'000};
+    for (int i = k == 0 ? 0 : 20 * (k - 1) + 1; i <= 20 * k; ++i) {
+      const double t = 0.005 * i;
+      const std::int64_t t_ns = i * std::int64_t{5'000'000};
+      const double acceleration = t > 1.0 && t <= 1.6 ? -0.5 : 0;
+      if (t < 0.9 || t >= 1.7)
+        observation.imu.push_back({t_ns, {0, 0, 0}, {acceleration, 0, 9.81}});
+      if (odometry && i % 4 == 0) {
+        observation.odometry.push_back({t_ns, {BrakingDrive::speed_mps(t), 0, 0}});
+      }
+    }
+    observation.truth.now.T_WC = {camera_mount().R, {BrakingDrive::position_m(0.1 * k), 0, 0}};
+    const EgoMotionFeed::Motions motions = feed.next(observation);
+    EXPECT_TRUE(motions.told.v_C_mps.allFinite());
+    worst = std::max(worst, (motions.told.v_C_mps - motions.exact.v_C_mps).norm());
+  }
+  return worst;
+}
+
+TEST(EgoMotionFeed, WhileTheImuIsSilentItsLastReadingIsHeld) {
+  // On a circle rate and force stay as they are in the rover, so that holding them is exact.
+  const CircularDrive drive;
+  EgoMotionFeed feed(with_source(scenario::EgoMotionSource::imu), drive.calibration());
+  for (int k = 0; k <= 30; ++k) {
+    sim::Observation observation = drive.observation(k);
+    if (k > 10 && k <= 20) observation.imu.clear();
+    const EgoMotionFeed::Motions motions = feed.next(observation);
+    EXPECT_LT((motions.told.R_cur_prev - motions.exact.R_cur_prev).norm(), 1e-9) << k;
+    // whole frames are integrated in one step, whose error is of third order in 0.03 rad
+    EXPECT_LT((motions.told.v_C_mps - motions.exact.v_C_mps).norm(), 1e-3) << k;
+  }
+}
+
+TEST(EgoMotionFeed, OdometryTellsOfTheBrakingThatASilentImuDoesNotSee) {
+  EXPECT_NEAR(error_through_a_gap(false), 0.3, 0.02);  // all of it
+  EXPECT_LT(error_through_a_gap(true), 0.03);          // a tenth
 }
 
 }  // namespace

@@ -22,7 +22,11 @@ EgoMotionNoise noise_of(const scenario::Scenario& scenario) {
           .gyro_walk = imu.gyroscope_random_walk,
           .accel_density = imu.accelerometer_noise_density,
           .accel_walk = imu.accelerometer_random_walk,
-          .odometry_mps = std::max(scenario.odometry.noise_mps, kLeastOdometryNoise_mps)};
+          .odometry_mps = std::max(scenario.odometry.noise_mps, kLeastOdometryNoise_mps),
+          .gyro_turn_on_bias =
+              std::max(imu.gyroscope_turn_on_bias_radps, EgoMotionNoise{}.gyro_turn_on_bias),
+          .accel_turn_on_bias =
+              std::max(imu.accelerometer_turn_on_bias_mps2, EgoMotionNoise{}.accel_turn_on_bias)};
 }
 
 EgoMotionEstimator::Start start_of(const sim::Calibration& calibration) {

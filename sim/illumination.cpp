@@ -1,0 +1,98 @@
+#include "sim/illumination.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace lcs::sim {
+namespace {
+
+/// Lamps are not points: nearer than this their light grows no more.
+constexpr float kNearest_m = 0.3F;
+/// Reflectance of a wall of fog.
+constexpr float kAirlight = 0.5F;
+constexpr double kKoschmieder = 3.912;  // -log(0.02)
+/// The renderer's own blur, so that light that ends at an edge of the depth ends where the colour
+/// does.
+constexpr double kEdgeBlur_px = 0.6;
+
+/// The slope at b between its neighbours, by the nearer one: the other may lie on another surface.
+float slope(float a, float b, float c) {
+  const float before = b - a;
+  const float after = c - b;
+  return std::abs(before) < std::abs(after) ? before : after;
+}
+
+}  // namespace
+
+Illumination::Illumination(const scenario::Image& image, const Pinhole& camera)
+    : camera_(camera),
+      ambient_(static_cast<float>(image.light_lx / scenario::Image::kDaylight_lx)),
+      extinction_per_m_(image.visibility_m ? static_cast<float>(kKoschmieder / *image.visibility_m)
+                                           : 0.F),
+      ray_length_(camera.height_px, camera.width_px) {
+  if (image.headlights) lamps_times_m2_.create(ray_length_.size());
+  for (int y = 0; y < camera.height_px; ++y) {
+    for (int x = 0; x < camera.width_px; ++x) {
+      const Eigen::Vector3d ray = camera.back_project({x, y}, 1);
+      ray_length_(y, x) = static_cast<float>(ray.norm());
+      if (!image.headlights) continue;
+      const double off_axis = std::atan(ray.head<2>().norm()) / image.headlights->beam_rad;
+      lamps_times_m2_(y, x) =
+          static_cast<float>(image.headlights->intensity_cd / scenario::Image::kDaylight_lx *
+                             std::exp(-off_axis * off_axis / 2));
+    }
+  }
+}
+
+float Illumination::lamps(int x, int y, float distance_m) const {
+  if (lamps_times_m2_.empty()) return 0;
+  const float d = std::max(distance_m, kNearest_m);
+  return lamps_times_m2_(y, x) / (d * d);
+}
+
+/// cos(alpha) of each pixel. On a plane n . X = h the inverse depth w at a pixel with ray r is
+/// n . r / h, so that n / h follows from its slopes; then cos(alpha) = w / (|n / h| |r|).
+cv::Mat1f Illumination::facing(const cv::Mat1f& depth_m) const {
+  cv::Mat1f cosine(depth_m.size(), 1.F);
+  const auto inverse = [&](int x, int y) { return 1 / depth_m(y, x); };
+  const auto f = static_cast<float>(camera_.focal_px);
+  for (int y = 1; y + 1 < depth_m.rows; ++y) {
+    for (int x = 1; x + 1 < depth_m.cols; ++x) {
+      const float w = inverse(x, y);
+      if (w <= 0) continue;  // the sky
+      const float nx = f * slope(inverse(x - 1, y), w, inverse(x + 1, y));
+      const float ny = f * slope(inverse(x, y - 1), w, inverse(x, y + 1));
+      const float rx = (static_cast<float>(x - camera_.centre_px.x())) / f;
+      const float ry = (static_cast<float>(y - camera_.centre_px.y())) / f;
+      const float nz = w - nx * rx - ny * ry;
+      const float length = std::sqrt(nx * nx + ny * ny + nz * nz);
+      cosine(y, x) = std::min(1.F, w / (length * ray_length_(y, x)));
+    }
+  }
+  return cosine;
+}
+
+void Illumination::light(cv::Mat3f& picture, const cv::Mat1f& depth_m) const {
+  const cv::Mat1f cosine = lamps_times_m2_.empty() ? cv::Mat1f() : facing(depth_m);
+  cv::Mat1f lit(picture.size());
+  cv::Mat1f clear(picture.size());  // share that comes through the air
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) {
+      const float distance = depth_m(y, x) * ray_length_(y, x);
+      lit(y, x) = ambient_;
+      if (!cosine.empty()) lit(y, x) += cosine(y, x) * lamps(x, y, distance);
+      clear(y, x) = extinction_per_m_ > 0 ? std::exp(-extinction_per_m_ * distance) : 1.F;
+    }
+  }
+  if (!lamps_times_m2_.empty()) cv::GaussianBlur(lit, lit, {}, kEdgeBlur_px);
+  if (extinction_per_m_ > 0) cv::GaussianBlur(clear, clear, {}, kEdgeBlur_px);
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) {
+      const float air = (1 - clear(y, x)) * kAirlight * ambient_;
+      picture(y, x) = picture(y, x) * (lit(y, x) * clear(y, x)) + cv::Vec3f(air, air, air);
+    }
+  }
+}
+
+}  // namespace lcs::sim

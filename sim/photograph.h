@@ -1,0 +1,35 @@
+/// \file
+/// What a camera makes of a rendered picture: light and air, rain, blur and the sensor, in the
+/// order in which light meets them. The section `image` of a scenario. Truth is not touched: a
+/// corner on a drop counts as what lies behind it.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "scenarios/scenario.h"
+#include "sim/illumination.h"
+#include "sim/image_sensor.h"
+#include "sim/pose.h"
+#include "sim/rain.h"
+
+namespace lcs::sim {
+
+class Photographer {
+ public:
+  Photographer(const scenario::Image& image, const Pinhole& camera, double rate_hz,
+               std::uint64_t scenario_seed);
+
+  /// Turns the rendered picture of frame `k` into the camera's. A pure function of its arguments.
+  void develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k) const;
+
+ private:
+  double blur_px_;
+  double rate_hz_;
+  Illumination illumination_;
+  std::optional<Rain> rain_;
+  ImageSensor sensor_;
+};
+
+}  // namespace lcs::sim

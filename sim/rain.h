@@ -1,0 +1,58 @@
+/// \file
+/// Rain: streaks of drops that fall before the camera, and drops that lie on the window before its
+/// lens.
+///
+/// Falling drops: as many to a volume and of the sizes that Marshall & Palmer (1948) give for the
+/// rate of rain, above 1 mm and within 3 m (the rest is too thin to show), at the fall speed of
+/// Atlas et al. (1973). A drop covers a pixel for diameter / speed of the exposure, and so adds
+/// that share of its own brightness (Garg & Nayar, "Vision and rain", IJCV 2007); it is blurred by
+/// an aperture of 2 mm that is focused far away. New ones in each frame.
+///
+/// Drops on the window, 8 cm before the lens: they stay where they landed until they run off, and
+/// others land elsewhere. Each shows the scene upside down, wide and blurred, as a ball of water
+/// does, within a soft edge, out of focus too.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "scenarios/scenario.h"
+#include "sim/illumination.h"
+#include "sim/pose.h"
+
+namespace lcs::sim {
+
+/// A drop on the window.
+struct LensDrop {
+  cv::Point2f centre_px;
+  float radius_px = 0;
+};
+
+class Rain {
+ public:
+  Rain(const scenario::Image::Rain& rain, double exposure_s, const Pinhole& camera,
+       std::uint64_t scenario_seed);
+
+  /// Streaks of frame `k` in front of what is farther away.
+  /// \param picture in linear light, daylights.
+  void add_streaks(cv::Mat3f& picture, const cv::Mat1f& depth_m, const Illumination& light,
+                   int k) const;
+
+  /// Those that lie on the window at a time; a pure function of seed and time.
+  std::vector<LensDrop> lens_drops(double t_s) const;
+
+  /// What the camera sees through the window at a time.
+  void look_through_drops(cv::Mat3f& picture, double t_s) const;
+
+ private:
+  struct Streak;
+  Streak draw_streak(class RandomStream& random) const;
+
+  scenario::Image::Rain rain_;
+  double exposure_s_;
+  Pinhole camera_;
+  std::uint64_t seed_;
+};
+
+}  // namespace lcs::sim

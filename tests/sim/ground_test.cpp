@@ -1,0 +1,114 @@
+// Bumps on the floor: what they are like, and what wheels and camera make of them.
+
+#include "sim/ground.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "sim/simulation.h"
+#include "sim/world.h"
+#include "tests/sim/support.h"
+
+namespace lcs::sim {
+namespace {
+
+scenario::Scenario rough(double roughness_m) {
+  auto s = test::scenario_in("lab", 0.4, 12);
+  s.ego.drive = scenario::Drive::wheeled;
+  s.ego.start_m = {-3, 0};
+  s.ground = scenario::Ground{.roughness_m = roughness_m,
+                              .wavelength_m = 0.4,
+                              .centre_m = Eigen::Vector2d(-1, 0),
+                              .size_m = {6, 3}};
+  return s;
+}
+
+/// Heights of the field above the floor, m, row by row.
+std::vector<double> heights(World& world) {
+  const mjModel& m = world.model().m();
+  const int field = world.model().id(mjOBJ_HFIELD, "rough_ground");
+  const double top_m = m.hfield_size[4 * field + 2];
+  const float* data = m.hfield_data + m.hfield_adr[field];
+  std::vector<double> h;
+  for (int i = 0; i < m.hfield_nrow[field] * m.hfield_ncol[field]; ++i)
+    h.push_back(top_m * data[i]);
+  return h;
+}
+
+/// Greatest angle of the camera's up against the world's, over a run.
+double greatest_tilt_rad(const scenario::Scenario& s) {
+  Simulation simulation(s);
+  double greatest = 0;
+  while (const auto o = simulation.next()) {
+    const Eigen::Vector3d up = -o->truth.now.T_WC.R.col(1);
+    greatest = std::max(greatest, std::acos(std::min(1.0, up.z())));
+  }
+  return greatest;
+}
+
+TEST(Ground, HasTheRoughnessAskedForAndIsLevelAtItsEdges) {
+  World world(rough(0.01));
+  const std::vector<double> h = heights(world);
+  const int columns = world.model().m().hfield_ncol[0];
+  const int rows = world.model().m().hfield_nrow[0];
+  double sum = 0, squares = 0;
+  int inner = 0;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const double z = h[static_cast<std::size_t>(row * columns + column)];
+      const bool edge = row == 0 || column == 0 || row == rows - 1 || column == columns - 1;
+      if (edge) {
+        EXPECT_EQ(z, 0);
+      }
+      EXPECT_GE(z, 0);
+      EXPECT_LE(z, 0.04);
+      // beyond the rise of one wavelength, 8 points
+      if (row < 8 || column < 8 || row >= rows - 8 || column >= columns - 8) continue;
+      ++inner;
+      sum += z;
+      squares += z * z;
+    }
+  }
+  // some 50 independent bumps: the deviation is known to a tenth, and clipping takes 4 % off it
+  const double mean = sum / inner;
+  EXPECT_NEAR(mean, 0.02, 0.004);
+  EXPECT_NEAR(std::sqrt(squares / inner - mean * mean), 0.01, 0.002);
+}
+
+TEST(Ground, IsTheSeedsOwn) {
+  auto s = rough(0.01);
+  World a(s), b(s);
+  EXPECT_EQ(heights(a), heights(b));
+  s.seed = 2;
+  World c(s);
+  EXPECT_NE(heights(a), heights(c));
+}
+
+TEST(Ground, ShakesTheCameraOfARoverOnWheelsMoreTheRougherItIs) {
+  const double smooth = greatest_tilt_rad(rough(0.0001));
+  const double bumpy = greatest_tilt_rad(rough(0.006));
+  EXPECT_LT(smooth, 0.5 * test::kDegree);
+  EXPECT_GT(bumpy, 1 * test::kDegree);
+  EXPECT_LT(bumpy, 15 * test::kDegree);  // it does not fall over
+}
+
+TEST(Ground, DoesNotStopTheRover) {
+  Simulation simulation(rough(0.006));
+  Eigen::Vector3d first, last;
+  while (const auto o = simulation.next()) {
+    if (o->index == 0) first = o->truth.now.T_WC.p;
+    last = o->truth.now.T_WC.p;
+  }
+  EXPECT_NEAR((last - first).x(), 0.4 * 1.1, 0.08);
+}
+
+TEST(Ground, IsSettingNotAnObject) {
+  World plain(test::scenario_in("lab", 0.4, 1)), bumpy(rough(0.006));
+  EXPECT_EQ(plain.objects().size(), bumpy.objects().size());
+}
+
+}  // namespace
+}  // namespace lcs::sim
