@@ -264,7 +264,7 @@ TEST(EventPictures, ShowTheMissedCornersInTheCutAroundTheObject) {
     // Grey but for the box and the corners: orange is there, magenta and green are not.
     int orange = 0, magenta = 0, green = 0;
     for (const cv::Vec3b& px : picture) {
-      orange += px[2] > 180 && px[0] < 110 && px[1] > 90;
+      orange += px[2] > 150 && px[2] - px[0] > 60 && px[1] > 90;
       magenta += px[2] > 180 && px[0] > 180 && px[1] < 110;
       green += px[1] > 180 && px[2] < 110 && px[0] < 110;
     }

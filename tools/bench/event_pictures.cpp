@@ -40,16 +40,13 @@ struct Cut {
   }
 };
 
-/// Size in the kept picture of what the views of an event show; one for all, so that they compare.
-cv::Size cut_size(const Event& event, const cv::Size& kept, double scale) {
+/// Size in the kept picture of what a view shows.
+cv::Size cut_size(const EventView& view, const cv::Size& kept, double scale) {
   constexpr double kAspect = static_cast<double>(kEventPictureWidth_px) / kEventPictureHeight_px;
-  double width = kLeastWidth_px;
-  for (const EventView& view : event.views) {
-    const Vec2 wanted =
-        2 * (scale * (1 + kMarginShare) * view.half_size_px + Vec2(kMargin_px, kMargin_px));
-    width = std::max({width, wanted.x(), wanted.y() * kAspect});
-  }
-  width = std::min({width, static_cast<double>(kept.width), kept.height * kAspect});
+  const Vec2 wanted =
+      2 * (scale * (1 + kMarginShare) * view.half_size_px + Vec2(kMargin_px, kMargin_px));
+  const double width = std::min({std::max({kLeastWidth_px, wanted.x(), wanted.y() * kAspect}),
+                                 static_cast<double>(kept.width), kept.height * kAspect});
   return {std::max(1, cvRound(width)),
           std::max(1, std::min(kept.height, cvRound(width / kAspect)))};
 }
@@ -72,8 +69,7 @@ void mark(cv::Mat3b& picture, cv::Point at, CornerOutcome outcome) {
   };
   switch (outcome) {
     case CornerOutcome::missed:
-      cv::circle(picture, at, kReach + 1, kShadow, 1, cv::LINE_AA);
-      cv::circle(picture, at, kReach, kMissed, 2, cv::LINE_AA);
+      cv::circle(picture, at, kReach, kMissed, 1, cv::LINE_AA);
       return;
     case CornerOutcome::found:
     case CornerOutcome::found_early:
@@ -138,7 +134,7 @@ void paint_events(const Recording& recording, const FramePictures& pictures,
       const auto position = static_cast<std::size_t>(frame - recording.frames.begin());
       double scale = 1;
       const cv::Mat3b kept = pictures.at(position, scale);
-      const Cut cut = cut_out(view, cut_size(event, kept.size(), scale), kept.size(), scale);
+      const Cut cut = cut_out(view, cut_size(view, kept.size(), scale), kept.size(), scale);
       const auto bytes = jpeg(paint(*frame, outcomes[position], kept, cut), kShownQuality);
       view.jpeg_base64 = base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }

@@ -1,0 +1,311 @@
+#include "tools/report/report_page.h"
+
+#include <gtest/gtest.h>
+#include <tinyxml2.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/tools/temporary_folder.h"
+#include "tools/bench/events.h"
+#include "tools/bench/output_file.h"
+#include "tools/bench/report.h"
+#include "tools/report/report_data.h"
+
+namespace lcs::report {
+namespace {
+
+namespace fs = std::filesystem;
+using bench::TemporaryFolder;
+using nlohmann::json;
+using suite::Outcome;
+using suite::RunResult;
+using suite::ScenarioResult;
+using suite::SuiteResult;
+
+const std::string kNasty = "a<b>&\"'</script><!--\xff";
+
+RunResult run_with(std::uint64_t seed, double f1) {
+  RunResult run;
+  run.seed = seed;
+  run.outcome = f1 >= 0.5 ? Outcome::passed : Outcome::failed;
+  run.metrics = {{"rebel.f1", f1}, {"rebel.recall", std::nullopt}};
+  suite::CriterionResult& criterion = run.criteria.emplace_back();
+  criterion.metric = "rebel.f1";
+  criterion.min = 0.5;
+  criterion.value = f1;
+  criterion.met = f1 >= 0.5;
+  run.wall_s = 1.5;
+  return run;
+}
+
+ScenarioResult scenario_with(const std::string& name, std::vector<RunResult> runs) {
+  ScenarioResult scenario;
+  scenario.name = name;
+  scenario.purpose = "a box crosses";
+  scenario.file = "scenarios/" + name + ".yaml";
+  scenario.groups = {"short", "daylight"};
+  scenario.runs = std::move(runs);
+  return scenario;
+}
+
+SuiteResult suite_of(std::vector<ScenarioResult> scenarios) {
+  return {.detector = "lcs", .sets = {}, .version = "lcs 1", .scenarios = std::move(scenarios)};
+}
+
+bench::Event event_with(int corners, std::size_t picture_bytes) {
+  bench::Event event;
+  event.kind = bench::EventKind::found_late;
+  event.first_frame = 3;
+  event.last_frame = 9;
+  event.object = 1;
+  event.object_name = "box";
+  event.corners = corners;
+  event.of = 2 * corners;
+  event.reasons = {{Reason::vote_floor, corners}};
+  event.views.resize(1);
+  event.views[0].jpeg_base64 = std::string(picture_bytes, 'A');
+  return event;
+}
+
+class Report : public testing::Test {
+ protected:
+  /// A run's folder, with these events.
+  fs::path run_folder(const std::string& name, const std::vector<bench::Event>& events) {
+    const fs::path relative = fs::path("runs") / name;
+    fs::create_directories(folder_.path() / relative);
+    bench::write_events(folder_.path() / relative / bench::kEventsFile, events);
+    return relative;
+  }
+  json data(const SuiteResult& suite, const SuiteResult* baseline = nullptr,
+            std::size_t budget = kPictureBudget) {
+    return json::parse(report_data(suite, baseline, folder_.path(), budget));
+  }
+  std::string page(const SuiteResult& suite, const SuiteResult* baseline = nullptr) {
+    const fs::path file = folder_.path() / kReportFile;
+    write_report(file, suite, baseline, folder_.path());
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  const TemporaryFolder folder_;
+};
+
+/// The page without what stands in its script and style elements, which is no markup.
+std::string markup(std::string html) {
+  for (const std::string name : {"script", "style"}) {
+    for (std::size_t open = html.find('<' + name); open != html.npos;
+         open = html.find('<' + name, open + 1)) {
+      const std::size_t begin = html.find('>', open) + 1;
+      html.erase(begin, html.find("</" + name + '>', begin) - begin);
+    }
+  }
+  return html;
+}
+
+/// The JSON in the page.
+json data_of(const std::string& html) {
+  const std::string open = R"(<script type="application/json" id="data">)";
+  const std::size_t begin = html.find(open) + open.size();
+  return json::parse(html.substr(begin, html.find("</script>", begin) - begin));
+}
+
+TEST_F(Report, IsWellFormedWhateverNamesHold) {
+  ScenarioResult scenario = scenario_with(kNasty, {run_with(1, 0.8)});
+  scenario.purpose = kNasty;
+  scenario.groups = {kNasty};
+  scenario.point = {{kNasty, kNasty}};
+  scenario.runs[0].error = kNasty;
+  SuiteResult suite = suite_of({scenario});
+  suite.detector = kNasty;
+  suite.sets = {kNasty};
+  const std::string html = page(suite, &suite);
+  tinyxml2::XMLDocument document;
+  ASSERT_EQ(document.Parse(markup(html).c_str()), tinyxml2::XML_SUCCESS) << document.ErrorStr();
+  EXPECT_NE(html.find("<title>lcs suite: a&lt;b&gt;&amp;"), html.npos);
+  // Two elements end with </script>: the data and the script. No name adds one.
+  std::size_t ends = 0;
+  for (std::size_t at = html.find("</script>"); at != html.npos;
+       at = html.find("</script>", at + 1)) {
+    ++ends;
+  }
+  EXPECT_EQ(ends, 2u);
+  // The same, but for the byte that is no UTF-8.
+  const std::string name = data_of(html).at("scenarios")[0].at("name");
+  EXPECT_EQ(name, kNasty.substr(0, kNasty.size() - 1) + "\xef\xbf\xbd");
+}
+
+TEST_F(Report, AsksTheNetworkForNothing) {
+  const std::string html = page(suite_of({scenario_with("one", {run_with(1, 0.8)})}));
+  std::string rest = html;
+  // The name of a vocabulary, which is never fetched.
+  const std::string svg = "http://www.w3.org/2000/svg";
+  rest.erase(rest.find(svg), svg.size());
+  for (const char* sign : {"http:", "https:", "url(", "@import", "<link", " src=\"", "fetch(",
+                           "XMLHttpRequest", "import("}) {
+    EXPECT_EQ(rest.find(sign), rest.npos) << sign;
+  }
+  EXPECT_NE(html.find("default-src 'none'"), html.npos);
+}
+
+TEST_F(Report, HasEachScenarioWithItsMeanSpreadAndOutcome) {
+  const json all = data(suite_of({scenario_with("good", {run_with(1, 0.8), run_with(2, 0.9)}),
+                                  scenario_with("bad", {run_with(1, 0.8), run_with(2, 0.2)})}));
+  ASSERT_EQ(all.at("scenarios").size(), 2u);
+  const json& good = all["scenarios"][0];
+  EXPECT_EQ(good.at("name"), "good");
+  EXPECT_EQ(good.at("outcome"), "passed");
+  EXPECT_NEAR(good.at("figures").at("rebel.f1").at("mean"), 0.85, 1e-12);
+  EXPECT_NEAR(good.at("figures").at("rebel.f1").at("spread"), 0.05, 1e-12);
+  EXPECT_FALSE(good.at("figures").contains("rebel.recall"));  // undefined
+  EXPECT_EQ(all["scenarios"][1].at("outcome"), "failed");
+  EXPECT_EQ(all["scenarios"][1]["runs"][1].at("criteria")[0].at("met"), false);
+  EXPECT_EQ(all.at("baseline"), nullptr);
+}
+
+TEST_F(Report, SetsTheBaselineBesideScenariosOfTheSameName) {
+  const SuiteResult now = suite_of(
+      {scenario_with("old", {run_with(1, 0.8)}), scenario_with("new", {run_with(1, 0.7)})});
+  const SuiteResult before = suite_of({scenario_with("old", {run_with(1, 0.6)})});
+  const json all = data(now, &before);
+  EXPECT_EQ(all.at("baseline").at("version"), "lcs 1");
+  EXPECT_EQ(all["scenarios"][0]["figures"]["rebel.f1"].at("before"), 0.6);
+  EXPECT_FALSE(all["scenarios"][1]["figures"]["rebel.f1"].contains("before"));
+  const json& group = all.at("groups").at(0);
+  EXPECT_EQ(group.at("name"), "short");
+  EXPECT_EQ(group.at("scenarios"), 2);
+  EXPECT_NEAR(group.at("figures").at("rebel.f1").at("mean"), 0.75, 1e-12);
+  EXPECT_EQ(group["figures"]["rebel.f1"].at("before"), 0.6);
+}
+
+TEST_F(Report, EveryFigureHasADirection) {
+  const json traits = data(suite_of({})).at("traits");
+  EXPECT_EQ(traits.at("rebel.f1").at("direction"), "higher");
+  EXPECT_EQ(traits.at("rebel.latency_frames_median").at("direction"), "lower");
+  EXPECT_EQ(traits.at("size_share").at("direction"), "lower");
+  EXPECT_EQ(traits.at("time.filter_over_fast").at("direction"), "neutral");
+}
+
+TEST_F(Report, GivesTheCommandThatRunsItAgain) {
+  ScenarioResult scenario = scenario_with("it's", {run_with(7, 0.8)});
+  scenario.point = {{"ego.speed", "0.5 m/s"}};
+  SuiteResult suite = suite_of({scenario});
+  suite.sets = {"frames=20"};
+  suite.detector = "klt";
+  EXPECT_EQ(data(suite)["scenarios"][0]["runs"][0].at("command"),
+            "lcs run 'scenarios/it'\\''s.yaml' --seed 7 --set frames=20 --set 'ego.speed=0.5 m/s' "
+            "--detector klt");
+}
+
+TEST_F(Report, AnErrorHasItsMessageAndNoPlots) {
+  RunResult run;
+  run.seed = 1;
+  run.error = "scene.yaml:3: no such scene";
+  const json all = data(suite_of({scenario_with("broken", {run})}));
+  const json& told = all["scenarios"][0]["runs"][0];
+  EXPECT_EQ(told.at("outcome"), "error");
+  EXPECT_EQ(told.at("error"), run.error);
+  EXPECT_EQ(told.at("frames"), nullptr);
+  EXPECT_EQ(told.at("events"), nullptr);
+}
+
+TEST_F(Report, ShowsFramesAndEventsOfARunThatHasThem) {
+  RunResult run = run_with(1, 0.8);
+  run.folder = run_folder("one", {event_with(12, 8)});
+  bench::Recording recording;
+  for (int k = 0; k < 3; ++k) {
+    bench::FrameRecord& frame = recording.frames.emplace_back();
+    frame.index = k;
+    frame.t_ns = k * std::int64_t{100'000'000};
+  }
+  bench::write_frames(folder_.path() / run.folder / bench::kFramesFile, recording);
+  const json all = data(suite_of({scenario_with("one", {run})}));
+  const json& told = all["scenarios"][0]["runs"][0];
+  EXPECT_EQ(told.at("frames").at("t_s"), (json{0, 0.1, 0.2}));
+  EXPECT_EQ(told["frames"].at("precision"), (json{nullptr, nullptr, nullptr}));
+  const json& event = told.at("events").at(0);
+  EXPECT_EQ(event.at("kind"), "found_late");
+  EXPECT_EQ(event.at("object"), "box");
+  EXPECT_EQ(event.at("corners"), 12);
+  EXPECT_EQ(event.at("reasons")[0].at("word"), "vote_floor");
+  EXPECT_EQ(event["reasons"][0].at("meaning"), text_of(Reason::vote_floor).meaning);
+  EXPECT_EQ(event.at("views")[0].at("jpeg"), "AAAAAAAA");
+}
+
+TEST_F(Report, ABrokenFileOfARunIsNamed) {
+  RunResult run = run_with(1, 0.8);
+  run.folder = run_folder("one", {});
+  const fs::path frames = folder_.path() / run.folder / bench::kFramesFile;
+  const auto expect_error = [&](const std::string& text, const std::string& part) {
+    std::ofstream(frames) << text;
+    try {
+      data(suite_of({scenario_with("one", {run})}));
+      FAIL() << "was read without an error";
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(frames.string() + part), std::string::npos)
+          << error.what();
+    }
+  };
+  expect_error("frame,t_s\n", ":1: has no column");
+  expect_error(
+      "t_s,precision,recall,normal_edges,rebel_edges,normal_circles,rebel_circles,squares,"
+      "dimension,corners\n0,,,0,0,0,0,0,0,0\n1,,,many,0,0,0,0,0,0\n",
+      ":3: 'many' is not a number");
+}
+
+TEST_F(Report, KeepsThePicturesOfTheCostliestEventsWithinItsBudget) {
+  std::vector<RunResult> runs;
+  for (std::uint64_t seed : {1, 2}) {
+    RunResult run = run_with(seed, 0.8);
+    run.folder = run_folder("seed-" + std::to_string(seed),
+                            {event_with(40, 100), event_with(20, 100), event_with(10, 100)});
+    runs.push_back(run);
+  }
+  const json all = data(suite_of({scenario_with("one", runs)}), nullptr, 350);
+  const auto kept = [&](int run, int event) {
+    return all["scenarios"][0]["runs"][run]["events"][event]["views"][0]["jpeg"] != "";
+  };
+  EXPECT_TRUE(kept(0, 0));
+  EXPECT_TRUE(kept(0, 1));
+  EXPECT_TRUE(kept(0, 2));
+  EXPECT_FALSE(kept(1, 0));
+  EXPECT_EQ(all["scenarios"][0]["runs"][1]["events"][0].at("left_out"), true);
+  EXPECT_EQ(all["scenarios"][0]["runs"][1]["events"].size(), 3u);  // told, without pictures
+}
+
+TEST_F(Report, ASuiteOfFortyScenariosStaysSmall) {
+  std::vector<ScenarioResult> scenarios;
+  for (int s = 0; s < 40; ++s) {
+    std::vector<RunResult> runs;
+    for (std::uint64_t seed : {1, 2, 3}) {
+      RunResult run = run_with(seed, 0.8);
+      run.folder = run_folder(std::to_string(s) + "-" + std::to_string(seed),
+                              std::vector<bench::Event>(5, event_with(40, 60'000)));
+      runs.push_back(run);
+    }
+    scenarios.push_back(scenario_with("scenario" + std::to_string(s), runs));
+  }
+  const std::string html = page(suite_of(scenarios));
+  EXPECT_LT(html.size(), 15'000'000u);
+  EXPECT_GT(html.size(), kPictureBudget - 100'000);
+}
+
+TEST_F(Report, ReplacesAnOlderPageAndLeavesNothingBeside) {
+  page(suite_of({}));
+  const std::string html = page(suite_of({scenario_with("later", {})}));
+  EXPECT_NE(html.find("later"), html.npos);
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder_.path())) {
+    names.insert(entry.path().filename());
+  }
+  EXPECT_EQ(names, std::set<std::string>{kReportFile});
+}
+
+TEST_F(Report, APlaceThatCannotBeWrittenIsAnError) {
+  EXPECT_THROW(
+      write_report(folder_.path() / "missing" / kReportFile, suite_of({}), nullptr, folder_.path()),
+      bench::OutputError);
+}
+
+}  // namespace
+}  // namespace lcs::report

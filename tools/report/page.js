@@ -1,0 +1,528 @@
+// Lays out the data of a suite. Text from outside goes in as text nodes alone, never as HTML.
+(() => {
+'use strict';
+
+const data = JSON.parse(document.getElementById('data').textContent);
+const hasBaseline = data.baseline !== null;
+
+// ---- Elements
+
+/** An element; attributes that are null are left out, children that are null too. */
+function el(tag, attributes, ...children) {
+  return fill(document.createElement(tag), attributes, children);
+}
+function svg(tag, attributes, ...children) {
+  return fill(document.createElementNS('http://www.w3.org/2000/svg', tag), attributes, children);
+}
+function fill(node, attributes, children) {
+  for (const [name, value] of Object.entries(attributes || {})) {
+    if (value === null || value === undefined) continue;
+    if (name.startsWith('on')) node.addEventListener(name.slice(2), value);
+    else node.setAttribute(name, value);
+  }
+  for (const child of children.flat()) {
+    if (child !== null && child !== undefined) node.append(child);
+  }
+  return node;
+}
+
+// ---- Numbers
+
+const isNumber = (value) => typeof value === 'number';
+
+function digits(value) {
+  if (!isNumber(value)) return '–';
+  const size = Math.abs(value);
+  const decimals = size === 0 ? 0 : size < 10 ? 2 : size < 100 ? 1 : 0;
+  if (size > 0 && size < 0.005) return value.toPrecision(1).replace('-', '−');
+  return value.toFixed(decimals).replace('-', '−');
+}
+
+/** A change or a spread, with no more decimals than what it is of; '' where these show nothing. */
+function digitsBeside(value, of) {
+  const text = Math.abs(value).toFixed((digits(of).split('.')[1] || '').length);
+  return Number(text) === 0 ? '' : text;
+}
+function changeText(change, of) {
+  if (change === 0) return '=';
+  const text = digitsBeside(change, of);
+  return text === '' ? '≈' : (change > 0 ? '+' : '−') + text;
+}
+
+/** Which way the change of a figure is: 'good', 'bad', or '' where it is too small to matter. */
+function judged(name, figure) {
+  const traits = data.traits[name];
+  if (!figure || !isNumber(figure.mean) || !isNumber(figure.before) || !traits) return '';
+  const change = figure.mean - figure.before;
+  const least = Math.max(traits.least_change, traits.least_share * Math.abs(figure.before));
+  if (traits.direction === 'neutral' || change === 0 || Math.abs(change) < least) return '';
+  return (change > 0) === (traits.direction === 'higher') ? 'good' : 'bad';
+}
+
+function figureCell(name, figure) {
+  if (!figure) return el('td', { class: 'nothing' }, '–');
+  const cell = el('td', null, digits(figure.mean));
+  if (isNumber(figure.spread)) {
+    cell.append(el('span', { class: 'spread', title: 'half of the distance between the least and the greatest of the seeds' },
+      '±' + (digitsBeside(figure.spread, figure.mean) || '0')));
+  }
+  if (hasBaseline) {
+    const both = isNumber(figure.mean) && isNumber(figure.before);
+    const change = both ? figure.mean - figure.before : null;
+    cell.append(el('span', { class: ('change ' + judged(name, figure)).trim(),
+      title: isNumber(figure.before) ? 'was ' + Number(figure.before.toPrecision(6)) : 'not in the baseline' },
+      change === null ? '' : changeText(change, figure.mean)));
+  }
+  return cell;
+}
+
+const OUTCOMES = { passed: '✓ passed', failed: '✗ failed', error: '! error' };
+const badge = (outcome) => el('span', { class: 'badge ' + outcome }, OUTCOMES[outcome]);
+
+// ---- The head
+
+const COLUMNS = [
+  ['rebel.f1', 'F1', 'rebel corners: harmonic mean of precision and recall'],
+  ['rebel.precision', 'Precision', 'of the corners called rebels, those that are'],
+  ['rebel.recall', 'Recall', 'of the rebel corners, those that were called so'],
+  ['rebel.f1_distinct', 'F1 distinct', 'F1 without corners that move as nearer static ones would'],
+  ['rebel.latency_frames_median', 'Latency', 'frames from an object\'s first rebel corner until it is found'],
+  ['rebel.object_recall', 'Objects', 'share of the moving objects that are found'],
+  ['rebel.false_objects_per_100_frames', 'False /100', 'rebel circles without a mover under them, per 100 frames'],
+  ['square.recall_50', 'Square recall', 'at an intersection over union of 0.5'],
+  ['square.precision_50', 'Square prec.', 'at an intersection over union of 0.5'],
+  ['size_share', 'Size', 'all layers, as a share of a store of the last five frames\' corners'],
+  ['time.filter_over_fast', 'Time', 'of the detector\'s step, over that of FAST'],
+];
+
+function head() {
+  const runs = data.scenarios.flatMap((s) => s.runs);
+  const fact = (name, value) => value === '' ? null : el('span', null, name + ' ', el('b', null, value));
+  const count = (outcome) => data.scenarios.filter((s) => s.outcome === outcome).length;
+  document.getElementById('head').append(
+    el('h1', null, 'Suite: ' + data.detector),
+    el('div', { class: 'facts' },
+      fact('version', data.version), fact('settings', data.sets.join(', ')),
+      fact('scenarios', String(data.scenarios.length)), fact('runs', String(runs.length)),
+      fact('baseline', hasBaseline
+        ? [data.baseline.detector, data.baseline.version, ...data.baseline.sets].join(', ') : 'none')),
+    el('p', { id: 'totals' }, ...['passed', 'failed', 'error'].filter((o) => count(o) > 0)
+      .map((o) => el('span', null, badge(o), ' ' + count(o) + ' ')),
+      el('span', { class: 'quiet' }, 'of ' + data.scenarios.length + ' scenarios')));
+}
+
+function headerRow(first, sorting) {
+  return el('thead', null, el('tr', null, ...[[null, first, ''], ...COLUMNS].map(([name, label, title]) =>
+    el('th', { scope: 'col', title: title || null, 'data-metric': name },
+      sorting ? el('button', { type: 'button', onclick: (e) => sorting(e.currentTarget.parentNode) }, label)
+        : label))));
+}
+
+function groupTable() {
+  if (data.groups.length === 0) return null;
+  return el('section', null,
+    el('h2', null, 'Means of the groups'),
+    el('div', { class: 'scroll' }, el('table', { id: 'groups' }, headerRow('Group'),
+      el('tbody', null, ...data.groups.map((group) => el('tr', null,
+        el('td', null, group.name + ' ', el('span', { class: 'quiet small' }, String(group.scenarios))),
+        ...COLUMNS.map(([name]) => figureCell(name, group.figures[name]))))))));
+}
+
+// ---- The table of scenarios
+
+const anchor = (scenario) => 'scenario-' + data.scenarios.indexOf(scenario);
+
+function scenarioRow(scenario) {
+  const open = (event) => {
+    event.preventDefault();
+    const section = document.getElementById(anchor(scenario));
+    section.open = true;
+    section.scrollIntoView();
+  };
+  const row = el('tr', { 'data-scenario': scenario.name },
+    el('td', null, el('a', { href: '#' + anchor(scenario), onclick: open, title: scenario.purpose }, scenario.name),
+      scenario.outcome === 'passed' ? null : el('span', null, ' ', badge(scenario.outcome))),
+    ...COLUMNS.map(([name]) => figureCell(name, scenario.figures[name])));
+  row.scenario = scenario;
+  return row;
+}
+
+function scenarioTable() {
+  const rows = data.scenarios.map(scenarioRow);
+  const body = el('tbody', null, ...rows);
+  let byChange = false, sorted = null, descending = false;
+
+  const keyOf = (row, name) => {
+    if (!name) return row.scenario.name;
+    const figure = row.scenario.figures[name];
+    if (!figure || !isNumber(figure.mean)) return null;
+    if (!byChange) return figure.mean;
+    return isNumber(figure.before) ? figure.mean - figure.before : null;
+  };
+  const sort = () => {
+    const name = sorted.dataset.metric || null;
+    rows.sort((a, b) => {
+      const x = keyOf(a, name), y = keyOf(b, name);
+      if (x === null || y === null) return (x === null) - (y === null);  // undefined ones come last
+      const order = name ? x - y : x.localeCompare(y, 'en', { numeric: true });
+      return descending ? -order : order;
+    });
+    body.append(...rows);
+    for (const other of sorted.parentNode.children) other.removeAttribute('aria-sort');
+    sorted.setAttribute('aria-sort', descending ? 'descending' : 'ascending');
+  };
+  const onSort = (heading) => {
+    descending = sorted === heading ? !descending : false;
+    sorted = heading;
+    sort();
+  };
+
+  const shown = el('span', { class: 'quiet small', role: 'status' });
+  const filter = el('input', { type: 'search', id: 'filter', 'aria-label': 'Filter the scenarios',
+    placeholder: 'Filter: name, group, purpose, failed …', oninput: () => {
+      const words = filter.value.toLowerCase().split(/\s+/).filter(Boolean);
+      let count = 0;
+      for (const row of rows) {
+        const s = row.scenario;
+        const text = [s.name, s.purpose, s.outcome, ...s.groups].join(' ').toLowerCase();
+        row.hidden = !words.every((word) => text.includes(word));
+        document.getElementById(anchor(s)).hidden = row.hidden;
+        count += !row.hidden;
+      }
+      shown.textContent = words.length ? count + ' of ' + rows.length : '';
+    } });
+  const change = el('button', { type: 'button', id: 'by-change', 'aria-pressed': 'false', onclick: () => {
+    byChange = !byChange;
+    change.setAttribute('aria-pressed', String(byChange));
+    if (sorted) sort();
+  } }, 'sort by change');
+
+  return el('section', null,
+    el('h2', null, 'Scenarios'),
+    el('div', { class: 'controls' }, filter, hasBaseline ? change : null, shown),
+    el('p', { class: 'quiet small' }, 'Means over the seeds',
+      hasBaseline ? '; below them the change against the baseline, coloured where it is for the better or the worse by more than matters.' : '.'),
+    el('div', { class: 'scroll' }, el('table', { id: 'scenarios' }, headerRow('Scenario', onSort), body)));
+}
+
+// ---- Plots
+
+const WIDTH = 480, HEIGHT = 190, LEFT = 40, RIGHT = 10, TOP = 8, BOTTOM = 24;
+
+function ticks(low, high, about) {
+  const raw = (high - low) / about;
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const step = power * [1, 2, 5, 10].find((factor) => factor * power >= raw);
+  const all = [];
+  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i++) all.push(i * step);
+  return all;
+}
+const tickText = (value) => String(Number(value.toPrecision(6)));
+
+/** Points joined where none is missing between them; a lone one as a dot. */
+function curve(xs, ys, at, style) {
+  const parts = [];
+  let path = '', count = 0, last = null;
+  const end = () => {
+    if (count > 1) parts.push(svg('path', { class: 'curve ' + style, d: path }));
+    if (count === 1) parts.push(svg('circle', { class: 'dot ' + style, cx: last[0], cy: last[1], r: 1.8 }));
+    path = '';
+    count = 0;
+  };
+  xs.forEach((x, i) => {
+    if (!isNumber(ys[i])) return end();
+    last = [at.x(x).toFixed(1), at.y(ys[i]).toFixed(1)];
+    path += (count++ ? 'L' : 'M') + last.join(' ');
+  });
+  end();
+  return parts;
+}
+
+/**
+ * series: {name, values, style, dashed, spread}; a band is {from, to, kind, title}.
+ * Pointing at the plot reads the values there.
+ */
+function plot({ title, x, xName, series, top, bands }) {
+  const low = Math.min(...x), high = Math.max(...x);
+  const values = series.flatMap((s) => s.values).filter(isNumber);
+  const greatest = top || Math.max(1e-9, ...values) * 1.05;
+  const at = {
+    x: (value) => LEFT + (high > low ? (value - low) / (high - low) : 0.5) * (WIDTH - LEFT - RIGHT),
+    y: (value) => HEIGHT - BOTTOM - value / greatest * (HEIGHT - TOP - BOTTOM),
+  };
+  const cursor = svg('line', { class: 'cursor', y1: TOP, y2: HEIGHT - BOTTOM });
+  const picture = svg('svg', { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: 'img',
+    'aria-label': title + ' over ' + xName + ': ' + series.map((s) => s.name).join(', ') },
+    ...(bands || []).map((band) => svg('rect', { class: 'band ' + band.kind, x: at.x(band.from) - 1, y: TOP,
+      width: Math.max(2, at.x(band.to) - at.x(band.from) + 2), height: HEIGHT - TOP - BOTTOM },
+      svg('title', null, band.title))),
+    ...ticks(0, greatest, 4).flatMap((value) => [
+      svg('line', { class: 'grid', x1: LEFT, x2: WIDTH - RIGHT, y1: at.y(value), y2: at.y(value) }),
+      svg('text', { x: LEFT - 5, y: at.y(value) + 4, 'text-anchor': 'end' }, tickText(value))]),
+    ...ticks(low, high > low ? high : low + 1, 6).filter((value) => at.x(value) <= WIDTH - RIGHT - 8 * xName.length - 12).map((value) =>
+      svg('text', { x: at.x(value), y: HEIGHT - 7, 'text-anchor': 'middle' }, tickText(value))),
+    svg('text', { x: WIDTH - RIGHT, y: HEIGHT - 7, 'text-anchor': 'end' }, xName),
+    ...series.flatMap((s) => curve(x, s.values, at, s.style + (s.dashed ? ' dashed' : ''))),
+    ...series.filter((s) => s.spread).flatMap((s) => x.flatMap((value, i) => isNumber(s.values[i]) ? [
+      svg('circle', { class: 'dot ' + s.style, cx: at.x(value), cy: at.y(s.values[i]), r: 3 }),
+      svg('line', { class: 'whisker ' + s.style, x1: at.x(value), x2: at.x(value),
+        y1: at.y(s.values[i] - (s.spread[i] || 0)), y2: at.y(s.values[i] + (s.spread[i] || 0)) })] : [])),
+    cursor);
+  const readout = el('div', { class: 'readout' });
+  const read = (event) => {
+    const box = picture.getBoundingClientRect();
+    const px = (event.clientX - box.left) / box.width * WIDTH;
+    let nearest = 0;
+    x.forEach((value, i) => { if (Math.abs(at.x(value) - px) < Math.abs(at.x(x[nearest]) - px)) nearest = i; });
+    cursor.setAttribute('x1', at.x(x[nearest]));
+    cursor.setAttribute('x2', at.x(x[nearest]));
+    cursor.style.visibility = 'visible';
+    readout.textContent = tickText(x[nearest]) + ' ' + xName + ':  ' +
+      series.map((s) => s.name + ' ' + digits(s.values[nearest])).join(',  ');
+  };
+  picture.addEventListener('pointermove', read);
+  picture.addEventListener('pointerleave', () => { cursor.style.visibility = 'hidden'; readout.textContent = ''; });
+  return el('figure', { class: 'plot' },
+    el('figcaption', null, el('b', null, title), ...series.map((s) =>
+      el('span', { class: 'key ' + s.style + (s.dashed ? ' dashed' : '') }, el('span', null, s.name))),
+      ...[['miss', 'missed'], ['false', 'false alarm']].filter(([kind]) => (bands || []).some((b) => b.kind === kind))
+        .map(([kind, name]) => el('span', { class: 'key ' + kind }, el('span', null, name)))),
+    picture, readout);
+}
+
+/** Corners of the last five frames together: what the layers take the place of. */
+function fiveFrameStore(corners) {
+  return corners.map((_, i) => corners.slice(Math.max(0, i - 4), i + 1).reduce((sum, n) => sum + (n || 0), 0));
+}
+
+function framePlots(run) {
+  const f = run.frames;
+  if (!f || f.t_s.length === 0) return el('p', { class: 'nothing' }, 'The run left no frames.csv.');
+  // Times have gaps nowhere; the events know frames, which the rows are.
+  const time = (frame) => f.t_s[Math.min(Math.max(frame, 0), f.t_s.length - 1)];
+  const bands = (run.events || []).map((event) => ({ from: time(event.first), to: time(event.last),
+    kind: event.of > 0 ? 'miss' : 'false', title: headline(event) }));
+  const common = { x: f.t_s, xName: 's' };
+  return el('div', { class: 'plots' },
+    plot({ ...common, title: 'Precision and recall', top: 1.05, bands, series: [
+      { name: 'precision', values: f.precision, style: 's1' },
+      { name: 'recall', values: f.recall, style: 's2' }] }),
+    plot({ ...common, title: 'Layers', series: [
+      { name: 'normal edges', values: f.normal_edges, style: 's1' },
+      { name: 'rebel edges', values: f.rebel_edges, style: 's4' },
+      { name: 'normal circles', values: f.normal_circles, style: 's3' },
+      { name: 'rebel circles', values: f.rebel_circles, style: 's2', dashed: true },
+      { name: 'squares', values: f.squares, style: 's5' }] }),
+    plot({ ...common, title: 'Dimensionality', series: [
+      { name: 'all layers', values: f.dimension, style: 's1' },
+      { name: 'corners', values: f.corners, style: 's3' },
+      { name: 'store of five frames', values: fiveFrameStore(f.corners), style: 's2', dashed: true }] }));
+}
+
+// ---- Events
+
+function headline(event) {
+  const frames = event.first === event.last ? 'frame ' + event.first : 'frames ' + event.first + ' to ' + event.last;
+  const circles = event.circles === 0 ? '' : (event.corners ? ', ' : '') + event.circles + ' circle' + (event.circles > 1 ? 's' : '');
+  const cost = event.of > 0 ? event.corners + ' of ' + event.of + ' corners missed'
+    : (event.corners ? event.corners + ' false corners' : '') + circles;
+  return (event.object ? event.object + ': ' : '') + event.meaning + ', ' + frames + ': ' + cost;
+}
+
+function reasonBars(event) {
+  return el('div', { class: 'reasons' }, ...event.reasons.map((reason) => {
+    const share = reason.corners / event.corners;
+    return el('div', { class: 'reason', title: reason.word + ': ' + reason.corners + ' corners' },
+      el('span', { class: 'share' }, share < 0.005 ? '< 1 %' : Math.round(100 * share) + ' %'),
+      el('span', { class: 'bar', style: '--share:' + (100 * share).toFixed(1) + '%' },
+        el('span', null, reason.meaning)));
+  }));
+}
+
+function strip(event) {
+  const pictures = event.views.filter((view) => view.jpeg !== '');
+  if (pictures.length === 0) {
+    return event.left_out ? el('p', { class: 'nothing small' }, 'Pictures are left out to keep the page small; events.json has them.') : null;
+  }
+  return el('div', { class: 'strip' }, ...pictures.map((view) => el('figure', null,
+    el('img', { src: 'data:image/jpeg;base64,' + view.jpeg, width: 256, height: 192,
+      alt: 'frame ' + view.frame + ' around: ' + headline(event) }),
+    el('figcaption', null, 'frame ' + view.frame + ' · ' + view.t_s.toFixed(2) + ' s'))));
+}
+
+function eventList(run) {
+  if (!run.events) return el('p', { class: 'nothing' }, 'The run left no events.json.');
+  if (run.events.length === 0) return el('p', { class: 'nothing' }, 'No misses and no false alarms to speak of.');
+  const mark = (style, sign, text) => el('span', null, el('i', { class: style, 'aria-hidden': 'true' }, sign), text);
+  return el('div', null,
+    el('div', { class: 'marks' }, mark('m1', '○', 'missed (orange ring)'), mark('m2', '●', 'found (green dot)'),
+      mark('m3', '×', 'false (magenta cross or circle)'), mark('m4', '□', 'where a mover really is (thin box)')),
+    ...run.events.map((event) => el('article', { class: 'event' },
+      el('h4', null, headline(event)),
+      strip(event), reasonBars(event))));
+}
+
+// ---- A scenario
+
+const bound = (c) => [isNumber(c.min) ? '≥ ' + tickText(c.min) : '', isNumber(c.max) ? '≤ ' + tickText(c.max) : '']
+  .filter(Boolean).join(', ');
+
+function criteriaTable(scenario) {
+  const with_ = scenario.runs.filter((run) => run.criteria.length > 0);
+  if (with_.length === 0) return el('p', { class: 'nothing' }, 'It asks for nothing.');
+  return el('div', { class: 'scroll' }, el('table', { class: 'criteria' },
+    el('thead', null, el('tr', null, el('th', null, 'Figure'), el('th', null, 'must be'),
+      ...with_.map((run) => el('th', null, 'seed ' + run.seed)))),
+    el('tbody', null, ...with_[0].criteria.map((c, i) => el('tr', null,
+      el('td', null, el('code', null, c.metric), c.required ? null : el('span', { class: 'quiet small' }, ' not required')),
+      el('td', null, bound(c)),
+      ...with_.map((run) => el('td', null, el('span', { class: 'badge ' + (run.criteria[i].met ? 'met' : 'unmet') },
+        (run.criteria[i].met ? '✓ ' : '✗ ') + digits(run.criteria[i].value)))))))));
+}
+
+function allFigures(scenario) {
+  const names = Object.keys(scenario.figures);
+  if (names.length === 0) return null;
+  return el('details', null, el('summary', null, 'All figures'),
+    el('div', { class: 'scroll' }, el('table', null,
+      el('thead', null, el('tr', null, el('th', null, 'Figure'), el('th', null, 'mean'),
+        ...scenario.runs.map((run) => el('th', null, 'seed ' + run.seed)))),
+      el('tbody', null, ...names.map((name) => el('tr', null, el('td', null, el('code', null, name)),
+        figureCell(name, scenario.figures[name]),
+        ...scenario.runs.map((run) => el('td', null, digits(run.metrics[name])))))))));
+}
+
+function commandLine(command) {
+  return el('div', { class: 'command' }, el('code', null, command),
+    el('button', { type: 'button', onclick: (event) => {
+      const button = event.currentTarget;
+      navigator.clipboard.writeText(command).then(() => { button.textContent = 'copied'; },
+        () => { button.textContent = 'select it'; });
+    } }, 'copy'));
+}
+
+function runBody(run) {
+  return el('div', null,
+    el('p', { class: 'quiet small' }, 'To run it again:'), commandLine(run.command),
+    run.error ? el('p', { class: 'message' }, run.error) : null,
+    run.outcome === 'error' ? null : [el('h3', null, 'Over time'), framePlots(run),
+      el('h3', null, 'Misses and false alarms'), eventList(run)]);
+}
+
+function scenarioBody(scenario) {
+  const place = el('div');
+  const buttons = scenario.runs.map((run) => el('button', { type: 'button', onclick: () => show(run) },
+    'seed ' + run.seed + (run.outcome === 'passed' ? '' : ' ' + OUTCOMES[run.outcome])));
+  const show = (run) => {
+    buttons.forEach((button, i) => button.setAttribute('aria-pressed', String(scenario.runs[i] === run)));
+    place.replaceChildren(runBody(run));
+  };
+  if (scenario.runs.length > 0) show(scenario.runs[0]);
+  return el('div', { class: 'body' },
+    el('div', { class: 'facts small' }, el('span', null, 'file ', el('code', null, scenario.file)),
+      el('span', null, 'groups ' + scenario.groups.join(', ')),
+      ...scenario.point.map(([key, value]) => el('span', null, key + ' ', el('b', null, value)))),
+    el('h3', null, 'Criteria'), criteriaTable(scenario), allFigures(scenario),
+    el('div', { class: 'tabs', role: 'group', 'aria-label': 'Seed' }, ...buttons), place);
+}
+
+function scenarioSection(scenario) {
+  const f1 = scenario.figures['rebel.f1'];
+  const section = el('details', { class: 'scenario', id: anchor(scenario), ontoggle: () => {
+    if (section.open && !section.querySelector('.body')) section.append(scenarioBody(scenario));
+  } }, el('summary', null, el('span', { class: 'name' }, scenario.name),
+    el('span', { class: 'quiet' }, scenario.purpose),
+    el('span', { class: 'right' }, f1 ? 'F1 ' + digits(f1.mean) + ' ' : '', badge(scenario.outcome))));
+  return section;
+}
+
+// ---- Sweeps
+
+/** Scenarios of one file that sweep the same keys. */
+function sweeps() {
+  const all = new Map();
+  for (const scenario of data.scenarios.filter((s) => s.point.length > 0)) {
+    const key = JSON.stringify([scenario.file, scenario.point.map(([name]) => name)]);
+    if (!all.has(key)) all.set(key, []);
+    all.get(key).push(scenario);
+  }
+  return [...all.values()];
+}
+
+const figureOf = (scenario, name) => (scenario.figures[name] || {}).mean;
+
+/** A swept value without what is the same in all of them, as the lateral part of a place. */
+function varying(values) {
+  const lists = values.map((text) => (/^\s*\[(.*)\]\s*$/.exec(text) || [null, text])[1].split(',').map((part) => part.trim()));
+  const places = lists[0].map((_, i) => i).filter((i) => lists.some((list) => list[i] !== lists[0][i]));
+  return places.length === 1 && lists.every((list) => list.length === lists[0].length)
+    ? lists.map((list) => list[places[0]]) : values;
+}
+
+/** A number and its unit; null where the text is anything else. */
+function measure(text) {
+  const found = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*([^\s\d]\S*)?\s*$/i.exec(text);
+  return found ? { value: Number(found[1]), unit: found[2] || '' } : null;
+}
+
+function sweepPlot(points) {
+  const key = points[0].point[0][0];
+  const measures = varying(points.map((s) => s.point[0][1])).map(measure);
+  const numeric = measures.every((m) => m && m.unit === measures[0].unit);
+  const sorted = points.map((scenario, i) => ({ scenario, x: numeric ? measures[i].value : i }))
+    .sort((a, b) => a.x - b.x);
+  const series = (name, label, style) => ({ name: label, style,
+    values: sorted.map((p) => figureOf(p.scenario, name)),
+    spread: sorted.map((p) => (p.scenario.figures[name] || {}).spread || 0) });
+  return el('div', { class: 'plots' }, plot({ title: 'Over ' + key, x: sorted.map((p) => p.x),
+    xName: numeric ? measures[0].unit : 'point', top: 1.05, series: [
+      series('rebel.f1', 'F1', 's1'), series('rebel.recall', 'recall', 's2')] }));
+}
+
+/** Light where nothing is found, deep where all is: readable in black in both themes. */
+const heat = (value) => `hsl(${Math.round(28 + 110 * value)} 65% ${Math.round(84 - 22 * Math.abs(value - 0.5))}%)`;
+
+function heatMap(points) {
+  const [rowKey, columnKey] = points[0].point.map(([name]) => name);
+  const valuesOf = (index) => {
+    const all = [...new Set(points.map((s) => s.point[index][1]))];
+    return all.every(measure) ? all.sort((a, b) => measure(a).value - measure(b).value) : all;
+  };
+  const columns = valuesOf(1);
+  return el('div', { class: 'scroll' }, el('table', { class: 'heat' },
+    el('caption', { class: 'small' }, 'F1 over ' + rowKey + ' (down) and ' + columnKey + ' (across)'),
+    el('thead', null, el('tr', null, el('th'), ...columns.map((value) => el('th', { scope: 'col' }, value)))),
+    el('tbody', null, ...valuesOf(0).map((row) => el('tr', null, el('th', { scope: 'row' }, row),
+      ...columns.map((column) => {
+        const found = points.find((s) => s.point[0][1] === row && s.point[1][1] === column);
+        const f1 = found ? figureOf(found, 'rebel.f1') : undefined;
+        return el('td', { title: found ? found.name : null,
+          style: isNumber(f1) ? 'background:' + heat(Math.min(1, Math.max(0, f1))) : 'color:inherit' }, digits(f1));
+      }))))));
+}
+
+function sweepSection() {
+  const all = sweeps();
+  if (all.length === 0) return null;
+  return el('section', { id: 'sweeps' }, el('h2', null, 'Sweeps'), ...all.map((points) => el('div', null,
+    el('h3', null, points[0].file.replace(/^.*\//, '').replace(/\.yaml$/, '')),
+    el('p', { class: 'quiet' }, points[0].purpose),
+    points[0].point.length === 1 ? sweepPlot(points)
+      : points[0].point.length === 2 ? heatMap(points)
+        : el('p', { class: 'nothing' }, 'More than two keys are swept: see the table above.'))));
+}
+
+// ---- The page
+
+head();
+document.getElementById('page').append(...[
+  groupTable(), scenarioTable(), sweepSection(),
+  el('section', null, el('h2', null, 'Each scenario'), ...data.scenarios.map(scenarioSection)),
+].filter(Boolean));
+// A link into the page opens what it leads to.
+const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+if (target && target.tagName === 'DETAILS') {
+  target.open = true;
+  target.scrollIntoView();
+}
+})();

@@ -1,0 +1,14 @@
+/// \file
+/// The page's template and what goes into it: `page.html`, `page.css` and `page.js` as they lie
+/// beside this file, made part of the program when it is built.
+#pragma once
+
+#include <string_view>
+
+namespace lcs::report {
+
+extern const std::string_view kPageHtml;  ///< with {{title}}, {{style}}, {{data}} and {{script}}
+extern const std::string_view kPageCss;
+extern const std::string_view kPageJs;
+
+}  // namespace lcs::report

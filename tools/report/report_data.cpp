@@ -1,0 +1,330 @@
+#include "tools/report/report_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "tools/bench/events.h"
+#include "tools/bench/report.h"
+#include "tools/suite/metric_traits.h"
+#include "tools/suite/summary.h"
+
+namespace lcs::report {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using suite::Outcome;
+using suite::RunResult;
+using suite::ScenarioResult;
+using suite::SuiteResult;
+
+constexpr std::array<const char*, 3> kOutcomes{"passed", "failed", "error"};
+constexpr std::array<const char*, 3> kDirections{"higher", "lower", "neutral"};
+
+/// Columns of frames.csv that are plotted.
+constexpr std::array<const char*, 10> kColumns{
+    "t_s",           "precision", "recall",    "normal_edges", "rebel_edges", "normal_circles",
+    "rebel_circles", "squares",   "dimension", "corners"};
+
+Json json_of(std::optional<double> figure) {
+  return figure && std::isfinite(*figure) ? Json(*figure) : Json(nullptr);
+}
+
+// ---- Figures
+
+std::vector<std::string> figure_names() {
+  std::vector<std::string> names;
+  for (const suite::MetricTraits& traits : suite::metric_traits()) names.emplace_back(traits.name);
+  names.emplace_back(suite::kSizeShare);
+  return names;
+}
+
+Json figure_traits() {
+  Json all = Json::object();
+  for (const std::string& name : figure_names()) {
+    const bool is_size = name == suite::kSizeShare;
+    const suite::MetricTraits traits = suite::traits_of(is_size ? "dimension.mean" : name);
+    all[name] = {{"direction", kDirections[static_cast<std::size_t>(traits.direction)]},
+                 {"least_change", is_size ? 0.01 : traits.least_change},
+                 {"least_share", traits.least_share}};
+  }
+  return all;
+}
+
+/// \param before the same scenario in the baseline; null: there is none.
+Json figures_of(const ScenarioResult& scenario, const ScenarioResult* before) {
+  Json figures = Json::object();
+  for (const std::string& name : figure_names()) {
+    const auto now = suite::over_seeds(scenario, name);
+    const auto then = before ? suite::over_seeds(*before, name) : std::nullopt;
+    if (!now && !then) continue;
+    Json& figure = figures[name] = Json::object();
+    figure["mean"] = now ? Json(now->mean) : Json(nullptr);
+    if (now && now->count > 1) figure["spread"] = now->half;
+    if (then) figure["before"] = then->mean;
+    if (then && then->count > 1) figure["before_spread"] = then->half;
+  }
+  return figures;
+}
+
+Json groups_of(const SuiteResult& suite, const SuiteResult* baseline) {
+  Json groups = Json::array();
+  for (const std::string& group : suite::groups_of(suite)) {
+    const auto members = std::count_if(
+        suite.scenarios.begin(), suite.scenarios.end(), [&](const ScenarioResult& scenario) {
+          return std::find(scenario.groups.begin(), scenario.groups.end(), group) !=
+                 scenario.groups.end();
+        });
+    Json figures = Json::object();
+    for (const std::string& name : figure_names()) {
+      const auto now = suite::over_group(suite, group, name);
+      const auto then = baseline ? suite::over_group(*baseline, group, name) : std::nullopt;
+      if (!now && !then) continue;
+      figures[name] = {{"mean", json_of(now)}};
+      if (then) figures[name]["before"] = *then;
+    }
+    groups.push_back({{"name", group}, {"scenarios", members}, {"figures", figures}});
+  }
+  return groups;
+}
+
+// ---- Runs
+
+/// A word for a POSIX shell.
+std::string quoted(const std::string& word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=:,@%+-";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) {
+    if (c == '\'')
+      text += R"('\'')";
+    else
+      text += c;
+  }
+  return text + "'";
+}
+
+std::string command_of(const SuiteResult& suite, const ScenarioResult& scenario,
+                       const RunResult& run) {
+  std::string command =
+      fmt::format("lcs run {} --seed {}", quoted(scenario.file.string()), run.seed);
+  for (const std::string& set : suite.sets) command += " --set " + quoted(set);
+  for (const auto& [key, value] : scenario.point) {
+    command += " --set " + quoted(fmt::format("{}={}", key, value));
+  }
+  if (suite.detector != "lcs") command += " --detector " + quoted(suite.detector);
+  return command;
+}
+
+Json criteria_of(const RunResult& run) {
+  Json criteria = Json::array();
+  for (const suite::CriterionResult& criterion : run.criteria) {
+    criteria.push_back({{"metric", criterion.metric},
+                        {"min", json_of(criterion.min)},
+                        {"max", json_of(criterion.max)},
+                        {"value", json_of(criterion.value)},
+                        {"required", criterion.required},
+                        {"met", criterion.met}});
+  }
+  return criteria;
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::stringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+/// To five digits, as the plots have fewer pixels than that; none for an empty cell.
+Json number_of(const std::string& cell) {
+  if (cell.empty()) return nullptr;
+  double number = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+  if (error != std::errc() || end != cell.data() + cell.size()) {
+    throw std::runtime_error("'" + cell + "' is not a number");
+  }
+  return std::isfinite(number) ? Json::parse(fmt::format("{:.5g}", number)) : Json(nullptr);
+}
+
+Json frames_of(const fs::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw std::runtime_error("cannot read " + file.string());
+  std::string line;
+  std::getline(stream, line);
+  const std::vector<std::string> header = cells_of(line);
+  Json columns = Json::object();
+  for (const char* name : kColumns) {
+    if (std::find(header.begin(), header.end(), name) == header.end()) {
+      throw std::runtime_error(fmt::format("{}:1: has no column {}", file.string(), name));
+    }
+    columns[name] = Json::array();
+  }
+  for (int number = 2; std::getline(stream, line); ++number) {
+    std::vector<std::string> cells = cells_of(line);
+    cells.resize(std::max(cells.size(), header.size()));
+    for (std::size_t i = 0; i < header.size(); ++i) {
+      const auto column = columns.find(header[i]);
+      if (column == columns.end()) continue;
+      try {
+        column->push_back(number_of(cells[i]));
+      } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format("{}:{}: {}", file.string(), number, error.what()));
+      }
+    }
+  }
+  return columns;
+}
+
+Json event_json(const bench::Event& event) {
+  Json reasons = Json::array();
+  for (const auto& [reason, corners] : event.reasons) {
+    reasons.push_back({{"word", text_of(reason).word},
+                       {"meaning", text_of(reason).meaning},
+                       {"corners", corners}});
+  }
+  Json views = Json::array();
+  for (const bench::EventView& view : event.views) {
+    views.push_back({{"frame", view.frame}, {"t_s", view.t_s}, {"jpeg", view.jpeg_base64}});
+  }
+  return {{"kind", text_of(event.kind).word},
+          {"meaning", text_of(event.kind).meaning},
+          {"first", event.first_frame},
+          {"last", event.last_frame},
+          {"object", event.object_name},
+          {"corners", event.corners},
+          {"of", event.of},
+          {"circles", event.circles},
+          {"reasons", reasons},
+          {"views", views}};
+}
+
+Json run_json(const SuiteResult& suite, const ScenarioResult& scenario, const RunResult& run,
+              const fs::path& suite_folder) {
+  Json json = {{"seed", run.seed},
+               {"outcome", kOutcomes[static_cast<std::size_t>(run.outcome)]},
+               {"error", run.error},
+               {"wall_s", json_of(run.wall_s)},
+               {"command", command_of(suite, scenario, run)},
+               {"criteria", criteria_of(run)},
+               {"metrics", Json::object()},
+               {"frames", nullptr},
+               {"events", nullptr}};
+  for (const std::string& name : figure_names()) {
+    if (const auto figure = suite::figure_of(run, name)) json["metrics"][name] = *figure;
+  }
+  if (run.folder.empty()) return json;
+  const fs::path folder = suite_folder / run.folder;
+  if (fs::exists(folder / bench::kFramesFile)) {
+    json["frames"] = frames_of(folder / bench::kFramesFile);
+  }
+  if (fs::exists(folder / bench::kEventsFile)) {
+    json["events"] = Json::array();
+    for (const bench::Event& event : bench::read_events(folder / bench::kEventsFile)) {
+      json["events"].push_back(event_json(event));
+    }
+  }
+  return json;
+}
+
+/// Takes pictures away until the rest fits: first those of the least costly events of later seeds.
+void keep_to_budget(Json& scenarios, std::size_t budget) {
+  struct Strip {
+    std::size_t turn;  // of its event in its run, and of the run in its scenario
+    Json* event;
+  };
+  std::vector<Strip> strips;
+  for (Json& scenario : scenarios) {
+    for (std::size_t r = 0; r < scenario["runs"].size(); ++r) {
+      Json& events = scenario["runs"][r]["events"];
+      for (std::size_t e = 0; e < events.size(); ++e) strips.push_back({e + 2 * r, &events[e]});
+    }
+  }
+  std::stable_sort(strips.begin(), strips.end(),
+                   [](const Strip& a, const Strip& b) { return a.turn < b.turn; });
+  std::size_t used = 0;
+  for (const Strip& strip : strips) {
+    std::size_t size = 0;
+    for (const Json& view : (*strip.event)["views"]) {
+      size += view["jpeg"].get_ref<const std::string&>().size();
+    }
+    if (used + size <= budget) {
+      used += size;
+      continue;
+    }
+    for (Json& view : (*strip.event)["views"]) view["jpeg"] = "";
+    (*strip.event)["left_out"] = true;
+  }
+}
+
+Json scenario_json(const SuiteResult& suite, const ScenarioResult& scenario,
+                   const ScenarioResult* before, const fs::path& suite_folder) {
+  Json json = {{"name", scenario.name},
+               {"purpose", scenario.purpose},
+               {"file", scenario.file.generic_string()},
+               {"groups", scenario.groups},
+               {"point", Json::array()},
+               {"outcome", kOutcomes[static_cast<std::size_t>(suite::outcome_of(scenario))]},
+               {"figures", figures_of(scenario, before)},
+               {"runs", Json::array()}};
+  for (const auto& [key, value] : scenario.point) {
+    json["point"].push_back(Json::array({key, value}));
+  }
+  for (const RunResult& run : scenario.runs) {
+    json["runs"].push_back(run_json(suite, scenario, run, suite_folder));
+  }
+  return json;
+}
+
+const ScenarioResult* find(const SuiteResult* baseline, const std::string& name) {
+  if (!baseline) return nullptr;
+  const auto found =
+      std::find_if(baseline->scenarios.begin(), baseline->scenarios.end(),
+                   [&](const ScenarioResult& scenario) { return scenario.name == name; });
+  return found == baseline->scenarios.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::string report_data(const SuiteResult& suite, const SuiteResult* baseline,
+                        const fs::path& suite_folder, std::size_t picture_budget) {
+  Json data = {{"detector", suite.detector}, {"version", suite.version},
+               {"sets", suite.sets},         {"baseline", nullptr},
+               {"traits", figure_traits()},  {"groups", groups_of(suite, baseline)},
+               {"scenarios", Json::array()}};
+  if (baseline) {
+    data["baseline"] = {
+        {"detector", baseline->detector}, {"version", baseline->version}, {"sets", baseline->sets}};
+  }
+  for (const ScenarioResult& scenario : suite.scenarios) {
+    data["scenarios"].push_back(
+        scenario_json(suite, scenario, find(baseline, scenario.name), suite_folder));
+  }
+  keep_to_budget(data["scenarios"], picture_budget);
+
+  // Names and messages may hold any bytes, JSON only UTF-8; and "</script>" would end the element
+  // that it stands in.
+  const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<')
+      safe += "\\u003c";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+}  // namespace lcs::report
