@@ -390,6 +390,24 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, Shipped, testing::ValuesIn(shipped_files()),
                            return std::filesystem::path(test.param).stem().string();
                          });
 
+TEST(Shipped, EveryScenarioOfTheSuiteHasASizeAndANameOfItsOwn) {
+  std::vector<std::string> names;
+  for (const std::string& file : shipped_files()) {
+    const Scenario s = load(std::filesystem::path(LCS_SOURCE_DIR) / "scenarios" / file);
+    names.push_back(s.name);
+    const auto sizes = std::count_if(s.groups.begin(), s.groups.end(), [](const std::string& g) {
+      return g == "short" || g == "long" || g == "sweep";
+    });
+    EXPECT_EQ(sizes, 1) << file;
+    EXPECT_EQ(s.sweep.empty(), s.groups.front() != "sweep") << file;
+    if (file.starts_with("suite/")) {
+      EXPECT_FALSE(s.criteria.empty()) << file;
+    }
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+}
+
 // The first block of YAML in scenarios/README.md is what a newcomer copies.
 TEST(Shipped, TheFirstScenarioOfTheReadmeLoads) {
   std::ifstream stream(std::filesystem::path(LCS_SOURCE_DIR) / "scenarios/README.md");
