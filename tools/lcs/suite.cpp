@@ -10,6 +10,7 @@
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/suite_progress.h"
 #include "tools/lcs/version.h"
+#include "tools/report/report_page.h"
 #include "tools/suite/junit.h"
 #include "tools/suite/plan.h"
 #include "tools/suite/suite_run.h"
@@ -36,8 +37,10 @@ crashes, or a scenario that is broken, is an error, and the others still run.
 
 Files written to the folder, all or none:
   suite.json    every figure and criterion of every run
+  report.html   all of it to look at: figures against the baseline, plots, and for each miss and
+                false alarm the reasons and a strip of pictures; open it in a browser
   junit.xml     a test case a criterion, for continuous integration
-  runs/NAME/seed-N/   what `lcs run` leaves, without a video
+  runs/NAME/seed-N/   what `lcs run --events` leaves, without a video
 
 Exit codes:
   0  fine
@@ -160,6 +163,8 @@ ExitCode suite(const SuiteOptions& options) {
                    .sets = options.sets,
                    .seeds = options.seeds});
   if (options.list) return list_plan(plan);
+  std::optional<suite::SuiteResult> baseline;
+  if (!options.baseline.empty()) baseline = suite::read_suite(options.baseline);
 
   bench::OutputFolder folder(options.out, suite::suite_files());
   SuiteProgress progress(options.quiet);
@@ -181,6 +186,8 @@ ExitCode suite(const SuiteOptions& options) {
   progress.wipe();
   suite::write_suite(folder.staging() / suite::kSuiteFile, result);
   suite::write_junit(folder.staging() / suite::kJunitFile, result);
+  report::write_report(folder.staging() / report::kReportFile, result,
+                       baseline ? &*baseline : nullptr, folder.staging());
   folder.commit();
 
   if (!options.quiet) {

@@ -38,7 +38,8 @@ std::vector<std::string> command_of(const PlannedScenario& planned, std::uint64_
       "--seed",     std::to_string(seed),
       "--detector", options.detector,
       "--out",      (options.folder / folder_of(planned, seed)).string(),
-      "--no-video", "--quiet"};
+      "--no-video", "--quiet",
+      "--events"};
   for (const std::string& set : planned.sets) command.insert(command.end(), {"--set", set});
   return command;
 }
