@@ -1,0 +1,84 @@
+// Uses the page as a person would, and leaves what it found in an element for run.sh to read.
+(async () => {
+  const faults = window.faultsOnLoad;
+  const expect = (what, is) => { if (!is) faults.push(what); };
+  const until = async (is) => {
+    for (let i = 0; i < 100 && !is(); ++i) await new Promise((done) => setTimeout(done, 20));
+  };
+  try {
+    const data = JSON.parse(document.getElementById('data').textContent);
+    const table = document.getElementById('scenarios');
+    const rows = () => [...table.tBodies[0].rows];
+    const names = () => rows().map((row) => row.dataset.scenario);
+
+    // The table has a row a scenario, with the figures that it was given.
+    expect('a row a scenario', rows().length === data.scenarios.length && rows().length >= 2);
+    expect('a heading says the detector', document.querySelector('h1').textContent.includes(data.detector));
+
+    // Headings sort, first upwards, then downwards; figures that are not defined stay last.
+    const headings = [...table.tHead.rows[0].cells];
+    for (const heading of headings) {
+      const metric = heading.dataset.metric;
+      const key = (row) => metric ? (row.scenario.figures[metric] || {}).mean : row.dataset.scenario;
+      for (const direction of ['ascending', 'descending']) {
+        heading.querySelector('button').click();
+        expect(heading.textContent + ' says ' + direction, heading.getAttribute('aria-sort') === direction);
+        const keys = rows().map(key);
+        const defined = keys.filter((k) => k !== undefined && k !== null);
+        expect('undefined figures of ' + heading.textContent + ' come last',
+          defined.every((k, i) => k === keys[i]));
+        const sorted = [...defined].sort((a, b) => metric ? a - b : a.localeCompare(b, 'en', { numeric: true }));
+        if (direction === 'descending') sorted.reverse();
+        expect(heading.textContent + ' sorts ' + direction, defined.every((k, i) => k === sorted[i]));
+      }
+    }
+
+    // The filter leaves what it names.
+    const filter = document.getElementById('filter');
+    const look = (text) => {
+      filter.value = text;
+      filter.dispatchEvent(new Event('input'));
+      return rows().filter((row) => row.offsetParent !== null).length;
+    };
+    expect('the filter finds one name', look(names()[0]) === 1);
+    expect('the filter hides the other sections',
+      [...document.querySelectorAll('details.scenario')].filter((d) => d.offsetParent !== null).length === 1);
+    expect('the filter finds nothing', look('no such scenario') === 0);
+    expect('the filter lets all back', look('') === rows().length);
+
+    // Changes are there with a baseline, and only then.
+    const changes = [...document.querySelectorAll('#scenarios .change')].filter((c) => c.textContent !== '');
+    expect('changes against the baseline', (changes.length > 0) === (data.baseline !== null));
+    expect('changes are coloured', data.baseline === null || document.querySelector('.change.good, .change.bad'));
+    expect('a button sorts by change', (document.getElementById('by-change') !== null) === (data.baseline !== null));
+
+    // A name opens its section; it has plots, the command, and pictures that show.
+    let pictures = 0;
+    for (const row of rows()) {
+      row.querySelector('a').click();
+      const section = document.querySelector(row.querySelector('a').getAttribute('href'));
+      expect(row.dataset.scenario + ' opens', section.open);
+      await until(() => section.querySelector('.body'));
+      for (const button of section.querySelectorAll('.tabs button')) {
+        button.click();
+        expect(row.dataset.scenario + ' has three plots', section.querySelectorAll('figure.plot svg').length === 3);
+        expect(row.dataset.scenario + ' has curves', section.querySelectorAll('svg .curve').length >= 6);
+        expect(row.dataset.scenario + ' has no figure that is none', !/NaN|undefined/.test(section.innerHTML.replace(/base64,[^"]*/g, '')));
+        expect(row.dataset.scenario + ' has its command', section.querySelector('.command code').textContent.startsWith('lcs run '));
+        for (const picture of section.querySelectorAll('.strip img')) {
+          await until(() => picture.complete);
+          expect('a picture shows', picture.naturalWidth === 256 && picture.naturalHeight === 192 && picture.alt !== '');
+          ++pictures;
+        }
+      }
+    }
+    expect('there are pictures', pictures >= 3);
+    expect('reasons are told', document.querySelectorAll('.reason').length > 0);
+  } catch (error) {
+    faults.push(String(error && error.stack || error));
+  }
+  const result = document.createElement('pre');
+  result.id = 'exercise';
+  result.textContent = faults.length === 0 ? 'EXERCISE-FINE' : 'EXERCISE-FAULTS ' + JSON.stringify(faults);
+  document.body.append(result);
+})();
