@@ -23,6 +23,8 @@
 
 namespace lcs::sim {
 
+class RandomStream;
+
 /// A drop on the window.
 struct LensDrop {
   cv::Point2f centre_px;
@@ -47,7 +49,7 @@ class Rain {
 
  private:
   struct Streak;
-  Streak draw_streak(class RandomStream& random) const;
+  Streak draw_streak(RandomStream& random) const;
 
   scenario::Image::Rain rain_;
   double exposure_s_;
