@@ -18,17 +18,20 @@
 namespace lcs::comparators {
 
 struct FlowParameters {
-  int window_px = 15;              ///< side of the window that is matched; odd, >= 3
+  int window_px = 11;              ///< side of the window that is matched; odd, >= 3
   int levels = 3;                  ///< of the pyramid, above the image itself; >= 0
   int max_iterations = 30;         ///< on each level
   double least_step_px = 0.01;     ///< at which iterations end
   double least_eigenvalue = 1e-4;  ///< of the window's gradients, as OpenCV normalises it
-  /// A corner that, tracked there and back again, ends farther than this from itself is lost.
-  double round_trip_px = 1;
+  /// A corner that, tracked there and back again, ends farther than this from itself is lost; none:
+  /// no way back, in half the time. What fails the check lies on movers' outlines more often than
+  /// not, so that checking costs more recall than it gains precision (README.md).
+  std::optional<double> round_trip_px;
 };
 
 class BackwardFlow {
  public:
+  /// \throws std::invalid_argument for a parameter out of its range.
   explicit BackwardFlow(const FlowParameters& parameters);
 
   /// To be called with every frame, in order.
@@ -43,6 +46,7 @@ class BackwardFlow {
  private:
   using Pyramid = std::vector<cv::Mat>;
   using Points = std::vector<cv::Point2f>;
+  void drop_those_that_do_not_return(std::span<const Vec2> guesses_px);
   /// `there` holds guesses before, and what was found after.
   void lucas_kanade(const Pyramid& from, const Pyramid& to, const Points& here, Points& there,
                     std::vector<unsigned char>& found) const;

@@ -29,8 +29,10 @@ Made make_homography(const sim::Pinhole&, const scenario::Scenario&) {
 
 constexpr std::array<Detector, 3> kDetectors{{
     {"lcs", "the Line-Circle-Square filter", true, make_lcs},
-    {"klt", "Lucas-Kanade, and distance to the epipolar segment that the IMU gives", false, make_klt},
-    {"homography", "Lucas-Kanade, and distance to one homography by RANSAC", false, make_homography},
+    {"klt", "Lucas-Kanade, and distance to the epipolar segment that the IMU gives", false,
+     make_klt},
+    {"homography", "Lucas-Kanade, and distance to one homography by RANSAC", false,
+     make_homography},
 }};
 
 }  // namespace

@@ -1,11 +1,16 @@
 #include "tools/comparators/homography.h"
 
 #include <opencv2/calib3d.hpp>
+#include <stdexcept>
 
 namespace lcs::comparators {
 
 HomographyTracker::HomographyTracker(const HomographyParameters& parameters)
-    : parameters_(parameters), flow_(parameters.flow), groups_(parameters.groups) {}
+    : parameters_(parameters), flow_(parameters.flow), groups_(parameters.groups) {
+  if (parameters.least_corners < 4) {
+    throw std::invalid_argument("a homography needs at least 4 corners");
+  }
+}
 
 const FrameResult& HomographyTracker::step(const bench::TrackerInput& input) {
   guesses_.clear();
@@ -30,12 +35,15 @@ const FrameResult& HomographyTracker::step(const bench::TrackerInput& input) {
   motions_.assign(input.corners_px.size(), {});
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     if (!tracked[i]) continue;
-    motions_[i].known = true;
-    if (H.empty()) continue;
+    if (H.empty()) {
+      motions_[i].known = true;
+      continue;
+    }
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> by_rows(H[0]);
     const Eigen::Vector3d moved = by_rows * tracked[i]->homogeneous();
-    motions_[i].step_px = guesses_[i] - moved.hnormalized();
-    motions_[i].off = motions_[i].step_px.norm() > parameters_.residual_px;
+    const Vec2 step = guesses_[i] - moved.hnormalized();
+    // A homography far from the truth may take a corner to infinity.
+    if (step.allFinite()) motions_[i] = {true, step.norm() > parameters_.residual_px, step};
   }
   return groups_.group(input.corners_px, motions_, input.motion.dt_s);
 }

@@ -14,15 +14,16 @@ namespace lcs::comparators {
 struct HomographyParameters {
   FlowParameters flow;
   int least_corners = 8;      ///< tracked, to fit a homography to, >= 4; fewer: nothing is told
-  double inlier_px = 3;       ///< RANSAC: distance at which a corner supports a hypothesis
+  double inlier_px = 0.7;     ///< RANSAC: distance at which a corner supports a hypothesis
   int max_iterations = 2000;  ///< of RANSAC
   double confidence = 0.995;
-  double residual_px = 3;  ///< distance from where the homography takes it that a corner may have
+  double residual_px = 2;  ///< distance from where the homography takes it that a corner may have
   GroupParameters groups;
 };
 
 class HomographyTracker : public bench::Tracker {
  public:
+  /// \throws std::invalid_argument for a parameter out of its range.
   explicit HomographyTracker(const HomographyParameters& parameters = {});
   const FrameResult& step(const bench::TrackerInput& input) override;
 

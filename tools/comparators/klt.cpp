@@ -1,6 +1,7 @@
 #include "tools/comparators/klt.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "filter/geometry.h"
 
@@ -38,7 +39,11 @@ KltTracker::KltTracker(const sim::Pinhole& camera, const KltParameters& paramete
     : camera_(bench::intrinsics(camera)),
       parameters_(parameters),
       flow_(parameters.flow),
-      groups_(parameters.groups) {}
+      groups_(parameters.groups) {
+  if (!(parameters.nearest_depth_m > 0)) {
+    throw std::invalid_argument("the nearest depth of a static point must be above 0");
+  }
+}
 
 const FrameResult& KltTracker::step(const bench::TrackerInput& input) {
   const FieldParameters exact = field_parameters(parameters_.nearest_depth_m);
@@ -59,9 +64,8 @@ const FrameResult& KltTracker::step(const bench::TrackerInput& input) {
     CornerMotion& motion = motions_[i];
     motion.known = true;
     motion.step_px = now - before;
-    const double allowed =
-        parameters_.residual_px + parameters_.residual_share * motion.step_px.norm();
-    motion.off = epipolar_distance(field, parameters_.nearest_depth_m, now, before) > allowed;
+    motion.off = epipolar_distance(field, parameters_.nearest_depth_m, now, before) >
+                 parameters_.residual_px;
   }
   return groups_.group(input.corners_px, motions_, input.motion.dt_s);
 }

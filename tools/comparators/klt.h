@@ -16,9 +16,8 @@ namespace lcs::comparators {
 
 struct KltParameters {
   FlowParameters flow;
-  double nearest_depth_m = 0.5;  ///< z_min, > 0: no static point is nearer
-  double residual_px = 1.5;      ///< distance from the segment that a static corner may have,
-  double residual_share = 0;     ///< plus this share of its step, for what the IMU is off by
+  double nearest_depth_m = 0.8;  ///< z_min, > 0: no static point is nearer; the filter's own
+  double residual_px = 1;        ///< distance from the segment that a static corner may have
   GroupParameters groups;
 };
 
@@ -29,6 +28,7 @@ double epipolar_distance(const MotionField& field, double nearest_depth_m, const
 
 class KltTracker : public bench::Tracker {
  public:
+  /// \throws std::invalid_argument for a parameter out of its range.
   explicit KltTracker(const sim::Pinhole& camera, const KltParameters& parameters = {});
   const FrameResult& step(const bench::TrackerInput& input) override;
 

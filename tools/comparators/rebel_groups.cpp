@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <tuple>
 
 #include "filter/geometry.h"
@@ -30,7 +31,11 @@ Edge edge_of(Id id, int corner, const Vec2& location, const CornerMotion& motion
 
 }  // namespace
 
-RebelGroups::RebelGroups(const GroupParameters& parameters) : parameters_(parameters) {}
+RebelGroups::RebelGroups(const GroupParameters& parameters) : parameters_(parameters) {
+  if (!(parameters.reach_px > 0) || parameters.least_corners < 1) {
+    throw std::invalid_argument("a parameter of the groups of rebels is out of its range");
+  }
+}
 
 const FrameResult& RebelGroups::group(std::span<const Eigen::Vector2f> corners_px,
                                       std::span<const CornerMotion> motions, double dt_s) {

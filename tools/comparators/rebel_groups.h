@@ -22,10 +22,10 @@ struct CornerMotion {
 };
 
 struct GroupParameters {
-  double reach_px = 40;         ///< between two corners of one group
+  double reach_px = 80;         ///< between two corners of one group
   double like_px = 2;           ///< by which their steps may differ,
   double like_share = 0.35;     ///< or by this share of the steps, if that is more
-  int least_corners = 3;        ///< of a group; what has fewer is taken for tracking gone wrong
+  int least_corners = 4;        ///< of a group; what has fewer is taken for tracking gone wrong
   double least_area_px2 = 250;  ///< of a box
   double same_overlap = 0.3;    ///< IoU with a box of the last frame from which it is the same one
 };
@@ -34,6 +34,7 @@ struct GroupParameters {
 /// is a circle and, if large enough, a square. Boxes keep their ids from frame to frame by overlap.
 class RebelGroups {
  public:
+  /// \throws std::invalid_argument unless reach and least number of corners are above 0.
   explicit RebelGroups(const GroupParameters& parameters);
 
   /// To be called with every frame, in order.
