@@ -400,7 +400,7 @@ TEST(Shipped, EveryScenarioOfTheSuiteHasASizeAndANameOfItsOwn) {
     });
     EXPECT_EQ(sizes, 1) << file;
     EXPECT_EQ(s.sweep.empty(), s.groups.front() != "sweep") << file;
-    if (file.starts_with("suite/") && s.groups.front() == "short") {
+    if (file.starts_with("suite/")) {
       EXPECT_FALSE(s.criteria.empty()) << file;
     }
   }
