@@ -32,6 +32,7 @@ class Command {
   Command& operator=(const Command&) = delete;
 
   void send(int signal) const;
+  pid_t pid() const { return pid_; }
   bool is_running();
   CommandResult wait();
 

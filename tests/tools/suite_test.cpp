@@ -1,0 +1,432 @@
+// `lcs suite` from its command line to its files, on short scenarios with small images.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <tinyxml2.h>
+
+#include <chrono>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "tests/tools/command.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/bench/report.h"
+#include "tools/suite/junit.h"
+#include "tools/suite/suite_result.h"
+
+namespace lcs::suite {
+namespace {
+
+namespace fs = std::filesystem;
+using bench::CommandResult;
+
+std::string read(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::set<std::string> entries(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
+  return names;
+}
+
+class Suite : public testing::Test {
+ protected:
+  /// A run of a small image, with all that is particular to it.
+  void scenario(const std::string& name, const std::string& more = "", int frames = 4) {
+    fs::create_directories(folder_.path() / "scenarios");
+    std::ofstream(folder_.path() / "scenarios" / (name + ".yaml"))
+        << "purpose: " << name << "\nscene: lab\nframes: " << frames
+        << "\nego: {start: [-4 m, 0 m], speed: 0.5 m/s}\ncamera: {size: [160, 120]}\n"
+        << more;
+  }
+  CommandResult run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"suite", "scenarios"});
+    return bench::run_lcs(arguments, {.folder = folder_.path()});
+  }
+  SuiteResult result(const fs::path& out = "out/suite") {
+    return read_suite(folder_.path() / out / kSuiteFile);
+  }
+  /// As `lcs run` leaves it.
+  fs::path run_folder(const ScenarioResult& scenario, std::size_t place) {
+    return folder_.path() / "out" / "suite" / scenario.runs.at(place).folder;
+  }
+
+  const bench::TemporaryFolder folder_;
+  const fs::path out_ = folder_.path() / "out" / "suite";
+};
+
+TEST_F(Suite, RunsEveryScenarioOfAFolderWithItsSeedsAndSumsThemUp) {
+  scenario("near", "seed: 7\n");
+  scenario("far");
+  const CommandResult command = run({"--seeds", "2"});
+  ASSERT_EQ(command.exit_code, 0) << command.err;
+  EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"suite"});
+  EXPECT_EQ(entries(out_), (std::set<std::string>{"suite.json", "junit.xml", "runs"}));
+
+  const SuiteResult suite = result();
+  EXPECT_EQ(suite.detector, "lcs");
+  EXPECT_NE(suite.version.find("MuJoCo"), std::string::npos) << suite.version;
+  ASSERT_EQ(suite.scenarios.size(), 2u);
+  EXPECT_EQ(suite.scenarios[0].name, "far");
+  const ScenarioResult& near = suite.scenarios[1];
+  EXPECT_EQ(near.name, "near");
+  EXPECT_EQ(near.purpose, "near");
+  EXPECT_EQ(near.file, fs::path("scenarios") / "near.yaml");
+  EXPECT_EQ(near.groups, std::vector<std::string>{"short"});
+  EXPECT_TRUE(near.point.empty());
+  ASSERT_EQ(near.runs.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(near.runs[i].seed, 7 + i);
+    EXPECT_EQ(near.runs[i].outcome, Outcome::passed);
+    EXPECT_GT(near.runs[i].wall_s, 0);
+    EXPECT_EQ(near.runs[i].metrics, bench::read_metrics(run_folder(near, i) / bench::kMetricsFile));
+  }
+  for (const char* part : {"near", "far", "= short (2)", "4 passed, 0 failed, 0 errors"}) {
+    EXPECT_NE(command.out.find(part), std::string::npos) << part << " in\n" << command.out;
+  }
+  EXPECT_NE(command.err.find("[4/4]"), std::string::npos) << command.err;
+}
+
+TEST_F(Suite, AFilterAGroupAndANamedFileChooseWhatIsRun) {
+  scenario("near");
+  scenario("far");
+  scenario("endless", "groups: [long]\n");
+  const auto listed = [&](std::vector<std::string> arguments) {
+    arguments.emplace_back("--list");
+    return bench::run_lcs(arguments, {.folder = folder_.path()}).out;
+  };
+  const auto has = [](const std::string& text, const char* name) {
+    return text.find(name) != std::string::npos;
+  };
+  const std::string shorts = listed({"suite", "scenarios"});
+  EXPECT_TRUE(has(shorts, "near") && has(shorts, "far") && !has(shorts, "endless")) << shorts;
+  const std::string longs = listed({"suite", "scenarios", "--group", "long"});
+  EXPECT_TRUE(!has(longs, "near") && has(longs, "endless")) << longs;
+  const std::string all = listed({"suite", "scenarios", "--group", "all"});
+  EXPECT_TRUE(has(all, "near") && has(all, "endless")) << all;
+  const std::string filtered = listed({"suite", "scenarios", "--filter", "^n.a"});
+  EXPECT_TRUE(has(filtered, "near") && !has(filtered, "far")) << filtered;
+  const std::string named = listed({"suite", "scenarios/endless.yaml"});
+  EXPECT_TRUE(has(named, "endless")) << "a file that is named is meant, whatever its group";
+  const std::string shipped = listed({"suite"});
+  EXPECT_TRUE(has(shipped, "crossing") && has(shipped, "lab")) << shipped;
+  EXPECT_EQ(entries(folder_.path()), std::set<std::string>{"scenarios"}) << "nothing was run";
+}
+
+TEST_F(Suite, ACriterionThatIsNotMetIsAFailureAndExitsWithOne) {
+  scenario("near",
+           "criteria:\n  - {metric: frames, min: 4}\n  - {metric: frames, min: 5}\n"
+           "  - {metric: frames, min: 6, required: false}\n");
+  scenario("far");
+  const CommandResult command = run({"--seeds", "1", "--quiet"});
+  EXPECT_EQ(command.exit_code, 1);
+  EXPECT_EQ(command.out, "");
+  EXPECT_NE(command.err.find("failed: near seed 1: scenarios/near.yaml:8: frames is 4, must be at "
+                             "least 5\n"),
+            std::string::npos)
+      << command.err;
+  EXPECT_NE(command.err.find("missed (not required): near"), std::string::npos) << command.err;
+
+  const ScenarioResult near = result().scenarios[1];
+  EXPECT_EQ(near.runs[0].outcome, Outcome::failed);
+  ASSERT_EQ(near.runs[0].criteria.size(), 3u);
+  EXPECT_TRUE(near.runs[0].criteria[0].met);
+  EXPECT_EQ(near.runs[0].criteria[0].value, 4);
+  EXPECT_FALSE(near.runs[0].criteria[1].met);
+  EXPECT_FALSE(near.runs[0].criteria[2].met);
+  EXPECT_EQ(result().scenarios[0].runs[0].outcome, Outcome::passed);
+}
+
+TEST_F(Suite, ABrokenScenarioIsAnErrorAndTheOthersStillRun) {
+  scenario("broken", "camra: {}\n");
+  scenario("falling", "actors: {ghost: {body: nobody, trajectory: {still: {}}}}\n");
+  scenario("near");
+  const CommandResult command = run({"--seeds", "2"});
+  EXPECT_EQ(command.exit_code, 2);
+  EXPECT_NE(command.err.find("error: broken: scenarios/broken.yaml:6: "), std::string::npos)
+      << command.err;
+  EXPECT_NE(command.err.find("error: falling seed 1, 2: scenarios/falling.yaml:6: "),
+            std::string::npos)
+      << command.err;
+  const SuiteResult suite = result();
+  ASSERT_EQ(suite.scenarios.size(), 3u);
+  EXPECT_EQ(suite.scenarios[0].runs[0].outcome, Outcome::error);
+  EXPECT_NE(suite.scenarios[0].runs[0].error.find("camera"), std::string::npos) << "and the remedy";
+  EXPECT_EQ(suite.scenarios[1].runs[1].outcome, Outcome::error);
+  EXPECT_TRUE(suite.scenarios[1].runs[1].metrics.empty());
+  EXPECT_EQ(suite.scenarios[2].runs[1].outcome, Outcome::passed);
+  EXPECT_EQ(entries(out_ / "runs"), std::set<std::string>{"near"});
+}
+
+TEST_F(Suite, ASweepIsOneScenarioAPoint) {
+  scenario("speeds", "sweep: {ego.speed: [0.1 m/s, 0.9 m/s], camera.rate: [5 Hz, 10 Hz]}\n");
+  ASSERT_EQ(run({"--seeds", "1"}).exit_code, 0);
+  const SuiteResult suite = result();
+  ASSERT_EQ(suite.scenarios.size(), 4u);
+  std::set<std::string> names, figures;
+  for (const ScenarioResult& point : suite.scenarios) {
+    names.insert(point.name);
+    ASSERT_EQ(point.point.size(), 2u);
+    EXPECT_EQ(point.point[0].first, "ego.speed");
+    figures.insert(read(run_folder(point, 0) / "truth.jsonl"));
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"speeds@0.1mps,5Hz", "speeds@0.1mps,10Hz",
+                                          "speeds@0.9mps,5Hz", "speeds@0.9mps,10Hz"}));
+  EXPECT_EQ(figures.size(), 4u) << "the points reach the runs";
+}
+
+/// Without what a clock says.
+nlohmann::ordered_json timeless(const fs::path& file) {
+  auto json = nlohmann::ordered_json::parse(read(file));
+  for (auto& scenario : json["scenarios"]) {
+    for (auto& run : scenario["runs"]) {
+      run.erase("wall_s");
+      auto& metrics = run["metrics"];
+      for (auto metric = metrics.begin(); metric != metrics.end();) {
+        const bool is_time = metric.key().starts_with("time.") || metric.key().starts_with("sim.");
+        metric = is_time ? metrics.erase(metric) : std::next(metric);
+      }
+    }
+  }
+  return json;
+}
+
+TEST_F(Suite, HasTheSameFiguresHoweverManyRunAtATime) {
+  for (const char* name : {"a", "b", "c"}) scenario(name);
+  ASSERT_EQ(run({"--seeds", "2", "--jobs", "1", "--out", "one"}).exit_code, 0);
+  ASSERT_EQ(run({"--seeds", "2", "--jobs", "3", "--out", "three"}).exit_code, 0);
+  const auto one = timeless(folder_.path() / "one" / kSuiteFile);
+  EXPECT_EQ(one, timeless(folder_.path() / "three" / kSuiteFile));
+  EXPECT_TRUE(one["scenarios"][0]["runs"][0]["metrics"].contains("dimension.mean"));
+}
+
+TEST_F(Suite, SettingsReachEveryRunAndAreWrittenDown) {
+  scenario("near");
+  ASSERT_EQ(run({"--seeds", "1", "--set", "frames=3"}).exit_code, 0);
+  const SuiteResult suite = result();
+  EXPECT_EQ(suite.sets, std::vector<std::string>{"frames=3"});
+  EXPECT_EQ(suite.scenarios[0].runs[0].metrics[0],
+            (std::pair<std::string, std::optional<double>>{"frames", 3}));
+}
+
+TEST_F(Suite, ADetectorReachesEveryRunAndIsWrittenDown) {
+  scenario("near");
+  ASSERT_EQ(run({"--seeds", "1", "--detector", "klt"}).exit_code, 0);
+  EXPECT_EQ(result().detector, "klt");
+}
+
+TEST_F(Suite, AnEarlierSuiteIsReplacedAsAWhole) {
+  scenario("near");
+  scenario("far");
+  ASSERT_EQ(run({"--seeds", "1"}).exit_code, 0);
+  ASSERT_EQ(run({"--seeds", "1", "--filter", "near"}).exit_code, 0);
+  EXPECT_EQ(result().scenarios.size(), 1u);
+  EXPECT_EQ(entries(out_ / "runs"), std::set<std::string>{"near"});
+  EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"suite"});
+}
+
+TEST_F(Suite, AFolderThatHoldsAnythingElseIsRefusedAndUntouched) {
+  scenario("near");
+  ASSERT_EQ(run({"--seeds", "1"}).exit_code, 0);
+  const fs::path precious = out_ / "runs" / "near" / "seed-1" / "thesis.tex";
+  std::ofstream(precious) << "precious";
+  const std::string before = read(out_ / kSuiteFile);
+  const CommandResult command = run({"--seeds", "1"});
+  EXPECT_EQ(command.exit_code, 2);
+  EXPECT_NE(command.err.find("thesis.tex"), std::string::npos) << command.err;
+  EXPECT_EQ(read(precious), "precious");
+  EXPECT_EQ(read(out_ / kSuiteFile), before);
+}
+
+struct Mistake {
+  const char* name;
+  std::vector<std::string> arguments;
+  const char* said;
+};
+
+class SuiteMistake : public Suite, public testing::WithParamInterface<Mistake> {};
+
+TEST_P(SuiteMistake, IsToldInOneLineWithExitCodeTwoBeforeAnythingRuns) {
+  scenario("near");
+  const CommandResult command = run(GetParam().arguments);
+  EXPECT_EQ(command.exit_code, 2);
+  EXPECT_EQ(command.out, "");
+  EXPECT_EQ(std::count(command.err.begin(), command.err.end(), '\n'), 1) << command.err;
+  EXPECT_NE(command.err.find(GetParam().said), std::string::npos) << command.err;
+  EXPECT_EQ(entries(folder_.path()), std::set<std::string>{"scenarios"});
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, SuiteMistake,
+    testing::Values(Mistake{"no_such_path", {"no_such"}, "no_such"},
+                    Mistake{"nothing_fits", {"--filter", "moon"}, "the groups are short"},
+                    Mistake{"no_such_group", {"--group", "nightly"}, "the groups are short"},
+                    Mistake{"bad_filter", {"--filter", "("}, "regular expression"},
+                    Mistake{"no_seeds", {"--seeds", "0"}, "--seeds"},
+                    Mistake{"no_jobs", {"--jobs", "0"}, "--jobs"},
+                    Mistake{"unknown_detector", {"--detector", "yolo"}, "yolo"},
+                    Mistake{"unwritable_folder", {"--out", "/proc/lcs"}, "/proc/lcs"}),
+    [](const auto& test) { return test.param.name; });
+
+TEST_F(Suite, TwoScenariosOfOneNameAreRefused) {
+  scenario("near");
+  fs::create_directories(folder_.path() / "scenarios" / "more");
+  fs::copy_file(folder_.path() / "scenarios" / "near.yaml",
+                folder_.path() / "scenarios" / "more" / "near.yaml");
+  const CommandResult command = run({});
+  EXPECT_EQ(command.exit_code, 2);
+  EXPECT_NE(command.err.find("both called near; rename"), std::string::npos) << command.err;
+}
+
+// ---- JUnit
+
+TEST_F(Suite, JUnitHasACaseACriterionWithFailuresAndErrorsApart) {
+  scenario("broken", "camra: {}\n");
+  scenario("calm");
+  scenario("near",
+           "criteria:\n  - {metric: frames, min: 4}\n  - {metric: frames, min: 5, max: 9}\n"
+           "  - {metric: frames, min: 6, required: false}\n");
+  ASSERT_EQ(run({"--seeds", "2"}).exit_code, 2);
+  tinyxml2::XMLDocument document;
+  ASSERT_EQ(document.LoadFile((out_ / kJunitFile).c_str()), tinyxml2::XML_SUCCESS);
+  const tinyxml2::XMLElement* root = document.RootElement();
+  ASSERT_STREQ(root->Name(), "testsuites");
+  EXPECT_EQ(root->IntAttribute("tests"), 1 + 2 + 6);
+  EXPECT_EQ(root->IntAttribute("failures"), 2);
+  EXPECT_EQ(root->IntAttribute("errors"), 1);
+
+  double total_s = 0;
+  for (const auto* suite = root->FirstChildElement(); suite; suite = suite->NextSiblingElement()) {
+    ASSERT_STREQ(suite->Name(), "testsuite");
+    int tests = 0, failures = 0, errors = 0;
+    double time_s = 0;
+    for (const auto* test = suite->FirstChildElement(); test; test = test->NextSiblingElement()) {
+      ASSERT_STREQ(test->Name(), "testcase");
+      EXPECT_EQ(test->Attribute("classname"), "lcs." + std::string(suite->Attribute("name")));
+      ++tests;
+      failures += test->FirstChildElement("failure") != nullptr;
+      errors += test->FirstChildElement("error") != nullptr;
+      time_s += test->DoubleAttribute("time");
+    }
+    EXPECT_EQ(suite->IntAttribute("tests"), tests);
+    EXPECT_EQ(suite->IntAttribute("failures"), failures);
+    EXPECT_EQ(suite->IntAttribute("errors"), errors);
+    EXPECT_NEAR(suite->DoubleAttribute("time"), time_s, 0.01);
+    total_s += time_s;
+  }
+  EXPECT_GT(total_s, 0);
+  EXPECT_NEAR(root->DoubleAttribute("time"), total_s, 0.02);
+
+  const auto* near = root->LastChildElement();
+  EXPECT_STREQ(near->FirstChildElement()->Attribute("name"), "frames >= 4, seed 1");
+  const auto* failed = near->FirstChildElement()->NextSiblingElement();
+  EXPECT_STREQ(failed->Attribute("name"), "frames >= 5 <= 9, seed 1");
+  EXPECT_NE(std::string(failed->FirstChildElement("failure")->Attribute("message"))
+                .find("frames is 4, must be at least 5 and at most 9"),
+            std::string::npos);
+  EXPECT_NE(failed->NextSiblingElement()->FirstChildElement("system-out"), nullptr);
+}
+
+TEST(JUnit, EscapesWhatXmlCannotHold) {
+  SuiteResult suite;
+  ScenarioResult& scenario = suite.scenarios.emplace_back();
+  scenario.name = "a<b & \"c\"";
+  scenario.runs.emplace_back().error = "bad <byte> \xff, control \x1b[K, letter \xc3\xa9\nmore";
+  const bench::TemporaryFolder folder;
+  write_junit(folder.path() / kJunitFile, suite);
+  tinyxml2::XMLDocument document;
+  ASSERT_EQ(document.LoadFile((folder.path() / kJunitFile).c_str()), tinyxml2::XML_SUCCESS);
+  const auto* element = document.RootElement()->FirstChildElement();
+  EXPECT_STREQ(element->Attribute("name"), "a<b & \"c\"");
+  const auto* error = element->FirstChildElement()->FirstChildElement("error");
+  ASSERT_NE(error, nullptr);
+  EXPECT_STREQ(error->Attribute("message"), "bad <byte> ?, control ?[K, letter \xc3\xa9");
+  EXPECT_STREQ(error->GetText(), "bad <byte> ?, control ?[K, letter \xc3\xa9\nmore");
+}
+
+// ---- What can happen to the processes
+
+/// The children of a process that still run.
+std::vector<pid_t> children_of(pid_t parent) {
+  std::vector<pid_t> children;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    const std::string stat = read(entry.path() / "stat");
+    const std::size_t after_name = stat.rfind(')');
+    if (after_name == std::string::npos) continue;
+    char state = 0;
+    pid_t its_parent = 0;
+    if (std::sscanf(stat.c_str() + after_name + 1, " %c %d", &state, &its_parent) != 2) continue;
+    if (its_parent == parent && state != 'Z') children.push_back(std::stoi(name));
+  }
+  return children;
+}
+
+class SuiteProcesses : public Suite {
+ protected:
+  /// A suite of runs that would take minutes, once two of them are under way.
+  std::unique_ptr<bench::Command> begin_endless() {
+    for (const char* name : {"a", "b", "c"}) scenario(name, "", 100'000);
+    auto command = std::make_unique<bench::Command>(
+        std::vector<std::string>{"suite", "scenarios", "--jobs", "2", "--seeds", "1"},
+        bench::CommandOptions{.folder = folder_.path()});
+    while (command->is_running() && children_of(command->pid()).size() < 2) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return command;
+  }
+};
+
+class SuiteInterrupted : public SuiteProcesses, public testing::WithParamInterface<int> {};
+INSTANTIATE_TEST_SUITE_P(Signals, SuiteInterrupted, testing::Values(SIGINT, SIGTERM),
+                         [](const auto& test) {
+                           return test.param == SIGINT ? "SIGINT" : "SIGTERM";
+                         });
+
+TEST_P(SuiteInterrupted, EndsItsChildrenLeavesTheEarlierSuiteAndExitsWith130) {
+  scenario("near");
+  ASSERT_EQ(run({"--seeds", "1"}).exit_code, 0);
+  const std::string before = read(out_ / kSuiteFile);
+
+  const auto command = begin_endless();
+  ASSERT_TRUE(command->is_running());
+  const std::vector<pid_t> children = children_of(command->pid());
+  command->send(GetParam());
+  const CommandResult result = command->wait();
+  EXPECT_EQ(result.exit_code, 130);
+  EXPECT_NE(result.err.find("interrupted"), std::string::npos) << result.err;
+  for (const pid_t child : children) EXPECT_NE(::kill(child, 0), 0) << "a child is left";
+  EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"suite"});
+  EXPECT_EQ(read(out_ / kSuiteFile), before);
+}
+
+TEST_F(SuiteProcesses, AChildThatCrashesIsAnErrorThatNamesTheSignal) {
+  const auto command = begin_endless();
+  ASSERT_TRUE(command->is_running());
+  while (command->is_running()) {
+    for (const pid_t child : children_of(command->pid())) ::kill(child, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  const CommandResult result = command->wait();
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("crashed: ended by signal 9 (Killed)"), std::string::npos)
+      << result.err;
+  EXPECT_EQ(read_suite(out_ / kSuiteFile).scenarios[2].runs[0].outcome, Outcome::error);
+}
+
+TEST(SuiteHelp, TeachesExamplesFilesAndExitCodes) {
+  const bench::TemporaryFolder folder;
+  const CommandResult help = bench::run_lcs({"suite", "--help"}, {.folder = folder.path()});
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* part : {"Examples", "suite.json", "junit.xml", "Exit codes", "--jobs", "130"}) {
+    EXPECT_NE(help.out.find(part), std::string::npos) << part << " in\n" << help.out;
+  }
+}
+
+}  // namespace
+}  // namespace lcs::suite
