@@ -98,6 +98,11 @@ TEST_F(SuiteFile, ComesBackToTheLastBit) {
   }
 }
 
+TEST_F(SuiteFile, IsFoundByItsFolderToo) {
+  write_suite(file_, full_suite());
+  EXPECT_EQ(read_suite(folder_.path()).scenarios.size(), 2u);
+}
+
 TEST_F(SuiteFile, HasNullForWhatIsUndefinedOrNotFinite) {
   SuiteResult suite = suite_with({scenario_with("a", "rebel.f1", {std::nullopt})});
   suite.scenarios[0].runs[0].metrics.emplace_back("infinite",

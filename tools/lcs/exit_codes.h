@@ -7,6 +7,7 @@ namespace lcs::tools {
 enum ExitCode : int {
   kFine = 0,
   kCriterionFailed = 1,  ///< the run is whole, but not what the scenario asks for
+  kRegressed = 1,        ///< of two suites, the second is worse
   kError = 2,            ///< one message on stderr says what, where, and what to do
   kInterrupted = 130,    ///< by SIGINT or SIGTERM, as shells have it
 };

@@ -11,6 +11,7 @@
 #include "tools/lcs/suite_progress.h"
 #include "tools/lcs/version.h"
 #include "tools/report/report_page.h"
+#include "tools/suite/comparison.h"
 #include "tools/suite/junit.h"
 #include "tools/suite/plan.h"
 #include "tools/suite/suite_run.h"
@@ -89,6 +90,13 @@ ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
     }
   }
   return is_broken ? kError : kFine;
+}
+
+void print_changes(const suite::SuiteResult& baseline, const suite::SuiteResult& result,
+                   const std::string& name) {
+  const suite::Comparison comparison =
+      suite::compare(baseline, result, [](std::string_view) { return true; });
+  fmt::print("Against {}:\n{}\n", name, suite::text_of(comparison, false));
 }
 
 ExitCode exit_code(suite::Outcome outcome) {
@@ -191,6 +199,7 @@ ExitCode suite(const SuiteOptions& options) {
   folder.commit();
 
   if (!options.quiet) {
+    if (baseline) print_changes(*baseline, result, options.baseline);
     fmt::print("{}{}; results in {}\n", suite::suite_table(result, options.worst_first),
                suite::totals(result), folder.target().string());
   }

@@ -95,7 +95,9 @@ class Comparer {
       if (run.metrics.empty() || other->metrics.empty()) {
         const bool is_lost = !run.metrics.empty();
         result_.lost_runs |= is_lost;
-        const char* when = is_lost ? "after" : other->metrics.empty() ? "before and after" : "before";
+        const char* when = is_lost                  ? "after"
+                           : other->metrics.empty() ? "before and after"
+                                                    : "before";
         note("{}: seed {} ended with an error {}", before.name, run.seed, when);
         continue;
       }
@@ -153,12 +155,16 @@ class Comparer {
 
 // ---- In words
 
+int decimals_of(double value) {
+  return std::abs(value) < 10 ? 3 : std::abs(value) < 1000 ? 1 : 0;
+}
+
 std::string number(double value) {
-  return fmt::format("{:.{}f}", value, std::abs(value) < 10 ? 3 : std::abs(value) < 1000 ? 1 : 0);
+  return fmt::format("{:.{}f}", value, decimals_of(value));
 }
 
 std::string signed_number(double value) {
-  return (value < 0 ? "" : "+") + number(value);
+  return fmt::format("{:+.{}f}", value, decimals_of(value));
 }
 
 std::string line_of(const Difference& difference, std::size_t scenario_width,
@@ -167,9 +173,10 @@ std::string line_of(const Difference& difference, std::size_t scenario_width,
   return fmt::format("  {:<{}}  {:<{}}  {:>7} -> {:>7}  {:>7}  {}\n", difference.scenario,
                      scenario_width, difference.metric, metric_width, number(difference.before),
                      number(difference.after), signed_number(change.mean),
-                     change.half ? fmt::format("[{}, {}]", signed_number(change.mean - *change.half),
-                                               signed_number(change.mean + *change.half))
-                                 : "noise unknown");
+                     change.half
+                         ? fmt::format("[{}, {}]", signed_number(change.mean - *change.half),
+                                       signed_number(change.mean + *change.half))
+                         : "noise unknown");
 }
 
 std::string section(const Comparison& comparison, Change verdict, const char* title) {
@@ -195,7 +202,8 @@ double student_t_95(int degrees_of_freedom) {
   // 26.7.5) is as good.
   constexpr std::array<double, 9> kExact{12.7062, 4.3027, 3.1824, 2.7764, 2.5706,
                                          2.4469,  2.3646, 2.3060, 2.2622};
-  if (degrees_of_freedom <= static_cast<int>(kExact.size())) return kExact.at(degrees_of_freedom - 1);
+  if (degrees_of_freedom <= static_cast<int>(kExact.size()))
+    return kExact.at(degrees_of_freedom - 1);
   constexpr double kNormal = 1.959964;
   const double z2 = kNormal * kNormal, n = degrees_of_freedom;
   const double first = (z2 + 1) / 4, second = ((5 * z2 + 16) * z2 + 3) / 96;
@@ -237,14 +245,16 @@ std::string text_of(const Comparison& comparison, bool all) {
     for (const std::string& what : comparison.incomparable) text += fmt::format("  {}\n", what);
   }
   if (comparison.single_seeds) {
-    text += "some scenarios have a single seed in common, whose noise is unknown: differences there "
-            "are plain ones\n";
+    text +=
+        "some scenarios have a single seed in common, whose noise is unknown: differences there "
+        "are plain ones\n";
   }
   const int improved = comparison.count(Change::improved);
   const int regressed = comparison.count(Change::regressed);
-  text += fmt::format("{} scenarios, {} figures judged: {} improved, {} regressed, {} as they were\n",
-                      comparison.scenarios, comparison.judged, improved, regressed,
-                      comparison.judged - improved - regressed);
+  text +=
+      fmt::format("{} scenarios, {} figures judged: {} improved, {} regressed, {} as they were\n",
+                  comparison.scenarios, comparison.judged, improved, regressed,
+                  comparison.judged - improved - regressed);
   return text;
 }
 

@@ -205,8 +205,10 @@ void write_suite(const std::filesystem::path& file, const SuiteResult& suite) {
   output.close();
 }
 
-SuiteResult read_suite(const std::filesystem::path& file) {
+SuiteResult read_suite(const std::filesystem::path& path) {
   std::error_code error;
+  const std::filesystem::path file =
+      std::filesystem::is_directory(path, error) ? path / kSuiteFile : path;
   if (!std::filesystem::is_regular_file(file, error)) {
     throw std::runtime_error(fmt::format("there is no file {}", file.string()));
   }

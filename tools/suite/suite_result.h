@@ -61,7 +61,8 @@ struct SuiteResult {
 /// \throws bench::OutputError
 void write_suite(const std::filesystem::path& file, const SuiteResult& suite);
 
+/// \param path of the file, or of the suite's folder.
 /// \throws std::runtime_error naming file and what is wrong with it.
-SuiteResult read_suite(const std::filesystem::path& file);
+SuiteResult read_suite(const std::filesystem::path& path);
 
 }  // namespace lcs::suite

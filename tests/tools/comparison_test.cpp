@@ -1,0 +1,175 @@
+#include "tools/suite/comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tools/suites.h"
+
+namespace lcs::suite {
+namespace {
+
+using Values = std::vector<std::optional<double>>;
+
+Comparison compare_all(const SuiteResult& before, const SuiteResult& after) {
+  return compare(before, after, [](std::string_view) { return true; });
+}
+
+/// One scenario, one figure.
+Comparison compare_values(const Values& before, const Values& after,
+                          const std::string& metric = "rebel.f1") {
+  return compare_all(suite_with({scenario_with("near", metric, before)}),
+                     suite_with({scenario_with("near", metric, after)}));
+}
+
+bool names(const Comparison& comparison, const std::string& what) {
+  return std::find(comparison.incomparable.begin(), comparison.incomparable.end(), what) !=
+         comparison.incomparable.end();
+}
+
+// ---- The statistics
+
+TEST(StudentT, AgreesWithTheTables) {
+  // Two-sided 95 %, as printed in any table.
+  const std::pair<int, double> table[] = {{1, 12.706}, {2, 4.303},  {4, 2.776},  {9, 2.262},
+                                          {10, 2.228}, {15, 2.131}, {30, 2.042}, {1000, 1.962}};
+  for (const auto& [degrees, t] : table) EXPECT_NEAR(student_t_95(degrees), t, 0.0006) << degrees;
+}
+
+TEST(Interval, IsTheOneOfTheTextbook) {
+  const Interval interval = interval_of({1, 2, 3});  // deviation 1
+  EXPECT_DOUBLE_EQ(interval.mean, 2);
+  ASSERT_TRUE(interval.half);
+  EXPECT_NEAR(*interval.half, 4.3027 / std::sqrt(3), 1e-12);
+  EXPECT_EQ(interval_of({1}).half, std::nullopt);
+  EXPECT_EQ(*interval_of({0.5, 0.5}).half, 0);
+}
+
+// ---- The verdicts
+
+TEST(Compare, TheSameSuiteTwiceHasNoChange) {
+  const Comparison comparison = compare_values({0.5, 0.7, 0.6}, {0.5, 0.7, 0.6});
+  ASSERT_EQ(comparison.differences.size(), 1u);
+  EXPECT_EQ(comparison.differences[0].verdict, Change::none);
+  EXPECT_EQ(comparison.judged, 1);
+  EXPECT_TRUE(comparison.incomparable.empty());
+}
+
+TEST(Compare, AClearGainIsFoundThoughSeedsDifferByMore) {
+  // 0.1 more in each seed, while the seeds lie 0.4 apart: pairs tell, means alone would not.
+  const Comparison comparison = compare_values({0.3, 0.7, 0.5}, {0.40, 0.81, 0.60});
+  const Difference& difference = comparison.differences.at(0);
+  EXPECT_EQ(difference.verdict, Change::improved);
+  EXPECT_NEAR(difference.before, 0.5, 1e-12);
+  EXPECT_NEAR(difference.after, 0.60333, 1e-4);
+  EXPECT_EQ(difference.seeds, 3);
+}
+
+TEST(Compare, AClearLossIsFound) {
+  EXPECT_EQ(compare_values({0.8, 0.81, 0.79}, {0.6, 0.62, 0.6}).count(Change::regressed), 1);
+}
+
+TEST(Compare, LessIsBetterWhereLowerIs) {
+  const char* metric = "rebel.latency_frames_median";
+  EXPECT_EQ(compare_values({2, 2, 2}, {4, 4, 4}, metric).count(Change::regressed), 1);
+  EXPECT_EQ(compare_values({4, 4, 4}, {2, 2, 2}, metric).count(Change::improved), 1);
+}
+
+TEST(Compare, ADifferenceWithinTheNoiseOfSeedsIsNone) {
+  // +0.05 on average, by -0.05, 0.05 and 0.15.
+  EXPECT_EQ(compare_values({0.5, 0.5, 0.5}, {0.45, 0.55, 0.65}).differences.at(0).verdict,
+            Change::none);
+}
+
+TEST(Compare, ACertainButTinyDifferenceIsNone) {
+  EXPECT_EQ(compare_values({0.5, 0.6, 0.7}, {0.501, 0.601, 0.701}).differences.at(0).verdict,
+            Change::none);
+  // The interval has to lie beyond what matters, not only its middle: 0.012 +- 0.005.
+  EXPECT_EQ(compare_values({0.5, 0.5, 0.5}, {0.510, 0.512, 0.514}).differences.at(0).verdict,
+            Change::none);
+}
+
+TEST(Compare, WithOneSeedTheDifferenceIsPlainAndItsNoiseUnknown) {
+  const Comparison comparison = compare_values({0.5}, {0.4});
+  EXPECT_EQ(comparison.differences.at(0).verdict, Change::regressed);
+  EXPECT_EQ(comparison.differences.at(0).change.half, std::nullopt);
+  EXPECT_TRUE(comparison.single_seeds);
+  EXPECT_NE(text_of(comparison, false).find("noise unknown"), std::string::npos);
+  EXPECT_EQ(compare_values({0.5}, {0.495}).count(Change::regressed), 0);
+}
+
+TEST(Compare, TimesAreNeverComparedAndNeutralFiguresNeverJudged) {
+  EXPECT_TRUE(compare_values({1, 1}, {9, 9}, "time.filter_ms_median").differences.empty());
+  const Comparison comparison = compare_values({100, 100}, {200, 200}, "truth.rebel_corners");
+  EXPECT_EQ(comparison.differences.at(0).verdict, Change::moved);
+  EXPECT_EQ(comparison.judged, 0);
+}
+
+// ---- What cannot be compared
+
+TEST(Compare, AScenarioOfOneSideIsNamed) {
+  const ScenarioResult both = scenario_with("both", "rebel.f1", {0.5, 0.5});
+  const Comparison comparison =
+      compare_all(suite_with({both, scenario_with("old", "rebel.f1", {0.5})}),
+                  suite_with({scenario_with("new", "rebel.f1", {0.5}), both}));
+  EXPECT_EQ(comparison.scenarios, 1);
+  EXPECT_EQ(comparison.differences.size(), 1u);
+  EXPECT_TRUE(names(comparison, "old: only before"));
+  EXPECT_TRUE(names(comparison, "new: only after"));
+}
+
+TEST(Compare, AFigureUndefinedOnOneSideIsNamedAndLeftOutOfThePairs) {
+  const Comparison comparison = compare_values({0.5, std::nullopt, 0.5}, {std::nullopt, 0.5, 0.5});
+  EXPECT_TRUE(names(comparison, "near: rebel.f1 undefined after, seed 1"));
+  EXPECT_TRUE(names(comparison, "near: rebel.f1 undefined before, seed 2"));
+  EXPECT_EQ(comparison.differences.at(0).seeds, 1);
+}
+
+TEST(Compare, AFigureUndefinedOnBothSidesIsNoNews) {
+  const Comparison comparison = compare_values({std::nullopt}, {std::nullopt});
+  EXPECT_TRUE(comparison.differences.empty());
+  EXPECT_TRUE(comparison.incomparable.empty());
+}
+
+TEST(Compare, OnlySeedsOfBothSidesArePaired) {
+  const Comparison comparison = compare_values({0.5, 0.6, 0.7}, {0.5, 0.6});
+  EXPECT_EQ(comparison.differences.at(0).seeds, 2);
+  EXPECT_EQ(comparison.differences.at(0).before, 0.55) << "seed 3 is left out of the mean too";
+  EXPECT_TRUE(names(comparison, "near: seed 3 only before"));
+}
+
+TEST(Compare, ARunThatEndsWithAnErrorNowIsNamedAndIsARegression) {
+  SuiteResult before = suite_with({scenario_with("near", "rebel.f1", {0.5, 0.5})});
+  SuiteResult after = before;
+  after.scenarios[0].runs[1] = {};
+  after.scenarios[0].runs[1].seed = 2;
+  const Comparison lost = compare_all(before, after);
+  EXPECT_TRUE(names(lost, "near: seed 2 ended with an error after"));
+  EXPECT_TRUE(lost.lost_runs);
+  const Comparison gained = compare_all(after, before);
+  EXPECT_TRUE(names(gained, "near: seed 2 ended with an error before"));
+  EXPECT_FALSE(gained.lost_runs);
+}
+
+// ---- In words
+
+TEST(ComparisonText, TellsWhatRegressedAndImprovedWithTheInterval) {
+  const SuiteResult before = suite_with({scenario_with("near", "rebel.f1", {0.5, 0.5}),
+                                         scenario_with("far", "rebel.f1", {0.5, 0.5}),
+                                         scenario_with("same", "rebel.f1", {0.5, 0.5})});
+  const SuiteResult after = suite_with({scenario_with("near", "rebel.f1", {0.75, 0.75}),
+                                        scenario_with("far", "rebel.f1", {0.25, 0.25}),
+                                        scenario_with("same", "rebel.f1", {0.5, 0.5})});
+  const std::string text = text_of(compare_all(before, after), false);
+  EXPECT_EQ(text,
+            "regressed:\n"
+            "  far  rebel.f1    0.500 ->   0.250   -0.250  [-0.250, -0.250]\n"
+            "improved:\n"
+            "  near  rebel.f1    0.500 ->   0.750   +0.250  [+0.250, +0.250]\n"
+            "3 scenarios, 3 figures judged: 1 improved, 1 regressed, 1 as they were\n");
+  const std::string all = text_of(compare_all(before, after), true);
+  EXPECT_NE(all.find("no real change:\n  same"), std::string::npos) << all;
+}
+
+}  // namespace
+}  // namespace lcs::suite

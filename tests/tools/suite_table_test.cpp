@@ -1,0 +1,129 @@
+#include "tools/suite/suite_table.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "tests/tools/suites.h"
+#include "tools/suite/summary.h"
+
+namespace lcs::suite {
+namespace {
+
+ScenarioResult scenario(const std::string& name, const std::vector<std::optional<double>>& f1s,
+                        const std::vector<std::string>& groups = {"short"}) {
+  ScenarioResult result = scenario_with(name, "rebel.f1", f1s);
+  result.groups = groups;
+  for (RunResult& run : result.runs) {
+    run.metrics.emplace_back("dimension.mean", 20);
+    run.metrics.emplace_back("dimension.five_frame_mean", 80);
+  }
+  return result;
+}
+
+ScenarioResult broken(const std::string& name) {
+  ScenarioResult result;
+  result.name = name;
+  for (const std::uint64_t seed : {1, 2}) {
+    RunResult& run = result.runs.emplace_back();
+    run.seed = seed;
+    run.error = "it fell over";
+  }
+  return result;
+}
+
+/// Columns as a terminal counts them.
+std::size_t columns(const std::string& line) {
+  return static_cast<std::size_t>(
+      std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+TEST(Summary, IsTakenOverTheSeedsThatHaveTheFigure) {
+  const auto spread = over_seeds(scenario("near", {0.5, 0.9, std::nullopt}), "rebel.f1");
+  ASSERT_TRUE(spread);
+  EXPECT_DOUBLE_EQ(spread->mean, 0.7);
+  EXPECT_DOUBLE_EQ(spread->half, 0.2);
+  EXPECT_EQ(spread->count, 2);
+  EXPECT_FALSE(over_seeds(scenario("near", {std::nullopt}), "rebel.f1"));
+  EXPECT_FALSE(over_seeds(broken("near"), "rebel.f1"));
+  EXPECT_DOUBLE_EQ(over_seeds(scenario("near", {0.5}), kSizeShare)->mean, 0.25);
+}
+
+TEST(Summary, OfAGroupWeighsItsScenariosAlikeHoweverManySeeds) {
+  const SuiteResult suite =
+      suite_with({scenario("a", {0.2, 0.4}, {"short", "night"}), scenario("b", {0.9}, {"short"}),
+                  scenario("c", {std::nullopt}, {"night"})});
+  EXPECT_DOUBLE_EQ(*over_group(suite, "short", "rebel.f1"), 0.6);
+  EXPECT_DOUBLE_EQ(*over_group(suite, "night", "rebel.f1"), 0.3);
+  EXPECT_FALSE(over_group(suite, "rain", "rebel.f1"));
+  EXPECT_EQ(groups_of(suite), (std::vector<std::string>{"short", "night"}));
+}
+
+TEST(Summary, AnOutcomeIsTheWorstOfItsRuns) {
+  SuiteResult suite = suite_with({scenario("a", {0.2, 0.4})});
+  EXPECT_EQ(outcome_of(suite), Outcome::passed);
+  suite.scenarios[0].runs[1].outcome = Outcome::failed;
+  EXPECT_EQ(outcome_of(suite), Outcome::failed);
+  suite.scenarios.push_back(broken("b"));
+  EXPECT_EQ(outcome_of(suite), Outcome::error);
+}
+
+TEST(SuiteTable, FitsATerminalOf120ColumnsAndCutsNoName) {
+  const std::string long_name(130, 'n');
+  for (const std::size_t length : {4u, 15u, 25u, 60u}) {
+    const std::string name(length, 'x');
+    for (const auto& f1s : {std::vector<std::optional<double>>{0.5}, {0.5, 0.6, 0.1}}) {
+      const std::string text = suite_table(
+          suite_with({scenario(name, f1s), scenario("other", f1s), broken("broken")}), false);
+      EXPECT_NE(text.find(name), std::string::npos) << text;
+      std::istringstream lines(text);
+      for (std::string line; std::getline(lines, line);) EXPECT_LE(columns(line), 120u) << line;
+    }
+  }
+  EXPECT_NE(suite_table(suite_with({scenario(long_name, {0.5})}), false).find(long_name),
+            std::string::npos);
+}
+
+TEST(SuiteTable, ShowsMeansWithHalfTheirSpreadGroupsAndADashForWhatIsUndefined) {
+  const std::string several = suite_table(suite_with({scenario("near", {0.5, 0.6})}), false);
+  EXPECT_NE(several.find("0.55±.05"), std::string::npos) << several;
+  EXPECT_NE(several.find("= short (1)"), std::string::npos) << several;
+  const std::string single = suite_table(suite_with({scenario("near", {0.5})}), false);
+  EXPECT_NE(single.find("0.50"), std::string::npos) << single;
+  EXPECT_EQ(single.find("±"), std::string::npos) << single;
+  EXPECT_NE(single.find(" - "), std::string::npos) << single;
+}
+
+TEST(SuiteTable, MarksFailuresAndErrorsAndPutsTheWorstFirstOnRequest) {
+  SuiteResult suite = suite_with({scenario("fine", {0.9}), scenario("poor", {0.1}),
+                                  scenario("static", {std::nullopt}), broken("broken")});
+  suite.scenarios[1].runs[0].outcome = Outcome::failed;
+  const auto order = [&](bool worst_first) {
+    const std::string text = suite_table(suite, worst_first);
+    std::vector<std::pair<std::size_t, std::string>> places;
+    for (const char* row : {"  fine", "F poor", "  static", "E broken"}) {
+      EXPECT_NE(text.find(row), std::string::npos) << row << " in\n" << text;
+      places.emplace_back(text.find(row), row);
+    }
+    std::sort(places.begin(), places.end());
+    std::vector<std::string> rows;
+    for (const auto& [place, row] : places) rows.push_back(row);
+    return rows;
+  };
+  EXPECT_EQ(order(false), (std::vector<std::string>{"  fine", "F poor", "  static", "E broken"}));
+  EXPECT_EQ(order(true), (std::vector<std::string>{"E broken", "F poor", "  fine", "  static"}));
+}
+
+TEST(Problems, TellAnErrorOfSeveralSeedsOnce) {
+  SuiteResult suite = suite_with({scenario("near", {0.5}), broken("broken")});
+  suite.scenarios[0].runs[0].criteria = {
+      {"rebel.f1", 0.6, {}, 0.5, true, false, "rebel.f1 is 0.5, must be at least 0.6"},
+      {"rebel.f1", 0.4, {}, 0.5, true, true, ""}};
+  EXPECT_EQ(problems(suite),
+            (std::vector<std::string>{"failed: near seed 1: rebel.f1 is 0.5, must be at least 0.6",
+                                      "error: broken seed 1, 2: it fell over"}));
+  EXPECT_EQ(totals(suite), "1 passed, 0 failed, 2 errors");
+}
+
+}  // namespace
+}  // namespace lcs::suite

@@ -1,0 +1,81 @@
+#include "tools/lcs/compare.h"
+
+#include <fmt/format.h>
+
+#include <regex>
+#include <stdexcept>
+#include <string_view>
+
+#include "tools/suite/comparison.h"
+#include "tools/suite/suite_result.h"
+
+namespace lcs::tools {
+namespace {
+
+constexpr const char* kHelp = R"(Examples:
+  lcs suite --out out/before
+  lcs suite --out out/after --set filter.circle.mu_0=20
+  lcs compare out/before out/after
+  lcs compare out/before out/after --metric 'rebel\.f1' --all
+
+A figure has changed when the 95 % interval of its change, over the seeds that both suites have, lies
+beyond the least change that matters (tools/suite/README.md). Times are never judged.
+
+Exit codes:
+  0  nothing regressed
+  1  a figure regressed, or a run that had figures before ended with an error
+  2  a suite cannot be read, or the two have nothing in common
+)";
+
+std::regex regex_of(const std::string& text) {
+  try {
+    return std::regex(text);
+  } catch (const std::regex_error&) {
+    throw std::runtime_error(fmt::format(
+        "--metric {} is not a regular expression; give a part of a name, or as 'rebel.*f1'", text));
+  }
+}
+
+void print_suite(const char* when, const std::string& path, const suite::SuiteResult& suite) {
+  fmt::print("{} {}: {}{}{}\n", when, path, suite.detector, suite.sets.empty() ? "" : " with ",
+             fmt::join(suite.sets, ", "));
+}
+
+}  // namespace
+
+CLI::App& add_compare_command(CLI::App& app, CompareOptions& options) {
+  CLI::App& command = *app.add_subcommand(
+      "compare", "Tell what got better and what got worse between two suites, beyond noise");
+  command.add_option("BEFORE", options.before, "A suite.json, or the folder of a suite")
+      ->required()
+      ->type_name("");
+  command.add_option("AFTER", options.after, "Another one")->required()->type_name("");
+  command
+      .add_option("--metric", options.metric,
+                  "Only figures with this regular expression in their name")
+      ->type_name("REGEX");
+  command.add_flag("--all", options.all,
+                   "Also what did not change, and figures of which neither way is better");
+  command.footer(kHelp);
+  return command;
+}
+
+ExitCode compare(const CompareOptions& options) {
+  const std::regex wanted = regex_of(options.metric);
+  const suite::SuiteResult before = suite::read_suite(options.before);
+  const suite::SuiteResult after = suite::read_suite(options.after);
+  const suite::Comparison comparison = suite::compare(before, after, [&](std::string_view metric) {
+    return std::regex_search(metric.begin(), metric.end(), wanted);
+  });
+  if (comparison.scenarios == 0) {
+    throw std::runtime_error(
+        fmt::format("{} and {} have no scenario in common", options.before, options.after));
+  }
+  print_suite("before", options.before, before);
+  print_suite("after ", options.after, after);
+  fmt::print("{}", suite::text_of(comparison, options.all));
+  const bool is_worse = comparison.count(suite::Change::regressed) > 0 || comparison.lost_runs;
+  return is_worse ? kRegressed : kFine;
+}
+
+}  // namespace lcs::tools
