@@ -65,7 +65,8 @@ TEST_F(Suite, RunsEveryScenarioOfAFolderWithItsSeedsAndSumsThemUp) {
   const CommandResult command = run({"--seeds", "2"});
   ASSERT_EQ(command.exit_code, 0) << command.err;
   EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"suite"});
-  EXPECT_EQ(entries(out_), (std::set<std::string>{"suite.json", "junit.xml", "runs"}));
+  EXPECT_EQ(entries(out_),
+            (std::set<std::string>{"suite.json", "junit.xml", "report.html", "runs"}));
 
   const SuiteResult suite = result();
   EXPECT_EQ(suite.detector, "lcs");
@@ -217,6 +218,19 @@ TEST_F(Suite, ADetectorReachesEveryRunAndIsWrittenDown) {
   scenario("near");
   ASSERT_EQ(run({"--seeds", "1", "--detector", "klt"}).exit_code, 0);
   EXPECT_EQ(result().detector, "klt");
+}
+
+TEST_F(Suite, ABaselineShowsWhatChangedAndOneThatCannotBeReadIsToldBeforeAnythingRuns) {
+  scenario("near");
+  ASSERT_EQ(run({"--seeds", "1", "--out", "before"}).exit_code, 0);
+  const CommandResult same = run({"--seeds", "1", "--baseline", "before"});
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_NE(same.out.find("Against before:"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("0 improved, 0 regressed"), std::string::npos) << same.out;
+  const CommandResult missing = run({"--baseline", "no_such", "--out", "other"});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_NE(missing.err.find("no_such"), std::string::npos) << missing.err;
+  EXPECT_FALSE(fs::exists(folder_.path() / "other"));
 }
 
 TEST_F(Suite, AnEarlierSuiteIsReplacedAsAWhole) {
