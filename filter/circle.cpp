@@ -215,7 +215,8 @@ void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
     ++circles[c].age;
     circles[c].members = 0;
     // A region that was not looked at had no chance to show its edges.
-    if (!inside_any(layers.ignored, circles[c].location)) --circles[c].trust;
+    if (inside_any(layers.ignored, circles[c].location)) continue;
+    circles[c].trust -= circles[c].rebel ? parameters_.rebel_coast : 1;
   }
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     if (circle_of_group[g] >= 0) continue;

@@ -8,9 +8,6 @@
 namespace lcs {
 namespace {
 
-/// How far behind a rebel its origin is kept, in steps, so that beta is its direction of now.
-constexpr double kOriginSteps = 5;
-
 /// Changes of size between frames that neighbours may agree on (an approaching object grows).
 constexpr std::array<double, 5> kScales = {1.0, 1.04, 1.1, 1.2, 0.94};
 
@@ -18,24 +15,20 @@ constexpr std::array<double, 5> kScales = {1.0, 1.04, 1.1, 1.2, 0.94};
 constexpr int kMaxDepths = 60;
 constexpr double kDepthSpacing_px = 1.5;
 
-/// The middle value, of an even number the mean of the middle two, so that -x has the median -m.
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
+/// A static residual of more than this says no more of how surely a rebel moves, px.
+constexpr double kFullResidual_px = 6.0;
 
-/// A static residual beyond this says that a rebel's motion cannot be static, px; more than
-/// kFullResidual_px says no more.
-constexpr double kOffField_px = 1.0, kFullResidual_px = 6.0;
+/// Frames that are remembered, for two baselines.
+constexpr std::size_t kMaxHistory = 12;
 
 }  // namespace
 
 ConstellationEdges::ConstellationEdges(const Intrinsics& camera, const CircleParameters& parameters)
     : EdgeExpert(camera, parameters.trust),
       parameters_(parameters),
-      past_{Past(camera), Past(camera)} {}
+      groups_(parameters.constellation, parameters.trust),
+      once_(camera),
+      twice_(camera) {}
 
 void ConstellationEdges::predict(Layers& layers, const MotionField& field) {
   for (Edge& edge : layers.normal_edges) {
@@ -52,19 +45,27 @@ void ConstellationEdges::predict(Layers& layers, const MotionField& field) {
     const Vec2 path = edge.rotated - edge.origin;
     if (!path.isZero()) edge.angle = angle_of(path);
     edge.predicted = edge.rotated + edge.velocity() * field.dt_s();
+    predict_path(edge, field);
   }
-  for (int i = 0; i < remembered_; ++i) {
-    for (Vec2& x : past_[i].corners) x = field.rotated(x);
-    past_[i].displacement_C_m =
-        field.R_cur_prev() * past_[i].displacement_C_m + field.displacement_C_m();
+  for (Past& past : history_) {
+    for (Vec2& x : past.corners) x = field.rotated(x);
+    past.displacement_C_m = field.R_cur_prev() * past.displacement_C_m + field.displacement_C_m();
+    past.elapsed_s += field.dt_s();
   }
 }
 
-void ConstellationEdges::remember(const Chi& chi) {
-  std::swap(past_[0], past_[1]);
-  past_[0].corners = chi.locations;
-  past_[0].displacement_C_m.setZero();
-  remembered_ = std::min(remembered_ + 1, 2);
+void ConstellationEdges::remember(const Layers& layers, const Chi& chi) {
+  // The oldest makes room for the newest.
+  if (history_.size() < kMaxHistory) history_.emplace_back();
+  std::rotate(history_.begin(), history_.end() - 1, history_.end());
+  Past& now = history_.front();
+  now.corners = chi.locations;
+  now.owners.assign(chi.size(), 0);
+  for (const Edge& edge : layers.normal_edges) {
+    if (edge.corner >= 0) now.owners[edge.corner] = edge.id;
+  }
+  now.displacement_C_m.setZero();
+  now.elapsed_s = 0;
 }
 
 void ConstellationEdges::assign(const Layers& layers, const Chi& chi, const MotionField& field) {
@@ -114,36 +115,44 @@ void ConstellationEdges::update_normal(Edge& edge, const Vec2& x, const MotionFi
   edge.trust = trust_.raised(edge.trust);
 }
 
-void ConstellationEdges::set_velocity(Edge& edge, const Vec2& velocity_pxps, double dt_s) const {
-  edge.speed = velocity_pxps.norm();
-  if (edge.speed > 0) edge.angle = angle_of(velocity_pxps);
-  edge.origin = edge.location - kOriginSteps * dt_s * velocity_pxps;
-}
-
 /// By how much a step leaves the images that a static point at any plausible depth may take, px.
 double ConstellationEdges::off_field(const Vec2& x, const Vec2& before,
+                                     const Eigen::Vector3d& displacement_C_m,
                                      const MotionField& field) const {
-  return distance_to_segment(before, x,
-                             field.earlier(x, field.max_ratio(), field.displacement_C_m()));
+  return distance_to_segment(before, x, field.earlier(x, field.max_ratio(), displacement_C_m));
+}
+
+/// Whether an edge that followed its corner step by step did not stay on the path of any static
+/// point: each step of a slow mover fits into a normal edge's gate, their sum does not.
+bool ConstellationEdges::leaves_path(const Edge& edge, const Vec2& x,
+                                     const MotionField& field) const {
+  const ConstellationParameters& p = parameters_.constellation;
+  return off_field(x, edge.anchor, edge.travelled_C_m, field) >
+         p.path_across + p.path_across_growth * (edge.anchor - x).norm();
 }
 
 void ConstellationEdges::update_rebel(Edge& edge, const Vec2& x, const MotionField& field) const {
   const Vec2 step = x - edge.rotated;
   const double weight = std::clamp(edge.trust - trust_.critical, 1, step.norm() < 6 ? 3 : 2);
   const Vec2 velocity = (weight * edge.velocity() + step / field.dt_s()) / (weight + 1);
-  const double off = off_field(x, x - velocity * field.dt_s(), field);
+  const Past& past = history_[stride() - 1];
+  const double off = off_field(x, x - velocity * past.elapsed_s, past.displacement_C_m, field);
   edge.off_field_px = 0.5 * edge.off_field_px + 0.5 * std::min(off, kFullResidual_px);
   edge.location = x;
   edge.mu = angle_between(angle_of(step), edge.angle);
   set_velocity(edge, velocity, field.dt_s());
   edge.trust = trust_.raised(edge.trust);
+  // Beside a slow mover a static corner stays inside the gate, and is not carried along: it has to
+  // show a path of its own.
+  const int proof = parameters_.constellation.path_proof * static_cast<int>(stride());
+  if (edge.age >= proof && !leaves_path(edge, x, field)) edge.trust = 0;
 }
 
 /// Corners that no edge took, or only a normal edge too young to be believed.
 void ConstellationEdges::find_residuals(const Layers& layers, const Chi& chi) {
   candidates_.assign(chi.size(), {});
   links_.assign(chi.size(), {});
-  reasons_.assign(chi.size(), remembered_ < 2 ? Reason::no_past : Reason::no_time);
+  reasons_.assign(chi.size(), history_.size() < 2 ? Reason::no_past : Reason::no_time);
   const int normals = static_cast<int>(layers.normal_edges.size());
   for (std::size_t c = 0; c < chi.size(); ++c) {
     const int edge = match_of_corner_[c];
@@ -162,10 +171,50 @@ void ConstellationEdges::find_residuals(const Layers& layers, const Chi& chi) {
 
 int ConstellationEdges::static_hits(const Vec2& x, double depth_ratio,
                                     const MotionField& field) const {
-  const Vec2 once = field.earlier(x, depth_ratio, past_[0].displacement_C_m);
-  if (past_[0].map.at(once) < 0) return 0;
-  const Vec2 twice = field.earlier(x, depth_ratio, past_[1].displacement_C_m);
-  return past_[1].map.at(twice) < 0 ? 1 : 2;
+  const Vec2 once = field.earlier(x, depth_ratio, once_.displacement_C_m);
+  if (once_.all.at(once) < 0) return 0;
+  const Vec2 twice = field.earlier(x, depth_ratio, twice_.displacement_C_m);
+  return twice_.all.at(twice) < 0 ? 1 : 2;
+}
+
+/// How many frames make a baseline: as many as it takes to last `baseline`, for at a high frame
+/// rate nothing moves far enough from one frame to the next. Fewer while there is no more to see.
+std::size_t ConstellationEdges::stride() const {
+  std::size_t frames = 1;
+  while (2 * (frames + 1) <= history_.size() &&
+         history_[frames - 1].elapsed_s < parameters_.constellation.baseline) {
+    ++frames;
+  }
+  return frames;
+}
+
+void ConstellationEdges::look_back(const Layers& layers) {
+  explaining_.clear();
+  for (const Edge& edge : layers.normal_edges) {
+    const bool explains = edge.corner >= 0 && edge.trust >= parameters_.constellation.established;
+    if (explains) explaining_.push_back(edge.id);
+  }
+  std::sort(explaining_.begin(), explaining_.end());
+  const std::size_t frames = stride();
+  index(history_[frames - 1], parameters_.constellation.hit_1, once_);
+  index(history_[2 * frames - 1], parameters_.constellation.hit_2, twice_);
+  again_ = (twice_.elapsed_s - once_.elapsed_s) / once_.elapsed_s;
+  once_grid_.build(once_.corners, 16);
+}
+
+/// What an established edge took then and has a corner for now cannot be a moving corner's past.
+/// The static explanation keeps it: better to call too few corners rebels.
+void ConstellationEdges::index(const Past& past, double radius_px, Lookup& lookup) const {
+  lookup.corners.clear();
+  for (std::size_t i = 0; i < past.corners.size(); ++i) {
+    if (!std::binary_search(explaining_.begin(), explaining_.end(), past.owners[i])) {
+      lookup.corners.push_back(past.corners[i]);
+    }
+  }
+  lookup.free.build(lookup.corners, radius_px);
+  lookup.all.build(past.corners, radius_px);
+  lookup.displacement_C_m = past.displacement_C_m;
+  lookup.elapsed_s = past.elapsed_s;
 }
 
 /// Sweeps the depth of each residual corner, from infinity to the nearest.
@@ -174,8 +223,7 @@ void ConstellationEdges::seek_static_past(const Chi& chi, const MotionField& fie
     Candidate& candidate = candidates_[c];
     if (!candidate.residual) continue;
     const Vec2& x = chi.locations[c];
-    const double length =
-        (field.earlier(x, field.max_ratio(), past_[1].displacement_C_m) - x).norm();
+    const double length = (field.earlier(x, field.max_ratio(), twice_.displacement_C_m) - x).norm();
     const int depths = std::min(kMaxDepths, 1 + static_cast<int>(length / kDepthSpacing_px));
     for (int i = 0; i <= depths; ++i) {
       const double ratio = field.max_ratio() * i / depths;
@@ -199,11 +247,11 @@ int ConstellationEdges::count_votes(const Chi& chi, const Vec2& x, const Vec2& b
     if (votes + 2 * left < best) return votes;
     --left;
     const Vec2& y = chi.locations[voter];
-    const int once = past_[0].map.at(before + (y - x) / scale);
+    const int once = once_.free.at(before + (y - x) / scale);
     if (once < 0) continue;
     ++votes;
-    const Vec2& y_before = past_[0].corners[once];
-    if (past_[1].map.at(y_before - (y - y_before) / scale) >= 0) ++votes;
+    const Vec2& y_before = once_.corners[once];
+    if (twice_.free.at(y_before - again_ * (y - y_before) / scale) >= 0) ++votes;
   }
   return votes;
 }
@@ -230,11 +278,11 @@ Reason ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Mot
 
   int best = 0;
   Vec2 best_step = Vec2::Zero();
-  const double reach = std::max(p.max_step, p.max_speed * field.dt_s());
-  past_grid_.visit_within(x, reach, [&](int predecessor, double) {
-    const Vec2& before = past_[0].corners[predecessor];
+  const double reach = std::max(p.max_step, p.max_speed * once_.elapsed_s);
+  once_grid_.visit_within(x, reach, [&](int predecessor, double) {
+    const Vec2& before = once_.corners[predecessor];
     const Vec2 step = x - before;
-    const int own = past_[1].map.at(before - step) >= 0 ? 2 : 1;
+    const int own = twice_.free.at(before - again_ * step) >= 0 ? 2 : 1;
     for (const double scale : kScales) {
       const int votes = count_votes(chi, x, before, scale, own, best);
       // Of equal motions the slower one, so that the order of the search does not matter.
@@ -247,13 +295,16 @@ Reason ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Mot
   const double all = 2.0 * static_cast<double>(voters_.size() + 1);
   candidates_[corner].step = best_step;
   if (!(best >= p.vote_floor * all)) return Reason::vote_floor;
+  // A motion is chosen out of many, the static explanation is not: where that one is good, another
+  // that is better is chance, as in a pattern that repeats.
+  if (static_votes >= p.vote_static_cap * all) return Reason::static_wins;
   if (!(best >= static_votes + p.vote_margin * all)) return Reason::static_wins;
-  if (!(off_field(x, x - best_step, field) > p.off_field)) return Reason::vote_on_field;
+  if (!(off_field(x, x - best_step, once_.displacement_C_m, field) > p.off_field))
+    return Reason::vote_on_field;
   return Reason::voted;
 }
 
 void ConstellationEdges::vote(const Chi& chi, const MotionField& field) {
-  past_grid_.build(past_[0].corners, 16);
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (!candidates_[c].residual) continue;
     reasons_[c] = vote_on(c, chi, field);
@@ -265,7 +316,7 @@ Edge ConstellationEdges::make_rebel(const Vec2& x, const Vec2& velocity_pxps, do
   Edge edge;
   edge.id = next_id();
   edge.rebel = true;
-  edge.location = edge.predicted = x;
+  edge.location = edge.predicted = edge.anchor = x;
   edge.rotated = x - velocity_pxps * dt_s;
   set_velocity(edge, velocity_pxps, dt_s);
   edge.off_field_px = 3;
@@ -282,7 +333,7 @@ void ConstellationEdges::make_edges(Layers& layers, const Chi& chi, const Motion
       if (links_[c].kind == Kind::normal) layers.normal_edges[links_[c].index].trust = 0;
       if (links_[c].kind == Kind::normal) layers.normal_edges[links_[c].index].corner = -1;
       links_[c] = {Kind::rebel, static_cast<int>(layers.rebel_edges.size())};
-      layers.rebel_edges.push_back(make_rebel(x, candidate.step / field.dt_s(), field.dt_s()));
+      layers.rebel_edges.push_back(make_rebel(x, candidate.step / once_.elapsed_s, field.dt_s()));
       layers.rebel_edges.back().corner = static_cast<int>(c);
     } else if (candidate.residual && links_[c].kind == Kind::none && candidate.static_hits >= 2) {
       links_[c] = {Kind::normal, static_cast<int>(layers.normal_edges.size())};
@@ -293,124 +344,29 @@ void ConstellationEdges::make_edges(Layers& layers, const Chi& chi, const Motion
   }
 }
 
-/// Rebels near each other that move alike, and of which enough move as no static point does, bear
-/// each other out. Those that do not hold together lose trust.
-void ConstellationEdges::support(Layers& layers, const MotionField& field) {
-  const ConstellationParameters& p = parameters_.constellation;
-  std::vector<Edge>& rebels = layers.rebel_edges;
-  points_.clear();
-  for (const Edge& edge : rebels) points_.push_back(edge.location);
-  rebel_grid_.build(points_, p.radius);
-  borne_out_.assign(rebels.size(), 0);
-  support_.assign(rebels.size(), Reason::rebel_alone);
-
-  // Connected components of like velocity.
-  component_.resize(rebels.size());
-  for (std::size_t i = 0; i < rebels.size(); ++i) component_[i] = static_cast<int>(i);
-  const auto root = [&](int i) {
-    while (component_[i] != i) i = component_[i] = component_[component_[i]];
-    return i;
-  };
-  for (std::size_t i = 0; i < rebels.size(); ++i) {
-    if (!trust_.alive(rebels[i].trust)) continue;
-    rebel_grid_.visit_within(rebels[i].location, p.radius, [&](int j, double) {
-      if (j <= static_cast<int>(i) || !trust_.alive(rebels[j].trust)) return;
-      const double difference = (rebels[i].velocity() - rebels[j].velocity()).norm() * field.dt_s();
-      const double mean = 0.5 * (rebels[i].speed + rebels[j].speed) * field.dt_s();
-      if (difference < std::max(1.0, 0.2 * mean)) component_[root(j)] = root(static_cast<int>(i));
-    });
-  }
-  std::vector<int> size(rebels.size(), 0);
-  for (std::size_t i = 0; i < rebels.size(); ++i) ++size[root(static_cast<int>(i))];
-
-  std::vector<char> stray(rebels.size(), 0);
-  for (std::size_t i = 0; i < rebels.size(); ++i) {
-    if (!trust_.alive(rebels[i].trust) || size[root(static_cast<int>(i))] < p.support) continue;
-    int near = 0, off = 0;
-    rebel_grid_.visit_within(rebels[i].location, p.radius, [&](int j, double) {
-      if (root(j) != root(static_cast<int>(i)) || !trust_.alive(rebels[j].trust)) return;
-      ++near;
-      off += rebels[j].off_field_px > kOffField_px;
-    });
-    const bool moves = off >= p.support_off_field * near;
-    borne_out_[i] = near >= p.support && moves;
-    if (near >= p.support && !moves) support_[i] = Reason::rebel_on_field;
-    stray[i] = !moves && rebels[i].age >= 2;
-  }
-  for (std::size_t i = 0; i < rebels.size(); ++i) {
-    if (stray[i]) rebels[i].trust -= 2;
-  }
-  for (std::size_t i = 0; i < rebels.size(); ++i) component_[i] = root(static_cast<int>(i));
-  smooth(rebels, field.dt_s());
-}
-
 /// Corners of rebel edges are rebels where these are borne out.
 void ConstellationEdges::settle_rebels() {
   for (std::size_t c = 0; c < links_.size(); ++c) {
     if (links_[c].kind != Kind::rebel) continue;
-    called_[c] = borne_out_[links_[c].index];
+    called_[c] = groups_.borne_out(links_[c].index);
     if (!called_[c]) {
-      reasons_[c] = support_[links_[c].index];
+      reasons_[c] = groups_.reason(links_[c].index);
     } else if (!candidates_[c].voted) {
       reasons_[c] = Reason::rebel_edge;
     }
   }
 }
 
-/// A shift and a change of size are fitted to the velocities of each component, and pull them; an
-/// edge that is far off the fit loses trust.
-void ConstellationEdges::smooth(std::vector<Edge>& rebels, double dt_s) {
-  std::vector<std::vector<std::size_t>> members(rebels.size());
-  for (std::size_t i = 0; i < rebels.size(); ++i) {
-    if (trust_.alive(rebels[i].trust)) members[component_[i]].push_back(i);
-  }
-  std::vector<double> vx, vy;
-  for (const auto& group : members) {
-    if (group.size() < 4) continue;
-    vx.clear();
-    vy.clear();
-    Vec2 centre = Vec2::Zero();
-    for (const std::size_t i : group) {
-      const Vec2 step = rebels[i].velocity() * dt_s;
-      centre += rebels[i].location;
-      vx.push_back(step.x());
-      vy.push_back(step.y());
-    }
-    centre /= static_cast<double>(group.size());
-    const Vec2 shift(median(vx), median(vy));
-    const double tolerance = 3 + 0.3 * shift.norm();
-    double growth = 0;
-    if (group.size() >= 5) {
-      double numerator = 0, denominator = 1;
-      for (const std::size_t i : group) {
-        const Vec2 arm = rebels[i].location - centre;
-        const Vec2 rest = rebels[i].velocity() * dt_s - shift;
-        if (rest.norm() > tolerance) continue;
-        numerator += arm.dot(rest);
-        denominator += arm.squaredNorm();
-      }
-      growth = numerator / denominator;
-    }
-    for (const std::size_t i : group) {
-      const Vec2 fitted = shift + growth * (rebels[i].location - centre);
-      const Vec2 step = rebels[i].velocity() * dt_s;
-      if ((step - fitted).norm() > tolerance && rebels[i].corner >= 0) --rebels[i].trust;
-      const double faster = 1 + std::clamp(growth, -0.2, 0.3);
-      set_velocity(rebels[i], faster * (0.4 * step + 0.6 * fitted) / dt_s, dt_s);
-    }
-  }
-}
-
 /// Whether the corner's own past shows it moving by `step` in both of the last frames.
 bool ConstellationEdges::confirms(const Vec2& x, const Vec2& step) const {
-  const int once = past_[0].map.at(x - step);
+  const int once = once_.free.at(x - step);
   if (once < 0) return false;
-  const Vec2& before = past_[0].corners[once];
-  return past_[1].map.at(before - 0.5 * (x - before + step)) >= 0;
+  const Vec2& before = once_.corners[once];
+  return twice_.free.at(before - 0.5 * again_ * (x - before + step)) >= 0;
 }
 
 /// A corner most of whose decided neighbours are rebels is one; it becomes a rebel edge where its
-/// own past confirms their motion. A trusted normal edge is not overruled without that.
+/// own past confirms their motion. A normal edge is not overruled without that.
 void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionField& field) {
   const ConstellationParameters& p = parameters_.constellation;
   const std::vector<char> decided = called_;
@@ -437,14 +393,15 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
     const double share = static_cast<double>(rebels) / static_cast<double>(near_.size());
     if (nearest < 0 || share < p.inherit_share) continue;
     const Edge model = layers.rebel_edges[nearest];
-    const bool confirmed = confirms(x, model.velocity() * field.dt_s());
+    const bool confirmed = confirms(x, model.velocity() * once_.elapsed_s);
 
     Edge* normal = links_[c].kind == Kind::normal ? &layers.normal_edges[links_[c].index] : nullptr;
-    if (normal && normal->trust >= trust_.maximum) {
-      if (!confirmed || share < 0.75) {
-        reasons_[c] = Reason::normal_stands;
-        continue;
-      }
+    const bool trusted = normal && normal->trust >= trust_.maximum;
+    if ((normal && !confirmed) || (trusted && share < 0.75)) {
+      reasons_[c] = Reason::normal_stands;
+      continue;
+    }
+    if (trusted) {
       called_[c] = 1;
       reasons_[c] = Reason::inherited;
       normal->trust -= 2;
@@ -477,6 +434,11 @@ void ConstellationEdges::update(Layers& layers, const Chi& chi, const MotionFiel
     edge.corner = match_of_edge_[i];
     if (edge.corner >= 0) {
       update_normal(edge, chi.locations[edge.corner], field);
+      if (leaves_path(edge, chi.locations[edge.corner], field)) {
+        match_of_corner_[edge.corner] = -1;
+        edge.corner = -1;
+        edge.trust = 0;
+      }
     } else {
       coast(edge, layers.ignored);
     }
@@ -493,15 +455,15 @@ void ConstellationEdges::update(Layers& layers, const Chi& chi, const MotionFiel
   }
   find_residuals(layers, chi);
   called_.assign(chi.size(), 0);
-  if (remembered_ == 2 && field.dt_s() > 0) {
-    past_[0].map.build(past_[0].corners, parameters_.constellation.hit_1);
-    past_[1].map.build(past_[1].corners, parameters_.constellation.hit_2);
+  if (history_.size() >= 2 && field.dt_s() > 0) {
+    look_back(layers);
     seek_static_past(chi, field);
     vote(chi, field);
     make_edges(layers, chi, field);
-    support(layers, field);
+    groups_.judge(layers.rebel_edges, field.dt_s());
     for (std::size_t i = 0; i < layers.rebel_edges.size(); ++i) {
-      layers.rebel_edges[i].called = borne_out_[i];
+      // One that only follows its prediction says nothing of now.
+      layers.rebel_edges[i].called = groups_.borne_out(i) && layers.rebel_edges[i].corner >= 0;
     }
     settle_rebels();
     inherit(layers, chi, field);
@@ -515,13 +477,13 @@ void ConstellationEdges::update(Layers& layers, const Chi& chi, const MotionFiel
       verdict = Verdict::normal;
     }
   }
+  remember(layers, chi);
   for (auto* edges : {&layers.normal_edges, &layers.rebel_edges}) {
     for (Edge& edge : *edges) {
       if (edge.corner >= 0) edge.corner = chi.sources[edge.corner];
     }
     bury(*edges);
   }
-  remember(chi);
 }
 
 }  // namespace lcs

@@ -4,22 +4,21 @@
 /// the same displacement, twice, is not. This rule stands in for xi and alpha of the paper:
 ///
 /// 1. Normal edges are predicted by their own depth, rebels by their own image velocity, and both
-/// compete
-///    for corners in narrow gates.
+///    compete for corners in narrow gates.
 /// 2. A corner that no trusted edge explains looks for its static past: a depth at which both of
-/// the last
-///    two frames show a corner. Two hits make a normal edge, born with that depth.
+///    two earlier frames show a corner. Two hits make a normal edge, born with that depth.
 /// 3. It also lets its neighbours vote on a common displacement. A motion that beats the static
 ///    explanation of the same corners makes a rebel edge.
-/// 4. Rebels bear each other out, or lose trust; their circle smooths their velocities.
+/// 4. Rebels bear each other out, or lose trust; their group smooths their velocities
+///    (`filter/rebel_groups.h`).
 /// 5. A corner among rebels takes their verdict, and their motion where its own past confirms it.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "filter/edge_expert.h"
 #include "filter/nearest_map.h"
+#include "filter/rebel_groups.h"
 
 namespace lcs {
 
@@ -32,12 +31,23 @@ class ConstellationEdges : public EdgeExpert {
               std::vector<Verdict>& verdicts) override;
 
  private:
-  /// The corners of an earlier frame, in this frame's pixels (rotation removed).
+  /// An earlier frame, in this frame's pixels (rotation removed).
   struct Past {
-    explicit Past(const Intrinsics& camera) : map(camera.width_px, camera.height_px) {}
     std::vector<Vec2> corners;
-    NearestMap map;
+    std::vector<Id> owners;                                      // edge that took each; 0: none
     Eigen::Vector3d displacement_C_m = Eigen::Vector3d::Zero();  // of the camera since then
+    double elapsed_s = 0;
+  };
+
+  /// An earlier frame to look corners up in.
+  struct Lookup {
+    explicit Lookup(const Intrinsics& camera)
+        : all(camera.width_px, camera.height_px), free(camera.width_px, camera.height_px) {}
+    NearestMap all;
+    std::vector<Vec2> corners;  // those that may be the past of one that is not explained yet
+    NearestMap free;            // of these
+    Eigen::Vector3d displacement_C_m;
+    double elapsed_s = 0;
   };
 
   /// What is known of a corner while the frame is being explained.
@@ -56,12 +66,16 @@ class ConstellationEdges : public EdgeExpert {
     int index = -1;
   };
 
-  void remember(const Chi& chi);
+  void remember(const Layers& layers, const Chi& chi);
+  std::size_t stride() const;
+  void look_back(const Layers& layers);
+  void index(const Past& past, double radius_px, Lookup& lookup) const;
   void assign(const Layers& layers, const Chi& chi, const MotionField& field);
   void update_normal(Edge& edge, const Vec2& x, const MotionField& field) const;
   void update_rebel(Edge& edge, const Vec2& x, const MotionField& field) const;
-  void set_velocity(Edge& edge, const Vec2& velocity_pxps, double dt_s) const;
-  double off_field(const Vec2& x, const Vec2& before, const MotionField& field) const;
+  double off_field(const Vec2& x, const Vec2& before, const Eigen::Vector3d& displacement_C_m,
+                   const MotionField& field) const;
+  bool leaves_path(const Edge& edge, const Vec2& x, const MotionField& field) const;
   void find_residuals(const Layers& layers, const Chi& chi);
   void seek_static_past(const Chi& chi, const MotionField& field);
   int static_hits(const Vec2& x, double depth_ratio, const MotionField& field) const;
@@ -72,26 +86,23 @@ class ConstellationEdges : public EdgeExpert {
   void settle_rebels();
   void make_edges(Layers& layers, const Chi& chi, const MotionField& field);
   Edge make_rebel(const Vec2& x, const Vec2& velocity_pxps, double dt_s);
-  void support(Layers& layers, const MotionField& field);
-  void smooth(std::vector<Edge>& rebels, double dt_s);
   void inherit(Layers& layers, const Chi& chi, const MotionField& field);
   bool confirms(const Vec2& x, const Vec2& step) const;
 
   CircleParameters parameters_;
-  std::array<Past, 2> past_;  // of the last frame and the one before
-  int remembered_ = 0;
+  RebelGroups groups_;
+  std::vector<Past> history_;  // newest first
 
   // Of the current frame; kept for their memory.
-  PointGrid past_grid_, rebel_grid_;
+  Lookup once_, twice_;  // one and two baselines ago
+  double again_ = 1;     // the second baseline over the first, in time
+  PointGrid once_grid_;
   std::vector<Candidate> candidates_;
-  std::vector<Link> links_;      // of each corner
-  std::vector<char> borne_out_;  // of each rebel edge
-  std::vector<Reason> support_;  // of each rebel edge, why it is not borne out
-  std::vector<char> called_;     // corners that leave as rebels
+  std::vector<Link> links_;   // of each corner
+  std::vector<char> called_;  // corners that leave as rebels
   std::vector<std::pair<double, int>> near_;
   std::vector<int> voters_;
-  std::vector<Vec2> points_;
-  std::vector<int> component_;  // of each rebel edge
+  std::vector<Id> explaining_;  // edges, sorted
 };
 
 }  // namespace lcs

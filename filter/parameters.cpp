@@ -87,6 +87,8 @@ const std::vector<Entry>& entries() {
       {"constellation.max_speed", "", "px/s", 0, 100000,
        LCS_FIELD(double, circle.constellation.max_speed)},
       {"constellation.hit_1", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.hit_1)},
+      {"constellation.baseline", "", "s", 0, 1000,
+       LCS_FIELD(double, circle.constellation.baseline)},
       {"constellation.hit_2", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.hit_2)},
       {"constellation.radius", "", "px", 0, 10000, LCS_FIELD(double, circle.constellation.radius)},
       {"constellation.neighbours", "", "", 1, 100, LCS_FIELD(int, circle.constellation.neighbours)},
@@ -94,13 +96,23 @@ const std::vector<Entry>& entries() {
        LCS_FIELD(double, circle.constellation.vote_floor)},
       {"constellation.vote_margin", "", "", 0, 1,
        LCS_FIELD(double, circle.constellation.vote_margin)},
+      {"constellation.vote_static_cap", "", "", 0, 10,
+       LCS_FIELD(double, circle.constellation.vote_static_cap)},
       {"constellation.off_field", "", "px", 0, 100,
        LCS_FIELD(double, circle.constellation.off_field)},
+      {"constellation.path_across", "", "px", 0, 1000,
+       LCS_FIELD(double, circle.constellation.path_across)},
+      {"constellation.path_across_growth", "", "", 0, 10,
+       LCS_FIELD(double, circle.constellation.path_across_growth)},
+      {"constellation.path_proof", "", "", 1, 1000,
+       LCS_FIELD(int, circle.constellation.path_proof)},
       {"constellation.established", "", "", 0, 1000,
        LCS_FIELD(int, circle.constellation.established)},
       {"constellation.support", "", "", 1, 1000, LCS_FIELD(int, circle.constellation.support)},
       {"constellation.support_off_field", "", "", 0, 1,
        LCS_FIELD(double, circle.constellation.support_off_field)},
+      {"constellation.support_width", "", "px", 0, 100,
+       LCS_FIELD(double, circle.constellation.support_width)},
       {"constellation.inherit_radius", "", "px", 0, 10000,
        LCS_FIELD(double, circle.constellation.inherit_radius)},
       {"constellation.inherit_share", "", "", 0, 1,
@@ -115,6 +127,7 @@ const std::vector<Entry>& entries() {
       {"circle.rho_c", "rho_c", "%", 0, 100, LCS_FIELD(double, circle.rho_c)},
       {"circle.reach", "", "px", 0.1, 10000, LCS_FIELD(double, circle.reach)},
       {"circle.min_members", "", "", 1, 1000, LCS_FIELD(int, circle.min_members)},
+      {"circle.rebel_coast", "", "", 1, 1000, LCS_FIELD(int, circle.rebel_coast)},
       {"square.Tr_c", "Tr^s_c", "", 0, 1000, LCS_FIELD(int, square.trust.critical)},
       {"square.Tr_s", "Tr^s_s", "", 0, 1000, LCS_FIELD(int, square.trust.standard)},
       {"square.Tr_m", "Tr^s_m", "", 0, 1000, LCS_FIELD(int, square.trust.maximum)},
@@ -278,6 +291,7 @@ Parameters lab() {
   Parameters p;
   set_degrees(p.circle, p.square);
   p.circle.edge_rule = EdgeRule::paper;
+  p.circle.rebel_coast = 1;
   p.square.layer_rule = LayerRule::couples;
   return p;
 }

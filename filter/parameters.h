@@ -53,20 +53,26 @@ struct ConstellationParameters {
   double rebel_gate = 1.2;            ///< px
   double rebel_growth = 0.3;          ///< of the displacement, until
   double rebel_gate_max = 3.5;        ///< px
+  double baseline = 0.09;             ///< s: what a motion is measured over, at the least
   double max_step = 45;               ///< px: furthest that a rebel is looked for, or
   double max_speed = 450;             ///< px/s: as far as this takes it, if farther
-  double hit_1 = 2;                   ///< px: a sighting one frame ago counts within this
-  double hit_2 = 3;                   ///< px: and two frames ago within this
-  double radius = 35;                 ///< px: how far neighbours are
+  double hit_1 = 2;                   ///< px: a sighting one baseline ago counts within this
+  double hit_2 = 3;                   ///< px: and two baselines ago within this
+  double radius = 80;                 ///< px: how far neighbours are
   int neighbours = 8;                 ///< that vote, at the most
-  double vote_floor = 0.45;           ///< share of the votes that a motion needs
+  double vote_floor = 0.35;           ///< share of the votes that a motion needs
   double vote_margin = 0.15;          ///< by which it must beat the static explanation
+  double vote_static_cap = 0.55;      ///< share that the static explanation must stay below
   double off_field = 1.5;             ///< px that it must leave the static images by
-  int established = 4;                ///< trust from which a normal edge explains its corner
-  int support = 4;                    ///< rebels near each other that bear each other out
-  double support_off_field = 0.4;     ///< share of them that are off the field by more than 1 px
-  double inherit_radius = 40;         ///< px
-  double inherit_share = 0.45;        ///< of the nearest decided neighbours that are rebels
+  double path_across = 2;             ///< px that a normal edge's whole path may lie off the field,
+  double path_across_growth = 0.03;   ///< and this much more for each px of its length
+  int path_proof = 4;              ///< baselines after which a rebel's path must lie off by as much
+  int established = 4;             ///< trust from which a normal edge explains its corner
+  int support = 4;                 ///< rebels near each other that bear each other out
+  double support_off_field = 0.4;  ///< share of them that are off the field by more than 1 px
+  double support_width = 1.5;      ///< px: standard deviation of their places across their line
+  double inherit_radius = 60;      ///< px
+  double inherit_share = 0.45;     ///< of the nearest decided neighbours that are rebels
 };
 
 /// Circle expert: edges, alpha, circles.
@@ -94,6 +100,7 @@ struct CircleParameters {
   double rho_c = 40;          ///< rho_c, %: overlap of a group with the predicted circle
   double reach = 50;          ///< px: how far apart the edges of one circle may lie
   int min_members = 3;        ///< edges that make a new circle
+  int rebel_coast = 2;  ///< trust that a rebel circle loses in a frame without its edges; paper: 1
 };
 
 /// The links rule of the Square expert: neighbours are linked when they lie within a few local

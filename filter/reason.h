@@ -33,6 +33,7 @@ enum class Reason : std::uint8_t {
   // then the support of the rebel edges that came of it or were there before,
   rebel_alone,
   rebel_on_field,
+  rebel_in_line,
   // then the neighbours' verdicts.
   normal_stands,
   inherited,
@@ -61,27 +62,29 @@ struct ReasonText {
 };
 
 /// By the order of `Reason`. For each, the verdicts that it may come with.
-inline constexpr std::array<ReasonText, 28> kReasons{{
+inline constexpr std::array<ReasonText, 29> kReasons{{
     {"unknown", "no reason given"},
-    {"not_finite", "its place is not a number"},                                  // pending
-    {"in_psi", "inside a region psi that was not looked at"},                     // ignored
-    {"no_past", "too few frames seen so far"},                                    // pending
-    {"no_time", "no time has passed since the frame before"},                     // pending
-    {"normal_edge", "taken by a normal edge"},                                    // normal
-    {"rebel_edge", "taken by a rebel edge"},                                      // rebel
-    {"few_neighbours", "too few undecided neighbours to vote"},                   // normal, pending
-    {"vote_floor", "no motion has enough of the neighbours' votes"},              // normal, pending
-    {"static_wins", "a static explanation of the neighbours is as good"},         // normal, pending
-    {"vote_on_field", "the motion voted for may be a static point's"},            // normal, pending
-    {"voted", "the neighbours' vote made it a rebel edge"},                       // rebel
-    {"rebel_alone", "its rebel edge has too few others of like motion near"},     // pending
-    {"rebel_on_field", "its rebel edge's group moves as static points may"},      // pending
-    {"normal_stands", "among rebels, but a fully trusted normal edge has it"},    // normal
-    {"inherited", "most of its decided neighbours are rebels"},                   // rebel
-    {"alpha_first", "near no edge and on no row of alpha: starts one"},           // pending
-    {"xi_5", "outside the span of the edges near it: starts a row of alpha"},     // pending
-    {"xi_4", "against the field or too fast for it: starts a row of alpha"},      // pending
-    {"outbid", "fits an edge that took a better corner: starts a row of alpha"},  // pending
+    {"not_finite", "its place is not a number"},                               // pending
+    {"in_psi", "inside a region psi that was not looked at"},                  // ignored
+    {"no_past", "too few frames seen so far"},                                 // pending
+    {"no_time", "no time has passed since the frame before"},                  // pending
+    {"normal_edge", "taken by a normal edge"},                                 // normal
+    {"rebel_edge", "taken by a rebel edge"},                                   // rebel
+    {"few_neighbours", "too few undecided neighbours to vote"},                // normal, pending
+    {"vote_floor", "no motion has enough of the neighbours' votes"},           // normal, pending
+    {"static_wins", "a static explanation of the neighbours is as good"},      // normal, pending
+    {"vote_on_field", "the motion voted for may be a static point's"},         // normal, pending
+    {"voted", "the neighbours' vote made it a rebel edge"},                    // rebel
+    {"rebel_alone", "its rebel edge has too few others of like motion near"},  // pending
+    {"rebel_on_field", "its rebel edge's group moves as static points may"},   // pending
+    {"rebel_in_line",
+     "its rebel edge's group lies in one line, as where an outline hides a pattern"},    // pending
+    {"normal_stands", "among rebels, but a normal edge has it"},                         // normal
+    {"inherited", "most of its decided neighbours are rebels"},                          // rebel
+    {"alpha_first", "near no edge and on no row of alpha: starts one"},                  // pending
+    {"xi_5", "outside the span of the edges near it: starts a row of alpha"},            // pending
+    {"xi_4", "against the field or too fast for it: starts a row of alpha"},             // pending
+    {"outbid", "fits an edge that took a better corner: starts a row of alpha"},         // pending
     {"xi_1", "a further corner of a normal edge's layer, outside its radius mu"},        // pending
     {"alpha_second", "second of a row of alpha, third of none"},                         // pending
     {"alpha_bend", "broke a row of alpha at its third: off the line (deviation)"},       // pending

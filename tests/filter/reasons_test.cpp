@@ -211,6 +211,13 @@ TEST(ConstellationReasons, AGroupThatComesToRestIsOnTheFieldAgain) {
   EXPECT_TRUE(on_field);
 }
 
+TEST(ConstellationReasons, AGroupInOneLineMayBeCrossingsOfAnOutline) {
+  const Corners in_line = {{200, 200}, {209, 203}, {224, 208}, {236, 212}, {251, 217}};
+  Frames frames("default");
+  for (int k = 0; k < 2; ++k) frames.see(shifted(in_line, 8 * k));
+  expect_all(frames, frames.see(shifted(in_line, 16)), Reason::rebel_in_line, Verdict::pending);
+}
+
 TEST(ConstellationReasons, ANewCornerAmongRebelsIsOne) {
   Frames frames("default");
   for (int k = 0; k < 4; ++k) frames.see(shifted(kFive, 8 * k));
@@ -219,7 +226,7 @@ TEST(ConstellationReasons, ANewCornerAmongRebelsIsOne) {
   expect_all(frames, reasons, 5, 6, Reason::inherited, Verdict::rebel);
 }
 
-TEST(ConstellationReasons, ATrustedNormalEdgeStandsAmongRebels) {
+TEST(ConstellationReasons, ANormalEdgeStandsAmongRebels) {
   Frames frames("default");
   const Corners standing{{241, 190}};
   for (int k = 0; k < 8; ++k) frames.see(standing);

@@ -1,0 +1,158 @@
+#include "filter/rebel_groups.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "filter/geometry.h"
+
+namespace lcs {
+namespace {
+
+/// How far behind a rebel its origin is kept, in steps, so that beta is its direction of now.
+constexpr double kOriginSteps = 5;
+
+/// Rebels of one group differ by less than this, or this share of their steps, px.
+constexpr double kLikeStep_px = 1.0, kLikeStepShare = 0.2;
+
+/// The middle value, of an even number the mean of the middle two, so that -x has the median -m.
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+}  // namespace
+
+void set_velocity(Edge& edge, const Vec2& velocity_pxps, double dt_s) {
+  edge.speed = velocity_pxps.norm();
+  if (edge.speed > 0) edge.angle = angle_of(velocity_pxps);
+  edge.origin = edge.location - kOriginSteps * dt_s * velocity_pxps;
+}
+
+void RebelGroups::judge(std::vector<Edge>& rebels, double dt_s) {
+  connect(rebels, dt_s);
+  collect(rebels);
+  support(rebels);
+  smooth(rebels, dt_s);
+}
+
+int RebelGroups::root(int edge) {
+  while (component_[edge] != edge) edge = component_[edge] = component_[component_[edge]];
+  return edge;
+}
+
+/// Connected components of edges near each other and of like velocity.
+void RebelGroups::connect(const std::vector<Edge>& rebels, double dt_s) {
+  points_.clear();
+  for (const Edge& edge : rebels) points_.push_back(edge.location);
+  grid_.build(points_, parameters_.radius);
+  component_.resize(rebels.size());
+  for (std::size_t i = 0; i < rebels.size(); ++i) component_[i] = static_cast<int>(i);
+  for (std::size_t i = 0; i < rebels.size(); ++i) {
+    if (!trust_.alive(rebels[i].trust)) continue;
+    grid_.visit_within(rebels[i].location, parameters_.radius, [&](int j, double) {
+      if (j <= static_cast<int>(i) || !trust_.alive(rebels[j].trust)) return;
+      const double difference = (rebels[i].velocity() - rebels[j].velocity()).norm() * dt_s;
+      const double mean = 0.5 * (rebels[i].speed + rebels[j].speed) * dt_s;
+      if (difference < std::max(kLikeStep_px, kLikeStepShare * mean)) {
+        component_[root(j)] = root(static_cast<int>(i));
+      }
+    });
+  }
+}
+
+void RebelGroups::collect(const std::vector<Edge>& rebels) {
+  if (groups_.size() < rebels.size()) groups_.resize(rebels.size());
+  for (auto& group : groups_) group.clear();
+  for (std::size_t i = 0; i < rebels.size(); ++i) {
+    if (!trust_.alive(rebels[i].trust)) continue;
+    component_[i] = root(static_cast<int>(i));
+    groups_[component_[i]].push_back(static_cast<int>(i));
+  }
+}
+
+/// Standard deviation of a group's places across the line that fits them best, px.
+double RebelGroups::width(const std::vector<Edge>& rebels, const std::vector<int>& group) const {
+  Vec2 centre = Vec2::Zero();
+  for (const int i : group) centre += rebels[i].location / static_cast<double>(group.size());
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const int i : group) {
+    const Vec2 arm = rebels[i].location - centre;
+    spread += arm * arm.transpose() / static_cast<double>(group.size());
+  }
+  const double half = 0.5 * spread.trace();
+  const double root = std::sqrt(std::max(0.0, half * half - spread.determinant()));
+  return std::sqrt(std::max(0.0, half - root));
+}
+
+void RebelGroups::support(std::vector<Edge>& rebels) {
+  reasons_.assign(rebels.size(), Reason::rebel_alone);
+  stray_.assign(rebels.size(), 0);
+  for (const std::vector<int>& group : groups_) {
+    if (static_cast<int>(group.size()) < parameters_.support) continue;
+    // Where an outline hides a pattern behind it, their crossings move as neither does, but in line
+    // along the outline.
+    const bool in_line = width(rebels, group) < parameters_.support_width;
+    for (const int i : group) {
+      int near = 0, off = 0;
+      grid_.visit_within(rebels[i].location, parameters_.radius, [&](int j, double) {
+        if (!trust_.alive(rebels[j].trust) || component_[j] != component_[i]) return;
+        ++near;
+        off += rebels[j].off_field_px > kOffField_px;
+      });
+      const bool moves = off >= parameters_.support_off_field * near;
+      stray_[i] = (in_line || !moves) && rebels[i].age >= 2;
+      if (near < parameters_.support) continue;
+      reasons_[i] = !moves    ? Reason::rebel_on_field
+                    : in_line ? Reason::rebel_in_line
+                              : Reason::rebel_edge;
+    }
+  }
+  for (std::size_t i = 0; i < rebels.size(); ++i) {
+    if (stray_[i]) rebels[i].trust -= 2;
+  }
+}
+
+/// A shift and a change of size are fitted to the velocities of each group, and pull them; an edge
+/// that is far off the fit loses trust.
+void RebelGroups::smooth(std::vector<Edge>& rebels, double dt_s) {
+  for (std::vector<int>& group : groups_) {
+    std::erase_if(group, [&](int i) { return !trust_.alive(rebels[i].trust); });
+    if (group.size() < 4) continue;
+    vx_.clear();
+    vy_.clear();
+    Vec2 centre = Vec2::Zero();
+    for (const int i : group) {
+      const Vec2 step = rebels[i].velocity() * dt_s;
+      centre += rebels[i].location;
+      vx_.push_back(step.x());
+      vy_.push_back(step.y());
+    }
+    centre /= static_cast<double>(group.size());
+    const Vec2 shift(median(vx_), median(vy_));
+    const double tolerance = 3 + 0.3 * shift.norm();
+    double growth = 0;
+    if (group.size() >= 5) {
+      double numerator = 0, denominator = 1;
+      for (const int i : group) {
+        const Vec2 arm = rebels[i].location - centre;
+        const Vec2 rest = rebels[i].velocity() * dt_s - shift;
+        if (rest.norm() > tolerance) continue;
+        numerator += arm.dot(rest);
+        denominator += arm.squaredNorm();
+      }
+      growth = numerator / denominator;
+    }
+    for (const int i : group) {
+      const Vec2 fitted = shift + growth * (rebels[i].location - centre);
+      const Vec2 step = rebels[i].velocity() * dt_s;
+      if ((step - fitted).norm() > tolerance && rebels[i].corner >= 0) --rebels[i].trust;
+      const double faster = 1 + std::clamp(growth, -0.2, 0.3);
+      set_velocity(rebels[i], faster * (0.4 * step + 0.6 * fitted) / dt_s, dt_s);
+    }
+  }
+}
+
+}  // namespace lcs

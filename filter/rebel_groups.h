@@ -1,0 +1,56 @@
+/// \file
+/// Which rebel edges bear each other out. A single one may be two corners that happen to lie right;
+/// several near each other that move alike, over an area and as no static point does, are an
+/// object.
+#pragma once
+
+#include <vector>
+
+#include "filter/layers.h"
+#include "filter/parameters.h"
+#include "filter/point_grid.h"
+#include "filter/reason.h"
+
+namespace lcs {
+
+/// Gives a rebel edge its image velocity, and the origin behind it that its angle is seen from.
+void set_velocity(Edge& edge, const Vec2& velocity_pxps, double dt_s);
+
+/// A static residual beyond this says that a rebel's motion cannot be static, px.
+inline constexpr double kOffField_px = 1.0;
+
+class RebelGroups {
+ public:
+  RebelGroups(const ConstellationParameters& parameters, const TrustRanks& trust)
+      : parameters_(parameters), trust_(trust) {}
+
+  /// Finds the groups, judges their edges, and smooths their velocities. Edges that do not hold
+  /// with their group, and those of groups that move as the static world may, lose trust.
+  void judge(std::vector<Edge>& rebels, double dt_s);
+
+  /// Of the edges last judged, by index: whether others bear it out, and why not.
+  bool borne_out(std::size_t edge) const { return reasons_[edge] == Reason::rebel_edge; }
+  Reason reason(std::size_t edge) const { return reasons_[edge]; }
+
+ private:
+  void connect(const std::vector<Edge>& rebels, double dt_s);
+  void collect(const std::vector<Edge>& rebels);
+  void support(std::vector<Edge>& rebels);
+  void smooth(std::vector<Edge>& rebels, double dt_s);
+  double width(const std::vector<Edge>& rebels, const std::vector<int>& group) const;
+  int root(int edge);
+
+  ConstellationParameters parameters_;
+  TrustRanks trust_;
+  std::vector<Reason> reasons_;  // of each edge; `rebel_edge`: borne out
+
+  // Of the current frame; kept for their memory.
+  PointGrid grid_;
+  std::vector<Vec2> points_;
+  std::vector<int> component_;            // of each edge
+  std::vector<std::vector<int>> groups_;  // living edges by component
+  std::vector<char> stray_;
+  std::vector<double> vx_, vy_;
+};
+
+}  // namespace lcs

@@ -1,0 +1,188 @@
+/// What groups of corners tell that single ones cannot: situations that fooled each simpler rule.
+#include "filter/constellation_edges.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "filter/filter.h"
+#include "tests/filter/world.h"
+
+namespace lcs {
+namespace {
+
+using Eigen::Vector2f;
+using Eigen::Vector3d;
+using testing::Random;
+using testing::sparse_world;
+using testing::steady_motion;
+using testing::vga;
+using testing::World;
+
+using Corners = std::vector<Vector2f>;
+
+std::ptrdiff_t rebels(const FrameResult& result) {
+  return std::count(result.verdicts.begin(), result.verdicts.end(), Verdict::rebel);
+}
+
+Parameters with(const char* key, const char* value) {
+  Parameters parameters = preset("default");
+  set(parameters, key, value);
+  return parameters;
+}
+
+TEST(Constellation, ARepeatingPatternOfFlickeringCornersComesToRest) {
+  // Shifted by a period the pattern is its own past, and corners that are missing now and then make
+  // some shift look better than rest by chance. Once edges have a corner of now, their past is
+  // theirs.
+  Random random(3);
+  Filter filter(vga(), preset("default"));
+  std::ptrdiff_t at_the_start = 0, later = 0;
+  for (int k = 0; k < 40; ++k) {
+    Corners corners;
+    for (int row = 0; row < 12; ++row) {
+      for (int column = 0; column < 24; ++column) {
+        if (random.uniform(0, 1) < 0.15) continue;
+        corners.emplace_back(120 + 12 * column, 100 + 14 * row);
+      }
+    }
+    const EgoMotion motion = steady_motion(Vector3d::Zero(), Vector3d::Zero(), 0.1);
+    (k < 15 ? at_the_start : later) += rebels(filter.step(corners, motion));
+  }
+  EXPECT_LT(at_the_start, 15 * 245 / 10);  // of 245 corners a frame
+  EXPECT_EQ(later, 0);
+}
+
+/// Corners where an outline that moves along x crosses a fixed pattern behind it: they slide along
+/// the outline, in line.
+TEST(Constellation, CrossingsThatSlideAlongAnOutlineAreNoObject) {
+  for (const char* width : {"0", "1.5"}) {
+    Filter filter(vga(), with("constellation.support_width", width));
+    std::ptrdiff_t found = 0;
+    for (int k = 0; k < 12; ++k) {
+      Corners corners;
+      for (const float gap : {0.f, 9.f, 25.f, 36.f, 53.f, 60.f}) {
+        const float x = 200 + gap + 4 * static_cast<float>(k);
+        corners.push_back({x, 150 + 0.2f * x});  // the outline
+      }
+      found += rebels(filter.step(corners, steady_motion(Vector3d::Zero(), Vector3d::Zero(), 0.1)));
+    }
+    if (width[0] == '0') {
+      EXPECT_GT(found, 20) << "the outline is no trap: the test shows nothing";
+    } else {
+      EXPECT_EQ(found, 0);
+    }
+  }
+}
+
+/// A group that moves by 1.2 px from frame to frame at 30 Hz: less than a gate is wide.
+int frames_until_found(const Parameters& parameters) {
+  World world = sparse_world(4);
+  Random random(5);
+  for (int i = 0; i < 14; ++i) {
+    world.add({random.uniform(250, 300), random.uniform(200, 250)}, 3, {0.26, 0, 0});
+  }
+  Filter filter(world.camera, parameters);
+  const EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 1. / 30);
+  for (int k = 0; k < 60; ++k) {
+    const FrameResult& result = filter.step(world.corners(), k == 0 ? EgoMotion{} : motion);
+    const auto found =
+        std::count(result.verdicts.end() - 14, result.verdicts.end(), Verdict::rebel);
+    if (found >= 10) return k;
+    world.advance(motion);
+  }
+  return 60;
+}
+
+TEST(Constellation, ASlowMoverIsFoundAtAHighFrameRate) {
+  // Over two baselines of 0.1 s it has moved by 7 px. Some frames more, for the young edges that
+  // have followed it so far lie off the field by 2 px only then.
+  EXPECT_LE(frames_until_found(preset("default")), 10);
+  EXPECT_GE(frames_until_found(with("constellation.baseline", "0")), 30);
+}
+
+TEST(Constellation, AnEdgeThatFollowsAMoverStepByStepLosesItByItsPath) {
+  // A single corner: no neighbours vote. It moves by 0.8 px a frame across the field.
+  for (const bool checked : {true, false}) {
+    Filter filter(vga(), with("constellation.path_across", checked ? "2" : "1000"));
+    int longest = 0;
+    for (int k = 0; k < 40; ++k) {
+      const Corners corners{{420, 150 + 0.8f * static_cast<float>(k)}};
+      const EgoMotion motion = steady_motion({0.5, 0, 0}, Vector3d::Zero(), 0.1);
+      const FrameResult& result = filter.step(corners, k == 0 ? EgoMotion{} : motion);
+      for (const Edge& edge : result.layers.normal_edges) {
+        if (edge.corner >= 0) longest = std::max(longest, edge.age);
+      }
+    }
+    if (checked) {
+      EXPECT_LE(longest, 4);
+    } else {
+      EXPECT_GE(longest, 20) << "the gates lose it anyway: the test shows nothing";
+    }
+  }
+}
+
+TEST(Constellation, AStaticEdgeKeepsToItsPathHoweverLong) {
+  World world = sparse_world(7);
+  const EgoMotion motion = steady_motion({0.1, 0, 0.3}, {0.01, 0.03, -0.02}, 0.1);
+  Filter filter(world.camera, preset("default"));
+  Random random(8);
+  for (int k = 0; k < 40; ++k) {
+    Corners corners = world.corners();
+    for (Vector2f& x : corners) {  // what a detector's whole pixels add
+      x += Vector2f(static_cast<float>(random.uniform(-0.5, 0.5)),
+                    static_cast<float>(random.uniform(-0.5, 0.5)));
+    }
+    const FrameResult& result = filter.step(corners, k == 0 ? EgoMotion{} : motion);
+    EXPECT_EQ(rebels(result), 0);
+    if (k >= 8) {
+      const auto normal =
+          std::count(result.verdicts.begin(), result.verdicts.end(), Verdict::normal);
+      EXPECT_GT(static_cast<double>(normal), 0.9 * static_cast<double>(corners.size()));
+    }
+    world.advance(motion);
+  }
+}
+
+TEST(Constellation, AStaticCornerBesideASlowMoverIsNotCarriedAlong) {
+  // One of a slow group is hidden, and where it was last a static corner is found from then on.
+  const Corners group{{200, 200}, {209, 197}, {204, 211}, {219, 206}, {213, 217}, {222, 195}};
+  constexpr std::size_t kHidden = 2;
+  const EgoMotion still = steady_motion(Vector3d::Zero(), Vector3d::Zero(), 0.1);
+  for (const char* proof : {"4", "1000"}) {
+    Filter filter(vga(), with("constellation.path_proof", proof));
+    int carried = 0;
+    for (int k = 0; k < 20; ++k) {
+      Corners corners = group;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        corners[i].x() += 1.6f * static_cast<float>(i == kHidden ? std::min(k, 3) : k);
+      }
+      for (const Edge& edge : filter.step(corners, still).layers.rebel_edges) {
+        if (edge.corner == static_cast<int>(kHidden)) carried = std::max(carried, edge.age);
+      }
+    }
+    if (std::string_view(proof) == "4") {
+      EXPECT_LE(carried, 5);
+    } else {
+      EXPECT_GE(carried, 10) << "it is let go anyway: the test shows nothing";
+    }
+  }
+}
+
+TEST(Constellation, AnObjectThatDisappearsLeavesNoCircle) {
+  Filter filter(vga(), preset("default"));
+  const EgoMotion still = steady_motion(Vector3d::Zero(), Vector3d::Zero(), 0.1);
+  Corners group{{200, 200}, {209, 197}, {204, 211}, {219, 206}, {213, 217}};
+  for (int k = 0; k < 8; ++k) {
+    filter.step(group, still);
+    for (Vector2f& x : group) x.x() += 8;
+  }
+  ASSERT_EQ(filter.step(group, still).layers.rebel_circles.size(), 1u);
+  int frames = 0;
+  while (!filter.step(Corners{}, still).layers.rebel_circles.empty()) ++frames;
+  EXPECT_LE(frames, 2);
+}
+
+}  // namespace
+}  // namespace lcs
