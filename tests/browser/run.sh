@@ -26,7 +26,7 @@ suite() {
     "$@" || [[ $? -eq 1 ]]  # criteria are not what is tested here
 }
 suite --out "$work/first"
-suite --out "$work/second" --set filter.constellation.vote_floor=0.9 \
+suite --out "$work/second" --set filter.preset=lab \
   --baseline "$work/first/suite.json"
 
 # browse PAGE: what the page is after it was used, on stdout.
