@@ -454,8 +454,7 @@ TEST_F(GroupsTest, ABoxKeepsItsIdWhileItOverlapsItself) {
 
 // ---- What they reach
 
-/// Measured on the whole scenario: klt 0.91, homography 0.90, less a margin for another OpenCV. A
-/// prototype of klt reached 0.87 in a scene of this kind.
+/// Measured on the whole scenario: klt 0.91, homography 0.90, less a margin for another OpenCV.
 TEST(Yardstick, OnTheCrossingBothAreWorthComparingWith) {
   const bench::Metrics klt = bench::score(run("klt", "crossing.yaml"));
   EXPECT_GT(bench::value(klt, "rebel.f1").value(), 0.87);
