@@ -135,7 +135,8 @@ void ConstellationEdges::update_rebel(Edge& edge, const Vec2& x, const MotionFie
   const Vec2 step = x - edge.rotated;
   const double weight = std::clamp(edge.trust - trust_.critical, 1, step.norm() < 6 ? 3 : 2);
   const Vec2 velocity = (weight * edge.velocity() + step / field.dt_s()) / (weight + 1);
-  const Past& past = history_[stride() - 1];
+  const std::size_t frames = stride();
+  const Past& past = history_[frames - 1];
   const double off = off_field(x, x - velocity * past.elapsed_s, past.displacement_C_m, field);
   edge.off_field_px = 0.5 * edge.off_field_px + 0.5 * std::min(off, kFullResidual_px);
   edge.location = x;
@@ -144,7 +145,7 @@ void ConstellationEdges::update_rebel(Edge& edge, const Vec2& x, const MotionFie
   edge.trust = trust_.raised(edge.trust);
   // Beside a slow mover a static corner stays inside the gate, and is not carried along: it has to
   // show a path of its own.
-  const int proof = parameters_.constellation.path_proof * static_cast<int>(stride());
+  const int proof = parameters_.constellation.path_proof * static_cast<int>(frames);
   if (edge.age >= proof && !leaves_path(edge, x, field)) edge.trust = 0;
 }
 

@@ -46,8 +46,7 @@ void LinkLayering::gather(const std::vector<Edge>& edges, const MotionField& fie
     points_.push_back(node.location);
   }
   grid_.build(points_, parameters_.reach_max);
-  parent_.resize(nodes_.size());
-  for (std::size_t i = 0; i < nodes_.size(); ++i) parent_[i] = static_cast<int>(i);
+  sets_.reset(nodes_.size());
   measure_spacing();
 }
 
@@ -69,11 +68,6 @@ void LinkLayering::measure_spacing() {
 double LinkLayering::reach(const Node& a, const Node& b) const {
   return std::clamp(parameters_.spacing * std::min(a.spacing, b.spacing), parameters_.reach_min,
                     parameters_.reach_max);
-}
-
-int LinkLayering::root(int i) {
-  while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-  return i;
 }
 
 void LinkLayering::link_by_depth() {
@@ -105,13 +99,13 @@ void LinkLayering::link_by_depth() {
     mean_[i] = nodes_[i].w;
   }
   for (const Link& link : links_) {
-    const int a = root(link.a), b = root(link.b);
+    const int a = sets_.root(link.a), b = sets_.root(link.b);
     if (a == b) continue;
     const double w = 0.5 * (mean_[a] + mean_[b]);
     const double tolerance = parameters_.depth_share * w + parameters_.mean_spread * w * w +
                              2 * std::sqrt(1 / weight_[a] + 1 / weight_[b]);
     if (!(std::abs(mean_[a] - mean_[b]) < tolerance)) continue;
-    parent_[b] = a;
+    sets_.join(a, b);
     mean_[a] = (weight_[a] * mean_[a] + weight_[b] * mean_[b]) / (weight_[a] + weight_[b]);
     weight_[a] += weight_[b];
   }
@@ -126,7 +120,7 @@ void LinkLayering::link_by_velocity(double dt_s) {
       const double step = (a.velocity_pxps - b.velocity_pxps).norm() * dt_s;
       const double mean = 0.5 * (a.velocity_pxps.norm() + b.velocity_pxps.norm()) * dt_s;
       if (step < std::max(parameters_.rebel_speed_px, parameters_.rebel_speed_share * mean)) {
-        parent_[root(j)] = root(static_cast<int>(i));
+        sets_.join(static_cast<int>(i), j);
       }
     });
   }
@@ -135,7 +129,7 @@ void LinkLayering::link_by_velocity(double dt_s) {
 void LinkLayering::make_squares(int least, const MotionField& field) {
   groups_.assign(nodes_.size(), {});
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    groups_[root(static_cast<int>(i))].push_back(static_cast<int>(i));
+    groups_[sets_.root(static_cast<int>(i))].push_back(static_cast<int>(i));
   }
   for (const std::vector<int>& group : groups_) {
     if (static_cast<int>(group.size()) < least) continue;

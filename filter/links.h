@@ -11,6 +11,7 @@
 
 #include <vector>
 
+#include "filter/disjoint_sets.h"
 #include "filter/layers.h"
 #include "filter/motion_field.h"
 #include "filter/parameters.h"
@@ -46,7 +47,6 @@ class LinkLayering {
   void link_by_velocity(double dt_s);
   void make_squares(int least, const MotionField& field);
   double reach(const Node& a, const Node& b) const;
-  int root(int i);
 
   Intrinsics camera_;
   LinkParameters parameters_;
@@ -56,7 +56,7 @@ class LinkLayering {
   std::vector<Vec2> points_;
   PointGrid grid_;
   std::vector<Link> links_;
-  std::vector<int> parent_;
+  DisjointSets sets_;                  // of nodes
   std::vector<double> weight_, mean_;  // of the group that a root stands for
   std::vector<std::vector<int>> groups_;
   std::vector<double> distances_, xs_, ys_;

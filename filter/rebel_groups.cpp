@@ -38,18 +38,12 @@ void RebelGroups::judge(std::vector<Edge>& rebels, double dt_s) {
   smooth(rebels, dt_s);
 }
 
-int RebelGroups::root(int edge) {
-  while (component_[edge] != edge) edge = component_[edge] = component_[component_[edge]];
-  return edge;
-}
-
 /// Connected components of edges near each other and of like velocity.
 void RebelGroups::connect(const std::vector<Edge>& rebels, double dt_s) {
   points_.clear();
   for (const Edge& edge : rebels) points_.push_back(edge.location);
   grid_.build(points_, parameters_.radius);
-  component_.resize(rebels.size());
-  for (std::size_t i = 0; i < rebels.size(); ++i) component_[i] = static_cast<int>(i);
+  components_.reset(rebels.size());
   for (std::size_t i = 0; i < rebels.size(); ++i) {
     if (!trust_.alive(rebels[i].trust)) continue;
     grid_.visit_within(rebels[i].location, parameters_.radius, [&](int j, double) {
@@ -57,7 +51,7 @@ void RebelGroups::connect(const std::vector<Edge>& rebels, double dt_s) {
       const double difference = (rebels[i].velocity() - rebels[j].velocity()).norm() * dt_s;
       const double mean = 0.5 * (rebels[i].speed + rebels[j].speed) * dt_s;
       if (difference < std::max(kLikeStep_px, kLikeStepShare * mean)) {
-        component_[root(j)] = root(static_cast<int>(i));
+        components_.join(static_cast<int>(i), j);
       }
     });
   }
@@ -68,8 +62,7 @@ void RebelGroups::collect(const std::vector<Edge>& rebels) {
   for (auto& group : groups_) group.clear();
   for (std::size_t i = 0; i < rebels.size(); ++i) {
     if (!trust_.alive(rebels[i].trust)) continue;
-    component_[i] = root(static_cast<int>(i));
-    groups_[component_[i]].push_back(static_cast<int>(i));
+    groups_[components_.root(static_cast<int>(i))].push_back(static_cast<int>(i));
   }
 }
 
@@ -92,13 +85,14 @@ void RebelGroups::support(std::vector<Edge>& rebels) {
   stray_.assign(rebels.size(), 0);
   for (const std::vector<int>& group : groups_) {
     if (static_cast<int>(group.size()) < parameters_.support) continue;
+    const int component = components_.root(group.front());
     // Where an outline hides a pattern behind it, their crossings move as neither does, but in line
     // along the outline.
     const bool in_line = width(rebels, group) < parameters_.support_width;
     for (const int i : group) {
       int near = 0, off = 0;
       grid_.visit_within(rebels[i].location, parameters_.radius, [&](int j, double) {
-        if (!trust_.alive(rebels[j].trust) || component_[j] != component_[i]) return;
+        if (!trust_.alive(rebels[j].trust) || components_.root(j) != component) return;
         ++near;
         off += rebels[j].off_field_px > kOffField_px;
       });

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "filter/disjoint_sets.h"
 #include "filter/layers.h"
 #include "filter/parameters.h"
 #include "filter/point_grid.h"
@@ -38,7 +39,6 @@ class RebelGroups {
   void support(std::vector<Edge>& rebels);
   void smooth(std::vector<Edge>& rebels, double dt_s);
   double width(const std::vector<Edge>& rebels, const std::vector<int>& group) const;
-  int root(int edge);
 
   ConstellationParameters parameters_;
   TrustRanks trust_;
@@ -47,7 +47,7 @@ class RebelGroups {
   // Of the current frame; kept for their memory.
   PointGrid grid_;
   std::vector<Vec2> points_;
-  std::vector<int> component_;            // of each edge
+  DisjointSets components_;               // of edges near each other and of like velocity
   std::vector<std::vector<int>> groups_;  // living edges by component
   std::vector<char> stray_;
   std::vector<double> vx_, vy_;

@@ -54,7 +54,7 @@ const FrameResult& RebelGroups::group(std::span<const Eigen::Vector2f> corners_p
 
   members_.assign(points_.size(), {});
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    members_[root(static_cast<int>(i))].push_back(static_cast<int>(i));
+    members_[sets_.root(static_cast<int>(i))].push_back(static_cast<int>(i));
   }
   for (const std::vector<int>& members : members_) {
     if (static_cast<int>(members.size()) >= parameters_.least_corners) {
@@ -73,8 +73,7 @@ const FrameResult& RebelGroups::group(std::span<const Eigen::Vector2f> corners_p
 
 void RebelGroups::link(std::span<const CornerMotion> motions) {
   grid_.build(points_, parameters_.reach_px);
-  parent_.resize(points_.size());
-  for (std::size_t i = 0; i < points_.size(); ++i) parent_[i] = static_cast<int>(i);
+  sets_.reset(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Vec2& step = motions[corner_of_[i]].step_px;
     grid_.visit_within(points_[i], parameters_.reach_px, [&](int j, double) {
@@ -82,14 +81,9 @@ void RebelGroups::link(std::span<const CornerMotion> motions) {
       const Vec2& other = motions[corner_of_[j]].step_px;
       const double like = std::max(parameters_.like_px,
                                    parameters_.like_share * 0.5 * (step.norm() + other.norm()));
-      if ((step - other).norm() <= like) parent_[root(j)] = root(static_cast<int>(i));
+      if ((step - other).norm() <= like) sets_.join(static_cast<int>(i), j);
     });
   }
-}
-
-int RebelGroups::root(int i) {
-  while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-  return i;
 }
 
 void RebelGroups::add_group(const std::vector<int>& members, std::span<const CornerMotion> motions,

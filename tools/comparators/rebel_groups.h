@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "filter/disjoint_sets.h"
 #include "filter/filter.h"
 #include "filter/point_grid.h"
 
@@ -48,7 +49,6 @@ class RebelGroups {
 
  private:
   void link(std::span<const CornerMotion> motions);
-  int root(int i);
   void add_group(const std::vector<int>& members, std::span<const CornerMotion> motions,
                  double dt_s);
   void name_squares();
@@ -60,7 +60,7 @@ class RebelGroups {
   // Of the current frame; kept for their memory.
   std::vector<Vec2> points_;
   std::vector<int> corner_of_;  ///< of each point
-  std::vector<int> parent_;
+  DisjointSets sets_;           ///< of points that move alike
   std::vector<std::vector<int>> members_;
   PointGrid grid_;
   FrameResult result_;
