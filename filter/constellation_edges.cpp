@@ -18,8 +18,16 @@ constexpr double kDepthSpacing_px = 1.5;
 /// A static residual of more than this says no more of how surely a rebel moves, px.
 constexpr double kFullResidual_px = 6.0;
 
+/// Decided neighbours that a corner may take its verdict from.
+constexpr std::size_t kInheritFrom = 5;
+
 /// Frames that are remembered, for two baselines.
 constexpr std::size_t kMaxHistory = 12;
+
+/// The smallest number of votes that is not less than `share`.
+int least_votes(double share) {
+  return static_cast<int>(std::ceil(share));
+}
 
 }  // namespace
 
@@ -28,7 +36,8 @@ ConstellationEdges::ConstellationEdges(const Intrinsics& camera, const CirclePar
       parameters_(parameters),
       groups_(parameters.constellation, parameters.trust),
       once_(camera),
-      twice_(camera) {}
+      twice_(camera),
+      once_free_(camera.width_px, camera.height_px) {}
 
 void ConstellationEdges::predict(Layers& layers, const MotionField& field) {
   for (Edge& edge : layers.normal_edges) {
@@ -173,9 +182,9 @@ void ConstellationEdges::find_residuals(const Layers& layers, const Chi& chi) {
 int ConstellationEdges::static_hits(const Vec2& x, double depth_ratio,
                                     const MotionField& field) const {
   const Vec2 once = field.earlier(x, depth_ratio, once_.displacement_C_m);
-  if (once_.all.at(once) < 0) return 0;
+  if (!once_.all.at(once)) return 0;
   const Vec2 twice = field.earlier(x, depth_ratio, twice_.displacement_C_m);
-  return twice_.all.at(twice) < 0 ? 1 : 2;
+  return twice_.all.at(twice) ? 2 : 1;
 }
 
 /// How many frames make a baseline: as many as it takes to last `baseline`, for at a high frame
@@ -200,6 +209,7 @@ void ConstellationEdges::look_back(const Layers& layers) {
   index(history_[frames - 1], parameters_.constellation.hit_1, once_);
   index(history_[2 * frames - 1], parameters_.constellation.hit_2, twice_);
   again_ = (twice_.elapsed_s - once_.elapsed_s) / once_.elapsed_s;
+  once_free_.build(once_.corners, parameters_.constellation.hit_1);
   once_grid_.build(once_.corners, 16);
 }
 
@@ -226,7 +236,7 @@ void ConstellationEdges::seek_static_past(const Chi& chi, const MotionField& fie
     const Vec2& x = chi.locations[c];
     const double length = (field.earlier(x, field.max_ratio(), twice_.displacement_C_m) - x).norm();
     const int depths = std::min(kMaxDepths, 1 + static_cast<int>(length / kDepthSpacing_px));
-    for (int i = 0; i <= depths; ++i) {
+    for (int i = 0; i <= depths && candidate.static_hits < 2; ++i) {
       const double ratio = field.max_ratio() * i / depths;
       const int hits = static_hits(x, ratio, field);
       if (hits > candidate.static_hits) {
@@ -237,24 +247,47 @@ void ConstellationEdges::seek_static_past(const Chi& chi, const MotionField& fie
   }
 }
 
-/// Votes for the displacement from `before` to x at a change of size by `scale`: for each voter,
-/// whether it has a predecessor at its place in the displaced constellation, and that one another.
-/// Gives up when it can no longer beat `best`.
-int ConstellationEdges::count_votes(const Chi& chi, const Vec2& x, const Vec2& before, double scale,
-                                    int own, int best) const {
+/// Votes for the displacement to `before` at a change of size by `scale`: for each voter, whether
+/// it has a predecessor at its place in the displaced constellation, and that one another. Gives up
+/// when `least` is out of reach.
+int ConstellationEdges::count_votes(const Voter* voters, const Vec2& before, double scale, int own,
+                                    int least) const {
   int votes = own;
-  int left = static_cast<int>(voters_.size());
-  for (const int voter : voters_) {
-    if (votes + 2 * left < best) return votes;
+  int left = voter_count_;
+  for (const Voter* voter = voters; left > 0; ++voter) {
+    if (votes + 2 * left < least) return votes;
     --left;
-    const Vec2& y = chi.locations[voter];
-    const int once = once_.free.at(before + (y - x) / scale);
-    if (once < 0) continue;
+    const Vec2 once = before + voter->arm;
+    if (!once_.free.at(once)) continue;
     ++votes;
-    const Vec2& y_before = once_.corners[once];
-    if (twice_.free.at(y_before - again_ * (y - y_before) / scale) >= 0) ++votes;
+    const Vec2& y_before = once_.corners[once_free_.at(once)];
+    if (twice_.free.at(y_before - again_ * (voter->location - y_before) / scale)) ++votes;
   }
   return votes;
+}
+
+/// The eight nearest (`neighbours`) of the corners that are not decided vote. \return the votes of
+/// all of them and of the corner itself for standing still in the world, -1: there are too few.
+int ConstellationEdges::gather_voters(std::size_t corner, const Chi& chi) {
+  const ConstellationParameters& p = parameters_.constellation;
+  const Vec2& x = chi.locations[corner];
+  undecided_grid_.nearest(
+      x, p.radius, static_cast<std::size_t>(p.neighbours),
+      [&](int other) { return undecided_[other] != static_cast<int>(corner); }, near_);
+  if (near_.size() < 2) return -1;
+  voter_count_ = static_cast<int>(near_.size());
+  voters_.clear();
+  for (const double scale : kScales) {
+    for (const auto& [distance2, other] : near_) {
+      const Vec2& y = undecided_locations_[other];
+      voters_.push_back({y, (y - x) / scale});
+    }
+  }
+  int static_votes = candidates_[corner].static_hits;
+  for (const auto& [distance2, other] : near_) {
+    static_votes += candidates_[undecided_[other]].static_hits;
+  }
+  return static_votes;
 }
 
 /// Sets the displacement that the neighbours of a corner agree on, if any. \return `voted`, or what
@@ -262,30 +295,31 @@ int ConstellationEdges::count_votes(const Chi& chi, const Vec2& x, const Vec2& b
 Reason ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const MotionField& field) {
   const ConstellationParameters& p = parameters_.constellation;
   const Vec2& x = chi.locations[corner];
-  near_.clear();
-  corner_grid_.visit_within(x, p.radius, [&](int other, double distance2) {
-    const bool undecided = candidates_[other].residual || links_[other].kind == Kind::rebel;
-    if (other != static_cast<int>(corner) && undecided) near_.emplace_back(distance2, other);
-  });
-  std::sort(near_.begin(), near_.end());
-  if (near_.size() > static_cast<std::size_t>(p.neighbours)) near_.resize(p.neighbours);
-  if (near_.size() < 2) return Reason::few_neighbours;
-  voters_.clear();
-  int static_votes = candidates_[corner].static_hits;
-  for (const auto& [distance2, other] : near_) {
-    voters_.push_back(other);
-    static_votes += candidates_[other].static_hits;
-  }
+  const int static_votes = gather_voters(corner, chi);
+  if (static_votes < 0) return Reason::few_neighbours;
+  const int all = 2 * (voter_count_ + 1);
+  const int floor = least_votes(p.vote_floor * all);
+  // A motion is chosen out of many, the static explanation is not: where that one is good, another
+  // that is better is chance, as in a pattern that repeats.
+  const int winning =
+      static_votes >= p.vote_static_cap * all
+          ? all + 1
+          : least_votes(std::max<double>(floor, static_votes + p.vote_margin * all));
 
+  // Which motion is the best matters only where it wins; else, whether there is one at the floor.
   int best = 0;
   Vec2 best_step = Vec2::Zero();
   const double reach = std::max(p.max_step, p.max_speed * once_.elapsed_s);
   once_grid_.visit_within(x, reach, [&](int predecessor, double) {
+    if (best >= floor && winning > all) return;
     const Vec2& before = once_.corners[predecessor];
     const Vec2 step = x - before;
-    const int own = twice_.free.at(before - again_ * step) >= 0 ? 2 : 1;
+    const int own = twice_.free.at(before - again_ * step) ? 2 : 1;
+    const Voter* voters = voters_.data();
     for (const double scale : kScales) {
-      const int votes = count_votes(chi, x, before, scale, own, best);
+      const int least = best < floor ? floor : std::max(best, winning);
+      const int votes = count_votes(voters, before, scale, own, least);
+      voters += voter_count_;
       // Of equal motions the slower one, so that the order of the search does not matter.
       if (votes > best || (votes == best && step.squaredNorm() < best_step.squaredNorm())) {
         best = votes;
@@ -293,19 +327,23 @@ Reason ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Mot
       }
     }
   });
-  const double all = 2.0 * static_cast<double>(voters_.size() + 1);
+  if (best < floor) return Reason::vote_floor;
+  if (best < winning) return Reason::static_wins;
   candidates_[corner].step = best_step;
-  if (!(best >= p.vote_floor * all)) return Reason::vote_floor;
-  // A motion is chosen out of many, the static explanation is not: where that one is good, another
-  // that is better is chance, as in a pattern that repeats.
-  if (static_votes >= p.vote_static_cap * all) return Reason::static_wins;
-  if (!(best >= static_votes + p.vote_margin * all)) return Reason::static_wins;
   if (!(off_field(x, x - best_step, once_.displacement_C_m, field) > p.off_field))
     return Reason::vote_on_field;
   return Reason::voted;
 }
 
 void ConstellationEdges::vote(const Chi& chi, const MotionField& field) {
+  undecided_.clear();
+  undecided_locations_.clear();
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    if (!candidates_[c].residual && links_[c].kind != Kind::rebel) continue;
+    undecided_.push_back(static_cast<int>(c));
+    undecided_locations_.push_back(chi.locations[c]);
+  }
+  undecided_grid_.build(undecided_locations_, 16);
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (!candidates_[c].residual) continue;
     reasons_[c] = vote_on(c, chi, field);
@@ -360,10 +398,10 @@ void ConstellationEdges::settle_rebels() {
 
 /// Whether the corner's own past shows it moving by `step` in both of the last frames.
 bool ConstellationEdges::confirms(const Vec2& x, const Vec2& step) const {
-  const int once = once_.free.at(x - step);
+  const int once = once_free_.at(x - step);
   if (once < 0) return false;
   const Vec2& before = once_.corners[once];
-  return twice_.free.at(before - 0.5 * again_ * (x - before + step)) >= 0;
+  return twice_.free.at(before - 0.5 * again_ * (x - before + step));
 }
 
 /// A corner most of whose decided neighbours are rebels is one; it becomes a rebel edge where its
@@ -374,16 +412,13 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (decided[c]) continue;
     const Vec2& x = chi.locations[c];
-    near_.clear();
-    corner_grid_.visit_within(x, p.inherit_radius, [&](int other, double distance2) {
-      if (other == static_cast<int>(c)) return;
+    const auto counts = [&](int other) {
+      if (other == static_cast<int>(c)) return false;
       const Link& link = links_[other];
-      const bool normal =
-          link.kind == Kind::normal && layers.normal_edges[link.index].trust >= p.established;
-      if (decided[other] || normal) near_.emplace_back(distance2, other);
-    });
-    std::sort(near_.begin(), near_.end());
-    if (near_.size() > 5) near_.resize(5);
+      return decided[other] ||
+             (link.kind == Kind::normal && layers.normal_edges[link.index].trust >= p.established);
+    };
+    corner_grid_.nearest(x, p.inherit_radius, kInheritFrom, counts, near_);
     if (near_.size() < 2) continue;
     int rebels = 0, nearest = -1;
     for (const auto& [distance2, other] : near_) {

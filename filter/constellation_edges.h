@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "filter/edge_expert.h"
+#include "filter/hit_map.h"
 #include "filter/nearest_map.h"
 #include "filter/rebel_groups.h"
 
@@ -43,9 +44,9 @@ class ConstellationEdges : public EdgeExpert {
   struct Lookup {
     explicit Lookup(const Intrinsics& camera)
         : all(camera.width_px, camera.height_px), free(camera.width_px, camera.height_px) {}
-    NearestMap all;
+    HitMap all;
     std::vector<Vec2> corners;  // those that may be the past of one that is not explained yet
-    NearestMap free;            // of these
+    HitMap free;                // of these
     Eigen::Vector3d displacement_C_m;
     double elapsed_s = 0;
   };
@@ -57,6 +58,13 @@ class ConstellationEdges : public EdgeExpert {
     double static_ratio = 0;   ///< Z_ref / Z of that depth
     Vec2 step = Vec2::Zero();  ///< displacement that its neighbours voted for, px a frame
     bool voted = false;        ///< for a motion that no static point has
+  };
+
+  /// A neighbour that votes: where it is, and where from the corner's predecessor its own is
+  /// sought.
+  struct Voter {
+    Vec2 location;
+    Vec2 arm;  // at one change of size
   };
 
   enum class Kind : std::uint8_t { none, normal, rebel };
@@ -81,8 +89,8 @@ class ConstellationEdges : public EdgeExpert {
   int static_hits(const Vec2& x, double depth_ratio, const MotionField& field) const;
   void vote(const Chi& chi, const MotionField& field);
   Reason vote_on(std::size_t corner, const Chi& chi, const MotionField& field);
-  int count_votes(const Chi& chi, const Vec2& x, const Vec2& before, double scale, int own,
-                  int best) const;
+  int gather_voters(std::size_t corner, const Chi& chi);
+  int count_votes(const Voter* voters, const Vec2& before, double scale, int own, int least) const;
   void settle_rebels();
   void make_edges(Layers& layers, const Chi& chi, const MotionField& field);
   Edge make_rebel(const Vec2& x, const Vec2& velocity_pxps, double dt_s);
@@ -94,14 +102,19 @@ class ConstellationEdges : public EdgeExpert {
   std::vector<Past> history_;  // newest first
 
   // Of the current frame; kept for their memory.
-  Lookup once_, twice_;  // one and two baselines ago
-  double again_ = 1;     // the second baseline over the first, in time
+  Lookup once_, twice_;   // one and two baselines ago
+  NearestMap once_free_;  // of once_.corners
+  double again_ = 1;      // the second baseline over the first, in time
   PointGrid once_grid_;
   std::vector<Candidate> candidates_;
   std::vector<Link> links_;   // of each corner
   std::vector<char> called_;  // corners that leave as rebels
   std::vector<std::pair<double, int>> near_;
-  std::vector<int> voters_;
+  PointGrid undecided_grid_;
+  std::vector<int> undecided_;  // corners that are residual, or of rebels
+  std::vector<Vec2> undecided_locations_;
+  std::vector<Voter> voters_;  // all of them at the first change of size, then at the next
+  int voter_count_ = 0;
   std::vector<Id> explaining_;  // edges, sorted
 };
 

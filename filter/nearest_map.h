@@ -3,61 +3,59 @@
 /// of points. Answers to the pixel; `PointGrid` answers exactly.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "filter/camera.h"
+#include "filter/pixels.h"
 
 namespace lcs {
 
 class NearestMap {
  public:
   NearestMap(int width_px, int height_px)
-      : width_(width_px), height_(height_px), index_(std::size_t(width_px) * height_px, -1) {}
+      : pixels_{width_px, height_px},
+        index_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), -1) {}
 
   /// \param radius_px up to which a point is found.
   void build(std::span<const Vec2> points, double radius_px) {
-    for (const std::size_t pixel : touched_) index_[pixel] = -1;
+    for (const Run& run : touched_) std::fill_n(index_.begin() + run.first, run.count, -1);
     touched_.clear();
-    const int reach = static_cast<int>(std::ceil(radius_px));
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec2& x = points[i];
-      if (!inside(x)) continue;
-      const int cx = static_cast<int>(std::lround(x.x())),
-                cy = static_cast<int>(std::lround(x.y()));
-      for (int v = std::max(0, cy - reach); v <= std::min(height_ - 1, cy + reach); ++v) {
-        for (int u = std::max(0, cx - reach); u <= std::min(width_ - 1, cx + reach); ++u) {
-          const double distance2 = (Vec2(u, v) - x).squaredNorm();
-          if (distance2 > radius_px * radius_px) continue;
-          std::int32_t& here = index_[std::size_t(v) * width_ + u];
-          if (here < 0) {
-            touched_.push_back(std::size_t(v) * width_ + u);
-          } else if ((Vec2(u, v) - points[here]).squaredNorm() <= distance2) {
-            continue;
-          }
+      if (!pixels_.contain(x)) continue;
+      pixels_.visit_disc(x, radius_px, [&](int v, int first, int last) {
+        touched_.push_back({pixel(first, v), last - first + 1});
+        for (int u = first; u <= last; ++u) {
+          std::int32_t& here = index_[pixel(u, v)];
+          if (here >= 0 && distance2(u, v, points[here]) <= distance2(u, v, x)) continue;
           here = static_cast<std::int32_t>(i);
         }
-      }
+      });
     }
   }
 
   /// Index of the nearest point, -1: none near.
   int at(const Vec2& x) const {
-    if (!inside(x)) return -1;
-    return index_[std::size_t(std::lround(x.y())) * width_ + std::size_t(std::lround(x.x()))];
+    if (!pixels_.contain(x)) return -1;
+    return index_[pixel(nearest_pixel(x.x()), nearest_pixel(x.y()))];
   }
 
  private:
-  bool inside(const Vec2& x) const {
-    return x.x() > -0.5 && x.y() > -0.5 && x.x() < width_ - 0.5 && x.y() < height_ - 0.5;
+  /// Pixels of a row, side by side.
+  struct Run {
+    std::ptrdiff_t first;
+    int count;
+  };
+
+  static double distance2(int u, int v, const Vec2& x) { return (Vec2(u, v) - x).squaredNorm(); }
+  std::ptrdiff_t pixel(int u, int v) const {
+    return static_cast<std::ptrdiff_t>(v) * pixels_.width_px + u;
   }
 
-  int width_, height_;
+  Pixels pixels_;
   std::vector<std::int32_t> index_;
-  std::vector<std::size_t> touched_;
+  std::vector<Run> touched_;
 };
 
 }  // namespace lcs

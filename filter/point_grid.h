@@ -4,8 +4,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "filter/camera.h"
@@ -17,12 +17,11 @@ class PointGrid {
  public:
   /// \param cell_px about the radius that will be asked for, > 0.
   void build(std::span<const Vec2> points, double cell_px) {
-    points_.assign(points.begin(), points.end());
     low_ = Vec2::Zero();
     Vec2 high = Vec2::Zero();
-    if (!points_.empty()) {
-      low_ = high = points_.front();
-      for (const Vec2& x : points_) {
+    if (!points.empty()) {
+      low_ = high = points.front();
+      for (const Vec2& x : points) {
         low_ = low_.cwiseMin(x);
         high = high.cwiseMax(x);
       }
@@ -32,15 +31,18 @@ class PointGrid {
     columns_ = 1 + static_cast<int>((high.x() - low_.x()) / cell_px_);
     rows_ = 1 + static_cast<int>((high.y() - low_.y()) / cell_px_);
 
-    // Counting sort of the points into their cells.
-    first_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
-    for (const Vec2& x : points_) ++first_[cell(column(x.x()), row(x.y())) + 1];
-    for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
-    order_.resize(points_.size());
-    next_.assign(first_.begin(), first_.end() - 1);
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const std::size_t c = cell(column(points_[i].x()), row(points_[i].y()));
-      order_[next_[c]++] = static_cast<int>(i);
+    // Counting sort of the points into their cells: first_[c + 1] runs from the start of cell c to
+    // its end, which is where the next one starts.
+    first_.assign(static_cast<std::size_t>(columns_) * rows_ + 2, 0);
+    cell_of_.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      cell_of_[i] = cell(column(points[i].x()), row(points[i].y()));
+      ++first_[cell_of_[i] + 2];
+    }
+    for (std::size_t c = 2; c < first_.size(); ++c) first_[c] += first_[c - 1];
+    placed_.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      placed_[first_[cell_of_[i] + 1]++] = {points[i], static_cast<int>(i)};
     }
   }
 
@@ -51,8 +53,33 @@ class PointGrid {
     const int r0 = row(x.y() - radius_px), r1 = row(x.y() + radius_px);
     for (int r = r0; r <= r1; ++r) {
       for (std::size_t k = first_[cell(c0, r)]; k < first_[cell(c1, r) + 1]; ++k) {
-        const double distance2 = (points_[order_[k]] - x).squaredNorm();
-        if (distance2 <= radius_px * radius_px) visit(order_[k], distance2);
+        const double distance2 = (placed_[k].location - x).squaredNorm();
+        if (distance2 <= radius_px * radius_px) visit(placed_[k].index, distance2);
+      }
+    }
+  }
+
+  /// The `count` points nearest to x within `radius_px` that `accept(index)` takes, nearest first
+  /// and of equally near ones the lower index first, as (squared distance, index). Looks at rings
+  /// of cells about x, and so at a few points only where they lie close.
+  template <typename Accept>
+  void nearest(const Vec2& x, double radius_px, std::size_t count, Accept&& accept,
+               std::vector<std::pair<double, int>>& found) const {
+    found.clear();
+    if (count == 0) return;
+    const int c = column(x.x()), r = row(x.y());
+    const int rings = std::max(std::max(c, columns_ - 1 - c), std::max(r, rows_ - 1 - r));
+    for (int ring = 0; ring <= rings; ++ring) {
+      // All that lies nearer than this has been seen, a hair less for the rounding of cells.
+      const double seen_px = (ring - 1) * cell_px_ * (1 - 1e-9);
+      if (seen_px > radius_px) return;
+      if (found.size() == count && seen_px > 0 && found.back().first < seen_px * seen_px) return;
+      for (int v = std::max(0, r - ring); v <= std::min(rows_ - 1, r + ring); ++v) {
+        // Whole rows at the top and the bottom of the ring, its two sides between them.
+        const int step = v == r - ring || v == r + ring || ring == 0 ? 1 : 2 * ring;
+        for (int u = c - ring; u <= c + ring; u += step) {
+          if (u >= 0 && u < columns_) rank_cell(cell(u, v), x, radius_px, count, accept, found);
+        }
       }
     }
   }
@@ -63,17 +90,36 @@ class PointGrid {
   int column(double x) const { return clamped((x - low_.x()) / cell_px_, columns_); }
   int row(double y) const { return clamped((y - low_.y()) / cell_px_, rows_); }
   static int clamped(double cells, int count) {
-    return static_cast<int>(std::clamp(std::floor(cells), 0.0, static_cast<double>(count - 1)));
+    return static_cast<int>(std::clamp(cells, 0.0, static_cast<double>(count - 1)));
   }
+
+  /// Puts the points of a cell into their places among those found.
+  template <typename Accept>
+  void rank_cell(std::size_t cell, const Vec2& x, double radius_px, std::size_t count,
+                 Accept&& accept, std::vector<std::pair<double, int>>& found) const {
+    for (std::size_t k = first_[cell]; k < first_[cell + 1]; ++k) {
+      const std::pair<double, int> here((placed_[k].location - x).squaredNorm(), placed_[k].index);
+      if (here.first > radius_px * radius_px) continue;
+      if (found.size() == count && !(here < found.back())) continue;
+      if (!accept(here.second)) continue;
+      if (found.size() == count) found.pop_back();
+      found.insert(std::upper_bound(found.begin(), found.end(), here), here);
+    }
+  }
+
   std::size_t cell(int c, int r) const {
     return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(c);
   }
 
-  std::vector<Vec2> points_;
-  std::vector<std::size_t> first_{0, 0};  // of each cell in order_, and the end
-  std::vector<std::size_t> next_;
-  std::vector<int> order_;
+  struct Placed {
+    Vec2 location;
+    int index;
+  };
+
+  std::vector<Placed> placed_;            // cell by cell, in each by index
+  std::vector<std::size_t> first_{0, 0};  // of each cell in placed_, and the end
+  std::vector<std::size_t> cell_of_;
   Vec2 low_ = Vec2::Zero();
   double cell_px_ = 1;
   int columns_ = 1, rows_ = 1;

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "filter/hit_map.h"
 #include "filter/nearest_map.h"
 #include "filter/point_grid.h"
 #include "tests/filter/world.h"
@@ -59,6 +61,85 @@ TEST(PointGrid, KeepsItsSizeWhenPointsLieFarApart) {
   int found = 0;
   grid.visit_within({1e12, -1e12}, 5, [&](int, double) { ++found; });
   EXPECT_EQ(found, 1);
+}
+
+TEST(PointGrid, FindsTheNearestInOrderWhateverTheCells) {
+  Random random(4);
+  PointGrid grid;
+  std::vector<std::pair<double, int>> found;
+  for (const double cell : {1.0, 16.0, 300.0}) {
+    std::vector<Vec2> points = random_points(random, 200);
+    for (Vec2& x : points) x = Vec2(std::round(x.x() / 8), std::round(x.y() / 8));  // ties
+    grid.build(points, cell);
+    for (int i = 0; i < 200; ++i) {
+      const Vec2 x(std::round(random.uniform(-20, 110)), random.uniform(-20, 80));
+      const double radius = random.uniform(0, 60);
+      const std::size_t count = static_cast<std::size_t>(random.uniform(0, 12));
+      const auto accept = [](int p) { return p % 3 != 0; };
+      std::vector<std::pair<double, int>> expected;
+      for (int p = 0; p < 200; ++p) {
+        const double distance2 = (points[p] - x).squaredNorm();
+        if (accept(p) && distance2 <= radius * radius) expected.emplace_back(distance2, p);
+      }
+      std::sort(expected.begin(), expected.end());
+      if (expected.size() > count) expected.resize(count);
+      grid.nearest(x, radius, count, accept, found);
+      EXPECT_EQ(found, expected);
+    }
+  }
+}
+
+TEST(PointGrid, FindsNothingNearestAmongNone) {
+  PointGrid grid;
+  std::vector<std::pair<double, int>> found(3);
+  grid.build({}, 10);
+  grid.nearest(
+      {5, 5}, 100, 4, [](int) { return true; }, found);
+  EXPECT_TRUE(found.empty());
+}
+
+TEST(HitMap, KnowsThePixelsWithinTheRadiusOfAPoint) {
+  Random random(5);
+  for (const int width : {63, 64, 65, 200}) {
+    HitMap map(width, 48);
+    for (const double radius : {0.3, 2.0, 3.0, 7.5}) {
+      std::vector<Vec2> points;
+      for (int i = 0; i < 20; ++i) {
+        points.emplace_back(random.uniform(-5, width + 5), random.uniform(-5, 53));
+      }
+      // A pixel's centre at the radius itself is within it.
+      points.emplace_back(10, 10);
+      map.build(points, radius);
+      for (int v = 0; v < 48; ++v) {
+        for (int u = 0; u < width; ++u) {
+          const bool near = std::any_of(points.begin(), points.end(), [&](const Vec2& p) {
+            const bool inside = p.x() > -0.5 && p.y() > -0.5 && p.x() < width - 0.5 && p.y() < 47.5;
+            return inside && (p - Vec2(u, v)).squaredNorm() <= radius * radius;
+          });
+          ASSERT_EQ(map.at(Vec2(u, v)), near) << u << ", " << v << " within " << radius;
+        }
+      }
+    }
+  }
+}
+
+TEST(HitMap, ForgetsTheLastPointsAndFindsNothingOutside) {
+  HitMap map(64, 48);
+  const std::vector<Vec2> first = {{10, 10}}, second = {{63, 40}};
+  map.build(first, 2);
+  map.build(second, 2);
+  EXPECT_FALSE(map.at({10, 10}));
+  EXPECT_TRUE(map.at({63.49, 40}));
+  EXPECT_FALSE(map.at({63.5, 40}));
+  EXPECT_FALSE(map.at({-1, 5}));
+  EXPECT_FALSE(map.at({1e9, -1e9}));
+}
+
+TEST(Pixels, RoundAsTheStandardLibraryDoes) {
+  Random random(6);
+  std::vector<double> coordinates = {-0.49, -0.0, 0.0, 0.49999999999999994, 0.5, 1.5, 2.5, 639.49};
+  for (int i = 0; i < 1000; ++i) coordinates.push_back(random.uniform(-0.5, 700));
+  for (const double x : coordinates) EXPECT_EQ(nearest_pixel(x), std::lround(x)) << x;
 }
 
 TEST(NearestMap, AnswersLikeASearchOverAllPoints) {
