@@ -13,6 +13,9 @@ namespace {
 constexpr std::size_t kSpacingNeighbour = 6;
 constexpr double kSpacingReach_px = 60;
 
+/// Of the grid: about as wide as the spacing of corners where they are many.
+constexpr double kCell_px = 16;
+
 /// Linked neighbours differ by more than the plain tolerance where their depths are poorly known,
 /// but never by more than this many times it.
 constexpr double kUncertainTolerance = 3;
@@ -45,23 +48,18 @@ void LinkLayering::gather(const std::vector<Edge>& edges, const MotionField& fie
     nodes_.push_back(node);
     points_.push_back(node.location);
   }
-  grid_.build(points_, parameters_.reach_max);
+  grid_.build(points_, kCell_px);
   sets_.reset(nodes_.size());
   measure_spacing();
 }
 
 void LinkLayering::measure_spacing() {
+  const auto any = [](int) { return true; };
   for (Node& node : nodes_) {
-    distances_.clear();
-    grid_.visit_within(node.location, kSpacingReach_px,
-                       [&](int, double distance2) { distances_.push_back(distance2); });
-    if (distances_.size() <= kSpacingNeighbour) {
-      node.spacing = kSpacingReach_px;
-      continue;
-    }
-    const auto nth = distances_.begin() + kSpacingNeighbour;  // the first is the node itself
-    std::nth_element(distances_.begin(), nth, distances_.end());
-    node.spacing = std::sqrt(*nth);
+    // One more, for the first is the node itself.
+    grid_.nearest(node.location, kSpacingReach_px, kSpacingNeighbour + 1, any, near_);
+    const bool dense = near_.size() > kSpacingNeighbour;
+    node.spacing = dense ? std::sqrt(near_.back().first) : kSpacingReach_px;
   }
 }
 
@@ -74,7 +72,8 @@ void LinkLayering::link_by_depth() {
   links_.clear();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& a = nodes_[i];
-    grid_.visit_within(a.location, parameters_.reach_max, [&](int j, double distance2) {
+    // A hair farther than a reaches, for the rounding of the distances that are compared.
+    grid_.visit_within(a.location, 1.001 * reach(a, a), [&](int j, double distance2) {
       if (j <= static_cast<int>(i)) return;
       const Node& b = nodes_[j];
       const double distance = std::sqrt(distance2), longest = reach(a, b);
@@ -127,7 +126,8 @@ void LinkLayering::link_by_velocity(double dt_s) {
 }
 
 void LinkLayering::make_squares(int least, const MotionField& field) {
-  groups_.assign(nodes_.size(), {});
+  if (groups_.size() < nodes_.size()) groups_.resize(nodes_.size());
+  for (auto& group : groups_) group.clear();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     groups_[sets_.root(static_cast<int>(i))].push_back(static_cast<int>(i));
   }
@@ -167,11 +167,11 @@ void LinkLayering::make_squares(int least, const MotionField& field) {
     const Vec2 along = rebel ? velocity : field.direction(square.location);
     square.angle = angle_of(along.isZero() ? Vec2(square.location - origin) : along);
     // The circles that the layer's edges are in.
-    std::vector<int> circles;
-    for (const int i : group) circles.push_back(nodes_[i].edge->circle);
-    std::sort(circles.begin(), circles.end());
-    circles.erase(std::unique(circles.begin(), circles.end()), circles.end());
-    square.circles = std::max(1, static_cast<int>(circles.size()));
+    circles_.clear();
+    for (const int i : group) circles_.push_back(nodes_[i].edge->circle);
+    std::sort(circles_.begin(), circles_.end());
+    const auto end = std::unique(circles_.begin(), circles_.end());
+    square.circles = std::max(1, static_cast<int>(end - circles_.begin()));
     square.rebel_circles = rebel ? square.circles : 0;
     squares_.push_back(square);
   }

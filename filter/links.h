@@ -9,6 +9,7 @@
 /// a near object to a far one. Rebels are linked by their own velocities.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "filter/disjoint_sets.h"
@@ -59,7 +60,9 @@ class LinkLayering {
   DisjointSets sets_;                  // of nodes
   std::vector<double> weight_, mean_;  // of the group that a root stands for
   std::vector<std::vector<int>> groups_;
-  std::vector<double> distances_, xs_, ys_;
+  std::vector<std::pair<double, int>> near_;
+  std::vector<int> circles_;
+  std::vector<double> xs_, ys_;
   std::vector<Square> squares_;
 };
 

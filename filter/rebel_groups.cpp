@@ -41,14 +41,18 @@ void RebelGroups::judge(std::vector<Edge>& rebels, double dt_s) {
 /// Connected components of edges near each other and of like velocity.
 void RebelGroups::connect(const std::vector<Edge>& rebels, double dt_s) {
   points_.clear();
-  for (const Edge& edge : rebels) points_.push_back(edge.location);
+  velocities_.clear();
+  for (const Edge& edge : rebels) {
+    points_.push_back(edge.location);
+    velocities_.push_back(edge.velocity());
+  }
   grid_.build(points_, parameters_.radius);
   components_.reset(rebels.size());
   for (std::size_t i = 0; i < rebels.size(); ++i) {
     if (!trust_.alive(rebels[i].trust)) continue;
     grid_.visit_within(rebels[i].location, parameters_.radius, [&](int j, double) {
       if (j <= static_cast<int>(i) || !trust_.alive(rebels[j].trust)) return;
-      const double difference = (rebels[i].velocity() - rebels[j].velocity()).norm() * dt_s;
+      const double difference = (velocities_[i] - velocities_[j]).norm() * dt_s;
       const double mean = 0.5 * (rebels[i].speed + rebels[j].speed) * dt_s;
       if (difference < std::max(kLikeStep_px, kLikeStepShare * mean)) {
         components_.join(static_cast<int>(i), j);

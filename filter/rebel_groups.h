@@ -46,7 +46,7 @@ class RebelGroups {
 
   // Of the current frame; kept for their memory.
   PointGrid grid_;
-  std::vector<Vec2> points_;
+  std::vector<Vec2> points_, velocities_;
   DisjointSets components_;               // of edges near each other and of like velocity
   std::vector<std::vector<int>> groups_;  // living edges by component
   std::vector<char> stray_;
