@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include "filter/geometry.h"
 
@@ -10,6 +12,7 @@ namespace {
 
 /// Changes of size between frames that neighbours may agree on (an approaching object grows).
 constexpr std::array<double, 5> kScales = {1.0, 1.04, 1.1, 1.2, 0.94};
+constexpr double kLeastScale = 0.94;
 
 /// Points looked at along a static path, at the most, and how far apart they lie, px.
 constexpr int kMaxDepths = 60;
@@ -37,7 +40,9 @@ ConstellationEdges::ConstellationEdges(const Intrinsics& camera, const CirclePar
       groups_(parameters.constellation, parameters.trust),
       once_(camera),
       twice_(camera),
-      once_free_(camera.width_px, camera.height_px) {}
+      once_free_(camera.width_px, camera.height_px),
+      twice_free_(camera.width_px, camera.height_px),
+      screen_(camera.width_px, camera.height_px) {}
 
 void ConstellationEdges::predict(Layers& layers, const MotionField& field) {
   for (Edge& edge : layers.normal_edges) {
@@ -210,6 +215,8 @@ void ConstellationEdges::look_back(const Layers& layers) {
   index(history_[2 * frames - 1], parameters_.constellation.hit_2, twice_);
   again_ = (twice_.elapsed_s - once_.elapsed_s) / once_.elapsed_s;
   once_free_.build(once_.corners, parameters_.constellation.hit_1);
+  screen_.build(once_.corners, parameters_.constellation.hit_1);
+  twice_free_.build(twice_.corners, parameters_.constellation.hit_2);
   once_grid_.build(once_.corners, 16);
 }
 
@@ -222,7 +229,6 @@ void ConstellationEdges::index(const Past& past, double radius_px, Lookup& looku
       lookup.corners.push_back(past.corners[i]);
     }
   }
-  lookup.free.build(lookup.corners, radius_px);
   lookup.all.build(past.corners, radius_px);
   lookup.displacement_C_m = past.displacement_C_m;
   lookup.elapsed_s = past.elapsed_s;
@@ -247,21 +253,21 @@ void ConstellationEdges::seek_static_past(const Chi& chi, const MotionField& fie
   }
 }
 
-/// Votes for the displacement to `before` at a change of size by `scale`: for each voter, whether
-/// it has a predecessor at its place in the displaced constellation, and that one another. Gives up
-/// when `least` is out of reach.
-int ConstellationEdges::count_votes(const Voter* voters, const Vec2& before, double scale, int own,
-                                    int least) const {
+/// Votes for the displacement from `before` to x at a change of size by `scale`: for each of the
+/// first `left` of may_vote_, whether it has a predecessor at its place in the displaced
+/// constellation, and that one another. Gives up when `least` is out of reach.
+int ConstellationEdges::count_votes(const Vec2& x, const Vec2& before, double scale, int own,
+                                    int left, int least) const {
   int votes = own;
-  int left = voter_count_;
-  for (const Voter* voter = voters; left > 0; ++voter) {
+  for (const std::uint8_t* voter = may_vote_.data(); left > 0; ++voter) {
     if (votes + 2 * left < least) return votes;
     --left;
-    const Vec2 once = before + voter->arm;
-    if (!once_.free.at(once)) continue;
+    const Vec2& y = voters_[*voter];
+    const int once = once_free_.at(before + (y - x) / scale);
+    if (once < 0) continue;
     ++votes;
-    const Vec2& y_before = once_.corners[once_free_.at(once)];
-    if (twice_.free.at(y_before - again_ * (voter->location - y_before) / scale)) ++votes;
+    const Vec2& y_before = once_.corners[once];
+    if (twice_free_.at(y_before - again_ * (y - y_before) / scale)) ++votes;
   }
   return votes;
 }
@@ -275,17 +281,19 @@ int ConstellationEdges::gather_voters(std::size_t corner, const Chi& chi) {
       x, p.radius, static_cast<std::size_t>(p.neighbours),
       [&](int other) { return undecided_[other] != static_cast<int>(corner); }, near_);
   if (near_.size() < 2) return -1;
-  voter_count_ = static_cast<int>(near_.size());
-  voters_.clear();
-  for (const double scale : kScales) {
-    for (const auto& [distance2, other] : near_) {
-      const Vec2& y = undecided_locations_[other];
-      voters_.push_back({y, (y - x) / scale});
-    }
-  }
   int static_votes = candidates_[corner].static_hits;
+  voters_.clear();
   for (const auto& [distance2, other] : near_) {
+    voters_.push_back(undecided_locations_[other]);
     static_votes += candidates_[undecided_[other]].static_hits;
+  }
+  may_vote_.resize(voters_.size() + 1);  // the list is written past its end
+  arms_.clear();
+  if (!(std::sqrt(near_.back().first) <= kLeastScale * HitScreen::kLongestArm_px)) {
+    return static_votes;
+  }
+  for (const double scale : kScales) {
+    for (const Vec2& y : voters_) arms_.push_back(screen_.offset((y - x) * (1 / scale)));
   }
   return static_votes;
 }
@@ -297,7 +305,8 @@ Reason ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Mot
   const Vec2& x = chi.locations[corner];
   const int static_votes = gather_voters(corner, chi);
   if (static_votes < 0) return Reason::few_neighbours;
-  const int all = 2 * (voter_count_ + 1);
+  const int voters = static_cast<int>(voters_.size());
+  const int all = 2 * (voters + 1);
   const int floor = least_votes(p.vote_floor * all);
   // A motion is chosen out of many, the static explanation is not: where that one is good, another
   // that is better is chance, as in a pattern that repeats.
@@ -309,17 +318,24 @@ Reason ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Mot
   // Which motion is the best matters only where it wins; else, whether there is one at the floor.
   int best = 0;
   Vec2 best_step = Vec2::Zero();
+  const auto arms_of = [&](std::size_t scale) {
+    return std::span(arms_.data() + scale * voters_.size(), voters_.size());
+  };
   const double reach = std::max(p.max_step, p.max_speed * once_.elapsed_s);
   once_grid_.visit_within(x, reach, [&](int predecessor, double) {
     if (best >= floor && winning > all) return;
     const Vec2& before = once_.corners[predecessor];
     const Vec2 step = x - before;
-    const int own = twice_.free.at(before - again_ * step) ? 2 : 1;
-    const Voter* voters = voters_.data();
-    for (const double scale : kScales) {
+    const std::uint8_t* anchor = arms_.empty() ? nullptr : screen_.anchor(before);
+    if (!anchor) std::iota(may_vote_.begin(), may_vote_.end(), std::uint8_t{0});
+    int own = 0;  // not known yet
+    for (std::size_t i = 0; i < kScales.size(); ++i) {
       const int least = best < floor ? floor : std::max(best, winning);
-      const int votes = count_votes(voters, before, scale, own, least);
-      voters += voter_count_;
+      const int left = anchor ? HitScreen::count(anchor, arms_of(i)) : voters;
+      if (2 + 2 * left < least) continue;
+      if (anchor) HitScreen::list(anchor, arms_of(i), may_vote_.data());
+      if (own == 0) own = twice_free_.at(before - again_ * step) ? 2 : 1;
+      const int votes = count_votes(x, before, kScales[i], own, left, least);
       // Of equal motions the slower one, so that the order of the search does not matter.
       if (votes > best || (votes == best && step.squaredNorm() < best_step.squaredNorm())) {
         best = votes;
@@ -401,28 +417,32 @@ bool ConstellationEdges::confirms(const Vec2& x, const Vec2& step) const {
   const int once = once_free_.at(x - step);
   if (once < 0) return false;
   const Vec2& before = once_.corners[once];
-  return twice_.free.at(before - 0.5 * again_ * (x - before + step));
+  return twice_free_.at(before - 0.5 * again_ * (x - before + step));
 }
 
 /// A corner most of whose decided neighbours are rebels is one; it becomes a rebel edge where its
 /// own past confirms their motion. A normal edge is not overruled without that.
 void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionField& field) {
   const ConstellationParameters& p = parameters_.constellation;
-  const std::vector<char> decided = called_;
+  decided_ = called_;
+  decided_locations_.clear();
+  counts_.resize(chi.size());
   for (std::size_t c = 0; c < chi.size(); ++c) {
-    if (decided[c]) continue;
+    if (decided_[c]) decided_locations_.push_back(chi.locations[c]);
+    counts_[c] = decided_[c] || (links_[c].kind == Kind::normal &&
+                                 layers.normal_edges[links_[c].index].trust >= p.established);
+  }
+  decided_grid_.build(decided_locations_, std::max(p.inherit_radius, 1.0));
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    if (decided_[c]) continue;
     const Vec2& x = chi.locations[c];
-    const auto counts = [&](int other) {
-      if (other == static_cast<int>(c)) return false;
-      const Link& link = links_[other];
-      return decided[other] ||
-             (link.kind == Kind::normal && layers.normal_edges[link.index].trust >= p.established);
-    };
+    if (!decided_grid_.any_within(x, p.inherit_radius)) continue;
+    const auto counts = [&](int other) { return counts_[other] && other != static_cast<int>(c); };
     corner_grid_.nearest(x, p.inherit_radius, kInheritFrom, counts, near_);
     if (near_.size() < 2) continue;
     int rebels = 0, nearest = -1;
     for (const auto& [distance2, other] : near_) {
-      if (!decided[other]) continue;
+      if (!decided_[other]) continue;
       ++rebels;
       if (nearest < 0 && links_[other].kind == Kind::rebel) nearest = links_[other].index;
     }
@@ -441,6 +461,7 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
       called_[c] = 1;
       reasons_[c] = Reason::inherited;
       normal->trust -= 2;
+      counts_[c] = normal->trust >= p.established;
       continue;
     }
     called_[c] = 1;

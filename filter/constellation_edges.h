@@ -18,6 +18,7 @@
 
 #include "filter/edge_expert.h"
 #include "filter/hit_map.h"
+#include "filter/hit_screen.h"
 #include "filter/nearest_map.h"
 #include "filter/rebel_groups.h"
 
@@ -42,11 +43,9 @@ class ConstellationEdges : public EdgeExpert {
 
   /// An earlier frame to look corners up in.
   struct Lookup {
-    explicit Lookup(const Intrinsics& camera)
-        : all(camera.width_px, camera.height_px), free(camera.width_px, camera.height_px) {}
+    explicit Lookup(const Intrinsics& camera) : all(camera.width_px, camera.height_px) {}
     HitMap all;
     std::vector<Vec2> corners;  // those that may be the past of one that is not explained yet
-    HitMap free;                // of these
     Eigen::Vector3d displacement_C_m;
     double elapsed_s = 0;
   };
@@ -90,7 +89,8 @@ class ConstellationEdges : public EdgeExpert {
   void vote(const Chi& chi, const MotionField& field);
   Reason vote_on(std::size_t corner, const Chi& chi, const MotionField& field);
   int gather_voters(std::size_t corner, const Chi& chi);
-  int count_votes(const Voter* voters, const Vec2& before, double scale, int own, int least) const;
+  int count_votes(const Vec2& x, const Vec2& before, double scale, int own, int left,
+                  int least) const;
   void settle_rebels();
   void make_edges(Layers& layers, const Chi& chi, const MotionField& field);
   Edge make_rebel(const Vec2& x, const Vec2& velocity_pxps, double dt_s);
@@ -104,8 +104,11 @@ class ConstellationEdges : public EdgeExpert {
   // Of the current frame; kept for their memory.
   Lookup once_, twice_;   // one and two baselines ago
   NearestMap once_free_;  // of once_.corners
+  HitMap twice_free_;     // of twice_.corners
   double again_ = 1;      // the second baseline over the first, in time
-  PointGrid once_grid_;
+  PointGrid once_grid_, decided_grid_;
+  std::vector<Vec2> decided_locations_;
+  std::vector<char> decided_, counts_;
   std::vector<Candidate> candidates_;
   std::vector<Link> links_;   // of each corner
   std::vector<char> called_;  // corners that leave as rebels
@@ -113,9 +116,11 @@ class ConstellationEdges : public EdgeExpert {
   PointGrid undecided_grid_;
   std::vector<int> undecided_;  // corners that are residual, or of rebels
   std::vector<Vec2> undecided_locations_;
-  std::vector<Voter> voters_;  // all of them at the first change of size, then at the next
-  int voter_count_ = 0;
-  std::vector<Id> explaining_;  // edges, sorted
+  std::vector<Vec2> voters_;
+  std::vector<std::uint8_t> may_vote_;   // indices of voters
+  std::vector<HitScreen::Offset> arms_;  // of all voters at the first change of size, then the next
+  HitScreen screen_;                     // of once_.corners
+  std::vector<Id> explaining_;           // edges, sorted
 };
 
 }  // namespace lcs

@@ -24,7 +24,9 @@ class HitMap {
     std::fill(bits_.begin(), bits_.end(), 0);
     for (const Vec2& x : points) {
       if (!pixels_.contain(x)) continue;
-      pixels_.visit_disc(x, radius_px, [&](int v, int first, int last) { mark(v, first, last); });
+      pixels_.visit_disc(x, radius_px, [&](int v, int first, int last) {
+        mark(v, static_cast<unsigned>(first), static_cast<unsigned>(last));
+      });
     }
   }
 
@@ -36,12 +38,12 @@ class HitMap {
   }
 
  private:
-  void mark(int v, int first, int last) {
+  void mark(int v, unsigned first, unsigned last) {
     std::uint64_t* row = bits_.data() + static_cast<std::size_t>(v) * words_;
-    for (int word = first / 64; first <= last; ++word, first = 64 * word) {
-      const int end = std::min(last, 64 * word + 63);
-      row[word] |= (~std::uint64_t{0} >> (63 - (end - first))) << (first % 64);
-    }
+    unsigned word = first / 64;
+    for (; word < last / 64; ++word, first = 64 * word)
+      row[word] |= ~std::uint64_t{0} << (first % 64);
+    row[word] |= (~std::uint64_t{0} >> (63 - (last - first))) << (first % 64);
   }
 
   Pixels pixels_;

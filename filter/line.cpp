@@ -4,6 +4,12 @@
 #include <tuple>
 
 namespace lcs {
+namespace {
+
+/// Of the grid of corners: about as wide as a collector.
+constexpr double kCell_px = 32;
+
+}  // namespace
 
 bool contains(const IgnoreRegion& region, const Vec2& x) {
   const Vec2 d = x - region.location;
@@ -14,6 +20,25 @@ bool contains(const IgnoreRegion& region, const Vec2& x) {
 bool inside_any(std::span<const IgnoreRegion> regions, const Vec2& x) {
   return std::any_of(regions.begin(), regions.end(),
                      [&](const IgnoreRegion& region) { return contains(region, x); });
+}
+
+/// Of the collectors that a corner falls into it takes the nearest, and of equals the first. Few
+/// corners lie in each, so that they are looked for from there.
+void LineExpert::group(std::span<const Collector> lambda) {
+  chi_.groups.assign(chi_.size(), -1);
+  if (lambda.empty()) return;
+  grid_.build(chi_.locations, kCell_px);
+  nearest_.resize(chi_.size());
+  for (std::size_t c = 0; c < lambda.size(); ++c) {
+    // A hair farther, for the distance is compared and not its square.
+    grid_.visit_within(lambda[c].location, 1.001 * lambda[c].radius, [&](int i, double) {
+      const double distance = (chi_.locations[i] - lambda[c].location).norm();
+      if (distance > lambda[c].radius) return;
+      if (chi_.groups[i] >= 0 && !(distance < nearest_[i])) return;
+      chi_.groups[i] = static_cast<int>(c);
+      nearest_[i] = distance;
+    });
+  }
 }
 
 const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
@@ -39,21 +64,11 @@ const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
 
   chi_.locations.clear();
   chi_.sources.clear();
-  chi_.groups.clear();
   for (const Entry& entry : entries_) {
-    int group = -1;
-    double nearest = 0;
-    for (std::size_t c = 0; c < lambda.size(); ++c) {
-      const double distance = (entry.location - lambda[c].location).norm();
-      if (distance <= lambda[c].radius && (group < 0 || distance < nearest)) {
-        group = static_cast<int>(c);
-        nearest = distance;
-      }
-    }
     chi_.locations.push_back(entry.location);
     chi_.sources.push_back(entry.source);
-    chi_.groups.push_back(group);
   }
+  group(lambda);
   return chi_;
 }
 

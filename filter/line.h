@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "filter/layers.h"
+#include "filter/point_grid.h"
 
 namespace lcs {
 
@@ -36,6 +37,8 @@ class LineExpert {
                      std::span<const Collector> lambda, std::vector<Verdict>& verdicts);
 
  private:
+  void group(std::span<const Collector> lambda);
+
   Vec2 centre_px_;
   Chi chi_;
   struct Entry {
@@ -44,6 +47,8 @@ class LineExpert {
     int source;
   };
   std::vector<Entry> entries_;
+  PointGrid grid_;               // of chi
+  std::vector<double> nearest_;  // distance of each corner from its collector
 };
 
 }  // namespace lcs

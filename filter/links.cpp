@@ -14,7 +14,7 @@ constexpr std::size_t kSpacingNeighbour = 6;
 constexpr double kSpacingReach_px = 60;
 
 /// Of the grid: about as wide as the spacing of corners where they are many.
-constexpr double kCell_px = 16;
+constexpr double kCell_px = 12;
 
 /// Linked neighbours differ by more than the plain tolerance where their depths are poorly known,
 /// but never by more than this many times it.

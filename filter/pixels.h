@@ -25,25 +25,43 @@ struct Pixels {
   }
 
   /// Calls `visit(row, first, last)` for the run of pixels in each row whose centres lie within
-  /// `radius_px` of x, a location in the image. Only the ends of a run are computed, and then held
-  /// against the distance itself, whatever the root was rounded to.
+  /// `radius_px` of x, a location in the image. Only the ends of a run are computed, and held
+  /// against the distance itself where the root might have been rounded across a pixel.
   template <typename Visit>
   void visit_disc(const Vec2& x, double radius_px, Visit&& visit) const {
     const double radius2 = radius_px * radius_px;
-    const int top = std::max(0, static_cast<int>(std::ceil(x.y() - radius_px)) - 1);
-    const int bottom = std::min(height_px - 1, static_cast<int>(std::floor(x.y() + radius_px)) + 1);
+    const int top = std::max(0, Ends(x.y(), radius_px).first);
+    const int bottom = std::min(height_px - 1, Ends(x.y(), radius_px).last);
     for (int v = top; v <= bottom; ++v) {
-      const auto near = [&](int u) { return (Vec2(u, v) - x).squaredNorm() <= radius2; };
       const double across = v - x.y();
-      if (across * across > radius2) continue;
-      const double half = std::sqrt(radius2 - across * across);
-      int first = std::max(0, static_cast<int>(std::ceil(x.x() - half)) - 1);
-      int last = std::min(width_px - 1, static_cast<int>(std::floor(x.x() + half)) + 1);
-      while (first <= last && !near(first)) ++first;
-      while (first <= last && !near(last)) --last;
+      const double rest = radius2 - across * across;
+      if (rest < 0) continue;
+      Ends run(x.x(), std::sqrt(rest));
+      const auto near = [&](int u) { return (Vec2(u, v) - x).squaredNorm() <= radius2; };
+      if (run.first_in_doubt && !near(run.first)) ++run.first;
+      if (run.last_in_doubt && !near(run.last)) --run.last;
+      const int first = std::max(0, run.first), last = std::min(width_px - 1, run.last);
       if (first <= last) visit(v, first, last);
     }
   }
+
+ private:
+  /// The whole numbers between centre - half and centre + half. Those that lie on an end but for
+  /// what may be rounded are in, and in doubt.
+  struct Ends {
+    Ends(double centre, double half) {
+      constexpr double kDoubt = 1e-6;
+      const double low = centre - half - kDoubt, high = centre + half + kDoubt;
+      first = static_cast<int>(low);
+      first += low > first;
+      last = static_cast<int>(high);
+      last -= high < last;
+      first_in_doubt = first - low < 2 * kDoubt;
+      last_in_doubt = high - last < 2 * kDoubt;
+    }
+    int first, last;
+    bool first_in_doubt, last_in_doubt;
+  };
 };
 
 }  // namespace lcs

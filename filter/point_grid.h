@@ -59,6 +59,17 @@ class PointGrid {
     }
   }
 
+  bool any_within(const Vec2& x, double radius_px) const {
+    const int c0 = column(x.x() - radius_px), c1 = column(x.x() + radius_px);
+    const int r0 = row(x.y() - radius_px), r1 = row(x.y() + radius_px);
+    for (int r = r0; r <= r1; ++r) {
+      for (std::size_t k = first_[cell(c0, r)]; k < first_[cell(c1, r) + 1]; ++k) {
+        if ((placed_[k].location - x).squaredNorm() <= radius_px * radius_px) return true;
+      }
+    }
+    return false;
+  }
+
   /// The `count` points nearest to x within `radius_px` that `accept(index)` takes, nearest first
   /// and of equally near ones the lower index first, as (squared distance, index). Looks at rings
   /// of cells about x, and so at a few points only where they lie close.
@@ -69,18 +80,24 @@ class PointGrid {
     if (count == 0) return;
     const int c = column(x.x()), r = row(x.y());
     const int rings = std::max(std::max(c, columns_ - 1 - c), std::max(r, rows_ - 1 - r));
-    for (int ring = 0; ring <= rings; ++ring) {
+    const auto rank = [&](int row, int from, int to) {
+      if (row < 0 || row >= rows_ || from >= columns_ || to < 0) return;
+      rank_cells(cell(std::max(from, 0), row), cell(std::min(to, columns_ - 1), row), x,
+                 radius_px * radius_px, count, accept, found);
+    };
+    // Nothing is settled before the cells next to that of x are seen.
+    for (int v = r - 1; v <= r + 1; ++v) rank(v, c - 1, c + 1);
+    for (int ring = 2; ring <= rings; ++ring) {
       // All that lies nearer than this has been seen, a hair less for the rounding of cells.
       const double seen_px = (ring - 1) * cell_px_ * (1 - 1e-9);
       if (seen_px > radius_px) return;
-      if (found.size() == count && seen_px > 0 && found.back().first < seen_px * seen_px) return;
-      for (int v = std::max(0, r - ring); v <= std::min(rows_ - 1, r + ring); ++v) {
-        // Whole rows at the top and the bottom of the ring, its two sides between them.
-        const int step = v == r - ring || v == r + ring || ring == 0 ? 1 : 2 * ring;
-        for (int u = c - ring; u <= c + ring; u += step) {
-          if (u >= 0 && u < columns_) rank_cell(cell(u, v), x, radius_px, count, accept, found);
-        }
+      if (found.size() == count && found.back().first < seen_px * seen_px) return;
+      rank(r - ring, c - ring, c + ring);
+      for (int v = r - ring + 1; v < r + ring; ++v) {
+        rank(v, c - ring, c - ring);
+        rank(v, c + ring, c + ring);
       }
+      rank(r + ring, c - ring, c + ring);
     }
   }
 
@@ -93,17 +110,24 @@ class PointGrid {
     return static_cast<int>(std::clamp(cells, 0.0, static_cast<double>(count - 1)));
   }
 
-  /// Puts the points of a cell into their places among those found.
+  /// Puts the points of some cells of a row into their places among those found.
   template <typename Accept>
-  void rank_cell(std::size_t cell, const Vec2& x, double radius_px, std::size_t count,
-                 Accept&& accept, std::vector<std::pair<double, int>>& found) const {
-    for (std::size_t k = first_[cell]; k < first_[cell + 1]; ++k) {
+  void rank_cells(std::size_t first, std::size_t last, const Vec2& x, double farthest2,
+                  std::size_t count, Accept&& accept,
+                  std::vector<std::pair<double, int>>& found) const {
+    if (found.size() == count) farthest2 = found.back().first;
+    for (std::size_t k = first_[first]; k < first_[last + 1]; ++k) {
       const std::pair<double, int> here((placed_[k].location - x).squaredNorm(), placed_[k].index);
-      if (here.first > radius_px * radius_px) continue;
-      if (found.size() == count && !(here < found.back())) continue;
-      if (!accept(here.second)) continue;
-      if (found.size() == count) found.pop_back();
-      found.insert(std::upper_bound(found.begin(), found.end(), here), here);
+      if (here.first > farthest2 || !accept(here.second)) continue;
+      if (found.size() < count) {
+        found.push_back(here);
+      } else if (!(here < found.back())) {
+        continue;
+      }
+      std::size_t place = found.size() - 1;
+      for (; place > 0 && here < found[place - 1]; --place) found[place] = found[place - 1];
+      found[place] = here;
+      if (found.size() == count) farthest2 = found.back().first;
     }
   }
 

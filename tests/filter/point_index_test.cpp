@@ -5,6 +5,7 @@
 #include <set>
 
 #include "filter/hit_map.h"
+#include "filter/hit_screen.h"
 #include "filter/nearest_map.h"
 #include "filter/point_grid.h"
 #include "tests/filter/world.h"
@@ -89,6 +90,17 @@ TEST(PointGrid, FindsTheNearestInOrderWhateverTheCells) {
   }
 }
 
+TEST(PointGrid, KnowsWhetherThereIsAnyWithinTheRadius) {
+  PointGrid grid;
+  const std::vector<Vec2> points = {{10, 10}, {90, 40}};
+  grid.build(points, 20);
+  EXPECT_TRUE(grid.any_within({13, 14}, 5));
+  EXPECT_FALSE(grid.any_within({13, 14}, 4.99));
+  EXPECT_FALSE(grid.any_within({50, 25}, 40));
+  grid.build({}, 20);
+  EXPECT_FALSE(grid.any_within({0, 0}, 100));
+}
+
 TEST(PointGrid, FindsNothingNearestAmongNone) {
   PointGrid grid;
   std::vector<std::pair<double, int>> found(3);
@@ -133,6 +145,57 @@ TEST(HitMap, ForgetsTheLastPointsAndFindsNothingOutside) {
   EXPECT_FALSE(map.at({63.5, 40}));
   EXPECT_FALSE(map.at({-1, 5}));
   EXPECT_FALSE(map.at({1e9, -1e9}));
+}
+
+TEST(HitScreen, LetsThroughAllThatHit) {
+  Random random(7);
+  HitMap exact(120, 90);
+  HitScreen screen(120, 90);
+  int hits = 0, let_through = 0, looked_up = 0;
+  for (int round = 0; round < 20; ++round) {
+    std::vector<Vec2> points, arms;
+    for (int i = 0; i < 30; ++i) {
+      points.emplace_back(random.uniform(-5, 125), random.uniform(-5, 95));
+      const Eigen::Vector3d direction = random.vector(1);
+      arms.push_back(direction.head<2>() * (HitScreen::kLongestArm_px / std::sqrt(2)));
+    }
+    exact.build(points, 2);
+    screen.build(points, 2);
+    std::vector<HitScreen::Offset> offsets;
+    for (const Vec2& arm : arms) offsets.push_back(screen.offset(arm));
+    for (int i = 0; i < 40; ++i) {
+      const Vec2 anchor(random.uniform(-0.499, 119.499), random.uniform(-0.499, 89.499));
+      std::vector<std::uint8_t> listed(arms.size() + 1);
+      const int count = HitScreen::count(screen.anchor(anchor), offsets);
+      HitScreen::list(screen.anchor(anchor), offsets, listed.data());
+      listed.resize(count);
+      for (std::size_t a = 0; a < arms.size(); ++a) {
+        const bool listing = std::find(listed.begin(), listed.end(), a) != listed.end();
+        if (exact.at(anchor + arms[a])) {
+          EXPECT_TRUE(listing);
+          ++hits;
+        }
+        let_through += listing;
+        ++looked_up;
+      }
+    }
+  }
+  // A disc of radius 2 has 13 pixels, and a pixel to every side of it makes at most 37.
+  EXPECT_GT(hits, 100);
+  EXPECT_LT(let_through, 4 * hits);
+  EXPECT_LT(let_through, looked_up / 2);
+}
+
+TEST(HitScreen, HasNoAnchorOutsideTheImageAndForgetsTheLastPoints) {
+  HitScreen screen(64, 48);
+  EXPECT_EQ(screen.anchor({-0.5, 10}), nullptr);
+  EXPECT_EQ(screen.anchor({10, 47.5}), nullptr);
+  const std::vector<Vec2> first = {{10, 10}}, second = {{0, 47}};
+  const std::vector<HitScreen::Offset> arms = {screen.offset({0, 0})};
+  screen.build(first, 2);
+  screen.build(second, 2);
+  EXPECT_EQ(HitScreen::count(screen.anchor({10, 10}), arms), 0);
+  EXPECT_EQ(HitScreen::count(screen.anchor({0, 47}), arms), 1);
 }
 
 TEST(Pixels, RoundAsTheStandardLibraryDoes) {
