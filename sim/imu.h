@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "sim/pose.h"
+
 namespace lcs::sim {
 
 /// One reading, in the IMU's frame S. At rest the accelerometer reads +9.81 m/s^2 upwards.
@@ -13,6 +15,15 @@ struct ImuSample {
   std::int64_t t_ns = 0;
   Eigen::Vector3d gyro_radps = Eigen::Vector3d::Zero();
   Eigen::Vector3d accel_mps2 = Eigen::Vector3d::Zero();
+};
+
+/// What is true of the IMU at the time of a reading, one that falls into a gap included.
+struct ImuTruth {
+  std::int64_t t_ns = 0;
+  Pose T_WS;
+  Eigen::Vector3d v_WS_mps = Eigen::Vector3d::Zero();         ///< of S, in W
+  Eigen::Vector3d gyro_bias_radps = Eigen::Vector3d::Zero();  ///< in the reading, in S
+  Eigen::Vector3d accel_bias_mps2 = Eigen::Vector3d::Zero();  ///< likewise
 };
 
 /// Velocity of the rover's frame B, in B, as its wheels tell it.

@@ -40,6 +40,7 @@ struct Simulation::Impl {
   Snapshot snapshot;           ///< at the frame that comes next
   std::vector<ImuSample> imu;  ///< since the last frame
   std::vector<OdometrySample> odometry;
+  std::vector<ImuTruth> imu_truth;
   int next_index = 0;
   cv::Mat1i geoms;
 
@@ -53,7 +54,7 @@ struct Simulation::Impl {
     if (s.image) {
       photographer.emplace(*s.image, calibration.camera, s.camera.rate_hz, s.seed);
     }
-    world.advance_to(0, imu, odometry);
+    world.advance_to(0, imu, odometry, &imu_truth);
   }
 
   Calibration calibrate() const {
@@ -77,19 +78,26 @@ struct Simulation::Impl {
     o.t_ns = frame_time_ns(next_index);
     o.imu = std::move(imu);
     o.odometry = std::move(odometry);
+    o.imu_truth = std::move(imu_truth);
     render(o);
     o.truth.now = std::move(snapshot);
     o.truth.v_WC_mps = world.v_WC_mps();
     o.truth.w_C_radps = world.w_C_radps();
 
-    imu.clear();
-    odometry.clear();
-    ++next_index;
-    world.advance_to(frame_time_ns(next_index), imu, odometry);
-    snapshot = world.snapshot();
+    advance();
     o.truth.next = snapshot;
     o.objects = visible_objects(o.truth);
     return o;
+  }
+
+  /// On to the next frame's time, with the readings until then.
+  void advance() {
+    imu.clear();
+    odometry.clear();
+    imu_truth.clear();
+    ++next_index;
+    world.advance_to(frame_time_ns(next_index), imu, odometry, &imu_truth);
+    snapshot = world.snapshot();
   }
 
   void render(Observation& o) {
@@ -133,6 +141,10 @@ const std::vector<Object>& Simulation::objects() const {
 std::optional<Observation> Simulation::next() {
   if (impl_->next_index >= impl_->scenario.frames) return std::nullopt;
   return impl_->observe();
+}
+
+void Simulation::skip() {
+  if (impl_->next_index < impl_->scenario.frames) impl_->advance();
 }
 
 Versions versions() {

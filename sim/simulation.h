@@ -23,6 +23,7 @@ struct Observation {
   cv::Mat3b image;             ///< BGR
   std::vector<ImuSample> imu;  ///< t(k-1) < t <= t(k); the first frame has the sample at 0
   std::vector<OdometrySample> odometry;  ///< likewise; empty when disabled
+  std::vector<ImuTruth> imu_truth;       ///< at the same times as `imu`, and in its gaps
   FrameTruth truth;
   std::vector<ObjectTruth> objects;  ///< those with at least one visible pixel, by id
 };
@@ -62,6 +63,10 @@ class Simulation {
   /// The next frame, or nothing after the scenario's last one.
   /// \throws PhysicsError
   std::optional<Observation> next();
+
+  /// Lets the next frame pass without a picture of it, which takes a hundredth of the time; those
+  /// after it are as they would have been. \throws PhysicsError
+  void skip();
 
  private:
   struct Impl;

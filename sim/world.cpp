@@ -249,7 +249,8 @@ void World::step_to(std::int64_t t_ns) {
   guarded([&] { forward(); });
 }
 
-void World::read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample>& odometry) {
+void World::read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample>& odometry,
+                         std::vector<ImuTruth>* imu_truth) {
   const mjtNum* readings = model_.d().sensordata;
   if (event_time_ns(imu_count_, scenario_.imu.rate_hz) == t_ns_) {
     ++imu_count_;
@@ -258,6 +259,10 @@ void World::read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample
         imu_noise_.corrupt({t_ns_, Eigen::Map<const Eigen::Vector3d>(readings + gyro_),
                             Eigen::Map<const Eigen::Vector3d>(readings + accelerometer_)});
     if (!in_gap(scenario_.imu.gaps, t_ns_)) imu.push_back(reading);
+    if (imu_truth) {
+      imu_truth->push_back({t_ns_, T_WS(), v_WS_mps(), imu_noise_.gyro_bias_radps(),
+                            imu_noise_.accel_bias_mps2()});
+    }
   }
   if (scenario_.odometry.enabled &&
       event_time_ns(odometry_count_, scenario_.odometry.rate_hz) == t_ns_) {
@@ -267,11 +272,11 @@ void World::read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample
 }
 
 void World::advance_to(std::int64_t t_ns, std::vector<ImuSample>& imu,
-                       std::vector<OdometrySample>& odometry) {
-  read_sensors(imu, odometry);  // those at 0, which no step leads to
+                       std::vector<OdometrySample>& odometry, std::vector<ImuTruth>* imu_truth) {
+  read_sensors(imu, odometry, imu_truth);  // those at 0, which no step leads to
   while (t_ns_ < t_ns) {
     step_to(next_event_ns(t_ns));
-    read_sensors(imu, odometry);
+    read_sensors(imu, odometry, imu_truth);
   }
 }
 
@@ -292,6 +297,9 @@ Pose World::T_WS() const {
 
 Eigen::Vector3d World::v_WB_mps() const {
   return velocity(model_, mjOBJ_XBODY, base_).linear;
+}
+Eigen::Vector3d World::v_WS_mps() const {
+  return velocity(model_, mjOBJ_SITE, imu_site_).linear;
 }
 Eigen::Vector3d World::v_WC_mps() const {
   return velocity(model_, mjOBJ_CAMERA, camera_).linear;

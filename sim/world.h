@@ -34,9 +34,11 @@ class World {
 
   /// Moves on to a time, and appends the readings after the last time up to and including this one.
   /// The very first call, with 0, gives those at 0.
+  /// \param imu_truth is given what is true at each reading of the IMU, if there is one.
   /// \throws PhysicsError
   void advance_to(std::int64_t t_ns, std::vector<ImuSample>& imu,
-                  std::vector<OdometrySample>& odometry);
+                  std::vector<OdometrySample>& odometry,
+                  std::vector<ImuTruth>* imu_truth = nullptr);
 
   Model& model() { return model_; }
   const Model& model() const { return model_; }
@@ -53,6 +55,7 @@ class World {
   Pose T_WB() const;
   Pose T_WS() const;
   Eigen::Vector3d v_WB_mps() const;
+  Eigen::Vector3d v_WS_mps() const;
   Eigen::Vector3d v_WC_mps() const;
   Eigen::Vector3d w_C_radps() const;
 
@@ -77,7 +80,8 @@ class World {
   template <typename Action>
   void guarded(Action action) const;
   std::int64_t next_event_ns(std::int64_t until_ns) const;
-  void read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample>& odometry);
+  void read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample>& odometry,
+                    std::vector<ImuTruth>* imu_truth);
 
   scenario::Scenario scenario_;
   Model model_;

@@ -332,5 +332,47 @@ TEST(Versions, NameTheLibraryAndTheRenderer) {
   EXPECT_NE(v.gl_renderer.find("Mesa"), std::string::npos) << v.gl_renderer;
 }
 
+TEST(Simulation, FramesAfterOnesThatWereSkippedAreAsTheyWouldHaveBeen) {
+  scenario::Scenario s = scenario_in("lab", 0.5, 5);
+  s.imu.noise.gyroscope_noise_density = 1e-3;
+  s.actors = {line_actor("crosser", Shape::box, {0, -1}, 1.5, 0.5)};
+  Simulation whole(s), skipping(s);
+  for (int k = 0; k < 4; ++k) {
+    whole.next();
+    skipping.skip();
+  }
+  const auto a = whole.next(), b = skipping.next();
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->index, b->index);
+  EXPECT_EQ(cv::norm(a->image, b->image, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(a->truth.depth_m, b->truth.depth_m, cv::NORM_INF), 0);
+  ASSERT_EQ(a->imu.size(), b->imu.size());
+  EXPECT_EQ(a->imu.back().gyro_radps, b->imu.back().gyro_radps);
+  EXPECT_EQ(a->truth.next.T_WO.back().p, b->truth.next.T_WO.back().p);
+  EXPECT_FALSE(skipping.next()) << "it was the last one";
+}
+
+TEST(Simulation, TellsTheTruthOfTheImuAtEachOfItsReadings) {
+  scenario::Scenario s = scenario_in("lab", 0.5, 3);
+  s.imu.noise.gyroscope_turn_on_bias_radps = 0.1;
+  s.imu.gaps = {{0.05, 0.08}};
+  Simulation simulation(s);
+  simulation.next();
+  const auto o = simulation.next();
+  ASSERT_TRUE(o);
+  ASSERT_EQ(o->imu_truth.size(), 20u) << "of 200 Hz in 0.1 s, the gap included";
+  EXPECT_EQ(o->imu.size(), 14u);
+  EXPECT_EQ(o->imu_truth.back().t_ns, o->t_ns);
+  // The IMU is mounted to what the camera is mounted to.
+  const Pose T_WB = o->truth.now.T_WC * simulation.calibration().T_BC.inverse();
+  const Pose T_WS = T_WB * simulation.calibration().T_BS;
+  EXPECT_LT((T_WS.p - o->imu_truth.back().T_WS.p).norm(), 1e-12);
+  EXPECT_LT((T_WS.R - o->imu_truth.back().T_WS.R).norm(), 1e-12);
+  EXPECT_NEAR(o->imu_truth.back().v_WS_mps.x(), 0.5, 1e-3);
+  // Without white noise and walk a still gyro reads its bias.
+  EXPECT_LT((o->imu.back().gyro_radps - o->imu_truth.back().gyro_bias_radps).norm(), 1e-3);
+  EXPECT_GT(o->imu_truth.back().gyro_bias_radps.norm(), 1e-2);
+}
+
 }  // namespace
 }  // namespace lcs::sim
