@@ -3,7 +3,6 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "filter/detect/fast.h"
 #include "tools/bench/ego_motion_feed.h"
 #include "tools/bench/timed.h"
 
@@ -16,6 +15,24 @@ Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulat
   return recording;
 }
 
+void watch(const cv::Mat3b& image, const FastDetector& detector, Tracker& tracker,
+           FrameRecord& frame) {
+  FrameTimes times;
+  cv::Mat1b grey;
+  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  frame.corners_px = timed(times.detect_ms, [&] { return detector.detect(grey); });
+  const FrameResult& result = timed(times.filter_ms, [&]() -> const FrameResult& {
+    return tracker.step({image, grey, frame.corners_px, frame.motion});
+  });
+  frame.verdicts = result.verdicts;
+  frame.reasons = result.reasons;
+  frame.layers = result.layers;
+  times.line_ms = result.times.line_ms;
+  times.circle_ms = result.times.circle_ms;
+  times.square_ms = result.times.square_ms;
+  frame.times = times;
+}
+
 void run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracker& tracker,
          Recording& recording, const FrameSink& sink) {
   const FastDetector detector(scenario.fast_threshold);
@@ -23,38 +40,24 @@ void run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracke
   EgoMotionFeed ego_motion(scenario, simulation.calibration());
 
   while (true) {
-    FrameTimes times;
+    double simulate_ms = 0;
     const std::optional<sim::Observation> observation =
-        timed(times.simulate_ms, [&] { return simulation.next(); });
+        timed(simulate_ms, [&] { return simulation.next(); });
     if (!observation) return;
     FrameRecord& frame = recording.frames.emplace_back();
     frame.index = observation->index;
     frame.t_ns = observation->t_ns;
-
-    cv::Mat1b grey;
-    cv::cvtColor(observation->image, grey, cv::COLOR_BGR2GRAY);
-    frame.corners_px = timed(times.detect_ms, [&] { return detector.detect(grey); });
-
     const EgoMotionFeed::Motions motions = ego_motion.next(*observation);
     frame.motion = motions.told;
     frame.true_motion = motions.exact;
+    watch(observation->image, detector, tracker, frame);
 
-    const FrameResult& result = timed(times.filter_ms, [&]() -> const FrameResult& {
-      return tracker.step({observation->image, grey, frame.corners_px, frame.motion});
-    });
-    frame.verdicts = result.verdicts;
-    frame.reasons = result.reasons;
-    frame.layers = result.layers;
-    times.line_ms = result.times.line_ms;
-    times.circle_ms = result.times.circle_ms;
-    times.square_ms = result.times.square_ms;
-
-    frame.corner_truth = timed(times.truth_ms, [&] {
+    frame.times->simulate_ms = simulate_ms;
+    frame.corner_truth = timed(frame.times->truth_ms, [&] {
       return sim::label_corners(camera, observation->truth, frame.corners_px,
                                 scenario.truth_min_depth_m);
     });
     frame.object_truth = observation->objects;
-    frame.times = times;
     sink(frame, observation->image);
   }
 }

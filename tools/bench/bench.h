@@ -5,6 +5,7 @@
 #include <functional>
 #include <opencv2/core.hpp>
 
+#include "filter/detect/fast.h"
 #include "scenarios/scenario.h"
 #include "sim/simulation.h"
 #include "tools/bench/recording.h"
@@ -17,6 +18,11 @@ using FrameSink = std::function<void(const FrameRecord&, const cv::Mat3b& image)
 
 /// A recording of the scenario without frames yet.
 Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulation& simulation);
+
+/// Finds the corners of a picture and asks a tracker about them.
+/// \param frame whose motion is known; gets corners, verdicts, layers, and the times of all that.
+void watch(const cv::Mat3b& image, const FastDetector& detector, Tracker& tracker,
+           FrameRecord& frame);
 
 /// Runs the simulation to its end.
 /// \param scenario that the simulation was made of.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <set>
 #include <stdexcept>
 #include <tuple>
@@ -59,19 +60,22 @@ PictureFolder::PictureFolder(const fs::path& folder) {
   });
 }
 
-std::optional<cv::Mat3b> PictureFolder::read(std::size_t index) {
-  const fs::path& path = file(index);
-  cv::Mat3b image = cv::imread(path.string(), cv::IMREAD_COLOR);
-  if (image.empty()) {
-    skipped_.push_back(fmt::format("{} cannot be read", path.string()));
+std::optional<cv::Mat3b> PictureReader::read(const fs::path& file) {
+  const auto skip = [&](std::string why) {
+    skipped_.push_back(std::move(why));
     return std::nullopt;
+  };
+  if (!fs::exists(file)) return skip(fmt::format("{} is missing", file.string()));
+  cv::Mat picture = cv::imread(file.string(), demosaic_ ? cv::IMREAD_GRAYSCALE : cv::IMREAD_COLOR);
+  if (picture.empty()) return skip(fmt::format("{} cannot be read", file.string()));
+  if (size_.empty()) size_ = picture.size();
+  if (picture.size() != size_) {
+    return skip(fmt::format("{} is {}x{}, not {}x{} as those before it", file.string(),
+                            picture.cols, picture.rows, size_.width, size_.height));
   }
-  if (size_.empty()) size_ = image.size();
-  if (image.size() != size_) {
-    skipped_.push_back(fmt::format("{} is {}x{}, not {}x{} as those before it", path.string(),
-                                   image.cols, image.rows, size_.width, size_.height));
-    return std::nullopt;
-  }
+  if (!demosaic_) return cv::Mat3b(picture);
+  cv::Mat3b image;
+  cv::cvtColor(picture, image, *demosaic_);
   return image;
 }
 

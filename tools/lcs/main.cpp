@@ -10,6 +10,7 @@
 
 #include "tools/lcs/compare.h"
 #include "tools/lcs/exit_codes.h"
+#include "tools/lcs/generate.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/replay.h"
 #include "tools/lcs/run.h"
@@ -28,6 +29,7 @@ through its camera and IMU, and the simulator's truth scores what the filter say
   lcs run scenarios/crossing.yaml     run a scenario; results are in out/crossing
   lcs suite                           run all short scenarios, with several seeds each
   lcs compare out/before out/suite    what two suites differ in, beyond noise
+  lcs generate SCENARIO               a sequence of pictures and truth that other tools read
   lcs replay --images DIR ...         the filter on a folder of pictures
   lcs score DIR --detections FILE     someone else's detector, by a run's truth
   lcs run --help                      all about a command
@@ -49,6 +51,7 @@ int run_command_line(int argc, char** argv) {
   ScoreOptions score_options;
   SuiteOptions suite_options;
   CompareOptions compare_options;
+  GenerateOptions generate_options;
   const struct {
     const CLI::App& command;
     std::function<ExitCode()> carry_out;
@@ -57,6 +60,7 @@ int run_command_line(int argc, char** argv) {
       {add_replay_command(app, replay_options), [&] { return replay(replay_options); }},
       {add_score_command(app, score_options), [&] { return score(score_options); }},
       {add_suite_command(app, suite_options), [&] { return suite(suite_options); }},
+      {add_generate_command(app, generate_options), [&] { return generate(generate_options); }},
       {add_compare_command(app, compare_options), [&] { return compare(compare_options); }},
   };
   try {

@@ -2,76 +2,126 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <opencv2/imgproc.hpp>
+#include <memory>
+#include <numbers>
 #include <stdexcept>
 
 #include "filter/detect/fast.h"
-#include "filter/filter.h"
+#include "tools/bench/bench.h"
 #include "tools/bench/picture_folder.h"
 #include "tools/bench/result.h"
-#include "tools/bench/timed.h"
+#include "tools/bench/tracker.h"
+#include "tools/comparators/detectors.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/progress.h"
+#include "tools/replay/recorded.h"
+#include "tools/replay/rectifier.h"
 
 namespace lcs::tools {
 namespace {
 
 constexpr const char* kHelp =
-    R"(Example, a robot that drives ahead at 3 cm/s and takes a picture a second:
-  lcs replay --images pictures --fps 1 --speed 0.03 --focal 600
+    R"(Examples:
+  lcs replay data/crossing                        a sequence of lcs generate: the verdicts of lcs run
+  lcs replay MH_01_easy                           EuRoC: motion by its IMU, from the start of its truth
+  lcs replay MH_01_easy --ego-motion truth        likewise, motion by its truth
+  lcs replay pictures --fps 1 --speed 0.03 --focal 600       pictures of a robot that drives ahead
+  lcs replay pictures --fps 10 --imu imu.csv --focal 600     likewise, with an IMU (columns as EuRoC's)
 
-The camera looks where the robot drives and does not turn; the principal point is the middle of the
-picture. Pictures are taken by the number in their names. Those that cannot be read, or are of another
-size, are named and skipped; their time passes.
+The layout is told from the folder. Pictures without calibration need --focal; the principal point
+is their middle if --centre does not say. Distorted pictures are straightened first. What is missing,
+broken, of another size, out of order or twice there is left out or put in order, counted and told; the
+time of a picture that is left out passes.
 
 Files are those of `lcs run`; without a truth, what is scored by it is null in metrics.json.
 )";
 
-Parameters parameters_of(const ReplayOptions& options) {
-  Parameters parameters = preset(options.preset);
+namespace fs = std::filesystem;
+
+void check(const ReplayOptions& options) {
+  const auto positive = [](const char* name, const std::optional<double>& value) {
+    if (!value || (std::isfinite(*value) && *value > 0)) return;
+    throw std::invalid_argument(fmt::format("--{} is {}; it must be above 0", name, *value));
+  };
+  positive("fps", options.fps);
+  positive("focal", options.focal_px);
+  if (options.speed_mps && !std::isfinite(*options.speed_mps)) {
+    throw std::invalid_argument("--speed must be a number of m/s");
+  }
+  for (const auto& [name, numbers] :
+       {std::pair{"centre", &options.centre_px}, std::pair{"mount", &options.mount_deg}}) {
+    for (const double number : *numbers) {
+      if (!std::isfinite(number)) {
+        throw std::invalid_argument(fmt::format("--{} has {}; give numbers", name, number));
+      }
+    }
+  }
+}
+
+fs::path target_of(const ReplayOptions& options) {
+  if (!options.out.empty()) return options.out;
+  // A trailing slash leaves an empty last part.
+  const auto folder = fs::absolute(options.folder).lexically_normal();
+  return fs::path("out") /
+         (folder.has_filename() ? folder.filename() : folder.parent_path().filename());
+}
+
+replay::ReadOptions read_options(const ReplayOptions& options) {
+  replay::ReadOptions read{.folder = options.folder,
+                           .camera = options.camera,
+                           .fps = options.fps,
+                           .speed_mps = options.speed_mps,
+                           .imu = {},
+                           .mount_rpy_rad = {},
+                           .exact_motion = options.ego_motion == "truth"};
+  if (!options.imu.empty()) read.imu = options.imu;
+  if (!options.mount_deg.empty()) {
+    read.mount_rpy_rad =
+        std::numbers::pi / 180 *
+        Eigen::Vector3d(options.mount_deg[0], options.mount_deg[1], options.mount_deg[2]);
+  }
+  return read;
+}
+
+/// What the command line says of detection and filter takes the place of what the recording says.
+void apply(const ReplayOptions& options, scenario::Scenario& settings) {
+  if (options.fast_threshold) settings.fast_threshold = *options.fast_threshold;
+  if (!options.preset.empty()) {
+    settings.filter_preset = options.preset;
+    settings.filter_preset_source = {"--preset " + options.preset, 0};
+  }
   for (const std::string& setting : options.sets) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) {
       throw std::invalid_argument(
           fmt::format("--set takes KEY=VALUE, as circle.mu_0=20, not '{}'", setting));
     }
-    set(parameters, setting.substr(0, equals), setting.substr(equals + 1));
-  }
-  return parameters;
-}
-
-void check(const ReplayOptions& options) {
-  const auto positive = [](const char* name, double value) {
-    if (std::isfinite(value) && value > 0) return;
-    throw std::invalid_argument(fmt::format("--{} is {}; it must be above 0", name, value));
-  };
-  positive("fps", options.fps);
-  positive("focal", options.focal_px);
-  if (!std::isfinite(options.speed_mps)) {
-    throw std::invalid_argument("--speed must be a number of m/s");
+    settings.filter.push_back(
+        {setting.substr(0, equals), setting.substr(equals + 1), {"--set " + setting, 0}});
   }
 }
 
-std::filesystem::path target_of(const ReplayOptions& options) {
-  if (!options.out.empty()) return options.out;
-  // A trailing slash leaves an empty last part.
-  const auto folder = std::filesystem::absolute(options.images).lexically_normal();
-  return std::filesystem::path("out") /
-         (folder.has_filename() ? folder.filename() : folder.parent_path().filename());
+/// By the recording's calibration, or by what the user says of the camera.
+replay::Lens lens_of(const ReplayOptions& options, const std::optional<replay::Lens>& recorded,
+                     cv::Size size_px) {
+  if (recorded && !options.focal_px) return *recorded;
+  replay::Lens lens;
+  lens.fu_px = lens.fv_px = *options.focal_px;
+  lens.cu_px = options.centre_px.empty() ? 0.5 * (size_px.width - 1) : options.centre_px[0];
+  lens.cv_px = options.centre_px.empty() ? 0.5 * (size_px.height - 1) : options.centre_px[1];
+  return lens;
 }
 
-EgoMotion straight_ahead(double speed_mps, double dt_s) {
-  EgoMotion motion;
-  motion.dt_s = dt_s;
-  motion.v_C_mps = {0, 0, speed_mps};
-  return motion;
+double frames_per_second(const std::vector<replay::RecordedFrame>& frames) {
+  if (frames.size() < 2) return 1;
+  const double span_s = static_cast<double>(frames.back().t_ns - frames.front().t_ns) * 1e-9;
+  return static_cast<double>(frames.size() - 1) / span_s;
 }
 
 void print_result(const bench::Recording& recording, const bench::Metrics& metrics,
-                  const bench::PictureFolder& pictures, const std::filesystem::path& target) {
+                  std::size_t skipped, const fs::path& target) {
   using Figure = std::optional<double>;
   const auto get = [&](const char* name) { return bench::value(metrics, name); };
   const auto number = [](Figure figure, int decimals) {
@@ -79,8 +129,7 @@ void print_result(const bench::Recording& recording, const bench::Metrics& metri
   };
   const Figure size = get("dimension.mean"), store = get("dimension.five_frame_mean");
   const Figure share = size && store && *store > 0 ? Figure(*size / *store) : std::nullopt;
-  fmt::print("{}: {} pictures, {} skipped\n", recording.scenario, recording.frames.size(),
-             pictures.skipped().size());
+  fmt::print("{}: {} pictures, {} skipped\n", recording.scenario, recording.frames.size(), skipped);
   fmt::print("  corners  {} a picture\n", number(get("dimension.corners_mean"), 0));
   fmt::print("  edges    {} of the normal ones are matched again in the next picture\n",
              number(get("edges.rematched"), 2));
@@ -94,20 +143,53 @@ void print_result(const bench::Recording& recording, const bench::Metrics& metri
 }  // namespace
 
 CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
-  CLI::App& command = *app.add_subcommand("replay", "Run the LCS filter on a folder of pictures");
-  command.add_option("--images", options.images, "Folder of pictures")
+  CLI::App& command =
+      *app.add_subcommand("replay", "Run the LCS filter (or a comparator) on a recording");
+  command.add_option("--images,DIR", options.folder, "Folder of the recording")
       ->required()
-      ->type_name("DIR");
-  command.add_option("--fps", options.fps, "Pictures a second")->required()->type_name("HZ");
+      ->type_name("");
+  std::string about = "Layout of the folder; if not given, told from what it holds:";
+  for (const replay::Layout& layout : replay::layouts()) {
+    about += fmt::format("\n{:<9} {}", layout.name, layout.purpose);
+  }
+  command.add_option("--format", options.layout, about)->type_name("NAME");
+  command
+      .add_option("--camera", options.camera,
+                  "Which camera, where the layout has several, as cam1 (EuRoC)")
+      ->type_name("NAME");
+  command.add_option("--fps", options.fps, "Pictures a second, where the layout does not say")
+      ->type_name("HZ");
   command.add_option("--speed", options.speed_mps, "Of the camera, ahead, in m/s")
-      ->required()
       ->type_name("M/S");
-  command.add_option("--focal", options.focal_px, "Focal length in pixels")
-      ->required()
-      ->type_name("PX");
+  command
+      .add_option("--imu", options.imu,
+                  "Readings of an IMU for a folder of pictures, CSV as EuRoC's; the first one "
+                  "belongs to the first picture, --speed is the speed then")
+      ->type_name("FILE");
+  command.add_option("--focal", options.focal_px, "Focal length in pixels")->type_name("PX");
+  command.add_option("--centre", options.centre_px, "Principal point in pixels, as 319.5,239.5")
+      ->type_name("X,Y")
+      ->delimiter(',')
+      ->expected(2);
+  command
+      .add_option("--mount", options.mount_deg,
+                  "Where the camera looks: roll, pitch (down), yaw (left) from straight ahead, in "
+                  "degrees")
+      ->type_name("R,P,Y")
+      ->delimiter(',')
+      ->expected(3);
+  command
+      .add_option("--ego-motion", options.ego_motion,
+                  "imu: by dead reckoning; truth: by the recording's own truth")
+      ->type_name("SOURCE")
+      ->check(CLI::IsMember({"imu", "truth"}));
+  command
+      .add_option("--detector", options.detector,
+                  "What watches: lcs (the filter), or klt or homography to compare it with")
+      ->type_name("NAME");
   command
       .add_option("--fast-threshold", options.fast_threshold,
-                  "Contrast of a corner, 1 to 254 grey levels; 20 if not given")
+                  "Contrast of a corner, 1 to 254 grey levels; if not given, 20 or the recording's")
       ->type_name("N");
   command
       .add_option("--preset", options.preset,
@@ -130,65 +212,60 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
 ExitCode replay(const ReplayOptions& options) {
   const InterruptGuard interrupt;
   check(options);
-  const Parameters parameters = parameters_of(options);
-  const FastDetector detector(options.fast_threshold);
-  bench::PictureFolder pictures(options.images);
+  const comparators::Detector& watcher = comparators::detector(options.detector);
+  replay::Recorded recorded =
+      replay::layout_of(options.layout, options.folder).read(read_options(options));
+  if (!recorded.lens && !options.focal_px) {
+    throw std::invalid_argument("the recording has no calibration of its camera; give --focal");
+  }
+  apply(options, recorded.settings);
+  bench::filter_parameters(recorded.settings);  // what is wrong with them is told before any output
+  const FastDetector detector(recorded.settings.fast_threshold);
+  bench::PictureReader pictures(recorded.demosaic);
 
   bench::Recording recording;
   recording.scenario = target_of(options).filename().string();
-  std::optional<Filter> filter;
+  recording.detector = {std::string(watcher.name), watcher.layered};
+  const double fps = frames_per_second(recorded.frames);
+  std::optional<replay::Rectifier> rectifier;
+  std::unique_ptr<bench::Tracker> tracker;
   std::optional<bench::Result> result;
-  std::optional<std::size_t> last;
-  Progress progress(recording.scenario, static_cast<int>(pictures.size()), options.quiet);
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    interrupt.check();
-    progress.show(static_cast<int>(i) + 1);
-    const std::optional<cv::Mat3b> image = pictures.read(i);
-    if (!image) {
-      fmt::print(stderr, "skipped: {}\n", pictures.skipped().back());
-      continue;
+  {
+    Progress progress(recording.scenario, static_cast<int>(recorded.frames.size()), options.quiet);
+    for (std::size_t i = 0; i < recorded.frames.size(); ++i) {
+      interrupt.check();
+      progress.show(static_cast<int>(i) + 1);
+      std::optional<cv::Mat3b> image = pictures.read(recorded.frames[i].picture);
+      if (!image) {
+        fmt::print(stderr, "skipped: {}\n", pictures.skipped().back());
+        continue;
+      }
+      if (!rectifier) {
+        rectifier.emplace(lens_of(options, recorded.lens, image->size()), image->size());
+        tracker = watcher.make(rectifier->camera(), recorded.settings);
+        result.emplace(
+            target_of(options), recording, image->size(),
+            bench::ResultOptions{.video_frames_per_second =
+                                     options.no_video ? std::nullopt : std::optional(fps)});
+      }
+      rectifier->rectify(*image);
+      bench::FrameRecord& frame = recording.frames.emplace_back();
+      frame.index = static_cast<int>(recording.frames.size()) - 1;
+      frame.t_ns = recorded.frames[i].t_ns;
+      frame.motion = recorded.motion->at(frame.t_ns);
+      bench::watch(*image, detector, *tracker, frame);
+      frame.corner_truth.resize(frame.corners_px.size());  // none is known
+      result->add(frame, *image);
     }
-    if (!filter) {
-      const Vec2 size(image->cols, image->rows);
-      filter.emplace(
-          Intrinsics{options.focal_px, 0.5 * (size - Vec2(1, 1)), image->cols, image->rows},
-          parameters);
-      result.emplace(
-          target_of(options), recording, image->size(),
-          bench::ResultOptions{.video_frames_per_second =
-                                   options.no_video ? std::nullopt : std::optional(options.fps)});
-    }
-    bench::FrameRecord& frame = recording.frames.emplace_back();
-    frame.index = static_cast<int>(recording.frames.size()) - 1;
-    frame.t_ns = std::llround(static_cast<double>(i) * 1e9 / options.fps);
-    if (last) {
-      const double dt_s = static_cast<double>(i - *last) / options.fps;
-      frame.motion = straight_ahead(options.speed_mps, dt_s);
-    }
-    last = i;
-
-    cv::Mat1b grey;
-    cv::cvtColor(*image, grey, cv::COLOR_BGR2GRAY);
-    bench::FrameTimes times;
-    frame.corners_px = bench::timed(times.detect_ms, [&] { return detector.detect(grey); });
-    const FrameResult& said = bench::timed(times.filter_ms, [&]() -> const FrameResult& {
-      return filter->step(frame.corners_px, frame.motion);
-    });
-    frame.verdicts = said.verdicts;
-    frame.reasons = said.reasons;
-    frame.layers = said.layers;
-    times.line_ms = said.times.line_ms;
-    times.circle_ms = said.times.circle_ms;
-    times.square_ms = said.times.square_ms;
-    frame.times = times;
-    frame.corner_truth.resize(frame.corners_px.size());  // none is known
-    result->add(frame, *image);
   }
   if (!result) {
-    throw std::runtime_error(fmt::format("none of the pictures in {} can be read", options.images));
+    throw std::runtime_error(fmt::format("none of the pictures in {} can be read", options.folder));
   }
   const bench::Metrics metrics = result->finish(recording);
-  if (!options.quiet) print_result(recording, metrics, pictures, result->target());
+  for (const std::string& line : recorded.tally.lines()) fmt::print(stderr, "{}\n", line);
+  if (!options.quiet) {
+    print_result(recording, metrics, pictures.skipped().size(), result->target());
+  }
   return kFine;
 }
 

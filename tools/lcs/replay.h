@@ -1,8 +1,9 @@
 /// \file
-/// `lcs replay`: the filter on a folder of pictures, without a truth to score it by.
+/// `lcs replay`: a detector on a recording, without a truth to score it by.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,14 +12,21 @@
 namespace lcs::tools {
 
 struct ReplayOptions {
-  std::string images;       ///< folder
-  double fps = 0;           ///< pictures a second, > 0
-  double speed_mps = 0;     ///< along the optical axis; negative is reverse
-  double focal_px = 0;      ///< > 0
-  int fast_threshold = 20;  ///< grey levels
-  std::string preset = "default";
-  std::vector<std::string> sets;  ///< "key=value" of the filter
-  std::string out;                ///< folder; "" is out/<folder's name>
+  std::string folder;               ///< of the recording
+  std::string layout = "auto";      ///< of the folder
+  std::string camera;               ///< of several; "" is the layout's first
+  std::optional<double> fps;        ///< pictures a second, > 0
+  std::optional<double> speed_mps;  ///< along the optical axis; negative is reverse
+  std::string imu;                  ///< CSV file; "" for none
+  std::optional<double> focal_px;   ///< > 0
+  std::vector<double> centre_px;    ///< x, y; none: the middle
+  std::vector<double> mount_deg;    ///< roll, pitch, yaw; none: the layout's own
+  std::string ego_motion;           ///< imu or truth; "": as the recording has it
+  std::string detector = "lcs";
+  std::optional<int> fast_threshold;  ///< grey levels
+  std::string preset;                 ///< "": as the recording has it
+  std::vector<std::string> sets;      ///< "key=value" of the filter
+  std::string out;                    ///< folder; "" is out/<folder's name>
   bool no_video = false;
   bool quiet = false;
 };

@@ -10,4 +10,9 @@ namespace lcs::tools {
 /// \throws std::runtime_error when GL will not start.
 std::string version_text();
 
+/// This program's version and the commit that it was built from, as "0.1.0 (f2f2c60)"; "-dirty"
+/// follows the commit when files were changed since, and "unknown" stands for it outside a
+/// checkout.
+std::string program_text();
+
 }  // namespace lcs::tools

@@ -1,0 +1,350 @@
+// `lcs generate` from its command line to its files, read back by OpenCV and by hand.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/video/tracking.hpp>
+#include <set>
+
+#include "scenarios/load.h"
+#include "sim/simulation.h"
+#include "tests/tools/command.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/bench/csv.h"
+#include "tools/bench/recording_io.h"
+#include "tools/sequence/manifest.h"
+#include "tools/sequence/motion_field.h"
+#include "tools/sequence/sha256.h"
+#include "tools/sequence/text_file.h"
+#include "tools/sequence/writer.h"
+
+namespace lcs::sequence {
+namespace {
+
+namespace fs = std::filesystem;
+using bench::CommandResult;
+using bench::run_lcs;
+
+const std::string kCrossing = LCS_SCENARIOS_DIR "/crossing.yaml";
+constexpr int kFrames = 4;
+// Long enough before for both movers to be in view from the first frame on.
+const std::vector<std::string> kSets{"ego.start=[-3 m, 0 m]"};
+
+std::vector<std::vector<std::string>> rows_of(const fs::path& csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::ifstream file(csv);
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with('#')) continue;
+    std::vector<std::string> row;
+    for (const std::string_view field : bench::fields_of(line)) row.emplace_back(field);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::set<std::string> files_in(const fs::path& folder) {
+  std::set<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.insert(entry.path().lexically_relative(folder).string());
+  }
+  return files;
+}
+
+std::map<std::string, std::string> bytes_in(const fs::path& folder) {
+  std::map<std::string, std::string> bytes;
+  for (const std::string& file : files_in(folder)) bytes[file] = read_file(folder / file);
+  return bytes;
+}
+
+std::vector<std::string> arguments(std::vector<std::string> more) {
+  std::vector<std::string> all{"generate", kCrossing, "--frames", std::to_string(kFrames)};
+  for (const std::string& set : kSets) all.insert(all.end(), {"--set", set});
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+/// One sequence for all tests, and the simulation that it must tell of.
+class Generated : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    home_ = std::make_unique<bench::TemporaryFolder>();
+    result_ = run_lcs(arguments({"--out", folder()}), {.folder = home_->path()});
+    scenario_ = scenario::load(kCrossing, {.sets = kSets, .seed = {}});
+    sim::Simulation simulation(scenario_);
+    camera_ = simulation.calibration().camera;
+    frames_.clear();
+    for (int k = 0; k < kFrames; ++k) frames_.push_back(*simulation.next());
+  }
+  static void TearDownTestSuite() {
+    home_.reset();
+    frames_.clear();
+  }
+  static fs::path folder() { return home_->path() / "crossing"; }
+  void SetUp() override { ASSERT_EQ(result_.exit_code, 0) << result_.err; }
+
+  inline static std::unique_ptr<bench::TemporaryFolder> home_;
+  inline static CommandResult result_;
+  inline static scenario::Scenario scenario_;
+  inline static sim::Pinhole camera_;
+  inline static std::vector<sim::Observation> frames_;
+};
+
+TEST_F(Generated, TheManifestHasEveryFileWithItsHashAndWhatTookPart) {
+  const auto manifest = nlohmann::json::parse(read_file(folder() / kManifestFile));
+  std::set<std::string> listed;
+  for (const auto& [path, record] : manifest.at("files").items()) {
+    listed.insert(path);
+    EXPECT_EQ(record.at("sha256"), sha256_of_file(folder() / path)) << path;
+    EXPECT_EQ(record.at("bytes"), fs::file_size(folder() / path)) << path;
+  }
+  std::set<std::string> there = files_in(folder());
+  EXPECT_EQ(there.erase(kManifestFile), 1u);
+  EXPECT_EQ(listed, there);
+  const auto& plan = manifest.at("plan");
+  EXPECT_EQ(plan.at("scenario"), "crossing");
+  EXPECT_EQ(plan.at("seed"), 1);
+  EXPECT_EQ(plan.at("frames"), kFrames);
+  EXPECT_EQ(plan.at("set"), kSets);
+  EXPECT_NE(plan.at("renderer").get<std::string>().find("Mesa"), std::string::npos);
+  EXPECT_FALSE(plan.at("mujoco").get<std::string>().empty());
+  EXPECT_NE(plan.at("program").get<std::string>().find('('), std::string::npos) << "the commit";
+  EXPECT_GT(manifest.at("checks").at("flow_px").at("compared"), 1000);
+}
+
+TEST_F(Generated, PicturesAreThoseOfTheSimulationToTheLastBit) {
+  const auto rows = rows_of(folder() / "mav0/cam0/data.csv");
+  ASSERT_EQ(rows.size(), static_cast<std::size_t>(kFrames));
+  for (std::size_t k = 0; k < frames_.size(); ++k) {
+    EXPECT_EQ(rows[k][0], std::to_string(kEpoch_ns + frames_[k].t_ns));
+    const cv::Mat picture =
+        cv::imread((folder() / "mav0/cam0/data" / rows[k][1]).string(), cv::IMREAD_UNCHANGED);
+    ASSERT_EQ(picture.type(), CV_8UC3);
+    EXPECT_EQ(cv::norm(picture, frames_[k].image, cv::NORM_INF), 0);
+  }
+}
+
+TEST_F(Generated, ReadingsAndPosesAreThoseOfTheSimulationToTheLastBit) {
+  const auto number = [](const std::string& text) { return *bench::number_in<double>(text); };
+  const auto imu = rows_of(folder() / "mav0/imu0/data.csv");
+  const auto truth = rows_of(folder() / "mav0/state_groundtruth_estimate0/data.csv");
+  std::size_t row = 0;
+  for (const sim::Observation& frame : frames_) {
+    for (std::size_t i = 0; i < frame.imu.size(); ++i, ++row) {
+      ASSERT_LT(row, imu.size());
+      ASSERT_EQ(imu[row].size(), 7u);
+      ASSERT_EQ(truth[row].size(), 17u) << "as tools expect of EuRoC's truth";
+      EXPECT_EQ(imu[row][0], std::to_string(kEpoch_ns + frame.imu[i].t_ns));
+      EXPECT_EQ(truth[row][0], imu[row][0]);
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        EXPECT_EQ(number(imu[row][1 + a]), frame.imu[i].gyro_radps[axis]);
+        EXPECT_EQ(number(imu[row][4 + a]), frame.imu[i].accel_mps2[axis]);
+        EXPECT_EQ(number(truth[row][1 + a]), frame.imu_truth[i].T_WS.p[axis]);
+        EXPECT_EQ(number(truth[row][8 + a]), frame.imu_truth[i].v_WS_mps[axis]);
+        EXPECT_EQ(number(truth[row][11 + a]), frame.imu_truth[i].gyro_bias_radps[axis]);
+        EXPECT_EQ(number(truth[row][14 + a]), frame.imu_truth[i].accel_bias_mps2[axis]);
+      }
+      const Eigen::Quaterniond q(number(truth[row][4]), number(truth[row][5]),
+                                 number(truth[row][6]), number(truth[row][7]));
+      EXPECT_TRUE(q.toRotationMatrix().isApprox(frame.imu_truth[i].T_WS.R, 1e-12)) << "w x y z";
+    }
+  }
+  EXPECT_EQ(row, imu.size());
+  EXPECT_EQ(row, truth.size());
+}
+
+TEST_F(Generated, FlowReadByOpenCvIsTheMotionOfThePixels) {
+  for (std::size_t k = 0; k + 1 < frames_.size(); ++k) {
+    const MotionField motion = motion_field(camera_, frames_[k].truth, frames_[k + 1].truth.depth_m,
+                                            frames_[k + 1].truth.object);
+    const auto check = [&](const std::string& kind, const cv::Mat2f& truth, const cv::Mat1b& seen) {
+      const cv::Mat flo =
+          cv::readOpticalFlow(folder() / kind / "middlebury" / fmt::format("{:06}.flo", k));
+      const cv::Mat3w kitti =
+          cv::imread(folder() / kind / "kitti" / fmt::format("{:06}.png", k), cv::IMREAD_UNCHANGED);
+      ASSERT_EQ(flo.size(), truth.size());
+      ASSERT_EQ(kitti.size(), truth.size());
+      int valid = 0, differ = 0;
+      for (int y = 0; y < truth.rows; ++y) {
+        for (int x = 0; x < truth.cols; ++x) {
+          const cv::Vec2f u = truth(y, x), read = flo.at<cv::Vec2f>(y, x);
+          const bool is_known = !std::isnan(u[0]);
+          if (is_known ? u != read : !(read[0] > 1e9F && read[1] > 1e9F)) ++differ;
+          const cv::Vec3w& code = kitti(y, x);  // blue, green, red
+          if (code[0] != seen(y, x)) ++differ;
+          if (code[0] == 0) continue;
+          ++valid;
+          // Half the quantum of 1/64 px.
+          if (std::abs((code[2] - 32768) / 64.0 - u[0]) > 1.0 / 128 ||
+              std::abs((code[1] - 32768) / 64.0 - u[1]) > 1.0 / 128) {
+            ++differ;
+          }
+        }
+      }
+      EXPECT_EQ(differ, 0) << kind;
+      EXPECT_GT(valid, 200000) << kind;
+    };
+    check("flow", motion.full_px, motion.seen);
+    check("flow_ego", motion.ego_px, motion.ego_seen);
+  }
+  EXPECT_FALSE(fs::exists(folder() / "flow/kitti" / fmt::format("{:06}.png", kFrames - 1)))
+      << "nothing follows the last frame";
+}
+
+TEST_F(Generated, DepthReadByOpenCvIsThatOfTheSimulationToItsQuantum) {
+  for (std::size_t k = 0; k < frames_.size(); ++k) {
+    const cv::Mat1w code =
+        cv::imread(folder() / "depth" / fmt::format("{:06}.png", k), cv::IMREAD_UNCHANGED);
+    const cv::Mat1f& depth = frames_[k].truth.depth_m;
+    ASSERT_EQ(code.size(), depth.size());
+    double worst = 0;
+    for (int y = 0; y < code.rows; ++y) {
+      for (int x = 0; x < code.cols; ++x) {
+        worst = std::max(worst, std::abs(code(y, x) / 256.0 - depth(y, x)));
+      }
+    }
+    EXPECT_LE(worst, 1.0 / 512 + 1e-6);
+  }
+}
+
+TEST_F(Generated, LandmarksAreTheCornersAndTheTruthOfARun) {
+  std::vector<std::string> run{"run",
+                               kCrossing,
+                               "--set",
+                               fmt::format("frames={}", kFrames),
+                               "--no-video",
+                               "--out",
+                               home_->path() / "run"};
+  for (const std::string& set : kSets) run.insert(run.end(), {"--set", set});
+  ASSERT_EQ(run_lcs(run, {.folder = home_->path()}).exit_code, 0);
+  const bench::Recording recording = bench::read_recording(home_->path() / "run");
+  const auto rows = rows_of(folder() / "landmarks.csv");
+  std::size_t row = 1;  // after the header
+  const auto equal = [](const std::string& text, double value) {
+    return std::isfinite(value) ? bench::number_in<double>(text) == value : text.empty();
+  };
+  std::set<std::string> labels;
+  for (const bench::FrameRecord& frame : recording.frames) {
+    for (std::size_t i = 0; i < frame.corners_px.size(); ++i, ++row) {
+      ASSERT_LT(row, rows.size());
+      const auto& fields = rows[row];
+      ASSERT_EQ(fields.size(), 11u);
+      const sim::CornerTruth& truth = frame.corner_truth[i];
+      EXPECT_EQ(fields[0], std::to_string(frame.index));
+      EXPECT_TRUE(equal(fields[1], frame.corners_px[i].x()));
+      EXPECT_TRUE(equal(fields[2], frame.corners_px[i].y()));
+      EXPECT_EQ(fields[3], std::to_string(truth.object));
+      labels.insert(fields[9]);
+      if (truth.label == sim::Label::none) continue;
+      EXPECT_TRUE(equal(fields[4], truth.depth_m));
+      EXPECT_TRUE(equal(fields[5], truth.motion_px.x()));
+      EXPECT_TRUE(equal(fields[6], truth.motion_px.y()));
+      EXPECT_TRUE(equal(fields[7], truth.static_motion_px.x()));
+      EXPECT_TRUE(equal(fields[8], truth.static_motion_px.y()));
+      EXPECT_EQ(fields[9], (std::vector{"none", "fixed", "indistinct",
+                                        "rebel"})[static_cast<std::size_t>(truth.label)]);
+    }
+  }
+  EXPECT_EQ(row, rows.size());
+  EXPECT_TRUE(labels.contains("rebel") && labels.contains("fixed"));
+}
+
+TEST_F(Generated, TheReadmeNamesEveryObjectAndEveryFile) {
+  const std::string readme = read_file(folder() / "README.md");
+  for (const char* word :
+       {"crossing_box", "crossing_pedestrian", "sensor.yaml", "depth/<k>.png", "landmarks.csv",
+        "not** the\n  length of the ray", "x right, y down", "640x480", "10 Hz"}) {
+    EXPECT_NE(readme.find(word), std::string::npos) << word;
+  }
+}
+
+TEST_F(Generated, TheSameAgainIsCheckedAndLeftAlone) {
+  const auto before = bytes_in(folder());
+  const CommandResult again = run_lcs(arguments({"--out", folder()}), {.folder = home_->path()});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NE(again.out.find("is complete"), std::string::npos) << again.out;
+  EXPECT_EQ(bytes_in(folder()), before);
+}
+
+// ---- What is refused
+
+class Generate : public testing::Test {
+ protected:
+  CommandResult generate(std::vector<std::string> more) {
+    return run_lcs(arguments(std::move(more)), {.folder = home_.path()});
+  }
+  fs::path folder() const { return home_.path() / "sequence"; }
+  const bench::TemporaryFolder home_;
+};
+
+TEST_F(Generate, OnlyWhatIsAskedForIsWritten) {
+  ASSERT_EQ(generate({"--out", folder(), "--formats", "depth", "--quiet"}).exit_code, 0);
+  for (const std::string& file : files_in(folder())) {
+    EXPECT_TRUE(file.starts_with("depth/") || file.starts_with("mav0/cam0/data") ||
+                (std::set<std::string>{"README.md", "lcs.json", "manifest.json", "scenario.yaml"})
+                    .contains(file))
+        << file;
+  }
+}
+
+TEST_F(Generate, AFolderThatHoldsSomethingElseIsRefusedAndLeftAsItIs) {
+  fs::create_directory(folder());
+  write_file(folder() / "thesis.tex", "years of work");
+  const CommandResult result = generate({"--out", folder()});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("thesis.tex"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("--out"), std::string::npos) << result.err;
+  EXPECT_EQ(files_in(folder()), std::set<std::string>{"thesis.tex"});
+}
+
+TEST_F(Generate, AnotherSequenceIsRefusedAndToldApart) {
+  ASSERT_EQ(generate({"--out", folder(), "--formats", "depth", "--quiet"}).exit_code, 0);
+  const auto before = bytes_in(folder());
+  const std::vector<std::pair<std::vector<std::string>, std::string>> others{
+      {{"--formats", "depth", "--seed", "2"}, "seed is 1, not 2"},
+      {{"--formats", "depth,euroc"}, "formats"},
+      {{"--formats", "depth", "--set", "ego.speed=1 m/s"}, "set"},
+  };
+  for (const auto& [more, expected] : others) {
+    std::vector<std::string> all{"--out", folder()};
+    all.insert(all.end(), more.begin(), more.end());
+    const CommandResult result = generate(all);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(expected), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(bytes_in(folder()), before);
+}
+
+TEST_F(Generate, DamageToAFinishedSequenceIsFound) {
+  ASSERT_EQ(generate({"--out", folder(), "--formats", "depth", "--quiet"}).exit_code, 0);
+  write_file(folder() / "depth/000001.png", "not what it was");
+  fs::remove(folder() / "depth/000002.png");
+  const CommandResult result = generate({"--out", folder(), "--formats", "depth"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("000001.png has other bytes"), std::string::npos) << result.err;
+}
+
+TEST_F(Generate, MistakesAreToldInOneLineBeforeAnythingIsWritten) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{"--formats", "rosbag"}, "'rosbag'; there are euroc"},
+      {{"--frames", "0"}, "--frames"},
+      {{"--set", "ego.sped=1 m/s"}, "speed"},
+  };
+  for (const auto& [more, expected] : cases) {
+    std::vector<std::string> all{"--out", folder()};
+    all.insert(all.end(), more.begin(), more.end());
+    const CommandResult result = generate(all);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(expected), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(fs::exists(folder()));
+  }
+}
+
+}  // namespace
+}  // namespace lcs::sequence

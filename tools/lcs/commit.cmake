@@ -1,0 +1,11 @@
+# Writes HEADER with the commit that SOURCE is at, if that is not what it says already.
+set(commit unknown)
+find_program(git git)
+if(git)
+  execute_process(COMMAND ${git} -C ${SOURCE} describe --always --dirty --exclude=*
+    OUTPUT_VARIABLE described OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE result)
+  if(result EQUAL 0)
+    set(commit ${described})
+  endif()
+endif()
+file(CONFIGURE OUTPUT ${HEADER} CONTENT "#define LCS_COMMIT \"@commit@\"\n" @ONLY)

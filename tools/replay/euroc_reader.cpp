@@ -1,0 +1,214 @@
+// EuRoC ASL: mav0/ with cam0, imu0 and, for the start, a truth; a sequence of `lcs generate` too.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "tools/bench/csv.h"
+#include "tools/replay/recorded.h"
+#include "tools/replay/sensor_csv.h"
+#include "tools/replay/sensor_yaml.h"
+#include "tools/sequence/replay_settings.h"
+
+namespace lcs::replay {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+constexpr const char* kTruth = "state_groundtruth_estimate0";
+constexpr double kGravity_mps2 = 9.81;
+// At the start a recording without a truth is taken to stand still for as long as this.
+constexpr std::int64_t kStill_ns = 500'000'000;
+
+/// The folder that holds cam0: DIR/mav0, or DIR itself.
+fs::path mav_of(const fs::path& folder) {
+  return fs::is_directory(folder / "mav0") ? folder / "mav0" : folder;
+}
+
+std::vector<RecordedFrame> read_frames(const fs::path& camera, Tally& tally) {
+  const TextTable table = read_table(camera / "data.csv", ',');
+  std::vector<RecordedFrame> frames;
+  for (const TextTable::Row& row : table.rows) {
+    const auto t_ns = bench::number_in<std::int64_t>(row.fields[0]);
+    if (!t_ns) {
+      tally.add("rows cannot be read and are left out", table.at(row));
+      continue;
+    }
+    const std::string name =
+        row.fields.size() > 1 && !row.fields[1].empty() ? row.fields[1] : row.fields[0] + ".png";
+    frames.push_back({*t_ns, camera / "data" / name});
+  }
+  put_in_order(frames, tally);
+  return frames;
+}
+
+Lens lens_of(const sim::Pinhole& camera) {
+  return {camera.focal_px,      camera.focal_px,        camera.centre_px.x(),
+          camera.centre_px.y(), Lens::Distortion::none, {}};
+}
+
+/// Where dead reckoning begins, and the biases that are known there.
+struct Start {
+  std::int64_t t_ns = 0;
+  sim::Pose T_WS;
+  Vector3d v_WS_mps = Vector3d::Zero();
+  Vector3d gyro_bias_radps = Vector3d::Zero();
+  Vector3d accel_bias_mps2 = Vector3d::Zero();
+};
+
+/// At rest, upright as the accelerometer says.
+Start start_at_rest(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns, Tally& tally) {
+  Vector3d up = Vector3d::Zero(), turning = Vector3d::Zero();
+  int count = 0;
+  for (const sim::ImuSample& sample : imu) {
+    if (sample.t_ns < t_ns || sample.t_ns > t_ns + kStill_ns) continue;
+    up += sample.accel_mps2;
+    turning += sample.gyro_radps;
+    ++count;
+  }
+  if (count == 0) throw std::runtime_error("the IMU has no reading at the first picture");
+  tally.add("recordings have no truth to start from: at rest, upright as the accelerometer says",
+            fmt::format("{} readings", count));
+  Start start;
+  start.t_ns = t_ns;
+  start.T_WS.R =
+      Eigen::Quaterniond::FromTwoVectors(up, Vector3d::UnitZ()).normalized().toRotationMatrix();
+  start.gyro_bias_radps = turning / count;
+  return start;
+}
+
+Start start_by_truth(const std::vector<TrueState>& truth, std::int64_t t_ns) {
+  const auto at = std::lower_bound(truth.begin(), truth.end(), t_ns,
+                                   [](const TrueState& s, std::int64_t t) { return s.t_ns < t; });
+  const TrueState& state = at == truth.end() ? truth.back() : *at;
+  return {state.t_ns,
+          {state.state.q_WB.toRotationMatrix(), Vector3d::Zero()},
+          state.state.v_WB_mps,
+          state.gyro_bias_radps,
+          state.accel_bias_mps2};
+}
+
+/// Frames outside of a time span have no motion to go with.
+void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what,
+                 Recorded& recorded) {
+  std::vector<RecordedFrame>& frames = recorded.frames;
+  const auto is_outside = [&](const RecordedFrame& frame) {
+    return frame.t_ns < first_ns || frame.t_ns > last_ns;
+  };
+  const auto first = std::find_if(frames.begin(), frames.end(), is_outside);
+  if (first == frames.end()) return;
+  const std::string example = first->picture.filename().string();
+  const auto count = std::erase_if(frames, is_outside);
+  recorded.tally.add(what, example, static_cast<int>(count));
+  if (frames.empty()) throw std::runtime_error("no picture was taken while the sensors recorded");
+}
+
+/// As a generated sequence says it: the bits of the run.
+void move_as_run(const fs::path& mav, const sequence::ReplaySettings& exact, Recorded& recorded) {
+  SensorReadings readings;
+  readings.imu = read_imu_csv(mav / "imu0" / "data.csv", recorded.tally);
+  if (exact.scenario.odometry.enabled) {
+    readings.odometry = read_odometry_csv(mav / "odometry0" / "data.csv", recorded.tally);
+  }
+  if (recorded.settings.ego_motion == scenario::EgoMotionSource::truth) {
+    readings.poses = read_pose_csv(mav / "cam0" / "pose.csv", recorded.tally);
+  }
+  // A run's clock begins at 0.
+  const std::int64_t epoch_ns = exact.start_ns;
+  for (sim::ImuSample& sample : readings.imu) sample.t_ns -= epoch_ns;
+  for (sim::OdometrySample& sample : readings.odometry) sample.t_ns -= epoch_ns;
+  for (SensorReadings::CameraPose& pose : readings.poses) pose.t_ns -= epoch_ns;
+  for (RecordedFrame& frame : recorded.frames) frame.t_ns -= epoch_ns;
+  recorded.motion =
+      std::make_unique<SensorMotion>(recorded.settings, exact.calibration, std::move(readings));
+}
+
+/// By what EuRoC's own files say. The body is the frame B.
+void move_by_files(const fs::path& mav, const sim::Pose& T_BC, bool exact_motion,
+                   Recorded& recorded) {
+  std::vector<TrueState> truth;
+  if (fs::exists(mav / kTruth / "data.csv")) {
+    truth = read_truth_csv(mav / kTruth / "data.csv", recorded.tally);
+  }
+  if (exact_motion) {
+    if (truth.size() < 2) {
+      throw std::runtime_error(fmt::format(
+          "{} has no truth to tell the motion from; leave --ego-motion truth out", mav.string()));
+    }
+    std::vector<NavigationState> states;
+    for (const TrueState& state : truth) states.push_back(state.state);
+    keep_within(truth.front().t_ns, truth.back().t_ns, "pictures are outside of the truth's time",
+                recorded);
+    recorded.motion = std::make_unique<NavigationMotion>(std::move(states), T_BC);
+    return;
+  }
+  SensorReadings readings;
+  readings.imu = read_imu_csv(mav / "imu0" / "data.csv", recorded.tally);
+  const SensorYaml imu = read_sensor_yaml(mav / "imu0" / "sensor.yaml");
+  if (imu.noise) recorded.settings.imu.noise = *imu.noise;
+  sim::Calibration calibration;
+  calibration.T_BS = imu.T_BS;
+  calibration.T_BC = T_BC;
+  calibration.gravity_mps2 = kGravity_mps2;
+  // The truth is of the body; it may begin later than the pictures do.
+  std::int64_t first_ns = std::max(recorded.frames.front().t_ns, readings.imu.front().t_ns);
+  if (!truth.empty()) first_ns = std::max(first_ns, truth.front().t_ns);
+  keep_within(first_ns, readings.imu.back().t_ns + kStill_ns,
+              "pictures are from before the truth or outside of the IMU's time", recorded);
+  const Start start = truth.empty() ? start_at_rest(readings.imu, first_ns, recorded.tally)
+                                    : start_by_truth(truth, first_ns);
+  calibration.T_WB_start.R = start.T_WS.R;
+  calibration.v_WB_start_mps = start.v_WS_mps;
+  if (fs::exists(mav / "odometry0" / "data.csv")) {
+    readings.odometry = read_odometry_csv(mav / "odometry0" / "data.csv", recorded.tally);
+  }
+
+  // Everything before the start is past; times count from it.
+  std::erase_if(readings.imu, [&](const auto& sample) { return sample.t_ns < start.t_ns; });
+  std::erase_if(readings.odometry, [&](const auto& sample) { return sample.t_ns < start.t_ns; });
+  for (sim::ImuSample& sample : readings.imu) {
+    sample.t_ns -= start.t_ns;
+    sample.gyro_radps -= start.gyro_bias_radps;
+    sample.accel_mps2 -= start.accel_bias_mps2;
+  }
+  for (sim::OdometrySample& sample : readings.odometry) sample.t_ns -= start.t_ns;
+  for (RecordedFrame& frame : recorded.frames) frame.t_ns -= start.t_ns;
+  recorded.settings.odometry.enabled = !readings.odometry.empty();
+  recorded.motion =
+      std::make_unique<SensorMotion>(recorded.settings, calibration, std::move(readings));
+}
+
+}  // namespace
+
+bool is_euroc(const fs::path& folder) {
+  return fs::exists(mav_of(folder) / "cam0" / "data.csv");
+}
+
+Recorded read_euroc(const ReadOptions& options) {
+  const fs::path mav = mav_of(options.folder);
+  const std::string camera = options.camera.empty() ? "cam0" : options.camera;
+  const fs::path camera_folder = mav / camera;
+  if (!fs::exists(camera_folder / "data.csv")) {
+    throw std::runtime_error(fmt::format("{} is not there; name another camera with --camera",
+                                         (camera_folder / "data.csv").string()));
+  }
+  Recorded recorded;
+  recorded.frames = read_frames(camera_folder, recorded.tally);
+  const fs::path settings_file = options.folder / sequence::kSettingsFile;
+  if (fs::exists(settings_file)) {
+    const sequence::ReplaySettings exact = sequence::read_settings(settings_file);
+    recorded.settings = exact.scenario;
+    if (options.exact_motion) recorded.settings.ego_motion = scenario::EgoMotionSource::truth;
+    recorded.lens = lens_of(exact.calibration.camera);
+    move_as_run(mav, exact, recorded);
+    return recorded;
+  }
+  const SensorYaml sensor = read_sensor_yaml(camera_folder / "sensor.yaml");
+  recorded.lens = sensor.lens;
+  move_by_files(mav, sensor.T_BS, options.exact_motion, recorded);
+  return recorded;
+}
+
+}  // namespace lcs::replay

@@ -1,0 +1,98 @@
+#include "tools/replay/motion_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace lcs::replay {
+
+EgoMotion SteadyMotion::at(std::int64_t t_ns) {
+  EgoMotion motion;
+  if (last_ns_) {
+    motion.dt_s = static_cast<double>(t_ns - *last_ns_) * 1e-9;
+    motion.v_C_mps = {0, 0, speed_mps_};
+  }
+  last_ns_ = t_ns;
+  return motion;
+}
+
+SensorMotion::SensorMotion(const scenario::Scenario& settings, const sim::Calibration& calibration,
+                           SensorReadings readings)
+    : needs_poses_(settings.ego_motion == scenario::EgoMotionSource::truth),
+      readings_(std::move(readings)),
+      feed_(settings, calibration) {}
+
+EgoMotion SensorMotion::at(std::int64_t t_ns) {
+  sim::Observation observation;
+  observation.t_ns = t_ns;
+  const auto take = [&](const auto& all, std::size_t& next, auto& taken) {
+    for (; next < all.size() && all[next].t_ns <= t_ns; ++next) taken.push_back(all[next]);
+  };
+  take(readings_.imu, imu_, observation.imu);
+  take(readings_.odometry, odometry_, observation.odometry);
+  while (pose_ < readings_.poses.size() && readings_.poses[pose_].t_ns < t_ns) ++pose_;
+  if (pose_ < readings_.poses.size() && readings_.poses[pose_].t_ns == t_ns) {
+    observation.truth.now.T_WC = readings_.poses[pose_].T_WC;
+  } else if (needs_poses_) {
+    throw std::runtime_error(fmt::format("there is no pose of the camera at {} ns", t_ns));
+  }
+  return feed_.next(observation).told;
+}
+
+NavigationMotion::NavigationMotion(std::vector<NavigationState> states, const sim::Pose& T_BC)
+    : states_(std::move(states)), T_BC_(T_BC) {
+  if (states_.size() < 2) {
+    throw std::runtime_error("there are fewer than two states of navigation to tell a motion from");
+  }
+}
+
+NavigationState NavigationMotion::state_at(std::int64_t t_ns) const {
+  const auto after =
+      std::lower_bound(states_.begin(), states_.end(), t_ns,
+                       [](const NavigationState& s, std::int64_t t) { return s.t_ns < t; });
+  NavigationState state;
+  if (after == states_.begin()) {
+    state = states_.front();
+  } else if (after == states_.end()) {
+    state = states_.back();
+  } else {
+    const NavigationState& a = *std::prev(after);
+    const NavigationState& b = *after;
+    const double share = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
+    state.q_WB = a.q_WB.slerp(share, b.q_WB);
+    state.v_WB_mps = (1 - share) * a.v_WB_mps + share * b.v_WB_mps;
+  }
+  state.t_ns = t_ns;
+  return state;
+}
+
+EgoMotion NavigationMotion::at(std::int64_t t_ns) {
+  const NavigationState now = state_at(t_ns);
+  EgoMotion motion;
+  if (last_) {
+    // The velocity is linear between the states on the way.
+    Eigen::Vector3d moved_m = Eigen::Vector3d::Zero();
+    NavigationState from = *last_;
+    const auto add_until = [&](const NavigationState& to) {
+      moved_m +=
+          0.5 * static_cast<double>(to.t_ns - from.t_ns) * 1e-9 * (from.v_WB_mps + to.v_WB_mps);
+      from = to;
+    };
+    for (auto state =
+             std::upper_bound(states_.begin(), states_.end(), last_->t_ns,
+                              [](std::int64_t t, const NavigationState&s) { return t < s.t_ns; });
+         state != states_.end() && state->t_ns < t_ns; ++state) {
+      add_until(*state);
+    }
+    add_until(now);
+    const sim::Pose before =
+        sim::Pose{last_->q_WB.toRotationMatrix(), Eigen::Vector3d::Zero()} * T_BC_;
+    const sim::Pose after = sim::Pose{now.q_WB.toRotationMatrix(), moved_m} * T_BC_;
+    motion = bench::motion_between(before, after, static_cast<double>(t_ns - last_->t_ns) * 1e-9);
+  }
+  last_ = now;
+  return motion;
+}
+
+}  // namespace lcs::replay

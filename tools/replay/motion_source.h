@@ -1,0 +1,89 @@
+/// \file
+/// How a recording tells the camera's motion from one frame to the next.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "filter/ego_motion.h"
+#include "scenarios/scenario.h"
+#include "sim/simulation.h"
+#include "tools/bench/ego_motion_feed.h"
+
+namespace lcs::replay {
+
+class MotionSource {
+ public:
+  virtual ~MotionSource() = default;
+
+  /// Motion since the last frame; of the first one all 0. Times increase.
+  virtual EgoMotion at(std::int64_t t_ns) = 0;
+};
+
+/// Straight ahead along the optical axis.
+class SteadyMotion : public MotionSource {
+ public:
+  explicit SteadyMotion(double speed_mps) : speed_mps_(speed_mps) {}
+  EgoMotion at(std::int64_t t_ns) override;
+
+ private:
+  double speed_mps_;
+  std::optional<std::int64_t> last_ns_;
+};
+
+/// What was recorded of a rover's sensors, by time.
+struct SensorReadings {
+  std::vector<sim::ImuSample> imu;
+  std::vector<sim::OdometrySample> odometry;
+  struct CameraPose {
+    std::int64_t t_ns;
+    sim::Pose T_WC;
+  };
+  std::vector<CameraPose> poses;  ///< exact, at frames
+};
+
+/// Dead reckoning from IMU and odometry, as a run has it (or exact poses where the settings ask for
+/// them): the same readings give the same bits.
+class SensorMotion : public MotionSource {
+ public:
+  SensorMotion(const scenario::Scenario& settings, const sim::Calibration& calibration,
+               SensorReadings readings);
+  /// \throws std::runtime_error where exact poses are asked for and there is none at this time.
+  EgoMotion at(std::int64_t t_ns) override;
+
+ private:
+  bool needs_poses_;
+  SensorReadings readings_;
+  std::size_t imu_ = 0, odometry_ = 0, pose_ = 0;  ///< the next to be used
+  bench::EgoMotionFeed feed_;
+};
+
+/// Attitude and velocity as a navigation unit tells them, in its own time.
+struct NavigationState {
+  std::int64_t t_ns = 0;
+  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d v_WB_mps = Eigen::Vector3d::Zero();
+};
+
+/// Differences of attitude, and velocity integrated; linear between two states.
+class NavigationMotion : public MotionSource {
+ public:
+  /// \param states by time, at least two.
+  NavigationMotion(std::vector<NavigationState> states, const sim::Pose& T_BC);
+  /// Beyond the first and last state those are held.
+  EgoMotion at(std::int64_t t_ns) override;
+
+  std::int64_t first_ns() const { return states_.front().t_ns; }
+  std::int64_t last_ns() const { return states_.back().t_ns; }
+
+ private:
+  NavigationState state_at(std::int64_t t_ns) const;
+
+  std::vector<NavigationState> states_;
+  sim::Pose T_BC_;
+  std::optional<NavigationState> last_;
+};
+
+}  // namespace lcs::replay

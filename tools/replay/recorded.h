@@ -1,0 +1,96 @@
+/// \file
+/// A recorded sequence, whatever layout it had on disk: what `lcs replay` runs a detector on.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenarios/scenario.h"
+#include "tools/replay/motion_source.h"
+
+namespace lcs::replay {
+
+/// What a reader met that is not as it should be, counted; told to the user in the end.
+class Tally {
+ public:
+  /// \param what a plural, as "pictures that the list names are missing".
+  /// \param example of it; the first one is told.
+  void add(const std::string& what, const std::string& example, int count = 1);
+  /// As "3 pictures that ... are missing (the first: 12.png)".
+  std::vector<std::string> lines() const;
+
+ private:
+  struct Entry {
+    std::string what, example;
+    int count;
+  };
+  std::vector<Entry> entries_;
+};
+
+/// A camera as calibrations describe it, in pixels with (0, 0) at the centre of the top-left one.
+struct Lens {
+  enum class Distortion { none, radial_tangential, equidistant };
+  double fu_px = 0, fv_px = 0, cu_px = 0, cv_px = 0;
+  Distortion distortion = Distortion::none;
+  std::vector<double> coefficients;  ///< in OpenCV's order
+};
+
+struct RecordedFrame {
+  std::int64_t t_ns = 0;
+  std::filesystem::path picture;
+};
+
+struct Recorded {
+  std::vector<RecordedFrame> frames;  ///< by time, each time once, at least one
+  std::optional<Lens> lens;           ///< none: the layout has no calibration
+  std::optional<int> demosaic;        ///< OpenCV's colour conversion for raw pictures
+  /// Detection, filter, noise; as they are by default where the recording does not say.
+  scenario::Scenario settings;
+  std::unique_ptr<MotionSource> motion;
+  Tally tally;
+};
+
+/// What the user adds to a recording, for what its layout does not say.
+struct ReadOptions {
+  std::filesystem::path folder;
+  std::string camera;  ///< which of several; "" is the layout's first
+  std::optional<double> fps;
+  std::optional<double> speed_mps;
+  std::optional<std::filesystem::path> imu;
+  std::optional<Eigen::Vector3d> mount_rpy_rad;  ///< of the camera, as `scenario::Camera` has it
+  bool exact_motion = false;                     ///< from the recording's truth, not its IMU
+};
+
+/// A way of putting a recording into a folder.
+struct Layout {
+  std::string_view name;
+  std::string_view purpose;  ///< one line for people
+  bool (*fits)(const std::filesystem::path& folder);
+  /// \throws std::runtime_error naming file and line.
+  Recorded (*read)(const ReadOptions& options);
+};
+
+/// All there are, in the order in which they are tried.
+const std::vector<Layout>& layouts();
+
+/// \param name "auto": the first one that fits the folder.
+/// \throws std::runtime_error for an unknown name, or a folder that none fits.
+const Layout& layout_of(const std::string& name, const std::filesystem::path& folder);
+
+/// \name The readers.
+///@{
+bool is_euroc(const std::filesystem::path& folder);
+Recorded read_euroc(const ReadOptions& options);
+bool is_pictures(const std::filesystem::path& folder);
+Recorded read_pictures(const ReadOptions& options);
+///@}
+
+/// Sorts frames by time, and takes out what has a time that another one has; counts both.
+void put_in_order(std::vector<RecordedFrame>& frames, Tally& tally);
+
+}  // namespace lcs::replay

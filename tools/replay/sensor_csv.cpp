@@ -1,0 +1,153 @@
+#include "tools/replay/sensor_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <stdexcept>
+
+#include "tools/bench/csv.h"
+#include "tools/sequence/pose_text.h"
+
+namespace lcs::replay {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A time and the numbers of the columns that were asked for.
+struct NumberRow {
+  std::int64_t t_ns = 0;
+  std::vector<double> numbers;
+};
+
+/// \param names of columns, for tables with a header; without one they follow the time in order.
+std::vector<NumberRow> read_numbers(const std::filesystem::path& file,
+                                    std::span<const char* const> names, Tally& tally) {
+  const TextTable table = read_table(file, ',');
+  std::vector<std::size_t> columns;
+  for (const char* name : names) columns.push_back(table.column(name, columns.size() + 1));
+  std::vector<NumberRow> rows;
+  for (const TextTable::Row& row : table.rows) {
+    const auto text = [&](std::size_t column) -> std::string_view {
+      return column < row.fields.size() ? std::string_view(row.fields[column]) : "";
+    };
+    const auto t_ns = bench::number_in<std::int64_t>(text(0));
+    NumberRow read{t_ns.value_or(0), {}};
+    for (const std::size_t column : columns) {
+      if (const auto number = bench::number_in<double>(text(column))) {
+        read.numbers.push_back(*number);
+      }
+    }
+    if (t_ns && read.numbers.size() == columns.size()) {
+      rows.push_back(std::move(read));
+    } else {
+      tally.add("rows cannot be read and are left out", table.at(row));
+    }
+  }
+  if (!std::is_sorted(rows.begin(), rows.end(),
+                      [](const auto& a, const auto& b) { return a.t_ns < b.t_ns; })) {
+    tally.add("tables are not in the order of time and are sorted", file.string());
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const auto& a, const auto& b) { return a.t_ns < b.t_ns; });
+  }
+  const auto twice = std::unique(rows.begin(), rows.end(),
+                                 [](const auto& a, const auto& b) { return a.t_ns == b.t_ns; });
+  if (twice != rows.end()) {
+    tally.add("rows have the time of another one and are left out", file.string(),
+              static_cast<int>(rows.end() - twice));
+  }
+  rows.erase(twice, rows.end());
+  return rows;
+}
+
+Vector3d vector_at(const NumberRow& row, std::size_t first) {
+  return {row.numbers[first], row.numbers[first + 1], row.numbers[first + 2]};
+}
+
+}  // namespace
+
+std::vector<sim::ImuSample> read_imu_csv(const std::filesystem::path& file, Tally& tally) {
+  static constexpr std::array<const char*, 6> kNames{"w_RS_S_x", "w_RS_S_y", "w_RS_S_z",
+                                                     "a_RS_S_x", "a_RS_S_y", "a_RS_S_z"};
+  std::vector<sim::ImuSample> samples;
+  for (const NumberRow& row : read_numbers(file, kNames, tally)) {
+    samples.push_back({row.t_ns, vector_at(row, 0), vector_at(row, 3)});
+  }
+  if (samples.empty()) {
+    throw std::runtime_error(fmt::format("{} holds no reading of an IMU", file.string()));
+  }
+  count_gaps(samples, tally);
+  return samples;
+}
+
+std::vector<sim::OdometrySample> read_odometry_csv(const std::filesystem::path& file,
+                                                   Tally& tally) {
+  static constexpr std::array<const char*, 3> kNames{"v_RB_B_x", "v_RB_B_y", "v_RB_B_z"};
+  std::vector<sim::OdometrySample> samples;
+  for (const NumberRow& row : read_numbers(file, kNames, tally)) {
+    samples.push_back({row.t_ns, vector_at(row, 0)});
+  }
+  return samples;
+}
+
+std::vector<SensorReadings::CameraPose> read_pose_csv(const std::filesystem::path& file,
+                                                      Tally& tally) {
+  static constexpr std::array<const char*, 12> kNames{
+      "R_00", "R_01", "R_02", "p_x", "R_10", "R_11", "R_12", "p_y", "R_20", "R_21", "R_22", "p_z"};
+  std::vector<SensorReadings::CameraPose> poses;
+  for (const NumberRow& row : read_numbers(file, kNames, tally)) {
+    std::array<double, 16> matrix{};
+    std::copy(row.numbers.begin(), row.numbers.end(), matrix.begin());
+    matrix[15] = 1;
+    poses.push_back({row.t_ns, sequence::pose_of(matrix)});
+  }
+  return poses;
+}
+
+std::vector<TrueState> read_truth_csv(const std::filesystem::path& file, Tally& tally) {
+  static constexpr std::array<const char*, 16> kNames{
+      "p_RS_R_x",   "p_RS_R_y",   "p_RS_R_z",   "q_RS_w",    "q_RS_x",     "q_RS_y",
+      "q_RS_z",     "v_RS_R_x",   "v_RS_R_y",   "v_RS_R_z",  "b_w_RS_S_x", "b_w_RS_S_y",
+      "b_w_RS_S_z", "b_a_RS_S_x", "b_a_RS_S_y", "b_a_RS_S_z"};
+  constexpr double kUnit = 1e-2;  // how far from 1 the length of a rounded quaternion may be
+  std::vector<TrueState> states;
+  for (const NumberRow& row : read_numbers(file, kNames, tally)) {
+    TrueState& truth = states.emplace_back();
+    truth.t_ns = truth.state.t_ns = row.t_ns;
+    const Eigen::Quaterniond q(row.numbers[3], row.numbers[4], row.numbers[5], row.numbers[6]);
+    if (std::abs(q.norm() - 1) > kUnit) {
+      states.pop_back();
+      tally.add("rows have no unit quaternion and are left out", file.string());
+      continue;
+    }
+    truth.state.q_WB = q.normalized();
+    truth.state.v_WB_mps = vector_at(row, 7);
+    truth.gyro_bias_radps = vector_at(row, 10);
+    truth.accel_bias_mps2 = vector_at(row, 13);
+  }
+  return states;
+}
+
+void count_gaps(const std::vector<sim::ImuSample>& samples, Tally& tally) {
+  constexpr int kSilentPeriods = 4;
+  std::vector<std::int64_t> periods;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    periods.push_back(samples[i].t_ns - samples[i - 1].t_ns);
+  }
+  if (periods.empty()) return;
+  std::vector<std::int64_t> sorted = periods;
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  const std::int64_t usual = sorted[sorted.size() / 2];
+  for (std::size_t i = 0; i < periods.size(); ++i) {
+    if (periods[i] > kSilentPeriods * usual) {
+      tally.add("gaps are in the readings of the IMU, in which the last one is held",
+                fmt::format("{:.3f} s after {} ns", static_cast<double>(periods[i]) * 1e-9,
+                            samples[i].t_ns));
+    }
+  }
+}
+
+}  // namespace lcs::replay

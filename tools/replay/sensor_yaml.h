@@ -1,0 +1,24 @@
+/// \file
+/// `sensor.yaml` as EuRoC's ASL has it, with Kalibr's keys.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "scenarios/scenario.h"
+#include "sim/pose.h"
+#include "tools/replay/recorded.h"
+
+namespace lcs::replay {
+
+struct SensorYaml {
+  sim::Pose T_BS;
+  std::optional<double> rate_hz;
+  std::optional<Lens> lens;                 ///< of a camera
+  std::optional<scenario::ImuNoise> noise;  ///< of an IMU; turn-on biases are 0
+};
+
+/// \throws std::runtime_error naming the file, the line where it is known, and what is wrong.
+SensorYaml read_sensor_yaml(const std::filesystem::path& file);
+
+}  // namespace lcs::replay

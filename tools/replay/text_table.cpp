@@ -1,0 +1,79 @@
+#include "tools/replay/text_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "tools/bench/csv.h"
+
+namespace lcs::replay {
+namespace {
+
+std::vector<std::string> split(std::string_view line, char separator) {
+  std::vector<std::string> fields;
+  if (separator == ',') {
+    for (const std::string_view field : bench::fields_of(line)) fields.emplace_back(field);
+    return fields;
+  }
+  std::istringstream words{std::string(line)};
+  for (std::string word; words >> word;) fields.push_back(word);
+  return fields;
+}
+
+/// "#timestamp [ns]" is "timestamp".
+std::string name_of(std::string_view field) {
+  const std::size_t unit = field.find('[');
+  std::string_view name = bench::trimmed(field.substr(0, unit));
+  while (name.starts_with('#')) name = bench::trimmed(name.substr(1));
+  return std::string(name);
+}
+
+bool begins_with_number(std::string_view line) {
+  const char c = line.front();
+  return std::isdigit(static_cast<unsigned char>(c)) || c == '-' || c == '+' || c == '.';
+}
+
+}  // namespace
+
+std::string TextTable::at(const Row& row) const {
+  return fmt::format("{}:{}", file.string(), row.line);
+}
+
+std::size_t TextTable::column(std::string_view name, std::size_t otherwise) const {
+  if (header.empty()) return otherwise;
+  const auto found = std::find(header.begin(), header.end(), name);
+  if (found == header.end()) {
+    throw std::runtime_error(fmt::format("{}: the header names no column {}", file.string(), name));
+  }
+  return static_cast<std::size_t>(found - header.begin());
+}
+
+TextTable read_table(const std::filesystem::path& file, char separator) {
+  std::ifstream stream(file);
+  if (!stream) throw std::runtime_error(fmt::format("cannot read {}", file.string()));
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  TextTable table{file, {}, {}};
+  int number = 0;
+  for (std::string text; std::getline(stream, text);) {
+    ++number;
+    std::string_view line = text;
+    if (number == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
+    line = bench::trimmed(line);
+    if (line.empty()) continue;
+    const bool is_first = table.rows.empty() && table.header.empty();
+    if (is_first && !begins_with_number(line)) {
+      for (const std::string& field : split(line, separator)) {
+        table.header.push_back(name_of(field));
+      }
+    } else if (!line.starts_with('#')) {
+      table.rows.push_back({number, split(line, separator)});
+    }
+  }
+  return table;
+}
+
+}  // namespace lcs::replay

@@ -1,0 +1,152 @@
+// EuRoC ASL: pictures, IMU and truth under mav0/. The body is the IMU, as in EuRoC's own sequences:
+// T_BS of imu0 and of the truth is the identity.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tools/sequence/png.h"
+#include "tools/sequence/pose_text.h"
+#include "tools/sequence/writers.h"
+
+namespace lcs::sequence {
+namespace {
+
+constexpr const char* kImuHeader =
+    "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
+    "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n";
+constexpr const char* kTruthHeader =
+    "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z "
+    "[], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1], v_RS_R_z [m s^-1], b_w_RS_S_x [rad s^-1], "
+    "b_w_RS_S_y [rad s^-1], b_w_RS_S_z [rad s^-1], b_a_RS_S_x [m s^-2], b_a_RS_S_y [m s^-2], "
+    "b_a_RS_S_z [m s^-2]\n";
+constexpr const char* kPoseHeader =
+    "#timestamp [ns],R_00,R_01,R_02,p_x [m],R_10,R_11,R_12,p_y "
+    "[m],R_20,R_21,R_22,p_z [m]\n";
+constexpr const char* kOdometryHeader =
+    "#timestamp [ns],v_RB_B_x [m s^-1],v_RB_B_y [m s^-1],v_RB_B_z [m s^-1]\n";
+
+std::string numbers(const Eigen::Vector3d& v) {
+  return fmt::format("{},{},{}", v.x(), v.y(), v.z());
+}
+
+/// The common beginning of each sensor.yaml.
+std::string sensor_yaml(const char* type, const std::string& comment, const sim::Pose& T_BS) {
+  return fmt::format(
+      "sensor_type: {}\ncomment: {}\n\n# Sensor extrinsics wrt. the body frame: T_BS takes the "
+      "sensor's coordinates to the body's.\nT_BS:\n  cols: 4\n  rows: 4\n  data: [{}]\n",
+      type, comment, fmt::join(matrix_of(T_BS), ", "));
+}
+
+class EurocWriter : public Writer {
+ public:
+  explicit EurocWriter(const SequenceInfo& info) : info_(info) {}
+
+  void write(const FrameView& frame, FrameOutput& output) const override {
+    const sim::Observation& o = frame.now;
+    std::string& imu = output.rows["imu"];
+    for (const sim::ImuSample& sample : o.imu) {
+      imu += fmt::format("{},{},{}\n", kEpoch_ns + sample.t_ns, numbers(sample.gyro_radps),
+                         numbers(sample.accel_mps2));
+    }
+    std::string& truth = output.rows["imu_truth"];
+    for (const sim::ImuTruth& state : o.imu_truth) {
+      const Eigen::Quaterniond q = quaternion_of(state.T_WS);
+      truth +=
+          fmt::format("{},{},{},{},{},{},{},{},{}\n", kEpoch_ns + state.t_ns, numbers(state.T_WS.p),
+                      q.w(), q.x(), q.y(), q.z(), numbers(state.v_WS_mps),
+                      numbers(state.gyro_bias_radps), numbers(state.accel_bias_mps2));
+    }
+    std::string& odometry = output.rows["odometry"];
+    for (const sim::OdometrySample& sample : o.odometry) {
+      odometry += fmt::format("{},{}\n", kEpoch_ns + sample.t_ns, numbers(sample.velocity_mps));
+    }
+    const std::array<double, 16> T_WC = matrix_of(o.truth.now.T_WC);
+    output.rows["camera_pose"] =
+        fmt::format("{},{}\n", kEpoch_ns + o.t_ns, fmt::join(T_WC.begin(), T_WC.begin() + 12, ","));
+  }
+
+  std::vector<Document> documents() const override {
+    const auto csv = [](const char* path, const char* header, const char* stream) {
+      return Document{path, {{.text = header}, {.stream = stream}}};
+    };
+    std::vector<Document> all{
+        csv("mav0/imu0/data.csv", kImuHeader, "imu"),
+        csv("mav0/state_groundtruth_estimate0/data.csv", kTruthHeader, "imu_truth"),
+        csv("mav0/cam0/pose.csv", kPoseHeader, "camera_pose"),
+        {"mav0/imu0/sensor.yaml", {{.text = imu_yaml()}}},
+        {"mav0/cam0/sensor.yaml", {{.text = camera_yaml()}}},
+        {"mav0/state_groundtruth_estimate0/sensor.yaml",
+         {{.text = sensor_yaml("visual-inertial",
+                               "pose, velocity and biases of the IMU, exact, at its readings",
+                               sim::Pose{})}}},
+    };
+    if (info_.scenario.odometry.enabled) {
+      all.push_back(csv("mav0/odometry0/data.csv", kOdometryHeader, "odometry"));
+      all.push_back({"mav0/odometry0/sensor.yaml", {{.text = odometry_yaml()}}});
+    }
+    return all;
+  }
+
+ private:
+  std::string imu_yaml() const {
+    const scenario::Imu& imu = info_.scenario.imu;
+    return sensor_yaml("imu", fmt::format("simulated, preset {}", imu.preset), sim::Pose{}) +
+           fmt::format(
+               "rate_hz: {}\n\n# Noise: Kalibr's model.\n"
+               "gyroscope_noise_density: {}      # [ rad / s / sqrt(Hz) ]\n"
+               "gyroscope_random_walk: {}        # [ rad / s^2 / sqrt(Hz) ]\n"
+               "accelerometer_noise_density: {}  # [ m / s^2 / sqrt(Hz) ]\n"
+               "accelerometer_random_walk: {}    # [ m / s^3 / sqrt(Hz) ]\n",
+               imu.rate_hz, imu.noise.gyroscope_noise_density, imu.noise.gyroscope_random_walk,
+               imu.noise.accelerometer_noise_density, imu.noise.accelerometer_random_walk);
+  }
+
+  std::string camera_yaml() const {
+    const sim::Pinhole& camera = info_.calibration.camera;
+    const sim::Pose T_SC = info_.calibration.T_BS.inverse() * info_.calibration.T_BC;
+    return sensor_yaml("camera", "simulated; x right, y down, z forward", T_SC) +
+           fmt::format(
+               "\n# Pixels: (0, 0) is the centre of the top-left one.\nrate_hz: {}\nresolution: "
+               "[{}, {}]\ncamera_model: pinhole\nintrinsics: [{}, {}, {}, {}]  # fu, fv, cu, cv\n"
+               "distortion_model: radial-tangential\ndistortion_coefficients: [0.0, 0.0, 0.0, "
+               "0.0]\n",
+               info_.scenario.camera.rate_hz, camera.width_px, camera.height_px, camera.focal_px,
+               camera.focal_px, camera.centre_px.x(), camera.centre_px.y());
+  }
+
+  std::string odometry_yaml() const {
+    const scenario::Odometry& odometry = info_.scenario.odometry;
+    return sensor_yaml("odometry",
+                       "velocity of the rover's origin, in the rover's frame (x ahead, y left, z "
+                       "up), by its wheels",
+                       info_.calibration.T_BS.inverse()) +
+           fmt::format(
+               "rate_hz: {}\nnoise_mps: {}     # white, standard deviation of a reading\n"
+               "scale_error: {}  # standard deviation of a scale drawn once\n",
+               odometry.rate_hz, odometry.noise_mps, odometry.scale_error);
+  }
+
+  SequenceInfo info_;
+};
+
+}  // namespace
+
+std::string picture_path(std::int64_t t_ns) {
+  return fmt::format("mav0/cam0/data/{}.png", kEpoch_ns + t_ns);
+}
+
+void PictureWriter::write(const FrameView& frame, FrameOutput& output) const {
+  const std::string path = picture_path(frame.now.t_ns);
+  output.files.push_back({path, encode_png(frame.now.image, PngFilter::up), ""});
+  output.rows["pictures"] =
+      fmt::format("{},{}.png\n", kEpoch_ns + frame.now.t_ns, kEpoch_ns + frame.now.t_ns);
+}
+
+std::vector<Document> PictureWriter::documents() const {
+  return {{"mav0/cam0/data.csv", {{.text = "#timestamp [ns],filename\n"}, {.stream = "pictures"}}}};
+}
+
+std::unique_ptr<Writer> make_euroc_writer(const SequenceInfo& info) {
+  return std::make_unique<EurocWriter>(info);
+}
+
+}  // namespace lcs::sequence

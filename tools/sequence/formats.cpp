@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "tools/sequence/writers.h"
+
+namespace lcs::sequence {
+namespace {
+
+constexpr std::string_view kEuroc = R"(
+EuRoC ASL (`--formats euroc`); the body is the IMU:
+
+* `mav0/imu0/data.csv`: gyro, then accelerometer, in S, noisy and biased; `sensor.yaml` has the noise that
+  they are made with (Kalibr's model).
+* `mav0/state_groundtruth_estimate0/data.csv`: exact, at every reading of the IMU: position of S in W,
+  attitude `R_WS` as a quaternion w x y z, velocity of S in W, bias of gyro and accelerometer in S.
+* `mav0/cam0/sensor.yaml`: intrinsics, and `T_BS`, here the pose of the camera in S.
+* `mav0/cam0/pose.csv`: exact pose of the camera in W at each frame, as a 3x4 matrix row by row.
+* `mav0/odometry0/`: where the rover has it, velocity of B in B, by its wheels.
+)";
+constexpr std::string_view kFlow = R"(
+Optical flow (`--formats flow`), forward: where the surface at a pixel of frame k is in frame k+1, minus
+the pixel; x right, y down, in pixels. There is none for the last frame. `flow/` has the whole motion,
+moving objects included, `flow_ego/` the camera's own part, as if everything else stood still:
+
+* `flow/kitti/<k>.png`: KITTI's 16-bit PNG: u = (red - 2^15) / 64, v = (green - 2^15) / 64, blue is 1
+  where the surface is seen in frame k+1; where it is hidden there, leaves the picture, moves by more than 511 px
+  or is the rover itself, all three are 0. In `flow_ego/` moving objects are valid where they
+  would be within the picture.
+* `flow/middlebury/<k>.flo`: 32-bit float, also for what is hidden in frame k+1 or leaves the picture;
+  1e10 (unknown) on the rover itself and for points behind the camera.
+)";
+constexpr std::string_view kDepth = R"(
+Depth (`--formats depth`):
+
+* `depth/<k>.png`: 16-bit PNG, depth in metres * 256: along the optical axis (the z of C), **not** the
+  length of the ray. 0 where there is none: the sky, and beyond 255.99 m.
+)";
+constexpr std::string_view kLandmarks = R"(
+Landmarks (`--formats landmarks`):
+
+* `landmarks.csv`: a row for each FAST corner of each frame: its place, the id of the object that it is on (0: the
+  fixed setting; -1: the sky or the rover itself, no landmark), the depth (z of C) of the nearest surface in the 3x3 pixels
+  round it, its motion to frame k+1 in pixels, the motion that it would have if its object stood
+  still, and its label: `fixed`; `rebel`: its object moves, and the two motions differ by 1 px or more;
+  `indistinct`: its object moves, and they do not; `none`: no landmark. `radial` is 1 for a rebel that
+  moves as a static point at another depth would, to within 1 px. Empty where it is not defined.
+)";
+
+}  // namespace
+
+const std::vector<Format>& formats() {
+  static const std::vector<Format> kFormats{
+      {"euroc", "IMU, truth and calibration, as EuRoC's ASL has them", kEuroc, make_euroc_writer},
+      {"flow", "optical flow: KITTI's PNG and Middlebury's .flo", kFlow, make_flow_writer},
+      {"depth", "depth: KITTI's 16-bit PNG", kDepth, make_depth_writer},
+      {"landmarks", "the truth of every corner, CSV", kLandmarks, make_landmarks_writer},
+  };
+  return kFormats;
+}
+
+const Format& format(std::string_view name) {
+  const auto found = std::find_if(formats().begin(), formats().end(),
+                                  [&](const Format& each) { return each.name == name; });
+  if (found != formats().end()) return *found;
+  std::string names;
+  for (const Format& each : formats()) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);
+  }
+  throw std::invalid_argument(fmt::format("no format is called '{}'; there are {}", name, names));
+}
+
+}  // namespace lcs::sequence

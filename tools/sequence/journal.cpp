@@ -1,0 +1,174 @@
+#include "tools/sequence/journal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "tools/bench/output_file.h"
+#include "tools/sequence/manifest.h"
+#include "tools/sequence/sha256.h"
+#include "tools/sequence/text_file.h"
+
+namespace lcs::sequence {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr const char* kJournal = ".generate";
+constexpr const char* kPlan = "plan.json";
+
+/// What two plans differ in, for people; "" if in nothing.
+std::string difference(const Json& there, const Json& asked) {
+  for (const auto& [key, value] : asked.items()) {
+    if (!there.contains(key) || there.at(key) != value) {
+      return fmt::format("its {} is {}, not {}", key,
+                         there.contains(key) ? there.at(key).dump() : "unknown", value.dump());
+    }
+  }
+  return "";
+}
+
+/// Anything in a folder but a journal without a plan; "" if there is nothing.
+std::string first_stranger(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename() != kJournal) return entry.path().filename().string();
+  }
+  return "";
+}
+
+/// Also under the names that `bench::write_whole` gives to what it has not finished.
+void remove_unfinished(const fs::path& folder) {
+  std::vector<fs::path> unfinished;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() == ".partial") unfinished.push_back(entry.path());
+  }
+  for (const fs::path& path : unfinished) fs::remove(path);
+}
+
+void link_or_copy(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_directories(to.parent_path(), error);
+  fs::remove(to, error);
+  fs::create_hard_link(from, to, error);
+  if (error) write_file(to, read_file(from));  // a file system without links
+}
+
+}  // namespace
+
+Journal::Journal(fs::path folder, std::string plan)
+    : folder_(fs::absolute(std::move(folder)).lexically_normal()) {
+  try {
+    take_over(plan);
+  } catch (const fs::filesystem_error& error) {
+    throw bench::OutputError(fmt::format("cannot use {}: {}; choose another folder with --out",
+                                         folder_.string(), error.code().message()));
+  }
+}
+
+void Journal::take_over(const std::string& plan) {
+  if (fs::exists(folder_) && !fs::is_directory(folder_)) {
+    throw bench::OutputError(folder_.string() + " is not a folder; choose another one with --out");
+  }
+  fs::create_directories(folder_);
+  const fs::path plan_file = folder_ / kJournal / kPlan;
+  const bool is_begun = fs::exists(plan_file);
+  const bool is_finished = !is_begun && fs::exists(folder_ / kManifestFile);
+  if (!is_begun && !is_finished) {
+    if (const std::string stranger = first_stranger(folder_); !stranger.empty()) {
+      throw bench::OutputError(fmt::format(
+          "{} holds {}, which is no part of a generated sequence; choose another folder "
+          "with --out, or move it away",
+          folder_.string(), stranger));
+    }
+    write_file(plan_file, plan);
+    return;
+  }
+  const Json there = is_begun ? Json::parse(read_file(plan_file), nullptr, false)
+                              : plan_in_manifest(folder_ / kManifestFile);
+  const std::string differs =
+      there.is_object() ? difference(there, Json::parse(plan)) : "its plan cannot be read";
+  if (!differs.empty()) {
+    throw bench::OutputError(
+        fmt::format("{} holds another sequence: {}; choose another folder with --out, or remove it",
+                    folder_.string(), differs));
+  }
+  complete_ = is_finished;
+}
+
+fs::path Journal::record_file(int frame) const {
+  return folder_ / kJournal / fmt::format("frame-{:06}.json", frame);
+}
+
+bool Journal::is_whole(int frame) const {
+  if (!fs::exists(record_file(frame))) return false;
+  try {
+    const FrameRecordEntry record = read(frame);
+    return std::all_of(record.files.begin(), record.files.end(), [&](const FileRecord& file) {
+      const fs::path path = folder_ / file.path;
+      return fs::exists(path) && fs::file_size(path) == file.bytes &&
+             sha256_of_file(path) == file.sha256;
+    });
+  } catch (const std::exception&) {
+    return false;  // it is made again
+  }
+}
+
+int Journal::recorded() const {
+  std::error_code error;
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(folder_ / kJournal, error)) {
+    const std::string name = entry.path().filename().string();
+    count += name.starts_with("frame-") && name.ends_with(".json");
+  }
+  return count;
+}
+
+void Journal::add(int frame, const FrameOutput& output, const Agreements& checks) const {
+  Json files = Json::array();
+  std::map<std::string, Json> by_path;
+  for (const FrameFile& file : output.files) {
+    Json record;
+    if (file.same_as.empty()) {
+      write_file(folder_ / file.path, file.bytes);
+      record = {{"path", file.path}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}};
+    } else {
+      link_or_copy(folder_ / file.same_as, folder_ / file.path);
+      record = by_path.at(file.same_as);
+      record["path"] = file.path;
+    }
+    by_path[file.path] = record;
+    files.push_back(std::move(record));
+  }
+  Json agreements = Json::object();
+  for (const auto& [name, agreement] : checks) {
+    agreements[name] = {{"worst", agreement.worst}, {"compared", agreement.compared}};
+  }
+  const Json record = {{"files", files}, {"rows", output.rows}, {"checks", agreements}};
+  write_file(record_file(frame), record.dump());
+}
+
+FrameRecordEntry Journal::read(int frame) const {
+  const Json json = Json::parse(read_file(record_file(frame)));
+  FrameRecordEntry record;
+  for (const Json& file : json.at("files")) {
+    record.files.push_back({file.at("path").get<std::string>(),
+                            file.at("bytes").get<std::uint64_t>(),
+                            file.at("sha256").get<std::string>()});
+  }
+  record.rows = json.at("rows").get<Rows>();
+  for (const auto& [name, agreement] : json.at("checks").items()) {
+    record.checks[name] = {agreement.at("worst").get<double>(),
+                           agreement.at("compared").get<std::int64_t>()};
+  }
+  return record;
+}
+
+void Journal::close() {
+  fs::remove_all(folder_ / kJournal);
+  remove_unfinished(folder_);
+}
+
+}  // namespace lcs::sequence

@@ -1,0 +1,69 @@
+/// \file
+/// Which frames of a sequence are whole. While a sequence grows, its folder has a folder
+/// `.generate` with the plan, and with a record for each frame that is whole: rows, and the hashes
+/// of its files. A record is the last that is written of a frame, and appears in one piece, so that
+/// a process may be killed at any moment, and several may work on one sequence.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/sequence/frame_output.h"
+#include "tools/sequence/self_check.h"
+
+namespace lcs::sequence {
+
+struct FileRecord {
+  std::string path;
+  std::uint64_t bytes = 0;
+  std::string sha256;
+};
+
+/// By what was compared, as "flow_px".
+using Agreements = std::map<std::string, Agreement>;
+
+struct FrameRecordEntry {
+  std::vector<FileRecord> files;
+  Rows rows;
+  Agreements checks;
+};
+
+class Journal {
+ public:
+  /// \param plan a JSON object that says all that the bytes of the sequence depend on.
+  /// Takes over a folder that is missing, empty, or holds a sequence that was begun by the same
+  /// plan. \throws bench::OutputError for a folder that holds anything else.
+  Journal(std::filesystem::path folder, std::string plan);
+
+  /// The sequence is there with its manifest: nothing is to be done.
+  bool is_complete() const { return complete_; }
+
+  /// Whether a frame has a record, and its files have the bytes that it tells of.
+  bool is_whole(int frame) const;
+  /// How many frames have records.
+  int recorded() const;
+
+  /// Writes the files of a frame, then its record. \throws bench::OutputError
+  void add(int frame, const FrameOutput& output, const Agreements& checks) const;
+
+  /// \throws std::runtime_error for a frame without a record.
+  FrameRecordEntry read(int frame) const;
+
+  /// Takes the journal away, when all that it tells of is in the manifest.
+  void close();
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path record_file(int frame) const;
+  void take_over(const std::string& plan);
+
+  std::filesystem::path folder_;
+  bool complete_ = false;
+};
+
+}  // namespace lcs::sequence

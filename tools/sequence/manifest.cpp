@@ -1,0 +1,56 @@
+#include "tools/sequence/manifest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "tools/sequence/sha256.h"
+#include "tools/sequence/text_file.h"
+
+namespace lcs::sequence {
+
+namespace fs = std::filesystem;
+// Keys in the order in which people read them.
+using Json = nlohmann::ordered_json;
+
+std::string manifest_text(const std::string& plan, const Agreements& checks,
+                          std::vector<FileRecord> files) {
+  std::sort(files.begin(), files.end(),
+            [](const FileRecord& a, const FileRecord& b) { return a.path < b.path; });
+  Json manifest;
+  manifest["plan"] = Json::parse(plan);
+  for (const auto& [name, agreement] : checks) {
+    manifest["checks"][name] = {{"worst", agreement.worst}, {"compared", agreement.compared}};
+  }
+  for (const FileRecord& file : files) {
+    manifest["files"][file.path] = {{"bytes", file.bytes}, {"sha256", file.sha256}};
+  }
+  return manifest.dump(1) + "\n";
+}
+
+nlohmann::json plan_in_manifest(const fs::path& manifest) {
+  const nlohmann::json json = nlohmann::json::parse(read_file(manifest), nullptr, false);
+  return json.is_object() && json.contains("plan") ? json.at("plan") : nlohmann::json();
+}
+
+std::vector<std::string> damage(const fs::path& folder) {
+  std::vector<std::string> damaged;
+  try {
+    const Json manifest = Json::parse(read_file(folder / kManifestFile));
+    for (const auto& [path, record] : manifest.at("files").items()) {
+      if (!fs::is_regular_file(folder / path)) {
+        damaged.push_back(path + " is missing");
+      } else if (sha256_of_file(folder / path) != record.at("sha256").get<std::string>()) {
+        damaged.push_back(path + " has other bytes than the manifest says");
+      }
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(
+        fmt::format("{}: {}", (folder / kManifestFile).string(), error.what()));
+  }
+  return damaged;
+}
+
+}  // namespace lcs::sequence

@@ -1,0 +1,28 @@
+/// \file
+/// `manifest.json`: of what a sequence was made, by what, and the SHA-256 of each of its files. It
+/// is the last file that is written.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/sequence/journal.h"
+
+namespace lcs::sequence {
+
+inline constexpr const char* kManifestFile = "manifest.json";
+
+/// \param plan as `Journal` takes it.
+std::string manifest_text(const std::string& plan, const Agreements& checks,
+                          std::vector<FileRecord> files);
+
+/// The plan of a finished sequence; not an object if the file is not a manifest.
+nlohmann::json plan_in_manifest(const std::filesystem::path& manifest);
+
+/// Files that are missing or are not what the manifest says, with what is wrong.
+/// \throws std::runtime_error for a manifest that cannot be read.
+std::vector<std::string> damage(const std::filesystem::path& folder);
+
+}  // namespace lcs::sequence

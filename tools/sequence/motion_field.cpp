@@ -1,0 +1,111 @@
+#include "tools/sequence/motion_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace lcs::sequence {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+// As in sim/truth.cpp: nearer than this share of their depth, points lie in the camera's plane.
+constexpr double kInFront = 1e-6;
+// By how much the depth of a point that is seen may leave what was rendered round it: the depth
+// buffer's own resolution at far distances.
+constexpr float kDepthSlack = 2e-3F;
+
+/// Of one body, from the camera at k to the camera at k+1.
+struct Carrier {
+  sim::Pose T_NC;
+  bool moves = false;
+};
+
+std::vector<Carrier> carriers_of(const sim::FrameTruth& truth) {
+  const sim::Pose T_NW = truth.next.T_WC.inverse();
+  std::vector<Carrier> carriers;
+  for (std::size_t id = 0; id < truth.now.T_WO.size(); ++id) {
+    const bool moves = sim::moved(truth.now.T_WO[id], truth.next.T_WO[id]);
+    const sim::Pose T_NC =
+        moves ? T_NW * (truth.next.T_WO[id] * (truth.now.T_WO[id].inverse() * truth.now.T_WC))
+              : T_NW * truth.now.T_WC;
+    carriers.push_back({T_NC, moves});
+  }
+  return carriers;
+}
+
+/// What was rendered at k+1.
+struct NextView {
+  const cv::Mat1f& depth_m;
+  const cv::Mat1i& object;
+
+  bool holds(double x, double y) const {
+    return x >= 0 && y >= 0 && x <= depth_m.cols - 1 && y <= depth_m.rows - 1;
+  }
+  /// Whether the surface of `id` at depth z is what is seen at a place: one of the four pixels
+  /// round it shows that body, and the depth lies between theirs.
+  bool shows(double x, double y, float z, int id) const {
+    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+    const int x1 = std::min(x0 + 1, depth_m.cols - 1), y1 = std::min(y0 + 1, depth_m.rows - 1);
+    float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
+    bool is_there = false;
+    for (const int row : {y0, y1}) {
+      for (const int column : {x0, x1}) {
+        const float depth = depth_m(row, column);
+        nearest = std::min(nearest, depth);
+        farthest = std::max(farthest, depth);
+        is_there |= object(row, column) == id;
+      }
+    }
+    return is_there && z >= nearest * (1 - kDepthSlack) && z <= farthest * (1 + kDepthSlack);
+  }
+};
+
+}  // namespace
+
+MotionField motion_field(const sim::Pinhole& camera, const sim::FrameTruth& truth,
+                         const cv::Mat1f& next_depth_m, const cv::Mat1i& next_object) {
+  const std::vector<Carrier> carriers = carriers_of(truth);
+  const NextView next{next_depth_m, next_object};
+  const cv::Size size = truth.depth_m.size();
+  MotionField field{cv::Mat2f(size), cv::Mat2f(size), cv::Mat1b(size), cv::Mat1b(size)};
+  const double f = camera.focal_px, cx = camera.centre_px.x(), cy = camera.centre_px.y();
+
+  for (int y = 0; y < size.height; ++y) {
+    const float* depth = truth.depth_m[y];
+    const int* object = truth.object[y];
+    cv::Vec2f* full = field.full_px[y];
+    cv::Vec2f* ego = field.ego_px[y];
+    unsigned char* seen = field.seen[y];
+    unsigned char* ego_seen = field.ego_seen[y];
+    for (int x = 0; x < size.width; ++x) {
+      full[x] = ego[x] = {kNan, kNan};
+      seen[x] = ego_seen[x] = 0;
+      const bool is_sky = std::isinf(depth[x]);
+      if (object[x] < 0 && !is_sky) continue;
+      const Eigen::Vector3d ray((x - cx) / f, (y - cy) / f, 1);
+      // The point over its depth, so that infinity is a number like others.
+      const double w = is_sky ? 0 : 1 / static_cast<double>(depth[x]);
+      const auto move = [&](const sim::Pose& T_NC, cv::Vec2f& motion, unsigned char& is_seen,
+                            bool is_real) {
+        const Eigen::Vector3d p = T_NC.R * ray + w * T_NC.p;
+        if (p.z() < kInFront) return;
+        const double u = f * p.x() / p.z() + cx, v = f * p.y() / p.z() + cy;
+        motion = {static_cast<float>(u - x), static_cast<float>(v - y)};
+        is_seen = next.holds(u, v) &&
+                  (!is_real || next.shows(u, v, static_cast<float>(p.z() / w), object[x]));
+      };
+      const Carrier& carrier = carriers[static_cast<std::size_t>(std::max(object[x], 0))];
+      move(carriers[0].T_NC, ego[x], ego_seen[x], !carrier.moves);
+      if (carrier.moves) {
+        move(carrier.T_NC, full[x], seen[x], true);
+      } else {
+        full[x] = ego[x];
+        seen[x] = ego_seen[x];
+      }
+    }
+  }
+  return field;
+}
+
+}  // namespace lcs::sequence

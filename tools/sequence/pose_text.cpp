@@ -1,0 +1,45 @@
+#include "tools/sequence/pose_text.h"
+
+#include <stdexcept>
+
+namespace lcs::sequence {
+
+Eigen::Quaterniond quaternion_of(const sim::Pose& pose) {
+  Eigen::Quaterniond q(pose.R);
+  q.normalize();
+  if (q.w() < 0) q.coeffs() = -q.coeffs();
+  return q;
+}
+
+std::array<double, 16> matrix_of(const sim::Pose& pose) {
+  std::array<double, 16> matrix{};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      matrix[static_cast<std::size_t>(4 * row + column)] = pose.R(row, column);
+    }
+    matrix[static_cast<std::size_t>(4 * row + 3)] = pose.p[row];
+  }
+  matrix[15] = 1;
+  return matrix;
+}
+
+sim::Pose pose_of(const std::array<double, 16>& matrix) {
+  constexpr double kTolerance = 1e-6;  // matrices of calibrations are printed with 7 digits or more
+  sim::Pose pose;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      pose.R(row, column) = matrix[static_cast<std::size_t>(4 * row + column)];
+    }
+    pose.p[row] = matrix[static_cast<std::size_t>(4 * row + 3)];
+  }
+  const bool is_rotation = (pose.R * pose.R.transpose()).isIdentity(kTolerance) &&
+                           pose.R.determinant() > 0 && pose.p.allFinite();
+  const bool has_last_row =
+      matrix[12] == 0 && matrix[13] == 0 && matrix[14] == 0 && matrix[15] == 1;
+  if (!is_rotation || !has_last_row) {
+    throw std::invalid_argument("is not a rigid transform (a rotation, a translation, 0 0 0 1)");
+  }
+  return pose;
+}
+
+}  // namespace lcs::sequence

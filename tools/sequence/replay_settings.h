@@ -1,0 +1,32 @@
+/// \file
+/// `lcs.json` of a generated sequence: what a replay needs beyond the other files for the very bits
+/// of the run. That is how the detectors were set, and the mounting and the start in the rover's
+/// own frame: the same poses as `sensor.yaml` and the truth have them, but a product of rounded
+/// matrices does not give its factors back.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "scenarios/scenario.h"
+#include "sim/simulation.h"
+
+namespace lcs::sequence {
+
+inline constexpr const char* kSettingsFile = "lcs.json";
+
+struct ReplaySettings {
+  /// Name, seed, rates, noise, odometry, detection and filter of the scenario; the rest is left as
+  /// it is by default.
+  scenario::Scenario scenario;
+  sim::Calibration calibration;
+  std::int64_t start_ns = 0;  ///< time 0 of the run, in the sequence's own time
+};
+
+std::string settings_text(const scenario::Scenario& scenario, const sim::Calibration& calibration);
+
+/// \throws std::runtime_error naming file and key.
+ReplaySettings read_settings(const std::filesystem::path& file);
+
+}  // namespace lcs::sequence

@@ -1,0 +1,211 @@
+#include "tools/sequence/self_check.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "tools/sequence/flow_code.h"
+
+namespace lcs::sequence {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kMostFlowError_px = 0.05;
+constexpr int kFlowStride = 4;
+// Second differences of inverse depth on a flat surface: 0 but for the rounding of the depth buffer
+// (24 bits between 0 and 1 / near) and of a float.
+constexpr double kFlatAbsolute = 6e-6;  // 1/m
+constexpr double kFlatRelative = 2e-5;
+constexpr double kDeviations = 6;
+
+template <class... Arguments>
+[[noreturn]] void disagree(int frame, fmt::format_string<Arguments...> what,
+                           Arguments&&... arguments) {
+  throw TruthError(
+      fmt::format("frame {}: {}; the truth does not agree with itself, which is a fault of this "
+                  "program: please "
+                  "report it with the scenario",
+                  frame, fmt::format(what, std::forward<Arguments>(arguments)...)));
+}
+
+Vector2d decoded(const cv::Vec3w& code) {
+  const double zero = kKittiFlowZero, scale = kKittiFlowScale;
+  return {(code[0] - zero) / scale, (code[1] - zero) / scale};
+}
+
+/// Inverse depth between pixels of a flat surface, on which it is linear.
+std::optional<double> flat_inverse_depth(const sim::FrameTruth& truth, const Vector2d& px) {
+  const int x = static_cast<int>(px.x()), y = static_cast<int>(px.y());
+  if (x < 1 || y < 1 || x + 2 >= truth.depth_m.cols || y + 2 >= truth.depth_m.rows) return {};
+  const auto w = [&](int column, int row) {
+    return 1 / static_cast<double>(truth.depth_m(row, column));
+  };
+  const double centre = w(x, y);
+  const auto is_flat = [&](double a, double b, double c, double d) {
+    return std::abs(a - 2 * b + c) + std::abs(b - 2 * c + d) <
+           kFlatAbsolute + kFlatRelative * centre;
+  };
+  for (int row = y - 1; row <= y + 2; ++row) {
+    for (int column = x - 1; column <= x + 2; ++column) {
+      if (truth.object(row, column) != truth.object(y, x)) return {};
+    }
+    if (!is_flat(w(x - 1, row), w(x, row), w(x + 1, row), w(x + 2, row))) return {};
+  }
+  for (int column = x - 1; column <= x + 2; ++column) {
+    if (!is_flat(w(column, y - 1), w(column, y), w(column, y + 1), w(column, y + 2))) return {};
+  }
+  const double fx = px.x() - x, fy = px.y() - y;
+  return (1 - fy) * ((1 - fx) * centre + fx * w(x + 1, y)) +
+         fy * ((1 - fx) * w(x, y + 1) + fx * w(x + 1, y + 1));
+}
+
+struct State {
+  Eigen::Matrix3d R_WS;
+  Vector3d v_WS_mps;
+};
+
+/// Over one step, with rates that change linearly.
+State integrate(const State& from, const Vector3d& gyro, const Vector3d& accel, double gravity,
+                double dt_s) {
+  const auto turn = [](const Vector3d& angle) {
+    const double norm = angle.norm();
+    return norm > 0 ? Eigen::AngleAxisd(norm, angle / norm).toRotationMatrix()
+                    : Eigen::Matrix3d::Identity().eval();
+  };
+  const Eigen::Matrix3d R_middle = from.R_WS * turn(0.5 * dt_s * gyro);
+  return {from.R_WS * turn(dt_s * gyro),
+          from.v_WS_mps + dt_s * (R_middle * accel - gravity * Vector3d::UnitZ())};
+}
+
+}  // namespace
+
+Agreement check_flow(const sim::Pinhole& camera, const sim::Observation& now,
+                     const sim::Observation& next, const cv::Mat3w& kitti_flow) {
+  const sim::Pose T_CW = now.truth.now.T_WC.inverse();
+  std::vector<sim::Pose> T_CN;  // back, for each body
+  for (std::size_t id = 0; id < now.truth.now.T_WO.size(); ++id) {
+    const sim::Pose back = now.truth.now.T_WO[id] * next.truth.now.T_WO[id].inverse();
+    T_CN.push_back(T_CW * (back * next.truth.now.T_WC));
+  }
+  Agreement agreement;
+  for (int y = 0; y < kitti_flow.rows; y += kFlowStride) {
+    for (int x = 0; x < kitti_flow.cols; x += kFlowStride) {
+      const cv::Vec3w& code = kitti_flow(y, x);
+      if (code[2] == 0) continue;
+      const Vector2d goal = Vector2d(x, y) + decoded(code);
+      const int object = now.truth.object(y, x);
+      const auto there = cv::Point(static_cast<int>(goal.x()), static_cast<int>(goal.y()));
+      if (object < 0 || next.truth.object(there) != object) continue;
+      const std::optional<double> inverse_depth = flat_inverse_depth(next.truth, goal);
+      if (!inverse_depth) continue;
+      const Vector3d p_N = camera.back_project(goal, 1 / *inverse_depth);
+      const Vector3d p_C = T_CN[static_cast<std::size_t>(object)] * p_N;
+      const double distance = (camera.project(p_C) - Vector2d(x, y)).norm();
+      agreement.add(distance);
+      if (!(distance < kMostFlowError_px)) {
+        disagree(now.index,
+                 "the flow at ({}, {}) leads to ({:.2f}, {:.2f}), and depth and poses from there "
+                 "lead back to a place {:.3f} px away",
+                 x, y, goal.x(), goal.y(), distance);
+      }
+    }
+  }
+  return agreement;
+}
+
+void check_masks(int frame, const cv::Mat1b& mask, std::span<const sim::ObjectTruth> objects,
+                 int count) {
+  cv::Mat1i ids(mask.size(), 0);
+  std::transform(mask.begin(), mask.end(), ids.begin(),
+                 [&](unsigned char id) { return id <= count ? id : 0; });
+  std::vector<sim::ObjectTruth> in_mask = sim::modal_boxes(ids, count);
+  for (const sim::ObjectTruth& object : objects) {
+    sim::ObjectTruth& seen = in_mask.at(static_cast<std::size_t>(object.object - 1));
+    const bool agree = seen.left == object.left && seen.top == object.top &&
+                       seen.right == object.right && seen.bottom == object.bottom &&
+                       seen.visible_px == object.visible_px;
+    if (!agree) {
+      disagree(frame,
+               "the box of object {} is [{}, {}) x [{}, {}), that of its mask [{}, {}) x [{}, {})",
+               object.object, object.left, object.right, object.top, object.bottom, seen.left,
+               seen.right, seen.top, seen.bottom);
+    }
+    seen.visible_px = 0;  // accounted for
+  }
+  for (const sim::ObjectTruth& object : in_mask) {
+    if (object.visible_px > 0) {
+      disagree(frame, "object {} has {} pixels in the mask and no box", object.object,
+               object.visible_px);
+    }
+  }
+}
+
+Agreement check_imu(const scenario::Imu& imu, double gravity_mps2, const sim::Observation& frame) {
+  Agreement agreement;
+  const std::vector<sim::ImuTruth>& truth = frame.imu_truth;
+  // A gap leaves fewer readings than there are states.
+  if (truth.size() < 2 || frame.imu.size() != truth.size()) return agreement;
+
+  State state{truth.front().T_WS.R, truth.front().v_WS_mps};
+  double gyro_changes = 0, accel_changes = 0;
+  const double period_s = 1 / imu.rate_hz;
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    const auto gyro = [&](std::size_t k) -> Vector3d {
+      return frame.imu[k].gyro_radps - truth[k].gyro_bias_radps;
+    };
+    const auto accel = [&](std::size_t k) -> Vector3d {
+      return frame.imu[k].accel_mps2 - truth[k].accel_bias_mps2;
+    };
+    gyro_changes += (gyro(i) - gyro(i - 1)).norm();
+    accel_changes += (accel(i) - accel(i - 1)).norm();
+    state = integrate(state, 0.5 * (gyro(i - 1) + gyro(i)), 0.5 * (accel(i - 1) + accel(i)),
+                      gravity_mps2, static_cast<double>(truth[i].t_ns - truth[i - 1].t_ns) * 1e-9);
+  }
+  const double span_s = static_cast<double>(truth.back().t_ns - truth.front().t_ns) * 1e-9;
+  // What rounding leaves of a still, noiseless IMU.
+  constexpr double kRounding = 1e-9;
+  const double most_rad = kRounding +
+                          kDeviations * imu.noise.gyroscope_noise_density * std::sqrt(span_s) +
+                          0.5 * period_s * gyro_changes;
+  const double most_mps = kRounding +
+                          kDeviations * imu.noise.accelerometer_noise_density * std::sqrt(span_s) +
+                          0.5 * period_s * accel_changes + gravity_mps2 * span_s * most_rad;
+  const double turned_rad =
+      Eigen::AngleAxisd(Eigen::Matrix3d(truth.back().T_WS.R.transpose() * state.R_WS)).angle();
+  const double off_mps = (state.v_WS_mps - truth.back().v_WS_mps).norm();
+  agreement.add(turned_rad / most_rad);
+  agreement.add(off_mps / most_mps);
+  if (!(turned_rad <= most_rad && off_mps <= most_mps)) {
+    disagree(
+        frame.index,
+        "the IMU's readings lead {:.2e} rad and {:.2e} m/s away from the poses, where noise and "
+        "rate allow for {:.2e} rad and {:.2e} m/s",
+        turned_rad, off_mps, most_rad, most_mps);
+  }
+  return agreement;
+}
+
+void check_times(const scenario::Scenario& scenario, const sim::Observation& frame) {
+  const auto time_of = [](double k, double rate_hz) { return std::llround(k * 1e9 / rate_hz); };
+  const double rate = scenario.camera.rate_hz;
+  if (frame.t_ns != time_of(frame.index, rate)) {
+    disagree(frame.index, "its time is {} ns, which is not on the grid of {} Hz", frame.t_ns, rate);
+  }
+  std::int64_t after = frame.index == 0 ? -1 : time_of(frame.index - 1, rate);
+  for (const sim::ImuTruth& state : frame.imu_truth) {
+    const auto k = std::round(static_cast<double>(state.t_ns) * 1e-9 * scenario.imu.rate_hz);
+    if (state.t_ns <= after || state.t_ns > frame.t_ns ||
+        state.t_ns != time_of(k, scenario.imu.rate_hz)) {
+      disagree(frame.index, "a reading of the IMU at {} ns is out of step", state.t_ns);
+    }
+    after = state.t_ns;
+  }
+}
+
+}  // namespace lcs::sequence
