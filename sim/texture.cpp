@@ -154,16 +154,122 @@ void paint_bricks(Brush& b) {
   }
 }
 
-/// A painting: dark land under a dark sky, and two large light shapes before them.
+/// A painting in a light mount: dark land under a dark sky, two houses with a roof, a door and
+/// windows, a tree, a sun.
 void paint_picture(Brush& b) {
-  const double horizon = b.between(0.5, 0.65);
-  b.fill(b.grey(70, 85, 12));
-  b.rectangle(0, horizon, 1, 1, b.grey(80, 95, 15));
-  const double house = b.between(0.1, 0.25);
-  b.rectangle(house, b.between(0.25, 0.4), house + b.between(0.25, 0.35), b.between(0.75, 0.85),
-              b.grey(170, 205, 18));
-  b.polygon(b.between(0.65, 0.75), b.between(0.5, 0.6), b.between(0.16, 0.22), 3,
-            b.grey(150, 190, 20));
+  constexpr double kMount = 0.09;
+  b.fill(b.grey(205, 225, 6));
+  const double horizon = b.between(0.5, 0.6);
+  b.rectangle(kMount, kMount, 1 - kMount, 1 - kMount, b.grey(70, 85, 12));
+  b.rectangle(kMount, horizon, 1 - kMount, 1 - kMount, b.grey(95, 110, 15));
+  const double sun = b.between(0.05, 0.07);
+  const double sun_x = b.between(0.4, 0.6);
+  b.rectangle(sun_x - sun, 0.18 - sun, sun_x + sun, 0.18 + sun, b.grey(200, 225, 18));
+  const double foot = b.between(0.8, 0.84);
+  for (const double left : {b.between(0.16, 0.2), b.between(0.56, 0.6)}) {
+    const double width = b.between(0.24, 0.28);
+    const double eaves = b.between(0.4, 0.5);
+    b.polygon(left + width / 2, eaves, 0.62 * width, 4, b.grey(140, 165, 18));
+    b.rectangle(left, eaves, left + width, foot, b.grey(175, 205, 12));
+    const double pane = 0.25 * width;
+    const Colour dark = b.grey(25, 55, 12);
+    b.rectangle(left + 0.15 * width, eaves + 0.06, left + 0.15 * width + pane, eaves + 0.15, dark);
+    b.rectangle(left + 0.6 * width, eaves + 0.06, left + 0.6 * width + pane, eaves + 0.15, dark);
+    b.rectangle(left + 0.36 * width, foot - 0.13, left + 0.64 * width, foot, dark);
+  }
+}
+
+/// Corrugated board: printed marks towards its corners, tape over its middle, a label with lines.
+void paint_carton(Brush& b) {
+  b.fill(b.grey(165, 185, 5));
+  const Colour print = b.grey(45, 75, 8);
+  for (const double x : {0.05, 0.83}) {
+    for (const double y : {0.05, 0.83}) {
+      const double w = b.between(0.08, 0.12);
+      const double h = b.between(0.08, 0.12);
+      b.rectangle(x, y, x + w, y + h, print);
+    }
+  }
+  const Colour tape = b.grey(105, 125, 6);
+  b.rectangle(0.44, 0, 0.56, b.between(0.2, 0.26), tape);
+  b.rectangle(0.44, b.between(0.76, 0.82), 0.56, 1, tape);
+  const double left = b.between(0.12, 0.22);
+  const double right = left + b.between(0.34, 0.4);
+  const double top = b.between(0.34, 0.42);
+  const double bottom = top + b.between(0.28, 0.32);
+  b.rectangle(left, top, right, bottom, b.grey(225, 240, 4));
+  b.rectangle(left + 0.05, top + 0.05, right - 0.05, top + 0.11, print);
+  b.rectangle(left + 0.05, bottom - 0.11, left + 0.18, bottom - 0.04, print);
+  const double sign = b.between(0.07, 0.09);
+  b.polygon(b.between(0.72, 0.8), b.between(0.45, 0.55), sign, 3, print);
+}
+
+/// Boards of different shades in a frame of darker ones, each with its nails.
+void paint_crate(Brush& b) {
+  constexpr int kBoards = 4;
+  constexpr double kFrame = 0.11;
+  constexpr double kGap = 0.025;
+  const Colour gap = b.grey(25, 45, 6);
+  const Colour nail = b.grey(30, 50, 6);
+  b.fill(gap);
+  for (int board = 0; board < kBoards; ++board) {
+    const double height = (1 - 2 * kFrame) / kBoards;
+    const double top = kFrame + board * height;
+    b.rectangle(kFrame, top + kGap, 1 - kFrame, top + height - kGap, b.grey(125, 195, 8));
+  }
+  const Colour frame = b.grey(150, 170, 8);
+  for (const double x : {0.0, 1 - kFrame}) b.rectangle(x, 0, x + kFrame, 1, frame);
+  for (const double y : {0.0, 1 - kFrame}) b.rectangle(kFrame, y, 1 - kFrame, y + kFrame, frame);
+  for (const double x : {0.03, 0.92}) {
+    for (const double y : {0.04, 0.9}) b.rectangle(x, y, x + 0.05, y + 0.06, nail);
+  }
+}
+
+/// Drawers, each with a handle and a label, over a dark foot.
+void paint_cabinet(Brush& b) {
+  constexpr int kDrawers = 4;
+  constexpr double kSide = 0.05;
+  constexpr double kFoot = 0.06;
+  b.fill(b.grey(70, 90, 5));
+  b.rectangle(0, 1 - kFoot, 1, 1, b.grey(25, 35, 3));
+  for (int drawer = 0; drawer < kDrawers; ++drawer) {
+    const double height = (1 - kFoot) / kDrawers;
+    const double top = drawer * height + 0.02;
+    const double bottom = (drawer + 1) * height - 0.02;
+    b.rectangle(kSide, top, 1 - kSide, bottom, b.grey(150, 185, 6));
+    const double handle = b.between(0.55, 0.62);
+    b.rectangle(handle, top + 0.06, handle + b.between(0.18, 0.24), top + 0.1, b.grey(30, 50, 4));
+    const double label = b.between(0.14, 0.2);
+    b.rectangle(label, top + 0.05, label + 0.2, top + 0.14, b.grey(225, 240, 3));
+  }
+}
+
+/// A block of stone: a sunken field with a plate, mouldings above and below.
+void paint_plinth(Brush& b) {
+  b.fill(b.grey(150, 170, 4));
+  b.rectangle(0.1, 0.14, 0.9, 0.86, b.grey(95, 110, 4));
+  const double top = b.between(0.26, 0.34);
+  b.rectangle(0.24, top, 0.76, top + b.between(0.2, 0.26), b.grey(200, 220, 8));
+  b.rectangle(0.34, top + 0.07, 0.66, top + 0.12, b.grey(40, 60, 4));
+  for (const double x : {0.18, 0.42, 0.66}) {
+    b.rectangle(x, 0.68, x + 0.14, 0.78, b.grey(45, 70, 5));
+  }
+}
+
+/// Carved and inlaid stone: rows of dark lozenges and triangles on a light ground, a band below.
+void paint_ornament(Brush& b) {
+  constexpr int kRows = 3;
+  constexpr int kAcross = 2;
+  b.fill(b.grey(180, 200, 5));
+  b.rectangle(0, 0.93, 1, 1, b.grey(80, 100, 6));
+  for (int row = 0; row < kRows; ++row) {
+    const Colour inlay = b.grey(75, 110, 10);
+    for (int i = 0; i < kAcross; ++i) {
+      const double x = (i + 0.5) / kAcross + b.between(-0.05, 0.05);
+      const double y = 0.9 * (row + 0.5) / kRows + b.between(-0.03, 0.03);
+      b.polygon(x, y, b.between(0.1, 0.14), row % 2 ? 4 : 3, inlay);
+    }
+  }
 }
 
 /// Band-limited noise of low contrast: ground that is not flat grey and has no corners to speak of.
@@ -199,15 +305,20 @@ struct Style {
   std::string_view name;
   void (*paint)(Brush&);
 };
-constexpr std::array<Style, 9> kStyles = {{{"bricks", paint_bricks},
-                                           {"fewrects", paint_fewrects},
-                                           {"ground", paint_ground},
-                                           {"metal", paint_metal},
-                                           {"panel", paint_panel},
-                                           {"picture", paint_picture},
-                                           {"polygons", paint_polygons},
-                                           {"rects", paint_rects},
-                                           {"windows", paint_windows}}};
+constexpr std::array<Style, 14> kStyles = {{{"bricks", paint_bricks},
+                                            {"cabinet", paint_cabinet},
+                                            {"carton", paint_carton},
+                                            {"crate", paint_crate},
+                                            {"fewrects", paint_fewrects},
+                                            {"ground", paint_ground},
+                                            {"metal", paint_metal},
+                                            {"ornament", paint_ornament},
+                                            {"panel", paint_panel},
+                                            {"picture", paint_picture},
+                                            {"plinth", paint_plinth},
+                                            {"polygons", paint_polygons},
+                                            {"rects", paint_rects},
+                                            {"windows", paint_windows}}};
 
 /// A face of a cube texture as GL stores it, from the picture that shall be seen upright from
 /// outside with z up. GL's convention has y up, hence the turns; top and bottom have no upright.
