@@ -1,15 +1,20 @@
 // `lcs generate` from its command line to its files, read back by OpenCV and by hand.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 #include <set>
+#include <sstream>
+#include <thread>
 
 #include "scenarios/load.h"
 #include "sim/simulation.h"
@@ -254,6 +259,96 @@ TEST_F(Generated, LandmarksAreTheCornersAndTheTruthOfARun) {
   EXPECT_TRUE(labels.contains("rebel") && labels.contains("fixed"));
 }
 
+TEST_F(Generated, TrajectoriesAreInTheirOwnFormatsToTheLastBit) {
+  std::ifstream file(folder() / "tum/camera.txt");
+  for (const sim::Observation& frame : frames_) {
+    std::string line;
+    ASSERT_TRUE(std::getline(file, line));
+    EXPECT_EQ(std::count(line.begin(), line.end(), ' '), 7) << "single spaces, none at the end";
+    const sim::Pose& T_WC = frame.truth.now.T_WC;
+    EXPECT_TRUE(line.starts_with(
+        fmt::format("1000000000.{:09} {} {} {} ", frame.t_ns, T_WC.p.x(), T_WC.p.y(), T_WC.p.z())))
+        << line;
+    double t = 0;
+    Eigen::Vector3d p;
+    Eigen::Quaterniond q;
+    std::istringstream(line) >> t >> p.x() >> p.y() >> p.z() >> q.x() >> q.y() >> q.z() >> q.w();
+    EXPECT_TRUE(q.toRotationMatrix().isApprox(T_WC.R, 1e-12)) << "x y z w";
+  }
+  EXPECT_EQ(rows_of(folder() / "mav0/cam0/pose.csv").size(), frames_.size());
+}
+
+TEST_F(Generated, BoxesOfMotChallengeAreThoseOfTheTruthCountedFromOne) {
+  const auto rows = rows_of(folder() / "mot/crossing/gt/gt.txt");
+  std::size_t row = 0;
+  std::set<std::string> moving;
+  for (const sim::Observation& frame : frames_) {
+    for (const sim::ObjectTruth& object : frame.objects) {
+      ASSERT_LT(row, rows.size());
+      const auto& fields = rows[row++];
+      ASSERT_EQ(fields.size(), 9u);
+      const std::vector<std::string> expected{std::to_string(frame.index + 1),
+                                              std::to_string(object.object),
+                                              std::to_string(object.left + 1),
+                                              std::to_string(object.top + 1),
+                                              std::to_string(object.right - object.left),
+                                              std::to_string(object.bottom - object.top),
+                                              object.moving ? "1" : "0"};
+      EXPECT_EQ(std::vector(fields.begin(), fields.begin() + 7), expected);
+      if (object.moving) moving.insert(fields[7]);
+      EXPECT_EQ(bench::number_in<double>(fields[8]), object.visible_fraction);
+    }
+  }
+  EXPECT_EQ(row, rows.size());
+  EXPECT_EQ(moving, (std::set<std::string>{"1", "8"})) << "a pedestrian and a box";
+  const std::string info = read_file(folder() / "mot/crossing/seqinfo.ini");
+  EXPECT_NE(info.find("seqLength=4\n"), std::string::npos) << info;
+  EXPECT_EQ(read_file(folder() / "mot/crossing/img1/000001.png"),
+            read_file(folder() / picture_path(0)));
+}
+
+TEST_F(Generated, MasksOfCocoAndDavisAreTheObjectsPixelByPixel) {
+  const auto coco = nlohmann::json::parse(read_file(folder() / "coco/annotations.json"));
+  ASSERT_EQ(coco.at("images").size(), frames_.size());
+  std::set<int> ids;
+  std::size_t annotation = 0;
+  for (std::size_t k = 0; k < frames_.size(); ++k) {
+    EXPECT_TRUE(fs::exists(folder() / coco["images"][k]["file_name"].get<std::string>()));
+    const cv::Mat1i& object = frames_[k].truth.object;
+    const fs::path davis =
+        folder() / "davis/Annotations/480p/crossing" / fmt::format("{:05}.png", k);
+    const cv::Mat3b colours = cv::imread(davis.string(), cv::IMREAD_COLOR);
+    ASSERT_EQ(colours.size(), object.size());
+    for (const sim::ObjectTruth& truth : frames_[k].objects) {
+      const auto& a = coco["annotations"][annotation++];
+      EXPECT_TRUE(ids.insert(a["id"].get<int>()).second && a["id"] >= 1);
+      EXPECT_EQ(a["image_id"], coco["images"][k]["id"]);
+      EXPECT_EQ(a["bbox"], (std::vector{truth.left, truth.top, truth.right - truth.left,
+                                        truth.bottom - truth.top}));
+      EXPECT_EQ(a["area"], truth.visible_px);
+      // Runs down the columns, of what is not the object and what is.
+      int place = 0, wrong = 0;
+      bool is_object = false;
+      for (const int length : a["segmentation"]["counts"].get<std::vector<int>>()) {
+        for (const int end = place + length; place < end; ++place) {
+          const bool is_there = object(place % object.rows, place / object.rows) == truth.object;
+          wrong += is_there != is_object;
+        }
+        is_object = !is_object;
+      }
+      EXPECT_EQ(place, static_cast<int>(object.total()));
+      EXPECT_EQ(wrong, 0);
+      // One colour an object in DAVIS's palette: the same everywhere on it.
+      cv::Mat1b is_truth;
+      cv::compare(object, truth.object, is_truth, cv::CMP_EQ);
+      cv::Scalar mean, deviation;
+      cv::meanStdDev(colours, mean, deviation, is_truth);
+      EXPECT_LT(cv::norm(deviation), 1e-3) << "but for rounding; one other pixel makes it 0.1";
+    }
+  }
+  EXPECT_EQ(annotation, coco.at("annotations").size());
+}
+
 TEST_F(Generated, TheReadmeNamesEveryObjectAndEveryFile) {
   const std::string readme = read_file(folder() / "README.md");
   for (const char* word :
@@ -329,10 +424,84 @@ TEST_F(Generate, DamageToAFinishedSequenceIsFound) {
   EXPECT_NE(result.err.find("000001.png has other bytes"), std::string::npos) << result.err;
 }
 
+// ---- Stopping, going on, parts
+
+/// The same sequence, made in one go.
+class GenerateInParts : public Generate {
+ protected:
+  std::map<std::string, std::string> in_one_go() {
+    EXPECT_EQ(generate({"--out", home_.path() / "whole", "--quiet"}).exit_code, 0);
+    return bytes_in(home_.path() / "whole");
+  }
+};
+
+TEST_F(GenerateInParts, AKilledRunGoesOnToTheSameBytes) {
+  const auto whole = in_one_go();
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    bench::Command command(arguments({"--out", folder(), "--quiet"}), {.folder = home_.path()});
+    const auto first_record = folder() / ".generate" / "frame-000000.json";
+    while (!fs::exists(first_record) && command.is_running()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    command.send(signal);
+    const CommandResult stopped = command.wait();
+    ASSERT_NE(stopped.exit_code, 0) << "it was done before it could be stopped";
+    EXPECT_FALSE(fs::exists(folder() / kManifestFile));
+    if (signal == SIGTERM) {
+      EXPECT_EQ(stopped.exit_code, 130);
+      EXPECT_NE(stopped.err.find("goes on from there"), std::string::npos) << stopped.err;
+    }
+    // What a stroke of bad luck may leave: a file that is not finished, and one that is too short.
+    write_file(folder() / "depth/000001.png.4711.partial", "half");
+    write_file(folder() / "depth/000000.png", "short");
+    const CommandResult result = generate({"--out", folder(), "--quiet"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(bytes_in(folder()) == whole);
+    fs::remove_all(folder());
+  }
+}
+
+TEST_F(GenerateInParts, PartsByOtherProcessesInAnyOrderAreTheSameBytes) {
+  const auto whole = in_one_go();
+  for (const char* part : {"3/3", "1/3", "2/3"}) {
+    const CommandResult result = generate({"--out", folder(), "--shard", part});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_FALSE(fs::exists(folder() / kManifestFile));
+  }
+  ASSERT_EQ(generate({"--out", folder(), "--quiet"}).exit_code, 0);
+  EXPECT_TRUE(bytes_in(folder()) == whole);
+  ASSERT_EQ(generate({"--out", home_.path() / "jobs", "--jobs", "2", "--quiet"}).exit_code, 0);
+  EXPECT_TRUE(bytes_in(home_.path() / "jobs") == whole);
+}
+
+TEST_F(GenerateInParts, ShardsOfASuiteAreTheSuiteAndOneBrokenScenarioDoesNotStopTheOthers) {
+  write_file(home_.path() / "scenarios/broken.yaml", "frames: many\n");
+  for (const char* name : {"a", "b", "c"}) {
+    fs::copy_file(kCrossing, home_.path() / "scenarios" / fmt::format("{}.yaml", name));
+  }
+  const auto suite = [&](const std::string& out, std::vector<std::string> more) {
+    std::vector<std::string> all{"generate", "--suite", home_.path() / "scenarios",
+                                 "--frames", "2",       "--formats",
+                                 "depth",    "--out",   home_.path() / out};
+    all.insert(all.end(), more.begin(), more.end());
+    return run_lcs(all, {.folder = home_.path()});
+  };
+  const CommandResult all = suite("all", {"--jobs", "2"});
+  EXPECT_EQ(all.exit_code, 2);
+  EXPECT_NE(all.err.find("broken.yaml:1"), std::string::npos) << all.err;
+  for (const char* part : {"1/2", "2/2"}) suite("parts", {"--shard", part});
+  const auto whole = bytes_in(home_.path() / "all");
+  EXPECT_TRUE(whole.contains("a-seed1/manifest.json") && whole.contains("c-seed1/manifest.json"));
+  EXPECT_TRUE(bytes_in(home_.path() / "parts") == whole);
+}
+
 TEST_F(Generate, MistakesAreToldInOneLineBeforeAnythingIsWritten) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{"--formats", "rosbag"}, "'rosbag'; there are euroc"},
       {{"--frames", "0"}, "--frames"},
+      {{"--shard", "3/2"}, "--shard"},
+      {{"--shard", "half"}, "--shard"},
+      {{"--shard", "1/2", "--jobs", "2"}, "--jobs"},
       {{"--set", "ego.sped=1 m/s"}, "speed"},
   };
   for (const auto& [more, expected] : cases) {

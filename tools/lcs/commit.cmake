@@ -1,4 +1,5 @@
 # Writes HEADER with the commit that SOURCE is at, if that is not what it says already.
+cmake_policy(VERSION 3.25)
 set(commit unknown)
 find_program(git git)
 if(git)

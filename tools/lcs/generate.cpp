@@ -1,17 +1,22 @@
 #include "tools/lcs/generate.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <stdexcept>
 
 #include "scenarios/load.h"
+#include "tools/bench/csv.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/progress.h"
 #include "tools/lcs/version.h"
 #include "tools/sequence/generator.h"
 #include "tools/sequence/manifest.h"
 #include "tools/sequence/writer.h"
+#include "tools/suite/child_process.h"
 
 namespace lcs::tools {
 namespace {
@@ -20,11 +25,16 @@ constexpr const char* kHelp = R"(Examples:
   lcs generate scenarios/crossing.yaml --out data/crossing
   lcs generate scenarios/crossing.yaml --formats euroc,flow --frames 20 --seed 7 --out data/seed7
   lcs replay data/crossing                       the filter on it: the verdicts of lcs run
+  lcs generate --suite --jobs 2 --out data       every short scenario: data/NAME-seedN
+  lcs generate --suite --shard 3/16 --out data   the third of 16 parts, as a batch system has it
+  parallel lcs generate --suite --out data --shard {}/4 ::: 1 2 3 4
 
 Each frame is checked before it is written: flow against depth and poses, boxes against masks, IMU
 against poses, times. The folder's README.md says every unit, frame and axis; manifest.json has the
 hash of every file. A run that was stopped goes on where it was when it is given again, and
 the bytes are those of a run that never stopped. A folder that holds anything else is refused.
+With --shard i/n and one scenario only the i-th part of the frames is made; when all parts are there, the
+command without it puts the sequence together.
 
 Exit codes:
   0  fine
@@ -34,6 +44,9 @@ Exit codes:
 
 namespace fs = std::filesystem;
 
+constexpr int kMostJobs = 1024, kMostSeeds = 1000;
+constexpr int kMostFrames = 100'000'000;
+
 fs::path target_of(const GenerateOptions& options, const scenario::Scenario& scenario) {
   if (!options.out.empty()) return options.out;
   return fs::path("data") / scenario.name;
@@ -41,7 +54,7 @@ fs::path target_of(const GenerateOptions& options, const scenario::Scenario& sce
 
 scenario::Scenario load(const GenerateOptions& options) {
   scenario::Scenario scenario =
-      scenario::load(options.scenario, {.sets = options.sets, .seed = options.seed});
+      scenario::load(options.paths.front(), {.sets = options.sets, .seed = options.seed});
   if (options.frames > 0) scenario.frames = std::min(scenario.frames, options.frames);
   return scenario;
 }
@@ -69,15 +82,46 @@ ExitCode check_complete(const fs::path& folder, bool quiet) {
   return kFine;
 }
 
+/// Parts of one sequence by processes of their own. What one of them could not do is left for
+/// later.
+void share_frames(const GenerateOptions& options, const sequence::Journal& journal,
+                  const std::function<void(int)>& show) {
+  std::vector<std::vector<std::string>> commands;
+  for (int i = 1; i <= options.jobs; ++i) {
+    commands.push_back(sequence_command(options, options.paths.front(), journal.folder().string()));
+    commands.back().insert(commands.back().end(),
+                           {"--shard", fmt::format("{}/{}", i, options.jobs)});
+  }
+  int shown = 0;
+  suite::run_all(
+      commands, static_cast<std::size_t>(options.jobs),
+      [](std::size_t, const suite::Exit& exit) {
+        if (exit.code != kFine || exit.signal != 0) {
+          throw std::runtime_error(suite::complaint_of(exit));
+        }
+      },
+      [&](const std::vector<std::size_t>&) {
+        const int recorded = journal.recorded();
+        while (shown < recorded) show(++shown);
+        show(shown);
+      });
+}
+
 }  // namespace
 
 CLI::App& add_generate_command(CLI::App& app, GenerateOptions& options) {
   CLI::App& command = *app.add_subcommand(
       "generate", "Simulate a scenario and write it as a sequence that other tools read");
-  command.add_option("SCENARIO", options.scenario, "The scenario, a YAML file")
-      ->required()
+  command
+      .add_option("SCENARIO", options.paths,
+                  "The scenario, a YAML file; with --suite files and folders, or the project's own")
       ->type_name("");
-  command.add_option("--out", options.out, "Folder of the sequence; data/<scenario> if not given")
+  command.add_flag("--suite", options.suite, "A sequence for each of many scenarios");
+  command
+      .add_option(
+          "--out", options.out,
+          "Folder of the sequence, data/<scenario> if not given; with --suite the folder of all, "
+          "data if not given")
       ->type_name("DIR");
   std::string about = "Formats, with commas between them; all if not given:";
   for (const sequence::Format& format : sequence::formats()) {
@@ -86,40 +130,107 @@ CLI::App& add_generate_command(CLI::App& app, GenerateOptions& options) {
   command.add_option("--formats", options.formats, about)->type_name("LIST")->delimiter(',');
   command.add_option("--frames", options.frames, "Only the first N frames")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, kMostFrames));
   command.add_option("--seed", options.seed, "Seed, instead of the scenario's")->type_name("N");
   command
       .add_option("--set", options.sets,
                   "Set a value of the scenario, as \"ego.speed=0.7 m/s\"; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  command
+      .add_option("--jobs", options.jobs,
+                  "Processes at a time; they share the frames of one scenario, or the sequences")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMostJobs));
+  command.add_option("--shard", options.shard, "Only the i-th part of n, as 3/16")
+      ->type_name("I/N");
+  command.add_option("--group", options.group, "With --suite: only scenarios of this group")
+      ->type_name("NAME");
+  command
+      .add_option("--filter", options.filter,
+                  "With --suite: only scenarios with this regular expression in their name")
+      ->type_name("REGEX");
+  command
+      .add_option("--seeds", options.seeds,
+                  "With --suite: sequences of each scenario; 1 if not given")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMostSeeds));
   command.add_flag("--quiet", options.quiet, "Print nothing but what went wrong");
   command.footer(kHelp);
   return command;
 }
 
+std::pair<int, int> shard_of(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  const std::string_view all = text;
+  const auto i = bench::number_in<int>(all.substr(0, slash));
+  const auto n = bench::number_in<int>(slash == text.npos ? "" : all.substr(slash + 1));
+  if (!i || !n || *i < 1 || *i > *n) {
+    throw std::invalid_argument(
+        fmt::format("--shard is '{}'; it takes a part of all, from 1/N to N/N, as 3/16", text));
+  }
+  return {*i, *n};
+}
+
+std::vector<std::string> sequence_command(const GenerateOptions& options,
+                                          const std::string& scenario, const std::string& out) {
+  std::vector<std::string> command{"generate", scenario, "--out", out, "--quiet"};
+  const auto add = [&](const char* name, const std::string& value) {
+    command.insert(command.end(), {name, value});
+  };
+  if (!options.formats.empty())
+    add("--formats", fmt::format("{}", fmt::join(options.formats, ",")));
+  if (options.frames > 0) add("--frames", std::to_string(options.frames));
+  if (options.seed) add("--seed", std::to_string(*options.seed));
+  for (const std::string& set : options.sets) add("--set", set);
+  return command;
+}
+
 ExitCode generate(const GenerateOptions& options) {
+  if (options.suite) return generate_suite(options);
+  if (options.paths.size() != 1) {
+    throw std::invalid_argument("give one scenario, or --suite; see lcs generate --help");
+  }
+  if (options.jobs > 1 && !options.shard.empty()) {
+    throw std::invalid_argument(
+        "--jobs shares the frames of a scenario, and so does --shard; give one of them");
+  }
   const InterruptGuard interrupt;
   const scenario::Scenario scenario = load(options);
   const sequence::GenerateOptions what{formats_of(options), options.sets, program_text()};
+  const bool is_part = !options.shard.empty();
+  const auto [part, parts] = is_part ? shard_of(options.shard) : std::pair(1, 1);
+  const sequence::FrameRange range = sequence::part_of(scenario.frames, part, parts);
   const std::string plan = sequence::plan_of(scenario, what);
   sequence::Journal journal(target_of(options, scenario), plan);
   if (journal.is_complete()) return check_complete(journal.folder(), options.quiet);
 
+  const int frames = range.last - range.first;
   int whole = 0;
   try {
-    Progress progress(scenario.name, scenario.frames, options.quiet);
-    sequence::generate_frames(scenario, what, journal, {0, scenario.frames}, [&](int done) {
+    Progress progress(scenario.name, std::max(frames, 1), options.quiet);
+    const auto show = [&](int done) {
       whole = done;
       if (done > 0) progress.show(done);
       interrupt.check();
-    });
+    };
+    if (options.jobs > 1) share_frames(options, journal, show);
+    sequence::generate_frames(scenario, what, journal, range, show);
   } catch (const Interrupted&) {
     fmt::print(stderr,
                "lcs: interrupted; {} of {} frames are whole, and the same command goes on from "
                "there\n",
-               whole, scenario.frames);
+               whole, frames);
     return kInterrupted;
+  }
+  if (is_part) {
+    if (!options.quiet) {
+      fmt::print(
+          "{}: frames {} to {} are whole; when all parts are, the same command without "
+          "--shard puts the sequence together\n",
+          scenario.name, range.first, range.last - 1);
+    }
+    return kFine;
   }
   const std::vector<std::string> notes = sequence::finish_sequence(scenario, what, plan, journal);
   if (!options.quiet) {

@@ -27,6 +27,8 @@ constexpr const char* kHelp =
   lcs replay data/crossing                        a sequence of lcs generate: the verdicts of lcs run
   lcs replay MH_01_easy                           EuRoC: motion by its IMU, from the start of its truth
   lcs replay MH_01_easy --ego-motion truth        likewise, motion by its truth
+  lcs replay 2011_09_26_drive_0005_sync           KITTI raw: motion by its navigation unit
+  lcs replay 2014-05-19-13-20-57 --focal 983      RobotCar: likewise, raw pictures in colour
   lcs replay pictures --fps 1 --speed 0.03 --focal 600       pictures of a robot that drives ahead
   lcs replay pictures --fps 10 --imu imu.csv --focal 600     likewise, with an IMU (columns as EuRoC's)
 

@@ -19,6 +19,32 @@ EuRoC ASL (`--formats euroc`); the body is the IMU:
 * `mav0/cam0/pose.csv`: exact pose of the camera in W at each frame, as a 3x4 matrix row by row.
 * `mav0/odometry0/`: where the rover has it, velocity of B in B, by its wheels.
 )";
+constexpr std::string_view kTum = R"(
+TUM (`--formats tum`), a pose a line, `t_s x y z qx qy qz qw`, exact:
+
+* `tum/camera.txt`: of C in W at each frame; `tum/imu.txt`: of S in W at each reading of the IMU.
+)";
+constexpr std::string_view kMot = R"(
+MOTChallenge (`--formats mot`); frames, ids and pixels count from 1:
+
+* `mot/<name>/gt/gt.txt`: `frame,id,left,top,width,height,conf,class,visibility`: the box of what is seen of
+  each object. `conf` is 0 (to be ignored) for objects that stand still all the time; `class` is 1 for pedestrians, 3 for cars, 8
+  (distractor) for everything else; `visibility` is the share of the full silhouette that is seen, parts
+  outside of the picture included in the full one.
+* `mot/<name>/seqinfo.ini`, `mot/<name>/img1/`: the pictures of `mav0/cam0/data` under other names.
+)";
+constexpr std::string_view kCoco = R"(
+COCO (`--formats coco`); ids count from 1, pixels from 0:
+
+* `coco/annotations.json`: `bbox` [x, y, width, height] and mask (runs, not compressed) of what is seen of
+  each object; `file_name` is relative to this folder; `track_id` is the object's id, `category_id` its kind.
+)";
+constexpr std::string_view kDavis = R"(
+DAVIS (`--formats davis`):
+
+* `davis/Annotations/480p/<name>/<k>.png`: indexed PNG: 0 background (the sky included), 1 to n objects,
+  254 the rover itself (void).
+)";
 constexpr std::string_view kFlow = R"(
 Optical flow (`--formats flow`), forward: where the surface at a pixel of frame k is in frame k+1, minus
 the pixel; x right, y down, in pixels. There is none for the last frame. `flow/` has the whole motion,
@@ -53,6 +79,10 @@ Landmarks (`--formats landmarks`):
 const std::vector<Format>& formats() {
   static const std::vector<Format> kFormats{
       {"euroc", "IMU, truth and calibration, as EuRoC's ASL has them", kEuroc, make_euroc_writer},
+      {"tum", "trajectories: TUM's text files", kTum, make_tum_writer},
+      {"mot", "boxes and tracks: MOTChallenge", kMot, make_mot_writer},
+      {"coco", "boxes and masks: COCO's JSON", kCoco, make_coco_writer},
+      {"davis", "masks: DAVIS's indexed PNG", kDavis, make_davis_writer},
       {"flow", "optical flow: KITTI's PNG and Middlebury's .flo", kFlow, make_flow_writer},
       {"depth", "depth: KITTI's 16-bit PNG", kDepth, make_depth_writer},
       {"landmarks", "the truth of every corner, CSV", kLandmarks, make_landmarks_writer},

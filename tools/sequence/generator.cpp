@@ -12,6 +12,7 @@
 #include "tools/sequence/flow_code.h"
 #include "tools/sequence/manifest.h"
 #include "tools/sequence/motion_field.h"
+#include "tools/sequence/objects.h"
 #include "tools/sequence/readme.h"
 #include "tools/sequence/replay_settings.h"
 #include "tools/sequence/self_check.h"
@@ -55,9 +56,11 @@ class FrameMaker {
       checks["flow_px"].add(check_flow(info_.calibration.camera, now, *next,
                                        kitti_flow(motion->full_px, motion->seen)));
     }
+    const cv::Mat1b mask = object_mask(now.truth);
+    check_masks(now.index, mask, now.objects, static_cast<int>(info_.objects.size()));
     FrameOutput output;
     for (const auto& writer : writers_) {
-      writer->write({now, motion ? &*motion : nullptr}, output);
+      writer->write({now, mask, motion ? &*motion : nullptr}, output);
     }
     journal_.add(now.index, output, checks);
   }

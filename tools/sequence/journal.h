@@ -42,7 +42,7 @@ class Journal {
   /// The sequence is there with its manifest: nothing is to be done.
   bool is_complete() const { return complete_; }
 
-  /// Whether a frame has a record, and its files have the bytes that it tells of.
+  /// Whether a frame has a record, and its files are there, as long as it says.
   bool is_whole(int frame) const;
   /// How many frames have records.
   int recorded() const;

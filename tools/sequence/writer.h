@@ -29,6 +29,7 @@ struct SequenceInfo {
 
 struct FrameView {
   const sim::Observation& now;
+  const cv::Mat1b& mask;  ///< of objects, `object_mask`
   const MotionField* motion =
       nullptr;  ///< to the next frame; none where nobody asked, or it is last
 };

@@ -16,6 +16,10 @@ class PictureWriter : public Writer {
 };
 
 std::unique_ptr<Writer> make_euroc_writer(const SequenceInfo& info);
+std::unique_ptr<Writer> make_tum_writer(const SequenceInfo& info);
+std::unique_ptr<Writer> make_mot_writer(const SequenceInfo& info);
+std::unique_ptr<Writer> make_coco_writer(const SequenceInfo& info);
+std::unique_ptr<Writer> make_davis_writer(const SequenceInfo& info);
 std::unique_ptr<Writer> make_flow_writer(const SequenceInfo& info);
 std::unique_ptr<Writer> make_depth_writer(const SequenceInfo& info);
 std::unique_ptr<Writer> make_landmarks_writer(const SequenceInfo& info);

@@ -1,6 +1,7 @@
 #include "tools/suite/child_process.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
@@ -10,7 +11,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <list>
+#include <string_view>
 #include <system_error>
 #include <thread>
 
@@ -60,7 +63,23 @@ std::string read_end(int file) {
   return text;
 }
 
+std::string trimmed(std::string text) {
+  constexpr std::string_view kOwnName = "lcs: ";
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.starts_with(kOwnName) ? text.substr(kOwnName.size()) : text;
+}
+
 }  // namespace
+
+std::string complaint_of(const Exit& exit) {
+  const std::string said = trimmed(exit.err);
+  if (exit.signal != 0) {
+    return fmt::format("crashed: ended by signal {} ({}){}{}", exit.signal,
+                       ::strsignal(exit.signal), said.empty() ? "" : "; it said: ", said);
+  }
+  if (exit.code == 2 && !said.empty()) return said;
+  return fmt::format("exited with {}{}{}", exit.code, said.empty() ? "" : "; it said: ", said);
+}
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
   std::vector<char*> argv{const_cast<char*>("lcs")};

@@ -20,6 +20,10 @@ struct Exit {
   double wall_s = 0;
 };
 
+/// What went wrong with a process that did not do what it was to do, in its own words if it had
+/// some.
+std::string complaint_of(const Exit& exit);
+
 /// One run of this very program. Its stdout is dropped.
 class ChildProcess {
  public:

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <numeric>
 
 #include "tools/bench/criteria.h"
@@ -99,23 +98,6 @@ ScenarioResult begin_scenario(const PlannedScenario& planned) {
   return result;
 }
 
-std::string trimmed(std::string text) {
-  constexpr std::string_view kOwnName = "lcs: ";
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text.starts_with(kOwnName) ? text.substr(kOwnName.size()) : text;
-}
-
-/// What went wrong with a run that left no figures.
-std::string error_of(const Exit& exit) {
-  const std::string said = trimmed(exit.err);
-  if (exit.signal != 0) {
-    return fmt::format("crashed: ended by signal {} ({}){}{}", exit.signal,
-                       ::strsignal(exit.signal), said.empty() ? "" : "; it said: ", said);
-  }
-  if (exit.code == 2 && !said.empty()) return said;
-  return fmt::format("exited with {}{}{}", exit.code, said.empty() ? "" : "; it said: ", said);
-}
-
 void judge_run(const scenario::Scenario& scenario, RunResult& run) {
   const std::vector<bench::JudgedCriterion> judged = bench::judge(scenario.criteria, run.metrics);
   run.outcome = Outcome::passed;
@@ -132,7 +114,7 @@ void finish_run(const PlannedScenario& planned, const Exit& exit, const fs::path
   run.wall_s = exit.wall_s;
   const bool has_figures = exit.signal == 0 && (exit.code == 0 || exit.code == 1);
   if (!has_figures) {
-    run.error = error_of(exit);
+    run.error = complaint_of(exit);
     return;
   }
   run.folder = folder_of(planned, run.seed);

@@ -1,0 +1,81 @@
+// How fast sequences are generated, beside a bare loop of rendering and reading back on the same
+// scene, in one run:
+//
+//     ninja -C build generate_throughput && build/tests/sequence/generate_throughput [FRAMES]
+//
+// Time is that of the processor, so that others on the machine do not count: what a core can do.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+
+#include "scenarios/load.h"
+#include "sim/camera_renderer.h"
+#include "sim/world.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/sequence/generator.h"
+#include "tools/sequence/writer.h"
+
+namespace {
+
+using namespace lcs;
+
+double processor_s() {
+  timespec now = {};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double bare_loop_s(const scenario::Scenario& scenario) {
+  sim::World world(scenario);
+  sim::CameraRenderer renderer(world.model(), world.camera_id(), scenario.camera.width_px,
+                               scenario.camera.height_px);
+  cv::Mat3b image;
+  cv::Mat1f depth;
+  cv::Mat1i geoms;
+  std::vector<sim::ImuSample> imu;
+  std::vector<sim::OdometrySample> odometry;
+  const double start = processor_s();
+  for (int k = 0; k < scenario.frames; ++k) {
+    world.advance_to(sim::event_time_ns(k, scenario.camera.rate_hz), imu, odometry);
+    renderer.update();
+    renderer.render_colour(image);
+    renderer.render_depth_and_geoms(depth, geoms);
+  }
+  return processor_s() - start;
+}
+
+double generate_s(const scenario::Scenario& scenario, std::vector<std::string> formats) {
+  const bench::TemporaryFolder folder;
+  const sequence::GenerateOptions options{std::move(formats), {}, "throughput"};
+  const std::string plan = sequence::plan_of(scenario, options);
+  sequence::Journal journal(folder.path() / "sequence", plan);
+  const double start = processor_s();
+  sequence::generate_frames(scenario, options, journal, {0, scenario.frames}, [](int) {});
+  sequence::finish_sequence(scenario, options, plan, journal);
+  return processor_s() - start;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (const char* name : {"crossing", "suite/crossing_street"}) {
+    const auto file = std::filesystem::path(LCS_SCENARIOS_DIR) / (std::string(name) + ".yaml");
+    scenario::Scenario scenario = scenario::load(file);
+    scenario.frames = argc > 1 ? std::atoi(argv[1]) : 60;
+    const double bare = bare_loop_s(scenario);
+    const auto tell = [&](const std::string& what, double seconds) {
+      fmt::print("{:<24}{:<24}{:6.1f} frames/s a core, {:3.0f} % of the bare loop\n", name, what,
+                 scenario.frames / seconds, 100 * bare / seconds);
+    };
+    tell("bare loop", bare);
+    std::vector<std::string> all;
+    for (const sequence::Format& format : sequence::formats()) all.emplace_back(format.name);
+    tell("all formats", generate_s(scenario, all));
+    std::erase(all, "flow");
+    tell("all formats but flow", generate_s(scenario, all));
+    tell("euroc", generate_s(scenario, {"euroc"}));
+  }
+}

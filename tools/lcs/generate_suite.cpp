@@ -1,0 +1,84 @@
+// `lcs generate --suite`: every sequence a process of its own.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "tools/lcs/generate.h"
+#include "tools/lcs/interrupt.h"
+#include "tools/suite/child_process.h"
+#include "tools/suite/plan.h"
+
+namespace lcs::tools {
+namespace {
+
+struct PlannedSequence {
+  std::string name;  ///< of its folder
+  std::vector<std::string> command;
+};
+
+/// This part's sequences; broken scenarios are told at once.
+std::vector<PlannedSequence> plan_sequences(const GenerateOptions& options, bool& is_broken) {
+  const auto [part, parts] = options.shard.empty() ? std::pair(1, 1) : shard_of(options.shard);
+  const std::filesystem::path folder = options.out.empty() ? "data" : options.out;
+  std::vector<PlannedSequence> mine;
+  std::size_t place = 0;
+  for (const suite::PlannedScenario& planned :
+       suite::plan({.paths = {options.paths.begin(), options.paths.end()},
+       .group = options.group,
+       .filter = options.filter,
+       .sets = options.sets,
+       .seeds = options.seeds})) {
+    if (!planned.scenario) {
+      fmt::print(stderr, "error: {}\n", planned.error);
+      is_broken = true;
+      continue;
+    }
+    for (const std::uint64_t seed : planned.seeds) {
+      // Dealt out like cards: neighbours are alike in length.
+      if (static_cast<int>(place++ % static_cast<std::size_t>(parts)) != part - 1) continue;
+      GenerateOptions one = options;
+      one.sets = planned.sets;
+      one.seed = seed;
+      const std::string name = fmt::format("{}-seed{}", planned.name, seed);
+      mine.push_back(
+          {name, sequence_command(one, planned.file.string(), (folder / name).string())});
+    }
+  }
+  return mine;
+}
+
+}  // namespace
+
+ExitCode generate_suite(const GenerateOptions& options) {
+  const InterruptGuard interrupt;
+  bool is_broken = false;
+  const std::vector<PlannedSequence> sequences = plan_sequences(options, is_broken);
+  std::vector<std::vector<std::string>> commands;
+  for (const PlannedSequence& sequence : sequences) commands.push_back(sequence.command);
+  std::size_t done = 0;
+  try {
+    suite::run_all(
+        commands, static_cast<std::size_t>(options.jobs),
+        [&](std::size_t place, const suite::Exit& exit) {
+          ++done;
+          const std::string& name = sequences[place].name;
+          if (exit.code != kFine || exit.signal != 0) {
+            fmt::print(stderr, "error: {}: {}\n", name, suite::complaint_of(exit));
+            is_broken = true;
+          } else if (!options.quiet) {
+            fmt::print(stderr, "[{}/{}] {}: {:.1f} s\n", done, sequences.size(), name, exit.wall_s);
+          }
+        },
+        [&](const std::vector<std::size_t>&) { interrupt.check(); });
+  } catch (const Interrupted&) {
+    fmt::print(stderr,
+               "lcs: interrupted; {} of {} sequences are whole, and the same command goes on from "
+               "there\n",
+               done, sequences.size());
+    return kInterrupted;
+  }
+  return is_broken ? kError : kFine;
+}
+
+}  // namespace lcs::tools

@@ -1,0 +1,49 @@
+// Masks as DAVIS has them: indexed PNG.
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "tools/sequence/png.h"
+#include "tools/sequence/writers.h"
+
+namespace lcs::sequence {
+namespace {
+
+/// DAVIS's and Pascal VOC's: the bits of an index, three at a time, become the high bits of a
+/// colour.
+std::vector<Rgb> palette() {
+  std::vector<Rgb> colours(256);
+  for (unsigned int index = 0; index < colours.size(); ++index) {
+    for (unsigned int bit = 0; bit < 8; ++bit) {
+      const auto colour = bit % 3;
+      const unsigned int set = index >> bit & 1;
+      colours[index][colour] =
+          static_cast<std::uint8_t>(colours[index][colour] | set << (7 - bit / 3));
+    }
+  }
+  return colours;
+}
+
+class DavisWriter : public Writer {
+ public:
+  explicit DavisWriter(const SequenceInfo& info) : name_(info.scenario.name) {}
+
+  void write(const FrameView& frame, FrameOutput& output) const override {
+    output.files.push_back(
+        {fmt::format("davis/Annotations/480p/{}/{:05}.png", name_, frame.now.index),
+         encode_png(frame.mask, palette_), ""});
+  }
+  std::vector<Document> documents() const override { return {}; }
+
+ private:
+  std::string name_;
+  std::vector<Rgb> palette_ = palette();
+};
+
+}  // namespace
+
+std::unique_ptr<Writer> make_davis_writer(const SequenceInfo& info) {
+  return std::make_unique<DavisWriter>(info);
+}
+
+}  // namespace lcs::sequence

@@ -1,0 +1,35 @@
+/// \file
+/// Objects as data sets have them: a mask of ids, and what kind of thing each is.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "scenarios/scenario.h"
+#include "sim/truth.h"
+
+namespace lcs::sequence {
+
+/// \name Of a mask, as DAVIS has them: 1..253 are objects.
+///@{
+inline constexpr unsigned char kBackground = 0;  ///< the fixed setting, and the sky
+inline constexpr unsigned char kVoid = 254;      ///< the rover itself: to be left out of any count
+inline constexpr int kMostObjects = 253;
+///@}
+
+/// \throws std::out_of_range for an id that a mask has no room for.
+cv::Mat1b object_mask(const sim::FrameTruth& truth);
+
+struct ObjectKind {
+  std::string category;  ///< pedestrian, car, box, cylinder; object, for those of the scene
+  int coco = 0;          ///< category_id
+  int mot = 0;           ///< MOTChallenge's class: 1 pedestrian, 3 car, 8 distractor for the others
+  bool moves = false;    ///< an actor that is given a motion
+};
+
+ObjectKind kind_of(const scenario::Scenario& scenario, const sim::Object& object);
+
+/// The categories by their ids, from 1.
+inline constexpr const char* kCategories[] = {"pedestrian", "car", "box", "cylinder", "object"};
+
+}  // namespace lcs::sequence
