@@ -90,21 +90,6 @@ Start start_by_truth(const std::vector<TrueState>& truth, std::int64_t t_ns) {
           state.accel_bias_mps2};
 }
 
-/// Frames outside of a time span have no motion to go with.
-void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what,
-                 Recorded& recorded) {
-  std::vector<RecordedFrame>& frames = recorded.frames;
-  const auto is_outside = [&](const RecordedFrame& frame) {
-    return frame.t_ns < first_ns || frame.t_ns > last_ns;
-  };
-  const auto first = std::find_if(frames.begin(), frames.end(), is_outside);
-  if (first == frames.end()) return;
-  const std::string example = first->picture.filename().string();
-  const auto count = std::erase_if(frames, is_outside);
-  recorded.tally.add(what, example, static_cast<int>(count));
-  if (frames.empty()) throw std::runtime_error("no picture was taken while the sensors recorded");
-}
-
 /// As a generated sequence says it: the bits of the run.
 void move_as_run(const fs::path& mav, const sequence::ReplaySettings& exact, Recorded& recorded) {
   SensorReadings readings;
@@ -139,9 +124,7 @@ void move_by_files(const fs::path& mav, const sim::Pose& T_BC, bool exact_motion
     }
     std::vector<NavigationState> states;
     for (const TrueState& state : truth) states.push_back(state.state);
-    keep_within(truth.front().t_ns, truth.back().t_ns, "pictures are outside of the truth's time",
-                recorded);
-    recorded.motion = std::make_unique<NavigationMotion>(std::move(states), T_BC);
+    move_by_navigation(std::move(states), T_BC, recorded);
     return;
   }
   SensorReadings readings;

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "tools/bench/picture_folder.h"
-#include "tools/replay/mounting.h"
+#include "tools/replay/navigation.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/sensor_csv.h"
 

@@ -28,6 +28,10 @@ std::vector<std::string> Tally::lines() const {
 const std::vector<Layout>& layouts() {
   static const std::vector<Layout> kLayouts{
       {"euroc", "mav0/cam0, imu0 (EuRoC ASL; sequences of lcs generate)", is_euroc, read_euroc},
+      {"kitti", "image_0X, oxts: a drive of KITTI raw; calibration in the folder above", is_kitti,
+       read_kitti},
+      {"robotcar", "stereo or mono_*, gps/ins.csv (Oxford RobotCar); needs --focal", is_robotcar,
+       read_robotcar},
       {"pictures", "a folder of pictures, with --fps and --speed or --imu", is_pictures,
        read_pictures},
   };
@@ -71,6 +75,41 @@ void put_in_order(std::vector<RecordedFrame>& frames, Tally& tally) {
   }
   frames.erase(twice, frames.end());
   if (frames.empty()) throw std::runtime_error("the recording lists no picture");
+}
+
+void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what,
+                 Recorded& recorded) {
+  std::vector<RecordedFrame>& frames = recorded.frames;
+  const auto is_outside = [&](const RecordedFrame& frame) {
+    return frame.t_ns < first_ns || frame.t_ns > last_ns;
+  };
+  const auto first = std::find_if(frames.begin(), frames.end(), is_outside);
+  if (first == frames.end()) return;
+  const std::string example = first->picture.filename().string();
+  const auto count = std::erase_if(frames, is_outside);
+  recorded.tally.add(what, example, static_cast<int>(count));
+  if (frames.empty()) throw std::runtime_error("no picture was taken while the sensors recorded");
+}
+
+void move_by_navigation(std::vector<NavigationState> states, const sim::Pose& T_BC,
+                        Recorded& recorded) {
+  const auto earlier = [](const auto& a, const auto& b) { return a.t_ns < b.t_ns; };
+  if (!std::is_sorted(states.begin(), states.end(), earlier)) {
+    recorded.tally.add("tables are not in the order of time and are sorted", "the navigation's");
+    std::stable_sort(states.begin(), states.end(), earlier);
+  }
+  const auto twice = std::unique(states.begin(), states.end(),
+                                 [](const auto& a, const auto& b) { return a.t_ns == b.t_ns; });
+  if (twice != states.end()) {
+    recorded.tally.add("states of the navigation have the time of another one and are left out",
+                       fmt::format("at {} ns", twice->t_ns),
+                       static_cast<int>(states.end() - twice));
+  }
+  states.erase(twice, states.end());
+  auto motion = std::make_unique<NavigationMotion>(std::move(states), T_BC);
+  keep_within(motion->first_ns(), motion->last_ns(),
+              "pictures are outside of the navigation's time and are left out", recorded);
+  recorded.motion = std::move(motion);
 }
 
 }  // namespace lcs::replay

@@ -57,13 +57,14 @@ struct Recorded {
 
 /// What the user adds to a recording, for what its layout does not say.
 struct ReadOptions {
-  std::filesystem::path folder;
-  std::string camera;  ///< which of several; "" is the layout's first
-  std::optional<double> fps;
-  std::optional<double> speed_mps;
-  std::optional<std::filesystem::path> imu;
-  std::optional<Eigen::Vector3d> mount_rpy_rad;  ///< of the camera, as `scenario::Camera` has it
-  bool exact_motion = false;                     ///< from the recording's truth, not its IMU
+  std::filesystem::path folder = {};
+  std::string camera = {};  ///< which of several; "" is the layout's first
+  std::optional<double> fps = {};
+  std::optional<double> speed_mps = {};
+  std::optional<std::filesystem::path> imu = {};
+  std::optional<Eigen::Vector3d> mount_rpy_rad =
+      {};                     ///< of the camera, as `scenario::Camera` has it
+  bool exact_motion = false;  ///< from the recording's truth, not its IMU
 };
 
 /// A way of putting a recording into a folder.
@@ -86,11 +87,24 @@ const Layout& layout_of(const std::string& name, const std::filesystem::path& fo
 ///@{
 bool is_euroc(const std::filesystem::path& folder);
 Recorded read_euroc(const ReadOptions& options);
+bool is_kitti(const std::filesystem::path& folder);
+Recorded read_kitti(const ReadOptions& options);
+bool is_robotcar(const std::filesystem::path& folder);
+Recorded read_robotcar(const ReadOptions& options);
 bool is_pictures(const std::filesystem::path& folder);
 Recorded read_pictures(const ReadOptions& options);
 ///@}
 
 /// Sorts frames by time, and takes out what has a time that another one has; counts both.
 void put_in_order(std::vector<RecordedFrame>& frames, Tally& tally);
+
+/// Takes out frames outside of a time span, and counts them.
+/// \throws std::runtime_error if none is left.
+void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what, Recorded& recorded);
+
+/// Motion by states of a navigation unit, sorted first, each time once; frames outside of their
+/// time are taken out. \throws std::runtime_error for fewer than two states.
+void move_by_navigation(std::vector<NavigationState> states, const sim::Pose& T_BC,
+                        Recorded& recorded);
 
 }  // namespace lcs::replay

@@ -1,21 +1,24 @@
 /// \file
-/// Where a camera looks, by the angles that people give.
+/// What readers of navigation units share: attitudes by angles, and a camera on a vehicle.
 #pragma once
 
 #include <Eigen/Geometry>
 
 namespace lcs::replay {
 
+/// R = Rz(yaw) Ry(pitch) Rx(roll).
+inline Eigen::Quaterniond from_rpy(double roll, double pitch, double yaw) {
+  return Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
+}
+
 /// R_BC of a camera mounted by roll, pitch and yaw about the fixed x, y and z of B (x ahead, y
 /// left, z up), as `scenario::Camera::mount_rpy_rad`: all 0 looks along x, upright.
 inline Eigen::Matrix3d camera_mount(const Eigen::Vector3d& rpy_rad) {
   Eigen::Matrix3d ahead;  // of C: its z is B's x, its x is -y, its y is -z
   ahead << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  return (Eigen::AngleAxisd(rpy_rad.z(), Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(rpy_rad.y(), Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(rpy_rad.x(), Eigen::Vector3d::UnitX()))
-             .toRotationMatrix() *
-         ahead;
+  return from_rpy(rpy_rad.x(), rpy_rad.y(), rpy_rad.z()).toRotationMatrix() * ahead;
 }
 
 }  // namespace lcs::replay

@@ -1,0 +1,191 @@
+// Recordings as they come: each fault is handled, counted and told.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/tools/command.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/bench/recording_io.h"
+#include "tools/replay/recorded.h"
+
+namespace lcs::replay {
+namespace {
+
+namespace fs = std::filesystem;
+using bench::CommandResult;
+
+std::string read(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+void write(const fs::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+std::string joined(const std::vector<std::string>& lines, const std::string& end = "\n") {
+  std::string text;
+  for (const std::string& line : lines) text += line + end;
+  return text;
+}
+
+/// A sequence that was generated, spoiled anew by each test.
+class BrokenRecording : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    original_ = std::make_unique<bench::TemporaryFolder>();
+    const CommandResult result =
+        bench::run_lcs({"generate", LCS_SCENARIOS_DIR "/crossing.yaml", "--frames", "8",
+                        "--formats", "euroc", "--quiet", "--out", original_->path() / "sequence"},
+                       {.folder = original_->path()});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+  }
+  static void TearDownTestSuite() { original_.reset(); }
+  void SetUp() override {
+    fs::copy(original_->path() / "sequence", sequence(), fs::copy_options::recursive);
+    ASSERT_EQ(replay().exit_code, 0);
+    whole_ = layers();
+  }
+
+  fs::path sequence() const { return home_.path() / "sequence"; }
+  fs::path pictures() const { return sequence() / "mav0/cam0/data"; }
+  fs::path csv(const char* sensor) const { return sequence() / "mav0" / sensor / "data.csv"; }
+  static std::string picture(int k) {
+    return fmt::format("{}.png", 1'000'000'000'000'000'000 + 100'000'000LL * k);
+  }
+  CommandResult replay() const {
+    return bench::run_lcs({"replay", sequence(), "--no-video", "--out", home_.path() / "out"},
+                          {.folder = home_.path()});
+  }
+  std::string layers() const { return read(home_.path() / "out" / bench::kLayersFile); }
+  bench::Recording recording() const { return bench::read_recording(home_.path() / "out"); }
+
+  inline static std::unique_ptr<bench::TemporaryFolder> original_;
+  const bench::TemporaryFolder home_;
+  std::string whole_;  ///< layers of the replay of what is not broken
+};
+
+TEST_F(BrokenRecording, LineEndsAndSpacesInHeadersMakeNoDifference) {
+  for (const char* sensor : {"cam0", "imu0", "odometry0"}) {
+    std::vector<std::string> lines = lines_of(read(csv(sensor)));
+    std::string& header = lines.front();
+    for (std::size_t at = 0; (at = header.find(',', at)) != header.npos; at += 3) {
+      header.replace(at, 1, " , ");
+    }
+    header.insert(1, " ");
+    write(csv(sensor), "\xef\xbb\xbf" + joined(lines, " \r\n") + "\r\n");
+  }
+  const CommandResult result = replay();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(layers() == whole_);
+}
+
+TEST_F(BrokenRecording, RowsOutOfOrderAreSortedAndRowsThatComeTwiceAreUsedOnce) {
+  for (const char* sensor : {"cam0", "imu0"}) {
+    std::vector<std::string> lines = lines_of(read(csv(sensor)));
+    std::swap(lines[3], lines[5]);
+    lines.insert(lines.begin() + 4, lines[2]);
+    write(csv(sensor), joined(lines));
+  }
+  const CommandResult result = replay();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(layers() == whole_);
+  for (const char* told :
+       {"1 lists of pictures are not in the order", "1 pictures have the time of",
+        "1 tables are not in the order", "1 rows have the time of"}) {
+    EXPECT_NE(result.err.find(told), std::string::npos) << told << "\n" << result.err;
+  }
+}
+
+TEST_F(BrokenRecording, ColumnsAreFoundByTheirNames) {
+  std::vector<std::string> lines = lines_of(read(csv("imu0")));
+  for (std::string& line : lines) {  // the accelerometer first
+    std::vector<std::string> f;
+    std::istringstream stream(line);
+    for (std::string field; std::getline(stream, field, ',');) f.push_back(field);
+    line = fmt::format("{},{},{},{},{},{},{}", f[0], f[4], f[5], f[6], f[1], f[2], f[3]);
+  }
+  write(csv("imu0"), joined(lines));
+  EXPECT_EQ(replay().exit_code, 0);
+  EXPECT_TRUE(layers() == whole_);
+}
+
+TEST_F(BrokenRecording, RowsThatCannotBeReadAreLeftOutAndCounted) {
+  std::vector<std::string> lines = lines_of(read(csv("imu0")));
+  lines[4] = "1000000000015000000,nan,0,0,0,0,9.81";
+  lines[9] = lines[9].substr(0, 30);
+  write(csv("imu0"), joined(lines));
+  const CommandResult result = replay();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("2 rows cannot be read"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("data.csv:5"), std::string::npos) << result.err;
+}
+
+TEST_F(BrokenRecording, GapsInTheImuAreCountedAndBridged) {
+  std::vector<std::string> lines = lines_of(read(csv("imu0")));
+  lines.erase(lines.begin() + 40, lines.begin() + 90);
+  write(csv("imu0"), joined(lines));
+  const CommandResult result = replay();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("1 gaps are in the readings of the IMU"), std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("0.255 s"), std::string::npos) << result.err;
+  EXPECT_EQ(recording().frames.size(), 8u);
+}
+
+TEST_F(BrokenRecording,
+       PicturesThatAreMissingTruncatedOrOfAnotherSizeAreSkippedAndTheirTimePasses) {
+  fs::remove(pictures() / picture(2));
+  const std::string whole = read(pictures() / picture(4));
+  write(pictures() / picture(4), whole.substr(0, whole.size() / 2));
+  cv::imwrite((pictures() / picture(5)).string(), cv::Mat3b(100, 100, cv::Vec3b(1, 2, 3)));
+  const CommandResult result = replay();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find(picture(2) + " is missing"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find(picture(4) + " cannot be read"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find(picture(5) + " is 100x100"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("5 pictures, 3 skipped"), std::string::npos) << result.out;
+  const bench::Recording left = recording();
+  ASSERT_EQ(left.frames.size(), 5u);
+  EXPECT_EQ(left.frames[2].t_ns, 300'000'000);
+  EXPECT_DOUBLE_EQ(left.frames[2].motion.dt_s, 0.2);
+  EXPECT_DOUBLE_EQ(left.frames[3].motion.dt_s, 0.3);
+}
+
+TEST_F(BrokenRecording, WhatCannotBeReplayedIsToldInOneLineAndNothingIsWritten) {
+  const auto refused = [&](const std::string& expected) {
+    fs::remove_all(home_.path() / "out");
+    const CommandResult result = replay();
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(expected), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(fs::exists(home_.path() / "out"));
+  };
+  const std::string imu = read(csv("imu0"));
+  write(csv("imu0"), lines_of(imu).front() + "\n");
+  refused("holds no reading of an IMU");
+  write(csv("imu0"), "#timestamp [ns],x,y,z\n1,2,3,4\n");
+  refused("names no column w_RS_S_x");
+  fs::remove(csv("imu0"));
+  refused("cannot read");
+  write(csv("imu0"), imu);
+  write(sequence() / "lcs.json", "{\"scenario\": 7}");
+  refused("lcs.json");
+  fs::remove(sequence() / "lcs.json");
+  write(sequence() / "mav0/cam0/sensor.yaml", "T_BS: [1, 2\n");
+  refused("sensor.yaml:");
+  write(sequence() / "mav0/cam0/sensor.yaml", "intrinsics: [0, 1, 2, 3]\n");
+  refused("focal lengths");
+}
+
+}  // namespace
+}  // namespace lcs::replay

@@ -1,0 +1,210 @@
+// Layouts of data sets, written by hand for a vehicle whose motion is known in closed form.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/tools/temporary_folder.h"
+#include "tools/bench/picture_folder.h"
+#include "tools/replay/navigation.h"
+#include "tools/replay/recorded.h"
+#include "tools/replay/rectifier.h"
+
+namespace lcs::replay {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const fs::path& file, const std::string& text) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+/// Drives a circle to the left at a constant speed, in a world with x east, y north, z up.
+struct Circle {
+  static constexpr double kSpeed_mps = 5, kYawRate_radps = 0.2, kStart_rad = 0.7;
+  static double yaw(double t) { return kStart_rad + kYawRate_radps * t; }
+  static double east(double t) { return kSpeed_mps * std::cos(yaw(t)); }
+  static double north(double t) { return kSpeed_mps * std::sin(yaw(t)); }
+};
+
+/// The camera looks ahead, upright, at the vehicle's origin: it moves along its z, and turns about
+/// its -y. The mean of a velocity that turns by an angle a is shorter by a^2 / 24.
+void expect_circle(Recorded& recorded, double dt_s) {
+  const double turn = Circle::kYawRate_radps * dt_s;
+  EXPECT_EQ(recorded.motion->at(recorded.frames[0].t_ns).dt_s, 0);
+  for (std::size_t i = 1; i < recorded.frames.size(); ++i) {
+    const EgoMotion motion = recorded.motion->at(recorded.frames[i].t_ns);
+    EXPECT_NEAR(motion.dt_s, dt_s, 1e-6);
+    EXPECT_NEAR(motion.w_C_radps.y(), -Circle::kYawRate_radps, 1e-5);
+    EXPECT_NEAR(motion.w_C_radps.x(), 0, 1e-5);
+    EXPECT_NEAR(motion.w_C_radps.z(), 0, 1e-5);
+    EXPECT_NEAR(motion.v_C_mps.z(), Circle::kSpeed_mps, Circle::kSpeed_mps * turn * turn / 2);
+    // Seen from where it looks in the end, it came from half the turn to the right.
+    EXPECT_NEAR(motion.v_C_mps.x(), Circle::kSpeed_mps * turn / 2, 1e-3);
+    EXPECT_NEAR(motion.v_C_mps.y(), 0, 1e-9);
+  }
+}
+
+std::string kitti_time(double t) {
+  return fmt::format("2011-09-26 13:02:{:012.9f}", 25 + t);
+}
+
+class Layouts : public testing::Test {
+ protected:
+  /// A drive of KITTI raw at 10 Hz; states on the frames.
+  fs::path kitti(int frames) {
+    const fs::path drive = home_.path() / "2011_09_26" / "drive_0001_sync";
+    std::string times;
+    for (int k = 0; k < frames; ++k) {
+      const double t = 0.1 * k;
+      times += kitti_time(t) + "\n";
+      write(drive / "oxts/data" / fmt::format("{:010}.txt", k),
+            fmt::format("49.0 8.4 116 0 0 {} {} {} 5 0 0{}\n", Circle::yaw(t), Circle::north(t),
+                        Circle::east(t), " 0 0 9.8 0 0 9.8 0 0 0.2 0 0 0.2 0.1 0.05 4 10 4 4 0"));
+    }
+    write(drive / "oxts/timestamps.txt", times);
+    write(drive / "image_02/timestamps.txt", times);
+    fs::create_directories(drive / "image_02/data");
+    return drive;
+  }
+  const bench::TemporaryFolder home_;
+};
+
+TEST_F(Layouts, KittiRawGivesTheMotionOfItsNavigationUnit) {
+  const fs::path drive = kitti(6);
+  EXPECT_EQ(layout_of("auto", drive).name, "kitti");
+  Recorded recorded = read_kitti({.folder = drive});
+  ASSERT_EQ(recorded.frames.size(), 6u);
+  EXPECT_EQ(recorded.frames[3].picture, drive / "image_02/data/0000000003.png");
+  EXPECT_EQ(recorded.frames[1].t_ns - recorded.frames[0].t_ns, 100'000'000);
+  EXPECT_FALSE(recorded.lens) << "there is no calibration";
+  expect_circle(recorded, 0.1);
+}
+
+TEST_F(Layouts, KittiRawTakesItsCalibrationFromTheFolderOfTheDate) {
+  const fs::path drive = kitti(3);
+  const fs::path date = drive.parent_path();
+  // Axes as KITTI's: the scanner ahead, left, up; the camera right, down, ahead. The second camera
+  // is 0.06 m to the left of the first, P[3] = f * 0.06.
+  write(date / "calib_cam_to_cam.txt",
+        "calib_time: 09-Jan-2012 13:57:47\nS_rect_02: 1242 375\n"
+        "R_rect_00: 1 0 0 0 1 0 0 0 1\n"
+        "P_rect_02: 700 0 600 42 0 700 180 0 0 0 1 0\n");
+  write(date / "calib_imu_to_velo.txt", "R: 1 0 0 0 1 0 0 0 1\nT: -0.8 0.3 -0.8\n");
+  write(date / "calib_velo_to_cam.txt", "R: 0 -1 0 0 0 -1 1 0 0\nT: 0 -0.08 -0.27\n");
+  Recorded recorded = read_kitti({.folder = drive});
+  ASSERT_TRUE(recorded.lens);
+  EXPECT_EQ(recorded.lens->fu_px, 700);
+  EXPECT_EQ(recorded.lens->cv_px, 180);
+  // The camera is off the unit by its lever: in a turn to the left a point ahead moves to the left
+  // too, and one to the left of the centre line is slower.
+  recorded.motion->at(recorded.frames[0].t_ns);
+  const EgoMotion motion = recorded.motion->at(recorded.frames[1].t_ns);
+  const double ahead = 0.8 + 0.27, left = -0.3 + 0.06;
+  EXPECT_NEAR(motion.v_C_mps.z(), Circle::kSpeed_mps - Circle::kYawRate_radps * left, 2e-3);
+  EXPECT_NEAR(motion.v_C_mps.x(), Circle::kSpeed_mps * 0.01 - Circle::kYawRate_radps * ahead, 2e-3);
+}
+
+TEST_F(Layouts, RobotCarGivesTheMotionOfItsInertialUnitFromNorthEastDown) {
+  const fs::path run = home_.path() / "2014-05-19";
+  std::string list,
+      ins =
+          "timestamp,ins_status,latitude,longitude,altitude,northing,easting,down,utm_zone,"
+          "velocity_north,velocity_east,velocity_down,roll,pitch,yaw\n";
+  const std::int64_t start_us = 1'400'505'794'141'322;
+  for (int k = 0; k <= 50; ++k) {  // 50 Hz
+    const double t = 0.02 * k;
+    // Clockwise from north.
+    const double heading = std::numbers::pi / 2 - Circle::yaw(t);
+    ins += fmt::format("{},INS_SOLUTION_GOOD,51.7,-1.2,110,0,0,0,30U,{},{},0,0,0,{}\n",
+                       start_us + 20'000 * k, Circle::north(t), Circle::east(t), heading);
+  }
+  for (int k = 0; k < 6; ++k) list += fmt::format("{} 1\n", start_us + 62'500 * k);
+  write(run / "gps/ins.csv", ins);
+  write(run / "stereo.timestamps", list);
+  fs::create_directories(run / "stereo/centre");
+  EXPECT_EQ(layout_of("auto", run).name, "robotcar");
+  Recorded recorded = read_robotcar({.folder = run});
+  ASSERT_EQ(recorded.frames.size(), 6u);
+  EXPECT_EQ(recorded.frames[0].picture, run / "stereo/centre/1400505794141322.png");
+  expect_circle(recorded, 0.0625);
+
+  write(run / "mono_rear.timestamps", list);
+  fs::create_directories(run / "mono_rear");
+  EXPECT_THROW(read_robotcar({.folder = run, .camera = "mono_rear"}), std::runtime_error)
+      << "where it looks is not known";
+  Recorded rear = read_robotcar({.folder = run,
+                                 .camera = "mono_rear",
+                                 .mount_rpy_rad = Eigen::Vector3d(0, 0, std::numbers::pi)});
+  rear.motion->at(rear.frames[0].t_ns);
+  EXPECT_NEAR(rear.motion->at(rear.frames[1].t_ns).v_C_mps.z(), -Circle::kSpeed_mps, 1e-3);
+}
+
+TEST_F(Layouts, RawPicturesOfRobotCarHaveTheirColours) {
+  const std::pair<const char*, std::array<int, 4>> patterns[] = {
+      {"stereo/centre", {1, 0, 2, 1}},  // G B / R G, as places in BGR
+      {"mono_rear", {2, 1, 1, 0}},      // R G / G B
+  };
+  for (const auto& [camera, pattern] : patterns) {
+    const cv::Vec3b colour(40, 120, 200);
+    cv::Mat1b raw(32, 48);
+    for (int y = 0; y < raw.rows; ++y) {
+      for (int x = 0; x < raw.cols; ++x) {
+        raw(y, x) = colour[pattern[static_cast<std::size_t>(2 * (y % 2) + x % 2)]];
+      }
+    }
+    const fs::path run = home_.path() / "run";
+    const std::string name = std::string(camera).substr(0, std::string(camera).find('/'));
+    fs::create_directories(run / camera);
+    cv::imwrite((run / camera / "10.png").string(), raw);
+    write(run / (name + ".timestamps"), "10 1\n20 1\n");
+    write(run / "gps/ins.csv",
+          "timestamp,velocity_north,velocity_east,velocity_down,roll,pitch,yaw\n"
+          "10,0,0,0,0,0,0\n20,0,0,0,0,0,0\n");
+    const Recorded recorded = read_robotcar(
+        {.folder = run, .camera = camera, .mount_rpy_rad = Eigen::Vector3d::Zero().eval()});
+    bench::PictureReader reader(recorded.demosaic);
+    const auto picture = reader.read(recorded.frames[0].picture);
+    ASSERT_TRUE(picture);
+    EXPECT_EQ((*picture)(16, 24), colour) << camera;
+    EXPECT_EQ((*picture)(17, 25), colour) << camera;
+  }
+}
+
+TEST_F(Layouts, AFolderOfNothingKnownIsToldSo) {
+  fs::create_directories(home_.path() / "empty");
+  EXPECT_THROW(layout_of("auto", home_.path() / "empty"), std::runtime_error);
+  EXPECT_THROW(layout_of("auto", home_.path() / "nowhere"), std::runtime_error);
+  EXPECT_THROW(layout_of("rosbag", home_.path() / "empty"), std::runtime_error);
+}
+
+TEST(Rectifier, LeavesAPinholeAloneAndStraightensABarrel) {
+  const cv::Size size(320, 240);
+  cv::Mat3b picture(size);
+  cv::randu(picture, 0, 256);
+  const Lens pinhole{200, 200, 159.5, 119.5, Lens::Distortion::radial_tangential, {0, 0, 0, 0}};
+  cv::Mat3b same = picture.clone();
+  Rectifier(pinhole, size).rectify(same);
+  EXPECT_EQ(cv::norm(same, picture, cv::NORM_INF), 0);
+
+  // A dot where a point at 45 degrees to the right falls through a lens with k1 = -0.1: at
+  // f r (1 + k1 r^2) = 180 px from the centre instead of 200.
+  const Lens barrel{200, 200, 99.5, 119.5, Lens::Distortion::radial_tangential, {-0.1, 0, 0, 0}};
+  cv::Mat3b dot(size, cv::Vec3b(0, 0, 0));
+  cv::circle(dot, {280, 120}, 3, {255, 255, 255}, cv::FILLED);
+  Rectifier(barrel, size).rectify(dot);
+  cv::Mat1b grey;
+  cv::cvtColor(dot, grey, cv::COLOR_BGR2GRAY);
+  const cv::Moments moments = cv::moments(grey);
+  EXPECT_NEAR(moments.m10 / moments.m00, 99.5 + 200, 1.5);
+  EXPECT_NEAR(moments.m01 / moments.m00, 120, 1);
+}
+
+}  // namespace
+}  // namespace lcs::replay

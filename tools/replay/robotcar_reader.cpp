@@ -1,0 +1,140 @@
+// Oxford RobotCar: mono_*/ and stereo/*/ with raw pictures, <camera>.timestamps, gps/ins.csv. Its
+// calibration is not part of a recording.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "tools/bench/csv.h"
+#include "tools/replay/navigation.h"
+#include "tools/replay/recorded.h"
+#include "tools/replay/text_table.h"
+
+namespace lcs::replay {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+constexpr std::int64_t kMicrosecond_ns = 1000;
+
+struct CameraKind {
+  const char* name;
+  int demosaic;  ///< OpenCV names a pattern by its second row: its BG is what others call RGGB
+  bool looks_ahead;
+};
+constexpr CameraKind kCameras[] = {
+    {"stereo/centre", cv::COLOR_BayerGR2BGR, true}, {"stereo/left", cv::COLOR_BayerGR2BGR, true},
+    {"stereo/right", cv::COLOR_BayerGR2BGR, true},  {"mono_rear", cv::COLOR_BayerBG2BGR, false},
+    {"mono_left", cv::COLOR_BayerBG2BGR, false},    {"mono_right", cv::COLOR_BayerBG2BGR, false},
+};
+
+/// stereo/centre has stereo.timestamps.
+fs::path list_of(const fs::path& folder, const CameraKind& camera) {
+  const std::string name = camera.name;
+  return folder / (name.substr(0, name.find('/')) + ".timestamps");
+}
+
+const CameraKind* first_camera(const fs::path& folder) {
+  const auto found =
+      std::find_if(std::begin(kCameras), std::end(kCameras), [&](const CameraKind& camera) {
+        return fs::is_directory(folder / camera.name) && fs::exists(list_of(folder, camera));
+      });
+  return found == std::end(kCameras) ? nullptr : found;
+}
+
+const CameraKind& camera_of(const ReadOptions& options) {
+  if (options.camera.empty()) {
+    if (const CameraKind* first = first_camera(options.folder)) return *first;
+    throw std::runtime_error(
+        fmt::format("{} has no camera with its list of pictures, as stereo/centre "
+                    "with stereo.timestamps",
+                    options.folder.string()));
+  }
+  const auto found =
+      std::find_if(std::begin(kCameras), std::end(kCameras),
+                   [&](const CameraKind& each) { return each.name == options.camera; });
+  if (found == std::end(kCameras)) {
+    throw std::runtime_error(
+        fmt::format("--camera is '{}'; it takes stereo/left, stereo/centre, stereo/right, "
+                    "mono_left, mono_right or "
+                    "mono_rear",
+                    options.camera));
+  }
+  return *found;
+}
+
+/// From the unit's axes (north, east, down; ahead, right, down) to ours (east, north, up; ahead,
+/// left, up).
+std::vector<NavigationState> read_ins(const fs::path& file, Tally& tally) {
+  const TextTable table = read_table(file, ',');
+  if (table.header.empty()) {
+    throw std::runtime_error(fmt::format("{} has no header to find its columns by", file.string()));
+  }
+  const auto column = [&](const char* name) { return table.column(name, 0); };
+  const std::size_t columns[] = {column("velocity_north"), column("velocity_east"),
+                                 column("velocity_down"),  column("roll"),
+                                 column("pitch"),          column("yaw")};
+  const std::size_t time = column("timestamp");
+  Eigen::Matrix3d R_enu_ned, R_frd_flu;
+  R_enu_ned << 0, 1, 0, 1, 0, 0, 0, 0, -1;
+  R_frd_flu << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  std::vector<NavigationState> states;
+  for (const TextTable::Row& row : table.rows) {
+    std::vector<double> numbers;
+    std::optional<std::int64_t> t_us;
+    if (time < row.fields.size()) t_us = bench::number_in<std::int64_t>(row.fields[time]);
+    for (const std::size_t place : columns) {
+      if (place >= row.fields.size()) continue;
+      if (const auto number = bench::number_in<double>(row.fields[place])) {
+        numbers.push_back(*number);
+      }
+    }
+    if (!t_us || numbers.size() != std::size(columns)) {
+      tally.add("rows cannot be read and are left out", table.at(row));
+      continue;
+    }
+    const Eigen::Matrix3d R_ned_frd =
+        from_rpy(numbers[3], numbers[4], numbers[5]).toRotationMatrix();
+    states.push_back({*t_us * kMicrosecond_ns,
+                      Eigen::Quaterniond(R_enu_ned * R_ned_frd * R_frd_flu),
+                      R_enu_ned * Vector3d(numbers[0], numbers[1], numbers[2])});
+  }
+  return states;
+}
+
+}  // namespace
+
+bool is_robotcar(const fs::path& folder) {
+  return first_camera(folder) != nullptr;
+}
+
+Recorded read_robotcar(const ReadOptions& options) {
+  const CameraKind& camera = camera_of(options);
+  Recorded recorded;
+  recorded.demosaic = camera.demosaic;
+  const TextTable list = read_table(list_of(options.folder, camera), ' ');
+  for (const TextTable::Row& row : list.rows) {
+    const auto t_us = bench::number_in<std::int64_t>(row.fields[0]);
+    if (t_us) {
+      recorded.frames.push_back(
+          {*t_us * kMicrosecond_ns, options.folder / camera.name / (row.fields[0] + ".png")});
+    } else {
+      recorded.tally.add("rows cannot be read and are left out", list.at(row));
+    }
+  }
+  put_in_order(recorded.frames, recorded.tally);
+  if (!camera.looks_ahead && !options.mount_rpy_rad) {
+    throw std::runtime_error(fmt::format(
+        "{} does not look ahead; say by --mount where it looks, as 0,0,180 for backwards",
+        camera.name));
+  }
+  const sim::Pose T_BC{camera_mount(options.mount_rpy_rad.value_or(Vector3d::Zero())),
+                       Vector3d::Zero()};
+  move_by_navigation(read_ins(options.folder / "gps" / "ins.csv", recorded.tally), T_BC, recorded);
+  return recorded;
+}
+
+}  // namespace lcs::replay
