@@ -11,7 +11,7 @@ packages=(
   g++ cmake ninja-build pkg-config
   libmujoco-dev libosmesa6-dev libopencv-dev libeigen3-dev
   libyaml-cpp-dev libtinyxml2-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev
-  libpng-dev libssl-dev
+  libdeflate-dev libssl-dev
 )
 
 say() { printf '%s\n' "$*" >&2; }

@@ -1,4 +1,4 @@
-// What libpng wrote, read back by OpenCV.
+// What was written, read back by OpenCV, which reads by libpng.
 #include "tools/sequence/png.h"
 
 #include <gtest/gtest.h>

@@ -71,7 +71,14 @@ MotionField motion_field(const sim::Pinhole& camera, const sim::FrameTruth& trut
   MotionField field{cv::Mat2f(size), cv::Mat2f(size), cv::Mat1b(size), cv::Mat1b(size)};
   const double f = camera.focal_px, cx = camera.centre_px.x(), cy = camera.centre_px.y();
 
+  // Along a row the ray turned by a body's rotation grows by the same amount from pixel to pixel.
+  std::vector<Eigen::Vector3d> row_start(carriers.size()), step(carriers.size());
   for (int y = 0; y < size.height; ++y) {
+    for (std::size_t id = 0; id < carriers.size(); ++id) {
+      const Eigen::Matrix3d& R = carriers[id].T_NC.R;
+      row_start[id] = R * Eigen::Vector3d(-cx / f, (y - cy) / f, 1);
+      step[id] = R.col(0) / f;
+    }
     const float* depth = truth.depth_m[y];
     const int* object = truth.object[y];
     cv::Vec2f* full = field.full_px[y];
@@ -83,22 +90,24 @@ MotionField motion_field(const sim::Pinhole& camera, const sim::FrameTruth& trut
       seen[x] = ego_seen[x] = 0;
       const bool is_sky = std::isinf(depth[x]);
       if (object[x] < 0 && !is_sky) continue;
-      const Eigen::Vector3d ray((x - cx) / f, (y - cy) / f, 1);
       // The point over its depth, so that infinity is a number like others.
       const double w = is_sky ? 0 : 1 / static_cast<double>(depth[x]);
-      const auto move = [&](const sim::Pose& T_NC, cv::Vec2f& motion, unsigned char& is_seen,
+      const auto move = [&](std::size_t id, cv::Vec2f& motion, unsigned char& is_seen,
                             bool is_real) {
-        const Eigen::Vector3d p = T_NC.R * ray + w * T_NC.p;
-        if (p.z() < kInFront) return;
-        const double u = f * p.x() / p.z() + cx, v = f * p.y() / p.z() + cy;
+        const Eigen::Vector3d& t = carriers[id].T_NC.p;
+        const double z = row_start[id].z() + x * step[id].z() + w * t.z();
+        if (z < kInFront) return;
+        const double scale = f / z;
+        const double u = scale * (row_start[id].x() + x * step[id].x() + w * t.x()) + cx;
+        const double v = scale * (row_start[id].y() + x * step[id].y() + w * t.y()) + cy;
         motion = {static_cast<float>(u - x), static_cast<float>(v - y)};
         is_seen = next.holds(u, v) &&
-                  (!is_real || next.shows(u, v, static_cast<float>(p.z() / w), object[x]));
+                  (!is_real || next.shows(u, v, static_cast<float>(z / w), object[x]));
       };
-      const Carrier& carrier = carriers[static_cast<std::size_t>(std::max(object[x], 0))];
-      move(carriers[0].T_NC, ego[x], ego_seen[x], !carrier.moves);
-      if (carrier.moves) {
-        move(carrier.T_NC, full[x], seen[x], true);
+      const auto id = static_cast<std::size_t>(std::max(object[x], 0));
+      move(0, ego[x], ego_seen[x], !carriers[id].moves);
+      if (carriers[id].moves) {
+        move(id, full[x], seen[x], true);
       } else {
         full[x] = ego[x];
         seen[x] = ego_seen[x];

@@ -1,72 +1,106 @@
 #include "tools/sequence/png.h"
 
-#include <png.h>
-#include <zlib.h>
+#include <libdeflate.h>
 
-#include <bit>
+#include <algorithm>
+#include <memory>
+#include <new>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 namespace lcs::sequence {
 namespace {
 
-constexpr int kLevel = 1;  // the next ones take twice the time for a few per cent
+// "Portable Network Graphics (PNG) Specification", W3C.
+constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+enum ColourType : char { kGrey = 0, kColour = 2, kIndexed = 3 };
+constexpr int kLevel = 1;  // the next ones take longer and are hardly smaller
 
-[[noreturn]] void fail(png_structp, png_const_charp message) {
-  throw std::runtime_error(std::string("PNG: ") + message);
+void append_big_endian(std::string& to, std::uint32_t number) {
+  for (const int shift : {24, 16, 8, 0}) to += static_cast<char>(number >> shift & 0xff);
 }
-void ignore(png_structp, png_const_charp) {}
 
-void append(png_structp png, png_bytep data, std::size_t size) {
-  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
+/// Length, type, data, and a check sum of the last two.
+void append_chunk(std::string& to, std::string_view type, std::string_view data) {
+  append_big_endian(to, static_cast<std::uint32_t>(data.size()));
+  const std::size_t begin = to.size();
+  to += type;
+  to += data;
+  append_big_endian(to, libdeflate_crc32(0, to.data() + begin, to.size() - begin));
 }
-void flush(png_structp) {}
 
-class Encoder {
- public:
-  explicit Encoder(std::string& to)
-      : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, ignore)),
-        info_(png_create_info_struct(png_)) {
-    png_set_write_fn(png_, &to, append, flush);
-    png_set_compression_level(png_, kLevel);
-    png_set_compression_buffer_size(png_, 1 << 16);
+std::string header(const cv::Mat& image, ColourType colour) {
+  std::string data;
+  append_big_endian(data, static_cast<std::uint32_t>(image.cols));
+  append_big_endian(data, static_cast<std::uint32_t>(image.rows));
+  data += image.depth() == CV_16U ? '\x10' : '\x08';
+  data += colour;
+  data.append(3, '\0');  // compression and filter as all have them, not interlaced
+  return data;
+}
+
+/// A row as the format has it: big-endian, red first.
+void lay_out(const cv::Mat& image, int y, std::vector<unsigned char>& row) {
+  if (image.type() == CV_8UC3) {
+    const cv::Vec3b* from = image.ptr<cv::Vec3b>(y);
+    for (int x = 0; x < image.cols; ++x) {
+      for (int c = 0; c < 3; ++c) row[static_cast<std::size_t>(3 * x + c)] = from[x][2 - c];
+    }
+  } else if (image.depth() == CV_16U) {
+    const std::uint16_t* from = image.ptr<std::uint16_t>(y);
+    for (std::size_t i = 0; i < row.size() / 2; ++i) {
+      row[2 * i] = static_cast<unsigned char>(from[i] >> 8);
+      row[2 * i + 1] = static_cast<unsigned char>(from[i] & 0xff);
+    }
+  } else {
+    std::copy_n(image.ptr(y), row.size(), row.begin());
   }
-  ~Encoder() { png_destroy_write_struct(&png_, &info_); }
-  Encoder(const Encoder&) = delete;
-  Encoder& operator=(const Encoder&) = delete;
+}
 
-  png_structp png() { return png_; }
-  png_infop info() { return info_; }
-
-  void write(const cv::Mat& image, int colour_type, int filter, int strategy) {
-    const int bits = image.depth() == CV_16U ? 16 : 8;
-    png_set_IHDR(png_, info_, static_cast<png_uint_32>(image.cols),
-                 static_cast<png_uint_32>(image.rows), bits, colour_type, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_filter(png_, PNG_FILTER_TYPE_BASE, filter);
-    png_set_compression_strategy(png_, strategy);
-    png_write_info(png_, info_);
-    if (bits == 16 && std::endian::native == std::endian::little) png_set_swap(png_);
-    if (image.type() == CV_8UC3) png_set_bgr(png_);
-    for (int y = 0; y < image.rows; ++y) png_write_row(png_, image.ptr<png_byte>(y));
-    png_write_end(png_, nullptr);
+/// Each row: the filter, then the differences that it leaves.
+std::vector<unsigned char> filtered(const cv::Mat& image, PngFilter filter) {
+  const std::size_t pixel = image.elemSize();
+  std::vector<unsigned char> row(static_cast<std::size_t>(image.cols) * pixel), above(row.size());
+  std::vector<unsigned char> all((row.size() + 1) * static_cast<std::size_t>(image.rows));
+  unsigned char* to = all.data();
+  for (int y = 0; y < image.rows; ++y) {
+    lay_out(image, y, row);
+    *to++ = static_cast<unsigned char>(filter);
+    std::copy(row.begin(), row.end(), to);
+    if (filter == PngFilter::sub) {
+      for (std::size_t i = pixel; i < row.size(); ++i) {
+        to[i] = static_cast<unsigned char>(row[i] - row[i - pixel]);
+      }
+    } else if (filter == PngFilter::up) {
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        to[i] = static_cast<unsigned char>(row[i] - above[i]);
+      }
+      above.swap(row);
+    }
+    to += row.size();
   }
+  return all;
+}
 
- private:
-  png_structp png_;
-  png_infop info_;
-};
+std::string compressed(const std::vector<unsigned char>& bytes) {
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
+  if (!compressor) throw std::bad_alloc();
+  std::string data(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
+  data.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), data.data(),
+                                       data.size()));
+  return data;
+}
 
-int flag_of(PngFilter filter) {
-  switch (filter) {
-    case PngFilter::none:
-      return PNG_FILTER_NONE;
-    case PngFilter::sub:
-      return PNG_FILTER_SUB;
-    case PngFilter::up:
-      return PNG_FILTER_UP;
-  }
-  throw std::invalid_argument("no such PNG filter");
+std::string encode(const cv::Mat& image, ColourType colour, PngFilter filter,
+                   std::string_view palette) {
+  std::string bytes(kSignature);
+  append_chunk(bytes, "IHDR", header(image, colour));
+  if (!palette.empty()) append_chunk(bytes, "PLTE", palette);
+  append_chunk(bytes, "IDAT", compressed(filtered(image, filter)));
+  append_chunk(bytes, "IEND", "");
+  return bytes;
 }
 
 }  // namespace
@@ -75,24 +109,16 @@ std::string encode_png(const cv::Mat& image, PngFilter filter) {
   const bool fits = !image.empty() && (image.depth() == CV_8U || image.depth() == CV_16U) &&
                     (image.channels() == 1 || image.channels() == 3);
   if (!fits) throw std::invalid_argument("PNG takes images of 8 or 16 bits with 1 or 3 channels");
-  std::string bytes;
-  bytes.reserve(image.total() * image.elemSize() / 2);
-  Encoder(bytes).write(image, image.channels() == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB,
-                       flag_of(filter), filter == PngFilter::none ? Z_DEFAULT_STRATEGY : Z_RLE);
-  return bytes;
+  return encode(image, image.channels() == 1 ? kGrey : kColour, filter, "");
 }
 
 std::string encode_png(const cv::Mat1b& indices, std::span<const Rgb> palette) {
   if (indices.empty() || palette.size() != 256) {
     throw std::invalid_argument("an indexed PNG needs pixels and a palette of 256 colours");
   }
-  std::vector<png_color> colours;
-  for (const Rgb& c : palette) colours.push_back({c[0], c[1], c[2]});
-  std::string bytes;
-  Encoder encoder(bytes);
-  png_set_PLTE(encoder.png(), encoder.info(), colours.data(), static_cast<int>(colours.size()));
-  encoder.write(indices, PNG_COLOR_TYPE_PALETTE, PNG_FILTER_NONE, Z_DEFAULT_STRATEGY);
-  return bytes;
+  std::string colours;
+  for (const Rgb& colour : palette) colours.append(colour.begin(), colour.end());
+  return encode(indices, kIndexed, PngFilter::none, colours);
 }
 
 }  // namespace lcs::sequence

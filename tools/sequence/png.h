@@ -1,6 +1,6 @@
 /// \file
-/// Pictures as the bytes of PNG files, by libpng: also those that OpenCV does not write (a
-/// palette), and fast (little compression for much less time).
+/// Pictures as the bytes of PNG files, compressed by libdeflate: two to three times as fast as
+/// OpenCV's writer or libpng by zlib, and smaller, and with a palette where one is asked for.
 #pragma once
 
 #include <array>
@@ -14,16 +14,15 @@ namespace lcs::sequence {
 using Rgb = std::array<std::uint8_t, 3>;
 
 /// What the rows of a picture are compressed by.
-enum class PngFilter {
-  none,  ///< large areas of one value
-  sub,   ///< differences from the pixel to the left
-  up,    ///< differences from the pixel above
+enum class PngFilter : unsigned char {
+  none = 0,  ///< large areas of one value
+  sub = 1,   ///< differences from the pixel to the left
+  up = 2,    ///< differences from the pixel above
 };
 
 /// \param image 8 or 16 bits, 1 channel, or 3 in the order red, green, blue (8 bits: blue, green,
-/// red,
-///   as OpenCV has pictures).
-/// \throws std::invalid_argument for any other image, std::runtime_error if libpng fails.
+/// red, as OpenCV has pictures).
+/// \throws std::invalid_argument for any other image, std::bad_alloc.
 std::string encode_png(const cv::Mat& image, PngFilter filter);
 
 /// An indexed picture: each pixel is a place in the palette. \throws as `encode_png`.

@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# Usage: read_back.sh LCS SCENARIOS WORK
+#
+# Generates a sequence, installs evo, pycocotools and TrackEval in a folder of their own, and reads the
+# sequence with them. Then makes a small data set by GNU parallel, as the documentation has it. Exits
+# with 77, skipped, when the tools cannot be downloaded here.
+set -euo pipefail
+lcs=$1 scenarios=$2 work=$3
+here=$(dirname "${BASH_SOURCE[0]}")
+frames=30
+
+skip() {
+  printf 'SKIPPED: %s\n' "$*"
+  exit 77
+}
+fail() {
+  printf 'FAILED: %s\n' "$*"
+  exit 1
+}
+
+# Releases of TrackEval before 1.3 use names that NumPy 1.24 took away.
+install_tools() {
+  python3 -m venv "$work/venv" 2>/dev/null ||
+    skip "the tools need a virtual environment (Debian: python3-venv, which tools/test --all installs)"
+  local log=$work/pip.log
+  if ! "$work/venv/bin/pip" install --disable-pip-version-check --retries 1 --timeout 30 --quiet \
+    --only-binary :all: evo pycocotools 'trackeval>=1.3' pillow pyyaml >"$log" 2>&1; then
+    cat "$log"
+    if grep -qE 'Retrying|Max retries|Connection|timed out|ProxyError|name resolution' "$log"; then
+      skip "the Python package registry is not reachable, so there are no tools to read with"
+    fi
+    fail "pip does not install evo, pycocotools and trackeval"
+  fi
+}
+
+spread() {
+  if ! command -v parallel >/dev/null; then
+    echo "not tested: GNU parallel is not installed (Debian: parallel, which tools/test --all installs)"
+    return
+  fi
+  mkdir -p "$work/scenarios"
+  for name in a b c d; do cp "$scenarios/crossing.yaml" "$work/scenarios/$name.yaml"; done
+  PATH=$(dirname "$lcs"):$PATH parallel -j 2 lcs generate --suite "$work/scenarios" --frames 3 \
+    --formats depth --out "$work/data" --shard {}/3 ::: 1 2 3
+  for name in a b c d; do
+    [[ -s $work/data/$name-seed1/manifest.json ]] || fail "parallel left no sequence $name"
+  done
+  echo "fine: GNU parallel made four sequences in three parts"
+}
+
+rm -rf "$work"
+mkdir -p "$work"
+spread
+"$lcs" generate "$scenarios/crossing.yaml" --frames $frames --out "$work/sequence" --quiet
+"$lcs" run "$scenarios/crossing.yaml" --set frames=$frames --out "$work/run" --no-video --quiet || [[ $? -eq 1 ]]
+install_tools
+MPLBACKEND=agg HOME=$work "$work/venv/bin/python" "$here/read_back.py" "$work/sequence" "$work/run" \
+  "$work/tracks"
