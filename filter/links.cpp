@@ -9,8 +9,7 @@
 namespace lcs {
 namespace {
 
-/// The local spacing is the distance of this neighbour, looked for up to this far.
-constexpr std::size_t kSpacingNeighbour = 6;
+/// The local spacing is looked for up to this far.
 constexpr double kSpacingReach_px = 60;
 
 /// Of the grid: about as wide as the spacing of corners where they are many.
@@ -54,13 +53,23 @@ void LinkLayering::gather(const std::vector<Edge>& edges, const MotionField& fie
 }
 
 void LinkLayering::measure_spacing() {
-  const auto any = [](int) { return true; };
+  const auto count = static_cast<std::size_t>(parameters_.neighbour);
   for (Node& node : nodes_) {
+    // Of its own surface: what lies behind an object or before it says nothing of its spacing.
+    const auto like = [&](int j) {
+      return !parameters_.like_neighbours || node.edge->rebel ||
+             std::abs(nodes_[j].w - node.w) < tolerance(nodes_[j], node);
+    };
     // One more, for the first is the node itself.
-    grid_.nearest(node.location, kSpacingReach_px, kSpacingNeighbour + 1, any, near_);
-    const bool dense = near_.size() > kSpacingNeighbour;
-    node.spacing = dense ? std::sqrt(near_.back().first) : kSpacingReach_px;
+    grid_.nearest(node.location, kSpacingReach_px, count + 1, like, near_);
+    node.spacing = near_.size() > count ? std::sqrt(near_.back().first) : kSpacingReach_px;
   }
+}
+
+double LinkLayering::tolerance(const Node& a, const Node& b) const {
+  const double w = 0.5 * (a.w + b.w);
+  const double plain = parameters_.depth_share * w + parameters_.depth_spread * w * w;
+  return std::clamp(std::hypot(a.sigma, b.sigma), plain, kUncertainTolerance * plain);
 }
 
 double LinkLayering::reach(const Node& a, const Node& b) const {
@@ -78,13 +87,9 @@ void LinkLayering::link_by_depth() {
       const Node& b = nodes_[j];
       const double distance = std::sqrt(distance2), longest = reach(a, b);
       if (distance > longest) return;
-      const double w = 0.5 * (a.w + b.w);
-      const double plain = parameters_.depth_share * w + parameters_.depth_spread * w * w;
-      const double tolerance =
-          std::clamp(std::hypot(a.sigma, b.sigma), plain, kUncertainTolerance * plain);
-      const double difference = std::abs(a.w - b.w);
-      if (!(difference < tolerance)) return;
-      links_.push_back({2 * difference / tolerance + distance / longest, static_cast<int>(i), j});
+      const double difference = std::abs(a.w - b.w), most = tolerance(a, b);
+      if (!(difference < most)) return;
+      links_.push_back({2 * difference / most + distance / longest, static_cast<int>(i), j});
     });
   }
   std::sort(links_.begin(), links_.end(), [](const Link& x, const Link& y) {
@@ -143,8 +148,9 @@ void LinkLayering::make_squares(int least, const MotionField& field) {
       const Node& node = nodes_[i];
       xs_.push_back(node.location.x());
       ys_.push_back(node.location.y());
-      const double weight = node.edge->rebel ? 1 : node.edge->path_weight;
-      ratio += weight * (node.edge->rebel ? node.edge->depth_ratio : node.edge->path_ratio);
+      const double weight = node.edge->rebel ? 1 : 1 / (node.sigma * node.sigma);
+      ratio +=
+          weight * (node.edge->rebel ? node.edge->depth_ratio : node.w * field.reference_depth_m());
       weights += weight;
       speed += node.edge->speed / n;
       velocity += node.edge->velocity() / n;
@@ -159,6 +165,9 @@ void LinkLayering::make_squares(int least, const MotionField& field) {
     const double longest = parameters_.max_side * std::max(camera_.width_px, camera_.height_px);
     if (size.prod() < parameters_.min_area || size.maxCoeff() > longest) continue;
     const bool rebel = nodes_[group.front()].edge->rebel;
+    const double largest_px =
+        parameters_.max_size * camera_.focal_px * ratio / weights / field.reference_depth_m();
+    if (!rebel && size.maxCoeff() > largest_px) continue;
     square.location = 0.5 * (low + high);
     square.half_size = 0.5 * size;
     square.origin = origin;

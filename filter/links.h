@@ -48,6 +48,8 @@ class LinkLayering {
   void link_by_velocity(double dt_s);
   void make_squares(int least, const MotionField& field);
   double reach(const Node& a, const Node& b) const;
+  /// By how much the inverse depths of neighbours may differ.
+  double tolerance(const Node& a, const Node& b) const;
 
   Intrinsics camera_;
   LinkParameters parameters_;

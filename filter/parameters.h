@@ -106,6 +106,8 @@ struct CircleParameters {
 /// The links rule of the Square expert: neighbours are linked when they lie within a few local
 /// spacings and at one depth, and linked groups merge, best link first, while their means agree.
 struct LinkParameters {
+  int neighbour = 3;                ///< whose distance is the local spacing: the third nearest,
+  bool like_neighbours = true;      ///< of those at a like depth
   double spacing = 1.8;             ///< local spacings that a link may span
   double reach_min = 15;            ///< px: and never less than this,
   double reach_max = 80;            ///< px: nor more
@@ -115,11 +117,12 @@ struct LinkParameters {
   double corner_sigma = 0.7;        ///< px: what a path's two ends may be off
   double rebel_speed_share = 0.35;  ///< by which rebels' velocities may differ
   double rebel_speed_px = 3;        ///< px a frame: and by this in any case
-  int min_edges = 4;                ///< that make a square
+  int min_edges = 6;                ///< that make a square
   int min_rebels = 4;
   double trim = 0.02;     ///< share of the edges cut off at each side of a box
   double min_area = 250;  ///< px^2
-  double max_side = 0.5;  ///< of the image's longer side: what spans more is background
+  double max_side = 0.5;  ///< of the image's longer side: what spans more is background,
+  double max_size = 5;    ///< m: and so is what is larger, by the depth of its edges
 };
 
 /// Square expert.

@@ -22,9 +22,10 @@ MotionField ahead() {
 }
 
 /// A grid of normal edges, `depth_m` away and known to about 1 %.
-void add_patch(Layers& layers, const Vec2& low, const Vec2& high, double depth_m) {
-  for (double y = low.y(); y <= high.y(); y += 10) {
-    for (double x = low.x(); x <= high.x(); x += 10) {
+void add_patch(Layers& layers, const Vec2& low, const Vec2& high, double depth_m,
+               double spacing_px = 10) {
+  for (double y = low.y(); y <= high.y(); y += spacing_px) {
+    for (double x = low.x(); x <= high.x(); x += spacing_px) {
       Edge edge;
       edge.location = {x, y};
       edge.origin = vga().centre_px;
@@ -104,11 +105,36 @@ TEST(Links, RebelsLinkByVelocityAndNotWithStaticOnes) {
 
 TEST(Links, FewEdgesThinGroupsAndUncalledRebelsMakeNoSquare) {
   Layers layers;
-  add_patch(layers, {100, 100}, {120, 100}, 3);  // three, and on a line
+  add_patch(layers, {100, 100}, {140, 100}, 3);  // five, and on a line
+  add_patch(layers, {100, 300}, {140, 300}, 3);
   add_rebels(layers, {300, 100}, {340, 140}, {80, 0});
   for (Edge& edge : layers.rebel_edges) edge.called = false;
   EXPECT_TRUE(squares_of(layers).empty());
   EXPECT_TRUE(squares_of({}).empty());
+}
+
+TEST(Links, ASparseObjectIsOneBeforeADenseBackground) {
+  Layers layers;
+  add_patch(layers, {203, 203}, {293, 293}, 2, 30);
+  add_patch(layers, {180, 180}, {320, 320}, 4, 7);
+  const auto is_object = [](const Square& square) {
+    return square.location.isApprox(Vec2(248, 248)) && square.half_size.isApprox(Vec2(45, 45));
+  };
+  EXPECT_EQ(std::ranges::count_if(squares_of(layers), is_object), 1);
+  LinkParameters any;
+  any.like_neighbours = false;
+  const auto squares = LinkLayering(vga(), any).layer(layers, ahead());
+  EXPECT_EQ(std::ranges::count_if(squares, is_object), 0);
+}
+
+// 200 px wide, and as many metres as its depth makes of them.
+TEST(Links, WhatIsLargerThanAnObjectMayBeIsBackground) {
+  const double limit_m = LinkParameters{}.max_size * vga().focal_px / 200;
+  for (const double share : {0.9, 1.1}) {
+    Layers layers;
+    add_patch(layers, {200, 100}, {400, 200}, share * limit_m);
+    EXPECT_EQ(squares_of(layers).size(), share < 1 ? 1u : 0u);
+  }
 }
 
 TEST(Links, EdgesWithoutParallaxAreLeftOut) {
