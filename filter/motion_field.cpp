@@ -38,17 +38,31 @@ MotionField::MotionField(const Intrinsics& camera, const EgoMotion& motion,
 }
 
 Vec2 MotionField::rotated(const Vec2& x_px) const {
-  if (rotation_ == RotationModel::homography) {
-    const Eigen::Vector3d h = homography_ * x_px.homogeneous();
-    // Turned behind the camera: no image. Keep it where it is; it is out of sight and will go.
-    return h.z() > 1e-6 ? Vec2(h.hnormalized()) : x_px;
+  switch (rotation_) {
+    case RotationModel::first_order:
+      return x_px + first_order(x_px - centre_px_);
+    case RotationModel::as_printed:
+      return x_px + as_printed(x_px - centre_px_);
+    case RotationModel::homography:
+      break;
   }
-  const Vec2 x = x_px - centre_px_;
+  const Eigen::Vector3d h = homography_ * x_px.homogeneous();
+  // Turned behind the camera: no image. Keep it where it is; it is out of sight and will go.
+  return h.z() > 1e-6 ? Vec2(h.hnormalized()) : x_px;
+}
+
+Vec2 MotionField::first_order(const Vec2& x) const {
   const double f = focal_px_;
-  return x_px + Vec2(x.x() * x.y() / f * w_dt_.x() - (f + x.x() * x.x() / f) * w_dt_.y() +
-                         x.y() * w_dt_.z(),
-                     (f + x.y() * x.y() / f) * w_dt_.x() - x.x() * x.y() / f * w_dt_.y() -
-                         x.x() * w_dt_.z());
+  const Eigen::Vector3d& w = w_dt_;
+  return {x.x() * x.y() / f * w.x() - (f + x.x() * x.x() / f) * w.y() + x.y() * w.z(),
+          (f + x.y() * x.y() / f) * w.x() - x.x() * x.y() / f * w.y() - x.x() * w.z()};
+}
+
+Vec2 MotionField::as_printed(const Vec2& x) const {
+  const double f = focal_px_;
+  const Eigen::Vector3d& w = w_dt_;
+  return {f * w.y() + x.y() * w.z() + (x.x() * x.y() * w.x() - x.x() * x.x() * w.y()) / f,
+          f * w.x() + x.x() * w.z() + (x.x() * x.y() * w.y() - x.y() * x.y() * w.y()) / f};
 }
 
 double MotionField::turned(double angle_rad, const Vec2& location_px, const Vec2& origin_px) const {

@@ -88,6 +88,11 @@ class MotionField {
   std::optional<Vec2> foe() const { return foe_; }
 
  private:
+  /// Displacement by the rotation, px, of a point `x` from the principal point: the field above
+  /// integrated once, and the paper's first equation as it is printed.
+  Vec2 first_order(const Vec2& x) const;
+  Vec2 as_printed(const Vec2& x) const;
+
   /// g(x), m/s * px: the flow times the depth.
   Vec2 flow(const Vec2& x_px) const;
 

@@ -48,7 +48,7 @@ struct Entry {
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> table = {
       {"field.rotation", "", "", 0, 0,
-       LCS_CHOICE(RotationModel, field.rotation, "first_order", "homography")},
+       LCS_CHOICE(RotationModel, field.rotation, "first_order", "homography", "as_printed")},
       {"field.reference_depth", "Z_ref", "m", 1e-3, 1e4,
        LCS_FIELD(double, field.reference_depth_m)},
       {"field.nearest_depth", "z_min", "m", 1e-3, 1e4, LCS_FIELD(double, field.nearest_depth_m)},

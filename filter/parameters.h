@@ -16,6 +16,7 @@ namespace lcs {
 enum class RotationModel {
   first_order,  ///< the motion field integrated once: the paper's, good for small rotations
   homography,   ///< x' ~ K dR K^-1 x, exact
+  as_printed,   ///< the paper's first equation with its wrong terms, to be compared with
 };
 
 /// How edges are matched and rebels are told.

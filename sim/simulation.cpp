@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "sim/camera_renderer.h"
+#include "sim/drive.h"
 #include "sim/gl_context.h"
 #include "sim/photograph.h"
 #include "sim/silhouette.h"
@@ -49,25 +50,12 @@ struct Simulation::Impl {
         world(s),
         renderer(world.model(), world.camera_id(), s.camera.width_px, s.camera.height_px),
         parts(outlines(world)),
-        calibration(calibrate()),
+        calibration(calibrate(world, s.camera)),
         snapshot(world.snapshot()) {
     if (s.image) {
       photographer.emplace(*s.image, calibration.camera, s.camera.rate_hz, s.seed);
     }
     world.advance_to(0, imu, odometry, &imu_truth);
-  }
-
-  Calibration calibrate() const {
-    const Pose T_BW = world.T_WB().inverse();
-    Calibration c;
-    c.camera = Pinhole::from_fovy(scenario.camera.width_px, scenario.camera.height_px,
-                                  scenario.camera.fovy_rad);
-    c.T_BC = T_BW * world.snapshot().T_WC;
-    c.T_BS = T_BW * world.T_WS();
-    c.T_WB_start = world.T_WB();
-    c.v_WB_start_mps = world.v_WB_mps();
-    c.gravity_mps2 = world.gravity_mps2();
-    return c;
   }
 
   std::int64_t frame_time_ns(int k) const { return event_time_ns(k, scenario.camera.rate_hz); }

@@ -1,5 +1,5 @@
 /// The paper's formulas as they are printed, where the print cannot be meant: each test transcribes
-/// one and shows what is wrong with it, beside the form that is used. `filter/EQUATIONS.md` names
+/// one (the rotation is `RotationModel::as_printed` of the filter) and shows what is wrong with it, beside the form that is used. `filter/EQUATIONS.md` names
 /// them row by row.
 #include <gtest/gtest.h>
 
@@ -21,12 +21,6 @@ using testing::vga;
 
 // ---------------------------------------------------------------------------------------- rotation
 
-/// First numbered equation, `x` from the principal point, `w` the rotation in the interval.
-Vec2 printed_rotation(const Vec2& x, const Vector3d& w, double f) {
-  return {x.x() + f * w.y() + x.y() * w.z() + (x.x() * x.y() * w.x() - x.x() * x.x() * w.y()) / f,
-          x.y() + f * w.x() + x.x() * w.z() + (x.x() * x.y() * w.y() - x.y() * x.y() * w.y()) / f};
-}
-
 double angle_between_rays(const Vec2& a, const Vec2& b, double f) {
   const Vector3d u(a.x(), a.y(), f), v(b.x(), b.y(), f);
   return std::atan2(u.cross(v).norm(), u.dot(v));
@@ -36,12 +30,14 @@ double angle_between_rays(const Vec2& a, const Vec2& b, double f) {
 /// changes them at first order, about every axis; the one used does only at second order.
 TEST(AsPrinted, TheRotationIsNoRotationInAnyConventionOfSigns) {
   const double f = vga().focal_px, step = 1e-4;
-  FieldParameters first_order;
+  FieldParameters first_order, as_printed;
   first_order.rotation = RotationModel::first_order;
+  as_printed.rotation = RotationModel::as_printed;
   for (int axis = 0; axis < 3; ++axis) {
     SCOPED_TRACE(axis);
     const Vector3d w = step * Vector3d::Unit(axis);
-    const MotionField field(vga(), steady_motion(Vector3d::Zero(), w, 1), first_order);
+    const EgoMotion motion = steady_motion(Vector3d::Zero(), w, 1);
+    const MotionField field(vga(), motion, first_order), print(vga(), motion, as_printed);
     Random random(1);
     double printed = 0, used = 0;
     for (int i = 0; i < 100; ++i) {
@@ -51,8 +47,8 @@ TEST(AsPrinted, TheRotationIsNoRotationInAnyConventionOfSigns) {
       const auto change = [&](const Vec2& a_now, const Vec2& b_now) {
         return std::abs(angle_between_rays(a_now, b_now, f) - before) / step;
       };
-      printed = std::max(printed, change(printed_rotation(a, w, f), printed_rotation(b, w, f)));
       const Vec2 c = vga().centre_px;
+      printed = std::max(printed, change(print.rotated(a + c) - c, print.rotated(b + c) - c));
       used = std::max(used, change(field.rotated(a + c) - c, field.rotated(b + c) - c));
     }
     EXPECT_GT(printed, 0.1);  // rad of error for a rad of turning

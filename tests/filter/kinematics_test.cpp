@@ -61,10 +61,12 @@ struct Rotation : ::testing::TestWithParam<RotationModel> {
   }
 };
 INSTANTIATE_TEST_SUITE_P(Models, Rotation,
-                         ::testing::Values(RotationModel::first_order, RotationModel::homography),
+                         ::testing::Values(RotationModel::first_order, RotationModel::homography,
+                                           RotationModel::as_printed),
                          [](const auto& model) {
-                           return model.param == RotationModel::homography ? "homography"
-                                                                           : "first_order";
+                           return model.param == RotationModel::homography    ? "homography"
+                                  : model.param == RotationModel::first_order ? "first_order"
+                                                                              : "as_printed";
                          });
 
 TEST_P(Rotation, MovesEveryStoredLocationAndEveryOriginOfItsOwn) {

@@ -25,6 +25,9 @@ class EgoMotionFeed {
   /// To be called with every observation, in order.
   Motions next(const sim::Observation& observation);
 
+  /// What tells motions where the source is the IMU.
+  const EgoMotionEstimator& estimator() const { return estimator_; }
+
  private:
   EgoMotion exact(const sim::Observation& observation);
   EgoMotion estimated(const sim::Observation& observation);

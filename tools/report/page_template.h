@@ -1,5 +1,5 @@
 /// \file
-/// The page's template and what goes into it: `page.html`, `page.css` and `page.js` as they lie
+/// The page's template and what every page needs: `page.html`, `page.css` and `plot.js` as they lie
 /// beside this file, made part of the program when it is built.
 #pragma once
 
@@ -9,6 +9,6 @@ namespace lcs::report {
 
 extern const std::string_view kPageHtml;  ///< with {{title}}, {{style}}, {{data}} and {{script}}
 extern const std::string_view kPageCss;
-extern const std::string_view kPageJs;
+extern const std::string_view kPlotJs;  ///< elements, numbers, plots
 
 }  // namespace lcs::report

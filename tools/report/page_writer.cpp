@@ -1,0 +1,77 @@
+#include "tools/report/page_writer.h"
+
+#include <string>
+
+#include "tools/bench/output_file.h"
+#include "tools/report/page_template.h"
+
+namespace lcs::report {
+namespace {
+
+std::string escaped(std::string_view text) {
+  std::string html;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      default:
+        html += c;
+    }
+  }
+  return html;
+}
+
+/// JSON with every "<" written otherwise: "</script>" would end the element that it stands in.
+std::string embeddable(std::string_view json) {
+  std::string safe;
+  safe.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<')
+      safe += "\\u003c";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+/// The template with each {{name}} replaced, once. What is put in is not looked at again.
+std::string html_of(const Page& page) {
+  const std::string title = escaped(page.title);
+  const std::string data = embeddable(page.data);
+  const std::string script = std::string(kPlotJs).append("\n").append(page.script);
+  std::string html;
+  html.reserve(kPageHtml.size() + kPageCss.size() + script.size() + data.size());
+  std::string_view rest = kPageHtml;
+  for (std::size_t open = rest.find("{{"); open != rest.npos; open = rest.find("{{")) {
+    const std::size_t close = rest.find("}}", open);
+    const std::string_view name = rest.substr(open + 2, close - open - 2);
+    html += rest.substr(0, open);
+    html += name == "title"        ? std::string_view(title)
+            : name == "style"      ? kPageCss
+            : name == "script"     ? std::string_view(script)
+            : name == "where_else" ? page.where_else
+                                   : std::string_view(data);
+    rest.remove_prefix(close + 2);
+  }
+  html += rest;
+  return html;
+}
+
+}  // namespace
+
+void write_page(const std::filesystem::path& file, const Page& page) {
+  bench::write_whole(file, [&](const std::filesystem::path& beside) {
+    bench::OutputFile out(beside);
+    out.write(html_of(page));
+    out.close();
+  });
+}
+
+}  // namespace lcs::report
