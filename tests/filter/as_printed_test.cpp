@@ -1,6 +1,6 @@
 /// The paper's formulas as they are printed, where the print cannot be meant: each test transcribes
-/// one (the rotation is `RotationModel::as_printed` of the filter) and shows what is wrong with it, beside the form that is used. `filter/EQUATIONS.md` names
-/// them row by row.
+/// one (the rotation is `RotationModel::as_printed` of the filter) and shows what is wrong with it,
+/// beside the form that is used. `filter/EQUATIONS.md` names them row by row.
 #include <gtest/gtest.h>
 
 #include <optional>

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "sim/drive.h"
 #include "tests/sim/support.h"
 
 namespace lcs::sim {
@@ -85,6 +86,46 @@ TEST(Simulation, TwoRunsOfOneScenarioGiveTheSameBits) {
     EXPECT_EQ(a.images, b.images);
     EXPECT_EQ(a.readings, b.readings);
     EXPECT_EQ(a.truth, b.truth);
+  }
+}
+
+/// All that needs no camera, without one.
+TEST(Simulation, ADriveWithoutPicturesHasTheSameMotionsAndReadings) {
+  for (const auto drives : {scenario::Drive::holonomic, scenario::Drive::wheeled}) {
+    const scenario::Scenario s = busy(drives);
+    const Drive blind = drive(s);
+    Simulation simulation(s);
+    EXPECT_EQ(blind.calibration.T_BC.R, simulation.calibration().T_BC.R);
+    EXPECT_EQ(blind.calibration.T_BS.p, simulation.calibration().T_BS.p);
+    EXPECT_EQ(blind.calibration.T_WB_start.p, simulation.calibration().T_WB_start.p);
+    EXPECT_EQ(blind.calibration.v_WB_start_mps, simulation.calibration().v_WB_start_mps);
+    EXPECT_EQ(blind.calibration.camera.focal_px, simulation.calibration().camera.focal_px);
+    std::size_t k = 0;
+    while (const auto seen = simulation.next()) {
+      const Observation& frame = blind.frames.at(k++);
+      EXPECT_EQ(frame.index, seen->index);
+      EXPECT_EQ(frame.t_ns, seen->t_ns);
+      ASSERT_EQ(frame.imu.size(), seen->imu.size());
+      for (std::size_t i = 0; i < frame.imu.size(); ++i) {
+        EXPECT_EQ(frame.imu[i].t_ns, seen->imu[i].t_ns);
+        EXPECT_EQ(frame.imu[i].gyro_radps, seen->imu[i].gyro_radps);
+        EXPECT_EQ(frame.imu[i].accel_mps2, seen->imu[i].accel_mps2);
+      }
+      ASSERT_EQ(frame.odometry.size(), seen->odometry.size());
+      for (std::size_t i = 0; i < frame.odometry.size(); ++i) {
+        EXPECT_EQ(frame.odometry[i].velocity_mps, seen->odometry[i].velocity_mps);
+      }
+      EXPECT_EQ(frame.truth.v_WC_mps, seen->truth.v_WC_mps);
+      EXPECT_EQ(frame.truth.w_C_radps, seen->truth.w_C_radps);
+      for (const auto& [a, b] : {std::pair(&frame.truth.now, &seen->truth.now),
+                                 std::pair(&frame.truth.next, &seen->truth.next)}) {
+        EXPECT_EQ(a->T_WC.R, b->T_WC.R);
+        EXPECT_EQ(a->T_WC.p, b->T_WC.p);
+        ASSERT_EQ(a->T_WO.size(), b->T_WO.size());
+        for (std::size_t i = 0; i < a->T_WO.size(); ++i) EXPECT_EQ(a->T_WO[i].p, b->T_WO[i].p);
+      }
+    }
+    EXPECT_EQ(k, blind.frames.size());
   }
 }
 

@@ -12,6 +12,7 @@
 #include "tools/lcs/exit_codes.h"
 #include "tools/lcs/generate.h"
 #include "tools/lcs/interrupt.h"
+#include "tools/lcs/kinematics.h"
 #include "tools/lcs/replay.h"
 #include "tools/lcs/run.h"
 #include "tools/lcs/score.h"
@@ -32,6 +33,7 @@ through its camera and IMU, and the simulator's truth scores what the filter say
   lcs generate SCENARIO               a sequence of pictures and truth that other tools read
   lcs replay --images DIR ...         the filter on a folder of pictures
   lcs score DIR --detections FILE     someone else's detector, by a run's truth
+  lcs kinematics                      when the motion model holds, for your camera and rover
   lcs run --help                      all about a command
 )";
 
@@ -52,6 +54,7 @@ int run_command_line(int argc, char** argv) {
   SuiteOptions suite_options;
   CompareOptions compare_options;
   GenerateOptions generate_options;
+  KinematicsOptions kinematics_options;
   const struct {
     const CLI::App& command;
     std::function<ExitCode()> carry_out;
@@ -62,6 +65,8 @@ int run_command_line(int argc, char** argv) {
       {add_suite_command(app, suite_options), [&] { return suite(suite_options); }},
       {add_generate_command(app, generate_options), [&] { return generate(generate_options); }},
       {add_compare_command(app, compare_options), [&] { return compare(compare_options); }},
+      {add_kinematics_command(app, kinematics_options),
+       [&] { return kinematics(kinematics_options); }},
   };
   try {
     app.parse(argc, argv);

@@ -15,9 +15,10 @@ constexpr const char* kWipe = "\r\x1b[K";
 
 }  // namespace
 
-Progress::Progress(std::string name, int frames, bool quiet)
+Progress::Progress(std::string name, int total, bool quiet, std::string unit)
     : name_(std::move(name)),
-      frames_(frames),
+      total_(total),
+      unit_(std::move(unit)),
       style_(quiet                     ? Style::none
              : ::isatty(STDERR_FILENO) ? Style::bar
                                        : Style::lines) {}
@@ -33,18 +34,20 @@ void Progress::show(int done) {
 
 void Progress::show_bar(int done) {
   const Clock::time_point now = Clock::now();
-  if (now - shown_ < kBarPeriod && done < frames_) return;
+  if (now - shown_ < kBarPeriod && done < total_) return;
   shown_ = now;
-  const int filled = kBarWidth * done / frames_;
+  const int filled = kBarWidth * done / total_;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  fmt::print(stderr, "{}{} [{:#<{}}{:.<{}}] {}/{} frames, {:.0f} s left", kWipe, name_, "", filled,
-             "", kBarWidth - filled, done, frames_, seconds / done * (frames_ - done));
+  fmt::print(stderr, "{}{} [{:#<{}}{:.<{}}] {}/{} {}, {:.0f} s left", kWipe, name_, "", filled, "",
+             kBarWidth - filled, done, total_, unit_, seconds / done * (total_ - done));
 }
 
 void Progress::show_line(int done) {
   // A line where another quarter became full.
-  if (done * kLines / frames_ == (done - 1) * kLines / frames_) return;
-  fmt::print(stderr, "{}: {}/{} frames\n", name_, done, frames_);
+  if (done * kLines / total_ > told_ * kLines / total_) {
+    fmt::print(stderr, "{}: {}/{} {}\n", name_, done, total_, unit_);
+  }
+  told_ = done;
 }
 
 }  // namespace lcs::tools

@@ -9,14 +9,15 @@ namespace lcs::tools {
 
 class Progress {
  public:
+  /// \param total of what is to be done, counted in `unit`.
   /// \param quiet says nothing at all.
-  Progress(std::string name, int frames, bool quiet);
+  Progress(std::string name, int total, bool quiet, std::string unit = "frames");
   /// Wipes the bar.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// \param done frames so far.
+  /// \param done so far.
   void show(int done);
 
  private:
@@ -25,7 +26,9 @@ class Progress {
 
   using Clock = std::chrono::steady_clock;
   std::string name_;
-  int frames_;
+  int total_;
+  std::string unit_;
+  int told_ = 0;
   enum class Style { none, bar, lines } style_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point shown_{};

@@ -10,8 +10,8 @@ namespace lcs::report {
 
 struct Page {
   std::string_view title;
-  std::string_view data;    ///< JSON in UTF-8
-  std::string_view script;  ///< runs after `plot.js`; finds the data in the element `data`
+  std::string_view data;        ///< JSON in UTF-8
+  std::string_view script;      ///< runs after `plot.js`; finds the data in the element `data`
   std::string_view where_else;  ///< file with the same figures, for a browser without JavaScript
 };
 

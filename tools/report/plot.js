@@ -46,7 +46,8 @@ function ticks(low, high, about) {
   for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i++) all.push(i * step);
   return all;
 }
-const tickText = (value) => String(Number(value.toPrecision(6)));
+const tickText = (value) => value !== 0 && Math.abs(value) < 1e-3 ? value.toExponential(0)
+  : String(Number(value.toPrecision(6)));
 
 /** Points joined where none is missing between them; a lone one as a dot. */
 function curve(xs, ys, at, style) {
@@ -77,7 +78,7 @@ function logarithmic(low, high) {
   const from = Math.log10(low), decades = Math.max(1e-9, Math.log10(high) - from);
   const all = [];
   for (let power = Math.floor(from); power <= from + decades; power++) {
-    for (const factor of decades < 3 ? [1, 2, 5] : [1]) {
+    for (const factor of decades < 2 ? [1, 2, 5] : [1]) {
       const value = factor * 10 ** power;
       if (value >= low * 0.999 && value <= high * 1.001) all.push(value);
     }

@@ -12,10 +12,8 @@ void write_report(const std::filesystem::path& file, const suite::SuiteResult& s
                   const suite::SuiteResult* baseline, const std::filesystem::path& suite_folder) {
   const std::string title = "lcs suite: " + suite.detector;
   const std::string data = report_data(suite, baseline, suite_folder);
-  write_page(file, {.title = title,
-                    .data = data,
-                    .script = kReportJs,
-                    .where_else = suite::kSuiteFile});
+  write_page(file,
+             {.title = title, .data = data, .script = kReportJs, .where_else = suite::kSuiteFile});
 }
 
 }  // namespace lcs::report

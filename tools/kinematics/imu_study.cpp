@@ -1,0 +1,261 @@
+#include "tools/kinematics/imu_study.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "scenarios/imu_presets.h"
+#include "tools/bench/ego_motion_feed.h"
+#include "tools/bench/statistics.h"
+#include "tools/kinematics/parallel.h"
+#include "tools/kinematics/theory.h"
+
+namespace lcs::kinematics {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr std::array kRates_hz = {1.0, 3.0, 10.0, 30.0};
+constexpr std::array kDepths_m = {2.0, 4.0, 8.0};
+constexpr std::array kRoughness_m = {0.0, 1e-3, 2.5e-3, 5e-3, 10e-3};
+constexpr double kBumpyWay_m = 3.5;  // the rough part of the ground, from its middle on
+constexpr double kLongestBumps_s = 10;
+
+PointSet coarse_points(const StudyConfig& config) {
+  return geometric_points(config.camera, kDepths_m, 9, 7);
+}
+
+std::vector<double> rates(const StudyConfig& config) {
+  std::vector<double> all(kRates_hz.begin(), kRates_hz.end());
+  const double own = config.scenario.camera.rate_hz;
+  if (std::find(all.begin(), all.end(), own) == all.end()) all.push_back(own);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// The landmarks of each frame of a drive but the first, which has no motion.
+std::vector<std::vector<Landmark>> landmarks_along(const sim::Drive& drive, const PointSet& points,
+                                                   const FieldParameters& field) {
+  std::vector<std::vector<Landmark>> all;
+  for (std::size_t k = 1; k < drive.frames.size(); ++k) {
+    const sim::Pose T_CN =
+        drive.frames[k - 1].truth.now.T_WC.inverse() * drive.frames[k].truth.now.T_WC;
+    all.push_back(landmarks(points, T_CN, field));
+  }
+  return all;
+}
+
+/// Mean square over the frames of what theory expects, as a root.
+double expected_rms_px(const StudyConfig& config, const sim::Drive& drive,
+                       const std::vector<std::vector<Landmark>>& seen, const scenario::Scenario& s,
+                       double rate_hz, bool with_velocity) {
+  const double dt = 1 / rate_hz, g = drive.calibration.gravity_mps2;
+  const scenario::ImuNoise& imu = s.imu.noise;
+  double sum = 0;
+  for (std::size_t k = 1; k < drive.frames.size(); ++k) {
+    const double t = static_cast<double>(k) * dt;
+    const double bias2 = imu.gyroscope_random_walk * imu.gyroscope_random_walk * t +
+                         imu.gyroscope_turn_on_bias_radps * imu.gyroscope_turn_on_bias_radps;
+    const Eigen::Vector3d attitude =
+        Eigen::Vector3d::Constant(gyro_turn_variance(imu, s.imu.rate_hz, dt) + bias2 * dt * dt);
+    Eigen::Vector3d velocity_B = Eigen::Vector3d::Zero();
+    if (with_velocity && s.odometry.enabled) {
+      const HeldVelocity held = odometry_held_velocity(imu, s.odometry, g);
+      velocity_B = {held.horizontal_mps2 + std::pow(s.odometry.scale_error * config.speed_mps, 2),
+                    held.horizontal_mps2, held.vertical_mps2};
+    } else if (with_velocity) {
+      const Drift drift = dead_reckoning_drift(imu, g, t);
+      // A heading or pitch that is off turns the speed aside.
+      const double aside = config.speed_mps * config.speed_mps * drift.attitude_rad2;
+      velocity_B = {drift.velocity_horizontal_mps2, drift.velocity_horizontal_mps2 + aside,
+                    drift.velocity_vertical_mps2 + aside};
+    }
+    const Eigen::Matrix3d R_CB = drive.calibration.T_BC.R.transpose();
+    const Eigen::Vector3d velocity_C =
+        (R_CB * velocity_B.asDiagonal() * R_CB.transpose()).diagonal();
+    const double rms = image_rms_px(config.camera, seen[k - 1], attitude, velocity_C, dt);
+    sum += rms * rms;
+  }
+  return std::sqrt(sum / static_cast<double>(drive.frames.size() - 1));
+}
+
+struct Errors {
+  std::vector<double> all, rotation;
+};
+
+Errors errors_along(const StudyConfig& config, const sim::Drive& drive,
+                    const scenario::Scenario& scenario,
+                    const std::vector<std::vector<Landmark>>& seen) {
+  bench::EgoMotionFeed feed(scenario, drive.calibration);
+  const Intrinsics camera = step_to(config.camera, {}, 1, config.filter.field).camera;
+  Errors result;
+  for (std::size_t k = 0; k < drive.frames.size(); ++k) {
+    const bench::EgoMotionFeed::Motions motions = feed.next(drive.frames[k]);
+    if (k == 0) continue;
+    EgoMotion turned_only = motions.told;
+    turned_only.v_C_mps = motions.exact.v_C_mps;
+    const auto add = [&](const EgoMotion& motion, std::vector<double>& into) {
+      const std::vector<double> more =
+          errors({camera, motion, config.filter.field}, {}, seen[k - 1]);
+      into.insert(into.end(), more.begin(), more.end());
+    };
+    add(motions.told, result.all);
+    add(turned_only, result.rotation);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<NamedImu> imus(const StudyConfig& config) {
+  std::vector<NamedImu> all;
+  bool is_own_there = false;
+  for (const std::string& name : scenario::imu_preset_names()) {
+    all.push_back({name, *scenario::imu_preset(name)});
+    is_own_there |= all.back().noise == config.scenario.imu.noise;
+  }
+  if (!is_own_there) all.push_back({"own", config.scenario.imu.noise});
+  return all;
+}
+
+scenario::Scenario with_imu(const StudyConfig& config, const scenario::ImuNoise& noise,
+                            bool odometry) {
+  scenario::Scenario s = config.scenario;
+  s.imu.noise = noise;
+  if (odometry && !s.odometry.enabled) s.odometry = {.enabled = true};
+  s.odometry.enabled = odometry;
+  s.ego_motion = scenario::EgoMotionSource::imu;
+  return s;
+}
+
+int imu_pieces(const StudyConfig& config) {
+  return static_cast<int>(rates(config).size() * imus(config).size() * 2) *
+         config.effort.noise_seeds;
+}
+
+std::vector<ImuRow> imu_rows(const StudyConfig& config, const Tick& tick) {
+  const PointSet points = coarse_points(config);
+  const int seeds = config.effort.noise_seeds;
+  std::vector<ImuRow> rows;
+  for (const double rate_hz : rates(config)) {
+    const sim::Drive ideal = sim::drive(straight_drive(config, kImuDrive_s, rate_hz));
+    const auto seen = landmarks_along(ideal, points, config.filter.field);
+    for (const NamedImu& imu : imus(config)) {
+      for (const bool odometry : {false, true}) {
+        const scenario::Scenario scenario = with_imu(config, imu.noise, odometry);
+        std::vector<Errors> of_seed(static_cast<std::size_t>(seeds));
+        for_each_parallel(
+            seeds,
+            [&](int i) {
+              scenario::Scenario s = scenario;
+              s.seed += static_cast<std::uint64_t>(i);
+              of_seed[static_cast<std::size_t>(i)] =
+                  errors_along(config, with_noise(ideal, s), s, seen);
+            },
+            tick);
+        Errors together;
+        for (const Errors& e : of_seed) {
+          together.all.insert(together.all.end(), e.all.begin(), e.all.end());
+          together.rotation.insert(together.rotation.end(), e.rotation.begin(), e.rotation.end());
+        }
+        rows.push_back(
+            {.imu = imu.name,
+             .rate_hz = rate_hz,
+             .odometry = odometry,
+             .seeds = seeds,
+             .error = summary(std::move(together.all)),
+             .rotation_error = summary(std::move(together.rotation)),
+             .expected_rms_px = expected_rms_px(config, ideal, seen, scenario, rate_hz, true),
+             .expected_rotation_rms_px =
+                 expected_rms_px(config, ideal, seen, scenario, rate_hz, false)});
+      }
+    }
+  }
+  return rows;
+}
+
+int bump_pieces() {
+  return static_cast<int>(kRoughness_m.size());
+}
+
+std::vector<BumpRow> bump_rows(const StudyConfig& config, const Tick& tick) {
+  const PointSet points = coarse_points(config);
+  const double rate_hz = config.scenario.camera.rate_hz;
+  const double duration_s =
+      std::clamp(kBumpyWay_m / config.speed_mps, 2 / rate_hz, kLongestBumps_s);
+  std::vector<std::vector<BumpRow>> of_roughness(kRoughness_m.size());
+  const auto roll = [&](int piece) {
+    const double roughness_m = kRoughness_m[static_cast<std::size_t>(piece)];
+    const sim::Drive drive = sim::drive(bumpy_drive(config, duration_s, rate_hz, roughness_m));
+    const auto seen = landmarks_along(drive, points, config.filter.field);
+    const scenario::Scenario own =
+        with_imu(config, config.scenario.imu.noise, config.scenario.odometry.enabled);
+    const sim::Drive told = with_noise(drive, own);
+    bench::EgoMotionFeed feed(own, drive.calibration);
+
+    std::vector<double> turns_deg;
+    struct Way {
+      std::string rotation, told;
+      std::vector<double> errors_px, expected_px;
+    };
+    std::vector<Way> ways = {{"none", "truth", {}, {}},
+                             {"as_printed", "truth", {}, {}},
+                             {"first_order", "truth", {}, {}},
+                             {"homography", "truth", {}, {}},
+                             {"homography", "imu", {}, {}}};
+    for (std::size_t k = 0; k < told.frames.size(); ++k) {
+      const bench::EgoMotionFeed::Motions motions = feed.next(told.frames[k]);
+      if (k == 0) continue;
+      turns_deg.push_back(Eigen::AngleAxisd(motions.exact.R_cur_prev).angle() / kDegree);
+      EgoMotion unturned = motions.exact;
+      unturned.R_cur_prev.setIdentity();
+      unturned.w_C_radps.setZero();
+      const Intrinsics camera = step_to(config.camera, {}, 1, config.filter.field).camera;
+      for (Way& way : ways) {
+        const EgoMotion& motion = way.rotation == "none" ? unturned
+                                  : way.told == "imu"    ? motions.told
+                                                         : motions.exact;
+        RotationModel rotation = RotationModel::homography;
+        for (const RotationModel model : kRotations) {
+          if (name(model) == way.rotation) rotation = model;
+        }
+        const std::vector<double> more = errors({camera, motion, config.filter.field},
+                                                {rotation, DepthSource::truth}, seen[k - 1]);
+        way.errors_px.insert(way.errors_px.end(), more.begin(), more.end());
+        for (const Landmark& landmark : seen[k - 1]) {
+          const Vec2 x = landmark.before_px - camera.centre_px;
+          const Eigen::Vector3d w = motions.exact.w_C_radps * motions.exact.dt_s;
+          if (way.rotation == "none") {
+            way.expected_px.push_back((rotation_jacobian(x, camera.focal_px) * w).norm());
+          } else if (way.rotation == "first_order") {
+            way.expected_px.push_back(second_order_rotation(x, w, camera.focal_px).norm());
+          }
+        }
+      }
+    }
+    for (Way& way : ways) {
+      of_roughness[static_cast<std::size_t>(piece)].push_back(
+          {.roughness_m = roughness_m,
+           .turn_median_deg = bench::median(turns_deg).value_or(0),
+           .turn_p95_deg = bench::quantile(turns_deg, 0.95).value_or(0),
+           .turn_max_deg = bench::quantile(turns_deg, 1).value_or(0),
+           .rotation = way.rotation,
+           .told = way.told,
+           .error = summary(std::move(way.errors_px)),
+           .expected_rms_px = way.expected_px.empty()
+                                  ? std::nan("")
+                                  : summary(std::move(way.expected_px)).rms_px});
+    }
+  };
+  // One after the other: the physics engine's error handlers belong to the whole process.
+  for (int piece = 0; piece < bump_pieces(); ++piece) {
+    roll(piece);
+    tick(1);
+  }
+  std::vector<BumpRow> rows;
+  for (const auto& some : of_roughness) rows.insert(rows.end(), some.begin(), some.end());
+  return rows;
+}
+
+}  // namespace lcs::kinematics

@@ -1,0 +1,76 @@
+#include "tools/kinematics/models.h"
+
+#include <cmath>
+
+#include "tools/bench/statistics.h"
+
+namespace lcs::kinematics {
+namespace {
+
+FieldParameters with_rotation(FieldParameters field, RotationModel rotation) {
+  field.rotation = rotation;
+  return field;
+}
+
+}  // namespace
+
+std::string_view name(RotationModel rotation) {
+  switch (rotation) {
+    case RotationModel::as_printed:
+      return "as_printed";
+    case RotationModel::first_order:
+      return "first_order";
+    case RotationModel::homography:
+      break;
+  }
+  return "homography";
+}
+
+std::string_view name(DepthSource depth) {
+  switch (depth) {
+    case DepthSource::reference:
+      return "reference";
+    case DepthSource::learnt:
+      return "learnt";
+    case DepthSource::truth:
+      break;
+  }
+  return "truth";
+}
+
+Predictor::Predictor(const Step& step, const Model& model)
+    : field_(step.camera, step.motion, with_rotation(step.field, model.rotation)),
+      depth_(model.depth) {}
+
+Vec2 Predictor::operator()(const Landmark& landmark) const {
+  // The ratio is that at the end of the interval; of what was learnt the known motion leads there.
+  const double ratio = depth_ == DepthSource::reference ? 1
+                       : depth_ == DepthSource::learnt
+                           ? field_.advanced_ratio(landmark.learnt_ratio)
+                           : field_.reference_depth_m() / landmark.depth_after_m;
+  return field_.translated(field_.rotated(landmark.before_px), ratio);
+}
+
+ErrorSummary summary(std::vector<double> errors_px) {
+  if (errors_px.empty()) return {};
+  double squares = 0;
+  for (const double error : errors_px) squares += error * error;
+  ErrorSummary result;
+  result.count = errors_px.size();
+  result.rms_px = std::sqrt(squares / static_cast<double>(errors_px.size()));
+  result.median_px = *bench::median(errors_px);
+  result.p95_px = *bench::quantile(errors_px, 0.95);
+  result.max_px = *std::max_element(errors_px.begin(), errors_px.end());
+  return result;
+}
+
+std::vector<double> errors(const Step& step, const Model& model,
+                           const std::vector<Landmark>& landmarks) {
+  const Predictor predictor(step, model);
+  std::vector<double> all;
+  all.reserve(landmarks.size());
+  for (const Landmark& landmark : landmarks) all.push_back(predictor.error(landmark));
+  return all;
+}
+
+}  // namespace lcs::kinematics

@@ -1,0 +1,84 @@
+/// \file
+/// The nine models that are held against the truth: three for the rotation, each with three kinds
+/// of knowledge of a landmark's depth. All of them are the filter's own (`filter/motion_field.h`).
+///
+/// A landmark is a static point, seen in frame k-1 and again in frame k. Pixels and frames are
+/// those of `filter/camera.h`.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "filter/motion_field.h"
+
+namespace lcs::kinematics {
+
+/// What is known of Z_ref / Z, and so of the image speed V = V_v Z_ref / Z.
+enum class DepthSource {
+  reference,  ///< nothing: V = V_v, as if all points were at Z_ref
+  learnt,     ///< what the landmark's own motion has shown up to frame k-1
+  truth,      ///< the true depth
+};
+
+struct Model {
+  RotationModel rotation = RotationModel::homography;
+  DepthSource depth = DepthSource::truth;
+};
+
+inline constexpr std::array kRotations = {RotationModel::as_printed, RotationModel::first_order,
+                                          RotationModel::homography};
+inline constexpr std::array kDepths = {DepthSource::reference, DepthSource::learnt,
+                                       DepthSource::truth};
+
+std::string_view name(RotationModel rotation);
+std::string_view name(DepthSource depth);
+
+struct Landmark {
+  Vec2 before_px = Vec2::Zero();  ///< in frame k-1
+  Vec2 after_px = Vec2::Zero();   ///< in frame k: the truth
+  double depth_before_m = 0;
+  double depth_after_m = 0;
+  double learnt_ratio = 1;  ///< Z_ref / Z in frame k-1, as it was learnt
+};
+
+/// Camera, what it was told of its motion, and the filter's parameters of the field.
+struct Step {
+  Intrinsics camera;
+  EgoMotion motion;
+  FieldParameters field;
+};
+
+/// Predicts by one model, over one step.
+class Predictor {
+ public:
+  Predictor(const Step& step, const Model& model);
+
+  Vec2 operator()(const Landmark& landmark) const;
+
+  /// End-point error, px.
+  double error(const Landmark& landmark) const {
+    return ((*this)(landmark)-landmark.after_px).norm();
+  }
+
+ private:
+  MotionField field_;
+  DepthSource depth_;
+};
+
+/// End-point errors, px. Of none, all figures are 0.
+struct ErrorSummary {
+  std::size_t count = 0;
+  double median_px = 0;
+  double p95_px = 0;
+  double max_px = 0;
+  double rms_px = 0;
+};
+ErrorSummary summary(std::vector<double> errors_px);
+
+/// Errors of one model on landmarks that share a step.
+std::vector<double> errors(const Step& step, const Model& model,
+                           const std::vector<Landmark>& landmarks);
+
+}  // namespace lcs::kinematics

@@ -1,0 +1,188 @@
+#include "tools/kinematics/rendered.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "filter/detect/fast.h"
+#include "filter/filter.h"
+#include "sim/simulation.h"
+#include "tools/bench/ego_motion_feed.h"
+#include "tools/bench/tracker.h"
+
+namespace lcs::kinematics {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr int kStillFrames = 5;
+constexpr double kBumps_m = 2.5e-3;  // where the scenario's ground has none of its own
+
+std::vector<Eigen::Vector2f> corners_of(const FastDetector& detector, const cv::Mat3b& image) {
+  cv::Mat1b grey;
+  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  return detector.detect(grey);
+}
+
+/// The filter's landmarks on fixed ground, with where the truth sees them in the next frame.
+std::vector<Landmark> landmarks_of(const Layers& layers, const sim::Pinhole& camera,
+                                   const sim::FrameTruth& truth, double min_depth_m) {
+  std::vector<Eigen::Vector2f> places;
+  std::vector<double> ratios;
+  for (const Edge& edge : layers.normal_edges) {
+    if (edge.corner < 0) continue;
+    places.push_back(edge.location.cast<float>());
+    ratios.push_back(edge.depth_ratio);
+  }
+  const sim::Pose T_NC = truth.next.T_WC.inverse() * truth.now.T_WC;
+  std::vector<Landmark> landmarks;
+  const auto labels = sim::label_corners(camera, truth, places, min_depth_m);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (labels[i].label != sim::Label::fixed || !labels[i].static_motion_px.allFinite()) continue;
+    const Vec2 before = places[i].cast<double>();
+    const Vec2 after = before + labels[i].static_motion_px;
+    if (after.minCoeff() < 0 || after.x() > camera.width_px - 1 || after.y() > camera.height_px - 1)
+      continue;
+    landmarks.push_back(
+        {.before_px = before,
+         .after_px = after,
+         .depth_before_m = labels[i].depth_m,
+         .depth_after_m = (T_NC * camera.back_project(before, labels[i].depth_m)).z(),
+         .learnt_ratio = ratios[i]});
+  }
+  return landmarks;
+}
+
+FieldFrame field_frame(const StudyConfig& config, const sim::Pinhole& camera,
+                       const sim::Observation& frame, const std::vector<Eigen::Vector2f>& corners,
+                       const std::vector<Landmark>& landmarks, double min_depth_m) {
+  const sim::FrameTruth& truth = frame.truth;
+  const sim::Pose T_CN = truth.now.T_WC.inverse() * truth.next.T_WC;
+  const Step step = step_to(camera, T_CN, config.frame_s(), config.filter.field);
+  FieldFrame field{
+      frame.image, frame.index, {}, {}, MotionField(step.camera, step.motion, step.field).foe()};
+  const Predictor predict(step, {RotationModel::homography, DepthSource::learnt});
+  for (const Landmark& landmark : landmarks) {
+    field.fixed.push_back({landmark.before_px, landmark.after_px, predict(landmark)});
+  }
+  const auto labels = sim::label_corners(camera, truth, corners, min_depth_m);
+  const Predictor stand(step, {});
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (labels[i].label != sim::Label::rebel || !labels[i].motion_px.allFinite()) continue;
+    Landmark corner;
+    corner.before_px = corners[i].cast<double>();
+    corner.depth_after_m =
+        (T_CN.inverse() * camera.back_project(corner.before_px, labels[i].depth_m)).z();
+    field.moving.push_back(
+        {corner.before_px, corner.before_px + labels[i].motion_px, stand(corner)});
+  }
+  return field;
+}
+
+scenario::Scenario with_sensors(scenario::Scenario scenario, const StudyConfig& config) {
+  scenario.imu = config.scenario.imu;
+  scenario.odometry = config.scenario.odometry;
+  scenario.image = config.scenario.image;
+  return scenario;
+}
+
+}  // namespace
+
+DriveResult rendered_drive(const StudyConfig& config, const std::string& name,
+                           const scenario::Scenario& scenario, const Tick& tick) {
+  sim::Simulation simulation(scenario);
+  const sim::Pinhole camera = simulation.calibration().camera;
+  const Intrinsics intrinsics = bench::intrinsics(camera);
+  const FastDetector detector(scenario.fast_threshold);
+  bench::EgoMotionFeed feed(scenario, simulation.calibration());
+  Filter filter(intrinsics, config.filter);
+
+  DriveResult result;
+  std::vector<std::vector<double>> all(2 * kRotations.size() * kDepths.size());
+  std::vector<double> reference_px;  // expected of the reference depth
+  std::vector<Landmark> landmarks;   // of the frame before
+  const int every = std::max(1, scenario.frames / kStillFrames);
+  while (const auto frame = simulation.next()) {
+    const bench::EgoMotionFeed::Motions motions = feed.next(*frame);
+    auto errors_of = all.begin();
+    for (const EgoMotion& motion : {motions.exact, motions.told}) {
+      const Step step{intrinsics, motion, config.filter.field};
+      for (const RotationModel rotation : kRotations) {
+        for (const DepthSource depth : kDepths) {
+          const std::vector<double> more = errors(step, {rotation, depth}, landmarks);
+          errors_of->insert(errors_of->end(), more.begin(), more.end());
+          ++errors_of;
+        }
+      }
+    }
+    const MotionField exact(intrinsics, motions.exact, config.filter.field);
+    for (const Landmark& landmark : landmarks) {
+      const double ratio = exact.reference_depth_m() / landmark.depth_after_m;
+      reference_px.push_back(exact.reference_speed(exact.rotated(landmark.before_px)) *
+                             exact.dt_s() * std::abs(ratio - 1));
+    }
+    const Predictor learnt({intrinsics, motions.told, config.filter.field},
+                           {RotationModel::homography, DepthSource::learnt});
+    for (const Landmark& landmark : landmarks) {
+      result.learnt.push_back({landmark.before_px, learnt.error(landmark)});
+    }
+    const auto corners = corners_of(detector, frame->image);
+    const FrameResult& seen = filter.step(corners, motions.told);
+    landmarks = landmarks_of(seen.layers, camera, frame->truth, scenario.truth_min_depth_m);
+    // Early frames have little to show: nothing is learnt yet.
+    if (frame->index > kLearningSteps) {
+      FieldFrame field =
+          field_frame(config, camera, *frame, corners, landmarks, scenario.truth_min_depth_m);
+      if (result.field.image.empty() || field.moving.size() >= result.field.moving.size()) {
+        result.field = std::move(field);
+      }
+    }
+    if (frame->index % every == 0) {
+      result.still_frames.push_back(rendered_points(camera, frame->truth, corners));
+    }
+    tick(1);
+  }
+  auto errors_of = all.begin();
+  for (const char* told : {"truth", "imu"}) {
+    for (const RotationModel rotation : kRotations) {
+      for (const DepthSource depth : kDepths) {
+        const bool is_expected = std::string_view(told) == "truth" &&
+                                 rotation == RotationModel::homography &&
+                                 depth == DepthSource::reference;
+        result.rows.push_back({name,
+                               told,
+                               {rotation, depth},
+                               summary(std::move(*errors_of++)),
+                               is_expected ? summary(reference_px).median_px : std::nan("")});
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<NamedDrive> drives(const StudyConfig& config) {
+  const double rate_hz = config.scenario.camera.rate_hz;
+  const int frames = config.effort.drive_frames;
+  const double duration_s = (frames - 1) / rate_hz;
+  scenario::Scenario configured = config.scenario;
+  configured.frames = std::min(configured.frames, frames);
+  const double bumps_m = config.scenario.ground ? config.scenario.ground->roughness_m : kBumps_m;
+  return {{"configured", configured},
+          {"straight", with_sensors(straight_drive(config, duration_s, rate_hz), config)},
+          {"turning",
+           with_sensors(curved_drive(config, duration_s, rate_hz, kTurning_deg * kDegree * rate_hz),
+                        config)},
+          {"bumps", with_sensors(bumpy_drive(config, duration_s, rate_hz, bumps_m), config)}};
+}
+
+PointSet rendered_with_lens(const StudyConfig& config, double fovy_rad) {
+  scenario::Scenario scenario = config.scenario;
+  scenario.camera.fovy_rad = fovy_rad;
+  scenario.frames = 1;
+  sim::Simulation simulation(scenario);
+  const auto frame = simulation.next();
+  return rendered_points(simulation.calibration().camera, frame->truth,
+                         corners_of(FastDetector(scenario.fast_threshold), frame->image));
+}
+
+}  // namespace lcs::kinematics

@@ -1,0 +1,78 @@
+#include "tools/kinematics/study_config.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/imu_noise.h"
+#include "tools/bench/tracker.h"
+
+namespace lcs::kinematics {
+namespace {
+
+constexpr double kStandInSpeed_mps = 0.5;  // where the scenario's rover stands
+
+}  // namespace
+
+StudyConfig configure(const scenario::Scenario& scenario, const Effort& effort) {
+  StudyConfig config;
+  config.scenario = scenario;
+  config.filter = bench::filter_parameters(scenario);
+  config.effort = effort;
+  for (const scenario::EgoPhase& phase : scenario.ego.phases) {
+    config.speed_mps = std::max(config.speed_mps, phase.speed_mps);
+  }
+  config.stands = config.speed_mps <= config.filter.field.still_speed_mps;
+  if (config.stands) config.speed_mps = kStandInSpeed_mps;
+  const sim::Calibration calibration = sim::drive(straight_drive(config, 0, 1)).calibration;
+  config.camera = calibration.camera;
+  config.forward_C = calibration.T_BC.R.transpose() * Eigen::Vector3d::UnitX();
+  return config;
+}
+
+scenario::Scenario straight_drive(const StudyConfig& config, double duration_s, double rate_hz) {
+  scenario::Scenario s = config.scenario;
+  s.frames = static_cast<int>(std::floor(duration_s * rate_hz + 1e-9)) + 1;
+  s.ego.drive = scenario::Drive::holonomic;
+  s.ego.phases = {{.speed_mps = config.speed_mps}};
+  s.camera.rate_hz = rate_hz;
+  s.imu.noise = {};
+  s.imu.gaps.clear();
+  s.odometry.enabled = true;
+  s.odometry.noise_mps = s.odometry.scale_error = 0;
+  s.ego_motion = scenario::EgoMotionSource::imu;
+  s.image.reset();
+  s.ground.reset();
+  s.actors.clear();
+  return s;
+}
+
+scenario::Scenario curved_drive(const StudyConfig& config, double duration_s, double rate_hz,
+                                double yaw_rate_radps) {
+  scenario::Scenario s = straight_drive(config, duration_s, rate_hz);
+  s.ego.phases[0].yaw_rate_radps = yaw_rate_radps;
+  return s;
+}
+
+scenario::Scenario bumpy_drive(const StudyConfig& config, double duration_s, double rate_hz,
+                               double roughness_m) {
+  scenario::Scenario s = straight_drive(config, duration_s, rate_hz);
+  s.ego.drive = scenario::Drive::wheeled;
+  s.ground = config.scenario.ground.value_or(scenario::Ground{});
+  s.ground->roughness_m = roughness_m;
+  if (roughness_m == 0) s.ground.reset();
+  return s;
+}
+
+sim::Drive with_noise(const sim::Drive& ideal, const scenario::Scenario& noisy) {
+  sim::Drive drive = ideal;
+  sim::ImuNoiseModel imu(noisy.imu.noise, noisy.imu.rate_hz, noisy.seed);
+  sim::OdometryNoiseModel odometry(noisy.odometry, noisy.seed);
+  for (sim::Observation& frame : drive.frames) {
+    for (sim::ImuSample& sample : frame.imu) sample = imu.corrupt(sample);
+    if (!noisy.odometry.enabled) frame.odometry.clear();
+    for (sim::OdometrySample& sample : frame.odometry) sample = odometry.corrupt(sample);
+  }
+  return drive;
+}
+
+}  // namespace lcs::kinematics

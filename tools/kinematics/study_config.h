@@ -1,0 +1,57 @@
+/// \file
+/// What a study is about: a camera, a rover and an IMU, taken from a scenario, and how much of each
+/// experiment is done.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "filter/parameters.h"
+#include "scenarios/scenario.h"
+#include "sim/drive.h"
+
+namespace lcs::kinematics {
+
+/// How much is done of what costs time; nothing else depends on it.
+struct Effort {
+  int drive_frames = 40;  ///< of each rendered drive
+  int noise_seeds = 20;   ///< of each IMU at each frame rate
+  int drift_seeds = 300;  ///< of each IMU
+  double drift_s = 60;
+  static Effort full() { return {}; }
+  static Effort quick() { return {.drive_frames = 15, .noise_seeds = 5, .drift_seeds = 25}; }
+};
+
+struct StudyConfig {
+  scenario::Scenario scenario;
+  Parameters filter;
+  Effort effort;
+  double speed_mps =
+      0;                ///< nominal: the fastest that the scenario commands at the start of a phase
+  bool stands = false;  ///< the scenario's rover never moves, so that the speed is a stand-in
+  Eigen::Vector3d forward_C = Eigen::Vector3d::UnitZ();  ///< the rover's x in the camera
+  sim::Pinhole camera;
+
+  double frame_s() const { return 1 / scenario.camera.rate_hz; }
+  /// Of the camera in a frame, straight on.
+  Eigen::Vector3d step_C_m() const { return speed_mps * frame_s() * forward_C; }
+};
+
+/// \throws scenario::Error for a filter setting that is not one.
+StudyConfig configure(const scenario::Scenario& scenario, const Effort& effort);
+
+/// \name Scenarios made from the configured one.
+///@{
+/// The holonomic rover goes straight on at the nominal speed, with ideal sensors, and no actors.
+scenario::Scenario straight_drive(const StudyConfig& config, double duration_s, double rate_hz);
+/// The same on a curve of `yaw_rate_radps`.
+scenario::Scenario curved_drive(const StudyConfig& config, double duration_s, double rate_hz,
+                                double yaw_rate_radps);
+/// The same on wheels, over bumps; 0 is level ground.
+scenario::Scenario bumpy_drive(const StudyConfig& config, double duration_s, double rate_hz,
+                               double roughness_m);
+///@}
+
+/// The readings of a drive with ideal sensors, as noisy ones would have given them.
+sim::Drive with_noise(const sim::Drive& ideal, const scenario::Scenario& noisy);
+
+}  // namespace lcs::kinematics

@@ -1,0 +1,222 @@
+#include "tools/kinematics/sweeps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "tools/bench/statistics.h"
+#include "tools/kinematics/theory.h"
+
+namespace lcs::kinematics {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr std::array kAngles_deg = {0.0, 0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 2.5,
+                                    3.0, 4.0, 5.0,  6.0, 7.0, 8.0, 9.0, 10.0};
+constexpr std::array kSpeeds_mps = {0.03, 0.1, 0.3, 1.0, 3.0, 10.0};
+constexpr std::array kRates_hz = {1.0, 3.0, 10.0, 30.0};
+constexpr std::array kDepths_m = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
+constexpr double kMostOfDepth = 0.5;  // that a step takes; beyond, little stays in the image
+constexpr std::array kMount_deg = {0.0, 0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0};
+constexpr double kFoeBin_px = 50;
+constexpr double kSmallestTurn_rad = 1e-5, kTurnStep = 1.2;  // where limits are looked for
+
+void append(std::vector<double>& all, const std::vector<double>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+/// Errors of a model on all sets after one motion.
+std::vector<double> errors_after(const StudyConfig& config, const std::vector<PointSet>& points,
+                                 const sim::Pose& T_CN, const Model& model) {
+  std::vector<double> all;
+  const Step step = step_to(config.camera, T_CN, config.frame_s(), config.filter.field);
+  for (const PointSet& set : points) {
+    append(all, errors(step, model, landmarks(set, T_CN, config.filter.field)));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string_view axis_name(int axis) {
+  return axis == 0 ? "tilt" : axis == 1 ? "pan" : "roll";
+}
+
+std::vector<RotationRow> sweep_rotation(const StudyConfig& config,
+                                        const std::vector<PointSet>& points) {
+  std::vector<RotationRow> rows;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double angle_deg : kAngles_deg) {
+      for (const bool drives : {false, true}) {
+        const Eigen::Vector3d step_C = drives ? config.step_C_m() : Eigen::Vector3d::Zero();
+        for (const RotationModel rotation : kRotations) {
+          for (const DepthSource depth : kDepths) {
+            if (!drives && depth != DepthSource::truth) continue;  // depth plays no part
+            std::vector<double> all;
+            for (const double side : {-1.0, 1.0}) {
+              append(all,
+                     errors_after(config, points, turned(axis, side * angle_deg * kDegree, step_C),
+                                  {rotation, depth}));
+            }
+            rows.push_back({points.front().name,
+                            axis,
+                            angle_deg,
+                            step_C.norm(),
+                            {rotation, depth},
+                            summary(std::move(all))});
+          }
+        }
+      }
+    }
+  }
+  return rows;
+}
+
+double rotation_limit_rad(const PointSet& points, const FieldParameters& field,
+                          RotationModel rotation, int axis, double bound_px, double told_sign) {
+  const auto worst = [&](double angle) {
+    double largest = 0;
+    for (const double side : {-1.0, 1.0}) {
+      const sim::Pose T_CN = turned(axis, side * angle);
+      Step step = step_to(points.camera, T_CN, 1, field);
+      step.motion.w_C_radps *= told_sign;
+      for (const double error :
+           errors(step, {rotation, DepthSource::truth}, landmarks(points, T_CN, field))) {
+        largest = std::max(largest, error);
+      }
+    }
+    return largest;
+  };
+  // Upwards: beyond the first time the points that err most have left the image.
+  double low = 0, high = kSmallestTurn_rad;
+  while (worst(high) <= bound_px) {
+    low = high;
+    high *= kTurnStep;
+    if (high > kLargestTurn_rad) return std::nan("");
+  }
+  while (high - low > 1e-4 * high) {
+    const double middle = 0.5 * (low + high);
+    (worst(middle) <= bound_px ? low : high) = middle;
+  }
+  return low;
+}
+
+std::vector<TranslationRow> sweep_translation(const StudyConfig& config,
+                                              const std::vector<PointSet>& rendered) {
+  std::vector<TranslationRow> rows;
+  const auto add = [&](const std::vector<PointSet>& points, double speed, double rate,
+                       double depth_m) {
+    const double step_m = speed / rate;
+    if (step_m / depth_m > kMostOfDepth) return;
+    const sim::Pose T_CN{Eigen::Matrix3d::Identity(), step_m * config.forward_C};
+    for (const DepthSource depth : kDepths) {
+      const Model model{RotationModel::homography, depth};
+      rows.push_back({points.front().name, speed, rate, depth_m, step_m / depth_m, depth,
+                      summary(errors_after(config, points, T_CN, model))});
+    }
+  };
+  std::vector<double> depths_m;
+  for (const PointSet& set : rendered) {
+    for (const Site& site : set.sites) depths_m.push_back(site.depth_m);
+  }
+  const auto median_m = bench::median(depths_m);
+  for (const double speed : kSpeeds_mps) {
+    for (const double rate : kRates_hz) {
+      for (const double depth_m : kDepths_m) {
+        add({geometric_points(config.camera, std::array{depth_m})}, speed, rate, depth_m);
+      }
+      if (median_m) add(rendered, speed, rate, *median_m);
+    }
+  }
+  return rows;
+}
+
+std::vector<FoeRow> sweep_foe_distance(const StudyConfig& config,
+                                       const std::vector<PointSet>& points) {
+  const sim::Pose T_CN = turned(1, kFoePan_deg * kDegree, config.step_C_m());
+  const Step step = step_to(config.camera, T_CN, config.frame_s(), config.filter.field);
+  const MotionField field(step.camera, step.motion, step.field);
+  std::vector<Landmark> seen;
+  for (const PointSet& set : points) {
+    const std::vector<Landmark> more = landmarks(set, T_CN, config.filter.field);
+    seen.insert(seen.end(), more.begin(), more.end());
+  }
+  std::vector<FoeRow> rows;
+  const double diagonal_px = std::hypot(config.camera.width_px, config.camera.height_px);
+  for (double from = 0; from < diagonal_px; from += kFoeBin_px) {
+    std::vector<Landmark> there;
+    for (const Landmark& landmark : seen) {
+      // Of a focus at infinity all points are equally far: seen from the image's centre.
+      const Vec2 focus = field.foe().value_or(config.camera.centre_px);
+      const double distance = (field.rotated(landmark.before_px) - focus).norm();
+      if (distance >= from && distance < from + kFoeBin_px) there.push_back(landmark);
+    }
+    if (there.empty()) continue;
+    for (const RotationModel rotation : kRotations) {
+      for (const DepthSource depth : kDepths) {
+        const Model model{rotation, depth};
+        rows.push_back({points.front().name, from, from + kFoeBin_px, model,
+                        summary(errors(step, model, there))});
+      }
+    }
+  }
+  return rows;
+}
+
+EgoMotion seen_by_wrong_mount(const EgoMotion& motion, const Eigen::Matrix3d& R_CM) {
+  EgoMotion told = motion;
+  told.R_cur_prev = R_CM.transpose() * motion.R_cur_prev * R_CM;
+  told.v_C_mps = R_CM.transpose() * motion.v_C_mps;
+  told.w_C_radps = R_CM.transpose() * motion.w_C_radps;
+  return told;
+}
+
+std::vector<MountRow> sweep_mount(const StudyConfig& config, const std::vector<PointSet>& points) {
+  std::vector<MountRow> rows;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double error_deg : kMount_deg) {
+      for (const double pan_deg : {0.0, kMountPan_deg}) {
+        const sim::Pose T_CN = turned(1, pan_deg * kDegree, config.step_C_m());
+        Step step = step_to(config.camera, T_CN, config.frame_s(), config.filter.field);
+        const auto foe = MotionField(step.camera, step.motion, step.field).foe();
+        step.motion = seen_by_wrong_mount(step.motion, turned(axis, error_deg * kDegree).R);
+        const auto told_foe = MotionField(step.camera, step.motion, step.field).foe();
+        std::vector<double> all;
+        for (const PointSet& set : points) {
+          append(all, errors(step, {}, landmarks(set, T_CN, config.filter.field)));
+        }
+        rows.push_back({points.front().name, axis, error_deg, pan_deg,
+                        foe && told_foe ? (*told_foe - *foe).norm() : std::nan(""),
+                        summary(std::move(all))});
+      }
+    }
+  }
+  return rows;
+}
+
+FocalRow focal_row(const StudyConfig& config, const PointSet& points, double fovy_deg) {
+  FocalRow row;
+  row.points = points.name;
+  row.fovy_deg = fovy_deg;
+  row.focal_px = points.camera.focal_px;
+  const FieldParameters& field = config.filter.field;
+  for (int axis = 0; axis < 3; ++axis) {
+    row.limit_deg[axis] =
+        rotation_limit_rad(points, field, RotationModel::first_order, axis, 1) / kDegree;
+    row.theory_deg[axis] = first_order_limit_rad(points.camera, axis, 1) / kDegree;
+    row.printed_deg[axis] =
+        rotation_limit_rad(points, field, RotationModel::as_printed, axis, 1) / kDegree;
+  }
+  const sim::Pose T_CN{Eigen::Matrix3d::Identity(), config.step_C_m()};
+  const Step step = step_to(points.camera, T_CN, config.frame_s(), field);
+  const std::vector<Landmark> seen = landmarks(points, T_CN, field);
+  const auto median = [&](DepthSource depth) {
+    return summary(errors(step, {RotationModel::homography, depth}, seen)).median_px;
+  };
+  row.reference_median_px = median(DepthSource::reference);
+  row.learnt_median_px = median(DepthSource::learnt);
+  return row;
+}
+
+}  // namespace lcs::kinematics

@@ -1,0 +1,26 @@
+/// \file
+/// A study's rows as tables of one form, for CSV files and for the page.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tools/kinematics/answer.h"
+
+namespace lcs::kinematics {
+
+struct Table {
+  using Cell = std::variant<std::string, double>;  ///< NaN: none
+  std::string name;                                ///< of the file, without ".csv"
+  std::vector<std::string> columns;
+  std::vector<std::vector<Cell>> rows;
+};
+
+/// In the order in which they are told of; the first one is the answer's figures.
+std::vector<Table> tables(const Study& study, const std::vector<Statement>& statements);
+
+/// Numbers with six significant digits; no quotes: no cell needs any.
+std::string csv_of(const Table& table);
+
+}  // namespace lcs::kinematics

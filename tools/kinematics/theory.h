@@ -1,0 +1,89 @@
+/// \file
+/// What theory says of the errors that are measured, for the same camera.
+#pragma once
+
+#include <span>
+
+#include "scenarios/scenario.h"
+#include "tools/kinematics/points.h"
+
+namespace lcs::kinematics {
+
+/// Error of the first-order rotation to second order, px: what x' ~ exp(-[w]) x has at second order
+/// in w and the first-order field lacks. `x_px` from the principal point; `w_rad` in the interval.
+/// With t = x/f, for a pan by w: x (1 + t^2) w^2 along x and y (1/2 + t^2) w^2 along y, nothing at
+/// the centre, where the error is of third order, f w^3 / 3; for a roll: |x| w^2 / 2.
+Vec2 second_order_rotation(const Vec2& x_px, const Eigen::Vector3d& w_rad, double focal_px);
+
+/// Angle about an axis at which that error reaches `bound_px` somewhere in the image, rad.
+double first_order_limit_rad(const sim::Pinhole& camera, int axis, double bound_px);
+
+/// Error of the printed rotation to first order, px for a rad: its difference to the field.
+/// \param told_sign of the rate that it is told.
+Vec2 printed_slope(const Vec2& x_px, int axis, double focal_px, double told_sign = 1);
+
+/// Columns: displacement, px, of a point for a rad of turning about x, y and z.
+Eigen::Matrix<double, 2, 3> rotation_jacobian(const Vec2& x_px, double focal_px);
+
+/// Columns: displacement, px, of a point at `depth_m` for 1 m/s along x, y and z over `dt_s`.
+Eigen::Matrix<double, 2, 3> velocity_jacobian(const Vec2& x_px, double focal_px, double depth_m,
+                                              double dt_s);
+
+/// Root mean square over landmarks, px, of what a camera mounted `error_rad` off about an axis
+/// costs: step d and turn w are told about other axes, off by d x error and w x error; to first
+/// order.
+double mount_rms_px(const sim::Pinhole& camera, const std::vector<Landmark>& landmarks,
+                    const Eigen::Vector3d& step_C_m, const Eigen::Vector3d& turn_C_rad, int axis,
+                    double error_rad);
+
+/// Angle about an axis at which the printed rotation is off by `bound_px` somewhere in the image,
+/// rad, from its first-order error.
+double printed_limit_rad(const sim::Pinhole& camera, int axis, double bound_px,
+                         double told_sign = 1);
+
+/// What a strapdown integration of an IMU that is at rest, or drives straight on, is off by after
+/// `t_s`: variances, each of one axis, of attitude (rad^2) and velocity ((m/s)^2).
+///
+/// With noise n, random walk b and turn-on bias b0 of the gyro, attitude phi' = n + b + b0; that of
+/// the accelerometer likewise, and tilt turns gravity g into the horizontal: v' = n_a + b_a + g
+/// phi.
+struct Drift {
+  double attitude_rad2 = 0;             ///< s_g^2 t + s_bg^2 t^3/3 + b0^2 t^2
+  double velocity_horizontal_mps2 = 0;  ///< the vertical one + g^2 (s_g^2 t^3/3 + s_bg^2 t^5/20 +
+                                        ///< b0^2 t^4/4)
+  double velocity_vertical_mps2 = 0;    ///< s_a^2 t + s_ba^2 t^3/3 + a0^2 t^2
+};
+Drift dead_reckoning_drift(const scenario::ImuNoise& noise, double gravity_mps2, double t_s);
+
+/// Variances, (m/s)^2, of a velocity that odometry of white noise holds, once it has settled: the
+/// Kalman filter of v' = a + n_a, a' = n with n of density q^2 = s_ba^2 + g^2 s_g^2 (both appear as
+/// an unknown acceleration) has P = sqrt(R (s_a^2 + 2 q sqrt(R))), where R = noise^2 / rate, and
+/// the gains k1 = P / R, k2 = q / sqrt(R). The gyro's own random walk is left out: slower, and
+/// smaller.
+///
+/// Upwards tilt plays no part, q = s_ba, and wheels read an exact 0: of P that part is missing
+/// which the odometry's noise would make, R (k1^2 + k2) / (2 k1).
+struct HeldVelocity {
+  double horizontal_mps2 = 0;
+  double vertical_mps2 = 0;
+};
+HeldVelocity odometry_held_velocity(const scenario::ImuNoise& noise,
+                                    const scenario::Odometry& odometry, double gravity_mps2);
+
+/// Variance, rad^2, about each horizontal axis, of a tilt where odometry holds the velocity: of
+/// tilt and accelerometer bias only the force that both make, g phi + b, is seen. What is left of
+/// two unknowns of variances V_phi and V_b once their sum is known is V_phi V_b / (g^2 V_phi +
+/// V_b). Their histories differ, which tells a little more: this is about an upper bound.
+double odometry_held_tilt(const scenario::ImuNoise& noise, double gravity_mps2, double t_s);
+
+/// Root mean square over landmarks, px, of what independent errors of attitude and velocity do in
+/// one interval. Variances of each axis of C: rad^2, (m/s)^2.
+double image_rms_px(const sim::Pinhole& camera, const std::vector<Landmark>& landmarks,
+                    const Eigen::Vector3d& attitude_rad2, const Eigen::Vector3d& velocity_mps2,
+                    double dt_s);
+
+/// Variance, rad^2, of the turn within an interval that a gyro's white noise makes, each axis. The
+/// ends of the interval count half, so that of its n readings n - 1/2 do.
+double gyro_turn_variance(const scenario::ImuNoise& noise, double imu_rate_hz, double dt_s);
+
+}  // namespace lcs::kinematics
