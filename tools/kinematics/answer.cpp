@@ -158,8 +158,10 @@ Statement imu_noise(const Study& study) {
       "IMU",
       fmt::format(
           "noise of {} costs {:.2g} px (root mean square) at 10 frames/s, over {:g} s from a "
-          "known start; {:.2g} px with odometry; {:.2g} px of it by the rotation",
-          name, alone.error.rms_px, kImuDrive_s, held.error.rms_px, alone.rotation_error.rms_px),
+          "known start ({:.2g} expected); {:.2g} px with odometry ({:.2g}); {:.2g} px of it by the "
+          "rotation ({:.2g})",
+          name, alone.error.rms_px, kImuDrive_s, alone.expected_rms_px, held.error.rms_px,
+          held.expected_rms_px, alone.rotation_error.rms_px, alone.expected_rotation_rms_px),
       {{"imu.dead_reckoning.rms", alone.error.rms_px, "px", alone.expected_rms_px},
        {"imu.odometry.rms", held.error.rms_px, "px", held.expected_rms_px},
        {"imu.rotation.rms", alone.rotation_error.rms_px, "px", alone.expected_rotation_rms_px}}};
