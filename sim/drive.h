@@ -14,7 +14,8 @@ class World;
 
 struct Drive {
   Calibration calibration;
-  /// As `Simulation` gives them, bit by bit, but for images, depths and objects, which are empty.
+  /// As `Simulation` gives them, bit by bit, but for images, depths, objects and the truth of each
+  /// reading, which are empty.
   std::vector<Observation> frames;
 };
 
