@@ -151,6 +151,17 @@ TEST(KinematicsModels, HomographyAndTrueDepthAreExactForAnyMotion) {
   }
 }
 
+/// At the row's own frame rate: at another one a short step would be slower than the speed below
+/// which the filter takes the camera to stand still.
+TEST(KinematicsSweep, EveryStepIsExactWithTheTrueDepthWhateverTheConfiguredRate) {
+  const auto rows = sweep_translation(config_with({"camera.rate=1 Hz"}), {});
+  ASSERT_GT(rows.size(), 200u);
+  for (const TranslationRow& row : rows) {
+    if (row.depth != DepthSource::truth) continue;
+    EXPECT_LT(row.error.max_px, 1e-10) << row.speed_mps << " m/s at " << row.rate_hz << " Hz";
+  }
+}
+
 /// |g| t_f |1/Z - 1/Z_ref| with Z after the step.
 TEST(KinematicsModels, TheReferenceDepthErrsByTheDifferenceOfInverseDepths) {
   const double step_m = 0.2;

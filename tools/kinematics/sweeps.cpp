@@ -28,9 +28,9 @@ void append(std::vector<double>& all, const std::vector<double>& more) {
 
 /// Errors of a model on all sets after one motion.
 std::vector<double> errors_after(const StudyConfig& config, const std::vector<PointSet>& points,
-                                 const sim::Pose& T_CN, const Model& model) {
+                                 const sim::Pose& T_CN, double dt_s, const Model& model) {
   std::vector<double> all;
-  const Step step = step_to(config.camera, T_CN, config.frame_s(), config.filter.field);
+  const Step step = step_to(config.camera, T_CN, dt_s, config.filter.field);
   for (const PointSet& set : points) {
     append(all, errors(step, model, landmarks(set, T_CN, config.filter.field)));
   }
@@ -57,7 +57,7 @@ std::vector<RotationRow> sweep_rotation(const StudyConfig& config,
             for (const double side : {-1.0, 1.0}) {
               append(all,
                      errors_after(config, points, turned(axis, side * angle_deg * kDegree, step_C),
-                                  {rotation, depth}));
+                                  config.frame_s(), {rotation, depth}));
             }
             rows.push_back({points.front().name,
                             axis,
@@ -113,7 +113,7 @@ std::vector<TranslationRow> sweep_translation(const StudyConfig& config,
     for (const DepthSource depth : kDepths) {
       const Model model{RotationModel::homography, depth};
       rows.push_back({points.front().name, speed, rate, depth_m, step_m / depth_m, depth,
-                      summary(errors_after(config, points, T_CN, model))});
+                      summary(errors_after(config, points, T_CN, 1 / rate, model))});
     }
   };
   std::vector<double> depths_m;
