@@ -1,0 +1,242 @@
+/// \file
+/// `lcs_benchmarks`: how long each part takes, beside what it should be measured against: cv::FAST,
+/// the comparator klt, and a loop that renders and does nothing else.
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <ctime>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <opencv2/features2d.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "filter/filter.h"
+#include "scenarios/load.h"
+#include "sim/camera_renderer.h"
+#include "sim/simulation.h"
+#include "sim/world.h"
+#include "tests/bench/page.h"
+#include "tests/bench/stream.h"
+#include "tools/bench/ego_motion_feed.h"
+#include "tools/bench/tracker.h"
+#include "tools/comparators/klt.h"
+
+namespace lcs::bench {
+namespace {
+
+/// Frames before the filter has anything to compare, and edges are as many as they stay.
+constexpr std::size_t kWarmUpFrames = 6;
+
+/// klt needs the pictures themselves, and some seconds a frame for the largest.
+constexpr int kMostForKlt = 2000;
+
+std::string scenario_file(const std::string& scene) {
+  return std::string(LCS_BENCH_SCENARIOS) + "/" + scene + ".yaml";
+}
+
+const Footage& footage(const std::string& scene) {
+  static std::map<std::string, Footage> known;
+  const auto found = known.find(scene);
+  return (found != known.end() ? found : known.emplace(scene, scenario_file(scene)).first)->second;
+}
+
+/// The last one is kept: benchmarks of one stream follow each other.
+const Stream& stream(const std::string& scene, int corners) {
+  static std::pair<std::string, int> key;
+  static std::unique_ptr<Stream> last;
+  if (!last || key != std::pair(scene, corners)) {
+    last.reset();
+    last = std::make_unique<Stream>(footage(scene), corners);
+    key = {scene, corners};
+  }
+  return *last;
+}
+
+/// Time that this thread had a core to itself: on a busy machine the wall clock says how busy.
+template <typename Work>
+double cpu_seconds(Work&& work) {
+  const auto now = [] {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  const double start = now();
+  work();
+  return now() - start;
+}
+
+/// For rendering, which the driver does in threads of its own.
+template <typename Work>
+double wall_seconds(Work&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void fast(benchmark::State& state, const std::string& scene, int corners) {
+  const Stream& of = stream(scene, corners);
+  const cv::Mat1b grey = of.grey(kWarmUpFrames);
+  std::vector<cv::KeyPoint> found;
+  const int threshold = footage(scene).scenario.fast_threshold;
+  for (auto _ : state) {
+    state.SetIterationTime(cpu_seconds(
+        [&] { cv::FAST(grey, found, threshold, true, cv::FastFeatureDetector::TYPE_9_16); }));
+  }
+  state.counters["corners"] = static_cast<double>(found.size());
+}
+
+void filter(benchmark::State& state, const std::string& scene, int corners) {
+  const Stream& of = stream(scene, corners);
+  const auto fresh = [&] { return Filter(intrinsics(of.camera()), preset("default")); };
+  Filter under_test = fresh();
+  StageTimes sum;
+  std::size_t k = 0;
+  for (auto _ : state) {
+    if (k == of.size()) {
+      under_test = fresh();
+      k = 0;
+    }
+    for (; k < kWarmUpFrames; ++k) under_test.step(of.corners_px(k), of.motion(k));
+    state.SetIterationTime(cpu_seconds([&] {
+      const FrameResult& result = under_test.step(of.corners_px(k), of.motion(k));
+      sum.line_ms += result.times.line_ms;
+      sum.circle_ms += result.times.circle_ms;
+      sum.square_ms += result.times.square_ms;
+    }));
+    ++k;
+  }
+  const auto mean = benchmark::Counter::kAvgIterations;
+  state.counters["corners"] = of.mean_corners();
+  state.counters["line_ms"] = benchmark::Counter(sum.line_ms, mean);
+  state.counters["circle_ms"] = benchmark::Counter(sum.circle_ms, mean);
+  state.counters["square_ms"] = benchmark::Counter(sum.square_ms, mean);
+}
+
+void klt(benchmark::State& state, const std::string& scene, int corners) {
+  const Stream& of = stream(scene, corners);
+  comparators::KltTracker tracker(of.camera());
+  std::vector<cv::Mat3b> images;
+  std::vector<cv::Mat1b> greys;
+  for (std::size_t k = 0; k < of.size(); ++k) {
+    images.push_back(of.image(k));
+    greys.push_back(of.grey(k));
+  }
+  const auto step = [&](std::size_t k) {
+    tracker.step({images[k], greys[k], of.corners_px(k), of.motion(k)});
+  };
+  step(0);
+  std::size_t k = 0;
+  for (auto _ : state) {
+    // Back to the start goes by one long step, which is not timed.
+    if (++k == of.size()) {
+      step(0);
+      k = 1;
+    }
+    state.SetIterationTime(cpu_seconds([&] { step(k); }));
+  }
+  state.counters["corners"] = of.mean_corners();
+}
+
+void ego_motion(benchmark::State& state, const std::string& scene) {
+  scenario::Scenario scenario =
+      scenario::load(scenario_file(scene), {.sets = {"ego_motion=imu"}, .seed = {}});
+  sim::Simulation simulation(scenario);
+  std::vector<sim::Observation> observations;
+  while (auto observation = simulation.next()) {
+    observations.push_back(std::move(*observation));
+    observations.back().image.release();
+  }
+  for (auto _ : state) {
+    EgoMotionFeed feed(scenario, simulation.calibration());
+    state.SetIterationTime(cpu_seconds([&] {
+      for (const sim::Observation& observation : observations) {
+        benchmark::DoNotOptimize(feed.next(observation));
+      }
+    }));
+  }
+  state.counters["frames"] = static_cast<double>(observations.size());
+}
+
+void generate(benchmark::State& state, const std::string& scene) {
+  const scenario::Scenario scenario = scenario::load(scenario_file(scene));
+  for (auto _ : state) {
+    std::optional<sim::Simulation> simulation;
+    state.SetIterationTime(wall_seconds([&] { simulation.emplace(scenario); }));
+  }
+}
+
+void simulate(benchmark::State& state, const std::string& scene) {
+  const scenario::Scenario scenario = scenario::load(scenario_file(scene));
+  auto simulation = std::make_unique<sim::Simulation>(scenario);
+  for (auto _ : state) {
+    std::optional<sim::Observation> observation;
+    double s = wall_seconds([&] { observation = simulation->next(); });
+    if (!observation) {
+      simulation = std::make_unique<sim::Simulation>(scenario);
+      s = wall_seconds([&] { observation = simulation->next(); });
+    }
+    state.SetIterationTime(s);
+  }
+}
+
+/// The least that a picture takes: no physics, no depth, no truth.
+void render(benchmark::State& state, const std::string& scene) {
+  const scenario::Scenario scenario = scenario::load(scenario_file(scene));
+  sim::World world(scenario);
+  sim::CameraRenderer renderer(world.model(), world.camera_id(), scenario.camera.width_px,
+                               scenario.camera.height_px);
+  cv::Mat3b image;
+  for (auto _ : state) {
+    state.SetIterationTime(wall_seconds([&] {
+      renderer.update();
+      renderer.render_colour(image);
+    }));
+  }
+}
+
+void add(const std::string& name, const std::function<void(benchmark::State&)>& run) {
+  benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond)->UseManualTime();
+}
+
+void add_all() {
+  for (const std::string scene : {"lab", "street"}) {
+    add("render/" + scene, [=](auto& s) { render(s, scene); });
+    add("simulate/" + scene, [=](auto& s) { simulate(s, scene); });
+    add("generate/" + scene, [=](auto& s) { generate(s, scene); });
+    add("ego_motion/" + scene, [=](auto& s) { ego_motion(s, scene); });
+    for (const int n : {100, 200, 700, 2000, 5000, 10000, 20000}) {
+      const std::string of = scene + "/" + std::to_string(n);
+      add("fast/" + of, [=](auto& s) { fast(s, scene, n); });
+      add("filter/" + of, [=](auto& s) { filter(s, scene, n); });
+      if (n <= kMostForKlt) add("klt/" + of, [=](auto& s) { klt(s, scene, n); });
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lcs::bench
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);  // as the filter runs: ratios are of work, not of cores
+  lcs::bench::add_all();
+  benchmark::Initialize(&argc, argv);
+  // What is left is the file of the page.
+  if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
+    std::cerr << "lcs_benchmarks: unknown argument " << argv[1]
+              << "; give the file for the page, and see --help for the options\n";
+    return 2;
+  }
+  try {
+    lcs::bench::PageReporter reporter;
+    benchmark::RunSpecifiedBenchmarks(&reporter);
+    if (argc == 2) reporter.write(argv[1]);
+  } catch (const std::exception& error) {
+    std::cerr << "lcs_benchmarks: " << error.what() << '\n';
+    return 2;
+  }
+}

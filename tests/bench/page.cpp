@@ -1,0 +1,169 @@
+#include "tests/bench/page.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ctime>
+#include <fstream>
+#include <opencv2/core/utility.hpp>
+#include <optional>
+#include <vector>
+
+#include "sim/simulation.h"
+#include "tools/bench/output_file.h"
+
+namespace lcs::bench {
+namespace {
+
+constexpr const char* kScenes[] = {"lab", "street"};
+constexpr int kCorners[] = {100, 200, 700, 2000, 5000, 10000, 20000};
+
+/// The targets, and the range that the growth is taken over.
+constexpr double kMostOfFast = 2, kMostOfKlt = 0.1, kMostGrowth = 1.15;
+constexpr int kTargetCorners = 700, kGrowthFrom = 200;
+
+constexpr const char* kStyle =
+    "body{font:15px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em}"
+    "table{border-collapse:collapse;margin:1em 0}td,th{padding:.2em .8em;text-align:right;"
+    "border-bottom:1px solid #ccc}td:first-child,th:first-child{text-align:left}"
+    ".met{color:#060}.missed{color:#a00}code{background:#eee}";
+
+std::string cell(std::optional<double> value, const char* format) {
+  return "<td>" + (value ? fmt::format(fmt::runtime(format), *value) : "-") + "</td>";
+}
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  }
+  return "unknown processor";
+}
+
+std::string machine() {
+  const benchmark::CPUInfo& cpu = benchmark::CPUInfo::Get();
+  std::string load;
+  for (const double one : cpu.load_avg) load += fmt::format(" {:.1f}", one);
+  const sim::Versions versions = sim::versions();
+  return fmt::format(
+      "<p>{}, {} cores, load at the start{}. MuJoCo {}, {}, OpenCV {} on one thread. The filter's "
+      "parameters are the default ones; the scenarios are <code>tests/bench/lab.yaml</code> and "
+      "<code>street.yaml</code>.</p>\n",
+      processor(), cpu.num_cpus, load, versions.mujoco, versions.gl_renderer,
+      cv::getVersionString());
+}
+
+/// Slope of the line through (log x, log y) that fits best; none of fewer than two points.
+std::optional<double> exponent(const std::vector<std::pair<double, double>>& points) {
+  if (points.size() < 2) return std::nullopt;
+  double mx = 0, my = 0, xx = 0, xy = 0;
+  const double n = static_cast<double>(points.size());
+  for (const auto& [x, y] : points) {
+    mx += std::log(x) / n;
+    my += std::log(y) / n;
+  }
+  for (const auto& [x, y] : points) {
+    xx += (std::log(x) - mx) * (std::log(x) - mx);
+    xy += (std::log(x) - mx) * (std::log(y) - my);
+  }
+  return xy / xx;
+}
+
+std::string target(const std::string& what, std::optional<double> value, double most) {
+  if (!value) return fmt::format("<li>{}: not measured</li>\n", what);
+  return fmt::format("<li class={0}>{1}: {2:.2f}, at most {3:g} &mdash; {0}</li>\n",
+                     *value <= most ? "met" : "missed", what, *value, most);
+}
+
+}  // namespace
+
+void PageReporter::ReportRuns(const std::vector<Run>& runs) {
+  ConsoleReporter::ReportRuns(runs);
+  for (const Run& run : runs) {
+    if (run.error_occurred || run.run_type != Run::RT_Iteration) continue;
+    const std::string& name = run.run_name.function_name;
+    const double ms = run.GetAdjustedRealTime();
+    const auto [place, is_new] = measured_.try_emplace(name);
+    if (!is_new && place->second.ms <= ms) continue;
+    place->second = {ms, {}};
+    for (const auto& [key, counter] : run.counters) place->second.counters[key] = counter.value;
+  }
+}
+
+void PageReporter::write(const std::filesystem::path& page) const {
+  const auto ms = [&](const std::string& name) -> std::optional<double> {
+    const auto found = measured_.find(name);
+    return found == measured_.end() ? std::nullopt : std::optional(found->second.ms);
+  };
+  const auto counter = [&](const std::string& name, const char* key) -> std::optional<double> {
+    const auto found = measured_.find(name);
+    if (found == measured_.end() || !found->second.counters.count(key)) return std::nullopt;
+    return found->second.counters.at(key);
+  };
+  const auto ratio = [](std::optional<double> a, std::optional<double> b) -> std::optional<double> {
+    if (!a || !b) return std::nullopt;
+    return *a / *b;
+  };
+
+  std::string targets, tables;
+  for (const std::string scene : kScenes) {
+    std::vector<std::pair<double, double>> growth;
+    tables += fmt::format(
+        "<h2>{}</h2>\n<table><tr><th>corners<th>cv::FAST, ms<th>klt, ms<th>filter, "
+        "ms<th>Line<th>Circle<th>Square<th>filter / FAST<th>filter / klt</tr>\n",
+        scene);
+    for (const int n : kCorners) {
+      const std::string of = fmt::format("{}/{}", scene, n);
+      const auto fast = ms("fast/" + of), klt = ms("klt/" + of), filter = ms("filter/" + of);
+      const auto corners = counter("filter/" + of, "corners");
+      if (filter && n >= kGrowthFrom) growth.emplace_back(*corners, *filter);
+      tables += "<tr>" + cell(corners ? corners : counter("fast/" + of, "corners"), "{:.0f}") +
+                cell(fast, "{:.3f}") + cell(klt, "{:.2f}") + cell(filter, "{:.3f}");
+      for (const char* stage : {"line_ms", "circle_ms", "square_ms"}) {
+        tables += cell(counter("filter/" + of, stage), "{:.3f}");
+      }
+      tables +=
+          cell(ratio(filter, fast), "{:.2f}") + cell(ratio(filter, klt), "{:.3f}") + "</tr>\n";
+      if (n == kTargetCorners) {
+        const std::string at = fmt::format("{}, {} corners: filter over ", scene, n);
+        targets += target(at + "cv::FAST", ratio(filter, fast), kMostOfFast);
+        targets += target(at + "klt", ratio(filter, klt), kMostOfKlt);
+      }
+    }
+    targets += target(fmt::format("{}: exponent of growth from {} corners on", scene, kGrowthFrom),
+                      exponent(growth), kMostGrowth);
+    const auto render = ms("render/" + scene), simulate = ms("simulate/" + scene);
+    const auto frames = counter("ego_motion/" + scene, "frames");
+    const auto ego_motion = ratio(ms("ego_motion/" + scene), frames);
+    tables += "</table>\n<table><tr><th>a frame of 640x480<th>ms<th>of the bare render loop</tr>\n";
+    const auto row = [&](const char* what, std::optional<double> value) {
+      tables += fmt::format("<tr><td>{}</td>", what) + cell(value, "{:.3f}") +
+                cell(ratio(value, render), "{:.3f}") + "</tr>\n";
+    };
+    row("bare render loop: the picture and nothing else", render);
+    row("simulation: physics, IMU, picture, depth, truth", simulate);
+    row("ego-motion from the IMU", ego_motion);
+    row("making the scene, once a run", ms("generate/" + scene));
+    tables += "</table>\n";
+  }
+
+  write_whole(page, [&](const std::filesystem::path& path) {
+    OutputFile file(path);
+    file.write(
+        fmt::format("<!doctype html><meta charset=utf-8><title>lcs benchmarks</title><style>{}"
+                    "</style>\n<h1>Benchmarks, {:%Y-%m-%d %H:%M} UTC</h1>\n",
+                    kStyle, fmt::gmtime(std::time(nullptr))));
+    file.write(machine());
+    file.write(
+        "<p>Milliseconds a frame, the quickest of the repetitions: of one core's time for what "
+        "computes, of "
+        "the wall clock for what renders, with all cores. The streams have the "
+        "density of corners of the recorded pictures; with their number grows the "
+        "picture.</p>\n<ul>\n" +
+        targets + "</ul>\n" + tables);
+    file.close();
+  });
+}
+
+}  // namespace lcs::bench
