@@ -74,9 +74,9 @@ void ConstellationEdges::remember(const Layers& layers, const Chi& chi) {
   std::rotate(history_.begin(), history_.end() - 1, history_.end());
   Past& now = history_.front();
   now.corners = chi.locations;
-  now.owners.assign(chi.size(), 0);
+  now.taken.clear();
   for (const Edge& edge : layers.normal_edges) {
-    if (edge.corner >= 0) now.owners[edge.corner] = edge.id;
+    if (edge.corner >= 0) now.taken.emplace_back(edge.id, edge.corner);
   }
   now.displacement_C_m.setZero();
   now.elapsed_s = 0;
@@ -209,27 +209,36 @@ void ConstellationEdges::look_back(const Layers& layers) {
     const bool explains = edge.corner >= 0 && edge.trust >= parameters_.constellation.established;
     if (explains) explaining_.push_back(edge.id);
   }
-  std::sort(explaining_.begin(), explaining_.end());
   const std::size_t frames = stride();
-  index(history_[frames - 1], parameters_.constellation.hit_1, once_);
-  index(history_[2 * frames - 1], parameters_.constellation.hit_2, twice_);
-  again_ = (twice_.elapsed_s - once_.elapsed_s) / once_.elapsed_s;
-  once_free_.build(once_.corners, parameters_.constellation.hit_1);
-  screen_.build(once_.corners, parameters_.constellation.hit_1);
-  twice_free_.build(twice_.corners, parameters_.constellation.hit_2);
+  const double hit_1 = parameters_.constellation.hit_1, hit_2 = parameters_.constellation.hit_2;
+  index(history_[frames - 1], once_);
+  once_.all.build(once_.corners, hit_1);
+  once_.all.add(explained_, hit_1);
+  once_free_.build(once_.corners, hit_1);
+  screen_.build(once_.corners, hit_1);
   once_grid_.build(once_.corners, 16);
+  index(history_[2 * frames - 1], twice_);
+  twice_free_.build(twice_.corners, hit_2);
+  twice_.all = twice_free_;
+  twice_.all.add(explained_, hit_2);
+  again_ = (twice_.elapsed_s - once_.elapsed_s) / once_.elapsed_s;
 }
 
 /// What an established edge took then and has a corner for now cannot be a moving corner's past.
 /// The static explanation keeps it: better to call too few corners rebels.
-void ConstellationEdges::index(const Past& past, double radius_px, Lookup& lookup) const {
-  lookup.corners.clear();
-  for (std::size_t i = 0; i < past.corners.size(); ++i) {
-    if (!std::binary_search(explaining_.begin(), explaining_.end(), past.owners[i])) {
-      lookup.corners.push_back(past.corners[i]);
-    }
+void ConstellationEdges::index(const Past& past, Lookup& lookup) {
+  // Ids rise in the lists of edges, so that both lists can be gone through at once.
+  is_explained_.assign(past.corners.size(), 0);
+  auto explaining = explaining_.begin();
+  for (const auto& [id, corner] : past.taken) {
+    while (explaining != explaining_.end() && *explaining < id) ++explaining;
+    is_explained_[corner] = explaining != explaining_.end() && *explaining == id;
   }
-  lookup.all.build(past.corners, radius_px);
+  lookup.corners.clear();
+  explained_.clear();
+  for (std::size_t i = 0; i < past.corners.size(); ++i) {
+    (is_explained_[i] ? explained_ : lookup.corners).push_back(past.corners[i]);
+  }
   lookup.displacement_C_m = past.displacement_C_m;
   lookup.elapsed_s = past.elapsed_s;
 }

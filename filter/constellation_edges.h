@@ -14,6 +14,7 @@
 /// 5. A corner among rebels takes their verdict, and their motion where its own past confirms it.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "filter/edge_expert.h"
@@ -36,7 +37,7 @@ class ConstellationEdges : public EdgeExpert {
   /// An earlier frame, in this frame's pixels (rotation removed).
   struct Past {
     std::vector<Vec2> corners;
-    std::vector<Id> owners;                                      // edge that took each; 0: none
+    std::vector<std::pair<Id, int>> taken;  // edges, by rising id, and the corner that each took
     Eigen::Vector3d displacement_C_m = Eigen::Vector3d::Zero();  // of the camera since then
     double elapsed_s = 0;
   };
@@ -76,7 +77,7 @@ class ConstellationEdges : public EdgeExpert {
   void remember(const Layers& layers, const Chi& chi);
   std::size_t stride() const;
   void look_back(const Layers& layers);
-  void index(const Past& past, double radius_px, Lookup& lookup) const;
+  void index(const Past& past, Lookup& lookup);
   void assign(const Layers& layers, const Chi& chi, const MotionField& field);
   void update_normal(Edge& edge, const Vec2& x, const MotionField& field) const;
   void update_rebel(Edge& edge, const Vec2& x, const MotionField& field) const;
@@ -120,7 +121,9 @@ class ConstellationEdges : public EdgeExpert {
   std::vector<std::uint8_t> may_vote_;   // indices of voters
   std::vector<HitScreen::Offset> arms_;  // of all voters at the first change of size, then the next
   HitScreen screen_;                     // of once_.corners
-  std::vector<Id> explaining_;           // edges, sorted
+  std::vector<Id> explaining_;           // edges, by rising id
+  std::vector<char> is_explained_;       // of a past's corners
+  std::vector<Vec2> explained_;          // of a past: not a lookup's corners
 };
 
 }  // namespace lcs

@@ -22,6 +22,11 @@ class HitMap {
   /// \param radius_px up to which a point is near; points outside the image are near to nothing.
   void build(std::span<const Vec2> points, double radius_px) {
     std::fill(bits_.begin(), bits_.end(), 0);
+    add(points, radius_px);
+  }
+
+  /// Further points.
+  void add(std::span<const Vec2> points, double radius_px) {
     for (const Vec2& x : points) {
       if (!pixels_.contain(x)) continue;
       pixels_.visit_disc(x, radius_px, [&](int v, int first, int last) {
