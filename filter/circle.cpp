@@ -110,8 +110,9 @@ void CircleExpert::group(const std::vector<Edge>& edges, const MotionField& fiel
   grid_.build(points_, parameters_.reach);
   seeds_.resize(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) seeds_[i] = i;
-  std::stable_sort(seeds_.begin(), seeds_.end(), [&](std::size_t a, std::size_t b) {
-    return std::tuple(-edges[a].trust, -edges[a].age) < std::tuple(-edges[b].trust, -edges[b].age);
+  std::sort(seeds_.begin(), seeds_.end(), [&](std::size_t a, std::size_t b) {
+    return std::tuple(-edges[a].trust, -edges[a].age, a) <
+           std::tuple(-edges[b].trust, -edges[b].age, b);
   });
   taken_.assign(edges.size(), 0);
   grouped_.clear();
@@ -163,12 +164,7 @@ void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
   group(edges, field);
   for (Edge& edge : edges) edge.circle = -1;
 
-  struct Pair {
-    double overlap, distance;
-    std::size_t circle, group;
-    bool aligned;
-  };
-  std::vector<Pair> pairs;
+  pairs_.clear();
   for (std::size_t c = 0; c < circles.size(); ++c) {
     const Circle& circle = circles[c];
     const double epsilon_beta =
@@ -189,19 +185,19 @@ void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
       if (!speeds) continue;
       const bool aligned =
           (!circle.rebel && !field.moving()) || within(circle.angle, mean.angle, epsilon_beta);
-      pairs.push_back({share, distance, c, g, aligned});
+      pairs_.push_back({share, distance, c, g, aligned});
     }
   }
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
     return std::tuple(!a.aligned, -a.overlap, a.distance, a.circle, a.group) <
            std::tuple(!b.aligned, -b.overlap, b.distance, b.circle, b.group);
   });
-  std::vector<int> circle_of_group(groups_.size(), -1);
-  std::vector<char> matched(circles.size(), 0);
-  for (const Pair& pair : pairs) {
-    if (matched[pair.circle] || circle_of_group[pair.group] >= 0) continue;
-    matched[pair.circle] = 1;
-    circle_of_group[pair.group] = static_cast<int>(pair.circle);
+  circle_of_group_.assign(groups_.size(), -1);
+  matched_.assign(circles.size(), 0);
+  for (const Pair& pair : pairs_) {
+    if (matched_[pair.circle] || circle_of_group_[pair.group] >= 0) continue;
+    matched_[pair.circle] = 1;
+    circle_of_group_[pair.group] = static_cast<int>(pair.circle);
     Circle& circle = circles[pair.circle];
     ++circle.age;
     // Edges that coast in psi carry their circle along, but prove nothing.
@@ -211,7 +207,7 @@ void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
     if (unseen) circle.trust = trust;
   }
   for (std::size_t c = 0; c < circles.size(); ++c) {
-    if (matched[c]) continue;
+    if (matched_[c]) continue;
     ++circles[c].age;
     circles[c].members = 0;
     // A region that was not looked at had no chance to show its edges.
@@ -219,31 +215,31 @@ void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
     circles[c].trust -= circles[c].rebel ? parameters_.rebel_coast : 1;
   }
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    if (circle_of_group[g] >= 0) continue;
+    if (circle_of_group_[g] >= 0) continue;
     Circle circle = groups_[g].mean;
     circle.id = next_id_++;
     circle.trust =
         circle.rebel ? parameters_.trust.initial_rebel() : parameters_.trust.initial_normal();
-    circle_of_group[g] = static_cast<int>(circles.size());
+    circle_of_group_[g] = static_cast<int>(circles.size());
     circles.push_back(circle);
   }
 
   // Deletion shifts the indices that edges keep.
-  std::vector<int> index(circles.size(), -1);
+  kept_.assign(circles.size(), -1);
   std::size_t kept = 0;
   for (std::size_t c = 0; c < circles.size(); ++c) {
     const Vec2& x = circles[c].location;
     const bool outside =
         x.x() < 0 || x.y() < 0 || x.x() > camera_.width_px || x.y() > camera_.height_px;
     if (!parameters_.trust.alive(circles[c].trust) || outside) continue;
-    index[c] = static_cast<int>(kept);
+    kept_[c] = static_cast<int>(kept);
     circles[kept++] = circles[c];
   }
   circles.resize(kept);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
     for (std::size_t i = group.first; i < group.first + group.count; ++i) {
-      edges[grouped_[i]].circle = index[static_cast<std::size_t>(circle_of_group[g])];
+      edges[grouped_[i]].circle = kept_[static_cast<std::size_t>(circle_of_group_[g])];
     }
   }
 }

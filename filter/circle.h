@@ -38,6 +38,13 @@ class CircleExpert {
     std::size_t first = 0, count = 0;  // of its edges in grouped_
   };
 
+  /// A predicted circle and a group that may be it.
+  struct Pair {
+    double overlap, distance;
+    std::size_t circle, group;
+    bool aligned;
+  };
+
   bool groupable(const Edge& edge) const;
   bool alike(const Edge& a, const Edge& b, const MotionField& field) const;
   void group(const std::vector<Edge>& edges, const MotionField& field);
@@ -58,6 +65,10 @@ class CircleExpert {
   std::vector<std::size_t> seeds_, grouped_;
   std::vector<char> taken_;
   std::vector<Group> groups_;
+  std::vector<Pair> pairs_;
+  std::vector<int> circle_of_group_;
+  std::vector<char> matched_;  // circles
+  std::vector<int> kept_;      // index of each circle after deletion, -1: deleted
 };
 
 }  // namespace lcs

@@ -130,70 +130,69 @@ void LinkLayering::link_by_velocity(double dt_s) {
   }
 }
 
-void LinkLayering::make_squares(int least, const MotionField& field) {
-  if (groups_.size() < nodes_.size()) groups_.resize(nodes_.size());
-  for (auto& group : groups_) group.clear();
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    groups_[sets_.root(static_cast<int>(i))].push_back(static_cast<int>(i));
+void LinkLayering::make_square(std::span<const int> group, const MotionField& field) {
+  xs_.clear();
+  ys_.clear();
+  const double n = static_cast<double>(group.size());
+  Square square;
+  Vec2 velocity = Vec2::Zero(), origin = Vec2::Zero();
+  double ratio = 0, speed = 0, weights = 0;
+  for (const int i : group) {
+    const Node& node = nodes_[i];
+    xs_.push_back(node.location.x());
+    ys_.push_back(node.location.y());
+    const double weight = node.edge->rebel ? 1 : 1 / (node.sigma * node.sigma);
+    ratio +=
+        weight * (node.edge->rebel ? node.edge->depth_ratio : node.w * field.reference_depth_m());
+    weights += weight;
+    speed += node.edge->speed / n;
+    velocity += node.edge->velocity() / n;
+    origin += node.edge->origin / n;
   }
-  for (const std::vector<int>& group : groups_) {
-    if (static_cast<int>(group.size()) < least) continue;
-    xs_.clear();
-    ys_.clear();
-    const double n = static_cast<double>(group.size());
-    Square square;
-    Vec2 velocity = Vec2::Zero(), origin = Vec2::Zero();
-    double ratio = 0, speed = 0, weights = 0;
-    for (const int i : group) {
-      const Node& node = nodes_[i];
-      xs_.push_back(node.location.x());
-      ys_.push_back(node.location.y());
-      const double weight = node.edge->rebel ? 1 : 1 / (node.sigma * node.sigma);
-      ratio +=
-          weight * (node.edge->rebel ? node.edge->depth_ratio : node.w * field.reference_depth_m());
-      weights += weight;
-      speed += node.edge->speed / n;
-      velocity += node.edge->velocity() / n;
-      origin += node.edge->origin / n;
-    }
-    std::sort(xs_.begin(), xs_.end());
-    std::sort(ys_.begin(), ys_.end());
-    const auto cut = static_cast<std::size_t>(parameters_.trim * n);
-    const Vec2 low(xs_[cut], ys_[cut]);
-    const Vec2 high(xs_[xs_.size() - 1 - cut], ys_[ys_.size() - 1 - cut]);
-    const Vec2 size = high - low;
-    const double longest = parameters_.max_side * std::max(camera_.width_px, camera_.height_px);
-    if (size.prod() < parameters_.min_area || size.maxCoeff() > longest) continue;
-    const bool rebel = nodes_[group.front()].edge->rebel;
-    const double largest_px =
-        parameters_.max_size * camera_.focal_px * ratio / weights / field.reference_depth_m();
-    if (!rebel && size.maxCoeff() > largest_px) continue;
-    square.location = 0.5 * (low + high);
-    square.half_size = 0.5 * size;
-    square.origin = origin;
-    square.depth_ratio = ratio / weights;
-    square.speed = rebel ? velocity.norm() : speed;
-    const Vec2 along = rebel ? velocity : field.direction(square.location);
-    square.angle = angle_of(along.isZero() ? Vec2(square.location - origin) : along);
-    // The circles that the layer's edges are in.
-    circles_.clear();
-    for (const int i : group) circles_.push_back(nodes_[i].edge->circle);
-    std::sort(circles_.begin(), circles_.end());
-    const auto end = std::unique(circles_.begin(), circles_.end());
-    square.circles = std::max(1, static_cast<int>(end - circles_.begin()));
-    square.rebel_circles = rebel ? square.circles : 0;
-    squares_.push_back(square);
-  }
+  std::sort(xs_.begin(), xs_.end());
+  std::sort(ys_.begin(), ys_.end());
+  const auto cut = static_cast<std::size_t>(parameters_.trim * n);
+  const Vec2 low(xs_[cut], ys_[cut]);
+  const Vec2 high(xs_[xs_.size() - 1 - cut], ys_[ys_.size() - 1 - cut]);
+  const Vec2 size = high - low;
+  const double longest = parameters_.max_side * std::max(camera_.width_px, camera_.height_px);
+  if (size.prod() < parameters_.min_area || size.maxCoeff() > longest) return;
+  const bool rebel = nodes_[group.front()].edge->rebel;
+  const double largest_px =
+      parameters_.max_size * camera_.focal_px * ratio / weights / field.reference_depth_m();
+  if (!rebel && size.maxCoeff() > largest_px) return;
+  square.location = 0.5 * (low + high);
+  square.half_size = 0.5 * size;
+  square.origin = origin;
+  square.depth_ratio = ratio / weights;
+  square.speed = rebel ? velocity.norm() : speed;
+  const Vec2 along = rebel ? velocity : field.direction(square.location);
+  square.angle = angle_of(along.isZero() ? Vec2(square.location - origin) : along);
+  // The circles that the layer's edges are in.
+  circles_.clear();
+  for (const int i : group) circles_.push_back(nodes_[i].edge->circle);
+  std::sort(circles_.begin(), circles_.end());
+  const auto end = std::unique(circles_.begin(), circles_.end());
+  square.circles = std::max(1, static_cast<int>(end - circles_.begin()));
+  square.rebel_circles = rebel ? square.circles : 0;
+  squares_.push_back(square);
+}
+
+void LinkLayering::make_squares(std::size_t least, const MotionField& field) {
+  groups_.collect(sets_, [](std::size_t) { return true; });
+  groups_.visit([&](std::span<const int> group) {
+    if (group.size() >= least) make_square(group, field);
+  });
 }
 
 const std::vector<Square>& LinkLayering::layer(const Layers& layers, const MotionField& field) {
   squares_.clear();
   gather(layers.normal_edges, field);
   link_by_depth();
-  make_squares(parameters_.min_edges, field);
+  make_squares(static_cast<std::size_t>(parameters_.min_edges), field);
   gather(layers.rebel_edges, field);
   link_by_velocity(field.dt_s());
-  make_squares(parameters_.min_rebels, field);
+  make_squares(static_cast<std::size_t>(parameters_.min_rebels), field);
   return squares_;
 }
 

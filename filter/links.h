@@ -9,6 +9,7 @@
 /// a near object to a far one. Rebels are linked by their own velocities.
 #pragma once
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -46,7 +47,8 @@ class LinkLayering {
   void measure_spacing();
   void link_by_depth();
   void link_by_velocity(double dt_s);
-  void make_squares(int least, const MotionField& field);
+  void make_squares(std::size_t least, const MotionField& field);
+  void make_square(std::span<const int> group, const MotionField& field);
   double reach(const Node& a, const Node& b) const;
   /// By how much the inverse depths of neighbours may differ.
   double tolerance(const Node& a, const Node& b) const;
@@ -61,7 +63,7 @@ class LinkLayering {
   std::vector<Link> links_;
   DisjointSets sets_;                  // of nodes
   std::vector<double> weight_, mean_;  // of the group that a root stands for
-  std::vector<std::vector<int>> groups_;
+  SetMembers groups_;
   std::vector<std::pair<double, int>> near_;
   std::vector<int> circles_;
   std::vector<double> xs_, ys_;

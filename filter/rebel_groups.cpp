@@ -33,7 +33,7 @@ void set_velocity(Edge& edge, const Vec2& velocity_pxps, double dt_s) {
 
 void RebelGroups::judge(std::vector<Edge>& rebels, double dt_s) {
   connect(rebels, dt_s);
-  collect(rebels);
+  groups_.collect(components_, [&](std::size_t i) { return trust_.alive(rebels[i].trust); });
   support(rebels);
   smooth(rebels, dt_s);
 }
@@ -61,17 +61,8 @@ void RebelGroups::connect(const std::vector<Edge>& rebels, double dt_s) {
   }
 }
 
-void RebelGroups::collect(const std::vector<Edge>& rebels) {
-  if (groups_.size() < rebels.size()) groups_.resize(rebels.size());
-  for (auto& group : groups_) group.clear();
-  for (std::size_t i = 0; i < rebels.size(); ++i) {
-    if (!trust_.alive(rebels[i].trust)) continue;
-    groups_[components_.root(static_cast<int>(i))].push_back(static_cast<int>(i));
-  }
-}
-
 /// Standard deviation of a group's places across the line that fits them best, px.
-double RebelGroups::width(const std::vector<Edge>& rebels, const std::vector<int>& group) const {
+double RebelGroups::width(const std::vector<Edge>& rebels, std::span<const int> group) const {
   Vec2 centre = Vec2::Zero();
   for (const int i : group) centre += rebels[i].location / static_cast<double>(group.size());
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
@@ -84,30 +75,32 @@ double RebelGroups::width(const std::vector<Edge>& rebels, const std::vector<int
   return std::sqrt(std::max(0.0, half - root));
 }
 
+void RebelGroups::support_group(std::vector<Edge>& rebels, std::span<const int> group) {
+  if (static_cast<int>(group.size()) < parameters_.support) return;
+  const int component = components_.root(group.front());
+  // Where an outline hides a pattern behind it, their crossings move as neither does, but in line
+  // along the outline.
+  const bool in_line = width(rebels, group) < parameters_.support_width;
+  for (const int i : group) {
+    int near = 0, off = 0;
+    grid_.visit_within(rebels[i].location, parameters_.radius, [&](int j, double) {
+      if (!trust_.alive(rebels[j].trust) || components_.root(j) != component) return;
+      ++near;
+      off += rebels[j].off_field_px > kOffField_px;
+    });
+    const bool moves = off >= parameters_.support_off_field * near;
+    stray_[i] = (in_line || !moves) && rebels[i].age >= 2;
+    if (near < parameters_.support) continue;
+    reasons_[i] = !moves    ? Reason::rebel_on_field
+                  : in_line ? Reason::rebel_in_line
+                            : Reason::rebel_edge;
+  }
+}
+
 void RebelGroups::support(std::vector<Edge>& rebels) {
   reasons_.assign(rebels.size(), Reason::rebel_alone);
   stray_.assign(rebels.size(), 0);
-  for (const std::vector<int>& group : groups_) {
-    if (static_cast<int>(group.size()) < parameters_.support) continue;
-    const int component = components_.root(group.front());
-    // Where an outline hides a pattern behind it, their crossings move as neither does, but in line
-    // along the outline.
-    const bool in_line = width(rebels, group) < parameters_.support_width;
-    for (const int i : group) {
-      int near = 0, off = 0;
-      grid_.visit_within(rebels[i].location, parameters_.radius, [&](int j, double) {
-        if (!trust_.alive(rebels[j].trust) || components_.root(j) != component) return;
-        ++near;
-        off += rebels[j].off_field_px > kOffField_px;
-      });
-      const bool moves = off >= parameters_.support_off_field * near;
-      stray_[i] = (in_line || !moves) && rebels[i].age >= 2;
-      if (near < parameters_.support) continue;
-      reasons_[i] = !moves    ? Reason::rebel_on_field
-                    : in_line ? Reason::rebel_in_line
-                              : Reason::rebel_edge;
-    }
-  }
+  groups_.visit([&](std::span<const int> group) { support_group(rebels, group); });
   for (std::size_t i = 0; i < rebels.size(); ++i) {
     if (stray_[i]) rebels[i].trust -= 2;
   }
@@ -115,42 +108,46 @@ void RebelGroups::support(std::vector<Edge>& rebels) {
 
 /// A shift and a change of size are fitted to the velocities of each group, and pull them; an edge
 /// that is far off the fit loses trust.
-void RebelGroups::smooth(std::vector<Edge>& rebels, double dt_s) {
-  for (std::vector<int>& group : groups_) {
-    std::erase_if(group, [&](int i) { return !trust_.alive(rebels[i].trust); });
-    if (group.size() < 4) continue;
-    vx_.clear();
-    vy_.clear();
-    Vec2 centre = Vec2::Zero();
-    for (const int i : group) {
-      const Vec2 step = rebels[i].velocity() * dt_s;
-      centre += rebels[i].location;
-      vx_.push_back(step.x());
-      vy_.push_back(step.y());
-    }
-    centre /= static_cast<double>(group.size());
-    const Vec2 shift(median(vx_), median(vy_));
-    const double tolerance = 3 + 0.3 * shift.norm();
-    double growth = 0;
-    if (group.size() >= 5) {
-      double numerator = 0, denominator = 1;
-      for (const int i : group) {
-        const Vec2 arm = rebels[i].location - centre;
-        const Vec2 rest = rebels[i].velocity() * dt_s - shift;
-        if (rest.norm() > tolerance) continue;
-        numerator += arm.dot(rest);
-        denominator += arm.squaredNorm();
-      }
-      growth = numerator / denominator;
-    }
-    for (const int i : group) {
-      const Vec2 fitted = shift + growth * (rebels[i].location - centre);
-      const Vec2 step = rebels[i].velocity() * dt_s;
-      if ((step - fitted).norm() > tolerance && rebels[i].corner >= 0) --rebels[i].trust;
-      const double faster = 1 + std::clamp(growth, -0.2, 0.3);
-      set_velocity(rebels[i], faster * (0.4 * step + 0.6 * fitted) / dt_s, dt_s);
-    }
+void RebelGroups::smooth_group(std::vector<Edge>& rebels, std::span<int> group, double dt_s) {
+  const auto dead = std::remove_if(group.begin(), group.end(),
+                                   [&](int i) { return !trust_.alive(rebels[i].trust); });
+  group = group.first(static_cast<std::size_t>(dead - group.begin()));
+  if (group.size() < 4) return;
+  vx_.clear();
+  vy_.clear();
+  Vec2 centre = Vec2::Zero();
+  for (const int i : group) {
+    const Vec2 step = rebels[i].velocity() * dt_s;
+    centre += rebels[i].location;
+    vx_.push_back(step.x());
+    vy_.push_back(step.y());
   }
+  centre /= static_cast<double>(group.size());
+  const Vec2 shift(median(vx_), median(vy_));
+  const double tolerance = 3 + 0.3 * shift.norm();
+  double growth = 0;
+  if (group.size() >= 5) {
+    double numerator = 0, denominator = 1;
+    for (const int i : group) {
+      const Vec2 arm = rebels[i].location - centre;
+      const Vec2 rest = rebels[i].velocity() * dt_s - shift;
+      if (rest.norm() > tolerance) continue;
+      numerator += arm.dot(rest);
+      denominator += arm.squaredNorm();
+    }
+    growth = numerator / denominator;
+  }
+  for (const int i : group) {
+    const Vec2 fitted = shift + growth * (rebels[i].location - centre);
+    const Vec2 step = rebels[i].velocity() * dt_s;
+    if ((step - fitted).norm() > tolerance && rebels[i].corner >= 0) --rebels[i].trust;
+    const double faster = 1 + std::clamp(growth, -0.2, 0.3);
+    set_velocity(rebels[i], faster * (0.4 * step + 0.6 * fitted) / dt_s, dt_s);
+  }
+}
+
+void RebelGroups::smooth(std::vector<Edge>& rebels, double dt_s) {
+  groups_.visit([&](std::span<int> group) { smooth_group(rebels, group, dt_s); });
 }
 
 }  // namespace lcs

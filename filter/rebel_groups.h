@@ -4,6 +4,7 @@
 /// object.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "filter/disjoint_sets.h"
@@ -35,10 +36,11 @@ class RebelGroups {
 
  private:
   void connect(const std::vector<Edge>& rebels, double dt_s);
-  void collect(const std::vector<Edge>& rebels);
   void support(std::vector<Edge>& rebels);
   void smooth(std::vector<Edge>& rebels, double dt_s);
-  double width(const std::vector<Edge>& rebels, const std::vector<int>& group) const;
+  void support_group(std::vector<Edge>& rebels, std::span<const int> group);
+  void smooth_group(std::vector<Edge>& rebels, std::span<int> group, double dt_s);
+  double width(const std::vector<Edge>& rebels, std::span<const int> group) const;
 
   ConstellationParameters parameters_;
   TrustRanks trust_;
@@ -47,8 +49,8 @@ class RebelGroups {
   // Of the current frame; kept for their memory.
   PointGrid grid_;
   std::vector<Vec2> points_, velocities_;
-  DisjointSets components_;               // of edges near each other and of like velocity
-  std::vector<std::vector<int>> groups_;  // living edges by component
+  DisjointSets components_;  // of edges near each other and of like velocity
+  SetMembers groups_;        // living edges by component
   std::vector<char> stray_;
   std::vector<double> vx_, vy_;
 };

@@ -210,12 +210,7 @@ void SquareExpert::layer_circles(const Layers& layers, const MotionField& field)
 }
 
 void SquareExpert::match(Layers& layers) {
-  struct Pair {
-    double overlap, distance;
-    std::size_t square, mean;
-    bool aligned;
-  };
-  std::vector<Pair> pairs;
+  pairs_.clear();
   for (std::size_t s = 0; s < layers.squares.size(); ++s) {
     const Square& square = layers.squares[s];
     for (std::size_t m = 0; m < means_.size(); ++m) {
@@ -224,18 +219,19 @@ void SquareExpert::match(Layers& layers) {
       if (std::abs(square.depth_ratio - means_[m].depth_ratio) > parameters_.epsilon_v_s) continue;
       const bool aligned =
           angle_between(square.angle, means_[m].angle) <= parameters_.epsilon_beta_s;
-      pairs.push_back({rho_s, (square.location - means_[m].location).norm(), s, m, aligned});
+      pairs_.push_back({rho_s, (square.location - means_[m].location).norm(), s, m, aligned});
     }
   }
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
     return std::tuple(!a.aligned, a.distance, -a.overlap, a.square, a.mean) <
            std::tuple(!b.aligned, b.distance, -b.overlap, b.square, b.mean);
   });
-  std::vector<char> matched(layers.squares.size(), 0), used(means_.size(), 0);
+  matched_.assign(layers.squares.size(), 0);
+  mean_used_.assign(means_.size(), 0);
   const TrustRanks& ranks = parameters_.trust;
-  for (const Pair& pair : pairs) {
-    if (matched[pair.square] || used[pair.mean]) continue;
-    matched[pair.square] = used[pair.mean] = 1;
+  for (const Pair& pair : pairs_) {
+    if (matched_[pair.square] || mean_used_[pair.mean]) continue;
+    matched_[pair.square] = mean_used_[pair.mean] = 1;
     Square& square = layers.squares[pair.square];
     const Square& mean = means_[pair.mean];
     // Circles that coast in psi carry their square along, but prove nothing.
@@ -252,14 +248,14 @@ void SquareExpert::match(Layers& layers) {
     if (!unseen) square.trust = pair.aligned ? ranks.raised(square.trust) : square.trust - 1;
   }
   for (std::size_t s = 0; s < layers.squares.size(); ++s) {
-    if (matched[s]) continue;
+    if (matched_[s]) continue;
     Square& square = layers.squares[s];
     ++square.age;
     square.circles = 0;
     if (!inside_any(layers.ignored, square.location)) --square.trust;
   }
   for (std::size_t m = 0; m < means_.size(); ++m) {
-    if (used[m]) continue;
+    if (mean_used_[m]) continue;
     Square square = means_[m];
     square.id = next_id_++;
     square.trust = ranks.initial_square();

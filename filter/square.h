@@ -38,6 +38,13 @@ class SquareExpert {
   void update_ignorance(Layers& layers) const;
 
  private:
+  /// A predicted square and a mean one that may be it.
+  struct Pair {
+    double overlap, distance;
+    std::size_t square, mean;
+    bool aligned;
+  };
+
   bool like_speed(const Circle& a, const Circle& b) const;
   bool couple(const Circle& a, const Circle& b) const;
   void layer_circles(const Layers& layers, const MotionField& field);
@@ -55,6 +62,8 @@ class SquareExpert {
   std::vector<char> used_;
   std::vector<std::size_t> partners_;  // C_b of the couple at hand
   std::vector<Square> means_;          // S_m
+  std::vector<Pair> pairs_;
+  std::vector<char> matched_, mean_used_;  // squares, means
   LinkLayering links_;
 };
 
