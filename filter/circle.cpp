@@ -6,6 +6,7 @@
 
 #include "filter/geometry.h"
 #include "filter/line.h"
+#include "filter/refill.h"
 
 namespace lcs {
 namespace {
@@ -108,13 +109,13 @@ void CircleExpert::group(const std::vector<Edge>& edges, const MotionField& fiel
   points_.clear();
   for (const Edge& edge : edges) points_.push_back(edge.location);
   grid_.build(points_, parameters_.reach);
-  seeds_.resize(edges.size());
+  refill(seeds_, edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) seeds_[i] = i;
   std::sort(seeds_.begin(), seeds_.end(), [&](std::size_t a, std::size_t b) {
     return std::tuple(-edges[a].trust, -edges[a].age, a) <
            std::tuple(-edges[b].trust, -edges[b].age, b);
   });
-  taken_.assign(edges.size(), 0);
+  refill(taken_, edges.size());
   grouped_.clear();
   groups_.clear();
   for (const std::size_t seed : seeds_) {
@@ -192,8 +193,8 @@ void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
     return std::tuple(!a.aligned, -a.overlap, a.distance, a.circle, a.group) <
            std::tuple(!b.aligned, -b.overlap, b.distance, b.circle, b.group);
   });
-  circle_of_group_.assign(groups_.size(), -1);
-  matched_.assign(circles.size(), 0);
+  refill(circle_of_group_, groups_.size(), -1);
+  refill(matched_, circles.size());
   for (const Pair& pair : pairs_) {
     if (matched_[pair.circle] || circle_of_group_[pair.group] >= 0) continue;
     matched_[pair.circle] = 1;
@@ -225,7 +226,7 @@ void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
   }
 
   // Deletion shifts the indices that edges keep.
-  kept_.assign(circles.size(), -1);
+  refill(kept_, circles.size(), -1);
   std::size_t kept = 0;
   for (std::size_t c = 0; c < circles.size(); ++c) {
     const Vec2& x = circles[c].location;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "filter/geometry.h"
+#include "filter/refill.h"
 
 namespace lcs {
 namespace {
@@ -73,7 +74,7 @@ void ConstellationEdges::remember(const Layers& layers, const Chi& chi) {
   if (history_.size() < kMaxHistory) history_.emplace_back();
   std::rotate(history_.begin(), history_.end() - 1, history_.end());
   Past& now = history_.front();
-  now.corners = chi.locations;
+  copy_over(chi.locations, now.corners);
   now.taken.clear();
   for (const Edge& edge : layers.normal_edges) {
     if (edge.corner >= 0) now.taken.emplace_back(edge.id, edge.corner);
@@ -165,9 +166,9 @@ void ConstellationEdges::update_rebel(Edge& edge, const Vec2& x, const MotionFie
 
 /// Corners that no edge took, or only a normal edge too young to be believed.
 void ConstellationEdges::find_residuals(const Layers& layers, const Chi& chi) {
-  candidates_.assign(chi.size(), {});
-  links_.assign(chi.size(), {});
-  reasons_.assign(chi.size(), history_.size() < 2 ? Reason::no_past : Reason::no_time);
+  refill(candidates_, chi.size());
+  refill(links_, chi.size());
+  refill(reasons_, chi.size(), history_.size() < 2 ? Reason::no_past : Reason::no_time);
   const int normals = static_cast<int>(layers.normal_edges.size());
   for (std::size_t c = 0; c < chi.size(); ++c) {
     const int edge = match_of_corner_[c];
@@ -228,7 +229,7 @@ void ConstellationEdges::look_back(const Layers& layers) {
 /// The static explanation keeps it: better to call too few corners rebels.
 void ConstellationEdges::index(const Past& past, Lookup& lookup) {
   // Ids rise in the lists of edges, so that both lists can be gone through at once.
-  is_explained_.assign(past.corners.size(), 0);
+  refill(is_explained_, past.corners.size());
   auto explaining = explaining_.begin();
   for (const auto& [id, corner] : past.taken) {
     while (explaining != explaining_.end() && *explaining < id) ++explaining;
@@ -433,9 +434,9 @@ bool ConstellationEdges::confirms(const Vec2& x, const Vec2& step) const {
 /// own past confirms their motion. A normal edge is not overruled without that.
 void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionField& field) {
   const ConstellationParameters& p = parameters_.constellation;
-  decided_ = called_;
+  copy_over(called_, decided_);
   decided_locations_.clear();
-  counts_.resize(chi.size());
+  refill(counts_, chi.size());
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (decided_[c]) decided_locations_.push_back(chi.locations[c]);
     counts_[c] = decided_[c] || (links_[c].kind == Kind::normal &&
@@ -520,7 +521,7 @@ void ConstellationEdges::update(Layers& layers, const Chi& chi, const MotionFiel
     }
   }
   find_residuals(layers, chi);
-  called_.assign(chi.size(), 0);
+  refill(called_, chi.size());
   if (history_.size() >= 2 && field.dt_s() > 0) {
     look_back(layers);
     seek_static_past(chi, field);

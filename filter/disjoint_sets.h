@@ -7,13 +7,15 @@
 #include <span>
 #include <vector>
 
+#include "filter/refill.h"
+
 namespace lcs {
 
 class DisjointSets {
  public:
   /// n sets of one thing each.
   void reset(std::size_t n) {
-    parent_.resize(n);
+    refill(parent_, n);
     std::iota(parent_.begin(), parent_.end(), 0);
   }
 
@@ -38,12 +40,12 @@ class SetMembers {
   /// \param accept(i) whether a thing is listed.
   template <typename Accept>
   void collect(DisjointSets& sets, Accept&& accept) {
-    first_.assign(sets.size() + 2, 0);
+    refill(first_, sets.size() + 2);
     for (std::size_t i = 0; i < sets.size(); ++i) {
       if (accept(i)) ++first_[sets.root(static_cast<int>(i)) + 2];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    members_.resize(first_.back());
+    refill(members_, first_.back());
     for (std::size_t i = 0; i < sets.size(); ++i) {
       if (accept(i)) members_[first_[sets.root(static_cast<int>(i)) + 1]++] = static_cast<int>(i);
     }

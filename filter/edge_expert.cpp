@@ -7,6 +7,7 @@
 #include "filter/constellation_edges.h"
 #include "filter/geometry.h"
 #include "filter/paper_edges.h"
+#include "filter/refill.h"
 
 namespace lcs {
 namespace {
@@ -21,8 +22,8 @@ void EdgeExpert::assign_one_to_one(std::size_t edges, std::size_t corners) {
   std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
     return std::tuple(a.cost, a.edge, a.corner) < std::tuple(b.cost, b.edge, b.corner);
   });
-  match_of_edge_.assign(edges, -1);
-  match_of_corner_.assign(corners, -1);
+  refill(match_of_edge_, edges, -1);
+  refill(match_of_corner_, corners, -1);
   for (const Pair& pair : pairs_) {
     if (match_of_edge_[pair.edge] >= 0 || match_of_corner_[pair.corner] >= 0) continue;
     match_of_edge_[pair.edge] = pair.corner;

@@ -7,6 +7,7 @@
 #include "filter/edge_expert.h"
 #include "filter/line.h"
 #include "filter/motion_field.h"
+#include "filter/refill.h"
 #include "filter/square.h"
 
 namespace lcs {
@@ -34,10 +35,12 @@ const Parameters& checked(const Parameters& parameters) {
 }
 
 /// Those of the corners that the Line expert kept are the Circle expert's.
-void gather_reasons(const Chi& chi, const std::vector<Reason>& of_chi,
-                    const std::vector<Verdict>& verdicts, std::vector<Reason>& reasons) {
-  reasons.assign(verdicts.size(), Reason::not_finite);
+void gather_reasons(std::span<const Eigen::Vector2f> corners_px, const Chi& chi,
+                    const std::vector<Reason>& of_chi, const std::vector<Verdict>& verdicts,
+                    std::vector<Reason>& reasons) {
+  refill(reasons, verdicts.size(), Reason::too_many);
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    if (!corners_px[i].allFinite()) reasons[i] = Reason::not_finite;
     if (verdicts[i] == Verdict::ignored) reasons[i] = Reason::in_psi;
   }
   for (std::size_t c = 0; c < chi.size(); ++c) reasons[chi.sources[c]] = of_chi[c];
@@ -49,7 +52,7 @@ struct Filter::Impl {
   Impl(const Intrinsics& camera_in, const Parameters& parameters_in)
       : camera(checked(camera_in)),
         parameters(checked(parameters_in)),
-        line(camera.centre_px),
+        line(camera.centre_px, static_cast<std::size_t>(parameters.line.max_corners)),
         edges(make_edge_expert(camera, parameters.circle)),
         circles(camera, parameters.circle),
         squares(camera, parameters.square) {}
@@ -90,7 +93,7 @@ const FrameResult& Filter::step(std::span<const Eigen::Vector2f> corners_px,
   f.result.times.line_ms = lap_ms(clock);
 
   f.edges->update(layers, chi, field, f.result.verdicts);
-  gather_reasons(chi, f.edges->reasons(), f.result.verdicts, f.result.reasons);
+  gather_reasons(corners_px, chi, f.edges->reasons(), f.result.verdicts, f.result.reasons);
   f.circles.update(layers, field);
   if (f.parameters.line.ignore) f.circles.update_ignorance(layers);  // transition II
   f.result.times.circle_ms = lap_ms(clock);

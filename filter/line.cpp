@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "filter/refill.h"
+
 namespace lcs {
 namespace {
 
@@ -25,10 +27,10 @@ bool inside_any(std::span<const IgnoreRegion> regions, const Vec2& x) {
 /// Of the collectors that a corner falls into it takes the nearest, and of equals the first. Few
 /// corners lie in each, so that they are looked for from there.
 void LineExpert::group(std::span<const Collector> lambda) {
-  chi_.groups.assign(chi_.size(), -1);
+  refill(chi_.groups, chi_.size(), -1);
   if (lambda.empty()) return;
   grid_.build(chi_.locations, kCell_px);
-  nearest_.resize(chi_.size());
+  refill(nearest_, chi_.size());
   for (std::size_t c = 0; c < lambda.size(); ++c) {
     // A hair farther, for the distance is compared and not its square.
     grid_.visit_within(lambda[c].location, 1.001 * lambda[c].radius, [&](int i, double) {
@@ -44,7 +46,7 @@ void LineExpert::group(std::span<const Collector> lambda) {
 const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
                                std::span<const IgnoreRegion> psi, std::span<const Collector> lambda,
                                std::vector<Verdict>& verdicts) {
-  verdicts.assign(corners_px.size(), Verdict::pending);
+  refill(verdicts, corners_px.size(), Verdict::pending);
   entries_.clear();
   for (std::size_t i = 0; i < corners_px.size(); ++i) {
     if (!corners_px[i].allFinite()) continue;
@@ -57,10 +59,16 @@ const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
   }
   // The distance from the centre survives mirroring and quarter turns of the image; the coordinates
   // only part what it leaves equal.
-  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+  const auto nearer = [](const Entry& a, const Entry& b) {
     return std::tuple(a.distance2, a.location.y(), a.location.x(), a.source) <
            std::tuple(b.distance2, b.location.y(), b.location.x(), b.source);
-  });
+  };
+  if (entries_.size() > max_corners_) {
+    const auto end = entries_.begin() + static_cast<std::ptrdiff_t>(max_corners_);
+    std::nth_element(entries_.begin(), end, entries_.end(), nearer);
+    entries_.erase(end, entries_.end());
+  }
+  std::sort(entries_.begin(), entries_.end(), nearer);
 
   chi_.locations.clear();
   chi_.sources.clear();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,7 +29,10 @@ bool inside_any(std::span<const IgnoreRegion> regions, const Vec2& x);
 
 class LineExpert {
  public:
-  explicit LineExpert(const Vec2& centre_px) : centre_px_(centre_px) {}
+  /// \param max_corners that are looked at: the nearest to the centre.
+  explicit LineExpert(const Vec2& centre_px,
+                      std::size_t max_corners = std::numeric_limits<std::size_t>::max())
+      : centre_px_(centre_px), max_corners_(max_corners) {}
 
   /// \param verdicts one for each corner: set to `ignored` inside psi, to `pending` elsewhere.
   /// Corners
@@ -40,6 +44,7 @@ class LineExpert {
   void group(std::span<const Collector> lambda);
 
   Vec2 centre_px_;
+  std::size_t max_corners_;
   Chi chi_;
   struct Entry {
     double distance2;

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "filter/geometry.h"
+#include "filter/refill.h"
 
 namespace lcs {
 namespace {
@@ -95,8 +96,8 @@ void LinkLayering::link_by_depth() {
   std::sort(links_.begin(), links_.end(), [](const Link& x, const Link& y) {
     return std::tuple(x.cost, x.a, x.b) < std::tuple(y.cost, y.a, y.b);
   });
-  weight_.resize(nodes_.size());
-  mean_.resize(nodes_.size());
+  refill(weight_, nodes_.size());
+  refill(mean_, nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const double sigma = std::max(nodes_[i].sigma, 1e-3);
     weight_[i] = 1 / (sigma * sigma);

@@ -54,6 +54,7 @@ const std::vector<Entry>& entries() {
       {"field.nearest_depth", "z_min", "m", 1e-3, 1e4, LCS_FIELD(double, field.nearest_depth_m)},
       {"field.still_speed", "", "m/s", 0, 10, LCS_FIELD(double, field.still_speed_mps)},
       {"line.ignore", "psi", "", 0, 0, LCS_FIELD(bool, line.ignore)},
+      {"line.max_corners", "", "", 1, 10000000, LCS_FIELD(int, line.max_corners)},
       {"circle.Tr_c", "Tr^c_c", "", 0, 1000, LCS_FIELD(int, circle.trust.critical)},
       {"circle.Tr_s", "Tr^c_s", "", 0, 1000, LCS_FIELD(int, circle.trust.standard)},
       {"circle.Tr_m", "Tr^c_m", "", 0, 1000, LCS_FIELD(int, circle.trust.maximum)},

@@ -42,6 +42,8 @@ struct FieldParameters {
 /// Line expert.
 struct LineParameters {
   bool ignore = true;  ///< apply psi; off, every corner is looked at in every frame
+  /// Of more than these the nearest to the principal point are looked at. Bounds the memory.
+  int max_corners = 20000;
 };
 
 /// The constellation rule of the Circle expert, which stands in for xi and alpha. A gate is an

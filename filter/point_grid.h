@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "filter/camera.h"
+#include "filter/refill.h"
 
 namespace lcs {
 
@@ -33,14 +34,14 @@ class PointGrid {
 
     // Counting sort of the points into their cells: first_[c + 1] runs from the start of cell c to
     // its end, which is where the next one starts.
-    first_.assign(static_cast<std::size_t>(columns_) * rows_ + 2, 0);
-    cell_of_.resize(points.size());
+    refill(first_, static_cast<std::size_t>(columns_) * rows_ + 2);
+    refill(cell_of_, points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
       cell_of_[i] = cell(column(points[i].x()), row(points[i].y()));
       ++first_[cell_of_[i] + 2];
     }
     for (std::size_t c = 2; c < first_.size(); ++c) first_[c] += first_[c - 1];
-    placed_.resize(points.size());
+    refill(placed_, points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
       placed_[first_[cell_of_[i] + 1]++] = {points[i], static_cast<int>(i)};
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "filter/geometry.h"
+#include "filter/refill.h"
 
 namespace lcs {
 namespace {
@@ -98,8 +99,8 @@ void RebelGroups::support_group(std::vector<Edge>& rebels, std::span<const int> 
 }
 
 void RebelGroups::support(std::vector<Edge>& rebels) {
-  reasons_.assign(rebels.size(), Reason::rebel_alone);
-  stray_.assign(rebels.size(), 0);
+  refill(reasons_, rebels.size(), Reason::rebel_alone);
+  refill(stray_, rebels.size());
   groups_.visit([&](std::span<const int> group) { support_group(rebels, group); });
   for (std::size_t i = 0; i < rebels.size(); ++i) {
     if (stray_[i]) rebels[i].trust -= 2;

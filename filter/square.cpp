@@ -6,6 +6,7 @@
 
 #include "filter/geometry.h"
 #include "filter/line.h"
+#include "filter/refill.h"
 #include "filter/tangent.h"
 
 namespace lcs {
@@ -181,7 +182,7 @@ void SquareExpert::layer_circles(const Layers& layers, const MotionField& field)
   std::stable_sort(circles_.begin(), circles_.end(), [](const Circle& a, const Circle& b) {
     return std::tuple(-a.trust, -a.members) < std::tuple(-b.trust, -b.members);
   });
-  used_.assign(circles_.size(), 0);
+  refill(used_, circles_.size());
   means_.clear();
   const double diagonal = std::hypot(camera_.width_px, camera_.height_px);
   for (std::size_t a = 0; a < circles_.size(); ++a) {
@@ -226,8 +227,8 @@ void SquareExpert::match(Layers& layers) {
     return std::tuple(!a.aligned, a.distance, -a.overlap, a.square, a.mean) <
            std::tuple(!b.aligned, b.distance, -b.overlap, b.square, b.mean);
   });
-  matched_.assign(layers.squares.size(), 0);
-  mean_used_.assign(means_.size(), 0);
+  refill(matched_, layers.squares.size());
+  refill(mean_used_, means_.size());
   const TrustRanks& ranks = parameters_.trust;
   for (const Pair& pair : pairs_) {
     if (matched_[pair.square] || mean_used_[pair.mean]) continue;
@@ -272,7 +273,7 @@ void SquareExpert::update(Layers& layers, const MotionField& field) {
   if (parameters_.layer_rule == LayerRule::couples) {
     layer_circles(layers, field);
   } else {
-    means_ = links_.layer(layers, field);
+    copy_over(links_.layer(layers, field), means_);
   }
   match(layers);
 }

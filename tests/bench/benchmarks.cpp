@@ -234,7 +234,7 @@ int main(int argc, char** argv) {
   try {
     lcs::bench::PageReporter reporter;
     benchmark::RunSpecifiedBenchmarks(&reporter);
-    if (argc == 2) reporter.write(argv[1]);
+    if (argc == 2 && reporter.any()) reporter.write(argv[1]);
   } catch (const std::exception& error) {
     std::cerr << "lcs_benchmarks: " << error.what() << '\n';
     return 2;

@@ -18,6 +18,8 @@ class PageReporter : public benchmark::ConsoleReporter {
 
   void ReportRuns(const std::vector<Run>& runs) override;
 
+  bool any() const { return !measured_.empty(); }
+
   /// \throws OutputError
   void write(const std::filesystem::path& page) const;
 

@@ -21,6 +21,46 @@ IgnoreRegion rectangle(const Vec2& at, const Vec2& half) {
   return {IgnoreRegion::Shape::rectangle, at, half};
 }
 
+TEST(LineExpert, LooksAtTheNearestToTheCentreOfTooManyCorners) {
+  Random random(9);
+  std::vector<Eigen::Vector2f> corners;
+  for (int i = 0; i < 100; ++i) {
+    corners.emplace_back(random.uniform(0, 639), random.uniform(0, 479));
+  }
+  std::vector<Verdict> verdicts;
+  LineExpert unbounded(kCentre), bounded(kCentre, 30);
+  const std::vector<int> all = unbounded.collect(corners, {}, {}, verdicts).sources;
+  const std::vector<int> kept = bounded.collect(corners, {}, {}, verdicts).sources;
+  ASSERT_EQ(all.size(), 100U);
+  EXPECT_EQ(kept, std::vector<int>(all.begin(), all.begin() + 30));
+  EXPECT_EQ(std::count(verdicts.begin(), verdicts.end(), Verdict::pending), 100);
+}
+
+TEST(LineExpert, GroupsByTheNearestCollectorAndOfEqualsTheFirst) {
+  Random random(10);
+  std::vector<Eigen::Vector2f> corners;
+  std::vector<Collector> lambda;
+  for (int i = 0; i < 400; ++i) {
+    corners.emplace_back(random.uniform(0, 639), random.uniform(0, 479));
+    if (i % 8 == 0) lambda.push_back({corners.back().cast<double>(), random.uniform(0, 90), 1});
+  }
+  lambda.push_back(lambda.front());
+  std::vector<Verdict> verdicts;
+  LineExpert line(kCentre);
+  const Chi& chi = line.collect(corners, {}, lambda, verdicts);
+  for (std::size_t i = 0; i < chi.size(); ++i) {
+    int expected = -1;
+    double nearest = 0;
+    for (std::size_t c = 0; c < lambda.size(); ++c) {
+      const double distance = (chi.locations[i] - lambda[c].location).norm();
+      if (distance > lambda[c].radius || (expected >= 0 && distance >= nearest)) continue;
+      expected = static_cast<int>(c);
+      nearest = distance;
+    }
+    EXPECT_EQ(chi.groups[i], expected);
+  }
+}
+
 TEST(LineExpert, RemovesExactlyTheCornersInsidePsi) {
   Random random(1);
   const std::vector<IgnoreRegion> psi = {disc({100, 100}, 60), rectangle({400, 300}, {120, 40})};

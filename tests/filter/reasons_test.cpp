@@ -87,6 +87,17 @@ TEST(Reasons, OfAPlaceThatIsNotANumber) {
   }
 }
 
+TEST(Reasons, OfCornersBeyondTheMostThatAreLookedAt) {
+  Parameters p = preset("default");
+  p.line.max_corners = 1;
+  Filter filter(testing::vga(), p);
+  const Corners corners = {{600, 400}, {320, 240}, {10, 10}};
+  const FrameResult& result = filter.step(corners, {});
+  EXPECT_EQ(result.reasons[0], Reason::too_many);
+  EXPECT_EQ(result.reasons[1], Reason::no_past);
+  EXPECT_EQ(result.reasons[2], Reason::too_many);
+}
+
 TEST(Reasons, OfACornerInsideARegionThatIsNotLookedAt) {
   Frames frames("lab");
   const Corners wall = sparse_world(1, 20).corners();

@@ -1,0 +1,140 @@
+/// The filter's memory, by an allocator that counts: none is asked for once the scene is as busy as
+/// it gets, and what it holds is bounded by the picture's size and `line.max_corners`.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+#include "filter/filter.h"
+#include "tests/filter/world.h"
+
+namespace {
+
+struct Heap {
+  std::size_t allocations = 0, bytes = 0, peak_bytes = 0;
+} heap;
+
+/// In front of each block, so that its size is known when it is given back; as large as keeps the
+/// block aligned.
+constexpr std::size_t kHeader = alignof(std::max_align_t);
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  auto* block = static_cast<std::byte*>(std::malloc(size + kHeader));
+  if (!block) throw std::bad_alloc();
+  *reinterpret_cast<std::size_t*>(block) = size;
+  ++heap.allocations;
+  heap.bytes += size;
+  heap.peak_bytes = std::max(heap.peak_bytes, heap.bytes);
+  return block + kHeader;
+}
+
+void operator delete(void* memory) noexcept {
+  if (!memory) return;
+  auto* block = static_cast<std::byte*>(memory) - kHeader;
+  heap.bytes -= *reinterpret_cast<std::size_t*>(block);
+  std::free(block);
+}
+
+void operator delete(void* memory, std::size_t) noexcept {
+  operator delete(memory);
+}
+
+namespace lcs {
+namespace {
+
+using Eigen::Vector2f;
+using Eigen::Vector3d;
+using testing::Random;
+using testing::steady_motion;
+using testing::vga;
+using testing::World;
+
+using Corners = std::vector<Vector2f>;
+
+/// Frames after which `busy_frames` repeat.
+constexpr std::size_t kPeriod = 80;
+
+/// A wall that passes sideways, a pattern that repeats every 160 px, and on it a group that moves
+/// on its own; a tenth of the corners is missing at a time. `count` of them.
+std::vector<Corners> busy_frames(int count, std::size_t frames) {
+  Random random(1);
+  struct Corner {
+    double x, y, step;
+  };
+  std::vector<Corner> corners;  // of one pattern
+  for (int i = 0; i < count / 4; ++i) {
+    const bool moves = i % 8 == 0;
+    const double size = moves ? 0.3 : 1;
+    corners.push_back(
+        {size * random.uniform(0, 160), size * random.uniform(0, 480), moves ? 4. : -2.});
+  }
+  std::vector<Corners> seen(frames);
+  for (std::size_t k = 0; k < frames; ++k) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if ((i + k) % 10 == 0) continue;
+      const double x =
+          std::fmod(corners[i].x + corners[i].step * static_cast<double>(k % kPeriod) + 160, 160);
+      for (int tile = 0; tile < 4; ++tile) seen[k].emplace_back(x + 160 * tile, corners[i].y);
+    }
+  }
+  return seen;
+}
+
+EgoMotion sideways() {
+  return steady_motion({0.15, 0, 0}, Vector3d::Zero(), 0.1);  // 2 px a frame at 3 m
+}
+
+TEST(Memory, ASteadySceneAsksForNone) {
+  const std::size_t warm_up = 4 * kPeriod;
+  const std::vector<Corners> frames = busy_frames(400, warm_up + kPeriod);
+  Filter filter(vga(), preset("default"));
+  std::size_t in_the_end = 0, rebels = 0, squares = 0;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const std::size_t before = heap.allocations;
+    const FrameResult& result = filter.step(frames[k], k == 0 ? EgoMotion{} : sideways());
+    if (k >= warm_up) {
+      in_the_end += heap.allocations - before;
+      rebels += result.layers.rebel_edges.size();
+      squares += result.layers.squares.size();
+    }
+  }
+  EXPECT_EQ(in_the_end, 0U);
+  // All of the filter was at work.
+  EXPECT_GT(rebels, 10 * kPeriod);
+  EXPECT_GT(squares, kPeriod / 2);
+}
+
+/// What the filter holds at the most, with as many corners as are offered.
+std::size_t peak_bytes(const Intrinsics& camera, const char* max_corners, int offered) {
+  const std::vector<Corners> frames = busy_frames(offered, 40);
+  Parameters parameters = preset("default");
+  set(parameters, "line.max_corners", max_corners);
+  const std::size_t before = heap.bytes;
+  heap.peak_bytes = before;
+  Filter filter(camera, parameters);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    filter.step(frames[k], k == 0 ? EgoMotion{} : sideways());
+  }
+  return heap.peak_bytes - before;
+}
+
+TEST(Memory, IsBoundedByThePictureAndTheMostCorners) {
+  // Two images of indices and bytes, four of bits, and a margin of 128 px about one of them.
+  const Intrinsics camera = vga();
+  const std::size_t pixels = 640 * 480, margin = (640 + 256) * (480 + 256) - pixels;
+  const std::size_t images = pixels * 4 + pixels + margin + 4 * pixels / 8;
+  const std::size_t few = peak_bytes(camera, "300", 300);
+  EXPECT_GT(few, images);
+  // Measured: 1.9 to 2.4 kB for each corner that is looked at; half as much again is room to grow.
+  EXPECT_LT(few, images + 300 * 3500);
+  // Those that are not looked at cost what is said of each, and their place in the queue: 77 bytes.
+  const std::size_t many = peak_bytes(camera, "300", 3000);
+  EXPECT_LT(many, few + 2700 * 120);
+}
+
+}  // namespace
+}  // namespace lcs
