@@ -111,7 +111,7 @@ void PageReporter::write(const std::filesystem::path& page) const {
     std::vector<std::pair<double, double>> growth;
     tables += fmt::format(
         "<h2>{}</h2>\n<table><tr><th>corners<th>cv::FAST, ms<th>klt, ms<th>filter, "
-        "ms<th>Line<th>Circle<th>Square<th>filter / FAST<th>filter / klt</tr>\n",
+        "ms<th>Line, %<th>Circle, %<th>Square, %<th>filter / FAST<th>filter / klt</tr>\n",
         scene);
     for (const int n : kCorners) {
       const std::string of = fmt::format("{}/{}", scene, n);
@@ -120,8 +120,8 @@ void PageReporter::write(const std::filesystem::path& page) const {
       if (filter && n >= kGrowthFrom) growth.emplace_back(*corners, *filter);
       tables += "<tr>" + cell(corners ? corners : counter("fast/" + of, "corners"), "{:.0f}") +
                 cell(fast, "{:.3f}") + cell(klt, "{:.2f}") + cell(filter, "{:.3f}");
-      for (const char* stage : {"line_ms", "circle_ms", "square_ms"}) {
-        tables += cell(counter("filter/" + of, stage), "{:.3f}");
+      for (const char* stage : {"line_%", "circle_%", "square_%"}) {
+        tables += cell(counter("filter/" + of, stage), "{:.0f}");
       }
       tables +=
           cell(ratio(filter, fast), "{:.2f}") + cell(ratio(filter, klt), "{:.3f}") + "</tr>\n";
