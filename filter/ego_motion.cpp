@@ -147,10 +147,18 @@ void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocit
                     .eval();
 }
 
+std::optional<Ground> EgoMotionEstimator::ground() const {
+  const Matrix3d R_WB = R_WS_ * mounting_.R_BS.transpose();
+  const double height_m = (R_WB * mounting_.p_BC_m).z();
+  if (!(height_m > 0)) return std::nullopt;
+  return Ground{.up_C = (R_WB * mounting_.R_BC).row(2), .height_m = height_m};
+}
+
 EgoMotion EgoMotionEstimator::frame(std::int64_t t_ns) {
   propagate_to(t_ns);
   const Matrix3d R_WC = R_WS_ * mounting_.R_BS.transpose() * mounting_.R_BC;
   EgoMotion motion;
+  motion.ground = ground();
   if (last_frame_ && t_ns > last_frame_->t_ns) {
     motion.dt_s = static_cast<double>(t_ns - last_frame_->t_ns) * 1e-9;
     motion.R_cur_prev = R_WC.transpose() * last_frame_->R_WC;

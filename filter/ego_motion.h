@@ -10,6 +10,12 @@
 
 namespace lcs {
 
+/// The plane that the rover stands on, seen from the camera of frame k.
+struct Ground {
+  Eigen::Vector3d up_C = -Eigen::Vector3d::UnitY();  ///< its unit normal, against gravity
+  double height_m = 0;                               ///< of the camera above it, > 0
+};
+
 /// Motion of the camera from frame k-1 to frame k.
 struct EgoMotion {
   double dt_s = 0;  ///< t_f; 0 in the first frame
@@ -20,9 +26,12 @@ struct EgoMotion {
   /// Mean body rate of the camera over the interval, in the camera frame: R_cur_prev = exp(-[w]
   /// dt).
   Eigen::Vector3d w_C_radps = Eigen::Vector3d::Zero();
+  /// At frame k; none where nobody knows how the camera is mounted.
+  std::optional<Ground> ground;
 };
 
-/// Rotations (only) of the sensors, and their lever arms, in the rover's frame B.
+/// Rotations (only) of the sensors, and their lever arms, in the rover's frame B, whose origin lies
+/// on the ground.
 struct Mounting {
   Eigen::Matrix3d R_BC = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_BC_m = Eigen::Vector3d::Zero();
@@ -70,6 +79,10 @@ class EgoMotionEstimator {
 
   /// Integrates up to a frame's time, and returns the motion since the last frame.
   EgoMotion frame(std::int64_t t_ns);
+
+  /// The ground at the time integrated to: level, through the rover's origin. None with the camera
+  /// on it or below.
+  std::optional<Ground> ground() const;
 
   const Eigen::Matrix3d& R_WS() const { return R_WS_; }
   const Eigen::Vector3d& v_WS_mps() const { return v_WS_; }

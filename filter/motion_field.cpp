@@ -31,6 +31,7 @@ MotionField::MotionField(const Intrinsics& camera, const EgoMotion& motion,
       v_C_mps_(motion.v_C_mps),
       reference_depth_m_(parameters.reference_depth_m),
       nearest_depth_m_(parameters.nearest_depth_m),
+      ground_(motion.ground),
       moving_(motion.dt_s > 0 && motion.v_C_mps.norm() > parameters.still_speed_mps) {
   if (moving_ && std::abs(v_C_mps_.z()) * kFarFoe > v_C_mps_.head<2>().norm()) {
     foe_ = centre_px_ + focal_px_ * v_C_mps_.head<2>() / v_C_mps_.z();
@@ -92,6 +93,13 @@ Vec2 MotionField::earlier(const Vec2& x_px, double depth_ratio,
   // In reverse a near point may have been behind the camera: it was nowhere in the image.
   if (h.z() < 1e-3) return Vec2::Constant(-1e6);
   return centre_px_ + focal_px_ * h.head<2>() / h.z();
+}
+
+std::optional<double> MotionField::ground_ratio(const Vec2& x_px) const {
+  if (!ground_) return std::nullopt;
+  Eigen::Vector3d ray;
+  ray << (x_px - centre_px_) / focal_px_, 1;
+  return -reference_depth_m_ * ground_->up_C.dot(ray) / ground_->height_m;
 }
 
 double MotionField::parallax(const Vec2& earlier_px,

@@ -76,6 +76,10 @@ class MotionField {
     return 1 + depth_ratio * v_C_mps_.z() * dt_s_ / reference_depth_m_;
   }
 
+  /// Z_ref / Z of the ground seen at a place: the least that a static point may have there. Negative
+  /// above the horizon; none where the ground is not known.
+  std::optional<double> ground_ratio(const Vec2& x_px) const;
+
   /// Largest Z_ref / Z of a static point: at the nearest plausible depth.
   double max_ratio() const { return reference_depth_m_ / nearest_depth_m_; }
 
@@ -106,6 +110,7 @@ class MotionField {
   Eigen::Vector3d v_C_mps_;
   double reference_depth_m_;
   double nearest_depth_m_;
+  std::optional<Ground> ground_;
   bool moving_;
   std::optional<Vec2> foe_;
 };

@@ -69,6 +69,7 @@ class Filler {
     for (int row = 0; row < 3; ++row) motion.R_cur_prev.row(row) = vector();
     motion.v_C_mps = vector();
     motion.w_C_radps = vector();
+    motion.ground = Ground{.up_C = vector(), .height_m = awkward()};
     return motion;
   }
 

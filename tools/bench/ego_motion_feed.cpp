@@ -51,7 +51,8 @@ EgoMotion motion_between(const sim::Pose& T_WC_before, const sim::Pose& T_WC_now
 EgoMotionFeed::EgoMotionFeed(const scenario::Scenario& scenario,
                              const sim::Calibration& calibration)
     : source_(scenario.ego_motion),
-      estimator_(mounting_of(calibration), noise_of(scenario), start_of(calibration)) {}
+      estimator_(mounting_of(calibration), noise_of(scenario), start_of(calibration)),
+      ground_W_m_(calibration.T_WB_start.p.z()) {}
 
 EgoMotionFeed::Motions EgoMotionFeed::next(const sim::Observation& observation) {
   Motions motions;
@@ -69,6 +70,8 @@ EgoMotion EgoMotionFeed::exact(const sim::Observation& observation) {
         motion_between(last_->T_WC, now.T_WC, static_cast<double>(now.t_ns - last_->t_ns) * 1e-9);
   }
   last_ = now;
+  const double height_m = now.T_WC.p.z() - ground_W_m_;
+  if (height_m > 0) motion.ground = Ground{.up_C = now.T_WC.R.row(2), .height_m = height_m};
   return motion;
 }
 
