@@ -39,6 +39,7 @@ ConstellationEdges::ConstellationEdges(const Intrinsics& camera, const CirclePar
     : EdgeExpert(camera, parameters.trust),
       parameters_(parameters),
       groups_(parameters.constellation, parameters.trust),
+      footing_(parameters.footing),
       once_(camera),
       twice_(camera),
       once_free_(camera.width_px, camera.height_px),
@@ -134,7 +135,8 @@ void ConstellationEdges::update_normal(Edge& edge, const Vec2& x, const MotionFi
 double ConstellationEdges::off_field(const Vec2& x, const Vec2& before,
                                      const Eigen::Vector3d& displacement_C_m,
                                      const MotionField& field) const {
-  return distance_to_segment(before, x, field.earlier(x, field.max_ratio(), displacement_C_m));
+  return distance_to_segment(before, field.earlier(x, field.least_ratio(x), displacement_C_m),
+                             field.earlier(x, field.max_ratio(), displacement_C_m));
 }
 
 /// Whether an edge that followed its corner step by step did not stay on the path of any static
@@ -152,7 +154,9 @@ void ConstellationEdges::update_rebel(Edge& edge, const Vec2& x, const MotionFie
   const Vec2 velocity = (weight * edge.velocity() + step / field.dt_s()) / (weight + 1);
   const std::size_t frames = stride();
   const Past& past = history_[frames - 1];
-  const double off = off_field(x, x - velocity * past.elapsed_s, past.displacement_C_m, field);
+  const double off = edge.unfounded > 0 ? kFullResidual_px
+                                        : off_field(x, x - velocity * past.elapsed_s,
+                                                    past.displacement_C_m, field);
   edge.off_field_px = 0.5 * edge.off_field_px + 0.5 * std::min(off, kFullResidual_px);
   edge.location = x;
   edge.mu = angle_between(angle_of(step), edge.angle);
@@ -161,7 +165,11 @@ void ConstellationEdges::update_rebel(Edge& edge, const Vec2& x, const MotionFie
   // Beside a slow mover a static corner stays inside the gate, and is not carried along: it has to
   // show a path of its own.
   const int proof = parameters_.constellation.path_proof * static_cast<int>(frames);
-  if (edge.age >= proof && !leaves_path(edge, x, field)) edge.trust = 0;
+  if (edge.unfounded > 0) {
+    measure_path(edge, x, field);  // by which it is judged again
+  } else if (edge.age >= proof && !leaves_path(edge, x, field)) {
+    edge.trust = 0;
+  }
 }
 
 /// Corners that no edge took, or only a normal edge too young to be believed.
@@ -250,10 +258,13 @@ void ConstellationEdges::seek_static_past(const Chi& chi, const MotionField& fie
     Candidate& candidate = candidates_[c];
     if (!candidate.residual) continue;
     const Vec2& x = chi.locations[c];
-    const double length = (field.earlier(x, field.max_ratio(), twice_.displacement_C_m) - x).norm();
+    const double least = field.least_ratio(x), most = field.max_ratio();
+    const double length = (field.earlier(x, most, twice_.displacement_C_m) -
+                           field.earlier(x, least, twice_.displacement_C_m))
+                              .norm();
     const int depths = std::min(kMaxDepths, 1 + static_cast<int>(length / kDepthSpacing_px));
     for (int i = 0; i <= depths && candidate.static_hits < 2; ++i) {
-      const double ratio = field.max_ratio() * i / depths;
+      const double ratio = least + (most - least) * i / depths;
       const int hits = static_hits(x, ratio, field);
       if (hits > candidate.static_hits) {
         candidate.static_hits = hits;
@@ -483,10 +494,38 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
     Edge edge = make_rebel(x, model.velocity(), field.dt_s());
     edge.trust = trust_.standard;
     edge.off_field_px = std::min(model.off_field_px, kOffField_px);
+    edge.unfounded = model.unfounded;
     edge.corner = static_cast<int>(c);
     edge.called = true;
     links_[c] = {Kind::rebel, static_cast<int>(layers.rebel_edges.size())};
     layers.rebel_edges.push_back(edge);
+  }
+}
+
+/// Normal edges of groups that stand on nothing are turned into rebels.
+void ConstellationEdges::turn_unfounded(Layers& layers, const Chi& chi, const MotionField& field) {
+  const int frames = parameters_.footing.frames;
+  if (frames == 0) return;
+  footing_.judge(layers.normal_edges, layers.rebel_edges, field);
+  for (Edge& edge : layers.normal_edges) {
+    const int c = edge.corner;
+    if (c < 0 || edge.unfounded < frames) continue;
+    Edge rebel =
+        make_rebel(chi.locations[c], (edge.location - edge.rotated) / field.dt_s(), field.dt_s());
+    rebel.anchor = edge.anchor;
+    rebel.travelled_C_m = edge.travelled_C_m;
+    rebel.path_ratio = edge.path_ratio;
+    rebel.path_weight = edge.path_weight;
+    rebel.unfounded = edge.unfounded;
+    rebel.trust = trust_.standard;
+    rebel.called = true;
+    rebel.corner = c;
+    edge.trust = 0;
+    edge.corner = -1;
+    called_[c] = 1;
+    reasons_[c] = Reason::unfounded;
+    links_[c] = {Kind::rebel, static_cast<int>(layers.rebel_edges.size())};
+    layers.rebel_edges.push_back(rebel);
   }
 }
 
@@ -534,6 +573,7 @@ void ConstellationEdges::update(Layers& layers, const Chi& chi, const MotionFiel
     }
     settle_rebels();
     inherit(layers, chi, field);
+    turn_unfounded(layers, chi, field);
   }
 
   for (std::size_t c = 0; c < chi.size(); ++c) {

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "filter/edge_expert.h"
+#include "filter/footing.h"
 #include "filter/hit_map.h"
 #include "filter/hit_screen.h"
 #include "filter/nearest_map.h"
@@ -96,10 +97,12 @@ class ConstellationEdges : public EdgeExpert {
   void make_edges(Layers& layers, const Chi& chi, const MotionField& field);
   Edge make_rebel(const Vec2& x, const Vec2& velocity_pxps, double dt_s);
   void inherit(Layers& layers, const Chi& chi, const MotionField& field);
+  void turn_unfounded(Layers& layers, const Chi& chi, const MotionField& field);
   bool confirms(const Vec2& x, const Vec2& step) const;
 
   CircleParameters parameters_;
   RebelGroups groups_;
+  Footing footing_;
   std::vector<Past> history_;  // newest first
 
   // Of the current frame; kept for their memory.

@@ -35,6 +35,7 @@ struct Edge {
   double path_weight = 0;   ///< its information, px^2 of parallax at Z_ref; 0: none yet
   bool called = false;      ///< rebel: borne out enough to be called one
   double off_field_px = 0;  ///< rebel: by how much its motion of late leaves the static images
+  int unfounded = 0;        ///< frames for which its group stood on nothing, as `Footing` counts
   int corner = -1;          ///< index in chi of the corner that supports it, -1: none this frame
   int circle = -1;          ///< index in its kind's circles, -1: in none
 

@@ -31,7 +31,8 @@ MotionField::MotionField(const Intrinsics& camera, const EgoMotion& motion,
       v_C_mps_(motion.v_C_mps),
       reference_depth_m_(parameters.reference_depth_m),
       nearest_depth_m_(parameters.nearest_depth_m),
-      ground_(motion.ground),
+      ground_(parameters.ground ? motion.ground : std::nullopt),
+      ground_tilt_rad_(parameters.ground_tilt_rad),
       moving_(motion.dt_s > 0 && motion.v_C_mps.norm() > parameters.still_speed_mps) {
   if (moving_ && std::abs(v_C_mps_.z()) * kFarFoe > v_C_mps_.head<2>().norm()) {
     foe_ = centre_px_ + focal_px_ * v_C_mps_.head<2>() / v_C_mps_.z();
@@ -100,6 +101,11 @@ std::optional<double> MotionField::ground_ratio(const Vec2& x_px) const {
   Eigen::Vector3d ray;
   ray << (x_px - centre_px_) / focal_px_, 1;
   return -reference_depth_m_ * ground_->up_C.dot(ray) / ground_->height_m;
+}
+
+double MotionField::least_ratio(const Vec2& x_px) const {
+  if (!ground_) return 0;
+  return std::clamp(*ground_ratio(x_px) - ground_slack(), 0.0, max_ratio());
 }
 
 double MotionField::parallax(const Vec2& earlier_px,

@@ -76,9 +76,21 @@ class MotionField {
     return 1 + depth_ratio * v_C_mps_.z() * dt_s_ / reference_depth_m_;
   }
 
-  /// Z_ref / Z of the ground seen at a place: the least that a static point may have there. Negative
-  /// above the horizon; none where the ground is not known.
+  /// Z_ref / Z of the ground seen at a place: the least that a static point may have there.
+  /// Negative above the horizon; none where the ground is not known.
   std::optional<double> ground_ratio(const Vec2& x_px) const;
+
+  /// Least Z_ref / Z of a static point at a place: that of the ground, if it fell away from its
+  /// plane by `ground_tilt_rad`; 0 above the horizon, and where the ground is not known.
+  double least_ratio(const Vec2& x_px) const;
+
+  /// Z_ref / Z by which the ground may differ from its plane.
+  double ground_slack() const {
+    return ground_ ? reference_depth_m_ * ground_tilt_rad_ / ground_->height_m : 0;
+  }
+
+  /// What the ground is known by; none where it is not.
+  const std::optional<Ground>& ground() const { return ground_; }
 
   /// Largest Z_ref / Z of a static point: at the nearest plausible depth.
   double max_ratio() const { return reference_depth_m_ / nearest_depth_m_; }
@@ -111,6 +123,7 @@ class MotionField {
   double reference_depth_m_;
   double nearest_depth_m_;
   std::optional<Ground> ground_;
+  double ground_tilt_rad_;
   bool moving_;
   std::optional<Vec2> foe_;
 };

@@ -36,6 +36,8 @@ struct FieldParameters {
   RotationModel rotation = RotationModel::homography;
   double reference_depth_m = 3;    ///< Z_ref: V_v(x) is the image speed of a static point this far
   double nearest_depth_m = 0.8;    ///< no static point is nearer than this (z_min)
+  bool ground = true;              ///< no static point is below the ground, where that is known
+  double ground_tilt_rad = 0.015;  ///< by which the ground may fall away from its plane
   double still_speed_mps = 0.005;  ///< slower than this the camera stands still: there is no field
 };
 
@@ -78,11 +80,20 @@ struct ConstellationParameters {
   double inherit_share = 0.45;     ///< of the nearest decided neighbours that are rebels
 };
 
+/// Groups that stand on nothing (`filter/footing.h`), told beside the constellation rule.
+struct FootingParameters {
+  int frames = 2;     ///< for which a group must stand on nothing; 0: never asked
+  double reach = 80;  ///< px: how far apart the edges of a group may lie
+  int members = 6;    ///< that a group aloft needs
+  double lift = 2;    ///< the depth of the ground at its foot, over its own, that it must exceed
+};
+
 /// Circle expert: edges, alpha, circles.
 struct CircleParameters {
   TrustRanks trust{2, 3, 5};  ///< Tr^c
   EdgeRule edge_rule = EdgeRule::constellation;
   ConstellationParameters constellation;
+  FootingParameters footing;
   double delta_v = 0;           ///< delta_v, 9 deg: half angle of the error span, seen from O_I
   double mu_0 = 25;             ///< mu_0, px: radius of detection of a new normal edge
   double mu_min = 3;            ///< px: bounds on mu, which the paper leaves open

@@ -38,6 +38,8 @@ enum class Reason : std::uint8_t {
   // then the neighbours' verdicts.
   normal_stands,
   inherited,
+  // then the ground.
+  unfounded,
 
   // `EdgeRule::paper`: no edge took the corner, so that it starts a row of alpha,
   alpha_first,
@@ -63,7 +65,7 @@ struct ReasonText {
 };
 
 /// By the order of `Reason`. For each, the verdicts that it may come with.
-inline constexpr std::array<ReasonText, 30> kReasons{{
+inline constexpr std::array<ReasonText, 31> kReasons{{
     {"unknown", "no reason given"},
     {"not_finite", "its place is not a number"},                               // pending
     {"too_many", "farther out than the most corners that are looked at"},      // pending
@@ -83,6 +85,7 @@ inline constexpr std::array<ReasonText, 30> kReasons{{
      "its rebel edge's group lies in one line, as where an outline hides a pattern"},    // pending
     {"normal_stands", "among rebels, but a normal edge has it"},                         // normal
     {"inherited", "most of its decided neighbours are rebels"},                          // rebel
+    {"unfounded", "its group stands on nothing where it seems to be"},                   // rebel
     {"alpha_first", "near no edge and on no row of alpha: starts one"},                  // pending
     {"xi_5", "outside the span of the edges near it: starts a row of alpha"},            // pending
     {"xi_4", "against the field or too fast for it: starts a row of alpha"},             // pending

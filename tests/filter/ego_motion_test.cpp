@@ -181,6 +181,30 @@ TEST(EgoMotion, BadReadingsAreDroppedAndCounted) {
   EXPECT_TRUE(estimator.v_WS_mps().allFinite());
 }
 
+TEST(EgoMotion, TheGroundIsLevelThroughTheOriginOfARoverThatPitchesAndRolls) {
+  const Path path = {[](double t) {
+                       return rotation({0.05 * t, -0.08 * t, 0.3 * t});
+                     },
+                     [](double) { return Vector3d(0, 0, 0); }};
+  const Mounting m = mounting();
+  EgoMotionEstimator estimator = start(path, m);
+  for (std::int64_t t_ns = 0; t_ns <= 2'000'000'000; t_ns += kImuStep_ns) {
+    const double t = static_cast<double>(t_ns) * 1e-9;
+    estimator.add_imu(t_ns, rate_S(path, m, t), force_S(path, m, t));
+  }
+  const EgoMotion motion = estimator.frame(2'000'000'000);
+  ASSERT_TRUE(motion.ground);
+  const Matrix3d R_WC = path.R_WB(2) * m.R_BC;
+  EXPECT_LT((motion.ground->up_C - R_WC.transpose() * Vector3d::UnitZ()).norm(), 1e-4);
+  EXPECT_NEAR(motion.ground->height_m, (path.R_WB(2) * m.p_BC_m).z(), 1e-4);
+}
+
+TEST(EgoMotion, ACameraBelowTheRoverSeesNoGround) {
+  Mounting m = mounting();
+  m.p_BC_m.z() = -0.1;
+  EXPECT_FALSE(EgoMotionEstimator(m, {}, {}).ground());
+}
+
 TEST(EgoMotion, TheFirstFrameHasNoMotion) {
   EgoMotionEstimator estimator(mounting(), {}, {});
   const EgoMotion motion = estimator.frame(0);

@@ -83,9 +83,10 @@ TEST_P(FilterWith, OrderOfTheCornersMakesNoDifference) {
 /// Compares the layers of a filter with those of one that sees the world transformed.
 /// \param pixel moves a pixel; \param turn a vector of the camera.
 void expect_equivariant(const Parameters& parameters, const Intrinsics& other_camera,
-                        const std::function<Vec2(const Vec2&)>& pixel,
-                        const Eigen::Matrix3d& turn) {
+                        const std::function<Vec2(const Vec2&)>& pixel, const Eigen::Matrix3d& turn,
+                        const std::optional<Ground>& ground) {
   Scene scene(2);
+  scene.motion.ground = ground;
   const auto frames = record(scene, 8);
   Filter straight(scene.world.camera, parameters), transformed(other_camera, parameters);
   for (std::size_t k = 0; k < frames.size(); ++k) {
@@ -94,6 +95,7 @@ void expect_equivariant(const Parameters& parameters, const Intrinsics& other_ca
       motion = turned = scene.motion;
       turned.v_C_mps = turn * motion.v_C_mps;
       turned.R_cur_prev = turn * motion.R_cur_prev * turn.transpose();
+      if (ground) turned.ground->up_C = turn * ground->up_C;
       turned.w_C_radps = turn.determinant() * (turn * motion.w_C_radps);
     }
     std::vector<Eigen::Vector2f> corners;
@@ -120,19 +122,27 @@ void expect_equivariant(const Parameters& parameters, const Intrinsics& other_ca
   }
 }
 
+/// Some of the scene's points lie below it, and others hang above it.
+const std::optional<Ground> kGrounds[] = {
+    std::nullopt, Ground{.up_C = Vector3d(0.1, -1, 0.05).normalized(), .height_m = 0.8}};
+
 TEST_P(FilterWith, MirroringTheImageMirrorsTheLayers) {
   const Intrinsics camera = testing::vga();
-  expect_equivariant(
-      parameters(), camera, [](const Vec2& x) { return Vec2(639 - x.x(), x.y()); },
-      Vector3d(-1, 1, 1).asDiagonal());
+  for (const std::optional<Ground>& ground : kGrounds) {
+    expect_equivariant(
+        parameters(), camera, [](const Vec2& x) { return Vec2(639 - x.x(), x.y()); },
+        Vector3d(-1, 1, 1).asDiagonal(), ground);
+  }
 }
 
 TEST_P(FilterWith, AQuarterTurnOfTheImageTurnsTheLayers) {
   const Intrinsics camera{testing::vga().focal_px, {239.5, 319.5}, 480, 640};
   Eigen::Matrix3d turn;
   turn << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-  expect_equivariant(
-      parameters(), camera, [](const Vec2& x) { return Vec2(479 - x.y(), x.x()); }, turn);
+  for (const std::optional<Ground>& ground : kGrounds) {
+    expect_equivariant(
+        parameters(), camera, [](const Vec2& x) { return Vec2(479 - x.y(), x.x()); }, turn, ground);
+  }
 }
 
 TEST_P(FilterWith, ASparseStaticWorldUnderExactMotionHasNoRebel) {

@@ -86,6 +86,37 @@ TEST(MotionField, EarlierUndoesTheTranslationAndItsDepthIsFoundAgain) {
   }
 }
 
+TEST(MotionField, TheGroundHasTheDepthOfItsPlaneAndIsTheFarthestThatAStaticPointMayBe) {
+  Random random(9);
+  for (int i = 0; i < 100; ++i) {
+    const Vector3d up = testing::rotation(random.vector(0.2)) * Vector3d(0, -1, 0);
+    EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);
+    motion.ground = Ground{.up_C = up, .height_m = random.uniform(0.2, 2)};
+    const MotionField field(vga(), motion, {});
+    // A point of the plane: up . X = -height.
+    Vector3d x_C(random.uniform(-1, 1), 0, random.uniform(1, 9));
+    x_C.y() = (-motion.ground->height_m - up.x() * x_C.x() - up.z() * x_C.z()) / up.y();
+    const Vec2 x = project(vga(), x_C);
+    ASSERT_TRUE(field.ground_ratio(x));
+    EXPECT_NEAR(*field.ground_ratio(x), field.reference_depth_m() / x_C.z(), 1e-9);
+    EXPECT_LE(field.least_ratio(x), *field.ground_ratio(x));
+    EXPECT_GE(field.least_ratio(x), *field.ground_ratio(x) - field.ground_slack());
+    EXPECT_EQ(field.least_ratio(project(vga(), x_C + 2 * motion.ground->height_m * up)), 0)
+        << "above the horizon";
+  }
+}
+
+TEST(MotionField, WithoutTheGroundAStaticPointMayBeInfinitelyFar) {
+  EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);
+  FieldParameters parameters;
+  EXPECT_FALSE(MotionField(vga(), motion, parameters).ground_ratio({320, 400}));
+  EXPECT_EQ(MotionField(vga(), motion, parameters).least_ratio({320, 400}), 0);
+  motion.ground = Ground{.height_m = 0.5};
+  EXPECT_GT(MotionField(vga(), motion, parameters).least_ratio({320, 400}), 0);
+  parameters.ground = false;
+  EXPECT_FALSE(MotionField(vga(), motion, parameters).ground_ratio({320, 400}));
+}
+
 TEST(MotionField, FlowLeavesTheFocusOfExpansionWhereverItIs) {
   Random random(5);
   for (int i = 0; i < 100; ++i) {

@@ -115,7 +115,7 @@ TEST(Reasons, OfACornerInsideARegionThatIsNotLookedAt) {
 /// What may be said of a corner with each verdict; a frame has no other pairs.
 TEST(Reasons, GoWithTheirVerdicts) {
   const std::set<Reason> of_rebels = {Reason::rebel_edge, Reason::voted, Reason::inherited,
-                                      Reason::alpha_third};
+                                      Reason::unfounded, Reason::alpha_third};
   const std::set<Reason> of_normals = {
       Reason::normal_edge, Reason::few_neighbours, Reason::vote_floor,    Reason::static_wins,
       Reason::xi_2,        Reason::vote_on_field,  Reason::normal_stands, Reason::xi_3};

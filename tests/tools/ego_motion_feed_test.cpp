@@ -101,6 +101,10 @@ TEST(EgoMotionFeed, AnIdealImuTellsTheMotionThatThePosesHad) {
     EXPECT_LT((motions.told.v_C_mps - motions.exact.v_C_mps).norm(), 1e-5) << k;
     EXPECT_LT((motions.told.w_C_radps - motions.exact.w_C_radps).norm(), 1e-8) << k;
     EXPECT_NEAR(motions.told.v_C_mps.z(), 0.5, 0.01) << "forwards";
+    ASSERT_TRUE(motions.told.ground && motions.exact.ground);
+    EXPECT_LT((motions.told.ground->up_C - motions.exact.ground->up_C).norm(), 1e-9) << k;
+    EXPECT_NEAR(motions.told.ground->height_m, 0.45, 1e-9);
+    EXPECT_NEAR(motions.exact.ground->height_m, 0.45, 1e-9);
   }
 }
 

@@ -165,6 +165,7 @@ TEST(RecordingIo, EveryFieldComesBackToTheSameBits) {
     EXPECT_EQ(back.frames[k].reasons, recording.frames[k].reasons);
     EXPECT_EQ(back.frames[k].t_ns, recording.frames[k].t_ns);
     EXPECT_EQ(back.frames[k].motion.R_cur_prev, recording.frames[k].motion.R_cur_prev);
+    EXPECT_EQ(back.frames[k].motion.ground->up_C, recording.frames[k].motion.ground->up_C);
     EXPECT_TRUE(back.frames[k].layers.rebel_edges.front().rebel);
     EXPECT_TRUE(back.frames[k].layers.rebel_circles.front().rebel);
     EXPECT_EQ(back.frames[k].corner_truth[0].depth_m, kInfinity);

@@ -86,8 +86,8 @@ void fields(ChainRow& chain, Visit&& visit) {
 template <class Visit>
 void fields(Edge& edge, Visit&& visit) {
   auto& [id, rebel, location, origin, rotated, predicted, speed, depth_ratio, angle, mu, trust, age,
-         anchor, travelled_C_m, path_ratio, path_weight, called, off_field_px, corner, circle] =
-      edge;
+         anchor, travelled_C_m, path_ratio, path_weight, called, off_field_px, unfounded, corner,
+         circle] = edge;
   visit("id", id);
   visit("x", location.x());
   visit("y", location.y());
@@ -112,6 +112,7 @@ void fields(Edge& edge, Visit&& visit) {
   visit("path_weight", path_weight);
   visit("called", called);
   visit("off_field_px", off_field_px);
+  visit("unfounded", unfounded);
   visit("corner", corner);
   visit("circle", circle);
 }

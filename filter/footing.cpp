@@ -1,0 +1,203 @@
+#include "filter/footing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <tuple>
+
+namespace lcs {
+namespace {
+
+/// What the two ends of a path may be off, px, and a depth at the least, as a share.
+constexpr double kCornerSigma_px = 0.7, kDepthFloor = 0.02;
+
+/// Depths count that are known as well as this: a share of them, or 1/m.
+constexpr double kKnownShare = 0.2, kKnown_1pm = 0.03;
+
+/// Share by which depths within a group may differ, beside their errors.
+constexpr double kLikeDepth = 0.1;
+
+/// Edges that must be below the ground, and their share of those that see ground.
+constexpr int kLeastSunk = 3;
+constexpr double kSunkShare = 0.5;
+
+/// The camera looks down so steeply that the horizon has no direction in the image.
+constexpr double kLeastTilt = 0.5;
+
+/// px: how far beside a group something may stand that bears it.
+constexpr double kBearerMargin_px = 5;
+/// A bearer is at least as near as the group, but for this share.
+constexpr double kBearerShare = 0.75;
+
+}  // namespace
+
+void Footing::gather(std::vector<Edge>& edges, const MotionField& field) {
+  const double known = kKnown_1pm * field.reference_depth_m();
+  for (Edge& edge : edges) {
+    if (edge.corner < 0 || edge.path_weight <= 0) continue;
+    if (edge.rebel && edge.unfounded == 0) continue;
+    const double ratio = edge.path_ratio;
+    const double sigma =
+        std::max(kDepthFloor * ratio, kCornerSigma_px / std::sqrt(edge.path_weight));
+    if (sigma > std::max(kKnownShare * ratio, known)) continue;
+    nodes_.push_back({&edge, ratio, sigma, *field.ground_ratio(edge.location),
+                      edge.location.dot(along_horizon_)});
+    points_.push_back(edge.location);
+  }
+}
+
+/// Groups of edges near each other at one depth: best link first, while the means agree.
+void Footing::link() {
+  grid_.build(points_, parameters_.reach);
+  links_.clear();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& a = nodes_[i];
+    grid_.visit_within(points_[i], parameters_.reach, [&](int j, double distance2) {
+      if (j <= static_cast<int>(i)) return;
+      const Node& b = nodes_[j];
+      const double tolerance =
+          0.5 * kLikeDepth * (a.ratio + b.ratio) + std::hypot(a.sigma, b.sigma);
+      const double difference = std::abs(a.ratio - b.ratio);
+      if (!(difference < tolerance)) return;
+      links_.push_back({2 * difference / tolerance + std::sqrt(distance2) / parameters_.reach,
+                        static_cast<int>(i), j});
+    });
+  }
+  std::sort(links_.begin(), links_.end(), [](const Link& x, const Link& y) {
+    return std::tuple(x.cost, x.a, x.b) < std::tuple(y.cost, y.a, y.b);
+  });
+  sets_.reset(nodes_.size());
+  weight_.resize(nodes_.size());
+  mean_.resize(nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    weight_[i] = 1 / (nodes_[i].sigma * nodes_[i].sigma);
+    mean_[i] = nodes_[i].ratio;
+  }
+  for (const Link& link : links_) merge(link.a, link.b);
+}
+
+void Footing::merge(int a, int b) {
+  a = sets_.root(a);
+  b = sets_.root(b);
+  if (a == b) return;
+  const double tolerance =
+      0.5 * kLikeDepth * (mean_[a] + mean_[b]) + 2 * std::sqrt(1 / weight_[a] + 1 / weight_[b]);
+  if (!(std::abs(mean_[a] - mean_[b]) < tolerance)) return;
+  sets_.join(a, b);
+  mean_[a] = (weight_[a] * mean_[a] + weight_[b] * mean_[b]) / (weight_[a] + weight_[b]);
+  weight_[a] += weight_[b];
+}
+
+/// What stands one above the other at one depth is one body, however far apart: legs have no
+/// corners.
+void Footing::stack() {
+  spans_.clear();
+  span_of_.assign(nodes_.size(), -1);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const int root = sets_.root(static_cast<int>(i));
+    const double across = nodes_[i].across;
+    if (span_of_[root] < 0) {
+      span_of_[root] = static_cast<int>(spans_.size());
+      spans_.push_back({root, 0, across, across});
+    }
+    Span& span = spans_[span_of_[root]];
+    ++span.members;
+    span.left = std::min(span.left, across);
+    span.right = std::max(span.right, across);
+  }
+  std::erase_if(spans_, [](const Span& span) { return span.members < 2; });
+  for (std::size_t i = 0; i < spans_.size(); ++i) {
+    for (std::size_t j = i + 1; j < spans_.size(); ++j) {
+      const Span &p = spans_[i], &q = spans_[j];
+      const double overlap = std::min(p.right, q.right) - std::max(p.left, q.left);
+      if (overlap >= 0.5 * std::min(p.right - p.left, q.right - q.left)) merge(p.root, q.root);
+    }
+  }
+}
+
+void Footing::collect() {
+  if (groups_.size() < nodes_.size()) groups_.resize(nodes_.size());
+  for (Group& group : groups_) group.clear();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    groups_[sets_.root(static_cast<int>(i))].push_back(static_cast<int>(i));
+  }
+}
+
+bool Footing::sunk(const Group& group) const {
+  int low = 0, below = 0;
+  for (const int i : group) {
+    const Node& node = nodes_[i];
+    if (node.ground < 2 * slack_) continue;
+    ++low;
+    below += node.ratio + 2 * node.sigma < node.ground - slack_;
+  }
+  return below >= kLeastSunk && below >= kSunkShare * low;
+}
+
+/// Whether a group's foot is seen farther away than the group seems to be.
+bool Footing::hangs(const Group& group) {
+  values_.clear();
+  for (const int i : group) values_.push_back(nodes_[i].ground);
+  // The second lowest, so that one edge that does not belong says nothing.
+  const std::ptrdiff_t rank = values_.size() > 2 ? 1 : 0;
+  std::nth_element(values_.begin(), values_.begin() + rank, values_.end(), std::greater<>());
+  const double foot = values_[rank];
+  if (foot < 2 * slack_) return false;
+  return mean_[sets_.root(group.front())] > parameters_.lift * (foot + slack_);
+}
+
+bool Footing::aloft(const Group& group) {
+  const int own = sets_.root(group.front());
+  if (!hanging_[own] || static_cast<int>(group.size()) < parameters_.members) return false;
+  double left = nodes_[own].across, right = left, foot = nodes_[own].ground;
+  for (const int i : group) {
+    left = std::min(left, nodes_[i].across);
+    right = std::max(right, nodes_[i].across);
+    foot = std::max(foot, nodes_[i].ground);
+  }
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    if (hanging_[sets_.root(static_cast<int>(i))]) continue;
+    const bool below = node.ground > foot && node.across > left - kBearerMargin_px &&
+                       node.across < right + kBearerMargin_px;
+    if (below && node.ratio > kBearerShare * mean_[own]) return false;
+  }
+  return true;
+}
+
+/// An edge that is new to a group knows what the group knows.
+void Footing::count(const Group& group, bool unfounded) {
+  double known = 0;
+  for (const int i : group) known += nodes_[i].edge->unfounded;
+  const int mean = static_cast<int>(std::lround(known / static_cast<double>(group.size())));
+  for (const int i : group) {
+    int& frames = nodes_[i].edge->unfounded;
+    frames = unfounded ? std::min(2 * parameters_.frames, std::max(frames, mean) + 1)
+                       : std::max(0, frames - 1);
+  }
+}
+
+void Footing::judge(std::vector<Edge>& normals, std::vector<Edge>& rebels,
+                    const MotionField& field) {
+  if (!field.ground() || !field.moving()) return;
+  const Vec2 up = field.ground()->up_C.head<2>();
+  if (up.norm() < kLeastTilt) return;
+  along_horizon_ = Vec2(-up.y(), up.x()).normalized();
+  slack_ = field.ground_slack();
+  nodes_.clear();
+  points_.clear();
+  gather(normals, field);
+  gather(rebels, field);
+  link();
+  stack();
+  collect();
+  hanging_.assign(nodes_.size(), 0);
+  for (std::size_t root = 0; root < nodes_.size(); ++root) {
+    if (!groups_[root].empty()) hanging_[root] = hangs(groups_[root]);
+  }
+  for (const Group& group : groups_) {
+    if (!group.empty()) count(group, sunk(group) || aloft(group));
+  }
+}
+
+}  // namespace lcs

@@ -1,0 +1,78 @@
+/// \file
+/// What stands on nothing moves. A body that comes or goes along the line of sight moves in the
+/// image as a static point at another depth does: no two frames tell them apart. But what is static
+/// stands on the ground, and where its foot is seen the ground's depth is known. A group of edges
+/// whose common depth puts its foot elsewhere is not static:
+///
+/// * *sunk*: farther than the ground that its lower edges hide. It recedes, or runs ahead.
+/// * *aloft*: so near that its lowest edge hangs in the air, with nothing that stands seen below
+/// it.
+///   It comes on. (A static body that hangs lower than the camera is taken for one that does.)
+#pragma once
+
+#include <vector>
+
+#include "filter/disjoint_sets.h"
+#include "filter/layers.h"
+#include "filter/motion_field.h"
+#include "filter/parameters.h"
+#include "filter/point_grid.h"
+
+namespace lcs {
+
+class Footing {
+ public:
+  explicit Footing(const FootingParameters& parameters) : parameters_(parameters) {}
+
+  /// Counts `Edge::unfounded` up for edges whose group stands on nothing, and down for others,
+  /// where the ground is known and the camera moves. Rebels are looked at that were unfounded
+  /// before.
+  void judge(std::vector<Edge>& normals, std::vector<Edge>& rebels, const MotionField& field);
+
+ private:
+  /// An edge whose depth is known from its path. Depths are ratios Z_ref / Z.
+  struct Node {
+    Edge* edge;
+    double ratio;
+    double sigma;   // its standard deviation
+    double ground;  // ratio of the ground that is seen there, negative above the horizon
+    double across;  // place along the horizon, px
+  };
+  struct Link {
+    double cost;
+    int a, b;  // nodes
+  };
+  using Group = std::vector<int>;  // nodes
+
+  void gather(std::vector<Edge>& edges, const MotionField& field);
+  void link();
+  void stack();
+  void merge(int a, int b);
+  void collect();
+  bool sunk(const Group& group) const;
+  bool hangs(const Group& group);
+  bool aloft(const Group& group);
+  void count(const Group& group, bool unfounded);
+
+  FootingParameters parameters_;
+  double slack_ = 0;  // ratio by which the ground may differ from its plane
+  Vec2 along_horizon_ = Vec2::UnitX();
+  std::vector<Node> nodes_;
+  std::vector<Vec2> points_;
+  PointGrid grid_;
+  std::vector<Link> links_;
+  DisjointSets sets_;                  // of nodes
+  std::vector<double> weight_, mean_;  // of the group that a root stands for
+  std::vector<Group> groups_;          // by root
+  std::vector<char> hanging_;          // by root
+  std::vector<double> values_;
+  struct Span {
+    int root;
+    int members;
+    double left, right;  // px along the horizon
+  };
+  std::vector<Span> spans_;
+  std::vector<int> span_of_;  // by root, -1: none yet
+};
+
+}  // namespace lcs

@@ -1,0 +1,192 @@
+/// What stands on nothing moves: bodies that no two frames tell from static ones.
+#include "filter/footing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "filter/filter.h"
+#include "tests/filter/world.h"
+
+namespace lcs {
+namespace {
+
+using Eigen::Vector3d;
+using testing::Random;
+using testing::steady_motion;
+using testing::vga;
+using testing::World;
+
+constexpr double kHeight_m = 0.45;
+
+/// A level camera that drives ahead over a floor. C has y down: the floor lies at y = height.
+class Drive {
+ public:
+  explicit Drive(const char* ground = "true", Ground told = {.height_m = kHeight_m}) {
+    Parameters parameters = preset("default");
+    set(parameters, "field.ground", ground);
+    filter_ = Filter(vga(), parameters);
+    motion_.ground = told;
+  }
+
+  /// Corners all over an upright patch of 0.5 m whose foot is `foot_m` above the floor.
+  void stand(double x_m, double z_m, double foot_m, double top_m,
+             const Vector3d& velocity = Vector3d::Zero()) {
+    const int first = static_cast<int>(world_.points.size());
+    for (double y = foot_m; y <= top_m + 1e-9; y += 0.12) {
+      for (double x = -0.25; x <= 0.25; x += 0.12) {
+        const double jitter = 0.03;
+        // The lowest row stands on the foot itself.
+        const double up = y == foot_m ? y : y + random_.uniform(-jitter, jitter);
+        world_.points.push_back(
+            {{x_m + x + random_.uniform(-jitter, jitter), kHeight_m - up, z_m}, velocity});
+      }
+    }
+    bodies_.push_back({first, static_cast<int>(world_.points.size())});
+  }
+
+  void stop(std::size_t body) {
+    for (int i = bodies_[body].first; i < bodies_[body].second; ++i) {
+      world_.points[i].velocity_C.setZero();
+    }
+  }
+
+  void frames(int count) {
+    for (int k = 0; k < count; ++k) {
+      if (started_) world_.advance(motion_);
+      verdicts_ = filter_.step(world_.corners(), started_ ? motion_ : EgoMotion{}).verdicts;
+      started_ = true;
+    }
+  }
+
+  /// Share of a body's corners in view that are rebels now.
+  double rebels(std::size_t body) const {
+    int corner = 0, seen = 0, rebel = 0;
+    for (int i = 0; i < static_cast<int>(world_.points.size()); ++i) {
+      if (!world_.image(world_.points[i])) continue;
+      if (i >= bodies_[body].first && i < bodies_[body].second) {
+        ++seen;
+        rebel += verdicts_[corner] == Verdict::rebel;
+      }
+      ++corner;
+    }
+    return seen == 0 ? 0 : static_cast<double>(rebel) / seen;
+  }
+
+ private:
+  Random random_{1};
+  World world_;
+  std::vector<std::pair<int, int>> bodies_;
+  EgoMotion motion_ = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);
+  Filter filter_{vga(), preset("default")};
+  std::vector<Verdict> verdicts_;
+  bool started_ = false;
+};
+
+TEST(Footing, ABodyThatComesHeadOnIsToldByItsFeetAlone) {
+  for (const char* ground : {"true", "false"}) {
+    Drive drive(ground);
+    drive.stand(0, 6, 0, 1.6, {0, 0, -0.7});
+    drive.frames(15);
+    if (std::string(ground) == "true") {
+      EXPECT_GT(drive.rebels(0), 0.9);
+    } else {
+      EXPECT_EQ(drive.rebels(0), 0) << "its image is that of a static body at 0.3 of its distance";
+    }
+  }
+}
+
+TEST(Footing, ABodyThatRunsAheadIsFartherThanTheGroundThatItHides) {
+  for (const char* ground : {"true", "false"}) {
+    Drive drive(ground);
+    drive.stand(0, 4, 0, 1, {0, 0, 0.3});  // as fast as the camera: its image stands still
+    drive.frames(25);
+    if (std::string(ground) == "true") {
+      // But for the corners about the focus of expansion: they show no depth.
+      EXPECT_GT(drive.rebels(0), 0.6);
+    } else {
+      EXPECT_EQ(drive.rebels(0), 0);
+    }
+  }
+}
+
+TEST(Footing, WhatStandsIsNoRebelWhereverItStands) {
+  Drive drive;
+  for (int i = 0; i < 7; ++i) drive.stand(-3 + i, 3 + 0.7 * (i % 4), 0, 0.5 + 0.2 * i);
+  for (int k = 0; k < 25; ++k) {
+    drive.frames(1);
+    for (std::size_t body = 0; body < 7; ++body) EXPECT_EQ(drive.rebels(body), 0) << k;
+  }
+}
+
+TEST(Footing, NorIsItWhereTheGroundIsOffByHalfADegree) {
+  for (const double tilt_rad : {-0.009, 0.009}) {
+    const Vector3d up = testing::rotation({tilt_rad, 0, 0}) * Vector3d(0, -1, 0);
+    Drive drive("true", {.up_C = up, .height_m = kHeight_m});
+    for (int i = 0; i < 5; ++i) drive.stand(-2 + i, 3 + 0.5 * i, 0, 1);
+    for (int k = 0; k < 25; ++k) {
+      drive.frames(1);
+      for (std::size_t body = 0; body < 5; ++body) EXPECT_EQ(drive.rebels(body), 0) << k;
+    }
+  }
+}
+
+TEST(Footing, WhatHangsAboveTheHorizonHasNoFootToSee) {
+  Drive drive;
+  drive.stand(0, 3, 0.6, 1.2);  // a picture on a wall
+  for (int k = 0; k < 20; ++k) {
+    drive.frames(1);
+    EXPECT_EQ(drive.rebels(0), 0);
+  }
+}
+
+TEST(Footing, WhatIsSeenBelowAGroupMayBearIt) {
+  // A box on a shelf whose foot alone stands on the floor; the shelf is somewhat deeper, so that it
+  // is a group of its own.
+  for (const bool borne : {true, false}) {
+    Drive drive;
+    drive.stand(0, 2.5, 0.3, 0.9);
+    if (borne) drive.stand(0, 2.15, 0, 0.13);
+    drive.frames(15);
+    EXPECT_EQ(drive.rebels(0) > 0.5, !borne);
+  }
+}
+
+TEST(Footing, AnIncomerThatStopsIsNormalAgain) {
+  Drive drive;
+  drive.stand(0, 7, 0, 1.6, {0, 0, -0.7});
+  drive.frames(20);
+  ASSERT_GT(drive.rebels(0), 0.9);
+  drive.stop(0);
+  drive.frames(25);
+  EXPECT_LT(drive.rebels(0), 0.1);
+}
+
+TEST(Footing, SaysNothingWhileTheCameraStandsOrTheGroundIsNotKnown) {
+  std::vector<Edge> edges(10), none;
+  for (int i = 0; i < 10; ++i) {
+    Edge& edge = edges[i];
+    edge.corner = i;
+    edge.location = {300.0 + 4 * i, 300.0 + 3 * (i % 3)};
+    edge.path_ratio = 3;  // 1 m: aloft
+    edge.path_weight = 1e4;
+    edge.unfounded = 1;
+  }
+  EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);
+  const auto counted = [&] {
+    std::vector<Edge> normals = edges;
+    Footing({}).judge(normals, none, MotionField(vga(), motion, {}));
+    return normals.front().unfounded;
+  };
+  EXPECT_EQ(counted(), 1) << "no ground";
+  motion.ground = Ground{.height_m = kHeight_m};
+  EXPECT_EQ(counted(), 2);
+  motion.v_C_mps.setZero();
+  EXPECT_EQ(counted(), 1) << "standing";
+  motion.v_C_mps = {0, 0, 0.3};
+  motion.ground->up_C = {0, -0.3, -0.95};
+  EXPECT_EQ(counted(), 1) << "looking down";
+}
+
+}  // namespace
+}  // namespace lcs
