@@ -148,6 +148,7 @@ void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocit
 }
 
 std::optional<Ground> EgoMotionEstimator::ground() const {
+  if (!mounting_.on_ground) return std::nullopt;
   const Matrix3d R_WB = R_WS_ * mounting_.R_BS.transpose();
   const double height_m = (R_WB * mounting_.p_BC_m).z();
   if (!(height_m > 0)) return std::nullopt;

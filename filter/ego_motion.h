@@ -30,13 +30,13 @@ struct EgoMotion {
   std::optional<Ground> ground;
 };
 
-/// Rotations (only) of the sensors, and their lever arms, in the rover's frame B, whose origin lies
-/// on the ground.
+/// Rotations (only) of the sensors, and their lever arms, in the rover's frame B.
 struct Mounting {
   Eigen::Matrix3d R_BC = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_BC_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d R_BS = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_BS_m = Eigen::Vector3d::Zero();
+  bool on_ground = false;  ///< the origin of B stays on the ground
 };
 
 /// Noise that the estimator expects; used only to weigh odometry against the IMU.
@@ -80,8 +80,8 @@ class EgoMotionEstimator {
   /// Integrates up to a frame's time, and returns the motion since the last frame.
   EgoMotion frame(std::int64_t t_ns);
 
-  /// The ground at the time integrated to: level, through the rover's origin. None with the camera
-  /// on it or below.
+  /// The ground at the time integrated to: level, through the origin of B. None where that is not on
+  /// the ground, or the camera is not above it.
   std::optional<Ground> ground() const;
 
   const Eigen::Matrix3d& R_WS() const { return R_WS_; }

@@ -34,6 +34,7 @@ Calibration calibrate(const World& world, const scenario::Camera& camera) {
   c.T_WB_start = world.T_WB();
   c.v_WB_start_mps = world.v_WB_mps();
   c.gravity_mps2 = world.gravity_mps2();
+  c.on_ground = true;
   return c;
 }
 

@@ -37,6 +37,7 @@ struct Calibration {
   Pose T_WB_start;
   Eigen::Vector3d v_WB_start_mps = Eigen::Vector3d::Zero();
   double gravity_mps2 = 9.81;  ///< along -z of W
+  bool on_ground = false;      ///< the rover's origin stays on the ground, which is level
 };
 
 /// Thrown when MuJoCo warns or fails (bad qacc and the like): names the simulated time.

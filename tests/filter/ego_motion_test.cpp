@@ -186,7 +186,8 @@ TEST(EgoMotion, TheGroundIsLevelThroughTheOriginOfARoverThatPitchesAndRolls) {
                        return rotation({0.05 * t, -0.08 * t, 0.3 * t});
                      },
                      [](double) { return Vector3d(0, 0, 0); }};
-  const Mounting m = mounting();
+  Mounting m = mounting();
+  m.on_ground = true;
   EgoMotionEstimator estimator = start(path, m);
   for (std::int64_t t_ns = 0; t_ns <= 2'000'000'000; t_ns += kImuStep_ns) {
     const double t = static_cast<double>(t_ns) * 1e-9;
@@ -199,8 +200,11 @@ TEST(EgoMotion, TheGroundIsLevelThroughTheOriginOfARoverThatPitchesAndRolls) {
   EXPECT_NEAR(motion.ground->height_m, (path.R_WB(2) * m.p_BC_m).z(), 1e-4);
 }
 
-TEST(EgoMotion, ACameraBelowTheRoverSeesNoGround) {
+TEST(EgoMotion, NoGroundIsKnownToWhatFliesOrLooksFromBelow) {
   Mounting m = mounting();
+  EXPECT_FALSE(EgoMotionEstimator(m, {}, {}).ground());
+  m.on_ground = true;
+  EXPECT_TRUE(EgoMotionEstimator(m, {}, {}).ground());
   m.p_BC_m.z() = -0.1;
   EXPECT_FALSE(EgoMotionEstimator(m, {}, {}).ground());
 }

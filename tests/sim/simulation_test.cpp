@@ -249,6 +249,7 @@ TEST(Simulation, CalibrationIsTheMountingOfTheScenario) {
   EXPECT_NEAR((c.T_WB_start.p - Vector3d(2, 3, 0)).norm(), 0, 1e-9);
   EXPECT_NEAR((c.v_WB_start_mps - 0.4 * Vector3d(std::cos(0.5), std::sin(0.5), 0)).norm(), 0, 1e-9);
   EXPECT_EQ(c.gravity_mps2, 9.81);
+  EXPECT_TRUE(c.on_ground);
   const Observation o = simulation.next().value();
   EXPECT_NEAR((o.truth.now.T_WC.p - (c.T_WB_start * c.T_BC).p).norm(), 0, 1e-12);
   EXPECT_NEAR((o.truth.now.T_WC.R - (c.T_WB_start * c.T_BC).R).norm(), 0, 1e-12);

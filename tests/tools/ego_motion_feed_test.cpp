@@ -38,6 +38,7 @@ struct CircularDrive {
     calibration.T_BC = camera_mount();
     calibration.T_WB_start = T_WB(0);
     calibration.v_WB_start_mps = {speed_mps, 0, 0};
+    calibration.on_ground = true;
     return calibration;
   }
   /// Frame k of a camera at 10 frames/s with an IMU at 200 Hz.
@@ -106,6 +107,16 @@ TEST(EgoMotionFeed, AnIdealImuTellsTheMotionThatThePosesHad) {
     EXPECT_NEAR(motions.told.ground->height_m, 0.45, 1e-9);
     EXPECT_NEAR(motions.exact.ground->height_m, 0.45, 1e-9);
   }
+}
+
+TEST(EgoMotionFeed, WhatIsNotSaidToStayOnTheGroundHasNone) {
+  const CircularDrive drive;
+  sim::Calibration calibration = drive.calibration();
+  calibration.on_ground = false;  // a drone, or an IMU alone
+  EgoMotionFeed feed(with_source(scenario::EgoMotionSource::imu), calibration);
+  const EgoMotionFeed::Motions motions = feed.next(drive.observation(0));
+  EXPECT_FALSE(motions.told.ground);
+  EXPECT_FALSE(motions.exact.ground);
 }
 
 TEST(EgoMotionFeed, TheTruthIsToldOnlyWhereTheScenarioSaysSo) {

@@ -13,7 +13,8 @@ Mounting mounting_of(const sim::Calibration& calibration) {
   return {.R_BC = calibration.T_BC.R,
           .p_BC_m = calibration.T_BC.p,
           .R_BS = calibration.T_BS.R,
-          .p_BS_m = calibration.T_BS.p};
+          .p_BS_m = calibration.T_BS.p,
+          .on_ground = calibration.on_ground};
 }
 
 EgoMotionNoise noise_of(const scenario::Scenario& scenario) {
@@ -52,6 +53,7 @@ EgoMotionFeed::EgoMotionFeed(const scenario::Scenario& scenario,
                              const sim::Calibration& calibration)
     : source_(scenario.ego_motion),
       estimator_(mounting_of(calibration), noise_of(scenario), start_of(calibration)),
+      on_ground_(calibration.on_ground),
       ground_W_m_(calibration.T_WB_start.p.z()) {}
 
 EgoMotionFeed::Motions EgoMotionFeed::next(const sim::Observation& observation) {
@@ -71,7 +73,8 @@ EgoMotion EgoMotionFeed::exact(const sim::Observation& observation) {
   }
   last_ = now;
   const double height_m = now.T_WC.p.z() - ground_W_m_;
-  if (height_m > 0) motion.ground = Ground{.up_C = now.T_WC.R.row(2), .height_m = height_m};
+  if (on_ground_ && height_m > 0)
+    motion.ground = Ground{.up_C = now.T_WC.R.row(2), .height_m = height_m};
   return motion;
 }
 

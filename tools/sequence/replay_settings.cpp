@@ -49,6 +49,7 @@ void read_calibration(const Json& json, sim::Calibration& calibration) {
   calibration.T_WB_start = pose("T_WB_start");
   calibration.v_WB_start_mps = vector_in(json.at("v_WB_start_mps"));
   calibration.gravity_mps2 = json.at("gravity_mps2").get<double>();
+  calibration.on_ground = json.at("on_ground").get<bool>();
 }
 
 void read_scenario(const Json& json, const std::string& file, scenario::Scenario& scenario) {
@@ -99,6 +100,7 @@ std::string settings_text(const scenario::Scenario& scenario, const sim::Calibra
       {"T_WB_start", matrix_of(calibration.T_WB_start)},
       {"v_WB_start_mps", vector_json(calibration.v_WB_start_mps)},
       {"gravity_mps2", calibration.gravity_mps2},
+      {"on_ground", calibration.on_ground},
       {"ego_motion", scenario.ego_motion == scenario::EgoMotionSource::truth ? kTruth : kImu},
       {"imu_noise", noise},
       {"odometry", scenario.odometry.enabled},
