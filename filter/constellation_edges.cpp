@@ -258,13 +258,10 @@ void ConstellationEdges::seek_static_past(const Chi& chi, const MotionField& fie
     Candidate& candidate = candidates_[c];
     if (!candidate.residual) continue;
     const Vec2& x = chi.locations[c];
-    const double least = field.least_ratio(x), most = field.max_ratio();
-    const double length = (field.earlier(x, most, twice_.displacement_C_m) -
-                           field.earlier(x, least, twice_.displacement_C_m))
-                              .norm();
+    const double length = (field.earlier(x, field.max_ratio(), twice_.displacement_C_m) - x).norm();
     const int depths = std::min(kMaxDepths, 1 + static_cast<int>(length / kDepthSpacing_px));
     for (int i = 0; i <= depths && candidate.static_hits < 2; ++i) {
-      const double ratio = least + (most - least) * i / depths;
+      const double ratio = field.max_ratio() * i / depths;
       const int hits = static_hits(x, ratio, field);
       if (hits > candidate.static_hits) {
         candidate.static_hits = hits;

@@ -14,6 +14,9 @@ constexpr double kCornerSigma_px = 0.7, kDepthFloor = 0.02;
 /// Depths count that are known as well as this: a share of them, or 1/m.
 constexpr double kKnownShare = 0.2, kKnown_1pm = 0.03;
 
+/// Frames after which a path counts: what rain and flicker make is gone by then.
+constexpr int kLeastAge = 3;
+
 /// Share by which depths within a group may differ, beside their errors.
 constexpr double kLikeDepth = 0.1;
 
@@ -35,7 +38,7 @@ void Footing::gather(std::vector<Edge>& edges, const MotionField& field) {
   const double known = kKnown_1pm * field.reference_depth_m();
   for (Edge& edge : edges) {
     if (edge.corner < 0 || edge.path_weight <= 0) continue;
-    if (edge.rebel && edge.unfounded == 0) continue;
+    if (edge.unfounded == 0 && (edge.rebel || edge.age < kLeastAge)) continue;
     const double ratio = edge.path_ratio;
     const double sigma =
         std::max(kDepthFloor * ratio, kCornerSigma_px / std::sqrt(edge.path_weight));
