@@ -31,7 +31,7 @@ through its camera and IMU, and the simulator's truth scores what the filter say
   lcs suite                           run all short scenarios, with several seeds each
   lcs compare out/before out/suite    what two suites differ in, beyond noise
   lcs generate SCENARIO               a sequence of pictures and truth that other tools read
-  lcs replay --images DIR ...         the filter on a folder of pictures
+  lcs replay DIR                      the filter on EuRoC, KITTI, RobotCar, a folder of pictures
   lcs score DIR --detections FILE     someone else's detector, by a run's truth
   lcs kinematics                      when the motion model holds, for your camera and rover
   lcs run --help                      all about a command
