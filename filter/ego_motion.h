@@ -80,8 +80,8 @@ class EgoMotionEstimator {
   /// Integrates up to a frame's time, and returns the motion since the last frame.
   EgoMotion frame(std::int64_t t_ns);
 
-  /// The ground at the time integrated to: level, through the origin of B. None where that is not on
-  /// the ground, or the camera is not above it.
+  /// The ground at the time integrated to: level, through the origin of B. None where that is not
+  /// on the ground, or the camera is not above it.
   std::optional<Ground> ground() const;
 
   const Eigen::Matrix3d& R_WS() const { return R_WS_; }
