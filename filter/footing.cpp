@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <tuple>
+
+#include "filter/refill.h"
 
 namespace lcs {
 namespace {
@@ -19,6 +20,9 @@ constexpr int kLeastAge = 3;
 
 /// Share by which depths within a group may differ, beside their errors.
 constexpr double kLikeDepth = 0.1;
+double like_depth(double ratio) {
+  return kLikeDepth * ratio;
+}
 
 /// Edges that must be below the ground, and their share of those that see ground.
 constexpr int kLeastSunk = 3;
@@ -52,52 +56,30 @@ void Footing::gather(std::vector<Edge>& edges, const MotionField& field) {
 /// Groups of edges near each other at one depth: best link first, while the means agree.
 void Footing::link() {
   grid_.build(points_, parameters_.reach);
-  links_.clear();
+  depths_.reset(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& a = nodes_[i];
+    depths_.set_depth(i, a.ratio, a.sigma);
     grid_.visit_within(points_[i], parameters_.reach, [&](int j, double distance2) {
       if (j <= static_cast<int>(i)) return;
       const Node& b = nodes_[j];
-      const double tolerance =
-          0.5 * kLikeDepth * (a.ratio + b.ratio) + std::hypot(a.sigma, b.sigma);
+      const double tolerance = like_depth(0.5 * (a.ratio + b.ratio)) + std::hypot(a.sigma, b.sigma);
       const double difference = std::abs(a.ratio - b.ratio);
       if (!(difference < tolerance)) return;
-      links_.push_back({2 * difference / tolerance + std::sqrt(distance2) / parameters_.reach,
-                        static_cast<int>(i), j});
+      depths_.link(2 * difference / tolerance + std::sqrt(distance2) / parameters_.reach,
+                   static_cast<int>(i), j);
     });
   }
-  std::sort(links_.begin(), links_.end(), [](const Link& x, const Link& y) {
-    return std::tuple(x.cost, x.a, x.b) < std::tuple(y.cost, y.a, y.b);
-  });
-  sets_.reset(nodes_.size());
-  weight_.resize(nodes_.size());
-  mean_.resize(nodes_.size());
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    weight_[i] = 1 / (nodes_[i].sigma * nodes_[i].sigma);
-    mean_[i] = nodes_[i].ratio;
-  }
-  for (const Link& link : links_) merge(link.a, link.b);
-}
-
-void Footing::merge(int a, int b) {
-  a = sets_.root(a);
-  b = sets_.root(b);
-  if (a == b) return;
-  const double tolerance =
-      0.5 * kLikeDepth * (mean_[a] + mean_[b]) + 2 * std::sqrt(1 / weight_[a] + 1 / weight_[b]);
-  if (!(std::abs(mean_[a] - mean_[b]) < tolerance)) return;
-  sets_.join(a, b);
-  mean_[a] = (weight_[a] * mean_[a] + weight_[b] * mean_[b]) / (weight_[a] + weight_[b]);
-  weight_[a] += weight_[b];
+  depths_.merge_links(like_depth);
 }
 
 /// What stands one above the other at one depth is one body, however far apart: legs have no
 /// corners.
 void Footing::stack() {
   spans_.clear();
-  span_of_.assign(nodes_.size(), -1);
+  refill(span_of_, nodes_.size(), -1);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const int root = sets_.root(static_cast<int>(i));
+    const int root = depths_.sets().root(static_cast<int>(i));
     const double across = nodes_[i].across;
     if (span_of_[root] < 0) {
       span_of_[root] = static_cast<int>(spans_.size());
@@ -113,20 +95,13 @@ void Footing::stack() {
     for (std::size_t j = i + 1; j < spans_.size(); ++j) {
       const Span &p = spans_[i], &q = spans_[j];
       const double overlap = std::min(p.right, q.right) - std::max(p.left, q.left);
-      if (overlap >= 0.5 * std::min(p.right - p.left, q.right - q.left)) merge(p.root, q.root);
+      if (overlap >= 0.5 * std::min(p.right - p.left, q.right - q.left))
+        depths_.merge(p.root, q.root, like_depth);
     }
   }
 }
 
-void Footing::collect() {
-  if (groups_.size() < nodes_.size()) groups_.resize(nodes_.size());
-  for (Group& group : groups_) group.clear();
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    groups_[sets_.root(static_cast<int>(i))].push_back(static_cast<int>(i));
-  }
-}
-
-bool Footing::sunk(const Group& group) const {
+bool Footing::sunk(Group group) const {
   int low = 0, below = 0;
   for (const int i : group) {
     const Node& node = nodes_[i];
@@ -138,7 +113,7 @@ bool Footing::sunk(const Group& group) const {
 }
 
 /// Whether a group's foot is seen farther away than the group seems to be.
-bool Footing::hangs(const Group& group) {
+bool Footing::hangs(Group group) {
   values_.clear();
   for (const int i : group) values_.push_back(nodes_[i].ground);
   // The second lowest, so that one edge that does not belong says nothing.
@@ -146,11 +121,11 @@ bool Footing::hangs(const Group& group) {
   std::nth_element(values_.begin(), values_.begin() + rank, values_.end(), std::greater<>());
   const double foot = values_[rank];
   if (foot < 2 * slack_) return false;
-  return mean_[sets_.root(group.front())] > parameters_.lift * (foot + slack_);
+  return depths_.mean(depths_.sets().root(group.front())) > parameters_.lift * (foot + slack_);
 }
 
-bool Footing::aloft(const Group& group) {
-  const int own = sets_.root(group.front());
+bool Footing::aloft(Group group) {
+  const int own = depths_.sets().root(group.front());
   if (!hanging_[own] || static_cast<int>(group.size()) < parameters_.members) return false;
   double left = nodes_[own].across, right = left, foot = nodes_[own].ground;
   for (const int i : group) {
@@ -160,16 +135,16 @@ bool Footing::aloft(const Group& group) {
   }
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
-    if (hanging_[sets_.root(static_cast<int>(i))]) continue;
+    if (hanging_[depths_.sets().root(static_cast<int>(i))]) continue;
     const bool below = node.ground > foot && node.across > left - kBearerMargin_px &&
                        node.across < right + kBearerMargin_px;
-    if (below && node.ratio > kBearerShare * mean_[own]) return false;
+    if (below && node.ratio > kBearerShare * depths_.mean(own)) return false;
   }
   return true;
 }
 
 /// An edge that is new to a group knows what the group knows.
-void Footing::count(const Group& group, bool unfounded) {
+void Footing::count(Group group, bool unfounded) const {
   double known = 0;
   for (const int i : group) known += nodes_[i].edge->unfounded;
   const int mean = static_cast<int>(std::lround(known / static_cast<double>(group.size())));
@@ -193,14 +168,10 @@ void Footing::judge(std::vector<Edge>& normals, std::vector<Edge>& rebels,
   gather(rebels, field);
   link();
   stack();
-  collect();
-  hanging_.assign(nodes_.size(), 0);
-  for (std::size_t root = 0; root < nodes_.size(); ++root) {
-    if (!groups_[root].empty()) hanging_[root] = hangs(groups_[root]);
-  }
-  for (const Group& group : groups_) {
-    if (!group.empty()) count(group, sunk(group) || aloft(group));
-  }
+  groups_.collect(depths_.sets(), [](std::size_t) { return true; });
+  refill(hanging_, nodes_.size());
+  groups_.visit([&](Group group) { hanging_[depths_.sets().root(group.front())] = hangs(group); });
+  groups_.visit([&](Group group) { count(group, sunk(group) || aloft(group)); });
 }
 
 }  // namespace lcs

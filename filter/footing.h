@@ -5,13 +5,14 @@
 /// whose common depth puts its foot elsewhere is not static:
 ///
 /// * *sunk*: farther than the ground that its lower edges hide. It recedes, or runs ahead.
-/// * *aloft*: so near that its lowest edge hangs in the air, with nothing that stands seen below
-/// it.
+/// * *aloft*: so near that its lowest edge hangs in the air, nothing that stands seen below it.
 ///   It comes on. (A static body that hangs lower than the camera is taken for one that does.)
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "filter/depth_groups.h"
 #include "filter/disjoint_sets.h"
 #include "filter/layers.h"
 #include "filter/motion_field.h"
@@ -38,21 +39,15 @@ class Footing {
     double ground;  // ratio of the ground that is seen there, negative above the horizon
     double across;  // place along the horizon, px
   };
-  struct Link {
-    double cost;
-    int a, b;  // nodes
-  };
-  using Group = std::vector<int>;  // nodes
+  using Group = std::span<const int>;  // nodes
 
   void gather(std::vector<Edge>& edges, const MotionField& field);
   void link();
   void stack();
-  void merge(int a, int b);
-  void collect();
-  bool sunk(const Group& group) const;
-  bool hangs(const Group& group);
-  bool aloft(const Group& group);
-  void count(const Group& group, bool unfounded);
+  bool sunk(Group group) const;
+  bool hangs(Group group);
+  bool aloft(Group group);
+  void count(Group group, bool unfounded) const;
 
   FootingParameters parameters_;
   double slack_ = 0;  // ratio by which the ground may differ from its plane
@@ -60,11 +55,9 @@ class Footing {
   std::vector<Node> nodes_;
   std::vector<Vec2> points_;
   PointGrid grid_;
-  std::vector<Link> links_;
-  DisjointSets sets_;                  // of nodes
-  std::vector<double> weight_, mean_;  // of the group that a root stands for
-  std::vector<Group> groups_;          // by root
-  std::vector<char> hanging_;          // by root
+  DepthGroups depths_;  // of nodes
+  SetMembers groups_;
+  std::vector<char> hanging_;  // groups, by their root
   std::vector<double> values_;
   struct Span {
     int root;

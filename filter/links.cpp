@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "filter/geometry.h"
-#include "filter/refill.h"
 
 namespace lcs {
 namespace {
@@ -49,7 +47,6 @@ void LinkLayering::gather(const std::vector<Edge>& edges, const MotionField& fie
     points_.push_back(node.location);
   }
   grid_.build(points_, kCell_px);
-  sets_.reset(nodes_.size());
   measure_spacing();
 }
 
@@ -79,9 +76,10 @@ double LinkLayering::reach(const Node& a, const Node& b) const {
 }
 
 void LinkLayering::link_by_depth() {
-  links_.clear();
+  by_depth_.reset(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& a = nodes_[i];
+    by_depth_.set_depth(i, a.w, std::max(a.sigma, 1e-3));
     // A hair farther than a reaches, for the rounding of the distances that are compared.
     grid_.visit_within(a.location, 1.001 * reach(a, a), [&](int j, double distance2) {
       if (j <= static_cast<int>(i)) return;
@@ -90,33 +88,15 @@ void LinkLayering::link_by_depth() {
       if (distance > longest) return;
       const double difference = std::abs(a.w - b.w), most = tolerance(a, b);
       if (!(difference < most)) return;
-      links_.push_back({2 * difference / most + distance / longest, static_cast<int>(i), j});
+      by_depth_.link(2 * difference / most + distance / longest, static_cast<int>(i), j);
     });
   }
-  std::sort(links_.begin(), links_.end(), [](const Link& x, const Link& y) {
-    return std::tuple(x.cost, x.a, x.b) < std::tuple(y.cost, y.a, y.b);
-  });
-  refill(weight_, nodes_.size());
-  refill(mean_, nodes_.size());
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const double sigma = std::max(nodes_[i].sigma, 1e-3);
-    weight_[i] = 1 / (sigma * sigma);
-    mean_[i] = nodes_[i].w;
-  }
-  for (const Link& link : links_) {
-    const int a = sets_.root(link.a), b = sets_.root(link.b);
-    if (a == b) continue;
-    const double w = 0.5 * (mean_[a] + mean_[b]);
-    const double tolerance = parameters_.depth_share * w + parameters_.mean_spread * w * w +
-                             2 * std::sqrt(1 / weight_[a] + 1 / weight_[b]);
-    if (!(std::abs(mean_[a] - mean_[b]) < tolerance)) continue;
-    sets_.join(a, b);
-    mean_[a] = (weight_[a] * mean_[a] + weight_[b] * mean_[b]) / (weight_[a] + weight_[b]);
-    weight_[a] += weight_[b];
-  }
+  by_depth_.merge_links(
+      [&](double w) { return parameters_.depth_share * w + parameters_.mean_spread * w * w; });
 }
 
 void LinkLayering::link_by_velocity(double dt_s) {
+  by_velocity_.reset(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& a = nodes_[i];
     grid_.visit_within(a.location, parameters_.reach_max, [&](int j, double) {
@@ -125,7 +105,7 @@ void LinkLayering::link_by_velocity(double dt_s) {
       const double step = (a.velocity_pxps - b.velocity_pxps).norm() * dt_s;
       const double mean = 0.5 * (a.velocity_pxps.norm() + b.velocity_pxps.norm()) * dt_s;
       if (step < std::max(parameters_.rebel_speed_px, parameters_.rebel_speed_share * mean)) {
-        sets_.join(static_cast<int>(i), j);
+        by_velocity_.join(static_cast<int>(i), j);
       }
     });
   }
@@ -179,8 +159,8 @@ void LinkLayering::make_square(std::span<const int> group, const MotionField& fi
   squares_.push_back(square);
 }
 
-void LinkLayering::make_squares(std::size_t least, const MotionField& field) {
-  groups_.collect(sets_, [](std::size_t) { return true; });
+void LinkLayering::make_squares(DisjointSets& sets, std::size_t least, const MotionField& field) {
+  groups_.collect(sets, [](std::size_t) { return true; });
   groups_.visit([&](std::span<const int> group) {
     if (group.size() >= least) make_square(group, field);
   });
@@ -190,10 +170,10 @@ const std::vector<Square>& LinkLayering::layer(const Layers& layers, const Motio
   squares_.clear();
   gather(layers.normal_edges, field);
   link_by_depth();
-  make_squares(static_cast<std::size_t>(parameters_.min_edges), field);
+  make_squares(by_depth_.sets(), static_cast<std::size_t>(parameters_.min_edges), field);
   gather(layers.rebel_edges, field);
   link_by_velocity(field.dt_s());
-  make_squares(static_cast<std::size_t>(parameters_.min_rebels), field);
+  make_squares(by_velocity_, static_cast<std::size_t>(parameters_.min_rebels), field);
   return squares_;
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "filter/depth_groups.h"
 #include "filter/disjoint_sets.h"
 #include "filter/layers.h"
 #include "filter/motion_field.h"
@@ -38,16 +39,12 @@ class LinkLayering {
     double spacing = 0;  // local, px
     const Edge* edge = nullptr;
   };
-  struct Link {
-    double cost;
-    int a, b;
-  };
 
   void gather(const std::vector<Edge>& edges, const MotionField& field);
   void measure_spacing();
   void link_by_depth();
   void link_by_velocity(double dt_s);
-  void make_squares(std::size_t least, const MotionField& field);
+  void make_squares(DisjointSets& sets, std::size_t least, const MotionField& field);
   void make_square(std::span<const int> group, const MotionField& field);
   double reach(const Node& a, const Node& b) const;
   /// By how much the inverse depths of neighbours may differ.
@@ -60,9 +57,8 @@ class LinkLayering {
   std::vector<Node> nodes_;
   std::vector<Vec2> points_;
   PointGrid grid_;
-  std::vector<Link> links_;
-  DisjointSets sets_;                  // of nodes
-  std::vector<double> weight_, mean_;  // of the group that a root stands for
+  DepthGroups by_depth_;
+  DisjointSets by_velocity_;
   SetMembers groups_;
   std::vector<std::pair<double, int>> near_;
   std::vector<int> circles_;
