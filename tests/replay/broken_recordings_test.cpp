@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/tools/command.h"
+#include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/bench/recording_io.h"
 #include "tools/replay/recorded.h"
@@ -18,11 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using bench::CommandResult;
+using bench::read;
 
-std::string read(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 void write(const fs::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 
+#include "tests/tools/files.h"
 #include "tests/tools/recordings.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/bench/scoring.h"
@@ -15,12 +16,6 @@ namespace lcs::bench {
 namespace {
 
 using sim::Label;
-
-std::string read(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  EXPECT_TRUE(file) << path;
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// Six frames with corners at (10, 20), (30, 20), (50, 20), (70.25, 20.75).
 Recording sequence() {

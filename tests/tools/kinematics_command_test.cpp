@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "tests/tools/command.h"
+#include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/bench/csv.h"
 
@@ -18,18 +19,6 @@ namespace lcs::bench {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  EXPECT_TRUE(file) << path;
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::set<std::string> entries(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
-  return names;
-}
 
 class Kinematics : public testing::Test {
  protected:

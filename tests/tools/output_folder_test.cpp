@@ -5,6 +5,7 @@
 #include <fstream>
 #include <set>
 
+#include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 
 namespace lcs::bench {
@@ -16,17 +17,6 @@ const std::vector<std::string> kFiles{"metrics.json", "video.mp4"};
 
 void write(const fs::path& path, const std::string& text) {
   std::ofstream(path) << text;
-}
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::set<std::string> entries(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
-  return names;
 }
 
 class OutputFolderTest : public testing::Test {

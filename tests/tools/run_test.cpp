@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "tests/tools/command.h"
+#include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/bench/events.h"
 #include "tools/bench/recording_io.h"
@@ -23,18 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kScenarios = LCS_SCENARIOS_DIR;
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  EXPECT_TRUE(file) << path;
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::set<std::string> entries(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
-  return names;
-}
 
 std::ptrdiff_t lines(const std::string& text) {
   return std::count(text.begin(), text.end(), '\n');

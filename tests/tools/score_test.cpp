@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/command.h"
+#include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/bench/recording_io.h"
 #include "tools/bench/report.h"
@@ -13,12 +14,6 @@ namespace lcs::bench {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  EXPECT_TRUE(file) << path;
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 class Score : public testing::Test {
  protected:

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "tests/tools/command.h"
+#include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/bench/report.h"
 #include "tools/suite/junit.h"
@@ -21,17 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using bench::CommandResult;
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::set<std::string> entries(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
-  return names;
-}
+using bench::entries;
+using bench::read;
 
 class Suite : public testing::Test {
  protected:
