@@ -12,6 +12,7 @@
 #include "tools/bench/csv.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/progress.h"
+#include "tools/lcs/set_option.h"
 #include "tools/lcs/version.h"
 #include "tools/sequence/generator.h"
 #include "tools/sequence/manifest.h"
@@ -132,11 +133,7 @@ CLI::App& add_generate_command(CLI::App& app, GenerateOptions& options) {
       ->type_name("N")
       ->check(CLI::Range(1, kMostFrames));
   command.add_option("--seed", options.seed, "Seed, instead of the scenario's")->type_name("N");
-  command
-      .add_option("--set", options.sets,
-                  "Set a value of the scenario, as \"ego.speed=0.7 m/s\"; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_set_option(command, options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
   command
       .add_option("--jobs", options.jobs,
                   "Processes at a time; they share the frames of one scenario, or the sequences")

@@ -9,6 +9,7 @@
 #include "tools/kinematics/study_page.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/progress.h"
+#include "tools/lcs/set_option.h"
 
 namespace lcs::tools {
 namespace {
@@ -54,11 +55,7 @@ CLI::App& add_kinematics_command(CLI::App& app, KinematicsOptions& options) {
           "--config", options.config,
           "Scenario file with the camera, rover and IMU; scenarios/crossing.yaml if not given")
       ->type_name("FILE");
-  command
-      .add_option("--set", options.sets,
-                  "Set a value of the scenario, as \"camera.fovy=90 deg\"; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_set_option(command, options.sets, "Set a value of the scenario, as \"camera.fovy=90 deg\"");
   command.add_option("--out", options.out, "Folder for the results; out/kinematics if not given")
       ->type_name("DIR");
   command.add_flag("--quick", options.quick, "Fewer frames and seeds: a quarter of the time");

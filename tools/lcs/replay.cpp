@@ -16,6 +16,7 @@
 #include "tools/comparators/detectors.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/progress.h"
+#include "tools/lcs/set_option.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/rectifier.h"
 
@@ -197,11 +198,7 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
       .add_option("--preset", options.preset,
                   "Parameters of the filter: default, or the paper's lab or cars")
       ->type_name("NAME");
-  command
-      .add_option("--set", options.sets,
-                  "Set a parameter of the filter, as circle.mu_0=20; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_set_option(command, options.sets, "Set a parameter of the filter, as circle.mu_0=20");
   command.add_option("--out", options.out, "Folder for the results; out/<folder> if not given")
       ->type_name("DIR");
   command.add_flag("--no-video", options.no_video, "Write no video.mp4");

@@ -16,6 +16,7 @@
 #include "tools/comparators/detectors.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/progress.h"
+#include "tools/lcs/set_option.h"
 
 namespace lcs::tools {
 namespace {
@@ -78,11 +79,7 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
   command.add_option("--out", options.out, "Folder for the results; out/<scenario> if not given")
       ->type_name("DIR");
   command.add_option("--seed", options.seed, "Seed, instead of the scenario's")->type_name("N");
-  command
-      .add_option("--set", options.sets,
-                  "Set a value of the scenario, as \"ego.speed=0.7 m/s\"; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_set_option(command, options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
   command
       .add_option("--detector", options.detector,
                   "What watches: lcs (the filter), or klt or homography to compare it with")

@@ -8,6 +8,7 @@
 #include "tools/bench/output_folder.h"
 #include "tools/comparators/detectors.h"
 #include "tools/lcs/interrupt.h"
+#include "tools/lcs/set_option.h"
 #include "tools/lcs/suite_progress.h"
 #include "tools/lcs/version.h"
 #include "tools/report/report_page.h"
@@ -141,11 +142,7 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
       .add_option("--detector", options.detector,
                   "What watches: lcs (the filter), or klt or homography to compare it with")
       ->type_name("NAME");
-  command
-      .add_option("--set", options.sets,
-                  "Set a value in every scenario, as \"camera.rate=5 Hz\"; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_set_option(command, options.sets, "Set a value in every scenario, as \"camera.rate=5 Hz\"");
   command.add_option("--out", options.out, "Folder for the results; out/suite if not given")
       ->type_name("DIR");
   command
