@@ -19,6 +19,7 @@
 #include "scenarios/load.h"
 #include "sim/simulation.h"
 #include "tests/tools/command.h"
+#include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/bench/csv.h"
 #include "tools/bench/recording_io.h"
@@ -32,6 +33,7 @@ namespace lcs::sequence {
 namespace {
 
 namespace fs = std::filesystem;
+using bench::bytes_in;
 using bench::CommandResult;
 using bench::run_lcs;
 
@@ -58,12 +60,6 @@ std::set<std::string> files_in(const fs::path& folder) {
     if (entry.is_regular_file()) files.insert(entry.path().lexically_relative(folder).string());
   }
   return files;
-}
-
-std::map<std::string, std::string> bytes_in(const fs::path& folder) {
-  std::map<std::string, std::string> bytes;
-  for (const std::string& file : files_in(folder)) bytes[file] = read_file(folder / file);
-  return bytes;
 }
 
 std::vector<std::string> arguments(std::vector<std::string> more) {
@@ -459,6 +455,29 @@ TEST_F(GenerateInParts, AKilledRunGoesOnToTheSameBytes) {
     EXPECT_TRUE(bytes_in(folder()) == whole);
     fs::remove_all(folder());
   }
+}
+
+TEST_F(GenerateInParts, ADiskThatFillsUpIsToldInOneLineAndWithRoomItGoesOnToTheSameBytes) {
+  const auto whole = in_one_go();
+  const auto all = arguments({"--out", folder(), "--quiet"});
+  const CommandResult full = run_lcs(all, {.folder = home_.path(), .largest_file = 200'000});
+  EXPECT_EQ(full.exit_code, 2);
+  EXPECT_NE(full.err.find("File too large; make room"), std::string::npos) << full.err;
+  EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
+  EXPECT_FALSE(fs::exists(folder() / kManifestFile));
+  EXPECT_EQ(run_lcs(all, {.folder = home_.path()}).exit_code, 0);
+  EXPECT_TRUE(bytes_in(folder()) == whole);
+}
+
+TEST_F(GenerateInParts, TwoAtATimeIntoOneFolderLeaveAWholeSequence) {
+  const auto whole = in_one_go();
+  const auto all = arguments({"--out", folder(), "--quiet"});
+  bench::Command one(all, {.folder = home_.path()});
+  bench::Command other(all, {.folder = home_.path()});
+  const int first = one.wait().exit_code, second = other.wait().exit_code;
+  EXPECT_TRUE(first == 0 || second == 0) << first << ' ' << second;
+  EXPECT_EQ(run_lcs(all, {.folder = home_.path()}).exit_code, 0);
+  EXPECT_TRUE(bytes_in(folder()) == whole);
 }
 
 TEST_F(GenerateInParts, PartsByOtherProcessesInAnyOrderAreTheSameBytes) {

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 
 #include "sim/fragment.h"
 #include "sim/silhouette.h"
@@ -201,6 +203,17 @@ TEST(Scene, APlaneIsSettingAndNoObject) {
                {"'rug'", "plane"});
 }
 
+TEST(Scene, ItsOwnCamerasAreNotTheRoversAndChangeNothing) {
+  const std::string wall = "<geom type='box' pos='4 0 1' size='.1 2 1' rgba='.8 .2 .2 1'/>";
+  const std::string cameras =
+      "<camera name='above' pos='0 0 9'/><camera name='beside' pos='0 -3 1' euler='90 0 0'/>";
+  Simulation without(scenario_in_mjcf(floor_with(wall), 0.5, 2));
+  Simulation with_two(scenario_in_mjcf(floor_with(cameras + wall), 0.5, 2));
+  const Observation expected = *without.next(), seen = *with_two.next();
+  EXPECT_EQ(seen.truth.now.T_WC.p, expected.truth.now.T_WC.p);
+  EXPECT_EQ(cv::norm(seen.image, expected.image, cv::NORM_INF), 0);
+}
+
 TEST(Scene, ABodyThatCanMoveNeedsANameAndMovesAsOne) {
   expect_error(
       scenario_in_mjcf(floor_with("<body pos='0 3 1'><freejoint/><geom size='.1'/></body>"), 0, 1),
@@ -348,6 +361,23 @@ TEST(Scene, OptionsOfASceneDoNotSpoilTheSensors) {
   world.advance_to(1'000'000'000, imu, odometry);
   EXPECT_NEAR(imu.back().accel_mps2.z(), 9.81, 1e-6);
   EXPECT_NEAR(world.v_WB_mps().x(), 0.5, 1e-6);
+}
+
+TEST(Physics, WhatFallsThroughTheFloorIsOutOfSightAndTheRunGoesOn) {
+  const std::string stone =
+      "<body name='stone' pos='3 0 .4'><freejoint/>"
+      "<geom size='.2' contype='0' conaffinity='0'/></body>";
+  Simulation simulation(scenario_in_mjcf(floor_with(stone), 0, 20));
+  const auto is_seen = [](const Observation& frame) {
+    return std::any_of(frame.objects.begin(), frame.objects.end(),
+                       [](const ObjectTruth& object) { return object.visible_px > 0; });
+  };
+  EXPECT_TRUE(is_seen(*simulation.next()));
+  std::optional<Observation> last;
+  while (std::optional<Observation> frame = simulation.next()) last = std::move(frame);
+  EXPECT_EQ(last->index, 19);
+  EXPECT_FALSE(is_seen(*last));
+  EXPECT_LT(last->truth.now.T_WO.at(1).p.z(), -10);
 }
 
 TEST(Physics, ADivergingModelEndsTheRunWithTheSimulatedTime) {

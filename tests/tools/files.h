@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
 
@@ -26,6 +27,16 @@ inline std::set<std::string> entries(const std::filesystem::path& folder) {
     names.insert(entry.path().filename());
   }
   return names;
+}
+
+/// Of all files in a folder and in those within it, by their path in it.
+inline std::map<std::string, std::string> bytes_in(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> bytes;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    bytes[entry.path().lexically_relative(folder).string()] = read(entry.path());
+  }
+  return bytes;
 }
 
 }  // namespace lcs::bench

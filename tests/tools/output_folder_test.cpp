@@ -88,6 +88,17 @@ TEST_F(OutputFolderTest, AnEarlierResultStaysWhenTheNextOneFails) {
   EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
 }
 
+TEST_F(OutputFolderTest, WhatAKilledProcessLeftIsTakenAwayAndWhatALivingOneWritesIsNot) {
+  for (const char* name : {"run.partial-1", "run.partial-2", "walk.partial-1"}) {
+    fs::create_directory(top_ / name);
+    write(top_ / name / "metrics.json", "half");
+  }
+  const FolderLock living(top_ / "run.partial-2", /*wait=*/false);
+  ASSERT_TRUE(living.is_held());
+  make_result(top_ / "run", "new");
+  EXPECT_EQ(entries(top_), (std::set<std::string>{"run", "run.partial-2", "walk.partial-1"}));
+}
+
 TEST_F(OutputFolderTest, AnEmptyFolderIsTaken) {
   fs::create_directory(top_ / "run");
   make_result(top_ / "run", "new");

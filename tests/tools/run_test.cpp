@@ -183,6 +183,17 @@ TEST_F(Run, ReplacesAnEarlierResult) {
   EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"crossing"});
 }
 
+TEST_F(Run, TwoIntoOneFolderAtATimeLeaveOneOfThemWhole) {
+  std::vector<std::string> arguments = brief({"--quiet"});
+  arguments.insert(arguments.begin(), "run");
+  Command one(arguments, {.folder = folder_.path()});
+  Command other(arguments, {.folder = folder_.path()});
+  EXPECT_EQ(one.wait().exit_code, 0);
+  EXPECT_EQ(other.wait().exit_code, 0);
+  EXPECT_EQ(read_recording(folder_.path() / "out" / "crossing").frames.size(), 4u);
+  EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"crossing"});
+}
+
 // ---- Criteria
 
 TEST_F(Run, ARequiredCriterionThatFailsExitsWithOneAndKeepsTheResult) {

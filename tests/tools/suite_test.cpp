@@ -12,6 +12,7 @@
 
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
+#include "tests/tools/processes.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/bench/report.h"
 #include "tools/suite/junit.h"
@@ -21,6 +22,7 @@ namespace lcs::suite {
 namespace {
 
 namespace fs = std::filesystem;
+using bench::children_of;
 using bench::CommandResult;
 using bench::entries;
 using bench::read;
@@ -356,23 +358,6 @@ TEST(JUnit, EscapesWhatXmlCannotHold) {
 
 // ---- What can happen to the processes
 
-/// The children of a process that still run.
-std::vector<pid_t> children_of(pid_t parent) {
-  std::vector<pid_t> children;
-  for (const auto& entry : fs::directory_iterator("/proc")) {
-    const std::string name = entry.path().filename();
-    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    const std::string stat = read(entry.path() / "stat");
-    const std::size_t after_name = stat.rfind(')');
-    if (after_name == std::string::npos) continue;
-    char state = 0;
-    pid_t its_parent = 0;
-    if (std::sscanf(stat.c_str() + after_name + 1, " %c %d", &state, &its_parent) != 2) continue;
-    if (its_parent == parent && state != 'Z') children.push_back(std::stoi(name));
-  }
-  return children;
-}
-
 class SuiteProcesses : public Suite {
  protected:
   /// A suite of runs that would take minutes, once two of them are under way.
@@ -423,6 +408,9 @@ TEST_F(SuiteProcesses, AChildThatCrashesIsAnErrorThatNamesTheSignal) {
   EXPECT_NE(result.err.find("crashed: ended by signal 9 (Killed)"), std::string::npos)
       << result.err;
   EXPECT_EQ(read_suite(out_ / kSuiteFile).scenarios[2].runs[0].outcome, Outcome::error);
+
+  for (const char* name : {"a", "b", "c"}) scenario(name);
+  EXPECT_EQ(run({"--seeds", "1"}).exit_code, 0) << "what the crashed left is in the way";
 }
 
 TEST(SuiteHelp, TeachesExamplesFilesAndExitCodes) {

@@ -1,9 +1,14 @@
 #include "tools/bench/output_folder.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <system_error>
 
 namespace lcs::bench {
@@ -25,10 +30,18 @@ fs::path resolved(const fs::path& target) {
   return path.has_filename() ? path : path.parent_path();
 }
 
+constexpr std::string_view kStaging = ".partial-", kOld = ".old-";
+
 fs::path beside(const fs::path& target, std::string_view suffix) {
   fs::path path = target;
-  path += fmt::format(".{}-{}", suffix, ::getpid());
+  path += fmt::format("{}{}", suffix, ::getpid());
   return path;
+}
+
+/// Exchanges two folders, so that there is no moment without either. False where the file system
+/// knows of no such thing.
+bool exchange(const fs::path& a, const fs::path& b) {
+  return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
 }
 
 bool name_fits(std::string_view name, std::string_view pattern) {
@@ -50,19 +63,50 @@ bool fits(const fs::path& within, bool is_folder, const fs::path& pattern) {
 
 }  // namespace
 
+FolderLock::FolderLock(const fs::path& folder, bool wait)
+    : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)) {
+  if (file_ < 0) return;
+  const int how = wait ? LOCK_EX : LOCK_EX | LOCK_NB;
+  int result = ::flock(file_, how);
+  while (result != 0 && errno == EINTR) result = ::flock(file_, how);
+  is_held_ = result == 0;
+}
+
+FolderLock::~FolderLock() {
+  if (file_ >= 0) ::close(file_);
+}
+
+bool FolderLock::is_of(const fs::path& folder) const {
+  struct stat here = {}, there = {};
+  return file_ >= 0 && ::fstat(file_, &here) == 0 && ::lstat(folder.c_str(), &there) == 0 &&
+         here.st_ino == there.st_ino && here.st_dev == there.st_dev;
+}
+
+void remove_abandoned(const fs::path& target) {
+  std::error_code ignored;
+  const std::string begin = target.filename().string() + std::string(kStaging);
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(target.parent_path(), ignored)) {
+    if (entry.path().filename().string().starts_with(begin)) found.push_back(entry.path());
+  }
+  for (const fs::path& path : found) {
+    const FolderLock lock(path, /*wait=*/false);
+    if (lock.is_held()) fs::remove_all(path, ignored);
+  }
+}
+
 OutputFolder::OutputFolder(const fs::path& target, std::vector<std::string> files)
-    : files_(std::move(files)), target_(resolved(target)), staging_(beside(target_, "partial")) {
+    : files_(std::move(files)), target_(resolved(target)), staging_(beside(target_, kStaging)) {
   require_replaceable();
   make_parents();
-  std::error_code error;
-  fs::create_directory(staging_, error);
-  if (error) fail("create", staging_, error);
+  remove_abandoned(target_);
+  make_staging();
 }
 
 OutputFolder::~OutputFolder() {
   if (committed_) return;
+  remove_staging();
   std::error_code ignored;  // there is nobody left to tell
-  fs::remove_all(staging_, ignored);
   // `remove` leaves folders that are not empty alone.
   std::for_each(made_parents_.rbegin(), made_parents_.rend(),
                 [&](const fs::path& parent) { fs::remove(parent, ignored); });
@@ -115,24 +159,46 @@ void OutputFolder::make_parents() {
   });
 }
 
+/// Another process may take a folder for abandoned that is not locked yet.
+void OutputFolder::make_staging() {
+  do {
+    std::error_code error;
+    fs::create_directory(staging_, error);
+    if (error) fail("create", staging_, error);
+    lock_.emplace(staging_, /*wait=*/true);
+  } while (lock_->is_held() && !lock_->is_of(staging_));
+}
+
+void OutputFolder::remove_staging() const {
+  std::error_code ignored;
+  fs::remove_all(staging_, ignored);
+}
+
 void OutputFolder::commit() {
   require_replaceable();  // it may have changed since
-  const fs::path old = beside(target_, "old");
   std::error_code error;
-  const bool replaces = fs::exists(target_);
-  if (replaces) {
+  fs::rename(staging_, target_, error);  // where there is nothing, or an empty folder
+  if (!error) {
+    committed_ = true;
+    return;
+  }
+  const bool is_there = error == std::errc::directory_not_empty || error == std::errc::file_exists;
+  if (!is_there) fail("create", target_, error);
+  if (exchange(staging_, target_)) {
+    remove_staging();  // what was there
+  } else {
+    const fs::path old = beside(target_, kOld);
     fs::rename(target_, old, error);
     if (error) fail("replace", target_, error);
-  }
-  fs::rename(staging_, target_, error);
-  if (error) {
-    std::error_code ignored;
-    if (replaces) fs::rename(old, target_, ignored);
-    fail("create", target_, error);
+    fs::rename(staging_, target_, error);
+    if (error) {
+      std::error_code ignored;
+      fs::rename(old, target_, ignored);
+      fail("create", target_, error);
+    }
+    fs::remove_all(old, error);
   }
   committed_ = true;
-  if (replaces) fs::remove_all(old, error);
-  if (error) fail("remove", old, error);
 }
 
 }  // namespace lcs::bench

@@ -96,6 +96,7 @@ void Journal::take_over(const std::string& plan) {
                     folder_.string(), differs));
   }
   complete_ = is_finished;
+  if (is_finished && fs::exists(folder_ / kJournal)) close();  // a process was killed at that
 }
 
 fs::path Journal::record_file(int frame) const {
@@ -166,6 +167,7 @@ FrameRecordEntry Journal::read(int frame) const {
 }
 
 void Journal::close() {
+  fs::remove(folder_ / kJournal / kPlan);  // first: without it the sequence is finished
   fs::remove_all(folder_ / kJournal);
   remove_unfinished(folder_);
 }

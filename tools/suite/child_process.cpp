@@ -3,8 +3,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,8 +17,6 @@
 #include <system_error>
 #include <thread>
 
-extern char** environ;
-
 namespace lcs::suite {
 namespace {
 
@@ -29,29 +27,25 @@ constexpr auto kPollPeriod = 10ms;
 constexpr auto kPatience = 10s;
 constexpr off_t kMostErr = 1 << 16;
 
-void require(int error, const char* what) {
-  if (error != 0) throw std::system_error(error, std::generic_category(), what);
+constexpr int kCannotStart = 127;  // as a shell has it
+
+int require(int result, const char* what) {
+  if (result < 0) throw std::system_error(errno, std::generic_category(), what);
+  return result;
 }
 
-/// What goes where in the child.
-class FileActions {
- public:
-  FileActions() { require(::posix_spawn_file_actions_init(&actions_), "posix_spawn"); }
-  ~FileActions() { ::posix_spawn_file_actions_destroy(&actions_); }
-  FileActions(const FileActions&) = delete;
-  FileActions& operator=(const FileActions&) = delete;
-
-  void open(int as, const char* path, int flags) {
-    require(::posix_spawn_file_actions_addopen(&actions_, as, path, flags, 0), "posix_spawn");
-  }
-  void copy(int from, int as) {
-    require(::posix_spawn_file_actions_adddup2(&actions_, from, as), "posix_spawn");
-  }
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
-
- private:
-  posix_spawn_file_actions_t actions_;
-};
+/// In the child, up to and with exec; does nothing that a forked process may not.
+[[noreturn]] void become(char* const* arguments, int err, pid_t parent) {
+  // However the parent ends, none of its children stays behind.
+  if (::prctl(PR_SET_PDEATHSIG, SIGTERM) != 0 || ::getppid() != parent) ::_exit(kCannotStart);
+  const int in = ::open("/dev/null", O_RDONLY), out = ::open("/dev/null", O_WRONLY);
+  const bool is_plugged = ::dup2(in, STDIN_FILENO) >= 0 && ::dup2(out, STDOUT_FILENO) >= 0 &&
+                          ::dup2(err, STDERR_FILENO) >= 0;
+  if (!is_plugged) ::_exit(kCannotStart);
+  // Not a path that a rebuild may replace meanwhile.
+  ::execv("/proc/self/exe", arguments);
+  ::_exit(kCannotStart);
+}
 
 std::string read_end(int file) {
   struct stat status = {};
@@ -86,20 +80,14 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
 
-  FileActions actions;
-  err_ = ::memfd_create("stderr", MFD_CLOEXEC);
-  if (err_ < 0) require(errno, "memfd_create");
-  try {
-    actions.open(STDIN_FILENO, "/dev/null", O_RDONLY);
-    actions.open(STDOUT_FILENO, "/dev/null", O_WRONLY);
-    actions.copy(err_, STDERR_FILENO);
-    // Not a path that a rebuild may replace meanwhile.
-    require(::posix_spawn(&pid_, "/proc/self/exe", actions.get(), nullptr, argv.data(), environ),
-            "posix_spawn");
-  } catch (...) {
-    ::close(err_);
-    throw;
-  }
+  err_ = require(::memfd_create("stderr", MFD_CLOEXEC), "memfd_create");
+  const pid_t self = ::getpid();
+  pid_ = ::fork();
+  if (pid_ == 0) become(argv.data(), err_, self);
+  if (pid_ > 0) return;
+  const int error = errno;
+  ::close(err_);
+  throw std::system_error(error, std::generic_category(), "fork");
 }
 
 ChildProcess::~ChildProcess() {

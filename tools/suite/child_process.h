@@ -24,7 +24,8 @@ struct Exit {
 /// some.
 std::string complaint_of(const Exit& exit);
 
-/// One run of this very program. Its stdout is dropped.
+/// One run of this very program. Its stdout is dropped. It is asked to end when the thread ends
+/// that made it, also by SIGKILL.
 class ChildProcess {
  public:
   /// \param arguments after the program's name. \throws std::system_error

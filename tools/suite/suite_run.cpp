@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "tools/bench/criteria.h"
+#include "tools/bench/output_folder.h"
 #include "tools/bench/report.h"
 #include "tools/bench/result.h"
 #include "tools/suite/child_process.h"
@@ -115,6 +116,7 @@ void finish_run(const PlannedScenario& planned, const Exit& exit, const fs::path
   const bool has_figures = exit.signal == 0 && (exit.code == 0 || exit.code == 1);
   if (!has_figures) {
     run.error = complaint_of(exit);
+    bench::remove_abandoned(suite_folder / folder_of(planned, run.seed));
     return;
   }
   run.folder = folder_of(planned, run.seed);

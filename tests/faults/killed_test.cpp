@@ -1,0 +1,130 @@
+// What `kill -9` leaves at any moment: nothing half-written is mistaken for whole, nothing stays
+// behind, and the next run ends with the bytes of one that was never stopped.
+//
+// LCS_KILLS says how many moments; few if it is not set.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <random>
+#include <thread>
+
+#include "tests/tools/command.h"
+#include "tests/tools/files.h"
+#include "tests/tools/processes.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/bench/report.h"
+#include "tools/sequence/manifest.h"
+#include "tools/suite/suite_result.h"
+
+namespace lcs::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+int kills() {
+  const char* text = std::getenv("LCS_KILLS");
+  return text == nullptr ? 3 : std::atoi(text);
+}
+
+class Killed : public testing::Test {
+ protected:
+  Killed() {
+    fs::create_directory(home_.path() / "scenarios");
+    for (const char* name : {"far", "near"}) {
+      std::ofstream(home_.path() / "scenarios" / (std::string(name) + ".yaml"))
+          << "purpose: none\nscene: lab\nframes: 6\n"
+             "ego: {start: [-4 m, 0 m], speed: 0.5 m/s}\ncamera: {size: [160, 120]}\n";
+    }
+  }
+  CommandResult run(const std::vector<std::string>& arguments) const {
+    return run_lcs(arguments, {.folder = home_.path()});
+  }
+  /// At a moment of the time that the whole takes, or a little after.
+  void run_and_kill(const std::vector<std::string>& arguments, Seconds whole) {
+    Command command(arguments, {.folder = home_.path()});
+    std::this_thread::sleep_for(1.1 * whole * static_cast<double>(random_()) /
+                                static_cast<double>(std::mt19937::max()));
+    const std::vector<pid_t> children = children_of(command.pid());
+    command.send(SIGKILL);
+    command.wait();
+    expect_gone(children);
+  }
+  Seconds time(const std::vector<std::string>& arguments) const {
+    const Clock::time_point start = Clock::now();
+    const CommandResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return Clock::now() - start;
+  }
+
+  const TemporaryFolder home_;
+
+ private:
+  static void expect_gone(const std::vector<pid_t>& processes) {
+    const Clock::time_point deadline = Clock::now() + std::chrono::seconds(20);
+    for (const pid_t process : processes) {
+      // Nobody is left to collect it but the system: a zombie is gone as well.
+      while (is_running(process) && Clock::now() < deadline) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      }
+      EXPECT_FALSE(is_running(process)) << "a child is left";
+    }
+  }
+
+  std::mt19937 random_{1};
+};
+
+TEST_F(Killed, SuiteLeavesTheEarlierOneOrTheNewOne) {
+  const std::vector<std::string> earlier{"suite", "scenarios", "--seeds", "1", "--quiet"};
+  std::vector<std::string> later = earlier;
+  later.insert(later.end(), {"--set", "ego.speed=0.6 m/s"});
+  const Seconds whole = time(earlier);
+  const fs::path out = home_.path() / "out" / "suite";
+  bool is_earlier = true;
+  for (int i = 0; i < kills(); ++i) {
+    const auto before = bytes_in(out);
+    run_and_kill(is_earlier ? later : earlier, whole);
+    const auto after = bytes_in(out);
+    if (after == before) continue;
+    is_earlier = !is_earlier;
+    const suite::SuiteResult suite = suite::read_suite(out);
+    EXPECT_EQ(suite.sets.empty(), is_earlier);
+    ASSERT_EQ(suite.scenarios.size(), 2u);
+    for (const suite::ScenarioResult& scenario : suite.scenarios) {
+      EXPECT_EQ(scenario.runs.at(0).outcome, suite::Outcome::passed) << scenario.runs[0].error;
+      EXPECT_EQ(read_metrics(out / scenario.runs[0].folder / kMetricsFile),
+                scenario.runs[0].metrics);
+    }
+    for (const auto& [path, bytes] : after) EXPECT_EQ(path.find("partial"), path.npos) << path;
+  }
+  time(earlier);
+  EXPECT_EQ(entries(home_.path() / "out"), std::set<std::string>{"suite"});
+  EXPECT_TRUE(suite::read_suite(out).sets.empty());
+}
+
+TEST_F(Killed, GenerateGoesOnToTheSameBytes) {
+  const auto to = [](const char* folder, const char* jobs) {
+    return std::vector<std::string>{
+        "generate", "scenarios/near.yaml", "--out", folder, "--jobs", jobs, "--quiet"};
+  };
+  const Seconds whole = time(to("never_stopped", "1"));
+  const auto expected = bytes_in(home_.path() / "never_stopped");
+  for (int i = 0; i < kills(); ++i) {
+    run_and_kill(to("stopped", i % 2 == 0 ? "1" : "2"), whole);
+    const fs::path folder = home_.path() / "stopped";
+    if (!fs::exists(folder / sequence::kManifestFile)) continue;
+    EXPECT_TRUE(sequence::damage(folder).empty()) << "it says that it is whole";
+    time(to("stopped", "1"));
+    EXPECT_TRUE(bytes_in(folder) == expected);
+    fs::remove_all(folder);
+  }
+  time(to("stopped", "1"));
+  EXPECT_TRUE(bytes_in(home_.path() / "stopped") == expected);
+}
+
+}  // namespace
+}  // namespace lcs::bench

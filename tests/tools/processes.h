@@ -1,0 +1,51 @@
+/// \file
+/// Which processes there are.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace lcs::bench {
+
+/// Of a process: its state as one letter, and its parent; the state is 0 when it is gone.
+struct ProcessState {
+  char state = 0;
+  pid_t parent = 0;
+};
+inline ProcessState state_of(const std::string& process) {
+  std::ifstream file(std::filesystem::path("/proc") / process / "stat");
+  const std::string stat{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t after_name = stat.rfind(')');
+  ProcessState state;
+  if (after_name != std::string::npos) {
+    std::sscanf(stat.c_str() + after_name + 1, " %c %d", &state.state, &state.parent);
+  }
+  return state;
+}
+
+/// One that has ended but that nobody has waited for is not running.
+inline bool is_running(pid_t process) {
+  const char state = state_of(std::to_string(process)).state;
+  return state != 0 && state != 'Z';
+}
+
+/// The children of a process that still run.
+inline std::vector<pid_t> children_of(pid_t parent) {
+  std::vector<pid_t> children;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    if (state_of(name).parent == parent && is_running(std::stoi(name))) {
+      children.push_back(std::stoi(name));
+    }
+  }
+  return children;
+}
+
+}  // namespace lcs::bench
