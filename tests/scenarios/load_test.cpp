@@ -46,6 +46,16 @@ TEST(Load, TheSmallestScenarioHasTheDocumentedDefaults) {
   EXPECT_TRUE(s.criteria.empty());
 }
 
+TEST(Load, LineEndsOfWindowsAndAByteOrderMarkMakeNoDifference) {
+  const Scenario s = load_text(
+      "\xef\xbb\xbfscene: room.xml\r\npurpose: two words\r\nframes: 3\r\nego:\r\n"
+      "  speed: 0.5 m/s\r\n");
+  EXPECT_EQ(s.scene.filename(), "room.xml");
+  EXPECT_EQ(s.purpose, "two words");
+  EXPECT_EQ(s.frames, 3);
+  EXPECT_EQ(s.ego.phases.at(0).speed_mps, 0.5);
+}
+
 TEST(Load, EveryKeyOfTheRoverAndItsSensorsArrives) {
   const Scenario s = load_text(R"(
 purpose: all keys
