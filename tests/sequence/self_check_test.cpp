@@ -31,7 +31,7 @@ class SelfCheck : public testing::Test {
     return motion_field(calibration_.camera, now_.truth, next_.truth.depth_m, next_.truth.object);
   }
   Agreement check(const cv::Mat2f& motion, const cv::Mat1b& seen) const {
-    return check_flow(calibration_.camera, now_, next_, kitti_flow(motion, seen));
+    return check_flow(calibration_.camera, now_, next_, motion, seen);
   }
   cv::Mat1b mask() const {
     cv::Mat1b mask(now_.truth.object.size());

@@ -2,6 +2,7 @@
 /// Optical flow as KITTI and Middlebury store it.
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <string>
 
@@ -17,6 +18,18 @@ inline constexpr float kKittiFlowZero = 32768;
 inline constexpr float kMiddleburyUnknown = 1e10F;
 
 /// Channels u, v, valid, in this order; all 0 where not valid or too large for the format.
+inline cv::Vec3w kitti_code(const cv::Vec2f& motion_px, bool is_valid) {
+  // In double: a float of 16 whole bits has too few left for the rounding.
+  const double u = static_cast<double>(motion_px[0]) * kKittiFlowScale + kKittiFlowZero;
+  const double v = static_cast<double>(motion_px[1]) * kKittiFlowScale + kKittiFlowZero;
+  constexpr double kMost = 65535;
+  const bool fits = u >= 0 && u <= kMost && v >= 0 && v <= kMost;  // not so a NaN
+  if (!is_valid || !fits) return {0, 0, 0};
+  // Positive, so that adding a half rounds to the nearest.
+  return {static_cast<std::uint16_t>(u + 0.5), static_cast<std::uint16_t>(v + 0.5), 1};
+}
+
+/// Of each pixel.
 cv::Mat3w kitti_flow(const cv::Mat2f& motion_px, const cv::Mat1b& valid);
 
 /// The bytes of a .flo file.

@@ -2,9 +2,10 @@
 // own part of it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
+#include <vector>
 
 #include "tools/sequence/flow_code.h"
 #include "tools/sequence/png.h"
@@ -38,19 +39,7 @@ cv::Mat3w kitti_flow(const cv::Mat2f& motion_px, const cv::Mat1b& valid) {
     const cv::Vec2f* from = motion_px[y];
     const unsigned char* is_valid = valid[y];
     cv::Vec3w* to = code[y];
-    for (int x = 0; x < code.cols; ++x) {
-      // In double: a float of 16 whole bits has too few left for the rounding.
-      const double u = static_cast<double>(from[x][0]) * kKittiFlowScale + kKittiFlowZero;
-      const double v = static_cast<double>(from[x][1]) * kKittiFlowScale + kKittiFlowZero;
-      constexpr double kMost = 65535;
-      const bool fits = u >= 0 && u <= kMost && v >= 0 && v <= kMost;  // not so a NaN
-      if (is_valid[x] && fits) {
-        // Positive, so that adding a half rounds to the nearest.
-        to[x] = {static_cast<std::uint16_t>(u + 0.5), static_cast<std::uint16_t>(v + 0.5), 1};
-      } else {
-        to[x] = {0, 0, 0};
-      }
-    }
+    for (int x = 0; x < code.cols; ++x) to[x] = kitti_code(from[x], is_valid[x] != 0);
   }
   return code;
 }
@@ -60,17 +49,17 @@ std::string middlebury_flow(const cv::Mat2f& motion_px) {
   constexpr float kTag = 202021.25F;
   const std::int32_t size[2] = {motion_px.cols, motion_px.rows};
   const std::size_t row_bytes = static_cast<std::size_t>(motion_px.cols) * sizeof(cv::Vec2f);
-  std::string bytes(
-      sizeof kTag + sizeof size + row_bytes * static_cast<std::size_t>(motion_px.rows), '\0');
-  std::memcpy(bytes.data(), &kTag, sizeof kTag);
-  std::memcpy(bytes.data() + sizeof kTag, size, sizeof size);
-  char* to = bytes.data() + sizeof kTag + sizeof size;
-  for (int y = 0; y < motion_px.rows; ++y, to += row_bytes) {
-    std::memcpy(to, motion_px[y], row_bytes);
-    auto* values = reinterpret_cast<float*>(to);
-    for (int i = 0; i < 2 * motion_px.cols; ++i) {
-      if (std::isnan(values[i])) values[i] = kMiddleburyUnknown;
-    }
+  std::string bytes;
+  bytes.reserve(sizeof kTag + sizeof size + row_bytes * static_cast<std::size_t>(motion_px.rows));
+  bytes.append(reinterpret_cast<const char*>(&kTag), sizeof kTag);
+  bytes.append(reinterpret_cast<const char*>(size), sizeof size);
+  std::vector<float> row(2 * static_cast<std::size_t>(motion_px.cols));
+  for (int y = 0; y < motion_px.rows; ++y) {
+    const auto* values = motion_px.ptr<float>(y);
+    std::replace_copy_if(
+        values, values + row.size(), row.begin(), [](float value) { return std::isnan(value); },
+        kMiddleburyUnknown);
+    bytes.append(reinterpret_cast<const char*>(row.data()), row_bytes);
   }
   return bytes;
 }

@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "sim/simulation.h"
-#include "tools/sequence/flow_code.h"
 #include "tools/sequence/manifest.h"
 #include "tools/sequence/motion_field.h"
 #include "tools/sequence/objects.h"
@@ -53,8 +52,8 @@ class FrameMaker {
     if (has_flow_ && next != nullptr) {
       motion = motion_field(info_.calibration.camera, now.truth, next->truth.depth_m,
                             next->truth.object);
-      checks["flow_px"].add(check_flow(info_.calibration.camera, now, *next,
-                                       kitti_flow(motion->full_px, motion->seen)));
+      checks["flow_px"].add(
+          check_flow(info_.calibration.camera, now, *next, motion->full_px, motion->seen));
     }
     const cv::Mat1b mask = object_mask(now.truth);
     check_masks(now.index, mask, now.objects, static_cast<int>(info_.objects.size()));

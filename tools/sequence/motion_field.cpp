@@ -46,6 +46,13 @@ struct NextView {
   /// round it shows that body, and the depth lies between theirs.
   bool shows(double x, double y, float z, int id) const {
     const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+    const auto is_within = [z](float least, float most) {
+      return z >= least * (1 - kDepthSlack) && z <= most * (1 + kDepthSlack);
+    };
+    // Mostly one of the four tells all.
+    if (const float here = depth_m(y0, x0); object(y0, x0) == id && is_within(here, here)) {
+      return true;
+    }
     const int x1 = std::min(x0 + 1, depth_m.cols - 1), y1 = std::min(y0 + 1, depth_m.rows - 1);
     float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
     bool is_there = false;
@@ -57,7 +64,7 @@ struct NextView {
         is_there |= object(row, column) == id;
       }
     }
-    return is_there && z >= nearest * (1 - kDepthSlack) && z <= farthest * (1 + kDepthSlack);
+    return is_there && is_within(nearest, farthest);
   }
 };
 
@@ -90,19 +97,18 @@ MotionField motion_field(const sim::Pinhole& camera, const sim::FrameTruth& trut
       seen[x] = ego_seen[x] = 0;
       const bool is_sky = std::isinf(depth[x]);
       if (object[x] < 0 && !is_sky) continue;
-      // The point over its depth, so that infinity is a number like others.
-      const double w = is_sky ? 0 : 1 / static_cast<double>(depth[x]);
+      // Of what is infinitely far the direction is all, and translation is nothing to it.
+      const double scale = is_sky ? 1 : static_cast<double>(depth[x]), near = is_sky ? 0 : 1;
       const auto move = [&](std::size_t id, cv::Vec2f& motion, unsigned char& is_seen,
                             bool is_real) {
         const Eigen::Vector3d& t = carriers[id].T_NC.p;
-        const double z = row_start[id].z() + x * step[id].z() + w * t.z();
-        if (z < kInFront) return;
-        const double scale = f / z;
-        const double u = scale * (row_start[id].x() + x * step[id].x() + w * t.x()) + cx;
-        const double v = scale * (row_start[id].y() + x * step[id].y() + w * t.y()) + cy;
+        const Eigen::Vector3d p = scale * (row_start[id] + x * step[id]) + near * t;
+        if (p.z() < kInFront * scale) return;
+        const double f_z = f / p.z();
+        const double u = f_z * p.x() + cx, v = f_z * p.y() + cy;
         motion = {static_cast<float>(u - x), static_cast<float>(v - y)};
         is_seen = next.holds(u, v) &&
-                  (!is_real || next.shows(u, v, static_cast<float>(z / w), object[x]));
+                  (!is_real || next.shows(u, v, static_cast<float>(p.z()), object[x]));
       };
       const auto id = static_cast<std::size_t>(std::max(object[x], 0));
       move(0, ego[x], ego_seen[x], !carriers[id].moves);

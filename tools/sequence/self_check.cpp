@@ -86,7 +86,8 @@ State integrate(const State& from, const Vector3d& gyro, const Vector3d& accel, 
 }  // namespace
 
 Agreement check_flow(const sim::Pinhole& camera, const sim::Observation& now,
-                     const sim::Observation& next, const cv::Mat3w& kitti_flow) {
+                     const sim::Observation& next, const cv::Mat2f& motion_px,
+                     const cv::Mat1b& seen) {
   const sim::Pose T_CW = now.truth.now.T_WC.inverse();
   std::vector<sim::Pose> T_CN;  // back, for each body
   for (std::size_t id = 0; id < now.truth.now.T_WO.size(); ++id) {
@@ -94,9 +95,9 @@ Agreement check_flow(const sim::Pinhole& camera, const sim::Observation& now,
     T_CN.push_back(T_CW * (back * next.truth.now.T_WC));
   }
   Agreement agreement;
-  for (int y = 0; y < kitti_flow.rows; y += kFlowStride) {
-    for (int x = 0; x < kitti_flow.cols; x += kFlowStride) {
-      const cv::Vec3w& code = kitti_flow(y, x);
+  for (int y = 0; y < motion_px.rows; y += kFlowStride) {
+    for (int x = 0; x < motion_px.cols; x += kFlowStride) {
+      const cv::Vec3w code = kitti_code(motion_px(y, x), seen(y, x) != 0);
       if (code[2] == 0) continue;
       const Vector2d goal = Vector2d(x, y) + decoded(code);
       const int object = now.truth.object(y, x);

@@ -40,7 +40,8 @@ struct Agreement {
 /// depth round its goal is that of one flat surface, so that it can be told between pixels. \return
 /// distances between where one began and where one is again, px. \throws TruthError beyond 0.05 px.
 Agreement check_flow(const sim::Pinhole& camera, const sim::Observation& now,
-                     const sim::Observation& next, const cv::Mat3w& kitti_flow);
+                     const sim::Observation& next, const cv::Mat2f& motion_px,
+                     const cv::Mat1b& seen);
 
 /// Boxes against masks: each object's box and number of pixels as they are in the mask, and every
 /// pixel of the mask is some object's. \param mask ids of objects; those over `count` are none.
