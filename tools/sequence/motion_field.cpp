@@ -97,18 +97,19 @@ MotionField motion_field(const sim::Pinhole& camera, const sim::FrameTruth& trut
       seen[x] = ego_seen[x] = 0;
       const bool is_sky = std::isinf(depth[x]);
       if (object[x] < 0 && !is_sky) continue;
-      // Of what is infinitely far the direction is all, and translation is nothing to it.
-      const double scale = is_sky ? 1 : static_cast<double>(depth[x]), near = is_sky ? 0 : 1;
+      // The point over its depth, so that infinity is a number like others.
+      const double w = is_sky ? 0 : 1 / static_cast<double>(depth[x]);
       const auto move = [&](std::size_t id, cv::Vec2f& motion, unsigned char& is_seen,
                             bool is_real) {
         const Eigen::Vector3d& t = carriers[id].T_NC.p;
-        const Eigen::Vector3d p = scale * (row_start[id] + x * step[id]) + near * t;
-        if (p.z() < kInFront * scale) return;
-        const double f_z = f / p.z();
-        const double u = f_z * p.x() + cx, v = f_z * p.y() + cy;
+        const double z = row_start[id].z() + x * step[id].z() + w * t.z();
+        if (z < kInFront) return;
+        const double scale = f / z;
+        const double u = scale * (row_start[id].x() + x * step[id].x() + w * t.x()) + cx;
+        const double v = scale * (row_start[id].y() + x * step[id].y() + w * t.y()) + cy;
         motion = {static_cast<float>(u - x), static_cast<float>(v - y)};
         is_seen = next.holds(u, v) &&
-                  (!is_real || next.shows(u, v, static_cast<float>(p.z()), object[x]));
+                  (!is_real || next.shows(u, v, static_cast<float>(z / w), object[x]));
       };
       const auto id = static_cast<std::size_t>(std::max(object[x], 0));
       move(0, ego[x], ego_seen[x], !carriers[id].moves);
