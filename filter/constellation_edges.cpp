@@ -501,12 +501,10 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
 
 /// Normal edges of groups that stand on nothing are turned into rebels.
 void ConstellationEdges::turn_unfounded(Layers& layers, const Chi& chi, const MotionField& field) {
-  const int frames = parameters_.footing.frames;
-  if (frames == 0) return;
   footing_.judge(layers.normal_edges, layers.rebel_edges, field);
   for (Edge& edge : layers.normal_edges) {
     const int c = edge.corner;
-    if (c < 0 || edge.unfounded < frames) continue;
+    if (c < 0 || !footing_.is_unfounded(edge)) continue;
     Edge rebel =
         make_rebel(chi.locations[c], (edge.location - edge.rotated) / field.dt_s(), field.dt_s());
     rebel.anchor = edge.anchor;

@@ -18,6 +18,9 @@ constexpr double kKnownShare = 0.2, kKnown_1pm = 0.03;
 /// Frames after which a path counts: what rain and flicker make is gone by then.
 constexpr int kLeastAge = 3;
 
+/// Frames for which a group must stand on nothing at the least, however far apart they are.
+constexpr int kLeastFrames = 2;
+
 /// Share by which depths within a group may differ, beside their errors.
 constexpr double kLikeDepth = 0.1;
 double like_depth(double ratio) {
@@ -101,15 +104,19 @@ void Footing::stack() {
   }
 }
 
-bool Footing::sunk(Group group) const {
+Footing::Extent Footing::sunk(Group group) const {
   int low = 0, below = 0;
+  Extent extent;
   for (const int i : group) {
     const Node& node = nodes_[i];
     if (node.ground < 2 * slack_) continue;
     ++low;
-    below += node.ratio + 2 * node.sigma < node.ground - slack_;
+    if (!(node.ratio + 2 * node.sigma < node.ground - slack_)) continue;
+    ++below;
+    const double overhang = overhang_px_ * node.ground;
+    extent.add(node.across - overhang, node.across + overhang);
   }
-  return below >= kLeastSunk && below >= kSunkShare * low;
+  return below >= kLeastSunk && below >= kSunkShare * low ? extent : Extent();
 }
 
 /// Whether a group's foot is seen farther away than the group seems to be.
@@ -124,44 +131,46 @@ bool Footing::hangs(Group group) {
   return depths_.mean(depths_.sets().root(group.front())) > parameters_.lift * (foot + slack_);
 }
 
-bool Footing::aloft(Group group) {
+Footing::Extent Footing::aloft(Group group) {
   const int own = depths_.sets().root(group.front());
-  if (!hanging_[own] || static_cast<int>(group.size()) < parameters_.members) return false;
-  double left = nodes_[own].across, right = left, foot = nodes_[own].ground;
+  if (!hanging_[own] || static_cast<int>(group.size()) < parameters_.members) return {};
+  Extent extent;
+  double foot = nodes_[own].ground;
   for (const int i : group) {
-    left = std::min(left, nodes_[i].across);
-    right = std::max(right, nodes_[i].across);
+    extent.add(nodes_[i].across, nodes_[i].across);
     foot = std::max(foot, nodes_[i].ground);
   }
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
     if (hanging_[depths_.sets().root(static_cast<int>(i))]) continue;
-    const bool below = node.ground > foot && node.across > left - kBearerMargin_px &&
-                       node.across < right + kBearerMargin_px;
-    if (below && node.ratio > kBearerShare * depths_.mean(own)) return false;
+    const bool below = node.ground > foot && node.across > extent.left - kBearerMargin_px &&
+                       node.across < extent.right + kBearerMargin_px;
+    if (below && node.ratio > kBearerShare * depths_.mean(own)) return {};
   }
-  return true;
+  return extent;
 }
 
 /// An edge that is new to a group knows what the group knows.
-void Footing::count(Group group, bool unfounded) const {
+void Footing::count(Group group, const Extent& unfounded) const {
   double known = 0;
   for (const int i : group) known += nodes_[i].edge->unfounded;
   const int mean = static_cast<int>(std::lround(known / static_cast<double>(group.size())));
   for (const int i : group) {
     int& frames = nodes_[i].edge->unfounded;
-    frames = unfounded ? std::min(2 * parameters_.frames, std::max(frames, mean) + 1)
-                       : std::max(0, frames - 1);
+    frames = unfounded.holds(nodes_[i].across) ? std::min(2 * frames_, std::max(frames, mean) + 1)
+                                               : std::max(0, frames - 1);
   }
 }
 
 void Footing::judge(std::vector<Edge>& normals, std::vector<Edge>& rebels,
                     const MotionField& field) {
-  if (!field.ground() || !field.moving()) return;
+  if (parameters_.time <= 0 || !field.ground() || !field.moving()) return;
   const Vec2 up = field.ground()->up_C.head<2>();
   if (up.norm() < kLeastTilt) return;
   along_horizon_ = Vec2(-up.y(), up.x()).normalized();
+  frames_ = std::max(kLeastFrames, static_cast<int>(std::lround(parameters_.time / field.dt_s())));
   slack_ = field.ground_slack();
+  overhang_px_ = field.parallax(Vec2::Zero(), {parameters_.overhang, 0, 0});
   nodes_.clear();
   points_.clear();
   gather(normals, field);
@@ -171,7 +180,11 @@ void Footing::judge(std::vector<Edge>& normals, std::vector<Edge>& rebels,
   groups_.collect(depths_.sets(), [](std::size_t) { return true; });
   refill(hanging_, nodes_.size());
   groups_.visit([&](Group group) { hanging_[depths_.sets().root(group.front())] = hangs(group); });
-  groups_.visit([&](Group group) { count(group, sunk(group) || aloft(group)); });
+  groups_.visit([&](Group group) {
+    Extent unfounded = sunk(group);
+    if (unfounded.is_empty()) unfounded = aloft(group);
+    count(group, unfounded);
+  });
 }
 
 }  // namespace lcs

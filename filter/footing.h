@@ -9,6 +9,8 @@
 ///   It comes on. (A static body that hangs lower than the camera is taken for one that does.)
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -30,6 +32,9 @@ class Footing {
   /// before.
   void judge(std::vector<Edge>& normals, std::vector<Edge>& rebels, const MotionField& field);
 
+  /// For as long as it takes.
+  bool is_unfounded(const Edge& edge) const { return edge.unfounded >= frames_; }
+
  private:
   /// An edge whose depth is known from its path. Depths are ratios Z_ref / Z.
   struct Node {
@@ -40,17 +45,29 @@ class Footing {
     double across;  // place along the horizon, px
   };
   using Group = std::span<const int>;  // nodes
+  /// Along the horizon, px.
+  struct Extent {
+    double left = std::numeric_limits<double>::infinity(), right = -left;
+    void add(double from, double to) {
+      left = std::min(left, from);
+      right = std::max(right, to);
+    }
+    bool is_empty() const { return left > right; }
+    bool holds(double place) const { return left <= place && place <= right; }
+  };
 
   void gather(std::vector<Edge>& edges, const MotionField& field);
   void link();
   void stack();
-  bool sunk(Group group) const;
+  Extent sunk(Group group) const;
   bool hangs(Group group);
-  bool aloft(Group group);
-  void count(Group group, bool unfounded) const;
+  Extent aloft(Group group);
+  void count(Group group, const Extent& unfounded) const;
 
   FootingParameters parameters_;
-  double slack_ = 0;  // ratio by which the ground may differ from its plane
+  int frames_ = 2;          // for which a group must stand on nothing
+  double slack_ = 0;        // ratio by which the ground may differ from its plane
+  double overhang_px_ = 0;  // at a ratio of 1
   Vec2 along_horizon_ = Vec2::UnitX();
   std::vector<Node> nodes_;
   std::vector<Vec2> points_;

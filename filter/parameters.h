@@ -82,10 +82,11 @@ struct ConstellationParameters {
 
 /// Groups that stand on nothing (`filter/footing.h`), told beside the constellation rule.
 struct FootingParameters {
-  int frames = 2;     ///< for which a group must stand on nothing; 0: never asked
-  double reach = 80;  ///< px: how far apart the edges of a group may lie
-  int members = 6;    ///< that a group aloft needs
-  double lift = 2;    ///< the depth of the ground at its foot, over its own, that it must exceed
+  double time = 0.24;  ///< s for which a group must stand on nothing; 0: never asked
+  double reach = 80;   ///< px: how far apart the edges of a group may lie
+  int members = 6;     ///< that a group aloft needs
+  double lift = 2;     ///< the depth of the ground at its foot, over its own, that it must exceed
+  double overhang = 0.3;  ///< m: how far beside what is below the ground its body reaches
 };
 
 /// Circle expert: edges, alpha, circles.

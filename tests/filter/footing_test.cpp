@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "filter/filter.h"
 #include "tests/filter/world.h"
@@ -22,20 +25,23 @@ constexpr double kHeight_m = 0.45;
 /// A level camera that drives ahead over a floor. C has y down: the floor lies at y = height.
 class Drive {
  public:
-  explicit Drive(const char* ground = "true", Ground told = {.height_m = kHeight_m}) {
+  using Settings = std::vector<std::pair<const char*, const char*>>;
+
+  explicit Drive(const Settings& settings = {}, const Ground& told = {.height_m = kHeight_m}) {
     Parameters parameters = preset("default");
-    set(parameters, "field.ground", ground);
+    for (const auto& [key, value] : settings) set(parameters, key, value);
     filter_ = Filter(vga(), parameters);
     motion_.ground = told;
   }
 
-  /// Corners all over an upright patch of 0.5 m whose foot is `foot_m` above the floor.
+  /// Corners all over an upright patch of 0.5 m whose foot is `foot_m` above the floor; `scale`
+  /// times as wide, and the corners as far apart.
   void stand(double x_m, double z_m, double foot_m, double top_m,
-             const Vector3d& velocity = Vector3d::Zero()) {
+             const Vector3d& velocity = Vector3d::Zero(), double scale = 1) {
     const int first = static_cast<int>(world_.points.size());
-    for (double y = foot_m; y <= top_m + 1e-9; y += 0.12) {
-      for (double x = -0.25; x <= 0.25; x += 0.12) {
-        const double jitter = 0.03;
+    const double jitter = 0.03 * scale;
+    for (double y = foot_m; y <= top_m + 1e-9; y += 0.12 * scale) {
+      for (double x = -0.25 * scale; x <= 0.25 * scale; x += 0.12 * scale) {
         // The lowest row stands on the foot itself.
         const double up = y == foot_m ? y : y + random_.uniform(-jitter, jitter);
         world_.points.push_back(
@@ -85,7 +91,7 @@ class Drive {
 
 TEST(Footing, ABodyThatComesHeadOnIsToldByItsFeetAlone) {
   for (const char* ground : {"true", "false"}) {
-    Drive drive(ground);
+    Drive drive(Drive::Settings{{"field.ground", ground}});
     drive.stand(0, 6, 0, 1.6, {0, 0, -0.7});
     drive.frames(15);
     if (std::string(ground) == "true") {
@@ -98,7 +104,7 @@ TEST(Footing, ABodyThatComesHeadOnIsToldByItsFeetAlone) {
 
 TEST(Footing, ABodyThatRunsAheadIsFartherThanTheGroundThatItHides) {
   for (const char* ground : {"true", "false"}) {
-    Drive drive(ground);
+    Drive drive(Drive::Settings{{"field.ground", ground}});
     drive.stand(0, 4, 0, 1, {0, 0, 0.3});  // as fast as the camera: its image stands still
     drive.frames(25);
     if (std::string(ground) == "true") {
@@ -106,6 +112,22 @@ TEST(Footing, ABodyThatRunsAheadIsFartherThanTheGroundThatItHides) {
       EXPECT_GT(drive.rebels(0), 0.6);
     } else {
       EXPECT_EQ(drive.rebels(0), 0);
+    }
+  }
+}
+
+TEST(Footing, WhatIsFarBeyondARunnerDoesNotRunWithIt) {
+  // Both seem to be infinitely far; the runner's feet alone are below the ground.
+  for (const char* overhang : {"0.3", "1000"}) {
+    Drive drive(Drive::Settings{{"footing.overhang", overhang}});
+    drive.stand(0, 4, 0, 1, {0, 0, 0.3});
+    drive.stand(27, 200, 0, 27, Vector3d::Zero(), 27);
+    drive.frames(25);
+    EXPECT_GT(drive.rebels(0), 0.6);
+    if (std::string(overhang) == "0.3") {
+      EXPECT_LT(drive.rebels(1), 0.05);
+    } else {
+      EXPECT_GT(drive.rebels(1), 0.2);
     }
   }
 }
@@ -122,7 +144,7 @@ TEST(Footing, WhatStandsIsNoRebelWhereverItStands) {
 TEST(Footing, NorIsItWhereTheGroundIsOffByHalfADegree) {
   for (const double tilt_rad : {-0.009, 0.009}) {
     const Vector3d up = testing::rotation({tilt_rad, 0, 0}) * Vector3d(0, -1, 0);
-    Drive drive("true", {.up_C = up, .height_m = kHeight_m});
+    Drive drive({}, {.up_C = up, .height_m = kHeight_m});
     for (int i = 0; i < 5; ++i) drive.stand(-2 + i, 3 + 0.5 * i, 0, 1);
     for (int k = 0; k < 25; ++k) {
       drive.frames(1);
