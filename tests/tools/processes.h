@@ -35,6 +35,12 @@ inline bool is_running(pid_t process) {
   return state != 0 && state != 'Z';
 }
 
+/// Its program and arguments, each ended by a NUL; empty when it is gone.
+inline std::string command_line_of(pid_t process) {
+  std::ifstream file(std::filesystem::path("/proc") / std::to_string(process) / "cmdline");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 /// The children of a process that still run.
 inline std::vector<pid_t> children_of(pid_t parent) {
   std::vector<pid_t> children;
