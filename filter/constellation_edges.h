@@ -33,6 +33,7 @@ class ConstellationEdges : public EdgeExpert {
   void predict(Layers& layers, const MotionField& field) override;
   void update(Layers& layers, const Chi& chi, const MotionField& field,
               std::vector<Verdict>& verdicts) override;
+  void forget() override { history_.clear(); }
 
  private:
   /// An earlier frame, in this frame's pixels (rotation removed).

@@ -16,6 +16,10 @@ namespace {
 /// frames do not add up for ever.
 constexpr double kPathMemory = 0.8;
 
+/// px^2: far above what any path gives; a camera that flees at an absurd speed would take it to
+/// infinity.
+constexpr double kMostPathWeight = 1e50;
+
 }  // namespace
 
 void EdgeExpert::assign_one_to_one(std::size_t edges, std::size_t corners) {
@@ -52,7 +56,10 @@ void EdgeExpert::predict_path(Edge& edge, const MotionField& field) {
   const double before = edge.path_ratio;
   edge.path_ratio = field.advanced_ratio(before);
   // The information shrinks as its unit, the ratio squared, grows.
-  if (before > 0) edge.path_weight *= std::pow(before / edge.path_ratio, 4);
+  if (before > 0) {
+    edge.path_weight =
+        std::min(edge.path_weight * std::pow(before / edge.path_ratio, 4), kMostPathWeight);
+  }
 }
 
 void EdgeExpert::measure_path(Edge& edge, const Vec2& x, const MotionField& field) const {
@@ -62,7 +69,7 @@ void EdgeExpert::measure_path(Edge& edge, const Vec2& x, const MotionField& fiel
   const double memory = kPathMemory * edge.path_weight;
   const double measured = field.ratio_from(x, edge.anchor, edge.travelled_C_m);
   edge.path_ratio = (memory * edge.path_ratio + weight * measured) / (memory + weight);
-  edge.path_weight = memory + weight;
+  edge.path_weight = std::min(memory + weight, kMostPathWeight);
 }
 
 Edge EdgeExpert::make_normal(const Vec2& x, double depth_ratio, double mu,

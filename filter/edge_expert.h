@@ -32,6 +32,9 @@ class EdgeExpert {
   virtual void update(Layers& layers, const Chi& chi, const MotionField& field,
                       std::vector<Verdict>& verdicts) = 0;
 
+  /// Forgets what it remembers of former frames beside the layers.
+  virtual void forget() {}
+
   /// What settled each corner of the last chi.
   const std::vector<Reason>& reasons() const { return reasons_; }
 

@@ -2,6 +2,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "filter/intake.h"
 
 namespace lcs {
 namespace {
@@ -38,6 +43,38 @@ constexpr int kSilentPeriods = 4;
 constexpr double kUnseenTurn = 0.1;          // rad/s/sqrt(Hz), about the vertical
 constexpr double kUnseenAcceleration = 1.0;  // m/s^2/sqrt(Hz)
 
+// Beyond what sensors measure and wheels drive.
+constexpr double kMostRate_radps = 100, kMostForce_mps2 = 2000, kMostSpeed_mps = 1000;
+
+// Variances above this say that nothing is known; more of them would run into infinity.
+constexpr double kMostVariance = 1e12;
+
+/// Signed; times of different clocks may be farther apart than their difference can tell.
+double seconds_from(std::int64_t from_ns, std::int64_t to_ns) {
+  return (static_cast<double>(to_ns) - static_cast<double>(from_ns)) * 1e-9;
+}
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(std::string("the estimator of ego-motion needs ") + what);
+}
+
+void check(const Mounting& mounting, const EgoMotionNoise& noise,
+           const EgoMotionEstimator::Start& start) {
+  for (const Matrix3d* R : {&mounting.R_BC, &mounting.R_BS, &start.R_WB}) {
+    require(R->allFinite() && is_rotation(*R), "rotations");
+  }
+  require(mounting.p_BC_m.allFinite() && mounting.p_BS_m.allFinite(), "lever arms that are finite");
+  require(
+      start.v_WB_mps.allFinite() && std::isfinite(start.gravity_mps2) && start.gravity_mps2 >= 0,
+      "a velocity and a gravity to start from");
+  for (const double deviation :
+       {noise.gyro_density, noise.gyro_walk, noise.accel_density, noise.accel_walk,
+        noise.odometry_mps, noise.gyro_turn_on_bias, noise.accel_turn_on_bias}) {
+    require(std::isfinite(deviation) && deviation >= 0, "noise that is finite and not negative");
+  }
+  require(noise.odometry_mps > 0, "odometry with noise");
+}
+
 }  // namespace
 
 EgoMotionEstimator::EgoMotionEstimator(const Mounting& mounting, const EgoMotionNoise& noise,
@@ -47,35 +84,85 @@ EgoMotionEstimator::EgoMotionEstimator(const Mounting& mounting, const EgoMotion
       gravity_W_(0, 0, -start.gravity_mps2),
       t_ns_(start.t_ns),
       R_WS_(start.R_WB * mounting.R_BS),
-      v_WS_(start.v_WB_mps) {
+      v_WS_(start.v_WB_mps),
+      watch_({.gravity_mps2 = start.gravity_mps2,
+              .noisy = noise.gyro_density > 0 && noise.accel_density > 0}) {
+  check(mounting, noise, start);
+  reset_covariance();
+}
+
+void EgoMotionEstimator::reset_covariance() {
+  covariance_.setZero();
   const auto block = [&](int first, double deviation) {
     covariance_.diagonal().segment<3>(first).setConstant(deviation * deviation);
   };
   block(kAttitude, kStartAttitude_rad);
   block(kVelocity, kStartVelocity_mps);
-  block(kGyroBias, noise.gyro_turn_on_bias);
-  block(kAccelBias, noise.accel_turn_on_bias);
+  block(kGyroBias, noise_.gyro_turn_on_bias);
+  block(kAccelBias, noise_.accel_turn_on_bias);
+}
+
+bool EgoMotionEstimator::far_ahead(std::int64_t t_ns) const {
+  return seconds_from(t_ns_, t_ns) > kLongestStep_s;
+}
+
+std::optional<Fault> EgoMotionEstimator::fault_of(std::int64_t t_ns, const Vector3d& gyro_radps,
+                                                  const Vector3d& accel_mps2) const {
+  if (!gyro_radps.allFinite() || !accel_mps2.allFinite()) return Fault::imu_not_finite;
+  if (!(gyro_radps.norm() <= kMostRate_radps && accel_mps2.norm() <= kMostForce_mps2)) {
+    return Fault::imu_too_large;
+  }
+  if (t_ns < t_ns_) return Fault::imu_out_of_order;
+  if (far_ahead(t_ns)) return Fault::imu_jump;
+  return std::nullopt;
+}
+
+/// Of readings that were integrated before they were known to be in g.
+void EgoMotionEstimator::scale_past(double scale) {
+  v_WS_ += (scale - 1) * dv_in_g_W_;
+  last_->accel *= scale;
 }
 
 void EgoMotionEstimator::add_imu(std::int64_t t_ns, const Vector3d& gyro_radps,
                                  const Vector3d& accel_mps2) {
-  if (t_ns < t_ns_ || !gyro_radps.allFinite() || !accel_mps2.allFinite()) {
-    ++dropped_;
+  if (const std::optional<Fault> fault = fault_of(t_ns, gyro_radps, accel_mps2)) {
+    diagnostics_.add(*fault);
     return;
   }
-  const Reading reading{t_ns, gyro_radps, accel_mps2};
+  const bool was_like_g = watch_.in_g() > 0;
+  const ImuWatch::Finding finding = watch_.look(gyro_radps, accel_mps2, diagnostics_);
+  const Reading reading{t_ns, gyro_radps, finding.accel_scale * accel_mps2};
   if (!last_) {
     // The start gives the velocity of the rover's origin; the IMU sits on a lever.
     v_WS_ += R_WS_ * gyro_radps.cross(mounting_.R_BS.transpose() * mounting_.p_BS_m);
     last_ = reading;
+    heard_ns_ = t_ns;
   }
+  if (finding.begins_in_g) scale_past(finding.accel_scale);
   // Over the interval that ends with this reading both rates are taken to change linearly.
-  last_->gyro = 0.5 * (last_->gyro + gyro_radps);
-  last_->accel = 0.5 * (last_->accel + accel_mps2);
-  const std::int64_t since_ns = t_ns - last_->t_ns;
-  if (since_ns > 0) period_ns_ = period_ns_ == 0 ? since_ns : std::min(period_ns_, since_ns);
+  last_->gyro = 0.5 * (last_->gyro + reading.gyro);
+  last_->accel = 0.5 * (last_->accel + reading.accel);
+  if (watch_.in_g() == 0 || watch_.in_g() == ImuWatch::kInG) {
+    dv_in_g_W_.setZero();
+  } else {  // the reading before the first of them is in m/s^2
+    const Vector3d in_g = was_like_g ? last_->accel : Vector3d(0.5 * reading.accel);
+    dv_in_g_W_ += R_WS_ * in_g * seconds_from(t_ns_, t_ns);
+  }
+  measure_period(t_ns - last_->t_ns);
   propagate_to(t_ns);
   last_ = reading;
+  if (finding.believed) heard_ns_ = t_ns;
+}
+
+/// The shortest time that two intervals in a row had, so that one wrong time does not spoil it.
+void EgoMotionEstimator::measure_period(std::int64_t since_ns) {
+  if (since_ns <= 0) return;
+  if (period_ns_ > 0 && since_ns > kSilentPeriods * period_ns_) diagnostics_.add(Fault::imu_gap);
+  if (interval_ns_ > 0) {
+    const std::int64_t longer_ns = std::max(since_ns, interval_ns_);
+    period_ns_ = period_ns_ == 0 ? longer_ns : std::min(period_ns_, longer_ns);
+  }
+  interval_ns_ = since_ns;
 }
 
 void EgoMotionEstimator::propagate_to(std::int64_t t_ns) {
@@ -106,15 +193,20 @@ void EgoMotionEstimator::propagate_to(std::int64_t t_ns) {
   add_noise(kVelocity, noise_.accel_density);
   add_noise(kGyroBias, noise_.gyro_walk);
   add_noise(kAccelBias, noise_.accel_walk);
-  if (period_ns_ > 0 && t_ns - last_->t_ns > kSilentPeriods * period_ns_) {
+  if (period_ns_ > 0 && t_ns - heard_ns_ > kSilentPeriods * period_ns_) {
     covariance_(kAttitude + 2, kAttitude + 2) += kUnseenTurn * kUnseenTurn * dt;
     add_noise(kVelocity, kUnseenAcceleration);
   }
+  if (!(covariance_.diagonal().array() < kMostVariance).all()) reset_covariance();
 }
 
 void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocity_B_mps) {
-  if (t_ns < t_ns_ || !velocity_B_mps.allFinite() || !last_) {
-    ++dropped_;
+  if (!(velocity_B_mps.norm() <= kMostSpeed_mps)) {
+    diagnostics_.add(Fault::odometry_unusable);
+    return;
+  }
+  if (t_ns < t_ns_ || far_ahead(t_ns) || !last_) {
+    diagnostics_.add(Fault::odometry_out_of_order);
     return;
   }
   propagate_to(t_ns);
@@ -155,18 +247,52 @@ std::optional<Ground> EgoMotionEstimator::ground() const {
   return Ground{.up_C = (R_WB * mounting_.R_BC).row(2), .height_m = height_m};
 }
 
+Matrix3d EgoMotionEstimator::R_WC() const {
+  return R_WS_ * mounting_.R_BS.transpose() * mounting_.R_BC;
+}
+
+void EgoMotionEstimator::set_clock(std::int64_t t_ns) {
+  t_ns_ = heard_ns_ = t_ns;
+  if (last_) last_->t_ns = t_ns;
+}
+
+/// Nothing is known of the motion since the last frame; a second such frame that agrees with the
+/// first shows that it is the clock that was set.
+EgoMotion EgoMotionEstimator::frame_out_of_time(std::int64_t t_ns) {
+  EgoMotion motion;
+  motion.dt_s = seconds_from(last_frame_->t_ns, t_ns);
+  const bool agrees = wrong_frame_ns_ && t_ns > *wrong_frame_ns_ &&
+                      seconds_from(*wrong_frame_ns_, t_ns) <= kLongestStep_s;
+  wrong_frame_ns_ = t_ns;
+  if (agrees) {
+    diagnostics_.add(Fault::clock_set);
+    set_clock(t_ns);
+    last_frame_ = Frame{t_ns, R_WC()};
+    displacement_W_.setZero();
+    wrong_frame_ns_.reset();
+  }
+  return motion;
+}
+
 EgoMotion EgoMotionEstimator::frame(std::int64_t t_ns) {
+  if (last_frame_ &&
+      (t_ns < last_frame_->t_ns || seconds_from(last_frame_->t_ns, t_ns) > kLongestStep_s)) {
+    return frame_out_of_time(t_ns);
+  }
+  wrong_frame_ns_.reset();
+  // The first frame sets the clock if it is not that of the start.
+  if (!last_frame_ && std::abs(seconds_from(t_ns_, t_ns)) > kLongestStep_s) set_clock(t_ns);
   propagate_to(t_ns);
-  const Matrix3d R_WC = R_WS_ * mounting_.R_BS.transpose() * mounting_.R_BC;
+  const Matrix3d R_WC_now = R_WC();
   EgoMotion motion;
   motion.ground = ground();
   if (last_frame_ && t_ns > last_frame_->t_ns) {
     motion.dt_s = static_cast<double>(t_ns - last_frame_->t_ns) * 1e-9;
-    motion.R_cur_prev = R_WC.transpose() * last_frame_->R_WC;
-    motion.v_C_mps = R_WC.transpose() * displacement_W_ / motion.dt_s;
+    motion.R_cur_prev = R_WC_now.transpose() * last_frame_->R_WC;
+    motion.v_C_mps = R_WC_now.transpose() * displacement_W_ / motion.dt_s;
     motion.w_C_radps = -logarithm(motion.R_cur_prev) / motion.dt_s;
   }
-  last_frame_ = Frame{t_ns, R_WC};
+  last_frame_ = Frame{t_ns, R_WC_now};
   displacement_W_.setZero();
   return motion;
 }

@@ -8,7 +8,13 @@
 #include <cstdint>
 #include <optional>
 
+#include "filter/diagnostics.h"
+#include "filter/imu_watch.h"
+
 namespace lcs {
+
+/// Between two frames; of what was known a longer time ago nothing is of use.
+inline constexpr double kLongestStep_s = 60;
 
 /// The plane that the rover stands on, seen from the camera of frame k.
 struct Ground {
@@ -57,7 +63,11 @@ struct EgoMotionNoise {
 /// gravity along -z), with an error-state Kalman filter on (attitude, velocity, gyro bias,
 /// accelerometer bias) that takes wheel odometry where there is some. Without odometry it is plain
 /// dead reckoning. Where the IMU falls silent its last reading is held, and odometry is believed
-/// more.
+/// more; likewise where it is frozen or saturated.
+///
+/// Bad readings never throw: they are left out and named. The frames are the clock: one that is
+/// older than the last, or far ahead, has no motion and changes nothing; with a second one that
+/// agrees with it the clock was set, and goes on from there.
 class EgoMotionEstimator {
  public:
   struct Start {
@@ -67,17 +77,19 @@ class EgoMotionEstimator {
     double gravity_mps2 = 9.81;
   };
 
+  /// \throws std::invalid_argument for values that are not finite or negative, and for rotations
+  /// that are none.
   EgoMotionEstimator(const Mounting& mounting, const EgoMotionNoise& noise, const Start& start);
 
-  /// A reading of the IMU in its frame S. Times must not decrease; a reading that is not finite or
-  /// older than the last is dropped and counted.
+  /// A reading of the IMU in its frame S. Times do not decrease.
   void add_imu(std::int64_t t_ns, const Eigen::Vector3d& gyro_radps,
                const Eigen::Vector3d& accel_mps2);
 
   /// Velocity of the rover's origin, in B, from its wheels. Integrates up to `t_ns` first.
   void add_odometry(std::int64_t t_ns, const Eigen::Vector3d& velocity_B_mps);
 
-  /// Integrates up to a frame's time, and returns the motion since the last frame.
+  /// Integrates up to a frame's time, and returns the motion since the last frame. Of a frame whose
+  /// time is wrong only the time since the last one is told, negative or above `kLongestStep_s`.
   EgoMotion frame(std::int64_t t_ns);
 
   /// The ground at the time integrated to: level, through the origin of B. None where that is not
@@ -86,11 +98,21 @@ class EgoMotionEstimator {
 
   const Eigen::Matrix3d& R_WS() const { return R_WS_; }
   const Eigen::Vector3d& v_WS_mps() const { return v_WS_; }
-  int dropped() const { return dropped_; }
+  /// What was wrong with the readings so far.
+  const Diagnostics& diagnostics() const { return diagnostics_; }
 
  private:
   using Matrix12 = Eigen::Matrix<double, 12, 12>;
+  void measure_period(std::int64_t since_ns);
   void propagate_to(std::int64_t t_ns);
+  bool far_ahead(std::int64_t t_ns) const;
+  EgoMotion frame_out_of_time(std::int64_t t_ns);
+  void set_clock(std::int64_t t_ns);
+  Eigen::Matrix3d R_WC() const;
+  void reset_covariance();
+  std::optional<Fault> fault_of(std::int64_t t_ns, const Eigen::Vector3d& gyro_radps,
+                                const Eigen::Vector3d& accel_mps2) const;
+  void scale_past(double scale);
 
   Mounting mounting_;
   EgoMotionNoise noise_;
@@ -105,9 +127,14 @@ class EgoMotionEstimator {
     std::int64_t t_ns;
     Eigen::Vector3d gyro, accel;
   };
-  std::optional<Reading> last_;  ///< newest reading
-  std::int64_t period_ns_ = 0;   ///< shortest time between two readings so far
-  int dropped_ = 0;
+  std::optional<Reading> last_;   ///< newest reading
+  std::int64_t heard_ns_ = 0;     ///< time of the newest reading that is believed
+  std::int64_t interval_ns_ = 0;  ///< time between the last two readings
+  std::int64_t period_ns_ = 0;    ///< shortest that two intervals in a row had so far
+  Diagnostics diagnostics_;
+  ImuWatch watch_;
+  Eigen::Vector3d dv_in_g_W_ = Eigen::Vector3d::Zero();  ///< integrated while they may be in g
+  std::optional<std::int64_t> wrong_frame_ns_;  ///< of the last frame, where its time was wrong
 
   struct Frame {
     std::int64_t t_ns;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "filter/camera.h"
+#include "filter/diagnostics.h"
 #include "filter/ego_motion.h"
 #include "filter/layers.h"
 #include "filter/parameters.h"
@@ -33,9 +34,13 @@ struct FrameResult {
 
 /// Deterministic: the same corners and motions give the same bits, in whatever order the corners of
 /// a frame come.
+///
+/// Bad data never throw and leave no trace: corners that are none are left out; where the time or
+/// the motion since the last frame is unknown, the filter starts anew, and from that frame on gives
+/// what a new filter gives, but for the ids: rebels again at the third sighting, two frames later.
 class Filter {
  public:
-  /// \throws std::invalid_argument for parameters out of range or a camera without pixels.
+  /// \throws std::invalid_argument for parameters out of range, or a camera that is none.
   Filter(const Intrinsics& camera, const Parameters& parameters);
   ~Filter();
   Filter(Filter&&) noexcept;
@@ -45,6 +50,9 @@ class Filter {
   /// \param motion since the last frame.
   /// \return the filter's own storage: valid until the next step.
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& motion);
+
+  /// What was wrong with the data of all frames so far.
+  const Diagnostics& diagnostics() const;
 
  private:
   struct Impl;

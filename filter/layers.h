@@ -12,8 +12,9 @@
 
 namespace lcs {
 
-/// Number that a landmark or layer keeps for its whole life; unique within a run and kind.
-using Id = std::uint32_t;
+/// Number that a landmark or layer keeps for its whole life; unique within a run and kind. With 32
+/// bits they would run out within a week of a busy street.
+using Id = std::uint64_t;
 
 /// A tracked corner: E_n where it moves as the static world must, E_r (rebel) where it does not.
 struct Edge {
@@ -111,6 +112,18 @@ struct Layers {
   std::size_t dimension() const {
     return normal_edges.size() + rebel_edges.size() + normal_circles.size() + rebel_circles.size() +
            squares.size();
+  }
+
+  /// Empties all, in the same memory.
+  void clear() {
+    normal_edges.clear();
+    rebel_edges.clear();
+    normal_circles.clear();
+    rebel_circles.clear();
+    squares.clear();
+    ignored.clear();
+    collectors.clear();
+    chains.clear();
   }
 };
 

@@ -49,8 +49,8 @@ const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
   refill(verdicts, corners_px.size(), Verdict::pending);
   entries_.clear();
   for (std::size_t i = 0; i < corners_px.size(); ++i) {
-    if (!corners_px[i].allFinite()) continue;
     const Vec2 x = corners_px[i].cast<double>();
+    if (!picture_.contain(x)) continue;  // nor is it where it is not a number
     if (inside_any(psi, x)) {
       verdicts[i] = Verdict::ignored;
     } else {
@@ -72,7 +72,12 @@ const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
 
   chi_.locations.clear();
   chi_.sources.clear();
+  chi_.repeats.clear();
   for (const Entry& entry : entries_) {
+    if (!chi_.locations.empty() && entry.location == chi_.locations.back()) {
+      chi_.repeats.push_back({entry.source, chi_.sources.back()});
+      continue;
+    }
     chi_.locations.push_back(entry.location);
     chi_.sources.push_back(entry.source);
   }

@@ -1,5 +1,6 @@
 /// \file
-/// Line expert: removes the corners inside psi and groups the others by lambda.
+/// Line expert: leaves out what is no corner of this picture, removes the corners inside psi and
+/// groups the others by lambda.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "filter/layers.h"
+#include "filter/pixels.h"
 #include "filter/point_grid.h"
 
 namespace lcs {
@@ -20,6 +22,12 @@ struct Chi {
   std::vector<int>
       groups;  ///< collector that each falls into (the nearest one), -1: a single landmark
 
+  /// A corner at the very place of another one, which stands for both: it gets that one's verdict.
+  struct Repeat {
+    int source, of_source;  ///< indices in the caller's corners
+  };
+  std::vector<Repeat> repeats;
+
   std::size_t size() const { return locations.size(); }
 };
 
@@ -29,14 +37,16 @@ bool inside_any(std::span<const IgnoreRegion> regions, const Vec2& x);
 
 class LineExpert {
  public:
-  /// \param max_corners that are looked at: the nearest to the centre.
-  explicit LineExpert(const Vec2& centre_px,
+  /// \param max_corners that are looked at: the nearest to the principal point.
+  explicit LineExpert(const Intrinsics& camera,
                       std::size_t max_corners = std::numeric_limits<std::size_t>::max())
-      : centre_px_(centre_px), max_corners_(max_corners) {}
+      : centre_px_(camera.centre_px),
+        picture_{camera.width_px, camera.height_px},
+        max_corners_(max_corners) {}
 
   /// \param verdicts one for each corner: set to `ignored` inside psi, to `pending` elsewhere.
-  /// Corners
-  ///   that are not finite stay `pending` and go no further.
+  ///   Corners that are not in the picture stay `pending` and go no further, nor do those that
+  ///   repeat another one.
   const Chi& collect(std::span<const Eigen::Vector2f> corners_px, std::span<const IgnoreRegion> psi,
                      std::span<const Collector> lambda, std::vector<Verdict>& verdicts);
 
@@ -44,6 +54,7 @@ class LineExpert {
   void group(std::span<const Collector> lambda);
 
   Vec2 centre_px_;
+  Pixels picture_;
   std::size_t max_corners_;
   Chi chi_;
   struct Entry {

@@ -11,6 +11,9 @@ namespace {
 /// Farther from the principal point than this many focal lengths, the FOE is at infinity.
 constexpr double kFarFoe = 100;
 
+/// Of places; a homography may bring what is farther than any picture back into one.
+constexpr double kFarthest_px = 1e9;
+
 Eigen::Matrix3d rotation_homography(const Intrinsics& camera, const Eigen::Matrix3d& R) {
   Eigen::Matrix3d K;
   K << camera.focal_px, 0, camera.centre_px.x(), 0, camera.focal_px, camera.centre_px.y(), 0, 0, 1;
@@ -39,7 +42,14 @@ MotionField::MotionField(const Intrinsics& camera, const EgoMotion& motion,
   }
 }
 
+/// What is turned behind the camera has no image, and the first-order models have one for it that
+/// grows without bounds: both stay where they are, out of sight, and will go.
 Vec2 MotionField::rotated(const Vec2& x_px) const {
+  const Vec2 x = rotated_unbounded(x_px);
+  return x.cwiseAbs().maxCoeff() < kFarthest_px ? x : x_px;
+}
+
+Vec2 MotionField::rotated_unbounded(const Vec2& x_px) const {
   switch (rotation_) {
     case RotationModel::first_order:
       return x_px + first_order(x_px - centre_px_);
@@ -49,7 +59,6 @@ Vec2 MotionField::rotated(const Vec2& x_px) const {
       break;
   }
   const Eigen::Vector3d h = homography_ * x_px.homogeneous();
-  // Turned behind the camera: no image. Keep it where it is; it is out of sight and will go.
   return h.z() > 1e-6 ? Vec2(h.hnormalized()) : x_px;
 }
 

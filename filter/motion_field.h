@@ -104,6 +104,8 @@ class MotionField {
   std::optional<Vec2> foe() const { return foe_; }
 
  private:
+  Vec2 rotated_unbounded(const Vec2& x_px) const;
+
   /// Displacement by the rotation, px, of a point `x` from the principal point: the field above
   /// integrated once, and the paper's first equation as it is printed.
   Vec2 first_order(const Vec2& x) const;

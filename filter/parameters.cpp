@@ -350,6 +350,11 @@ void validate(const Parameters& parameters) {
       check(entry, std::abs(value - entry.max) < 1e-9 ? entry.max : value);
     } else if (const auto* whole = std::get_if<Field<int>>(&entry.field)) {
       check(entry, (*whole)(copy));
+    } else if (const auto* choice = std::get_if<Choice>(&entry.field)) {
+      const int chosen = choice->get(copy);
+      if (chosen < 0 || chosen >= static_cast<int>(choice->words.size())) {
+        throw std::invalid_argument("'" + entry.key + "' takes one of " + joined(choice->words));
+      }
     }
   }
   check_ranks(parameters.circle.trust, "circle");

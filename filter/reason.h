@@ -17,6 +17,7 @@ enum class Reason : std::uint8_t {
 
   // Both rules.
   not_finite,
+  outside,
   too_many,
   in_psi,
   no_past,
@@ -65,9 +66,10 @@ struct ReasonText {
 };
 
 /// By the order of `Reason`. For each, the verdicts that it may come with.
-inline constexpr std::array<ReasonText, 31> kReasons{{
+inline constexpr std::array<ReasonText, 32> kReasons{{
     {"unknown", "no reason given"},
     {"not_finite", "its place is not a number"},                               // pending
+    {"outside", "outside of the picture"},                                     // pending
     {"too_many", "farther out than the most corners that are looked at"},      // pending
     {"in_psi", "inside a region psi that was not looked at"},                  // ignored
     {"no_past", "too few frames seen so far"},                                 // pending

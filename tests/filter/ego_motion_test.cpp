@@ -177,7 +177,9 @@ TEST(EgoMotion, BadReadingsAreDroppedAndCounted) {
   estimator.add_imu(5'000'000, Vector3d::Zero(), up);  // older than the last
   estimator.add_imu(15'000'000, Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()), up);
   estimator.add_odometry(20'000'000, Vector3d::Constant(std::numeric_limits<double>::infinity()));
-  EXPECT_EQ(estimator.dropped(), 3);
+  EXPECT_EQ(estimator.diagnostics().count(Fault::imu_out_of_order), 1);
+  EXPECT_EQ(estimator.diagnostics().count(Fault::imu_not_finite), 1);
+  EXPECT_EQ(estimator.diagnostics().count(Fault::odometry_unusable), 1);
   EXPECT_TRUE(estimator.v_WS_mps().allFinite());
 }
 

@@ -81,7 +81,7 @@ TEST(Psi, ComesBeforeLambda) {
   const std::vector<IgnoreRegion> psi = {{IgnoreRegion::Shape::circle, {100, 100}, {30, 30}}};
   const std::vector<Collector> lambda = {{{120, 100}, 30}};
   const std::vector<Eigen::Vector2f> corners = {{110, 100}, {140, 100}};
-  LineExpert line(vga().centre_px);
+  LineExpert line(vga());
   std::vector<Verdict> verdicts;
   const Chi& chi = line.collect(corners, psi, lambda, verdicts);
   ASSERT_EQ(chi.size(), 1u);

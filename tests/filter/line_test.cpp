@@ -12,7 +12,7 @@ namespace {
 
 using testing::Random;
 
-const Vec2 kCentre(319.5, 239.5);
+const Vec2 kCentre = testing::vga().centre_px;
 
 IgnoreRegion disc(const Vec2& at, double radius) {
   return {IgnoreRegion::Shape::circle, at, {radius, radius}};
@@ -28,7 +28,7 @@ TEST(LineExpert, LooksAtTheNearestToTheCentreOfTooManyCorners) {
     corners.emplace_back(random.uniform(0, 639), random.uniform(0, 479));
   }
   std::vector<Verdict> verdicts;
-  LineExpert unbounded(kCentre), bounded(kCentre, 30);
+  LineExpert unbounded(testing::vga()), bounded(testing::vga(), 30);
   const std::vector<int> all = unbounded.collect(corners, {}, {}, verdicts).sources;
   const std::vector<int> kept = bounded.collect(corners, {}, {}, verdicts).sources;
   ASSERT_EQ(all.size(), 100U);
@@ -46,7 +46,7 @@ TEST(LineExpert, GroupsByTheNearestCollectorAndOfEqualsTheFirst) {
   }
   lambda.push_back(lambda.front());
   std::vector<Verdict> verdicts;
-  LineExpert line(kCentre);
+  LineExpert line(testing::vga());
   const Chi& chi = line.collect(corners, {}, lambda, verdicts);
   for (std::size_t i = 0; i < chi.size(); ++i) {
     int expected = -1;
@@ -68,7 +68,7 @@ TEST(LineExpert, RemovesExactlyTheCornersInsidePsi) {
   for (int i = 0; i < 500; ++i) {
     corners.emplace_back(random.uniform(0, 639), random.uniform(0, 479));
   }
-  LineExpert line(kCentre);
+  LineExpert line(testing::vga());
   std::vector<Verdict> verdicts;
   const Chi& chi = line.collect(corners, psi, {}, verdicts);
   std::size_t outside = 0;
@@ -85,7 +85,7 @@ TEST(LineExpert, RemovesExactlyTheCornersInsidePsi) {
 TEST(LineExpert, GroupsByTheNearestCollectorAndLeavesTheRestSingle) {
   const std::vector<Collector> lambda = {{{100, 100}, 50}, {{160, 100}, 50}};
   const std::vector<Eigen::Vector2f> corners = {{90, 100}, {140, 100}, {300, 300}};
-  LineExpert line(kCentre);
+  LineExpert line(testing::vga());
   std::vector<Verdict> verdicts;
   const Chi& chi = line.collect(corners, {}, lambda, verdicts);
   std::vector<int> group(3, -2);
@@ -99,7 +99,7 @@ TEST(LineExpert, OrderOfTheCornersMakesNoDifference) {
   for (int i = 0; i < 100; ++i) {
     corners.emplace_back(random.uniform(0, 639), random.uniform(0, 479));
   }
-  LineExpert a(kCentre), b(kCentre);
+  LineExpert a(testing::vga()), b(testing::vga());
   std::vector<Verdict> verdicts;
   const std::vector<Vec2> forward = a.collect(corners, {}, {}, verdicts).locations;
   std::reverse(corners.begin(), corners.end());
@@ -111,14 +111,14 @@ TEST(LineExpert, CornersThatAreNotFiniteStayPendingAndGoNoFurther) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
   const std::vector<Eigen::Vector2f> corners = {{nan, 3}, {4, inf}, {5, 5}};
-  LineExpert line(kCentre);
+  LineExpert line(testing::vga());
   std::vector<Verdict> verdicts;
   EXPECT_EQ(line.collect(corners, {}, {}, verdicts).size(), 1u);
   EXPECT_EQ(verdicts, (std::vector<Verdict>(3, Verdict::pending)));
 }
 
 TEST(LineExpert, NothingOrEverythingIgnoredIsAnEmptyChi) {
-  LineExpert line(kCentre);
+  LineExpert line(testing::vga());
   std::vector<Verdict> verdicts;
   EXPECT_EQ(line.collect({}, {}, {}, verdicts).size(), 0u);
   const std::vector<Eigen::Vector2f> corners = {{10, 10}, {20, 20}};

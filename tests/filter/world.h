@@ -119,4 +119,31 @@ inline World sparse_world(std::uint64_t seed, double spacing = 60) {
   return world;
 }
 
+/// A crowded world with a moving cluster, and a camera that moves and turns.
+struct Scene {
+  explicit Scene(std::uint64_t seed) {
+    Random random(seed);
+    for (int i = 0; i < 150; ++i) {
+      world.add({random.uniform(5, 634), random.uniform(5, 474)}, random.uniform(1.5, 8));
+    }
+    for (int i = 0; i < 20; ++i) {
+      world.add({random.uniform(380, 440), random.uniform(180, 240)}, 2.5, {-0.6, 0, 0});
+    }
+    motion = steady_motion({0.05, 0.02, 0.5}, {0.02, -0.05, 0.03}, 0.1);
+  }
+  World world;
+  EgoMotion motion;
+};
+
+/// Corners of `frames` frames of a scene, on a grid of 1/64 px, so that mirrored ones are exact.
+inline std::vector<std::vector<Eigen::Vector2f>> record(Scene& scene, int frames) {
+  std::vector<std::vector<Eigen::Vector2f>> recorded;
+  for (int k = 0; k < frames; ++k) {
+    recorded.push_back(scene.world.corners());
+    for (auto& x : recorded.back()) x = (64 * x).array().round() / 64;
+    scene.world.advance(scene.motion);
+  }
+  return recorded;
+}
+
 }  // namespace lcs::testing

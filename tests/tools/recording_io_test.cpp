@@ -27,9 +27,7 @@ class Filler {
   void operator()(const char*, OrInfinite value) { value.number = awkward(); }
   void operator()(const char*, OrNan value) { value.number = awkward(); }
   void operator()(const char*, int& number) { number = static_cast<int>(random_()); }
-  void operator()(const char*, std::uint32_t& number) {
-    number = static_cast<std::uint32_t>(random_());
-  }
+  void operator()(const char*, Id& number) { number = random_(); }
   void operator()(const char*, bool& flag) { flag = random_() % 2 == 0; }
   void operator()(const char*, IgnoreRegion::Shape& shape) {
     shape = random_() % 2 == 0 ? IgnoreRegion::Shape::circle : IgnoreRegion::Shape::rectangle;

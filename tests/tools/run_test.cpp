@@ -176,6 +176,15 @@ TEST_F(Run, PrintsProgressOnStderrAndTheTableOnStdout) {
   }
 }
 
+TEST_F(Run, TellsOnStderrWhatWasWrongWithTheData) {
+  const CommandResult good = run(brief({"--quiet"}));
+  EXPECT_EQ(good.err, "");
+  const CommandResult gap = run(brief({"--quiet", "--set", "imu.gaps=[[0.1 s, 0.2 s]]"}));
+  EXPECT_EQ(gap.exit_code, 0);
+  EXPECT_EQ(gap.err,
+            "1 gaps are in the readings of the IMU, in which the last one is held (imu_gap)\n");
+}
+
 TEST_F(Run, ReplacesAnEarlierResult) {
   ASSERT_EQ(run(brief()).exit_code, 0);
   ASSERT_EQ(run(brief({"--set", "frames=5"})).exit_code, 0);

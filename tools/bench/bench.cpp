@@ -33,8 +33,8 @@ void watch(const cv::Mat3b& image, const FastDetector& detector, Tracker& tracke
   frame.times = times;
 }
 
-void run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracker& tracker,
-         Recording& recording, const FrameSink& sink) {
+Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracker& tracker,
+                Recording& recording, const FrameSink& sink) {
   const FastDetector detector(scenario.fast_threshold);
   const sim::Pinhole& camera = simulation.calibration().camera;
   EgoMotionFeed ego_motion(scenario, simulation.calibration());
@@ -43,7 +43,7 @@ void run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracke
     double simulate_ms = 0;
     const std::optional<sim::Observation> observation =
         timed(simulate_ms, [&] { return simulation.next(); });
-    if (!observation) return;
+    if (!observation) break;
     FrameRecord& frame = recording.frames.emplace_back();
     frame.index = observation->index;
     frame.t_ns = observation->t_ns;
@@ -60,6 +60,9 @@ void run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracke
     frame.object_truth = observation->objects;
     sink(frame, observation->image);
   }
+  Diagnostics diagnostics = ego_motion.estimator().diagnostics();
+  diagnostics += tracker.diagnostics();
+  return diagnostics;
 }
 
 }  // namespace lcs::bench

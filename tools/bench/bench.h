@@ -27,8 +27,9 @@ void watch(const cv::Mat3b& image, const FastDetector& detector, Tracker& tracke
 /// Runs the simulation to its end.
 /// \param scenario that the simulation was made of.
 /// \param recording is given every frame before the sink sees it.
+/// \return what was wrong with the sensors' readings and with what the tracker was told.
 /// \throws sim::PhysicsError, and what the tracker and the sink throw.
-void run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracker& tracker,
-         Recording& recording, const FrameSink& sink);
+Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracker& tracker,
+                Recording& recording, const FrameSink& sink);
 
 }  // namespace lcs::bench

@@ -30,9 +30,6 @@ void append(std::string& out, bool flag) {
 void append(std::string& out, int number) {
   append_digits(out, number);
 }
-void append(std::string& out, std::uint32_t number) {
-  append_digits(out, number);
-}
 void append(std::string& out, std::int64_t number) {
   append_digits(out, number);
 }

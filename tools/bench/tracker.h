@@ -29,6 +29,9 @@ class Tracker {
   /// times
   ///   of stages. Valid until the next step.
   virtual const FrameResult& step(const TrackerInput& input) = 0;
+
+  /// What was wrong with what it was told so far, if it looks.
+  virtual Diagnostics diagnostics() const { return {}; }
 };
 
 /// The camera as trackers on the filter's geometry take it.
@@ -39,6 +42,7 @@ class LcsTracker : public Tracker {
  public:
   LcsTracker(const sim::Pinhole& camera, const Parameters& parameters);
   const FrameResult& step(const TrackerInput& input) override;
+  Diagnostics diagnostics() const override { return filter_.diagnostics(); }
 
  private:
   Filter filter_;

@@ -261,7 +261,12 @@ ExitCode replay(const ReplayOptions& options) {
     throw std::runtime_error(fmt::format("none of the pictures in {} can be read", options.folder));
   }
   const bench::Metrics metrics = result->finish(recording);
-  for (const std::string& line : recorded.tally.lines()) fmt::print(stderr, "{}\n", line);
+  Diagnostics diagnostics = recorded.motion->diagnostics();
+  diagnostics += tracker->diagnostics();
+  diagnostics.forget(Fault::imu_gap);  // told by what read it, with its place
+  for (const auto& lines : {recorded.tally.lines(), diagnostics.lines()}) {
+    for (const std::string& line : lines) fmt::print(stderr, "{}\n", line);
+  }
   if (!options.quiet) {
     print_result(recording, metrics, pictures.skipped().size(), result->target());
   }

@@ -36,6 +36,8 @@ Files written to the folder, all or none:
   events.json    with --events: the worst misses and false alarms, with the rules that the corners
                  met their end by, and JPEG pictures
 
+What was wrong with the data (readings of the sensors, times, corners) is counted and told on stderr.
+
 Exit codes:
   0  fine
   1  a required criterion of the scenario is not met
@@ -113,18 +115,20 @@ ExitCode run(const RunOptions& options) {
       {.video_frames_per_second =
            options.no_video ? std::nullopt : std::optional(scenario.camera.rate_hz),
        .events = options.events});
+  Diagnostics diagnostics;
   {
     Progress progress(scenario.name, scenario.frames, options.quiet);
-    bench::run(scenario, simulation, *tracker, recording,
-               [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
-                 interrupt.check();
-                 result.add(frame, image);
-                 progress.show(frame.index + 1);
-               });
+    diagnostics = bench::run(scenario, simulation, *tracker, recording,
+                             [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
+                               interrupt.check();
+                               result.add(frame, image);
+                               progress.show(frame.index + 1);
+                             });
   }
   interrupt.check();
   const bench::Metrics metrics = result.finish(recording);
 
+  for (const std::string& line : diagnostics.lines()) fmt::print(stderr, "{}\n", line);
   if (!options.quiet) print_result(scenario, detector, metrics, result.target());
   const bool failed = report_failures(bench::failed_criteria(scenario.criteria, metrics));
   return failed ? kCriterionFailed : kFine;

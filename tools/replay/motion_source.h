@@ -20,6 +20,9 @@ class MotionSource {
 
   /// Motion since the last frame; of the first one all 0. Times increase.
   virtual EgoMotion at(std::int64_t t_ns) = 0;
+
+  /// What was wrong with the readings that it was told from so far.
+  virtual Diagnostics diagnostics() const { return {}; }
 };
 
 /// Straight ahead along the optical axis.
@@ -52,6 +55,7 @@ class SensorMotion : public MotionSource {
                SensorReadings readings);
   /// \throws std::runtime_error where exact poses are asked for and there is none at this time.
   EgoMotion at(std::int64_t t_ns) override;
+  Diagnostics diagnostics() const override { return feed_.estimator().diagnostics(); }
 
  private:
   bool needs_poses_;
