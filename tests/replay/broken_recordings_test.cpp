@@ -140,6 +140,32 @@ TEST_F(BrokenRecording, GapsInTheImuAreCountedAndBridged) {
   EXPECT_EQ(recording().frames.size(), 8u);
 }
 
+TEST_F(BrokenRecording, AFrozenImuIsNamed) {
+  std::vector<std::string> lines = lines_of(read(csv("imu0")));
+  const std::string reading = lines[40].substr(lines[40].find(','));
+  for (std::size_t i = 41; i < 90; ++i) lines[i] = lines[i].substr(0, lines[i].find(',')) + reading;
+  write(csv("imu0"), joined(lines));
+  const CommandResult result = replay();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("40 readings of the IMU repeat the one before"), std::string::npos)
+      << result.err;
+}
+
+TEST_F(BrokenRecording, TimesThatNoClockHasAreLeftOut) {
+  for (const char* sensor : {"cam0", "imu0"}) {
+    std::vector<std::string> lines = lines_of(read(csv(sensor)));
+    for (const char* time :
+         {"9223372036854775807", "-9223372036854775808", "99999999999999999999"}) {
+      lines.push_back(time + lines.back().substr(lines.back().find(',')));
+    }
+    write(csv(sensor), joined(lines));
+  }
+  const CommandResult result = replay();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("6 rows cannot be read"), std::string::npos) << result.err;
+  EXPECT_TRUE(layers() == whole_);
+}
+
 TEST_F(BrokenRecording,
        PicturesThatAreMissingTruncatedOrOfAnotherSizeAreSkippedAndTheirTimePasses) {
   fs::remove(pictures() / picture(2));
@@ -173,6 +199,13 @@ TEST_F(BrokenRecording, WhatCannotBeReplayedIsToldInOneLineAndNothingIsWritten) 
   refused("holds no reading of an IMU");
   write(csv("imu0"), "#timestamp [ns],x,y,z\n1,2,3,4\n");
   refused("names no column w_RS_S_x");
+  std::string in_g;
+  for (const std::string& line : lines_of(imu)) {
+    in_g +=
+        line.starts_with('#') ? line + "\n" : line.substr(0, line.find(',')) + ",0,0,0,0.01,0,1\n";
+  }
+  write(csv("imu0"), in_g);
+  refused("multiply them by 9.80665");
   fs::remove(csv("imu0"));
   refused("cannot read");
   write(csv("imu0"), imu);

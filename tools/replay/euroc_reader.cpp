@@ -5,10 +5,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tools/bench/csv.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/sensor_csv.h"
 #include "tools/replay/sensor_yaml.h"
+#include "tools/replay/times.h"
 #include "tools/sequence/replay_settings.h"
 
 namespace lcs::replay {
@@ -31,7 +31,7 @@ std::vector<RecordedFrame> read_frames(const fs::path& camera, Tally& tally) {
   const TextTable table = read_table(camera / "data.csv", ',');
   std::vector<RecordedFrame> frames;
   for (const TextTable::Row& row : table.rows) {
-    const auto t_ns = bench::number_in<std::int64_t>(row.fields[0]);
+    const auto t_ns = time_in(row.fields[0], 1);
     if (!t_ns) {
       tally.add("rows cannot be read and are left out", table.at(row));
       continue;
@@ -182,6 +182,9 @@ Recorded read_euroc(const ReadOptions& options) {
   const fs::path settings_file = options.folder / sequence::kSettingsFile;
   if (fs::exists(settings_file)) {
     const sequence::ReplaySettings exact = sequence::read_settings(settings_file);
+    if (!is_time(exact.start_ns)) {
+      throw std::runtime_error(fmt::format("{}: start_ns is no time", settings_file.string()));
+    }
     recorded.settings = exact.scenario;
     if (options.exact_motion) recorded.settings.ego_motion = scenario::EgoMotionSource::truth;
     recorded.lens = lens_of(exact.calibration.camera);

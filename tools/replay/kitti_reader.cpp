@@ -25,12 +25,20 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// "2011-09-26 13:02:25.964389445", in UTC.
-std::optional<std::int64_t> time_in(const std::string& date, const std::string& clock) {
+std::optional<std::int64_t> calendar_time_in(const std::string& date, const std::string& clock) {
   std::tm calendar = {};
   double seconds = 0;
   if (std::sscanf(date.c_str(), "%d-%d-%d", &calendar.tm_year, &calendar.tm_mon,
                   &calendar.tm_mday) != 3 ||
       std::sscanf(clock.c_str(), "%d:%d:%lf", &calendar.tm_hour, &calendar.tm_min, &seconds) != 3) {
+    return std::nullopt;
+  }
+  const auto within = [](int value, int least, int most) {
+    return value >= least && value <= most;
+  };
+  if (!within(calendar.tm_year, 1900, 2099) || !within(calendar.tm_mon, 1, 12) ||
+      !within(calendar.tm_mday, 1, 31) || !within(calendar.tm_hour, 0, 23) ||
+      !within(calendar.tm_min, 0, 59) || !(seconds >= 0 && seconds < 61)) {
     return std::nullopt;
   }
   calendar.tm_year -= 1900;
@@ -43,7 +51,8 @@ std::vector<std::optional<std::int64_t>> read_times(const fs::path& file, Tally&
   const TextTable table = read_table(file, ' ');
   std::vector<std::optional<std::int64_t>> times;
   for (const TextTable::Row& row : table.rows) {
-    times.push_back(row.fields.size() == 2 ? time_in(row.fields[0], row.fields[1]) : std::nullopt);
+    times.push_back(row.fields.size() == 2 ? calendar_time_in(row.fields[0], row.fields[1])
+                                           : std::nullopt);
     if (!times.back()) tally.add("rows cannot be read and are left out", table.at(row));
   }
   return times;
@@ -63,7 +72,7 @@ std::vector<NavigationState> read_oxts(const fs::path& folder, Tally& tally) {
     for (std::string word; stream >> word;) {
       if (const auto number = bench::number_in<double>(word)) numbers.push_back(*number);
     }
-    if (numbers.size() != kNumbers) {
+    if (numbers.size() != kNumbers || !is_speed(numbers[kEast], numbers[kNorth], numbers[kUp])) {
       tally.add("states of the navigation unit are missing or cannot be read", file.string());
       continue;
     }

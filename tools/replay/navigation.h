@@ -13,6 +13,11 @@ inline Eigen::Quaterniond from_rpy(double roll, double pitch, double yaw) {
          Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
 }
 
+/// Whether something that is driven can be so fast: other numbers are those of a broken file.
+inline bool is_speed(double x_mps, double y_mps, double z_mps) {
+  return Eigen::Vector3d(x_mps, y_mps, z_mps).norm() <= 1000;
+}
+
 /// R_BC of a camera mounted by roll, pitch and yaw about the fixed x, y and z of B (x ahead, y
 /// left, z up), as `scenario::Camera::mount_rpy_rad`: all 0 looks along x, upright.
 inline Eigen::Matrix3d camera_mount(const Eigen::Vector3d& rpy_rad) {

@@ -11,6 +11,7 @@
 #include "tools/replay/navigation.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
+#include "tools/replay/times.h"
 
 namespace lcs::replay {
 namespace {
@@ -84,22 +85,22 @@ std::vector<NavigationState> read_ins(const fs::path& file, Tally& tally) {
   std::vector<NavigationState> states;
   for (const TextTable::Row& row : table.rows) {
     std::vector<double> numbers;
-    std::optional<std::int64_t> t_us;
-    if (time < row.fields.size()) t_us = bench::number_in<std::int64_t>(row.fields[time]);
+    std::optional<std::int64_t> t_ns;
+    if (time < row.fields.size()) t_ns = time_in(row.fields[time], kMicrosecond_ns);
     for (const std::size_t place : columns) {
       if (place >= row.fields.size()) continue;
       if (const auto number = bench::number_in<double>(row.fields[place])) {
         numbers.push_back(*number);
       }
     }
-    if (!t_us || numbers.size() != std::size(columns)) {
+    if (!t_ns || numbers.size() != std::size(columns) ||
+        !is_speed(numbers[0], numbers[1], numbers[2])) {
       tally.add("rows cannot be read and are left out", table.at(row));
       continue;
     }
     const Eigen::Matrix3d R_ned_frd =
         from_rpy(numbers[3], numbers[4], numbers[5]).toRotationMatrix();
-    states.push_back({*t_us * kMicrosecond_ns,
-                      Eigen::Quaterniond(R_enu_ned * R_ned_frd * R_frd_flu),
+    states.push_back({*t_ns, Eigen::Quaterniond(R_enu_ned * R_ned_frd * R_frd_flu),
                       R_enu_ned * Vector3d(numbers[0], numbers[1], numbers[2])});
   }
   return states;
@@ -117,10 +118,8 @@ Recorded read_robotcar(const ReadOptions& options) {
   recorded.demosaic = camera.demosaic;
   const TextTable list = read_table(list_of(options.folder, camera), ' ');
   for (const TextTable::Row& row : list.rows) {
-    const auto t_us = bench::number_in<std::int64_t>(row.fields[0]);
-    if (t_us) {
-      recorded.frames.push_back(
-          {*t_us * kMicrosecond_ns, options.folder / camera.name / (row.fields[0] + ".png")});
+    if (const auto t_ns = time_in(row.fields[0], kMicrosecond_ns)) {
+      recorded.frames.push_back({*t_ns, options.folder / camera.name / (row.fields[0] + ".png")});
     } else {
       recorded.tally.add("rows cannot be read and are left out", list.at(row));
     }

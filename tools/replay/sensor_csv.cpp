@@ -10,6 +10,8 @@
 #include <stdexcept>
 
 #include "tools/bench/csv.h"
+#include "tools/replay/navigation.h"
+#include "tools/replay/times.h"
 #include "tools/sequence/pose_text.h"
 
 namespace lcs::replay {
@@ -34,7 +36,7 @@ std::vector<NumberRow> read_numbers(const std::filesystem::path& file,
     const auto text = [&](std::size_t column) -> std::string_view {
       return column < row.fields.size() ? std::string_view(row.fields[column]) : "";
     };
-    const auto t_ns = bench::number_in<std::int64_t>(text(0));
+    const auto t_ns = time_in(text(0), 1);
     NumberRow read{t_ns.value_or(0), {}};
     for (const std::size_t column : columns) {
       if (const auto number = bench::number_in<double>(text(column))) {
@@ -67,6 +69,21 @@ Vector3d vector_at(const NumberRow& row, std::size_t first) {
   return {row.numbers[first], row.numbers[first + 1], row.numbers[first + 2]};
 }
 
+/// At rest or driving, an accelerometer shows gravity more than anything else.
+/// \throws std::runtime_error where it shows it in g.
+void check_units(const std::vector<sim::ImuSample>& samples, const std::filesystem::path& file) {
+  std::vector<double> sizes;
+  for (const sim::ImuSample& sample : samples) sizes.push_back(sample.accel_mps2.norm());
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  if (*middle < 0.7 || *middle > 1.4) return;
+  throw std::runtime_error(
+      fmt::format("{}: accelerations have a size of {:.2f}, gravity in g; multiply them by 9.80665 "
+                  "to have m/s^2 "
+                  "(and see whether rates are in rad/s)",
+                  file.string(), *middle));
+}
+
 }  // namespace
 
 std::vector<sim::ImuSample> read_imu_csv(const std::filesystem::path& file, Tally& tally) {
@@ -79,6 +96,7 @@ std::vector<sim::ImuSample> read_imu_csv(const std::filesystem::path& file, Tall
   if (samples.empty()) {
     throw std::runtime_error(fmt::format("{} holds no reading of an IMU", file.string()));
   }
+  check_units(samples, file);
   count_gaps(samples, tally);
   return samples;
 }
@@ -102,7 +120,11 @@ std::vector<SensorReadings::CameraPose> read_pose_csv(const std::filesystem::pat
     std::array<double, 16> matrix{};
     std::copy(row.numbers.begin(), row.numbers.end(), matrix.begin());
     matrix[15] = 1;
-    poses.push_back({row.t_ns, sequence::pose_of(matrix)});
+    try {
+      poses.push_back({row.t_ns, sequence::pose_of(matrix)});
+    } catch (const std::invalid_argument&) {
+      tally.add("rows have no rigid transform and are left out", file.string());
+    }
   }
   return poses;
 }
@@ -118,9 +140,14 @@ std::vector<TrueState> read_truth_csv(const std::filesystem::path& file, Tally& 
     TrueState& truth = states.emplace_back();
     truth.t_ns = truth.state.t_ns = row.t_ns;
     const Eigen::Quaterniond q(row.numbers[3], row.numbers[4], row.numbers[5], row.numbers[6]);
-    if (std::abs(q.norm() - 1) > kUnit) {
+    if (!(std::abs(q.norm() - 1) <= kUnit)) {
       states.pop_back();
       tally.add("rows have no unit quaternion and are left out", file.string());
+      continue;
+    }
+    if (!is_speed(row.numbers[7], row.numbers[8], row.numbers[9])) {
+      states.pop_back();
+      tally.add("rows have a speed above 1000 m/s and are left out", file.string());
       continue;
     }
     truth.state.q_WB = q.normalized();
@@ -142,7 +169,7 @@ void count_gaps(const std::vector<sim::ImuSample>& samples, Tally& tally) {
   std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
   const std::int64_t usual = sorted[sorted.size() / 2];
   for (std::size_t i = 0; i < periods.size(); ++i) {
-    if (periods[i] > kSilentPeriods * usual) {
+    if (periods[i] / kSilentPeriods > usual) {
       tally.add("gaps are in the readings of the IMU, in which the last one is held",
                 fmt::format("{:.3f} s after {} ns", static_cast<double>(periods[i]) * 1e-9,
                             samples[i].t_ns));

@@ -1,0 +1,30 @@
+/// \file
+/// Times of recordings: nanoseconds of a clock, whatever its zero.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "tools/bench/csv.h"
+
+namespace lcs::replay {
+
+/// No time is farther from the clock's zero (146 years), so that any two have a difference.
+inline constexpr std::int64_t kFarthest_ns = std::numeric_limits<std::int64_t>::max() / 2;
+
+inline bool is_time(std::int64_t t_ns) {
+  return t_ns >= -kFarthest_ns && t_ns <= kFarthest_ns;
+}
+
+/// A whole number of units as a time; none if it is anything else, or too far away.
+inline std::optional<std::int64_t> time_in(std::string_view text, std::int64_t unit_ns) {
+  const auto units = bench::number_in<std::int64_t>(text);
+  if (!units || *units > kFarthest_ns / unit_ns || *units < -kFarthest_ns / unit_ns) {
+    return std::nullopt;
+  }
+  return *units * unit_ns;
+}
+
+}  // namespace lcs::replay
