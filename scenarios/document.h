@@ -20,9 +20,8 @@ struct Entry;
 struct Value {
   enum class Kind { null, scalar, list, map };
 
-  Value() = default;
-  Value(Kind kind_, Source where_, std::string text_ = "")
-      : kind(kind_), text(std::move(text_)), where(std::move(where_)) {}
+  Value();
+  Value(Kind kind_, Source where_, std::string text_ = "");
 
   Kind kind = Kind::null;
   std::string text;            ///< of a scalar
@@ -36,6 +35,11 @@ struct Entry {
   Source where;
   Value value;
 };
+
+// Behind the entries that a value may hold.
+inline Value::Value() = default;
+inline Value::Value(Kind kind_, Source where_, std::string text_)
+    : kind(kind_), text(std::move(text_)), where(std::move(where_)) {}
 
 /// What a value is, as a message says it: "a list", "a map", "nothing".
 std::string_view kind_name(Value::Kind kind);

@@ -1,0 +1,108 @@
+/// \file
+/// What fuzzers share: bytes taken one after the other, numbers that tempt, texts as files, and a
+/// way to say that something does not hold.
+#pragma once
+
+#include <unistd.h>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lcs::fuzz {
+
+/// Ends the program, as libFuzzer has it.
+[[noreturn]] inline void fail(const std::string& what) {
+  std::fprintf(stderr, "does not hold: %s\n", what.c_str());
+  std::abort();
+}
+inline void require(bool holds, const char* what) {
+  if (!holds) fail(what);
+}
+
+/// Bytes of an input from its start; 0 for ever behind its end.
+class Bytes {
+ public:
+  Bytes(const std::uint8_t* data, std::size_t size) : rest_(data, size) {}
+
+  bool empty() const { return rest_.empty(); }
+  std::uint8_t byte() {
+    if (rest_.empty()) return 0;
+    const std::uint8_t first = rest_.front();
+    rest_ = rest_.subspan(1);
+    return first;
+  }
+  std::int16_t word() {
+    const unsigned low = byte(), high = byte();
+    return static_cast<std::int16_t>(low | high << 8);
+  }
+  /// Mostly within a few times `unit`; one in 32 is a number that tempts.
+  double number(double unit) {
+    const std::uint8_t kind = byte();
+    if (kind < 248) return unit * (static_cast<double>(word()) / 8192);
+    static constexpr std::array<double, 16> kTempting = {
+        std::numeric_limits<double>::quiet_NaN(),
+        std::numeric_limits<double>::infinity(),
+        -std::numeric_limits<double>::infinity(),
+        std::numeric_limits<double>::max(),
+        -std::numeric_limits<double>::max(),
+        std::numeric_limits<double>::min(),
+        std::numeric_limits<double>::denorm_min(),
+        0.0,
+        -0.0,
+        1e3,
+        -1e3,
+        1e9,
+        -1e9,
+        1e-9,
+        59.9,
+        1e30,
+    };
+    return kTempting[byte() % kTempting.size()];
+  }
+
+ private:
+  std::span<const std::uint8_t> rest_;
+};
+
+/// A folder of its own for each process, where RAM is used for files if there is any.
+inline const std::filesystem::path& work_folder() {
+  struct Folder {
+    Folder() {
+      namespace fs = std::filesystem;
+      const fs::path shared_memory = "/dev/shm";
+      const fs::path home =
+          ::access(shared_memory.c_str(), W_OK) == 0 ? shared_memory : fs::temp_directory_path();
+      path = home / ("lcs-fuzz-" + std::to_string(::getpid()));
+      fs::create_directories(path);
+    }
+    ~Folder() {
+      std::error_code ignored;
+      std::filesystem::remove_all(path, ignored);
+    }
+    std::filesystem::path path;
+  };
+  static const Folder folder;
+  return folder.path;
+}
+
+inline void write_file(const std::filesystem::path& file, std::string_view text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.close();
+  require(stream.good(), "the disk takes a small file");
+}
+
+inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+}  // namespace lcs::fuzz

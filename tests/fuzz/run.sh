@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Usage: run.sh SOURCE BUILD CMAKE [SECONDS [FUZZER]...]
+#
+# Builds the fuzzers with clang and lets each run for SECONDS (20) from the inputs that are stored
+# here. Exits with 1 when one of them finds a crash, a hang or a growing memory, and leaves the input
+# in BUILD/found; with 77, skipped, where there is no clang with its fuzzer.
+set -euo pipefail
+source=$1 build=$2 cmake=$3 seconds=${4:-20}
+shift $(($# < 4 ? $# : 4))
+fuzzers=("$@")
+[[ ${#fuzzers[@]} -gt 0 ]] || fuzzers=(scenario parameters detections recording ego_motion filter)
+here=$source/tests/fuzz
+
+if ! echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' |
+  clang++-14 -x c++ -fsanitize=fuzzer,address,undefined -o /dev/null - 2>/dev/null; then
+  echo 'SKIPPED: there is no clang 14 with libFuzzer (Debian: clang-14 libclang-rt-14-dev, which' \
+    'tools/test --all installs)'
+  exit 77
+fi
+
+(cd "$source" && "$cmake" --preset fuzz -B "$build" >/dev/null)
+"$cmake" --build "$build" --target lcs_fuzzers
+
+mkdir -p "$build/found"
+status=0
+for name in "${fuzzers[@]}"; do
+  # New inputs go to the first folder and stay there for the next time.
+  grown=$build/grown/$name
+  mkdir -p "$grown"
+  inputs=("$grown" "$here/corpus/$name")
+  [[ $name == scenario ]] && inputs+=("$source/scenarios/suite")
+  log=$build/found/$name.log
+  if "$build/tests/fuzz/fuzz_$name" -max_total_time="$seconds" -max_len=6000 -timeout=60 \
+    -rss_limit_mb=2048 -artifact_prefix="$build/found/$name-" "${inputs[@]}" >"$log" 2>&1; then
+    printf '%s: %s\n' "$name" "$(grep -E '^Done ' "$log")"
+  else
+    printf '%s: FAILED, see %s\n' "$name" "$log"
+    grep -E 'ERROR|runtime error|does not hold|SUMMARY|Test unit written' "$log" || true
+    status=1
+  fi
+done
+exit "$status"
