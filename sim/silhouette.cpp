@@ -42,8 +42,9 @@ Eigen::Matrix3Xd ellipsoid(const Eigen::Vector3d& radii, double h) {
   Eigen::Matrix3Xd points(3, (kRings + 2) * kRound);
   int n = 0;
   for (int half = -1; half <= 1; half += 2) {
-    for (int ring = 0; ring <= kRings / 2; ++ring) {
-      const double latitude = half * std::numbers::pi / 2 * ring / (kRings / 2);
+    constexpr int kHalf = kRings / 2;
+    for (int ring = 0; ring <= kHalf; ++ring) {
+      const double latitude = half * std::numbers::pi / 2 * ring / kHalf;
       for (int i = 0; i < kRound; ++i) {
         const double a = 2 * std::numbers::pi * i / kRound;
         points.col(n++) << radii.x() * std::cos(latitude) * std::cos(a),

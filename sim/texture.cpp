@@ -76,8 +76,9 @@ void paint_fewrects(Brush& b) {
   for (int quarter = 0; quarter < 4; ++quarter) {
     const double w = b.between(0.18, 0.32);
     const double h = b.between(0.18, 0.32);
-    const double x = (quarter % 2) * 0.46 + b.between(0.08, 0.44 - w);
-    const double y = (quarter / 2) * 0.46 + b.between(0.08, 0.44 - h);
+    const int column = quarter % 2, row = quarter / 2;
+    const double x = column * 0.46 + b.between(0.08, 0.44 - w);
+    const double y = row * 0.46 + b.between(0.08, 0.44 - h);
     b.rectangle(x, y, x + w, y + h, b.grey(25, 80, 12));
   }
 }
