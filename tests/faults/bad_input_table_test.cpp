@@ -2,24 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/tools/files.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 
 const fs::path kTests = LCS_TESTS_DIR;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::vector<std::smatch> matches(const std::string& text, const std::regex& pattern) {
   return {std::sregex_iterator(text.begin(), text.end(), pattern), {}};
@@ -31,7 +26,7 @@ std::set<std::string> tests_in_the_tree() {
   std::set<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(kTests)) {
     if (entry.path().extension() != ".cpp") continue;
-    const std::string text = text_of(entry.path());
+    const std::string text = lcs::bench::read(entry.path());
     for (const std::smatch& match : matches(text, definition)) {
       names.insert(match.str(1) + "." + match.str(2));
     }
@@ -43,7 +38,7 @@ TEST(BadInputTable, EveryRowNamesTestsThatExist) {
   const std::set<std::string> tests = tests_in_the_tree();
   ASSERT_GT(tests.size(), 500u);
   const std::regex row(R"(^\| (.+) \| (.+) \| (.+) \|$)"), quoted("`([^`]+)`");
-  std::istringstream table(text_of(kTests / "faults" / "BAD_INPUT.md"));
+  std::istringstream table(lcs::bench::read(kTests / "faults" / "BAD_INPUT.md"));
   int rows = 0, line = 0;
   for (std::string text; std::getline(table, text);) {
     SCOPED_TRACE("BAD_INPUT.md:" + std::to_string(++line));
