@@ -43,8 +43,8 @@ constexpr int kSilentPeriods = 4;
 constexpr double kUnseenTurn = 0.1;          // rad/s/sqrt(Hz), about the vertical
 constexpr double kUnseenAcceleration = 1.0;  // m/s^2/sqrt(Hz)
 
-// Beyond what sensors measure and wheels drive.
-constexpr double kMostRate_radps = 100, kMostForce_mps2 = 2000, kMostSpeed_mps = 1000;
+// Beyond what sensors measure.
+constexpr double kMostRate_radps = 100, kMostForce_mps2 = 2000;
 
 // Variances above this say that nothing is known; more of them would run into infinity.
 constexpr double kMostVariance = 1e12;

@@ -16,6 +16,9 @@ namespace lcs {
 /// Between two frames; of what was known a longer time ago nothing is of use.
 inline constexpr double kLongestStep_s = 60;
 
+/// Nothing that drives is faster: larger numbers are those of something broken.
+inline constexpr double kMostSpeed_mps = 1000;
+
 /// The plane that the rover stands on, seen from the camera of frame k.
 struct Ground {
   Eigen::Vector3d up_C = -Eigen::Vector3d::UnitY();  ///< its unit normal, against gravity

@@ -18,9 +18,6 @@ constexpr double kKnownShare = 0.2, kKnown_1pm = 0.03;
 /// Frames after which a path counts: what rain and flicker make is gone by then.
 constexpr int kLeastAge = 3;
 
-/// Frames for which a group must stand on nothing at the least, however far apart they are.
-constexpr int kLeastFrames = 2;
-
 /// Share by which depths within a group may differ, beside their errors.
 constexpr double kLikeDepth = 0.1;
 double like_depth(double ratio) {

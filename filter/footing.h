@@ -36,6 +36,9 @@ class Footing {
   bool is_unfounded(const Edge& edge) const { return edge.unfounded >= frames_; }
 
  private:
+  /// Frames for which a group must stand on nothing at the least, however far apart they are.
+  static constexpr int kLeastFrames = 2;
+
   /// An edge whose depth is known from its path. Depths are ratios Z_ref / Z.
   struct Node {
     Edge* edge;
@@ -65,9 +68,9 @@ class Footing {
   void count(Group group, const Extent& unfounded) const;
 
   FootingParameters parameters_;
-  int frames_ = 2;          // for which a group must stand on nothing
-  double slack_ = 0;        // ratio by which the ground may differ from its plane
-  double overhang_px_ = 0;  // at a ratio of 1
+  int frames_ = kLeastFrames;  // for which a group must stand on nothing
+  double slack_ = 0;           // ratio by which the ground may differ from its plane
+  double overhang_px_ = 0;     // at a ratio of 1
   Vec2 along_horizon_ = Vec2::UnitX();
   std::vector<Node> nodes_;
   std::vector<Vec2> points_;

@@ -14,8 +14,6 @@ constexpr int kFrozen = 10;
 constexpr int kSaturated = 5;
 constexpr double kLeastRange_radps = 1.5, kLeastRange_g = 1.5;
 
-/// At rest a reading in g has size 1, which in m/s^2 is nearly free fall: not for `kInG` readings.
-constexpr double kLeast_g = 0.7, kMost_g = 1.4;
 /// m/s^2: below it, g and m/s^2 cannot be told apart.
 constexpr double kLeastGravity_mps2 = 3;
 

@@ -30,6 +30,9 @@ class ImuWatch {
 
   /// Readings in a row of which the last shows that they are in g.
   static constexpr int kInG = 20;
+  /// At rest a reading in g has size 1, which in m/s^2 is nearly free fall: not for `kInG`
+  /// readings.
+  static constexpr double kLeast_g = 0.7, kMost_g = 1.4;
   /// How many of them there are now, up to `kInG`.
   int in_g() const { return in_g_; }
 

@@ -9,7 +9,7 @@ namespace {
 /// Shorter than this no time has passed: speeds would be what rounding makes of them.
 constexpr double kShortestStep_s = 1e-6;
 
-constexpr double kMostSpeed_mps = 1000, kMostRate_radps = 1000;
+constexpr double kMostRate_radps = 1000;
 
 /// Of R R^T from the identity: 0.4 px at the border of a 640 px picture of 75 deg.
 constexpr double kOffRotation = 1e-3;

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "filter/ego_motion.h"
+
 namespace lcs::replay {
 
 /// R = Rz(yaw) Ry(pitch) Rx(roll).
@@ -15,7 +17,7 @@ inline Eigen::Quaterniond from_rpy(double roll, double pitch, double yaw) {
 
 /// Whether something that is driven can be so fast: other numbers are those of a broken file.
 inline bool is_speed(double x_mps, double y_mps, double z_mps) {
-  return Eigen::Vector3d(x_mps, y_mps, z_mps).norm() <= 1000;
+  return Eigen::Vector3d(x_mps, y_mps, z_mps).norm() <= kMostSpeed_mps;
 }
 
 /// R_BC of a camera mounted by roll, pitch and yaw about the fixed x, y and z of B (x ahead, y

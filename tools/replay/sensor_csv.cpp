@@ -9,6 +9,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "filter/imu_watch.h"
 #include "tools/bench/csv.h"
 #include "tools/replay/navigation.h"
 #include "tools/replay/times.h"
@@ -76,7 +77,7 @@ void check_units(const std::vector<sim::ImuSample>& samples, const std::filesyst
   for (const sim::ImuSample& sample : samples) sizes.push_back(sample.accel_mps2.norm());
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
-  if (*middle < 0.7 || *middle > 1.4) return;
+  if (*middle < ImuWatch::kLeast_g || *middle > ImuWatch::kMost_g) return;
   throw std::runtime_error(
       fmt::format("{}: accelerations have a size of {:.2f}, gravity in g; multiply them by 9.80665 "
                   "to have m/s^2 "
