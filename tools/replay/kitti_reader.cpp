@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <map>
 #include <optional>
@@ -16,6 +14,7 @@
 #include "tools/replay/navigation.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
+#include "tools/replay/times.h"
 
 namespace lcs::replay {
 namespace {
@@ -23,28 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-/// "2011-09-26 13:02:25.964389445", in UTC.
-std::optional<std::int64_t> calendar_time_in(const std::string& date, const std::string& clock) {
-  std::tm calendar = {};
-  double seconds = 0;
-  if (std::sscanf(date.c_str(), "%d-%d-%d", &calendar.tm_year, &calendar.tm_mon,
-                  &calendar.tm_mday) != 3 ||
-      std::sscanf(clock.c_str(), "%d:%d:%lf", &calendar.tm_hour, &calendar.tm_min, &seconds) != 3) {
-    return std::nullopt;
-  }
-  const auto within = [](int value, int least, int most) {
-    return value >= least && value <= most;
-  };
-  if (!within(calendar.tm_year, 1900, 2099) || !within(calendar.tm_mon, 1, 12) ||
-      !within(calendar.tm_mday, 1, 31) || !within(calendar.tm_hour, 0, 23) ||
-      !within(calendar.tm_min, 0, 59) || !(seconds >= 0 && seconds < 61)) {
-    return std::nullopt;
-  }
-  calendar.tm_year -= 1900;
-  calendar.tm_mon -= 1;
-  return std::int64_t{::timegm(&calendar)} * 1'000'000'000 + std::llround(seconds * 1e9);
-}
 
 /// Line k is of item k; none where a line is no time.
 std::vector<std::optional<std::int64_t>> read_times(const fs::path& file, Tally& tally) {

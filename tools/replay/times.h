@@ -27,4 +27,9 @@ inline std::optional<std::int64_t> time_in(std::string_view text, std::int64_t u
   return *units * unit_ns;
 }
 
+/// "2011-09-26" and "13:02:25.964389445", in UTC, as nanoseconds since 1970, to the nearest; none
+/// if that is no day of the years 1900 to 2099, or no time of a day. A leap second is the next
+/// minute's first.
+std::optional<std::int64_t> calendar_time_in(std::string_view date, std::string_view clock);
+
 }  // namespace lcs::replay
