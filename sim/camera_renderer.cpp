@@ -97,13 +97,13 @@ struct CameraRenderer::Impl {
   }
 
   void release() {
+    mjv_freeScene(&scene);
     try {
       gl.make_current();
     } catch (const std::runtime_error&) {
-      return;  // what cannot be made current went with its context
+      return;  // what cannot be made current goes with its context
     }
     mjr_freeContext(&context);
-    mjv_freeScene(&scene);
   }
 
   mjrRect viewport() const { return {0, 0, width_px, height_px}; }

@@ -116,8 +116,6 @@ struct Simulation::Impl {
 Simulation::Simulation(const scenario::Scenario& scenario)
     : impl_(std::make_unique<Impl>(scenario)) {}
 Simulation::~Simulation() = default;
-Simulation::Simulation(Simulation&&) noexcept = default;
-Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 const Calibration& Simulation::calibration() const {
   return impl_->calibration;

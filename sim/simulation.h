@@ -55,8 +55,6 @@ class Simulation {
   ///   std::runtime_error for what is wrong with the machine (GL that will not start).
   explicit Simulation(const scenario::Scenario& scenario);
   ~Simulation();
-  Simulation(Simulation&&) noexcept;
-  Simulation& operator=(Simulation&&) noexcept;
 
   const Calibration& calibration() const;
   const std::vector<Object>& objects() const;

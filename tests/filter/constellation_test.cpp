@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "filter/filter.h"
+#include "filter/hit_screen.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
@@ -100,6 +101,28 @@ TEST(Constellation, ASlowMoverIsFoundAtAHighFrameRate) {
   // have followed it so far lie off the field by 2 px only then.
   EXPECT_LE(frames_until_found(preset("default")), 10);
   EXPECT_GE(frames_until_found(with("constellation.baseline", "0")), 30);
+}
+
+/// Rebels at the end among twelve corners that move alike, 130 px and more apart.
+std::ptrdiff_t found_of_a_wide_group(const Parameters& parameters) {
+  Filter filter(vga(), parameters);
+  std::ptrdiff_t found = 0;
+  for (int k = 0; k < 8; ++k) {
+    Corners corners;
+    for (int i = 0; i < 12; ++i) {
+      // not quite a grid, which would be its own past when shifted
+      const int x = 40 + 140 * (i % 4) + 7 * i % 11, y = 60 + 150 * (i / 4) + 5 * i % 13;
+      corners.push_back(Eigen::Vector2i(x + 5 * k, y + 2 * k).cast<float>());
+    }
+    found = rebels(filter.step(corners, steady_motion(Vector3d::Zero(), Vector3d::Zero(), 0.1)));
+  }
+  return found;
+}
+
+TEST(Constellation, NeighboursBeyondTheArmsOfTheScreenVoteAllTheSame) {
+  static_assert(HitScreen::kLongestArm_px < 130);
+  EXPECT_EQ(found_of_a_wide_group(with("constellation.radius", "600")), 12);
+  EXPECT_EQ(found_of_a_wide_group(preset("default")), 0) << "none is near: the test shows nothing";
 }
 
 TEST(Constellation, AnEdgeThatFollowsAMoverStepByStepLosesItByItsPath) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "filter/geometry.h"
 #include "tests/filter/world.h"
@@ -159,6 +160,27 @@ TEST_P(FilterWith, ASparseStaticWorldIsTrackedAndItsDepthsAreLearnt) {
   for (const Edge& edge : edges) {
     if (edge.corner < 0) continue;
     EXPECT_LT((edge.location - corners[edge.corner].cast<double>()).norm(), 5);
+  }
+}
+
+TEST_P(FilterWith, AFilterThatIsMovedGoesOnWhereItWas) {
+  Scene scene(12);
+  const auto frames = record(scene, 10);
+  Filter stays(scene.world.camera, parameters()), leaves(scene.world.camera, parameters());
+  for (std::size_t k = 0; k < 5; ++k) {
+    const EgoMotion motion = k == 0 ? EgoMotion{} : scene.motion;
+    stays.step(frames[k], motion);
+    leaves.step(frames[k], motion);
+  }
+  Filter arrives(std::move(leaves));
+  for (std::size_t k = 5; k < frames.size(); ++k) {
+    const FrameResult& expected = stays.step(frames[k], scene.motion);
+    const FrameResult& result = arrives.step(frames[k], scene.motion);
+    EXPECT_EQ(result.verdicts, expected.verdicts) << "frame " << k;
+    ASSERT_EQ(result.layers.normal_edges.size(), expected.layers.normal_edges.size());
+    for (std::size_t i = 0; i < expected.layers.normal_edges.size(); ++i) {
+      EXPECT_EQ(result.layers.normal_edges[i].id, expected.layers.normal_edges[i].id);
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <set>
 #include <stdexcept>
@@ -136,6 +137,14 @@ TEST(Parameters, RanksOfTrustOutOfOrderAreRefused) {
   Parameters p = preset("lab");
   p.circle.trust = {4, 3, 5};
   EXPECT_NE(refusal([&] { validate(p); }).find("Tr_c <= Tr_s <= Tr_m"), std::string::npos);
+}
+
+TEST(Parameters, ALeastRadiusAboveTheGreatestIsRefused) {
+  Parameters p = preset("lab");
+  p.circle.mu_min = p.circle.mu_max;
+  EXPECT_NO_THROW(validate(p));
+  p.circle.mu_min = std::nextafter(p.circle.mu_max, 1e9);
+  EXPECT_NE(refusal([&] { validate(p); }).find("'circle.mu_min' is above"), std::string::npos);
 }
 
 TEST(Parameters, ValidationSeesWhatWasSetInCode) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "sim/simulation.h"
@@ -103,6 +104,28 @@ TEST(Ground, DoesNotStopTheRover) {
     last = o->truth.now.T_WC.p;
   }
   EXPECT_NEAR((last - first).x(), 0.4 * 1.1, 0.08);
+}
+
+/// Material of the bumps in a scene with these geoms.
+std::string material_of_bumps(const std::string& geoms) {
+  auto s = test::scenario_in_mjcf(
+      "<mujoco><asset><material name='sand'/><material name='wood'/></asset><worldbody>"
+      "<light/>" +
+          geoms + "</worldbody></mujoco>",
+      0, 1);
+  s.ground = rough(0.006).ground;
+  World world(s);
+  const mjModel& m = world.model().m();
+  const int material = m.geom_matid[world.model().id(mjOBJ_GEOM, "rough_ground")];
+  return material < 0 ? "" : std::string(world.model().name(mjOBJ_MATERIAL, material));
+}
+
+TEST(Ground, IsOfTheMaterialOfTheFloorWhereverThatIsInTheFile) {
+  const std::string floor = "<geom type='plane' size='9 9 .1' material='sand'/>";
+  const std::string box = "<geom type='box' size='.1 .1 .1' pos='3 3 .1' material='wood'/>";
+  EXPECT_EQ(material_of_bumps(floor + box), "sand");
+  EXPECT_EQ(material_of_bumps(box + floor), "sand");
+  EXPECT_EQ(material_of_bumps(box), "") << "there is no floor";
 }
 
 TEST(Ground, IsSettingNotAnObject) {

@@ -1,5 +1,6 @@
 // What the renderer says against rays cast through the model, which know nothing of GL.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -213,6 +214,28 @@ TEST(Render, TwoRenderersInOneProcessDoNotDisturbEachOther) {
   }
   renderer.render_colour(beside);
   EXPECT_EQ(cv::norm(alone, beside, cv::NORM_INF), 0) << "after the other one is gone";
+}
+
+/// A string along `n` sites, of which each piece is one thing to draw.
+std::string string_of(int n) {
+  std::string sites, tendon = "<tendon><spatial width='.01'>";
+  for (int i = 0; i < n; ++i) {
+    sites += fmt::format("<site name='s{}' pos='3 {} 1'/>", i, .01 * i);
+    tendon += fmt::format("<site site='s{}'/>", i);
+  }
+  std::string mjcf = floor_with(sites);
+  return mjcf.insert(mjcf.find("</mujoco>"), tendon + "</spatial></tendon>");
+}
+
+TEST(Render, WhatDoesNotAllFitIntoThePictureIsAnErrorInEveryFrame) {
+  World few(scenario_in_mjcf(string_of(20), 0, 1));
+  CameraRenderer draws(few.model(), few.camera_id(), 64, 48);
+  EXPECT_NO_THROW(draws.update());
+
+  World many(scenario_in_mjcf(string_of(200), 0, 1));
+  CameraRenderer renderer(many.model(), many.camera_id(), 64, 48);
+  EXPECT_THROW(renderer.update(), MujocoError);
+  EXPECT_THROW(renderer.update(), MujocoError) << "MuJoCo warns only once";
 }
 
 TEST(Render, AnImageLargerThanGlCanDrawIsAnErrorAndNotClipped) {
