@@ -79,8 +79,9 @@ HeatMap heat_map_of(const std::string& name, const sim::Pinhole& camera,
         static_cast<int>((at.px.x() + 0.5) * map.columns / camera.width_px), 0, map.columns - 1);
     const int row = std::clamp(static_cast<int>((at.px.y() + 0.5) * map.rows / camera.height_px), 0,
                                map.rows - 1);
-    sums[static_cast<std::size_t>(row * map.columns + column)] += at.error_px;
-    ++counts[static_cast<std::size_t>(row * map.columns + column)];
+    const int cell = row * map.columns + column;
+    sums[static_cast<std::size_t>(cell)] += at.error_px;
+    ++counts[static_cast<std::size_t>(cell)];
   }
   for (std::size_t i = 0; i < sums.size(); ++i) {
     map.errors_px.push_back(counts[i] > 0 ? sums[i] / counts[i] : std::nan(""));

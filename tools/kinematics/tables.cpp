@@ -158,9 +158,10 @@ Table heat_table(const Study& study) {
     std::string name = map.name;  // its commas would be the table's
     std::erase(name, ',');
     for (int i = 0; i < map.columns * map.rows; ++i) {
-      t.rows.push_back({name, static_cast<double>(i % map.columns),
-                        static_cast<double>(i / map.columns), static_cast<double>(map.columns),
-                        static_cast<double>(map.rows), map.errors_px[static_cast<std::size_t>(i)]});
+      const int column = i % map.columns, row = i / map.columns;
+      t.rows.push_back({name, static_cast<double>(column), static_cast<double>(row),
+                        static_cast<double>(map.columns), static_cast<double>(map.rows),
+                        map.errors_px[static_cast<std::size_t>(i)]});
     }
   }
   return t;
