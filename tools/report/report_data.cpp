@@ -23,7 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-using suite::Outcome;
 using suite::RunResult;
 using suite::ScenarioResult;
 using suite::SuiteResult;

@@ -25,7 +25,8 @@ inline cv::Vec3w kitti_code(const cv::Vec2f& motion_px, bool is_valid) {
   constexpr double kMost = 65535;
   const bool fits = u >= 0 && u <= kMost && v >= 0 && v <= kMost;  // not so a NaN
   if (!is_valid || !fits) return {0, 0, 0};
-  // Positive, so that adding a half rounds to the nearest.
+  // Positive, and of few enough bits, so that adding a half is exact and rounds to the nearest.
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings)
   return {static_cast<std::uint16_t>(u + 0.5), static_cast<std::uint16_t>(v + 0.5), 1};
 }
 
