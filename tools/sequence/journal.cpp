@@ -58,8 +58,8 @@ void link_or_copy(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-Journal::Journal(fs::path folder, std::string plan)
-    : folder_(fs::absolute(std::move(folder)).lexically_normal()) {
+Journal::Journal(const fs::path& folder, const std::string& plan)
+    : folder_(fs::absolute(folder).lexically_normal()) {
   try {
     take_over(plan);
   } catch (const fs::filesystem_error& error) {

@@ -37,7 +37,7 @@ class Journal {
   /// \param plan a JSON object that says all that the bytes of the sequence depend on.
   /// Takes over a folder that is missing, empty, or holds a sequence that was begun by the same
   /// plan. \throws bench::OutputError for a folder that holds anything else.
-  Journal(std::filesystem::path folder, std::string plan);
+  Journal(const std::filesystem::path& folder, const std::string& plan);
 
   /// The sequence is there with its manifest: nothing is to be done.
   bool is_complete() const { return complete_; }
