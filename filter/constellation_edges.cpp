@@ -52,7 +52,7 @@ void ConstellationEdges::predict(Layers& layers, const MotionField& field) {
     if (field.moving()) edge.depth_ratio = field.advanced_ratio(edge.depth_ratio);
     edge.predicted = field.translated(edge.rotated, edge.depth_ratio);
     edge.origin = field.origin(edge.predicted);
-    predict_path(edge, field);
+    edge.path.carry(field);
     edge.speed = edge.depth_ratio * field.reference_speed(edge.rotated);
   }
   for (Edge& edge : layers.rebel_edges) {
@@ -61,7 +61,7 @@ void ConstellationEdges::predict(Layers& layers, const MotionField& field) {
     const Vec2 path = edge.rotated - edge.origin;
     if (!path.isZero()) edge.angle = angle_of(path);
     edge.predicted = edge.rotated + edge.velocity() * field.dt_s();
-    predict_path(edge, field);
+    edge.path.carry(field);
   }
   for (Past& past : history_) {
     for (Vec2& x : past.corners) x = field.rotated(x);
@@ -123,7 +123,7 @@ void ConstellationEdges::update_normal(Edge& edge, const Vec2& x, const MotionFi
     edge.depth_ratio =
         estimate(std::max(edge.trust, trust_.critical + 1), trust_, edge.depth_ratio, measured);
   }
-  measure_path(edge, x, field);
+  edge.path.see(x, camera_, field);
   edge.location = (edge.predicted + 2 * x) / 3;
   edge.speed = edge.depth_ratio * field.reference_speed(edge.location);
   const Vec2 along = field.direction(edge.location);
@@ -144,8 +144,8 @@ double ConstellationEdges::off_field(const Vec2& x, const Vec2& before,
 bool ConstellationEdges::leaves_path(const Edge& edge, const Vec2& x,
                                      const MotionField& field) const {
   const ConstellationParameters& p = parameters_.constellation;
-  return off_field(x, edge.anchor, edge.travelled_C_m, field) >
-         p.path_across + p.path_across_growth * (edge.anchor - x).norm();
+  return off_field(x, edge.path.anchor, edge.path.travelled_C_m, field) >
+         p.path_across + p.path_across_growth * (edge.path.anchor - x).norm();
 }
 
 void ConstellationEdges::update_rebel(Edge& edge, const Vec2& x, const MotionField& field) const {
@@ -166,7 +166,7 @@ void ConstellationEdges::update_rebel(Edge& edge, const Vec2& x, const MotionFie
   // show a path of its own.
   const int proof = parameters_.constellation.path_proof * static_cast<int>(frames);
   if (edge.unfounded > 0) {
-    measure_path(edge, x, field);  // by which it is judged again
+    edge.path.see(x, camera_, field);  // by which it is judged again
   } else if (edge.age >= proof && !leaves_path(edge, x, field)) {
     edge.trust = 0;
   }
@@ -389,7 +389,8 @@ Edge ConstellationEdges::make_rebel(const Vec2& x, const Vec2& velocity_pxps, do
   Edge edge;
   edge.id = next_id();
   edge.rebel = true;
-  edge.location = edge.predicted = edge.anchor = x;
+  edge.location = edge.predicted = x;
+  edge.path.start(x, edge.depth_ratio, camera_);
   edge.rotated = x - velocity_pxps * dt_s;
   set_velocity(edge, velocity_pxps, dt_s);
   edge.off_field_px = 3;
@@ -507,10 +508,7 @@ void ConstellationEdges::turn_unfounded(Layers& layers, const Chi& chi, const Mo
     if (c < 0 || !footing_.is_unfounded(edge)) continue;
     Edge rebel =
         make_rebel(chi.locations[c], (edge.location - edge.rotated) / field.dt_s(), field.dt_s());
-    rebel.anchor = edge.anchor;
-    rebel.travelled_C_m = edge.travelled_C_m;
-    rebel.path_ratio = edge.path_ratio;
-    rebel.path_weight = edge.path_weight;
+    rebel.path = edge.path;
     rebel.unfounded = edge.unfounded;
     rebel.trust = trust_.standard;
     rebel.called = true;

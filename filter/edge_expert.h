@@ -58,11 +58,6 @@ class EdgeExpert {
   /// Deletes what is no longer trusted, or has left the image.
   void bury(std::vector<Edge>& edges) const;
 
-  /// The depth over an edge's whole path, from the parallax since its first sighting. Long paths
-  /// tell depth well enough to part layers; prediction fares better with the depth of late.
-  static void predict_path(Edge& edge, const MotionField& field);
-  void measure_path(Edge& edge, const Vec2& x, const MotionField& field) const;
-
   /// A normal edge at a corner, with V = depth_ratio * V_v.
   Edge make_normal(const Vec2& x, double depth_ratio, double mu, const MotionField& field);
 

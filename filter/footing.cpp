@@ -9,8 +9,8 @@
 namespace lcs {
 namespace {
 
-/// What the two ends of a path may be off, px, and a depth at the least, as a share.
-constexpr double kCornerSigma_px = 0.7, kDepthFloor = 0.02;
+/// However long its path, a depth is not known better than this share.
+constexpr double kDepthFloor = 0.03;
 
 /// Depths count that are known as well as this: a share of them, or 1/m.
 constexpr double kKnownShare = 0.2, kKnown_1pm = 0.03;
@@ -28,9 +28,6 @@ double like_depth(double ratio) {
 constexpr int kLeastSunk = 3;
 constexpr double kSunkShare = 0.5;
 
-/// The camera looks down so steeply that the horizon has no direction in the image.
-constexpr double kLeastTilt = 0.5;
-
 /// px: how far beside a group something may stand that bears it.
 constexpr double kBearerMargin_px = 5;
 /// A bearer is at least as near as the group, but for this share.
@@ -41,11 +38,10 @@ constexpr double kBearerShare = 0.75;
 void Footing::gather(std::vector<Edge>& edges, const MotionField& field) {
   const double known = kKnown_1pm * field.reference_depth_m();
   for (Edge& edge : edges) {
-    if (edge.corner < 0 || edge.path_weight <= 0) continue;
+    if (edge.corner < 0 || edge.path.weight <= 0) continue;
     if (edge.unfounded == 0 && (edge.rebel || edge.age < kLeastAge)) continue;
-    const double ratio = edge.path_ratio;
-    const double sigma =
-        std::max(kDepthFloor * ratio, kCornerSigma_px / std::sqrt(edge.path_weight));
+    const double ratio = edge.path.ratio;
+    const double sigma = std::max(kDepthFloor * ratio, edge.path.sigma());
     if (sigma > std::max(kKnownShare * ratio, known)) continue;
     nodes_.push_back({&edge, ratio, sigma, *field.ground_ratio(edge.location),
                       edge.location.dot(along_horizon_)});
@@ -161,10 +157,9 @@ void Footing::count(Group group, const Extent& unfounded) const {
 
 void Footing::judge(std::vector<Edge>& normals, std::vector<Edge>& rebels,
                     const MotionField& field) {
-  if (parameters_.time <= 0 || !field.ground() || !field.moving()) return;
-  const Vec2 up = field.ground()->up_C.head<2>();
-  if (up.norm() < kLeastTilt) return;
-  along_horizon_ = Vec2(-up.y(), up.x()).normalized();
+  const auto along_horizon = field.along_horizon();
+  if (parameters_.time <= 0 || !along_horizon || !field.moving()) return;
+  along_horizon_ = *along_horizon;
   frames_ = std::max(kLeastFrames, static_cast<int>(std::lround(parameters_.time / field.dt_s())));
   slack_ = field.ground_slack();
   overhang_px_ = field.parallax(Vec2::Zero(), {parameters_.overhang, 0, 0});

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "filter/camera.h"
+#include "filter/path.h"
 
 namespace lcs {
 
@@ -30,11 +31,8 @@ struct Edge {
   double mu = 0;                  ///< normal: radius of detection, px; rebel: deviation angle, rad
   int trust = 0;                  ///< Tr
   int age = 0;                    ///< frames since it was made, 0 in its first
-  Vec2 anchor = Vec2::Zero();     ///< normal: first sighting, moved by the rotations since, px
-  Eigen::Vector3d travelled_C_m = Eigen::Vector3d::Zero();  ///< by the camera since then
-  double path_ratio = 1;    ///< Z_ref / Z from the whole path since the anchor
-  double path_weight = 0;   ///< its information, px^2 of parallax at Z_ref; 0: none yet
-  bool called = false;      ///< rebel: borne out enough to be called one
+  Path path;                      ///< since its first sighting, as a static point's
+  bool called = false;            ///< rebel: borne out enough to be called one
   double off_field_px = 0;  ///< rebel: by how much its motion of late leaves the static images
   int unfounded = 0;        ///< frames for which its group stood on nothing, as `Footing` counts
   int corner = -1;          ///< index in chi of the corner that supports it, -1: none this frame

@@ -8,15 +8,15 @@
 namespace lcs {
 namespace {
 
-/// The local spacing is looked for up to this far.
-constexpr double kSpacingReach_px = 60;
-
 /// Of the grid: about as wide as the spacing of corners where they are many.
 constexpr double kCell_px = 12;
 
-/// Linked neighbours differ by more than the plain tolerance where their depths are poorly known,
-/// but never by more than this many times it.
-constexpr double kUncertainTolerance = 3;
+/// Velocities are measured over about as long; shorter frames do not make them more like each
+/// other.
+constexpr double kSpeedTime_s = 0.1;
+
+/// However badly their depths are known, no more than this share of a difference is put down to it.
+constexpr double kMostError = 0.05;
 
 /// However long its path, a depth is not known better than this share.
 constexpr double kDepthFloor = 0.015;
@@ -37,78 +37,98 @@ void LinkLayering::gather(const std::vector<Edge>& edges, const MotionField& fie
     if (edge.rebel) {
       node.velocity_pxps = edge.velocity();
     } else {
-      if (edge.path_weight <= 0) continue;
-      node.w = edge.path_ratio / field.reference_depth_m();
-      node.sigma =
-          std::max(kDepthFloor * node.w, parameters_.corner_sigma / std::sqrt(edge.path_weight) /
-                                             field.reference_depth_m());
+      if (edge.path.weight <= 0) continue;
+      node.w = edge.path.ratio / field.reference_depth_m();
+      node.sigma = std::max(kDepthFloor * node.w, edge.path.sigma() / field.reference_depth_m());
     }
     nodes_.push_back(node);
     points_.push_back(node.location);
   }
   grid_.build(points_, kCell_px);
-  measure_spacing();
 }
 
-void LinkLayering::measure_spacing() {
-  const auto count = static_cast<std::size_t>(parameters_.neighbour);
-  for (Node& node : nodes_) {
-    // Of its own surface: what lies behind an object or before it says nothing of its spacing.
-    const auto like = [&](int j) {
-      return !parameters_.like_neighbours || node.edge->rebel ||
-             std::abs(nodes_[j].w - node.w) < tolerance(nodes_[j], node);
-    };
-    // One more, for the first is the node itself.
-    grid_.nearest(node.location, kSpacingReach_px, count + 1, like, near_);
-    node.spacing = near_.size() > count ? std::sqrt(near_.back().first) : kSpacingReach_px;
-  }
+/// Seen apart, in units of `reach`; upwards less counts.
+double LinkLayering::apart(const Node& a, const Node& b, double reach_px) const {
+  const Vec2 apart = (a.location - b.location) / reach_px;
+  if (!along_horizon_) return apart.norm();
+  const double across = apart.dot(*along_horizon_);
+  const double upwards = along_horizon_->x() * apart.y() - along_horizon_->y() * apart.x();
+  const double less = parameters_.upward * upwards;
+  return std::sqrt(across * across + less * less);
 }
 
-double LinkLayering::tolerance(const Node& a, const Node& b) const {
+double LinkLayering::farthest(double reach_px) const {
+  return along_horizon_ ? reach_px / std::min(1.0, parameters_.upward) : reach_px;
+}
+
+double LinkLayering::reach(double w) const {
+  return std::max(parameters_.reach_rad, parameters_.reach_m * w) * camera_.focal_px;
+}
+
+double LinkLayering::distance(const Node& a, const Node& b) const {
   const double w = 0.5 * (a.w + b.w);
-  const double plain = parameters_.depth_share * w + parameters_.depth_spread * w * w;
-  return std::clamp(std::hypot(a.sigma, b.sigma), plain, kUncertainTolerance * plain);
-}
-
-double LinkLayering::reach(const Node& a, const Node& b) const {
-  return std::clamp(parameters_.spacing * std::min(a.spacing, b.spacing), parameters_.reach_min,
-                    parameters_.reach_max);
+  const double difference = std::abs(a.w - b.w);
+  // Most are not alike at all; asked first, for it costs least.
+  if (!(difference < (parameters_.depth_share + kMostError) * w)) return 1;
+  const double sigma = std::sqrt(a.sigma * a.sigma + b.sigma * b.sigma);
+  const double error = std::min(parameters_.depth_error * sigma, kMostError * w);
+  const double in_depth = std::max(difference - error, 0.0) / (parameters_.depth_share * w);
+  const double seen = apart(a, b, reach(w));
+  return std::sqrt(seen * seen + in_depth * in_depth);
 }
 
 void LinkLayering::link_by_depth() {
+  // The mean of two inverse depths that are alike is larger than either by this at the most.
+  const double nearest = 1 + parameters_.depth_share + kMostError;
+  // One more, for the first is the node itself.
+  const std::size_t count = static_cast<std::size_t>(parameters_.neighbours) + 1;
   by_depth_.reset(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& a = nodes_[i];
     by_depth_.set_depth(i, a.w, std::max(a.sigma, 1e-3));
-    // A hair farther than a reaches, for the rounding of the distances that are compared.
-    grid_.visit_within(a.location, 1.001 * reach(a, a), [&](int j, double distance2) {
-      if (j <= static_cast<int>(i)) return;
-      const Node& b = nodes_[j];
-      const double distance = std::sqrt(distance2), longest = reach(a, b);
-      if (distance > longest) return;
-      const double difference = std::abs(a.w - b.w), most = tolerance(a, b);
-      if (!(difference < most)) return;
-      by_depth_.link(2 * difference / most + distance / longest, static_cast<int>(i), j);
-    });
+    const auto is_like = [&](int j) { return distance(a, nodes_[j]) < 1; };
+    grid_.nearest(a.location, farthest(reach(nearest * a.w)), count, is_like, near_);
+    for (const auto& [distance2, j] : near_) {
+      if (j == static_cast<int>(i)) continue;
+      by_depth_.link(distance(a, nodes_[j]), static_cast<int>(i), j);
+    }
   }
   by_depth_.merge_links(
-      [&](double w) { return parameters_.depth_share * w + parameters_.mean_spread * w * w; });
+      [&](double w) { return parameters_.mean_share * w + parameters_.mean_spread * w * w; });
 }
 
 void LinkLayering::link_by_velocity(double dt_s) {
+  const double reach_px = parameters_.rebel_reach_rad * camera_.focal_px;
+  const double unit_s = std::max(dt_s, kSpeedTime_s);
   by_velocity_.reset(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& a = nodes_[i];
-    grid_.visit_within(a.location, parameters_.reach_max, [&](int j, double) {
+    grid_.visit_within(a.location, farthest(reach_px), [&](int j, double) {
       if (j <= static_cast<int>(i)) return;
       const Node& b = nodes_[j];
-      const double step = (a.velocity_pxps - b.velocity_pxps).norm() * dt_s;
-      const double mean = 0.5 * (a.velocity_pxps.norm() + b.velocity_pxps.norm()) * dt_s;
+      if (apart(a, b, reach_px) > 1) return;
+      const double step = (a.velocity_pxps - b.velocity_pxps).norm() * unit_s;
+      const double mean = 0.5 * (a.velocity_pxps.norm() + b.velocity_pxps.norm()) * unit_s;
       if (step < std::max(parameters_.rebel_speed_px, parameters_.rebel_speed_share * mean)) {
         by_velocity_.join(static_cast<int>(i), j);
       }
     });
   }
+}
+
+bool LinkLayering::is_setting(std::span<const int> group, double w, const MotionField& field) {
+  if (!field.ground() || !(w > 0)) return false;
+  heights_m_.clear();
+  for (const int i : group) {
+    Eigen::Vector3d ray;
+    ray << (nodes_[i].location - camera_.centre_px) / camera_.focal_px, 1;
+    heights_m_.push_back(field.ground()->height_m + field.ground()->up_C.dot(ray) / w);
+  }
+  std::sort(heights_m_.begin(), heights_m_.end());
+  const auto cut =
+      static_cast<std::size_t>(parameters_.trim * static_cast<double>(heights_m_.size()));
+  return heights_m_[cut] > parameters_.max_foot ||
+         heights_m_[heights_m_.size() - 1 - cut] > parameters_.max_size;
 }
 
 void LinkLayering::make_square(std::span<const int> group, const MotionField& field) {
@@ -139,9 +159,9 @@ void LinkLayering::make_square(std::span<const int> group, const MotionField& fi
   const double longest = parameters_.max_side * std::max(camera_.width_px, camera_.height_px);
   if (size.prod() < parameters_.min_area || size.maxCoeff() > longest) return;
   const bool rebel = nodes_[group.front()].edge->rebel;
-  const double largest_px =
-      parameters_.max_size * camera_.focal_px * ratio / weights / field.reference_depth_m();
-  if (!rebel && size.maxCoeff() > largest_px) return;
+  const double w = ratio / weights / field.reference_depth_m();
+  const double largest_px = parameters_.max_size * camera_.focal_px * w;
+  if (!rebel && (size.maxCoeff() > largest_px || is_setting(group, w, field))) return;
   square.location = 0.5 * (low + high);
   square.half_size = 0.5 * size;
   square.origin = origin;
@@ -168,6 +188,7 @@ void LinkLayering::make_squares(DisjointSets& sets, std::size_t least, const Mot
 
 const std::vector<Square>& LinkLayering::layer(const Layers& layers, const MotionField& field) {
   squares_.clear();
+  along_horizon_ = field.along_horizon();
   gather(layers.normal_edges, field);
   link_by_depth();
   make_squares(by_depth_.sets(), static_cast<std::size_t>(parameters_.min_edges), field);

@@ -4,11 +4,14 @@
 ///
 /// With furthest-first couples of circles, a layer takes in whatever is at a like depth across half
 /// the image; boxes come out too large to be objects, as the paper says itself. Here every normal
-/// edge brings the depth of its whole path; neighbours are linked, and linked groups merge best
-/// link first (Kruskal) only where their means agree, so that a chain of small steps does not join
-/// a near object to a far one. Rebels are linked by their own velocities.
+/// edge brings the depth of its whole path. Neighbours are linked by one distance, across, upwards
+/// and in depth, in units of their own depth: bodies are taller than the gaps between them are
+/// wide. Linked groups merge best link first (Kruskal) only where their means agree, so that a
+/// chain of small steps does not join a near object to a far one. What is too large for an object,
+/// or does not begin near the ground, is the setting. Rebels are linked by their own velocities.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -36,24 +39,30 @@ class LinkLayering {
     Vec2 velocity_pxps;  // rebels
     double w = 0;        // inverse depth, 1/m (normal edges)
     double sigma = 0;    // of w
-    double spacing = 0;  // local, px
     const Edge* edge = nullptr;
   };
 
   void gather(const std::vector<Edge>& edges, const MotionField& field);
-  void measure_spacing();
   void link_by_depth();
   void link_by_velocity(double dt_s);
   void make_squares(DisjointSets& sets, std::size_t least, const MotionField& field);
   void make_square(std::span<const int> group, const MotionField& field);
-  double reach(const Node& a, const Node& b) const;
-  /// By how much the inverse depths of neighbours may differ.
-  double tolerance(const Node& a, const Node& b) const;
+  /// px: how far neighbours at an inverse depth may be seen apart.
+  double reach(double w) const;
+  /// How far two are seen apart, 1 at their reach; and by that and their depths, 1 where it is too
+  /// far for a link.
+  double apart(const Node& a, const Node& b, double reach_px) const;
+  double distance(const Node& a, const Node& b) const;
+  /// px: nothing farther can be within reach.
+  double farthest(double reach_px) const;
+  /// By its place above the ground, where that is known.
+  bool is_setting(std::span<const int> group, double w, const MotionField& field);
 
   Intrinsics camera_;
   LinkParameters parameters_;
 
   // Of the current frame; kept for their memory.
+  std::optional<Vec2> along_horizon_;
   std::vector<Node> nodes_;
   std::vector<Vec2> points_;
   PointGrid grid_;
@@ -62,7 +71,7 @@ class LinkLayering {
   SetMembers groups_;
   std::vector<std::pair<double, int>> near_;
   std::vector<int> circles_;
-  std::vector<double> xs_, ys_;
+  std::vector<double> xs_, ys_, heights_m_;
   std::vector<Square> squares_;
 };
 

@@ -11,6 +11,9 @@ namespace {
 /// Farther from the principal point than this many focal lengths, the FOE is at infinity.
 constexpr double kFarFoe = 100;
 
+/// Of a unit vector upwards, what must be seen in the image so that the horizon has a direction.
+constexpr double kLeastUpright = 0.5;
+
 /// Of places; a homography may bring what is farther than any picture back into one.
 constexpr double kFarthest_px = 1e9;
 
@@ -103,6 +106,13 @@ Vec2 MotionField::earlier(const Vec2& x_px, double depth_ratio,
   // In reverse a near point may have been behind the camera: it was nowhere in the image.
   if (h.z() < 1e-3) return Vec2::Constant(-1e6);
   return centre_px_ + focal_px_ * h.head<2>() / h.z();
+}
+
+std::optional<Vec2> MotionField::along_horizon() const {
+  if (!ground_) return std::nullopt;
+  const Vec2 up = ground_->up_C.head<2>();
+  if (up.norm() < kLeastUpright) return std::nullopt;
+  return Vec2(-up.y(), up.x()).normalized();
 }
 
 std::optional<double> MotionField::ground_ratio(const Vec2& x_px) const {

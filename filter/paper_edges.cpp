@@ -24,7 +24,7 @@ void PaperEdges::predict(Layers& layers, const MotionField& field) {
     if (field.moving()) edge.depth_ratio = 0.5 * (edge.depth_ratio + 1);
     edge.predicted = field.translated(edge.rotated, edge.depth_ratio);
     edge.origin = field.origin(edge.predicted);
-    predict_path(edge, field);
+    edge.path.carry(field);
     edge.speed = edge.depth_ratio * field.reference_speed(edge.rotated);
     const Vec2 along = field.direction(edge.predicted);
     if (!along.isZero()) edge.angle = angle_of(along);
@@ -156,7 +156,7 @@ void PaperEdges::update_normal(Edge& edge, const Vec2& x, const Chi& chi,
     edge.depth_ratio =
         std::min(std::abs(edge.depth_ratio + residual / reference_step), 2 * field.max_ratio());
   }
-  measure_path(edge, x, field);
+  edge.path.see(x, camera_, field);
   edge.location = estimate(edge.trust, trust_, edge.predicted, x);
   edge.speed = edge.depth_ratio * field.reference_speed(edge.location);
   const Vec2 along = field.direction(edge.location);

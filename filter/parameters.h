@@ -118,26 +118,27 @@ struct CircleParameters {
   int rebel_coast = 2;  ///< trust that a rebel circle loses in a frame without its edges; paper: 1
 };
 
-/// The links rule of the Square expert: neighbours are linked when they lie within a few local
-/// spacings and at one depth, and linked groups merge, best link first, while their means agree.
+/// The links rule of the Square expert: neighbours are linked when they lie near each other, and at
+/// one depth, and linked groups merge, best link first, while their means agree.
 struct LinkParameters {
-  int neighbour = 3;                ///< whose distance is the local spacing: the third nearest,
-  bool like_neighbours = true;      ///< of those at a like depth
-  double spacing = 1.8;             ///< local spacings that a link may span
-  double reach_min = 15;            ///< px: and never less than this,
-  double reach_max = 80;            ///< px: nor more
-  double depth_share = 0.08;        ///< by which the inverse depths of neighbours may differ
-  double depth_spread = 0.1;        ///< m: the same, growing with the inverse depth squared
-  double mean_spread = 0.2;         ///< m: likewise for the means of two groups
-  double corner_sigma = 0.7;        ///< px: what a path's two ends may be off
-  double rebel_speed_share = 0.35;  ///< by which rebels' velocities may differ
-  double rebel_speed_px = 3;        ///< px a frame: and by this in any case
-  int min_edges = 6;                ///< that make a square
+  double reach_rad = 0.061;        ///< how far apart neighbours are seen, at the most
+  double reach_m = 0.4;            ///< m: or as far apart as this, if that is farther
+  double upward = 0.45;            ///< what a distance upwards counts beside one along the horizon
+  double depth_share = 0.08;       ///< by which the inverse depths of neighbours may differ,
+  double depth_error = 0.5;        ///< beside as much of the standard deviation of their difference
+  int neighbours = 12;             ///< that one edge is linked to, the nearest
+  double mean_share = 0.03;        ///< by which the mean inverse depths of two groups may differ
+  double mean_spread = 0.1;        ///< m: the same, growing with the inverse depth squared
+  double rebel_reach_rad = 0.145;  ///< how far apart rebels are seen, at the most
+  double rebel_speed_share = 0.35;  ///< by which their velocities may differ
+  double rebel_speed_px = 3;        ///< px a frame, or tenth of a second: this in any case
+  int min_edges = 9;                ///< that make a square
   int min_rebels = 4;
-  double trim = 0.02;     ///< share of the edges cut off at each side of a box
+  double trim = 0.01;     ///< share of the edges cut off at each side of a box
   double min_area = 250;  ///< px^2
-  double max_side = 0.5;  ///< of the image's longer side: what spans more is background,
-  double max_size = 5;    ///< m: and so is what is larger, by the depth of its edges
+  double max_side = 0.7;  ///< of the image's longer side: what spans more is background,
+  double max_size = 5;    ///< m: and so is what is larger, by the depth of its edges, or higher up,
+  double max_foot = 1.5;  ///< m: and what begins higher above the ground, where that is known
 };
 
 /// Square expert.

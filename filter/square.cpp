@@ -237,8 +237,12 @@ void SquareExpert::match(Layers& layers) {
     const Square& mean = means_[pair.mean];
     // Circles that coast in psi carry their square along, but prove nothing.
     const bool unseen = inside_any(layers.ignored, square.location);
-    square.location = estimate(square.trust, ranks, square.location, mean.location);
-    square.half_size = estimate(square.trust, ranks, square.half_size, mean.half_size);
+    // What comes near grows faster than it is predicted to: rebels are where they are seen.
+    const int trust = mean.rebel_circles > 0 && parameters_.layer_rule == LayerRule::links
+                          ? ranks.critical
+                          : square.trust;
+    square.location = estimate(trust, ranks, square.location, mean.location);
+    square.half_size = estimate(trust, ranks, square.half_size, mean.half_size);
     square.speed = mean.speed;
     square.depth_ratio = mean.depth_ratio;
     square.angle = mean.angle;

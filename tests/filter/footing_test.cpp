@@ -190,8 +190,8 @@ TEST(Footing, SaysNothingWhileTheCameraStandsOrTheGroundIsNotKnown) {
     Edge& edge = edges[i];
     edge.corner = i;
     edge.location = {300.0 + 4 * i, 300.0 + 3 * (i % 3)};
-    edge.path_ratio = 3;  // 1 m: aloft
-    edge.path_weight = 1e4;
+    edge.path.ratio = 3;  // 1 m: aloft
+    edge.path.weight = 1e4;
     edge.unfounded = 1;
   }
   EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);

@@ -270,8 +270,8 @@ TEST(PaperVelocity, ThePathTellsTheTrueDepthBesideIt) {
   Layers layers;
   for (double x = 20; x < 300; x += ratio * step_px) step(experts, layers, {{x, 240}}, field);
   ASSERT_EQ(layers.normal_edges.size(), 1u);
-  EXPECT_GT(layers.normal_edges[0].path_weight, 0);
-  EXPECT_NEAR(layers.normal_edges[0].path_ratio, ratio, 1e-6);
+  EXPECT_GT(layers.normal_edges[0].path.weight, 0);
+  EXPECT_NEAR(layers.normal_edges[0].path.ratio, ratio, 1e-6);
   EXPECT_GT(layers.normal_edges[0].depth_ratio, ratio + 0.03);
 }
 

@@ -23,7 +23,7 @@ Edge edge_of(Id id, int corner, const Vec2& location, const CornerMotion& motion
   edge.id = id;
   edge.corner = corner;
   edge.location = edge.predicted = location;
-  edge.origin = edge.rotated = edge.anchor = location - motion.step_px;
+  edge.origin = edge.rotated = edge.path.anchor = location - motion.step_px;
   edge.angle = angle_of(motion.step_px);
   if (dt_s > 0) edge.speed = motion.step_px.norm() / dt_s;
   return edge;
