@@ -116,7 +116,8 @@ void LinkLayering::link_by_velocity(double dt_s) {
   }
 }
 
-bool LinkLayering::is_setting(std::span<const int> group, double w, const MotionField& field) {
+bool LinkLayering::reaches_too_high(std::span<const int> group, double w,
+                                    const MotionField& field) {
   if (!field.ground() || !(w > 0)) return false;
   heights_m_.clear();
   for (const int i : group) {
@@ -124,11 +125,10 @@ bool LinkLayering::is_setting(std::span<const int> group, double w, const Motion
     ray << (nodes_[i].location - camera_.centre_px) / camera_.focal_px, 1;
     heights_m_.push_back(field.ground()->height_m + field.ground()->up_C.dot(ray) / w);
   }
-  std::sort(heights_m_.begin(), heights_m_.end());
-  const auto cut =
-      static_cast<std::size_t>(parameters_.trim * static_cast<double>(heights_m_.size()));
-  return heights_m_[cut] > parameters_.max_foot ||
-         heights_m_[heights_m_.size() - 1 - cut] > parameters_.max_size;
+  const double cut = parameters_.trim * static_cast<double>(group.size());
+  const auto top = heights_m_.end() - 1 - static_cast<std::ptrdiff_t>(cut);
+  std::nth_element(heights_m_.begin(), top, heights_m_.end());
+  return *top > parameters_.max_size;
 }
 
 void LinkLayering::make_square(std::span<const int> group, const MotionField& field) {
@@ -161,7 +161,7 @@ void LinkLayering::make_square(std::span<const int> group, const MotionField& fi
   const bool rebel = nodes_[group.front()].edge->rebel;
   const double w = ratio / weights / field.reference_depth_m();
   const double largest_px = parameters_.max_size * camera_.focal_px * w;
-  if (!rebel && (size.maxCoeff() > largest_px || is_setting(group, w, field))) return;
+  if (!rebel && (size.maxCoeff() > largest_px || reaches_too_high(group, w, field))) return;
   square.location = 0.5 * (low + high);
   square.half_size = 0.5 * size;
   square.origin = origin;

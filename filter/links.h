@@ -8,7 +8,7 @@
 /// and in depth, in units of their own depth: bodies are taller than the gaps between them are
 /// wide. Linked groups merge best link first (Kruskal) only where their means agree, so that a
 /// chain of small steps does not join a near object to a far one. What is too large for an object,
-/// or does not begin near the ground, is the setting. Rebels are linked by their own velocities.
+/// or too high up, is the setting. Rebels are linked by their own velocities.
 #pragma once
 
 #include <optional>
@@ -55,8 +55,8 @@ class LinkLayering {
   double distance(const Node& a, const Node& b) const;
   /// px: nothing farther can be within reach.
   double farthest(double reach_px) const;
-  /// By its place above the ground, where that is known.
-  bool is_setting(std::span<const int> group, double w, const MotionField& field);
+  /// Whether it reaches higher above the ground, where that is known, than any object.
+  bool reaches_too_high(std::span<const int> group, double w, const MotionField& field);
 
   Intrinsics camera_;
   LinkParameters parameters_;

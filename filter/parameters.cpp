@@ -158,7 +158,6 @@ const std::vector<Entry>& entries() {
       {"link.min_area", "", "px^2", 0, 1000000000.0, LCS_FIELD(double, square.link.min_area)},
       {"link.max_side", "", "", 0, 1, LCS_FIELD(double, square.link.max_side)},
       {"link.max_size", "", "m", 0, 10000, LCS_FIELD(double, square.link.max_size)},
-      {"link.max_foot", "", "m", -1000, 10000, LCS_FIELD(double, square.link.max_foot)},
       {"square.delta_beta_1", "delta_beta,1", "deg", 0, 180,
        LCS_FIELD(double, square.delta_beta_1)},
       {"square.delta_beta_2", "delta_beta,2", "deg", 0, 180,

@@ -137,8 +137,8 @@ struct LinkParameters {
   double trim = 0.01;     ///< share of the edges cut off at each side of a box
   double min_area = 250;  ///< px^2
   double max_side = 0.7;  ///< of the image's longer side: what spans more is background,
-  double max_size = 5;    ///< m: and so is what is larger, by the depth of its edges, or higher up,
-  double max_foot = 1.5;  ///< m: and what begins higher above the ground, where that is known
+  double max_size = 5;    ///< m: and so is what is larger, by the depth of its edges, or reaches
+                          ///< higher above the ground, where that is known
 };
 
 /// Square expert.

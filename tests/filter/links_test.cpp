@@ -156,9 +156,9 @@ TEST(Links, ReachFartherWhereTheyAreNear) {
   }
 }
 
-/// A patch of 1 m, seen 4 m away, with its lower side `foot_m` above the ground.
+/// A patch of 1 m, seen 8 m away, with its lower side `foot_m` above the ground.
 std::size_t squares_at(double foot_m, const std::optional<Ground>& ground) {
-  constexpr double kDepth_m = 4, kHeight_m = 0.45;
+  constexpr double kDepth_m = 8, kHeight_m = 0.45;
   const auto row = [](double up_m) {
     return vga().centre_px.y() + vga().focal_px * (kHeight_m - up_m) / kDepth_m;
   };
@@ -167,13 +167,13 @@ std::size_t squares_at(double foot_m, const std::optional<Ground>& ground) {
   return LinkLayering(vga(), LinkParameters{}).layer(layers, ahead(ground)).size();
 }
 
-TEST(Links, WhatBeginsHighAboveTheGroundIsSetting) {
+TEST(Links, WhatReachesHighAboveTheGroundIsSetting) {
   const Ground ground{.height_m = 0.45};
-  const double limit_m = LinkParameters{}.max_foot;
+  const double limit_m = LinkParameters{}.max_size - 1;
   EXPECT_EQ(squares_at(0, ground), 1u);
   EXPECT_EQ(squares_at(limit_m - 0.1, ground), 1u);
-  EXPECT_EQ(squares_at(limit_m + 0.15, ground), 0u);
-  EXPECT_EQ(squares_at(limit_m + 0.15, std::nullopt), 1u) << "no ground, no height";
+  EXPECT_EQ(squares_at(limit_m + 0.1, ground), 0u);
+  EXPECT_EQ(squares_at(limit_m + 0.1, std::nullopt), 1u) << "no ground, no height";
 }
 
 // 200 px wide, and as many metres as its depth makes of them.
