@@ -35,7 +35,7 @@ std::string header(const cv::Mat& image, ColourType colour) {
   append_big_endian(data, static_cast<std::uint32_t>(image.cols));
   append_big_endian(data, static_cast<std::uint32_t>(image.rows));
   data += image.depth() == CV_16U ? '\x10' : '\x08';
-  data += colour;
+  data += static_cast<char>(colour);
   data.append(3, '\0');  // compression and filter as all have them, not interlaced
   return data;
 }
