@@ -1,7 +1,6 @@
 #include "filter/edge_expert.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "filter/constellation_edges.h"

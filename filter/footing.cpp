@@ -162,7 +162,7 @@ void Footing::judge(std::vector<Edge>& normals, std::vector<Edge>& rebels,
   along_horizon_ = *along_horizon;
   frames_ = std::max(kLeastFrames, static_cast<int>(std::lround(parameters_.time / field.dt_s())));
   slack_ = field.ground_slack();
-  overhang_px_ = field.parallax(Vec2::Zero(), {parameters_.overhang, 0, 0});
+  overhang_px_ = field.length_px(parameters_.overhang);
   nodes_.clear();
   points_.clear();
   gather(normals, field);

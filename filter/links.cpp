@@ -120,10 +120,10 @@ bool LinkLayering::reaches_too_high(std::span<const int> group, double w,
                                     const MotionField& field) {
   if (!field.ground() || !(w > 0)) return false;
   heights_m_.clear();
+  const double ratio = w * field.reference_depth_m();
   for (const int i : group) {
-    Eigen::Vector3d ray;
-    ray << (nodes_[i].location - camera_.centre_px) / camera_.focal_px, 1;
-    heights_m_.push_back(field.ground()->height_m + field.ground()->up_C.dot(ray) / w);
+    const double ground_ratio = *field.ground_ratio(nodes_[i].location);
+    heights_m_.push_back(field.ground()->height_m * (1 - ground_ratio / ratio));
   }
   const double cut = parameters_.trim * static_cast<double>(group.size());
   const auto top = heights_m_.end() - 1 - static_cast<std::ptrdiff_t>(cut);

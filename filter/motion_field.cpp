@@ -40,6 +40,8 @@ MotionField::MotionField(const Intrinsics& camera, const EgoMotion& motion,
       ground_(parameters.ground ? motion.ground : std::nullopt),
       ground_tilt_rad_(parameters.ground_tilt_rad),
       moving_(motion.dt_s > 0 && motion.v_C_mps.norm() > parameters.still_speed_mps) {
+  T_prev_cur_.topLeftCorner<3, 3>() = R_cur_prev_.transpose();
+  T_prev_cur_.topRightCorner<3, 1>() = R_cur_prev_.transpose() * displacement_C_m();
   if (moving_ && std::abs(v_C_mps_.z()) * kFarFoe > v_C_mps_.head<2>().norm()) {
     foe_ = centre_px_ + focal_px_ * v_C_mps_.head<2>() / v_C_mps_.z();
   }
@@ -125,13 +127,6 @@ std::optional<double> MotionField::ground_ratio(const Vec2& x_px) const {
 double MotionField::least_ratio(const Vec2& x_px) const {
   if (!ground_) return 0;
   return std::clamp(*ground_ratio(x_px) - ground_slack(), 0.0, max_ratio());
-}
-
-double MotionField::parallax(const Vec2& earlier_px,
-                             const Eigen::Vector3d& displacement_C_m) const {
-  return (focal_px_ * displacement_C_m.head<2>() + (centre_px_ - earlier_px) * displacement_C_m.z())
-             .norm() /
-         reference_depth_m_;
 }
 
 double MotionField::ratio_from(const Vec2& x_px, const Vec2& earlier_px,

@@ -57,15 +57,16 @@ class MotionField {
   double ratio_from(const Vec2& x_px, const Vec2& earlier_px,
                     const Eigen::Vector3d& displacement_C_m) const;
 
-  /// By how many px `earlier` moves for a step of 1 in the depth ratio: what a measured ratio rests
-  /// on.
-  double parallax(const Vec2& earlier_px, const Eigen::Vector3d& displacement_C_m) const;
+  /// Image of a length across the line of sight, at the reference depth.
+  double length_px(double length_m) const { return focal_px_ * length_m / reference_depth_m_; }
 
   double reference_depth_m() const { return reference_depth_m_; }
 
   /// Of the camera over the interval, in the camera frame of k.
   Eigen::Vector3d displacement_C_m() const { return v_C_mps_ * dt_s_; }
   const Eigen::Matrix3d& R_cur_prev() const { return R_cur_prev_; }
+  /// Takes a static point's homogeneous coordinates of frame k to those of frame k-1.
+  const Eigen::Matrix4d& T_prev_cur() const { return T_prev_cur_; }
 
   /// Z_ref / Z at the end of the interval from the one at its start. A point that the camera passes
   /// within the interval gets the largest plausible ratio.
@@ -124,6 +125,7 @@ class MotionField {
   double dt_s_;
   RotationModel rotation_;
   Eigen::Matrix3d R_cur_prev_;
+  Eigen::Matrix4d T_prev_cur_ = Eigen::Matrix4d::Identity();
   Eigen::Matrix3d homography_;  // K dR K^-1
   Eigen::Vector3d w_dt_;        // rotation over the interval, rad
   Eigen::Vector3d v_C_mps_;

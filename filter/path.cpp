@@ -46,12 +46,7 @@ void Path::start(const Vec2& x_px, double depth_ratio, const Intrinsics& camera)
 void Path::carry(const MotionField& field) {
   anchor = field.rotated(anchor);
   travelled_C_m = field.R_cur_prev() * travelled_C_m + field.displacement_C_m();
-
-  // X_prev = R' (X_cur + displacement).
-  Eigen::Matrix4d T_prev_cur = Eigen::Matrix4d::Identity();
-  T_prev_cur.topLeftCorner<3, 3>() = field.R_cur_prev().transpose();
-  T_prev_cur.topRightCorner<3, 1>() = field.R_cur_prev().transpose() * field.displacement_C_m();
-  sightings = T_prev_cur.transpose() * sightings * T_prev_cur;
+  sightings = field.T_prev_cur().transpose() * sightings * field.T_prev_cur();
   if (!field.moving()) return;
 
   const double before = ratio;

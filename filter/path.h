@@ -8,8 +8,7 @@
 /// point, h -> T h, M -> T^-T M T^-1. Where the form is least, with h_z = 1, the point is; its
 /// curvature there is the information on the depth, where each sighting errs by 1 px.
 ///
-/// Held to its first sighting, a depth errs with that for ever; half of the error after ten frames
-/// came from there.
+/// Held to its first sighting, a depth errs with that for ever.
 #pragma once
 
 #include <Eigen/Core>

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "filter/geometry.h"
+#include "tests/filter/presets.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
@@ -24,12 +25,8 @@ using testing::sparse_world;
 using testing::steady_motion;
 using testing::World;
 
-struct FilterWith : ::testing::TestWithParam<std::string> {
-  Parameters parameters() const { return preset(GetParam()); }
-  TrustRanks circle_ranks() const { return parameters().circle.trust; }
-};
-INSTANTIATE_TEST_SUITE_P(Presets, FilterWith, ::testing::Values("default", "lab", "cars"),
-                         [](const auto& preset_info) { return preset_info.param; });
+struct FilterWith : testing::OfEachPreset {};
+INSTANTIATE_TEST_SUITE_P(Presets, FilterWith, testing::each_preset(), testing::name_of_preset);
 
 TEST_P(FilterWith, OrderOfTheCornersMakesNoDifference) {
   Scene scene(1);

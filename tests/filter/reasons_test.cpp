@@ -121,7 +121,7 @@ TEST(Reasons, GoWithTheirVerdicts) {
       Reason::xi_2,        Reason::vote_on_field,  Reason::normal_stands, Reason::xi_3};
   const std::set<Reason> of_normals_alone = {Reason::normal_edge, Reason::normal_stands,
                                              Reason::xi_2, Reason::xi_3};
-  for (const char* name : {"default", "lab", "cars"}) {
+  for (const std::string& name : preset_names()) {
     SCOPED_TRACE(name);
     World world = sparse_world(3, 14);
     for (std::size_t i = 0; i < world.points.size(); ++i) {

@@ -9,6 +9,7 @@
 
 #include "filter/filter.h"
 #include "tests/filter/invariants.h"
+#include "tests/filter/presets.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
@@ -27,11 +28,8 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfF = std::numeric_limits<float>::infinity();
 
-struct BadData : ::testing::TestWithParam<std::string> {
-  Parameters parameters() const { return preset(GetParam()); }
-};
-INSTANTIATE_TEST_SUITE_P(Presets, BadData, ::testing::Values("default", "lab", "cars"),
-                         [](const auto& preset_info) { return preset_info.param; });
+struct BadData : testing::OfEachPreset {};
+INSTANTIATE_TEST_SUITE_P(Presets, BadData, testing::each_preset(), testing::name_of_preset);
 
 /// All but the ids, which go on where they were.
 void expect_same(const FrameResult& a, const FrameResult& b, std::size_t frame) {

@@ -2,6 +2,7 @@
 // finite and of bounded size, and its counts agree.
 #include <deque>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "filter/geometry.h"
@@ -16,7 +17,6 @@ using fuzz::Bytes;
 
 const Intrinsics kCamera{90, {79.5, 59.5}, 160, 120};
 constexpr int kMostFrames = 60;
-constexpr const char* kPresets[] = {"default", "lab", "cars"};
 
 using Corners = std::vector<Eigen::Vector2f>;
 
@@ -67,7 +67,8 @@ std::size_t taken(const Corners& corners) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, size);
   const std::uint8_t settings = bytes.byte();
-  Parameters parameters = preset(kPresets[settings % 3]);
+  const std::vector<std::string> presets = preset_names();
+  Parameters parameters = preset(presets[settings % presets.size()]);
   if (settings & 128) parameters.line.ignore = !parameters.line.ignore;
   if (settings & 64) parameters.line.max_corners = 50;
   if (settings & 32) parameters.field.rotation = RotationModel::first_order;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "filter/imu_watch.h"
 #include "tools/bench/csv.h"
@@ -70,19 +71,26 @@ Vector3d vector_at(const NumberRow& row, std::size_t first) {
   return {row.numbers[first], row.numbers[first + 1], row.numbers[first + 2]};
 }
 
+/// The upper one of the two in the middle of an even number. \pre there is one
+template <typename T>
+T median(std::vector<T> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 /// At rest or driving, an accelerometer shows gravity more than anything else.
 /// \throws std::runtime_error where it shows it in g.
 void check_units(const std::vector<sim::ImuSample>& samples, const std::filesystem::path& file) {
   std::vector<double> sizes;
   for (const sim::ImuSample& sample : samples) sizes.push_back(sample.accel_mps2.norm());
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  if (*middle < ImuWatch::kLeast_g || *middle > ImuWatch::kMost_g) return;
+  const double usual = median(std::move(sizes));
+  if (usual < ImuWatch::kLeast_g || usual > ImuWatch::kMost_g) return;
   throw std::runtime_error(
       fmt::format("{}: accelerations have a size of {:.2f}, gravity in g; multiply them by 9.80665 "
                   "to have m/s^2 "
                   "(and see whether rates are in rad/s)",
-                  file.string(), *middle));
+                  file.string(), usual));
 }
 
 }  // namespace
@@ -166,9 +174,7 @@ void count_gaps(const std::vector<sim::ImuSample>& samples, Tally& tally) {
     periods.push_back(samples[i].t_ns - samples[i - 1].t_ns);
   }
   if (periods.empty()) return;
-  std::vector<std::int64_t> sorted = periods;
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  const std::int64_t usual = sorted[sorted.size() / 2];
+  const std::int64_t usual = median(periods);
   for (std::size_t i = 0; i < periods.size(); ++i) {
     if (periods[i] / kSilentPeriods > usual) {
       tally.add("gaps are in the readings of the IMU, in which the last one is held",
