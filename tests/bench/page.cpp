@@ -3,7 +3,9 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <opencv2/core/utility.hpp>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "sim/simulation.h"
+#include "tests/bench/raw_renderer.h"
 #include "tools/bench/output_file.h"
 
 namespace lcs::bench {
@@ -23,10 +26,16 @@ constexpr int kCorners[] = {100, 200, 700, 2000, 5000, 10000, 20000};
 constexpr double kMostOfFast = 2, kMostOfKlt = 0.1, kMostGrowth = 1.15;
 constexpr int kTargetCorners = 700, kGrowthFrom = 200;
 
+/// Columns of times: FAST, klt, the filter, its three experts.
+constexpr std::size_t kTimes = 6, kFilter = 2;
+
+using Growth = std::vector<std::pair<double, double>>;  ///< corners, ms
+
 constexpr const char* kStyle =
-    "body{font:15px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em}"
-    "table{border-collapse:collapse;margin:1em 0}td,th{padding:.2em .8em;text-align:right;"
-    "border-bottom:1px solid #ccc}td:first-child,th:first-child{text-align:left}"
+    "body{font:15px/1.5 sans-serif;max-width:68em;margin:2em auto;padding:0 1em}"
+    "table{border-collapse:collapse;margin:1em 0}td,th{padding:.2em .6em;text-align:right;"
+    "border-bottom:1px solid "
+    "#ccc}th[colspan]{text-align:center}td:first-child,th:first-child{text-align:left}"
     ".met{color:#060}.missed{color:#a00}code{background:#eee}";
 
 std::string cell(std::optional<double> value, const char* format) {
@@ -46,16 +55,18 @@ std::string machine() {
   std::string load;
   for (const double one : cpu.load_avg) load += fmt::format(" {:.1f}", one);
   const sim::Versions versions = sim::versions();
+  const char* threads = std::getenv("LP_NUM_THREADS");
   return fmt::format(
-      "<p>{}, {} cores, load at the start{}. MuJoCo {}, {}, OpenCV {} on one thread. The filter's "
-      "parameters are the default ones; the scenarios are <code>tests/bench/lab.yaml</code> and "
+      "<p>{}, {} cores, load at the start{}. MuJoCo {}, {}{}, OpenCV {} on one thread. The "
+      "filter's parameters are the default ones; the scenarios are "
+      "<code>tests/bench/lab.yaml</code> and "
       "<code>street.yaml</code>.</p>\n",
       processor(), cpu.num_cpus, load, versions.mujoco, versions.gl_renderer,
-      cv::getVersionString());
+      threads ? fmt::format(" with LP_NUM_THREADS={}", threads) : "", cv::getVersionString());
 }
 
 /// Slope of the line through (log x, log y) that fits best; none of fewer than two points.
-std::optional<double> exponent(const std::vector<std::pair<double, double>>& points) {
+std::optional<double> exponent(const Growth& points) {
   if (points.size() < 2) return std::nullopt;
   double mx = 0, my = 0, xx = 0, xy = 0;
   const double n = static_cast<double>(points.size());
@@ -68,6 +79,11 @@ std::optional<double> exponent(const std::vector<std::pair<double, double>>& poi
     xy += (std::log(x) - mx) * (std::log(y) - my);
   }
   return xy / xx;
+}
+
+std::optional<double> ratio(std::optional<double> a, std::optional<double> b) {
+  if (!a || !b) return std::nullopt;
+  return *a / *b;
 }
 
 std::string target(const std::string& what, std::optional<double> value, double most) {
@@ -91,61 +107,90 @@ void PageReporter::ReportRuns(const std::vector<Run>& runs) {
   }
 }
 
-void PageReporter::write(const std::filesystem::path& page) const {
-  const auto ms = [&](const std::string& name) -> std::optional<double> {
-    const auto found = measured_.find(name);
-    return found == measured_.end() ? std::nullopt : std::optional(found->second.ms);
-  };
-  const auto counter = [&](const std::string& name, const char* key) -> std::optional<double> {
-    const auto found = measured_.find(name);
-    if (found == measured_.end() || !found->second.counters.count(key)) return std::nullopt;
-    return found->second.counters.at(key);
-  };
-  const auto ratio = [](std::optional<double> a, std::optional<double> b) -> std::optional<double> {
-    if (!a || !b) return std::nullopt;
-    return *a / *b;
-  };
+std::optional<double> PageReporter::ms(const std::string& name) const {
+  const auto found = measured_.find(name);
+  return found == measured_.end() ? std::nullopt : std::optional(found->second.ms);
+}
 
+std::optional<double> PageReporter::counter(const std::string& name, const char* key) const {
+  const auto found = measured_.find(name);
+  if (found == measured_.end() || !found->second.counters.count(key)) return std::nullopt;
+  return found->second.counters.at(key);
+}
+
+std::string PageReporter::filter_table(const std::string& scene, std::string& targets) const {
+  std::string table =
+      "<table><tr><th><th colspan=6>ms a frame<th colspan=4>over cv::FAST<th>over klt</tr>\n"
+      "<tr><th>corners<th>cv::FAST<th>klt<th>filter<th>Line<th>Circle<th>Square"
+      "<th>filter<th>Line<th>Circle<th>Square<th>filter</tr>\n";
+  std::array<Growth, kTimes> growth;
+  for (const int n : kCorners) {
+    const std::string of = fmt::format("{}/{}", scene, n);
+    const auto fast = ms("fast/" + of), klt = ms("klt/" + of), filter = ms("filter/" + of);
+    const std::array<std::optional<double>, kTimes> times = {fast,
+                                                             klt,
+                                                             filter,
+                                                             counter("filter/" + of, "line_ms"),
+                                                             counter("filter/" + of, "circle_ms"),
+                                                             counter("filter/" + of, "square_ms")};
+    const auto seen = counter("filter/" + of, "corners");
+    const auto corners = seen ? seen : counter("fast/" + of, "corners");
+    table += "<tr>" + cell(corners, "{:.0f}");
+    for (std::size_t i = 0; i < kTimes; ++i) {
+      table += cell(times[i], "{:.3f}");
+      if (corners && times[i] && n >= kGrowthFrom) growth[i].emplace_back(*corners, *times[i]);
+    }
+    for (std::size_t i = kFilter; i < kTimes; ++i) table += cell(ratio(times[i], fast), "{:.2f}");
+    table += cell(ratio(filter, klt), "{:.3f}") + "</tr>\n";
+    if (n == kTargetCorners) {
+      const std::string at = fmt::format("{}, {} corners: filter over ", scene, n);
+      targets += target(at + "cv::FAST", ratio(filter, fast), kMostOfFast);
+      targets += target(at + "klt", ratio(filter, klt), kMostOfKlt);
+    }
+  }
+  table += fmt::format("<tr><td>exponent of growth from {} on</td>", kGrowthFrom);
+  for (const Growth& points : growth) table += cell(exponent(points), "{:.2f}");
+  targets += target(fmt::format("{}: exponent of growth from {} corners on", scene, kGrowthFrom),
+                    exponent(growth[kFilter]), kMostGrowth);
+  return table + "<td colspan=5></td></tr>\n</table>\n";
+}
+
+std::string PageReporter::simulation_table(const std::string& scene) const {
+  const auto render = ms("render/" + scene), simulate = ms("simulate/" + scene);
+  const auto ego_motion =
+      ratio(ms("ego_motion/" + scene), counter("ego_motion/" + scene, "frames"));
+  std::string table = "<table><tr><th>a frame of 640x480<th>ms<th>of the bare render loop</tr>\n";
+  const auto row = [&](const char* what, std::optional<double> value) {
+    table += fmt::format("<tr><td>{}</td>", what) + cell(value, "{:.3f}") +
+             cell(ratio(value, render), "{:.3f}") + "</tr>\n";
+  };
+  row("bare render loop: the picture and nothing else", render);
+  row("simulation: physics, IMU, picture, depth, truth", simulate);
+  row("ego-motion from the IMU", ego_motion);
+  row("making the scene, once a run", ms("generate/" + scene));
+  return table + "</table>\n";
+}
+
+std::string PageReporter::settings_table(const std::string& scene) const {
+  const auto project = ms("settings/" + scene + "/" + kRenderSettings[0].name);
+  std::string table =
+      "<table><tr><th>renders of a frame of 640x480<th>ms<th>frames/s<th>over the project's"
+      "</tr>\n";
+  for (const NamedRenderSettings& named : kRenderSettings) {
+    const auto one = ms("settings/" + scene + "/" + named.name);
+    table += fmt::format("<tr><td>{}</td>", named.what) + cell(one, "{:.2f}") +
+             cell(ratio(1000, one), "{:.1f}") + cell(ratio(one, project), "{:.2f}") + "</tr>\n";
+  }
+  return table + "</table>\n";
+}
+
+void PageReporter::write(const std::filesystem::path& page) const {
   std::string targets, tables;
   for (const std::string scene : kScenes) {
-    std::vector<std::pair<double, double>> growth;
-    tables += fmt::format(
-        "<h2>{}</h2>\n<table><tr><th>corners<th>cv::FAST, ms<th>klt, ms<th>filter, "
-        "ms<th>Line, %<th>Circle, %<th>Square, %<th>filter / FAST<th>filter / klt</tr>\n",
-        scene);
-    for (const int n : kCorners) {
-      const std::string of = fmt::format("{}/{}", scene, n);
-      const auto fast = ms("fast/" + of), klt = ms("klt/" + of), filter = ms("filter/" + of);
-      const auto corners = counter("filter/" + of, "corners");
-      if (filter && n >= kGrowthFrom) growth.emplace_back(*corners, *filter);
-      tables += "<tr>" + cell(corners ? corners : counter("fast/" + of, "corners"), "{:.0f}") +
-                cell(fast, "{:.3f}") + cell(klt, "{:.2f}") + cell(filter, "{:.3f}");
-      for (const char* stage : {"line_%", "circle_%", "square_%"}) {
-        tables += cell(counter("filter/" + of, stage), "{:.0f}");
-      }
-      tables +=
-          cell(ratio(filter, fast), "{:.2f}") + cell(ratio(filter, klt), "{:.3f}") + "</tr>\n";
-      if (n == kTargetCorners) {
-        const std::string at = fmt::format("{}, {} corners: filter over ", scene, n);
-        targets += target(at + "cv::FAST", ratio(filter, fast), kMostOfFast);
-        targets += target(at + "klt", ratio(filter, klt), kMostOfKlt);
-      }
-    }
-    targets += target(fmt::format("{}: exponent of growth from {} corners on", scene, kGrowthFrom),
-                      exponent(growth), kMostGrowth);
-    const auto render = ms("render/" + scene), simulate = ms("simulate/" + scene);
-    const auto frames = counter("ego_motion/" + scene, "frames");
-    const auto ego_motion = ratio(ms("ego_motion/" + scene), frames);
-    tables += "</table>\n<table><tr><th>a frame of 640x480<th>ms<th>of the bare render loop</tr>\n";
-    const auto row = [&](const char* what, std::optional<double> value) {
-      tables += fmt::format("<tr><td>{}</td>", what) + cell(value, "{:.3f}") +
-                cell(ratio(value, render), "{:.3f}") + "</tr>\n";
-    };
-    row("bare render loop: the picture and nothing else", render);
-    row("simulation: physics, IMU, picture, depth, truth", simulate);
-    row("ego-motion from the IMU", ego_motion);
-    row("making the scene, once a run", ms("generate/" + scene));
-    tables += "</table>\n";
+    tables += fmt::format("<h2>{}</h2>\n", scene);
+    tables += filter_table(scene, targets);
+    tables += simulation_table(scene);
+    tables += settings_table(scene);
   }
 
   write_whole(page, [&](const std::filesystem::path& path) {

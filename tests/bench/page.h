@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace lcs::bench {
@@ -29,6 +30,13 @@ class PageReporter : public benchmark::ConsoleReporter {
     double ms = 0;
     std::map<std::string, double> counters;
   };
+
+  std::optional<double> ms(const std::string& name) const;
+  std::optional<double> counter(const std::string& name, const char* key) const;
+  /// Appends what the filter should reach to `targets`.
+  std::string filter_table(const std::string& scene, std::string& targets) const;
+  std::string simulation_table(const std::string& scene) const;
+  std::string settings_table(const std::string& scene) const;
 
   std::map<std::string, Measured> measured_;  // "filter/lab/700"
 };
