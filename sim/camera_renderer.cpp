@@ -118,8 +118,9 @@ struct CameraRenderer::Impl {
   // Read-back is bottom row first.
   std::size_t row(int y) const { return std::size_t(height_px - 1 - y) * width_px; }
 
-  int geom_of(const unsigned char* pixel) const {
-    const int index = (pixel[0] | pixel[1] << 8 | pixel[2] << 16) - 1;
+  /// \param colour as `mjRND_IDCOLOR` has it: the place in the scene, from 1 on.
+  int geom_of(int colour) const {
+    const int index = colour - 1;
     if (index < 0 || index >= scene.ngeom) return -1;
     const mjvGeom& drawn = scene.geoms[index];
     return drawn.objtype == mjOBJ_GEOM ? drawn.objid : -1;
@@ -172,8 +173,12 @@ void CameraRenderer::render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom)
     const float* z = s.z.data() + s.row(y);
     float* depth = depth_m[y];
     int* to = geom[y];
+    // pixels beside each other mostly show one geom
+    int colour = 0, shown = s.geom_of(colour);
     for (int x = 0; x < s.width_px; ++x, id += 3) {
-      to[x] = s.geom_of(id);
+      const int next = id[0] | id[1] << 8 | id[2] << 16;
+      if (next != colour) shown = s.geom_of(colour = next);
+      to[x] = shown;
       depth[x] = to[x] < 0 ? std::numeric_limits<float>::infinity() : n * f / (f - z[x] * (f - n));
     }
   }

@@ -287,15 +287,25 @@ void paint_ground(Brush& b) {
     w = {static_cast<int>(b.between(-7, 8)), static_cast<int>(b.between(1, 8)),
          b.between(0, 2 * CV_PI), b.between(0.5, 2.5)};
   }
+  // sin(x + y) of each wave by the sines and cosines of its columns and rows
+  cv::Mat1d brightness(b.height(), b.width(), 0.0);
+  std::vector<double> sine(static_cast<std::size_t>(b.width())), cosine(sine.size());
+  for (const Wave& w : waves) {
+    for (int x = 0; x < b.width(); ++x) {
+      const double angle = 2 * CV_PI * w.across * (x + 0.5) / b.width() + w.phase;
+      sine[static_cast<std::size_t>(x)] = w.amplitude * std::sin(angle);
+      cosine[static_cast<std::size_t>(x)] = w.amplitude * std::cos(angle);
+    }
+    for (int y = 0; y < b.height(); ++y) {
+      const double angle = 2 * CV_PI * w.down * (y + 0.5) / b.height();
+      const double s = std::sin(angle), c = std::cos(angle);
+      double* row = brightness[y];
+      for (std::size_t x = 0; x < sine.size(); ++x) row[x] += sine[x] * c + cosine[x] * s;
+    }
+  }
   for (int y = 0; y < b.height(); ++y) {
     for (int x = 0; x < b.width(); ++x) {
-      double v = 0;
-      for (const Wave& w : waves) {
-        v += w.amplitude *
-             std::sin(2 * CV_PI *
-                          (w.across * (x + 0.5) / b.width() + w.down * (y + 0.5) / b.height()) +
-                      w.phase);
-      }
+      const double v = brightness(y, x);
       b.at(y, x) = {cv::saturate_cast<uchar>(base[0] + v), cv::saturate_cast<uchar>(base[1] + v),
                     cv::saturate_cast<uchar>(base[2] + v)};
     }

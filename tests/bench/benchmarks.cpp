@@ -19,6 +19,7 @@
 #include "filter/filter.h"
 #include "scenarios/load.h"
 #include "sim/camera_renderer.h"
+#include "sim/drive.h"
 #include "sim/simulation.h"
 #include "sim/world.h"
 #include "tests/bench/page.h"
@@ -150,23 +151,18 @@ void klt(benchmark::State& state, const std::string& scene, int corners) {
 }
 
 void ego_motion(benchmark::State& state, const std::string& scene) {
-  scenario::Scenario scenario =
+  const scenario::Scenario scenario =
       scenario::load(scenario_file(scene), {.sets = {"ego_motion=imu"}, .seed = {}});
-  sim::Simulation simulation(scenario);
-  std::vector<sim::Observation> observations;
-  while (auto observation = simulation.next()) {
-    observations.push_back(std::move(*observation));
-    observations.back().image.release();
-  }
+  const sim::Drive drive = sim::drive(scenario);
   for (auto _ : state) {
-    EgoMotionFeed feed(scenario, simulation.calibration());
+    EgoMotionFeed feed(scenario, drive.calibration);
     state.SetIterationTime(cpu_seconds([&] {
-      for (const sim::Observation& observation : observations) {
+      for (const sim::Observation& observation : drive.frames) {
         benchmark::DoNotOptimize(feed.next(observation));
       }
     }));
   }
-  state.counters["frames"] = static_cast<double>(observations.size());
+  state.counters["frames"] = static_cast<double>(drive.frames.size());
 }
 
 void generate(benchmark::State& state, const std::string& scene) {
