@@ -328,10 +328,9 @@ Reason ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Mot
   const int floor = least_votes(p.vote_floor * all);
   // A motion is chosen out of many, the static explanation is not: where that one is good, another
   // that is better is chance, as in a pattern that repeats.
-  const int winning =
-      static_votes >= p.vote_static_cap * all
-          ? all + 1
-          : least_votes(std::max<double>(floor, static_votes + p.vote_margin * all));
+  if (static_votes >= p.vote_static_cap * all) return Reason::static_wins;
+  const int winning = least_votes(std::max<double>(floor, static_votes + p.vote_margin * all));
+  if (winning > all) return Reason::static_wins;
 
   // Which motion is the best matters only where it wins; else, whether there is one at the floor.
   int best = 0;
@@ -341,7 +340,6 @@ Reason ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Mot
   };
   const double reach = std::max(p.max_step, p.max_speed * once_.elapsed_s);
   once_grid_.visit_within(x, reach, [&](int predecessor, double) {
-    if (best >= floor && winning > all) return;
     const Vec2& before = once_.corners[predecessor];
     const Vec2 step = x - before;
     const std::uint8_t* anchor = arms_.empty() ? nullptr : screen_.anchor(before);

@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "filter/disjoint_sets.h"
+#include "filter/point_grid.h"
 #include "filter/refill.h"
 
 namespace lcs {
@@ -31,8 +34,26 @@ class DepthGroups {
     weight_[i] = 1 / (sigma * sigma);
   }
 
-  /// a and b may belong together; the cheaper the sooner.
-  void link(double cost, int a, int b) { links_.push_back({cost, a, b}); }
+  /// What may belong together: each thing and the `count` nearest of those that cost less than 1.
+  /// \param points where the things are; \param grid of them.
+  /// \param reach_px(i) how far to look; \param cost(i, j), symmetric: the cheaper, the sooner.
+  template <typename Reach, typename Cost>
+  void link_nearest(std::span<const Vec2> points, const PointGrid& grid, std::size_t count,
+                    Reach&& reach_px, Cost&& cost) {
+    refill(costs_, points.size());
+    refill(ends_, points.size() + 1);
+    neighbours_.clear();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const int a = static_cast<int>(i);
+      const auto is_cheap = [&](int b) { return b != a && (costs_[b] = cost(a, b)) < 1; };
+      grid.nearest(points[i], reach_px(a), count, is_cheap, near_);
+      for (const auto& [distance2, b] : near_) {
+        neighbours_.push_back(b);
+        if (b > a || !is_neighbour(b, a)) links_.push_back({costs_[b], a, b});
+      }
+      ends_[i + 1] = neighbours_.size();
+    }
+  }
 
   /// Merges along all links.
   template <typename Tolerance>
@@ -68,9 +89,20 @@ class DepthGroups {
     int a, b;
   };
 
+  /// Whether b was among the nearest of a.
+  bool is_neighbour(int a, int b) const {
+    const auto first = neighbours_.begin();
+    const auto end = first + static_cast<std::ptrdiff_t>(ends_[a + 1]);
+    return std::find(first + static_cast<std::ptrdiff_t>(ends_[a]), end, b) != end;
+  }
+
   DisjointSets sets_;
   std::vector<double> weight_, mean_;  // of the group that a root stands for
   std::vector<Link> links_;
+  std::vector<double> costs_;      // of what was asked about last
+  std::vector<int> neighbours_;    // of each thing in turn
+  std::vector<std::size_t> ends_;  // of each thing's in neighbours_, after a 0
+  std::vector<std::pair<double, int>> near_;
 };
 
 }  // namespace lcs

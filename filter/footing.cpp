@@ -24,6 +24,12 @@ double like_depth(double ratio) {
   return kLikeDepth * ratio;
 }
 
+/// Of the grid: about as wide as so many neighbours lie apart.
+constexpr double kCell_px = 32;
+
+/// That an edge may be in one group with, the nearest.
+constexpr std::size_t kNeighbours = 16;
+
 /// Edges that must be below the ground, and their share of those that see ground.
 constexpr int kLeastSunk = 3;
 constexpr double kSunkShare = 0.5;
@@ -51,21 +57,24 @@ void Footing::gather(std::vector<Edge>& edges, const MotionField& field) {
 
 /// Groups of edges near each other at one depth: best link first, while the means agree.
 void Footing::link() {
-  grid_.build(points_, parameters_.reach);
+  grid_.build(points_, kCell_px);
   depths_.reset(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Node& a = nodes_[i];
-    depths_.set_depth(i, a.ratio, a.sigma);
-    grid_.visit_within(points_[i], parameters_.reach, [&](int j, double distance2) {
-      if (j <= static_cast<int>(i)) return;
-      const Node& b = nodes_[j];
-      const double tolerance = like_depth(0.5 * (a.ratio + b.ratio)) + std::hypot(a.sigma, b.sigma);
-      const double difference = std::abs(a.ratio - b.ratio);
-      if (!(difference < tolerance)) return;
-      depths_.link(2 * difference / tolerance + std::sqrt(distance2) / parameters_.reach,
-                   static_cast<int>(i), j);
-    });
+    depths_.set_depth(i, nodes_[i].ratio, nodes_[i].sigma);
   }
+  depths_.link_nearest(
+      points_, grid_, kNeighbours, [&](int) { return parameters_.reach; },
+      [&](int i, int j) {
+        const Node &a = nodes_[i], &b = nodes_[j];
+        const double difference = std::abs(a.ratio - b.ratio);
+        const double like = like_depth(0.5 * (a.ratio + b.ratio));
+        // Most are not alike at all; asked first, for it costs least.
+        if (!(difference < like + a.sigma + b.sigma)) return 1.0;
+        const double tolerance = like + std::sqrt(a.sigma * a.sigma + b.sigma * b.sigma);
+        if (!(difference < tolerance)) return 1.0;
+        const double apart = (points_[i] - points_[j]).norm() / parameters_.reach;
+        return (2 * difference / tolerance + apart) / 3;
+      });
   depths_.merge_links(like_depth);
 }
 

@@ -9,7 +9,7 @@ namespace lcs {
 namespace {
 
 /// Of the grid: about as wide as the spacing of corners where they are many.
-constexpr double kCell_px = 12;
+constexpr double kCell_px = 24;
 
 /// Velocities are measured over about as long; shorter frames do not make them more like each
 /// other.
@@ -80,19 +80,14 @@ double LinkLayering::distance(const Node& a, const Node& b) const {
 void LinkLayering::link_by_depth() {
   // The mean of two inverse depths that are alike is larger than either by this at the most.
   const double nearest = 1 + parameters_.depth_share + kMostError;
-  // One more, for the first is the node itself.
-  const std::size_t count = static_cast<std::size_t>(parameters_.neighbours) + 1;
   by_depth_.reset(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Node& a = nodes_[i];
-    by_depth_.set_depth(i, a.w, std::max(a.sigma, 1e-3));
-    const auto is_like = [&](int j) { return distance(a, nodes_[j]) < 1; };
-    grid_.nearest(a.location, farthest(reach(nearest * a.w)), count, is_like, near_);
-    for (const auto& [distance2, j] : near_) {
-      if (j == static_cast<int>(i)) continue;
-      by_depth_.link(distance(a, nodes_[j]), static_cast<int>(i), j);
-    }
+    by_depth_.set_depth(i, nodes_[i].w, std::max(nodes_[i].sigma, 1e-3));
   }
+  by_depth_.link_nearest(
+      points_, grid_, static_cast<std::size_t>(parameters_.neighbours),
+      [&](int i) { return farthest(reach(nearest * nodes_[i].w)); },
+      [&](int i, int j) { return distance(nodes_[i], nodes_[j]); });
   by_depth_.merge_links(
       [&](double w) { return parameters_.mean_share * w + parameters_.mean_spread * w * w; });
 }
@@ -106,9 +101,9 @@ void LinkLayering::link_by_velocity(double dt_s) {
     grid_.visit_within(a.location, farthest(reach_px), [&](int j, double) {
       if (j <= static_cast<int>(i)) return;
       const Node& b = nodes_[j];
-      if (apart(a, b, reach_px) > 1) return;
+      if (by_velocity_.are_joined(static_cast<int>(i), j) || apart(a, b, reach_px) > 1) return;
       const double step = (a.velocity_pxps - b.velocity_pxps).norm() * unit_s;
-      const double mean = 0.5 * (a.velocity_pxps.norm() + b.velocity_pxps.norm()) * unit_s;
+      const double mean = 0.5 * (a.edge->speed + b.edge->speed) * unit_s;
       if (step < std::max(parameters_.rebel_speed_px, parameters_.rebel_speed_share * mean)) {
         by_velocity_.join(static_cast<int>(i), j);
       }

@@ -69,7 +69,6 @@ class LinkLayering {
   DepthGroups by_depth_;
   DisjointSets by_velocity_;
   SetMembers groups_;
-  std::vector<std::pair<double, int>> near_;
   std::vector<int> circles_;
   std::vector<double> xs_, ys_, heights_m_;
   std::vector<Square> squares_;

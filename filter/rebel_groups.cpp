@@ -53,6 +53,7 @@ void RebelGroups::connect(const std::vector<Edge>& rebels, double dt_s) {
     if (!trust_.alive(rebels[i].trust)) continue;
     grid_.visit_within(rebels[i].location, parameters_.radius, [&](int j, double) {
       if (j <= static_cast<int>(i) || !trust_.alive(rebels[j].trust)) return;
+      if (components_.are_joined(static_cast<int>(i), j)) return;
       const double difference = (velocities_[i] - velocities_[j]).norm() * dt_s;
       const double mean = 0.5 * (rebels[i].speed + rebels[j].speed) * dt_s;
       if (difference < std::max(kLikeStep_px, kLikeStepShare * mean)) {
