@@ -107,6 +107,11 @@ void PageReporter::ReportRuns(const std::vector<Run>& runs) {
   }
 }
 
+bool PageReporter::any(const std::string& prefix) const {
+  const auto first = measured_.lower_bound(prefix);
+  return first != measured_.end() && first->first.starts_with(prefix);
+}
+
 std::optional<double> PageReporter::ms(const std::string& name) const {
   const auto found = measured_.find(name);
   return found == measured_.end() ? std::nullopt : std::optional(found->second.ms);
@@ -192,9 +197,13 @@ void PageReporter::write(const std::filesystem::path& page) const {
   std::string targets, tables;
   for (const std::string scene : kScenes) {
     tables += fmt::format("<h2>{}</h2>\n", scene);
-    tables += filter_table(scene, targets);
-    tables += simulation_table(scene);
-    tables += settings_table(scene);
+    const std::string of_filter = filter_table(scene, targets);
+    if (any("fast/" + scene) || any("filter/" + scene) || any("klt/" + scene)) tables += of_filter;
+    if (any("render/" + scene) || any("simulate/" + scene) || any("generate/" + scene) ||
+        any("ego_motion/" + scene)) {
+      tables += simulation_table(scene);
+    }
+    if (any("settings/" + scene)) tables += settings_table(scene);
   }
 
   write_whole(page, [&](const std::filesystem::path& path) {

@@ -31,6 +31,8 @@ class PageReporter : public benchmark::ConsoleReporter {
     std::map<std::string, double> counters;
   };
 
+  /// Whether anything was measured whose name begins so.
+  bool any(const std::string& prefix) const;
   std::optional<double> ms(const std::string& name) const;
   std::optional<double> counter(const std::string& name, const char* key) const;
   /// Appends what the filter should reach to `targets`.
