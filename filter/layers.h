@@ -111,18 +111,6 @@ struct Layers {
     return normal_edges.size() + rebel_edges.size() + normal_circles.size() + rebel_circles.size() +
            squares.size();
   }
-
-  /// Empties all, in the same memory.
-  void clear() {
-    normal_edges.clear();
-    rebel_edges.clear();
-    normal_circles.clear();
-    rebel_circles.clear();
-    squares.clear();
-    ignored.clear();
-    collectors.clear();
-    chains.clear();
-  }
 };
 
 /// What became of a corner.

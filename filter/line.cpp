@@ -24,28 +24,9 @@ bool inside_any(std::span<const IgnoreRegion> regions, const Vec2& x) {
                      [&](const IgnoreRegion& region) { return contains(region, x); });
 }
 
-/// Of the collectors that a corner falls into it takes the nearest, and of equals the first. Few
-/// corners lie in each, so that they are looked for from there.
-void LineExpert::group(std::span<const Collector> lambda) {
-  refill(chi_.groups, chi_.size(), -1);
-  if (lambda.empty()) return;
-  grid_.build(chi_.locations, kCell_px);
-  refill(nearest_, chi_.size());
-  for (std::size_t c = 0; c < lambda.size(); ++c) {
-    // A hair farther, for the distance is compared and not its square.
-    grid_.visit_within(lambda[c].location, 1.001 * lambda[c].radius, [&](int i, double) {
-      const double distance = (chi_.locations[i] - lambda[c].location).norm();
-      if (distance > lambda[c].radius) return;
-      if (chi_.groups[i] >= 0 && !(distance < nearest_[i])) return;
-      chi_.groups[i] = static_cast<int>(c);
-      nearest_[i] = distance;
-    });
-  }
-}
-
-const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
-                               std::span<const IgnoreRegion> psi, std::span<const Collector> lambda,
-                               std::vector<Verdict>& verdicts) {
+void LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
+                         std::span<const IgnoreRegion> psi, Chi& chi,
+                         std::vector<Verdict>& verdicts) {
   refill(verdicts, corners_px.size(), Verdict::pending);
   entries_.clear();
   for (std::size_t i = 0; i < corners_px.size(); ++i) {
@@ -70,19 +51,35 @@ const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
   }
   std::sort(entries_.begin(), entries_.end(), nearer);
 
-  chi_.locations.clear();
-  chi_.sources.clear();
-  chi_.repeats.clear();
+  chi.locations.clear();
+  chi.sources.clear();
+  chi.repeats.clear();
   for (const Entry& entry : entries_) {
-    if (!chi_.locations.empty() && entry.location == chi_.locations.back()) {
-      chi_.repeats.push_back({entry.source, chi_.sources.back()});
+    if (!chi.locations.empty() && entry.location == chi.locations.back()) {
+      chi.repeats.push_back({entry.source, chi.sources.back()});
       continue;
     }
-    chi_.locations.push_back(entry.location);
-    chi_.sources.push_back(entry.source);
+    chi.locations.push_back(entry.location);
+    chi.sources.push_back(entry.source);
   }
-  group(lambda);
-  return chi_;
+}
+
+/// Few corners lie in each collector, so that they are looked for from there.
+void CornerGrouping::group(std::span<const Collector> lambda, Chi& chi) {
+  refill(chi.groups, chi.size(), -1);
+  if (lambda.empty()) return;
+  grid_.build(chi.locations, kCell_px);
+  refill(nearest_, chi.size());
+  for (std::size_t c = 0; c < lambda.size(); ++c) {
+    // A hair farther, for the distance is compared and not its square.
+    grid_.visit_within(lambda[c].location, 1.001 * lambda[c].radius, [&](int i, double) {
+      const double distance = (chi.locations[i] - lambda[c].location).norm();
+      if (distance > lambda[c].radius) return;
+      if (chi.groups[i] >= 0 && !(distance < nearest_[i])) return;
+      chi.groups[i] = static_cast<int>(c);
+      nearest_[i] = distance;
+    });
+  }
 }
 
 }  // namespace lcs

@@ -1,6 +1,7 @@
 /// \file
 /// Line expert: leaves out what is no corner of this picture, removes the corners inside psi and
-/// groups the others by lambda.
+/// groups the others by lambda. The latter by itself, as it waits for the circles of the frame
+/// before, and the former need not.
 #pragma once
 
 #include <Eigen/Core>
@@ -44,25 +45,32 @@ class LineExpert {
         picture_{camera.width_px, camera.height_px},
         max_corners_(max_corners) {}
 
+  /// \param chi its groups are left alone.
   /// \param verdicts one for each corner: set to `ignored` inside psi, to `pending` elsewhere.
   ///   Corners that are not in the picture stay `pending` and go no further, nor do those that
   ///   repeat another one.
-  const Chi& collect(std::span<const Eigen::Vector2f> corners_px, std::span<const IgnoreRegion> psi,
-                     std::span<const Collector> lambda, std::vector<Verdict>& verdicts);
+  void collect(std::span<const Eigen::Vector2f> corners_px, std::span<const IgnoreRegion> psi,
+               Chi& chi, std::vector<Verdict>& verdicts);
 
  private:
-  void group(std::span<const Collector> lambda);
-
   Vec2 centre_px_;
   Pixels picture_;
   std::size_t max_corners_;
-  Chi chi_;
   struct Entry {
     double distance2;
     Vec2 location;
     int source;
   };
   std::vector<Entry> entries_;
+};
+
+/// Sets chi's groups. Of the collectors that a corner falls into it takes the nearest, and of
+/// equals the first.
+class CornerGrouping {
+ public:
+  void group(std::span<const Collector> lambda, Chi& chi);
+
+ private:
   PointGrid grid_;               // of chi
   std::vector<double> nearest_;  // distance of each corner from its collector
 };

@@ -83,7 +83,9 @@ TEST(Psi, ComesBeforeLambda) {
   const std::vector<Eigen::Vector2f> corners = {{110, 100}, {140, 100}};
   LineExpert line(vga());
   std::vector<Verdict> verdicts;
-  const Chi& chi = line.collect(corners, psi, lambda, verdicts);
+  Chi chi;
+  line.collect(corners, psi, chi, verdicts);
+  CornerGrouping().group(lambda, chi);
   ASSERT_EQ(chi.size(), 1u);
   EXPECT_EQ(chi.sources[0], 1);
   EXPECT_EQ(chi.groups[0], 0);

@@ -21,6 +21,13 @@ IgnoreRegion rectangle(const Vec2& at, const Vec2& half) {
   return {IgnoreRegion::Shape::rectangle, at, half};
 }
 
+Chi collected(const std::vector<Eigen::Vector2f>& corners, const std::vector<IgnoreRegion>& psi,
+              std::vector<Verdict>& verdicts, std::size_t most = 1000) {
+  Chi chi;
+  LineExpert(testing::vga(), most).collect(corners, psi, chi, verdicts);
+  return chi;
+}
+
 TEST(LineExpert, LooksAtTheNearestToTheCentreOfTooManyCorners) {
   Random random(9);
   std::vector<Eigen::Vector2f> corners;
@@ -28,15 +35,14 @@ TEST(LineExpert, LooksAtTheNearestToTheCentreOfTooManyCorners) {
     corners.emplace_back(random.uniform(0, 639), random.uniform(0, 479));
   }
   std::vector<Verdict> verdicts;
-  LineExpert unbounded(testing::vga()), bounded(testing::vga(), 30);
-  const std::vector<int> all = unbounded.collect(corners, {}, {}, verdicts).sources;
-  const std::vector<int> kept = bounded.collect(corners, {}, {}, verdicts).sources;
+  const std::vector<int> all = collected(corners, {}, verdicts).sources;
+  const std::vector<int> kept = collected(corners, {}, verdicts, 30).sources;
   ASSERT_EQ(all.size(), 100U);
   EXPECT_EQ(kept, std::vector<int>(all.begin(), all.begin() + 30));
   EXPECT_EQ(std::count(verdicts.begin(), verdicts.end(), Verdict::pending), 100);
 }
 
-TEST(LineExpert, GroupsByTheNearestCollectorAndOfEqualsTheFirst) {
+TEST(CornerGrouping, GroupsByTheNearestCollectorAndOfEqualsTheFirst) {
   Random random(10);
   std::vector<Eigen::Vector2f> corners;
   std::vector<Collector> lambda;
@@ -46,8 +52,8 @@ TEST(LineExpert, GroupsByTheNearestCollectorAndOfEqualsTheFirst) {
   }
   lambda.push_back(lambda.front());
   std::vector<Verdict> verdicts;
-  LineExpert line(testing::vga());
-  const Chi& chi = line.collect(corners, {}, lambda, verdicts);
+  Chi chi = collected(corners, {}, verdicts);
+  CornerGrouping().group(lambda, chi);
   for (std::size_t i = 0; i < chi.size(); ++i) {
     int expected = -1;
     double nearest = 0;
@@ -68,9 +74,8 @@ TEST(LineExpert, RemovesExactlyTheCornersInsidePsi) {
   for (int i = 0; i < 500; ++i) {
     corners.emplace_back(random.uniform(0, 639), random.uniform(0, 479));
   }
-  LineExpert line(testing::vga());
   std::vector<Verdict> verdicts;
-  const Chi& chi = line.collect(corners, psi, {}, verdicts);
+  const Chi chi = collected(corners, psi, verdicts);
   std::size_t outside = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2 x = corners[i].cast<double>();
@@ -82,12 +87,12 @@ TEST(LineExpert, RemovesExactlyTheCornersInsidePsi) {
   EXPECT_EQ(chi.size(), outside);
 }
 
-TEST(LineExpert, GroupsByTheNearestCollectorAndLeavesTheRestSingle) {
+TEST(CornerGrouping, GroupsByTheNearestCollectorAndLeavesTheRestSingle) {
   const std::vector<Collector> lambda = {{{100, 100}, 50}, {{160, 100}, 50}};
   const std::vector<Eigen::Vector2f> corners = {{90, 100}, {140, 100}, {300, 300}};
-  LineExpert line(testing::vga());
   std::vector<Verdict> verdicts;
-  const Chi& chi = line.collect(corners, {}, lambda, verdicts);
+  Chi chi = collected(corners, {}, verdicts);
+  CornerGrouping().group(lambda, chi);
   std::vector<int> group(3, -2);
   for (std::size_t c = 0; c < chi.size(); ++c) group[chi.sources[c]] = chi.groups[c];
   EXPECT_EQ(group, (std::vector<int>{0, 1, -1}));  // 140 is within both, and nearer to 160
@@ -99,11 +104,10 @@ TEST(LineExpert, OrderOfTheCornersMakesNoDifference) {
   for (int i = 0; i < 100; ++i) {
     corners.emplace_back(random.uniform(0, 639), random.uniform(0, 479));
   }
-  LineExpert a(testing::vga()), b(testing::vga());
   std::vector<Verdict> verdicts;
-  const std::vector<Vec2> forward = a.collect(corners, {}, {}, verdicts).locations;
+  const std::vector<Vec2> forward = collected(corners, {}, verdicts).locations;
   std::reverse(corners.begin(), corners.end());
-  const std::vector<Vec2> backward = b.collect(corners, {}, {}, verdicts).locations;
+  const std::vector<Vec2> backward = collected(corners, {}, verdicts).locations;
   EXPECT_EQ(forward, backward);
 }
 
@@ -111,19 +115,17 @@ TEST(LineExpert, CornersThatAreNotFiniteStayPendingAndGoNoFurther) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
   const std::vector<Eigen::Vector2f> corners = {{nan, 3}, {4, inf}, {5, 5}};
-  LineExpert line(testing::vga());
   std::vector<Verdict> verdicts;
-  EXPECT_EQ(line.collect(corners, {}, {}, verdicts).size(), 1u);
+  EXPECT_EQ(collected(corners, {}, verdicts).size(), 1u);
   EXPECT_EQ(verdicts, (std::vector<Verdict>(3, Verdict::pending)));
 }
 
 TEST(LineExpert, NothingOrEverythingIgnoredIsAnEmptyChi) {
-  LineExpert line(testing::vga());
   std::vector<Verdict> verdicts;
-  EXPECT_EQ(line.collect({}, {}, {}, verdicts).size(), 0u);
+  EXPECT_EQ(collected({}, {}, verdicts).size(), 0u);
   const std::vector<Eigen::Vector2f> corners = {{10, 10}, {20, 20}};
   const std::vector<IgnoreRegion> psi = {rectangle({0, 0}, {100, 100})};
-  EXPECT_EQ(line.collect(corners, psi, {}, verdicts).size(), 0u);
+  EXPECT_EQ(collected(corners, psi, verdicts).size(), 0u);
   EXPECT_EQ(verdicts, (std::vector<Verdict>(2, Verdict::ignored)));
 }
 

@@ -10,6 +10,7 @@
 #include "filter/filter.h"
 #include "tests/filter/invariants.h"
 #include "tests/filter/presets.h"
+#include "tests/filter/same_result.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
@@ -17,6 +18,7 @@ namespace {
 
 using Eigen::Vector2f;
 using Eigen::Vector3d;
+using testing::expect_same;
 using testing::Random;
 using testing::record;
 using testing::Scene;
@@ -30,30 +32,6 @@ constexpr float kInfF = std::numeric_limits<float>::infinity();
 
 struct BadData : testing::OfEachPreset {};
 INSTANTIATE_TEST_SUITE_P(Presets, BadData, testing::each_preset(), testing::name_of_preset);
-
-/// All but the ids, which go on where they were.
-void expect_same(const FrameResult& a, const FrameResult& b, std::size_t frame) {
-  ASSERT_EQ(a.verdicts, b.verdicts) << "frame " << frame;
-  ASSERT_EQ(a.reasons, b.reasons) << "frame " << frame;
-  const auto expect_same_items = [&](const auto& from, const auto& to) {
-    ASSERT_EQ(from.size(), to.size()) << "frame " << frame;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      EXPECT_EQ(from[i].location, to[i].location);
-      EXPECT_EQ(from[i].origin, to[i].origin);
-      EXPECT_EQ(from[i].speed, to[i].speed);
-      EXPECT_EQ(from[i].depth_ratio, to[i].depth_ratio);
-      EXPECT_EQ(from[i].angle, to[i].angle);
-      EXPECT_EQ(from[i].trust, to[i].trust);
-      EXPECT_EQ(from[i].age, to[i].age);
-    }
-  };
-  expect_same_items(a.layers.normal_edges, b.layers.normal_edges);
-  expect_same_items(a.layers.rebel_edges, b.layers.rebel_edges);
-  expect_same_items(a.layers.normal_circles, b.layers.normal_circles);
-  expect_same_items(a.layers.rebel_circles, b.layers.rebel_circles);
-  expect_same_items(a.layers.squares, b.layers.squares);
-  EXPECT_EQ(a.layers.chains.size(), b.layers.chains.size());
-}
 
 struct BadMotion {
   const char* name;

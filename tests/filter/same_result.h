@@ -1,0 +1,36 @@
+/// Whether two filters say the same of a frame, to the bit.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+
+#include "filter/filter.h"
+
+namespace lcs::testing {
+
+/// All but the ids, which go on where they were in a filter that starts anew.
+inline void expect_same(const FrameResult& a, const FrameResult& b, std::size_t frame) {
+  ASSERT_EQ(a.verdicts, b.verdicts) << "frame " << frame;
+  ASSERT_EQ(a.reasons, b.reasons) << "frame " << frame;
+  const auto expect_same_items = [&](const auto& from, const auto& to) {
+    ASSERT_EQ(from.size(), to.size()) << "frame " << frame;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      EXPECT_EQ(from[i].location, to[i].location);
+      EXPECT_EQ(from[i].origin, to[i].origin);
+      EXPECT_EQ(from[i].speed, to[i].speed);
+      EXPECT_EQ(from[i].depth_ratio, to[i].depth_ratio);
+      EXPECT_EQ(from[i].angle, to[i].angle);
+      EXPECT_EQ(from[i].trust, to[i].trust);
+      EXPECT_EQ(from[i].age, to[i].age);
+    }
+  };
+  expect_same_items(a.layers.normal_edges, b.layers.normal_edges);
+  expect_same_items(a.layers.rebel_edges, b.layers.rebel_edges);
+  expect_same_items(a.layers.normal_circles, b.layers.normal_circles);
+  expect_same_items(a.layers.rebel_circles, b.layers.rebel_circles);
+  expect_same_items(a.layers.squares, b.layers.squares);
+  EXPECT_EQ(a.layers.chains.size(), b.layers.chains.size());
+}
+
+}  // namespace lcs::testing
