@@ -14,10 +14,10 @@ namespace lcs {
 
 struct FilterPipeline::Impl {
   Impl(const Intrinsics& camera, const Parameters& parameters) : stages(camera, parameters) {
-    circle_thread =
-        std::jthread([this](std::stop_token stop) { work(stop, lined, circled, &Stages::circle); });
+    circle_thread = std::jthread(
+        [this](const std::stop_token& stop) { work(stop, lined, circled, &Stages::circle); });
     square_thread = std::jthread(
-        [this](std::stop_token stop) { work(stop, circled, squared, &Stages::square); });
+        [this](const std::stop_token& stop) { work(stop, circled, squared, &Stages::square); });
   }
 
   Frame& frame(std::int64_t k) { return frames[static_cast<std::size_t>(k % kFrames)]; }
