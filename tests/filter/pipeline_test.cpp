@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
-#include "filter/reason.h"
 #include "tests/filter/presets.h"
 #include "tests/filter/same_result.h"
 #include "tests/filter/world.h"
