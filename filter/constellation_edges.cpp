@@ -449,7 +449,7 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
     counts_[c] = decided_[c] || (links_[c].kind == Kind::normal &&
                                  layers.normal_edges[links_[c].index].trust >= p.established);
   }
-  decided_grid_.build(decided_locations_, std::max(p.inherit_radius, 1.0));
+  decided_grid_.build(decided_locations_, p.inherit_radius);
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (decided_[c]) continue;
     const Vec2& x = chi.locations[c];

@@ -16,7 +16,7 @@ namespace lcs {
 /// Points are finite; they are referred to by their index.
 class PointGrid {
  public:
-  /// \param cell_px about the radius that will be asked for, > 0.
+  /// \param cell_px about the radius that will be asked for; cells are a pixel at the least.
   void build(std::span<const Vec2> points, double cell_px) {
     low_ = Vec2::Zero();
     Vec2 high = Vec2::Zero();
@@ -28,7 +28,7 @@ class PointGrid {
       }
     }
     // Cells grow rather than their number when points lie far apart.
-    cell_px_ = std::max(cell_px, (high - low_).maxCoeff() / kMaxSide);
+    cell_px_ = std::max({cell_px, 1.0, (high - low_).maxCoeff() / kMaxSide});
     columns_ = 1 + static_cast<int>((high.x() - low_.x()) / cell_px_);
     rows_ = 1 + static_cast<int>((high.y() - low_.y()) / cell_px_);
 

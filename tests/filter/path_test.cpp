@@ -164,5 +164,19 @@ TEST(Path, StaysFiniteHoweverFarTheCameraFlees) {
   }
 }
 
+/// What is known without end, in numbers, is known no more before it overflows.
+TEST(Path, BeginsAnewWhereWhatItKnowsWouldOverflow) {
+  const EgoMotion back = steady_motion({0, 0, -600}, Vector3d::Zero(), 0.1);
+  const MotionField field(vga(), back, FieldParameters{});
+  Path path;
+  path.start({330, 240}, 1, vga());
+  path.sightings *= 1e40;
+  path.weight = 1e47;
+  path.carry(field);  // from 3 to 63 m away
+  EXPECT_NEAR(path.ratio, 3. / 63, 1e-12);
+  EXPECT_EQ(path.weight, 0);
+  EXPECT_TRUE(path.sightings.isZero(0));
+}
+
 }  // namespace
 }  // namespace lcs

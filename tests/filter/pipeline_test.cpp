@@ -100,6 +100,9 @@ TEST(PipelineOfAnyKind, EndsWithFramesUnderWayAndCanBeMoved) {
     FilterPipeline moved = std::move(pipeline);
     for (int k = frames; k < frames + 2; ++k) moved.push(footage.corners[k], footage.motions[k]);
     EXPECT_NE(moved.drain(), nullptr);
+    pipeline = std::move(moved);
+    EXPECT_NE(pipeline.drain(), nullptr);
+    EXPECT_EQ(pipeline.drain(), nullptr);
   }
 }
 

@@ -26,7 +26,7 @@ std::vector<Vec2> random_points(Random& random, int count) {
 TEST(PointGrid, FindsExactlyWhatIsWithinTheRadius) {
   Random random(1);
   PointGrid grid;
-  for (const double cell : {1.0, 16.0, 300.0}) {
+  for (const double cell : {0.0, 1.0, 16.0, 300.0}) {
     const std::vector<Vec2> points = random_points(random, 300);
     grid.build(points, cell);
     for (int i = 0; i < 50; ++i) {

@@ -6,11 +6,14 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <stdexcept>
+#include <string_view>
 
 #include "filter/filter.h"
 #include "tests/filter/invariants.h"
 #include "tests/filter/presets.h"
 #include "tests/filter/same_result.h"
+#include "tests/filter/small_drive.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
@@ -290,6 +293,31 @@ TEST(BadDataOfAnyKind, ACameraThatIsNoneIsRefused) {
   refuses([](Intrinsics& c) { c.width_px = -640; });
   refuses([](Intrinsics& c) { c.height_px = 0; });
   refuses([](Intrinsics& c) { c.width_px = std::numeric_limits<int>::max(); });
+}
+
+/// The ends of each range, and each word, of what is not refused beside the other parameters.
+TEST_P(BadData, TheFilterWorksAtBothEndsOfEveryRange) {
+  int tried = 0;
+  for (const ParameterInfo& info : describe(parameters())) {
+    std::string_view words = info.range;
+    const std::string_view between = words.find(" to ") < words.size() ? " to " : ", ";
+    while (!words.empty()) {
+      const std::size_t end = std::min(words.find(between), words.size());
+      const std::string_view word = words.substr(0, end);
+      words.remove_prefix(std::min(end + between.size(), words.size()));
+      Parameters at_its_end = parameters();
+      set(at_its_end, info.key, word);
+      try {
+        validate(at_its_end);
+      } catch (const std::invalid_argument&) {
+        continue;
+      }
+      const auto what = testing::violation_on_a_small_drive(at_its_end);
+      EXPECT_FALSE(what) << info.key << "=" << word << ": " << *what;
+      ++tried;
+    }
+  }
+  EXPECT_GT(tried, 100);
 }
 
 TEST(BadDataOfAnyKind, ParametersThatAreNoNumbersAreRefused) {
