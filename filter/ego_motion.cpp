@@ -7,29 +7,13 @@
 #include <string>
 
 #include "filter/intake.h"
+#include "filter/rotation.h"
 
 namespace lcs {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-Matrix3d skew(const Vector3d& v) {
-  Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
-Matrix3d exponential(const Vector3d& rotation_rad) {
-  const double angle = rotation_rad.norm();
-  if (angle < 1e-12) return Matrix3d::Identity() + skew(rotation_rad);
-  return Eigen::AngleAxisd(angle, rotation_rad / angle).toRotationMatrix();
-}
-
-Vector3d logarithm(const Matrix3d& R) {
-  const Eigen::AngleAxisd axis_angle(R);
-  return axis_angle.angle() * axis_angle.axis();
-}
 
 // Blocks of the error state.
 constexpr int kAttitude = 0, kVelocity = 3, kGyroBias = 6, kAccelBias = 9;
@@ -194,7 +178,9 @@ void EgoMotionEstimator::propagate_to(std::int64_t t_ns) {
   add_noise(kGyroBias, noise_.gyro_walk);
   add_noise(kAccelBias, noise_.accel_walk);
   if (period_ns_ > 0 && t_ns - heard_ns_ > kSilentPeriods * period_ns_) {
-    covariance_(kAttitude + 2, kAttitude + 2) += kUnseenTurn * kUnseenTurn * dt;
+    const double turn = kUnseenTurn * kUnseenTurn * dt;
+    covariance_(kAttitude + 2, kAttitude + 2) += turn;
+    unseen_turn_rad2_ += turn;
     add_noise(kVelocity, kUnseenAcceleration);
   }
   if (!(covariance_.diagonal().array() < kMostVariance).all()) reset_covariance();
@@ -291,7 +277,9 @@ EgoMotion EgoMotionEstimator::frame(std::int64_t t_ns) {
     motion.R_cur_prev = R_WC_now.transpose() * last_frame_->R_WC;
     motion.v_C_mps = R_WC_now.transpose() * displacement_W_ / motion.dt_s;
     motion.w_C_radps = -logarithm(motion.R_cur_prev) / motion.dt_s;
+    motion.unseen_turn_rad = std::sqrt(unseen_turn_rad2_);
   }
+  unseen_turn_rad2_ = 0;
   last_frame_ = Frame{t_ns, R_WC_now};
   displacement_W_.setZero();
   return motion;

@@ -35,6 +35,9 @@ struct EgoMotion {
   /// Mean body rate of the camera over the interval, in the camera frame: R_cur_prev = exp(-[w]
   /// dt).
   Eigen::Vector3d w_C_radps = Eigen::Vector3d::Zero();
+  /// Standard deviation of what is wrong with the rotation because the gyro was not heard, about
+  /// any axis; 0 where it was.
+  double unseen_turn_rad = 0;
   /// At frame k; none where nobody knows how the camera is mounted.
   std::optional<Ground> ground;
 };
@@ -144,6 +147,7 @@ class EgoMotionEstimator {
     Eigen::Matrix3d R_WC;
   };
   std::optional<Frame> last_frame_;
+  double unseen_turn_rad2_ = 0;  ///< since the last frame, its variance
   Eigen::Vector3d displacement_W_ =
       Eigen::Vector3d::Zero();  ///< of the camera, since the last frame
 };

@@ -55,6 +55,7 @@ const std::vector<Entry>& entries() {
       {"field.ground", "", "", 0, 0, LCS_FIELD(bool, field.ground)},
       {"field.ground_tilt", "", "deg", 0, 90, LCS_FIELD(double, field.ground_tilt_rad)},
       {"field.still_speed", "", "m/s", 0, 10, LCS_FIELD(double, field.still_speed_mps)},
+      {"field.unseen_turn", "", "", 0, 0, LCS_FIELD(bool, field.unseen_turn)},
       {"line.ignore", "psi", "", 0, 0, LCS_FIELD(bool, line.ignore)},
       {"line.max_corners", "", "", 1, 10000000, LCS_FIELD(int, line.max_corners)},
       {"circle.Tr_c", "Tr^c_c", "", 0, 1000, LCS_FIELD(int, circle.trust.critical)},
@@ -301,6 +302,7 @@ void set_degrees(CircleParameters& circle, SquareParameters& square) {
 Parameters lab() {
   Parameters p;
   set_degrees(p.circle, p.square);
+  p.field.unseen_turn = false;
   p.circle.edge_rule = EdgeRule::paper;
   p.circle.rebel_coast = 1;
   p.square.layer_rule = LayerRule::couples;

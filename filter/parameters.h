@@ -39,6 +39,7 @@ struct FieldParameters {
   bool ground = true;              ///< no static point is below the ground, where that is known
   double ground_tilt_rad = 0.015;  ///< by which the ground may fall away from its plane
   double still_speed_mps = 0.005;  ///< slower than this the camera stands still: there is no field
+  bool unseen_turn = true;         ///< a turn that the gyro did not see is taken from the corners
 };
 
 /// Line expert.

@@ -49,9 +49,16 @@ Stages::Stages(const Intrinsics& camera, const Parameters& parameters)
     : camera_(checked(camera)),
       parameters_(checked(parameters)),
       line_(camera_, static_cast<std::size_t>(parameters_.line.max_corners)),
+      turn_(camera_, parameters_.field, parameters_.circle.trust),
       edges_(make_edge_expert(camera_, parameters_.circle)),
       circles_(camera_, parameters_.circle),
       squares_(camera_, parameters_.square) {}
+
+/// What the gyro did not see of the motion, the corners show.
+void Stages::see_turn(const Frame& before, Frame& frame, std::span<const Vec2> corners_px) {
+  frame.motion = turn_.seen(frame.motion, left_by(before, frame).normal_edges, corners_px);
+  frame.field.emplace(camera_, frame.motion, parameters_.field);
+}
 
 /// Edges and circles of the frame before go to where this frame should show them.
 void Stages::predict_circles(const Frame& before, Frame& frame) {
@@ -109,9 +116,17 @@ void Stages::line(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& 
   const auto start = Clock::now();
   const std::optional<EgoMotion> usable = intake_.take(told, diagnostics_);
   frame.is_anew = !usable;
-  frame.field.emplace(camera_, usable.value_or(EgoMotion{}), parameters_.field);
+  frame.motion = usable.value_or(EgoMotion{});
+  frame.field.emplace(camera_, frame.motion, parameters_.field);
   std::span<const IgnoreRegion> psi;
   if (feeds_back()) {
+    if (is_turn_unseen(frame)) {
+      finite_.clear();
+      for (const Eigen::Vector2f& x : corners_px) {
+        if (x.allFinite()) finite_.push_back(x.cast<double>());
+      }
+      see_turn(before, frame, finite_);
+    }
     predict_circles(before, frame);
     predict_squares(before, frame);
     squares_.feed_back(frame.result.layers, frame.result.layers.ignored);
@@ -126,7 +141,10 @@ void Stages::circle(const Frame& before, Frame& frame) {
   const auto start = Clock::now();
   FrameResult& result = frame.result;
   const Chi& chi = frame.chi;
-  if (!feeds_back()) predict_circles(before, frame);
+  if (!feeds_back()) {
+    if (is_turn_unseen(frame)) see_turn(before, frame, chi.locations);
+    predict_circles(before, frame);
+  }
   grouping_.group(result.layers.collectors, frame.chi);
   edges_->update(result.layers, chi, *frame.field, result.verdicts);
   for (std::size_t c = 0; c < chi.size(); ++c) {

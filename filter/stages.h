@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "filter/circle.h"
 #include "filter/diagnostics.h"
@@ -20,13 +21,15 @@
 #include "filter/line.h"
 #include "filter/motion_field.h"
 #include "filter/square.h"
+#include "filter/unseen_turn.h"
 
 namespace lcs {
 
 /// What is known of a frame while the experts are at it.
 struct Frame {
   bool is_anew = true;               ///< nothing of the frame before is to be used
-  std::optional<MotionField> field;  ///< since then
+  EgoMotion motion;                  ///< since then
+  std::optional<MotionField> field;  ///< of it
   Chi chi;
   FrameResult result;
 };
@@ -50,6 +53,10 @@ class Stages {
   const Diagnostics& diagnostics() const { return diagnostics_; }
 
  private:
+  bool is_turn_unseen(const Frame& frame) const {
+    return parameters_.field.unseen_turn && !frame.is_anew && frame.motion.unseen_turn_rad > 0;
+  }
+  void see_turn(const Frame& before, Frame& frame, std::span<const Vec2> corners_px);
   void predict_circles(const Frame& before, Frame& frame);
   void predict_squares(const Frame& before, Frame& frame);
   void turn_away(std::span<const Eigen::Vector2f> corners_px, Frame& frame);
@@ -60,6 +67,9 @@ class Stages {
   Intake intake_;
   LineExpert line_;
   Diagnostics diagnostics_;
+  std::vector<Vec2> finite_;  ///< corners
+  // Of the Circle expert, or where regions are ignored of the Line expert.
+  UnseenTurn turn_;
   // Of the Circle expert.
   CornerGrouping grouping_;
   std::unique_ptr<EdgeExpert> edges_;

@@ -79,7 +79,8 @@ Mounting mounting() {
 }
 
 struct Outcome {
-  std::vector<double> velocity_error_mps, rotation_error_rad;  ///< of each frame
+  /// Of each frame.
+  std::vector<double> velocity_error_mps, rotation_error_rad, unseen_turn_rad;
   Diagnostics diagnostics;
 
   /// Frames after the last bad one until both errors stay small for good.
@@ -124,6 +125,7 @@ Outcome drive(const std::function<void(Interval&)>& spoil, bool in_all = false) 
     outcome.velocity_error_mps.push_back((motion.v_C_mps - Vector3d(0, 0, kSpeed_mps)).norm() *
                                          (motion.dt_s > 0));
     outcome.rotation_error_rad.push_back(turned.norm() * motion.dt_s);
+    outcome.unseen_turn_rad.push_back(motion.unseen_turn_rad);
   }
   outcome.diagnostics = estimator.diagnostics();
   return outcome;
@@ -142,6 +144,7 @@ TEST(ImuFaults, AGoodImuHasNone) {
   const Outcome outcome = drive([](Interval&) {});
   EXPECT_EQ(outcome.diagnostics.lines(), std::vector<std::string>{});
   EXPECT_EQ(outcome.recovered_after(), 0);
+  EXPECT_EQ(outcome.unseen_turn_rad, std::vector<double>(kFrames, 0.0));
 }
 
 TEST(ImuFaults, ReadingsThatAreNoNumbersAreLeftOutAndTheGapIsNamed) {
@@ -172,6 +175,7 @@ TEST(ImuFaults, AFrozenImuIsTakenForASilentOne) {
   EXPECT_EQ(outcome.diagnostics.count(Fault::imu_frozen), kBadReadings - 10);
   EXPECT_EQ(outcome.diagnostics.total(), kBadReadings - 10);
   EXPECT_LE(outcome.recovered_after(), kRecovered);
+  for (int k = kFirstBad + 1; k <= kLastBad; ++k) EXPECT_GT(outcome.unseen_turn_rad[k], 0) << k;
 }
 
 TEST(ImuFaults, ASaturatedAccelerometerIsNamedAndWheelsAreBelieved) {
@@ -194,6 +198,15 @@ TEST(ImuFaults, GapsAreCountedAndBridged) {
   EXPECT_EQ(outcome.diagnostics.count(Fault::imu_gap), 1);
   EXPECT_EQ(outcome.diagnostics.total(), 1);
   EXPECT_LE(outcome.recovered_after(), kRecovered);
+  // 0.1 rad/s/sqrt(Hz) over 80 ms, for silence is noticed after 20 ms; over 100 ms; and over the
+  // 5 ms before the next reading.
+  for (int k = 0; k < kFrames; ++k) {
+    const double unheard_s = k == kFirstBad                   ? 0.08
+                             : k > kFirstBad && k <= kLastBad ? 0.1
+                             : k == kLastBad + 1              ? 0.005
+                                                              : 0;
+    EXPECT_NEAR(outcome.unseen_turn_rad[k], 0.1 * std::sqrt(unheard_s), 1e-9) << k;
+  }
 }
 
 TEST(ImuFaults, ReadingsOutOfOrderAreLeftOut) {

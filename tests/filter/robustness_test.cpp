@@ -55,6 +55,7 @@ std::vector<BadMotion> bad_motions() {
       {"huge velocity", Fault::motion_too_fast, [](EgoMotion& m) { m.v_C_mps.x() = 1e300; }},
       {"too fast", Fault::motion_too_fast, [](EgoMotion& m) { m.v_C_mps.z() = 1001; }},
       {"no rate", Fault::motion_not_finite, [](EgoMotion& m) { m.w_C_radps.x() = kNan; }},
+      {"no unseen turn", Fault::motion_not_finite, [](EgoMotion& m) { m.unseen_turn_rad = kNan; }},
       {"huge rate", Fault::motion_too_fast, [](EgoMotion& m) { m.w_C_radps.x() = -1e200; }},
       {"rotation not finite", Fault::motion_not_finite,
        [](EgoMotion& m) { m.R_cur_prev(1, 2) = kNan; }},

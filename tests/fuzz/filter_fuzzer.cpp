@@ -53,6 +53,7 @@ EgoMotion next_motion(Bytes& bytes) {
         Ground{.up_C = {bytes.number(0.1), -1, bytes.number(0.1)}, .height_m = bytes.number(0.5)};
     if (how & 16) motion.ground->up_C.normalize();
   }
+  if (how & 32) motion.unseen_turn_rad = bytes.number(0.05);
   if (how == 255) motion.R_cur_prev(bytes.byte() % 3, bytes.byte() % 3) = bytes.number(1);
   return motion;
 }

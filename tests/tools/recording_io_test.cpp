@@ -67,6 +67,7 @@ class Filler {
     for (int row = 0; row < 3; ++row) motion.R_cur_prev.row(row) = vector();
     motion.v_C_mps = vector();
     motion.w_C_radps = vector();
+    motion.unseen_turn_rad = std::abs(awkward());
     motion.ground = Ground{.up_C = vector(), .height_m = awkward()};
     return motion;
   }
@@ -163,6 +164,7 @@ TEST(RecordingIo, EveryFieldComesBackToTheSameBits) {
     EXPECT_EQ(back.frames[k].reasons, recording.frames[k].reasons);
     EXPECT_EQ(back.frames[k].t_ns, recording.frames[k].t_ns);
     EXPECT_EQ(back.frames[k].motion.R_cur_prev, recording.frames[k].motion.R_cur_prev);
+    EXPECT_EQ(back.frames[k].motion.unseen_turn_rad, recording.frames[k].motion.unseen_turn_rad);
     EXPECT_EQ(back.frames[k].motion.ground->up_C, recording.frames[k].motion.ground->up_C);
     EXPECT_TRUE(back.frames[k].layers.rebel_edges.front().rebel);
     EXPECT_TRUE(back.frames[k].layers.rebel_circles.front().rebel);

@@ -84,6 +84,7 @@ EgoMotion read_motion(const Json& json) {
   motion.R_cur_prev = by_rows.transpose();
   read_array(json.at("v_C_mps"), {motion.v_C_mps.data(), 3});
   read_array(json.at("w_C_radps"), {motion.w_C_radps.data(), 3});
+  if (json.contains("unseen_turn_rad")) read(json.at("unseen_turn_rad"), motion.unseen_turn_rad);
   if (json.contains("height_m")) {
     Ground& ground = motion.ground.emplace();
     read_array(json.at("up_C"), {ground.up_C.data(), 3});
