@@ -321,6 +321,7 @@ Parameters project_default() {
   Parameters p;
   set_degrees(p.circle, p.square);
   p.circle.trust = {2, 3, 7};
+  p.circle.min_members = p.circle.constellation.support;
   p.line.ignore = false;
   return p;
 }

@@ -116,7 +116,7 @@ struct CircleParameters {
   double rho_c = 40;          ///< rho_c, %: overlap of a group with the predicted circle
   double reach = 50;          ///< px: how far apart the edges of one circle may lie
   int min_members = 3;        ///< edges that make a new circle
-  int rebel_coast = 2;  ///< trust that a rebel circle loses in a frame without its edges; paper: 1
+  int rebel_coast = 4;  ///< trust that a rebel circle loses in a frame without its edges; paper: 1
 };
 
 /// The links rule of the Square expert: neighbours are linked when they lie near each other, and at
