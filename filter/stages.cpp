@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -123,6 +124,7 @@ void Stages::line(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& 
     if (is_turn_unseen(frame)) {
       finite_.clear();
       for (const Eigen::Vector2f& x : corners_px) {
+        if (std::ssize(finite_) == parameters_.line.max_corners) break;
         if (x.allFinite()) finite_.push_back(x.cast<double>());
       }
       see_turn(before, frame, finite_);
