@@ -193,7 +193,8 @@ void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
     return std::tuple(!a.aligned, -a.overlap, a.distance, a.circle, a.group) <
            std::tuple(!b.aligned, -b.overlap, b.distance, b.circle, b.group);
   });
-  refill(circle_of_group_, groups_.size(), -1);
+  // As long as there could be groups, whose number is steady only when the edges' has long been.
+  refill(circle_of_group_, edges.size(), -1);
   refill(matched_, circles.size());
   for (const Pair& pair : pairs_) {
     if (matched_[pair.circle] || circle_of_group_[pair.group] >= 0) continue;
