@@ -114,14 +114,9 @@ int UnseenTurn::fit(double gate_px, double sigma_rad, const Vector3d& so_far_rad
   Vector3d b = -held * so_far_rad;
   int found = 0;
   for (const Vec2& expected : expected_) {
-    int nearest = -1;
-    double nearest2 = 0;
-    grid_.visit_within(expected, gate_px, [&](int corner, double distance2) {
-      const bool nearer =
-          nearest < 0 || distance2 < nearest2 || (distance2 == nearest2 && corner < nearest);
-      if (nearer) nearest = corner, nearest2 = distance2;
-    });
-    if (nearest < 0) continue;
+    grid_.nearest(
+        expected, gate_px, 1, [](int) { return true; }, near_);
+    if (near_.empty()) continue;
     ++found;
     const Vec2 x = (expected - camera_.centre_px) / camera_.focal_px;
     Eigen::Matrix<double, 2, 3> J;                   // of the image by a small turn, f [x cross]
@@ -129,7 +124,7 @@ int UnseenTurn::fit(double gate_px, double sigma_rad, const Vector3d& so_far_rad
         -1 - x.y() * x.y(), x.x() * x.y(), x.x();
     J *= camera_.focal_px;
     A += J.transpose() * J;
-    b += J.transpose() * (corners_px[nearest] - expected);
+    b += J.transpose() * (corners_px[near_.front().second] - expected);
   }
   turn_rad = A.ldlt().solve(b);
   return found;
@@ -145,17 +140,17 @@ EgoMotion UnseenTurn::seen(const EgoMotion& told, std::span<const Edge> normals,
   EgoMotion motion = told;
   const double sigma = told.unseen_turn_rad;
   Vector3d turn = vote(std::min(kReach * sigma, kMostReach_rad), corners_px);
+  motion.R_cur_prev = exponential(turn) * told.R_cur_prev;
   int found = 0;
   for (const double gate_px : kGates_px) {
-    motion.R_cur_prev = exponential(turn) * motion.R_cur_prev;
     predict(motion);
     const Vector3d so_far = logarithm(motion.R_cur_prev * told.R_cur_prev.transpose());
     found = fit(gate_px, sigma, so_far, corners_px, turn);
+    motion.R_cur_prev = exponential(turn) * motion.R_cur_prev;
   }
   const bool agreed =
       found >= kLeastFound && found >= kLeastShare * static_cast<double>(expected_.size());
   if (!agreed || !turn.allFinite()) return told;
-  motion.R_cur_prev = exponential(turn) * motion.R_cur_prev;
   motion.w_C_radps = -logarithm(motion.R_cur_prev) / motion.dt_s;
   return motion;
 }

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "filter/camera.h"
@@ -49,6 +50,7 @@ class UnseenTurn {
   std::vector<const Edge*> chosen_;
   std::vector<Vec2> expected_;
   std::vector<int> votes_;
+  std::vector<std::pair<double, int>> near_;
 };
 
 }  // namespace lcs

@@ -62,6 +62,10 @@ struct Blind {
     return corners;
   }
 
+  EgoMotion seen(const EgoMotion& told, const std::vector<Vec2>& corners) const {
+    return UnseenTurn(vga(), FieldParameters{}, trust).seen(told, edges, corners);
+  }
+
   double error_px(const EgoMotion& seen) const {
     return logarithm(seen.R_cur_prev * motion.R_cur_prev.transpose()).norm() / kPixel_rad;
   }
@@ -73,13 +77,7 @@ struct Blind {
   std::vector<Edge> edges;
 };
 
-struct UnseenTurnTest : ::testing::Test {
-  EgoMotion seen(const Blind& blind, const EgoMotion& told, const std::vector<Vec2>& corners) {
-    return UnseenTurn(vga(), FieldParameters{}, blind.trust).seen(told, blind.edges, corners);
-  }
-};
-
-TEST_F(UnseenTurnTest, IsSeenByTheCornersToATenthOfAPixel) {
+TEST(UnseenTurn, IsSeenByTheCornersToAFifthOfAPixel) {
   // 200 corners that err by 0.41 px each: 0.03 px about each axis, and a roll, which the corners
   // tell half as well; mismatches at the gates add as much again.
   Random random(1);
@@ -87,7 +85,7 @@ TEST_F(UnseenTurnTest, IsSeenByTheCornersToATenthOfAPixel) {
     const Blind blind(trial + 1);
     const Vector3d unseen(random.uniform(-0.01, 0.01), random.uniform(-0.08, 0.08),
                           random.uniform(-0.01, 0.01));
-    const EgoMotion found = seen(blind, blind.told(unseen), blind.corners());
+    const EgoMotion found = blind.seen(blind.told(unseen), blind.corners());
     EXPECT_LT(blind.error_px(found), 0.2) << unseen.transpose();
     const Vector3d rate = -logarithm(found.R_cur_prev) / found.dt_s;
     EXPECT_LT((found.w_C_radps - rate).norm(), 1e-12);
@@ -95,7 +93,7 @@ TEST_F(UnseenTurnTest, IsSeenByTheCornersToATenthOfAPixel) {
   }
 }
 
-TEST_F(UnseenTurnTest, IsSeenBesideAMoverAndClutterAndWithAThirdOfTheCornersGone) {
+TEST(UnseenTurn, IsSeenBesideAMoverAndClutterAndWithAThirdOfTheCornersGone) {
   for (int trial = 0; trial < 30; ++trial) {
     Blind blind(trial + 101);
     std::vector<Vec2> corners = blind.corners(3);
@@ -104,12 +102,12 @@ TEST_F(UnseenTurnTest, IsSeenBesideAMoverAndClutterAndWithAThirdOfTheCornersGone
     for (int i = 0; i < 100; ++i) {
       corners.emplace_back(blind.random.uniform(0, 639), blind.random.uniform(0, 479));
     }
-    const EgoMotion found = seen(blind, blind.told({0.003, 0.04, -0.002}), corners);
+    const EgoMotion found = blind.seen(blind.told({0.003, 0.04, -0.002}), corners);
     EXPECT_LT(blind.error_px(found), 0.4) << trial;
   }
 }
 
-TEST_F(UnseenTurnTest, IsAsToldWhereNoCornersAgree) {
+TEST(UnseenTurn, IsAsToldWhereNoCornersAgree) {
   for (int trial = 0; trial < 30; ++trial) {
     Blind blind(trial + 201);
     std::vector<Vec2> corners;
@@ -117,19 +115,19 @@ TEST_F(UnseenTurnTest, IsAsToldWhereNoCornersAgree) {
       corners.emplace_back(blind.random.uniform(0, 639), blind.random.uniform(0, 479));
     }
     const EgoMotion told = blind.told({0, 0.04, 0});
-    EXPECT_EQ(seen(blind, told, corners).R_cur_prev, told.R_cur_prev) << trial;
+    EXPECT_EQ(blind.seen(told, corners).R_cur_prev, told.R_cur_prev) << trial;
   }
 }
 
-TEST_F(UnseenTurnTest, IsAsToldWhereTooFewEdgesAreEstablished) {
+TEST(UnseenTurn, IsAsToldWhereTooFewEdgesAreEstablished) {
   Blind blind(1);
   const EgoMotion told = blind.told({0, 0.04, 0});
   const std::vector<Vec2> corners = blind.corners();
-  EXPECT_EQ(seen(blind, told, {}).R_cur_prev, told.R_cur_prev);
+  EXPECT_EQ(blind.seen(told, {}).R_cur_prev, told.R_cur_prev);
   for (std::size_t i = 7; i < blind.edges.size(); ++i) blind.edges[i].trust = blind.trust.standard;
-  EXPECT_EQ(seen(blind, told, corners).R_cur_prev, told.R_cur_prev);
+  EXPECT_EQ(blind.seen(told, corners).R_cur_prev, told.R_cur_prev);
   blind.edges.clear();
-  EXPECT_EQ(seen(blind, told, corners).R_cur_prev, told.R_cur_prev);
+  EXPECT_EQ(blind.seen(told, corners).R_cur_prev, told.R_cur_prev);
 }
 
 /// Rebels among 150 static corners, in the worst of four frames in which the turn is not told.
