@@ -242,6 +242,13 @@ void EgoMotionEstimator::set_clock(std::int64_t t_ns) {
   if (last_) last_->t_ns = t_ns;
 }
 
+/// What is told with the next frame counts from here.
+void EgoMotionEstimator::begin_interval(std::int64_t t_ns) {
+  last_frame_ = Frame{t_ns, R_WC()};
+  displacement_W_.setZero();
+  unseen_turn_rad2_ = 0;
+}
+
 /// Nothing is known of the motion since the last frame; a second such frame that agrees with the
 /// first shows that it is the clock that was set.
 EgoMotion EgoMotionEstimator::frame_out_of_time(std::int64_t t_ns) {
@@ -253,8 +260,7 @@ EgoMotion EgoMotionEstimator::frame_out_of_time(std::int64_t t_ns) {
   if (agrees) {
     diagnostics_.add(Fault::clock_set);
     set_clock(t_ns);
-    last_frame_ = Frame{t_ns, R_WC()};
-    displacement_W_.setZero();
+    begin_interval(t_ns);
     wrong_frame_ns_.reset();
   }
   return motion;
@@ -279,9 +285,7 @@ EgoMotion EgoMotionEstimator::frame(std::int64_t t_ns) {
     motion.w_C_radps = -logarithm(motion.R_cur_prev) / motion.dt_s;
     motion.unseen_turn_rad = std::sqrt(unseen_turn_rad2_);
   }
-  unseen_turn_rad2_ = 0;
-  last_frame_ = Frame{t_ns, R_WC_now};
-  displacement_W_.setZero();
+  begin_interval(t_ns);
   return motion;
 }
 

@@ -114,6 +114,7 @@ class EgoMotionEstimator {
   bool far_ahead(std::int64_t t_ns) const;
   EgoMotion frame_out_of_time(std::int64_t t_ns);
   void set_clock(std::int64_t t_ns);
+  void begin_interval(std::int64_t t_ns);
   Eigen::Matrix3d R_WC() const;
   void reset_covariance();
   std::optional<Fault> fault_of(std::int64_t t_ns, const Eigen::Vector3d& gyro_radps,

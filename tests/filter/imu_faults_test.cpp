@@ -209,6 +209,24 @@ TEST(ImuFaults, GapsAreCountedAndBridged) {
   }
 }
 
+TEST(ImuFaults, WhatWasUnseenBeforeTheClockWasSetIsNotToldAfterIt) {
+  EgoMotionEstimator estimator(mounting(), {}, {.v_WB_mps = {kSpeed_mps, 0, 0}});
+  const auto hear = [&](std::int64_t from_ns) {
+    for (int i = 0; i <= kReadingsAFrame; ++i) {
+      estimator.add_imu(from_ns + i * kImuStep_ns, {1e-3 * i, 0, 0}, {0, 0, kGravity_mps2});
+    }
+  };
+  hear(0);
+  estimator.frame(kFrameStep_ns);
+  estimator.add_odometry(3 * kFrameStep_ns, {kSpeed_mps, 0, 0});  // the IMU is silent meanwhile
+  constexpr std::int64_t kOtherClock_ns = 1'000'000'000'000;
+  estimator.frame(kOtherClock_ns);
+  estimator.frame(kOtherClock_ns + kFrameStep_ns);
+  ASSERT_EQ(estimator.diagnostics().count(Fault::clock_set), 1);
+  hear(kOtherClock_ns + kFrameStep_ns);
+  EXPECT_EQ(estimator.frame(kOtherClock_ns + 2 * kFrameStep_ns).unseen_turn_rad, 0);
+}
+
 TEST(ImuFaults, ReadingsOutOfOrderAreLeftOut) {
   const Outcome outcome = drive([](Interval& now) {
     for (std::size_t i = 0; i + 1 < now.imu.size(); i += 2) std::swap(now.imu[i], now.imu[i + 1]);
