@@ -307,7 +307,7 @@ int ConstellationEdges::gather_voters(std::size_t corner, const Chi& chi) {
   }
   may_vote_.resize(voters_.size() + 1);  // the list is written past its end
   arms_.clear();
-  if (!(std::sqrt(near_.back().first) <= kLeastScale * HitScreen::kLongestArm_px)) {
+  if (!(std::sqrt(near_.back().distance2) <= kLeastScale * HitScreen::kLongestArm_px)) {
     return static_votes;
   }
   for (const double scale : kScales) {

@@ -117,7 +117,7 @@ class ConstellationEdges : public EdgeExpert {
   std::vector<Candidate> candidates_;
   std::vector<Link> links_;   // of each corner
   std::vector<char> called_;  // corners that leave as rebels
-  std::vector<std::pair<double, int>> near_;
+  std::vector<Neighbour> near_;
   PointGrid undecided_grid_;
   std::vector<int> undecided_;  // corners that are residual, or of rebels
   std::vector<Vec2> undecided_locations_;

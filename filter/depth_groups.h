@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <span>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "filter/disjoint_sets.h"
@@ -58,9 +57,7 @@ class DepthGroups {
   /// Merges along all links.
   template <typename Tolerance>
   void merge_links(Tolerance&& tolerance) {
-    std::sort(links_.begin(), links_.end(), [](const Link& x, const Link& y) {
-      return std::tuple(x.cost, x.a, x.b) < std::tuple(y.cost, y.a, y.b);
-    });
+    std::sort(links_.begin(), links_.end());
     for (const Link& link : links_) merge(link.a, link.b, tolerance);
   }
 
@@ -87,6 +84,11 @@ class DepthGroups {
   struct Link {
     double cost;
     int a, b;
+    /// Cheapest first, and of equal ones by what they join.
+    bool operator<(const Link& other) const {
+      return cost < other.cost ||
+             (cost == other.cost && std::tuple(a, b) < std::tuple(other.a, other.b));
+    }
   };
 
   /// Whether b was among the nearest of a.
@@ -102,7 +104,7 @@ class DepthGroups {
   std::vector<double> costs_;      // of what was asked about last
   std::vector<int> neighbours_;    // of each thing in turn
   std::vector<std::size_t> ends_;  // of each thing's in neighbours_, after a 0
-  std::vector<std::pair<double, int>> near_;
+  std::vector<Neighbour> near_;
 };
 
 }  // namespace lcs

@@ -1,7 +1,6 @@
 #include "filter/edge_expert.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "filter/constellation_edges.h"
 #include "filter/geometry.h"
@@ -11,9 +10,7 @@
 namespace lcs {
 
 void EdgeExpert::assign_one_to_one(std::size_t edges, std::size_t corners) {
-  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
-    return std::tuple(a.cost, a.edge, a.corner) < std::tuple(b.cost, b.edge, b.corner);
-  });
+  std::sort(pairs_.begin(), pairs_.end());
   refill(match_of_edge_, edges, -1);
   refill(match_of_corner_, corners, -1);
   for (const Pair& pair : pairs_) {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "filter/layers.h"
@@ -46,6 +47,11 @@ class EdgeExpert {
     double cost;
     int edge;
     int corner;  // in chi
+    /// Cheapest first, and of equal ones by edge and corner.
+    bool operator<(const Pair& other) const {
+      return cost < other.cost || (cost == other.cost &&
+                                   std::tuple(edge, corner) < std::tuple(other.edge, other.corner));
+    }
   };
 
   /// Takes pairs_ cheapest first, each edge and each corner once, into the two lists of matches.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "filter/geometry.h"
 
@@ -248,9 +247,7 @@ void PaperEdges::complete_chains(Layers& layers, const Chi& chi, const MotionFie
       pairs_.push_back({distance2, static_cast<int>(i), corner});
     });
   }
-  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
-    return std::tuple(a.cost, a.edge, a.corner) < std::tuple(b.cost, b.edge, b.corner);
-  });
+  std::sort(pairs_.begin(), pairs_.end());
   std::vector<Vec2> used;
   for (const Pair& pair : pairs_) {
     const Chain& chain = layers.chains[pair.edge];

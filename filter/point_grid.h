@@ -5,13 +5,22 @@
 
 #include <algorithm>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "filter/camera.h"
 #include "filter/refill.h"
 
 namespace lcs {
+
+/// A point found near another. Nearest first, and of equally near ones the lower index: by hand, as
+/// wherever much is put in order by a double, for the standard pair and tuple compare twice.
+struct Neighbour {
+  double distance2;  ///< px^2
+  int index;
+  bool operator<(const Neighbour& other) const {
+    return distance2 < other.distance2 || (distance2 == other.distance2 && index < other.index);
+  }
+};
 
 /// Points are finite; they are referred to by their index.
 class PointGrid {
@@ -71,12 +80,11 @@ class PointGrid {
     return false;
   }
 
-  /// The `count` points nearest to x within `radius_px` that `accept(index)` takes, nearest first
-  /// and of equally near ones the lower index first, as (squared distance, index). Looks at rings
-  /// of cells about x, and so at a few points only where they lie close.
+  /// The `count` points nearest to x within `radius_px` that `accept(index)` takes, in order. Looks
+  /// at rings of cells about x, and so at a few points only where they lie close.
   template <typename Accept>
   void nearest(const Vec2& x, double radius_px, std::size_t count, Accept&& accept,
-               std::vector<std::pair<double, int>>& found) const {
+               std::vector<Neighbour>& found) const {
     found.clear();
     if (count == 0) return;
     const int c = column(x.x()), r = row(x.y());
@@ -92,7 +100,7 @@ class PointGrid {
       // All that lies nearer than this has been seen, a hair less for the rounding of cells.
       const double seen_px = (ring - 1) * cell_px_ * (1 - 1e-9);
       if (seen_px > radius_px) return;
-      if (found.size() == count && found.back().first < seen_px * seen_px) return;
+      if (found.size() == count && found.back().distance2 < seen_px * seen_px) return;
       rank(r - ring, c - ring, c + ring);
       for (int v = r - ring + 1; v < r + ring; ++v) {
         rank(v, c - ring, c - ring);
@@ -114,12 +122,11 @@ class PointGrid {
   /// Puts the points of some cells of a row into their places among those found.
   template <typename Accept>
   void rank_cells(std::size_t first, std::size_t last, const Vec2& x, double farthest2,
-                  std::size_t count, Accept&& accept,
-                  std::vector<std::pair<double, int>>& found) const {
-    if (found.size() == count) farthest2 = found.back().first;
+                  std::size_t count, Accept&& accept, std::vector<Neighbour>& found) const {
+    if (found.size() == count) farthest2 = found.back().distance2;
     for (std::size_t k = first_[first]; k < first_[last + 1]; ++k) {
-      const std::pair<double, int> here((placed_[k].location - x).squaredNorm(), placed_[k].index);
-      if (here.first > farthest2 || !accept(here.second)) continue;
+      const Neighbour here{(placed_[k].location - x).squaredNorm(), placed_[k].index};
+      if (here.distance2 > farthest2 || !accept(here.index)) continue;
       if (found.size() < count) {
         found.push_back(here);
       } else if (!(here < found.back())) {
@@ -128,7 +135,7 @@ class PointGrid {
       std::size_t place = found.size() - 1;
       for (; place > 0 && here < found[place - 1]; --place) found[place] = found[place - 1];
       found[place] = here;
-      if (found.size() == count) farthest2 = found.back().first;
+      if (found.size() == count) farthest2 = found.back().distance2;
     }
   }
 

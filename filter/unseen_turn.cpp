@@ -124,7 +124,7 @@ int UnseenTurn::fit(double gate_px, double sigma_rad, const Vector3d& so_far_rad
         -1 - x.y() * x.y(), x.x() * x.y(), x.x();
     J *= camera_.focal_px;
     A += J.transpose() * J;
-    b += J.transpose() * (corners_px[near_.front().second] - expected);
+    b += J.transpose() * (corners_px[near_.front().index] - expected);
   }
   turn_rad = A.ldlt().solve(b);
   return found;

@@ -10,7 +10,6 @@
 #pragma once
 
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "filter/camera.h"
@@ -50,7 +49,7 @@ class UnseenTurn {
   std::vector<const Edge*> chosen_;
   std::vector<Vec2> expected_;
   std::vector<int> votes_;
-  std::vector<std::pair<double, int>> near_;
+  std::vector<Neighbour> near_;
 };
 
 }  // namespace lcs

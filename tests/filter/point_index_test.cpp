@@ -67,7 +67,7 @@ TEST(PointGrid, KeepsItsSizeWhenPointsLieFarApart) {
 TEST(PointGrid, FindsTheNearestInOrderWhateverTheCells) {
   Random random(4);
   PointGrid grid;
-  std::vector<std::pair<double, int>> found;
+  std::vector<Neighbour> found;
   for (const double cell : {1.0, 16.0, 300.0}) {
     std::vector<Vec2> points = random_points(random, 200);
     for (Vec2& x : points) x = Vec2(std::round(x.x() / 8), std::round(x.y() / 8));  // ties
@@ -85,7 +85,9 @@ TEST(PointGrid, FindsTheNearestInOrderWhateverTheCells) {
       std::sort(expected.begin(), expected.end());
       if (expected.size() > count) expected.resize(count);
       grid.nearest(x, radius, count, accept, found);
-      EXPECT_EQ(found, expected);
+      std::vector<std::pair<double, int>> in_order;
+      for (const Neighbour& here : found) in_order.emplace_back(here.distance2, here.index);
+      EXPECT_EQ(in_order, expected);
     }
   }
 }
@@ -103,7 +105,7 @@ TEST(PointGrid, KnowsWhetherThereIsAnyWithinTheRadius) {
 
 TEST(PointGrid, FindsNothingNearestAmongNone) {
   PointGrid grid;
-  std::vector<std::pair<double, int>> found(3);
+  std::vector<Neighbour> found(3);
   grid.build({}, 10);
   grid.nearest(
       {5, 5}, 100, 4, [](int) { return true; }, found);
