@@ -28,7 +28,7 @@ double like_depth(double ratio) {
 constexpr double kCell_px = 32;
 
 /// That an edge may be in one group with, the nearest.
-constexpr std::size_t kNeighbours = 16;
+constexpr std::size_t kNeighbours = 8;
 
 /// Edges that must be below the ground, and their share of those that see ground.
 constexpr int kLeastSunk = 3;
