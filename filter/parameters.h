@@ -127,7 +127,7 @@ struct LinkParameters {
   double upward = 0.45;            ///< what a distance upwards counts beside one along the horizon
   double depth_share = 0.08;       ///< by which the inverse depths of neighbours may differ,
   double depth_error = 0.5;        ///< beside as much of the standard deviation of their difference
-  int neighbours = 8;              ///< that one edge is linked to, the nearest
+  int neighbours = 12;             ///< that one edge is linked to, the nearest
   double mean_share = 0.03;        ///< by which the mean inverse depths of two groups may differ
   double mean_spread = 0.1;        ///< m: the same, growing with the inverse depth squared
   double rebel_reach_rad = 0.145;  ///< how far apart rebels are seen, at the most
