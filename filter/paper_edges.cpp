@@ -267,20 +267,15 @@ void PaperEdges::complete_chains(Layers& layers, const Chi& chi, const MotionFie
 /// found no continuation is gone: it lives three frames at the most.
 void PaperEdges::branch_chains(const Layers& layers, const Chi& chi, const MotionField& field) {
   grown_.clear();
-  std::vector<std::pair<double, int>> nearest;
   for (const Chain& chain : layers.chains) {
     if (chain.count != 1) continue;
-    nearest.clear();
-    corner_grid_.visit_within(chain.sightings[0], parameters_.alpha_reach,
-                              [&](int corner, double distance2) {
-                                if (to_alpha_[corner]) nearest.emplace_back(distance2, corner);
-                              });
-    std::sort(nearest.begin(), nearest.end());
-    const auto branches = std::min(nearest.size(), std::size_t(parameters_.alpha_branches));
-    for (std::size_t b = 0; b < branches; ++b) {
-      came_to(nearest[b].second, Reason::alpha_second);
+    corner_grid_.nearest(
+        chain.sightings[0], parameters_.alpha_reach, std::size_t(parameters_.alpha_branches),
+        [&](int corner) { return to_alpha_[corner] != 0; }, near_);
+    for (const Neighbour& branch : near_) {
+      came_to(branch.index, Reason::alpha_second);
       Chain longer = chain;
-      longer.sightings[1] = chi.locations[nearest[b].second];
+      longer.sightings[1] = chi.locations[branch.index];
       longer.count = 2;
       longer.off_field_px = off_field(longer.sightings[0], longer.sightings[1], field);
       grown_.push_back(longer);

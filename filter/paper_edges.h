@@ -56,6 +56,7 @@ class PaperEdges : public EdgeExpert {
   std::vector<Vec2> predictions_;
   std::vector<char> to_alpha_, to_normal_;  // what becomes of the unmatched corners
   std::vector<Chain> grown_;
+  std::vector<Neighbour> near_;
 };
 
 }  // namespace lcs
