@@ -11,9 +11,9 @@
 namespace lcs {
 namespace {
 
-/// Changes of size between frames that neighbours may agree on (an approaching object grows).
-constexpr std::array<double, 5> kScales = {1.0, 1.04, 1.1, 1.2, 0.94};
-constexpr double kLeastScale = 0.94;
+/// Changes of size between frames that neighbours may agree on: what approaches grows.
+constexpr std::array<double, 6> kScales = {1.0, 1.04, 1.1, 1.2, 0.94, 0.9};
+constexpr double kLeastScale = 0.9;
 
 /// Points looked at along a static path, at the most, and how far apart they lie, px.
 constexpr int kMaxDepths = 60;
@@ -131,21 +131,24 @@ void ConstellationEdges::update_normal(Edge& edge, const Vec2& x, const MotionFi
   edge.trust = trust_.raised(edge.trust);
 }
 
-/// By how much a step leaves the images that a static point at any plausible depth may take, px.
-double ConstellationEdges::off_field(const Vec2& x, const Vec2& before,
+/// By how much a step leaves the images that a static point of this depth ratio at the least may
+/// take, px.
+double ConstellationEdges::off_field(const Vec2& x, const Vec2& before, double least_ratio,
                                      const Eigen::Vector3d& displacement_C_m,
-                                     const MotionField& field) const {
-  return distance_to_segment(before, field.earlier(x, field.least_ratio(x), displacement_C_m),
+                                     const MotionField& field) {
+  return distance_to_segment(before, field.earlier(x, least_ratio, displacement_C_m),
                              field.earlier(x, field.max_ratio(), displacement_C_m));
 }
 
 /// Whether an edge that followed its corner step by step did not stay on the path of any static
-/// point: each step of a slow mover fits into a normal edge's gate, their sum does not.
+/// point: each step of a slow mover fits into a normal edge's gate, their sum does not. Where the
+/// path tells a depth, one below the ground is for `Footing` to judge, which knows what is round it.
 bool ConstellationEdges::leaves_path(const Edge& edge, const Vec2& x,
                                      const MotionField& field) const {
-  const ConstellationParameters& p = parameters_.constellation;
-  return off_field(x, edge.path.anchor, edge.path.travelled_C_m, field) >
-         p.path_across + p.path_across_growth * (edge.path.anchor - x).norm();
+  const Path& path = edge.path;
+  const double least = path.ratio > 2 * path.sigma() ? 0 : field.least_ratio(x);
+  return off_field(x, path.anchor, least, path.travelled_C_m, field) >
+         parameters_.constellation.path_across;
 }
 
 void ConstellationEdges::update_rebel(Edge& edge, const Vec2& x, const MotionField& field) const {
@@ -156,7 +159,8 @@ void ConstellationEdges::update_rebel(Edge& edge, const Vec2& x, const MotionFie
   const Past& past = history_[frames - 1];
   const double off = edge.unfounded > 0 ? kFullResidual_px
                                         : off_field(x, x - velocity * past.elapsed_s,
-                                                    past.displacement_C_m, field);
+                                                    field.least_ratio(x), past.displacement_C_m,
+                                                    field);
   edge.off_field_px = 0.5 * edge.off_field_px + 0.5 * std::min(off, kFullResidual_px);
   edge.location = x;
   edge.mu = angle_between(angle_of(step), edge.angle);
@@ -338,8 +342,7 @@ Reason ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Mot
   const auto arms_of = [&](std::size_t scale) {
     return std::span(arms_.data() + scale * voters_.size(), voters_.size());
   };
-  const double reach = std::max(p.max_step, p.max_speed * once_.elapsed_s);
-  once_grid_.visit_within(x, reach, [&](int predecessor, double) {
+  once_grid_.visit_within(x, p.max_speed * once_.elapsed_s, [&](int predecessor, double) {
     const Vec2& before = once_.corners[predecessor];
     const Vec2 step = x - before;
     const std::uint8_t* anchor = arms_.empty() ? nullptr : screen_.anchor(before);
@@ -362,7 +365,8 @@ Reason ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Mot
   if (best < floor) return Reason::vote_floor;
   if (best < winning) return Reason::static_wins;
   candidates_[corner].step = best_step;
-  if (!(off_field(x, x - best_step, once_.displacement_C_m, field) > p.off_field))
+  if (!(off_field(x, x - best_step, field.least_ratio(x), once_.displacement_C_m, field) >
+        p.off_field))
     return Reason::vote_on_field;
   return Reason::voted;
 }

@@ -83,8 +83,8 @@ class ConstellationEdges : public EdgeExpert {
   void assign(const Layers& layers, const Chi& chi, const MotionField& field);
   void update_normal(Edge& edge, const Vec2& x, const MotionField& field) const;
   void update_rebel(Edge& edge, const Vec2& x, const MotionField& field) const;
-  double off_field(const Vec2& x, const Vec2& before, const Eigen::Vector3d& displacement_C_m,
-                   const MotionField& field) const;
+  static double off_field(const Vec2& x, const Vec2& before, double least_ratio,
+                          const Eigen::Vector3d& displacement_C_m, const MotionField& field);
   bool leaves_path(const Edge& edge, const Vec2& x, const MotionField& field) const;
   void find_residuals(const Layers& layers, const Chi& chi);
   void seek_static_past(const Chi& chi, const MotionField& field);

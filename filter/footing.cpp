@@ -125,10 +125,15 @@ Footing::Extent Footing::sunk(Group group) const {
 bool Footing::hangs(Group group) {
   values_.clear();
   for (const int i : group) values_.push_back(nodes_[i].ground);
-  // The second lowest, so that one edge that does not belong says nothing.
+  // The second lowest, so that one edge that does not belong says nothing: but if it does not lie
+  // on the ground it belongs.
   const std::ptrdiff_t rank = values_.size() > 2 ? 1 : 0;
   std::nth_element(values_.begin(), values_.begin() + rank, values_.end(), std::greater<>());
-  const double foot = values_[rank];
+  double foot = values_[rank];
+  for (const int i : group) {
+    const Node& node = nodes_[i];
+    if (node.ratio - 2 * node.sigma > node.ground + slack_) foot = std::max(foot, node.ground);
+  }
   if (foot < 2 * slack_) return false;
   return depths_.mean(depths_.sets().root(group.front())) > parameters_.lift * (foot + slack_);
 }
@@ -136,6 +141,11 @@ bool Footing::hangs(Group group) {
 Footing::Extent Footing::aloft(Group group) {
   const int own = depths_.sets().root(group.front());
   if (!hanging_[own] || static_cast<int>(group.size()) < parameters_.members) return {};
+  // What has just come into view need not have shown its foot yet.
+  const auto known = std::count_if(group.begin(), group.end(), [&](int i) {
+    return nodes_[i].edge->unfounded > 0 || nodes_[i].edge->age > 2 * frames_;
+  });
+  if (2 * known < static_cast<std::ptrdiff_t>(group.size())) return {};
   Extent extent;
   double foot = nodes_[own].ground;
   for (const int i : group) {

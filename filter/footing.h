@@ -5,8 +5,9 @@
 /// whose common depth puts its foot elsewhere is not static:
 ///
 /// * *sunk*: farther than the ground that its lower edges hide. It recedes, or runs ahead.
-/// * *aloft*: so near that its lowest edge hangs in the air, nothing that stands seen below it.
-///   It comes on. (A static body that hangs lower than the camera is taken for one that does.)
+/// * *aloft*: so near that its lowest edge hangs in the air, nothing that stands seen below it, and
+///   in view for long enough to have shown it. It comes on. (A static body that hangs lower than
+///   the camera is taken for one that does.)
 #pragma once
 
 #include <algorithm>

@@ -112,31 +112,25 @@ void LinkLayering::link_by_velocity(double dt_s) {
 }
 
 bool LinkLayering::reaches_too_high(std::span<const int> group, double w,
-                                    const MotionField& field) {
+                                    const MotionField& field) const {
   if (!field.ground() || !(w > 0)) return false;
-  heights_m_.clear();
   const double ratio = w * field.reference_depth_m();
-  for (const int i : group) {
+  return std::any_of(group.begin(), group.end(), [&](int i) {
     const double ground_ratio = *field.ground_ratio(nodes_[i].location);
-    heights_m_.push_back(field.ground()->height_m * (1 - ground_ratio / ratio));
-  }
-  const double cut = parameters_.trim * static_cast<double>(group.size());
-  const auto top = heights_m_.end() - 1 - static_cast<std::ptrdiff_t>(cut);
-  std::nth_element(heights_m_.begin(), top, heights_m_.end());
-  return *top > parameters_.max_size;
+    return field.ground()->height_m * (1 - ground_ratio / ratio) > parameters_.max_size;
+  });
 }
 
 void LinkLayering::make_square(std::span<const int> group, const MotionField& field) {
-  xs_.clear();
-  ys_.clear();
   const double n = static_cast<double>(group.size());
   Square square;
+  Vec2 low = nodes_[group.front()].location, high = low;
   Vec2 velocity = Vec2::Zero(), origin = Vec2::Zero();
   double ratio = 0, speed = 0, weights = 0;
   for (const int i : group) {
     const Node& node = nodes_[i];
-    xs_.push_back(node.location.x());
-    ys_.push_back(node.location.y());
+    low = low.cwiseMin(node.location);
+    high = high.cwiseMax(node.location);
     const double weight = node.edge->rebel ? 1 : 1 / (node.sigma * node.sigma);
     ratio +=
         weight * (node.edge->rebel ? node.edge->depth_ratio : node.w * field.reference_depth_m());
@@ -145,14 +139,8 @@ void LinkLayering::make_square(std::span<const int> group, const MotionField& fi
     velocity += node.edge->velocity() / n;
     origin += node.edge->origin / n;
   }
-  std::sort(xs_.begin(), xs_.end());
-  std::sort(ys_.begin(), ys_.end());
-  const auto cut = static_cast<std::size_t>(parameters_.trim * n);
-  const Vec2 low(xs_[cut], ys_[cut]);
-  const Vec2 high(xs_[xs_.size() - 1 - cut], ys_[ys_.size() - 1 - cut]);
   const Vec2 size = high - low;
-  const double longest = parameters_.max_side * std::max(camera_.width_px, camera_.height_px);
-  if (size.prod() < parameters_.min_area || size.maxCoeff() > longest) return;
+  if (size.prod() < parameters_.min_area) return;
   const bool rebel = nodes_[group.front()].edge->rebel;
   const double w = ratio / weights / field.reference_depth_m();
   const double largest_px = parameters_.max_size * camera_.focal_px * w;

@@ -56,7 +56,7 @@ class LinkLayering {
   /// px: nothing farther can be within reach.
   double farthest(double reach_px) const;
   /// Whether it reaches higher above the ground, where that is known, than any object.
-  bool reaches_too_high(std::span<const int> group, double w, const MotionField& field);
+  bool reaches_too_high(std::span<const int> group, double w, const MotionField& field) const;
 
   Intrinsics camera_;
   LinkParameters parameters_;
@@ -70,7 +70,6 @@ class LinkLayering {
   DisjointSets by_velocity_;
   SetMembers groups_;
   std::vector<int> circles_;
-  std::vector<double> xs_, ys_, heights_m_;
   std::vector<Square> squares_;
 };
 

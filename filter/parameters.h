@@ -60,8 +60,7 @@ struct ConstellationParameters {
   double rebel_growth = 0.3;          ///< of the displacement, until
   double rebel_gate_max = 3.5;        ///< px
   double baseline = 0.09;             ///< s: what a motion is measured over, at the least
-  double max_step = 45;               ///< px: furthest that a rebel is looked for, or
-  double max_speed = 450;             ///< px/s: as far as this takes it, if farther
+  double max_speed = 450;             ///< px/s: the fastest that a rebel is looked for
   double hit_1 = 2;                   ///< px: a sighting one baseline ago counts within this
   double hit_2 = 3;                   ///< px: and two baselines ago within this
   double radius = 80;                 ///< px: how far neighbours are
@@ -70,12 +69,11 @@ struct ConstellationParameters {
   double vote_margin = 0.15;          ///< by which it must beat the static explanation
   double vote_static_cap = 0.55;      ///< share that the static explanation must stay below
   double off_field = 1.5;             ///< px that it must leave the static images by
-  double path_across = 2;             ///< px that a normal edge's whole path may lie off the field,
-  double path_across_growth = 0.03;   ///< and this much more for each px of its length
+  double path_across = 2;          ///< px that a normal edge's whole path may lie off the field
   int path_proof = 4;              ///< baselines after which a rebel's path must lie off by as much
   int established = 4;             ///< trust from which a normal edge explains its corner
   int support = 4;                 ///< rebels near each other that bear each other out
-  double support_off_field = 0.4;  ///< share of them that are off the field by more than 1 px
+  double support_off_field = 0.2;  ///< share of them that are off the field by more than 1 px
   double support_width = 1.5;      ///< px: standard deviation of their places across their line
   double inherit_radius = 60;      ///< px
   double inherit_share = 0.45;     ///< of the nearest decided neighbours that are rebels
@@ -135,11 +133,9 @@ struct LinkParameters {
   double rebel_speed_px = 3;        ///< px a frame, or tenth of a second: this in any case
   int min_edges = 9;                ///< that make a square
   int min_rebels = 4;
-  double trim = 0.01;     ///< share of the edges cut off at each side of a box
   double min_area = 250;  ///< px^2
-  double max_side = 0.7;  ///< of the image's longer side: what spans more is background,
-  double max_size = 5;    ///< m: and so is what is larger, by the depth of its edges, or reaches
-                          ///< higher above the ground, where that is known
+  double max_size = 5;    ///< m: what is larger, by the depth of its edges, is background, and so is
+                          ///< what reaches higher above the ground, where that is known
 };
 
 /// Square expert.

@@ -51,6 +51,13 @@ class Drive {
     bodies_.push_back({first, static_cast<int>(world_.points.size())});
   }
 
+  /// A corner of its own, as a body.
+  void corner(double x_m, double z_m, double up_m) {
+    const int first = static_cast<int>(world_.points.size());
+    world_.points.push_back({{x_m, kHeight_m - up_m, z_m}});
+    bodies_.push_back({first, first + 1});
+  }
+
   void stop(std::size_t body) {
     for (int i = bodies_[body].first; i < bodies_[body].second; ++i) {
       world_.points[i].velocity_C.setZero();
@@ -116,6 +123,19 @@ TEST(Footing, ABodyThatRunsAheadIsFartherThanTheGroundThatItHides) {
   }
 }
 
+TEST(Footing, ABodyThatGoesAheadMoreSlowlyThanTheCameraIsFartherThanTheGroundThatItHides) {
+  for (const char* ground : {"true", "false"}) {
+    Drive drive(Drive::Settings{{"field.ground", ground}});
+    drive.stand(0.3, 2.5, 0, 1.4, {0, 0, 0.2});
+    drive.frames(15);
+    if (std::string(ground) == "true") {
+      EXPECT_GT(drive.rebels(0), 0.9);
+    } else {
+      EXPECT_EQ(drive.rebels(0), 0) << "its image is that of a static body at 3 times its distance";
+    }
+  }
+}
+
 TEST(Footing, WhatIsFarBeyondARunnerDoesNotRunWithIt) {
   // Both seem to be infinitely far; the runner's feet alone are below the ground.
   for (const char* overhang : {"0.3", "1000"}) {
@@ -174,6 +194,18 @@ TEST(Footing, WhatIsSeenBelowAGroupMayBearIt) {
   }
 }
 
+TEST(Footing, OneLowCornerIsAFootUnlessItLiesOnTheGround) {
+  // What a body stands on may be smooth but for one corner. A corner on the ground is there
+  // whatever hangs above it.
+  for (const double up_m : {0.1, 0.0}) {
+    Drive drive;
+    drive.stand(0, 2.5, 0.3, 0.9);
+    drive.corner(0.1, 2.5, up_m);
+    drive.frames(15);
+    EXPECT_EQ(drive.rebels(0) > 0.5, up_m == 0) << up_m << " m: " << drive.rebels(0);
+  }
+}
+
 TEST(Footing, AnIncomerThatStopsIsNormalAgain) {
   Drive drive;
   drive.stand(0, 7, 0, 1.6, {0, 0, -0.7});
@@ -184,16 +216,34 @@ TEST(Footing, AnIncomerThatStopsIsNormalAgain) {
   EXPECT_LT(drive.rebels(0), 0.1);
 }
 
-TEST(Footing, SaysNothingWhileTheCameraStandsOrTheGroundIsNotKnown) {
-  std::vector<Edge> edges(10), none;
+/// Normal edges of a group that seems to be 1 m away, and so aloft.
+std::vector<Edge> aloft() {
+  std::vector<Edge> edges(10);
   for (int i = 0; i < 10; ++i) {
     Edge& edge = edges[i];
     edge.corner = i;
     edge.location = {300.0 + 4 * i, 300.0 + 3 * (i % 3)};
-    edge.path.ratio = 3;  // 1 m: aloft
+    edge.path.ratio = 3;
     edge.path.weight = 1e4;
-    edge.unfounded = 1;
   }
+  return edges;
+}
+
+TEST(Footing, WhatHasJustComeIntoViewNeedNotHaveShownItsFoot) {
+  // 0.24 s are 2 frames of 0.1 s, and twice that is what half of the group must have been seen for.
+  EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);
+  motion.ground = Ground{.height_m = kHeight_m};
+  for (const int old : {4, 5}) {
+    std::vector<Edge> normals = aloft(), none;
+    for (int i = 0; i < 10; ++i) normals[i].age = i < old ? 5 : 4;
+    Footing({}).judge(normals, none, MotionField(vga(), motion, {}));
+    for (const Edge& edge : normals) EXPECT_EQ(edge.unfounded, old == 5) << old;
+  }
+}
+
+TEST(Footing, SaysNothingWhileTheCameraStandsOrTheGroundIsNotKnown) {
+  std::vector<Edge> edges = aloft(), none;
+  for (Edge& edge : edges) edge.unfounded = 1;
   EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);
   const auto counted = [&] {
     std::vector<Edge> normals = edges;
