@@ -13,7 +13,7 @@ namespace {
 
 /// Changes of size between frames that neighbours may agree on: what approaches grows.
 constexpr std::array<double, 6> kScales = {1.0, 1.04, 1.1, 1.2, 0.94, 0.9};
-constexpr double kLeastScale = 0.9;
+constexpr double kLeastScale = *std::min_element(kScales.begin(), kScales.end());
 
 /// Points looked at along a static path, at the most, and how far apart they lie, px.
 constexpr int kMaxDepths = 60;

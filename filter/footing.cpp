@@ -113,7 +113,7 @@ Footing::Extent Footing::sunk(Group group) const {
     const Node& node = nodes_[i];
     if (node.ground < 2 * slack_) continue;
     ++low;
-    if (!(node.ratio + 2 * node.sigma < node.ground - slack_)) continue;
+    if (!node.is_below_ground(slack_)) continue;
     ++below;
     const double overhang = overhang_px_ * node.ground;
     extent.add(node.across - overhang, node.across + overhang);
@@ -131,8 +131,7 @@ bool Footing::hangs(Group group) {
   std::nth_element(values_.begin(), values_.begin() + rank, values_.end(), std::greater<>());
   double foot = values_[rank];
   for (const int i : group) {
-    const Node& node = nodes_[i];
-    if (node.ratio - 2 * node.sigma > node.ground + slack_) foot = std::max(foot, node.ground);
+    if (nodes_[i].is_above_ground(slack_)) foot = std::max(foot, nodes_[i].ground);
   }
   if (foot < 2 * slack_) return false;
   return depths_.mean(depths_.sets().root(group.front())) > parameters_.lift * (foot + slack_);

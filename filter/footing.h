@@ -47,6 +47,9 @@ class Footing {
     double sigma;   // its standard deviation
     double ground;  // ratio of the ground that is seen there, negative above the horizon
     double across;  // place along the horizon, px
+    /// Surely: by two standard deviations more than the ground may be off by.
+    bool is_below_ground(double slack) const { return ratio + 2 * sigma < ground - slack; }
+    bool is_above_ground(double slack) const { return ratio - 2 * sigma > ground + slack; }
   };
   using Group = std::span<const int>;  // nodes
   /// Along the horizon, px.

@@ -51,11 +51,9 @@ class Drive {
     bodies_.push_back({first, static_cast<int>(world_.points.size())});
   }
 
-  /// A corner of its own, as a body.
+  /// A corner by itself.
   void corner(double x_m, double z_m, double up_m) {
-    const int first = static_cast<int>(world_.points.size());
     world_.points.push_back({{x_m, kHeight_m - up_m, z_m}});
-    bodies_.push_back({first, first + 1});
   }
 
   void stop(std::size_t body) {
