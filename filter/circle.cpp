@@ -57,8 +57,8 @@ bool CircleExpert::alike(const Edge& a, const Edge& b, const MotionField& field)
     return within(a.angle, b.angle, parameters_.epsilon_beta_r) &&
            std::abs(a.speed - b.speed) <= std::max(tolerance, 0.5 * std::max(a.speed, b.speed));
   }
-  const bool directions = !field.moving() || within(a.angle, b.angle, parameters_.epsilon_beta_n);
-  return directions && std::abs(a.depth_ratio - b.depth_ratio) <= parameters_.epsilon_v_n;
+  return std::abs(a.depth_ratio - b.depth_ratio) <= parameters_.epsilon_v_n &&
+         (!field.moving() || within(a.angle, b.angle, parameters_.epsilon_beta_n));
 }
 
 CircleExpert::Group CircleExpert::mean_circle(const std::vector<Edge>& edges, std::size_t first,
@@ -103,27 +103,31 @@ bool CircleExpert::groupable(const Edge& edge) const {
   return edge.trust >= parameters_.trust.standard && (!edge.rebel || edge.called);
 }
 
-/// The groups C_m: each starts from the most trusted edge that is still free, and takes the edges
-/// near it that are like it.
+/// The groups C_m: each starts from the most trusted edge that is still free, of those the oldest,
+/// and takes the edges near it that are like it.
 void CircleExpert::group(const std::vector<Edge>& edges, const MotionField& field) {
+  free_.clear();
   points_.clear();
-  for (const Edge& edge : edges) points_.push_back(edge.location);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (!groupable(edges[i])) continue;
+    free_.push_back(&edges[i]);
+    points_.push_back(edges[i].location);
+  }
   grid_.build(points_, parameters_.reach);
-  refill(seeds_, edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) seeds_[i] = i;
+  refill(seeds_, free_.size());
+  for (std::size_t i = 0; i < free_.size(); ++i) seeds_[i] = i;
   std::sort(seeds_.begin(), seeds_.end(), [&](std::size_t a, std::size_t b) {
-    return std::tuple(-edges[a].trust, -edges[a].age, a) <
-           std::tuple(-edges[b].trust, -edges[b].age, b);
+    return std::tuple(-free_[a]->trust, -free_[a]->age, a) <
+           std::tuple(-free_[b]->trust, -free_[b]->age, b);
   });
-  refill(taken_, edges.size());
   grouped_.clear();
   groups_.clear();
   for (const std::size_t seed : seeds_) {
-    if (!groupable(edges[seed]) || taken_[seed]) continue;
+    if (!free_[seed]) continue;
+    const Edge& edge = *free_[seed];
     const std::size_t first = grouped_.size();
-    grid_.visit_within(edges[seed].location, parameters_.reach, [&](int other, double) {
-      if (!taken_[other] && groupable(edges[other]) && alike(edges[seed], edges[other], field))
-        grouped_.push_back(other);
+    grid_.visit_within(edge.location, parameters_.reach, [&](int other, double) {
+      if (free_[other] && alike(edge, *free_[other], field)) grouped_.push_back(other);
     });
     std::sort(grouped_.begin() + static_cast<std::ptrdiff_t>(first), grouped_.end());
     const std::size_t count = grouped_.size() - first;
@@ -131,7 +135,11 @@ void CircleExpert::group(const std::vector<Edge>& edges, const MotionField& fiel
       grouped_.resize(first);
       continue;
     }
-    for (std::size_t i = first; i < grouped_.size(); ++i) taken_[grouped_[i]] = 1;
+    for (std::size_t i = first; i < grouped_.size(); ++i) {
+      const Edge*& member = free_[grouped_[i]];
+      grouped_[i] = static_cast<std::size_t>(member - edges.data());
+      member = nullptr;
+    }
     groups_.push_back(mean_circle(edges, first, count, field));
   }
 }

@@ -61,9 +61,9 @@ class CircleExpert {
 
   // Of the current frame; kept for their memory.
   PointGrid grid_;
-  std::vector<Vec2> points_;
+  std::vector<const Edge*> free_;  // groupable, null: in a group
+  std::vector<Vec2> points_;       // of them
   std::vector<std::size_t> seeds_, grouped_;
-  std::vector<char> taken_;
   std::vector<Group> groups_;
   std::vector<Pair> pairs_;
   std::vector<int> circle_of_group_;

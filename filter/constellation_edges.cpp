@@ -40,6 +40,7 @@ ConstellationEdges::ConstellationEdges(const Intrinsics& camera, const CirclePar
       parameters_(parameters),
       groups_(parameters.constellation, parameters.trust),
       footing_(parameters.footing),
+      discs_(camera.width_px, camera.height_px),
       once_(camera),
       twice_(camera),
       once_free_(camera.width_px, camera.height_px),
@@ -142,7 +143,8 @@ double ConstellationEdges::off_field(const Vec2& x, const Vec2& before, double l
 
 /// Whether an edge that followed its corner step by step did not stay on the path of any static
 /// point: each step of a slow mover fits into a normal edge's gate, their sum does not. Where the
-/// path tells a depth, one below the ground is for `Footing` to judge, which knows what is round it.
+/// path tells a depth, one below the ground is for `Footing` to judge, which knows what is round
+/// it.
 bool ConstellationEdges::leaves_path(const Edge& edge, const Vec2& x,
                                      const MotionField& field) const {
   const Path& path = edge.path;
@@ -157,10 +159,10 @@ void ConstellationEdges::update_rebel(Edge& edge, const Vec2& x, const MotionFie
   const Vec2 velocity = (weight * edge.velocity() + step / field.dt_s()) / (weight + 1);
   const std::size_t frames = stride();
   const Past& past = history_[frames - 1];
-  const double off = edge.unfounded > 0 ? kFullResidual_px
-                                        : off_field(x, x - velocity * past.elapsed_s,
-                                                    field.least_ratio(x), past.displacement_C_m,
-                                                    field);
+  const double off = edge.unfounded > 0
+                         ? kFullResidual_px
+                         : off_field(x, x - velocity * past.elapsed_s, field.least_ratio(x),
+                                     past.displacement_C_m, field);
   edge.off_field_px = 0.5 * edge.off_field_px + 0.5 * std::min(off, kFullResidual_px);
   edge.location = x;
   edge.mu = angle_between(angle_of(step), edge.angle);
@@ -225,15 +227,19 @@ void ConstellationEdges::look_back(const Layers& layers) {
   const std::size_t frames = stride();
   const double hit_1 = parameters_.constellation.hit_1, hit_2 = parameters_.constellation.hit_2;
   index(history_[frames - 1], once_);
-  once_.all.build(once_.corners, hit_1);
-  once_.all.add(explained_, hit_1);
-  once_free_.build(once_.corners, hit_1);
-  screen_.build(once_.corners, hit_1);
+  discs_.build(once_.corners, hit_1);
+  once_.all.build(discs_);
+  once_free_.build(once_.corners, discs_);
+  screen_.build(discs_);
+  discs_.build(explained_, hit_1);
+  once_.all.add(discs_);
   once_grid_.build(once_.corners, 16);
   index(history_[2 * frames - 1], twice_);
-  twice_free_.build(twice_.corners, hit_2);
+  discs_.build(twice_.corners, hit_2);
+  twice_free_.build(discs_);
   twice_.all = twice_free_;
-  twice_.all.add(explained_, hit_2);
+  discs_.build(explained_, hit_2);
+  twice_.all.add(discs_);
   again_ = (twice_.elapsed_s - once_.elapsed_s) / once_.elapsed_s;
 }
 

@@ -107,6 +107,7 @@ class ConstellationEdges : public EdgeExpert {
   std::vector<Past> history_;  // newest first
 
   // Of the current frame; kept for their memory.
+  Discs discs_;           // of what is looked up next
   Lookup once_, twice_;   // one and two baselines ago
   NearestMap once_free_;  // of once_.corners
   HitMap twice_free_;     // of twice_.corners

@@ -19,20 +19,15 @@ class HitMap {
         words_((static_cast<std::size_t>(width_px) + 63) / 64),
         bits_(words_ * static_cast<std::size_t>(height_px), 0) {}
 
-  /// \param radius_px up to which a point is near; points outside the image are near to nothing.
-  void build(std::span<const Vec2> points, double radius_px) {
+  void build(const Discs& discs) {
     std::fill(bits_.begin(), bits_.end(), 0);
-    add(points, radius_px);
+    add(discs);
   }
 
   /// Further points.
-  void add(std::span<const Vec2> points, double radius_px) {
-    for (const Vec2& x : points) {
-      if (!pixels_.contain(x)) continue;
-      pixels_.visit_disc(x, radius_px, [&](int v, int first, int last) {
-        mark(v, static_cast<unsigned>(first), static_cast<unsigned>(last));
-      });
-    }
+  void add(const Discs& discs) {
+    for (const Discs::Run& run : discs.runs())
+      mark(run.row, static_cast<unsigned>(run.first), static_cast<unsigned>(run.last));
   }
 
   bool at(const Vec2& x) const {

@@ -25,19 +25,20 @@ class HitScreen {
         may_hit_(static_cast<std::size_t>(stride_) *
                  static_cast<std::size_t>(height_px + 2 * kMargin_px)) {}
 
-  /// \param points in and outside the image; only those inside are hit.
-  /// \param radius_px up to which a point is near.
-  void build(std::span<const Vec2> points, double radius_px) {
+  void build(const Discs& discs) {
     for (const Run& run : marked_) std::fill_n(may_hit_.begin() + run.first, run.count, 0);
     marked_.clear();
-    for (const Vec2& x : points) {
-      if (!pixels_.contain(x)) continue;
-      pixels_.visit_disc(x, radius_px, [&](int v, int first, int last) {
-        for (int row = v - 1; row <= v + 1; ++row) {
-          marked_.push_back({origin(first - 1, row), last - first + 3});
-          std::fill_n(may_hit_.begin() + marked_.back().first, marked_.back().count, 1);
-        }
-      });
+    const std::vector<Discs::Run>& runs = discs.runs();
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const auto& [row, first, last, point] = runs[i];
+      const bool is_top = i == 0 || runs[i - 1].point != point;
+      const bool is_bottom = i + 1 == runs.size() || runs[i + 1].point != point;
+      const Discs::Run& above = is_top ? runs[i] : runs[i - 1];
+      const Discs::Run& below = is_bottom ? runs[i] : runs[i + 1];
+      if (is_top) mark(row - 1, first, last);
+      mark(row, std::min({first, above.first, below.first}),
+           std::max({last, above.last, below.last}));
+      if (is_bottom) mark(row + 1, first, last);
     }
   }
 
@@ -80,6 +81,12 @@ class HitScreen {
     std::ptrdiff_t first;
     int count;
   };
+
+  /// Pixels of a row, and the one on either side.
+  void mark(int row, int first, int last) {
+    marked_.push_back({origin(first - 1, row), last - first + 3});
+    std::fill_n(may_hit_.begin() + marked_.back().first, marked_.back().count, 1);
+  }
 
   std::ptrdiff_t origin(int u, int v) const {
     return static_cast<std::ptrdiff_t>(v + kMargin_px) * stride_ + u + kMargin_px;

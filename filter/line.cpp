@@ -41,8 +41,9 @@ void LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
   // The distance from the centre survives mirroring and quarter turns of the image; the coordinates
   // only part what it leaves equal.
   const auto nearer = [](const Entry& a, const Entry& b) {
-    return std::tuple(a.distance2, a.location.y(), a.location.x(), a.source) <
-           std::tuple(b.distance2, b.location.y(), b.location.x(), b.source);
+    if (a.distance2 != b.distance2) return a.distance2 < b.distance2;
+    return std::tuple(a.location.y(), a.location.x(), a.source) <
+           std::tuple(b.location.y(), b.location.x(), b.source);
   };
   if (entries_.size() > max_corners_) {
     const auto end = entries_.begin() + static_cast<std::ptrdiff_t>(max_corners_);

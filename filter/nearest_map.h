@@ -17,21 +17,17 @@ class NearestMap {
       : pixels_{width_px, height_px},
         index_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), -1) {}
 
-  /// \param radius_px up to which a point is found.
-  void build(std::span<const Vec2> points, double radius_px) {
+  /// \param discs of these points: up to where each is found.
+  void build(std::span<const Vec2> points, const Discs& discs) {
     for (const Run& run : touched_) std::fill_n(index_.begin() + run.first, run.count, -1);
     touched_.clear();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Vec2& x = points[i];
-      if (!pixels_.contain(x)) continue;
-      pixels_.visit_disc(x, radius_px, [&](int v, int first, int last) {
-        touched_.push_back({pixel(first, v), last - first + 1});
-        for (int u = first; u <= last; ++u) {
-          std::int32_t& here = index_[pixel(u, v)];
-          if (here >= 0 && distance2(u, v, points[here]) <= distance2(u, v, x)) continue;
-          here = static_cast<std::int32_t>(i);
-        }
-      });
+    for (const auto& [v, first, last, i] : discs.runs()) {
+      touched_.push_back({pixel(first, v), last - first + 1});
+      for (int u = first; u <= last; ++u) {
+        std::int32_t& here = index_[pixel(u, v)];
+        if (here >= 0 && distance2(u, v, points[here]) <= distance2(u, v, points[i])) continue;
+        here = i;
+      }
     }
   }
 

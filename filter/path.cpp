@@ -53,10 +53,10 @@ void Path::carry(const MotionField& field) {
   ratio = field.advanced_ratio(before);
   if (!(before > 0)) return;
   // h is in units of the depth of now, and so is the error that a former sighting is left with.
-  const double shrink = before / ratio;
-  sightings *= shrink * shrink;
+  const double shrink2 = (before / ratio) * (before / ratio);
+  sightings *= shrink2;
   // The information shrinks besides as its unit, the ratio squared, grows.
-  weight *= std::pow(shrink, 4);
+  weight *= shrink2 * shrink2;
   if (!(sightings.trace() < kMostInformation && weight < kMostInformation)) {
     sightings.setZero();
     weight = 0;

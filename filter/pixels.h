@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
 
 #include "filter/camera.h"
 
@@ -62,6 +65,36 @@ struct Pixels {
     int first, last;
     bool first_in_doubt, last_in_doubt;
   };
+};
+
+/// The pixels near each of some points, row by row: computed once, and painted into each map of the
+/// points.
+class Discs {
+ public:
+  struct Run {
+    int row, first, last;
+    int point;  // index
+  };
+
+  Discs(int width_px, int height_px) : pixels_{width_px, height_px} {}
+
+  /// \param points in and outside the image; those outside are near to nothing.
+  /// \param radius_px up to which a pixel is near.
+  void build(std::span<const Vec2> points, double radius_px) {
+    runs_.clear();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!pixels_.contain(points[i])) continue;
+      pixels_.visit_disc(points[i], radius_px, [&](int row, int first, int last) {
+        runs_.push_back({row, first, last, static_cast<int>(i)});
+      });
+    }
+  }
+
+  const std::vector<Run>& runs() const { return runs_; }
+
+ private:
+  Pixels pixels_;
+  std::vector<Run> runs_;
 };
 
 }  // namespace lcs

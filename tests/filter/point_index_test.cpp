@@ -112,6 +112,12 @@ TEST(PointGrid, FindsNothingNearestAmongNone) {
   EXPECT_TRUE(found.empty());
 }
 
+Discs discs(int width_px, int height_px, std::span<const Vec2> points, double radius_px) {
+  Discs discs(width_px, height_px);
+  discs.build(points, radius_px);
+  return discs;
+}
+
 TEST(HitMap, KnowsThePixelsWithinTheRadiusOfAPoint) {
   Random random(5);
   for (const int width : {63, 64, 65, 200}) {
@@ -123,7 +129,7 @@ TEST(HitMap, KnowsThePixelsWithinTheRadiusOfAPoint) {
       }
       // A pixel's centre at the radius itself is within it.
       points.emplace_back(10, 10);
-      map.build(points, radius);
+      map.build(discs(width, 48, points, radius));
       for (int v = 0; v < 48; ++v) {
         for (int u = 0; u < width; ++u) {
           const bool near = std::any_of(points.begin(), points.end(), [&](const Vec2& p) {
@@ -140,8 +146,8 @@ TEST(HitMap, KnowsThePixelsWithinTheRadiusOfAPoint) {
 TEST(HitMap, ForgetsTheLastPointsAndFindsNothingOutside) {
   HitMap map(64, 48);
   const std::vector<Vec2> first = {{10, 10}}, second = {{63, 40}};
-  map.build(first, 2);
-  map.build(second, 2);
+  map.build(discs(64, 48, first, 2));
+  map.build(discs(64, 48, second, 2));
   EXPECT_FALSE(map.at({10, 10}));
   EXPECT_TRUE(map.at({63.49, 40}));
   EXPECT_FALSE(map.at({63.5, 40}));
@@ -161,8 +167,8 @@ TEST(HitScreen, LetsThroughAllThatHit) {
       const Eigen::Vector3d direction = random.vector(1);
       arms.push_back(direction.head<2>() * (HitScreen::kLongestArm_px / std::sqrt(2)));
     }
-    exact.build(points, 2);
-    screen.build(points, 2);
+    exact.build(discs(120, 90, points, 2));
+    screen.build(discs(120, 90, points, 2));
     std::vector<HitScreen::Offset> offsets;
     for (const Vec2& arm : arms) offsets.push_back(screen.offset(arm));
     for (int i = 0; i < 40; ++i) {
@@ -194,8 +200,8 @@ TEST(HitScreen, HasNoAnchorOutsideTheImageAndForgetsTheLastPoints) {
   EXPECT_EQ(screen.anchor({10, 47.5}), nullptr);
   const std::vector<Vec2> first = {{10, 10}}, second = {{0, 47}};
   const std::vector<HitScreen::Offset> arms = {screen.offset({0, 0})};
-  screen.build(first, 2);
-  screen.build(second, 2);
+  screen.build(discs(64, 48, first, 2));
+  screen.build(discs(64, 48, second, 2));
   EXPECT_EQ(HitScreen::count(screen.anchor({10, 10}), arms), 0);
   EXPECT_EQ(HitScreen::count(screen.anchor({0, 47}), arms), 1);
 }
@@ -212,7 +218,7 @@ TEST(NearestMap, AnswersLikeASearchOverAllPoints) {
   NearestMap map(640, 480);
   for (const double radius : {0.6, 2.0, 3.0}) {
     const std::vector<Vec2> points = random_points(random, 400);
-    map.build(points, radius);
+    map.build(points, discs(640, 480, points, radius));
     for (int v = 0; v < 480; v += 3) {
       for (int u = 0; u < 640; u += 3) {
         double nearest = radius;
@@ -239,8 +245,8 @@ TEST(NearestMap, AnswersLikeASearchOverAllPoints) {
 TEST(NearestMap, ForgetsTheLastPointsAndFindsNothingOutside) {
   NearestMap map(64, 48);
   const std::vector<Vec2> first = {{10, 10}}, second = {{40, 40}};
-  map.build(first, 2);
-  map.build(second, 2);
+  map.build(first, discs(64, 48, first, 2));
+  map.build(second, discs(64, 48, second, 2));
   EXPECT_EQ(map.at({10, 10}), -1);
   EXPECT_EQ(map.at({40, 40}), 0);
   EXPECT_EQ(map.at({-1, 5}), -1);
