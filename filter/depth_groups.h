@@ -8,9 +8,9 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
-#include <tuple>
 #include <vector>
 
+#include "filter/couples.h"
 #include "filter/disjoint_sets.h"
 #include "filter/point_grid.h"
 #include "filter/refill.h"
@@ -19,6 +19,9 @@ namespace lcs {
 
 class DepthGroups {
  public:
+  /// Things, like and unlike, that are looked at round each, about.
+  static constexpr double kCrowd = 64;
+
   /// n groups of one thing each, without links.
   void reset(std::size_t n) {
     sets_.reset(n);
@@ -33,32 +36,30 @@ class DepthGroups {
     weight_[i] = 1 / (sigma * sigma);
   }
 
-  /// What may belong together: each thing and the `count` nearest of those that cost less than 1.
+  /// Notes who may belong together: any two things near each other that cost less than 1.
   /// \param points where the things are; \param grid of them.
-  /// \param reach_px(i) how far to look; \param cost(i, j), symmetric: the cheaper, the sooner.
+  /// \param reach_px(i) how far to look; less where things lie close, which then have links enough.
+  /// \param cost(i, j, squared distance), symmetric: the cheaper, the sooner.
   template <typename Reach, typename Cost>
-  void link_nearest(std::span<const Vec2> points, const PointGrid& grid, std::size_t count,
-                    Reach&& reach_px, Cost&& cost) {
-    refill(costs_, points.size());
-    refill(ends_, points.size() + 1);
-    neighbours_.clear();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const int a = static_cast<int>(i);
-      const auto is_cheap = [&](int b) { return b != a && (costs_[b] = cost(a, b)) < 1; };
-      grid.nearest(points[i], reach_px(a), count, is_cheap, near_);
-      for (const auto& [distance2, b] : near_) {
-        neighbours_.push_back(b);
-        if (b > a || !is_neighbour(b, a)) links_.push_back({costs_[b], a, b});
-      }
-      ends_[i + 1] = neighbours_.size();
-    }
+  void link_near(std::span<const Vec2> points, const PointGrid& grid, Reach&& reach_px,
+                 Cost&& cost) {
+    // Each pair is looked at once.
+    const auto most = static_cast<std::size_t>(kCrowd / 2 * static_cast<double>(points.size()));
+    if (links_.capacity() < most) links_.reserve(most + most / 4);
+    grid.visit_pairs(
+        [&](int i) { return std::min(reach_px(i), grid.crowd_radius(points[i], kCrowd)); },
+        [&](int i, int j, double distance2) {
+          const double c = cost(i, j, distance2);
+          if (c < 1) links_.emplace_back(c, std::min(i, j), std::max(i, j));
+        });
   }
 
   /// Merges along all links.
   template <typename Tolerance>
   void merge_links(Tolerance&& tolerance) {
-    std::sort(links_.begin(), links_.end());
-    for (const Link& link : links_) merge(link.a, link.b, tolerance);
+    order_.visit(
+        links_, [&](const Couple& link) { return sets_.are_joined(link.a, link.b); },
+        [&](const Couple& link) { merge(link.a, link.b, tolerance); });
   }
 
   /// Makes one group of those of a and b, unless their means differ by `tolerance(depth)` and twice
@@ -81,30 +82,10 @@ class DepthGroups {
   double mean(int root) const { return mean_[root]; }
 
  private:
-  struct Link {
-    double cost;
-    int a, b;
-    /// Cheapest first, and of equal ones by what they join.
-    bool operator<(const Link& other) const {
-      return cost < other.cost ||
-             (cost == other.cost && std::tuple(a, b) < std::tuple(other.a, other.b));
-    }
-  };
-
-  /// Whether b was among the nearest of a.
-  bool is_neighbour(int a, int b) const {
-    const auto first = neighbours_.begin();
-    const auto end = first + static_cast<std::ptrdiff_t>(ends_[a + 1]);
-    return std::find(first + static_cast<std::ptrdiff_t>(ends_[a]), end, b) != end;
-  }
-
   DisjointSets sets_;
   std::vector<double> weight_, mean_;  // of the group that a root stands for
-  std::vector<Link> links_;
-  std::vector<double> costs_;      // of what was asked about last
-  std::vector<int> neighbours_;    // of each thing in turn
-  std::vector<std::size_t> ends_;  // of each thing's in neighbours_, after a 0
-  std::vector<Neighbour> near_;
+  std::vector<Couple> links_;
+  CheapestFirst order_;
 };
 
 }  // namespace lcs

@@ -10,14 +10,17 @@
 namespace lcs {
 
 void EdgeExpert::assign_one_to_one(std::size_t edges, std::size_t corners) {
-  std::sort(pairs_.begin(), pairs_.end());
   refill(match_of_edge_, edges, -1);
   refill(match_of_corner_, corners, -1);
-  for (const Pair& pair : pairs_) {
-    if (match_of_edge_[pair.edge] >= 0 || match_of_corner_[pair.corner] >= 0) continue;
-    match_of_edge_[pair.edge] = pair.corner;
-    match_of_corner_[pair.corner] = pair.edge;
-  }
+  order_.visit(
+      pairs_,
+      [&](const Couple& pair) {
+        return match_of_edge_[pair.a] >= 0 || match_of_corner_[pair.b] >= 0;
+      },
+      [&](const Couple& pair) {
+        match_of_edge_[pair.a] = pair.b;
+        match_of_corner_[pair.b] = pair.a;
+      });
 }
 
 void EdgeExpert::coast(Edge& edge, const std::vector<IgnoreRegion>& psi) const {

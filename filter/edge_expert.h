@@ -9,9 +9,9 @@
 #pragma once
 
 #include <memory>
-#include <tuple>
 #include <vector>
 
+#include "filter/couples.h"
 #include "filter/layers.h"
 #include "filter/line.h"
 #include "filter/motion_field.h"
@@ -42,18 +42,6 @@ class EdgeExpert {
  protected:
   EdgeExpert(const Intrinsics& camera, const TrustRanks& trust) : camera_(camera), trust_(trust) {}
 
-  /// A corner inside an edge's gate, and how badly it fits. Normal edges come first, rebels behind.
-  struct Pair {
-    double cost;
-    int edge;
-    int corner;  // in chi
-    /// Cheapest first, and of equal ones by edge and corner.
-    bool operator<(const Pair& other) const {
-      return cost < other.cost || (cost == other.cost &&
-                                   std::tuple(edge, corner) < std::tuple(other.edge, other.corner));
-    }
-  };
-
   /// Takes pairs_ cheapest first, each edge and each corner once, into the two lists of matches.
   void assign_one_to_one(std::size_t edges, std::size_t corners);
 
@@ -72,7 +60,10 @@ class EdgeExpert {
   const Intrinsics camera_;
   const TrustRanks trust_;
   PointGrid corner_grid_;
-  std::vector<Pair> pairs_;
+  /// Edges and corners inside their gates, and how badly these fit. Edges are counted normal ones
+  /// first; corners as in chi.
+  std::vector<Couple> pairs_;
+  CheapestFirst order_;
   std::vector<int> match_of_edge_, match_of_corner_;  // -1: none
   std::vector<Reason> reasons_;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "filter/geometry.h"
 #include "filter/refill.h"
 
 namespace lcs {
@@ -27,8 +28,8 @@ double like_depth(double ratio) {
 /// Of the grid: about as wide as so many neighbours lie apart.
 constexpr double kCell_px = 32;
 
-/// That an edge may be in one group with, the nearest.
-constexpr std::size_t kNeighbours = 8;
+/// What a place at the end of the reach counts beside a depth at the end of its tolerance, squared.
+constexpr double kApart = 3;
 
 /// Edges that must be below the ground, and their share of those that see ground.
 constexpr int kLeastSunk = 3;
@@ -42,6 +43,7 @@ constexpr double kBearerShare = 0.75;
 }  // namespace
 
 void Footing::gather(std::vector<Edge>& edges, const MotionField& field) {
+  const UprightMetric upright{along_horizon_, parameters_.upward};
   const double known = kKnown_1pm * field.reference_depth_m();
   for (Edge& edge : edges) {
     if (edge.corner < 0 || edge.path.weight <= 0) continue;
@@ -51,7 +53,7 @@ void Footing::gather(std::vector<Edge>& edges, const MotionField& field) {
     if (sigma > std::max(kKnownShare * ratio, known)) continue;
     nodes_.push_back({&edge, ratio, sigma, *field.ground_ratio(edge.location),
                       edge.location.dot(along_horizon_)});
-    points_.push_back(edge.location);
+    points_.push_back(upright(edge.location));
   }
 }
 
@@ -62,18 +64,19 @@ void Footing::link() {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     depths_.set_depth(i, nodes_[i].ratio, nodes_[i].sigma);
   }
-  depths_.link_nearest(
-      points_, grid_, kNeighbours, [&](int) { return parameters_.reach; },
-      [&](int i, int j) {
+  const double reach2 = parameters_.reach * parameters_.reach;
+  depths_.link_near(
+      points_, grid_, [&](int) { return parameters_.reach; },
+      [&](int i, int j, double apart2) {
         const Node &a = nodes_[i], &b = nodes_[j];
         const double difference = std::abs(a.ratio - b.ratio);
         const double like = like_depth(0.5 * (a.ratio + b.ratio));
         // Most are not alike at all; asked first, for it costs least.
         if (!(difference < like + a.sigma + b.sigma)) return 1.0;
         const double tolerance = like + std::sqrt(a.sigma * a.sigma + b.sigma * b.sigma);
-        if (!(difference < tolerance)) return 1.0;
-        const double apart = (points_[i] - points_[j]).norm() / parameters_.reach;
-        return (2 * difference / tolerance + apart) / 3;
+        const double unlike = difference / tolerance;
+        if (!(unlike < 1)) return 1.0;
+        return (unlike * unlike + kApart * apart2 / reach2) / (1 + kApart);
       });
   depths_.merge_links(like_depth);
 }

@@ -14,6 +14,7 @@ inline constexpr double kPi = std::numbers::pi;
 
 /// To (-pi, pi].
 inline double wrap_angle(double angle_rad) {
+  if (std::abs(angle_rad) < kPi) return angle_rad;  // as most are
   const double wrapped = std::remainder(angle_rad, 2 * kPi);
   return wrapped <= -kPi ? wrapped + 2 * kPi : wrapped;
 }
@@ -35,6 +36,16 @@ inline Vec2 unit_vector(double angle_rad) {
 inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
+
+/// Where distances upwards count less: bodies are taller than the gaps between them are wide.
+struct UprightMetric {
+  Vec2 along_horizon = Vec2::UnitX();
+  double upward = 1;  ///< what a distance upwards counts beside one along the horizon
+  /// To coordinates along the horizon and across it, in which distances are plain.
+  Vec2 operator()(const Vec2& x) const {
+    return {along_horizon.dot(x), upward * cross(along_horizon, x)};
+  }
+};
 
 /// Circular mean, gathered one angle at a time. Opposite angles cancel: the mean of none is 0.
 class AngleMean {

@@ -8,7 +8,7 @@
 namespace lcs {
 namespace {
 
-/// Of the grid: about as wide as the spacing of corners where they are many.
+/// Of the grid.
 constexpr double kCell_px = 24;
 
 /// Velocities are measured over about as long; shorter frames do not make them more like each
@@ -28,44 +28,31 @@ LinkLayering::LinkLayering(const Intrinsics& camera, const LinkParameters& param
 
 void LinkLayering::gather(const std::vector<Edge>& edges, const MotionField& field) {
   nodes_.clear();
+  depths_.clear();
   points_.clear();
   for (const Edge& edge : edges) {
     if (edge.corner < 0 || (edge.rebel && !edge.called)) continue;
     Node node;
-    node.location = edge.location;
     node.edge = &edge;
     if (edge.rebel) {
       node.velocity_pxps = edge.velocity();
     } else {
       if (edge.path.weight <= 0) continue;
-      node.w = edge.path.ratio / field.reference_depth_m();
-      node.sigma = std::max(kDepthFloor * node.w, edge.path.sigma() / field.reference_depth_m());
+      const double w = edge.path.ratio / field.reference_depth_m();
+      depths_.push_back(
+          {w, std::max(kDepthFloor * w, edge.path.sigma() / field.reference_depth_m())});
     }
     nodes_.push_back(node);
-    points_.push_back(node.location);
+    points_.push_back(upright_(edge.location));
   }
   grid_.build(points_, kCell_px);
-}
-
-/// Seen apart, in units of `reach`; upwards less counts.
-double LinkLayering::apart(const Node& a, const Node& b, double reach_px) const {
-  const Vec2 apart = (a.location - b.location) / reach_px;
-  if (!along_horizon_) return apart.norm();
-  const double across = apart.dot(*along_horizon_);
-  const double upwards = along_horizon_->x() * apart.y() - along_horizon_->y() * apart.x();
-  const double less = parameters_.upward * upwards;
-  return std::sqrt(across * across + less * less);
-}
-
-double LinkLayering::farthest(double reach_px) const {
-  return along_horizon_ ? reach_px / std::min(1.0, parameters_.upward) : reach_px;
 }
 
 double LinkLayering::reach(double w) const {
   return std::max(parameters_.reach_rad, parameters_.reach_m * w) * camera_.focal_px;
 }
 
-double LinkLayering::distance(const Node& a, const Node& b) const {
+double LinkLayering::distance2(const Depth& a, const Depth& b, double apart2_px2) const {
   const double w = 0.5 * (a.w + b.w);
   const double difference = std::abs(a.w - b.w);
   // Most are not alike at all; asked first, for it costs least.
@@ -73,8 +60,8 @@ double LinkLayering::distance(const Node& a, const Node& b) const {
   const double sigma = std::sqrt(a.sigma * a.sigma + b.sigma * b.sigma);
   const double error = std::min(parameters_.depth_error * sigma, kMostError * w);
   const double in_depth = std::max(difference - error, 0.0) / (parameters_.depth_share * w);
-  const double seen = apart(a, b, reach(w));
-  return std::sqrt(seen * seen + in_depth * in_depth);
+  const double reach_px = reach(w);
+  return apart2_px2 / (reach_px * reach_px) + in_depth * in_depth;
 }
 
 void LinkLayering::link_by_depth() {
@@ -82,12 +69,11 @@ void LinkLayering::link_by_depth() {
   const double nearest = 1 + parameters_.depth_share + kMostError;
   by_depth_.reset(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    by_depth_.set_depth(i, nodes_[i].w, std::max(nodes_[i].sigma, 1e-3));
+    by_depth_.set_depth(i, depths_[i].w, std::max(depths_[i].sigma, 1e-3));
   }
-  by_depth_.link_nearest(
-      points_, grid_, static_cast<std::size_t>(parameters_.neighbours),
-      [&](int i) { return farthest(reach(nearest * nodes_[i].w)); },
-      [&](int i, int j) { return distance(nodes_[i], nodes_[j]); });
+  by_depth_.link_near(
+      points_, grid_, [&](int i) { return reach(nearest * depths_[i].w); },
+      [&](int i, int j, double apart2) { return distance2(depths_[i], depths_[j], apart2); });
   by_depth_.merge_links(
       [&](double w) { return parameters_.mean_share * w + parameters_.mean_spread * w * w; });
 }
@@ -96,19 +82,16 @@ void LinkLayering::link_by_velocity(double dt_s) {
   const double reach_px = parameters_.rebel_reach_rad * camera_.focal_px;
   const double unit_s = std::max(dt_s, kSpeedTime_s);
   by_velocity_.reset(nodes_.size());
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Node& a = nodes_[i];
-    grid_.visit_within(a.location, farthest(reach_px), [&](int j, double) {
-      if (j <= static_cast<int>(i)) return;
-      const Node& b = nodes_[j];
-      if (by_velocity_.are_joined(static_cast<int>(i), j) || apart(a, b, reach_px) > 1) return;
-      const double step = (a.velocity_pxps - b.velocity_pxps).norm() * unit_s;
-      const double mean = 0.5 * (a.edge->speed + b.edge->speed) * unit_s;
-      if (step < std::max(parameters_.rebel_speed_px, parameters_.rebel_speed_share * mean)) {
-        by_velocity_.join(static_cast<int>(i), j);
-      }
-    });
-  }
+  grid_.visit_pairs(
+      [&](int) { return reach_px; },
+      [&](int i, int j, double) {
+        const Node &a = nodes_[i], &b = nodes_[j];
+        if (by_velocity_.are_joined(i, j)) return;
+        const double step = (a.velocity_pxps - b.velocity_pxps).norm() * unit_s;
+        const double mean = 0.5 * (a.edge->speed + b.edge->speed) * unit_s;
+        if (step < std::max(parameters_.rebel_speed_px, parameters_.rebel_speed_share * mean))
+          by_velocity_.join(i, j);
+      });
 }
 
 bool LinkLayering::reaches_too_high(std::span<const int> group, double w,
@@ -116,7 +99,7 @@ bool LinkLayering::reaches_too_high(std::span<const int> group, double w,
   if (!field.ground() || !(w > 0)) return false;
   const double ratio = w * field.reference_depth_m();
   return std::any_of(group.begin(), group.end(), [&](int i) {
-    const double ground_ratio = *field.ground_ratio(nodes_[i].location);
+    const double ground_ratio = *field.ground_ratio(nodes_[i].edge->location);
     return field.ground()->height_m * (1 - ground_ratio / ratio) > parameters_.max_size;
   });
 }
@@ -124,24 +107,23 @@ bool LinkLayering::reaches_too_high(std::span<const int> group, double w,
 void LinkLayering::make_square(std::span<const int> group, const MotionField& field) {
   const double n = static_cast<double>(group.size());
   Square square;
-  Vec2 low = nodes_[group.front()].location, high = low;
+  Vec2 low = nodes_[group.front()].edge->location, high = low;
   Vec2 velocity = Vec2::Zero(), origin = Vec2::Zero();
   double ratio = 0, speed = 0, weights = 0;
+  const bool rebel = nodes_[group.front()].edge->rebel;
   for (const int i : group) {
-    const Node& node = nodes_[i];
-    low = low.cwiseMin(node.location);
-    high = high.cwiseMax(node.location);
-    const double weight = node.edge->rebel ? 1 : 1 / (node.sigma * node.sigma);
-    ratio +=
-        weight * (node.edge->rebel ? node.edge->depth_ratio : node.w * field.reference_depth_m());
+    const Edge& edge = *nodes_[i].edge;
+    low = low.cwiseMin(edge.location);
+    high = high.cwiseMax(edge.location);
+    const double weight = rebel ? 1 : 1 / (depths_[i].sigma * depths_[i].sigma);
+    ratio += weight * (rebel ? edge.depth_ratio : depths_[i].w * field.reference_depth_m());
     weights += weight;
-    speed += node.edge->speed / n;
-    velocity += node.edge->velocity() / n;
-    origin += node.edge->origin / n;
+    speed += edge.speed / n;
+    if (rebel) velocity += nodes_[i].velocity_pxps / n;
+    origin += edge.origin / n;
   }
   const Vec2 size = high - low;
   if (size.prod() < parameters_.min_area) return;
-  const bool rebel = nodes_[group.front()].edge->rebel;
   const double w = ratio / weights / field.reference_depth_m();
   const double largest_px = parameters_.max_size * camera_.focal_px * w;
   if (!rebel && (size.maxCoeff() > largest_px || reaches_too_high(group, w, field))) return;
@@ -171,7 +153,8 @@ void LinkLayering::make_squares(DisjointSets& sets, std::size_t least, const Mot
 
 const std::vector<Square>& LinkLayering::layer(const Layers& layers, const MotionField& field) {
   squares_.clear();
-  along_horizon_ = field.along_horizon();
+  const auto along_horizon = field.along_horizon();
+  upright_ = along_horizon ? UprightMetric{*along_horizon, parameters_.upward} : UprightMetric{};
   gather(layers.normal_edges, field);
   link_by_depth();
   make_squares(by_depth_.sets(), static_cast<std::size_t>(parameters_.min_edges), field);

@@ -18,6 +18,7 @@
 
 #include "filter/depth_groups.h"
 #include "filter/disjoint_sets.h"
+#include "filter/geometry.h"
 #include "filter/layers.h"
 #include "filter/motion_field.h"
 #include "filter/parameters.h"
@@ -35,11 +36,13 @@ class LinkLayering {
  private:
   /// An edge that may be linked.
   struct Node {
-    Vec2 location;
-    Vec2 velocity_pxps;  // rebels
-    double w = 0;        // inverse depth, 1/m (normal edges)
-    double sigma = 0;    // of w
+    Vec2 velocity_pxps = Vec2::Zero();  // rebels
     const Edge* edge = nullptr;
+  };
+  /// Of a normal edge. Apart from the rest, for they are compared in great numbers.
+  struct Depth {
+    double w = 0;      // inverse depth, 1/m
+    double sigma = 0;  // of w
   };
 
   void gather(const std::vector<Edge>& edges, const MotionField& field);
@@ -49,12 +52,9 @@ class LinkLayering {
   void make_square(std::span<const int> group, const MotionField& field);
   /// px: how far neighbours at an inverse depth may be seen apart.
   double reach(double w) const;
-  /// How far two are seen apart, 1 at their reach; and by that and their depths, 1 where it is too
-  /// far for a link.
-  double apart(const Node& a, const Node& b, double reach_px) const;
-  double distance(const Node& a, const Node& b) const;
-  /// px: nothing farther can be within reach.
-  double farthest(double reach_px) const;
+  /// The square of how far apart two are, by where they are seen and by their depths; 1 where it is
+  /// too far for a link.
+  double distance2(const Depth& a, const Depth& b, double apart2_px2) const;
   /// Whether it reaches higher above the ground, where that is known, than any object.
   bool reaches_too_high(std::span<const int> group, double w, const MotionField& field) const;
 
@@ -62,9 +62,10 @@ class LinkLayering {
   LinkParameters parameters_;
 
   // Of the current frame; kept for their memory.
-  std::optional<Vec2> along_horizon_;
+  UprightMetric upright_;
   std::vector<Node> nodes_;
-  std::vector<Vec2> points_;
+  std::vector<Depth> depths_;  // of nodes, where these are normal
+  std::vector<Vec2> points_;   // of nodes, upright
   PointGrid grid_;
   DepthGroups by_depth_;
   DisjointSets by_velocity_;

@@ -249,17 +249,17 @@ void PaperEdges::complete_chains(Layers& layers, const Chi& chi, const MotionFie
   }
   std::sort(pairs_.begin(), pairs_.end());
   std::vector<Vec2> used;
-  for (const Pair& pair : pairs_) {
-    const Chain& chain = layers.chains[pair.edge];
-    if (!to_alpha_[pair.corner] ||
+  for (const auto& [distance2, row, corner] : pairs_) {
+    const Chain& chain = layers.chains[row];
+    if (!to_alpha_[corner] ||
         std::find(used.begin(), used.end(), chain.sightings[1]) != used.end()) {
       continue;
     }
     used.push_back(chain.sightings[1]);
-    layers.rebel_edges.push_back(make_rebel(chain, chi.locations[pair.corner], field));
-    layers.rebel_edges.back().corner = pair.corner;
-    to_alpha_[pair.corner] = to_normal_[pair.corner] = 0;
-    reasons_[pair.corner] = Reason::alpha_third;
+    layers.rebel_edges.push_back(make_rebel(chain, chi.locations[corner], field));
+    layers.rebel_edges.back().corner = corner;
+    to_alpha_[corner] = to_normal_[corner] = 0;
+    reasons_[corner] = Reason::alpha_third;
   }
 }
 

@@ -69,7 +69,7 @@ struct ConstellationParameters {
   double vote_margin = 0.15;          ///< by which it must beat the static explanation
   double vote_static_cap = 0.55;      ///< share that the static explanation must stay below
   double off_field = 1.5;             ///< px that it must leave the static images by
-  double path_across = 2;          ///< px that a normal edge's whole path may lie off the field
+  double path_across = 2;             ///< px that a normal edge's whole path may lie off the field
   int path_proof = 4;              ///< baselines after which a rebel's path must lie off by as much
   int established = 4;             ///< trust from which a normal edge explains its corner
   int support = 4;                 ///< rebels near each other that bear each other out
@@ -81,10 +81,11 @@ struct ConstellationParameters {
 
 /// Groups that stand on nothing (`filter/footing.h`), told beside the constellation rule.
 struct FootingParameters {
-  double time = 0.24;  ///< s for which a group must stand on nothing; 0: never asked
-  double reach = 80;   ///< px: how far apart the edges of a group may lie
-  int members = 6;     ///< that a group aloft needs
-  double lift = 2;     ///< the depth of the ground at its foot, over its own, that it must exceed
+  double time = 0.24;    ///< s for which a group must stand on nothing; 0: never asked
+  double reach = 60;     ///< px: how far apart along the horizon the edges of a group may lie
+  double upward = 0.45;  ///< what a distance upwards counts beside one along the horizon
+  int members = 6;       ///< that a group aloft needs
+  double lift = 2;       ///< the depth of the ground at its foot, over its own, that it must exceed
   double overhang = 0.3;  ///< m: how far beside what is below the ground its body reaches
 };
 
@@ -125,7 +126,6 @@ struct LinkParameters {
   double upward = 0.45;            ///< what a distance upwards counts beside one along the horizon
   double depth_share = 0.08;       ///< by which the inverse depths of neighbours may differ,
   double depth_error = 0.5;        ///< beside as much of the standard deviation of their difference
-  int neighbours = 12;             ///< that one edge is linked to, the nearest
   double mean_share = 0.03;        ///< by which the mean inverse depths of two groups may differ
   double mean_spread = 0.1;        ///< m: the same, growing with the inverse depth squared
   double rebel_reach_rad = 0.145;  ///< how far apart rebels are seen, at the most
@@ -134,8 +134,8 @@ struct LinkParameters {
   int min_edges = 9;                ///< that make a square
   int min_rebels = 4;
   double min_area = 250;  ///< px^2
-  double max_size = 5;    ///< m: what is larger, by the depth of its edges, is background, and so is
-                          ///< what reaches higher above the ground, where that is known
+  double max_size = 5;  ///< m: what is larger, by the depth of its edges, is background, and so is
+                        ///< what reaches higher above the ground, where that is known
 };
 
 /// Square expert.

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -67,6 +69,41 @@ class PointGrid {
         if (distance2 <= radius_px * radius_px) visit(placed_[k].index, distance2);
       }
     }
+  }
+
+  /// Calls `visit(i, j, squared distance)` once for each two points of which j lies within
+  /// `radius_px(i)` of i, the one that comes first in the grid: where radii differ, what matters
+  /// must lie within both.
+  template <typename Radius, typename Visit>
+  void visit_pairs(Radius&& radius_px, Visit&& visit) const {
+    for (int r = 0; r < rows_; ++r) {
+      for (std::size_t i = first_[cell(0, r)]; i < first_[cell(columns_ - 1, r) + 1]; ++i) {
+        const auto& [x, index] = placed_[i];
+        const double radius = radius_px(index);
+        const auto visit_from = [&](std::size_t first, std::size_t last) {
+          for (std::size_t k = first; k < last; ++k) {
+            const double distance2 = (placed_[k].location - x).squaredNorm();
+            if (distance2 <= radius * radius) visit(index, placed_[k].index, distance2);
+          }
+        };
+        const int left = column(x.x() - radius), right = column(x.x() + radius);
+        const int bottom = row(x.y() + radius);
+        visit_from(i + 1, first_[cell(right, r) + 1]);
+        for (int below = r + 1; below <= bottom; ++below)
+          visit_from(first_[cell(left, below)], first_[cell(right, below) + 1]);
+      }
+    }
+  }
+
+  /// px: within which `count` points would lie if those of the cells round x were spread evenly.
+  /// Who looks no farther is done in a time that does not grow with how close points lie.
+  double crowd_radius(const Vec2& x, double count) const {
+    const int c = column(x.x()), r = row(x.y());
+    const int left = std::max(c - 1, 0), right = std::min(c + 1, columns_ - 1);
+    std::size_t near = 0;
+    for (int v = std::max(r - 1, 0); v <= std::min(r + 1, rows_ - 1); ++v)
+      near += first_[cell(right, v) + 1] - first_[cell(left, v)];
+    return 3 * cell_px_ * std::sqrt(count / (std::numbers::pi * static_cast<double>(near)));
   }
 
   bool any_within(const Vec2& x, double radius_px) const {

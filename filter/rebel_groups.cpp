@@ -49,18 +49,15 @@ void RebelGroups::connect(const std::vector<Edge>& rebels, double dt_s) {
   }
   grid_.build(points_, parameters_.radius);
   components_.reset(rebels.size());
-  for (std::size_t i = 0; i < rebels.size(); ++i) {
-    if (!trust_.alive(rebels[i].trust)) continue;
-    grid_.visit_within(rebels[i].location, parameters_.radius, [&](int j, double) {
-      if (j <= static_cast<int>(i) || !trust_.alive(rebels[j].trust)) return;
-      if (components_.are_joined(static_cast<int>(i), j)) return;
-      const double difference = (velocities_[i] - velocities_[j]).norm() * dt_s;
-      const double mean = 0.5 * (rebels[i].speed + rebels[j].speed) * dt_s;
-      if (difference < std::max(kLikeStep_px, kLikeStepShare * mean)) {
-        components_.join(static_cast<int>(i), j);
-      }
-    });
-  }
+  grid_.visit_pairs([&](int) { return parameters_.radius; },
+                    [&](int i, int j, double) {
+                      if (!trust_.alive(rebels[i].trust) || !trust_.alive(rebels[j].trust)) return;
+                      if (components_.are_joined(i, j)) return;
+                      const double difference = (velocities_[i] - velocities_[j]).norm() * dt_s;
+                      const double mean = 0.5 * (rebels[i].speed + rebels[j].speed) * dt_s;
+                      if (difference < std::max(kLikeStep_px, kLikeStepShare * mean))
+                        components_.join(i, j);
+                    });
 }
 
 /// Standard deviation of a group's places across the line that fits them best, px.
@@ -77,19 +74,13 @@ double RebelGroups::width(const std::vector<Edge>& rebels, std::span<const int> 
   return std::sqrt(std::max(0.0, half - root));
 }
 
-void RebelGroups::support_group(std::vector<Edge>& rebels, std::span<const int> group) {
+void RebelGroups::support_group(const std::vector<Edge>& rebels, std::span<const int> group) {
   if (static_cast<int>(group.size()) < parameters_.support) return;
-  const int component = components_.root(group.front());
   // Where an outline hides a pattern behind it, their crossings move as neither does, but in line
   // along the outline.
   const bool in_line = width(rebels, group) < parameters_.support_width;
   for (const int i : group) {
-    int near = 0, off = 0;
-    grid_.visit_within(rebels[i].location, parameters_.radius, [&](int j, double) {
-      if (!trust_.alive(rebels[j].trust) || components_.root(j) != component) return;
-      ++near;
-      off += rebels[j].off_field_px > kOffField_px;
-    });
+    const auto& [near, off] = bearers_[i];
     const bool moves = off >= parameters_.support_off_field * near;
     stray_[i] = (in_line || !moves) && rebels[i].age >= 2;
     if (near < parameters_.support) continue;
@@ -102,6 +93,18 @@ void RebelGroups::support_group(std::vector<Edge>& rebels, std::span<const int> 
 void RebelGroups::support(std::vector<Edge>& rebels) {
   refill(reasons_, rebels.size(), Reason::rebel_alone);
   refill(stray_, rebels.size());
+  refill(bearers_, rebels.size());
+  const auto bear = [&](int i, int j) {
+    ++bearers_[i].near;
+    bearers_[i].off += rebels[j].off_field_px > kOffField_px;
+  };
+  for (int i = 0; i < static_cast<int>(rebels.size()); ++i) bear(i, i);
+  grid_.visit_pairs([&](int) { return parameters_.radius; },
+                    [&](int i, int j, double) {
+                      if (!components_.are_joined(i, j)) return;
+                      bear(i, j);
+                      bear(j, i);
+                    });
   groups_.visit([&](std::span<const int> group) { support_group(rebels, group); });
   for (std::size_t i = 0; i < rebels.size(); ++i) {
     if (stray_[i]) rebels[i].trust -= 2;

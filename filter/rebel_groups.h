@@ -35,10 +35,16 @@ class RebelGroups {
   Reason reason(std::size_t edge) const { return reasons_[edge]; }
 
  private:
+  /// Those of an edge's group that lie near it, itself included.
+  struct Bearers {
+    int near = 0;
+    int off = 0;  // of them, that surely do not move as what is static
+  };
+
   void connect(const std::vector<Edge>& rebels, double dt_s);
   void support(std::vector<Edge>& rebels);
   void smooth(std::vector<Edge>& rebels, double dt_s);
-  void support_group(std::vector<Edge>& rebels, std::span<const int> group);
+  void support_group(const std::vector<Edge>& rebels, std::span<const int> group);
   void smooth_group(std::vector<Edge>& rebels, std::span<int> group, double dt_s);
   double width(const std::vector<Edge>& rebels, std::span<const int> group) const;
 
@@ -49,8 +55,9 @@ class RebelGroups {
   // Of the current frame; kept for their memory.
   PointGrid grid_;
   std::vector<Vec2> points_, velocities_;
-  DisjointSets components_;  // of edges near each other and of like velocity
-  SetMembers groups_;        // living edges by component
+  DisjointSets components_;       // of edges near each other and of like velocity
+  SetMembers groups_;             // living edges by component
+  std::vector<Bearers> bearers_;  // of each edge
   std::vector<char> stray_;
   std::vector<double> vx_, vy_;
 };

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
+#include "filter/couples.h"
+#include "filter/depth_groups.h"
 #include "filter/hit_map.h"
 #include "filter/hit_screen.h"
 #include "filter/nearest_map.h"
@@ -101,6 +104,124 @@ TEST(PointGrid, KnowsWhetherThereIsAnyWithinTheRadius) {
   EXPECT_FALSE(grid.any_within({50, 25}, 40));
   grid.build({}, 20);
   EXPECT_FALSE(grid.any_within({0, 0}, 100));
+}
+
+TEST(PointGrid, VisitsEachPairWithinTheRadiusOfItsFirstOnce) {
+  Random random(8);
+  PointGrid grid;
+  for (const double cell : {1.0, 16.0, 300.0}) {
+    const std::vector<Vec2> points = random_points(random, 300);
+    const auto radius = [](int i) { return 20.0 + i % 50; };
+    grid.build(points, cell);
+    std::map<std::pair<int, int>, int> visits;
+    grid.visit_pairs(radius, [&](int i, int j, double distance2) {
+      EXPECT_EQ(distance2, (points[i] - points[j]).squaredNorm());
+      EXPECT_LE(std::sqrt(distance2), radius(i));
+      ++visits[std::minmax(i, j)];
+    });
+    for (int i = 0; i < 300; ++i) {
+      for (int j = i + 1; j < 300; ++j) {
+        const double distance = (points[i] - points[j]).norm();
+        const int times = visits.contains({i, j}) ? visits[{i, j}] : 0;
+        ASSERT_LE(times, 1);
+        // Which of them comes first is the grid's affair.
+        if (distance <= std::min(radius(i), radius(j))) {
+          ASSERT_EQ(times, 1);
+        } else if (distance > std::max(radius(i), radius(j))) {
+          ASSERT_EQ(times, 0);
+        }
+      }
+    }
+  }
+  grid.build({}, 20);
+  grid.visit_pairs([](int) { return 100; }, [](int, int, double) { FAIL(); });
+}
+
+/// Points spread evenly, as far apart as on a chequered floor.
+std::vector<Vec2> even_points(double apart_px) {
+  std::vector<Vec2> points;
+  for (double y = 0; y < 480; y += apart_px) {
+    for (double x = 0; x < 640; x += apart_px) points.emplace_back(x, y);
+  }
+  return points;
+}
+
+TEST(PointGrid, KnowsHowFarSoManyReach) {
+  PointGrid grid;
+  for (const double apart : {3.0, 8.0, 20.0}) {
+    const std::vector<Vec2> points = even_points(apart);
+    grid.build(points, 50);
+    const Vec2 centre(320, 240);
+    int within = 0;
+    grid.visit_within(centre, grid.crowd_radius(centre, 40), [&](int, double) { ++within; });
+    EXPECT_NEAR(within, 40, 14) << apart;  // nine cells hold from 50 to 2500 of them
+  }
+  const std::vector<Vec2> alone = {{10, 10}, {600, 400}};
+  grid.build(alone, 50);
+  EXPECT_GT(grid.crowd_radius({10, 10}, 40), 500);
+}
+
+TEST(DepthGroups, LookAtNoMoreHoweverCloseThingsLie) {
+  PointGrid grid;
+  DepthGroups groups;
+  for (const double apart : {2.0, 4.0, 8.0}) {
+    const std::vector<Vec2> points = even_points(apart);
+    grid.build(points, 24);
+    groups.reset(points.size());
+    std::size_t looks = 0;
+    groups.link_near(
+        points, grid, [](int) { return 200.0; },
+        [&](int, int, double) {
+          ++looks;
+          return 1.0;
+        });
+    EXPECT_LT(looks, DepthGroups::kCrowd * static_cast<double>(points.size())) << apart;
+    EXPECT_GT(looks, DepthGroups::kCrowd / 4 * static_cast<double>(points.size())) << apart;
+  }
+}
+
+TEST(CheapestFirst, SettlesInOrderWhatIsNotSettledYet) {
+  Random random(9);
+  CheapestFirst order;
+  for (const int count : {0, 1, 7, 500}) {
+    // With equal costs among them, and one that is far dearer than all others.
+    std::vector<Couple> couples;
+    for (int i = 0; i < count; ++i) {
+      const int a = static_cast<int>(random.uniform(0, 60)), b = 100 + i % 40;
+      couples.push_back({std::round(random.uniform(-3, 5) * 20) / 20, a, b});
+    }
+    if (count > 0) couples.back().cost = 1e6;
+    const auto matches = [&](auto&& visit) {
+      std::vector<Couple> taken;
+      const auto is_settled = [&](const Couple& couple) {
+        return std::any_of(taken.begin(), taken.end(), [&](const Couple& other) {
+          return other.a == couple.a || other.b == couple.b;
+        });
+      };
+      visit(is_settled, [&](const Couple& couple) {
+        EXPECT_FALSE(is_settled(couple));
+        taken.push_back(couple);
+      });
+      return taken;
+    };
+    const auto found = matches([&](auto&& is_settled, auto&& settle) {
+      auto any_order = couples;
+      order.visit(any_order, is_settled, settle);
+    });
+    const auto expected = matches([&](auto&& is_settled, auto&& settle) {
+      auto sorted = couples;
+      std::sort(sorted.begin(), sorted.end());
+      for (const Couple& couple : sorted) {
+        if (!is_settled(couple)) settle(couple);
+      }
+    });
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].cost, expected[i].cost);
+      EXPECT_EQ(found[i].a, expected[i].a);
+      EXPECT_EQ(found[i].b, expected[i].b);
+    }
+  }
 }
 
 TEST(PointGrid, FindsNothingNearestAmongNone) {
