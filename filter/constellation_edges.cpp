@@ -39,7 +39,7 @@ ConstellationEdges::ConstellationEdges(const Intrinsics& camera, const CirclePar
     : EdgeExpert(camera, parameters.trust),
       parameters_(parameters),
       groups_(parameters.constellation, parameters.trust),
-      footing_(parameters.footing),
+      footing_(camera, parameters.footing),
       discs_(camera.width_px, camera.height_px),
       once_(camera),
       twice_(camera),

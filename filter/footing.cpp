@@ -35,6 +35,9 @@ constexpr double kApart = 3;
 constexpr int kLeastSunk = 3;
 constexpr double kSunkShare = 0.5;
 
+/// px: what lies as near to the side of the picture may go on beyond it; a few corners apart.
+constexpr double kCut_px = 20;
+
 /// px: how far beside a group something may stand that bears it.
 constexpr double kBearerMargin_px = 5;
 /// A bearer is at least as near as the group, but for this share.
@@ -140,9 +143,19 @@ bool Footing::hangs(Group group) {
   return depths_.mean(depths_.sets().root(group.front())) > parameters_.lift * (foot + slack_);
 }
 
+/// Whether the picture's side may hide part of a group, its foot perhaps.
+bool Footing::is_cut_off(Group group) const {
+  const Vec2 beside = kCut_px * along_horizon_;
+  return std::any_of(group.begin(), group.end(), [&](int i) {
+    const Vec2& x = nodes_[i].edge->location;
+    return !picture_.contain(x - beside) || !picture_.contain(x + beside);
+  });
+}
+
 Footing::Extent Footing::aloft(Group group) {
   const int own = depths_.sets().root(group.front());
   if (!hanging_[own] || static_cast<int>(group.size()) < parameters_.members) return {};
+  if (is_cut_off(group)) return {};
   // What has just come into view need not have shown its foot yet.
   const auto known = std::count_if(group.begin(), group.end(), [&](int i) {
     return nodes_[i].edge->unfounded > 0 || nodes_[i].edge->age > 2 * frames_;

@@ -6,8 +6,8 @@
 ///
 /// * *sunk*: farther than the ground that its lower edges hide. It recedes, or runs ahead.
 /// * *aloft*: so near that its lowest edge hangs in the air, nothing that stands seen below it, and
-///   in view for long enough to have shown it. It comes on. (A static body that hangs lower than
-///   the camera is taken for one that does.)
+///   in view, as a whole, for long enough to have shown it. It comes on. (A static body that hangs
+///   lower than the camera is taken for one that does.)
 #pragma once
 
 #include <algorithm>
@@ -20,13 +20,15 @@
 #include "filter/layers.h"
 #include "filter/motion_field.h"
 #include "filter/parameters.h"
+#include "filter/pixels.h"
 #include "filter/point_grid.h"
 
 namespace lcs {
 
 class Footing {
  public:
-  explicit Footing(const FootingParameters& parameters) : parameters_(parameters) {}
+  Footing(const Intrinsics& camera, const FootingParameters& parameters)
+      : picture_{camera.width_px, camera.height_px}, parameters_(parameters) {}
 
   /// Counts `Edge::unfounded` up for edges whose group stands on nothing, and down for others,
   /// where the ground is known and the camera moves. Rebels are looked at that were unfounded
@@ -68,9 +70,11 @@ class Footing {
   void stack();
   Extent sunk(Group group) const;
   bool hangs(Group group);
+  bool is_cut_off(Group group) const;
   Extent aloft(Group group);
   void count(Group group, const Extent& unfounded) const;
 
+  Pixels picture_;
   FootingParameters parameters_;
   int frames_ = kLeastFrames;  // for which a group must stand on nothing
   double slack_ = 0;           // ratio by which the ground may differ from its plane

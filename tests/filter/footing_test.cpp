@@ -234,9 +234,32 @@ TEST(Footing, WhatHasJustComeIntoViewNeedNotHaveShownItsFoot) {
   for (const int old : {4, 5}) {
     std::vector<Edge> normals = aloft(), none;
     for (int i = 0; i < 10; ++i) normals[i].age = i < old ? 5 : 4;
-    Footing({}).judge(normals, none, MotionField(vga(), motion, {}));
+    Footing(vga(), {}).judge(normals, none, MotionField(vga(), motion, {}));
     for (const Edge& edge : normals) EXPECT_EQ(edge.unfounded, old == 5) << old;
   }
+}
+
+TEST(Footing, WhatTheSideOfThePictureCutsOffNeedNotShowItsFoot) {
+  EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);
+  motion.ground = Ground{.height_m = kHeight_m};
+  const auto counted = [&](double leftmost_px, double rightmost_px) {
+    std::vector<Edge> normals = aloft(), none;
+    const auto [left, right] = std::minmax_element(
+        normals.begin(), normals.end(),
+        [](const Edge& a, const Edge& b) { return a.location.x() < b.location.x(); });
+    const double from = left->location.x(), width = right->location.x() - from;
+    for (Edge& edge : normals) {
+      edge.age = 10;
+      edge.location.x() =
+          leftmost_px + (edge.location.x() - from) * (rightmost_px - leftmost_px) / width;
+    }
+    Footing(vga(), {}).judge(normals, none, MotionField(vga(), motion, {}));
+    return normals.front().unfounded;
+  };
+  EXPECT_EQ(counted(30, 110), 1);
+  EXPECT_EQ(counted(10, 90), 0);
+  EXPECT_EQ(counted(530, 610), 1);
+  EXPECT_EQ(counted(550, 630), 0);
 }
 
 TEST(Footing, SaysNothingWhileTheCameraStandsOrTheGroundIsNotKnown) {
@@ -245,7 +268,7 @@ TEST(Footing, SaysNothingWhileTheCameraStandsOrTheGroundIsNotKnown) {
   EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);
   const auto counted = [&] {
     std::vector<Edge> normals = edges;
-    Footing({}).judge(normals, none, MotionField(vga(), motion, {}));
+    Footing(vga(), {}).judge(normals, none, MotionField(vga(), motion, {}));
     return normals.front().unfounded;
   };
   EXPECT_EQ(counted(), 1) << "no ground";
