@@ -320,14 +320,26 @@ Parameters project_default() {
   return p;
 }
 
+/// Corners by headlights are few, and many are noise: neighbours lie farther apart, a motion must
+/// win more clearly, and what is farther off passes no verdict on.
+Parameters night() {
+  Parameters p = project_default();
+  p.circle.constellation.radius = 100;
+  p.circle.constellation.rebel_growth = 0.4;
+  p.circle.constellation.vote_margin = 0.2;
+  p.circle.constellation.inherit_radius = 30;
+  return p;
+}
+
 }  // namespace
 
 std::vector<std::string> preset_names() {
-  return {"default", "lab", "cars"};
+  return {"default", "night", "lab", "cars"};
 }
 
 Parameters preset(std::string_view name) {
   if (name == "default") return project_default();
+  if (name == "night") return night();
   if (name == "lab") return lab();
   if (name == "cars") return cars();
   throw std::invalid_argument("the filter has no preset '" + std::string(name) + "'; there are " +
