@@ -78,12 +78,13 @@ class PointGrid {
   void visit_pairs(Radius&& radius_px, Visit&& visit) const {
     for (int r = 0; r < rows_; ++r) {
       for (std::size_t i = first_[cell(0, r)]; i < first_[cell(columns_ - 1, r) + 1]; ++i) {
-        const auto& [x, index] = placed_[i];
-        const double radius = radius_px(index);
+        const Placed& here = placed_[i];
+        const Vec2& x = here.location;
+        const double radius = radius_px(here.index);
         const auto visit_from = [&](std::size_t first, std::size_t last) {
           for (std::size_t k = first; k < last; ++k) {
             const double distance2 = (placed_[k].location - x).squaredNorm();
-            if (distance2 <= radius * radius) visit(index, placed_[k].index, distance2);
+            if (distance2 <= radius * radius) visit(here.index, placed_[k].index, distance2);
           }
         };
         const int left = column(x.x() - radius), right = column(x.x() + radius);
