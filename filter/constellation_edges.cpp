@@ -487,14 +487,19 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
     if (trusted) {
       called_[c] = 1;
       reasons_[c] = Reason::inherited;
+      followers_.push_back({x, model.id});
       normal->trust -= 2;
       counts_[c] = normal->trust >= p.established;
       continue;
     }
     called_[c] = 1;
     reasons_[c] = Reason::inherited;
-    if (!confirmed || links_[c].kind == Kind::rebel) continue;
-    if (normal && normal->trust >= p.established) continue;
+    const bool is_kept =
+        links_[c].kind == Kind::rebel || (normal && normal->trust >= p.established);
+    if (!confirmed || is_kept) {
+      followers_.push_back({x, model.id});
+      continue;
+    }
     if (normal) normal->trust = 0;
     if (normal) normal->corner = -1;
     Edge edge = make_rebel(x, model.velocity(), field.dt_s());
@@ -562,6 +567,7 @@ void ConstellationEdges::update(Layers& layers, const Chi& chi, const MotionFiel
   }
   find_residuals(layers, chi);
   refill(called_, chi.size());
+  followers_.clear();
   if (history_.size() >= 2 && field.dt_s() > 0) {
     look_back(layers);
     seek_static_past(chi, field);

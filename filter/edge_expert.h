@@ -9,6 +9,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "filter/couples.h"
@@ -35,6 +36,10 @@ class EdgeExpert {
 
   /// Forgets what it remembers of former frames beside the layers.
   virtual void forget() {}
+
+  /// Corners of the last chi that are rebels by an edge near them alone. Valid until the next
+  /// frame.
+  std::span<const Follower> followers() const { return followers_; }
 
   /// What settled each corner of the last chi.
   const std::vector<Reason>& reasons() const { return reasons_; }
@@ -66,6 +71,7 @@ class EdgeExpert {
   CheapestFirst order_;
   std::vector<int> match_of_edge_, match_of_corner_;  // -1: none
   std::vector<Reason> reasons_;
+  std::vector<Follower> followers_;
 
  private:
   Id next_id_ = 1;

@@ -113,6 +113,13 @@ struct Layers {
   }
 };
 
+/// A corner that takes after a rebel edge near it, whose verdict it has, but is none of its own:
+/// part of the body, whose motion is not known.
+struct Follower {
+  Vec2 location;  ///< px
+  Id edge;        ///< that it follows
+};
+
 /// What became of a corner.
 enum class Verdict : std::uint8_t {
   ignored,  ///< inside psi

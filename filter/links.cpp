@@ -42,10 +42,24 @@ void LinkLayering::gather(const std::vector<Edge>& edges, const MotionField& fie
       depths_.push_back(
           {w, std::max(kDepthFloor * w, edge.path.sigma() / field.reference_depth_m())});
     }
+    node.low = node.high = edge.location;
     nodes_.push_back(node);
     points_.push_back(upright_(edge.location));
   }
   grid_.build(points_, kCell_px);
+}
+
+/// What follows a rebel tells nothing of its motion, but how far its body reaches.
+void LinkLayering::take_in(std::span<const Follower> followers) {
+  for (const Follower& follower : followers) {
+    // Ids rise in the lists of edges.
+    const auto node =
+        std::lower_bound(nodes_.begin(), nodes_.end(), follower.edge,
+                         [](const Node& before, Id id) { return before.edge->id < id; });
+    if (node == nodes_.end() || node->edge->id != follower.edge) continue;
+    node->low = node->low.cwiseMin(follower.location);
+    node->high = node->high.cwiseMax(follower.location);
+  }
 }
 
 double LinkLayering::reach(double w) const {
@@ -107,14 +121,14 @@ bool LinkLayering::reaches_too_high(std::span<const int> group, double w,
 void LinkLayering::make_square(std::span<const int> group, const MotionField& field) {
   const double n = static_cast<double>(group.size());
   Square square;
-  Vec2 low = nodes_[group.front()].edge->location, high = low;
+  Vec2 low = nodes_[group.front()].low, high = nodes_[group.front()].high;
   Vec2 velocity = Vec2::Zero(), origin = Vec2::Zero();
   double ratio = 0, speed = 0, weights = 0;
   const bool rebel = nodes_[group.front()].edge->rebel;
   for (const int i : group) {
     const Edge& edge = *nodes_[i].edge;
-    low = low.cwiseMin(edge.location);
-    high = high.cwiseMax(edge.location);
+    low = low.cwiseMin(nodes_[i].low);
+    high = high.cwiseMax(nodes_[i].high);
     const double weight = rebel ? 1 : 1 / (depths_[i].sigma * depths_[i].sigma);
     ratio += weight * (rebel ? edge.depth_ratio : depths_[i].w * field.reference_depth_m());
     weights += weight;
@@ -151,14 +165,20 @@ void LinkLayering::make_squares(DisjointSets& sets, std::size_t least, const Mot
   });
 }
 
-const std::vector<Square>& LinkLayering::layer(const Layers& layers, const MotionField& field) {
+const std::vector<Square>& LinkLayering::layer(const Layers& layers, const MotionField& field,
+                                               std::span<const Follower> followers) {
   squares_.clear();
   const auto along_horizon = field.along_horizon();
-  upright_ = along_horizon ? UprightMetric{*along_horizon, parameters_.upward} : UprightMetric{};
+  const auto upright = [&](double upward) {
+    return along_horizon ? UprightMetric{*along_horizon, upward} : UprightMetric{};
+  };
+  upright_ = upright(parameters_.upward);
   gather(layers.normal_edges, field);
   link_by_depth();
   make_squares(by_depth_.sets(), static_cast<std::size_t>(parameters_.min_edges), field);
+  upright_ = upright(parameters_.rebel_upward);
   gather(layers.rebel_edges, field);
+  take_in(followers);
   link_by_velocity(field.dt_s());
   make_squares(by_velocity_, static_cast<std::size_t>(parameters_.min_rebels), field);
   return squares_;

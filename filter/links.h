@@ -31,13 +31,16 @@ class LinkLayering {
   LinkLayering(const Intrinsics& camera, const LinkParameters& parameters);
 
   /// Mean squares S_m of this frame, valid until the next call.
-  const std::vector<Square>& layer(const Layers& layers, const MotionField& field);
+  /// \param followers of rebel edges, which belong to their squares.
+  const std::vector<Square>& layer(const Layers& layers, const MotionField& field,
+                                   std::span<const Follower> followers = {});
 
  private:
   /// An edge that may be linked.
   struct Node {
     Vec2 velocity_pxps = Vec2::Zero();  // rebels
     const Edge* edge = nullptr;
+    Vec2 low, high;  // px: of the edge and what follows it
   };
   /// Of a normal edge. Apart from the rest, for they are compared in great numbers.
   struct Depth {
@@ -46,6 +49,7 @@ class LinkLayering {
   };
 
   void gather(const std::vector<Edge>& edges, const MotionField& field);
+  void take_in(std::span<const Follower> followers);
   void link_by_depth();
   void link_by_velocity(double dt_s);
   void make_squares(DisjointSets& sets, std::size_t least, const MotionField& field);

@@ -147,6 +147,7 @@ const std::vector<Entry>& entries() {
       {"link.mean_share", "", "", 0, 10, LCS_FIELD(double, square.link.mean_share)},
       {"link.mean_spread", "", "m", 0, 100, LCS_FIELD(double, square.link.mean_spread)},
       {"link.rebel_reach", "", "deg", 0.001, 90, LCS_FIELD(double, square.link.rebel_reach_rad)},
+      {"link.rebel_upward", "", "", 0.01, 100, LCS_FIELD(double, square.link.rebel_upward)},
       {"link.rebel_speed_share", "", "", 0, 10, LCS_FIELD(double, square.link.rebel_speed_share)},
       {"link.rebel_speed_px", "", "px", 0, 1000, LCS_FIELD(double, square.link.rebel_speed_px)},
       {"link.min_edges", "", "", 1, 1000, LCS_FIELD(int, square.link.min_edges)},
@@ -316,6 +317,9 @@ Parameters project_default() {
   set_degrees(p.circle, p.square);
   p.circle.trust = {2, 3, 7};
   p.circle.min_members = p.circle.constellation.support;
+  // A square is made again in each frame: one that the next frame does not bear out is gone.
+  p.square.trust = {3, 3, 6};
+  p.square.epsilon_beta_s = 60 * kDegree;
   p.line.ignore = false;
   return p;
 }

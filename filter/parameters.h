@@ -128,11 +128,12 @@ struct LinkParameters {
   double depth_error = 0.5;        ///< beside as much of the standard deviation of their difference
   double mean_share = 0.03;        ///< by which the mean inverse depths of two groups may differ
   double mean_spread = 0.1;        ///< m: the same, growing with the inverse depth squared
-  double rebel_reach_rad = 0.145;  ///< how far apart rebels are seen, at the most
+  double rebel_reach_rad = 0.175;  ///< how far apart rebels are seen, at the most
+  double rebel_upward = 0.25;      ///< as `upward`: limbs swing, and few corners are on them
   double rebel_speed_share = 0.35;  ///< by which their velocities may differ
   double rebel_speed_px = 3;        ///< px a frame, or tenth of a second: this in any case
   int min_edges = 9;                ///< that make a square
-  int min_rebels = 4;
+  int min_rebels = 5;
   double min_area = 250;  ///< px^2
   double max_size = 5;  ///< m: what is larger, by the depth of its edges, is background, and so is
                         ///< what reaches higher above the ground, where that is known

@@ -273,11 +273,12 @@ void SquareExpert::match(Layers& layers) {
   });
 }
 
-void SquareExpert::update(Layers& layers, const MotionField& field) {
+void SquareExpert::update(Layers& layers, const MotionField& field,
+                          std::span<const Follower> followers) {
   if (parameters_.layer_rule == LayerRule::couples) {
     layer_circles(layers, field);
   } else {
-    copy_over(links_.layer(layers, field), means_);
+    copy_over(links_.layer(layers, field, followers), means_);
   }
   match(layers);
 }

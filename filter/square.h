@@ -32,7 +32,8 @@ class SquareExpert {
   void feed_back(const Layers& layers, std::vector<IgnoreRegion>& psi) const;
 
   /// Layers the circles and matches, estimates, makes and deletes squares.
-  void update(Layers& layers, const MotionField& field);
+  /// \param followers of rebel edges, which belong to their squares.
+  void update(Layers& layers, const MotionField& field, std::span<const Follower> followers = {});
 
   /// Squares that reached Tr_m will be ignored in the next frame, as circles are (transition IV).
   void update_ignorance(Layers& layers) const;

@@ -156,6 +156,7 @@ void Stages::circle(const Frame& before, Frame& frame) {
     result.verdicts[repeat.source] = result.verdicts[repeat.of_source];
     result.reasons[repeat.source] = result.reasons[repeat.of_source];
   }
+  frame.followers.assign(edges_->followers().begin(), edges_->followers().end());
   circles_.update(result.layers, *frame.field);
   if (feeds_back()) circles_.update_ignorance(result.layers);  // transition II
   result.times.circle_ms = ms_since(start);
@@ -164,8 +165,8 @@ void Stages::circle(const Frame& before, Frame& frame) {
 void Stages::square(const Frame& before, Frame& frame) {
   const auto start = Clock::now();
   if (!feeds_back()) predict_squares(before, frame);
-  squares_.update(frame.result.layers, *frame.field);                // transition III
-  if (feeds_back()) squares_.update_ignorance(frame.result.layers);  // transition IV
+  squares_.update(frame.result.layers, *frame.field, frame.followers);  // transition III
+  if (feeds_back()) squares_.update_ignorance(frame.result.layers);     // transition IV
   frame.result.times.square_ms = ms_since(start);
 }
 

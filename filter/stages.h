@@ -31,6 +31,7 @@ struct Frame {
   EgoMotion motion;                  ///< since then
   std::optional<MotionField> field;  ///< of it
   Chi chi;
+  std::vector<Follower> followers;  ///< from the Circle expert to the Square expert
   FrameResult result;
 };
 

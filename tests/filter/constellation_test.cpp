@@ -125,6 +125,35 @@ TEST(Constellation, NeighboursBeyondTheArmsOfTheScreenVoteAllTheSame) {
   EXPECT_EQ(found_of_a_wide_group(preset("default")), 0) << "none is near: the test shows nothing";
 }
 
+/// Right side of the only square, after a body of 4 by 4 corners has moved for some frames. With
+/// the last one a corner appears 30 px to its right.
+double right_side_of_a_body(bool with_new_corner) {
+  Filter filter(vga(), preset("default"));
+  constexpr int kFrames = 8;
+  const FrameResult* result = nullptr;
+  for (int k = 0; k < kFrames; ++k) {
+    Corners corners;
+    for (int i = 0; i < 16; ++i) {
+      const int x = 200 + 17 * (i % 4) + 7 * i % 5, y = 200 + 19 * (i / 4) + 5 * i % 7;
+      corners.push_back(Eigen::Vector2i(x + 5 * k, y).cast<float>());
+    }
+    if (with_new_corner && k == kFrames - 1) corners.emplace_back(300 + 5 * k, 220);
+    result = &filter.step(corners, steady_motion(Vector3d::Zero(), Vector3d::Zero(), 0.1));
+    if (k == kFrames - 1) {
+      EXPECT_EQ(rebels(*result), std::ssize(corners));
+    }
+  }
+  EXPECT_EQ(result->layers.squares.size(), 1u);
+  const Square& square = result->layers.squares.front();
+  return square.location.x() + square.half_size.x();
+}
+
+TEST(Constellation, ACornerThatAppearsOnABodyIsInItsSquareAtOnce) {
+  // It has no past and is no edge: it takes after those beside it.
+  EXPECT_LT(right_side_of_a_body(false), 300);
+  EXPECT_NEAR(right_side_of_a_body(true), 300 + 5 * 7, 1e-9);
+}
+
 TEST(Constellation, AnEdgeThatFollowsAMoverStepByStepLosesItByItsPath) {
   // A single corner: no neighbours vote. It moves by 0.8 px a frame across the field.
   for (const bool checked : {true, false}) {

@@ -43,6 +43,7 @@ void add_rebels(Layers& layers, const Vec2& low, const Vec2& high, const Vec2& v
     for (double x = low.x(); x <= high.x(); x += 10) {
       Edge edge;
       edge.location = {x, y};
+      edge.id = layers.rebel_edges.size() + 1;
       edge.rebel = edge.called = true;
       edge.speed = velocity.norm();
       edge.angle = angle_of(velocity);
@@ -102,6 +103,40 @@ TEST(Links, RebelsLinkByVelocityAndNotWithStaticOnes) {
     EXPECT_NEAR(square.speed, 80, 1e-9);
   }
   EXPECT_EQ(rebels, 2);
+}
+
+/// Limbs that swing part what moves as one: rebels too are linked farther upwards, where that is
+/// known.
+TEST(Links, RebelsReachFartherUpwardsThanAcross) {
+  const double gap = 1.5 * LinkParameters{}.rebel_reach_rad * vga().focal_px;
+  const auto count = [&](const Vec2& offset, const std::optional<Ground>& ground) {
+    Layers layers;
+    add_rebels(layers, {100, 100}, {140, 140}, {80, 0});
+    add_rebels(layers, Vec2(100, 140) + offset, Vec2(140, 180) + offset, {80, 0});
+    return LinkLayering(vga(), LinkParameters{}).layer(layers, ahead(ground)).size();
+  };
+  const Ground ground{.height_m = 0.45};
+  EXPECT_EQ(count({0, gap}, ground), 1u);
+  EXPECT_EQ(count({40 + gap, 0}, ground), 2u);
+  EXPECT_EQ(count({0, gap}, {}), 2u) << "nothing is known of upwards";
+}
+
+TEST(Links, ARebelSquareReachesAsFarAsWhatFollowsItsEdges) {
+  Layers layers;
+  add_rebels(layers, {100, 100}, {140, 140}, {80, 0});
+  add_rebels(layers, {400, 100}, {440, 140}, {80, 0});
+  layers.rebel_edges.front().called = false;  // id 1
+  const Id last = layers.rebel_edges.back().id;
+  // Of the second body, of an edge that is not called, of one that is not there any more.
+  const std::vector<Follower> followers = {
+      {{430, 190}, last}, {{470, 120}, last - 3}, {{50, 50}, 1}, {{600, 400}, last + 1}};
+  LinkLayering layering(vga(), LinkParameters{});
+  const std::vector<Square> squares = layering.layer(layers, ahead(), followers);
+  ASSERT_EQ(squares.size(), 2u);
+  EXPECT_TRUE(squares[0].location.isApprox(Vec2(120, 120)));
+  EXPECT_TRUE(squares[0].half_size.isApprox(Vec2(20, 20)));
+  EXPECT_TRUE(squares[1].location.isApprox(Vec2(435, 145)));
+  EXPECT_TRUE(squares[1].half_size.isApprox(Vec2(35, 45)));
 }
 
 TEST(Links, FewEdgesThinGroupsAndUncalledRebelsMakeNoSquare) {
