@@ -178,7 +178,7 @@ const std::vector<Square>& LinkLayering::layer(const Layers& layers, const Motio
   make_squares(by_depth_.sets(), static_cast<std::size_t>(parameters_.min_edges), field);
   upright_ = upright(parameters_.rebel_upward);
   gather(layers.rebel_edges, field);
-  take_in(followers);
+  if (parameters_.followers) take_in(followers);
   link_by_velocity(field.dt_s());
   make_squares(by_velocity_, static_cast<std::size_t>(parameters_.min_rebels), field);
   return squares_;

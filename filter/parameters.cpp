@@ -150,6 +150,7 @@ const std::vector<Entry>& entries() {
       {"link.rebel_upward", "", "", 0.01, 100, LCS_FIELD(double, square.link.rebel_upward)},
       {"link.rebel_speed_share", "", "", 0, 10, LCS_FIELD(double, square.link.rebel_speed_share)},
       {"link.rebel_speed_px", "", "px", 0, 1000, LCS_FIELD(double, square.link.rebel_speed_px)},
+      {"link.followers", "", "", 0, 0, LCS_FIELD(bool, square.link.followers)},
       {"link.min_edges", "", "", 1, 1000, LCS_FIELD(int, square.link.min_edges)},
       {"link.min_rebels", "", "", 1, 1000, LCS_FIELD(int, square.link.min_rebels)},
       {"link.min_area", "", "px^2", 0, 1000000000.0, LCS_FIELD(double, square.link.min_area)},

@@ -132,6 +132,7 @@ struct LinkParameters {
   double rebel_upward = 0.25;      ///< as `upward`: limbs swing, and few corners are on them
   double rebel_speed_share = 0.35;  ///< by which their velocities may differ
   double rebel_speed_px = 3;        ///< px a frame, or tenth of a second: this in any case
+  bool followers = true;            ///< what follows a rebel (`Follower`) is in its box
   int min_edges = 9;                ///< that make a square
   int min_rebels = 5;
   double min_area = 250;  ///< px^2

@@ -137,6 +137,12 @@ TEST(Links, ARebelSquareReachesAsFarAsWhatFollowsItsEdges) {
   EXPECT_TRUE(squares[0].half_size.isApprox(Vec2(20, 20)));
   EXPECT_TRUE(squares[1].location.isApprox(Vec2(435, 145)));
   EXPECT_TRUE(squares[1].half_size.isApprox(Vec2(35, 45)));
+
+  LinkParameters without;
+  without.followers = false;
+  EXPECT_TRUE(LinkLayering(vga(), without)
+                  .layer(layers, ahead(), followers)[1]
+                  .half_size.isApprox(Vec2(20, 20)));
 }
 
 TEST(Links, FewEdgesThinGroupsAndUncalledRebelsMakeNoSquare) {
