@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "filter/motion_field.h"
+#include "filter/pixels.h"
 #include "filter/refill.h"
 #include "filter/rotation.h"
 
@@ -52,14 +53,13 @@ void UnseenTurn::choose(std::span<const Edge> normals) {
 
 void UnseenTurn::predict(const EgoMotion& motion) {
   const MotionField field(camera_, motion, parameters_);
+  const Pixels picture{camera_.width_px, camera_.height_px};
   expected_.clear();
   for (const Edge* edge : chosen_) {
     const double ratio =
         field.moving() ? field.advanced_ratio(edge->depth_ratio) : edge->depth_ratio;
     const Vec2 x = field.translated(field.rotated(edge->location), ratio);
-    const bool in_picture =
-        x.x() >= 0 && x.y() >= 0 && x.x() < camera_.width_px && x.y() < camera_.height_px;
-    if (in_picture) expected_.push_back(x);
+    if (picture.contain(x)) expected_.push_back(x);
   }
 }
 
