@@ -9,7 +9,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "filter/couples.h"
@@ -37,9 +36,8 @@ class EdgeExpert {
   /// Forgets what it remembers of former frames beside the layers.
   virtual void forget() {}
 
-  /// Corners of the last chi that are rebels by an edge near them alone. Valid until the next
-  /// frame.
-  std::span<const Follower> followers() const { return followers_; }
+  /// Corners of the last chi that are rebels by an edge near them alone.
+  const std::vector<Follower>& followers() const { return followers_; }
 
   /// What settled each corner of the last chi.
   const std::vector<Reason>& reasons() const { return reasons_; }

@@ -156,7 +156,7 @@ void Stages::circle(const Frame& before, Frame& frame) {
     result.verdicts[repeat.source] = result.verdicts[repeat.of_source];
     result.reasons[repeat.source] = result.reasons[repeat.of_source];
   }
-  frame.followers.assign(edges_->followers().begin(), edges_->followers().end());
+  copy_over(edges_->followers(), frame.followers);
   circles_.update(result.layers, *frame.field);
   if (feeds_back()) circles_.update_ignorance(result.layers);  // transition II
   result.times.circle_ms = ms_since(start);
