@@ -484,18 +484,12 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
       reasons_[c] = Reason::normal_stands;
       continue;
     }
-    if (trusted) {
-      called_[c] = 1;
-      reasons_[c] = Reason::inherited;
-      followers_.push_back({x, model.id});
-      normal->trust -= 2;
-      counts_[c] = normal->trust >= p.established;
-      continue;
-    }
     called_[c] = 1;
     reasons_[c] = Reason::inherited;
     const bool is_kept =
-        links_[c].kind == Kind::rebel || (normal && normal->trust >= p.established);
+        trusted || links_[c].kind == Kind::rebel || (normal && normal->trust >= p.established);
+    if (trusted) normal->trust -= 2;
+    if (trusted) counts_[c] = normal->trust >= p.established;
     if (!confirmed || is_kept) {
       followers_.push_back({x, model.id});
       continue;

@@ -26,7 +26,10 @@ constexpr double kDepthFloor = 0.015;
 LinkLayering::LinkLayering(const Intrinsics& camera, const LinkParameters& parameters)
     : camera_(camera), parameters_(parameters) {}
 
-void LinkLayering::gather(const std::vector<Edge>& edges, const MotionField& field) {
+/// \param upward what a distance upwards counts, where that direction is known.
+void LinkLayering::gather(const std::vector<Edge>& edges, double upward, const MotionField& field) {
+  const auto along_horizon = field.along_horizon();
+  const auto upright = along_horizon ? UprightMetric{*along_horizon, upward} : UprightMetric{};
   nodes_.clear();
   depths_.clear();
   points_.clear();
@@ -44,7 +47,7 @@ void LinkLayering::gather(const std::vector<Edge>& edges, const MotionField& fie
     }
     node.low = node.high = edge.location;
     nodes_.push_back(node);
-    points_.push_back(upright_(edge.location));
+    points_.push_back(upright(edge.location));
   }
   grid_.build(points_, kCell_px);
 }
@@ -168,16 +171,10 @@ void LinkLayering::make_squares(DisjointSets& sets, std::size_t least, const Mot
 const std::vector<Square>& LinkLayering::layer(const Layers& layers, const MotionField& field,
                                                std::span<const Follower> followers) {
   squares_.clear();
-  const auto along_horizon = field.along_horizon();
-  const auto upright = [&](double upward) {
-    return along_horizon ? UprightMetric{*along_horizon, upward} : UprightMetric{};
-  };
-  upright_ = upright(parameters_.upward);
-  gather(layers.normal_edges, field);
+  gather(layers.normal_edges, parameters_.upward, field);
   link_by_depth();
   make_squares(by_depth_.sets(), static_cast<std::size_t>(parameters_.min_edges), field);
-  upright_ = upright(parameters_.rebel_upward);
-  gather(layers.rebel_edges, field);
+  gather(layers.rebel_edges, parameters_.rebel_upward, field);
   if (parameters_.followers) take_in(followers);
   link_by_velocity(field.dt_s());
   make_squares(by_velocity_, static_cast<std::size_t>(parameters_.min_rebels), field);

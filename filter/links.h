@@ -18,7 +18,6 @@
 
 #include "filter/depth_groups.h"
 #include "filter/disjoint_sets.h"
-#include "filter/geometry.h"
 #include "filter/layers.h"
 #include "filter/motion_field.h"
 #include "filter/parameters.h"
@@ -48,7 +47,7 @@ class LinkLayering {
     double sigma = 0;  // of w
   };
 
-  void gather(const std::vector<Edge>& edges, const MotionField& field);
+  void gather(const std::vector<Edge>& edges, double upward, const MotionField& field);
   void take_in(std::span<const Follower> followers);
   void link_by_depth();
   void link_by_velocity(double dt_s);
@@ -66,10 +65,9 @@ class LinkLayering {
   LinkParameters parameters_;
 
   // Of the current frame; kept for their memory.
-  UprightMetric upright_;
   std::vector<Node> nodes_;
   std::vector<Depth> depths_;  // of nodes, where these are normal
-  std::vector<Vec2> points_;   // of nodes, upright
+  std::vector<Vec2> points_;   // of nodes, as `UprightMetric` has them
   PointGrid grid_;
   DepthGroups by_depth_;
   DisjointSets by_velocity_;
