@@ -11,8 +11,8 @@
 namespace lcs {
 namespace {
 
-/// Changes of size between frames that neighbours may agree on: what approaches grows.
-constexpr std::array<double, 6> kScales = {1.0, 1.04, 1.1, 1.2, 0.94, 0.9};
+/// Changes of size over a baseline that neighbours may agree on: what approaches grows.
+constexpr std::array<double, 6> kScales = {1.0, 1.05, 1.12, 1.23, 0.94, 0.87};
 constexpr double kLeastScale = *std::min_element(kScales.begin(), kScales.end());
 
 /// Points looked at along a static path, at the most, and how far apart they lie, px.
@@ -28,16 +28,13 @@ constexpr std::size_t kInheritFrom = 5;
 /// Frames that are remembered, for two baselines.
 constexpr std::size_t kMaxHistory = 12;
 
-/// The smallest number of votes that is not less than `share`.
-int least_votes(double share) {
-  return static_cast<int>(std::ceil(share));
-}
-
 }  // namespace
 
 ConstellationEdges::ConstellationEdges(const Intrinsics& camera, const CircleParameters& parameters)
     : EdgeExpert(camera, parameters.trust),
       parameters_(parameters),
+      chance_(parameters.constellation.hit_1, parameters.constellation.hit_2,
+              parameters.constellation.neighbours, parameters.constellation.vote_chance),
       groups_(parameters.constellation, parameters.trust),
       footing_(camera, parameters.footing),
       discs_(camera.width_px, camera.height_px),
@@ -241,6 +238,7 @@ void ConstellationEdges::look_back(const Layers& layers) {
   discs_.build(explained_, hit_2);
   twice_.all.add(discs_);
   again_ = (twice_.elapsed_s - once_.elapsed_s) / once_.elapsed_s;
+  needs_own_past_ = frames >= static_cast<std::size_t>(parameters_.constellation.vote_own_past);
 }
 
 /// What an established edge took then and has a corner for now cannot be a moving corner's past.
@@ -281,12 +279,31 @@ void ConstellationEdges::seek_static_past(const Chi& chi, const MotionField& fie
   }
 }
 
-/// Votes for the displacement from `before` to x at a change of size by `scale`: for each of the
-/// first `left` of may_vote_, whether it has a predecessor at its place in the displaced
-/// constellation, and that one another. Gives up when `least` is out of reach.
-int ConstellationEdges::count_votes(const Vec2& x, const Vec2& before, double scale, int own,
-                                    int left, int least) const {
-  int votes = own;
+/// The votes that a motion needs beside what chance gives it. Corners crowd, so that those are
+/// counted that lie about the voters.
+int ConstellationEdges::least_votes(const Vec2& x, int voters) const {
+  const double reach = parameters_.constellation.max_speed * once_.elapsed_s;
+  const PointGrid::Crowd here = once_grid_.crowd(x, 2 * std::sqrt(near_.back().distance2));
+  const PointGrid::Crowd all = once_grid_.crowd(x, reach);
+  return chance_.least(here.count / here.area_px2, voters, kScales.size() * all.count);
+}
+
+/// Votes for the displacement from `before` to x at a change of size by `scale`, the corner's own
+/// among them: for each of the first `left` of may_vote_, whether it has a predecessor at its place
+/// in the displaced constellation, and that one another. Gives up when `least` is out of reach.
+/// Where a baseline takes several frames, a corner that has just come into view is asked in each of
+/// them, and beside a mover the mover's corners win its vote: it has to have a past of its own.
+///
+/// The step before: at a constant velocity from the camera the image is c + f (a + b t) / Z(t), and
+/// Z is linear too, so that the steps from t_0 back to t_1 and on to t_2 are as
+/// (t_0 - t_1) / (Z_0 Z_1) to (t_1 - t_2) / (Z_1 Z_2).
+int ConstellationEdges::count_votes(const Vec2& x, const Vec2& before, double scale, int left,
+                                    int least) const {
+  const double depth_then = 1 + (scale - 1) * (1 + again_);  // Z_2 / Z_0
+  if (!(depth_then > 0)) return 0;
+  const double earlier = again_ / depth_then;
+  int votes = twice_free_.at(before - earlier * (x - before)) ? 2 : 1;
+  if (votes < 2 && needs_own_past_) return 0;
   for (const std::uint8_t* voter = may_vote_.data(); left > 0; ++voter) {
     if (votes + 2 * left < least) return votes;
     --left;
@@ -295,7 +312,7 @@ int ConstellationEdges::count_votes(const Vec2& x, const Vec2& before, double sc
     if (once < 0) continue;
     ++votes;
     const Vec2& y_before = once_.corners[once];
-    if (twice_free_.at(y_before - again_ * (y - y_before) / scale)) ++votes;
+    if (twice_free_.at(y_before - earlier * (y - y_before))) ++votes;
   }
   return votes;
 }
@@ -335,11 +352,13 @@ Reason ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Mot
   if (static_votes < 0) return Reason::few_neighbours;
   const int voters = static_cast<int>(voters_.size());
   const int all = 2 * (voters + 1);
-  const int floor = least_votes(p.vote_floor * all);
+  const int floor = least_votes(x, voters);
+  if (floor > all) return Reason::vote_floor;
   // A motion is chosen out of many, the static explanation is not: where that one is good, another
   // that is better is chance, as in a pattern that repeats.
   if (static_votes >= p.vote_static_cap * all) return Reason::static_wins;
-  const int winning = least_votes(std::max<double>(floor, static_votes + p.vote_margin * all));
+  const int winning =
+      std::max(floor, static_votes + static_cast<int>(std::ceil(p.vote_margin * all)));
   if (winning > all) return Reason::static_wins;
 
   // Which motion is the best matters only where it wins; else, whether there is one at the floor.
@@ -353,14 +372,12 @@ Reason ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Mot
     const Vec2 step = x - before;
     const std::uint8_t* anchor = arms_.empty() ? nullptr : screen_.anchor(before);
     if (!anchor) std::iota(may_vote_.begin(), may_vote_.end(), std::uint8_t{0});
-    int own = 0;  // not known yet
     for (std::size_t i = 0; i < kScales.size(); ++i) {
       const int least = best < floor ? floor : std::max(best, winning);
       const int left = anchor ? HitScreen::count(anchor, arms_of(i)) : voters;
       if (2 + 2 * left < least) continue;
       if (anchor) HitScreen::list(anchor, arms_of(i), may_vote_.data());
-      if (own == 0) own = twice_free_.at(before - again_ * step) ? 2 : 1;
-      const int votes = count_votes(x, before, kScales[i], own, left, least);
+      const int votes = count_votes(x, before, kScales[i], left, least);
       // Of equal motions the slower one, so that the order of the search does not matter.
       if (votes > best || (votes == best && step.squaredNorm() < best_step.squaredNorm())) {
         best = votes;

@@ -23,6 +23,7 @@
 #include "filter/hit_screen.h"
 #include "filter/nearest_map.h"
 #include "filter/rebel_groups.h"
+#include "filter/vote_chance.h"
 
 namespace lcs {
 
@@ -62,13 +63,6 @@ class ConstellationEdges : public EdgeExpert {
     bool voted = false;        ///< for a motion that no static point has
   };
 
-  /// A neighbour that votes: where it is, and where from the corner's predecessor its own is
-  /// sought.
-  struct Voter {
-    Vec2 location;
-    Vec2 arm;  // at one change of size
-  };
-
   enum class Kind : std::uint8_t { none, normal, rebel };
   /// The edge that a corner belongs to.
   struct Link {
@@ -92,8 +86,8 @@ class ConstellationEdges : public EdgeExpert {
   void vote(const Chi& chi, const MotionField& field);
   Reason vote_on(std::size_t corner, const Chi& chi, const MotionField& field);
   int gather_voters(std::size_t corner, const Chi& chi);
-  int count_votes(const Vec2& x, const Vec2& before, double scale, int own, int left,
-                  int least) const;
+  int least_votes(const Vec2& x, int voters) const;
+  int count_votes(const Vec2& x, const Vec2& before, double scale, int left, int least) const;
   void settle_rebels();
   void make_edges(Layers& layers, const Chi& chi, const MotionField& field);
   Edge make_rebel(const Vec2& x, const Vec2& velocity_pxps, double dt_s);
@@ -102,16 +96,18 @@ class ConstellationEdges : public EdgeExpert {
   bool confirms(const Vec2& x, const Vec2& step) const;
 
   CircleParameters parameters_;
+  VoteChance chance_;
   RebelGroups groups_;
   Footing footing_;
   std::vector<Past> history_;  // newest first
 
   // Of the current frame; kept for their memory.
-  Discs discs_;           // of what is looked up next
-  Lookup once_, twice_;   // one and two baselines ago
-  NearestMap once_free_;  // of once_.corners
-  HitMap twice_free_;     // of twice_.corners
-  double again_ = 1;      // the second baseline over the first, in time
+  Discs discs_;                  // of what is looked up next
+  Lookup once_, twice_;          // one and two baselines ago
+  NearestMap once_free_;         // of once_.corners
+  HitMap twice_free_;            // of twice_.corners
+  double again_ = 1;             // the second baseline over the first, in time
+  bool needs_own_past_ = false;  // of a corner, in the vote
   PointGrid once_grid_, decided_grid_;
   std::vector<Vec2> decided_locations_;
   std::vector<char> decided_, counts_;

@@ -65,7 +65,8 @@ struct ConstellationParameters {
   double hit_2 = 3;                   ///< px: and two baselines ago within this
   double radius = 80;                 ///< px: how far neighbours are
   int neighbours = 8;                 ///< that vote, at the most
-  double vote_floor = 0.35;           ///< share of the votes that a motion needs
+  double vote_chance = 0.25;          ///< motions that chance may bear out at a corner
+  int vote_own_past = 2;              ///< frames of a baseline that ask a corner for a past
   double vote_margin = 0.15;          ///< by which it must beat the static explanation
   double vote_static_cap = 0.55;      ///< share that the static explanation must stay below
   double off_field = 1.5;             ///< px that it must leave the static images by

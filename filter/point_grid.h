@@ -96,15 +96,25 @@ class PointGrid {
     }
   }
 
+  /// Points of some cells, and how much of the plane these take, px^2.
+  struct Crowd {
+    double count, area_px2;
+  };
+
+  /// Of the cells that the square reaches into which lies `radius_px` about x to each side. Takes
+  /// the time of a few look-ups, however many points lie there.
+  Crowd crowd(const Vec2& x, double radius_px) const {
+    const int c0 = column(x.x() - radius_px), c1 = column(x.x() + radius_px);
+    const int r0 = row(x.y() - radius_px), r1 = row(x.y() + radius_px);
+    std::size_t count = 0;
+    for (int r = r0; r <= r1; ++r) count += first_[cell(c1, r) + 1] - first_[cell(c0, r)];
+    return {static_cast<double>(count), (c1 - c0 + 1) * (r1 - r0 + 1) * cell_px_ * cell_px_};
+  }
+
   /// px: within which `count` points would lie if those of the cells round x were spread evenly.
   /// Who looks no farther is done in a time that does not grow with how close points lie.
   double crowd_radius(const Vec2& x, double count) const {
-    const int c = column(x.x()), r = row(x.y());
-    const int left = std::max(c - 1, 0), right = std::min(c + 1, columns_ - 1);
-    std::size_t near = 0;
-    for (int v = std::max(r - 1, 0); v <= std::min(r + 1, rows_ - 1); ++v)
-      near += first_[cell(right, v) + 1] - first_[cell(left, v)];
-    return 3 * cell_px_ * std::sqrt(count / (std::numbers::pi * static_cast<double>(near)));
+    return 3 * cell_px_ * std::sqrt(count / (std::numbers::pi * crowd(x, cell_px_).count));
   }
 
   bool any_within(const Vec2& x, double radius_px) const {

@@ -77,7 +77,7 @@ inline constexpr std::array<ReasonText, 32> kReasons{{
     {"normal_edge", "taken by a normal edge"},                                 // normal
     {"rebel_edge", "taken by a rebel edge"},                                   // rebel
     {"few_neighbours", "too few undecided neighbours to vote"},                // normal, pending
-    {"vote_floor", "no motion has enough of the neighbours' votes"},           // normal, pending
+    {"vote_floor", "no motion has more of the votes than chance may give"},    // normal, pending
     {"static_wins", "a static explanation of the neighbours is as good"},      // normal, pending
     {"vote_on_field", "the motion voted for may be a static point's"},         // normal, pending
     {"voted", "the neighbours' vote made it a rebel edge"},                    // rebel

@@ -103,6 +103,57 @@ TEST(Constellation, ASlowMoverIsFoundAtAHighFrameRate) {
   EXPECT_GE(frames_until_found(with("constellation.baseline", "0")), 30);
 }
 
+/// Rebels on its third sighting of a body of eight corners that changes its depth from frame to
+/// frame, as it goes sideways before a camera that stands. Its motion needs four votes in five, so
+/// that both earlier sightings have to be where they are sought.
+std::ptrdiff_t found_of_a_body_that_goes(double depth_m, const Vector3d& velocity_mps) {
+  World world;
+  Random random(9);
+  for (int i = 0; i < 8; ++i)
+    world.add({random.uniform(270, 310), random.uniform(210, 250)}, depth_m, velocity_mps);
+  Filter filter(vga(), with("constellation.vote_margin", "0.8"));
+  std::ptrdiff_t found = 0;
+  for (int k = 0; k < 3; ++k) {
+    const EgoMotion motion = steady_motion(Vector3d::Zero(), Vector3d::Zero(), 0.1);
+    found = rebels(filter.step(world.corners(), k == 0 ? EgoMotion{} : motion));
+    world.advance(motion);
+  }
+  return found;
+}
+
+TEST(Constellation, AStepIsLongerTheNearerItWasAndNotOnlyByItsSize) {
+  // With a constant velocity, steps of 20 to 40 px that shrink by a quarter or grow by nearly half
+  // while the body shrinks by an eighth or grows by a quarter.
+  EXPECT_EQ(found_of_a_body_that_goes(2.0, {2, 0, 3}), 8);
+  EXPECT_EQ(found_of_a_body_that_goes(3.0, {1.6, 0, -4.7}), 8);
+}
+
+/// Why a corner got its verdict that appears at 30 Hz beside a body that moves by 4 px a frame, and
+/// three frames ago there was another where the body's motion comes from.
+Reason of_a_corner_beside_a_body(const Parameters& parameters) {
+  Filter filter(vga(), parameters);
+  constexpr int kLast = 14;
+  const FrameResult* result = nullptr;
+  for (int k = 0; k <= kLast; ++k) {
+    Corners corners;
+    for (int i = 0; i < 12; ++i) {
+      const int x = 200 + 17 * (i % 4) + 7 * i % 5, y = 200 + 19 * (i / 4) + 5 * i % 7;
+      corners.push_back(Eigen::Vector2i(x + 4 * k, y).cast<float>());
+    }
+    if (k == kLast - 3) corners.emplace_back(340, 225);
+    if (k == kLast) corners.emplace_back(352, 225);
+    const EgoMotion motion = steady_motion(Vector3d::Zero(), Vector3d::Zero(), 1. / 30);
+    result = &filter.step(corners, k == 0 ? EgoMotion{} : motion);
+  }
+  return result->reasons.back();
+}
+
+TEST(Constellation, ACornerBesideABodyIsNotCarriedAlongByItsVotesAlone) {
+  EXPECT_EQ(of_a_corner_beside_a_body(with("constellation.vote_own_past", "1000")), Reason::voted)
+      << "the corner is no trap: the test shows nothing";
+  EXPECT_NE(of_a_corner_beside_a_body(preset("default")), Reason::voted);
+}
+
 /// Rebels at the end among twelve corners that move alike, 130 px and more apart.
 std::ptrdiff_t found_of_a_wide_group(const Parameters& parameters) {
   Filter filter(vga(), parameters);
