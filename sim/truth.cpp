@@ -34,6 +34,25 @@ Surface nearest_3x3(const FrameTruth& truth, const Eigen::Vector2f& px) {
   return nearest;
 }
 
+/// Whether a body that moves is seen within FAST's circle of 16 pixels about a corner.
+bool is_beside_mover(const FrameTruth& truth, const std::vector<char>& moves,
+                     const Eigen::Vector2f& px) {
+  constexpr int kRadius_px = 3;
+  constexpr int kCircle_px2 = 3 * 3 + 1;  // its pixels are 3 to the side and 1 up, and so on
+  const int cx = static_cast<int>(std::lround(px.x()));
+  const int cy = static_cast<int>(std::lround(px.y()));
+  for (int y = std::max(0, cy - kRadius_px); y <= std::min(truth.object.rows - 1, cy + kRadius_px);
+       ++y) {
+    for (int x = std::max(0, cx - kRadius_px);
+         x <= std::min(truth.object.cols - 1, cx + kRadius_px); ++x) {
+      const int dx = x - cx, dy = y - cy, object = truth.object(y, x);
+      if (dx * dx + dy * dy > kCircle_px2 || object < 0) continue;
+      if (moves[static_cast<std::size_t>(object)]) return true;
+    }
+  }
+  return false;
+}
+
 /// Images at k+1 of one corner as a fixed point, over its inverse depth w: the pixel of h + w t.
 struct StaticSegment {
   Eigen::Vector3d h;  ///< the corner's ray in C of k+1, z-depth 1: the ideal point
@@ -65,8 +84,8 @@ double distance_to(const Pinhole& camera, const StaticSegment& segment, double m
                              camera.project(segment.at(last)));
 }
 
-CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const Pose& T_NC,
-                  const Eigen::Vector2f& corner, double min_depth_m) {
+CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const std::vector<char>& moves,
+                  const Pose& T_NC, const Eigen::Vector2f& corner, double min_depth_m) {
   CornerTruth result;
   const Surface surface = nearest_3x3(truth, corner);
   if (surface.object < 0) return result;
@@ -77,11 +96,10 @@ CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const Pose& T_
   const Eigen::Vector3d p_C = camera.back_project(x, result.depth_m);
   const Eigen::Vector3d p_W = truth.now.T_WC * p_C;
   const std::size_t id = static_cast<std::size_t>(surface.object);
-  const bool moves = moved(truth.now.T_WO.at(id), truth.next.T_WO.at(id));
   const Pose T_NW = truth.next.T_WC.inverse();
   const Eigen::Vector3d fixed_N = T_NW * p_W;
   const Eigen::Vector3d carried_N =
-      moves ? T_NW * (truth.next.T_WO[id] * (truth.now.T_WO[id].inverse() * p_W)) : fixed_N;
+      moves.at(id) ? T_NW * (truth.next.T_WO[id] * (truth.now.T_WO[id].inverse() * p_W)) : fixed_N;
 
   const auto motion = [&](const Eigen::Vector3d& p_N) -> Eigen::Vector2d {
     if (p_N.z() < kInFront * result.depth_m) {
@@ -92,8 +110,9 @@ CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const Pose& T_
   result.static_motion_px = motion(fixed_N);
   result.motion_px = motion(carried_N);
 
-  if (!moves) {
+  if (!moves[id]) {
     result.label = Label::fixed;
+    result.outline = is_beside_mover(truth, moves, corner);
   } else if ((result.motion_px - result.static_motion_px).norm() >= kDistinctPx) {
     result.label = Label::rebel;
     const StaticSegment segment{T_NC.R * camera.back_project(x, 1), T_NC.p};
@@ -119,10 +138,13 @@ std::vector<CornerTruth> label_corners(const Pinhole& camera, const FrameTruth& 
   if (!(min_depth_m > 0))
     throw std::invalid_argument("the nearest depth of truth must be positive");
   const Pose T_NC = truth.next.T_WC.inverse() * truth.now.T_WC;
+  std::vector<char> moves;
+  for (std::size_t id = 0; id < truth.now.T_WO.size(); ++id)
+    moves.push_back(moved(truth.now.T_WO[id], truth.next.T_WO.at(id)));
   std::vector<CornerTruth> labels;
   labels.reserve(corners_px.size());
   for (const Eigen::Vector2f& corner : corners_px) {
-    labels.push_back(label(camera, truth, T_NC, corner, min_depth_m));
+    labels.push_back(label(camera, truth, moves, T_NC, corner, min_depth_m));
   }
   return labels;
 }

@@ -59,6 +59,10 @@ struct CornerTruth {
   /// A rebel whose u lies within 1 px of the static segment: the images at k+1 of the same corner
   /// as a fixed point at every depth from `min_depth_m` to infinity. No two-frame test can tell it.
   bool radial = false;
+  /// A fixed corner beside the silhouette of a body that moves, which lies within FAST's circle
+  /// about the corner (3 px): it is seen where that body's outline crosses what is behind, and
+  /// moves as the outline does.
+  bool outline = false;
   int object = -1;     ///< as in FrameTruth::object
   double depth_m = 0;  ///< of the nearest surface in the 3x3 pixels round the corner
   Eigen::Vector2d motion_px = Eigen::Vector2d::Zero();         ///< u: carried by its body, k to k+1

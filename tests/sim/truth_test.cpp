@@ -116,6 +116,29 @@ TEST(LabelCorners, BelongsToTheNearestOfTheNinePixels) {
   EXPECT_EQ(label(t, {300, 200}).label, Label::none);
 }
 
+TEST(LabelCorners, AFixedCornerIsAtAnOutlineWhereFastsCircleReachesAMover) {
+  FrameTruth t = wall(0);
+  t.object(200, 303) = 1;  // of a body behind the wall's corner: the surface beside it is the wall
+  t.next.T_WO[1].p = {0, 0.2, 0};
+  for (const Vector2f& corner : {Vector2f(300, 200), Vector2f(300, 199), Vector2f(301, 202)})
+    EXPECT_TRUE(label(t, corner).outline) << corner.transpose();
+  for (const Vector2f& corner : {Vector2f(299, 200), Vector2f(300, 198), Vector2f(301, 203)})
+    EXPECT_FALSE(label(t, corner).outline) << corner.transpose();
+  EXPECT_EQ(label(t, {300, 200}).label, Label::fixed);
+  // not beside one that stands, nor beside the sky
+  t.object(200, 303) = 2;
+  EXPECT_FALSE(label(t, {300, 200}).outline);
+  t.object(200, 303) = -1;
+  EXPECT_FALSE(label(t, {300, 200}).outline);
+  // what is on the mover itself is no outline of it, be it distinct or not
+  EXPECT_FALSE(label(wall(1), {300, 200}).outline);
+  // and at the border of the picture there is only what is in it
+  FrameTruth border = wall(0);
+  border.object(0, 0) = 1;
+  border.next.T_WO[1].p = {0, 0.2, 0};
+  EXPECT_TRUE(label(border, {2, 1}).outline);
+}
+
 TEST(LabelCorners, ABodyComingHeadOnIsRadial) {
   FrameTruth t = wall();
   t.next.T_WC.p = {0, 0, 0.2};

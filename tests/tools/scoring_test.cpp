@@ -56,6 +56,8 @@ TEST(Scoring, EveryMetricThatUsersRelyOnExistsOnce) {
                            "rebel.f1",
                            "rebel.f1_distinct",
                            "rebel.recall_distinct",
+                           "rebel.precision_clear",
+                           "rebel.f1_clear",
                            "rebel.recall_radial",
                            "rebel.object_recall",
                            "rebel.latency_frames_median",
@@ -271,6 +273,24 @@ TEST(RebelCorners, RadialOnesAreInTheOverallFiguresAndNotInTheDistinctOnes) {
   EXPECT_DOUBLE_EQ(get(metrics, "rebel.f1_distinct"), 3.0 / 4);
   EXPECT_DOUBLE_EQ(get(metrics, "rebel.recall_radial"), 1.0 / 4);
   EXPECT_DOUBLE_EQ(get(metrics, "truth.radial_corners"), 4);
+}
+
+TEST(RebelCorners, FixedOnesAtOutlinesAreLeftOutOfTheClearFiguresAlone) {
+  const Metrics metrics = score(frames(4, [](FrameMaker& frame) {
+    frame.corners(3, Verdict::rebel, Label::rebel, 1)
+        .corners(1, Verdict::normal, Label::rebel, 1)
+        .corners(3, Verdict::rebel, Label::fixed)
+        .corners(1, Verdict::normal, Label::fixed);
+    auto& truth = frame.record().corner_truth;
+    truth[4].outline = truth[5].outline = truth[7].outline = true;
+  }));
+  EXPECT_DOUBLE_EQ(get(metrics, "rebel.precision"), 3.0 / 6);
+  EXPECT_DOUBLE_EQ(get(metrics, "rebel.precision_distinct"), 3.0 / 6);
+  EXPECT_DOUBLE_EQ(get(metrics, "rebel.f1"), 3.0 / 5);
+  EXPECT_DOUBLE_EQ(get(metrics, "rebel.precision_clear"), 3.0 / 4);
+  EXPECT_DOUBLE_EQ(get(metrics, "rebel.f1_clear"), 3.0 / 4);
+  EXPECT_DOUBLE_EQ(get(metrics, "rebel.false_corners_per_frame"), 3);
+  EXPECT_DOUBLE_EQ(get(metrics, "truth.fixed_corners"), 4);
 }
 
 TEST(RebelCorners, WithoutRebelsInTheTruthRecallIsUndefinedAndFalseOnesStillShow) {

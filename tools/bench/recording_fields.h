@@ -177,9 +177,10 @@ void fields(Collector& collector, Visit&& visit) {
 
 template <class Visit>
 void fields(sim::CornerTruth& truth, Visit&& visit) {
-  auto& [label, radial, object, depth_m, motion_px, static_motion_px] = truth;
+  auto& [label, radial, outline, object, depth_m, motion_px, static_motion_px] = truth;
   visit("label", label);
   visit("radial", radial);
+  visit("outline", outline);
   visit("object", object);
   visit("depth_m", OrInfinite{depth_m});
   visit("motion_x", OrNan{motion_px.x()});

@@ -78,6 +78,7 @@ bool contains(const sim::ObjectTruth& box, const Vec2& px) {
 RebelCornerScore& RebelCornerScore::operator+=(const RebelCornerScore& other) {
   overall += other.overall;
   distinct += other.distinct;
+  clear += other.clear;
   radial += other.radial;
   fixed_corners += other.fixed_corners;
   return *this;
@@ -112,6 +113,7 @@ std::vector<RebelCornerScore> score_rebel_corners(const Recording& recording) {
       score.overall += of_corner;
       const bool is_radial = truth.label == sim::Label::rebel && truth.radial;
       (is_radial ? score.radial : score.distinct) += of_corner;
+      if (!truth.outline) score.clear += of_corner;
       score.fixed_corners +=
           outcomes[i] == CornerOutcome::fixed || outcomes[i] == CornerOutcome::false_rebel;
     }

@@ -49,6 +49,7 @@ std::vector<const Circle*> false_circles(const FrameRecord& frame);
 struct RebelCornerScore {
   RebelCounts overall;
   RebelCounts distinct;   ///< radial corners left out
+  RebelCounts clear;      ///< fixed corners at the outlines of what moves left out
   RebelCounts radial;     ///< radial corners alone (they have no false rebels)
   int fixed_corners = 0;  ///< after the warm-up
 

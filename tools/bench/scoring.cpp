@@ -34,6 +34,8 @@ void add_rebels(Metrics& metrics, const Recording& recording) {
   metrics.emplace_back("rebel.precision_distinct", corners.distinct.precision());
   metrics.emplace_back("rebel.recall_distinct", corners.distinct.recall());
   metrics.emplace_back("rebel.f1_distinct", corners.distinct.f1());
+  metrics.emplace_back("rebel.precision_clear", corners.clear.precision());
+  metrics.emplace_back("rebel.f1_clear", corners.clear.f1());
   metrics.emplace_back("rebel.recall_radial", corners.radial.recall());
   metrics.emplace_back("rebel.false_corners_per_frame",
                        ratio(corners.overall.false_rebels, objects.frames));

@@ -39,10 +39,11 @@ std::string table(const Metrics& metrics) {
     text += fmt::format("  {:<8} {}\n", head, figures);
   };
 
-  line("rebels", fmt::format("precision {}   recall {}   F1 {}   distinct F1 {}   radial recall {}",
-                             share(get("rebel.precision")), share(get("rebel.recall")),
-                             share(get("rebel.f1")), share(get("rebel.f1_distinct")),
-                             share(get("rebel.recall_radial"))));
+  line("rebels",
+       fmt::format("precision {}   recall {}   F1 {} (clear {}, distinct {})   radial recall {}",
+                   share(get("rebel.precision")), share(get("rebel.recall")),
+                   share(get("rebel.f1")), share(get("rebel.f1_clear")),
+                   share(get("rebel.f1_distinct")), share(get("rebel.recall_radial"))));
   const Figure objects = get("truth.rebel_objects");
   const Figure recall = get("rebel.object_recall");
   const Figure found = recall ? Figure(std::round(*recall * *objects)) : Figure(0);

@@ -30,6 +30,8 @@ const std::vector<MetricTraits>& metric_traits() {
       higher_share("rebel.precision_distinct"),
       higher_share("rebel.recall_distinct"),
       higher_share("rebel.f1_distinct"),
+      higher_share("rebel.precision_clear"),
+      higher_share("rebel.f1_clear"),
       higher_share("rebel.recall_radial"),
       lower("rebel.false_corners_per_frame", 0.1),
       higher_share("rebel.object_recall"),
