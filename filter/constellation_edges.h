@@ -7,8 +7,9 @@
 ///    compete for corners in narrow gates.
 /// 2. A corner that no trusted edge explains looks for its static past: a depth at which both of
 ///    two earlier frames show a corner. Two hits make a normal edge, born with that depth.
-/// 3. It also lets its neighbours vote on a common displacement. A motion that beats the static
-///    explanation of the same corners makes a rebel edge.
+/// 3. It also lets its neighbours vote on a common displacement. A motion with more votes than
+///    chance gives (`filter/vote_chance.h`) that beats the static explanation of the same corners
+///    makes a rebel edge.
 /// 4. Rebels bear each other out, or lose trust; their group smooths their velocities
 ///    (`filter/rebel_groups.h`).
 /// 5. A corner among rebels takes their verdict, and their motion where its own past confirms it.

@@ -55,6 +55,7 @@ const COLUMNS = [
   ['rebel.precision', 'Precision', 'of the corners called rebels, those that are'],
   ['rebel.recall', 'Recall', 'of the rebel corners, those that were called so'],
   ['rebel.f1_distinct', 'F1 distinct', 'F1 without corners that move as nearer static ones would'],
+  ['rebel.f1_clear', 'F1 clear', 'F1 without the fixed corners at the outlines of what moves'],
   ['rebel.latency_frames_median', 'Latency', 'frames from an object\'s first rebel corner until it is found'],
   ['rebel.object_recall', 'Objects', 'share of the moving objects that are found'],
   ['rebel.false_objects_per_100_frames', 'False /100', 'rebel circles without a mover under them, per 100 frames'],
