@@ -66,7 +66,7 @@ struct ConstellationParameters {
   double radius = 80;                 ///< px: how far neighbours are
   int neighbours = 8;                 ///< that vote, at the most
   double vote_chance = 0.25;          ///< motions that chance may bear out at a corner
-  int vote_own_past = 2;              ///< frames of a baseline that ask a corner for a past
+  int vote_own_past = 2;              ///< baselines of so many frames ask for a corner's own past
   double vote_margin = 0.15;          ///< by which it must beat the static explanation
   double vote_static_cap = 0.55;      ///< share that the static explanation must stay below
   double off_field = 1.5;             ///< px that it must leave the static images by
