@@ -21,36 +21,37 @@ struct Surface {
   float depth_m = std::numeric_limits<float>::infinity();
 };
 
-Surface nearest_3x3(const FrameTruth& truth, const Eigen::Vector2f& px) {
+/// Calls `visit(pixel, square of its distance)` for the pixels of an image up to `radius_px` to
+/// each side of the one that a corner lies in.
+template <typename Visit>
+void visit_about(const Eigen::Vector2f& corner, int radius_px, cv::Size image_px, Visit&& visit) {
+  const int cx = static_cast<int>(std::lround(corner.x()));
+  const int cy = static_cast<int>(std::lround(corner.y()));
+  for (int y = std::max(0, cy - radius_px); y <= std::min(image_px.height - 1, cy + radius_px); ++y)
+    for (int x = std::max(0, cx - radius_px); x <= std::min(image_px.width - 1, cx + radius_px);
+         ++x)
+      visit(cv::Point(x, y), (x - cx) * (x - cx) + (y - cy) * (y - cy));
+}
+
+Surface nearest_3x3(const FrameTruth& truth, const Eigen::Vector2f& corner) {
   Surface nearest;
-  const int cx = static_cast<int>(std::lround(px.x()));
-  const int cy = static_cast<int>(std::lround(px.y()));
-  for (int y = std::max(0, cy - 1); y <= std::min(truth.depth_m.rows - 1, cy + 1); ++y) {
-    for (int x = std::max(0, cx - 1); x <= std::min(truth.depth_m.cols - 1, cx + 1); ++x) {
-      const float depth = truth.depth_m(y, x);
-      if (depth < nearest.depth_m) nearest = {truth.object(y, x), depth};
-    }
-  }
+  visit_about(corner, 1, truth.depth_m.size(), [&](const cv::Point& pixel, int) {
+    const float depth = truth.depth_m(pixel);
+    if (depth < nearest.depth_m) nearest = {truth.object(pixel), depth};
+  });
   return nearest;
 }
 
 /// Whether a body that moves is seen within FAST's circle of 16 pixels about a corner.
 bool is_beside_mover(const FrameTruth& truth, const std::vector<char>& moves,
-                     const Eigen::Vector2f& px) {
-  constexpr int kRadius_px = 3;
+                     const Eigen::Vector2f& corner) {
   constexpr int kCircle_px2 = 3 * 3 + 1;  // its pixels are 3 to the side and 1 up, and so on
-  const int cx = static_cast<int>(std::lround(px.x()));
-  const int cy = static_cast<int>(std::lround(px.y()));
-  for (int y = std::max(0, cy - kRadius_px); y <= std::min(truth.object.rows - 1, cy + kRadius_px);
-       ++y) {
-    for (int x = std::max(0, cx - kRadius_px);
-         x <= std::min(truth.object.cols - 1, cx + kRadius_px); ++x) {
-      const int dx = x - cx, dy = y - cy, object = truth.object(y, x);
-      if (dx * dx + dy * dy > kCircle_px2 || object < 0) continue;
-      if (moves[static_cast<std::size_t>(object)]) return true;
-    }
-  }
-  return false;
+  bool found = false;
+  visit_about(corner, 3, truth.object.size(), [&](const cv::Point& pixel, int distance2) {
+    const int object = truth.object(pixel);
+    found |= distance2 <= kCircle_px2 && object >= 0 && moves[static_cast<std::size_t>(object)];
+  });
+  return found;
 }
 
 /// Images at k+1 of one corner as a fixed point, over its inverse depth w: the pixel of h + w t.

@@ -39,10 +39,6 @@ class Scatter {
     if (near_.empty()) return std::nullopt;
     return corners_[near_.front().index];
   }
-  const Vec2& any(Random& random) const {
-    return corners_[static_cast<std::size_t>(
-        random.uniform(0, static_cast<double>(corners_.size())))];
-  }
 
   static constexpr double kSide_px = 600;
 
