@@ -108,23 +108,22 @@ bool CircleExpert::groupable(const Edge& edge) const {
 void CircleExpert::group(const std::vector<Edge>& edges, const MotionField& field) {
   free_.clear();
   points_.clear();
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (!groupable(edges[i])) continue;
-    free_.push_back(&edges[i]);
-    points_.push_back(edges[i].location);
+  seeds_.clear();
+  for (const Edge& edge : edges) {
+    if (!groupable(edge)) continue;
+    seeds_.push_back({edge.trust, edge.age, free_.size()});
+    free_.push_back(&edge);
+    points_.push_back(edge.location);
   }
   grid_.build(points_, parameters_.reach);
-  refill(seeds_, free_.size());
-  for (std::size_t i = 0; i < free_.size(); ++i) seeds_[i] = i;
-  std::sort(seeds_.begin(), seeds_.end(), [&](std::size_t a, std::size_t b) {
-    return std::tuple(-free_[a]->trust, -free_[a]->age, a) <
-           std::tuple(-free_[b]->trust, -free_[b]->age, b);
+  std::sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) {
+    return std::tuple(-a.trust, -a.age, a.index) < std::tuple(-b.trust, -b.age, b.index);
   });
   grouped_.clear();
   groups_.clear();
-  for (const std::size_t seed : seeds_) {
-    if (!free_[seed]) continue;
-    const Edge& edge = *free_[seed];
+  for (const Seed& seed : seeds_) {
+    if (!free_[seed.index]) continue;
+    const Edge& edge = *free_[seed.index];
     const std::size_t first = grouped_.size();
     grid_.visit_within(edge.location, parameters_.reach, [&](int other, double) {
       if (free_[other] && alike(edge, *free_[other], field)) grouped_.push_back(other);

@@ -38,6 +38,12 @@ class CircleExpert {
     std::size_t first = 0, count = 0;  // of its edges in grouped_
   };
 
+  /// An edge that a group may start from.
+  struct Seed {
+    int trust, age;
+    std::size_t index;  // of free_
+  };
+
   /// A predicted circle and a group that may be it.
   struct Pair {
     double overlap, distance;
@@ -63,7 +69,8 @@ class CircleExpert {
   PointGrid grid_;
   std::vector<const Edge*> free_;  // groupable, null: in a group
   std::vector<Vec2> points_;       // of them
-  std::vector<std::size_t> seeds_, grouped_;
+  std::vector<Seed> seeds_;
+  std::vector<std::size_t> grouped_;
   std::vector<Group> groups_;
   std::vector<Pair> pairs_;
   std::vector<int> circle_of_group_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -63,12 +64,8 @@ class PointGrid {
   void visit_within(const Vec2& x, double radius_px, Visit&& visit) const {
     const int c0 = column(x.x() - radius_px), c1 = column(x.x() + radius_px);
     const int r0 = row(x.y() - radius_px), r1 = row(x.y() + radius_px);
-    for (int r = r0; r <= r1; ++r) {
-      for (std::size_t k = first_[cell(c0, r)]; k < first_[cell(c1, r) + 1]; ++k) {
-        const double distance2 = (placed_[k].location - x).squaredNorm();
-        if (distance2 <= radius_px * radius_px) visit(placed_[k].index, distance2);
-      }
-    }
+    for (int r = r0; r <= r1; ++r)
+      visit_near(first_[cell(c0, r)], first_[cell(c1, r) + 1], x, radius_px * radius_px, visit);
   }
 
   /// Calls `visit(i, j, squared distance)` once for each two points of which j lies within
@@ -82,10 +79,8 @@ class PointGrid {
         const Vec2& x = here.location;
         const double radius = radius_px(here.index);
         const auto visit_from = [&](std::size_t first, std::size_t last) {
-          for (std::size_t k = first; k < last; ++k) {
-            const double distance2 = (placed_[k].location - x).squaredNorm();
-            if (distance2 <= radius * radius) visit(here.index, placed_[k].index, distance2);
-          }
+          visit_near(first, last, x, radius * radius,
+                     [&](int j, double distance2) { visit(here.index, j, distance2); });
         };
         const int left = column(x.x() - radius), right = column(x.x() + radius);
         const int bottom = row(x.y() + radius);
@@ -165,6 +160,24 @@ class PointGrid {
   int row(double y) const { return clamped((y - low_.y()) / cell_px_, rows_); }
   static int clamped(double cells, int count) {
     return static_cast<int>(std::clamp(cells, 0.0, static_cast<double>(count - 1)));
+  }
+
+  /// Visits those of some points placed one after the other that are near x. They are told from the
+  /// others in portions and without a branch, which would often be guessed wrong.
+  template <typename Visit>
+  void visit_near(std::size_t first, std::size_t last, const Vec2& x, double radius2,
+                  Visit&& visit) const {
+    std::array<Neighbour, 32> near;
+    while (first < last) {
+      const std::size_t end = std::min(last, first + near.size());
+      std::size_t count = 0;
+      for (; first < end; ++first) {
+        const double distance2 = (placed_[first].location - x).squaredNorm();
+        near[count] = {distance2, placed_[first].index};
+        count += distance2 <= radius2;
+      }
+      for (std::size_t i = 0; i < count; ++i) visit(near[i].index, near[i].distance2);
+    }
   }
 
   /// Puts the points of some cells of a row into their places among those found.

@@ -42,20 +42,22 @@ void RebelGroups::judge(std::vector<Edge>& rebels, double dt_s) {
 /// Connected components of edges near each other and of like velocity.
 void RebelGroups::connect(const std::vector<Edge>& rebels, double dt_s) {
   points_.clear();
-  velocities_.clear();
+  steps_.clear();
+  lengths_px_.clear();
   for (const Edge& edge : rebels) {
     points_.push_back(edge.location);
-    velocities_.push_back(edge.velocity());
+    steps_.push_back(edge.velocity() * dt_s);
+    lengths_px_.push_back(edge.speed * dt_s);
   }
   grid_.build(points_, parameters_.radius);
   components_.reset(rebels.size());
   grid_.visit_pairs([&](int) { return parameters_.radius; },
                     [&](int i, int j, double) {
-                      if (!trust_.alive(rebels[i].trust) || !trust_.alive(rebels[j].trust)) return;
+                      const double mean_px = 0.5 * (lengths_px_[i] + lengths_px_[j]);
+                      const double like_px = std::max(kLikeStep_px, kLikeStepShare * mean_px);
+                      if (!((steps_[i] - steps_[j]).squaredNorm() < like_px * like_px)) return;
                       if (components_.are_joined(i, j)) return;
-                      const double difference = (velocities_[i] - velocities_[j]).norm() * dt_s;
-                      const double mean = 0.5 * (rebels[i].speed + rebels[j].speed) * dt_s;
-                      if (difference < std::max(kLikeStep_px, kLikeStepShare * mean))
+                      if (trust_.alive(rebels[i].trust) && trust_.alive(rebels[j].trust))
                         components_.join(i, j);
                     });
 }
@@ -94,16 +96,20 @@ void RebelGroups::support(std::vector<Edge>& rebels) {
   refill(reasons_, rebels.size(), Reason::rebel_alone);
   refill(stray_, rebels.size());
   refill(bearers_, rebels.size());
-  const auto bear = [&](int i, int j) {
-    ++bearers_[i].near;
-    bearers_[i].off += rebels[j].off_field_px > kOffField_px;
-  };
-  for (int i = 0; i < static_cast<int>(rebels.size()); ++i) bear(i, i);
+  refill(group_of_, rebels.size());
+  refill(is_off_, rebels.size());
+  for (std::size_t i = 0; i < rebels.size(); ++i) {
+    group_of_[i] = components_.root(static_cast<int>(i));
+    is_off_[i] = rebels[i].off_field_px > kOffField_px;
+    bearers_[i] = {1, is_off_[i]};
+  }
   grid_.visit_pairs([&](int) { return parameters_.radius; },
                     [&](int i, int j, double) {
-                      if (!components_.are_joined(i, j)) return;
-                      bear(i, j);
-                      bear(j, i);
+                      if (group_of_[i] != group_of_[j]) return;
+                      ++bearers_[i].near;
+                      ++bearers_[j].near;
+                      bearers_[i].off += is_off_[j];
+                      bearers_[j].off += is_off_[i];
                     });
   groups_.visit([&](std::span<const int> group) { support_group(rebels, group); });
   for (std::size_t i = 0; i < rebels.size(); ++i) {

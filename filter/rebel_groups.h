@@ -54,10 +54,13 @@ class RebelGroups {
 
   // Of the current frame; kept for their memory.
   PointGrid grid_;
-  std::vector<Vec2> points_, velocities_;
-  DisjointSets components_;       // of edges near each other and of like velocity
-  SetMembers groups_;             // living edges by component
-  std::vector<Bearers> bearers_;  // of each edge
+  std::vector<Vec2> points_, steps_;  // a frame, px
+  std::vector<double> lengths_px_;    // of the steps
+  DisjointSets components_;           // of edges near each other and of like velocity
+  SetMembers groups_;                 // living edges by component
+  std::vector<int> group_of_;         // root of its component, of each edge
+  std::vector<char> is_off_;          // surely does not move as what is static, of each edge
+  std::vector<Bearers> bearers_;      // of each edge
   std::vector<char> stray_;
   std::vector<double> vx_, vy_;
 };
