@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 
 #include "filter/geometry.h"
@@ -41,8 +40,7 @@ ConstellationEdges::ConstellationEdges(const Intrinsics& camera, const CirclePar
       once_(camera),
       twice_(camera),
       once_free_(camera.width_px, camera.height_px),
-      twice_free_(camera.width_px, camera.height_px),
-      screen_(camera.width_px, camera.height_px) {}
+      twice_free_(camera.width_px, camera.height_px) {}
 
 void ConstellationEdges::predict(Layers& layers, const MotionField& field) {
   for (Edge& edge : layers.normal_edges) {
@@ -227,7 +225,6 @@ void ConstellationEdges::look_back(const Layers& layers) {
   discs_.build(once_.corners, hit_1);
   once_.all.build(discs_);
   once_free_.build(once_.corners, discs_);
-  screen_.build(discs_);
   discs_.build(explained_, hit_1);
   once_.all.add(discs_);
   once_grid_.build(once_.corners, 16);
@@ -238,6 +235,14 @@ void ConstellationEdges::look_back(const Layers& layers) {
   discs_.build(explained_, hit_2);
   twice_.all.add(discs_);
   again_ = (twice_.elapsed_s - once_.elapsed_s) / once_.elapsed_s;
+  // At a constant velocity from the camera the image is c + f (a + b t) / Z(t), and Z is linear
+  // too, so that the steps from t_0 back to t_1 and on to t_2 are as (t_0 - t_1) / (Z_0 Z_1) to
+  // (t_1 - t_2) / (Z_1 Z_2).
+  earlier_.clear();
+  for (const double scale : kScales) {
+    const double depth_then = 1 + (scale - 1) * (1 + again_);  // Z_2 / Z_0
+    earlier_.push_back(depth_then > 0 ? again_ / depth_then : 0);
+  }
   needs_own_past_ = frames >= static_cast<std::size_t>(parameters_.constellation.vote_own_past);
 }
 
@@ -288,31 +293,22 @@ int ConstellationEdges::least_votes(const Vec2& x, int voters) const {
   return chance_.least(here.count / here.area_px2, voters, kScales.size() * all.count);
 }
 
-/// Votes for the displacement from `before` to x at a change of size by `scale`, the corner's own
-/// among them: for each of the first `left` of may_vote_, whether it has a predecessor at its place
-/// in the displaced constellation, and that one another. Gives up when `least` is out of reach.
-/// Where a baseline takes several frames, a corner that has just come into view is asked in each of
-/// them, and beside a mover the mover's corners win its vote: it has to have a past of its own.
-///
-/// The step before: at a constant velocity from the camera the image is c + f (a + b t) / Z(t), and
-/// Z is linear too, so that the steps from t_0 back to t_1 and on to t_2 are as
-/// (t_0 - t_1) / (Z_0 Z_1) to (t_1 - t_2) / (Z_1 Z_2).
-int ConstellationEdges::count_votes(const Vec2& x, const Vec2& before, double scale, int left,
+/// Votes for the displacement from `before` to x at a change of size, the corner's own among them:
+/// for each voter that has a predecessor at its place in the displaced constellation, the first
+/// `hits` of hits_, one, and one more where that has another. Gives up when `least` is out of
+/// reach. Where a baseline takes several frames, a corner that has just come into view is asked in
+/// each of them, and beside a mover the mover's corners win its vote: it has to have a past of its
+/// own.
+int ConstellationEdges::count_votes(const Vec2& x, const Vec2& before, double earlier, int hits,
                                     int least) const {
-  const double depth_then = 1 + (scale - 1) * (1 + again_);  // Z_2 / Z_0
-  if (!(depth_then > 0)) return 0;
-  const double earlier = again_ / depth_then;
+  if (!(earlier > 0)) return 0;
   int votes = twice_free_.at(before - earlier * (x - before)) ? 2 : 1;
   if (votes < 2 && needs_own_past_) return 0;
-  for (const std::uint8_t* voter = may_vote_.data(); left > 0; ++voter) {
-    if (votes + 2 * left < least) return votes;
-    --left;
-    const Vec2& y = voters_[*voter];
-    const int once = once_free_.at(before + (y - x) / scale);
-    if (once < 0) continue;
-    ++votes;
-    const Vec2& y_before = once_.corners[once];
-    if (twice_free_.at(y_before - earlier * (y - y_before))) ++votes;
+  votes += hits;
+  for (int i = 0; i < hits && votes + hits - i >= least; ++i) {
+    const Vec2& y = voters_[hits_[i].look_up];
+    const Vec2& y_before = once_.corners[hits_[i].point];
+    votes += twice_free_.at(y_before - earlier * (y - y_before));
   }
   return votes;
 }
@@ -321,26 +317,46 @@ int ConstellationEdges::count_votes(const Vec2& x, const Vec2& before, double sc
 /// all of them and of the corner itself for standing still in the world, -1: there are too few.
 int ConstellationEdges::gather_voters(std::size_t corner, const Chi& chi) {
   const ConstellationParameters& p = parameters_.constellation;
-  const Vec2& x = chi.locations[corner];
   undecided_grid_.nearest(
-      x, p.radius, static_cast<std::size_t>(p.neighbours),
+      chi.locations[corner], p.radius, static_cast<std::size_t>(p.neighbours),
       [&](int other) { return undecided_[other] != static_cast<int>(corner); }, near_);
   if (near_.size() < 2) return -1;
   int static_votes = candidates_[corner].static_hits;
-  voters_.clear();
-  for (const auto& [distance2, other] : near_) {
-    voters_.push_back(undecided_locations_[other]);
+  for (const auto& [distance2, other] : near_)
     static_votes += candidates_[undecided_[other]].static_hits;
-  }
-  may_vote_.resize(voters_.size() + 1);  // the list is written past its end
-  arms_.clear();
-  if (!(std::sqrt(near_.back().distance2) <= kLeastScale * HitScreen::kLongestArm_px)) {
-    return static_votes;
-  }
-  for (const double scale : kScales) {
-    for (const Vec2& y : voters_) arms_.push_back(screen_.offset((y - x) * (1 / scale)));
-  }
   return static_votes;
+}
+
+/// The voters' places about x, and where those were at each change of size.
+void ConstellationEdges::place_voters(const Vec2& x) {
+  voters_.clear();
+  for (const Neighbour& near : near_) voters_.push_back(undecided_locations_[near.index]);
+  hits_.resize(voters_.size() + 1);  // it is written past what is found
+  arms_.clear();
+  longest_arm_px_ = std::sqrt(near_.back().distance2) / kLeastScale;
+  for (const double scale : kScales) {
+    for (const Vec2& y : voters_) arms_.push_back(NearestMap::way((y - x) / scale));
+  }
+}
+
+/// The motions from a predecessor to x, one for each change of size: the one with the most votes
+/// becomes `best` if that has no more. Which motion is the best matters only where it wins; else,
+/// whether there is one at the floor. Of equal motions the slower one, so that the order of the
+/// search does not matter.
+void ConstellationEdges::try_motions(const Vec2& x, const Vec2& before, int floor, int winning,
+                                     Motion& best) {
+  const Vec2 step = x - before;
+  const NearestMap::Steps anchor = NearestMap::place(before);
+  const bool can_count = once_free_.can_count(before, longest_arm_px_);
+  for (std::size_t i = 0; i < kScales.size(); ++i) {
+    const int least = best.votes < floor ? floor : std::max(best.votes, winning);
+    const std::span arms(arms_.data() + i * voters_.size(), voters_.size());
+    if (can_count && 2 + 2 * once_free_.count(anchor, arms) < least) continue;
+    const int hits = once_free_.find(anchor, arms, hits_.data());
+    const int votes = count_votes(x, before, earlier_[i], hits, least);
+    if (votes < least) continue;
+    if (votes > best.votes || step.squaredNorm() < best.step.squaredNorm()) best = {votes, step};
+  }
 }
 
 /// Sets the displacement that the neighbours of a corner agree on, if any. \return `voted`, or what
@@ -350,45 +366,26 @@ Reason ConstellationEdges::vote_on(std::size_t corner, const Chi& chi, const Mot
   const Vec2& x = chi.locations[corner];
   const int static_votes = gather_voters(corner, chi);
   if (static_votes < 0) return Reason::few_neighbours;
-  const int voters = static_cast<int>(voters_.size());
+  const int voters = static_cast<int>(near_.size());
   const int all = 2 * (voters + 1);
-  const int floor = least_votes(x, voters);
-  if (floor > all) return Reason::vote_floor;
   // A motion is chosen out of many, the static explanation is not: where that one is good, another
   // that is better is chance, as in a pattern that repeats.
   if (static_votes >= p.vote_static_cap * all) return Reason::static_wins;
+  const int floor = least_votes(x, voters);
+  if (floor > all) return Reason::vote_floor;
   const int winning =
       std::max(floor, static_votes + static_cast<int>(std::ceil(p.vote_margin * all)));
   if (winning > all) return Reason::static_wins;
 
-  // Which motion is the best matters only where it wins; else, whether there is one at the floor.
-  int best = 0;
-  Vec2 best_step = Vec2::Zero();
-  const auto arms_of = [&](std::size_t scale) {
-    return std::span(arms_.data() + scale * voters_.size(), voters_.size());
-  };
+  place_voters(x);
+  Motion best;
   once_grid_.visit_within(x, p.max_speed * once_.elapsed_s, [&](int predecessor, double) {
-    const Vec2& before = once_.corners[predecessor];
-    const Vec2 step = x - before;
-    const std::uint8_t* anchor = arms_.empty() ? nullptr : screen_.anchor(before);
-    if (!anchor) std::iota(may_vote_.begin(), may_vote_.end(), std::uint8_t{0});
-    for (std::size_t i = 0; i < kScales.size(); ++i) {
-      const int least = best < floor ? floor : std::max(best, winning);
-      const int left = anchor ? HitScreen::count(anchor, arms_of(i)) : voters;
-      if (2 + 2 * left < least) continue;
-      if (anchor) HitScreen::list(anchor, arms_of(i), may_vote_.data());
-      const int votes = count_votes(x, before, kScales[i], left, least);
-      // Of equal motions the slower one, so that the order of the search does not matter.
-      if (votes > best || (votes == best && step.squaredNorm() < best_step.squaredNorm())) {
-        best = votes;
-        best_step = step;
-      }
-    }
+    try_motions(x, once_.corners[predecessor], floor, winning, best);
   });
-  if (best < floor) return Reason::vote_floor;
-  if (best < winning) return Reason::static_wins;
-  candidates_[corner].step = best_step;
-  if (!(off_field(x, x - best_step, field.least_ratio(x), once_.displacement_C_m, field) >
+  if (best.votes < floor) return Reason::vote_floor;
+  if (best.votes < winning) return Reason::static_wins;
+  candidates_[corner].step = best.step;
+  if (!(off_field(x, x - best.step, field.least_ratio(x), once_.displacement_C_m, field) >
         p.off_field))
     return Reason::vote_on_field;
   return Reason::voted;

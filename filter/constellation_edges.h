@@ -21,7 +21,6 @@
 #include "filter/edge_expert.h"
 #include "filter/footing.h"
 #include "filter/hit_map.h"
-#include "filter/hit_screen.h"
 #include "filter/nearest_map.h"
 #include "filter/rebel_groups.h"
 #include "filter/vote_chance.h"
@@ -64,6 +63,12 @@ class ConstellationEdges : public EdgeExpert {
     bool voted = false;        ///< for a motion that no static point has
   };
 
+  /// A displacement over a baseline that neighbours agree on.
+  struct Motion {
+    int votes = 0;
+    Vec2 step = Vec2::Zero();  ///< px
+  };
+
   enum class Kind : std::uint8_t { none, normal, rebel };
   /// The edge that a corner belongs to.
   struct Link {
@@ -88,7 +93,9 @@ class ConstellationEdges : public EdgeExpert {
   Reason vote_on(std::size_t corner, const Chi& chi, const MotionField& field);
   int gather_voters(std::size_t corner, const Chi& chi);
   int least_votes(const Vec2& x, int voters) const;
-  int count_votes(const Vec2& x, const Vec2& before, double scale, int left, int least) const;
+  void place_voters(const Vec2& x);
+  int count_votes(const Vec2& x, const Vec2& before, double earlier, int hits, int least) const;
+  void try_motions(const Vec2& x, const Vec2& before, int floor, int winning, Motion& best);
   void settle_rebels();
   void make_edges(Layers& layers, const Chi& chi, const MotionField& field);
   Edge make_rebel(const Vec2& x, const Vec2& velocity_pxps, double dt_s);
@@ -109,6 +116,8 @@ class ConstellationEdges : public EdgeExpert {
   HitMap twice_free_;            // of twice_.corners
   double again_ = 1;             // the second baseline over the first, in time
   bool needs_own_past_ = false;  // of a corner, in the vote
+  std::vector<double> earlier_;  // by change of size: the step before over the one over a baseline;
+                                 // 0: there was none
   PointGrid once_grid_, decided_grid_;
   std::vector<Vec2> decided_locations_;
   std::vector<char> decided_, counts_;
@@ -120,9 +129,9 @@ class ConstellationEdges : public EdgeExpert {
   std::vector<int> undecided_;  // corners that are residual, or of rebels
   std::vector<Vec2> undecided_locations_;
   std::vector<Vec2> voters_;
-  std::vector<std::uint8_t> may_vote_;   // indices of voters
-  std::vector<HitScreen::Offset> arms_;  // of all voters at the first change of size, then the next
-  HitScreen screen_;                     // of once_.corners
+  std::vector<NearestMap::Steps> arms_;  // of all voters at the first change of size, then the next
+  double longest_arm_px_ = 0;
+  std::vector<NearestMap::Found> hits_;  // of the arms of a motion
   std::vector<Id> explaining_;           // edges, by rising id
   std::vector<char> is_explained_;       // of a past's corners
   std::vector<Vec2> explained_;          // of a past: not a lookup's corners

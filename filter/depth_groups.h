@@ -19,9 +19,6 @@ namespace lcs {
 
 class DepthGroups {
  public:
-  /// Things, like and unlike, that are looked at round each, about.
-  static constexpr double kCrowd = 64;
-
   /// n groups of one thing each, without links.
   void reset(std::size_t n) {
     sets_.reset(n);
@@ -38,16 +35,17 @@ class DepthGroups {
 
   /// Notes who may belong together: any two things near each other that cost less than 1.
   /// \param points where the things are; \param grid of them.
-  /// \param reach_px(i) how far to look; less where things lie close, which then have links enough.
+  /// \param reach_px(i) how far to look; less where things lie close, which then have links enough:
+  /// \param crowd things, like and unlike, are looked at round each, about.
   /// \param cost(i, j, squared distance), symmetric: the cheaper, the sooner.
   template <typename Reach, typename Cost>
-  void link_near(std::span<const Vec2> points, const PointGrid& grid, Reach&& reach_px,
-                 Cost&& cost) {
+  void link_near(std::span<const Vec2> points, const PointGrid& grid, double crowd,
+                 Reach&& reach_px, Cost&& cost) {
     // Each pair is looked at once.
-    const auto most = static_cast<std::size_t>(kCrowd / 2 * static_cast<double>(points.size()));
+    const auto most = static_cast<std::size_t>(crowd / 2 * static_cast<double>(points.size()));
     if (links_.capacity() < most) links_.reserve(most + most / 4);
     grid.visit_pairs(
-        [&](int i) { return std::min(reach_px(i), grid.crowd_radius(points[i], kCrowd)); },
+        [&](int i) { return std::min(reach_px(i), grid.crowd_radius(points[i], crowd)); },
         [&](int i, int j, double distance2) {
           const double c = cost(i, j, distance2);
           if (c < 1) links_.emplace_back(c, std::min(i, j), std::max(i, j));

@@ -25,7 +25,8 @@ double like_depth(double ratio) {
   return kLikeDepth * ratio;
 }
 
-/// Of the grid: about as wide as so many neighbours lie apart.
+/// Edges that are looked at round each, about, and of the grid: about as far as so many lie apart.
+constexpr double kCrowd = 64;
 constexpr double kCell_px = 32;
 
 /// What a place at the end of the reach counts beside a depth at the end of its tolerance, squared.
@@ -69,7 +70,7 @@ void Footing::link() {
   }
   const double reach2 = parameters_.reach * parameters_.reach;
   depths_.link_near(
-      points_, grid_, [&](int) { return parameters_.reach; },
+      points_, grid_, kCrowd, [&](int) { return parameters_.reach; },
       [&](int i, int j, double apart2) {
         const Node &a = nodes_[i], &b = nodes_[j];
         const double difference = std::abs(a.ratio - b.ratio);

@@ -8,7 +8,8 @@
 namespace lcs {
 namespace {
 
-/// Of the grid.
+/// Edges that are looked at round each, about. Of the grid.
+constexpr double kCrowd = 48;
 constexpr double kCell_px = 24;
 
 /// Velocities are measured over about as long; shorter frames do not make them more like each
@@ -89,7 +90,7 @@ void LinkLayering::link_by_depth() {
     by_depth_.set_depth(i, depths_[i].w, std::max(depths_[i].sigma, 1e-3));
   }
   by_depth_.link_near(
-      points_, grid_, [&](int i) { return reach(nearest * depths_[i].w); },
+      points_, grid_, kCrowd, [&](int i) { return reach(nearest * depths_[i].w); },
       [&](int i, int j, double apart2) { return distance2(depths_[i], depths_[j], apart2); });
   by_depth_.merge_links(
       [&](double w) { return parameters_.mean_share * w + parameters_.mean_spread * w * w; });

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "filter/filter.h"
-#include "filter/hit_screen.h"
+#include "filter/nearest_map.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
@@ -170,8 +170,8 @@ std::ptrdiff_t found_of_a_wide_group(const Parameters& parameters) {
   return found;
 }
 
-TEST(Constellation, NeighboursBeyondTheArmsOfTheScreenVoteAllTheSame) {
-  static_assert(HitScreen::kLongestArm_px < 130);
+TEST(Constellation, NeighboursTooFarToBeCountedVoteAllTheSame) {
+  ASSERT_FALSE(NearestMap(640, 480).can_count({320, 240}, 130));
   EXPECT_EQ(found_of_a_wide_group(with("constellation.radius", "600")), 12);
   EXPECT_EQ(found_of_a_wide_group(preset("default")), 0) << "none is near: the test shows nothing";
 }

@@ -8,7 +8,6 @@
 #include "filter/couples.h"
 #include "filter/depth_groups.h"
 #include "filter/hit_map.h"
-#include "filter/hit_screen.h"
 #include "filter/nearest_map.h"
 #include "filter/point_grid.h"
 #include "tests/filter/world.h"
@@ -190,6 +189,7 @@ TEST(PointGrid, KnowsHowFarSoManyReach) {
 }
 
 TEST(DepthGroups, LookAtNoMoreHoweverCloseThingsLie) {
+  constexpr double kCrowd = 64;
   PointGrid grid;
   DepthGroups groups;
   for (const double apart : {2.0, 4.0, 8.0}) {
@@ -198,13 +198,13 @@ TEST(DepthGroups, LookAtNoMoreHoweverCloseThingsLie) {
     groups.reset(points.size());
     std::size_t looks = 0;
     groups.link_near(
-        points, grid, [](int) { return 200.0; },
+        points, grid, kCrowd, [](int) { return 200.0; },
         [&](int, int, double) {
           ++looks;
           return 1.0;
         });
-    EXPECT_LT(looks, DepthGroups::kCrowd * static_cast<double>(points.size())) << apart;
-    EXPECT_GT(looks, DepthGroups::kCrowd / 4 * static_cast<double>(points.size())) << apart;
+    EXPECT_LT(looks, kCrowd * static_cast<double>(points.size())) << apart;
+    EXPECT_GT(looks, kCrowd / 4 * static_cast<double>(points.size())) << apart;
   }
 }
 
@@ -302,57 +302,6 @@ TEST(HitMap, ForgetsTheLastPointsAndFindsNothingOutside) {
   EXPECT_FALSE(map.at({1e9, -1e9}));
 }
 
-TEST(HitScreen, LetsThroughAllThatHit) {
-  Random random(7);
-  HitMap exact(120, 90);
-  HitScreen screen(120, 90);
-  int hits = 0, let_through = 0, looked_up = 0;
-  for (int round = 0; round < 20; ++round) {
-    std::vector<Vec2> points, arms;
-    for (int i = 0; i < 30; ++i) {
-      points.emplace_back(random.uniform(-5, 125), random.uniform(-5, 95));
-      const Eigen::Vector3d direction = random.vector(1);
-      arms.push_back(direction.head<2>() * (HitScreen::kLongestArm_px / std::sqrt(2)));
-    }
-    exact.build(discs(120, 90, points, 2));
-    screen.build(discs(120, 90, points, 2));
-    std::vector<HitScreen::Offset> offsets;
-    for (const Vec2& arm : arms) offsets.push_back(screen.offset(arm));
-    for (int i = 0; i < 40; ++i) {
-      const Vec2 anchor(random.uniform(-0.499, 119.499), random.uniform(-0.499, 89.499));
-      std::vector<std::uint8_t> listed(arms.size() + 1);
-      const int count = HitScreen::count(screen.anchor(anchor), offsets);
-      HitScreen::list(screen.anchor(anchor), offsets, listed.data());
-      listed.resize(count);
-      for (std::size_t a = 0; a < arms.size(); ++a) {
-        const bool listing = std::find(listed.begin(), listed.end(), a) != listed.end();
-        if (exact.at(anchor + arms[a])) {
-          EXPECT_TRUE(listing);
-          ++hits;
-        }
-        let_through += listing;
-        ++looked_up;
-      }
-    }
-  }
-  // A disc of radius 2 has 13 pixels, and a pixel to every side of it makes at most 37.
-  EXPECT_GT(hits, 100);
-  EXPECT_LT(let_through, 4 * hits);
-  EXPECT_LT(let_through, looked_up / 2);
-}
-
-TEST(HitScreen, HasNoAnchorOutsideTheImageAndForgetsTheLastPoints) {
-  HitScreen screen(64, 48);
-  EXPECT_EQ(screen.anchor({-0.5, 10}), nullptr);
-  EXPECT_EQ(screen.anchor({10, 47.5}), nullptr);
-  const std::vector<Vec2> first = {{10, 10}}, second = {{0, 47}};
-  const std::vector<HitScreen::Offset> arms = {screen.offset({0, 0})};
-  screen.build(discs(64, 48, first, 2));
-  screen.build(discs(64, 48, second, 2));
-  EXPECT_EQ(HitScreen::count(screen.anchor({10, 10}), arms), 0);
-  EXPECT_EQ(HitScreen::count(screen.anchor({0, 47}), arms), 1);
-}
-
 TEST(Pixels, RoundAsTheStandardLibraryDoes) {
   Random random(6);
   std::vector<double> coordinates = {-0.49, -0.0, 0.0, 0.49999999999999994, 0.5, 1.5, 2.5, 639.49};
@@ -399,6 +348,80 @@ TEST(NearestMap, ForgetsTheLastPointsAndFindsNothingOutside) {
   EXPECT_EQ(map.at({-1, 5}), -1);
   EXPECT_EQ(map.at({64, 5}), -1);
   EXPECT_EQ(map.at({1e9, -1e9}), -1);
+}
+
+/// Places and ways that are sums of the shares of a pixel in which they are counted, so that
+/// nothing is rounded.
+Vec2 in_shares(Random& random, double most) {
+  const auto share = [&] { return std::round(1024 * random.uniform(-most, most)) / 1024; };
+  return {share(), share()};
+}
+
+TEST(NearestMap, FindsFromAPlaceByItsWaysWhatItKnowsWhereTheyLead) {
+  Random random(7);
+  NearestMap map(120, 90);
+  std::ptrdiff_t found_in_all = 0, counted = 0;
+  for (int round = 0; round < 60; ++round) {
+    std::vector<Vec2> points, to;
+    std::vector<NearestMap::Steps> ways;
+    for (int i = 0; i < 60; ++i)
+      points.emplace_back(random.uniform(-5, 125), random.uniform(-5, 95));
+    map.build(points, discs(120, 90, points, 2));
+    for (int i = 0; i < 30; ++i) {
+      to.push_back(in_shares(random, 60));
+      ways.push_back(NearestMap::way(to.back()));
+    }
+    for (int i = 0; i < 40; ++i) {
+      const Vec2 from = Vec2(60, 45) + in_shares(random, 70);  // in and outside of the image
+      std::vector<NearestMap::Found> found(ways.size() + 1);
+      found.resize(map.find(NearestMap::place(from), ways, found.data()));
+      std::vector<std::pair<int, int>> given, expected;
+      for (const auto& [look_up, point] : found) given.emplace_back(look_up, point);
+      for (std::size_t w = 0; w < to.size(); ++w) {
+        const int point = map.at(from + to[w]);
+        if (point >= 0) expected.emplace_back(w, point);
+      }
+      ASSERT_EQ(given, expected);
+      found_in_all += std::ssize(found);
+      if (!map.can_count(from, 60 * std::sqrt(2))) continue;
+      EXPECT_EQ(map.count(NearestMap::place(from), ways), std::ssize(found));
+      counted += std::ssize(found);
+    }
+  }
+  EXPECT_GT(counted, 500);
+  EXPECT_GT(found_in_all, counted) << "none of the places was outside";
+}
+
+TEST(NearestMap, CountsFromWithinTheImageAndNotFar) {
+  const NearestMap map(64, 48);
+  EXPECT_TRUE(map.can_count({-0.49, 47.49}, 126));
+  EXPECT_FALSE(map.can_count({-0.5, 10}, 1));
+  EXPECT_FALSE(map.can_count({10, 47.5}, 1));
+  EXPECT_FALSE(map.can_count({10, 10}, 130));
+}
+
+TEST(NearestMap, CountsNothingOfTheLastPoints) {
+  NearestMap map(64, 48);
+  const std::vector<Vec2> first = {{10, 10}}, second = {{0, 47}};
+  const std::vector<NearestMap::Steps> nowhere = {NearestMap::way({0, 0})};
+  map.build(first, discs(64, 48, first, 2));
+  map.build(second, discs(64, 48, second, 2));
+  EXPECT_EQ(map.count(NearestMap::place({10, 10}), nowhere), 0);
+  EXPECT_EQ(map.count(NearestMap::place({0, 47}), nowhere), 1);
+}
+
+TEST(NearestMap, FindsNothingHoweverFarAWayLeads) {
+  NearestMap map(64, 48);
+  const std::vector<Vec2> points = {{0, 0}, {63, 47}, {20, 20}};
+  map.build(points, discs(64, 48, points, 2));
+  std::vector<NearestMap::Found> found(9);
+  for (const double far : {1e3, 1e5, 1e7, 1e300}) {
+    const std::vector<NearestMap::Steps> ways = {
+        NearestMap::way({far, 0}), NearestMap::way({-far, 0}), NearestMap::way({0, far}),
+        NearestMap::way({0, -far}), NearestMap::way({-far, far})};
+    EXPECT_EQ(map.find(NearestMap::place({20, 20}), ways, found.data()), 0) << far;
+    EXPECT_EQ(map.find(NearestMap::place({-far, far}), ways, found.data()), 0) << far;
+  }
 }
 
 }  // namespace
