@@ -16,6 +16,11 @@ constexpr double kOriginSteps = 5;
 /// Rebels of one group differ by less than this, or this share of their steps, px.
 constexpr double kLikeStep_px = 1.0, kLikeStepShare = 0.2;
 
+/// Edges that are looked at round each, about, where they lie so close that more are near, so that
+/// time stays in proportion. Of the grid.
+constexpr double kCrowd = 96;
+constexpr double kCell_px = 32;
+
 /// The middle value, of an even number the mean of the middle two, so that -x has the median -m.
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -49,9 +54,9 @@ void RebelGroups::connect(const std::vector<Edge>& rebels, double dt_s) {
     steps_.push_back(edge.velocity() * dt_s);
     lengths_px_.push_back(edge.speed * dt_s);
   }
-  grid_.build(points_, parameters_.radius);
+  grid_.build(points_, kCell_px);
   components_.reset(rebels.size());
-  grid_.visit_pairs([&](int) { return parameters_.radius; },
+  grid_.visit_pairs([&](int i) { return reach_px(i); },
                     [&](int i, int j, double) {
                       const double mean_px = 0.5 * (lengths_px_[i] + lengths_px_[j]);
                       const double like_px = std::max(kLikeStep_px, kLikeStepShare * mean_px);
@@ -60,6 +65,10 @@ void RebelGroups::connect(const std::vector<Edge>& rebels, double dt_s) {
                       if (trust_.alive(rebels[i].trust) && trust_.alive(rebels[j].trust))
                         components_.join(i, j);
                     });
+}
+
+double RebelGroups::reach_px(int edge) const {
+  return std::min(parameters_.radius, grid_.crowd_radius(points_[edge], kCrowd));
 }
 
 /// Standard deviation of a group's places across the line that fits them best, px.
@@ -103,7 +112,7 @@ void RebelGroups::support(std::vector<Edge>& rebels) {
     is_off_[i] = rebels[i].off_field_px > kOffField_px;
     bearers_[i] = {1, is_off_[i]};
   }
-  grid_.visit_pairs([&](int) { return parameters_.radius; },
+  grid_.visit_pairs([&](int i) { return reach_px(i); },
                     [&](int i, int j, double) {
                       if (group_of_[i] != group_of_[j]) return;
                       ++bearers_[i].near;
