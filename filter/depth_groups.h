@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "filter/couples.h"
@@ -34,22 +33,19 @@ class DepthGroups {
   }
 
   /// Notes who may belong together: any two things near each other that cost less than 1.
-  /// \param points where the things are; \param grid of them.
+  /// \param grid where the things are.
   /// \param reach_px(i) how far to look; less where things lie close, which then have links enough:
   /// \param crowd things, like and unlike, are looked at round each, about.
   /// \param cost(i, j, squared distance), symmetric: the cheaper, the sooner.
   template <typename Reach, typename Cost>
-  void link_near(std::span<const Vec2> points, const PointGrid& grid, double crowd,
-                 Reach&& reach_px, Cost&& cost) {
+  void link_near(const PointGrid& grid, double crowd, Reach&& reach_px, Cost&& cost) {
     // Each pair is looked at once.
-    const auto most = static_cast<std::size_t>(crowd / 2 * static_cast<double>(points.size()));
+    const auto most = static_cast<std::size_t>(crowd / 2 * static_cast<double>(sets_.size()));
     if (links_.capacity() < most) links_.reserve(most + most / 4);
-    grid.visit_pairs(
-        [&](int i) { return std::min(reach_px(i), grid.crowd_radius(points[i], crowd)); },
-        [&](int i, int j, double distance2) {
-          const double c = cost(i, j, distance2);
-          if (c < 1) links_.emplace_back(c, std::min(i, j), std::max(i, j));
-        });
+    grid.visit_crowd_pairs(crowd, reach_px, [&](int i, int j, double distance2) {
+      const double c = cost(i, j, distance2);
+      if (c < 1) links_.emplace_back(c, std::min(i, j), std::max(i, j));
+    });
   }
 
   /// Merges along all links.

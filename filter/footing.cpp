@@ -25,8 +25,10 @@ double like_depth(double ratio) {
   return kLikeDepth * ratio;
 }
 
-/// Edges that are looked at round each, about, and of the grid: about as far as so many lie apart.
+/// Edges that are looked at round each, about.
 constexpr double kCrowd = 64;
+
+/// Of the grid: about as wide as so many neighbours lie apart.
 constexpr double kCell_px = 32;
 
 /// What a place at the end of the reach counts beside a depth at the end of its tolerance, squared.
@@ -70,7 +72,7 @@ void Footing::link() {
   }
   const double reach2 = parameters_.reach * parameters_.reach;
   depths_.link_near(
-      points_, grid_, kCrowd, [&](int) { return parameters_.reach; },
+      grid_, kCrowd, [&](int) { return parameters_.reach; },
       [&](int i, int j, double apart2) {
         const Node &a = nodes_[i], &b = nodes_[j];
         const double difference = std::abs(a.ratio - b.ratio);

@@ -8,8 +8,10 @@
 namespace lcs {
 namespace {
 
-/// Edges that are looked at round each, about. Of the grid.
+/// Edges that are looked at round each, about.
 constexpr double kCrowd = 48;
+
+/// Of the grid.
 constexpr double kCell_px = 24;
 
 /// Velocities are measured over about as long; shorter frames do not make them more like each
@@ -90,7 +92,7 @@ void LinkLayering::link_by_depth() {
     by_depth_.set_depth(i, depths_[i].w, std::max(depths_[i].sigma, 1e-3));
   }
   by_depth_.link_near(
-      points_, grid_, kCrowd, [&](int i) { return reach(nearest * depths_[i].w); },
+      grid_, kCrowd, [&](int i) { return reach(nearest * depths_[i].w); },
       [&](int i, int j, double apart2) { return distance2(depths_[i], depths_[j], apart2); });
   by_depth_.merge_links(
       [&](double w) { return parameters_.mean_share * w + parameters_.mean_spread * w * w; });

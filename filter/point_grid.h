@@ -73,22 +73,18 @@ class PointGrid {
   /// must lie within both.
   template <typename Radius, typename Visit>
   void visit_pairs(Radius&& radius_px, Visit&& visit) const {
-    for (int r = 0; r < rows_; ++r) {
-      for (std::size_t i = first_[cell(0, r)]; i < first_[cell(columns_ - 1, r) + 1]; ++i) {
-        const Placed& here = placed_[i];
-        const Vec2& x = here.location;
-        const double radius = radius_px(here.index);
-        const auto visit_from = [&](std::size_t first, std::size_t last) {
-          visit_near(first, last, x, radius * radius,
-                     [&](int j, double distance2) { visit(here.index, j, distance2); });
-        };
-        const int left = column(x.x() - radius), right = column(x.x() + radius);
-        const int bottom = row(x.y() + radius);
-        visit_from(i + 1, first_[cell(right, r) + 1]);
-        for (int below = r + 1; below <= bottom; ++below)
-          visit_from(first_[cell(left, below)], first_[cell(right, below) + 1]);
-      }
-    }
+    visit_pairs_about([&](const Placed& here) { return radius_px(here.index); }, visit);
+  }
+
+  /// The same, but where points lie close no farther than about `crowd` of them reach, so that the
+  /// time stays in proportion to their number.
+  template <typename Radius, typename Visit>
+  void visit_crowd_pairs(double crowd, Radius&& radius_px, Visit&& visit) const {
+    visit_pairs_about(
+        [&](const Placed& here) {
+          return std::min(radius_px(here.index), crowd_radius(here.location, crowd));
+        },
+        visit);
   }
 
   /// Points of some cells, and how much of the plane these take, px^2.
@@ -154,12 +150,38 @@ class PointGrid {
   }
 
  private:
+  struct Placed {
+    Vec2 location;
+    int index;
+  };
+
   static constexpr double kMaxSide = 512;
 
   int column(double x) const { return clamped((x - low_.x()) / cell_px_, columns_); }
   int row(double y) const { return clamped((y - low_.y()) / cell_px_, rows_); }
   static int clamped(double cells, int count) {
     return static_cast<int>(std::clamp(cells, 0.0, static_cast<double>(count - 1)));
+  }
+
+  /// `visit_pairs` with the radius of a placed point.
+  template <typename Radius, typename Visit>
+  void visit_pairs_about(Radius&& radius_px, Visit&& visit) const {
+    for (int r = 0; r < rows_; ++r) {
+      for (std::size_t i = first_[cell(0, r)]; i < first_[cell(columns_ - 1, r) + 1]; ++i) {
+        const Placed& here = placed_[i];
+        const Vec2& x = here.location;
+        const double radius = radius_px(here);
+        const auto visit_from = [&](std::size_t first, std::size_t last) {
+          visit_near(first, last, x, radius * radius,
+                     [&](int j, double distance2) { visit(here.index, j, distance2); });
+        };
+        const int left = column(x.x() - radius), right = column(x.x() + radius);
+        const int bottom = row(x.y() + radius);
+        visit_from(i + 1, first_[cell(right, r) + 1]);
+        for (int below = r + 1; below <= bottom; ++below)
+          visit_from(first_[cell(left, below)], first_[cell(right, below) + 1]);
+      }
+    }
   }
 
   /// Visits those of some points placed one after the other that are near x. They are told from the
@@ -204,11 +226,6 @@ class PointGrid {
     return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(c);
   }
-
-  struct Placed {
-    Vec2 location;
-    int index;
-  };
 
   std::vector<Placed> placed_;            // cell by cell, in each by index
   std::vector<std::size_t> first_{0, 0};  // of each cell in placed_, and the end

@@ -16,9 +16,10 @@ constexpr double kOriginSteps = 5;
 /// Rebels of one group differ by less than this, or this share of their steps, px.
 constexpr double kLikeStep_px = 1.0, kLikeStepShare = 0.2;
 
-/// Edges that are looked at round each, about, where they lie so close that more are near, so that
-/// time stays in proportion. Of the grid.
+/// Edges that are looked at round each, about, where more are near.
 constexpr double kCrowd = 96;
+
+/// Of the grid.
 constexpr double kCell_px = 32;
 
 /// The middle value, of an even number the mean of the middle two, so that -x has the median -m.
@@ -56,19 +57,15 @@ void RebelGroups::connect(const std::vector<Edge>& rebels, double dt_s) {
   }
   grid_.build(points_, kCell_px);
   components_.reset(rebels.size());
-  grid_.visit_pairs([&](int i) { return reach_px(i); },
-                    [&](int i, int j, double) {
-                      const double mean_px = 0.5 * (lengths_px_[i] + lengths_px_[j]);
-                      const double like_px = std::max(kLikeStep_px, kLikeStepShare * mean_px);
-                      if (!((steps_[i] - steps_[j]).squaredNorm() < like_px * like_px)) return;
-                      if (components_.are_joined(i, j)) return;
-                      if (trust_.alive(rebels[i].trust) && trust_.alive(rebels[j].trust))
-                        components_.join(i, j);
-                    });
-}
-
-double RebelGroups::reach_px(int edge) const {
-  return std::min(parameters_.radius, grid_.crowd_radius(points_[edge], kCrowd));
+  grid_.visit_crowd_pairs(
+      kCrowd, [&](int) { return parameters_.radius; },
+      [&](int i, int j, double) {
+        const double mean_px = 0.5 * (lengths_px_[i] + lengths_px_[j]);
+        const double like_px = std::max(kLikeStep_px, kLikeStepShare * mean_px);
+        if (!((steps_[i] - steps_[j]).squaredNorm() < like_px * like_px)) return;
+        if (components_.are_joined(i, j)) return;
+        if (trust_.alive(rebels[i].trust) && trust_.alive(rebels[j].trust)) components_.join(i, j);
+      });
 }
 
 /// Standard deviation of a group's places across the line that fits them best, px.
@@ -112,14 +109,15 @@ void RebelGroups::support(std::vector<Edge>& rebels) {
     is_off_[i] = rebels[i].off_field_px > kOffField_px;
     bearers_[i] = {1, is_off_[i]};
   }
-  grid_.visit_pairs([&](int i) { return reach_px(i); },
-                    [&](int i, int j, double) {
-                      if (group_of_[i] != group_of_[j]) return;
-                      ++bearers_[i].near;
-                      ++bearers_[j].near;
-                      bearers_[i].off += is_off_[j];
-                      bearers_[j].off += is_off_[i];
-                    });
+  grid_.visit_crowd_pairs(
+      kCrowd, [&](int) { return parameters_.radius; },
+      [&](int i, int j, double) {
+        if (group_of_[i] != group_of_[j]) return;
+        ++bearers_[i].near;
+        ++bearers_[j].near;
+        bearers_[i].off += is_off_[j];
+        bearers_[j].off += is_off_[i];
+      });
   groups_.visit([&](std::span<const int> group) { support_group(rebels, group); });
   for (std::size_t i = 0; i < rebels.size(); ++i) {
     if (stray_[i]) rebels[i].trust -= 2;

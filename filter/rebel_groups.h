@@ -41,8 +41,6 @@ class RebelGroups {
     int off = 0;  // of them, that surely do not move as what is static
   };
 
-  /// How far others count as near an edge.
-  double reach_px(int edge) const;
   void connect(const std::vector<Edge>& rebels, double dt_s);
   void support(std::vector<Edge>& rebels);
   void smooth(std::vector<Edge>& rebels, double dt_s);

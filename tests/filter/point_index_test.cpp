@@ -198,7 +198,7 @@ TEST(DepthGroups, LookAtNoMoreHoweverCloseThingsLie) {
     groups.reset(points.size());
     std::size_t looks = 0;
     groups.link_near(
-        points, grid, kCrowd, [](int) { return 200.0; },
+        grid, kCrowd, [](int) { return 200.0; },
         [&](int, int, double) {
           ++looks;
           return 1.0;
