@@ -24,6 +24,9 @@ constexpr double kFullResidual_px = 6.0;
 /// Decided neighbours that a corner may take its verdict from.
 constexpr std::size_t kInheritFrom = 5;
 
+/// px: nearer to the side of the picture no corner is found, for want of pixels round it.
+constexpr double kBlind_px = 3;
+
 /// Frames that are remembered, for two baselines.
 constexpr std::size_t kMaxHistory = 12;
 
@@ -61,6 +64,7 @@ void ConstellationEdges::predict(Layers& layers, const MotionField& field) {
   }
   for (Past& past : history_) {
     for (Vec2& x : past.corners) x = field.rotated(x);
+    for (Vec2& x : past.picture) x = field.rotated(x);
     past.displacement_C_m = field.R_cur_prev() * past.displacement_C_m + field.displacement_C_m();
     past.elapsed_s += field.dt_s();
   }
@@ -76,6 +80,9 @@ void ConstellationEdges::remember(const Layers& layers, const Chi& chi) {
   for (const Edge& edge : layers.normal_edges) {
     if (edge.corner >= 0) now.taken.emplace_back(edge.id, edge.corner);
   }
+  const double right = camera_.width_px - 1 - kBlind_px, bottom = camera_.height_px - 1 - kBlind_px;
+  now.picture = {Vec2(kBlind_px, kBlind_px), Vec2(right, kBlind_px), Vec2(right, bottom),
+                 Vec2(kBlind_px, bottom)};
   now.displacement_C_m.setZero();
   now.elapsed_s = 0;
 }
@@ -261,8 +268,17 @@ void ConstellationEdges::index(const Past& past, Lookup& lookup) {
   for (std::size_t i = 0; i < past.corners.size(); ++i) {
     (is_explained_[i] ? explained_ : lookup.corners).push_back(past.corners[i]);
   }
+  lookup.picture = past.picture;
   lookup.displacement_C_m = past.displacement_C_m;
   lookup.elapsed_s = past.elapsed_s;
+}
+
+/// Whether a static point that is at x now was in the picture a baseline ago, however far away it
+/// is.
+bool ConstellationEdges::showed(const Vec2& x, const MotionField& field) const {
+  const Pixels picture{camera_.width_px, camera_.height_px};
+  const Vec2 nearest = field.earlier(x, field.max_ratio(), once_.displacement_C_m);
+  return picture.contain(nearest) && holds(once_.picture, x) && holds(once_.picture, nearest);
 }
 
 /// Sweeps the depth of each residual corner, from infinity to the nearest.
@@ -281,6 +297,9 @@ void ConstellationEdges::seek_static_past(const Chi& chi, const MotionField& fie
         candidate.static_ratio = ratio;
       }
     }
+    // What could not be seen speaks against nothing: where a turn brings a pattern into the
+    // picture, what is there is the past of what follows.
+    candidate.static_votes = showed(x, field) ? candidate.static_hits : 2;
   }
 }
 
@@ -321,9 +340,9 @@ int ConstellationEdges::gather_voters(std::size_t corner, const Chi& chi) {
       chi.locations[corner], p.radius, static_cast<std::size_t>(p.neighbours),
       [&](int other) { return undecided_[other] != static_cast<int>(corner); }, near_);
   if (near_.size() < 2) return -1;
-  int static_votes = candidates_[corner].static_hits;
+  int static_votes = candidates_[corner].static_votes;
   for (const auto& [distance2, other] : near_)
-    static_votes += candidates_[undecided_[other]].static_hits;
+    static_votes += candidates_[undecided_[other]].static_votes;
   return static_votes;
 }
 

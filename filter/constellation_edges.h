@@ -41,6 +41,7 @@ class ConstellationEdges : public EdgeExpert {
   struct Past {
     std::vector<Vec2> corners;
     std::vector<std::pair<Id, int>> taken;  // edges, by rising id, and the corner that each took
+    std::array<Vec2, 4> picture;            // the corners of what it showed
     Eigen::Vector3d displacement_C_m = Eigen::Vector3d::Zero();  // of the camera since then
     double elapsed_s = 0;
   };
@@ -50,6 +51,7 @@ class ConstellationEdges : public EdgeExpert {
     explicit Lookup(const Intrinsics& camera) : all(camera.width_px, camera.height_px) {}
     HitMap all;
     std::vector<Vec2> corners;  // those that may be the past of one that is not explained yet
+    std::array<Vec2, 4> picture;
     Eigen::Vector3d displacement_C_m;
     double elapsed_s = 0;
   };
@@ -58,6 +60,7 @@ class ConstellationEdges : public EdgeExpert {
   struct Candidate {
     bool residual = false;     ///< no trusted edge explains it
     int static_hits = 0;       ///< of the last two frames, at the best depth
+    int static_votes = 0;      ///< the same, and both where it was not in the picture then
     double static_ratio = 0;   ///< Z_ref / Z of that depth
     Vec2 step = Vec2::Zero();  ///< displacement that its neighbours voted for, px a frame
     bool voted = false;        ///< for a motion that no static point has
@@ -88,6 +91,7 @@ class ConstellationEdges : public EdgeExpert {
   bool leaves_path(const Edge& edge, const Vec2& x, const MotionField& field) const;
   void find_residuals(const Layers& layers, const Chi& chi);
   void seek_static_past(const Chi& chi, const MotionField& field);
+  bool showed(const Vec2& x, const MotionField& field) const;
   int static_hits(const Vec2& x, double depth_ratio, const MotionField& field) const;
   void vote(const Chi& chi, const MotionField& field);
   Reason vote_on(std::size_t corner, const Chi& chi, const MotionField& field);

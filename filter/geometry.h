@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <span>
 
 #include "filter/camera.h"
 
@@ -35,6 +37,15 @@ inline Vec2 unit_vector(double angle_rad) {
 
 inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Whether a convex polygon holds x, its border included. Its corners go round from x to y.
+inline bool holds(std::span<const Vec2> polygon, const Vec2& x) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2& a = polygon[i];
+    if (cross(polygon[(i + 1) % polygon.size()] - a, x - a) < 0) return false;
+  }
+  return true;
 }
 
 /// Where distances upwards count less: bodies are taller than the gaps between them are wide.
