@@ -38,6 +38,9 @@ constexpr double kApart = 3;
 constexpr int kLeastSunk = 3;
 constexpr double kSunkShare = 0.5;
 
+/// px: wider than what stairs of pixels make of a line, whose corners slide along it as it moves.
+constexpr double kSunkWidth_px = 0.7;
+
 /// px: what lies as near to the side of the picture may go on beyond it; a few corners apart.
 constexpr double kCut_px = 20;
 
@@ -116,18 +119,21 @@ void Footing::stack() {
 }
 
 Footing::Extent Footing::sunk(Group group) const {
-  int low = 0, below = 0;
+  int low = 0;
+  LineWidth below;
   Extent extent;
   for (const int i : group) {
     const Node& node = nodes_[i];
     if (node.ground < 2 * slack_) continue;
     ++low;
     if (!node.is_below_ground(slack_)) continue;
-    ++below;
+    below.add(node.edge->location);
     const double overhang = overhang_px_ * node.ground;
     extent.add(node.across - overhang, node.across + overhang);
   }
-  return below >= kLeastSunk && below >= kSunkShare * low ? extent : Extent();
+  const bool is_sunk = below.count() >= kLeastSunk && below.count() >= kSunkShare * low &&
+                       below.value() > kSunkWidth_px;
+  return is_sunk ? extent : Extent();
 }
 
 /// Whether a group's foot is seen farther away than the group seems to be.

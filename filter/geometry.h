@@ -2,6 +2,7 @@
 /// Angles that wrap, and the few planar constructions that several experts share.
 #pragma once
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -75,5 +76,31 @@ inline double distance_to_segment(const Vec2& x, const Vec2& a, const Vec2& b) {
   const double t = length2 > 0 ? std::clamp((x - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
   return (x - (a + t * ab)).norm();
 }
+
+/// How wide points lie across the line that they lie along.
+class LineWidth {
+ public:
+  void add(const Vec2& x) {
+    if (count_++ == 0) first_ = x;
+    const Vec2 arm = x - first_;
+    sum_ += arm;
+    squares_ += arm * arm.transpose();
+  }
+  int count() const { return count_; }
+  /// Standard deviation; 0 for none.
+  double value() const {
+    if (count_ == 0) return 0;
+    const Vec2 mean = sum_ / count_;
+    const Eigen::Matrix2d spread = squares_ / count_ - mean * mean.transpose();
+    const double half = 0.5 * spread.trace();
+    const double root = std::sqrt(std::max(0.0, half * half - spread.determinant()));
+    return std::sqrt(std::max(0.0, half - root));
+  }
+
+ private:
+  int count_ = 0;
+  Vec2 first_ = Vec2::Zero(), sum_ = Vec2::Zero();
+  Eigen::Matrix2d squares_ = Eigen::Matrix2d::Zero();
+};
 
 }  // namespace lcs

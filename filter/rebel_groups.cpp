@@ -1,6 +1,5 @@
 #include "filter/rebel_groups.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -68,25 +67,13 @@ void RebelGroups::connect(const std::vector<Edge>& rebels, double dt_s) {
       });
 }
 
-/// Standard deviation of a group's places across the line that fits them best, px.
-double RebelGroups::width(const std::vector<Edge>& rebels, std::span<const int> group) const {
-  Vec2 centre = Vec2::Zero();
-  for (const int i : group) centre += rebels[i].location / static_cast<double>(group.size());
-  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-  for (const int i : group) {
-    const Vec2 arm = rebels[i].location - centre;
-    spread += arm * arm.transpose() / static_cast<double>(group.size());
-  }
-  const double half = 0.5 * spread.trace();
-  const double root = std::sqrt(std::max(0.0, half * half - spread.determinant()));
-  return std::sqrt(std::max(0.0, half - root));
-}
-
 void RebelGroups::support_group(const std::vector<Edge>& rebels, std::span<const int> group) {
   if (static_cast<int>(group.size()) < parameters_.support) return;
   // Where an outline hides a pattern behind it, their crossings move as neither does, but in line
   // along the outline.
-  const bool in_line = width(rebels, group) < parameters_.support_width;
+  LineWidth width;
+  for (const int i : group) width.add(rebels[i].location);
+  const bool in_line = width.value() < parameters_.support_width;
   for (const int i : group) {
     const auto& [near, off] = bearers_[i];
     const bool moves = off >= parameters_.support_off_field * near;

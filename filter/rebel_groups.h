@@ -46,7 +46,6 @@ class RebelGroups {
   void smooth(std::vector<Edge>& rebels, double dt_s);
   void support_group(const std::vector<Edge>& rebels, std::span<const int> group);
   void smooth_group(std::vector<Edge>& rebels, std::span<int> group, double dt_s);
-  double width(const std::vector<Edge>& rebels, std::span<const int> group) const;
 
   ConstellationParameters parameters_;
   TrustRanks trust_;

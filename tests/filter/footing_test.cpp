@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -260,6 +261,22 @@ TEST(Footing, WhatTheSideOfThePictureCutsOffNeedNotShowItsFoot) {
   EXPECT_EQ(counted(10, 90), 0);
   EXPECT_EQ(counted(530, 610), 1);
   EXPECT_EQ(counted(550, 630), 0);
+}
+
+TEST(Footing, CornersOfOneLineAreNotSunk) {
+  // A line is drawn as stairs of pixels: corners that are no points of it, and slide along.
+  EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);
+  motion.ground = Ground{.height_m = kHeight_m};
+  for (const double bent_px : {0.0, 3.0}) {
+    std::vector<Edge> normals = aloft(), none;
+    for (int i = 0; i < 10; ++i) {
+      normals[i].age = 10;
+      normals[i].location = {300.0 + 7 * i, std::round(300 + 0.3 * 7 * i) + bent_px * (i % 2)};
+      normals[i].path.ratio = 0.4;  // where the ground's is .9 and more
+    }
+    Footing(vga(), {}).judge(normals, none, MotionField(vga(), motion, {}));
+    for (const Edge& edge : normals) EXPECT_EQ(edge.unfounded, bent_px > 0) << bent_px;
+  }
 }
 
 TEST(Footing, SaysNothingWhileTheCameraStandsOrTheGroundIsNotKnown) {
