@@ -16,6 +16,10 @@ constexpr double kDepthFloor = 0.03;
 /// Depths count that are known as well as this: a share of them, or 1/m.
 constexpr double kKnownShare = 0.2, kKnown_1pm = 0.03;
 
+/// Of the camera. Slower than this its own speed is known so badly, wheels err by some cm/s, that
+/// all depths come out too large or too small together.
+constexpr double kLeastSpeed_mps = 0.08;
+
 /// Frames after which a path counts: what rain and flicker make is gone by then.
 constexpr int kLeastAge = 3;
 
@@ -202,6 +206,7 @@ void Footing::judge(std::vector<Edge>& normals, std::vector<Edge>& rebels,
                     const MotionField& field) {
   const auto along_horizon = field.along_horizon();
   if (parameters_.time <= 0 || !along_horizon || !field.moving()) return;
+  if (field.displacement_C_m().norm() < kLeastSpeed_mps * field.dt_s()) return;
   along_horizon_ = *along_horizon;
   frames_ = std::max(kLeastFrames, static_cast<int>(std::lround(parameters_.time / field.dt_s())));
   slack_ = field.ground_slack();

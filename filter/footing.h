@@ -31,8 +31,8 @@ class Footing {
       : picture_{camera.width_px, camera.height_px}, parameters_(parameters) {}
 
   /// Counts `Edge::unfounded` up for edges whose group stands on nothing, and down for others,
-  /// where the ground is known and the camera moves. Rebels are looked at that were unfounded
-  /// before.
+  /// where the ground is known and the camera does more than crawl. Rebels are looked at that were
+  /// unfounded before.
   void judge(std::vector<Edge>& normals, std::vector<Edge>& rebels, const MotionField& field);
 
   /// For as long as it takes.

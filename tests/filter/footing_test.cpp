@@ -279,7 +279,7 @@ TEST(Footing, CornersOfOneLineAreNotSunk) {
   }
 }
 
-TEST(Footing, SaysNothingWhileTheCameraStandsOrTheGroundIsNotKnown) {
+TEST(Footing, SaysNothingWhileTheCameraStandsOrCrawlsOrTheGroundIsNotKnown) {
   std::vector<Edge> edges = aloft(), none;
   for (Edge& edge : edges) edge.unfounded = 1;
   EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);
@@ -293,6 +293,8 @@ TEST(Footing, SaysNothingWhileTheCameraStandsOrTheGroundIsNotKnown) {
   EXPECT_EQ(counted(), 2);
   motion.v_C_mps.setZero();
   EXPECT_EQ(counted(), 1) << "standing";
+  motion.v_C_mps = {0, 0, 0.05};
+  EXPECT_EQ(counted(), 1) << "crawling, at a speed that is hardly known";
   motion.v_C_mps = {0, 0, 0.3};
   motion.ground->up_C = {0, -0.3, -0.95};
   EXPECT_EQ(counted(), 1) << "looking down";
