@@ -273,12 +273,11 @@ void ConstellationEdges::index(const Past& past, Lookup& lookup) {
   lookup.elapsed_s = past.elapsed_s;
 }
 
-/// Whether a static point that is at x now was in the picture a baseline ago, however far away it
-/// is.
-bool ConstellationEdges::showed(const Vec2& x, const MotionField& field) const {
+/// Whether a static point that is at x now was in the picture then, however far away it is.
+bool ConstellationEdges::showed(const Lookup& then, const Vec2& x, const MotionField& field) const {
   const Pixels picture{camera_.width_px, camera_.height_px};
-  const Vec2 nearest = field.earlier(x, field.max_ratio(), once_.displacement_C_m);
-  return picture.contain(nearest) && holds(once_.picture, x) && holds(once_.picture, nearest);
+  const Vec2 nearest = field.earlier(x, field.max_ratio(), then.displacement_C_m);
+  return picture.contain(nearest) && holds(then.picture, x) && holds(then.picture, nearest);
 }
 
 /// Sweeps the depth of each residual corner, from infinity to the nearest.
@@ -299,7 +298,9 @@ void ConstellationEdges::seek_static_past(const Chi& chi, const MotionField& fie
     }
     // What could not be seen speaks against nothing: where a turn brings a pattern into the
     // picture, what is there is the past of what follows.
-    candidate.static_votes = showed(x, field) ? candidate.static_hits : 2;
+    candidate.static_votes = candidate.static_hits;
+    if (!showed(once_, x, field) || (candidate.static_hits == 1 && !showed(twice_, x, field)))
+      candidate.static_votes = 2;
   }
 }
 

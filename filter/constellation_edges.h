@@ -60,7 +60,7 @@ class ConstellationEdges : public EdgeExpert {
   struct Candidate {
     bool residual = false;     ///< no trusted edge explains it
     int static_hits = 0;       ///< of the last two frames, at the best depth
-    int static_votes = 0;      ///< the same, and both where it was not in the picture then
+    int static_votes = 0;      ///< the same, and what hits the picture may not have shown
     double static_ratio = 0;   ///< Z_ref / Z of that depth
     Vec2 step = Vec2::Zero();  ///< displacement that its neighbours voted for, px a frame
     bool voted = false;        ///< for a motion that no static point has
@@ -91,7 +91,7 @@ class ConstellationEdges : public EdgeExpert {
   bool leaves_path(const Edge& edge, const Vec2& x, const MotionField& field) const;
   void find_residuals(const Layers& layers, const Chi& chi);
   void seek_static_past(const Chi& chi, const MotionField& field);
-  bool showed(const Vec2& x, const MotionField& field) const;
+  bool showed(const Lookup& then, const Vec2& x, const MotionField& field) const;
   int static_hits(const Vec2& x, double depth_ratio, const MotionField& field) const;
   void vote(const Chi& chi, const MotionField& field);
   Reason vote_on(std::size_t corner, const Chi& chi, const MotionField& field);
