@@ -56,8 +56,6 @@ TEST(Constellation, ARepeatingPatternOfFlickeringCornersComesToRest) {
   EXPECT_EQ(later, 0);
 }
 
-/// Corners where an outline that moves along x crosses a fixed pattern behind it: they slide along
-/// the outline, in line.
 TEST(Constellation, APatternThatATurnBringsIntoThePictureStandsStill) {
   // All round the camera, which turns by some of its columns a frame: what has just come into view
   // was not to be seen one baseline ago, or two, but what follows it had the look of its past.
@@ -80,6 +78,8 @@ TEST(Constellation, APatternThatATurnBringsIntoThePictureStandsStill) {
   }
 }
 
+/// Corners where an outline that moves along x crosses a fixed pattern behind it: they slide along
+/// the outline, in line.
 TEST(Constellation, CrossingsThatSlideAlongAnOutlineAreNoObject) {
   for (const char* width : {"0", "1.5"}) {
     Filter filter(vga(), with("constellation.support_width", width));

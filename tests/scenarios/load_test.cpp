@@ -406,7 +406,7 @@ TEST(Shipped, EveryScenarioOfTheSuiteHasASizeAndANameOfItsOwn) {
     const Scenario s = load(std::filesystem::path(LCS_SOURCE_DIR) / "scenarios" / file);
     names.push_back(s.name);
     const auto sizes = std::count_if(s.groups.begin(), s.groups.end(), [](const std::string& g) {
-      return g == "short" || g == "long" || g == "sweep";
+      return g == "short" || g == "long" || g == "sweep" || g == "probe";
     });
     EXPECT_EQ(sizes, 1) << file;
     EXPECT_EQ(s.sweep.empty(), s.groups.front() != "sweep") << file;
