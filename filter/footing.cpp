@@ -42,8 +42,9 @@ constexpr double kApart = 3;
 constexpr int kLeastSunk = 3;
 constexpr double kSunkShare = 0.5;
 
-/// px: wider than what stairs of pixels make of a line, whose corners slide along it as it moves.
-constexpr double kSunkWidth_px = 0.7;
+/// px: how far off a line the stairs of pixels are that it is drawn as. Their corners slide along
+/// it as it moves.
+constexpr double kStairs_px = 1;
 
 /// px: what lies as near to the side of the picture may go on beyond it; a few corners apart.
 constexpr double kCut_px = 20;
@@ -122,22 +123,22 @@ void Footing::stack() {
   }
 }
 
-Footing::Extent Footing::sunk(Group group) const {
+Footing::Extent Footing::sunk(Group group) {
   int low = 0;
-  LineWidth below;
+  below_.clear();
   Extent extent;
   for (const int i : group) {
     const Node& node = nodes_[i];
     if (node.ground < 2 * slack_) continue;
     ++low;
     if (!node.is_below_ground(slack_)) continue;
-    below.add(node.edge->location);
+    below_.push_back(node.edge->location);
     const double overhang = overhang_px_ * node.ground;
     extent.add(node.across - overhang, node.across + overhang);
   }
-  const bool is_sunk = below.count() >= kLeastSunk && below.count() >= kSunkShare * low &&
-                       below.value() > kSunkWidth_px;
-  return is_sunk ? extent : Extent();
+  const auto below = static_cast<int>(below_.size());
+  if (below < kLeastSunk || below < kSunkShare * low) return {};
+  return most_on_a_line(below_, kStairs_px) < below_.size() ? extent : Extent();
 }
 
 /// Whether a group's foot is seen farther away than the group seems to be.

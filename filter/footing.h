@@ -68,7 +68,7 @@ class Footing {
   void gather(std::vector<Edge>& edges, const MotionField& field);
   void link();
   void stack();
-  Extent sunk(Group group) const;
+  Extent sunk(Group group);
   bool hangs(Group group);
   bool is_cut_off(Group group) const;
   Extent aloft(Group group);
@@ -87,6 +87,7 @@ class Footing {
   SetMembers groups_;
   std::vector<char> hanging_;  // groups, by their root
   std::vector<double> values_;
+  std::vector<Vec2> below_;  // px: of a group, below the ground
   struct Span {
     int root;
     int members;

@@ -2,7 +2,6 @@
 /// Angles that wrap, and the few planar constructions that several experts share.
 #pragma once
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -77,30 +76,25 @@ inline double distance_to_segment(const Vec2& x, const Vec2& a, const Vec2& b) {
   return (x - (a + t * ab)).norm();
 }
 
-/// How wide points lie across the line that they lie along.
-class LineWidth {
- public:
-  void add(const Vec2& x) {
-    if (count_++ == 0) first_ = x;
-    const Vec2 arm = x - first_;
-    sum_ += arm;
-    squares_ += arm * arm.transpose();
+/// Of points, as many as lie within `band_px` of one line: the best of those through any two of the
+/// first dozen that are apart.
+inline std::size_t most_on_a_line(std::span<const Vec2> points, double band_px) {
+  constexpr std::size_t kTried = 12;
+  constexpr double kApart_px = 10;
+  std::size_t most = 0;
+  const auto tried = points.first(std::min(kTried, points.size()));
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    for (std::size_t j = i + 1; j < tried.size(); ++j) {
+      const Vec2 along = tried[j] - tried[i];
+      const double length = along.norm();
+      if (length < kApart_px) continue;
+      const auto on = std::count_if(points.begin(), points.end(), [&](const Vec2& x) {
+        return std::abs(cross(along, x - tried[i])) < band_px * length;
+      });
+      most = std::max(most, static_cast<std::size_t>(on));
+    }
   }
-  int count() const { return count_; }
-  /// Standard deviation; 0 for none.
-  double value() const {
-    if (count_ == 0) return 0;
-    const Vec2 mean = sum_ / count_;
-    const Eigen::Matrix2d spread = squares_ / count_ - mean * mean.transpose();
-    const double half = 0.5 * spread.trace();
-    const double root = std::sqrt(std::max(0.0, half * half - spread.determinant()));
-    return std::sqrt(std::max(0.0, half - root));
-  }
-
- private:
-  int count_ = 0;
-  Vec2 first_ = Vec2::Zero(), sum_ = Vec2::Zero();
-  Eigen::Matrix2d squares_ = Eigen::Matrix2d::Zero();
-};
+  return most;
+}
 
 }  // namespace lcs

@@ -75,7 +75,7 @@ struct ConstellationParameters {
   int established = 4;             ///< trust from which a normal edge explains its corner
   int support = 4;                 ///< rebels near each other that bear each other out
   double support_off_field = 0.2;  ///< share of them that are off the field by more than 1 px
-  double support_width = 1.5;      ///< px: standard deviation of their places across their line
+  double support_width = 2;        ///< px: where four in five lie as near to one line, none is
   double inherit_radius = 60;      ///< px
   double inherit_share = 0.45;     ///< of the nearest decided neighbours that are rebels
 };

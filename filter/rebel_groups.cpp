@@ -9,6 +9,9 @@
 namespace lcs {
 namespace {
 
+/// Share of a group that lies on one line if it is an outline's crossings.
+constexpr double kInLine = 0.8;
+
 /// How far behind a rebel its origin is kept, in steps, so that beta is its direction of now.
 constexpr double kOriginSteps = 5;
 
@@ -67,13 +70,22 @@ void RebelGroups::connect(const std::vector<Edge>& rebels, double dt_s) {
       });
 }
 
+/// Where an outline hides a pattern behind it, their crossings move as neither does, but in line
+/// along the outline; some beside it get in with them. What stands on nothing is a body, legs or
+/// poles perhaps.
+bool RebelGroups::is_in_line(const std::vector<Edge>& rebels, std::span<const int> group) {
+  places_.clear();
+  for (const int i : group) {
+    if (rebels[i].unfounded > 0) return false;
+    places_.push_back(rebels[i].location);
+  }
+  const std::size_t most = most_on_a_line(places_, parameters_.support_width);
+  return static_cast<double>(most) >= kInLine * static_cast<double>(group.size());
+}
+
 void RebelGroups::support_group(const std::vector<Edge>& rebels, std::span<const int> group) {
   if (static_cast<int>(group.size()) < parameters_.support) return;
-  // Where an outline hides a pattern behind it, their crossings move as neither does, but in line
-  // along the outline.
-  LineWidth width;
-  for (const int i : group) width.add(rebels[i].location);
-  const bool in_line = width.value() < parameters_.support_width;
+  const bool in_line = is_in_line(rebels, group);
   for (const int i : group) {
     const auto& [near, off] = bearers_[i];
     const bool moves = off >= parameters_.support_off_field * near;

@@ -45,6 +45,7 @@ class RebelGroups {
   void support(std::vector<Edge>& rebels);
   void smooth(std::vector<Edge>& rebels, double dt_s);
   void support_group(const std::vector<Edge>& rebels, std::span<const int> group);
+  bool is_in_line(const std::vector<Edge>& rebels, std::span<const int> group);
   void smooth_group(std::vector<Edge>& rebels, std::span<int> group, double dt_s);
 
   ConstellationParameters parameters_;
@@ -61,6 +62,7 @@ class RebelGroups {
   std::vector<char> is_off_;          // surely does not move as what is static, of each edge
   std::vector<Bearers> bearers_;      // of each edge
   std::vector<char> stray_;
+  std::vector<Vec2> places_;  // of a group
   std::vector<double> vx_, vy_;
 };
 
