@@ -299,6 +299,7 @@ void ConstellationEdges::seek_static_past(const Chi& chi, const MotionField& fie
     // What could not be seen speaks against nothing: where a turn brings a pattern into the
     // picture, what is there is the past of what follows.
     candidate.static_votes = candidate.static_hits;
+    if (candidate.static_hits == 2) continue;
     if (!showed(once_, x, field) || (candidate.static_hits == 1 && !showed(twice_, x, field)))
       candidate.static_votes = 2;
   }

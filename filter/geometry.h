@@ -77,7 +77,7 @@ inline double distance_to_segment(const Vec2& x, const Vec2& a, const Vec2& b) {
 }
 
 /// Of points, as many as lie within `band_px` of one line: the best of those through any two of the
-/// first dozen that are apart.
+/// first dozen that are apart; 0 where none are.
 inline std::size_t most_on_a_line(std::span<const Vec2> points, double band_px) {
   constexpr std::size_t kTried = 12;
   constexpr double kApart_px = 10;
