@@ -21,8 +21,11 @@ constexpr double kDepthSpacing_px = 1.5;
 /// A static residual of more than this says no more of how surely a rebel moves, px.
 constexpr double kFullResidual_px = 6.0;
 
-/// Decided neighbours that a corner may take its verdict from.
-constexpr std::size_t kInheritFrom = 5;
+/// Rebels that are looked at round a corner, about, where more are near.
+constexpr double kInheritCrowd = 96;
+
+/// Those move about as the nearest that differ by less than this, or this share of its step, px.
+constexpr double kAlikeStep_px = 2.0, kAlikeStepShare = 0.4;
 
 /// px: nearer to the side of the picture no corner is found, for want of pixels round it.
 constexpr double kBlind_px = 3;
@@ -482,56 +485,94 @@ bool ConstellationEdges::confirms(const Vec2& x, const Vec2& step) const {
   return twice_free_.at(before - 0.5 * again_ * (x - before + step));
 }
 
-/// A corner most of whose decided neighbours are rebels is one; it becomes a rebel edge where its
-/// own past confirms their motion. A normal edge is not overruled without that.
+/// The nearest corner that is called, -1: there is none within reach.
+int ConstellationEdges::nearest_decided(const Vec2& x, double reach_px) const {
+  int nearest = -1;
+  double nearest2 = 0;
+  decided_grid_.visit_within(x, reach_px, [&](int decided, double distance2) {
+    if (nearest >= 0 && std::pair(distance2, decided) > std::pair(nearest2, nearest)) return;
+    nearest = decided;
+    nearest2 = distance2;
+  });
+  return nearest;
+}
+
+/// What is round a corner: a decided one that is the nearest, others that move about as it does,
+/// and what stands.
+Surroundings ConstellationEdges::look_around(std::size_t corner, int nearest, double reach_px,
+                                             const Layers& layers, const Chi& chi, double dt_s) {
+  const Vec2& x = chi.locations[corner];
+  const auto step_of = [&](int decided) -> Vec2 {
+    return layers.rebel_edges[links_[decided_corners_[decided]].index].velocity() * dt_s;
+  };
+  const Vec2 step = step_of(nearest);
+  const double like_px = std::max(kAlikeStep_px, kAlikeStepShare * step.norm());
+  Surroundings around;
+  Bearings bearings;
+  decided_grid_.visit_within(x, reach_px, [&](int decided, double) {
+    if ((step_of(decided) - step).squaredNorm() > like_px * like_px) return;
+    ++around.rebels;
+    bearings.add(decided_locations_[decided] - x);
+  });
+  around.gap_rad = bearings.widest_gap_rad();
+  around.rebel_px = (decided_locations_[nearest] - x).norm();
+  const auto stands = [&](int other) {
+    return is_normal_[other] && other != static_cast<int>(corner);
+  };
+  corner_grid_.nearest(x, reach_px, 1, stands, near_);
+  around.normal_px = near_.empty() ? reach_px : std::sqrt(near_.front().distance2);
+  around.unfounded = layers.rebel_edges[links_[decided_corners_[nearest]].index].unfounded > 0;
+  return around;
+}
+
+/// A corner that is a rebel likely enough, by what is round it, takes the verdict of the nearest,
+/// and becomes a rebel edge where its own past confirms that one's motion. Of a group that stands
+/// on nothing the image motion says little: the path stays, for Footing to judge by.
 void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionField& field) {
   const ConstellationParameters& p = parameters_.constellation;
-  copy_over(called_, decided_);
+  decided_corners_.clear();
   decided_locations_.clear();
-  refill(counts_, chi.size());
+  refill(is_normal_, chi.size());
   for (std::size_t c = 0; c < chi.size(); ++c) {
-    if (decided_[c]) decided_locations_.push_back(chi.locations[c]);
-    counts_[c] = decided_[c] || (links_[c].kind == Kind::normal &&
-                                 layers.normal_edges[links_[c].index].trust >= p.established);
+    if (called_[c]) {
+      decided_corners_.push_back(static_cast<int>(c));
+      decided_locations_.push_back(chi.locations[c]);
+    } else {
+      is_normal_[c] = links_[c].kind == Kind::normal &&
+                      layers.normal_edges[links_[c].index].trust >= p.established;
+    }
   }
   decided_grid_.build(decided_locations_, p.inherit_radius);
+  const double least_odds = std::log(p.inherit_chance) - std::log1p(-p.inherit_chance);
   for (std::size_t c = 0; c < chi.size(); ++c) {
-    if (decided_[c]) continue;
+    if (called_[c]) continue;
     const Vec2& x = chi.locations[c];
-    if (!decided_grid_.any_within(x, p.inherit_radius)) continue;
-    const auto counts = [&](int other) { return counts_[other] && other != static_cast<int>(c); };
-    corner_grid_.nearest(x, p.inherit_radius, kInheritFrom, counts, near_);
-    if (near_.size() < 2) continue;
-    int rebels = 0, nearest = -1;
-    for (const auto& [distance2, other] : near_) {
-      if (!decided_[other]) continue;
-      ++rebels;
-      if (nearest < 0 && links_[other].kind == Kind::rebel) nearest = links_[other].index;
-    }
-    const double share = static_cast<double>(rebels) / static_cast<double>(near_.size());
-    if (nearest < 0 || share < p.inherit_share) continue;
-    const Edge model = layers.rebel_edges[nearest];
-    const bool confirmed = confirms(x, model.velocity() * once_.elapsed_s);
-
+    const double reach = std::min(p.inherit_radius, decided_grid_.crowd_radius(x, kInheritCrowd));
+    const int nearest = nearest_decided(x, reach);
+    if (nearest < 0) continue;
+    const Surroundings around = look_around(c, nearest, reach, layers, chi, field.dt_s());
+    const Edge model = layers.rebel_edges[links_[decided_corners_[nearest]].index];
     Edge* normal = links_[c].kind == Kind::normal ? &layers.normal_edges[links_[c].index] : nullptr;
     const bool trusted = normal && normal->trust >= trust_.maximum;
-    if ((normal && !confirmed) || (trusted && share < 0.75)) {
-      reasons_[c] = Reason::normal_stands;
+    const OwnPast own{confirms(x, model.velocity() * once_.elapsed_s),
+                      candidates_[c].static_hits == 1, normal != nullptr, trusted};
+    if (!(rebel_log_odds(around, own) >= least_odds)) {
+      if (normal) reasons_[c] = Reason::normal_stands;
       continue;
     }
     called_[c] = 1;
     reasons_[c] = Reason::inherited;
+    if (trusted) normal->trust -= 2;
     const bool is_kept =
         trusted || links_[c].kind == Kind::rebel || (normal && normal->trust >= p.established);
-    if (trusted) normal->trust -= 2;
-    if (trusted) counts_[c] = normal->trust >= p.established;
-    if (!confirmed || is_kept) {
+    if (!own.confirms || is_kept) {
       followers_.push_back({x, model.id});
       continue;
     }
     if (normal) normal->trust = 0;
     if (normal) normal->corner = -1;
     Edge edge = make_rebel(x, model.velocity(), field.dt_s());
+    if (normal && around.unfounded) edge.path = normal->path;
     edge.trust = trust_.standard;
     edge.off_field_px = std::min(model.off_field_px, kOffField_px);
     edge.unfounded = model.unfounded;

@@ -12,7 +12,8 @@
 ///    makes a rebel edge.
 /// 4. Rebels bear each other out, or lose trust; their group smooths their velocities
 ///    (`filter/rebel_groups.h`).
-/// 5. A corner among rebels takes their verdict, and their motion where its own past confirms it.
+/// 5. A corner among rebels takes their verdict where that is likely (`filter/inheritance.h`), and
+///    their motion where its own past confirms it.
 #pragma once
 
 #include <utility>
@@ -21,6 +22,7 @@
 #include "filter/edge_expert.h"
 #include "filter/footing.h"
 #include "filter/hit_map.h"
+#include "filter/inheritance.h"
 #include "filter/nearest_map.h"
 #include "filter/rebel_groups.h"
 #include "filter/vote_chance.h"
@@ -103,6 +105,9 @@ class ConstellationEdges : public EdgeExpert {
   void settle_rebels();
   void make_edges(Layers& layers, const Chi& chi, const MotionField& field);
   Edge make_rebel(const Vec2& x, const Vec2& velocity_pxps, double dt_s);
+  int nearest_decided(const Vec2& x, double reach_px) const;
+  Surroundings look_around(std::size_t corner, int nearest, double reach_px, const Layers& layers,
+                           const Chi& chi, double dt_s);
   void inherit(Layers& layers, const Chi& chi, const MotionField& field);
   void turn_unfounded(Layers& layers, const Chi& chi, const MotionField& field);
   bool confirms(const Vec2& x, const Vec2& step) const;
@@ -123,8 +128,9 @@ class ConstellationEdges : public EdgeExpert {
   std::vector<double> earlier_;  // by change of size: the step before over the one over a baseline;
                                  // 0: there was none
   PointGrid once_grid_, decided_grid_;
+  std::vector<int> decided_corners_;  // that were called before neighbours were asked
   std::vector<Vec2> decided_locations_;
-  std::vector<char> decided_, counts_;
+  std::vector<char> is_normal_;  // corners that established normal edges have
   std::vector<Candidate> candidates_;
   std::vector<Link> links_;   // of each corner
   std::vector<char> called_;  // corners that leave as rebels

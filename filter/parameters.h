@@ -76,8 +76,8 @@ struct ConstellationParameters {
   int support = 4;                 ///< rebels near each other that bear each other out
   double support_off_field = 0.2;  ///< share of them that are off the field by more than 1 px
   double support_width = 2;        ///< px: where four in five lie as near to one line, none is
-  double inherit_radius = 60;      ///< px
-  double inherit_share = 0.45;     ///< of the nearest decided neighbours that are rebels
+  double inherit_radius = 60;      ///< px: how far a verdict reaches to corners without a motion
+  double inherit_chance = 0.35;    ///< of being a rebel, from which they are called; 1: none is
 };
 
 /// Groups that stand on nothing (`filter/footing.h`), told beside the constellation rule.

@@ -86,7 +86,7 @@ inline constexpr std::array<ReasonText, 32> kReasons{{
     {"rebel_in_line",
      "its rebel edge's group lies in one line, as where an outline hides a pattern"},    // pending
     {"normal_stands", "among rebels, but a normal edge has it"},                         // normal
-    {"inherited", "most of its decided neighbours are rebels"},                          // rebel
+    {"inherited", "likely a rebel by those round it"},                                   // rebel
     {"unfounded", "its group stands on nothing where it seems to be"},                   // rebel
     {"alpha_first", "near no edge and on no row of alpha: starts one"},                  // pending
     {"xi_5", "outside the span of the edges near it: starts a row of alpha"},            // pending

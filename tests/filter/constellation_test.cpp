@@ -50,9 +50,9 @@ TEST(Constellation, ARepeatingPatternOfFlickeringCornersComesToRest) {
       }
     }
     const EgoMotion motion = steady_motion(Vector3d::Zero(), Vector3d::Zero(), 0.1);
-    (k < 15 ? at_the_start : later) += rebels(filter.step(corners, motion));
+    (k < 16 ? at_the_start : later) += rebels(filter.step(corners, motion));
   }
-  EXPECT_LT(at_the_start, 15 * 245 / 10);  // of 245 corners a frame
+  EXPECT_LT(at_the_start, 16 * 245 / 9);  // of 245 corners a frame
   EXPECT_EQ(later, 0);
 }
 
