@@ -485,18 +485,6 @@ bool ConstellationEdges::confirms(const Vec2& x, const Vec2& step) const {
   return twice_free_.at(before - 0.5 * again_ * (x - before + step));
 }
 
-/// The nearest corner that is called, -1: there is none within reach.
-int ConstellationEdges::nearest_decided(const Vec2& x, double reach_px) const {
-  int nearest = -1;
-  double nearest2 = 0;
-  decided_grid_.visit_within(x, reach_px, [&](int decided, double distance2) {
-    if (nearest >= 0 && std::pair(distance2, decided) > std::pair(nearest2, nearest)) return;
-    nearest = decided;
-    nearest2 = distance2;
-  });
-  return nearest;
-}
-
 /// What is round a corner: a decided one that is the nearest, others that move about as it does,
 /// and what stands.
 Surroundings ConstellationEdges::look_around(std::size_t corner, int nearest, double reach_px,
@@ -548,8 +536,10 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
     if (called_[c]) continue;
     const Vec2& x = chi.locations[c];
     const double reach = std::min(p.inherit_radius, decided_grid_.crowd_radius(x, kInheritCrowd));
-    const int nearest = nearest_decided(x, reach);
-    if (nearest < 0) continue;
+    decided_grid_.nearest(
+        x, reach, 1, [](int) { return true; }, near_);
+    if (near_.empty()) continue;
+    const int nearest = near_.front().index;
     const Surroundings around = look_around(c, nearest, reach, layers, chi, field.dt_s());
     const Edge model = layers.rebel_edges[links_[decided_corners_[nearest]].index];
     Edge* normal = links_[c].kind == Kind::normal ? &layers.normal_edges[links_[c].index] : nullptr;

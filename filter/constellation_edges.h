@@ -105,7 +105,6 @@ class ConstellationEdges : public EdgeExpert {
   void settle_rebels();
   void make_edges(Layers& layers, const Chi& chi, const MotionField& field);
   Edge make_rebel(const Vec2& x, const Vec2& velocity_pxps, double dt_s);
-  int nearest_decided(const Vec2& x, double reach_px) const;
   Surroundings look_around(std::size_t corner, int nearest, double reach_px, const Layers& layers,
                            const Chi& chi, double dt_s);
   void inherit(Layers& layers, const Chi& chi, const MotionField& field);

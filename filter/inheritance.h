@@ -31,11 +31,10 @@ class Bearings {
 
 /// What is round a corner and inside the radius that is looked at.
 struct Surroundings {
-  double rebel_px = 0;  ///< to the nearest corner that is called a rebel
-  double normal_px =
-      0;               ///< to the nearest of an established normal edge; the radius: there is none
-  int rebels = 0;      ///< corners that are called and move about as that one does
-  double gap_rad = 0;  ///< widest angle without any of these
+  double rebel_px = 0;     ///< to the nearest corner that is called a rebel
+  double normal_px = 0;    ///< to that of an established normal edge; the radius: there is none
+  int rebels = 0;          ///< corners that are called and move about as that one does
+  double gap_rad = 0;      ///< widest angle without any of these
   bool unfounded = false;  ///< the nearest rebel was called as its group stands on nothing
 };
 

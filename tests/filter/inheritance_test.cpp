@@ -1,5 +1,4 @@
-/// What a corner is taken for by what is round it: each piece of evidence weighs as it should, and
-/// none that a turn or a mirror of the picture brings in.
+/// What a corner is taken for by what is round it: each piece of evidence weighs as it should.
 #include "filter/inheritance.h"
 
 #include <gtest/gtest.h>
