@@ -517,7 +517,8 @@ Surroundings ConstellationEdges::look_around(std::size_t corner, int nearest, do
 /// and becomes a rebel edge where its own past confirms that one's motion. Of a group that stands
 /// on nothing the image motion says little: the path stays, for Footing to judge by.
 void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionField& field) {
-  const ConstellationParameters& p = parameters_.constellation;
+  const InheritanceParameters& p = parameters_.inheritance;
+  const int established = parameters_.constellation.established;
   decided_corners_.clear();
   decided_locations_.clear();
   refill(is_normal_, chi.size());
@@ -527,15 +528,15 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
       decided_locations_.push_back(chi.locations[c]);
     } else {
       is_normal_[c] = links_[c].kind == Kind::normal &&
-                      layers.normal_edges[links_[c].index].trust >= p.established;
+                      layers.normal_edges[links_[c].index].trust >= established;
     }
   }
-  decided_grid_.build(decided_locations_, p.inherit_radius);
-  const double least_odds = std::log(p.inherit_chance) - std::log1p(-p.inherit_chance);
+  decided_grid_.build(decided_locations_, p.radius);
+  const double least_odds = std::log(p.chance) - std::log1p(-p.chance);
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (called_[c]) continue;
     const Vec2& x = chi.locations[c];
-    const double reach = std::min(p.inherit_radius, decided_grid_.crowd_radius(x, kInheritCrowd));
+    const double reach = std::min(p.radius, decided_grid_.crowd_radius(x, kInheritCrowd));
     decided_grid_.nearest(
         x, reach, 1, [](int) { return true; }, near_);
     if (near_.empty()) continue;
@@ -546,7 +547,7 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
     const bool trusted = normal && normal->trust >= trust_.maximum;
     const OwnPast own{confirms(x, model.velocity() * once_.elapsed_s),
                       candidates_[c].static_hits == 1, normal != nullptr, trusted};
-    if (!(rebel_log_odds(around, own) >= least_odds)) {
+    if (!(rebel_log_odds(p, around, own) >= least_odds)) {
       if (normal) reasons_[c] = Reason::normal_stands;
       continue;
     }
@@ -554,7 +555,7 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
     reasons_[c] = Reason::inherited;
     if (trusted) normal->trust -= 2;
     const bool is_kept =
-        trusted || links_[c].kind == Kind::rebel || (normal && normal->trust >= p.established);
+        trusted || links_[c].kind == Kind::rebel || (normal && normal->trust >= established);
     if (!own.confirms || is_kept) {
       followers_.push_back({x, model.id});
       continue;

@@ -9,18 +9,6 @@
 namespace lcs {
 namespace {
 
-/// Weights of evidence in natural logarithms: logistic regression over the corners near rebels in
-/// the suite's recordings, rounded; EQUATIONS.md says how, and what each is worth.
-constexpr double kBias = 2.62;
-constexpr double kNearness = 1.1;    // of ln of the nearest normal's distance over the rebel's
-constexpr double kPerRadian = -0.5;  // of the widest gap
-constexpr double kCrowd = -0.55;     // of ln of how many rebels there are, and one
-constexpr double kUnfounded = 0.2;
-constexpr double kConfirms = 0.8;
-constexpr double kStandsOnce = -0.7;
-constexpr double kHasNormal = -0.9;
-constexpr double kHasTrusted = -1.4;  // and this besides
-
 /// Nearer than about this, distances say no more, px: corners lie as close on one body.
 constexpr double kClose_px = 6;
 
@@ -58,16 +46,18 @@ double Bearings::widest_gap_rad() const {
   return (widest + 1) * 2 * kPi / kSectors;
 }
 
-double rebel_log_odds(const Surroundings& around, const OwnPast& own) {
-  double odds = kBias;
-  odds += kNearness * std::log((kClose_px + around.normal_px) / (kClose_px + around.rebel_px));
-  odds += kPerRadian * around.gap_rad;
-  odds += kCrowd * std::log1p(around.rebels);
-  if (around.unfounded) odds += kUnfounded;
-  if (own.confirms) odds += kConfirms;
-  if (own.stands_once) odds += kStandsOnce;
-  if (own.has_normal) odds += kHasNormal;
-  if (own.has_trusted) odds += kHasTrusted;
+double rebel_log_odds(const InheritanceParameters& weights, const Surroundings& around,
+                      const OwnPast& own) {
+  double odds = weights.bias;
+  odds +=
+      weights.nearness * std::log((kClose_px + around.normal_px) / (kClose_px + around.rebel_px));
+  odds += weights.gap * around.gap_rad;
+  odds += weights.crowd * std::log1p(around.rebels);
+  if (around.unfounded) odds += weights.unfounded;
+  if (own.confirms) odds += weights.confirms;
+  if (own.stands_once) odds += weights.stands_once;
+  if (own.has_normal) odds += weights.normal;
+  if (own.has_trusted) odds += weights.trusted;
   return odds;
 }
 

@@ -5,12 +5,13 @@
 /// Three to five in ten of a mover's corners are in no earlier frame where its motion puts them.
 /// Near them the mover's other corners lie; but so do corners of what is behind it, at its border,
 /// and ground that it has just left. A sum of weights parts them better than a share of neighbours.
-/// Derivation of the weights: filter/EQUATIONS.md, section 10.
+/// Derivation of the weights (`InheritanceParameters`): filter/EQUATIONS.md, section 10.
 #pragma once
 
 #include <cstdint>
 
 #include "filter/camera.h"
+#include "filter/parameters.h"
 
 namespace lcs {
 
@@ -47,6 +48,7 @@ struct OwnPast {
 };
 
 /// ln(p / (1 - p)) of the chance p that the corner is on a body that moves.
-double rebel_log_odds(const Surroundings& around, const OwnPast& own);
+double rebel_log_odds(const InheritanceParameters& weights, const Surroundings& around,
+                      const OwnPast& own);
 
 }  // namespace lcs

@@ -115,10 +115,18 @@ const std::vector<Entry>& entries() {
        LCS_FIELD(double, circle.constellation.support_off_field)},
       {"constellation.support_width", "", "px", 0, 100,
        LCS_FIELD(double, circle.constellation.support_width)},
-      {"constellation.inherit_radius", "", "px", 0, 10000,
-       LCS_FIELD(double, circle.constellation.inherit_radius)},
-      {"constellation.inherit_chance", "", "", 0, 1,
-       LCS_FIELD(double, circle.constellation.inherit_chance)},
+      {"inheritance.radius", "", "px", 0, 10000, LCS_FIELD(double, circle.inheritance.radius)},
+      {"inheritance.chance", "", "", 0, 1, LCS_FIELD(double, circle.inheritance.chance)},
+      {"inheritance.bias", "", "", -100, 100, LCS_FIELD(double, circle.inheritance.bias)},
+      {"inheritance.nearness", "", "", -100, 100, LCS_FIELD(double, circle.inheritance.nearness)},
+      {"inheritance.gap", "", "1/rad", -100, 100, LCS_FIELD(double, circle.inheritance.gap)},
+      {"inheritance.crowd", "", "", -100, 100, LCS_FIELD(double, circle.inheritance.crowd)},
+      {"inheritance.unfounded", "", "", -100, 100, LCS_FIELD(double, circle.inheritance.unfounded)},
+      {"inheritance.confirms", "", "", -100, 100, LCS_FIELD(double, circle.inheritance.confirms)},
+      {"inheritance.stands_once", "", "", -100, 100,
+       LCS_FIELD(double, circle.inheritance.stands_once)},
+      {"inheritance.normal", "", "", -100, 100, LCS_FIELD(double, circle.inheritance.normal)},
+      {"inheritance.trusted", "", "", -100, 100, LCS_FIELD(double, circle.inheritance.trusted)},
       {"circle.epsilon_beta_n", "eps_beta,n", "deg", 0, 180,
        LCS_FIELD(double, circle.epsilon_beta_n)},
       {"circle.epsilon_beta_r", "eps_beta,r", "deg", 0, 180,
@@ -334,7 +342,7 @@ Parameters night() {
   p.circle.constellation.radius = 100;
   p.circle.constellation.rebel_growth = 0.4;
   p.circle.constellation.vote_margin = 0.2;
-  p.circle.constellation.inherit_radius = 30;
+  p.circle.inheritance.radius = 30;
   return p;
 }
 

@@ -76,8 +76,22 @@ struct ConstellationParameters {
   int support = 4;                 ///< rebels near each other that bear each other out
   double support_off_field = 0.2;  ///< share of them that are off the field by more than 1 px
   double support_width = 2;        ///< px: where four in five lie as near to one line, none is
-  double inherit_radius = 60;      ///< px: how far a verdict reaches to corners without a motion
-  double inherit_chance = 0.35;    ///< of being a rebel, from which they are called; 1: none is
+};
+
+/// How a corner without a motion of its own is told by what is round it (`filter/inheritance.h`):
+/// a chance, and the natural logarithms by which each piece of evidence changes its odds.
+struct InheritanceParameters {
+  double radius = 60;         ///< px: how far off rebels are that a corner is asked about for
+  double chance = 0.35;       ///< of being a rebel, from which it is called one; 1: none is
+  double bias = 2.62;         ///< where nothing else speaks
+  double nearness = 1.1;      ///< for each e-fold by which standing ones are farther than rebels
+  double gap = -0.5;          ///< per rad of the widest angle without rebels
+  double crowd = -0.55;       ///< of ln of one and the rebels round it
+  double unfounded = 0.2;     ///< the nearest rebel's group stands on nothing
+  double confirms = 0.8;      ///< two earlier frames show it where the nearest rebel's motion does
+  double stands_once = -0.7;  ///< one of them shows it where a static point was
+  double normal = -0.9;       ///< a normal edge has it
+  double trusted = -1.4;      ///< and is of the highest trust: this besides
 };
 
 /// Groups that stand on nothing (`filter/footing.h`), told beside the constellation rule.
@@ -95,6 +109,7 @@ struct CircleParameters {
   TrustRanks trust{2, 3, 5};  ///< Tr^c
   EdgeRule edge_rule = EdgeRule::constellation;
   ConstellationParameters constellation;
+  InheritanceParameters inheritance;
   FootingParameters footing;
   double delta_v = 0;           ///< delta_v, 9 deg: half angle of the error span, seen from O_I
   double mu_0 = 25;             ///< mu_0, px: radius of detection of a new normal edge

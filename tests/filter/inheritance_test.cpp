@@ -45,6 +45,10 @@ TEST(Bearings, AQuarterTurnOfAllChangesNothing) {
   }
 }
 
+double odds_of(const Surroundings& around, const OwnPast& own) {
+  return rebel_log_odds(preset("default").circle.inheritance, around, own);
+}
+
 Surroundings beside_rebels() {
   Surroundings around;
   around.rebel_px = 8;
@@ -56,33 +60,33 @@ Surroundings beside_rebels() {
 
 TEST(RebelLogOdds, ARebelThatIsNearerSaysMoreAndANormalThatIsNearerLess) {
   Surroundings around = beside_rebels();
-  const double odds = rebel_log_odds(around, {});
+  const double odds = odds_of(around, {});
   around.rebel_px = 4;
-  EXPECT_GT(rebel_log_odds(around, {}), odds);
+  EXPECT_GT(odds_of(around, {}), odds);
   around = beside_rebels();
   around.normal_px = 4;
-  EXPECT_LT(rebel_log_odds(around, {}), odds);
+  EXPECT_LT(odds_of(around, {}), odds);
 }
 
 TEST(RebelLogOdds, OutsideOfTheRebelsACornerIsLessLikelyOne) {
   Surroundings around = beside_rebels();
-  const double odds = rebel_log_odds(around, {});
+  const double odds = odds_of(around, {});
   around.gap_rad = 5;
-  EXPECT_LT(rebel_log_odds(around, {}), odds);
+  EXPECT_LT(odds_of(around, {}), odds);
 }
 
 TEST(RebelLogOdds, WhatTheCornersOwnPastShowsWeighsAsItSpeaks) {
   const Surroundings around = beside_rebels();
-  const double odds = rebel_log_odds(around, {});
+  const double odds = odds_of(around, {});
   OwnPast moves, stands, taken, trusted;
   moves.confirms = true;
   stands.stands_once = true;
   taken.has_normal = true;
   trusted.has_normal = trusted.has_trusted = true;
-  EXPECT_GT(rebel_log_odds(around, moves), odds);
-  EXPECT_LT(rebel_log_odds(around, stands), odds);
-  EXPECT_LT(rebel_log_odds(around, taken), odds);
-  EXPECT_LT(rebel_log_odds(around, trusted), rebel_log_odds(around, taken));
+  EXPECT_GT(odds_of(around, moves), odds);
+  EXPECT_LT(odds_of(around, stands), odds);
+  EXPECT_LT(odds_of(around, taken), odds);
+  EXPECT_LT(odds_of(around, trusted), odds_of(around, taken));
 }
 
 TEST(RebelLogOdds, ATrustedNormalEdgeBesideOthersStandsAgainstOneRebelFarOff) {
@@ -93,7 +97,7 @@ TEST(RebelLogOdds, ATrustedNormalEdgeBesideOthersStandsAgainstOneRebelFarOff) {
   around.gap_rad = 2 * kPi;
   OwnPast own;
   own.has_normal = own.has_trusted = true;
-  EXPECT_LT(rebel_log_odds(around, own), std::log(0.05 / 0.95));
+  EXPECT_LT(odds_of(around, own), std::log(0.05 / 0.95));
 }
 
 TEST(RebelLogOdds, ANewCornerAmongRebelsIsOneMoreLikelyThanNot) {
@@ -102,7 +106,7 @@ TEST(RebelLogOdds, ANewCornerAmongRebelsIsOneMoreLikelyThanNot) {
   around.normal_px = 60;
   around.rebels = 5;
   around.gap_rad = 2;
-  EXPECT_GT(rebel_log_odds(around, {}), 0);
+  EXPECT_GT(odds_of(around, {}), 0);
 }
 
 }  // namespace
