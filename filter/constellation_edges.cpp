@@ -201,6 +201,10 @@ void ConstellationEdges::find_residuals(const Layers& layers, const Chi& chi) {
     } else {
       links_[c] = {Kind::rebel, edge - normals};
     }
+    const Link& link = links_[c];
+    candidates_[c].doubtful = candidates_[c].residual ||
+                              (link.kind == Kind::rebel && layers.rebel_edges[link.index].trust <
+                                                               parameters_.constellation.sure);
   }
 }
 
@@ -283,11 +287,13 @@ bool ConstellationEdges::showed(const Lookup& then, const Vec2& x, const MotionF
   return picture.contain(nearest) && holds(then.picture, x) && holds(then.picture, nearest);
 }
 
-/// Sweeps the depth of each residual corner, from infinity to the nearest.
+/// Sweeps the depth of each doubtful corner, from infinity to the nearest. Where a pattern repeats,
+/// rebel edges go from one period to the next: unless their corners speak for rest too, the motion
+/// that they have wins every vote beside them.
 void ConstellationEdges::seek_static_past(const Chi& chi, const MotionField& field) {
   for (std::size_t c = 0; c < chi.size(); ++c) {
     Candidate& candidate = candidates_[c];
-    if (!candidate.residual) continue;
+    if (!candidate.doubtful) continue;
     const Vec2& x = chi.locations[c];
     const double length = (field.earlier(x, field.max_ratio(), twice_.displacement_C_m) - x).norm();
     const int depths = std::min(kMaxDepths, 1 + static_cast<int>(length / kDepthSpacing_px));

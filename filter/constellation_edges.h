@@ -61,6 +61,7 @@ class ConstellationEdges : public EdgeExpert {
   /// What is known of a corner while the frame is being explained.
   struct Candidate {
     bool residual = false;     ///< no trusted edge explains it
+    bool doubtful = false;     ///< nor does a rebel edge that is sure: it may have stood
     int static_hits = 0;       ///< of the last two frames, at the best depth
     int static_votes = 0;      ///< the same, and what hits the picture may not have shown
     double static_ratio = 0;   ///< Z_ref / Z of that depth

@@ -110,6 +110,7 @@ const std::vector<Entry>& entries() {
        LCS_FIELD(int, circle.constellation.path_proof)},
       {"constellation.established", "", "", 0, 1000,
        LCS_FIELD(int, circle.constellation.established)},
+      {"constellation.sure", "", "", 0, 1000, LCS_FIELD(int, circle.constellation.sure)},
       {"constellation.support", "", "", 1, 1000, LCS_FIELD(int, circle.constellation.support)},
       {"constellation.support_off_field", "", "", 0, 1,
        LCS_FIELD(double, circle.constellation.support_off_field)},

@@ -65,17 +65,18 @@ struct ConstellationParameters {
   double hit_2 = 3;                   ///< px: and two baselines ago within this
   double radius = 80;                 ///< px: how far neighbours are
   int neighbours = 8;                 ///< that vote, at the most
-  double vote_chance = 0.25;          ///< motions that chance may bear out at a corner
+  double vote_chance = 0.16;          ///< motions that chance may bear out at a corner
   int vote_own_past = 2;              ///< baselines of so many frames ask for a corner's own past
   double vote_margin = 0.15;          ///< by which it must beat the static explanation
   double vote_static_cap = 0.55;      ///< share that the static explanation must stay below
   double off_field = 1.5;             ///< px that it must leave the static images by
-  double path_across = 2;             ///< px that a normal edge's whole path may lie off the field
+  double path_across = 2.02;          ///< px that a normal edge's whole path may lie off the field
   int path_proof = 4;              ///< baselines after which a rebel's path must lie off by as much
   int established = 4;             ///< trust from which a normal edge explains its corner
+  int sure = 7;                    ///< and from which a rebel edge's corner cannot have stood
   int support = 4;                 ///< rebels near each other that bear each other out
   double support_off_field = 0.2;  ///< share of them that are off the field by more than 1 px
-  double support_width = 2;        ///< px: where four in five lie as near to one line, none is
+  double support_width = 2.2;      ///< px: where four in five lie as near to one line, none is
 };
 
 /// How a corner without a motion of its own is told by what is round it (`filter/inheritance.h`):
@@ -83,14 +84,14 @@ struct ConstellationParameters {
 struct InheritanceParameters {
   double radius = 60;         ///< px: how far off rebels are that a corner is asked about for
   double chance = 0.35;       ///< of being a rebel, from which it is called one; 1: none is
-  double bias = 2.62;         ///< where nothing else speaks
+  double bias = 2.76;         ///< where nothing else speaks
   double nearness = 1.1;      ///< for each e-fold by which standing ones are farther than rebels
   double gap = -0.5;          ///< per rad of the widest angle without rebels
   double crowd = -0.55;       ///< of ln of one and the rebels round it
   double unfounded = 0.2;     ///< the nearest rebel's group stands on nothing
   double confirms = 0.8;      ///< two earlier frames show it where the nearest rebel's motion does
-  double stands_once = -0.7;  ///< one of them shows it where a static point was
-  double normal = -0.9;       ///< a normal edge has it
+  double stands_once = -0.9;  ///< one of them shows it where a static point was
+  double normal = -0.85;      ///< a normal edge has it
   double trusted = -1.4;      ///< and is of the highest trust: this besides
 };
 
@@ -144,12 +145,12 @@ struct LinkParameters {
   double depth_error = 0.5;        ///< beside as much of the standard deviation of their difference
   double mean_share = 0.03;        ///< by which the mean inverse depths of two groups may differ
   double mean_spread = 0.1;        ///< m: the same, growing with the inverse depth squared
-  double rebel_reach_rad = 0.175;  ///< how far apart rebels are seen, at the most
+  double rebel_reach_rad = 0.192;  ///< how far apart rebels are seen, at the most
   double rebel_upward = 0.25;      ///< as `upward`: limbs swing, and few corners are on them
-  double rebel_speed_share = 0.35;  ///< by which their velocities may differ
-  double rebel_speed_px = 3;        ///< px a frame, or tenth of a second: this in any case
-  bool followers = true;            ///< what follows a rebel (`Follower`) is in its box
-  int min_edges = 9;                ///< that make a square
+  double rebel_speed_share = 0.4;  ///< by which their velocities may differ
+  double rebel_speed_px = 3;       ///< px a frame, or tenth of a second: this in any case
+  bool followers = true;           ///< what follows a rebel (`Follower`) is in its box
+  int min_edges = 9;               ///< that make a square
   int min_rebels = 5;
   double min_area = 250;  ///< px^2
   double max_size = 5;  ///< m: what is larger, by the depth of its edges, is background, and so is
