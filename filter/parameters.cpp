@@ -336,11 +336,10 @@ Parameters project_default() {
   return p;
 }
 
-/// Corners by headlights are few, and many are noise: neighbours lie farther apart, a motion must
-/// win more clearly, and what is farther off passes no verdict on.
+/// Corners by headlights are few, and many are noise: a motion must win more clearly, a rebel is
+/// followed farther from where it is expected, and what is farther off passes no verdict on.
 Parameters night() {
   Parameters p = project_default();
-  p.circle.constellation.radius = 100;
   p.circle.constellation.rebel_growth = 0.4;
   p.circle.constellation.vote_margin = 0.2;
   p.circle.inheritance.radius = 30;
