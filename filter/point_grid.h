@@ -108,17 +108,6 @@ class PointGrid {
     return 3 * cell_px_ * std::sqrt(count / (std::numbers::pi * crowd(x, cell_px_).count));
   }
 
-  bool any_within(const Vec2& x, double radius_px) const {
-    const int c0 = column(x.x() - radius_px), c1 = column(x.x() + radius_px);
-    const int r0 = row(x.y() - radius_px), r1 = row(x.y() + radius_px);
-    for (int r = r0; r <= r1; ++r) {
-      for (std::size_t k = first_[cell(c0, r)]; k < first_[cell(c1, r) + 1]; ++k) {
-        if ((placed_[k].location - x).squaredNorm() <= radius_px * radius_px) return true;
-      }
-    }
-    return false;
-  }
-
   /// The `count` points nearest to x within `radius_px` that `accept(index)` takes, in order. Looks
   /// at rings of cells about x, and so at a few points only where they lie close.
   template <typename Accept>
