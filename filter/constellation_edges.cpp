@@ -200,11 +200,9 @@ void ConstellationEdges::find_residuals(const Layers& layers, const Chi& chi) {
           layers.normal_edges[edge].trust < parameters_.constellation.established;
     } else {
       links_[c] = {Kind::rebel, edge - normals};
+      candidates_[c].unsure =
+          layers.rebel_edges[edge - normals].trust < parameters_.constellation.sure;
     }
-    const Link& link = links_[c];
-    candidates_[c].doubtful = candidates_[c].residual ||
-                              (link.kind == Kind::rebel && layers.rebel_edges[link.index].trust <
-                                                               parameters_.constellation.sure);
   }
 }
 
@@ -287,13 +285,13 @@ bool ConstellationEdges::showed(const Lookup& then, const Vec2& x, const MotionF
   return picture.contain(nearest) && holds(then.picture, x) && holds(then.picture, nearest);
 }
 
-/// Sweeps the depth of each doubtful corner, from infinity to the nearest. Where a pattern repeats,
-/// rebel edges go from one period to the next: unless their corners speak for rest too, the motion
-/// that they have wins every vote beside them.
+/// Sweeps the depth of each corner that may have stood, from infinity to the nearest. Where a
+/// pattern repeats, rebel edges go from one period to the next: unless their corners speak for rest
+/// too, the motion that they have wins every vote beside them.
 void ConstellationEdges::seek_static_past(const Chi& chi, const MotionField& field) {
   for (std::size_t c = 0; c < chi.size(); ++c) {
     Candidate& candidate = candidates_[c];
-    if (!candidate.doubtful) continue;
+    if (!candidate.residual && !candidate.unsure) continue;
     const Vec2& x = chi.locations[c];
     const double length = (field.earlier(x, field.max_ratio(), twice_.displacement_C_m) - x).norm();
     const int depths = std::min(kMaxDepths, 1 + static_cast<int>(length / kDepthSpacing_px));
@@ -491,13 +489,18 @@ bool ConstellationEdges::confirms(const Vec2& x, const Vec2& step) const {
   return twice_free_.at(before - 0.5 * again_ * (x - before + step));
 }
 
+/// The rebel edge of a corner that was called before neighbours were asked.
+const Edge& ConstellationEdges::edge_of(int decided, const Layers& layers) const {
+  return layers.rebel_edges[links_[decided_corners_[decided]].index];
+}
+
 /// What is round a corner: a decided one that is the nearest, others that move about as it does,
 /// and what stands.
 Surroundings ConstellationEdges::look_around(std::size_t corner, int nearest, double reach_px,
                                              const Layers& layers, const Chi& chi, double dt_s) {
   const Vec2& x = chi.locations[corner];
   const auto step_of = [&](int decided) -> Vec2 {
-    return layers.rebel_edges[links_[decided_corners_[decided]].index].velocity() * dt_s;
+    return edge_of(decided, layers).velocity() * dt_s;
   };
   const Vec2 step = step_of(nearest);
   const double like_px = std::max(kAlikeStep_px, kAlikeStepShare * step.norm());
@@ -515,7 +518,7 @@ Surroundings ConstellationEdges::look_around(std::size_t corner, int nearest, do
   };
   corner_grid_.nearest(x, reach_px, 1, stands, near_);
   around.normal_px = near_.empty() ? reach_px : std::sqrt(near_.front().distance2);
-  around.unfounded = layers.rebel_edges[links_[decided_corners_[nearest]].index].unfounded > 0;
+  around.unfounded = edge_of(nearest, layers).unfounded > 0;
   return around;
 }
 
@@ -548,7 +551,7 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
     if (near_.empty()) continue;
     const int nearest = near_.front().index;
     const Surroundings around = look_around(c, nearest, reach, layers, chi, field.dt_s());
-    const Edge model = layers.rebel_edges[links_[decided_corners_[nearest]].index];
+    const Edge model = edge_of(nearest, layers);
     Edge* normal = links_[c].kind == Kind::normal ? &layers.normal_edges[links_[c].index] : nullptr;
     const bool trusted = normal && normal->trust >= trust_.maximum;
     const OwnPast own{confirms(x, model.velocity() * once_.elapsed_s),

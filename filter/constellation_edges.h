@@ -61,7 +61,7 @@ class ConstellationEdges : public EdgeExpert {
   /// What is known of a corner while the frame is being explained.
   struct Candidate {
     bool residual = false;     ///< no trusted edge explains it
-    bool doubtful = false;     ///< nor does a rebel edge that is sure: it may have stood
+    bool unsure = false;       ///< a rebel edge does, but one that is not sure
     int static_hits = 0;       ///< of the last two frames, at the best depth
     int static_votes = 0;      ///< the same, and what hits the picture may not have shown
     double static_ratio = 0;   ///< Z_ref / Z of that depth
@@ -106,6 +106,7 @@ class ConstellationEdges : public EdgeExpert {
   void settle_rebels();
   void make_edges(Layers& layers, const Chi& chi, const MotionField& field);
   Edge make_rebel(const Vec2& x, const Vec2& velocity_pxps, double dt_s);
+  const Edge& edge_of(int decided, const Layers& layers) const;
   Surroundings look_around(std::size_t corner, int nearest, double reach_px, const Layers& layers,
                            const Chi& chi, double dt_s);
   void inherit(Layers& layers, const Chi& chi, const MotionField& field);
