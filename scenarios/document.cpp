@@ -205,6 +205,19 @@ void remove(Value& parent, const std::string& part, const Source& where) {
   parent.entries.erase(parent.entries.begin() + (entry - parent.entries.data()));
 }
 
+void flatten(const Value& value, const std::string& path,
+             std::map<std::string, std::string>& texts) {
+  if (value.items.empty() && value.entries.empty()) {
+    texts[path] = value.text;
+    return;
+  }
+  const std::string prefix = path.empty() ? "" : path + ".";
+  for (std::size_t i = 0; i < value.items.size(); ++i) {
+    flatten(value.items[i], prefix + std::to_string(i), texts);
+  }
+  for (const Entry& entry : value.entries) flatten(entry.value, prefix + entry.key, texts);
+}
+
 }  // namespace
 
 std::string_view kind_name(Value::Kind kind) {
@@ -260,6 +273,12 @@ Value parse_file(const std::filesystem::path& file) {
   }
   root.where = {file.string(), 1};
   return root;
+}
+
+std::map<std::string, std::string> flattened(const Value& root) {
+  std::map<std::string, std::string> texts;
+  flatten(root, "", texts);
+  return texts;
 }
 
 void apply_set(Value& root, const std::string& assignment) {

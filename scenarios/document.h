@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -49,6 +50,10 @@ Value parse_file(const std::filesystem::path& file);
 
 /// As `parse_file`, with the lines counted from `where.line`.
 Value parse_text(const std::string& text, const Source& where);
+
+/// What is written in the tree, by the paths that `apply_set` takes: {"ego.start.0", "-4 m"}. Empty
+/// text for what holds nothing.
+std::map<std::string, std::string> flattened(const Value& root);
 
 /// Replaces, adds or (with nothing after the '=') removes one value of the tree, in the form that
 /// `--set` has: "ego.speed=0.7 m/s". Lists are addressed by index from 0. What follows "filter." is

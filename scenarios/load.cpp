@@ -1,6 +1,7 @@
 #include "scenarios/load.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -257,6 +258,18 @@ void read_top(Reader& reader, const std::filesystem::path& folder, Scenario& sce
   if (const Value* sweep = reader.find("sweep")) scenario.sweep = read_sweep(*sweep);
 }
 
+/// Without what is for people, for the seeds, and for who watches and judges.
+std::map<std::string, std::string> world_of(const Value& root) {
+  constexpr std::array<std::string_view, 6> kNotOfTheWorld{"purpose", "groups",   "seed",
+                                                           "filter",  "criteria", "sweep"};
+  Value world(Value::Kind::map, root.where);
+  for (const Entry& entry : root.entries) {
+    if (std::find(kNotOfTheWorld.begin(), kNotOfTheWorld.end(), entry.key) == kNotOfTheWorld.end())
+      world.entries.push_back(entry);
+  }
+  return flattened(world);
+}
+
 }  // namespace
 
 Scenario load(const std::filesystem::path& file, const LoadOptions& options) {
@@ -269,6 +282,7 @@ Scenario load(const std::filesystem::path& file, const LoadOptions& options) {
   Reader reader(root, "");
   read_top(reader, file.parent_path(), scenario);
   reader.finish();
+  scenario.world = world_of(root);
   if (options.seed) scenario.seed = *options.seed;
   return scenario;
 }

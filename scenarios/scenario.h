@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -248,6 +249,9 @@ struct Scenario {
   Source filter_preset_source;
   std::vector<FilterSetting> filter;
   std::vector<Criterion> criteria;
+  /// What the sensors' data and the truth depend on, the seed apart, as it is written:
+  /// {"ego.speed", "0.5 m/s"}. How a run is watched and judged is not in it.
+  std::map<std::string, std::string> world;
   /// A run of the scenario itself leaves these as the file has them outside of `sweep`; see
   /// `scenarios/sweep.h`.
   std::vector<SweptKey> sweep;

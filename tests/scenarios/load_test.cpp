@@ -371,6 +371,21 @@ TEST(Load, ASceneIsFoundByNameWhereTheEnvironmentSays) {
   ASSERT_EQ(unsetenv("LCS_SCENES"), 0);
 }
 
+TEST(Load, TheWorldIsAllThatIsWrittenButWhoWatchesAndJudges) {
+  const Scenario plain = load_text(smallest);
+  const Scenario judged = load_text(
+      "purpose: for people\ngroups: [long]\nseed: 4\n" + smallest +
+      "filter: {preset: lab}\ncriteria: [{metric: frames, min: 1}]\nsweep: {ego.speed: [1 m/s]}\n");
+  EXPECT_EQ(judged.world, plain.world);
+  EXPECT_EQ(plain.world.at("scene"), "room.xml");
+
+  const Scenario fast =
+      load_text(smallest, {.sets = {"ego.speed=2 m/s", "imu.gaps=[[1 s, 2 s]]"}, .seed = {}});
+  EXPECT_EQ(fast.world.at("ego.speed"), "2 m/s");
+  EXPECT_EQ(fast.world.at("imu.gaps.0.1"), "2 s");
+  EXPECT_NE(fast.world, plain.world);
+}
+
 TEST(Load, TheSeedGivenReplacesTheFiles) {
   EXPECT_EQ(load_text(smallest + "seed: 5", {.sets = {}, .seed = 9}).seed, 9u);
 }

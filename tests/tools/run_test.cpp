@@ -6,6 +6,7 @@
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 #include <set>
 #include <thread>
@@ -14,9 +15,11 @@
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/bench/events.h"
+#include "tools/bench/frame_pictures.h"
 #include "tools/bench/recording_io.h"
 #include "tools/bench/report.h"
 #include "tools/bench/scoring.h"
+#include "tools/bench/video.h"
 
 namespace lcs::bench {
 namespace {
@@ -203,6 +206,146 @@ TEST_F(Run, TwoIntoOneFolderAtATimeLeaveOneOfThemWhole) {
   EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"crossing"});
 }
 
+// ---- On the frames of an earlier run
+
+class Again : public Run {
+ protected:
+  /// Frames in which the movers come, so that there is something to say of them.
+  CommandResult approaching(std::vector<std::string> more) {
+    more.insert(more.begin(), {kScenarios / "approaching.yaml", "--set", "frames=16", "--quiet"});
+    return run(more);
+  }
+  std::string file(const fs::path& result, const char* name) {
+    return read(folder_.path() / result / name);
+  }
+  /// Everything but times.
+  void expect_same(const fs::path& one, const fs::path& other) {
+    for (const char* name : {kLayersFile, kTruthFile, kEventsFile}) {
+      EXPECT_TRUE(file(one, name) == file(other, name)) << name;
+    }
+    const nlohmann::json figures = metrics(one), others = metrics(other);
+    EXPECT_EQ(figures.size(), others.size());
+    for (const auto& [metric, figure] : figures.items()) {
+      if (metric.starts_with("time.") || metric.starts_with("sim.")) continue;
+      EXPECT_EQ(figure, others[metric]) << metric;
+    }
+  }
+};
+
+TEST_F(Again, TheFilterSaysWhatItWouldSayInARunOfItsOwn) {
+  const char* const kSetting = "filter.constellation.neighbours=4";
+  ASSERT_EQ(approaching({"--events", "--no-video", "--out", "first"}).exit_code, 0);
+  ASSERT_EQ(approaching({"--events", "--no-video", "--set", kSetting, "--out", "live"}).exit_code,
+            0);
+  const CommandResult again = approaching(
+      {"--events", "--no-video", "--set", kSetting, "--recorded", "first", "--out", "again"});
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_EQ(again.err, "");
+  EXPECT_FALSE(file("first", kLayersFile) == file("live", kLayersFile))
+      << "the setting does not show";
+  expect_same("live", "again");
+  // What was not done took no time.
+  const nlohmann::json times = metrics("again");
+  EXPECT_TRUE(times["time.filter_ms_median"].is_number());
+  for (const char* stage : {"time.detect_ms_median", "time.simulate_ms_median",
+                            "time.truth_ms_median", "time.filter_over_fast"}) {
+    EXPECT_TRUE(times[stage].is_null()) << stage;
+  }
+  // One made so can be gone on from, and replaced by what is made from it.
+  ASSERT_EQ(
+      approaching({"--events", "--no-video", "--recorded", "again", "--out", "again"}).exit_code,
+      0);
+  expect_same("first", "again");
+}
+
+TEST_F(Again, AVideoIsOfThePicturesThatWereKept) {
+  ASSERT_EQ(approaching({"--events", "--no-video", "--out", "first"}).exit_code, 0);
+  ASSERT_EQ(approaching({"--recorded", "first", "--out", "again"}).exit_code, 0);
+  cv::VideoCapture video((folder_.path() / "again" / kVideoFile).string(), cv::CAP_FFMPEG);
+  cv::Mat picture;
+  int pictures = 0;
+  for (; video.read(picture); ++pictures) {
+    EXPECT_GT(cv::mean(picture)[0], 20) << "frame " << pictures << " is black";
+  }
+  EXPECT_EQ(pictures, 16);
+}
+
+TEST_F(Again, WithoutPicturesThereAreEventsButNoVideo) {
+  ASSERT_EQ(approaching({"--no-video", "--out", "first"}).exit_code, 0);
+  const CommandResult video = approaching({"--recorded", "first", "--out", "again"});
+  EXPECT_EQ(video.exit_code, 2);
+  EXPECT_NE(video.err.find("first has no pictures to make a video of; give --no-video"),
+            std::string::npos)
+      << video.err;
+  ASSERT_EQ(
+      approaching({"--no-video", "--events", "--recorded", "first", "--out", "again"}).exit_code,
+      0);
+  const std::vector<Event> events = read_events(folder_.path() / "again" / kEventsFile);
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.front().views.at(0).jpeg_base64, "");
+  EXPECT_FALSE(fs::exists(folder_.path() / "again" / kPicturesFile));
+}
+
+TEST_F(Again, ARecordingOfAnythingElseIsRefusedWithTheFirstDifference) {
+  ASSERT_EQ(run(brief({"--quiet", "--out", "first"})).exit_code, 0);
+  const auto refusal = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--quiet", "--recorded", "first"});
+    const CommandResult result = run(brief(more));
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(lines(result.err), 1) << result.err;
+    EXPECT_EQ(entries(folder_.path()), std::set<std::string>{"first"});
+    return result.err;
+  };
+  const auto says = [](const std::string& text, const char* part) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+  };
+  says(refusal({"--seed", "2"}), "it is of seed 1, not 2; run crossing without --recorded");
+  says(refusal({"--set", "ego.speed=0.7 m/s"}),
+       "it has ego.speed: 0.5 m/s, and now there is ego.speed: 0.7 m/s");
+  says(refusal({"--set", "corners.threshold=30"}),
+       "it has no corners.threshold, and now there is corners.threshold: 30");
+  says(refusal({"--detector", "klt"}), "klt looks at the pictures");
+
+  // Who watches and judges may change, and what is for people.
+  for (const char* setting : {"filter.circle.mu_0=20", "criteria=[{metric: frames, min: 4}]",
+                              "purpose=another", "groups=[long]"}) {
+    EXPECT_EQ(run(brief({"--recorded", "first", "--out", "again", "--set", setting})).exit_code, 0)
+        << setting;
+  }
+}
+
+TEST_F(Again, ABrokenRecordingIsToldWithItsFile) {
+  ASSERT_EQ(run(brief({"--quiet", "--events", "--out", "first"})).exit_code, 0);
+  const fs::path first = folder_.path() / "first";
+  const auto refused = [&](const char* part) {
+    const CommandResult result = run(brief({"--quiet", "--recorded", "first"}));
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(lines(result.err), 1) << result.err;
+    EXPECT_NE(result.err.find(part), std::string::npos) << part << " in\n" << result.err;
+    EXPECT_EQ(entries(folder_.path()), std::set<std::string>{"first"});
+  };
+  const auto rewrite = [&](const char* name, const std::string& text) {
+    std::ofstream(first / name, std::ios::binary) << text;
+  };
+  const std::string pictures = file("first", kPicturesFile), truth = file("first", kTruthFile);
+
+  rewrite(kPicturesFile, pictures.substr(0, pictures.size() / 2));
+  refused("pictures.mjpeg: not a JPEG picture at byte ");
+  rewrite(kPicturesFile, pictures + pictures);
+  refused("pictures.mjpeg has 8 pictures of 4 frames");
+  rewrite(kPicturesFile, "");
+  refused("pictures.mjpeg has 0 pictures of 4 frames");
+  fs::remove(first / kPicturesFile);
+
+  // As a program left it that did not say it yet.
+  const std::size_t world = truth.find(",\"world\":{"), end = truth.find('}', world);
+  ASSERT_NE(world, std::string::npos);
+  rewrite(kTruthFile, truth.substr(0, world) + truth.substr(end + 1));
+  refused("it does not say what world it is of");
+  rewrite(kTruthFile, truth.substr(0, truth.size() / 2));
+  refused("truth.jsonl:");
+}
+
 // ---- Criteria
 
 TEST_F(Run, ARequiredCriterionThatFailsExitsWithOneAndKeepsTheResult) {
@@ -263,6 +406,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"unknown_metric",
                 {kCrossing, "--set", "criteria=[{metric: rebel.f2, min: 1}]"},
                 "rebel.f1"},
+        Mistake{"recording_that_is_not_there",
+                {kCrossing, "--recorded", "nowhere"},
+                "there is no run in nowhere"},
         Mistake{"unwritable_folder", {kCrossing, "--out", "/proc/lcs"}, "/proc/lcs"}),
     [](const auto& test) { return test.param.name; });
 

@@ -190,6 +190,44 @@ nlohmann::ordered_json timeless(const fs::path& file) {
   return json;
 }
 
+TEST_F(Suite, OnTheFramesOfAnEarlierOneItHasTheFiguresOfOneThatSimulates) {
+  const char* const kSetting = "filter.constellation.neighbours=4";
+  scenario("near", "", 8);
+  scenario("speeds", "sweep: {ego.speed: [0.1 m/s, 0.9 m/s]}\n", 8);
+  ASSERT_EQ(run({"--seeds", "2", "--out", "first"}).exit_code, 0);
+  ASSERT_EQ(run({"--seeds", "2", "--out", "live", "--set", kSetting}).exit_code, 0);
+  const CommandResult again =
+      run({"--seeds", "2", "--out", "again", "--set", kSetting, "--recorded", "first"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  auto figures = timeless(folder_.path() / "again" / kSuiteFile);
+  const std::string recorded = figures["recorded"];
+  EXPECT_EQ(recorded, "first, " + result("first").version);
+  EXPECT_EQ(result("again").recorded, recorded);
+  EXPECT_NE(read(folder_.path() / "again" / "report.html").find(recorded), std::string::npos);
+  figures["recorded"] = "";
+  EXPECT_EQ(figures, timeless(folder_.path() / "live" / kSuiteFile));
+
+  // A run that the earlier one does not have is an error, and the others still run.
+  const CommandResult more =
+      run({"--seeds", "3", "--filter", "near", "--out", "more", "--recorded", "first"});
+  EXPECT_EQ(more.exit_code, 2);
+  EXPECT_NE(more.err.find("error: near seed 3: there is no run in first/runs/near/seed-3"),
+            std::string::npos)
+      << more.err;
+  EXPECT_EQ(result("more").scenarios.at(0).runs.at(1).outcome, Outcome::passed);
+}
+
+TEST_F(Suite, AnEarlierOneThatIsNoneOrADetectorThatLooksIsRefusedBeforeAnythingRuns) {
+  scenario("near");
+  const CommandResult missing = run({"--recorded", "nowhere"});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_NE(missing.err.find("there is no file nowhere"), std::string::npos) << missing.err;
+  const CommandResult klt = run({"--recorded", "nowhere", "--detector", "klt"});
+  EXPECT_EQ(klt.exit_code, 2);
+  EXPECT_NE(klt.err.find("klt looks at the pictures"), std::string::npos) << klt.err;
+  EXPECT_EQ(entries(folder_.path()), std::set<std::string>{"scenarios"});
+}
+
 TEST_F(Suite, HasTheSameFiguresHoweverManyRunAtATime) {
   for (const char* name : {"a", "b", "c"}) scenario(name);
   ASSERT_EQ(run({"--seeds", "2", "--jobs", "1", "--out", "one"}).exit_code, 0);

@@ -11,16 +11,23 @@ Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulat
   Recording recording;
   recording.scenario = scenario.name;
   recording.seed = scenario.seed;
+  recording.world = scenario.world;
   recording.objects = simulation.objects();
   return recording;
 }
 
 void watch(const cv::Mat3b& image, const FastDetector& detector, Tracker& tracker,
            FrameRecord& frame) {
-  FrameTimes times;
+  double detect_ms = 0;
   cv::Mat1b grey;
   cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  frame.corners_px = timed(times.detect_ms, [&] { return detector.detect(grey); });
+  frame.corners_px = timed(detect_ms, [&] { return detector.detect(grey); });
+  ask(tracker, image, grey, frame);
+  frame.times->detect_ms = detect_ms;
+}
+
+void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame) {
+  FrameTimes times;
   const FrameResult& result = timed(times.filter_ms, [&]() -> const FrameResult& {
     return tracker.step({image, grey, frame.corners_px, frame.motion});
   });

@@ -24,6 +24,11 @@ Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulat
 void watch(const cv::Mat3b& image, const FastDetector& detector, Tracker& tracker,
            FrameRecord& frame);
 
+/// Asks a tracker about corners that are known.
+/// \param frame whose corners and motion are known; gets verdicts, layers, and the times of that.
+/// \param grey,image may be empty for a tracker that does not look at them.
+void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame);
+
 /// Runs the simulation to its end.
 /// \param scenario that the simulation was made of.
 /// \param recording is given every frame before the sink sees it.

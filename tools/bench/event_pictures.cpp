@@ -1,31 +1,20 @@
 #include "tools/bench/event_pictures.h"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 
 #include "tools/bench/score_rebels.h"
 
 namespace lcs::bench {
 namespace {
 
-constexpr int kKeptWidth_px = 640;
-constexpr int kKeptQuality = 88, kShownQuality = 72;
+constexpr int kShownQuality = 72;
 /// Least width of what is cut out, px of the kept picture, and what is left about the object.
 constexpr double kLeastWidth_px = 160, kMargin_px = 14, kMarginShare = 0.25;
 
 // BGR; they differ in lightness and, with the marks' shapes, in more than colour.
 const cv::Scalar kFound{90, 230, 60}, kMissed{0, 150, 255}, kFalse{255, 60, 255},
     kTruth{255, 255, 120}, kShadow{0, 0, 0};
-
-std::vector<unsigned char> jpeg(const cv::Mat3b& image, int quality) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, quality})) {
-    throw std::runtime_error("OpenCV cannot write JPEG");
-  }
-  return bytes;
-}
 
 /// A view's place in the kept picture, and from pixels of the image to its own.
 struct Cut {
@@ -110,18 +99,6 @@ cv::Mat3b paint(const FrameRecord& frame, const std::vector<CornerOutcome>& outc
 }
 
 }  // namespace
-
-void FramePictures::add(const cv::Mat3b& image) {
-  scale_ = std::min(1.0, static_cast<double>(kKeptWidth_px) / image.cols);
-  cv::Mat3b kept = image;
-  if (scale_ < 1) cv::resize(image, kept, {}, scale_, scale_, cv::INTER_AREA);
-  jpegs_.push_back(jpeg(kept, kKeptQuality));
-}
-
-cv::Mat3b FramePictures::at(std::size_t position, double& scale) const {
-  scale = scale_;
-  return cv::imdecode(jpegs_.at(position), cv::IMREAD_COLOR);
-}
 
 void paint_events(const Recording& recording, const FramePictures& pictures,
                   std::vector<Event>& events) {

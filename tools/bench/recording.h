@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +18,8 @@
 
 namespace lcs::bench {
 
-/// Wall times of one frame. The only part of a recording that differs between two runs.
+/// Wall times of one frame. The only part of a recording that differs between two runs. 0 for what
+/// was not done, as where corners are those of an earlier run.
 struct FrameTimes {
   double simulate_ms = 0;  ///< physics and rendering
   double detect_ms = 0;    ///< `cv::FAST` on this frame: the yardstick
@@ -54,6 +56,9 @@ struct Speaker {
 struct Recording {
   std::string scenario;
   std::uint64_t seed = 0;
+  /// `scenario::Scenario::world`, by which it is known whether the scenario is still the same;
+  /// empty where there is none.
+  std::map<std::string, std::string> world;
   Speaker detector;
   std::vector<sim::Object> objects;
   std::vector<FrameRecord> frames;  ///< by index

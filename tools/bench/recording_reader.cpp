@@ -177,6 +177,7 @@ Recording read_recording(const std::filesystem::path& folder) {
     read(json.at("seed"), recording.seed);
     read(json.at("detector"), recording.detector.name);
     read(json.at("layered"), recording.detector.layered);
+    if (json.contains("world")) recording.world = json.at("world").get<decltype(recording.world)>();
     recording.objects = read_columns<sim::Object>(json.at("objects"));
   });
   if (!has_header) truth.fail("is empty");

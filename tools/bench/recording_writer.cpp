@@ -204,6 +204,17 @@ std::string header_line(const Recording& run) {
   append(out, run.detector.name);
   append_key(out, "layered");
   append(out, run.detector.layered);
+  if (!run.world.empty()) {
+    append_key(out, "world");
+    out += '{';
+    for (const auto& [key, text] : run.world) {
+      if (out.back() != '{') out += ',';
+      append(out, key);
+      out += ':';
+      append(out, text);
+    }
+    out += '}';
+  }
   append_columns(out, "objects", run.objects);
   out += '}';
   return out;

@@ -39,8 +39,9 @@ class Row {
 };
 
 Row row_of(const FrameRecord& frame, const RebelCounts& rebels, bool layered) {
-  const auto time = [&](double FrameTimes::*stage) {
-    return frame.times ? std::optional((*frame.times).*stage) : std::nullopt;
+  const auto time = [&](double FrameTimes::*stage) -> std::optional<double> {
+    return frame.times && (*frame.times).*stage > 0 ? std::optional((*frame.times).*stage)
+                                                    : std::nullopt;
   };
   const auto stage_time = [&](double FrameTimes::*stage) {
     return layered ? time(stage) : std::nullopt;

@@ -1,27 +1,32 @@
 #include "tools/bench/result.h"
 
+#include "tools/bench/event_pictures.h"
 #include "tools/bench/report.h"
 
 namespace lcs::bench {
 
 std::vector<std::string> result_files() {
-  return {kMetricsFile, kFramesFile, kLayersFile, kTruthFile, kVideoFile, kEventsFile};
+  return {kMetricsFile, kFramesFile, kLayersFile,  kTruthFile,
+          kVideoFile,   kEventsFile, kPicturesFile};
 }
 
 Result::Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,
                const ResultOptions& options)
-    : folder_(target, result_files()), writer_(folder_.staging(), run), painter_(image_px) {
+    : folder_(target, result_files()),
+      writer_(folder_.staging(), run),
+      painter_(image_px),
+      events_(options.events),
+      kept_(options.kept) {
   if (options.video_frames_per_second) {
     video_.emplace(folder_.staging() / kVideoFile, painter_.size_px(),
                    *options.video_frames_per_second);
   }
-  if (options.events) pictures_.emplace();
 }
 
 void Result::add(const FrameRecord& frame, const cv::Mat3b& image) {
   writer_.write(frame);
   if (video_) video_->write(painter_.paint(frame, image));
-  if (pictures_) pictures_->add(image);
+  if (events_ && !kept_ && !image.empty()) own_pictures_.add(image);
 }
 
 Metrics Result::finish(const Recording& run) {
@@ -30,9 +35,13 @@ Metrics Result::finish(const Recording& run) {
   Metrics metrics = score(run);
   write_metrics(folder_.staging() / kMetricsFile, metrics);
   write_frames(folder_.staging() / kFramesFile, run);
-  if (pictures_) {
+  if (events_) {
+    const FramePictures& pictures = kept_ ? *kept_ : own_pictures_;
     std::vector<Event> events = find_events(run);
-    paint_events(run, *pictures_, events);
+    if (pictures.size() > 0) {
+      paint_events(run, pictures, events);
+      pictures.write(folder_.staging() / kPicturesFile);
+    }
     write_events(folder_.staging() / kEventsFile, events);
   }
   folder_.commit();

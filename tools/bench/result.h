@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/bench/event_pictures.h"
 #include "tools/bench/frame_painter.h"
+#include "tools/bench/frame_pictures.h"
 #include "tools/bench/output_folder.h"
 #include "tools/bench/recording_io.h"
 #include "tools/bench/scoring.h"
@@ -23,7 +23,10 @@ std::vector<std::string> result_files();
 /// What a result holds beside its figures.
 struct ResultOptions {
   std::optional<double> video_frames_per_second;  ///< none: no video
-  bool events = false;                            ///< where the run went wrong, with pictures
+  bool events = false;  ///< where the run went wrong, with pictures, and all pictures
+  /// Of the same frames, as an earlier run kept them; then `events` keeps no others. Without any,
+  /// there are none.
+  const FramePictures* kept = nullptr;
 };
 
 class Result {
@@ -33,7 +36,7 @@ class Result {
   Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,
          const ResultOptions& options);
 
-  /// \throws OutputError
+  /// \param image may be empty where there is no video. \throws OutputError
   void add(const FrameRecord& frame, const cv::Mat3b& image);
 
   /// Scores the run, writes what depends on all of it, and puts the folder in its place.
@@ -47,7 +50,9 @@ class Result {
   RecordingWriter writer_;
   FramePainter painter_;
   std::optional<Video> video_;
-  std::optional<FramePictures> pictures_;
+  bool events_;
+  const FramePictures* kept_;
+  FramePictures own_pictures_;
 };
 
 }  // namespace lcs::bench

@@ -163,7 +163,8 @@ void add_times(Metrics& metrics, const Recording& recording) {
     for (const FrameRecord& frame : recording.frames) {
       if (frame.times) times.push_back((*frame.times).*stage.time_ms);
     }
-    return times;
+    const bool was_done = std::any_of(times.begin(), times.end(), [](double ms) { return ms > 0; });
+    return was_done ? times : std::vector<double>{};
   };
   const auto add_quantiles = [&](const Stage& stage) {
     const std::string key = std::string("time.") + stage.name;
@@ -178,7 +179,7 @@ void add_times(Metrics& metrics, const Recording& recording) {
     add_quantiles(stage);
     const std::vector<double> times = all(stage);
     std::vector<double> over_fast;
-    for (std::size_t i = 0; i < times.size(); ++i) {
+    for (std::size_t i = 0; i < std::min(times.size(), fast.size()); ++i) {
       if (fast[i] > 0) over_fast.push_back(times[i] / fast[i]);
     }
     metrics.emplace_back(std::string("time.") + stage.name + "_over_fast", median(over_fast));

@@ -28,10 +28,10 @@ Made make_homography(const sim::Pinhole&, const scenario::Scenario&) {
 }
 
 constexpr std::array<Detector, 3> kDetectors{{
-    {"lcs", "the Line-Circle-Square filter", true, make_lcs},
-    {"klt", "Lucas-Kanade, and distance to the epipolar segment that the IMU gives", false,
+    {"lcs", "the Line-Circle-Square filter", true, false, make_lcs},
+    {"klt", "Lucas-Kanade, and distance to the epipolar segment that the IMU gives", false, true,
      make_klt},
-    {"homography", "Lucas-Kanade, and distance to one homography by RANSAC", false,
+    {"homography", "Lucas-Kanade, and distance to one homography by RANSAC", false, true,
      make_homography},
 }};
 
@@ -50,6 +50,13 @@ const Detector& detector(std::string_view name) {
     names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);
   }
   throw std::invalid_argument(fmt::format("no detector is called '{}'; there are {}", name, names));
+}
+
+void require_corners_suffice(const Detector& detector) {
+  if (!detector.sees_pictures) return;
+  throw std::invalid_argument(
+      fmt::format("{} looks at the pictures, and a recording has corners; leave out --recorded",
+                  detector.name));
 }
 
 }  // namespace lcs::comparators

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "sim/simulation.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/criteria.h"
+#include "tools/bench/earlier_run.h"
 #include "tools/bench/result.h"
 #include "tools/bench/table.h"
 #include "tools/bench/tracker.h"
@@ -26,6 +28,8 @@ constexpr const char* kHelp = R"(Examples:
   lcs run scenarios/crossing.yaml --seed 7 --out out/seed7
   lcs run scenarios/lab.yaml --set "ego.speed=10 cm/s" --set filter.circle.mu_0=20
   lcs run scenarios/crossing.yaml --detector klt --out out/crossing-klt
+  lcs run scenarios/crossing.yaml --set filter.circle.mu_0=20 --recorded out/crossing --no-video
+                                     the filter anew on the frames of an earlier run, in a moment
 
 Files written to the folder, all or none:
   metrics.json   every figure, flat; null where it is not defined (tools/bench/SCORING.md)
@@ -35,6 +39,7 @@ Files written to the folder, all or none:
   video.mp4      the paper's four panels: corners, edges, circles, squares
   events.json    with --events: the worst misses and false alarms, with the rules that the corners
                  met their end by, and JPEG pictures
+  pictures.mjpeg with --events: what the camera saw, compressed, for --recorded
 
 What was wrong with the data (readings of the sensors, times, corners) is counted and told on stderr.
 
@@ -56,6 +61,44 @@ void print_result(const scenario::Scenario& scenario, const comparators::Detecto
   fmt::print("{}{}: {} frames, seed {}, {:.1f} frames/s\n", scenario.name, by, scenario.frames,
              scenario.seed, bench::value(metrics, "sim.frames_per_second").value_or(0));
   fmt::print("{}  files    {}\n", bench::table(metrics), folder.string());
+}
+
+/// What the detector watches, and where it comes from.
+struct Frames {
+  sim::Pinhole camera;
+  bench::Recording recording;  ///< without frames yet
+  const bench::FramePictures* pictures = nullptr;
+  std::function<Diagnostics(bench::Tracker&, bench::Recording&, const bench::FrameSink&)> run;
+};
+
+Frames simulated(const scenario::Scenario& scenario) {
+  const auto simulation = std::make_shared<sim::Simulation>(scenario);
+  return {.camera = simulation->calibration().camera,
+          .recording = bench::begin_recording(scenario, *simulation),
+          .run = [&scenario, simulation](bench::Tracker& tracker, bench::Recording& recording,
+                                         const bench::FrameSink& sink) {
+            return bench::run(scenario, *simulation, tracker, recording, sink);
+          }};
+}
+
+Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
+                const comparators::Detector& detector) {
+  comparators::require_corners_suffice(detector);
+  const auto earlier = std::make_shared<bench::EarlierRun>(options.recorded, scenario);
+  const bool with_images = !options.no_video;
+  if (with_images && !earlier->pictures()) {
+    throw std::invalid_argument(
+        fmt::format("{} has no pictures to make a video of; give --no-video, or record it with "
+                    "--events",
+                    options.recorded));
+  }
+  return {.camera = earlier->camera(),
+          .recording = earlier->begin(),
+          .pictures = earlier->pictures(),
+          .run = [earlier, with_images](bench::Tracker& tracker, bench::Recording& recording,
+                                        const bench::FrameSink& sink) {
+            return earlier->run(tracker, recording, with_images, sink);
+          }};
 }
 
 /// One line each, on stderr. \return whether a required one is among them.
@@ -86,6 +129,12 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
       .add_option("--detector", options.detector,
                   "What watches: lcs (the filter), or klt or homography to compare it with")
       ->type_name("NAME");
+  command
+      .add_option(
+          "--recorded", options.recorded,
+          "Take corners, motion and truth from an earlier run of the same scenario and seed, "
+          "instead of simulating")
+      ->type_name("DIR");
   command.add_flag("--no-video", options.no_video, "Write no video.mp4");
   command.add_flag("--events", options.events,
                    "Write events.json: where rebels were missed or false, why, and pictures of it");
@@ -104,21 +153,22 @@ ExitCode run(const RunOptions& options) {
       scenario::load(options.scenario, {.sets = options.sets, .seed = options.seed});
   bench::filter_parameters(scenario);  // whoever reads them: what is wrong is told
   bench::require_known_metrics(scenario.criteria);
-  sim::Simulation simulation(scenario);
-  const sim::Pinhole& camera = simulation.calibration().camera;
-  const std::unique_ptr<bench::Tracker> tracker = detector.make(camera, scenario);
+  const Frames frames =
+      options.recorded.empty() ? simulated(scenario) : recorded(options, scenario, detector);
+  const std::unique_ptr<bench::Tracker> tracker = detector.make(frames.camera, scenario);
 
-  bench::Recording recording = bench::begin_recording(scenario, simulation);
+  bench::Recording recording = frames.recording;
   recording.detector = {std::string(detector.name), detector.layered};
   bench::Result result(
-      target_of(options, scenario), recording, {camera.width_px, camera.height_px},
+      target_of(options, scenario), recording, {frames.camera.width_px, frames.camera.height_px},
       {.video_frames_per_second =
            options.no_video ? std::nullopt : std::optional(scenario.camera.rate_hz),
-       .events = options.events});
+       .events = options.events,
+       .kept = frames.pictures});
   Diagnostics diagnostics;
   {
     Progress progress(scenario.name, scenario.frames, options.quiet);
-    diagnostics = bench::run(scenario, simulation, *tracker, recording,
+    diagnostics = frames.run(*tracker, recording,
                              [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
                                interrupt.check();
                                result.add(frame, image);

@@ -29,6 +29,8 @@ constexpr const char* kHelp = R"(Examples:
   lcs suite                                       every short scenario of the project, 3 seeds each
   lcs suite --seeds 1 --worst-first               quicker, and where to look first
   lcs suite --filter crossing --set filter.circle.mu_0=20 --out out/mu20
+  lcs suite --recorded out/suite --out out/mine --baseline out/suite
+                                                  the filter anew on the frames of an earlier suite
   lcs suite --group sweep --filter distance       a sweep: one run a point and seed
   lcs suite my_scenarios other.yaml               other scenarios; of files any group
   lcs suite --group all --list                    what there is
@@ -142,6 +144,11 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
       .add_option("--detector", options.detector,
                   "What watches: lcs (the filter), or klt or homography to compare it with")
       ->type_name("NAME");
+  command
+      .add_option("--recorded", options.recorded,
+                  "Take corners, motion and truth from an earlier suite instead of simulating, "
+                  "which takes seconds")
+      ->type_name("DIR");
   add_set_option(command, options.sets, "Set a value in every scenario, as \"camera.rate=5 Hz\"");
   command.add_option("--out", options.out, "Folder for the results; out/suite if not given")
       ->type_name("DIR");
@@ -160,7 +167,13 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
 ExitCode suite(const SuiteOptions& options) {
   const InterruptGuard interrupt;
 
-  comparators::detector(options.detector);  // one that is not known is told before anything runs
+  // What cannot be is told before anything runs.
+  const comparators::Detector& detector = comparators::detector(options.detector);
+  std::string recorded;
+  if (!options.recorded.empty()) {
+    comparators::require_corners_suffice(detector);
+    recorded = fmt::format("{}, {}", options.recorded, suite::read_suite(options.recorded).version);
+  }
   const std::vector<suite::PlannedScenario> plan =
       suite::plan({.paths = {options.paths.begin(), options.paths.end()},
                    .group = options.group,
@@ -173,9 +186,10 @@ ExitCode suite(const SuiteOptions& options) {
 
   bench::OutputFolder folder(options.out, suite::suite_files());
   SuiteProgress progress(options.quiet);
-  const suite::SuiteResult result = suite::run_suite(
+  suite::SuiteResult result = suite::run_suite(
       plan, {.detector = options.detector,
              .sets = options.sets,
+             .recorded = options.recorded,
              .version = version_line(),
              .jobs = jobs_at_once(options),
              .folder = folder.staging(),
@@ -189,6 +203,7 @@ ExitCode suite(const SuiteOptions& options) {
                  }});
   interrupt.check();
   progress.wipe();
+  result.recorded = recorded;
   suite::write_suite(folder.staging() / suite::kSuiteFile, result);
   suite::write_junit(folder.staging() / suite::kJunitFile, result);
   report::write_report(folder.staging() / report::kReportFile, result,

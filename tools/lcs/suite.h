@@ -19,6 +19,7 @@ struct SuiteOptions {
   int seeds = 3;
   std::string detector = "lcs";
   std::vector<std::string> sets;  ///< "key=value"
+  std::string recorded;           ///< folder of an earlier suite, for its frames; "": simulate
   std::string out = "out/suite";  ///< folder
   std::string baseline;           ///< suite.json, or its folder; "" for none
   bool worst_first = false;

@@ -73,6 +73,7 @@ function head() {
     el('h1', null, 'Suite: ' + data.detector),
     el('div', { class: 'facts' },
       fact('version', data.version), fact('settings', data.sets.join(', ')),
+      fact('frames of', data.recorded),
       fact('scenarios', String(data.scenarios.length)), fact('runs', String(runs.length)),
       fact('baseline', hasBaseline
         ? [data.baseline.detector, data.baseline.version, ...data.baseline.sets].join(', ') : 'none')),

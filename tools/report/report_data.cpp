@@ -298,9 +298,13 @@ const ScenarioResult* find(const SuiteResult* baseline, const std::string& name)
 
 std::string report_data(const SuiteResult& suite, const SuiteResult* baseline,
                         const fs::path& suite_folder, std::size_t picture_budget) {
-  Json data = {{"detector", suite.detector}, {"version", suite.version},
-               {"sets", suite.sets},         {"baseline", nullptr},
-               {"traits", figure_traits()},  {"groups", groups_of(suite, baseline)},
+  Json data = {{"detector", suite.detector},
+               {"version", suite.version},
+               {"sets", suite.sets},
+               {"recorded", suite.recorded},
+               {"baseline", nullptr},
+               {"traits", figure_traits()},
+               {"groups", groups_of(suite, baseline)},
                {"scenarios", Json::array()}};
   if (baseline) {
     data["baseline"] = {

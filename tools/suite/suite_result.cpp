@@ -77,6 +77,8 @@ class Node {
     return {*found, path};
   }
 
+  bool has(const char* key) const { return json_.is_object() && json_.contains(key); }
+
   /// Calls `use(node)` for every item.
   template <class Use>
   void each(const Use& use) const {
@@ -180,6 +182,7 @@ SuiteResult suite_of(const Node& node) {
   suite.detector = node["detector"].text();
   suite.sets = node["sets"].texts();
   suite.version = node["version"].text();
+  if (node.has("recorded")) suite.recorded = node["recorded"].text();
   std::set<std::string> names;
   node["scenarios"].each([&](const Node& item) {
     suite.scenarios.push_back(scenario_of(item));
@@ -194,11 +197,9 @@ SuiteResult suite_of(const Node& node) {
 void write_suite(const std::filesystem::path& file, const SuiteResult& suite) {
   Json scenarios = Json::array();
   for (const ScenarioResult& scenario : suite.scenarios) scenarios.push_back(to_json(scenario));
-  const Json json{{"format", kFormat},
-                  {"detector", suite.detector},
-                  {"sets", suite.sets},
-                  {"version", suite.version},
-                  {"scenarios", scenarios}};
+  const Json json{{"format", kFormat},          {"detector", suite.detector},
+                  {"sets", suite.sets},         {"version", suite.version},
+                  {"recorded", suite.recorded}, {"scenarios", scenarios}};
   bench::OutputFile output(file);
   // What a child wrote to stderr need not be UTF-8; JSON is.
   output.write(json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');

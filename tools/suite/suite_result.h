@@ -55,6 +55,9 @@ struct SuiteResult {
   std::string detector;           ///< lcs, klt or homography
   std::vector<std::string> sets;  ///< "key=value", as given
   std::string version;            ///< of the program
+  /// The earlier suite whose frames were watched, and the program that simulated them; empty where
+  /// this one did.
+  std::string recorded = {};
   std::vector<ScenarioResult> scenarios;
 };
 

@@ -40,6 +40,10 @@ std::vector<std::string> command_of(const PlannedScenario& planned, std::uint64_
       "--out",      (options.folder / folder_of(planned, seed)).string(),
       "--no-video", "--quiet",
       "--events"};
+  if (!options.recorded.empty()) {
+    command.insert(command.end(),
+                   {"--recorded", (options.recorded / folder_of(planned, seed)).string()});
+  }
   for (const std::string& set : planned.sets) command.insert(command.end(), {"--set", set});
   return command;
 }

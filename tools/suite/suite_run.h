@@ -26,6 +26,7 @@ struct SuiteProgress {
 struct SuiteRunOptions {
   std::string detector;
   std::vector<std::string> sets;
+  std::filesystem::path recorded;  ///< folder of an earlier suite, for its frames; "": simulate
   std::string version;
   std::size_t jobs = 1;               ///< runs at a time, >= 1
   std::filesystem::path folder;       ///< gets runs/<name>/seed-<n>/

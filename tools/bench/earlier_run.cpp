@@ -1,0 +1,105 @@
+#include "tools/bench/earlier_run.h"
+
+#include <fmt/format.h>
+
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "tools/bench/recording_io.h"
+
+namespace lcs::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using World = std::map<std::string, std::string>;
+
+std::string as_written(const World& world, const std::string& key) {
+  const auto found = world.find(key);
+  return found == world.end() ? fmt::format("no {}", key)
+                              : fmt::format("{}: {}", key, found->second);
+}
+
+/// What the first difference is.
+std::string difference(const World& then, const World& now) {
+  for (const World* one : {&then, &now}) {
+    for (const auto& [key, text] : *one) {
+      const std::string before = as_written(then, key), after = as_written(now, key);
+      if (before != after) return fmt::format("it has {}, and now there is {}", before, after);
+    }
+  }
+  return "";
+}
+
+void require_same(const fs::path& folder, const Recording& recorded,
+                  const scenario::Scenario& scenario) {
+  const auto refuse = [&](const std::string& what) {
+    throw std::runtime_error(
+        fmt::format("{} is no recording of this run: {}; run {} without "
+                    "--recorded to make one",
+                    folder.string(), what, scenario.name));
+  };
+  if (recorded.scenario != scenario.name) refuse("it is of " + recorded.scenario);
+  if (recorded.seed != scenario.seed) {
+    refuse(fmt::format("it is of seed {}, not {}", recorded.seed, scenario.seed));
+  }
+  if (recorded.world.empty()) refuse("it does not say what world it is of");
+  if (recorded.world != scenario.world) refuse(difference(recorded.world, scenario.world));
+  if (std::ssize(recorded.frames) != scenario.frames) {
+    refuse(fmt::format("it has {} frames of {}", recorded.frames.size(), scenario.frames));
+  }
+}
+
+}  // namespace
+
+EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenario)
+    : camera_(sim::Pinhole::from_fovy(scenario.camera.width_px, scenario.camera.height_px,
+                                      scenario.camera.fovy_rad)) {
+  if (!fs::exists(folder / kLayersFile)) {
+    throw std::runtime_error(
+        fmt::format("there is no run in {}; name a folder that lcs run has left", folder.string()));
+  }
+  recorded_ = read_recording(folder);
+  require_same(folder, recorded_, scenario);
+  const fs::path pictures = folder / kPicturesFile;
+  if (!fs::exists(pictures)) return;
+  pictures_ = FramePictures::read(pictures, camera_.width_px);
+  if (pictures_->size() != recorded_.frames.size()) {
+    throw std::runtime_error(fmt::format("{} has {} pictures of {} frames", pictures.string(),
+                                         pictures_->size(), recorded_.frames.size()));
+  }
+}
+
+Recording EarlierRun::begin() const {
+  Recording recording = recorded_;
+  recording.frames.clear();
+  return recording;
+}
+
+/// As large as the camera made it.
+cv::Mat3b EarlierRun::image(std::size_t position) const {
+  double scale = 1;
+  cv::Mat3b picture = pictures_.value().at(position, scale);
+  const cv::Size size_px(camera_.width_px, camera_.height_px);
+  if (picture.size() != size_px) cv::resize(picture, picture, size_px, 0, 0, cv::INTER_LINEAR);
+  return picture;
+}
+
+Diagnostics EarlierRun::run(Tracker& tracker, Recording& recording, bool with_images,
+                            const FrameSink& sink) const {
+  for (std::size_t k = 0; k < recorded_.frames.size(); ++k) {
+    const FrameRecord& given = recorded_.frames[k];
+    FrameRecord& frame = recording.frames.emplace_back();
+    frame.index = given.index;
+    frame.t_ns = given.t_ns;
+    frame.corners_px = given.corners_px;
+    frame.motion = given.motion;
+    frame.true_motion = given.true_motion;
+    frame.corner_truth = given.corner_truth;
+    frame.object_truth = given.object_truth;
+    ask(tracker, {}, {}, frame);
+    sink(frame, with_images ? image(k) : cv::Mat3b{});
+  }
+  return tracker.diagnostics();
+}
+
+}  // namespace lcs::bench

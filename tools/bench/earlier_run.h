@@ -1,0 +1,49 @@
+/// \file
+/// An earlier run of a scenario in place of a simulation: the same corners, motions and truth, so
+/// that a detector that looks at no pictures says what it would say in a run of its own, in a
+/// fraction of the time.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "scenarios/scenario.h"
+#include "sim/pose.h"
+#include "tools/bench/bench.h"
+#include "tools/bench/frame_pictures.h"
+
+namespace lcs::bench {
+
+class EarlierRun {
+ public:
+  /// \throws std::runtime_error naming the folder: there is no run in it, a file of it is broken,
+  /// or
+  ///   it is of another scenario, of another seed, or of the scenario as it was before its world
+  ///   changed.
+  EarlierRun(const std::filesystem::path& folder, const scenario::Scenario& scenario);
+
+  const sim::Pinhole& camera() const { return camera_; }
+
+  /// Of each frame, where the run kept them; else null.
+  const FramePictures* pictures() const { return pictures_ ? &*pictures_ : nullptr; }
+
+  /// A recording of the scenario without frames yet.
+  Recording begin() const;
+
+  /// Goes through all frames, as `bench::run` does.
+  /// \param tracker that looks at no pictures: it is given none.
+  /// \param with_images whether the sink gets them, which takes `pictures()`; else they are empty.
+  /// \return what was wrong with what the tracker was told.
+  /// \throws what the tracker and the sink throw.
+  Diagnostics run(Tracker& tracker, Recording& recording, bool with_images,
+                  const FrameSink& sink) const;
+
+ private:
+  cv::Mat3b image(std::size_t position) const;
+
+  Recording recorded_;
+  sim::Pinhole camera_;
+  std::optional<FramePictures> pictures_;
+};
+
+}  // namespace lcs::bench

@@ -1,0 +1,78 @@
+#include "tools/bench/frame_pictures.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "tools/bench/output_file.h"
+
+namespace lcs::bench {
+namespace {
+
+/// A JPEG's first and last marker; between them, as OpenCV writes it, there is neither.
+constexpr std::string_view kJpegStart = "\xff\xd8", kJpegEnd = "\xff\xd9";
+
+constexpr int kKeptWidth_px = 640;
+constexpr int kKeptQuality = 88;
+
+}  // namespace
+
+std::vector<unsigned char> jpeg(const cv::Mat3b& image, int quality) {
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, quality})) {
+    throw std::runtime_error("OpenCV cannot write JPEG");
+  }
+  return bytes;
+}
+
+void FramePictures::add(const cv::Mat3b& image) {
+  scale_ = std::min(1.0, static_cast<double>(kKeptWidth_px) / image.cols);
+  cv::Mat3b kept = image;
+  if (scale_ < 1) cv::resize(image, kept, {}, scale_, scale_, cv::INTER_AREA);
+  jpegs_.push_back(jpeg(kept, kKeptQuality));
+}
+
+FramePictures FramePictures::read(const std::filesystem::path& file, int image_width_px) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::runtime_error("cannot read " + file.string());
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  FramePictures pictures;
+  for (std::size_t start = 0; start < bytes.size();) {
+    const std::size_t end = bytes.find(kJpegEnd, start);
+    if (bytes.compare(start, kJpegStart.size(), kJpegStart) != 0 || end == std::string::npos) {
+      throw std::runtime_error(file.string() + ": not a JPEG picture at byte " +
+                               std::to_string(start));
+    }
+    const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(start);
+    const std::size_t length = end + kJpegEnd.size() - start;
+    pictures.jpegs_.emplace_back(first, first + static_cast<std::ptrdiff_t>(length));
+    start += length;
+  }
+  pictures.scale_ = std::min(1.0, static_cast<double>(kKeptWidth_px) / image_width_px);
+  return pictures;
+}
+
+void FramePictures::write(const std::filesystem::path& file) const {
+  OutputFile output(file);
+  for (const auto& bytes : jpegs_) {
+    output.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  }
+  output.close();
+}
+
+cv::Mat3b FramePictures::at(std::size_t position, double& scale) const {
+  scale = scale_;
+  cv::Mat3b picture = cv::imdecode(jpegs_.at(position), cv::IMREAD_COLOR);
+  if (picture.empty()) {
+    throw std::runtime_error("picture " + std::to_string(position) + " of " + kPicturesFile +
+                             " is broken");
+  }
+  return picture;
+}
+
+}  // namespace lcs::bench
