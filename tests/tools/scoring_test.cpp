@@ -62,6 +62,7 @@ TEST(Scoring, EveryMetricThatUsersRelyOnExistsOnce) {
                            "rebel.object_recall",
                            "rebel.latency_frames_median",
                            "rebel.false_objects_per_100_frames",
+                           "rebel.circle_recall",
                            "square.recall_50",
                            "square.precision_50",
                            "square.recall_30",
@@ -405,6 +406,32 @@ TEST(RebelObjects, ACircleIsFalseUnlessAMovingCornerIsInItOrItsCentreInAMoversBo
   EXPECT_DOUBLE_EQ(false_objects({150, 148}, 12.1, true), 0) << "a moving corner on its rim";
   EXPECT_DOUBLE_EQ(false_objects({150, 148}, 11.9, true), 100) << "that corner just outside";
   EXPECT_DOUBLE_EQ(false_objects({200, 148}, 5, true), 100) << "only a fixed corner in it";
+}
+
+TEST(RebelObjects, CircleRecallIsTheShareOfMoversSeenWithACirclesCentreInTheirBox) {
+  // Seen or not in frames 3 to 7; before, all are.
+  const auto recall = [](int corners, bool moving,
+                         const std::function<void(FrameMaker&)>& circles) {
+    return value(score(frames(8,
+                              [&](FrameMaker& frame) {
+                                frame.object(1, kBox, moving)
+                                    .corners(corners, Verdict::rebel, Label::rebel, 1)
+                                    .corners(9, Verdict::rebel, Label::rebel, 2)
+                                    .corners(9, Verdict::normal, Label::rebel, 1);
+                                circles(frame);
+                              })),
+                 "rebel.circle_recall");
+  };
+  const auto from = [](int first, Vec2 centre) {
+    return [=](FrameMaker& frame) {
+      if (frame.record().index >= first) frame.rebel_circle(centre, 5).rebel_circle(centre, 5);
+    };
+  };
+  EXPECT_DOUBLE_EQ(recall(3, true, from(0, {120, 120})).value(), 1);
+  EXPECT_DOUBLE_EQ(recall(3, true, from(6, {120, 120})).value(), 2.0 / 5);
+  EXPECT_DOUBLE_EQ(recall(3, true, from(0, {97, 120})).value(), 0) << "its disc alone reaches in";
+  EXPECT_FALSE(recall(2, true, from(0, {120, 120}))) << "too few corners to be seen by";
+  EXPECT_FALSE(recall(3, false, from(0, {120, 120}))) << "at rest";
 }
 
 TEST(RebelObjects, FalseCirclesAreCountedPerHundredFramesAfterTheWarmUp) {

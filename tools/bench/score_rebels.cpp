@@ -46,15 +46,19 @@ RebelCounts counts(CornerOutcome outcome) {
   return counts;
 }
 
+/// Corners on an object whose verdict is rebel.
+int rebels_on(const FrameRecord& frame, int object) {
+  int rebels = 0;
+  for (std::size_t i = 0; i < frame.corner_truth.size(); ++i) {
+    rebels += frame.corner_truth[i].object == object && frame.verdicts[i] == Verdict::rebel;
+  }
+  return rebels;
+}
+
 /// First frame from k0 on with enough rebel corners on the object.
 std::optional<int> found_at(const Recording& recording, int object, int k0) {
   for (const FrameRecord& frame : recording.frames) {
-    if (frame.index < k0) continue;
-    int rebels = 0;
-    for (std::size_t i = 0; i < frame.corner_truth.size(); ++i) {
-      rebels += frame.corner_truth[i].object == object && frame.verdicts[i] == Verdict::rebel;
-    }
-    if (rebels >= kCornersToFind) return frame.index;
+    if (frame.index >= k0 && rebels_on(frame, object) >= kCornersToFind) return frame.index;
   }
   return std::nullopt;
 }
@@ -166,6 +170,14 @@ RebelObjectScore score_rebel_objects(const Recording& recording) {
     if (frame.index < kSightings) continue;
     ++score.frames;
     score.false_circles += static_cast<int>(false_circles(frame).size());
+    for (const sim::ObjectTruth& truth : frame.object_truth) {
+      if (!truth.moving || rebels_on(frame, truth.object) < kCornersToFind) continue;
+      const auto& circles = frame.layers.rebel_circles;
+      ++score.seen;
+      score.circled += std::any_of(circles.begin(), circles.end(), [&](const Circle& circle) {
+        return contains(truth, circle.location);
+      });
+    }
   }
   return score;
 }

@@ -65,6 +65,8 @@ struct RebelObjectScore {
   std::vector<double> latencies;  ///< frames from the first distinct one, of each that was found
   int false_circles = 0;          ///< as `false_circles`
   int frames = 0;                 ///< in which false circles were looked for
+  int seen = 0;     ///< moving objects with as many rebel corners as find one, over these frames
+  int circled = 0;  ///< of these, with the centre of a rebel circle in their box
 };
 
 RebelObjectScore score_rebel_objects(const Recording& recording);

@@ -43,6 +43,7 @@ void add_rebels(Metrics& metrics, const Recording& recording) {
   metrics.emplace_back("rebel.latency_frames_median", median(objects.latencies));
   metrics.emplace_back("rebel.false_objects_per_100_frames",
                        ratio(100.0 * objects.false_circles, objects.frames));
+  metrics.emplace_back("rebel.circle_recall", ratio(objects.circled, objects.seen));
 
   const auto counted = [](const RebelCounts& counts) {
     return counts.found_rebels + counts.missed_rebels;

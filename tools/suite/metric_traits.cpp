@@ -37,6 +37,7 @@ const std::vector<MetricTraits>& metric_traits() {
       higher_share("rebel.object_recall"),
       lower("rebel.latency_frames_median", 0.4),  // of an even number of objects it has halves
       lower("rebel.false_objects_per_100_frames", 1),
+      higher_share("rebel.circle_recall"),
       neutral("truth.rebel_corners"),
       neutral("truth.radial_corners"),
       neutral("truth.fixed_corners"),
