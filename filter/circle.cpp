@@ -41,6 +41,7 @@ void CircleExpert::predict(Layers& layers, const MotionField& field) const {
 
 void CircleExpert::feed_back(const Layers& layers, std::vector<IgnoreRegion>& psi,
                              std::vector<Collector>& lambda) const {
+  lambda.reserve(layers.normal_circles.capacity());  // every circle may come to collect
   for (const Circle& circle : layers.normal_circles) {
     if (circle.ignoring) {
       psi.push_back({IgnoreRegion::Shape::circle, circle.location, {circle.radius, circle.radius}});
@@ -115,7 +116,9 @@ void CircleExpert::group(const std::vector<Edge>& edges, const MotionField& fiel
     free_.push_back(&edge);
     points_.push_back(edge.location);
   }
-  grid_.build(points_, parameters_.reach);
+  const bool rebels = !edges.empty() && edges.front().rebel;
+  const double reach = rebels ? parameters_.reach_r : parameters_.reach_n;
+  grid_.build(points_, reach);
   std::sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) {
     return std::tuple(-a.trust, -a.age, a.index) < std::tuple(-b.trust, -b.age, b.index);
   });
@@ -125,7 +128,7 @@ void CircleExpert::group(const std::vector<Edge>& edges, const MotionField& fiel
     if (!free_[seed.index]) continue;
     const Edge& edge = *free_[seed.index];
     const std::size_t first = grouped_.size();
-    grid_.visit_within(edge.location, parameters_.reach, [&](int other, double) {
+    grid_.visit_within(edge.location, reach, [&](int other, double) {
       if (free_[other] && alike(edge, *free_[other], field)) grouped_.push_back(other);
     });
     std::sort(grouped_.begin() + static_cast<std::ptrdiff_t>(first), grouped_.end());

@@ -136,7 +136,8 @@ const std::vector<Entry>& entries() {
       {"circle.epsilon_v_r", "eps_v,r", "V_v", 0, 1000, LCS_FIELD(double, circle.epsilon_v_r)},
       {"circle.epsilon_v", "eps_v", "V_v", 0, 1000, LCS_FIELD(double, circle.epsilon_v)},
       {"circle.rho_c", "rho_c", "%", 0, 100, LCS_FIELD(double, circle.rho_c)},
-      {"circle.reach", "", "px", 0.1, 10000, LCS_FIELD(double, circle.reach)},
+      {"circle.reach_n", "", "px", 0.1, 10000, LCS_FIELD(double, circle.reach_n)},
+      {"circle.reach_r", "", "px", 0.1, 10000, LCS_FIELD(double, circle.reach_r)},
       {"circle.min_members", "", "", 1, 1000, LCS_FIELD(int, circle.min_members)},
       {"footing.time", "", "s", 0, 1000, LCS_FIELD(double, circle.footing.time)},
       {"footing.reach", "", "px", 1, 1e4, LCS_FIELD(double, circle.footing.reach)},
@@ -328,7 +329,10 @@ Parameters project_default() {
   Parameters p;
   set_degrees(p.circle, p.square);
   p.circle.trust = {2, 3, 7};
-  p.circle.min_members = p.circle.constellation.support;
+  // What makes an object of rebels makes a circle of them.
+  p.circle.min_members = p.square.link.min_rebels;
+  p.circle.reach_n = 100;
+  p.circle.reach_r = 60;
   // A square is made again in each frame: one that the next frame does not bear out is gone.
   p.square.trust = {3, 3, 6};
   p.square.epsilon_beta_s = 60 * kDegree;

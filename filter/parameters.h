@@ -130,7 +130,8 @@ struct CircleParameters {
   double epsilon_v_r = 1.0;   ///< eps_v,r, 100 % of V_v
   double epsilon_v = 0.7;     ///< eps_v, of V_v, between a predicted circle and a group
   double rho_c = 40;          ///< rho_c, %: overlap of a group with the predicted circle
-  double reach = 50;          ///< px: how far apart the edges of one circle may lie
+  double reach_n = 50;        ///< px: how far apart the edges of one normal circle may lie
+  double reach_r = 50;        ///< px: and of a rebel one
   int min_members = 3;        ///< edges that make a new circle
   int rebel_coast = 4;  ///< trust that a rebel circle loses in a frame without its edges; paper: 1
 };
