@@ -497,17 +497,14 @@ const Edge& ConstellationEdges::edge_of(int decided, const Layers& layers) const
 /// What is round a corner: a decided one that is the nearest, others that move about as it does,
 /// and what stands.
 Surroundings ConstellationEdges::look_around(std::size_t corner, int nearest, double reach_px,
-                                             const Layers& layers, const Chi& chi, double dt_s) {
+                                             const Layers& layers, const Chi& chi) {
   const Vec2& x = chi.locations[corner];
-  const auto step_of = [&](int decided) -> Vec2 {
-    return edge_of(decided, layers).velocity() * dt_s;
-  };
-  const Vec2 step = step_of(nearest);
+  const Vec2& step = decided_steps_[nearest];
   const double like_px = std::max(kAlikeStep_px, kAlikeStepShare * step.norm());
   Surroundings around;
   Bearings bearings;
   decided_grid_.visit_within(x, reach_px, [&](int decided, double) {
-    if ((step_of(decided) - step).squaredNorm() > like_px * like_px) return;
+    if ((decided_steps_[decided] - step).squaredNorm() > like_px * like_px) return;
     ++around.rebels;
     bearings.add(decided_locations_[decided] - x);
   });
@@ -530,11 +527,13 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
   const int established = parameters_.constellation.established;
   decided_corners_.clear();
   decided_locations_.clear();
+  decided_steps_.clear();
   refill(is_normal_, chi.size());
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (called_[c]) {
       decided_corners_.push_back(static_cast<int>(c));
       decided_locations_.push_back(chi.locations[c]);
+      decided_steps_.push_back(layers.rebel_edges[links_[c].index].velocity() * field.dt_s());
     } else {
       is_normal_[c] = links_[c].kind == Kind::normal &&
                       layers.normal_edges[links_[c].index].trust >= established;
@@ -550,7 +549,7 @@ void ConstellationEdges::inherit(Layers& layers, const Chi& chi, const MotionFie
         x, reach, 1, [](int) { return true; }, near_);
     if (near_.empty()) continue;
     const int nearest = near_.front().index;
-    const Surroundings around = look_around(c, nearest, reach, layers, chi, field.dt_s());
+    const Surroundings around = look_around(c, nearest, reach, layers, chi);
     const Edge model = edge_of(nearest, layers);
     Edge* normal = links_[c].kind == Kind::normal ? &layers.normal_edges[links_[c].index] : nullptr;
     const bool trusted = normal && normal->trust >= trust_.maximum;

@@ -108,7 +108,7 @@ class ConstellationEdges : public EdgeExpert {
   Edge make_rebel(const Vec2& x, const Vec2& velocity_pxps, double dt_s);
   const Edge& edge_of(int decided, const Layers& layers) const;
   Surroundings look_around(std::size_t corner, int nearest, double reach_px, const Layers& layers,
-                           const Chi& chi, double dt_s);
+                           const Chi& chi);
   void inherit(Layers& layers, const Chi& chi, const MotionField& field);
   void turn_unfounded(Layers& layers, const Chi& chi, const MotionField& field);
   bool confirms(const Vec2& x, const Vec2& step) const;
@@ -130,7 +130,7 @@ class ConstellationEdges : public EdgeExpert {
                                  // 0: there was none
   PointGrid once_grid_, decided_grid_;
   std::vector<int> decided_corners_;  // that were called before neighbours were asked
-  std::vector<Vec2> decided_locations_;
+  std::vector<Vec2> decided_locations_, decided_steps_;  // of each: px; of its edge in a frame, px
   std::vector<char> is_normal_;  // corners that established normal edges have
   std::vector<Candidate> candidates_;
   std::vector<Link> links_;   // of each corner
