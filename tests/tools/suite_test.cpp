@@ -217,6 +217,45 @@ TEST_F(Suite, OnTheFramesOfAnEarlierOneItHasTheFiguresOfOneThatSimulates) {
   EXPECT_EQ(result("more").scenarios.at(0).runs.at(1).outcome, Outcome::passed);
 }
 
+TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
+  // The criterion is the filter's; it does not judge the others, which are not layered.
+  scenario("near", "criteria: [{metric: dimension.mean, min: 1}]\n", 8);
+  const CommandResult command = run({"--seeds", "2", "--beside", "klt", "--beside", "homography"});
+  EXPECT_EQ(command.exit_code, 0) << command.err;
+  EXPECT_EQ(entries(out_),
+            (std::set<std::string>{"suite.json", "junit.xml", "report.html", "runs", "beside"}));
+  for (const char* part : {"[2/2] klt: near seed ", "[2/2] homography: near seed "}) {
+    EXPECT_NE(command.err.find(part), std::string::npos) << part << " in\n" << command.err;
+  }
+  EXPECT_EQ(result().detector, "lcs");
+  for (const std::string name : {"klt", "homography"}) {
+    const fs::path beside = fs::path("out") / "suite" / "beside" / name;
+    const SuiteResult other = result(beside);
+    EXPECT_EQ(other.detector, name);
+    ASSERT_EQ(other.scenarios.size(), 1u);
+    ASSERT_EQ(other.scenarios[0].runs.size(), 2u);
+    const RunResult& run = other.scenarios[0].runs[1];
+    EXPECT_EQ(run.outcome, Outcome::passed);
+    const auto frames = [](const std::string& truth) { return truth.substr(truth.find('\n')); };
+    EXPECT_TRUE(frames(read(folder_.path() / beside / run.folder / "truth.jsonl")) ==
+                frames(read(run_folder(result().scenarios[0], 1) / "truth.jsonl")))
+        << "not the same frames";
+  }
+  // It is an earlier suite like any other.
+  EXPECT_EQ(run({"--seeds", "1"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(out_ / "beside"));
+}
+
+TEST_F(Suite, ADetectorBesideThatIsUnknownOrRunAlreadyIsRefused) {
+  scenario("near");
+  for (const auto& [name, said] : {std::pair{"lcs", "it is run already"}, {"orb", "no detector"}}) {
+    const CommandResult command = run({"--beside", name});
+    EXPECT_EQ(command.exit_code, 2);
+    EXPECT_NE(command.err.find(said), std::string::npos) << command.err;
+  }
+  EXPECT_EQ(entries(folder_.path()), std::set<std::string>{"scenarios"});
+}
+
 TEST_F(Suite, AnEarlierOneThatIsNoneOrADetectorThatLooksIsRefusedBeforeAnythingRuns) {
   scenario("near");
   const CommandResult missing = run({"--recorded", "nowhere"});

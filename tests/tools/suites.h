@@ -31,8 +31,8 @@ inline ScenarioResult scenario_with(const std::string& name, const std::string& 
 
 inline SuiteResult suite_with(std::vector<ScenarioResult> scenarios) {
   SuiteResult suite;
-  suite.detector = "lcs";
-  suite.version = "0";
+  suite.detector = std::string("lcs");
+  suite.version = std::string("0");  // not the text itself: GCC 12 warns of its own assignment
   suite.scenarios = std::move(scenarios);
   return suite;
 }

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <set>
+#include <stdexcept>
 #include <thread>
 
 #include "tools/bench/output_folder.h"
@@ -12,6 +15,7 @@
 #include "tools/lcs/suite_progress.h"
 #include "tools/lcs/version.h"
 #include "tools/report/report_page.h"
+#include "tools/suite/beside_table.h"
 #include "tools/suite/comparison.h"
 #include "tools/suite/junit.h"
 #include "tools/suite/plan.h"
@@ -31,6 +35,7 @@ constexpr const char* kHelp = R"(Examples:
   lcs suite --filter crossing --set filter.circle.mu_0=20 --out out/mu20
   lcs suite --recorded out/suite --out out/mine --baseline out/suite
                                                   the filter anew on the frames of an earlier suite
+  lcs suite --beside klt --beside homography      F1 beside what it is measured against
   lcs suite --group sweep --filter distance       a sweep: one run a point and seed
   lcs suite my_scenarios other.yaml               other scenarios; of files any group
   lcs suite --group all --list                    what there is
@@ -45,6 +50,7 @@ Files written to the folder, all or none:
                 false alarm the reasons and a strip of pictures; open it in a browser
   junit.xml     a test case a criterion, for continuous integration
   runs/NAME/seed-N/   what `lcs run --events` leaves, without a video
+  beside/DETECTOR/    with --beside: suite.json and runs/ of that detector, for lcs compare
 
 Exit codes:
   0  fine
@@ -102,6 +108,17 @@ void print_changes(const suite::SuiteResult& baseline, const suite::SuiteResult&
   fmt::print("Against {}:\n{}\n", name, suite::text_of(comparison, false));
 }
 
+/// Detectors to run beside the suite's own, each once.
+void require_others(const SuiteOptions& options) {
+  std::set<std::string> names{options.detector};
+  for (const std::string& name : options.beside) {
+    comparators::detector(name);
+    if (!names.insert(name).second) {
+      throw std::invalid_argument(fmt::format("--beside {}: it is run already", name));
+    }
+  }
+}
+
 ExitCode exit_code(suite::Outcome outcome) {
   switch (outcome) {
     case suite::Outcome::passed:
@@ -149,6 +166,14 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
                   "Take corners, motion and truth from an earlier suite instead of simulating, "
                   "which takes seconds")
       ->type_name("DIR");
+  command
+      .add_option(
+          "--beside", options.beside,
+          "Run this detector too on the same scenarios, and print F1 beside each other; may "
+          "be repeated")
+      ->type_name("NAME")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_set_option(command, options.sets, "Set a value in every scenario, as \"camera.rate=5 Hz\"");
   command.add_option("--out", options.out, "Folder for the results; out/suite if not given")
       ->type_name("DIR");
@@ -169,6 +194,7 @@ ExitCode suite(const SuiteOptions& options) {
 
   // What cannot be is told before anything runs.
   const comparators::Detector& detector = comparators::detector(options.detector);
+  require_others(options);
   std::string recorded;
   if (!options.recorded.empty()) {
     comparators::require_corners_suffice(detector);
@@ -186,22 +212,37 @@ ExitCode suite(const SuiteOptions& options) {
 
   bench::OutputFolder folder(options.out, suite::suite_files());
   SuiteProgress progress(options.quiet);
-  suite::SuiteResult result = suite::run_suite(
-      plan, {.detector = options.detector,
-             .sets = options.sets,
-             .recorded = options.recorded,
-             .version = version_line(),
-             .jobs = jobs_at_once(options),
-             .folder = folder.staging(),
-             .former = former_suite(folder.target()),
-             .on_run = [&](const suite::SuiteProgress& done, const suite::ScenarioResult& scenario,
-                           const suite::RunResult& run) { progress.finished(done, scenario, run); },
-             .on_tick =
-                 [&](const suite::SuiteProgress& now) {
-                   interrupt.check();
-                   progress.show(now);
-                 }});
-  interrupt.check();
+  const auto run = [&](const std::string& name, const fs::path& recordings, bool judged,
+                       const fs::path& part) {
+    fs::create_directories(folder.staging() / part);
+    if (!options.beside.empty()) progress.watched_by(name);
+    suite::SuiteResult result = suite::run_suite(
+        plan,
+        {.detector = name,
+         .sets = options.sets,
+         .recorded = recordings,
+         .version = version_line(),
+         .judged = judged,
+         .jobs = jobs_at_once(options),
+         .folder = folder.staging() / part,
+         .former = former_suite(folder.target() / part),
+         .on_run = [&](const suite::SuiteProgress& done, const suite::ScenarioResult& scenario,
+                       const suite::RunResult& of) { progress.finished(done, scenario, of); },
+         .on_tick =
+             [&](const suite::SuiteProgress& now) {
+               interrupt.check();
+               progress.show(now);
+             }});
+    interrupt.check();
+    return result;
+  };
+  suite::SuiteResult result = run(options.detector, options.recorded, true, "");
+  std::vector<suite::SuiteResult> others;
+  for (const std::string& name : options.beside) {
+    const fs::path part = fs::path("beside") / name;
+    others.push_back(run(name, "", false, part));
+    suite::write_suite(folder.staging() / part / suite::kSuiteFile, others.back());
+  }
   progress.wipe();
   result.recorded = recorded;
   suite::write_suite(folder.staging() / suite::kSuiteFile, result);
@@ -212,11 +253,19 @@ ExitCode suite(const SuiteOptions& options) {
 
   if (!options.quiet) {
     if (baseline) print_changes(*baseline, result, options.baseline);
+    if (!others.empty()) fmt::print("{}\n", suite::beside_table(result, others));
     fmt::print("{}{}; results in {}\n", suite::suite_table(result, options.worst_first),
                suite::totals(result), folder.target().string());
   }
+  suite::Outcome outcome = suite::outcome_of(result);
   for (const std::string& problem : suite::problems(result)) fmt::print(stderr, "{}\n", problem);
-  return exit_code(suite::outcome_of(result));
+  for (const suite::SuiteResult& other : others) {
+    outcome = std::max(outcome, suite::outcome_of(other));
+    for (const std::string& problem : suite::problems(other)) {
+      fmt::print(stderr, "{}: {}\n", other.detector, problem);
+    }
+  }
+  return exit_code(outcome);
 }
 
 }  // namespace lcs::tools

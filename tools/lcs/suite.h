@@ -18,10 +18,11 @@ struct SuiteOptions {
   int jobs = 0;                      ///< runs at a time; 0: as many as there are processors
   int seeds = 3;
   std::string detector = "lcs";
-  std::vector<std::string> sets;  ///< "key=value"
-  std::string recorded;           ///< folder of an earlier suite, for its frames; "": simulate
-  std::string out = "out/suite";  ///< folder
-  std::string baseline;           ///< suite.json, or its folder; "" for none
+  std::vector<std::string> sets;    ///< "key=value"
+  std::vector<std::string> beside;  ///< other detectors to run too
+  std::string recorded;             ///< folder of an earlier suite, for its frames; "": simulate
+  std::string out = "out/suite";    ///< folder
+  std::string baseline;             ///< suite.json, or its folder; "" for none
   bool worst_first = false;
   bool list = false;
   bool quiet = false;

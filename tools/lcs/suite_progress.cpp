@@ -51,9 +51,9 @@ void SuiteProgress::finished(const suite::SuiteProgress& progress,
   if (quiet_) return;
   wipe();
   const std::optional<double> f1 = suite::figure_of(run, "rebel.f1");
-  fmt::print(stderr, "[{}/{}] {} seed {}: {}{}, {:.1f} s\n", progress.done, progress.total,
-             scenario.name, run.seed, outcome_text(run), f1 ? fmt::format(", F1 {:.2f}", *f1) : "",
-             run.wall_s);
+  fmt::print(stderr, "[{}/{}] {}{}{} seed {}: {}{}, {:.1f} s\n", progress.done, progress.total,
+             detector_, detector_.empty() ? "" : ": ", scenario.name, run.seed, outcome_text(run),
+             f1 ? fmt::format(", F1 {:.2f}", *f1) : "", run.wall_s);
   shown_ = {};
 }
 
@@ -64,6 +64,7 @@ void SuiteProgress::show(const suite::SuiteProgress& progress) {
   wipe();
   std::string line = fmt::format("[{}/{}]", progress.done, progress.total);
   if (progress.left_s) line += fmt::format(" {:.0f} s left,", *progress.left_s);
+  if (!detector_.empty()) line += fmt::format(" {}:", detector_);
   line += fmt::format(" running {}", fmt::join(progress.running, ", "));
   fmt::print(stderr, "{}", line.substr(0, terminal_width() - 1));
   std::fflush(stderr);

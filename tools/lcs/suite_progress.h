@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include "tools/suite/suite_run.h"
 
@@ -17,6 +18,9 @@ class SuiteProgress {
   SuiteProgress(const SuiteProgress&) = delete;
   SuiteProgress& operator=(const SuiteProgress&) = delete;
 
+  /// What watches from now on, before the names of its runs; "" says nothing of it.
+  void watched_by(const std::string& detector) { detector_ = detector; }
+
   void finished(const suite::SuiteProgress& progress, const suite::ScenarioResult& scenario,
                 const suite::RunResult& run);
   void show(const suite::SuiteProgress& progress);
@@ -27,6 +31,7 @@ class SuiteProgress {
   bool quiet_;
   bool is_terminal_;
   bool is_shown_ = false;
+  std::string detector_;
   Clock::time_point shown_{};
 };
 

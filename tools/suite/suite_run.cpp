@@ -105,7 +105,6 @@ ScenarioResult begin_scenario(const PlannedScenario& planned) {
 
 void judge_run(const scenario::Scenario& scenario, RunResult& run) {
   const std::vector<bench::JudgedCriterion> judged = bench::judge(scenario.criteria, run.metrics);
-  run.outcome = Outcome::passed;
   for (std::size_t i = 0; i < judged.size(); ++i) {
     const scenario::Criterion& criterion = scenario.criteria[i];
     run.criteria.push_back({criterion.metric, criterion.min, criterion.max, judged[i].figure,
@@ -114,19 +113,20 @@ void judge_run(const scenario::Scenario& scenario, RunResult& run) {
   }
 }
 
-void finish_run(const PlannedScenario& planned, const Exit& exit, const fs::path& suite_folder,
+void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteRunOptions& options,
                 RunResult& run) {
   run.wall_s = exit.wall_s;
   const bool has_figures = exit.signal == 0 && (exit.code == 0 || exit.code == 1);
   if (!has_figures) {
     run.error = complaint_of(exit);
-    bench::remove_abandoned(suite_folder / folder_of(planned, run.seed));
+    bench::remove_abandoned(options.folder / folder_of(planned, run.seed));
     return;
   }
   run.folder = folder_of(planned, run.seed);
   try {
-    run.metrics = bench::read_metrics(suite_folder / run.folder / bench::kMetricsFile);
-    judge_run(*planned.scenario, run);
+    run.metrics = bench::read_metrics(options.folder / run.folder / bench::kMetricsFile);
+    run.outcome = Outcome::passed;
+    if (options.judged) judge_run(*planned.scenario, run);
   } catch (const std::exception& error) {
     run.outcome = Outcome::error;
     run.error = error.what();
@@ -138,6 +138,10 @@ void finish_run(const PlannedScenario& planned, const Exit& exit, const fs::path
 std::vector<std::string> suite_files() {
   std::vector<std::string> files{kSuiteFile, kJunitFile, "report.html"};
   for (const std::string& file : bench::result_files()) files.push_back("runs/*/seed-*/" + file);
+  files.push_back(std::string("beside/*/") + kSuiteFile);
+  for (const std::string& file : bench::result_files()) {
+    files.push_back("beside/*/runs/*/seed-*/" + file);
+  }
   return files;
 }
 
@@ -167,7 +171,7 @@ SuiteResult run_suite(const std::vector<PlannedScenario>& plan, const SuiteRunOp
     const Job& job = jobs[place];
     ScenarioResult& scenario = suite.scenarios[job.scenario];
     RunResult& run = scenario.runs[job.run];
-    finish_run(plan[job.scenario], exit, options.folder, run);
+    finish_run(plan[job.scenario], exit, options, run);
     done_seconds += job.seconds;
     const double took_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

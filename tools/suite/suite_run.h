@@ -13,7 +13,8 @@
 
 namespace lcs::suite {
 
-/// Files that a suite's folder may hold, in the form that `bench::OutputFolder` takes.
+/// Files that a suite's folder may hold, in the form that `bench::OutputFolder` takes: its own, and
+/// in beside/NAME/ those of the same suite with other detectors.
 std::vector<std::string> suite_files();
 
 /// What is told while runs are under way.
@@ -28,6 +29,7 @@ struct SuiteRunOptions {
   std::vector<std::string> sets;
   std::filesystem::path recorded;  ///< folder of an earlier suite, for its frames; "": simulate
   std::string version;
+  bool judged = true;                 ///< by the scenarios' criteria, which are the filter's
   std::size_t jobs = 1;               ///< runs at a time, >= 1
   std::filesystem::path folder;       ///< gets runs/<name>/seed-<n>/
   std::optional<SuiteResult> former;  ///< whose times tell which runs are long

@@ -1,0 +1,55 @@
+#include "tools/suite/beside_table.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/tools/suites.h"
+
+namespace lcs::suite {
+namespace {
+
+SuiteResult suite_by(const std::string& detector, std::vector<ScenarioResult> scenarios) {
+  SuiteResult suite = suite_with(std::move(scenarios));
+  suite.detector = detector;
+  return suite;
+}
+
+ScenarioResult scenario(const std::string& name, const std::vector<std::optional<double>>& f1s,
+                        double step_ms) {
+  ScenarioResult result = scenario_with(name, "rebel.f1", f1s);
+  for (RunResult& run : result.runs) run.metrics.emplace_back("time.filter_ms_median", step_ms);
+  return result;
+}
+
+TEST(BesideTable, HasMeansOverSeedsAndWhereTheSuiteIsLeastAhead) {
+  const SuiteResult suite = suite_by("lcs", {scenario("near", {0.8, 0.9}, 1),
+                                             scenario("far", {0.5}, 1), scenario("lab", {{}}, 9)});
+  const std::vector<SuiteResult> others{
+      suite_by("klt", {scenario("near", {0.6, 0.6}, 2), scenario("far", {0.5625}, 4),
+                       scenario("lab", {{}}, 9)}),
+      suite_by("homography", {scenario("far", {0.25}, 4), scenario("near", {0.6, 0.7}, 8),
+                              scenario("lab", {0.1}, 9)})};
+  EXPECT_EQ(
+      beside_table(suite, others),
+      "F1            lcs    klt  homography\n"
+      "near         0.85   0.60        0.65\n"
+      "far          0.50   0.56        0.25\n"
+      "= mean (2)   0.68   0.58        0.45\n"
+      "lcs is ahead of klt in 1 of 2, least in far (-0.062); takes 0.58 of its time\n"
+      "lcs is ahead of homography in 2 of 2, least in near (+0.200); takes 0.46 of its time\n");
+}
+
+TEST(BesideTable, LeavesOutWhatOneOfThemHasNotAndSaysSoWhereNothingIsLeft) {
+  const SuiteResult suite =
+      suite_by("lcs", {scenario("near", {0.8}, 1), scenario("far", {0.5}, 1)});
+  const SuiteResult other = suite_by("klt", {scenario("far", {0.5}, 0)});
+  EXPECT_EQ(beside_table(suite, {{other}}),
+            "F1            lcs    klt\n"
+            "far          0.50   0.50\n"
+            "= mean (1)   0.50   0.50\n"
+            "lcs is ahead of klt in 0 of 1, least in far (+0.000)\n");
+  EXPECT_EQ(beside_table(suite, {{suite_by("klt", {})}}),
+            "no scenario has an F1 by every detector\n");
+}
+
+}  // namespace
+}  // namespace lcs::suite
