@@ -41,21 +41,10 @@ Id id_in(std::string_view text) {
   return *id;
 }
 
-/// The sequence as if the detector had said nothing: every corner is normal.
+/// As if the detector had found nothing: every corner is normal.
 Recording without_verdicts(const Recording& sequence) {
-  Recording recording;
-  recording.scenario = sequence.scenario;
-  recording.seed = sequence.seed;
-  recording.objects = sequence.objects;
-  for (const FrameRecord& given : sequence.frames) {
-    FrameRecord& frame = recording.frames.emplace_back();
-    frame.index = given.index;
-    frame.t_ns = given.t_ns;
-    frame.corners_px = given.corners_px;
-    frame.motion = given.motion;
-    frame.true_motion = given.true_motion;
-    frame.corner_truth = given.corner_truth;
-    frame.object_truth = given.object_truth;
+  Recording recording = unspoken(sequence);
+  for (FrameRecord& frame : recording.frames) {
     frame.verdicts.assign(frame.corners_px.size(), Verdict::normal);
   }
   return recording;

@@ -58,7 +58,7 @@ EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenari
     throw std::runtime_error(
         fmt::format("there is no run in {}; name a folder that lcs run has left", folder.string()));
   }
-  recorded_ = read_recording(folder);
+  recorded_ = unspoken(read_recording(folder));
   require_same(folder, recorded_, scenario);
   const fs::path pictures = folder / kPicturesFile;
   if (!fs::exists(pictures)) return;
@@ -70,9 +70,12 @@ EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenari
 }
 
 Recording EarlierRun::begin() const {
-  Recording recording = recorded_;
-  recording.frames.clear();
-  return recording;
+  return {.scenario = recorded_.scenario,
+          .seed = recorded_.seed,
+          .world = recorded_.world,
+          .detector = {},
+          .objects = recorded_.objects,
+          .frames = {}};
 }
 
 /// As large as the camera made it.
@@ -87,15 +90,7 @@ cv::Mat3b EarlierRun::image(std::size_t position) const {
 Diagnostics EarlierRun::run(Tracker& tracker, Recording& recording, bool with_images,
                             const FrameSink& sink) const {
   for (std::size_t k = 0; k < recorded_.frames.size(); ++k) {
-    const FrameRecord& given = recorded_.frames[k];
-    FrameRecord& frame = recording.frames.emplace_back();
-    frame.index = given.index;
-    frame.t_ns = given.t_ns;
-    frame.corners_px = given.corners_px;
-    frame.motion = given.motion;
-    frame.true_motion = given.true_motion;
-    frame.corner_truth = given.corner_truth;
-    frame.object_truth = given.object_truth;
+    FrameRecord& frame = recording.frames.emplace_back(recorded_.frames[k]);
     ask(tracker, {}, {}, frame);
     sink(frame, with_images ? image(k) : cv::Mat3b{});
   }

@@ -41,7 +41,7 @@ class EarlierRun {
  private:
   cv::Mat3b image(std::size_t position) const;
 
-  Recording recorded_;
+  Recording recorded_;  // unspoken
   sim::Pinhole camera_;
   std::optional<FramePictures> pictures_;
 };

@@ -64,4 +64,8 @@ struct Recording {
   std::vector<FrameRecord> frames;  ///< by index
 };
 
+/// The run before anyone spoke: what there was to see and what was true, without a detector's
+/// verdicts, layers and times.
+Recording unspoken(const Recording& recording);
+
 }  // namespace lcs::bench

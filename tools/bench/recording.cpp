@@ -1,0 +1,25 @@
+#include "tools/bench/recording.h"
+
+namespace lcs::bench {
+
+Recording unspoken(const Recording& recording) {
+  Recording unspoken;
+  unspoken.scenario = recording.scenario;
+  unspoken.seed = recording.seed;
+  unspoken.world = recording.world;
+  unspoken.objects = recording.objects;
+  unspoken.frames.reserve(recording.frames.size());
+  for (const FrameRecord& given : recording.frames) {
+    FrameRecord& frame = unspoken.frames.emplace_back();
+    frame.index = given.index;
+    frame.t_ns = given.t_ns;
+    frame.corners_px = given.corners_px;
+    frame.motion = given.motion;
+    frame.true_motion = given.true_motion;
+    frame.corner_truth = given.corner_truth;
+    frame.object_truth = given.object_truth;
+  }
+  return unspoken;
+}
+
+}  // namespace lcs::bench
