@@ -176,6 +176,27 @@ TEST_F(Report, SetsTheBaselineBesideScenariosOfTheSameName) {
   EXPECT_EQ(group.at("scenarios"), 2);
   EXPECT_NEAR(group.at("figures").at("rebel.f1").at("mean"), 0.75, 1e-12);
   EXPECT_EQ(group["figures"]["rebel.f1"].at("before"), 0.6);
+  EXPECT_NEAR(group["figures"]["rebel.f1"].at("change"), 0.2, 1e-12) << "of the one in common";
+}
+
+TEST_F(Report, AChangeIsOfTheSeedsAndScenariosThatBothHave) {
+  // Seed by seed nothing changed, though each has a seed and a scenario that the other has not.
+  const SuiteResult now = suite_of({scenario_with("both", {run_with(1, 0.5), run_with(2, 0.9)}),
+                                    scenario_with("now", {run_with(1, 0.1)})});
+  const SuiteResult before =
+      suite_of({scenario_with("then", {run_with(1, 0.7)}),
+                scenario_with("both", {run_with(1, 0.5), run_with(3, 0.1)})});
+  const json all = data(now, &before);
+  const json& both = all["scenarios"][0]["figures"]["rebel.f1"];
+  EXPECT_NEAR(both.at("mean"), 0.7, 1e-12);
+  EXPECT_EQ(both.at("before"), 0.5);
+  EXPECT_EQ(both.at("change"), 0);
+  EXPECT_EQ(all.at("groups").at(0)["figures"]["rebel.f1"].at("change"), 0);
+  EXPECT_FALSE(all["scenarios"][1]["figures"]["rebel.f1"].contains("change"));
+
+  // With no seed in common there is nothing to set beside.
+  const SuiteResult other = suite_of({scenario_with("both", {run_with(7, 0.2)})});
+  EXPECT_FALSE(data(now, &other)["scenarios"][0]["figures"]["rebel.f1"].contains("before"));
 }
 
 TEST_F(Report, EveryFigureHasADirection) {

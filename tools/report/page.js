@@ -21,8 +21,8 @@ function changeText(change, of) {
 /** Which way the change of a figure is: 'good', 'bad', or '' where it is too small to matter. */
 function judged(name, figure) {
   const traits = data.traits[name];
-  if (!figure || !isNumber(figure.mean) || !isNumber(figure.before) || !traits) return '';
-  const change = figure.mean - figure.before;
+  if (!figure || !isNumber(figure.change) || !traits) return '';
+  const change = figure.change;
   const least = Math.max(traits.least_change, traits.least_share * Math.abs(figure.before));
   if (traits.direction === 'neutral' || change === 0 || Math.abs(change) < least) return '';
   return (change > 0) === (traits.direction === 'higher') ? 'good' : 'bad';
@@ -36,11 +36,11 @@ function figureCell(name, figure) {
       '±' + (digitsBeside(figure.spread, figure.mean) || '0')));
   }
   if (hasBaseline) {
-    const both = isNumber(figure.mean) && isNumber(figure.before);
-    const change = both ? figure.mean - figure.before : null;
+    const known = isNumber(figure.mean) && isNumber(figure.change);
     cell.append(el('span', { class: ('change ' + judged(name, figure)).trim(),
-      title: isNumber(figure.before) ? 'was ' + Number(figure.before.toPrecision(6)) : 'not in the baseline' },
-      change === null ? '' : changeText(change, figure.mean)));
+      title: isNumber(figure.before) ? 'was ' + Number(figure.before.toPrecision(6)) +
+        ', over the scenarios and seeds that both have' : 'not in the baseline' },
+      known ? changeText(figure.change, figure.mean) : ''));
   }
   return cell;
 }
@@ -128,7 +128,7 @@ function scenarioTable() {
     const figure = row.scenario.figures[name];
     if (!figure || !isNumber(figure.mean)) return null;
     if (!byChange) return figure.mean;
-    return isNumber(figure.before) ? figure.mean - figure.before : null;
+    return isNumber(figure.change) ? figure.change : null;
   };
   const sort = () => {
     const name = sorted.dataset.metric || null;

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -60,23 +61,49 @@ Json figure_traits() {
   return all;
 }
 
-/// \param before the same scenario in the baseline; null: there is none.
-Json figures_of(const ScenarioResult& scenario, const ScenarioResult* before) {
+/// The suite beside a baseline, as far as both have the same scenarios and seeds: with others, a
+/// change would be of what was run and not of the filter.
+struct Baseline {
+  Baseline(const SuiteResult& suite, const SuiteResult& baseline)
+      : before(suite::in_common(baseline, suite)), after(suite::in_common(suite, baseline)) {}
+  SuiteResult before, after;
+};
+
+const ScenarioResult* find(const SuiteResult& suite, const std::string& name) {
+  const auto found =
+      std::find_if(suite.scenarios.begin(), suite.scenarios.end(),
+                   [&](const ScenarioResult& scenario) { return scenario.name == name; });
+  return found == suite.scenarios.end() ? nullptr : &*found;
+}
+
+std::optional<double> mean_of(const SuiteResult& suite, const std::string& scenario,
+                              const std::string& figure) {
+  const ScenarioResult* found = find(suite, scenario);
+  const auto spread = found ? suite::over_seeds(*found, figure) : std::nullopt;
+  return spread ? std::optional(spread->mean) : std::nullopt;
+}
+
+/// What a figure was, and by how much it changed, where that is known.
+void add_change(Json& figure, std::optional<double> before, std::optional<double> after) {
+  if (before) figure["before"] = *before;
+  if (before && after) figure["change"] = *after - *before;
+}
+
+Json figures_of(const ScenarioResult& scenario, const Baseline* baseline) {
   Json figures = Json::object();
   for (const std::string& name : figure_names()) {
     const auto now = suite::over_seeds(scenario, name);
-    const auto then = before ? suite::over_seeds(*before, name) : std::nullopt;
-    if (!now && !then) continue;
+    const auto before = baseline ? mean_of(baseline->before, scenario.name, name) : std::nullopt;
+    if (!now && !before) continue;
     Json& figure = figures[name] = Json::object();
     figure["mean"] = now ? Json(now->mean) : Json(nullptr);
     if (now && now->count > 1) figure["spread"] = now->half;
-    if (then) figure["before"] = then->mean;
-    if (then && then->count > 1) figure["before_spread"] = then->half;
+    if (baseline) add_change(figure, before, mean_of(baseline->after, scenario.name, name));
   }
   return figures;
 }
 
-Json groups_of(const SuiteResult& suite, const SuiteResult* baseline) {
+Json groups_of(const SuiteResult& suite, const Baseline* baseline) {
   Json groups = Json::array();
   for (const std::string& group : suite::groups_of(suite)) {
     const auto members = std::count_if(
@@ -87,10 +114,13 @@ Json groups_of(const SuiteResult& suite, const SuiteResult* baseline) {
     Json figures = Json::object();
     for (const std::string& name : figure_names()) {
       const auto now = suite::over_group(suite, group, name);
-      const auto then = baseline ? suite::over_group(*baseline, group, name) : std::nullopt;
-      if (!now && !then) continue;
+      const auto before =
+          baseline ? suite::over_group(baseline->before, group, name) : std::nullopt;
+      if (!now && !before) continue;
       figures[name] = {{"mean", json_of(now)}};
-      if (then) figures[name]["before"] = *then;
+      if (baseline) {
+        add_change(figures[name], before, suite::over_group(baseline->after, group, name));
+      }
     }
     groups.push_back({{"name", group}, {"scenarios", members}, {"figures", figures}});
   }
@@ -268,14 +298,14 @@ void keep_to_budget(Json& scenarios, std::size_t budget) {
 }
 
 Json scenario_json(const SuiteResult& suite, const ScenarioResult& scenario,
-                   const ScenarioResult* before, const fs::path& suite_folder) {
+                   const Baseline* baseline, const fs::path& suite_folder) {
   Json json = {{"name", scenario.name},
                {"purpose", scenario.purpose},
                {"file", scenario.file.generic_string()},
                {"groups", scenario.groups},
                {"point", Json::array()},
                {"outcome", kOutcomes[static_cast<std::size_t>(suite::outcome_of(scenario))]},
-               {"figures", figures_of(scenario, before)},
+               {"figures", figures_of(scenario, baseline)},
                {"runs", Json::array()}};
   for (const auto& [key, value] : scenario.point) {
     json["point"].push_back(Json::array({key, value}));
@@ -286,25 +316,19 @@ Json scenario_json(const SuiteResult& suite, const ScenarioResult& scenario,
   return json;
 }
 
-const ScenarioResult* find(const SuiteResult* baseline, const std::string& name) {
-  if (!baseline) return nullptr;
-  const auto found =
-      std::find_if(baseline->scenarios.begin(), baseline->scenarios.end(),
-                   [&](const ScenarioResult& scenario) { return scenario.name == name; });
-  return found == baseline->scenarios.end() ? nullptr : &*found;
-}
-
 }  // namespace
 
 std::string report_data(const SuiteResult& suite, const SuiteResult* baseline,
                         const fs::path& suite_folder, std::size_t picture_budget) {
+  std::optional<Baseline> beside;
+  if (baseline) beside.emplace(suite, *baseline);
   Json data = {{"detector", suite.detector},
                {"version", suite.version},
                {"sets", suite.sets},
                {"recorded", suite.recorded},
                {"baseline", nullptr},
                {"traits", figure_traits()},
-               {"groups", groups_of(suite, baseline)},
+               {"groups", groups_of(suite, beside ? &*beside : nullptr)},
                {"scenarios", Json::array()}};
   if (baseline) {
     data["baseline"] = {
@@ -312,7 +336,7 @@ std::string report_data(const SuiteResult& suite, const SuiteResult* baseline,
   }
   for (const ScenarioResult& scenario : suite.scenarios) {
     data["scenarios"].push_back(
-        scenario_json(suite, scenario, find(baseline, scenario.name), suite_folder));
+        scenario_json(suite, scenario, beside ? &*beside : nullptr, suite_folder));
   }
   keep_to_budget(data["scenarios"], picture_budget);
 

@@ -46,6 +46,22 @@ std::optional<double> over_group(const SuiteResult& suite, const std::string& gr
   return bench::mean(figures);
 }
 
+SuiteResult in_common(const SuiteResult& suite, const SuiteResult& other) {
+  SuiteResult common = suite;
+  std::erase_if(common.scenarios, [&](ScenarioResult& scenario) {
+    const auto same =
+        std::find_if(other.scenarios.begin(), other.scenarios.end(),
+                     [&](const ScenarioResult& each) { return each.name == scenario.name; });
+    if (same == other.scenarios.end()) return true;
+    std::erase_if(scenario.runs, [&](const RunResult& run) {
+      return std::none_of(same->runs.begin(), same->runs.end(),
+                          [&](const RunResult& each) { return each.seed == run.seed; });
+    });
+    return scenario.runs.empty();
+  });
+  return common;
+}
+
 std::vector<std::string> groups_of(const SuiteResult& suite) {
   std::vector<std::string> groups;
   for (const ScenarioResult& scenario : suite.scenarios) {

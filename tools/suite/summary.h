@@ -32,6 +32,10 @@ std::optional<Spread> over_seeds(const ScenarioResult& scenario, std::string_vie
 std::optional<double> over_group(const SuiteResult& suite, const std::string& group,
                                  std::string_view name);
 
+/// What of a suite another one has too: scenarios by name, runs by seed. Only what two suites have
+/// in common tells what changed between them.
+SuiteResult in_common(const SuiteResult& suite, const SuiteResult& other);
+
 /// In the order in which they first appear.
 std::vector<std::string> groups_of(const SuiteResult& suite);
 
