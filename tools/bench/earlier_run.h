@@ -16,10 +16,8 @@ namespace lcs::bench {
 
 class EarlierRun {
  public:
-  /// \throws std::runtime_error naming the folder: there is no run in it, a file of it is broken,
-  /// or
-  ///   it is of another scenario, of another seed, or of the scenario as it was before its world
-  ///   changed.
+  /// \throws std::runtime_error naming the folder: it has no run, a broken one, or one of another
+  ///   scenario, of another seed, or of the scenario as it was before its world changed.
   EarlierRun(const std::filesystem::path& folder, const scenario::Scenario& scenario);
 
   const sim::Pinhole& camera() const { return camera_; }

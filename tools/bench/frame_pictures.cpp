@@ -20,6 +20,10 @@ constexpr std::string_view kJpegStart = "\xff\xd8", kJpegEnd = "\xff\xd9";
 constexpr int kKeptWidth_px = 640;
 constexpr int kKeptQuality = 88;
 
+double kept_scale(int image_width_px) {
+  return std::min(1.0, static_cast<double>(kKeptWidth_px) / image_width_px);
+}
+
 }  // namespace
 
 std::vector<unsigned char> jpeg(const cv::Mat3b& image, int quality) {
@@ -31,7 +35,7 @@ std::vector<unsigned char> jpeg(const cv::Mat3b& image, int quality) {
 }
 
 void FramePictures::add(const cv::Mat3b& image) {
-  scale_ = std::min(1.0, static_cast<double>(kKeptWidth_px) / image.cols);
+  scale_ = kept_scale(image.cols);
   cv::Mat3b kept = image;
   if (scale_ < 1) cv::resize(image, kept, {}, scale_, scale_, cv::INTER_AREA);
   jpegs_.push_back(jpeg(kept, kKeptQuality));
@@ -53,7 +57,7 @@ FramePictures FramePictures::read(const std::filesystem::path& file, int image_w
     pictures.jpegs_.emplace_back(first, first + static_cast<std::ptrdiff_t>(length));
     start += length;
   }
-  pictures.scale_ = std::min(1.0, static_cast<double>(kKeptWidth_px) / image_width_px);
+  pictures.scale_ = kept_scale(image_width_px);
   return pictures;
 }
 

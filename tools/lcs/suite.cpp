@@ -172,8 +172,7 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
           "Run this detector too on the same scenarios, and print F1 beside each other; may "
           "be repeated")
       ->type_name("NAME")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   add_set_option(command, options.sets, "Set a value in every scenario, as \"camera.rate=5 Hz\"");
   command.add_option("--out", options.out, "Folder for the results; out/suite if not given")
       ->type_name("DIR");

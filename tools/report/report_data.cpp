@@ -69,20 +69,6 @@ struct Baseline {
   SuiteResult before, after;
 };
 
-const ScenarioResult* find(const SuiteResult& suite, const std::string& name) {
-  const auto found =
-      std::find_if(suite.scenarios.begin(), suite.scenarios.end(),
-                   [&](const ScenarioResult& scenario) { return scenario.name == name; });
-  return found == suite.scenarios.end() ? nullptr : &*found;
-}
-
-std::optional<double> mean_of(const SuiteResult& suite, const std::string& scenario,
-                              const std::string& figure) {
-  const ScenarioResult* found = find(suite, scenario);
-  const auto spread = found ? suite::over_seeds(*found, figure) : std::nullopt;
-  return spread ? std::optional(spread->mean) : std::nullopt;
-}
-
 /// What a figure was, and by how much it changed, where that is known.
 void add_change(Json& figure, std::optional<double> before, std::optional<double> after) {
   if (before) figure["before"] = *before;
@@ -93,12 +79,14 @@ Json figures_of(const ScenarioResult& scenario, const Baseline* baseline) {
   Json figures = Json::object();
   for (const std::string& name : figure_names()) {
     const auto now = suite::over_seeds(scenario, name);
-    const auto before = baseline ? mean_of(baseline->before, scenario.name, name) : std::nullopt;
+    const auto before =
+        baseline ? suite::mean_over_seeds(baseline->before, scenario.name, name) : std::nullopt;
     if (!now && !before) continue;
     Json& figure = figures[name] = Json::object();
     figure["mean"] = now ? Json(now->mean) : Json(nullptr);
     if (now && now->count > 1) figure["spread"] = now->half;
-    if (baseline) add_change(figure, before, mean_of(baseline->after, scenario.name, name));
+    if (baseline)
+      add_change(figure, before, suite::mean_over_seeds(baseline->after, scenario.name, name));
   }
   return figures;
 }
@@ -320,23 +308,23 @@ Json scenario_json(const SuiteResult& suite, const ScenarioResult& scenario,
 
 std::string report_data(const SuiteResult& suite, const SuiteResult* baseline,
                         const fs::path& suite_folder, std::size_t picture_budget) {
-  std::optional<Baseline> beside;
-  if (baseline) beside.emplace(suite, *baseline);
+  std::optional<Baseline> both;
+  if (baseline) both.emplace(suite, *baseline);
+  const Baseline* beside = both ? &*both : nullptr;
   Json data = {{"detector", suite.detector},
                {"version", suite.version},
                {"sets", suite.sets},
                {"recorded", suite.recorded},
                {"baseline", nullptr},
                {"traits", figure_traits()},
-               {"groups", groups_of(suite, beside ? &*beside : nullptr)},
+               {"groups", groups_of(suite, beside)},
                {"scenarios", Json::array()}};
   if (baseline) {
     data["baseline"] = {
         {"detector", baseline->detector}, {"version", baseline->version}, {"sets", baseline->sets}};
   }
   for (const ScenarioResult& scenario : suite.scenarios) {
-    data["scenarios"].push_back(
-        scenario_json(suite, scenario, beside ? &*beside : nullptr, suite_folder));
+    data["scenarios"].push_back(scenario_json(suite, scenario, beside, suite_folder));
   }
   keep_to_budget(data["scenarios"], picture_budget);
 

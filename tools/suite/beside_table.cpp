@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -21,15 +20,6 @@ struct Row {
   std::vector<double> figures;
 };
 
-std::optional<double> figure(const SuiteResult& suite, const std::string& scenario,
-                             std::string_view name) {
-  const auto found = std::find_if(suite.scenarios.begin(), suite.scenarios.end(),
-                                  [&](const auto& each) { return each.name == scenario; });
-  if (found == suite.scenarios.end()) return std::nullopt;
-  const std::optional<Spread> spread = over_seeds(*found, name);
-  return spread ? std::optional(spread->mean) : std::nullopt;
-}
-
 /// Scenarios that have the figure by every detector.
 std::vector<Row> rows_of(const SuiteResult& suite, std::span<const SuiteResult> others,
                          std::string_view name) {
@@ -37,7 +27,8 @@ std::vector<Row> rows_of(const SuiteResult& suite, std::span<const SuiteResult> 
   for (const ScenarioResult& scenario : suite.scenarios) {
     Row row{scenario.name, {}};
     const auto add = [&](const SuiteResult& by) {
-      if (const auto value = figure(by, scenario.name, name)) row.figures.push_back(*value);
+      if (const auto value = mean_over_seeds(by, scenario.name, name))
+        row.figures.push_back(*value);
     };
     add(suite);
     for (const SuiteResult& other : others) add(other);

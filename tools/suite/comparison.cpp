@@ -16,18 +16,6 @@ bool is_time(std::string_view metric) {
   return metric.starts_with("time.") || metric.starts_with("sim.");
 }
 
-const ScenarioResult* find(const SuiteResult& suite, const std::string& name) {
-  const auto found = std::find_if(suite.scenarios.begin(), suite.scenarios.end(),
-                                  [&](const auto& scenario) { return scenario.name == name; });
-  return found == suite.scenarios.end() ? nullptr : &*found;
-}
-
-const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed) {
-  const auto found = std::find_if(scenario.runs.begin(), scenario.runs.end(),
-                                  [&](const auto& run) { return run.seed == seed; });
-  return found == scenario.runs.end() ? nullptr : &*found;
-}
-
 struct RunPair {
   const RunResult* before;
   const RunResult* after;

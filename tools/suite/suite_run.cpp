@@ -12,6 +12,7 @@
 #include "tools/bench/result.h"
 #include "tools/suite/child_process.h"
 #include "tools/suite/junit.h"
+#include "tools/suite/summary.h"
 
 namespace lcs::suite {
 namespace {
@@ -50,14 +51,9 @@ std::vector<std::string> command_of(const PlannedScenario& planned, std::uint64_
 
 std::optional<double> former_seconds(const std::optional<SuiteResult>& former,
                                      const std::string& name, std::uint64_t seed) {
-  if (!former) return std::nullopt;
-  for (const ScenarioResult& scenario : former->scenarios) {
-    if (scenario.name != name) continue;
-    for (const RunResult& run : scenario.runs) {
-      if (run.seed == seed && run.outcome != Outcome::error) return run.wall_s;
-    }
-  }
-  return std::nullopt;
+  const ScenarioResult* scenario = former ? find(*former, name) : nullptr;
+  const RunResult* run = scenario ? find(*scenario, seed) : nullptr;
+  return run && run->outcome != Outcome::error ? std::optional(run->wall_s) : std::nullopt;
 }
 
 /// Longest first: what is left for the end is short, and all processors are busy until then.
@@ -136,11 +132,12 @@ void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteRun
 }  // namespace
 
 std::vector<std::string> suite_files() {
-  std::vector<std::string> files{kSuiteFile, kJunitFile, "report.html"};
-  for (const std::string& file : bench::result_files()) files.push_back("runs/*/seed-*/" + file);
-  files.push_back(std::string("beside/*/") + kSuiteFile);
+  std::vector<std::string> files{kSuiteFile, kJunitFile, "report.html",
+                                 std::string("beside/*/") + kSuiteFile};
   for (const std::string& file : bench::result_files()) {
-    files.push_back("beside/*/runs/*/seed-*/" + file);
+    for (const char* suite : {"", "beside/*/"}) {
+      files.push_back(fmt::format("{}runs/*/seed-*/{}", suite, file));
+    }
   }
   return files;
 }

@@ -19,6 +19,18 @@ bool is_in(const ScenarioResult& scenario, const std::string& group) {
 
 }  // namespace
 
+const ScenarioResult* find(const SuiteResult& suite, const std::string& name) {
+  const auto found = std::find_if(suite.scenarios.begin(), suite.scenarios.end(),
+                                  [&](const auto& scenario) { return scenario.name == name; });
+  return found == suite.scenarios.end() ? nullptr : &*found;
+}
+
+const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed) {
+  const auto found = std::find_if(scenario.runs.begin(), scenario.runs.end(),
+                                  [&](const auto& run) { return run.seed == seed; });
+  return found == scenario.runs.end() ? nullptr : &*found;
+}
+
 std::optional<double> figure_of(const RunResult& run, std::string_view name) {
   if (name != kSizeShare) return metric_of(run, name);
   const std::optional<double> size = metric_of(run, "dimension.mean");
@@ -36,6 +48,13 @@ std::optional<Spread> over_seeds(const ScenarioResult& scenario, std::string_vie
   return Spread{*bench::mean(figures), (*greatest - *least) / 2, static_cast<int>(figures.size())};
 }
 
+std::optional<double> mean_over_seeds(const SuiteResult& suite, const std::string& scenario,
+                                      std::string_view name) {
+  const ScenarioResult* found = find(suite, scenario);
+  const auto spread = found ? over_seeds(*found, name) : std::nullopt;
+  return spread ? std::optional(spread->mean) : std::nullopt;
+}
+
 std::optional<double> over_group(const SuiteResult& suite, const std::string& group,
                                  std::string_view name) {
   std::vector<double> figures;
@@ -49,14 +68,9 @@ std::optional<double> over_group(const SuiteResult& suite, const std::string& gr
 SuiteResult in_common(const SuiteResult& suite, const SuiteResult& other) {
   SuiteResult common = suite;
   std::erase_if(common.scenarios, [&](ScenarioResult& scenario) {
-    const auto same =
-        std::find_if(other.scenarios.begin(), other.scenarios.end(),
-                     [&](const ScenarioResult& each) { return each.name == scenario.name; });
-    if (same == other.scenarios.end()) return true;
-    std::erase_if(scenario.runs, [&](const RunResult& run) {
-      return std::none_of(same->runs.begin(), same->runs.end(),
-                          [&](const RunResult& each) { return each.seed == run.seed; });
-    });
+    const ScenarioResult* same = find(other, scenario.name);
+    if (!same) return true;
+    std::erase_if(scenario.runs, [&](const RunResult& run) { return !find(*same, run.seed); });
     return scenario.runs.empty();
   });
   return common;

@@ -2,6 +2,7 @@
 /// A suite's figures in fewer numbers: over the seeds of a scenario, over the scenarios of a group.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,10 @@ namespace lcs::suite {
 /// of the last five frames' corners. A figure of `figure_of`, not of metrics.json.
 inline constexpr std::string_view kSizeShare = "size_share";
 
+/// Null where there is none.
+const ScenarioResult* find(const SuiteResult& suite, const std::string& name);
+const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed);
+
 /// A metric of a run, or `kSizeShare`; none where undefined, unknown, or the run has no figures.
 std::optional<double> figure_of(const RunResult& run, std::string_view name);
 
@@ -26,6 +31,10 @@ struct Spread {
 
 /// None where no seed has the figure.
 std::optional<Spread> over_seeds(const ScenarioResult& scenario, std::string_view name);
+
+/// The mean of that, by the scenario's name; none where the suite has no such scenario either.
+std::optional<double> mean_over_seeds(const SuiteResult& suite, const std::string& scenario,
+                                      std::string_view name);
 
 /// The mean of a group's scenarios, each with its mean over seeds; those without the figure are
 /// left out, and none is left where all are.
