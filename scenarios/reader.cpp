@@ -59,7 +59,10 @@ Integer integer(const Value& value, const std::string& path, Integer low, Intege
   Integer number{};
   const char* const end = value.text.data() + value.text.size();
   const auto [rest, error] = std::from_chars(value.text.data(), end, number);
-  if (error != std::errc() || rest != end || number < low || number > high) {
+  // 010 is ten to some and eight to others
+  const std::size_t first = value.text.starts_with('-');
+  const bool is_padded = value.text.size() > first + 1 && value.text[first] == '0';
+  if (error != std::errc() || rest != end || is_padded || number < low || number > high) {
     throw Error(value.where, path + " is '" + value.text + "'; give " + wanted);
   }
   return number;

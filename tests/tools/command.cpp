@@ -15,18 +15,23 @@ namespace lcs::bench {
 namespace {
 
 /// In the child, up to and with exec; does nothing that a forked process may not.
-[[noreturn]] void become(const char* const* arguments, const char* folder, const char* out,
-                         const char* err, const rlimit* largest_file) {
+[[noreturn]] void become(const char* const* arguments, const CommandOptions& options,
+                         const char* out, const char* err) {
   const int flags = O_WRONLY | O_CREAT | O_TRUNC;
   if (::dup2(::open(out, flags, 0600), STDOUT_FILENO) < 0) ::_exit(126);
   if (::dup2(::open(err, flags, 0600), STDERR_FILENO) < 0) ::_exit(126);
-  if (::chdir(folder) != 0) ::_exit(126);
-  if (largest_file != nullptr) {
-    ::signal(SIGXFSZ, SIG_IGN);  // so that writing fails with an error instead
-    ::setrlimit(RLIMIT_FSIZE, largest_file);
-  }
+  if (::chdir(options.folder.c_str()) != 0) ::_exit(126);
+  const auto limit = [](__rlimit_resource what, const std::optional<std::size_t>& most) {
+    if (!most) return;
+    const rlimit both{*most, *most};
+    ::setrlimit(what, &both);
+  };
+  limit(RLIMIT_FSIZE, options.largest_file);
   // A sanitized build is not to add to stderr which of the known leaks it saw.
   ::setenv("LSAN_OPTIONS", "print_suppressions=0", /*overwrite=*/0);
+  ::closefrom(STDERR_FILENO + 1);
+  for (const int descriptor : options.closed) ::close(descriptor);
+  limit(RLIMIT_NOFILE, options.open_files);
   ::execv(LCS_PROGRAM, const_cast<char* const*>(arguments));
   ::_exit(127);
 }
@@ -46,16 +51,12 @@ Command::Command(const std::vector<std::string>& arguments, const CommandOptions
   std::vector<const char*> pointers{LCS_PROGRAM};
   for (const std::string& argument : arguments) pointers.push_back(argument.c_str());
   pointers.push_back(nullptr);
-  const std::string out = capture_ / "out", err = capture_ / "err";
-  const std::size_t bytes = options.largest_file.value_or(0);
-  const rlimit limit{bytes, bytes};
+  const std::string err = capture_ / "err";
+  const std::string out = options.out.empty() ? capture_ / "out" : options.out;
 
   pid_ = ::fork();
   if (pid_ < 0) throw std::runtime_error("fork failed");
-  if (pid_ == 0) {
-    become(pointers.data(), options.folder.c_str(), out.c_str(), err.c_str(),
-           options.largest_file ? &limit : nullptr);
-  }
+  if (pid_ == 0) become(pointers.data(), options, out.c_str(), err.c_str());
 }
 
 Command::~Command() {

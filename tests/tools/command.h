@@ -20,6 +20,9 @@ struct CommandResult {
 struct CommandOptions {
   std::filesystem::path folder;                  ///< that it runs in
   std::optional<std::size_t> largest_file = {};  ///< bytes; writing more fails, as on a full disk
+  std::optional<std::size_t> open_files = {};    ///< descriptors, the three standard ones included
+  std::vector<int> closed = {};                  ///< of the standard descriptors
+  std::filesystem::path out = {};                ///< for standard output, in place of `out`
 };
 
 /// Started on construction; waited for at the latest on destruction.

@@ -4,9 +4,21 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <system_error>
 
 namespace lcs::bench {
+
+std::string remedy(const std::error_code& error) {
+  if (error == std::errc::no_space_on_device || error.value() == EDQUOT) {
+    return "make room there, or choose another folder with --out";
+  }
+  if (error == std::errc::file_too_large) return "raise the limit of a file's size (ulimit -f)";
+  if (error == std::errc::too_many_files_open ||
+      error == std::errc::too_many_files_open_in_system) {
+    return "raise the limit of open files (ulimit -n)";
+  }
+  if (error == std::errc::broken_pipe) return "let all of it be read, or give --quiet";
+  return "choose another folder with --out";
+}
 
 OutputFile::OutputFile(const std::filesystem::path& path)
     : path_(path), file_(std::fopen(path.c_str(), "wb")) {
@@ -22,9 +34,13 @@ void OutputFile::close() {
 }
 
 void OutputFile::fail(int error) const {
+  const std::error_code code(error, std::generic_category());
   throw OutputError(
-      fmt::format("cannot write {}: {}; make room there, or choose another folder with --out",
-                  path_.string(), std::generic_category().message(error)));
+      fmt::format("cannot write {}: {}; {}", path_.string(), code.message(), remedy(code)));
+}
+
+std::filesystem::path finished_name(const std::filesystem::path& unfinished) {
+  return unfinished.parent_path() / unfinished.stem().stem();
 }
 
 void write_whole(const std::filesystem::path& path,
@@ -34,14 +50,19 @@ void write_whole(const std::filesystem::path& path,
   const fs::file_status there = fs::status(path, error);
   if (fs::exists(there) && !fs::is_regular_file(there)) return write(path);
 
-  fs::path beside = fs::exists(there) ? fs::canonical(path) : path;
-  const fs::path target = beside;
-  beside += fmt::format(".{}.partial", ::getpid());
+  const fs::path target = fs::exists(there) ? fs::canonical(path) : path;
+  fs::path beside;
+  for (int attempt = 0; beside.empty() || fs::exists(fs::symlink_status(beside)); ++attempt) {
+    beside = target;  // under a name that nobody has
+    beside += fmt::format(".{}-{}{}", ::getpid(), attempt, kUnfinished);
+  }
   try {
     write(beside);
     fs::rename(beside, target, error);
-    if (error)
-      throw OutputError(fmt::format("cannot write {}: {}", path.string(), error.message()));
+    if (error) {
+      throw OutputError(
+          fmt::format("cannot write {}: {}; {}", path.string(), error.message(), remedy(error)));
+    }
   } catch (...) {
     fs::remove(beside, error);
     throw;

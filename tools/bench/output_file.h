@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace lcs::bench {
 
@@ -17,6 +18,9 @@ class OutputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// What to do where writing failed with such an error.
+std::string remedy(const std::error_code& error);
 
 /// Created (or emptied) on construction. Whoever has not called `close` does not know whether all
 /// of it arrived.
@@ -39,6 +43,11 @@ class OutputFile {
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Closer> file_;
 };
+
+/// Ends the names of files that `write_whole` has not finished: "metrics.json.1234.partial".
+inline constexpr const char* kUnfinished = ".partial";
+/// What such a file is going to be called.
+std::filesystem::path finished_name(const std::filesystem::path& unfinished);
 
 /// Writes a file that appears whole or not at all: `write` is given a path beside it to write to.
 /// What is there and no plain file, as a pipe or /dev/stdout, is written to as it is.

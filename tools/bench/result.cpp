@@ -5,9 +5,10 @@
 
 namespace lcs::bench {
 
-std::vector<std::string> result_files() {
-  return {kMetricsFile, kFramesFile, kLayersFile,  kTruthFile,
-          kVideoFile,   kEventsFile, kPicturesFile};
+ResultFiles result_files() {
+  return {.names = {kMetricsFile, kFramesFile, kLayersFile, kTruthFile, kVideoFile, kEventsFile,
+                    kPicturesFile},
+          .sign = "\"rebel.f1\""};
 }
 
 Result::Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,

@@ -17,8 +17,8 @@
 
 namespace lcs::bench {
 
-/// Names of all files that a run's folder may hold; the first one always is there.
-std::vector<std::string> result_files();
+/// All files that a run's folder may hold.
+ResultFiles result_files();
 
 /// What a result holds beside its figures.
 struct ResultOptions {

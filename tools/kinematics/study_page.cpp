@@ -1,5 +1,7 @@
 #include "tools/kinematics/study_page.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -77,8 +79,11 @@ std::string data_of(const Study& study, const std::vector<Statement>& statements
 
 }  // namespace
 
-std::vector<std::string> study_files() {
-  return {kAnswerFile, kPageFile, kFieldFile, "*.csv"};
+bench::ResultFiles study_files() {
+  bench::ResultFiles files{{}, "topic,figure,value,unit,expected"};
+  for (const char* table : kTables) files.names.push_back(fmt::format("{}.csv", table));
+  files.names.insert(files.names.end(), {kAnswerFile, kPageFile, kFieldFile});
+  return files;
 }
 
 void write_study(const std::filesystem::path& folder, const Study& study) {

@@ -4,9 +4,8 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
+#include "tools/bench/output_folder.h"
 #include "tools/kinematics/study.h"
 
 namespace lcs::kinematics {
@@ -15,8 +14,8 @@ inline constexpr const char* kAnswerFile = "answer.txt";
 inline constexpr const char* kPageFile = "kinematics.html";
 inline constexpr const char* kFieldFile = "field.png";
 
-/// All names that `write_study` may write, in the form that `bench::OutputFolder` takes.
-std::vector<std::string> study_files();
+/// All files that `write_study` may write.
+bench::ResultFiles study_files();
 
 /// \throws bench::OutputError
 void write_study(const std::filesystem::path& folder, const Study& study);

@@ -2,6 +2,7 @@
 /// A study's rows as tables of one form, for CSV files and for the page.
 #pragma once
 
+#include <array>
 #include <string>
 #include <variant>
 #include <vector>
@@ -17,7 +18,12 @@ struct Table {
   std::vector<std::vector<Cell>> rows;
 };
 
-/// In the order in which they are told of; the first one is the answer's figures.
+/// Their names, in the order in which they are told of; the first one is the answer's figures.
+inline constexpr std::array kTables{"answer",       "rotation", "translation", "foe_distance",
+                                    "focal_length", "mount",    "drives",      "imu",
+                                    "bumps",        "drift",    "heat"};
+
+/// In the order of `kTables`.
 std::vector<Table> tables(const Study& study, const std::vector<Statement>& statements);
 
 /// Numbers with six significant digits; no quotes: no cell needs any.

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "tools/lcs/terminal.h"
 #include "tools/suite/comparison.h"
 #include "tools/suite/suite_result.h"
 
@@ -37,8 +38,8 @@ std::regex regex_of(const std::string& text) {
 }
 
 void print_suite(const char* when, const std::string& path, const suite::SuiteResult& suite) {
-  fmt::print("{} {}: {}{}{}\n", when, path, suite.detector, suite.sets.empty() ? "" : " with ",
-             fmt::join(suite.sets, ", "));
+  print_out("{} {}: {}{}{}\n", when, path, suite.detector, suite.sets.empty() ? "" : " with ",
+            fmt::join(suite.sets, ", "));
 }
 
 }  // namespace
@@ -73,7 +74,7 @@ ExitCode compare(const CompareOptions& options) {
   }
   print_suite("before", options.before, before);
   print_suite("after ", options.after, after);
-  fmt::print("{}", suite::text_of(comparison, options.all));
+  print_out("{}", suite::text_of(comparison, options.all));
   const bool is_worse = comparison.count(suite::Change::regressed) > 0 || comparison.lost_runs;
   return is_worse ? kRegressed : kFine;
 }

@@ -11,8 +11,10 @@
 #include "scenarios/load.h"
 #include "tools/bench/csv.h"
 #include "tools/lcs/interrupt.h"
+#include "tools/lcs/number_option.h"
 #include "tools/lcs/progress.h"
 #include "tools/lcs/set_option.h"
+#include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
 #include "tools/sequence/generator.h"
 #include "tools/sequence/manifest.h"
@@ -79,7 +81,7 @@ ExitCode check_complete(const fs::path& folder, bool quiet) {
         damaged.size() > 1 ? fmt::format(", and {} more files", damaged.size() - 1) : ""));
   }
   if (!quiet)
-    fmt::print("{} is complete, and every file is as its manifest says\n", folder.string());
+    print_out("{} is complete, and every file is as its manifest says\n", folder.string());
   return kFine;
 }
 
@@ -129,16 +131,14 @@ CLI::App& add_generate_command(CLI::App& app, GenerateOptions& options) {
     about += fmt::format("\n{:<10} {}", format.name, format.purpose);
   }
   command.add_option("--formats", options.formats, about)->type_name("LIST")->delimiter(',');
-  command.add_option("--frames", options.frames, "Only the first N frames")
-      ->type_name("N")
-      ->check(CLI::Range(1, kMostFrames));
-  command.add_option("--seed", options.seed, "Seed, instead of the scenario's")->type_name("N");
+  add_integer_option(command, "--frames", options.frames, "Only the first N frames", 1, kMostFrames)
+      ->type_name("N");
+  add_seed_option(command, options.seed);
   add_set_option(command, options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
-  command
-      .add_option("--jobs", options.jobs,
-                  "Processes at a time; they share the frames of one scenario, or the sequences")
-      ->type_name("N")
-      ->check(CLI::Range(1, kMostJobs));
+  add_integer_option(command, "--jobs", options.jobs,
+                     "Processes at a time; they share the frames of one scenario, or the sequences",
+                     1, kMostJobs)
+      ->type_name("N");
   command.add_option("--shard", options.shard, "Only the i-th part of n, as 3/16")
       ->type_name("I/N");
   command.add_option("--group", options.group, "With --suite: only scenarios of this group")
@@ -147,11 +147,9 @@ CLI::App& add_generate_command(CLI::App& app, GenerateOptions& options) {
       .add_option("--filter", options.filter,
                   "With --suite: only scenarios with this regular expression in their name")
       ->type_name("REGEX");
-  command
-      .add_option("--seeds", options.seeds,
-                  "With --suite: sequences of each scenario; 1 if not given")
-      ->type_name("N")
-      ->check(CLI::Range(1, kMostSeeds));
+  add_integer_option(command, "--seeds", options.seeds,
+                     "With --suite: sequences of each scenario; 1 if not given", 1, kMostSeeds)
+      ->type_name("N");
   command.add_flag("--quiet", options.quiet, "Print nothing but what went wrong");
   command.footer(kHelp);
   return command;
@@ -192,7 +190,6 @@ ExitCode generate(const GenerateOptions& options) {
     throw std::invalid_argument(
         "--jobs shares the frames of a scenario, and so does --shard; give one of them");
   }
-  const InterruptGuard interrupt;
   const scenario::Scenario scenario = load(options);
   const sequence::GenerateOptions what{formats_of(options), options.sets, program_text()};
   const bool is_part = !options.shard.empty();
@@ -209,20 +206,20 @@ ExitCode generate(const GenerateOptions& options) {
     const auto show = [&](int done) {
       whole = done;
       if (done > 0) progress.show(done);
-      interrupt.check();
+      check_interrupted();
     };
     if (options.jobs > 1) share_frames(options, journal, show);
     sequence::generate_frames(scenario, what, journal, range, show);
   } catch (const Interrupted&) {
-    fmt::print(stderr,
-               "lcs: interrupted; {} of {} frames are whole, and the same command goes on from "
-               "there\n",
-               whole, frames);
+    print_err(
+        "lcs: interrupted; {} of {} frames are whole, and the same command goes on from "
+        "there\n",
+        whole, frames);
     return kInterrupted;
   }
   if (is_part) {
     if (!options.quiet) {
-      fmt::print(
+      print_out(
           "{}: frames {} to {} are whole; when all parts are, the same command without "
           "--shard puts the sequence together\n",
           scenario.name, range.first, range.last - 1);
@@ -231,9 +228,9 @@ ExitCode generate(const GenerateOptions& options) {
   }
   const std::vector<std::string> notes = sequence::finish_sequence(scenario, what, plan, journal);
   if (!options.quiet) {
-    fmt::print("{}: {} frames, seed {}\n", scenario.name, scenario.frames, scenario.seed);
-    for (const std::string& note : notes) fmt::print("  {}\n", note);
-    fmt::print("  files    {}\n", journal.folder().string());
+    print_out("{}: {} frames, seed {}\n", scenario.name, scenario.frames, scenario.seed);
+    for (const std::string& note : notes) print_out("  {}\n", note);
+    print_out("  files    {}\n", journal.folder().string());
   }
   return kFine;
 }

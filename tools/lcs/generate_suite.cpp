@@ -6,6 +6,7 @@
 
 #include "tools/lcs/generate.h"
 #include "tools/lcs/interrupt.h"
+#include "tools/lcs/terminal.h"
 #include "tools/suite/child_process.h"
 #include "tools/suite/plan.h"
 
@@ -30,7 +31,7 @@ std::vector<PlannedSequence> plan_sequences(const GenerateOptions& options, bool
        .sets = options.sets,
        .seeds = options.seeds})) {
     if (!planned.scenario) {
-      fmt::print(stderr, "error: {}\n", planned.error);
+      print_err("error: {}\n", planned.error);
       is_broken = true;
       continue;
     }
@@ -51,7 +52,6 @@ std::vector<PlannedSequence> plan_sequences(const GenerateOptions& options, bool
 }  // namespace
 
 ExitCode generate_suite(const GenerateOptions& options) {
-  const InterruptGuard interrupt;
   bool is_broken = false;
   const std::vector<PlannedSequence> sequences = plan_sequences(options, is_broken);
   std::vector<std::vector<std::string>> commands;
@@ -64,18 +64,18 @@ ExitCode generate_suite(const GenerateOptions& options) {
           ++done;
           const std::string& name = sequences[place].name;
           if (exit.code != kFine || exit.signal != 0) {
-            fmt::print(stderr, "error: {}: {}\n", name, suite::complaint_of(exit));
+            print_err("error: {}: {}\n", name, suite::complaint_of(exit));
             is_broken = true;
           } else if (!options.quiet) {
-            fmt::print(stderr, "[{}/{}] {}: {:.1f} s\n", done, sequences.size(), name, exit.wall_s);
+            print_err("[{}/{}] {}: {:.1f} s\n", done, sequences.size(), name, exit.wall_s);
           }
         },
-        [&](const std::vector<std::size_t>&) { interrupt.check(); });
+        [&](const std::vector<std::size_t>&) { check_interrupted(); });
   } catch (const Interrupted&) {
-    fmt::print(stderr,
-               "lcs: interrupted; {} of {} sequences are whole, and the same command goes on from "
-               "there\n",
-               done, sequences.size());
+    print_err(
+        "lcs: interrupted; {} of {} sequences are whole, and the same command goes on from "
+        "there\n",
+        done, sequences.size());
     return kInterrupted;
   }
   return is_broken ? kError : kFine;

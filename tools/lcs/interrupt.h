@@ -1,8 +1,7 @@
 /// \file
-/// Ctrl-C as a request that is honoured between two frames, so that nothing is left half done.
+/// Signals as requests that are honoured between two frames, so that nothing is left half done.
 #pragma once
 
-#include <csignal>
 #include <stdexcept>
 
 namespace lcs::tools {
@@ -12,19 +11,9 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-/// While one lives, SIGINT and SIGTERM only make a note. One at a time.
-class InterruptGuard {
- public:
-  InterruptGuard();
-  ~InterruptGuard();
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-
-  /// \throws Interrupted if one of them has come.
-  void check() const;
-
- private:
-  struct sigaction old_int_, old_term_;
-};
+/// To be called between two frames. Signals only make a note.
+/// \throws Interrupted if SIGINT, SIGTERM, SIGHUP or SIGXCPU has come since the program started,
+///   bench::OutputError if SIGPIPE or SIGXFSZ has: something could not be written.
+void check_interrupted();
 
 }  // namespace lcs::tools

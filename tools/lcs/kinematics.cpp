@@ -10,6 +10,7 @@
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/progress.h"
 #include "tools/lcs/set_option.h"
+#include "tools/lcs/terminal.h"
 
 namespace lcs::tools {
 namespace {
@@ -66,8 +67,6 @@ CLI::App& add_kinematics_command(CLI::App& app, KinematicsOptions& options) {
 }
 
 ExitCode kinematics(const KinematicsOptions& options) {
-  const InterruptGuard interrupt;
-
   const std::string file =
       options.config.empty() ? LCS_SCENARIOS_DIR "/crossing.yaml" : options.config;
   const kinematics::StudyConfig config = kinematics::configure(
@@ -78,16 +77,16 @@ ExitCode kinematics(const KinematicsOptions& options) {
     Progress progress("kinematics", kinematics::study_pieces(config), options.quiet, "experiments");
     int done = 0;
     return kinematics::carry_out(config, [&](int more) {
-      interrupt.check();
+      check_interrupted();
       progress.show(done += more);
     });
   }();
   kinematics::write_study(folder.staging(), study);
-  interrupt.check();
+  check_interrupted();
   folder.commit();
   if (!options.quiet) {
-    fmt::print("{}\nresults in {}\n", kinematics::text_of(config, kinematics::answer(study)),
-               folder.target().string());
+    print_out("{}\nresults in {}\n", kinematics::text_of(config, kinematics::answer(study)),
+              folder.target().string());
   }
   return kFine;
 }

@@ -17,6 +17,7 @@
 #include "tools/lcs/run.h"
 #include "tools/lcs/score.h"
 #include "tools/lcs/suite.h"
+#include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
 
 namespace {
@@ -38,7 +39,7 @@ through its camera and IMU, and the simulator's truth scores what the filter say
 )";
 
 int fail(const std::string& message) {
-  fmt::print(stderr, "lcs: {}\n", message);
+  print_err("lcs: {}\n", message);
   return kError;
 }
 
@@ -89,10 +90,13 @@ int main(int argc, char** argv) {
   // The same bits whatever the machine's cores; what OpenCV has to say arrives as an exception.
   cv::setNumThreads(0);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  open_standard_descriptors();
   try {
-    return run_command_line(argc, argv);
+    const int exit_code = run_command_line(argc, argv);
+    finish_out();
+    return exit_code;
   } catch (const Interrupted&) {
-    fmt::print(stderr, "lcs: interrupted; nothing was written\n");
+    print_err("lcs: interrupted; nothing was written\n");
     return kInterrupted;
   } catch (const std::exception& error) {
     return fail(error.what());

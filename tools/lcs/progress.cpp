@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "tools/lcs/terminal.h"
+
 namespace lcs::tools {
 namespace {
 
@@ -24,7 +26,7 @@ Progress::Progress(std::string name, int total, bool quiet, std::string unit)
                                        : Style::lines) {}
 
 Progress::~Progress() {
-  if (style_ == Style::bar) fmt::print(stderr, "{}", kWipe);
+  if (style_ == Style::bar) print_err("{}", kWipe);
 }
 
 void Progress::show(int done) {
@@ -38,14 +40,14 @@ void Progress::show_bar(int done) {
   shown_ = now;
   const int filled = kBarWidth * done / total_;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  fmt::print(stderr, "{}{} [{:#<{}}{:.<{}}] {}/{} {}, {:.0f} s left", kWipe, name_, "", filled, "",
-             kBarWidth - filled, done, total_, unit_, seconds / done * (total_ - done));
+  print_err("{}{} [{:#<{}}{:.<{}}] {}/{} {}, {:.0f} s left", kWipe, name_, "", filled, "",
+            kBarWidth - filled, done, total_, unit_, seconds / done * (total_ - done));
 }
 
 void Progress::show_line(int done) {
   // A line where another quarter became full.
   if (done * kLines / total_ > told_ * kLines / total_) {
-    fmt::print(stderr, "{}: {}/{} {}\n", name_, done, total_, unit_);
+    print_err("{}: {}/{} {}\n", name_, done, total_, unit_);
   }
   told_ = done;
 }

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 #include <stdexcept>
 
 #include "filter/detect/fast.h"
@@ -15,8 +13,10 @@
 #include "tools/bench/tracker.h"
 #include "tools/comparators/detectors.h"
 #include "tools/lcs/interrupt.h"
+#include "tools/lcs/number_option.h"
 #include "tools/lcs/progress.h"
 #include "tools/lcs/set_option.h"
+#include "tools/lcs/terminal.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/rectifier.h"
 
@@ -43,25 +43,7 @@ Files are those of `lcs run`; without a truth, what is scored by it is null in m
 
 namespace fs = std::filesystem;
 
-void check(const ReplayOptions& options) {
-  const auto positive = [](const char* name, const std::optional<double>& value) {
-    if (!value || (std::isfinite(*value) && *value > 0)) return;
-    throw std::invalid_argument(fmt::format("--{} is {}; it must be above 0", name, *value));
-  };
-  positive("fps", options.fps);
-  positive("focal", options.focal_px);
-  if (options.speed_mps && !std::isfinite(*options.speed_mps)) {
-    throw std::invalid_argument("--speed must be a number of m/s");
-  }
-  for (const auto& [name, numbers] :
-       {std::pair{"centre", &options.centre_px}, std::pair{"mount", &options.mount_deg}}) {
-    for (const double number : *numbers) {
-      if (!std::isfinite(number)) {
-        throw std::invalid_argument(fmt::format("--{} has {}; give numbers", name, number));
-      }
-    }
-  }
-}
+constexpr scenario::Range kPositive{.low = 0, .low_open = true};
 
 fs::path target_of(const ReplayOptions& options) {
   if (!options.out.empty()) return options.out;
@@ -80,10 +62,8 @@ replay::ReadOptions read_options(const ReplayOptions& options) {
                            .mount_rpy_rad = {},
                            .exact_motion = options.ego_motion == "truth"};
   if (!options.imu.empty()) read.imu = options.imu;
-  if (!options.mount_deg.empty()) {
-    read.mount_rpy_rad =
-        std::numbers::pi / 180 *
-        Eigen::Vector3d(options.mount_deg[0], options.mount_deg[1], options.mount_deg[2]);
+  if (!options.mount_rpy_rad.empty()) {
+    read.mount_rpy_rad = Eigen::Vector3d::Map(options.mount_rpy_rad.data());
   }
   return read;
 }
@@ -132,15 +112,15 @@ void print_result(const bench::Recording& recording, const bench::Metrics& metri
   };
   const Figure size = get("dimension.mean"), store = get("dimension.five_frame_mean");
   const Figure share = size && store && *store > 0 ? Figure(*size / *store) : std::nullopt;
-  fmt::print("{}: {} pictures, {} skipped\n", recording.scenario, recording.frames.size(), skipped);
-  fmt::print("  corners  {} a picture\n", number(get("dimension.corners_mean"), 0));
-  fmt::print("  edges    {} of the normal ones are matched again in the next picture\n",
-             number(get("edges.rematched"), 2));
-  fmt::print("  size     {} items: {} of a store of the last 5 pictures' corners\n",
-             number(size, 0), number(share, 2));
-  fmt::print("  time     {} ms a picture; cv::FAST {}\n", number(get("time.filter_ms_median"), 2),
-             number(get("time.detect_ms_median"), 2));
-  fmt::print("  files    {}\n", target.string());
+  print_out("{}: {} pictures, {} skipped\n", recording.scenario, recording.frames.size(), skipped);
+  print_out("  corners  {} a picture\n", number(get("dimension.corners_mean"), 0));
+  print_out("  edges    {} of the normal ones are matched again in the next picture\n",
+            number(get("edges.rematched"), 2));
+  print_out("  size     {} items: {} of a store of the last 5 pictures' corners\n", number(size, 0),
+            number(share, 2));
+  print_out("  time     {} ms a picture; cv::FAST {}\n", number(get("time.filter_ms_median"), 2),
+            number(get("time.detect_ms_median"), 2));
+  print_out("  files    {}\n", target.string());
 }
 
 }  // namespace
@@ -160,27 +140,28 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
       .add_option("--camera", options.camera,
                   "Which camera, where the layout has several, as cam1 (EuRoC)")
       ->type_name("NAME");
-  command.add_option("--fps", options.fps, "Pictures a second, where the layout does not say")
+  add_quantity_option(command, "--fps", {scenario::Dimension::frequency, kPositive}, options.fps,
+                      "Pictures a second, where the layout does not say")
       ->type_name("HZ");
-  command.add_option("--speed", options.speed_mps, "Of the camera, ahead, in m/s")
+  add_quantity_option(command, "--speed", {scenario::Dimension::speed, {}}, options.speed_mps,
+                      "Of the camera, ahead, in m/s")
       ->type_name("M/S");
   command
       .add_option("--imu", options.imu,
                   "Readings of an IMU for a folder of pictures, CSV as EuRoC's; the first one "
                   "belongs to the first picture, --speed is the speed then")
       ->type_name("FILE");
-  command.add_option("--focal", options.focal_px, "Focal length in pixels")->type_name("PX");
-  command.add_option("--centre", options.centre_px, "Principal point in pixels, as 319.5,239.5")
-      ->type_name("X,Y")
-      ->delimiter(',')
-      ->expected(2);
-  command
-      .add_option("--mount", options.mount_deg,
-                  "Where the camera looks: roll, pitch (down), yaw (left) from straight ahead, in "
-                  "degrees")
-      ->type_name("R,P,Y")
-      ->delimiter(',')
-      ->expected(3);
+  add_quantity_option(command, "--focal", {scenario::Dimension::number, kPositive},
+                      options.focal_px, "Focal length in pixels")
+      ->type_name("PX");
+  add_quantities_option(command, "--centre", {scenario::Dimension::number, {}}, 2,
+                        options.centre_px, "Principal point in pixels, as 319.5,239.5")
+      ->type_name("X,Y");
+  add_quantities_option(command, "--mount", {scenario::Dimension::angle, {}}, 3,
+                        options.mount_rpy_rad,
+                        "Where the camera looks: roll, pitch (down), yaw (left) from straight "
+                        "ahead, in degrees")
+      ->type_name("R,P,Y");
   command
       .add_option("--ego-motion", options.ego_motion,
                   "imu: by dead reckoning; truth: by the recording's own truth")
@@ -190,9 +171,9 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
       .add_option("--detector", options.detector,
                   "What watches: lcs (the filter), or klt or homography to compare it with")
       ->type_name("NAME");
-  command
-      .add_option("--fast-threshold", options.fast_threshold,
-                  "Contrast of a corner, 1 to 254 grey levels; if not given, 20 or the recording's")
+  add_integer_option(
+      command, "--fast-threshold", options.fast_threshold,
+      "Contrast of a corner, 1 to 254 grey levels; if not given, 20 or the recording's", 1, 254)
       ->type_name("N");
   command
       .add_option("--preset", options.preset,
@@ -209,8 +190,6 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
 }
 
 ExitCode replay(const ReplayOptions& options) {
-  const InterruptGuard interrupt;
-  check(options);
   const comparators::Detector& watcher = comparators::detector(options.detector);
   replay::Recorded recorded =
       replay::layout_of(options.layout, options.folder).read(read_options(options));
@@ -232,11 +211,11 @@ ExitCode replay(const ReplayOptions& options) {
   {
     Progress progress(recording.scenario, static_cast<int>(recorded.frames.size()), options.quiet);
     for (std::size_t i = 0; i < recorded.frames.size(); ++i) {
-      interrupt.check();
+      check_interrupted();
       progress.show(static_cast<int>(i) + 1);
       std::optional<cv::Mat3b> image = pictures.read(recorded.frames[i].picture);
       if (!image) {
-        fmt::print(stderr, "skipped: {}\n", pictures.skipped().back());
+        print_err("skipped: {}\n", pictures.skipped().back());
         continue;
       }
       if (!rectifier) {
@@ -265,7 +244,7 @@ ExitCode replay(const ReplayOptions& options) {
   diagnostics += tracker->diagnostics();
   diagnostics.forget(Fault::imu_gap);  // told by what read it, with its place
   for (const auto& lines : {recorded.tally.lines(), diagnostics.lines()}) {
-    for (const std::string& line : lines) fmt::print(stderr, "{}\n", line);
+    for (const std::string& line : lines) print_err("{}\n", line);
   }
   if (!options.quiet) {
     print_result(recording, metrics, pictures.skipped().size(), result->target());

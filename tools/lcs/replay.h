@@ -12,16 +12,16 @@
 namespace lcs::tools {
 
 struct ReplayOptions {
-  std::string folder;               ///< of the recording
-  std::string layout = "auto";      ///< of the folder
-  std::string camera;               ///< of several; "" is the layout's first
-  std::optional<double> fps;        ///< pictures a second, > 0
-  std::optional<double> speed_mps;  ///< along the optical axis; negative is reverse
-  std::string imu;                  ///< CSV file; "" for none
-  std::optional<double> focal_px;   ///< > 0
-  std::vector<double> centre_px;    ///< x, y; none: the middle
-  std::vector<double> mount_deg;    ///< roll, pitch, yaw; none: the layout's own
-  std::string ego_motion;           ///< imu or truth; "": as the recording has it
+  std::string folder;                 ///< of the recording
+  std::string layout = "auto";        ///< of the folder
+  std::string camera;                 ///< of several; "" is the layout's first
+  std::optional<double> fps;          ///< pictures a second, > 0
+  std::optional<double> speed_mps;    ///< along the optical axis; negative is reverse
+  std::string imu;                    ///< CSV file; "" for none
+  std::optional<double> focal_px;     ///< > 0
+  std::vector<double> centre_px;      ///< x, y; none: the middle
+  std::vector<double> mount_rpy_rad;  ///< none: the layout's own
+  std::string ego_motion;             ///< imu or truth; "": as the recording has it
   std::string detector = "lcs";
   std::optional<int> fast_threshold;  ///< grey levels
   std::string preset;                 ///< "": as the recording has it

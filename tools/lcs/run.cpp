@@ -17,8 +17,10 @@
 #include "tools/bench/tracker.h"
 #include "tools/comparators/detectors.h"
 #include "tools/lcs/interrupt.h"
+#include "tools/lcs/number_option.h"
 #include "tools/lcs/progress.h"
 #include "tools/lcs/set_option.h"
+#include "tools/lcs/terminal.h"
 
 namespace lcs::tools {
 namespace {
@@ -58,9 +60,9 @@ std::filesystem::path target_of(const RunOptions& options, const scenario::Scena
 void print_result(const scenario::Scenario& scenario, const comparators::Detector& detector,
                   const bench::Metrics& metrics, const std::filesystem::path& folder) {
   const std::string by = detector.layered ? "" : fmt::format(" by {}", detector.name);
-  fmt::print("{}{}: {} frames, seed {}, {:.1f} frames/s\n", scenario.name, by, scenario.frames,
-             scenario.seed, bench::value(metrics, "sim.frames_per_second").value_or(0));
-  fmt::print("{}  files    {}\n", bench::table(metrics), folder.string());
+  print_out("{}{}: {} frames, seed {}, {:.1f} frames/s\n", scenario.name, by, scenario.frames,
+            scenario.seed, bench::value(metrics, "sim.frames_per_second").value_or(0));
+  print_out("{}  files    {}\n", bench::table(metrics), folder.string());
 }
 
 /// What the detector watches, and where it comes from.
@@ -105,8 +107,7 @@ Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
 bool report_failures(const std::vector<bench::FailedCriterion>& failures) {
   bool required = false;
   for (const bench::FailedCriterion& failure : failures) {
-    fmt::print(stderr, "{}: {}\n", failure.required ? "failed" : "missed (not required)",
-               failure.message);
+    print_err("{}: {}\n", failure.required ? "failed" : "missed (not required)", failure.message);
     required |= failure.required;
   }
   return required;
@@ -123,7 +124,7 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
       ->type_name("");
   command.add_option("--out", options.out, "Folder for the results; out/<scenario> if not given")
       ->type_name("DIR");
-  command.add_option("--seed", options.seed, "Seed, instead of the scenario's")->type_name("N");
+  add_seed_option(command, options.seed);
   add_set_option(command, options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
   command
       .add_option("--detector", options.detector,
@@ -145,8 +146,6 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
 }
 
 ExitCode run(const RunOptions& options) {
-  const InterruptGuard interrupt;
-
   const comparators::Detector& detector = comparators::detector(options.detector);
   // All that can be wrong with what was asked for is found before any output is begun.
   const scenario::Scenario scenario =
@@ -170,15 +169,15 @@ ExitCode run(const RunOptions& options) {
     Progress progress(scenario.name, scenario.frames, options.quiet);
     diagnostics = frames.run(*tracker, recording,
                              [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
-                               interrupt.check();
+                               check_interrupted();
                                result.add(frame, image);
                                progress.show(frame.index + 1);
                              });
   }
-  interrupt.check();
+  check_interrupted();
   const bench::Metrics metrics = result.finish(recording);
 
-  for (const std::string& line : diagnostics.lines()) fmt::print(stderr, "{}\n", line);
+  for (const std::string& line : diagnostics.lines()) print_err("{}\n", line);
   if (!options.quiet) print_result(scenario, detector, metrics, result.target());
   const bool failed = report_failures(bench::failed_criteria(scenario.criteria, metrics));
   return failed ? kCriterionFailed : kFine;

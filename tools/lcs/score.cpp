@@ -9,6 +9,7 @@
 #include "tools/bench/report.h"
 #include "tools/bench/scoring.h"
 #include "tools/bench/table.h"
+#include "tools/lcs/terminal.h"
 
 namespace lcs::tools {
 namespace {
@@ -48,12 +49,12 @@ bench::Recording read_run(const std::filesystem::path& folder) {
 
 void report_unmatched(const bench::Detections& detections) {
   if (detections.without_corner > 0) {
-    fmt::print(stderr, "{} of {} verdicts are on no corner: there is none within {} px\n",
-               detections.without_corner, detections.verdicts, bench::kCornerReach_px);
+    print_err("{} of {} verdicts are on no corner: there is none within {} px\n",
+              detections.without_corner, detections.verdicts, bench::kCornerReach_px);
   }
   if (detections.repeated > 0) {
-    fmt::print(stderr, "{} of {} verdicts are on a corner that has one already: the first holds\n",
-               detections.repeated, detections.verdicts);
+    print_err("{} of {} verdicts are on a corner that has one already: the first holds\n",
+              detections.repeated, detections.verdicts);
   }
 }
 
@@ -101,8 +102,8 @@ ExitCode score(const ScoreOptions& options) {
     });
   }
   if (!options.quiet) {
-    fmt::print("{} by {}: {} frames, seed {}\n{}", recording.scenario, recording.detector.name,
-               recording.frames.size(), recording.seed, bench::table(metrics));
+    print_out("{} by {}: {} frames, seed {}\n{}", recording.scenario, recording.detector.name,
+              recording.frames.size(), recording.seed, bench::table(metrics));
   }
   return kFine;
 }

@@ -11,8 +11,10 @@
 #include "tools/bench/output_folder.h"
 #include "tools/comparators/detectors.h"
 #include "tools/lcs/interrupt.h"
+#include "tools/lcs/number_option.h"
 #include "tools/lcs/set_option.h"
 #include "tools/lcs/suite_progress.h"
+#include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
 #include "tools/report/report_page.h"
 #include "tools/suite/beside_table.h"
@@ -90,11 +92,11 @@ ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
   bool is_broken = false;
   for (const suite::PlannedScenario& planned : plan) {
     if (planned.scenario) {
-      fmt::print("{:<{}}  {:>4} frames, {} criteria [{}] {}\n", planned.name, longest,
-                 planned.scenario->frames, planned.scenario->criteria.size(),
-                 fmt::join(planned.scenario->groups, ", "), planned.scenario->purpose);
+      print_out("{:<{}}  {:>4} frames, {} criteria [{}] {}\n", planned.name, longest,
+                planned.scenario->frames, planned.scenario->criteria.size(),
+                fmt::join(planned.scenario->groups, ", "), planned.scenario->purpose);
     } else {
-      fmt::print(stderr, "error: {}\n", planned.error);
+      print_err("error: {}\n", planned.error);
       is_broken = true;
     }
   }
@@ -105,7 +107,7 @@ void print_changes(const suite::SuiteResult& baseline, const suite::SuiteResult&
                    const std::string& name) {
   const suite::Comparison comparison =
       suite::compare(baseline, result, [](std::string_view) { return true; });
-  fmt::print("Against {}:\n{}\n", name, suite::text_of(comparison, false));
+  print_out("Against {}:\n{}\n", name, suite::text_of(comparison, false));
 }
 
 /// Detectors to run beside the suite's own, each once.
@@ -149,14 +151,12 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
       .add_option("--filter", options.filter,
                   "Only scenarios with this regular expression in their name")
       ->type_name("REGEX");
-  command
-      .add_option("--jobs", options.jobs,
-                  "Runs at a time; if not given, as many as there are processors")
-      ->type_name("N")
-      ->check(CLI::Range(1, kMostJobs));
-  command.add_option("--seeds", options.seeds, "Runs of each scenario; 3 if not given")
-      ->type_name("N")
-      ->check(CLI::Range(1, kMostSeeds));
+  add_integer_option(command, "--jobs", options.jobs,
+                     "Runs at a time; if not given, as many as there are processors", 1, kMostJobs)
+      ->type_name("N");
+  add_integer_option(command, "--seeds", options.seeds, "Runs of each scenario; 3 if not given", 1,
+                     kMostSeeds)
+      ->type_name("N");
   command
       .add_option("--detector", options.detector,
                   "What watches: lcs (the filter), or klt or homography to compare it with")
@@ -189,8 +189,6 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
 }
 
 ExitCode suite(const SuiteOptions& options) {
-  const InterruptGuard interrupt;
-
   // What cannot be is told before anything runs.
   const comparators::Detector& detector = comparators::detector(options.detector);
   require_others(options);
@@ -229,10 +227,10 @@ ExitCode suite(const SuiteOptions& options) {
                        const suite::RunResult& of) { progress.finished(done, scenario, of); },
          .on_tick =
              [&](const suite::SuiteProgress& now) {
-               interrupt.check();
+               check_interrupted();
                progress.show(now);
              }});
-    interrupt.check();
+    check_interrupted();
     return result;
   };
   suite::SuiteResult result = run(options.detector, options.recorded, true, "");
@@ -252,16 +250,16 @@ ExitCode suite(const SuiteOptions& options) {
 
   if (!options.quiet) {
     if (baseline) print_changes(*baseline, result, options.baseline);
-    if (!others.empty()) fmt::print("{}\n", suite::beside_table(result, others));
-    fmt::print("{}{}; results in {}\n", suite::suite_table(result, options.worst_first),
-               suite::totals(result), folder.target().string());
+    if (!others.empty()) print_out("{}\n", suite::beside_table(result, others));
+    print_out("{}{}; results in {}\n", suite::suite_table(result, options.worst_first),
+              suite::totals(result), folder.target().string());
   }
   suite::Outcome outcome = suite::outcome_of(result);
-  for (const std::string& problem : suite::problems(result)) fmt::print(stderr, "{}\n", problem);
+  for (const std::string& problem : suite::problems(result)) print_err("{}\n", problem);
   for (const suite::SuiteResult& other : others) {
     outcome = std::max(outcome, suite::outcome_of(other));
     for (const std::string& problem : suite::problems(other)) {
-      fmt::print(stderr, "{}: {}\n", other.detector, problem);
+      print_err("{}: {}\n", other.detector, problem);
     }
   }
   return exit_code(outcome);

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "tools/lcs/terminal.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::tools {
@@ -42,7 +43,7 @@ SuiteProgress::~SuiteProgress() {
 }
 
 void SuiteProgress::wipe() {
-  if (is_shown_) fmt::print(stderr, "\r\x1b[K");
+  if (is_shown_) print_err("\r\x1b[K");
   is_shown_ = false;
 }
 
@@ -51,9 +52,9 @@ void SuiteProgress::finished(const suite::SuiteProgress& progress,
   if (quiet_) return;
   wipe();
   const std::optional<double> f1 = suite::figure_of(run, "rebel.f1");
-  fmt::print(stderr, "[{}/{}] {}{}{} seed {}: {}{}, {:.1f} s\n", progress.done, progress.total,
-             detector_, detector_.empty() ? "" : ": ", scenario.name, run.seed, outcome_text(run),
-             f1 ? fmt::format(", F1 {:.2f}", *f1) : "", run.wall_s);
+  print_err("[{}/{}] {}{}{} seed {}: {}{}, {:.1f} s\n", progress.done, progress.total, detector_,
+            detector_.empty() ? "" : ": ", scenario.name, run.seed, outcome_text(run),
+            f1 ? fmt::format(", F1 {:.2f}", *f1) : "", run.wall_s);
   shown_ = {};
 }
 
@@ -66,7 +67,7 @@ void SuiteProgress::show(const suite::SuiteProgress& progress) {
   if (progress.left_s) line += fmt::format(" {:.0f} s left,", *progress.left_s);
   if (!detector_.empty()) line += fmt::format(" {}:", detector_);
   line += fmt::format(" running {}", fmt::join(progress.running, ", "));
-  fmt::print(stderr, "{}", line.substr(0, terminal_width() - 1));
+  print_err("{}", line.substr(0, terminal_width() - 1));
   std::fflush(stderr);
   is_shown_ = true;
 }

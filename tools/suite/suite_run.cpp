@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "tools/bench/criteria.h"
-#include "tools/bench/output_folder.h"
 #include "tools/bench/report.h"
 #include "tools/bench/result.h"
 #include "tools/suite/child_process.h"
@@ -115,7 +114,7 @@ void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteRun
   const bool has_figures = exit.signal == 0 && (exit.code == 0 || exit.code == 1);
   if (!has_figures) {
     run.error = complaint_of(exit);
-    bench::remove_abandoned(options.folder / folder_of(planned, run.seed));
+    bench::remove_abandoned(options.folder / folder_of(planned, run.seed), bench::result_files());
     return;
   }
   run.folder = folder_of(planned, run.seed);
@@ -131,12 +130,13 @@ void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteRun
 
 }  // namespace
 
-std::vector<std::string> suite_files() {
-  std::vector<std::string> files{kSuiteFile, kJunitFile, "report.html",
-                                 std::string("beside/*/") + kSuiteFile};
-  for (const std::string& file : bench::result_files()) {
+bench::ResultFiles suite_files() {
+  bench::ResultFiles files{
+      {kSuiteFile, kJunitFile, "report.html", std::string("beside/*/") + kSuiteFile},
+      "\"detector\""};
+  for (const std::string& file : bench::result_files().names) {
     for (const char* suite : {"", "beside/*/"}) {
-      files.push_back(fmt::format("{}runs/*/seed-*/{}", suite, file));
+      files.names.push_back(fmt::format("{}runs/*/seed-*/{}", suite, file));
     }
   }
   return files;

@@ -8,14 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/output_folder.h"
 #include "tools/suite/plan.h"
 #include "tools/suite/suite_result.h"
 
 namespace lcs::suite {
 
-/// Files that a suite's folder may hold, in the form that `bench::OutputFolder` takes: its own, and
-/// in beside/NAME/ those of the same suite with other detectors.
-std::vector<std::string> suite_files();
+/// All files that a suite's folder may hold: its own, and in beside/NAME/ those of the same suite
+/// with other detectors.
+bench::ResultFiles suite_files();
 
 /// What is told while runs are under way.
 struct SuiteProgress {

@@ -1,0 +1,164 @@
+// What a process is given by its surroundings: descriptors, limits, signals, numbers as text.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <set>
+#include <thread>
+
+#include "tests/tools/command.h"
+#include "tests/tools/files.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/bench/recording_io.h"
+
+namespace lcs::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using Arguments = std::vector<std::string>;
+
+const std::string kCrossing = LCS_SCENARIOS_DIR "/crossing.yaml";
+
+class Process : public testing::Test {
+ protected:
+  Process() { fs::create_directory(folder_.path() / "home"); }
+  CommandOptions options() const { return {.folder = home()}; }
+  fs::path home() const { return folder_.path() / "home"; }
+
+  static Arguments brief(Arguments arguments, const Arguments& more = {}) {
+    arguments.insert(arguments.end(), {"--set", "frames=4", "--set", "camera.size=[320,240]"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  static Arguments run(const Arguments& more = {}) { return brief({"run", kCrossing}, more); }
+
+ private:
+  const TemporaryFolder folder_;
+};
+
+// ---- Descriptors
+
+class ClosedDescriptors : public Process, public testing::WithParamInterface<std::vector<int>> {};
+INSTANTIATE_TEST_SUITE_P(Sets, ClosedDescriptors,
+                         testing::Values(std::vector{0}, std::vector{1}, std::vector{2},
+                                         std::vector{1, 2}, std::vector{0, 1, 2}));
+
+TEST_P(ClosedDescriptors, LeaveTheSameFilesAsOpenOnes) {
+  ASSERT_EQ(run_lcs(run({"--out", "open"}), options()).exit_code, 0);
+  CommandOptions closed = options();
+  closed.closed = GetParam();
+  EXPECT_EQ(run_lcs(run({"--out", "closed"}), closed).exit_code, 0);
+  for (const char* file : {kLayersFile, kTruthFile}) {
+    EXPECT_EQ(read(home() / "closed" / file), read(home() / "open" / file)) << file;
+  }
+}
+
+TEST_P(ClosedDescriptors, StopNoCommand) {
+  CommandOptions closed = options();
+  closed.closed = GetParam();
+  const Arguments suite = brief({"suite", kCrossing, "--seeds", "1"});
+  const Arguments generate = brief({"generate", kCrossing, "--formats", "tum"});
+  for (const Arguments& arguments : {suite, generate, {"compare", "out/suite", "out/suite"}}) {
+    EXPECT_EQ(run_lcs(arguments, closed).exit_code, 0) << arguments.front();
+  }
+}
+
+TEST_F(Process, WhatStandardOutputCannotHoldIsAnErrorInEveryCommand) {
+  ASSERT_EQ(run_lcs(run({"--out", "run", "--quiet"}), options()).exit_code, 0);
+  ASSERT_EQ(run_lcs(brief({"suite", kCrossing, "--seeds", "1", "--quiet"}), options()).exit_code,
+            0);
+  CommandOptions full = options();
+  full.out = "/dev/full";
+  for (const Arguments& arguments :
+       {Arguments{"--help"}, Arguments{"--version"}, Arguments{"run", "--help"},
+        Arguments{"score", "run"}, Arguments{"compare", "out/suite", "out/suite"},
+        Arguments{"suite", "--list"}, run(), brief({"generate", kCrossing, "--formats", "tum"})}) {
+    const CommandResult result = run_lcs(arguments, full);
+    EXPECT_EQ(result.exit_code, 2) << arguments.front();
+    EXPECT_NE(result.err.find("standard output: No space left on device"), std::string::npos)
+        << arguments.front() << ": " << result.err;
+  }
+}
+
+// ---- Limits
+
+TEST_F(Process, ALimitOfOpenFilesIsToldAsSuchAndLeavesNothing) {
+  int refused = 0;
+  for (std::size_t files = 4; files < 8; ++files) {
+    CommandOptions few = options();
+    few.open_files = files;
+    const CommandResult result = run_lcs(run({"--quiet"}), few);
+    if (result.exit_code == 0) continue;
+    ++refused;
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find("limit of open files"), std::string::npos) << result.err;
+    EXPECT_TRUE(entries(home()).empty()) << "with " << files;
+  }
+  EXPECT_GT(refused, 0) << "the limit was never reached";
+}
+
+TEST_F(Process, ALimitOfAFilesSizeIsToldAsSuchAndLeavesNothing) {
+  CommandOptions small = options();
+  small.largest_file = 20'000;
+  const CommandResult result = run_lcs(run({"--quiet"}), small);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("limit of a file's size"), std::string::npos) << result.err;
+  EXPECT_TRUE(entries(home()).empty());
+}
+
+// ---- Signals
+
+TEST_F(Process, ASignalInItsFirstMomentsLeavesNothing) {
+  const Arguments arguments{"run", kCrossing, "--quiet"};
+  int ended_by_itself = 0;
+  for (const auto after : {0ms, 20ms, 50ms, 100ms, 200ms, 400ms}) {
+    for (const int signal : {SIGTERM, SIGHUP, SIGINT}) {
+      Command command(arguments, options());
+      std::this_thread::sleep_for(after);
+      command.send(signal);
+      const int exit_code = command.wait().exit_code;
+      // Before the program's first instruction, while the loader is at work, nobody can catch it.
+      EXPECT_TRUE(exit_code == 130 || (after < 200ms && exit_code == 128 + signal)) << exit_code;
+      ended_by_itself += exit_code == 130;
+      EXPECT_TRUE(entries(home()).empty()) << "signal " << signal;
+    }
+  }
+  EXPECT_GT(ended_by_itself, 0);
+}
+
+// ---- Numbers
+
+TEST_F(Process, NumbersOfOptionsAreReadLikeThoseOfScenarios) {
+  for (const char* number : {"-1", "99999999999999999999", "010", "", "1.5", "0x10", " 3", "1e3"}) {
+    for (const Arguments& command : {Arguments{"run", kCrossing, "--seed", number},
+                                     Arguments{"generate", kCrossing, "--seed", number},
+                                     Arguments{"generate", kCrossing, "--frames", number},
+                                     Arguments{"generate", kCrossing, "--jobs", number},
+                                     Arguments{"suite", "--list", "--seeds", number},
+                                     Arguments{"suite", "--list", "--jobs", number},
+                                     Arguments{"replay", ".", "--fast-threshold", number}}) {
+      const CommandResult result = run_lcs(command, options());
+      const std::string& option = command[command.size() - 2];
+      EXPECT_EQ(result.exit_code, 2) << option << " '" << number << "'";
+      EXPECT_NE(result.err.find(option + ": the"), std::string::npos) << result.err;
+      EXPECT_NE(result.err.find("give a whole number from"), std::string::npos) << result.err;
+    }
+  }
+  for (const auto& [option, number] : {std::pair{"--fps", "0"},
+                                       {"--fps", "nan"},
+                                       {"--fps", ""},
+                                       {"--focal", "-1"},
+                                       {"--focal", "1e999"},
+                                       {"--speed", "1 kg"},
+                                       {"--centre", "1,two"},
+                                       {"--mount", "1,2,inf"}}) {
+    const CommandResult result = run_lcs({"replay", ".", option, number}, options());
+    EXPECT_EQ(result.exit_code, 2) << option << " '" << number << "'";
+    EXPECT_NE(result.err.find(std::string(option) + ": "), std::string::npos) << result.err;
+  }
+  EXPECT_TRUE(entries(home()).empty());
+}
+
+}  // namespace
+}  // namespace lcs::bench

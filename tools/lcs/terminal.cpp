@@ -1,0 +1,45 @@
+#include "tools/lcs/terminal.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <iostream>
+#include <system_error>
+
+#include "tools/bench/output_file.h"
+
+namespace lcs::tools {
+namespace {
+
+[[noreturn]] void fail(int error) {
+  const std::error_code code(error, std::generic_category());
+  throw bench::OutputError(
+      fmt::format("cannot write to standard output: {}; {}", code.message(), bench::remedy(code)));
+}
+
+}  // namespace
+
+void open_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    // the lowest that is free is taken, which is this one
+    if (::fcntl(descriptor, F_GETFD) < 0) ::open("/dev/null", O_RDWR);
+  }
+}
+
+void write_out(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail(errno);
+}
+
+void write_err(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+void finish_out() {
+  std::cout.flush();
+  const bool has_failed = std::ferror(stdout) != 0;  // what was to be written then is lost
+  if (std::fflush(stdout) != 0 || has_failed) fail(errno);
+}
+
+}  // namespace lcs::tools

@@ -1,0 +1,36 @@
+/// \file
+/// Standard output and standard error.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+namespace lcs::tools {
+
+/// Opens those of the descriptors 0, 1 and 2 on /dev/null that are closed, so that no file that is
+/// opened later takes their place and what is printed ends in it.
+void open_standard_descriptors();
+
+/// \name Text for standard output, where what cannot be written is an error, and for standard
+/// error, where it is not.
+///@{
+/// \throws bench::OutputError
+void write_out(const std::string& text);
+void write_err(const std::string& text);
+
+template <class... Args>
+void print_out(fmt::format_string<Args...> format, Args&&... args) {
+  write_out(fmt::format(format, std::forward<Args>(args)...));
+}
+template <class... Args>
+void print_err(fmt::format_string<Args...> format, Args&&... args) {
+  write_err(fmt::format(format, std::forward<Args>(args)...));
+}
+///@}
+
+/// Writes out what is still buffered, by anybody. \throws bench::OutputError
+void finish_out();
+
+}  // namespace lcs::tools
