@@ -462,7 +462,7 @@ TEST_F(GenerateInParts, ADiskThatFillsUpIsToldInOneLineAndWithRoomItGoesOnToTheS
   const auto all = arguments({"--out", folder(), "--quiet"});
   const CommandResult full = run_lcs(all, {.folder = home_.path(), .largest_file = 200'000});
   EXPECT_EQ(full.exit_code, 2);
-  EXPECT_NE(full.err.find("File too large; make room"), std::string::npos) << full.err;
+  EXPECT_NE(full.err.find("File too large; raise the limit"), std::string::npos) << full.err;
   EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
   EXPECT_FALSE(fs::exists(folder() / kManifestFile));
   EXPECT_EQ(run_lcs(all, {.folder = home_.path()}).exit_code, 0);

@@ -130,13 +130,36 @@ TEST_F(Score, MistakesAreToldInOneLineAndNothingIsWritten) {
   }
 }
 
+TEST_F(Score, FilesOfOthersAreNotReplaced) {
+  make_run("lcs", "frames=4");
+  const fs::path thesis = folder_.path() / "thesis.tex", mine = folder_.path() / "mine.csv";
+  std::ofstream(thesis) << "precious";
+  std::ofstream(mine) << "frame,type\n1,rebel,0\n";
+  for (const auto& [arguments, said] :
+       {std::pair{std::vector<std::string>{"--out", "thesis.tex"}, "would be lost"},
+        {{"--write-detections", "thesis.tex"}, "would be lost"},
+        {{"--detections", "mine.csv", "--write-detections", "mine.csv"},
+         "the file that is scored"}}) {
+    std::vector<std::string> all{"score", "run"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const CommandResult result = lcs(all);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(said), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(read(thesis), "precious");
+  EXPECT_EQ(read(mine), "frame,type\n1,rebel,0\n");
+  std::ofstream(folder_.path() / "empty.json");
+  EXPECT_EQ(lcs({"score", "run", "--out", "empty.json"}).exit_code, 0);
+  EXPECT_EQ(lcs({"score", "run", "--out", "empty.json"}).exit_code, 0) << "its own";
+}
+
 TEST_F(Score, AFullDiskIsNoticedAndLeavesTheEarlierFile) {
   make_run("lcs", "frames=4");
-  std::ofstream(folder_.path() / "old.json") << "old";
+  std::ofstream(folder_.path() / "old.json") << "old \"rebel.f1\"";
   const CommandResult result = run_lcs({"score", "run", "--out", "old.json"},
                                        {.folder = folder_.path(), .largest_file = 1000});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_EQ(read(folder_.path() / "old.json"), "old");
+  EXPECT_EQ(read(folder_.path() / "old.json"), "old \"rebel.f1\"");
   int files = 0;
   for (const auto& entry : fs::directory_iterator(folder_.path())) files += entry.is_regular_file();
   EXPECT_EQ(files, 1) << "nothing half-written is left";

@@ -38,6 +38,8 @@ struct Detections {
 /// \throws DetectionsError
 Detections read_detections(const std::filesystem::path& csv, const Recording& sequence);
 
+inline constexpr const char* kDetectionsHeader = "frame,type";
+
 /// Writes what a recording says in the same format, so that reading it gives the same figures of
 /// rebels and squares to the last bit. \throws OutputError
 void write_detections(const std::filesystem::path& csv, const Recording& recording);

@@ -30,7 +30,7 @@ std::string rows_of(const FrameRecord& frame) {
 
 void write_detections(const std::filesystem::path& csv, const Recording& recording) {
   OutputFile file(csv);
-  file.write("frame,type\n");
+  file.write(fmt::format("{}\n", kDetectionsHeader));
   for (const FrameRecord& frame : recording.frames) file.write(rows_of(frame));
   file.close();
 }

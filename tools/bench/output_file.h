@@ -22,6 +22,11 @@ class OutputError : public std::runtime_error {
 /// What to do where writing failed with such an error.
 std::string remedy(const std::error_code& error);
 
+/// The first bytes of a plain file; "" for anything else.
+std::string beginning(const std::filesystem::path& file, std::size_t bytes);
+/// Whether a plain file has `sign` near its beginning.
+bool has_sign(const std::filesystem::path& file, std::string_view sign);
+
 /// Created (or emptied) on construction. Whoever has not called `close` does not know whether all
 /// of it arrived.
 class OutputFile {
@@ -51,8 +56,10 @@ std::filesystem::path finished_name(const std::filesystem::path& unfinished);
 
 /// Writes a file that appears whole or not at all: `write` is given a path beside it to write to.
 /// What is there and no plain file, as a pipe or /dev/stdout, is written to as it is.
+/// \param sign that an earlier file must have, unless it is empty, in order to be replaced.
 /// \throws OutputError, and what `write` throws; then an earlier file is as it was.
 void write_whole(const std::filesystem::path& path,
-                 const std::function<void(const std::filesystem::path&)>& write);
+                 const std::function<void(const std::filesystem::path&)>& write,
+                 std::string_view sign = "");
 
 }  // namespace lcs::bench

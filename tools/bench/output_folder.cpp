@@ -38,21 +38,6 @@ std::string marker_text(std::string_view folder_name) {
   return fmt::format("lcs writes its results here, and takes this folder away: {}\n", folder_name);
 }
 
-/// The first bytes of a plain file; "" for anything else.
-std::string beginning(const fs::path& file, std::size_t bytes) {
-  std::string text;
-  const int opened = ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (opened < 0) return text;
-  struct stat status = {};
-  if (::fstat(opened, &status) == 0 && S_ISREG(status.st_mode)) {
-    text.resize(bytes);
-    const ssize_t got = ::read(opened, text.data(), bytes);
-    text.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-  }
-  ::close(opened);
-  return text;
-}
-
 /// Whether a process of this program made the folder. It may live.
 bool has_marker(const fs::path& folder) {
   const std::string text = marker_text(folder.filename().string());
@@ -216,7 +201,6 @@ void OutputFolder::require_replaceable(const fs::path& folder) const {
   }
   if (error) fail("read", target_, error);
   if (is_empty) return;
-  constexpr std::size_t kSignReach = 1 << 16;
   const std::string& first = files_.names.front();
   if (!fs::exists(folder / first)) {
     throw OutputError(fmt::format(
@@ -224,7 +208,7 @@ void OutputFolder::require_replaceable(const fs::path& folder) const {
         "another folder with --out",
         target_.string(), first));
   }
-  if (beginning(folder / first, kSignReach).find(files_.sign) == std::string::npos) {
+  if (!has_sign(folder / first, files_.sign)) {
     throw OutputError(fmt::format(
         "{} holds a {} that lcs has not written, and is not replaced; choose another folder with "
         "--out",

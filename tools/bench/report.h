@@ -11,6 +11,7 @@
 namespace lcs::bench {
 
 inline constexpr const char* kMetricsFile = "metrics.json";
+inline constexpr const char* kMetricsSign = "\"rebel.f1\"";  ///< in no other program's file
 inline constexpr const char* kFramesFile = "frames.csv";
 
 /// Flat JSON, null for what is undefined. \throws OutputError

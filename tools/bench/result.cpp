@@ -8,7 +8,7 @@ namespace lcs::bench {
 ResultFiles result_files() {
   return {.names = {kMetricsFile, kFramesFile, kLayersFile, kTruthFile, kVideoFile, kEventsFile,
                     kPicturesFile},
-          .sign = "\"rebel.f1\""};
+          .sign = kMetricsSign};
 }
 
 Result::Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,

@@ -9,6 +9,7 @@
 #include "tools/bench/report.h"
 #include "tools/bench/scoring.h"
 #include "tools/bench/table.h"
+#include "tools/lcs/interrupt.h"
 #include "tools/lcs/terminal.h"
 
 namespace lcs::tools {
@@ -58,6 +59,14 @@ void report_unmatched(const bench::Detections& detections) {
   }
 }
 
+/// Detections that were read are somebody's own.
+void require_other_file(const std::filesystem::path& out, const std::filesystem::path& in) {
+  std::error_code is_not_there;
+  if (in.empty() || !std::filesystem::equivalent(out, in, is_not_there)) return;
+  throw bench::OutputError(fmt::format(
+      "{} is the file that is scored; choose another one with --write-detections", out.string()));
+}
+
 }  // namespace
 
 CLI::App& add_score_command(CLI::App& app, ScoreOptions& options) {
@@ -91,15 +100,19 @@ ExitCode score(const ScoreOptions& options) {
   }
   const bench::Metrics metrics = bench::score(recording);
 
+  check_interrupted();
   if (!options.out.empty()) {
-    bench::write_whole(options.out, [&](const std::filesystem::path& path) {
-      bench::write_metrics(path, metrics);
-    });
+    bench::write_whole(
+        options.out,
+        [&](const std::filesystem::path& path) { bench::write_metrics(path, metrics); },
+        bench::kMetricsSign);
   }
   if (!options.write_detections.empty()) {
-    bench::write_whole(options.write_detections, [&](const std::filesystem::path& path) {
-      bench::write_detections(path, recording);
-    });
+    require_other_file(options.write_detections, options.detections);
+    bench::write_whole(
+        options.write_detections,
+        [&](const std::filesystem::path& path) { bench::write_detections(path, recording); },
+        bench::kDetectionsHeader);
   }
   if (!options.quiet) {
     print_out("{} by {}: {} frames, seed {}\n{}", recording.scenario, recording.detector.name,
