@@ -4,6 +4,7 @@
 #pragma once
 
 #include <unistd.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -103,6 +104,25 @@ inline void write_file(const std::filesystem::path& file, std::string_view text)
 
 inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
+}
+
+/// Makes a folder of those sections of an input that have the name of one of these files. A section
+/// follows a line "=== NAME".
+inline void write_sections(const std::filesystem::path& folder, std::span<const char* const> files,
+                           std::string_view text) {
+  namespace fs = std::filesystem;
+  constexpr std::string_view kMark = "=== ";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  for (std::size_t mark = text.find(kMark); mark != text.npos; mark = text.find(kMark)) {
+    text.remove_prefix(mark + kMark.size());
+    const std::size_t line = std::min(text.find('\n'), text.size());
+    const std::string_view name = text.substr(0, line);
+    text.remove_prefix(std::min(line + 1, text.size()));
+    if (std::find(files.begin(), files.end(), name) == files.end()) continue;
+    fs::create_directories((folder / name).parent_path());
+    write_file(folder / name, text.substr(0, text.find(kMark)));
+  }
 }
 
 }  // namespace lcs::fuzz

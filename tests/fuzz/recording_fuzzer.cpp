@@ -1,7 +1,6 @@
 // A recording of EuRoC, KITTI raw or RobotCar: it is read and its motion told for every picture, or
 // it is refused by an error. An input holds the files of the recording, each behind a line "===
 // NAME".
-#include <map>
 #include <stdexcept>
 
 #include "tests/fuzz/input.h"
@@ -38,37 +37,13 @@ constexpr const char* kFiles[] = {
     "stereo/centre/0.png",
 };
 
-/// Writes the sections of the input that have the name of one of these files.
-void write_files(const fs::path& folder, std::string_view text) {
-  std::map<std::string_view, std::string_view> sections;
-  constexpr std::string_view kMark = "=== ";
-  while (true) {
-    const std::size_t mark = text.find(kMark);
-    if (mark == text.npos) break;
-    text.remove_prefix(mark + kMark.size());
-    const std::size_t line = std::min(text.find('\n'), text.size());
-    const std::string_view name = text.substr(0, line);
-    text.remove_prefix(std::min(line + 1, text.size()));
-    sections[name] = text.substr(0, text.find(kMark));
-  }
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  for (const char* name : kFiles) {
-    const fs::path file = folder / name;
-    const auto section = sections.find(name);
-    if (section == sections.end()) continue;
-    fs::create_directories(file.parent_path());
-    fuzz::write_file(file, section->second);
-  }
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const fs::path folder = fuzz::work_folder() / "recording";
   // One byte first: what the user asks for.
   const std::uint8_t options = size > 0 ? data[0] : 0;
-  write_files(folder, fuzz::text_of(data, size));
+  fuzz::write_sections(folder, kFiles, fuzz::text_of(data, size));
   try {
     const replay::Layout& layout = replay::layout_of("auto", folder);
     replay::Recorded recorded = layout.read({.folder = folder, .exact_motion = (options & 1) != 0});

@@ -8,7 +8,7 @@ set -euo pipefail
 source=$1 build=$2 cmake=$3 seconds=${4:-20}
 shift $(($# < 4 ? $# : 4))
 fuzzers=("$@")
-[[ ${#fuzzers[@]} -gt 0 ]] || fuzzers=(scenario parameters detections recording ego_motion filter)
+[[ ${#fuzzers[@]} -gt 0 ]] || fuzzers=(scenario parameters detections recording run_folder ego_motion filter)
 here=$source/tests/fuzz
 
 if ! echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' |
@@ -30,7 +30,7 @@ for name in "${fuzzers[@]}"; do
   inputs=("$grown" "$here/corpus/$name")
   [[ $name == scenario ]] && inputs+=("$source/scenarios/suite")
   log=$build/found/$name.log
-  if "$build/tests/fuzz/fuzz_$name" -max_total_time="$seconds" -max_len=6000 -timeout=60 \
+  if "$build/tests/fuzz/fuzz_$name" -max_total_time="$seconds" -max_len=20000 -timeout=60 \
     -rss_limit_mb=2048 -artifact_prefix="$build/found/$name-" "${inputs[@]}" >"$log" 2>&1; then
     printf '%s: %s\n' "$name" "$(grep -E '^Done ' "$log")"
   else
