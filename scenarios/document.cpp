@@ -7,18 +7,19 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <system_error>
+#include <unordered_set>
 
+#include "scenarios/input_file.h"
 #include "scenarios/utf8.h"
 
 namespace lcs::scenario {
 namespace {
 
 /// No scenario is larger; a picture or a recording given by mistake is.
-constexpr std::size_t largest_file_bytes = 1 << 20;
+constexpr FileKind kScenarioFile{kMebibyte, "give the path of a scenario file (.yaml)"};
 
 Entry* find(Value& map, std::string_view key) {
   const auto found = std::find_if(map.entries.begin(), map.entries.end(),
@@ -64,7 +65,8 @@ class TreeBuilder : public YAML::EventHandler {
   /// value.
   struct Open {
     Value value;
-    std::optional<Entry> waiting;
+    std::optional<Entry> waiting = std::nullopt;
+    std::unordered_set<std::string> keys = {};
   };
 
   Source at(const YAML::Mark& mark) const {
@@ -77,7 +79,7 @@ class TreeBuilder : public YAML::EventHandler {
     throw Error(at(mark), "YAML tags such as '" + tag + "' are not known here; remove it");
   }
 
-  void open(Value value) { stack_.push_back({std::move(value), std::nullopt}); }
+  void open(Value value) { stack_.push_back({std::move(value)}); }
 
   void close() {
     Value value = std::move(stack_.back().value);
@@ -96,15 +98,16 @@ class TreeBuilder : public YAML::EventHandler {
       parent.value.entries.push_back(std::move(*parent.waiting));
       parent.waiting.reset();
     } else {
-      parent.waiting = key(parent.value, std::move(value));
+      parent.waiting = key(parent, std::move(value));
     }
   }
 
-  static Entry key(Value& map, Value value) {
+  static Entry key(Open& map, Value value) {
     if (value.kind != Value::Kind::scalar || value.text.empty()) {
       throw Error(value.where, "a key is " + std::string(kind_name(value.kind)) + "; give a name");
     }
-    if (const Entry* first = find(map, value.text)) {
+    if (!map.keys.insert(value.text).second) {
+      const Entry* first = find(map.value, value.text);
       throw Error(value.where, "key '" + value.text + "' is given twice, first in line " +
                                    std::to_string(first->where.line) + "; remove one");
     }
@@ -135,29 +138,6 @@ void refuse_bad_text(std::string_view text, const Source& where) {
     indentation = lead == '\n' || (indentation && lead == ' ');
     text.remove_prefix(length);
   }
-}
-
-std::string read_bytes(const std::filesystem::path& file) {
-  const Source where{file.string(), 0};
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) {
-    throw Error(where, "there is no such file; give the path of a scenario file (.yaml)");
-  }
-  if (std::filesystem::is_directory(status)) {
-    throw Error(where, "this is a folder; give the path of a scenario file (.yaml)");
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes(largest_file_bytes + 1, '\0');
-  if (stream) stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (stream.bad() || (stream.fail() && !stream.eof())) {
-    throw Error(where, "the file cannot be read; check its permissions");
-  }
-  bytes.resize(static_cast<std::size_t>(stream.gcount()));
-  if (bytes.size() > largest_file_bytes) {
-    throw Error(where, "the file is larger than 1 MiB; give the path of a scenario file (.yaml)");
-  }
-  return bytes;
 }
 
 /// "ego.speed" -> {"ego", "speed"}; "filter.circle.mu_0" -> {"filter", "circle.mu_0"}
@@ -260,7 +240,7 @@ Value parse_text(const std::string& text, const Source& where) {
 }
 
 Value parse_file(const std::filesystem::path& file) {
-  const std::string bytes = read_bytes(file);
+  const std::string bytes = read_file(file, kScenarioFile);
   Value root = parse_text(bytes, {file.string(), 1});
   if (root.kind == Value::Kind::null) {
     throw Error({file.string(), 0},

@@ -20,7 +20,7 @@ Image::Rain read_rain(Reader reader) {
   Image::Rain rain;
   reader.read("rate", kRainRate, rain.rate_mmph);
   reader.read("lens_drops", 0, kMostLensDrops, rain.lens_drops);
-  reader.read("drop_life", kDuration, rain.drop_life_s);
+  reader.read("drop_life", kDropLife, rain.drop_life_s);
   reader.finish();
   return rain;
 }

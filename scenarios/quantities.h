@@ -18,13 +18,15 @@ inline constexpr Quantity kAcceleration{Dimension::acceleration, {-100, 100}};
 inline constexpr Quantity kAngle{Dimension::angle, {-360, 360}};
 inline constexpr Quantity kFieldOfView{Dimension::angle, {0, 180, true, true}};
 inline constexpr Quantity kAngularRate{Dimension::angular_rate, {-720, 720}};
-inline constexpr Quantity kCameraRate{Dimension::frequency, {0, 1000, true}};
+/// Of the camera: ten seconds of physics between two pictures take long enough.
+inline constexpr Quantity kCameraRate{Dimension::frequency, {0.1, 1000}};
 inline constexpr Quantity kSensorRate{Dimension::frequency, {0, 10000, true}};
 inline constexpr Quantity kNoiseDensity{Dimension::number, {0, 1000}};
 inline constexpr Quantity kIlluminance{Dimension::illuminance, {0, 200000}};
 inline constexpr Quantity kIntensity{Dimension::intensity, {0, 1000000}};
 inline constexpr Quantity kBeam{Dimension::angle, {0, 90, true}};
 inline constexpr Quantity kBlur{Dimension::number, {0, 50}};
+inline constexpr Quantity kDropLife{Dimension::time, {0.01, 100000}};
 inline constexpr Quantity kRainRate{Dimension::number, {0, 200}};
 inline constexpr Quantity kExposure{Dimension::time, {0, 10, true}};
 inline constexpr Quantity kGain{Dimension::number, {0, 1000, true}};

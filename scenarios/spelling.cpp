@@ -40,6 +40,8 @@ std::optional<std::string> nearest(std::string_view name, const std::vector<std:
   // A third of the letters wrong is a misspelling, more is another word.
   std::size_t reach = std::max<std::size_t>(1, name.size() / 3) + 1;
   for (const std::string& candidate : names) {
+    // As many letters at least are to insert or remove.
+    if (candidate.size() + reach <= name.size() || name.size() + reach <= candidate.size()) continue;
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < reach && distance < candidate.size()) {
       reach = distance;

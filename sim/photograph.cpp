@@ -15,7 +15,7 @@ Photographer::Photographer(const scenario::Image& image, const Pinhole& camera, 
   if (image.rain) rain_.emplace(*image.rain, image.exposure_s, camera, scenario_seed);
 }
 
-void Photographer::develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k) const {
+void Photographer::develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k) {
   cv::Mat3f light = to_linear(picture);
   illumination_.light(light, depth_m);
   if (rain_) {

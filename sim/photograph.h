@@ -21,8 +21,9 @@ class Photographer {
   Photographer(const scenario::Image& image, const Pinhole& camera, double rate_hz,
                std::uint64_t scenario_seed);
 
-  /// Turns the rendered picture of frame `k` into the camera's. A pure function of its arguments.
-  void develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k) const;
+  /// Turns the rendered picture of frame `k` into the camera's. The same for the same arguments, in
+  /// whatever order; quick in that of time.
+  void develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k);
 
  private:
   double blur_px_;

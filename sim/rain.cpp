@@ -123,17 +123,27 @@ void Rain::add_streaks(cv::Mat3f& picture, const cv::Mat1f& depth_m, const Illum
   }
 }
 
-std::vector<LensDrop> Rain::lens_drops(double t_s) const {
+Rain::Place Rain::dry_place(int number) const {
+  const std::string name = "rain.drop." + std::to_string(number);
+  Place place{name, RandomStream(seed_, name), 0, 0};
+  // the first one has lain there for a while
+  place.until_s = rain_.drop_life_s * place.lives.uniform();
+  return place;
+}
+
+std::vector<LensDrop> Rain::lens_drops(double t_s) {
+  if (places_.empty() || t_s < places_s_) {
+    places_.clear();
+    for (int i = 0; i < rain_.lens_drops; ++i) places_.push_back(dry_place(i));
+  }
+  places_s_ = t_s;
   std::vector<LensDrop> drops;
   const double px_per_m = camera_.focal_px / kWindow_m;
-  for (int place = 0; place < rain_.lens_drops; ++place) {
-    const std::string name = "rain.drop." + std::to_string(place);
-    RandomStream lives(seed_, name);
-    // the first one has lain there for a while
-    double until_s = rain_.drop_life_s * lives.uniform();
-    int generation = 0;
-    for (; until_s <= t_s; ++generation) until_s += rain_.drop_life_s * (0.5 + lives.uniform());
-    RandomStream random(seed_, name + "." + std::to_string(generation));
+  for (Place& place : places_) {
+    for (; place.until_s <= t_s; ++place.generation) {
+      place.until_s += rain_.drop_life_s * (0.5 + place.lives.uniform());
+    }
+    RandomStream random(seed_, place.name + "." + std::to_string(place.generation));
     LensDrop drop;
     drop.centre_px = {static_cast<float>(random.uniform() * camera_.width_px),
                       static_cast<float>(random.uniform() * camera_.height_px)};
@@ -145,7 +155,7 @@ std::vector<LensDrop> Rain::lens_drops(double t_s) const {
   return drops;
 }
 
-void Rain::look_through_drops(cv::Mat3f& picture, double t_s) const {
+void Rain::look_through_drops(cv::Mat3f& picture, double t_s) {
   if (rain_.lens_drops == 0) return;
   cv::Mat3f small;
   cv::resize(picture, small,

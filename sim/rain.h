@@ -15,15 +15,15 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <string>
 #include <vector>
 
 #include "scenarios/scenario.h"
 #include "sim/illumination.h"
 #include "sim/pose.h"
+#include "sim/random.h"
 
 namespace lcs::sim {
-
-class RandomStream;
 
 /// A drop on the window.
 struct LensDrop {
@@ -41,20 +41,31 @@ class Rain {
   void add_streaks(cv::Mat3f& picture, const cv::Mat1f& depth_m, const Illumination& light,
                    int k) const;
 
-  /// Those that lie on the window at a time; a pure function of seed and time.
-  std::vector<LensDrop> lens_drops(double t_s) const;
+  /// Those that lie on the window at a time; a function of seed and time alone, quick where times
+  /// increase.
+  std::vector<LensDrop> lens_drops(double t_s);
 
   /// What the camera sees through the window at a time.
-  void look_through_drops(cv::Mat3f& picture, double t_s) const;
+  void look_through_drops(cv::Mat3f& picture, double t_s);
 
  private:
   struct Streak;
+  /// A place on the window, on which drops follow each other.
+  struct Place {
+    std::string name;
+    RandomStream lives;
+    double until_s;  ///< when the present drop runs off
+    int generation;  ///< of the present drop
+  };
+  Place dry_place(int number) const;
   Streak draw_streak(RandomStream& random) const;
 
   scenario::Image::Rain rain_;
   double exposure_s_;
   Pinhole camera_;
   std::uint64_t seed_;
+  std::vector<Place> places_;
+  double places_s_ = 0;  ///< the time that they are of
 };
 
 }  // namespace lcs::sim

@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "sim/ground.h"
+#include "sim/picture_file.h"
 #include "sim/texture.h"
 
 namespace lcs::sim {
@@ -34,7 +35,7 @@ void fill_textures(Model& model, const scenario::Scenario& scenario,
     throw scenario::Error({scenario.scene.string(), 0}, e.what());
   }
   for (const PictureTexture& picture : composed.pictures) {
-    cv::Mat3b image = cv::imread(picture.file.string(), cv::IMREAD_COLOR);
+    cv::Mat image = read_picture(picture.file, picture.source, cv::IMREAD_COLOR);
     if (image.empty()) {
       throw scenario::Error(picture.source,
                             fmt::format("'{}' is no picture that can be read; give a PNG file",

@@ -1,10 +1,18 @@
 #include "sim/xml.h"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
+#include "scenarios/input_file.h"
+
 namespace lcs::sim::xml {
 namespace {
+
+/// Of MJCF text, vertices of meshes included, and of what it names: pictures, meshes, height fields.
+constexpr scenario::FileKind kModelFile{64 * scenario::kMebibyte,
+                                        "give the path of an MJCF file"};
+constexpr scenario::FileKind kAssetFile{scenario::kGibibyte, "give a file of the kind that it is"};
 
 namespace fs = std::filesystem;
 using tinyxml2::XMLDocument;
@@ -26,13 +34,12 @@ constexpr std::array<std::string_view, 18> kReferences = {
 
 Document parse(const fs::path& file, const scenario::Source& where) {
   auto document = std::make_unique<XMLDocument>();
-  const tinyxml2::XMLError status = document->LoadFile(file.c_str());
-  if (status == tinyxml2::XML_ERROR_FILE_NOT_FOUND ||
-      status == tinyxml2::XML_ERROR_FILE_COULD_NOT_BE_OPENED ||
-      status == tinyxml2::XML_ERROR_FILE_READ_ERROR) {
-    throw scenario::Error(where,
-                          "cannot read '" + file.string() + "'; give the path of an MJCF file");
+  const std::string text = scenario::InputFile(file, kModelFile, where).bytes();
+  if (const std::size_t nul = text.find('\0'); nul != text.npos) {  // tinyxml2 stops there
+    fail(file, static_cast<int>(std::count(text.begin(), text.begin() + std::ptrdiff_t(nul), '\n')) + 1,
+         "there is a NUL byte; is this a text file? remove it");
   }
+  const tinyxml2::XMLError status = document->Parse(text.data(), text.size());
   if (status != tinyxml2::XML_SUCCESS) {
     fail(file, document->ErrorLineNum(),
          std::string("is not well-formed XML (") + XMLDocument::ErrorIDToName(status) +
@@ -70,12 +77,15 @@ void make_absolute(Element& root, const fs::path& file) {
       const char* value = e.Attribute(key);
       if (!value) continue;
       const fs::path path = folders.base / (picture ? folders.textures : folders.meshes) / value;
-      if (!fs::is_regular_file(path)) {
+      const std::string normal = path.lexically_normal().string();
+      std::error_code error;
+      if (!fs::exists(path, error) && !error) {
         fail(file, e.GetLineNum(),
-             "file '" + path.lexically_normal().string() +
-                 "' is missing; put it there or correct the name");
+             "file '" + normal + "' is missing; put it there or correct the name");
       }
-      e.SetAttribute(key, path.lexically_normal().c_str());
+      // MuJoCo opens it itself, and waits for a pipe.
+      scenario::InputFile(normal, kAssetFile, {file.string(), e.GetLineNum()});
+      e.SetAttribute(key, normal.c_str());
     }
   };
   for (Element* s = root.FirstChildElement("asset"); s; s = s->NextSiblingElement("asset")) {
@@ -83,21 +93,24 @@ void make_absolute(Element& root, const fs::path& file) {
   }
 }
 
-void expand_includes(Element& parent, const fs::path& main_file, const fs::path& file, int depth) {
+/// \param left of the files that may be included in all.
+void expand_includes(Element& parent, const fs::path& main_file, const fs::path& file, int depth,
+                     int& left) {
   constexpr int kDeepest = 16;  // a file that includes itself never ends
   for (Element* e = parent.FirstChildElement(); e;) {
     Element* next = e->NextSiblingElement();
     if (std::string_view(e->Name()) != "include") {
-      expand_includes(*e, main_file, file, depth);
+      expand_includes(*e, main_file, file, depth, left);
       e = next;
       continue;
     }
     const scenario::Source here{file.string(), e->GetLineNum()};
     if (depth >= kDeepest) throw scenario::Error(here, "includes are nested too deep");
+    if (left-- == 0) throw scenario::Error(here, "more files are included than a scene has");
     // relative to the main file, as MuJoCo has it
     const fs::path path = main_file.parent_path() / attribute(*e, "file");
     const Document included = parse(path, here);
-    expand_includes(*included->RootElement(), main_file, path, depth + 1);
+    expand_includes(*included->RootElement(), main_file, path, depth + 1, left);
     XMLNode* after = e;
     for (const XMLNode* n = included->RootElement()->FirstChild(); n; n = n->NextSibling()) {
       after = parent.InsertAfterChild(after, n->DeepClone(parent.GetDocument()));
@@ -111,7 +124,8 @@ void expand_includes(Element& parent, const fs::path& main_file, const fs::path&
 
 Document load(const fs::path& file, const scenario::Source& where) {
   Document document = parse(file, where);
-  expand_includes(*document->RootElement(), file, file, 0);
+  int left = 1000;  // files that include each other twice would be more than there is room for
+  expand_includes(*document->RootElement(), file, file, 0, left);
   make_absolute(*document->RootElement(), file);
   return document;
 }

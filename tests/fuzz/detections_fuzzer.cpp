@@ -57,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       fuzz::require(a.layers.squares.size() == b.layers.squares.size(), "and boxes do");
       fuzz::require(a.layers.rebel_circles.size() == b.layers.rebel_circles.size(), "and circles");
     }
-  } catch (const bench::DetectionsError& error) {
+  } catch (const scenario::Error& error) {
     fuzz::require(std::string_view(error.what()).find("detections.csv:") != std::string_view::npos,
                   "an error names file and line");
   }

@@ -1,6 +1,7 @@
 // Recordings as they come: each fault is handled, counted and told.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -185,6 +186,35 @@ TEST_F(BrokenRecording,
   EXPECT_DOUBLE_EQ(left.frames[3].motion.dt_s, 0.3);
 }
 
+TEST_F(BrokenRecording, APipeAmongThePicturesIsSkippedAndNamed) {
+  fs::remove(pictures() / picture(2));
+  ASSERT_EQ(::mkfifo((pictures() / picture(2)).c_str(), 0600), 0);
+  const CommandResult result = replay();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find(picture(2) + ": this is a pipe"), std::string::npos) << result.err;
+  EXPECT_EQ(recording().frames.size(), 7u);
+}
+
+TEST_F(BrokenRecording, OdometryWithoutAReadingIsToldWhereItIsNotNeeded) {
+  write(csv("odometry0"), lines_of(read(csv("odometry0"))).front() + "\n");
+  fs::remove(sequence() / "lcs.json");
+  const CommandResult result = replay();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("1 tables of odometry hold no reading and are not used"),
+            std::string::npos)
+      << result.err;
+}
+
+TEST_F(BrokenRecording, EscapeCodesOfDataAreNotForTheTerminal) {
+  std::vector<std::string> lines = lines_of(read(csv("cam0")));
+  lines[3] = lines[3].substr(0, lines[3].find(',')) + ",\x1b[31m.png";
+  write(csv("cam0"), joined(lines));
+  const CommandResult result = replay();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("\\x1b[31m.png is missing"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find('\x1b'), std::string::npos) << result.err;
+}
+
 TEST_F(BrokenRecording, WhatCannotBeReplayedIsToldInOneLineAndNothingIsWritten) {
   const auto refused = [&](const std::string& expected) {
     fs::remove_all(home_.path() / "out");
@@ -207,15 +237,49 @@ TEST_F(BrokenRecording, WhatCannotBeReplayedIsToldInOneLineAndNothingIsWritten) 
   write(csv("imu0"), in_g);
   refused("multiply them by 9.80665");
   fs::remove(csv("imu0"));
-  refused("cannot read");
+  refused("imu0/data.csv: there is no such file; ");
+  ASSERT_EQ(::mkfifo(csv("imu0").c_str(), 0600), 0);
+  refused("imu0/data.csv: this is a pipe");
+  fs::remove(csv("imu0"));
   write(csv("imu0"), imu);
+  const std::string odometry = read(csv("odometry0")), list = read(csv("cam0"));
+  for (const std::string& nothing : {std::string(), lines_of(odometry).front() + "\n"}) {
+    write(csv("odometry0"), nothing);
+    refused("odometry0/data.csv: holds no reading of the odometry that lcs.json says there is; ");
+  }
+  write(csv("odometry0"), odometry);
+  write(csv("cam0"), lines_of(list).front() + "\n");
+  refused("cam0/data.csv: lists no picture with a time; ");
+  write(csv("cam0"), list);
+  std::string settings = read(sequence() / "lcs.json");
   write(sequence() / "lcs.json", "{\"scenario\": 7}");
-  refused("lcs.json");
+  refused("lcs.json: scenario is not a text; correct it, or take it away");
+  const std::string width = "\"width_px\": 640";
+  ASSERT_NE(settings.find(width), settings.npos);
+  write(sequence() / "lcs.json", settings.replace(settings.find(width), width.size(), "\"width_px\": 8192"));
+  refused("the calibration is of 8192 x 480 pixels, and the pictures have 640 x 480; ");
   fs::remove(sequence() / "lcs.json");
-  write(sequence() / "mav0/cam0/sensor.yaml", "T_BS: [1, 2\n");
+  const fs::path sensor = sequence() / "mav0/cam0/sensor.yaml";
+  const std::string lens =
+      "resolution: [640, 480]\nintrinsics: [500, 500, 320, 240]\ndistortion_model: radtan\n"
+      "distortion_coefficients: [0.1, 0, 0, 0]\n";
+  const auto refused_lens = [&](const std::string& from, const std::string& to,
+                                const std::string& expected) {
+    std::string text = lens;
+    text.replace(text.find(from), from.size(), to);
+    write(sensor, text);
+    refused("cam0/sensor.yaml:" + expected);
+  };
+  write(sensor, "T_BS: [1, 2\n");
   refused("sensor.yaml:");
-  write(sequence() / "mav0/cam0/sensor.yaml", "intrinsics: [0, 1, 2, 3]\n");
-  refused("focal lengths");
+  write(sensor, "rate_hz: often\n" + lens);
+  refused("sensor.yaml:1: rate_hz: 'often' is not a number; ");
+  refused_lens("[500, 500", "[0, 500", "2: intrinsics.0 is '0'; it must be at least 1");
+  refused_lens("[500, 500", "[1e-300, 500", "2: intrinsics.0 is '1e-300'; it must be at least 1");
+  refused_lens("[0.1, 0", "[1e300, 0", "4: distortion_coefficients is '1e300'; it must be at least");
+  refused_lens("[0.1, 0", "[900, 0", "1: by its intrinsics and distortion the lens sees less than");
+  refused_lens("[640, 480]", "[8192, 8192]", "1: the calibration is of 8192 x 8192 pixels, and");
+  refused_lens("radtan", "fish", "3: distortion_model is 'fish'; give none, ");
 }
 
 }  // namespace

@@ -131,9 +131,13 @@ INSTANTIATE_TEST_SUITE_P(
         whole("BackwardSpeed", "scene: room.xml\nframes: 1\nego: {speed: -1 m/s}\n",
               "test.yaml:3: ego.speed is '-1 m/s'; it must be at least 0 and at most 100 m/s"),
         added("CameraRateZero", "camera: {rate: 0}\n",
-              "4: camera.rate is '0'; it must be above 0 and at most 1000 Hz"),
+              "4: camera.rate is '0'; it must be at least 0.1 and at most 1000 Hz"),
         added("CameraRateNegative", "camera: {rate: -10 Hz}\n",
-              "4: camera.rate is '-10 Hz'; it must be above 0 and at most 1000 Hz"),
+              "4: camera.rate is '-10 Hz'; it must be at least 0.1 and at most 1000 Hz"),
+        added("CameraThatHardlyLooks", "camera: {rate: 1e-6 Hz}\n",
+              "4: camera.rate is '1e-6 Hz'; it must be at least 0.1 and at most 1000 Hz"),
+        added("DropsThatDoNotStay", "image: {rain: {lens_drops: 500, drop_life: 1e-9 s}}\n",
+              "4: image.rain.drop_life is '1e-9 s'; it must be at least 0.01 and at most 100000 s"),
         added("ImuRateZero", "imu: {rate: 0 Hz}\n",
               "4: imu.rate is '0 Hz'; it must be above 0 and at most 10000 Hz"),
         added("OdometryRateZero", "odometry: {rate: 0 Hz}\n",
@@ -312,6 +316,12 @@ TEST(Refused, WhenTheFileIsMissingAFolderOrHuge) {
   EXPECT_EQ(
       message(huge),
       huge.string() + ": the file is larger than 1 MiB; give the path of a scenario file (.yaml)");
+}
+
+TEST(Refused, AMebibyteOfUnknownKeysAtTheFirst) {
+  std::string text = "scene: room.xml\nframes: 1\nego: {}\n";
+  for (int i = 0; i < 90000; ++i) text.append("k").append(std::to_string(i)).append(": 1\n");
+  EXPECT_TRUE(refusal(text).starts_with("test.yaml:4: unknown key 'k0'; ")) << refusal(text);
 }
 
 TEST(Refused, AMissingSceneSaysWhereItWasLookedFor) {

@@ -212,7 +212,7 @@ cv::Mat1b changed(const cv::Mat3b& a, const cv::Mat3b& b) {
 }
 
 TEST(Photograph, DropsOnTheLensStayWhereTheyAreFromFrameToFrame) {
-  const Rain rain(*rainy(0, 20).rain, 1e-3, camera(), 1);
+  Rain rain(*rainy(0, 20).rain, 1e-3, camera(), 1);
   const std::vector<LensDrop> first = rain.lens_drops(0);
   ASSERT_EQ(first.size(), 20u);
   // lives last 4 s in the mean and 2 s at least: in 0.1 s one or two may go, in 20 s all have gone
@@ -227,6 +227,18 @@ TEST(Photograph, DropsOnTheLensStayWhereTheyAreFromFrameToFrame) {
   EXPECT_GE(staying(0.1), 17);
   EXPECT_LT(staying(2), 20);
   EXPECT_EQ(staying(20), 0);
+}
+
+TEST(Photograph, DropsAreAFunctionOfTimeWhateverWasAskedBefore) {
+  Rain rain(*rainy(0, 20).rain, 1e-3, camera(), 1);
+  for (const double t_s : {0.0, 3.0, 3.0, 25.0, 1.0, 30.0}) {
+    const std::vector<LensDrop> drops = rain.lens_drops(t_s);
+    const std::vector<LensDrop> anew = Rain(*rainy(0, 20).rain, 1e-3, camera(), 1).lens_drops(t_s);
+    for (std::size_t i = 0; i < drops.size(); ++i) {
+      EXPECT_EQ(drops[i].centre_px, anew[i].centre_px) << t_s;
+      EXPECT_EQ(drops[i].radius_px, anew[i].radius_px) << t_s;
+    }
+  }
 }
 
 TEST(Photograph, DropsChangeThePictureWhereTheyLieAndNowhereElse) {

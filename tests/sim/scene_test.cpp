@@ -1,6 +1,7 @@
 // What is right and what is wrong with scenes and actors, as a user meets it.
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -172,6 +173,47 @@ TEST(Scene, TexturesAndIncludesBesideTheSceneAreFound) {
               "<material name='m' texture='t'/></asset><include file='beside.xml'/>");
   const World world(scenario_in_mjcf(mjcf, 0, 1));
   EXPECT_EQ(world.objects().at(0).name, "included");
+}
+
+TEST(Scene, APipeOrADeviceIsRefusedWhereItIsNamedAndNotWaitedFor) {
+  const std::filesystem::path pipe = std::filesystem::path(testing::TempDir()) / "pipe";
+  std::filesystem::remove(pipe);
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  auto s = scenario_in("lab", 0, 1);
+  s.scene = pipe;
+  expect_error(s, {"test.yaml:2: ", "this is a pipe"});
+  for (const std::string& element :
+       {"<include file='" + pipe.string() + "'/>",
+        "<asset><texture name='t' type='2d' file='" + pipe.string() + "'/></asset>",
+        "<asset><mesh name='m' file='" + pipe.string() + "'/></asset>",
+        "<asset><hfield name='h' size='1 1 1 1' file='" + pipe.string() + "'/></asset>"}) {
+    std::string mjcf = floor_with("");
+    mjcf.insert(mjcf.find("<worldbody>"), element + "\n");
+    s = scenario_in_mjcf(mjcf, 0, 1);
+    expect_error(s, {s.scene.string() + ":3: ", "this is a pipe", "; write what comes out"});
+  }
+  std::string mjcf = floor_with("");
+  mjcf.insert(mjcf.find("<worldbody>"), "<include file='/dev/zero'/>\n");
+  expect_error(scenario_in_mjcf(mjcf, 0, 1), {"'/dev/zero': this is a device"});
+}
+
+TEST(Scene, ANulByteIsNoEndOfFile) {
+  std::string mjcf = floor_with("");
+  mjcf += std::string(1, '\0') + "<more/>";
+  expect_error(scenario_in_mjcf(mjcf, 0, 1), {"there is a NUL byte"});
+}
+
+TEST(Scene, FilesThatIncludeEachOtherTwiceAreRefused) {
+  const std::filesystem::path folder(testing::TempDir());
+  for (int i = 0; i < 12; ++i) {
+    std::ofstream file(folder / ("twice" + std::to_string(i) + ".xml"));
+    file << "<mujoco>";
+    for (int k = 0; k < 2 && i < 11; ++k) file << "<include file='twice" << i + 1 << ".xml'/>";
+    file << "</mujoco>";
+  }
+  std::string mjcf = floor_with("");
+  mjcf.insert(mjcf.find("<worldbody>"), "<include file='twice0.xml'/>");
+  expect_error(scenario_in_mjcf(mjcf, 0, 1), {"more files are included"});
 }
 
 TEST(Scene, AnIncludeOfItselfEnds) {

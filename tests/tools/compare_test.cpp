@@ -56,7 +56,8 @@ TEST_F(CompareCommand, TellsMistakesInOneLineAndExitsWithTwo) {
       {{"a", "no_such"}, "no_such"},
       {{"broken.json", "a"}, "not JSON"},
       {{"a", "other"}, "no scenario in common"},
-      {{"a", "a", "--metric", "("}, "regular expression"}};
+      {{"a", "a", "--metric", "("}, "regular expression"},
+      {{"a", "a", "--metric", std::string(20000, '(')}, "repeats more than 1000 characters"}};
   for (const auto& [arguments, said] : mistakes) {
     const CommandResult result = compare(arguments);
     EXPECT_EQ(result.exit_code, 2) << said;

@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 
+#include "scenarios/scenario.h"
 #include "tests/tools/files.h"
 #include "tests/tools/recordings.h"
 #include "tests/tools/temporary_folder.h"
@@ -43,7 +44,7 @@ class DetectionsTest : public testing::Test {
   std::string error(const std::string& text) {
     try {
       detections(text);
-    } catch (const DetectionsError& error) {
+    } catch (const scenario::Error& error) {
       const std::string message = error.what(), where = path_.string() + ":";
       EXPECT_TRUE(message.starts_with(where)) << message;
       return message.substr(where.size());
@@ -184,14 +185,21 @@ TEST_F(DetectionsTest, EveryBadRowIsToldWithItsLineAndWhatToWriteInstead) {
   }
 }
 
+TEST_F(DetectionsTest, AByteOrderMarkIsNotRead) {
+  EXPECT_EQ(detections("\xef\xbb\xbf" "3,rebel,3\n").verdicts, 1);
+  EXPECT_EQ(detections("\xef\xbb\xbf" "frame,type,x,y\n3,rebel,3\n").verdicts, 1);
+}
+
 TEST_F(DetectionsTest, AFileThatCannotBeReadIsNamed) {
   for (const std::filesystem::path& path : {folder_.path() / "none.csv", folder_.path()}) {
     try {
       read_detections(path, sequence());
       ADD_FAILURE() << path;
-    } catch (const DetectionsError& error) {
+    } catch (const scenario::Error& error) {
+      const bool is_folder = path == folder_.path();
       EXPECT_EQ(error.what(),
-                fmt::format("cannot read {}; name a CSV file of detections", path.string()));
+                fmt::format("{}: {}; name a CSV file of detections", path.string(),
+                            is_folder ? "this is a folder" : "there is no such file"));
     }
   }
 }

@@ -295,27 +295,39 @@ class BrokenRecording : public testing::Test {
 
 TEST_F(BrokenRecording, BadJson) {
   edit(kLayersFile, 3, "{", "[");
-  expect_error("layers.jsonl:3: ");
+  expect_error("layers.jsonl:3: not JSON at byte ");
 }
 TEST_F(BrokenRecording, AMissingKey) {
   edit(kLayersFile, 2, "\"squares\"", "\"sqares\"");
-  expect_error("layers.jsonl:2: ");
+  expect_error("layers.jsonl:2: has no squares; ");
 }
 TEST_F(BrokenRecording, AnUnknownWord) {
   edit(kLayersFile, 2, "\"rebel\"", "\"robot\"");
-  expect_error("layers.jsonl:2: unknown word \"robot\"");
+  expect_error("layers.jsonl:2: corners.verdict[0] is the unknown word 'robot'; ");
 }
 TEST_F(BrokenRecording, ColumnsOfDifferentLength) {
   edit(kTruthFile, 4, "\"radial\":[false,", "\"radial\":[");
-  expect_error("truth.jsonl:4: columns differ in length");
+  expect_error("truth.jsonl:4: corners has columns that differ in length; ");
 }
 TEST_F(BrokenRecording, AFractionWhereAnIntegerBelongs) {
   edit(kTruthFile, 2, "\"visible_px\":[2000]", "\"visible_px\":[2000.5]");
-  expect_error("truth.jsonl:2: not an integer: 2000.5");
+  expect_error("truth.jsonl:2: objects.visible_px[0] is not a whole number of its range; ");
 }
 TEST_F(BrokenRecording, FramesThatDoNotPair) {
   edit(kTruthFile, 5, "\"index\":3", "\"index\":7");
   expect_error("truth.jsonl:5: ");
+}
+TEST_F(BrokenRecording, AWordWhereANumberBelongs) {
+  edit(kLayersFile, 2, "\"dt_s\":", "\"dt_s\":\"soon\",\"was\":");
+  expect_error("layers.jsonl:2: motion.dt_s is not a number; name the folder of a whole run");
+}
+TEST_F(BrokenRecording, ANumberThatNoIntegerHolds) {
+  edit(kTruthFile, 2, "\"visible_px\":[2000]", "\"visible_px\":[4294967296]");
+  expect_error("truth.jsonl:2: objects.visible_px[0] is not a whole number of its range; ");
+}
+TEST_F(BrokenRecording, AHundredThousandNestedLists) {
+  edit(kLayersFile, 2, "\"index\":", "\"index\":" + std::string(100000, '[') + std::string(100000, ']') + ",\"was\":");
+  expect_error("layers.jsonl:2: index is not a whole number");
 }
 TEST_F(BrokenRecording, ATruthThatEndsEarly) {
   drop_last_line(kTruthFile);
@@ -327,7 +339,7 @@ TEST_F(BrokenRecording, LayersThatEndEarly) {
 }
 TEST_F(BrokenRecording, AMissingFile) {
   std::filesystem::remove(folder_.path() / kTruthFile);
-  expect_error("cannot read");
+  expect_error("truth.jsonl: there is no such file; ");
 }
 
 }  // namespace

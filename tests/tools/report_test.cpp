@@ -159,7 +159,8 @@ TEST(FramesCsv, ThatDoesNotFitTheRecordingIsRefusedAtItsLine) {
       read_times(path, recording);
       ADD_FAILURE() << message;
     } catch (const std::runtime_error& error) {
-      EXPECT_EQ(error.what(), path.string() + message);
+      EXPECT_EQ(error.what(), path.string() + message +
+                                  "; run the scenario again, or remove the file to have no times");
     }
   }
   EXPECT_THROW(read_times(folder.path() / "none.csv", recording), std::runtime_error);

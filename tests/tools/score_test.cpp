@@ -1,5 +1,6 @@
 // `lcs score` from its command line, on what `lcs run` leaves.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -110,10 +111,12 @@ TEST_F(Score, MistakesAreToldInOneLineAndNothingIsWritten) {
   } mistakes[] = {
       {{"score"}, "--sequence is required"},
       {{"score", "none"}, "none is no folder; name one that lcs run has left"},
-      {{"score", "empty"}, "cannot read empty/layers.jsonl"},
+      {{"score", "empty"}, "empty/layers.jsonl: there is no such file; "},
       {{"score", "run", "--detections", "bad.csv"},
        "bad.csv:2: there is no frame 4: the sequence has 0 to 3"},
-      {{"score", "run", "--detections", "none.csv"}, "cannot read none.csv"},
+      {{"score", "run", "--detections", "none.csv"}, "none.csv: there is no such file; "},
+      {{"score", "run", "--detections", "/dev/zero"}, "/dev/zero: this is a device; "},
+      {{"score", "run", "--detections", ""}, "--detections: is given without a value; "},
       {{"score", "run", "--out", "no/folder/x.json"}, "cannot write no/folder/x.json"},
   };
   for (const auto& [arguments, message] : mistakes) {
@@ -151,6 +154,77 @@ TEST_F(Score, FilesOfOthersAreNotReplaced) {
   std::ofstream(folder_.path() / "empty.json");
   EXPECT_EQ(lcs({"score", "run", "--out", "empty.json"}).exit_code, 0);
   EXPECT_EQ(lcs({"score", "run", "--out", "empty.json"}).exit_code, 0) << "its own";
+}
+
+TEST_F(Score, WhatIsQuotedFromDataIsOneCleanLine) {
+  make_run("lcs", "frames=4");
+  std::ofstream(folder_.path() / "bad.csv")
+      << "3,rebel," << std::string(10'000'000, 'x') << "\x1b[31m" << '\0' << "\xff,0\n";
+  const CommandResult result = lcs({"score", "run", "--detections", "bad.csv"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_LT(result.err.size(), 1010u);
+  EXPECT_TRUE(result.err.starts_with("lcs: bad.csv:1: x is 'xxx")) << result.err;
+  EXPECT_TRUE(result.err.ends_with("xxx\\x1b[31m\\x00\\xff'; give a number\n")) << result.err;
+}
+
+TEST_F(Score, APipeOrADeviceIsRefusedAndNotWaitedFor) {
+  make_run("lcs", "frames=4");
+  ASSERT_EQ(::mkfifo((folder_.path() / "pipe").c_str(), 0600), 0);
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& message) {
+    const CommandResult result = lcs(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+  };
+  refused({"score", "run", "--detections", "pipe"}, "pipe: this is a pipe");
+  refused({"run", "pipe"}, "pipe: this is a pipe");
+  refused({"compare", "pipe", "pipe"}, "pipe: this is a pipe");
+  fs::remove(folder_.path() / "run/layers.jsonl");
+  fs::rename(folder_.path() / "pipe", folder_.path() / "run/layers.jsonl");
+  refused({"score", "run"}, "run/layers.jsonl: this is a pipe");
+}
+
+TEST(Option, OfAnyCommandIsRefusedWithoutAValue) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> commands[] = {
+      {"run", ""},
+      {"run", "x.yaml", "--out", ""},
+      {"run", "x.yaml", "--seed", ""},
+      {"run", "x.yaml", "--set", ""},
+      {"run", "x.yaml", "--detector", ""},
+      {"run", "x.yaml", "--recorded", ""},
+      {"score", ""},
+      {"score", "x", "--detections", ""},
+      {"score", "x", "--out", ""},
+      {"score", "x", "--write-detections="},
+      {"generate", "x.yaml", "--shard", ""},
+      {"generate", "x.yaml", "--formats", ""},
+      {"generate", "x.yaml", "--filter", ""},
+      {"generate", "x.yaml", "--out="},
+      {"suite", ""},
+      {"suite", "--group", ""},
+      {"suite", "--filter", ""},
+      {"suite", "--beside", ""},
+      {"suite", "--baseline", ""},
+      {"suite", "--recorded", ""},
+      {"compare", "a", "b", "--metric", ""},
+      {"compare", "a", ""},
+      {"replay", "x", "--camera", ""},
+      {"replay", "x", "--format", ""},
+      {"replay", "x", "--imu", ""},
+      {"replay", "x", "--preset", ""},
+      {"replay", "x", "--focal", ""},
+      {"replay", ""},
+      {"kinematics", "--config", ""},
+      {"kinematics", "--out", ""},
+  };
+  for (const std::vector<std::string>& command : commands) {
+    const CommandResult result = run_lcs(command, {.folder = folder.path()});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(" is given without a value; give one, or leave it out"),
+              std::string::npos)
+        << command[0] << ' ' << command[command.size() - 2] << ' ' << result.err;
+  }
+  EXPECT_TRUE(entries(folder.path()).empty());
 }
 
 TEST_F(Score, AFullDiskIsNoticedAndLeavesTheEarlierFile) {

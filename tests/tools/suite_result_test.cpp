@@ -123,12 +123,12 @@ TEST_F(SuiteFile, IsJsonWhateverBytesAChildWroteToStderr) {
 }
 
 TEST_F(SuiteFile, ThatIsNotThereIsNamed) {
-  EXPECT_NE(refusal().find("there is no file " + file_.string()), std::string::npos) << refusal();
+  EXPECT_TRUE(refusal().starts_with(file_.string() + ": there is no such file; ")) << refusal();
 }
 
 TEST_F(SuiteFile, ThatIsNotJsonIsNamedWithThePlace) {
   write("{\"format\": 1, ");
-  EXPECT_NE(refusal().find(file_.string() + ": not JSON at byte"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find(file_.string() + ":1: not JSON at byte"), std::string::npos) << refusal();
 }
 
 struct Damage {
@@ -149,7 +149,8 @@ TEST_P(DamagedSuiteFile, IsRefusedNamingFileAndPlace) {
     json[pointer] = GetParam().value;
   }
   write(json.dump());
-  EXPECT_EQ(refusal(), file_.string() + ": " + GetParam().said);
+  EXPECT_TRUE(refusal().starts_with(file_.string() + ": " + GetParam().said + "; name the folder"))
+      << refusal();
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -158,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"list", "", Json::array(), "the file is not an object"},
         Damage{"other_json", "/format", Json(Json::value_t::discarded), "format is missing"},
         Damage{"later_format", "/format", 2,
-               "its format is 2, this program reads 1; run the suite again"},
+               "its format is 2, this program reads 1"},
         Damage{"detector", "/detector", 1, "detector is not a text"},
         Damage{"sets", "/sets", "ego.speed=1", "sets is not a list"},
         Damage{"no_seed", "/scenarios/0/runs/1/seed", Json(Json::value_t::discarded),
@@ -173,6 +174,8 @@ INSTANTIATE_TEST_SUITE_P(
                "scenarios[0].runs[0].criteria[1].met is not true or false"},
         Damage{"point", "/scenarios/0/point/1", Json::array({"ego.speed"}),
                "scenarios[0].point[1] is not a key and a value"},
+        Damage{"same_seeds", "/scenarios/0/runs/1/seed", std::numeric_limits<std::uint64_t>::max(),
+               "near<&\" has two runs of seed 18446744073709551615"},
         Damage{"same_names", "/scenarios/1/name", "near<&\"", "two scenarios are called near<&\""}),
     [](const auto& test) { return test.param.name; });
 

@@ -5,19 +5,12 @@
 
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "tools/bench/output_file.h"
 #include "tools/bench/recording.h"
 
 namespace lcs::bench {
-
-/// What is wrong with a file of detections: "file:line: what; what to do".
-class DetectionsError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// A verdict that gives a place is one on the nearest corner within this distance.
 inline constexpr double kCornerReach_px = 0.5;
@@ -35,7 +28,7 @@ struct Detections {
 };
 
 /// \param sequence whose corners and truth the detections are of.
-/// \throws DetectionsError
+/// \throws scenario::Error by file and line.
 Detections read_detections(const std::filesystem::path& csv, const Recording& sequence);
 
 inline constexpr const char* kDetectionsHeader = "frame,type";

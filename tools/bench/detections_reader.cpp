@@ -2,12 +2,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
+#include <set>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "scenarios/input_file.h"
 #include "tools/bench/csv.h"
 #include "tools/bench/detections.h"
 #include "tools/bench/recording_fields.h"
@@ -56,7 +57,7 @@ class RowReader {
     std::vector<FrameRecord>& frames = detections.recording.frames;
     for (std::size_t i = 0; i < frames.size(); ++i) {
       frames_.emplace(frames[i].index,
-                      Frame{&frames[i], std::vector<char>(frames[i].corners_px.size())});
+                      Frame{&frames[i], std::vector<char>(frames[i].corners_px.size()), {}});
     }
   }
 
@@ -85,6 +86,7 @@ class RowReader {
   struct Frame {
     FrameRecord* record;
     std::vector<char> named;  // corners that have a verdict
+    std::set<Id> boxes;
   };
 
   Frame& frame_of(std::string_view text) {
@@ -161,10 +163,8 @@ class RowReader {
 
   static void add_square(Frame& frame, Id id, const Vec2& location, const Vec2& half_size) {
     std::vector<Square>& squares = frame.record->layers.squares;
-    for (const Square& other : squares) {
-      if (other.id == id) {
-        refuse("frame {} has a box {} already; an id is one object's", frame.record->index, id);
-      }
+    if (!frame.boxes.insert(id).second) {
+      refuse("frame {} has a box {} already; an id is one object's", frame.record->index, id);
     }
     Square square;
     square.id = id;
@@ -192,18 +192,17 @@ class RowReader {
 }  // namespace
 
 Detections read_detections(const std::filesystem::path& csv, const Recording& sequence) {
-  std::ifstream file(csv);
-  if (!file || std::filesystem::is_directory(csv)) {
-    throw DetectionsError(
-        fmt::format("cannot read {}; name a CSV file of detections", csv.string()));
-  }
+  // A thousand rows for each of a million frames.
+  constexpr scenario::FileKind kDetectionsTable{64 * scenario::kGibibyte,
+                                                "name a CSV file of detections"};
+  scenario::InputFile file(csv, kDetectionsTable);
   Detections detections;
   detections.recording = without_verdicts(sequence);
   detections.recording.detector = {.name = csv.stem().string(), .layered = false};
   RowReader reader(detections);
   std::string line;
   bool header_may_come = true;
-  for (int line_number = 1; std::getline(file, line); ++line_number) {
+  while (file.next_line(line)) {
     const std::string_view text = trimmed(line);
     if (text.empty() || text.front() == '#') continue;
     const std::vector<std::string_view> row = fields_of(text);
@@ -213,7 +212,7 @@ Detections read_detections(const std::filesystem::path& csv, const Recording& se
     try {
       reader.read(row);
     } catch (const std::invalid_argument& error) {
-      throw DetectionsError(fmt::format("{}:{}: {}", csv.string(), line_number, error.what()));
+      throw scenario::Error(file.here(), error.what());
     }
   }
   return detections;

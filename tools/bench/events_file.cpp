@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "tools/bench/events.h"
+#include "tools/bench/json_node.h"
 #include "tools/bench/output_file.h"
 
 namespace lcs::bench {
@@ -40,41 +40,41 @@ Json json_of(const Event& event) {
 }
 
 template <class Enum>
-Enum enumerator_of(const std::string& word, int count) {
+Enum enumerator_of(const JsonNode& node, const std::string& word, int count) {
   for (int i = 0; i < count; ++i) {
     if (text_of(static_cast<Enum>(i)).word == word) return static_cast<Enum>(i);
   }
-  throw std::runtime_error("unknown word \"" + word + '"');
+  node.require(false, fmt::format("a word that is known here: '{}'", word));
+  return {};
 }
 
-EventView view_of(const Json& json) {
+EventView view_of(const JsonNode& node) {
   EventView view;
-  json.at("frame").get_to(view.frame);
-  json.at("t_s").get_to(view.t_s);
-  json.at("x").get_to(view.centre_px.x());
-  json.at("y").get_to(view.centre_px.y());
-  json.at("half_width").get_to(view.half_size_px.x());
-  json.at("half_height").get_to(view.half_size_px.y());
-  json.at("jpeg_base64").get_to(view.jpeg_base64);
+  view.frame = node["frame"].natural<int>();
+  view.t_s = node["t_s"].number();
+  view.centre_px = {node["x"].number(), node["y"].number()};
+  view.half_size_px = {node["half_width"].number(), node["half_height"].number()};
+  view.jpeg_base64 = node["jpeg_base64"].text();
   return view;
 }
 
-Event event_of(const Json& json) {
+Event event_of(const JsonNode& node) {
   Event event;
-  event.kind = enumerator_of<EventKind>(json.at("kind").get<std::string>(),
+  event.kind = enumerator_of<EventKind>(node["kind"], node["kind"].text(),
                                         static_cast<int>(EventKind::halo) + 1);
-  json.at("first_frame").get_to(event.first_frame);
-  json.at("last_frame").get_to(event.last_frame);
-  json.at("object").get_to(event.object);
-  json.at("object_name").get_to(event.object_name);
-  json.at("corners").get_to(event.corners);
-  json.at("of").get_to(event.of);
-  json.at("circles").get_to(event.circles);
-  for (const auto& [word, corners] : json.at("reasons").items()) {
-    event.reasons.emplace_back(enumerator_of<Reason>(word, static_cast<int>(kReasons.size())),
-                               corners.get<int>());
-  }
-  for (const Json& view : json.at("views")) event.views.push_back(view_of(view));
+  event.first_frame = node["first_frame"].natural<int>();
+  event.last_frame = node["last_frame"].natural<int>();
+  event.object = node["object"].natural<int>();
+  event.object_name = node["object_name"].text();
+  event.corners = node["corners"].natural<int>();
+  event.of = node["of"].natural<int>();
+  event.circles = node["circles"].natural<int>();
+  node["reasons"].each_entry([&](const std::string& word, const JsonNode& corners) {
+    event.reasons.emplace_back(
+        enumerator_of<Reason>(corners, word, static_cast<int>(kReasons.size())),
+        corners.natural<int>());
+  });
+  node["views"].each([&](const JsonNode& view) { event.views.push_back(view_of(view)); });
   return event;
 }
 
@@ -90,16 +90,12 @@ void write_events(const std::filesystem::path& file, const std::vector<Event>& e
 }
 
 std::vector<Event> read_events(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::runtime_error("cannot read " + file.string());
-  try {
-    const Json json = Json::parse(stream);
+  constexpr scenario::FileKind kEventsDocument{kMostJsonBytes, "run the scenario again"};
+  return read_json(file, kEventsDocument, [](const JsonNode& node) {
     std::vector<Event> events;
-    for (const Json& event : json.at("events")) events.push_back(event_of(event));
+    node["events"].each([&](const JsonNode& event) { events.push_back(event_of(event)); });
     return events;
-  } catch (const std::exception& error) {
-    throw std::runtime_error(file.string() + ": " + error.what());
-  }
+  });
 }
 
 std::string base64(std::string_view bytes) {

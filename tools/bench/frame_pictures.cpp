@@ -1,14 +1,13 @@
 #include "tools/bench/frame_pictures.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "scenarios/input_file.h"
 #include "tools/bench/output_file.h"
 
 namespace lcs::bench {
@@ -16,6 +15,8 @@ namespace {
 
 /// A JPEG's first and last marker; between them, as OpenCV writes it, there is neither.
 constexpr std::string_view kJpegStart = "\xff\xd8", kJpegEnd = "\xff\xd9";
+
+constexpr const char* kRecordAgain = "run the scenario with --events again";
 
 constexpr int kKeptWidth_px = 640;
 constexpr int kKeptQuality = 88;
@@ -42,15 +43,15 @@ void FramePictures::add(const cv::Mat3b& image) {
 }
 
 FramePictures FramePictures::read(const std::filesystem::path& file, int image_width_px) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw std::runtime_error("cannot read " + file.string());
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  // 40 kB a picture: of hundreds of thousands of frames.
+  constexpr scenario::FileKind kMotionJpeg{16 * scenario::kGibibyte, kRecordAgain};
+  const std::string bytes = scenario::read_file(file, kMotionJpeg);
   FramePictures pictures;
   for (std::size_t start = 0; start < bytes.size();) {
     const std::size_t end = bytes.find(kJpegEnd, start);
     if (bytes.compare(start, kJpegStart.size(), kJpegStart) != 0 || end == std::string::npos) {
-      throw std::runtime_error(file.string() + ": not a JPEG picture at byte " +
-                               std::to_string(start));
+      throw scenario::Error({file.string(), 0}, "not a JPEG picture at byte " +
+                                                    std::to_string(start) + "; " + kRecordAgain);
     }
     const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(start);
     const std::size_t length = end + kJpegEnd.size() - start;
@@ -74,7 +75,7 @@ cv::Mat3b FramePictures::at(std::size_t position, double& scale) const {
   cv::Mat3b picture = cv::imdecode(jpegs_.at(position), cv::IMREAD_COLOR);
   if (picture.empty()) {
     throw std::runtime_error("picture " + std::to_string(position) + " of " + kPicturesFile +
-                             " is broken");
+                             " is broken; " + kRecordAgain);
   }
   return picture;
 }

@@ -123,6 +123,7 @@ void rename_or_fail(std::string_view what, const fs::path& from, const fs::path&
 FolderLock::FolderLock(const fs::path& folder)
     : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)) {
   is_held_ = file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) == 0;
+  is_of_another_ = file_ >= 0 && !is_held_ && errno == EWOULDBLOCK;
 }
 
 FolderLock::~FolderLock() {

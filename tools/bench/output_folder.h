@@ -21,10 +21,12 @@ class FolderLock {
   FolderLock& operator=(const FolderLock&) = delete;
 
   bool is_held() const { return is_held_; }
+  bool is_of_another() const { return is_of_another_; }
 
  private:
   int file_ = -1;
   bool is_held_ = false;
+  bool is_of_another_ = false;
 };
 
 /// What a folder of results consists of, and how it is told from someone else's.

@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "sim/picture_file.h"
+
 namespace lcs::bench {
 namespace {
 
@@ -65,8 +67,15 @@ std::optional<cv::Mat3b> PictureReader::read(const fs::path& file) {
     skipped_.push_back(std::move(why));
     return std::nullopt;
   };
-  if (!fs::exists(file)) return skip(fmt::format("{} is missing", file.string()));
-  cv::Mat picture = cv::imread(file.string(), demosaic_ ? cv::IMREAD_GRAYSCALE : cv::IMREAD_COLOR);
+  std::error_code error;
+  if (!fs::exists(file, error)) return skip(fmt::format("{} is missing", file.string()));
+  cv::Mat picture;
+  try {
+    picture = sim::read_picture(file, {file.string(), 0},
+                                demosaic_ ? cv::IMREAD_GRAYSCALE : cv::IMREAD_COLOR);
+  } catch (const scenario::Error& refused) {
+    return skip(refused.what());
+  }
   if (picture.empty()) return skip(fmt::format("{} cannot be read", file.string()));
   if (size_.empty()) size_ = picture.size();
   if (picture.size() != size_) {

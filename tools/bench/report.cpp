@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "tools/bench/json_node.h"
 
 namespace lcs::bench {
 namespace {
@@ -85,19 +86,14 @@ void write_metrics(const std::filesystem::path& path, const Metrics& metrics) {
 }
 
 Metrics read_metrics(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot read " + path.string());
-  try {
-    const auto json = nlohmann::ordered_json::parse(file);
+  constexpr scenario::FileKind kMetricsDocument{kMostJsonBytes, "run the scenario again"};
+  return read_json(path, kMetricsDocument, [](const JsonNode& node) {
     Metrics metrics;
-    for (const auto& [name, figure] : json.items()) {
-      metrics.emplace_back(name,
-                           figure.is_null() ? std::nullopt : std::optional(figure.get<double>()));
-    }
+    node.each_entry([&](const std::string& name, const JsonNode& figure) {
+      metrics.emplace_back(name, figure.figure());
+    });
     return metrics;
-  } catch (const std::exception& error) {
-    throw std::runtime_error(path.string() + ": " + error.what());
-  }
+  });
 }
 
 void write_frames(const std::filesystem::path& path, const Recording& recording) {

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "scenarios/input_file.h"
 #include "tools/bench/csv.h"
 #include "tools/bench/report.h"
 
@@ -43,17 +43,19 @@ std::optional<FrameTimes> times_in(const std::vector<std::string_view>& header,
 }  // namespace
 
 void read_times(const std::filesystem::path& frames_csv, Recording& recording) {
-  std::ifstream file(frames_csv);
-  if (!file) throw std::runtime_error(fmt::format("cannot read {}", frames_csv.string()));
+  // Some 200 bytes a frame.
+  constexpr scenario::FileKind kFramesTable{
+      scenario::kGibibyte, "run the scenario again, or remove the file to have no times"};
+  scenario::InputFile file(frames_csv, kFramesTable);
   std::string header_line, line;
-  std::getline(file, header_line);
+  file.next_line(header_line);
   const std::vector<std::string_view> header = fields_of(header_line);
-  std::size_t number = 1;
+  int number = 1;
   try {
     const std::size_t frame_column = column_of(header, "frame");
     for (FrameRecord& frame : recording.frames) {
       ++number;
-      if (!std::getline(file, line)) {
+      if (!file.next_line(line)) {
         throw std::runtime_error(fmt::format("the row of frame {} is missing", frame.index));
       }
       const std::vector<std::string_view> row = fields_of(line);
@@ -68,11 +70,14 @@ void read_times(const std::filesystem::path& frames_csv, Recording& recording) {
       frame.times = times_in(header, row);
     }
     ++number;
-    if (std::getline(file, line)) {
+    if (file.next_line(line)) {
       throw std::runtime_error("there are more rows than the recording has frames");
     }
+  } catch (const scenario::Error&) {
+    throw;  // the file itself
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(fmt::format("{}:{}: {}", frames_csv.string(), number, error.what()));
+    throw scenario::Error({frames_csv.string(), number},
+                          fmt::format("{}; {}", error.what(), kFramesTable.remedy));
   }
 }
 

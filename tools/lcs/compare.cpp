@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <regex>
 #include <stdexcept>
 #include <string_view>
 
+#include "scenarios/message.h"
 #include "tools/lcs/terminal.h"
 #include "tools/suite/comparison.h"
+#include "tools/suite/pattern.h"
 #include "tools/suite/suite_result.h"
 
 namespace lcs::tools {
@@ -28,18 +29,11 @@ Exit codes:
   2  a suite cannot be read, or the two have nothing in common
 )";
 
-std::regex regex_of(const std::string& text) {
-  try {
-    return std::regex(text);
-  } catch (const std::regex_error&) {
-    throw std::runtime_error(fmt::format(
-        "--metric {} is not a regular expression; give a part of a name, or as 'rebel.*f1'", text));
-  }
-}
-
 void print_suite(const char* when, const std::string& path, const suite::SuiteResult& suite) {
-  print_out("{} {}: {}{}{}\n", when, path, suite.detector, suite.sets.empty() ? "" : " with ",
-            fmt::join(suite.sets, ", "));
+  print_out(
+      "{} {}: {}\n", when, path,
+      scenario::one_line(fmt::format("{}{}{}", suite.detector, suite.sets.empty() ? "" : " with ",
+                                     fmt::join(suite.sets, ", "))));
 }
 
 }  // namespace
@@ -62,19 +56,18 @@ CLI::App& add_compare_command(CLI::App& app, CompareOptions& options) {
 }
 
 ExitCode compare(const CompareOptions& options) {
-  const std::regex wanted = regex_of(options.metric);
+  const suite::Pattern wanted(options.metric, "--metric", "rebel.*f1");
   const suite::SuiteResult before = suite::read_suite(options.before);
   const suite::SuiteResult after = suite::read_suite(options.after);
-  const suite::Comparison comparison = suite::compare(before, after, [&](std::string_view metric) {
-    return std::regex_search(metric.begin(), metric.end(), wanted);
-  });
+  const suite::Comparison comparison =
+      suite::compare(before, after, [&](std::string_view metric) { return wanted.is_in(metric); });
   if (comparison.scenarios == 0) {
     throw std::runtime_error(
         fmt::format("{} and {} have no scenario in common", options.before, options.after));
   }
   print_suite("before", options.before, before);
   print_suite("after ", options.after, after);
-  print_out("{}", suite::text_of(comparison, options.all));
+  print_out("{}", scenario::printable(suite::text_of(comparison, options.all)));
   const bool is_worse = comparison.count(suite::Change::regressed) > 0 || comparison.lost_runs;
   return is_worse ? kRegressed : kFine;
 }

@@ -4,12 +4,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <stdexcept>
+#include <thread>
 
 #include "scenarios/load.h"
 #include "tools/bench/csv.h"
+#include "tools/bench/output_folder.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/number_option.h"
 #include "tools/lcs/progress.h"
@@ -110,6 +114,20 @@ void share_frames(const GenerateOptions& options, const sequence::Journal& journ
       });
 }
 
+/// Of those who put the sequence together in the end, one at a time.
+void wait_for_turn(const fs::path& folder, std::optional<bench::FolderLock>& turn) {
+  for (bool is_told = false;; is_told = true) {
+    turn.emplace(folder);
+    if (!turn->is_of_another()) return;
+    if (!is_told) {
+      tell(fmt::format("{}: another process makes this sequence; waiting until it has ended",
+                       folder.string()));
+    }
+    check_interrupted();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
 }  // namespace
 
 CLI::App& add_generate_command(CLI::App& app, GenerateOptions& options) {
@@ -196,7 +214,10 @@ ExitCode generate(const GenerateOptions& options) {
   const auto [part, parts] = is_part ? shard_of(options.shard) : std::pair(1, 1);
   const sequence::FrameRange range = sequence::part_of(scenario.frames, part, parts);
   const std::string plan = sequence::plan_of(scenario, what);
-  sequence::Journal journal(target_of(options, scenario), plan);
+  std::optional<bench::FolderLock> turn;
+  sequence::Journal journal(target_of(options, scenario), plan, [&](const fs::path& folder) {
+    if (!is_part) wait_for_turn(folder, turn);
+  });
   if (journal.is_complete()) return check_complete(journal.folder(), options.quiet);
 
   const int frames = range.last - range.first;

@@ -31,7 +31,7 @@ std::vector<PlannedSequence> plan_sequences(const GenerateOptions& options, bool
        .sets = options.sets,
        .seeds = options.seeds})) {
     if (!planned.scenario) {
-      print_err("error: {}\n", planned.error);
+      tell("error: " + planned.error);
       is_broken = true;
       continue;
     }
@@ -64,10 +64,10 @@ ExitCode generate_suite(const GenerateOptions& options) {
           ++done;
           const std::string& name = sequences[place].name;
           if (exit.code != kFine || exit.signal != 0) {
-            print_err("error: {}: {}\n", name, suite::complaint_of(exit));
+            tell(fmt::format("error: {}: {}", name, suite::complaint_of(exit)));
             is_broken = true;
           } else if (!options.quiet) {
-            print_err("[{}/{}] {}: {:.1f} s\n", done, sequences.size(), name, exit.wall_s);
+            tell(fmt::format("[{}/{}] {}: {:.1f} s", done, sequences.size(), name, exit.wall_s));
           }
         },
         [&](const std::vector<std::size_t>&) { check_interrupted(); });

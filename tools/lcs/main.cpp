@@ -8,6 +8,7 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 
+#include "scenarios/message.h"
 #include "tools/lcs/compare.h"
 #include "tools/lcs/exit_codes.h"
 #include "tools/lcs/generate.h"
@@ -16,6 +17,7 @@
 #include "tools/lcs/replay.h"
 #include "tools/lcs/run.h"
 #include "tools/lcs/score.h"
+#include "tools/lcs/set_option.h"
 #include "tools/lcs/suite.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
@@ -39,7 +41,7 @@ through its camera and IMU, and the simulator's truth scores what the filter say
 )";
 
 int fail(const std::string& message) {
-  print_err("lcs: {}\n", message);
+  tell(fmt::format("lcs: {}", message));
   return kError;
 }
 
@@ -69,6 +71,7 @@ int run_command_line(int argc, char** argv) {
       {add_kinematics_command(app, kinematics_options),
        [&] { return kinematics(kinematics_options); }},
   };
+  refuse_empty_options(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
@@ -99,6 +102,6 @@ int main(int argc, char** argv) {
     print_err("lcs: interrupted; nothing was written\n");
     return kInterrupted;
   } catch (const std::exception& error) {
-    return fail(error.what());
+    return fail(lcs::scenario::message_of(error));
   }
 }

@@ -89,7 +89,17 @@ void apply(const ReplayOptions& options, scenario::Scenario& settings) {
 /// By the recording's calibration, or by what the user says of the camera.
 replay::Lens lens_of(const ReplayOptions& options, const std::optional<replay::Lens>& recorded,
                      cv::Size size_px) {
-  if (recorded && !options.focal_px) return *recorded;
+  if (recorded && !options.focal_px) {
+    const bool is_said = recorded->width_px > 0;
+    if (is_said && size_px != cv::Size(recorded->width_px, recorded->height_px)) {
+      throw scenario::Error(
+          recorded->source,
+          fmt::format("the calibration is of {} x {} pixels, and the pictures have {} x {}; give "
+                      "that of these pictures, or --focal",
+                      recorded->width_px, recorded->height_px, size_px.width, size_px.height));
+    }
+    return *recorded;
+  }
   replay::Lens lens;
   lens.fu_px = lens.fv_px = *options.focal_px;
   lens.cu_px = options.centre_px.empty() ? 0.5 * (size_px.width - 1) : options.centre_px[0];
@@ -215,7 +225,7 @@ ExitCode replay(const ReplayOptions& options) {
       progress.show(static_cast<int>(i) + 1);
       std::optional<cv::Mat3b> image = pictures.read(recorded.frames[i].picture);
       if (!image) {
-        print_err("skipped: {}\n", pictures.skipped().back());
+        tell("skipped: " + pictures.skipped().back());
         continue;
       }
       if (!rectifier) {
@@ -237,14 +247,16 @@ ExitCode replay(const ReplayOptions& options) {
     }
   }
   if (!result) {
-    throw std::runtime_error(fmt::format("none of the pictures in {} can be read", options.folder));
+    throw std::runtime_error(
+        fmt::format("none of the pictures in {} can be read; give a recording with its pictures",
+                    options.folder));
   }
   const bench::Metrics metrics = result->finish(recording);
   Diagnostics diagnostics = recorded.motion->diagnostics();
   diagnostics += tracker->diagnostics();
   diagnostics.forget(Fault::imu_gap);  // told by what read it, with its place
   for (const auto& lines : {recorded.tally.lines(), diagnostics.lines()}) {
-    for (const std::string& line : lines) print_err("{}\n", line);
+    for (const std::string& line : lines) tell(line);
   }
   if (!options.quiet) {
     print_result(recording, metrics, pictures.skipped().size(), result->target());

@@ -107,7 +107,8 @@ Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
 bool report_failures(const std::vector<bench::FailedCriterion>& failures) {
   bool required = false;
   for (const bench::FailedCriterion& failure : failures) {
-    print_err("{}: {}\n", failure.required ? "failed" : "missed (not required)", failure.message);
+    tell(fmt::format("{}: {}", failure.required ? "failed" : "missed (not required)",
+                     failure.message));
     required |= failure.required;
   }
   return required;
@@ -177,7 +178,7 @@ ExitCode run(const RunOptions& options) {
   check_interrupted();
   const bench::Metrics metrics = result.finish(recording);
 
-  for (const std::string& line : diagnostics.lines()) print_err("{}\n", line);
+  for (const std::string& line : diagnostics.lines()) tell(line);
   if (!options.quiet) print_result(scenario, detector, metrics, result.target());
   const bool failed = report_failures(bench::failed_criteria(scenario.criteria, metrics));
   return failed ? kCriterionFailed : kFine;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "scenarios/message.h"
 #include "tools/bench/detections.h"
 #include "tools/bench/recording_io.h"
 #include "tools/bench/report.h"
@@ -115,8 +116,11 @@ ExitCode score(const ScoreOptions& options) {
         bench::kDetectionsHeader);
   }
   if (!options.quiet) {
-    print_out("{} by {}: {} frames, seed {}\n{}", recording.scenario, recording.detector.name,
-              recording.frames.size(), recording.seed, bench::table(metrics));
+    print_out("{}\n{}",
+              scenario::one_line(fmt::format("{} by {}: {} frames, seed {}", recording.scenario,
+                                             recording.detector.name, recording.frames.size(),
+                                             recording.seed)),
+              bench::table(metrics));
   }
   return kFine;
 }

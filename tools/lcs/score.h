@@ -20,7 +20,7 @@ struct ScoreOptions {
 /// Adds the sub-command to the program's. \param options are filled in by parsing.
 CLI::App& add_score_command(CLI::App& app, ScoreOptions& options);
 
-/// \throws bench::DetectionsError, bench::OutputError, std::exception.
+/// \throws scenario::Error, bench::OutputError, std::exception.
 ExitCode score(const ScoreOptions& options);
 
 }  // namespace lcs::tools

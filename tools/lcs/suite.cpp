@@ -96,7 +96,7 @@ ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
                 planned.scenario->frames, planned.scenario->criteria.size(),
                 fmt::join(planned.scenario->groups, ", "), planned.scenario->purpose);
     } else {
-      print_err("error: {}\n", planned.error);
+      tell("error: " + planned.error);
       is_broken = true;
     }
   }
@@ -255,11 +255,11 @@ ExitCode suite(const SuiteOptions& options) {
               suite::totals(result), folder.target().string());
   }
   suite::Outcome outcome = suite::outcome_of(result);
-  for (const std::string& problem : suite::problems(result)) print_err("{}\n", problem);
+  for (const std::string& problem : suite::problems(result)) tell(problem);
   for (const suite::SuiteResult& other : others) {
     outcome = std::max(outcome, suite::outcome_of(other));
     for (const std::string& problem : suite::problems(other)) {
-      print_err("{}: {}\n", other.detector, problem);
+      tell(fmt::format("{}: {}", other.detector, problem));
     }
   }
   return exit_code(outcome);

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "scenarios/message.h"
 #include "tools/lcs/terminal.h"
 #include "tools/suite/summary.h"
 
@@ -52,9 +53,9 @@ void SuiteProgress::finished(const suite::SuiteProgress& progress,
   if (quiet_) return;
   wipe();
   const std::optional<double> f1 = suite::figure_of(run, "rebel.f1");
-  print_err("[{}/{}] {}{}{} seed {}: {}{}, {:.1f} s\n", progress.done, progress.total, detector_,
-            detector_.empty() ? "" : ": ", scenario.name, run.seed, outcome_text(run),
-            f1 ? fmt::format(", F1 {:.2f}", *f1) : "", run.wall_s);
+  tell(fmt::format("[{}/{}] {}{}{} seed {}: {}{}, {:.1f} s", progress.done, progress.total,
+                   detector_, detector_.empty() ? "" : ": ", scenario.name, run.seed,
+                   outcome_text(run), f1 ? fmt::format(", F1 {:.2f}", *f1) : "", run.wall_s));
   shown_ = {};
 }
 
@@ -67,6 +68,7 @@ void SuiteProgress::show(const suite::SuiteProgress& progress) {
   if (progress.left_s) line += fmt::format(" {:.0f} s left,", *progress.left_s);
   if (!detector_.empty()) line += fmt::format(" {}:", detector_);
   line += fmt::format(" running {}", fmt::join(progress.running, ", "));
+  line = scenario::one_line(line);
   print_err("{}", line.substr(0, terminal_width() - 1));
   std::fflush(stderr);
   is_shown_ = true;

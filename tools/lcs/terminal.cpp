@@ -8,6 +8,7 @@
 #include <iostream>
 #include <system_error>
 
+#include "scenarios/message.h"
 #include "tools/bench/output_file.h"
 
 namespace lcs::tools {
@@ -34,6 +35,10 @@ void write_out(const std::string& text) {
 
 void write_err(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+void tell(std::string_view message) {
+  write_err(scenario::one_line(message) + '\n');
 }
 
 void finish_out() {

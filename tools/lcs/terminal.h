@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace lcs::tools {
@@ -13,12 +14,13 @@ namespace lcs::tools {
 /// opened later takes their place and what is printed ends in it.
 void open_standard_descriptors();
 
-/// \name Text for standard output, where what cannot be written is an error, and for standard
-/// error, where it is not.
-///@{
-/// \throws bench::OutputError
+/// To standard output. \throws bench::OutputError
 void write_out(const std::string& text);
+/// To standard error; what cannot be written there is lost.
 void write_err(const std::string& text);
+
+/// To standard error: one line that a terminal shows as it is, whatever is quoted in it.
+void tell(std::string_view message);
 
 template <class... Args>
 void print_out(fmt::format_string<Args...> format, Args&&... args) {
@@ -28,7 +30,6 @@ template <class... Args>
 void print_err(fmt::format_string<Args...> format, Args&&... args) {
   write_err(fmt::format(format, std::forward<Args>(args)...));
 }
-///@}
 
 /// Writes out what is still buffered, by anybody. \throws bench::OutputError
 void finish_out();

@@ -40,13 +40,19 @@ std::vector<RecordedFrame> read_frames(const fs::path& camera, Tally& tally) {
         row.fields.size() > 1 && !row.fields[1].empty() ? row.fields[1] : row.fields[0] + ".png";
     frames.push_back({*t_ns, camera / "data" / name});
   }
-  put_in_order(frames, tally);
+  put_in_order(frames, camera / "data.csv", tally);
   return frames;
 }
 
-Lens lens_of(const sim::Pinhole& camera) {
-  return {camera.focal_px,      camera.focal_px,        camera.centre_px.x(),
-          camera.centre_px.y(), Lens::Distortion::none, {}};
+Lens lens_of(const sim::Pinhole& camera, const fs::path& settings) {
+  return {.fu_px = camera.focal_px,
+          .fv_px = camera.focal_px,
+          .cu_px = camera.centre_px.x(),
+          .cv_px = camera.centre_px.y(),
+          .coefficients = {},
+          .width_px = camera.width_px,
+          .height_px = camera.height_px,
+          .source = {settings.string(), 0}};
 }
 
 /// Where dead reckoning begins, and the biases that are known there.
@@ -95,7 +101,14 @@ void move_as_run(const fs::path& mav, const sequence::ReplaySettings& exact, Rec
   SensorReadings readings;
   readings.imu = read_imu_csv(mav / "imu0" / "data.csv", recorded.tally);
   if (exact.scenario.odometry.enabled) {
-    readings.odometry = read_odometry_csv(mav / "odometry0" / "data.csv", recorded.tally);
+    const fs::path file = mav / "odometry0" / "data.csv";
+    readings.odometry = read_odometry_csv(file, recorded.tally);
+    if (readings.odometry.empty()) {
+      throw scenario::Error({file.string(), 0},
+                            fmt::format("holds no reading of the odometry that {} says there is; "
+                                        "generate the sequence again",
+                                        sequence::kSettingsFile));
+    }
   }
   if (recorded.settings.ego_motion == scenario::EgoMotionSource::truth) {
     readings.poses = read_pose_csv(mav / "cam0" / "pose.csv", recorded.tally);
@@ -145,7 +158,11 @@ void move_by_files(const fs::path& mav, const sim::Pose& T_BC, bool exact_motion
   calibration.T_WB_start.R = start.T_WS.R;
   calibration.v_WB_start_mps = start.v_WS_mps;
   if (fs::exists(mav / "odometry0" / "data.csv")) {
-    readings.odometry = read_odometry_csv(mav / "odometry0" / "data.csv", recorded.tally);
+    const fs::path file = mav / "odometry0" / "data.csv";
+    readings.odometry = read_odometry_csv(file, recorded.tally);
+    if (readings.odometry.empty()) {
+      recorded.tally.add("tables of odometry hold no reading and are not used", file.string());
+    }
   }
 
   // Everything before the start is past; times count from it.
@@ -182,12 +199,9 @@ Recorded read_euroc(const ReadOptions& options) {
   const fs::path settings_file = options.folder / sequence::kSettingsFile;
   if (fs::exists(settings_file)) {
     const sequence::ReplaySettings exact = sequence::read_settings(settings_file);
-    if (!is_time(exact.start_ns)) {
-      throw std::runtime_error(fmt::format("{}: start_ns is no time", settings_file.string()));
-    }
     recorded.settings = exact.scenario;
     if (options.exact_motion) recorded.settings.ego_motion = scenario::EgoMotionSource::truth;
-    recorded.lens = lens_of(exact.calibration.camera);
+    recorded.lens = lens_of(exact.calibration.camera, settings_file);
     move_as_run(mav, exact, recorded);
     return recorded;
   }

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 
+#include "scenarios/input_file.h"
 #include "tools/bench/csv.h"
 #include "tools/replay/navigation.h"
 #include "tools/replay/recorded.h"
@@ -22,6 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+
+/// A state of 30 numbers, or a calibration.
+constexpr scenario::FileKind kSmallText{scenario::kMebibyte, "give the file as KITTI has it"};
 
 /// Line k is of item k; none where a line is no time.
 std::vector<std::optional<std::int64_t>> read_times(const fs::path& file, Tally& tally) {
@@ -44,10 +47,14 @@ std::vector<NavigationState> read_oxts(const fs::path& folder, Tally& tally) {
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (!times[i]) continue;
     const fs::path file = folder / "data" / fmt::format("{:010}.txt", i);
-    std::ifstream stream(file);
     std::vector<double> numbers;
-    for (std::string word; stream >> word;) {
-      if (const auto number = bench::number_in<double>(word)) numbers.push_back(*number);
+    try {
+      std::istringstream words(scenario::read_file(file, kSmallText));
+      for (std::string word; words >> word;) {
+        if (const auto number = bench::number_in<double>(word)) numbers.push_back(*number);
+      }
+    } catch (const scenario::Error&) {
+      numbers.clear();  // and so it is counted
     }
     if (numbers.size() != kNumbers || !is_speed(numbers[kEast], numbers[kNorth], numbers[kUp])) {
       tally.add("states of the navigation unit are missing or cannot be read", file.string());
@@ -64,8 +71,8 @@ std::vector<NavigationState> read_oxts(const fs::path& folder, Tally& tally) {
 class CalibrationFile {
  public:
   explicit CalibrationFile(const fs::path& file) : file_(file) {
-    std::ifstream stream(file);
-    for (std::string line; std::getline(stream, line);) {
+    scenario::InputFile input(file, kSmallText);
+    for (std::string line; input.next_line(line);) {
       const std::size_t colon = line.find(':');
       if (colon == line.npos) continue;
       std::istringstream words(line.substr(colon + 1));
@@ -77,8 +84,9 @@ class CalibrationFile {
   const std::vector<double>& numbers(const std::string& name, std::size_t count) const {
     const auto found = values_.find(name);
     if (found == values_.end() || found->second.size() != count) {
-      throw std::runtime_error(
-          fmt::format("{}: {} is missing, or is not {} numbers", file_.string(), name, count));
+      throw scenario::Error({file_.string(), 0},
+                            fmt::format("{} is missing, or is not {} numbers; {}", name, count,
+                                        kSmallText.remedy));
     }
     return found->second;
   }
@@ -107,7 +115,10 @@ std::optional<Camera> read_calibration(const fs::path& drive, const std::string&
     const CalibrationFile cameras(folder / "calib_cam_to_cam.txt");
     const std::vector<double>& P = cameras.numbers("P_rect_" + number, 12);
     Camera camera;
-    camera.lens = {P[0], P[5], P[2], P[6], Lens::Distortion::none, {}};
+    camera.lens.fu_px = P[0];
+    camera.lens.fv_px = P[5];
+    camera.lens.cu_px = P[2];
+    camera.lens.cv_px = P[6];
     const sim::Pose T_velo_imu = CalibrationFile(folder / "calib_imu_to_velo.txt").pose();
     const sim::Pose T_cam_velo = CalibrationFile(folder / "calib_velo_to_cam.txt").pose();
     const sim::Pose rectify{cameras.matrix("R_rect_00"), Vector3d::Zero()};
@@ -147,7 +158,7 @@ Recorded read_kitti(const ReadOptions& options) {
     if (!times[i]) continue;
     recorded.frames.push_back({*times[i], camera_folder / "data" / fmt::format("{:010}.png", i)});
   }
-  put_in_order(recorded.frames, recorded.tally);
+  put_in_order(recorded.frames, camera_folder / "timestamps.txt", recorded.tally);
   sim::Pose T_BC{camera_mount(options.mount_rpy_rad.value_or(Vector3d::Zero())), Vector3d::Zero()};
   if (const auto camera = read_calibration(options.folder, name.substr(name.find('_') + 1))) {
     recorded.lens = camera->lens;

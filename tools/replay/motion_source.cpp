@@ -43,7 +43,7 @@ EgoMotion SensorMotion::at(std::int64_t t_ns) {
 NavigationMotion::NavigationMotion(std::vector<NavigationState> states, const sim::Pose& T_BC)
     : states_(std::move(states)), T_BC_(T_BC) {
   if (states_.size() < 2) {
-    throw std::runtime_error("there are fewer than two states of navigation to tell a motion from");
+    throw std::runtime_error("there are fewer than two states of navigation to tell a motion from; give a table of them that covers the pictures");
   }
 }
 

@@ -57,7 +57,8 @@ const Layout& layout_of(const std::string& name, const std::filesystem::path& fo
       folder.string(), names));
 }
 
-void put_in_order(std::vector<RecordedFrame>& frames, Tally& tally) {
+void put_in_order(std::vector<RecordedFrame>& frames, const std::filesystem::path& list,
+                  Tally& tally) {
   const auto earlier = [](const RecordedFrame& a, const RecordedFrame& b) {
     return a.t_ns < b.t_ns;
   };
@@ -74,7 +75,10 @@ void put_in_order(std::vector<RecordedFrame>& frames, Tally& tally) {
               twice->picture.filename().string(), static_cast<int>(frames.end() - twice));
   }
   frames.erase(twice, frames.end());
-  if (frames.empty()) throw std::runtime_error("the recording lists no picture");
+  if (frames.empty()) {
+    throw scenario::Error({list.string(), 0},
+                          "lists no picture with a time; give a row for each picture");
+  }
 }
 
 void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what,
@@ -88,7 +92,10 @@ void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what,
   const std::string example = first->picture.filename().string();
   const auto count = std::erase_if(frames, is_outside);
   recorded.tally.add(what, example, static_cast<int>(count));
-  if (frames.empty()) throw std::runtime_error("no picture was taken while the sensors recorded");
+  if (frames.empty()) {
+    throw std::runtime_error(
+        "no picture was taken while the sensors recorded; give both the times of one clock");
+  }
 }
 
 void move_by_navigation(std::vector<NavigationState> states, const sim::Pose& T_BC,

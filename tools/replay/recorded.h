@@ -38,6 +38,8 @@ struct Lens {
   double fu_px = 0, fv_px = 0, cu_px = 0, cv_px = 0;
   Distortion distortion = Distortion::none;
   std::vector<double> coefficients;  ///< in OpenCV's order
+  int width_px = 0, height_px = 0;   ///< of the pictures that it is of; 0: not said
+  scenario::Source source = {};      ///< to be blamed when these are others
 };
 
 struct RecordedFrame {
@@ -96,7 +98,9 @@ Recorded read_pictures(const ReadOptions& options);
 ///@}
 
 /// Sorts frames by time, and takes out what has a time that another one has; counts both.
-void put_in_order(std::vector<RecordedFrame>& frames, Tally& tally);
+/// \param list that they are from. \throws scenario::Error where it has none.
+void put_in_order(std::vector<RecordedFrame>& frames, const std::filesystem::path& list,
+                  Tally& tally);
 
 /// Takes out frames outside of a time span, and counts them.
 /// \throws std::runtime_error if none is left.

@@ -12,6 +12,7 @@ namespace lcs::replay {
 
 class Rectifier {
  public:
+  /// \throws scenario::Error for a distortion that no lens has.
   Rectifier(const Lens& lens, cv::Size size_px);
 
   /// Of the rectified pictures: the lens's principal point, and the mean of its focal lengths.
@@ -21,6 +22,8 @@ class Rectifier {
   void rectify(cv::Mat3b& picture) const;
 
  private:
+  double covered() const;
+
   sim::Pinhole camera_;
   cv::Mat map_x_, map_y_;  ///< empty for a lens that is a pinhole
 };

@@ -124,7 +124,7 @@ Recorded read_robotcar(const ReadOptions& options) {
       recorded.tally.add("rows cannot be read and are left out", list.at(row));
     }
   }
-  put_in_order(recorded.frames, recorded.tally);
+  put_in_order(recorded.frames, list.file, recorded.tally);
   if (!camera.looks_ahead && !options.mount_rpy_rad) {
     throw std::runtime_error(fmt::format(
         "{} does not look ahead; say by --mount where it looks, as 0,0,180 for backwards",

@@ -1,111 +1,159 @@
 #include "tools/replay/sensor_yaml.h"
 
-#include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
-
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <stdexcept>
+#include <string>
 
+#include "scenarios/input_file.h"
+#include "scenarios/reader.h"
 #include "tools/sequence/pose_text.h"
-#include "tools/sequence/text_file.h"
 
 namespace lcs::replay {
 namespace {
 
-/// Kalibr leaves out "%YAML:1.0" lines, OpenCV's FileStorage insists on them; yaml-cpp takes
-/// neither the colon nor tags.
+using scenario::Dimension;
+using scenario::Error;
+using scenario::Quantity;
+using scenario::Reader;
+using scenario::Value;
+
+constexpr scenario::FileKind kSensorFile{scenario::kMebibyte,
+                                         "give a sensor.yaml with Kalibr's keys"};
+
+// Generous: they keep out what no camera or IMU has.
+constexpr Quantity kOfTransform{Dimension::number, {-10000, 10000}};
+constexpr Quantity kRate{Dimension::frequency, {0, 100000, true}};
+constexpr Quantity kFocal_px{Dimension::number, {1, 1000000}};
+constexpr Quantity kCentre_px{Dimension::number, {-100000, 100000}};
+constexpr Quantity kCoefficient{Dimension::number, {-1000, 1000}};
+constexpr Quantity kNoise{Dimension::number, {0, 1000}};
+constexpr int kMostPixels = 65536;
+
+/// Kalibr leaves out "%YAML:1.0" lines, OpenCV's FileStorage insists on them; YAML takes no colon.
 std::string without_directive(std::string text) {
   if (text.starts_with("%YAML:")) text.front() = '#';
   return text;
 }
 
-std::vector<double> numbers(const YAML::Node& node, const char* key, std::size_t least) {
-  const auto values = node[key].as<std::vector<double>>();
-  for (const double value : values) {
-    if (!std::isfinite(value)) throw std::runtime_error(fmt::format("{} is not finite", key));
-  }
-  if (values.size() < least) {
-    throw std::runtime_error(fmt::format("{} has {} numbers, not {}", key, values.size(), least));
-  }
-  return values;
-}
-
-sim::Pose read_pose(const YAML::Node& node) {
-  // EuRoC has {cols, rows, data}, Kalibr's own files a list of rows.
-  std::vector<double> flat;
-  if (node.IsMap()) {
-    flat = node["data"].as<std::vector<double>>();
-  } else {
-    for (const auto& row : node.as<std::vector<std::vector<double>>>()) {
-      flat.insert(flat.end(), row.begin(), row.end());
+void append_numbers(const Value& list, const std::string& path, const Quantity& quantity,
+                    std::vector<double>& numbers) {
+  for (const Value& item : scenario::as_list(list, path)) {
+    if (item.kind == Value::Kind::list) {
+      append_numbers(item, path, quantity, numbers);
+    } else {
+      numbers.push_back(scenario::as_quantity(item, path, quantity));
     }
   }
-  std::array<double, 16> matrix;
+}
+
+sim::Pose read_pose(const Value& value) {
+  // EuRoC has {cols, rows, data}, Kalibr's own files a list of rows.
+  std::vector<double> flat;
+  if (value.kind == Value::Kind::map) {
+    Reader reader(value, "T_BS");
+    const Value* data = reader.find("data");
+    if (!data) throw Error(value.where, "T_BS has no data; give its 16 numbers, row by row");
+    append_numbers(*data, "T_BS.data", kOfTransform, flat);
+  } else {
+    append_numbers(value, "T_BS", kOfTransform, flat);
+  }
+  std::array<double, 16> matrix{};
   if (flat.size() != matrix.size()) {
-    throw std::runtime_error(fmt::format("T_BS has {} numbers, not 16", flat.size()));
+    throw Error(value.where, "T_BS has " + std::to_string(flat.size()) +
+                                 " numbers; give 16, row by row");
   }
   std::copy(flat.begin(), flat.end(), matrix.begin());
   try {
     return sequence::pose_of(matrix);
   } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(fmt::format("T_BS {}", error.what()));
+    throw Error(value.where, std::string("T_BS ") + error.what() +
+                                 "; give a rotation and a translation, and 0 0 0 1 below");
   }
 }
 
-Lens read_lens(const YAML::Node& yaml) {
+void read_distortion(Reader& reader, Lens& lens) {
+  const std::vector<std::string> models{"none", "radial-tangential", "radtan", "equidistant"};
+  const std::size_t model = reader.choice("distortion_model", models).value_or(0);
+  if (model == 0) return;
+  const bool is_equidistant = models[model] == "equidistant";
+  lens.distortion =
+      is_equidistant ? Lens::Distortion::equidistant : Lens::Distortion::radial_tangential;
+  const Value* list = reader.find("distortion_coefficients");
+  if (!list) {
+    throw Error(reader.where(), "there are no distortion_coefficients for the distortion_model; "
+                                "give four, or 'distortion_model: none'");
+  }
+  append_numbers(*list, "distortion_coefficients", kCoefficient, lens.coefficients);
+  const std::size_t count = lens.coefficients.size();
+  const bool is_known =
+      count == 4 || (!is_equidistant && (count == 5 || count == 8 || count == 12 || count == 14));
+  if (!is_known) {
+    throw Error(list->where, "distortion_coefficients are " + std::to_string(count) +
+                                 "; give four" +
+                                 (is_equidistant ? "" : ", or 5, 8, 12 or 14 as OpenCV has them"));
+  }
+}
+
+Lens read_lens(Reader& reader, const Value& intrinsics) {
   Lens lens;
-  const std::vector<double> intrinsics = numbers(yaml, "intrinsics", 4);
-  lens.fu_px = intrinsics[0];
-  lens.fv_px = intrinsics[1];
-  lens.cu_px = intrinsics[2];
-  lens.cv_px = intrinsics[3];
-  if (!(lens.fu_px > 0 && lens.fv_px > 0)) {
-    throw std::runtime_error("the focal lengths in intrinsics must be above 0");
+  lens.source = intrinsics.where;
+  reader.choice("camera_model", {"pinhole"});
+  const std::vector<Value>& list = scenario::as_list(intrinsics, "intrinsics", 4);
+  const auto number = [&](std::size_t i, const Quantity& quantity) {
+    return scenario::as_quantity(list[i], "intrinsics." + std::to_string(i), quantity);
+  };
+  lens.fu_px = number(0, kFocal_px);
+  lens.fv_px = number(1, kFocal_px);
+  lens.cu_px = number(2, kCentre_px);
+  lens.cv_px = number(3, kCentre_px);
+  if (const Value* size = reader.find("resolution")) {
+    const std::vector<Value>& pair = scenario::as_list(*size, "resolution", 2);
+    const auto pixels = [&](std::size_t i) {
+      return static_cast<int>(
+          scenario::as_integer(pair[i], "resolution." + std::to_string(i), 1, kMostPixels));
+    };
+    lens.width_px = pixels(0);
+    lens.height_px = pixels(1);
+    lens.source = size->where;
   }
-  const auto model = yaml["distortion_model"].as<std::string>("none");
-  if (model == "none") return lens;
-  if (model == "radial-tangential" || model == "radtan") {
-    lens.distortion = Lens::Distortion::radial_tangential;
-  } else if (model == "equidistant") {
-    lens.distortion = Lens::Distortion::equidistant;
-  } else {
-    throw std::runtime_error(fmt::format(
-        "distortion_model is '{}'; known are radial-tangential, equidistant and none", model));
-  }
-  lens.coefficients = numbers(yaml, "distortion_coefficients", 4);
+  read_distortion(reader, lens);
   return lens;
 }
 
-scenario::ImuNoise read_noise(const YAML::Node& yaml) {
-  const auto value = [&](const char* key) {
-    const auto number = yaml[key].as<double>();
-    if (std::isfinite(number) && number >= 0) return number;
-    throw std::runtime_error(fmt::format("{} is {}; it must not be negative", key, number));
+scenario::ImuNoise read_noise(Reader& reader) {
+  scenario::ImuNoise noise;
+  const auto read = [&](const char* key, double& value) {
+    if (!reader.find(key)) {
+      throw Error(reader.where(), std::string(key) + " is missing; give all four of Kalibr's");
+    }
+    reader.read(key, kNoise, value);
   };
-  return {.gyroscope_noise_density = value("gyroscope_noise_density"),
-          .gyroscope_random_walk = value("gyroscope_random_walk"),
-          .accelerometer_noise_density = value("accelerometer_noise_density"),
-          .accelerometer_random_walk = value("accelerometer_random_walk")};
+  read("gyroscope_noise_density", noise.gyroscope_noise_density);
+  read("gyroscope_random_walk", noise.gyroscope_random_walk);
+  read("accelerometer_noise_density", noise.accelerometer_noise_density);
+  read("accelerometer_random_walk", noise.accelerometer_random_walk);
+  return noise;
 }
 
 }  // namespace
 
 SensorYaml read_sensor_yaml(const std::filesystem::path& file) {
-  const std::string text = without_directive(sequence::read_file(file));
-  SensorYaml sensor;
-  try {
-    const YAML::Node yaml = YAML::Load(text);
-    if (yaml["T_BS"]) sensor.T_BS = read_pose(yaml["T_BS"]);
-    if (yaml["rate_hz"]) sensor.rate_hz = yaml["rate_hz"].as<double>();
-    if (yaml["intrinsics"]) sensor.lens = read_lens(yaml);
-    if (yaml["gyroscope_noise_density"]) sensor.noise = read_noise(yaml);
-  } catch (const YAML::Exception& error) {
-    throw std::runtime_error(
-        fmt::format("{}:{}: {}", file.string(), error.mark.line + 1, error.msg));
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
+  const scenario::Source top{file.string(), 1};
+  const Value yaml = scenario::parse_text(
+      without_directive(scenario::read_file(file, kSensorFile)), top);
+  if (yaml.kind != Value::Kind::map) {
+    throw Error(top, "this is no map of keys; " + std::string(kSensorFile.remedy));
   }
+  // Other keys than these are other people's.
+  Reader reader(yaml, "");
+  SensorYaml sensor;
+  if (const Value* pose = reader.find("T_BS")) sensor.T_BS = read_pose(*pose);
+  reader.read("rate_hz", kRate, sensor.rate_hz);
+  if (const Value* intrinsics = reader.find("intrinsics")) {
+    sensor.lens = read_lens(reader, *intrinsics);
+  }
+  if (reader.find("gyroscope_noise_density")) sensor.noise = read_noise(reader);
   return sensor;
 }
 

@@ -18,7 +18,7 @@ struct SensorYaml {
   std::optional<scenario::ImuNoise> noise;  ///< of an IMU; turn-on biases are 0
 };
 
-/// \throws std::runtime_error naming the file, the line where it is known, and what is wrong.
+/// \throws scenario::Error by file and line.
 SensorYaml read_sensor_yaml(const std::filesystem::path& file);
 
 }  // namespace lcs::replay

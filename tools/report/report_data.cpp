@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <vector>
 
+#include "scenarios/input_file.h"
+#include "tools/bench/csv.h"
 #include "tools/bench/events.h"
 #include "tools/bench/report.h"
 #include "tools/suite/metric_traits.h"
@@ -157,47 +156,41 @@ Json criteria_of(const RunResult& run) {
   return criteria;
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::stringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
 /// To five digits, as the plots have fewer pixels than that; none for an empty cell.
-Json number_of(const std::string& cell) {
+Json number_of(std::string_view cell) {
   if (cell.empty()) return nullptr;
-  double number = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-  if (error != std::errc() || end != cell.data() + cell.size()) {
-    throw std::runtime_error("'" + cell + "' is not a number");
-  }
-  return std::isfinite(number) ? Json::parse(fmt::format("{:.5g}", number)) : Json(nullptr);
+  const std::optional<double> number = bench::number_in<double>(cell);
+  if (!number) throw std::invalid_argument(fmt::format("'{}' is not a number", cell));
+  return Json::parse(fmt::format("{:.5g}", *number));
 }
 
 Json frames_of(const fs::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::runtime_error("cannot read " + file.string());
+  // Some 200 bytes a frame.
+  constexpr scenario::FileKind kFramesTable{scenario::kGibibyte, "run the suite again"};
+  scenario::InputFile input(file, kFramesTable);
   std::string line;
-  std::getline(stream, line);
-  const std::vector<std::string> header = cells_of(line);
+  input.next_line(line);
+  const std::string header_line = line;
+  const std::vector<std::string_view> header = bench::fields_of(header_line);
   Json columns = Json::object();
   for (const char* name : kColumns) {
     if (std::find(header.begin(), header.end(), name) == header.end()) {
-      throw std::runtime_error(fmt::format("{}:1: has no column {}", file.string(), name));
+      throw scenario::Error({file.string(), 1},
+                            fmt::format("has no column {}; {}", name, kFramesTable.remedy));
     }
     columns[name] = Json::array();
   }
-  for (int number = 2; std::getline(stream, line); ++number) {
-    std::vector<std::string> cells = cells_of(line);
+  while (input.next_line(line)) {
+    std::vector<std::string_view> cells = bench::fields_of(line);
     cells.resize(std::max(cells.size(), header.size()));
     for (std::size_t i = 0; i < header.size(); ++i) {
-      const auto column = columns.find(header[i]);
+      const auto column = columns.find(std::string(header[i]));
       if (column == columns.end()) continue;
       try {
         column->push_back(number_of(cells[i]));
-      } catch (const std::runtime_error& error) {
-        throw std::runtime_error(fmt::format("{}:{}: {}", file.string(), number, error.what()));
+      } catch (const std::invalid_argument& error) {
+        throw scenario::Error(input.here(),
+                              fmt::format("{}; {}", error.what(), kFramesTable.remedy));
       }
     }
   }

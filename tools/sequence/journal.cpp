@@ -58,9 +58,16 @@ void link_or_copy(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-Journal::Journal(const fs::path& folder, const std::string& plan)
+Journal::Journal(const fs::path& folder, const std::string& plan,
+                 const std::function<void(const fs::path&)>& before_it_is_read)
     : folder_(fs::absolute(folder).lexically_normal()) {
   try {
+    if (fs::exists(folder_) && !fs::is_directory(folder_)) {
+      throw bench::OutputError(folder_.string() +
+                               " is not a folder; choose another one with --out");
+    }
+    fs::create_directories(folder_);
+    if (before_it_is_read) before_it_is_read(folder_);
     take_over(plan);
   } catch (const fs::filesystem_error& error) {
     throw bench::OutputError(fmt::format("cannot use {}: {}; choose another folder with --out",
@@ -69,12 +76,7 @@ Journal::Journal(const fs::path& folder, const std::string& plan)
 }
 
 void Journal::take_over(const std::string& plan) {
-  if (fs::exists(folder_) && !fs::is_directory(folder_)) {
-    throw bench::OutputError(folder_.string() + " is not a folder; choose another one with --out");
-  }
-  fs::create_directories(folder_);
-  const fs::path plan_file = folder_ / kJournal / kPlan;
-  const bool is_begun = fs::exists(plan_file);
+  const bool is_begun = fs::exists(plan_file());
   const bool is_finished = !is_begun && fs::exists(folder_ / kManifestFile);
   if (!is_begun && !is_finished) {
     if (const std::string stranger = first_stranger(folder_); !stranger.empty()) {
@@ -83,10 +85,10 @@ void Journal::take_over(const std::string& plan) {
           "with --out, or move it away",
           folder_.string(), stranger));
     }
-    write_file(plan_file, plan);
+    write_file(plan_file(), plan);
     return;
   }
-  const Json there = is_begun ? Json::parse(read_file(plan_file), nullptr, false)
+  const Json there = is_begun ? Json::parse(read_file(plan_file()), nullptr, false)
                               : plan_in_manifest(folder_ / kManifestFile);
   const std::string differs =
       there.is_object() ? difference(there, Json::parse(plan)) : "its plan cannot be read";
@@ -97,6 +99,10 @@ void Journal::take_over(const std::string& plan) {
   }
   complete_ = is_finished;
   if (is_finished && fs::exists(folder_ / kJournal)) close();  // a process was killed at that
+}
+
+fs::path Journal::plan_file() const {
+  return folder_ / kJournal / kPlan;
 }
 
 fs::path Journal::record_file(int frame) const {
@@ -127,6 +133,7 @@ int Journal::recorded() const {
 }
 
 void Journal::add(int frame, const FrameOutput& output, const Agreements& checks) const {
+  if (!fs::exists(plan_file())) return;
   Json files = Json::array();
   std::map<std::string, Json> by_path;
   for (const FrameFile& file : output.files) {
@@ -148,6 +155,7 @@ void Journal::add(int frame, const FrameOutput& output, const Agreements& checks
   }
   const Json record = {{"files", files}, {"rows", output.rows}, {"checks", agreements}};
   write_file(record_file(frame), record.dump());
+  if (!fs::exists(plan_file())) close();  // it was just put together
 }
 
 FrameRecordEntry Journal::read(int frame) const {
@@ -166,8 +174,8 @@ FrameRecordEntry Journal::read(int frame) const {
   return record;
 }
 
-void Journal::close() {
-  fs::remove(folder_ / kJournal / kPlan);  // first: without it the sequence is finished
+void Journal::close() const {
+  fs::remove(plan_file());  // first: without it the sequence is finished
   fs::remove_all(folder_ / kJournal);
   remove_unfinished(folder_);
 }

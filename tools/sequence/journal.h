@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -37,7 +38,9 @@ class Journal {
   /// \param plan a JSON object that says all that the bytes of the sequence depend on.
   /// Takes over a folder that is missing, empty, or holds a sequence that was begun by the same
   /// plan. \throws bench::OutputError for a folder that holds anything else.
-  Journal(const std::filesystem::path& folder, const std::string& plan);
+  /// \param before_it_is_read called with the folder, which is there then.
+  Journal(const std::filesystem::path& folder, const std::string& plan,
+          const std::function<void(const std::filesystem::path&)>& before_it_is_read = {});
 
   /// The sequence is there with its manifest: nothing is to be done.
   bool is_complete() const { return complete_; }
@@ -47,19 +50,21 @@ class Journal {
   /// How many frames have records.
   int recorded() const;
 
-  /// Writes the files of a frame, then its record. \throws bench::OutputError
+  /// Writes the files of a frame, then its record; nothing where another process has put the
+  /// sequence together meanwhile. \throws bench::OutputError
   void add(int frame, const FrameOutput& output, const Agreements& checks) const;
 
   /// \throws std::runtime_error for a frame without a record.
   FrameRecordEntry read(int frame) const;
 
   /// Takes the journal away, when all that it tells of is in the manifest.
-  void close();
+  void close() const;
 
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
   std::filesystem::path record_file(int frame) const;
+  std::filesystem::path plan_file() const;
   void take_over(const std::string& plan);
 
   std::filesystem::path folder_;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "tools/bench/json_node.h"
 #include "tools/sequence/sha256.h"
 #include "tools/sequence/text_file.h"
 
@@ -36,20 +37,21 @@ nlohmann::json plan_in_manifest(const fs::path& manifest) {
 }
 
 std::vector<std::string> damage(const fs::path& folder) {
+  // A file of each kind a frame: for a million of them.
+  constexpr scenario::FileKind kManifestDocument{4 * scenario::kGibibyte,
+                                                 "remove the folder to make the sequence anew"};
   std::vector<std::string> damaged;
-  try {
-    const Json manifest = Json::parse(read_file(folder / kManifestFile));
-    for (const auto& [path, record] : manifest.at("files").items()) {
-      if (!fs::is_regular_file(folder / path)) {
+  bench::read_json(folder / kManifestFile, kManifestDocument, [&](const bench::JsonNode& node) {
+    node["files"].each_entry([&](const std::string& path, const bench::JsonNode& record) {
+      const std::string sha256 = record["sha256"].text();
+      std::error_code error;
+      if (!fs::is_regular_file(folder / path, error)) {
         damaged.push_back(path + " is missing");
-      } else if (sha256_of_file(folder / path) != record.at("sha256").get<std::string>()) {
+      } else if (sha256_of_file(folder / path) != sha256) {
         damaged.push_back(path + " has other bytes than the manifest says");
       }
-    }
-  } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(
-        fmt::format("{}: {}", (folder / kManifestFile).string(), error.what()));
-  }
+    });
+  });
   return damaged;
 }
 

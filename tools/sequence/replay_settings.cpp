@@ -1,12 +1,13 @@
 #include "tools/sequence/replay_settings.h"
 
-#include <fmt/format.h>
-
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "tools/bench/json_node.h"
 #include "tools/sequence/pose_text.h"
-#include "tools/sequence/text_file.h"
 #include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
@@ -14,6 +15,7 @@ namespace {
 
 // Keys in the order in which people read them.
 using Json = nlohmann::ordered_json;
+using Node = bench::JsonNode;
 
 constexpr std::pair<const char*, double scenario::ImuNoise::*> kNoise[] = {
     {"gyroscope_noise_density", &scenario::ImuNoise::gyroscope_noise_density},
@@ -29,50 +31,73 @@ constexpr const char* kTruth = "truth";
 Json vector_json(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
-Eigen::Vector3d vector_in(const Json& json) {
-  const auto numbers = json.get<std::array<double, 3>>();
+Eigen::Vector3d vector_in(const Node& node) {
+  const auto numbers = node.numbers<3>();
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-void read_calibration(const Json& json, sim::Calibration& calibration) {
-  const Json& camera = json.at("camera");
-  const auto centre = camera.at("centre_px").get<std::array<double, 2>>();
-  calibration.camera.focal_px = camera.at("focal_px").get<double>();
-  calibration.camera.centre_px = {centre[0], centre[1]};
-  calibration.camera.width_px = camera.at("width_px").get<int>();
-  calibration.camera.height_px = camera.at("height_px").get<int>();
-  const auto pose = [&](const char* key) {
-    return pose_of(json.at(key).get<std::array<double, 16>>());
-  };
-  calibration.T_BC = pose("T_BC");
-  calibration.T_BS = pose("T_BS");
-  calibration.T_WB_start = pose("T_WB_start");
-  calibration.v_WB_start_mps = vector_in(json.at("v_WB_start_mps"));
-  calibration.gravity_mps2 = json.at("gravity_mps2").get<double>();
-  calibration.on_ground = json.at("on_ground").get<bool>();
+int pixels_in(const Node& node) {
+  const int pixels = node.natural<int>();
+  node.require(pixels > 0, "above 0");
+  return pixels;
 }
 
-void read_scenario(const Json& json, const std::string& file, scenario::Scenario& scenario) {
-  scenario.name = json.at("scenario").get<std::string>();
-  scenario.seed = json.at("seed").get<std::uint64_t>();
-  scenario.camera.rate_hz = json.at("camera_rate_hz").get<double>();
-  const auto source = json.at("ego_motion").get<std::string>();
-  if (source != kImu && source != kTruth) {
-    throw std::runtime_error(fmt::format("ego_motion is '{}', not imu or truth", source));
+double above_zero_in(const Node& node) {
+  const double number = node.number();
+  node.require(number > 0, "above 0");
+  return number;
+}
+
+double not_negative_in(const Node& node) {
+  const double number = node.number();
+  node.require(number >= 0, "0 or more");
+  return number;
+}
+
+sim::Pose pose_in(const Node& node) {
+  const auto matrix = node.numbers<16>();
+  try {
+    return pose_of(matrix);
+  } catch (const std::invalid_argument&) {
+    node.require(false, "a rigid transform");
+    throw;
   }
+}
+
+void read_calibration(const Node& node, sim::Calibration& calibration) {
+  const Node camera = node["camera"];
+  const auto centre = camera["centre_px"].numbers<2>();
+  calibration.camera.focal_px = above_zero_in(camera["focal_px"]);
+  calibration.camera.centre_px = {centre[0], centre[1]};
+  calibration.camera.width_px = pixels_in(camera["width_px"]);
+  calibration.camera.height_px = pixels_in(camera["height_px"]);
+  calibration.T_BC = pose_in(node["T_BC"]);
+  calibration.T_BS = pose_in(node["T_BS"]);
+  calibration.T_WB_start = pose_in(node["T_WB_start"]);
+  calibration.v_WB_start_mps = vector_in(node["v_WB_start_mps"]);
+  calibration.gravity_mps2 = not_negative_in(node["gravity_mps2"]);
+  calibration.on_ground = node["on_ground"].flag();
+}
+
+void read_scenario(const Node& node, const std::string& file, scenario::Scenario& scenario) {
+  scenario.name = node["scenario"].text();
+  scenario.seed = node["seed"].natural();
+  scenario.camera.rate_hz = above_zero_in(node["camera_rate_hz"]);
+  const std::string source = node["ego_motion"].text();
+  node["ego_motion"].require(source == kImu || source == kTruth, "imu or truth");
   scenario.ego_motion =
       source == kTruth ? scenario::EgoMotionSource::truth : scenario::EgoMotionSource::imu;
   for (const auto& [key, member] : kNoise) {
-    scenario.imu.noise.*member = json.at("imu_noise").at(key).get<double>();
+    scenario.imu.noise.*member = not_negative_in(node["imu_noise"][key]);
   }
-  scenario.odometry.enabled = json.at("odometry").get<bool>();
-  scenario.odometry.noise_mps = json.at("odometry_noise_mps").get<double>();
-  scenario.fast_threshold = json.at("fast_threshold").get<int>();
-  scenario.filter_preset = json.at("filter_preset").get<std::string>();
+  scenario.odometry.enabled = node["odometry"].flag();
+  scenario.odometry.noise_mps = not_negative_in(node["odometry_noise_mps"]);
+  scenario.fast_threshold = node["fast_threshold"].natural<int>();
+  scenario.filter_preset = node["filter_preset"].text();
   scenario.filter_preset_source = {file, 0};
-  for (const auto& [key, value] : json.at("filter").items()) {
-    scenario.filter.push_back({key, value.get<std::string>(), {file, 0}});
-  }
+  node["filter"].each_entry([&](const std::string& key, const Node& value) {
+    scenario.filter.push_back({key, value.text(), {file, 0}});
+  });
 }
 
 }  // namespace
@@ -113,18 +138,18 @@ std::string settings_text(const scenario::Scenario& scenario, const sim::Calibra
 }
 
 ReplaySettings read_settings(const std::filesystem::path& file) {
-  ReplaySettings settings;
-  try {
-    const Json json = Json::parse(read_file(file));
-    read_scenario(json, file.string(), settings.scenario);
-    read_calibration(json, settings.calibration);
-    settings.start_ns = json.at("start_ns").get<std::int64_t>();
-  } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format(
-        "{}: {}; correct it, or take it away to replay the sequence by its other files alone",
-        file.string(), error.what()));
-  }
-  return settings;
+  constexpr scenario::FileKind kSettingsDocument{
+      scenario::kMebibyte,
+      "correct it, or take it away to replay the sequence by its other files alone"};
+  return bench::read_json(file, kSettingsDocument, [&](const Node& node) {
+    ReplaySettings settings;
+    read_scenario(node, file.string(), settings.scenario);
+    read_calibration(node, settings.calibration);
+    settings.start_ns = node["start_ns"].whole();
+    const auto most_ns = std::numeric_limits<std::int64_t>::max() / 2;  // any two have a difference
+    node["start_ns"].require(std::abs(settings.start_ns) <= most_ns, "a time");
+    return settings;
+  });
 }
 
 }  // namespace lcs::sequence

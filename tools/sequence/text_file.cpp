@@ -1,11 +1,8 @@
 #include "tools/sequence/text_file.h"
 
-#include <fmt/format.h>
+#include <system_error>
 
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
-
+#include "scenarios/input_file.h"
 #include "tools/bench/output_file.h"
 
 namespace lcs::sequence {
@@ -13,12 +10,10 @@ namespace lcs::sequence {
 namespace fs = std::filesystem;
 
 std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file || !fs::is_regular_file(path)) {
-    throw std::runtime_error(fmt::format("cannot read {}", path.string()));
-  }
-  return bytes;
+  // The longest is a table of all frames. Half of a sequence cannot be used.
+  constexpr scenario::FileKind kSequenceFile{16 * scenario::kGibibyte,
+                                             "generate the sequence again"};
+  return scenario::read_file(path, kSequenceFile);
 }
 
 void write_file(const fs::path& path, std::string_view bytes) {

@@ -8,7 +8,7 @@
 
 namespace lcs::sequence {
 
-/// \throws std::runtime_error naming the file.
+/// Of a generated sequence. \throws scenario::Error
 std::string read_file(const std::filesystem::path& path);
 
 /// Appears whole or not at all; the folders above it are made where they are missing.

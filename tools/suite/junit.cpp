@@ -5,9 +5,8 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 
-#include "scenarios/utf8.h"
+#include "scenarios/message.h"
 #include "tools/bench/output_file.h"
 
 namespace lcs::suite {
@@ -15,25 +14,8 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// XML knows no control characters, escaped or not.
-std::string xml_text(std::string_view text) {
-  std::string clean;
-  while (!text.empty()) {
-    const std::size_t length = scenario::utf8_length(text);
-    const auto lead = static_cast<std::uint8_t>(text.front());
-    const bool is_control = lead == 0x7F || (lead < 0x20 && lead != '\t' && lead != '\n');
-    if (length == 0 || is_control) {
-      clean += '?';
-    } else {
-      clean += text.substr(0, length);
-    }
-    text.remove_prefix(std::max<std::size_t>(length, 1));
-  }
-  return clean;
-}
-
 void set(XMLElement& element, const char* name, const std::string& value) {
-  element.SetAttribute(name, xml_text(value).c_str());
+  element.SetAttribute(name, scenario::printable(value).c_str());
 }
 
 struct Counts {
@@ -75,8 +57,8 @@ XMLElement& add_case(XMLElement& parent, const ScenarioResult& scenario, const s
 
 void add_problem(XMLElement& element, const char* kind, const std::string& message) {
   XMLElement& problem = *element.InsertNewChildElement(kind);
-  set(problem, "message", message.substr(0, message.find('\n')));
-  problem.SetText(xml_text(message).c_str());
+  set(problem, "message", scenario::one_line(message.substr(0, message.find('\n'))));
+  problem.SetText(scenario::printable(message).c_str());
 }
 
 Counts add_run(XMLElement& parent, const ScenarioResult& scenario, const RunResult& run) {
@@ -102,7 +84,7 @@ Counts add_run(XMLElement& parent, const ScenarioResult& scenario, const RunResu
       add_problem(element, "failure", criterion.message);
     } else {
       element.InsertNewChildElement("system-out")
-          ->SetText(xml_text("missed (not required): " + criterion.message).c_str());
+          ->SetText(scenario::printable("missed (not required): " + criterion.message).c_str());
     }
   }
   return counts;

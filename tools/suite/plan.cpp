@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
-#include <regex>
 #include <set>
 #include <stdexcept>
 
 #include "scenarios/load.h"
+#include "scenarios/message.h"
 #include "scenarios/sweep.h"
 #include "tools/bench/criteria.h"
+#include "tools/suite/pattern.h"
 
 namespace lcs::suite {
 namespace {
@@ -115,7 +116,7 @@ PlannedScenario plan_point(const fs::path& file, const scenario::SweepPoint& poi
     }
     return planned;
   } catch (const std::exception& error) {
-    return broken(file, planned.name, error.what());
+    return broken(file, planned.name, scenario::message_of(error));
   }
 }
 
@@ -126,7 +127,7 @@ std::vector<PlannedScenario> plan_file(const fs::path& file, const PlanOptions& 
       all.push_back(plan_point(file, point, options));
     }
   } catch (const std::exception& error) {
-    return {broken(file, file.stem().string(), error.what())};
+    return {broken(file, file.stem().string(), scenario::message_of(error))};
   }
   return all;
 }
@@ -135,16 +136,6 @@ bool is_in_group(const PlannedScenario& planned, const std::string& group) {
   if (!planned.scenario || group == kAnyGroup) return true;
   const std::vector<std::string>& groups = planned.scenario->groups;
   return std::find(groups.begin(), groups.end(), group) != groups.end();
-}
-
-std::regex regex_of(const std::string& text) {
-  try {
-    return std::regex(text);
-  } catch (const std::regex_error&) {
-    throw std::runtime_error(fmt::format(
-        "--filter {} is not a regular expression; give a part of a name, or as 'cross.*far'",
-        text));
-  }
 }
 
 /// Two points of a sweep may read alike; two files may not.
@@ -177,12 +168,12 @@ std::string group_names(const std::vector<PlannedScenario>& all) {
 }  // namespace
 
 std::vector<PlannedScenario> plan(const PlanOptions& options) {
-  const std::regex filter = regex_of(options.filter);
+  const Pattern filter(options.filter, "--filter", "cross.*far");
   std::vector<PlannedScenario> all, chosen;
   for (const File& file : files_of(options.paths)) {
     const std::string group = options.group.value_or(file.is_named ? kAnyGroup : kDefaultGroup);
     for (PlannedScenario& planned : plan_file(file.path, options)) {
-      if (is_in_group(planned, group) && std::regex_search(planned.name, filter)) {
+      if (is_in_group(planned, group) && filter.is_in(planned.name)) {
         chosen.push_back(planned);
       }
       all.push_back(std::move(planned));

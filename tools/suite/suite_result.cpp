@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 #include <string_view>
 
+#include "tools/bench/json_node.h"
 #include "tools/bench/output_file.h"
 
 namespace lcs::suite {
@@ -64,78 +64,19 @@ Json to_json(const ScenarioResult& scenario) {
 
 // ---- Reading
 
-/// A value that knows where in the file it is.
-class Node {
- public:
-  Node(const Json& json, std::string path) : json_(json), path_(std::move(path)) {}
+using Node = bench::JsonNode;
 
-  Node operator[](const char* key) const {
-    require(json_.is_object(), "an object");
-    const auto found = json_.find(key);
-    const std::string path = path_.empty() ? key : path_ + "." + key;
-    if (found == json_.end()) throw std::runtime_error(path + " is missing");
-    return {*found, path};
-  }
+Outcome outcome_of(const Node& node) {
+  const auto found = std::find(kOutcomes.begin(), kOutcomes.end(), node.text());
+  node.require(found != kOutcomes.end(), "passed, failed or error");
+  return static_cast<Outcome>(found - kOutcomes.begin());
+}
 
-  bool has(const char* key) const { return json_.is_object() && json_.contains(key); }
-
-  /// Calls `use(node)` for every item.
-  template <class Use>
-  void each(const Use& use) const {
-    require(json_.is_array(), "a list");
-    for (std::size_t i = 0; i < json_.size(); ++i) {
-      use(Node(json_[i], fmt::format("{}[{}]", path_, i)));
-    }
-  }
-  /// Calls `use(key, node)` for every entry, in the order of the file.
-  template <class Use>
-  void each_entry(const Use& use) const {
-    require(json_.is_object(), "an object");
-    for (const auto& [key, value] : json_.items()) use(key, Node(value, path_ + "." + key));
-  }
-
-  std::string text() const {
-    require(json_.is_string(), "a text");
-    return json_.get<std::string>();
-  }
-  bool flag() const {
-    require(json_.is_boolean(), "true or false");
-    return json_.get<bool>();
-  }
-  std::uint64_t natural() const {
-    require(json_.is_number_unsigned(), "a whole number from 0");
-    return json_.get<std::uint64_t>();
-  }
-  std::optional<double> figure() const {
-    require(json_.is_number() || json_.is_null(), "a number or null");
-    return json_.is_null() ? std::nullopt : std::optional(json_.get<double>());
-  }
-  Outcome outcome() const {
-    const auto found = std::find(kOutcomes.begin(), kOutcomes.end(), text());
-    require(found != kOutcomes.end(), "passed, failed or error");
-    return static_cast<Outcome>(found - kOutcomes.begin());
-  }
-  std::vector<std::string> texts() const {
-    std::vector<std::string> all;
-    each([&](const Node& item) { all.push_back(item.text()); });
-    return all;
-  }
-  std::pair<std::string, std::string> pair() const {
-    const std::vector<std::string> both = texts();
-    require(both.size() == 2, "a key and a value");
-    return {both[0], both[1]};
-  }
-
- private:
-  void require(bool condition, const char* what) const {
-    if (condition) return;
-    const std::string_view place = path_.empty() ? "the file" : std::string_view(path_);
-    throw std::runtime_error(fmt::format("{} is not {}", place, what));
-  }
-
-  const Json& json_;
-  std::string path_;
-};
+std::pair<std::string, std::string> pair_of(const Node& node) {
+  const std::vector<std::string> both = node.texts();
+  node.require(both.size() == 2, "a key and a value");
+  return {both[0], both[1]};
+}
 
 CriterionResult criterion_of(const Node& node) {
   return {.metric = node["metric"].text(),
@@ -150,7 +91,7 @@ CriterionResult criterion_of(const Node& node) {
 RunResult run_of(const Node& node) {
   RunResult run;
   run.seed = node["seed"].natural();
-  run.outcome = node["outcome"].outcome();
+  run.outcome = outcome_of(node["outcome"]);
   run.error = node["error"].text();
   run.folder = node["folder"].text();
   run.wall_s = node["wall_s"].figure().value_or(0);
@@ -167,16 +108,22 @@ ScenarioResult scenario_of(const Node& node) {
   scenario.purpose = node["purpose"].text();
   scenario.file = node["file"].text();
   scenario.groups = node["groups"].texts();
-  node["point"].each([&](const Node& item) { scenario.point.push_back(item.pair()); });
-  node["runs"].each([&](const Node& item) { scenario.runs.push_back(run_of(item)); });
+  node["point"].each([&](const Node& item) { scenario.point.push_back(pair_of(item)); });
+  std::set<std::uint64_t> seeds;
+  node["runs"].each([&](const Node& item) {
+    scenario.runs.push_back(run_of(item));
+    const std::uint64_t seed = scenario.runs.back().seed;
+    if (!seeds.insert(seed).second) {
+      throw Node::Error(fmt::format("{} has two runs of seed {}", scenario.name, seed));
+    }
+  });
   return scenario;
 }
 
 SuiteResult suite_of(const Node& node) {
   const std::uint64_t format = node["format"].natural();
   if (format != kFormat) {
-    throw std::runtime_error(fmt::format(
-        "its format is {}, this program reads {}; run the suite again", format, kFormat));
+    throw Node::Error(fmt::format("its format is {}, this program reads {}", format, kFormat));
   }
   SuiteResult suite;
   suite.detector = node["detector"].text();
@@ -187,7 +134,7 @@ SuiteResult suite_of(const Node& node) {
   node["scenarios"].each([&](const Node& item) {
     suite.scenarios.push_back(scenario_of(item));
     const std::string& name = suite.scenarios.back().name;
-    if (!names.insert(name).second) throw std::runtime_error("two scenarios are called " + name);
+    if (!names.insert(name).second) throw Node::Error("two scenarios are called " + name);
   });
   return suite;
 }
@@ -207,22 +154,11 @@ void write_suite(const std::filesystem::path& file, const SuiteResult& suite) {
 }
 
 SuiteResult read_suite(const std::filesystem::path& path) {
+  constexpr scenario::FileKind kSuiteDocument{
+      bench::kMostJsonBytes, "name the folder of a suite, or its suite.json; lcs suite makes one"};
   std::error_code error;
-  const std::filesystem::path file =
-      std::filesystem::is_directory(path, error) ? path / kSuiteFile : path;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    throw std::runtime_error(fmt::format("there is no file {}", file.string()));
-  }
-  std::ifstream input(file);
-  if (!input) throw std::runtime_error(fmt::format("cannot read {}", file.string()));
-  try {
-    const Json json = Json::parse(input);
-    return suite_of({json, ""});
-  } catch (const Json::parse_error& failure) {
-    throw std::runtime_error(fmt::format("{}: not JSON at byte {}", file.string(), failure.byte));
-  } catch (const std::exception& failure) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), failure.what()));
-  }
+  const bool is_folder = std::filesystem::is_directory(path, error);
+  return bench::read_json(is_folder ? path / kSuiteFile : path, kSuiteDocument, suite_of);
 }
 
 }  // namespace lcs::suite

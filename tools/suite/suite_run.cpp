@@ -6,6 +6,7 @@
 #include <chrono>
 #include <numeric>
 
+#include "scenarios/message.h"
 #include "tools/bench/criteria.h"
 #include "tools/bench/report.h"
 #include "tools/bench/result.h"
@@ -124,7 +125,7 @@ void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteRun
     if (options.judged) judge_run(*planned.scenario, run);
   } catch (const std::exception& error) {
     run.outcome = Outcome::error;
-    run.error = error.what();
+    run.error = scenario::message_of(error);
   }
 }
 

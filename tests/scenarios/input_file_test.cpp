@@ -1,0 +1,128 @@
+// What the program reads is a file, of a size that it may have, and told where it is not.
+#include "scenarios/input_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+#include <new>
+#include <vector>
+
+#include "tests/scenarios/scenario_file.h"
+
+namespace lcs::scenario {
+namespace {
+
+constexpr FileKind kKind{kMebibyte, "give a table"};
+
+std::string refusal(const std::filesystem::path& file) {
+  try {
+    read_file(file, kKind);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+std::vector<std::string> lines_of(const std::filesystem::path& file) {
+  InputFile input(file, kKind);
+  std::vector<std::string> lines;
+  for (std::string line; input.next_line(line);) {
+    lines.push_back(line);
+    EXPECT_EQ(input.here().line, static_cast<int>(lines.size()));
+  }
+  return lines;
+}
+
+TEST(InputFile, WhatMayNeverEndIsRefusedBeforeItIsRead) {
+  const ScenarioFolder folder;
+  const std::filesystem::path pipe = folder.path() / "pipe", socket = folder.path() / "socket";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);  // nobody will ever write to it
+  EXPECT_EQ(refusal(pipe), pipe.string() + ": this is a pipe, which may never end; write what comes "
+                                           "out of it to a file first");
+  EXPECT_EQ(refusal("/dev/zero"), "/dev/zero: this is a device; give a table");
+  EXPECT_EQ(refusal(folder.path()), folder.path().string() + ": this is a folder; give a table");
+  sockaddr_un address = {};
+  address.sun_family = AF_UNIX;
+  std::strncpy(address.sun_path, socket.c_str(), sizeof(address.sun_path) - 1);
+  const int listener = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  ASSERT_EQ(::bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  EXPECT_EQ(refusal(socket), socket.string() + ": this is a socket; give a table");
+  ::close(listener);
+}
+
+TEST(InputFile, APipeOfAShellIsRefusedAndItsWriterIsNotDisturbed) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  const std::string name = "/dev/fd/" + std::to_string(ends[0]);  // as <(...) gives it
+  EXPECT_NE(refusal(name).find("write what comes out of it to a file first"), std::string::npos);
+  EXPECT_EQ(::write(ends[1], "x", 1), 1);
+  ::close(ends[0]);
+  ::close(ends[1]);
+}
+
+TEST(InputFile, WhatIsMissingOrTooLargeIsTold) {
+  const ScenarioFolder folder;
+  const std::string missing = folder.path() / "none.csv";
+  EXPECT_EQ(refusal(missing), missing + ": there is no such file; give a table");
+  const auto large = folder.write("large.csv", "");
+  std::filesystem::resize_file(large, kKind.most_bytes + 1);
+  EXPECT_EQ(refusal(large), large.string() + ": the file is larger than 1 MiB; give a table");
+  std::filesystem::resize_file(large, kKind.most_bytes);
+  EXPECT_EQ(read_file(large, kKind).size(), kMebibyte);
+}
+
+TEST(InputFile, TheLineThatNamesItIsBlamed) {
+  try {
+    InputFile("/dev/zero", kKind, {"scene.xml", 7});
+    ADD_FAILURE() << "nothing was refused";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "scene.xml:7: '/dev/zero': this is a device; give a table");
+  }
+}
+
+TEST(InputFile, HasItsLinesWhateverEndsTheLastOneAndWithoutAByteOrderMark) {
+  const ScenarioFolder folder;
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(lines_of(folder.write("a", "")), Lines{});
+  EXPECT_EQ(lines_of(folder.write("a", "\n")), Lines{""});
+  EXPECT_EQ(lines_of(folder.write("a", "one\n\ntwo")), (Lines{"one", "", "two"}));
+  EXPECT_EQ(lines_of(folder.write("a", "one\ntwo\n")), (Lines{"one", "two"}));
+  EXPECT_EQ(lines_of(folder.write("a", "\xef\xbb\xbfone\n\xef\xbb\xbftwo\n")),
+            (Lines{"one", "\xef\xbb\xbftwo"}));
+  // Longer than what is read at a time, and across its ends.
+  Lines lines;
+  std::string text;
+  for (std::size_t i = 0; i < 7; ++i) {
+    lines.push_back(std::string(40000 * i + i, static_cast<char>('a' + i)));
+    text += lines.back() + '\n';
+  }
+  EXPECT_EQ(lines_of(folder.write("a", text)), lines);
+}
+
+#ifndef __SANITIZE_ADDRESS__  // which wants memory of its own
+TEST(InputFileDeathTest, MemoryThatRunsOutIsNoEndOfFile) {
+  const ScenarioFolder folder;
+  const auto large = folder.write("large", "");
+  std::filesystem::resize_file(large, kGibibyte);
+  const auto read_with_little = [&] {
+    const rlimit limit{512 * kMebibyte, 512 * kMebibyte};
+    ::setrlimit(RLIMIT_AS, &limit);
+    try {
+      read_file(large, {kGibibyte, "give less"});
+    } catch (const std::bad_alloc&) {
+      ::_exit(7);
+    }
+    ::_exit(0);
+  };
+  EXPECT_EXIT(read_with_little(), testing::ExitedWithCode(7), "");
+}
+#endif
+
+}  // namespace
+}  // namespace lcs::scenario
