@@ -1,7 +1,7 @@
 /// \file
 /// The one way in which the program opens a file that it reads. Pipes, devices, sockets and folders
-/// are refused before they are read: they may never end, or wait for ever. So is what is larger than
-/// its kind of file ever is. Memory that runs out is `std::bad_alloc`, and never an end of file.
+/// are refused before they are read: they may never end, or wait for ever. So is what is larger
+/// than its kind of file ever is. Memory that runs out is `std::bad_alloc`, never an end of file.
 #pragma once
 
 #include <sys/stat.h>

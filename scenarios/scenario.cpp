@@ -1,5 +1,7 @@
 #include "scenarios/scenario.h"
 
+#include "scenarios/message.h"
+
 namespace lcs::scenario {
 
 namespace {
@@ -13,6 +15,7 @@ std::string place(const Source& where) {
 }  // namespace
 
 Error::Error(const Source& where, const std::string& what_and_remedy)
-    : std::runtime_error(place(where) + ": " + what_and_remedy) {}
+    // As people see it: a NUL would end it.
+    : std::runtime_error(printable(place(where) + ": " + what_and_remedy)) {}
 
 }  // namespace lcs::scenario

@@ -41,7 +41,8 @@ std::optional<std::string> nearest(std::string_view name, const std::vector<std:
   std::size_t reach = std::max<std::size_t>(1, name.size() / 3) + 1;
   for (const std::string& candidate : names) {
     // As many letters at least are to insert or remove.
-    if (candidate.size() + reach <= name.size() || name.size() + reach <= candidate.size()) continue;
+    if (candidate.size() + reach <= name.size()) continue;
+    if (name.size() + reach <= candidate.size()) continue;
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < reach && distance < candidate.size()) {
       reach = distance;

@@ -9,7 +9,7 @@
 namespace lcs::sim::xml {
 namespace {
 
-/// Of MJCF text, vertices of meshes included, and of what it names: pictures, meshes, height fields.
+/// Of MJCF text, vertices of meshes included; of what it names: pictures, meshes, height fields.
 constexpr scenario::FileKind kModelFile{64 * scenario::kMebibyte,
                                         "give the path of an MJCF file"};
 constexpr scenario::FileKind kAssetFile{scenario::kGibibyte, "give a file of the kind that it is"};
@@ -36,7 +36,8 @@ Document parse(const fs::path& file, const scenario::Source& where) {
   auto document = std::make_unique<XMLDocument>();
   const std::string text = scenario::InputFile(file, kModelFile, where).bytes();
   if (const std::size_t nul = text.find('\0'); nul != text.npos) {  // tinyxml2 stops there
-    fail(file, static_cast<int>(std::count(text.begin(), text.begin() + std::ptrdiff_t(nul), '\n')) + 1,
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(nul);
+    fail(file, static_cast<int>(std::count(text.begin(), end, '\n')) + 1,
          "there is a NUL byte; is this a text file? remove it");
   }
   const tinyxml2::XMLError status = document->Parse(text.data(), text.size());

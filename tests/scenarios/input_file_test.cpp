@@ -43,8 +43,9 @@ TEST(InputFile, WhatMayNeverEndIsRefusedBeforeItIsRead) {
   const ScenarioFolder folder;
   const std::filesystem::path pipe = folder.path() / "pipe", socket = folder.path() / "socket";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);  // nobody will ever write to it
-  EXPECT_EQ(refusal(pipe), pipe.string() + ": this is a pipe, which may never end; write what comes "
-                                           "out of it to a file first");
+  EXPECT_EQ(refusal(pipe),
+            pipe.string() + ": this is a pipe, which may never end; write what comes out of it to "
+                            "a file first");
   EXPECT_EQ(refusal("/dev/zero"), "/dev/zero: this is a device; give a table");
   EXPECT_EQ(refusal(folder.path()), folder.path().string() + ": this is a folder; give a table");
   sockaddr_un address = {};

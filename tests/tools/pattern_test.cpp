@@ -42,7 +42,8 @@ TEST(Pattern, OfAnyLengthAndDepthIsRefusedOrEnds) {
   for (const std::string& text :
        {std::string(20000, '('), std::string(1001, 'a'), std::string("((x?){99}){99}"),
         std::string("x{999999999}"), std::string("x{0,99999999999999}")}) {
-    EXPECT_NE(refusal(text).find(" repeats more than 1000 characters; "), std::string::npos) << text;
+    EXPECT_NE(refusal(text).find(" repeats more than 1000 characters; "), std::string::npos)
+        << text;
   }
   const std::string name(1'000'000, 'x');
   for (const std::string& text :

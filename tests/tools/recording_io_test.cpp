@@ -326,7 +326,8 @@ TEST_F(BrokenRecording, ANumberThatNoIntegerHolds) {
   expect_error("truth.jsonl:2: objects.visible_px[0] is not a whole number of its range; ");
 }
 TEST_F(BrokenRecording, AHundredThousandNestedLists) {
-  edit(kLayersFile, 2, "\"index\":", "\"index\":" + std::string(100000, '[') + std::string(100000, ']') + ",\"was\":");
+  const std::string lists = std::string(100000, '[') + std::string(100000, ']');
+  edit(kLayersFile, 2, "\"index\":", "\"index\":" + lists + ",\"was\":");
   expect_error("layers.jsonl:2: index is not a whole number");
 }
 TEST_F(BrokenRecording, ATruthThatEndsEarly) {

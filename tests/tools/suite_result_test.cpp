@@ -128,7 +128,7 @@ TEST_F(SuiteFile, ThatIsNotThereIsNamed) {
 
 TEST_F(SuiteFile, ThatIsNotJsonIsNamedWithThePlace) {
   write("{\"format\": 1, ");
-  EXPECT_NE(refusal().find(file_.string() + ":1: not JSON at byte"), std::string::npos) << refusal();
+  EXPECT_TRUE(refusal().starts_with(file_.string() + ":1: not JSON at byte")) << refusal();
 }
 
 struct Damage {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scenarios/input_file.h"
+#include "scenarios/message.h"
 #include "tools/bench/csv.h"
 #include "tools/bench/detections.h"
 #include "tools/bench/recording_fields.h"
@@ -21,7 +22,9 @@ constexpr int kUnnamed = -1;
 /// \throws std::invalid_argument, whose message goes behind file and line.
 template <class... Arguments>
 [[noreturn]] void refuse(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
-  throw std::invalid_argument(fmt::format(text, std::forward<Arguments>(arguments)...));
+  // A NUL would end the message.
+  throw std::invalid_argument(
+      scenario::printable(fmt::format(text, std::forward<Arguments>(arguments)...)));
 }
 
 double number(std::string_view text, const char* what) {
@@ -94,9 +97,11 @@ class RowReader {
     if (!index) refuse("the frame is '{}'; give its number", text);
     const auto found = frames_.find(*index);
     if (found != frames_.end()) return found->second;
-    if (frames_.empty()) refuse("there is no frame {}: the sequence has none", *index);
-    refuse("there is no frame {}: the sequence has {} to {}", *index, frames_.begin()->first,
-           frames_.rbegin()->first);
+    if (frames_.empty()) {
+      refuse("there is no frame {}: the sequence has none; leave its rows out", *index);
+    }
+    refuse("there is no frame {}: the sequence has {} to {}; give one of these", *index,
+           frames_.begin()->first, frames_.rbegin()->first);
   }
 
   void read_verdict(Frame& frame, Verdict verdict, std::span<const std::string_view> values) {
@@ -120,8 +125,8 @@ class RowReader {
     const std::optional<std::size_t> index = number_in<std::size_t>(text);
     if (!index) refuse("the corner is '{}'; give its index from 0 on, or x and y", text);
     if (*index >= count) {
-      refuse("there is no corner {}: frame {} has {}, counted from 0", *index, frame.record->index,
-             count);
+      refuse("there is no corner {}: frame {} has {}; count them from 0", *index,
+             frame.record->index, count);
     }
     if (frame.named[*index]) {
       refuse("corner {} of frame {} has a verdict already; give one for each", *index,
@@ -149,14 +154,18 @@ class RowReader {
 
   /// From pixel edges to the centres of pixels, where corners and squares are measured.
   static void read_box(Frame& frame, std::span<const std::string_view> values) {
-    if (values.size() != 5) refuse("a box is FRAME,box,ID,LEFT,TOP,WIDTH,HEIGHT");
+    if (values.size() != 5) {
+      refuse("not all of a box is there; write FRAME,box,ID,LEFT,TOP,WIDTH,HEIGHT");
+    }
     const Vec2 corner(number(values[1], "left"), number(values[2], "top"));
     const Vec2 size(above_zero(values[3], "width"), above_zero(values[4], "height"));
     add_square(frame, id_in(values[0]), corner + 0.5 * size - Vec2(0.5, 0.5), 0.5 * size);
   }
 
   static void read_square(Frame& frame, std::span<const std::string_view> values) {
-    if (values.size() != 5) refuse("a square is FRAME,square,ID,X,Y,HALF_WIDTH,HALF_HEIGHT");
+    if (values.size() != 5) {
+      refuse("not all of a square is there; write FRAME,square,ID,X,Y,HALF_WIDTH,HALF_HEIGHT");
+    }
     add_square(frame, id_in(values[0]), {number(values[1], "x"), number(values[2], "y")},
                {above_zero(values[3], "half width"), above_zero(values[4], "half height")});
   }
@@ -174,7 +183,7 @@ class RowReader {
   }
 
   static void read_circle(Frame& frame, std::span<const std::string_view> values) {
-    if (values.size() != 3) refuse("a circle is FRAME,circle,X,Y,RADIUS");
+    if (values.size() != 3) refuse("not all of a circle is there; write FRAME,circle,X,Y,RADIUS");
     Circle circle;
     circle.rebel = true;
     circle.location = {number(values[0], "x"), number(values[1], "y")};

@@ -64,8 +64,9 @@ EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenari
   if (!fs::exists(pictures)) return;
   pictures_ = FramePictures::read(pictures, camera_.width_px);
   if (pictures_->size() != recorded_.frames.size()) {
-    throw std::runtime_error(fmt::format("{} has {} pictures of {} frames", pictures.string(),
-                                         pictures_->size(), recorded_.frames.size()));
+    throw std::runtime_error(fmt::format("{} has {} pictures of {} frames; record the run again",
+                                         pictures.string(), pictures_->size(),
+                                         recorded_.frames.size()));
   }
 }
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "scenarios/input_file.h"
+#include "scenarios/message.h"
 
 namespace lcs::bench {
 
@@ -124,7 +125,8 @@ class JsonNode {
   void require(bool condition, std::string_view what) const {
     if (condition) return;
     const std::string_view place = path_.empty() ? "the file" : std::string_view(path_);
-    throw Error(fmt::format("{} is not {}", place, what));
+    // A NUL would end the message.
+    throw Error(scenario::printable(fmt::format("{} is not {}", place, what)));
   }
 
  private:

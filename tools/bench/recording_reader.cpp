@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "scenarios/input_file.h"
+#include "scenarios/message.h"
 #include "tools/bench/json_node.h"
 #include "tools/bench/recording_fields.h"
 #include "tools/bench/recording_io.h"
@@ -80,7 +81,8 @@ void read(const Json& json, Enum& value) {
   read(json, text);
   const auto found = std::find(names.begin(), names.end(), text);
   if (found == names.end() || text.empty()) {
-    throw std::runtime_error(fmt::format("is the unknown word '{}'", text));
+    throw std::runtime_error(
+        scenario::printable(fmt::format("is the unknown word '{}'", text)));  // a NUL ends it
   }
   value = static_cast<Enum>(found - names.begin());
 }
@@ -209,7 +211,7 @@ void read_layers(const Json& json, FrameRecord& frame) {
 void read_truth(const Json& json, FrameRecord& frame) {
   int index = 0;
   read_member(json, "index", index);
-  if (index != frame.index) throw std::runtime_error("index is not that of the frame in the layers");
+  if (index != frame.index) throw std::runtime_error("index is not that of the layers");
   frame.true_motion = read_motion(json);
   frame.corner_truth = read_columns<sim::CornerTruth>(json, "corners");
   frame.object_truth = read_columns<sim::ObjectTruth>(json, "objects");

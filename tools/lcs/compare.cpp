@@ -63,7 +63,9 @@ ExitCode compare(const CompareOptions& options) {
       suite::compare(before, after, [&](std::string_view metric) { return wanted.is_in(metric); });
   if (comparison.scenarios == 0) {
     throw std::runtime_error(
-        fmt::format("{} and {} have no scenario in common", options.before, options.after));
+        fmt::format("{} and {} have no scenario in common; give two suites of the same "
+                    "scenarios",
+                    options.before, options.after));
   }
   print_suite("before", options.before, before);
   print_suite("after ", options.after, after);

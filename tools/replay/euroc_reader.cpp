@@ -74,7 +74,8 @@ Start start_at_rest(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns, T
     turning += sample.gyro_radps;
     ++count;
   }
-  if (count == 0) throw std::runtime_error("the IMU has no reading at the first picture");
+  if (count == 0) throw std::runtime_error(
+        "the IMU has no reading at the first picture; give both the times of one clock");
   tally.add("recordings have no truth to start from: at rest, upright as the accelerometer says",
             fmt::format("{} readings", count));
   Start start;

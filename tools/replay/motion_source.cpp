@@ -35,7 +35,10 @@ EgoMotion SensorMotion::at(std::int64_t t_ns) {
   if (pose_ < readings_.poses.size() && readings_.poses[pose_].t_ns == t_ns) {
     observation.truth.now.T_WC = readings_.poses[pose_].T_WC;
   } else if (needs_poses_) {
-    throw std::runtime_error(fmt::format("there is no pose of the camera at {} ns", t_ns));
+    throw std::runtime_error(
+        fmt::format("there is no pose of the camera at {} ns; give cam0/pose.csv a row for each "
+                    "picture, or leave --ego-motion truth out",
+                    t_ns));
   }
   return feed_.next(observation).told;
 }
@@ -43,7 +46,9 @@ EgoMotion SensorMotion::at(std::int64_t t_ns) {
 NavigationMotion::NavigationMotion(std::vector<NavigationState> states, const sim::Pose& T_BC)
     : states_(std::move(states)), T_BC_(T_BC) {
   if (states_.size() < 2) {
-    throw std::runtime_error("there are fewer than two states of navigation to tell a motion from; give a table of them that covers the pictures");
+    throw std::runtime_error(
+        "there are fewer than two states of navigation to tell a motion from; give a table of them "
+        "that covers the pictures");
   }
 }
 

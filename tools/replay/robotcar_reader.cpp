@@ -50,7 +50,7 @@ const CameraKind& camera_of(const ReadOptions& options) {
   if (options.camera.empty()) {
     if (const CameraKind* first = first_camera(options.folder)) return *first;
     throw std::runtime_error(
-        fmt::format("{} has no camera with its list of pictures, as stereo/centre "
+        fmt::format("{} has no camera with its list of pictures; give one, as stereo/centre "
                     "with stereo.timestamps",
                     options.folder.string()));
   }
@@ -72,7 +72,9 @@ const CameraKind& camera_of(const ReadOptions& options) {
 std::vector<NavigationState> read_ins(const fs::path& file, Tally& tally) {
   const TextTable table = read_table(file, ',');
   if (table.header.empty()) {
-    throw std::runtime_error(fmt::format("{} has no header to find its columns by", file.string()));
+    throw std::runtime_error(
+        fmt::format("{} has no header to find its columns by; give the file as RobotCar has it",
+                    file.string()));
   }
   const auto column = [&](const char* name) { return table.column(name, 0); };
   const std::size_t columns[] = {column("velocity_north"), column("velocity_east"),

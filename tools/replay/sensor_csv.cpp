@@ -103,7 +103,8 @@ std::vector<sim::ImuSample> read_imu_csv(const std::filesystem::path& file, Tall
     samples.push_back({row.t_ns, vector_at(row, 0), vector_at(row, 3)});
   }
   if (samples.empty()) {
-    throw std::runtime_error(fmt::format("{} holds no reading of an IMU", file.string()));
+    throw std::runtime_error(
+        fmt::format("{} holds no reading of an IMU; give a row for each", file.string()));
   }
   check_units(samples, file);
   count_gaps(samples, tally);

@@ -42,7 +42,8 @@ void add_folder(const fs::path& folder, std::vector<File>& files) {
     }
   }
   if (found.empty()) {
-    throw std::runtime_error(fmt::format("there is no .yaml file in {}", folder.string()));
+    throw std::runtime_error(
+        fmt::format("there is no .yaml file in {}; give a folder of scenarios", folder.string()));
   }
   std::sort(found.begin(), found.end());
   for (const fs::path& path : found) files.push_back({path, false});
