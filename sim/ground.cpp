@@ -69,9 +69,10 @@ std::string material_of_floor(xml::Element& worldbody) {
 }  // namespace
 
 void add_ground(xml::Element& scene, const scenario::Ground& ground,
-                const Eigen::Vector2d& ego_start_m) {
+                const Eigen::Vector2d& ego_start_m, const scenario::Source& source) {
   const Eigen::Vector2d half = ground.size_m / 2;
   xml::Element* field = xml::section(scene, "asset").InsertNewChildElement("hfield");
+  xml::set_source(*field, source);
   field->SetAttribute("name", kName);
   field->SetAttribute("nrow", points_along(ground.size_m.y(), ground.wavelength_m));
   field->SetAttribute("ncol", points_along(ground.size_m.x(), ground.wavelength_m));
@@ -83,6 +84,7 @@ void add_ground(xml::Element& scene, const scenario::Ground& ground,
   const std::string material = material_of_floor(worldbody);
   const Eigen::Vector2d centre = ground.centre_m.value_or(ego_start_m);
   xml::Element* geom = worldbody.InsertNewChildElement("geom");
+  xml::set_source(*geom, source);
   geom->SetAttribute("name", kName);
   geom->SetAttribute("type", "hfield");
   geom->SetAttribute("hfield", kName);
@@ -111,6 +113,13 @@ void raise_ground(Model& model, const scenario::Ground& ground, std::uint64_t sc
       *height = static_cast<float>(window * deviations / kHighest);
     }
   }
+}
+
+std::string less_contact(const scenario::Ground& ground) {
+  return fmt::format(
+      "its wheels touch more bumps at once than there is room for: make ground.wavelength ({:g} m) "
+      "longer or ground.roughness ({:g} m) less",
+      ground.wavelength_m, ground.roughness_m);
 }
 
 }  // namespace lcs::sim

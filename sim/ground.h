@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "scenarios/scenario.h"
 #include "sim/model.h"
@@ -16,10 +17,15 @@
 namespace lcs::sim {
 
 /// Adds the field, level as yet, to a scene; it looks like the scene's first plane.
+/// \param source of the ground's numbers.
 void add_ground(xml::Element& scene, const scenario::Ground& ground,
-                const Eigen::Vector2d& ego_start_m);
+                const Eigen::Vector2d& ego_start_m, const scenario::Source& source);
 
 /// Raises the bumps in a model of that scene.
 void raise_ground(Model& model, const scenario::Ground& ground, std::uint64_t scenario_seed);
+
+/// Which of the numbers to change where wheels touch more of the ground at once than MuJoCo has room
+/// for: bumps that are short and high beside a wheel.
+std::string less_contact(const scenario::Ground& ground);
 
 }  // namespace lcs::sim

@@ -2,7 +2,11 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <mutex>
+#include <tuple>
 #include <utility>
+
+#include "sim/trial.h"
 
 namespace lcs::sim {
 namespace {
@@ -22,6 +26,46 @@ Pose pose(const mjtNum* position, const mjtNum* rotation) {
           Eigen::Map<const Eigen::Vector3d>(position)};
 }
 
+/// Indices that MuJoCo gives to GL without a look at them.
+void check_skins(const mjModel& m) {
+  for (int skin = 0; skin < m.nskin; ++skin) {
+    const int* face = m.skin_face + 3 * m.skin_faceadr[skin];
+    for (int i = 0; i < 3 * m.skin_facenum[skin]; ++i) {
+      if (face[i] >= 0 && face[i] < m.skin_vertnum[skin]) continue;
+      const char* name = mj_id2name(&m, mjOBJ_SKIN, skin);
+      throw MujocoError("a face of skin '" + std::string(name ? name : "") + "' names vertex " +
+                        std::to_string(face[i]) + ", and there are " +
+                        std::to_string(m.skin_vertnum[skin]));
+    }
+  }
+}
+
+using ModelAndData =
+    std::pair<std::unique_ptr<mjModel, ModelDeleter>, std::unique_ptr<mjData, DataDeleter>>;
+
+ModelAndData load(const std::string& mjcf) {
+  // the file system is 2 MB of name tables before version 3
+  const auto vfs = std::make_unique<mjVFS>();
+  mj_defaultVFS(vfs.get());
+  const auto release = [](mjVFS* v) { mj_deleteVFS(v); };
+  const std::unique_ptr<mjVFS, decltype(release)> guard(vfs.get(), release);
+  constexpr const char* kName = "scene.xml";
+  mj::add_to_vfs(*vfs, kName, mjcf);
+
+  ModelAndData loaded;
+  auto& [model, data] = loaded;
+  std::array<char, 2000> message{};
+  model.reset(mj_loadXML(kName, vfs.get(), message.data(), static_cast<int>(message.size())));
+  const std::string warning = take_warning();
+  if (message[0] != '\0') throw MujocoError(message.data());
+  if (!model) throw MujocoError("no reason is given");
+  if (!warning.empty()) throw MujocoError(warning);
+  check_skins(*model);
+  data.reset(mj_makeData(model.get()));
+  if (!data) throw MujocoError("could not allocate the state of the scene");
+  return loaded;
+}
+
 }  // namespace
 
 void install_mujoco_handlers() {
@@ -35,21 +79,21 @@ std::string take_warning() {
 
 Model::Model(const std::string& mjcf) {
   install_mujoco_handlers();
-  // the file system is 2 MB of name tables before version 3
-  const auto vfs = std::make_unique<mjVFS>();
-  mj_defaultVFS(vfs.get());
-  const auto release = [](mjVFS* v) { mj_deleteVFS(v); };
-  const std::unique_ptr<mjVFS, decltype(release)> guard(vfs.get(), release);
-  constexpr const char* kName = "scene.xml";
-  mj::add_to_vfs(*vfs, kName, mjcf);
-
-  std::array<char, 2000> message{};
-  model_.reset(mj_loadXML(kName, vfs.get(), message.data(), static_cast<int>(message.size())));
-  const std::string warning = take_warning();
-  if (!model_ || message[0] != '\0') throw MujocoError(message.data());
-  if (!warning.empty()) throw MujocoError(warning);
-  data_.reset(mj_makeData(model_.get()));
-  if (!data_) throw MujocoError("no memory for the state of the scene");
+  // MuJoCo holds a lock of its own while it loads: no thread may do so when another one forks
+  static std::mutex loading;
+  const std::lock_guard lock(loading);
+  const Trial trial = try_in_child([&] { load(mjcf); });
+  if (!trial.refused.empty()) throw MujocoError(trial.refused);
+  if (trial.crash.starts_with("signal")) {
+    throw MujocoCrash("MuJoCo crashes on this scene (" + trial.crash +
+                      "); take out what was changed last; meshes, skins and textures are the first "
+                      "to look at");
+  }
+  if (!trial.fine) {
+    throw MujocoCrash("MuJoCo needs more than " + trial.crash +
+                      " to load this scene; make it smaller, or raise ulimit -v where that is set");
+  }
+  std::tie(model_, data_) = load(mjcf);
 }
 
 int Model::id(mjtObj type, const std::string& name) const {

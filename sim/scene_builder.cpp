@@ -14,7 +14,7 @@
 #include "scenarios/spelling.h"
 #include "sim/fragment.h"
 #include "sim/ground.h"
-#include "sim/xml.h"
+#include "sim/limits.h"
 
 namespace lcs::sim {
 namespace {
@@ -169,14 +169,16 @@ void add_ego(xml::Element& scene, const Scenario& scenario) {
   merge_fragment(scene, root);
 }
 
-/// Takes back what would undo the meaning of bodies and names, or change the rover's mass.
+/// Takes back what would undo the meaning of bodies and names, change the rover's mass, or look for
+/// files elsewhere than where they were found; and keyframes, states without the rover's joints.
 void set_compiler(xml::Element& scene) {
   for (auto* c = scene.FirstChildElement("compiler"); c; c = c->NextSiblingElement("compiler")) {
     for (const char* key : {"fusestatic", "discardvisual", "inertiafromgeom", "settotalmass",
-                            "boundmass", "boundinertia"}) {
+                            "boundmass", "boundinertia", "strippath"}) {
       c->DeleteAttribute(key);
     }
   }
+  while (xml::Element* keys = scene.FirstChildElement("keyframe")) scene.DeleteChild(keys);
 }
 
 }  // namespace
@@ -187,9 +189,12 @@ ComposedScene compose(const Scenario& scenario) {
   xml::Element& scene = *document->RootElement();
   set_compiler(scene);
   add_actors(scene, scenario, composed);
-  if (scenario.ground) add_ground(scene, *scenario.ground, scenario.ego.start_m);
+  if (scenario.ground) {
+    add_ground(scene, *scenario.ground, scenario.ego.start_m, {scenario.file.string(), 0});
+  }
   add_ego(scene, scenario);
-  composed.mjcf = xml::print(*document);
+  check_limits(scene);
+  composed.mjcf = xml::Printed(*document);
   return composed;
 }
 

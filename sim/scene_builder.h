@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "sim/xml.h"
 
 namespace lcs::sim {
 
@@ -27,14 +28,15 @@ struct PictureTexture {
 };
 
 struct ComposedScene {
-  std::string mjcf;
+  xml::Printed mjcf;
   std::vector<std::string> actor_bodies;  ///< of each actor of the scenario, in its order
   std::vector<PictureTexture> pictures;
 };
 
 /// \throws scenario::Error for files that are missing or no MJCF, actors on bodies that the scene
 /// lacks
-///   or that another actor has, names used twice, sizes that a shape cannot have.
+///   or that another actor has, names used twice, sizes that a shape cannot have, and for what goes
+///   beyond the limits (`sim/limits.h`).
 ComposedScene compose(const scenario::Scenario& scenario);
 
 }  // namespace lcs::sim

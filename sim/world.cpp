@@ -10,7 +10,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "sim/ground.h"
+#include "sim/limits.h"
 #include "sim/picture_file.h"
+#include "sim/refusal.h"
 #include "sim/texture.h"
 
 namespace lcs::sim {
@@ -18,12 +20,47 @@ namespace {
 
 constexpr std::int64_t kLongestStep_ns = 2'000'000;
 
+/// A geom or body of the scene, for what is wrong with it once it is compiled.
+scenario::Source source_of(const scenario::Scenario& scenario, const ComposedScene& composed,
+                           std::string_view kind, std::string_view name) {
+  const xml::Printed::Origin* origin = name.empty() ? nullptr : composed.mjcf.named(kind, name);
+  return origin ? origin->source : scenario::Source{scenario.scene.string(), 0};
+}
+
+/// \throws scenario::Error where the scene is too large or too small for a camera to see it: at the
+/// number that says so, or at what lies farthest.
+void check_extent(const scenario::Scenario& scenario, const ComposedScene& composed, Model& model) {
+  const mjModel& m = model.m();
+  if (m.stat.extent >= kLeastExtent_m && m.stat.extent <= kMostExtent_m) return;
+  mj_forward(&m, &model.d());
+  int farthest = 0;
+  double distance_m = -1;
+  for (int geom = 0; geom < m.ngeom; ++geom) {
+    const double reach_m = model.geom_pose(geom).p.norm() + m.geom_rbound[geom];
+    if (reach_m <= distance_m) continue;
+    distance_m = reach_m;
+    farthest = geom;
+    if (!std::isfinite(reach_m)) break;
+  }
+  const std::string geom(model.name(mjOBJ_GEOM, farthest));
+  const std::string body(model.name(mjOBJ_BODY, m.geom_bodyid[farthest]));
+  throw scenario::Error(
+      geom.empty() ? source_of(scenario, composed, "body", body)
+                   : source_of(scenario, composed, "geom", geom),
+      fmt::format("the scene is {:g} m large, and a camera sees scenes of {:g} to {:g} m: geom '{}' of "
+                  "body '{}' reaches {:g} m from the middle of the world; correct its place and size",
+                  m.stat.extent, kLeastExtent_m, kMostExtent_m, geom, body, distance_m));
+}
+
 Model load(const scenario::Scenario& scenario, const ComposedScene& composed) {
   try {
-    return Model(composed.mjcf);
+    Model model(composed.mjcf.text());
+    check_extent(scenario, composed, model);
+    return model;
+  } catch (const MujocoCrash& e) {
+    throw scenario::Error({scenario.scene.string(), 0}, e.what());
   } catch (const MujocoError& e) {
-    throw scenario::Error({scenario.scene.string(), 0},
-                          fmt::format("MuJoCo refuses the scene: {}; correct the scene", e.what()));
+    throw refusal(e.what(), composed.mjcf, scenario.scene);
   }
 }
 
@@ -91,9 +128,9 @@ World::World(const scenario::Scenario& scenario, const ComposedScene& composed)
       gyro_(model_.m().sensor_adr[model_.id(mjOBJ_SENSOR, "ego/gyro")]) {
   fill_textures(model_, scenario_, composed);
   if (scenario_.ground) raise_ground(model_, *scenario_.ground, scenario_.seed);
-  set_options();
+  set_options(composed);
   rover_ = make_rover(scenario_, model_);
-  find_objects();
+  find_objects(composed);
   guarded([&] {
     mj_kinematics(&model_.m(), &model_.d());
     find_actors(composed);
@@ -104,7 +141,7 @@ World::World(const scenario::Scenario& scenario, const ComposedScene& composed)
 }
 
 /// The physics that the readings rely on, whatever the scene says.
-void World::set_options() {
+void World::set_options(const ComposedScene& composed) {
   mjOption& option = model_.m().opt;
   // the only one whose accelerometer is the difference of its velocities
   option.integrator = mjINT_EULER;
@@ -113,16 +150,17 @@ void World::set_options() {
   const mjtNum* g = option.gravity;
   const bool upright = g[0] == 0 && g[1] == 0 && g[2] <= 0;
   if (!upright) {
-    throw scenario::Error({scenario_.scene.string(), 0},
+    const xml::Printed::Origin* origin = composed.mjcf.last("option");
+    throw scenario::Error(origin ? origin->source : scenario::Source{scenario_.scene.string(), 0},
                           "gravity must point along -z of the world; correct <option gravity>");
   }
   gravity_mps2_ = option.disableflags & mjDSBL_GRAVITY ? 0 : -g[2];
 }
 
-void World::find_objects() {
+void World::find_objects(const ComposedScene& composed) {
   const mjModel& m = model_.m();
-  const auto refuse = [&](const std::string& what) {
-    throw scenario::Error({scenario_.scene.string(), 0}, what);
+  const auto refuse = [&](const std::string& body, const std::string& what) {
+    throw scenario::Error(source_of(scenario_, composed, "body", body), what);
   };
   object_bodies_ = {0};
   std::vector<int> object_of_body(static_cast<std::size_t>(m.nbody), 0);
@@ -134,6 +172,7 @@ void World::find_objects() {
       object_of_body[b] = object_of_body[static_cast<std::size_t>(m.body_parentid[body])];
       if (moves && object_of_body[b] >= 0) {
         refuse(
+            name,
             fmt::format("body '{}' has a joint inside another body; an object moves as one: take "
                         "the joint away, or make it a body of the worldbody",
                         name));
@@ -145,17 +184,17 @@ void World::find_objects() {
       objects_.push_back({object_of_body[b], name});
       object_bodies_.push_back(body);
     } else if (moves) {
-      refuse("a body of the worldbody that can move needs a name; give it one");
+      refuse("", "a body of the worldbody that can move needs a name; give it one");
     }
   }
   for (int geom = 0; geom < m.ngeom; ++geom) {
     const int object = object_of_body[static_cast<std::size_t>(m.geom_bodyid[geom])];
     object_of_geom_.push_back(object);
     if (object > 0 && (m.geom_type[geom] == mjGEOM_PLANE || m.geom_type[geom] == mjGEOM_HFIELD)) {
-      refuse(
-          fmt::format("body '{}' has a plane or height field; these are setting: put them right "
-                      "into the worldbody",
-                      objects_[static_cast<std::size_t>(object - 1)].name));
+      const std::string& body = objects_[static_cast<std::size_t>(object - 1)].name;
+      refuse(body, fmt::format("body '{}' has a plane or height field; these are setting: put them "
+                               "right into the worldbody",
+                               body));
     }
   }
 }
@@ -204,6 +243,9 @@ void World::guarded(Action action) const {
     problem = take_warning();
   } catch (const MujocoError& e) {
     problem = e.what();
+  }
+  if (scenario_.ground && problem.find("buffer is full") != std::string::npos) {
+    problem = "the rover drives on rough ground, and " + less_contact(*scenario_.ground);
   }
   if (!problem.empty()) {
     throw PhysicsError(fmt::format("the physics failed at {:.4f} s of simulated time: {}",

@@ -70,8 +70,8 @@ class World {
   };
 
   World(const scenario::Scenario& scenario, const ComposedScene& composed);
-  void set_options();
-  void find_objects();
+  void set_options(const ComposedScene& composed);
+  void find_objects(const ComposedScene& composed);
   void find_actors(const ComposedScene& composed);
   void place(const MovingActor& actor, const PlanarPose& pose);
   void move_actors();

@@ -1,7 +1,11 @@
 #include "sim/xml.h"
 
+#include <fmt/format.h>
+#include <strings.h>
+
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <string_view>
 
 #include "scenarios/input_file.h"
@@ -28,6 +32,9 @@ constexpr std::array<std::string_view, 18> kReferences = {
     "joint",   "site",     "body",    "body1",      "body2",    "geom1",
     "geom2",   "target",   "objname", "tendon",     "actuator", "geom"};
 
+// Holds "LINE FILE" where an element was written, as no user's attribute is called.
+constexpr const char* kSource = "lcs:source";
+
 [[noreturn]] void fail(const fs::path& file, int line, const std::string& message) {
   throw scenario::Error({file.string(), line}, message);
 }
@@ -51,12 +58,15 @@ Document parse(const fs::path& file, const scenario::Source& where) {
   if (kind != "mujoco" && kind != "mujocoinclude") {
     fail(file, root ? root->GetLineNum() : 1, "is not MJCF: its root element must be <mujoco>");
   }
+  for_each(*document->RootElement(),
+           [&](Element& e) { set_source(e, {file.string(), e.GetLineNum()}); });
   return document;
 }
 
 /// Where a document's files are looked for.
 struct Folders {
   fs::path base, meshes, textures;
+  bool strip = false;  ///< takes the folders from the names of files
 };
 
 Folders folders_of(const Element& root, const fs::path& file) {
@@ -66,6 +76,7 @@ Folders folders_of(const Element& root, const fs::path& file) {
     if (const char* both = c->Attribute("assetdir")) folders.meshes = folders.textures = both;
     if (const char* dir = c->Attribute("meshdir")) folders.meshes = dir;
     if (const char* dir = c->Attribute("texturedir")) folders.textures = dir;
+    if (const char* strip = c->Attribute("strippath")) folders.strip = strip == std::string("true");
   }
   return folders;
 }
@@ -77,15 +88,16 @@ void make_absolute(Element& root, const fs::path& file) {
     for (const char* key : kFiles) {
       const char* value = e.Attribute(key);
       if (!value) continue;
-      const fs::path path = folders.base / (picture ? folders.textures : folders.meshes) / value;
+      const fs::path name = folders.strip ? fs::path(value).filename() : fs::path(value);
+      const fs::path path = folders.base / (picture ? folders.textures : folders.meshes) / name;
       const std::string normal = path.lexically_normal().string();
       std::error_code error;
       if (!fs::exists(path, error) && !error) {
-        fail(file, e.GetLineNum(),
-             "file '" + normal + "' is missing; put it there or correct the name");
+        throw scenario::Error(source_of(e), "file '" + normal +
+                                                "' is missing; put it there or correct the name");
       }
       // MuJoCo opens it itself, and waits for a pipe.
-      scenario::InputFile(normal, kAssetFile, {file.string(), e.GetLineNum()});
+      scenario::InputFile(normal, kAssetFile, source_of(e));
       e.SetAttribute(key, normal.c_str());
     }
   };
@@ -100,7 +112,8 @@ void expand_includes(Element& parent, const fs::path& main_file, const fs::path&
   constexpr int kDeepest = 16;  // a file that includes itself never ends
   for (Element* e = parent.FirstChildElement(); e;) {
     Element* next = e->NextSiblingElement();
-    if (std::string_view(e->Name()) != "include") {
+    // as MuJoCo has it, which would read <Include> behind our back
+    if (::strcasecmp(e->Name(), "include") != 0) {
       expand_includes(*e, main_file, file, depth, left);
       e = next;
       continue;
@@ -171,10 +184,80 @@ std::string attribute(const Element& element, const char* name) {
   return value ? value : "";
 }
 
-std::string print(const XMLDocument& document) {
+scenario::Source source_of(const Element& element) {
+  for (const XMLNode* n = &element; n && n->ToElement(); n = n->Parent()) {
+    const std::string text = attribute(*n->ToElement(), kSource);
+    const std::size_t space = text.find(' ');
+    if (space == std::string::npos) continue;
+    scenario::Source source{text.substr(space + 1), 0};
+    std::from_chars(text.data(), text.data() + space, source.line);
+    return source;
+  }
+  return {};
+}
+
+void set_source(Element& element, const scenario::Source& source) {
+  element.SetAttribute(kSource, fmt::format("{} {}", source.line, source.file).c_str());
+}
+
+std::string tag(const Element& element) {
+  const std::string name = attribute(element, "name");
+  return name.empty() ? fmt::format("<{}>", element.Name())
+                      : fmt::format("<{} name=\"{}\">", element.Name(), name);
+}
+
+Printed::Printed(XMLDocument& document) {
+  std::vector<Origin> origins;  // in the order of the document
+  for_each(*document.RootElement(), [&](Element& e) {
+    const Element* parent = e.Parent()->ToElement();
+    origins.push_back(
+        {source_of(e), tag(e), e.Name(), attribute(e, "name"), parent ? parent->Name() : ""});
+  });
+  for_each(*document.RootElement(), [](Element& e) { e.DeleteAttribute(kSource); });
   tinyxml2::XMLPrinter printer;
   document.Print(&printer);
-  return printer.CStr();
+  text_ = printer.CStr();
+
+  // MuJoCo counts lines with the same parser
+  XMLDocument again;
+  if (again.Parse(text_.data(), text_.size()) != tinyxml2::XML_SUCCESS) {
+    throw scenario::Error({origins.front().source.file, 0},
+                          std::string("cannot be read once its parts are put together (") +
+                              XMLDocument::ErrorIDToName(again.ErrorID()) +
+                              "); nest its elements less deeply");
+  }
+  auto origin = origins.begin();
+  for_each(*again.RootElement(),
+           [&](Element& e) {
+             if (origin != origins.end()) origins_.emplace(e.GetLineNum(), std::move(*origin++));
+           });
+}
+
+const Printed::Origin* Printed::at_line(int line) const {
+  const auto found = origins_.find(line);
+  return found == origins_.end() ? nullptr : &found->second;
+}
+
+const Printed::Origin* Printed::named(std::string_view kind, std::string_view name) const {
+  for (const auto& [line, origin] : origins_) {
+    if ((kind.empty() || origin.kind == kind) && origin.name == name) return &origin;
+  }
+  return nullptr;
+}
+
+const Printed::Origin* Printed::within(std::string_view section, int index) const {
+  for (const auto& [line, origin] : origins_) {
+    if (origin.section == section && index-- == 0) return &origin;
+  }
+  return nullptr;
+}
+
+const Printed::Origin* Printed::last(std::string_view kind) const {
+  const Origin* found = nullptr;
+  for (const auto& [line, origin] : origins_) {
+    if (origin.kind == kind) found = &origin;
+  }
+  return found;
 }
 
 }  // namespace lcs::sim::xml

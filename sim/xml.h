@@ -6,8 +6,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "scenarios/scenario.h"
 
@@ -18,8 +21,9 @@ using Element = tinyxml2::XMLElement;
 
 /// Reads an MJCF file with its `<include>`s in place, and every file that it names as an absolute
 /// path (so `meshdir` and `texturedir` are done with). \param where is to blame where the file
-/// itself cannot be opened. \throws scenario::Error with the MJCF file and line: XML that does not
-/// parse, a missing file.
+/// itself cannot be opened. Each element knows from then on where it was written, and takes that
+/// along wherever it is copied. \throws scenario::Error with the MJCF file and line: XML that does
+/// not parse, a missing file.
 Document load(const std::filesystem::path& file, const scenario::Source& where);
 
 /// Puts `prefix` before every name in a document, and before every use of one.
@@ -39,6 +43,41 @@ Element* child_named(Element& parent, const char* kind, const std::string& name)
 
 std::string attribute(const Element& element, const char* name);  ///< "" where absent
 
-std::string print(const tinyxml2::XMLDocument& document);
+/// Where an element, or the nearest one about it that knows, was written.
+scenario::Source source_of(const Element& element);
+void set_source(Element& element, const scenario::Source& source);
+
+/// `<geom name="wall">`: what a message calls an element.
+std::string tag(const Element& element);
+
+/// A document as text, and where each line of it was written.
+class Printed {
+ public:
+  Printed() = default;
+  /// Takes from the document what its elements know of their sources.
+  /// \throws scenario::Error if it is nested deeper than can be read again.
+  explicit Printed(tinyxml2::XMLDocument& document);
+
+  struct Origin {
+    scenario::Source source;
+    std::string tag;      ///< as `tag` has it
+    std::string kind;     ///< the element's, as in "geom"
+    std::string name;     ///< its name attribute, or ""
+    std::string section;  ///< the kind of what it is in, or ""
+  };
+  const std::string& text() const { return text_; }
+  /// Of the element on a line of the text; nullptr where there is none.
+  const Origin* at_line(int line) const;
+  /// The first with that name of that kind, or of any if `kind` is empty; nullptr if there is none.
+  const Origin* named(std::string_view kind, std::string_view name) const;
+  /// The one of that index, from 0, among all in sections of that kind; nullptr if there is none.
+  const Origin* within(std::string_view section, int index) const;
+  /// The last of that kind, which overrules the others; nullptr if there is none.
+  const Origin* last(std::string_view kind) const;
+
+ private:
+  std::string text_;
+  std::map<int, Origin> origins_;  ///< by line
+};
 
 }  // namespace lcs::sim::xml

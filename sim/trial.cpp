@@ -1,0 +1,139 @@
+#include "sim/trial.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+
+namespace lcs::sim {
+namespace {
+
+constexpr rlim_t kMostProcessor_s = 10;
+constexpr unsigned kMostTime_s = 120;  // of a machine that does other things, too
+constexpr rlim_t kMostMemory = rlim_t{4} << 30;
+
+/// What the child says, in memory that both have.
+struct Report {
+  enum class Kind { nothing, fine, refused, no_memory };
+  Kind kind = Kind::nothing;
+  std::array<char, 4000> text{};
+};
+
+[[noreturn]] void fail(const char* what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+struct Unmap {
+  void operator()(Report* report) const { ::munmap(report, sizeof(Report)); }
+};
+using SharedReport = std::unique_ptr<Report, Unmap>;
+
+SharedReport shared_report() {
+  void* memory = ::mmap(nullptr, sizeof(Report), PROT_READ | PROT_WRITE,
+                        MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) fail("mmap");
+  return SharedReport(new (memory) Report);
+}
+
+/// Virtual memory in use, bytes. A sanitizer's is some terabytes.
+rlim_t memory_in_use() {
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void limit(__rlimit_resource resource, rlim_t most) {
+  struct rlimit now = {};
+  if (::getrlimit(resource, &now) != 0) return;
+  now.rlim_cur = std::min(now.rlim_cur, most);
+  ::setrlimit(resource, &now);
+}
+
+/// In the child: on its own, and bounded.
+void isolate(pid_t parent) {
+  if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || ::getppid() != parent) ::_exit(1);
+  const int null = ::open("/dev/null", O_RDWR);
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(null, file);
+  for (const int fatal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGALRM, SIGXCPU}) {
+    ::signal(fatal, SIG_DFL);
+  }
+  // those are for the parent, which waits until the child has ended and then acts on them
+  for (const int sent : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) ::signal(sent, SIG_IGN);
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, kMostProcessor_s);
+  limit(RLIMIT_AS, memory_in_use() + kMostMemory);
+  ::alarm(kMostTime_s);
+}
+
+void run(const std::function<void()>& action, Report& report) {
+  const auto say = [&](Report::Kind kind, const char* text) {
+    std::strncpy(report.text.data(), text, report.text.size() - 1);
+    report.kind = kind;
+  };
+  try {
+    action();
+    say(Report::Kind::fine, "");
+  } catch (const std::bad_alloc&) {
+    say(Report::Kind::no_memory, "");
+  } catch (const std::exception& e) {
+    say(Report::Kind::refused, e.what());
+  }
+}
+
+std::string crash_of(int status) {
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  switch (signal) {
+    case 0:
+      return "exit code " + std::to_string(WEXITSTATUS(status));
+    case SIGXCPU:
+      return std::to_string(kMostProcessor_s) + " s of processor time";
+    case SIGALRM:
+      return std::to_string(kMostTime_s) + " s";
+    case SIGKILL:  // by the kernel: for nobody else knows of it
+      return "memory";
+    default:
+      const char* name = ::sigabbrev_np(signal);
+      return std::string("signal ") + (name ? name : std::to_string(signal));
+  }
+}
+
+}  // namespace
+
+Trial try_in_child(const std::function<void()>& action) {
+  const SharedReport report = shared_report();
+  const pid_t self = ::getpid();
+  const pid_t child = ::fork();
+  if (child < 0) fail("fork");
+  if (child == 0) {
+    isolate(self);
+    run(action, *report);
+    ::_exit(0);  // neither buffers nor destructors: they are the parent's
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  Trial trial;
+  trial.fine = report->kind == Report::Kind::fine;
+  if (report->kind == Report::Kind::refused) trial.refused = report->text.data();
+  if (report->kind == Report::Kind::no_memory) trial.crash = "memory";
+  if (report->kind == Report::Kind::nothing) trial.crash = crash_of(status);
+  return trial;
+}
+
+}  // namespace lcs::sim

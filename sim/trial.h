@@ -1,0 +1,28 @@
+/// \file
+/// Lets a child process try what a library may crash on, so that a crash does not take the program
+/// along.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace lcs::sim {
+
+/// How the child's try ended.
+struct Trial {
+  bool fine = false;    ///< it returned
+  std::string refused;  ///< what it threw, if it threw
+  /// How it ended otherwise: "signal SEGV", "10 s of processor time", "memory"; else empty.
+  std::string crash;
+};
+
+/// Runs `action` in a fork of this process. What it writes to stdout and stderr is dropped; it has
+/// no input, leaves no core, takes 10 s of processor time and 4 GB of memory beyond the present at
+/// most, and ends when this process ends.
+///
+/// The child has only the calling thread: `action` must wait for no lock that another thread may
+/// hold, and use no GL.
+/// \throws std::system_error if there is no child to be had.
+Trial try_in_child(const std::function<void()>& action);
+
+}  // namespace lcs::sim
