@@ -1,6 +1,10 @@
 #include "sim/camera_renderer.h"
 
+#include <fmt/format.h>
+#include <sys/resource.h>
+
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
@@ -8,6 +12,7 @@
 #include <vector>
 
 #include "sim/gl_context.h"
+#include "sim/trial.h"
 
 namespace lcs::sim {
 namespace {
@@ -35,6 +40,36 @@ void prepare(mjModel& m, int width_px, int height_px) {
     head.diffuse[c] = 0;
     head.specular[c] = 0;
   }
+}
+
+/// Mesa crashes where its memory ends. \throws std::runtime_error where it is limited (ulimit -v) and
+/// is not enough for a first picture, once, at the first renderer of the process.
+void check_memory(Model& model, int camera, int width_px, int height_px) {
+  static std::atomic<bool> checked = false;
+  struct rlimit memory = {};
+  if (::getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY ||
+      checked.exchange(true)) {
+    return;
+  }
+  constexpr rlim_t kForTheRest = rlim_t{256} << 20;  // what a run takes besides
+  const Trial trial = try_in_child([&] {
+    memory.rlim_cur -= std::min(memory.rlim_cur, kForTheRest);
+    ::setrlimit(RLIMIT_AS, &memory);
+    CameraRenderer renderer(model, camera, width_px, height_px);
+    cv::Mat3b picture;
+    cv::Mat1f depth;
+    cv::Mat1i geoms;
+    renderer.update();
+    renderer.render_colour(picture);
+    renderer.render_depth_and_geoms(depth, geoms);
+  });
+  if (trial.fine) return;
+  checked = false;
+  throw std::runtime_error(
+      fmt::format("software GL draws no picture of {}x{} with {} MB of memory ({}); raise ulimit -v, "
+                  "or choose a smaller camera size",
+                  width_px, height_px, memory.rlim_cur >> 20,
+                  trial.crash.empty() ? trial.refused : trial.crash));
 }
 
 }  // namespace
@@ -88,9 +123,14 @@ struct CameraRenderer::Impl {
     const mjrRect buffer = problem.empty() ? mjr_maxViewport(&context) : mjrRect{0, 0, 0, 0};
     if (context.currentBuffer != mjFB_OFFSCREEN || buffer.width < width_px ||
         buffer.height < height_px) {
-      throw std::runtime_error("software GL does not render images of " + std::to_string(width_px) +
-                               "x" + std::to_string(height_px) + " (" + problem +
-                               "); choose a smaller camera size");
+      const bool is_picture = problem.empty() || problem.find("ffscreen") != std::string::npos;
+      throw std::runtime_error(
+          is_picture ? fmt::format("software GL does not render images of {}x{} ({}); choose a smaller "
+                                   "camera size",
+                                   width_px, height_px, problem)
+                     : fmt::format("software GL does not take the scene ({}); choose fewer or smaller "
+                                   "textures and meshes",
+                                   problem));
     }
     rgb.resize(std::size_t(width_px) * height_px * 3);
     z.resize(std::size_t(width_px) * height_px);
@@ -127,8 +167,10 @@ struct CameraRenderer::Impl {
   }
 };
 
-CameraRenderer::CameraRenderer(Model& model, int camera, int width_px, int height_px)
-    : impl_(std::make_unique<Impl>(model, camera, width_px, height_px)) {}
+CameraRenderer::CameraRenderer(Model& model, int camera, int width_px, int height_px) {
+  check_memory(model, camera, width_px, height_px);
+  impl_ = std::make_unique<Impl>(model, camera, width_px, height_px);
+}
 
 CameraRenderer::~CameraRenderer() = default;
 

@@ -3,8 +3,12 @@
 #include <GL/osmesa.h>
 
 #include <array>
+#include <atomic>
+#include <cstdlib>
 #include <stdexcept>
 #include <string_view>
+
+#include "sim/trial.h"
 
 #ifdef __SANITIZE_ADDRESS__
 // Mesa keeps some hundred bytes of each context until the process ends.
@@ -24,6 +28,20 @@ constexpr int kSide = 16;  // px; the least that is sure to work
                            " failed; install Mesa's off-screen renderer (Debian: libosmesa6)");
 }
 
+/// Mesa ends the program by a signal where it does not have the driver that is asked for.
+/// \throws std::runtime_error once, at the first context of the process.
+void check_driver() {
+  static std::atomic<bool> checked = false;
+  const char* driver = std::getenv("GALLIUM_DRIVER");
+  if (!driver || checked.exchange(true)) return;
+  const Trial trial = try_in_child([] { GlContext context; });
+  if (trial.fine) return;
+  checked = false;
+  const std::string how = trial.crash.empty() ? trial.refused : trial.crash;
+  throw std::runtime_error("software GL does not start with GALLIUM_DRIVER=" + std::string(driver) +
+                           " (" + how + "); unset it, or set it to llvmpipe or softpipe");
+}
+
 }  // namespace
 
 struct GlContext::Impl {
@@ -36,6 +54,7 @@ struct GlContext::Impl {
 };
 
 GlContext::GlContext() : impl_(std::make_unique<Impl>()) {
+  check_driver();
   impl_->context = OSMesaCreateContextExt(OSMESA_RGBA, 24, 8, 0, nullptr);
   if (!impl_->context) fail("OSMesaCreateContextExt");
   make_current();

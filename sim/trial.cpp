@@ -22,7 +22,7 @@ namespace lcs::sim {
 namespace {
 
 constexpr rlim_t kMostProcessor_s = 10;
-constexpr unsigned kMostTime_s = 120;  // of a machine that does other things, too
+constexpr unsigned kMostTime_s = 30;  // of a machine that does other things, too
 constexpr rlim_t kMostMemory = rlim_t{4} << 30;
 
 /// What the child says, in memory that both have.

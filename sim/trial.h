@@ -17,7 +17,7 @@ struct Trial {
 };
 
 /// Runs `action` in a fork of this process. What it writes to stdout and stderr is dropped; it has
-/// no input, leaves no core, takes 10 s of processor time and 4 GB of memory beyond the present at
+/// no input, leaves no core, takes 10 s of processor time, 30 s and 4 GB of memory beyond the present at
 /// most, and ends when this process ends.
 ///
 /// The child has only the calling thread: `action` must wait for no lock that another thread may

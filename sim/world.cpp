@@ -245,7 +245,8 @@ void World::guarded(Action action) const {
     problem = e.what();
   }
   if (scenario_.ground && problem.find("buffer is full") != std::string::npos) {
-    problem = "the rover drives on rough ground, and " + less_contact(*scenario_.ground);
+    throw PhysicsError(
+        scenario::Error({scenario_.file.string(), 0}, less_contact(*scenario_.ground)).what());
   }
   if (!problem.empty()) {
     throw PhysicsError(fmt::format("the physics failed at {:.4f} s of simulated time: {}",

@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <functional>
+#include <new>
+#include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 
@@ -39,6 +41,9 @@ through its camera and IMU, and the simulator's truth scores what the filter say
   lcs kinematics                      when the motion model holds, for your camera and rover
   lcs run --help                      all about a command
 )";
+
+constexpr const char* kNoMemory =
+    "not enough memory; raise ulimit -v where it is set, or choose a smaller camera or scene";
 
 int fail(const std::string& message) {
   tell(fmt::format("lcs: {}", message));
@@ -101,6 +106,10 @@ int main(int argc, char** argv) {
   } catch (const Interrupted&) {
     print_err("lcs: interrupted; nothing was written\n");
     return kInterrupted;
+  } catch (const std::bad_alloc&) {
+    return fail(kNoMemory);
+  } catch (const cv::Exception& error) {
+    return fail(error.code == cv::Error::StsNoMem ? kNoMemory : error.what());
   } catch (const std::exception& error) {
     return fail(lcs::scenario::message_of(error));
   }
