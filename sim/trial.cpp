@@ -21,10 +21,6 @@
 namespace lcs::sim {
 namespace {
 
-constexpr rlim_t kMostProcessor_s = 10;
-constexpr unsigned kMostTime_s = 30;  // of a machine that does other things, too
-constexpr rlim_t kMostMemory = rlim_t{4} << 30;
-
 /// What the child says, in memory that both have.
 struct Report {
   enum class Kind { nothing, fine, refused, no_memory };
@@ -63,7 +59,7 @@ void limit(__rlimit_resource resource, rlim_t most) {
 }
 
 /// In the child: on its own, and bounded.
-void isolate(pid_t parent) {
+void isolate(pid_t parent, const TrialBounds& bounds) {
   if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || ::getppid() != parent) ::_exit(1);
   const int null = ::open("/dev/null", O_RDWR);
   for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(null, file);
@@ -76,9 +72,9 @@ void isolate(pid_t parent) {
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, kMostProcessor_s);
-  limit(RLIMIT_AS, memory_in_use() + kMostMemory);
-  ::alarm(kMostTime_s);
+  limit(RLIMIT_CPU, bounds.processor_s);
+  limit(RLIMIT_AS, memory_in_use() + bounds.more_memory);
+  ::alarm(bounds.wall_s);
 }
 
 void run(const std::function<void()>& action, Report& report) {
@@ -96,15 +92,15 @@ void run(const std::function<void()>& action, Report& report) {
   }
 }
 
-std::string crash_of(int status) {
+std::string crash_of(int status, const TrialBounds& bounds) {
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   switch (signal) {
     case 0:
       return "exit code " + std::to_string(WEXITSTATUS(status));
     case SIGXCPU:
-      return std::to_string(kMostProcessor_s) + " s of processor time";
+      return std::to_string(bounds.processor_s) + " s of processor time";
     case SIGALRM:
-      return std::to_string(kMostTime_s) + " s";
+      return std::to_string(bounds.wall_s) + " s";
     case SIGKILL:  // by the kernel: for nobody else knows of it
       return "memory";
     default:
@@ -115,13 +111,13 @@ std::string crash_of(int status) {
 
 }  // namespace
 
-Trial try_in_child(const std::function<void()>& action) {
+Trial try_in_child(const std::function<void()>& action, const TrialBounds& bounds) {
   const SharedReport report = shared_report();
   const pid_t self = ::getpid();
   const pid_t child = ::fork();
   if (child < 0) fail("fork");
   if (child == 0) {
-    isolate(self);
+    isolate(self, bounds);
     run(action, *report);
     ::_exit(0);  // neither buffers nor destructors: they are the parent's
   }
@@ -132,7 +128,7 @@ Trial try_in_child(const std::function<void()>& action) {
   trial.fine = report->kind == Report::Kind::fine;
   if (report->kind == Report::Kind::refused) trial.refused = report->text.data();
   if (report->kind == Report::Kind::no_memory) trial.crash = "memory";
-  if (report->kind == Report::Kind::nothing) trial.crash = crash_of(status);
+  if (report->kind == Report::Kind::nothing) trial.crash = crash_of(status, bounds);
   return trial;
 }
 

@@ -3,6 +3,7 @@
 /// along.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -16,13 +17,20 @@ struct Trial {
   std::string crash;
 };
 
+/// What a try may take at most. Scenes at the ends of the limits of `sim/limits.h` load in a tenth of
+/// that; the second time is for machines that do other things, too.
+struct TrialBounds {
+  unsigned processor_s = 10;
+  unsigned wall_s = 30;
+  std::size_t more_memory = std::size_t{4} << 30;  ///< bytes, beyond what is in use
+};
+
 /// Runs `action` in a fork of this process. What it writes to stdout and stderr is dropped; it has
-/// no input, leaves no core, takes 10 s of processor time, 30 s and 4 GB of memory beyond the present at
-/// most, and ends when this process ends.
+/// no input, leaves no core, and ends when this process ends.
 ///
 /// The child has only the calling thread: `action` must wait for no lock that another thread may
 /// hold, and use no GL.
 /// \throws std::system_error if there is no child to be had.
-Trial try_in_child(const std::function<void()>& action);
+Trial try_in_child(const std::function<void()>& action, const TrialBounds& bounds = {});
 
 }  // namespace lcs::sim

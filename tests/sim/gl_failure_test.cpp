@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <optional>
 
 #include "sim/camera_renderer.h"
@@ -66,6 +67,17 @@ TEST_F(GlFailure, AtTheStartNamesTheCallAndTheRemedy) {
 TEST_F(GlFailure, AtTheStartOfASimulationIsAnErrorOfTheMachine) {
   fails_to_create = true;
   EXPECT_THROW(Simulation(test::scenario_in("lab", 0, 1)), std::runtime_error);
+}
+
+TEST_F(GlFailure, ADriverThatMesaLacksIsNamedInsteadOfACrash) {
+  ASSERT_EQ(setenv("GALLIUM_DRIVER", "nonsense", 1), 0);
+  const std::string message = refusal();
+  EXPECT_NE(message.find("GALLIUM_DRIVER=nonsense"), std::string::npos) << message;
+  EXPECT_NE(message.find("set it to llvmpipe or softpipe"), std::string::npos) << message;
+  // which it has
+  ASSERT_EQ(setenv("GALLIUM_DRIVER", "softpipe", 1), 0);
+  EXPECT_EQ(refusal(), "nothing");
+  unsetenv("GALLIUM_DRIVER");
 }
 
 // Of two renderers the one that is not current has to become so, to draw and to let go.

@@ -106,6 +106,31 @@ TEST(Ground, DoesNotStopTheRover) {
   EXPECT_NEAR((last - first).x(), 0.4 * 1.1, 0.08);
 }
 
+/// What driving on such bumps says, or "".
+std::string refusal_of(double roughness_m, double wavelength_m) {
+  auto s = rough(roughness_m);
+  s.ground->wavelength_m = wavelength_m;
+  try {
+    World world(s);
+    std::vector<ImuSample> imu;
+    std::vector<OdometrySample> odometry;
+    world.advance_to(500'000'000, imu, odometry);
+  } catch (const PhysicsError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(Ground, ThatTouchesTheRoverInTooManyPlacesSaysWhichNumberHelps) {
+  const std::string message = refusal_of(0.05, 0.1);
+  EXPECT_EQ(message.find("test.yaml: "), 0u) << message;
+  EXPECT_NE(message.find("make ground.wavelength (0.1 m) longer or ground.roughness (0.05 m) less"),
+            std::string::npos)
+      << message;
+  EXPECT_EQ(refusal_of(0.05, 0.4), "");
+  EXPECT_EQ(refusal_of(0.01, 0.1), "");
+}
+
 /// Material of the bumps in a scene with these geoms.
 std::string material_of_bumps(const std::string& geoms) {
   auto s = test::scenario_in_mjcf(

@@ -27,6 +27,7 @@ namespace {
     ::setrlimit(what, &both);
   };
   limit(RLIMIT_FSIZE, options.largest_file);
+  limit(RLIMIT_AS, options.most_memory);
   // A sanitized build is not to add to stderr which of the known leaks it saw.
   ::setenv("LSAN_OPTIONS", "print_suppressions=0", /*overwrite=*/0);
   ::closefrom(STDERR_FILENO + 1);

@@ -23,6 +23,7 @@ struct CommandOptions {
   std::optional<std::size_t> open_files = {};    ///< descriptors, the three standard ones included
   std::vector<int> closed = {};                  ///< of the standard descriptors
   std::filesystem::path out = {};                ///< for standard output, in place of `out`
+  std::optional<std::size_t> most_memory = {};   ///< bytes, as `ulimit -v` has it in kB
 };
 
 /// Started on construction; waited for at the latest on destruction.

@@ -1,0 +1,250 @@
+// What is wrong with a scene is told in one line that names the user's own file and line, before
+// MuJoCo can crash on it.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "sim/world.h"
+#include "tests/sim/support.h"
+
+namespace lcs::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using test::scenario_error;
+
+/// A scene whose parts have lines of their own, in a folder for the files that it names.
+class SceneFile : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  struct Parts {
+    // on lines 2, 4, 7 and 9
+    std::string top = {}, asset = {}, world = {}, end = {};
+  };
+  scenario::Scenario scenario(const Parts& parts) const {
+    std::ofstream(scene_) << "<mujoco>\n"
+                          << parts.top << "\n<asset>\n"
+                          << parts.asset
+                          << "\n</asset><worldbody>\n"
+                             "<geom name='floor' type='plane' size='50 50 .1'/>\n"
+                          << parts.world << "\n</worldbody>\n"
+                          << parts.end << "\n</mujoco>\n";
+    scenario::Scenario s = test::scenario_in("lab", 0, 1);
+    s.scene = scene_;
+    return s;
+  }
+  void write(const std::string& name, const std::string& content) const {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+  }
+  /// What loading says, without a word of a library on stderr.
+  static std::string refusal(const scenario::Scenario& s) {
+    testing::internal::CaptureStderr();
+    const std::string message = scenario_error([&] { World world(s); });
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    return message;
+  }
+  void expect(const Parts& parts, int line, const std::vector<std::string>& words) const {
+    expect_at(scene_.string() + ":" + std::to_string(line) + ": ", refusal(scenario(parts)), words);
+  }
+  static void expect_at(const std::string& place, const std::string& message,
+                        const std::vector<std::string>& words) {
+    EXPECT_EQ(message.find(place), 0u) << message << "\n  is not at " << place;
+    for (const std::string& word : words) {
+      EXPECT_NE(message.find(word), std::string::npos) << message << "\n  lacks: " << word;
+    }
+  }
+
+  const fs::path folder_ =
+      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  const fs::path scene_ = folder_ / "scene.xml";
+};
+
+constexpr const char* kCorners = "vertex='0 0 0 1 0 0 0 1 0 0 0 1'";
+
+class SceneRefused : public SceneFile {};
+
+TEST_F(SceneRefused, ByTheCompilerNamesLineAndElement) {
+  expect({.world = "<body name='b'><freejoint/><geom size='.1' mass='0'/></body>"}, 7,
+         {"<body name=\"b\">", "mass and inertia", "give the body a geom"});
+  expect({.world = "<geom name='g' type='box'/>"}, 7, {"<geom name=\"g\">", "sizes", "above 0"});
+  expect({.world = "<geom type='box' size='1 -1 1'/>"}, 7, {"<geom>", "sizes"});
+  expect({.world = "<geom name='floor' size='1'/>"}, 7, {"repeated name", "another name"});
+  expect({.world = "<geom size='1' colour='red'/>"}, 7, {"<geom>", "'colour'", "spelling"});
+  expect({.world = "<ball size='1'/>"}, 7, {"<ball>", "unrecognized element"});
+  expect({.world = "<geom size='1' material='gold'/>"}, 7, {"'gold' not found", "define it"});
+  expect({.world = "<geom size='1 1 1 1'/>"}, 7, {"too much data"});
+  expect({.asset = "<material name='m' texture='gone'/>"}, 4, {"<material name=\"m\">", "'gone'"});
+  expect({.top = "<option integrator='magic'/>"}, 2, {"<option>", "'magic'"});
+  expect({.end = "<equality><weld body1='gone'/></equality>"}, 9, {"<weld>", "'gone'"});
+  expect({.end = "<sensor><clock/><gyro name='a' site='gone'/></sensor>"}, 9, {"<gyro name=\"a\">"});
+  expect({.end = "<sensor><clock/><gyro site='gone'/></sensor>"}, 9, {"<gyro>"});
+}
+
+TEST_F(SceneRefused, InAnIncludedFileNamesThatFile) {
+  write("part.xml", "<mujoco>\n\n<geom type='box'/></mujoco>");
+  expect_at((folder_ / "part.xml").string() + ":3: ",
+            refusal(scenario({.world = "<include file='part.xml'/>"})), {"<geom>", "sizes"});
+  // MuJoCo would find the file by itself, and none of what is in it would have been looked at
+  expect_at((folder_ / "part.xml").string() + ":3: ",
+            refusal(scenario({.world = "<Include file='part.xml'/>"})), {"<geom>", "sizes"});
+  write("picture.xml", "<mujoco>\n<asset>\n<texture name='t' file='no.png'/></asset></mujoco>");
+  expect_at((folder_ / "picture.xml").string() + ":3: ",
+            refusal(scenario({.end = "<include file='picture.xml'/>"})), {"no.png", "missing"});
+}
+
+TEST_F(SceneRefused, InAnActorsFileNamesThatFile) {
+  fs::create_directories(folder_ / "actors");
+  write("actors/box.xml",
+        "<mujoco><worldbody>\n<body name='base'>\n<geom type='box' size='0 1 1'/></body>"
+        "</worldbody></mujoco>");
+  ASSERT_EQ(setenv("LCS_SCENES", folder_.c_str(), 1), 0);
+  auto s = scenario({});
+  s.actors = {test::line_actor("visitor", scenario::Shape::box, {2, 0}, 0, 0)};
+  const std::string message = refusal(s);
+  unsetenv("LCS_SCENES");
+  expect_at((folder_ / "actors/box.xml").string() + ":3: ", message, {"<geom>", "sizes"});
+}
+
+TEST_F(SceneRefused, LinesHoldBehindAttributesOfManyLines) {
+  expect({.top = "<custom><text name='t' data='x\n\n'/></custom>",
+          .world = "<geom type='box'/>"},
+         9, {"sizes"});
+}
+
+TEST_F(SceneRefused, ForAFlatMeshInOneLineAndNoneOfQhulls) {
+  expect({.asset = "<mesh name='m' vertex='0 0 0 1 0 0 0 1 0 1 1 0'/>",
+          .world = "<geom type='mesh' mesh='m'/>"},
+         4, {"<mesh name=\"m\">", "qhull", "plane"});
+}
+
+TEST_F(SceneRefused, ForFilesThatAreNoneOfTheirKind) {
+  write("a.stl", "solid cube\nendsolid\n" + std::string(100, ' '));
+  expect({.asset = "<mesh name='m' file='a.stl'/>"}, 4, {"a.stl", "binary STL"});
+  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 99\n");
+  expect({.asset = "<mesh name='m' file='a.obj'/>"}, 4, {"a.obj', line 5", "99", "there are 4"});
+  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nf 1//1 2//1 3//1\nf 1 2 4\n");
+  expect({.asset = "<mesh name='m' file='a.obj'/>"}, 4, {"a.obj', line 7", "no normal"});
+  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf -1 -2 -3\nf 1 2 -9\n");
+  expect({.asset = "<mesh name='m' file='a.obj'/>"}, 4, {"a.obj', line 6", "-9"});
+  write("a.png", "this is no picture, but it is long enough");
+  expect({.asset = "<texture name='t' type='2d' file='a.png'/>"}, 4, {"PNG"});
+  write("a.jpg", "this is no picture, but it is long enough");
+  expect({.asset = "<texture name='t' type='2d' file='a.jpg'/>"}, 4, {"a.jpg", "PNG"});
+  write("a.skn", "no skin");
+  expect({.asset = "<skin name='s' file='a.skn'/>"}, 4, {"a.skn"});
+}
+
+/// A file of MuJoCo's binary formats.
+std::string bytes(const std::vector<std::int32_t>& integers, const std::vector<float>& numbers,
+                  const std::vector<std::int32_t>& more) {
+  std::string content(4 * (integers.size() + numbers.size() + more.size()), '\0');
+  std::memcpy(content.data(), integers.data(), 4 * integers.size());
+  std::memcpy(content.data() + 4 * integers.size(), numbers.data(), 4 * numbers.size());
+  std::memcpy(content.data() + 4 * (integers.size() + numbers.size()), more.data(),
+              4 * more.size());
+  return content;
+}
+
+TEST_F(SceneRefused, ForIndicesBeyondTheVertices) {
+  const std::vector<float> tetrahedron = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const std::string inline_mesh = std::string("<mesh name='m' ") + kCorners;
+  expect({.asset = inline_mesh + " face='0 1 99999'/>"}, 4, {"vertex 99999", "there are 4"});
+  expect({.asset = inline_mesh + " face='0 1 -1'/>"}, 4, {"vertex -1"});
+  write("a.msh", bytes({4, 0, 0, 1}, tetrahedron, {0, 1, 77}));
+  expect({.asset = "<mesh name='m' file='a.msh'/>"}, 4, {"vertex 77", "there are 4"});
+  write("a.msh", bytes({1 << 30, 0, 0, 1}, tetrahedron, {0, 1, 2}));
+  expect({.asset = "<mesh name='m' file='a.msh'/>"}, 4, {"a.msh", "header"});
+  const std::string bone =
+      "<bone body='b' bindpos='0 0 0' bindquat='1 0 0 0' vertid='0 1 2' vertweight='1 1 1'/>";
+  const std::string body = "<body name='b'><geom size='.1'/></body>";
+  expect({.asset = "<skin name='s' vertex='0 0 0 1 0 0 0 1 0' face='0 1 3'>" + bone + "</skin>",
+          .world = body},
+         4, {"vertex 3", "there are 3"});
+}
+
+TEST_F(SceneRefused, ForNumbersThatAreNoneOrEndless) {
+  expect({.world = "<geom size='nan'/>"}, 7, {"<geom>", "size is nan", "finite"});
+  expect({.world = "<geom size='1' pos='0 inf 0'/>"}, 7, {"pos is inf"});
+  expect({.world = "<geom size='1' pos='0 1e999 0'/>"}, 7, {"pos is 1e999"});
+  expect({.world = "<geom size='1' pos='0 1e30 0'/>"}, 7, {"pos has 1e30", "1e+06 m"});
+  expect({.asset = "<mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 one'/>"}, 4, {"'one'", "vertex"});
+  EXPECT_NO_THROW(World(scenario({.world = "<site name='nan' pos='0 0 1'/>"})));
+}
+
+TEST_F(SceneRefused, ForMoreThanTheLimitsAllow) {
+  for (const char* size : {"njmax", "nconmax", "nstack", "nuserdata", "nkey", "nuser_geom"}) {
+    expect({.top = std::string("<size ") + size + "='2000000000'/>"}, 2, {size, "2000000000"});
+  }
+  expect({.top = "<size njmax='99999x'/>"}, 2, {"njmax", "99999x"});
+  expect({.top = "<visual><quality numslices='1000000'/></visual>"}, 2, {"numslices", "512"});
+  expect({.top = "<visual><global offwidth='100000'/></visual>"}, 2, {"offwidth"});
+  expect({.top = "<option iterations='2000000000'/>"}, 2, {"iterations"});
+  expect({.top = "<custom><numeric name='n' data='1' size='501'/></custom>"}, 2, {"numeric"});
+  std::string many;
+  for (int i = 0; i < 600; ++i) many += " 1";
+  expect({.top = "<custom><numeric name='n' data='" + many + "'/></custom>"}, 2, {"500"});
+  expect({.asset = "<hfield name='h' nrow='65536' ncol='65536' size='1 1 1 1'/>"}, 4, {"nrow"});
+  expect({.world = "<body><composite type='grid' count='1000 1000 1' spacing='.1'/></body>"}, 7,
+         {"<composite>", "1e+06 bodies"});
+}
+
+TEST_F(SceneRefused, ForTexturesThatAreTooLargeNamingThemAndNotTheCamera) {
+  const auto builtin = [](const std::string& more) {
+    return "<texture name='t' builtin='flat' " + more + "/>";
+  };
+  expect({.asset = builtin("type='2d' width='20000' height='20000'")}, 4,
+         {"<texture name=\"t\">", "width is 20000", "8192"});
+  expect({.asset = builtin("type='2d' width='65536' height='65536'")}, 4, {"65536"});
+  expect({.asset = builtin("type='cube' width='2147483647'")}, 4, {"2147483647"});
+  expect({.asset = builtin("type='cube' width='5000'")}, 4, {"4096 a face"});
+  // a header is enough to know
+  write("a.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\xea\x60\0\0\xea\x60\x08\x02\0\0\0", 29));
+  expect({.asset = "<texture name='t' type='2d' file='a.png'/>"}, 4, {"60000 x 60000"});
+  std::string all;
+  for (int i = 0; i < 6; ++i) {
+    all += "<texture name='t" + std::to_string(i) +
+           "' type='2d' builtin='flat' width='8192' height='8192'/>\n";
+  }
+  expect({.asset = all}, 8, {"<texture name=\"t4\">", "1007 MB"});
+}
+
+TEST_F(SceneRefused, ForASizeThatNoCameraSees) {
+  for (const char* extent : {"0", "1e-30", "-3", "1e30"}) {
+    expect({.top = std::string("<statistic extent='") + extent + "'/>"}, 2, {"extent", extent});
+  }
+  // MuJoCo works it out where the scene does not say it
+  expect({.world = "<body name='far' pos='900000 900000 900000'><geom size='900000'/></body>"}, 7,
+         {"'far'", "1e+06 m"});
+}
+
+TEST_F(SceneRefused, WhatMujocoCrashesOnAndTheProgramLivesOn) {
+  // found by none of the checks: a name that is a format
+  const std::string crash = "%s%s%s%s%s%s%s%s%s%s%s%s";
+  const auto s = scenario({.world = "<body name='" + crash + "'><freejoint/></body>"});
+  const std::string message = refusal(s);
+  EXPECT_EQ(message.find(scene_.string()), 0u) << message;
+}
+
+TEST_F(SceneRefused, NotForAKeyframeOfItsOwn) {
+  // it knows nothing of the rover's joints
+  EXPECT_NO_THROW(World(scenario({.end = "<keyframe><key qpos='1 2 3'/></keyframe>"})));
+}
+
+TEST_F(SceneRefused, NotForFilesWhoseFoldersAreStripped) {
+  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  EXPECT_NO_THROW(World(scenario({.top = "<compiler strippath='true'/>",
+                                  .asset = "<mesh name='m' file='/elsewhere/a.obj'/>",
+                                  .world = "<geom type='mesh' mesh='m'/>"})));
+}
+
+}  // namespace
+}  // namespace lcs::sim
