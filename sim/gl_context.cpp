@@ -10,6 +10,12 @@
 
 #include "sim/trial.h"
 
+// as gcc and clang say so
+#ifdef __has_feature
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__
+#endif
+#endif
 #ifdef __SANITIZE_ADDRESS__
 // Mesa keeps some hundred bytes of each context until the process ends.
 extern "C" const char* __lsan_default_suppressions();

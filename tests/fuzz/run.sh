@@ -30,9 +30,11 @@ for name in "${fuzzers[@]}"; do
   mkdir -p "$grown"
   inputs=("$grown" "$here/corpus/$name")
   [[ $name == scenario ]] && inputs+=("$source/scenarios/suite")
+  memory_mb=2048
+  [[ $name == scene ]] && memory_mb=6000 # of textures that are just not too large
   log=$build/found/$name.log
   if "$build/tests/fuzz/fuzz_$name" -max_total_time="$seconds" -max_len=20000 -timeout=60 \
-    -rss_limit_mb=2048 -artifact_prefix="$build/found/$name-" "${inputs[@]}" >"$log" 2>&1; then
+    -rss_limit_mb="$memory_mb" -artifact_prefix="$build/found/$name-" "${inputs[@]}" >"$log" 2>&1; then
     printf '%s: %s\n' "$name" "$(grep -E '^Done ' "$log")"
   else
     printf '%s: FAILED, see %s\n' "$name" "$log"
