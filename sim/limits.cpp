@@ -392,8 +392,25 @@ void check_mesh(const Element& e) {
   if (has_extension(file, ".stl")) check_file(e, file);  // MuJoCo looks at what is in it
 }
 
+/// MuJoCo's own binary format: sizes, vertices, texture coordinates, faces; then each bone's name, place
+/// and attitude, 17 numbers of 4 bytes, and how many vertices and weights follow.
+void check_skn(const Element& e, const fs::path& file) {
+  const std::string content = read(e, file);
+  const double all = static_cast<double>(content.size());
+  double at = 16 + 12.0 * word_at(content, 0) + 8.0 * word_at(content, 4) +
+              12.0 * word_at(content, 8);
+  for (double bones = word_at(content, 12); bones > 0 && at <= all; --bones) {
+    constexpr double kNamePlaceAttitude = 68;
+    const auto count = static_cast<std::size_t>(at + kNamePlaceAttitude);
+    at += kNamePlaceAttitude + 4 + 8.0 * word_at(content, count);
+  }
+  if (at != all) {
+    refuse(e, fmt::format("'{}' is not as long as its sizes say; give a whole file", file.string()));
+  }
+}
+
 void check_skin(const Element& e) {
-  if (const std::string file = xml::attribute(e, "file"); !file.empty()) check_file(e, file);
+  if (const std::string file = xml::attribute(e, "file"); !file.empty()) check_skn(e, file);
   const std::size_t vertices = list(e, "vertex").size() / 3;
   if (vertices > kMostVertices) refuse(e, "it has too many vertices; give a coarser one");
   list(e, "texcoord");

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <set>
 #include <thread>
@@ -108,6 +109,20 @@ TEST_F(Process, ALimitOfAFilesSizeIsToldAsSuchAndLeavesNothing) {
 }
 
 // ---- Signals
+
+TEST_F(Process, ALimitOfMemoryIsToldAsSuchAndLeavesNothing) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer itself takes terabytes";
+#endif
+  CommandOptions little = options();
+  little.most_memory = std::size_t{600} << 20;  // the libraries alone are 400 MB
+  const CommandResult result = run_lcs(run(), little);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_NE(result.err.find("memory"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("ulimit -v"), std::string::npos) << result.err;
+  EXPECT_TRUE(entries(home()).empty());
+}
 
 TEST_F(Process, ASignalInItsFirstMomentsLeavesNothing) {
   const Arguments arguments{"run", kCrossing, "--quiet"};

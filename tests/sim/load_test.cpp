@@ -1,6 +1,8 @@
 // What is wrong with a scene is told in one line that names the user's own file and line, before
 // MuJoCo can crash on it.
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include <cstdint>
 #include <cstdlib>
@@ -69,6 +71,17 @@ class SceneFile : public testing::Test {
 };
 
 constexpr const char* kCorners = "vertex='0 0 0 1 0 0 0 1 0 0 0 1'";
+
+/// A file of MuJoCo's binary formats.
+std::string bytes(const std::vector<std::int32_t>& integers, const std::vector<float>& numbers,
+                  const std::vector<std::int32_t>& more) {
+  std::string content(4 * (integers.size() + numbers.size() + more.size()), '\0');
+  std::memcpy(content.data(), integers.data(), 4 * integers.size());
+  std::memcpy(content.data() + 4 * integers.size(), numbers.data(), 4 * numbers.size());
+  std::memcpy(content.data() + 4 * (integers.size() + numbers.size()), more.data(),
+              4 * more.size());
+  return content;
+}
 
 class SceneRefused : public SceneFile {};
 
@@ -140,18 +153,10 @@ TEST_F(SceneRefused, ForFilesThatAreNoneOfTheirKind) {
   write("a.jpg", "this is no picture, but it is long enough");
   expect({.asset = "<texture name='t' type='2d' file='a.jpg'/>"}, 4, {"a.jpg", "PNG"});
   write("a.skn", "no skin");
-  expect({.asset = "<skin name='s' file='a.skn'/>"}, 4, {"a.skn"});
-}
-
-/// A file of MuJoCo's binary formats.
-std::string bytes(const std::vector<std::int32_t>& integers, const std::vector<float>& numbers,
-                  const std::vector<std::int32_t>& more) {
-  std::string content(4 * (integers.size() + numbers.size() + more.size()), '\0');
-  std::memcpy(content.data(), integers.data(), 4 * integers.size());
-  std::memcpy(content.data() + 4 * integers.size(), numbers.data(), 4 * numbers.size());
-  std::memcpy(content.data() + 4 * (integers.size() + numbers.size()), more.data(),
-              4 * more.size());
-  return content;
+  expect({.asset = "<skin name='s' file='a.skn'/>"}, 4, {"a.skn", "whole file"});
+  // of which MuJoCo multiplies the sizes in an int
+  write("a.skn", bytes({0x20000000, 0, 0, 1}, std::vector<float>(30), {}));
+  expect({.asset = "<skin name='s' file='a.skn'/>"}, 4, {"a.skn", "whole file"});
 }
 
 TEST_F(SceneRefused, ForIndicesBeyondTheVertices) {
@@ -226,12 +231,28 @@ TEST_F(SceneRefused, ForASizeThatNoCameraSees) {
          {"'far'", "1e+06 m"});
 }
 
-TEST_F(SceneRefused, WhatMujocoCrashesOnAndTheProgramLivesOn) {
-  // found by none of the checks: a name that is a format
-  const std::string crash = "%s%s%s%s%s%s%s%s%s%s%s%s";
-  const auto s = scenario({.world = "<body name='" + crash + "'><freejoint/></body>"});
-  const std::string message = refusal(s);
-  EXPECT_EQ(message.find(scene_.string()), 0u) << message;
+const pid_t kThisProcess = ::getpid();
+
+TEST_F(SceneRefused, WhereMujocoCrashesAndTheProgramLivesOn) {
+  // as it would by something that no check knows of
+  mju_user_malloc = [](std::size_t size) {
+    if (::getpid() != kThisProcess) ::raise(SIGSEGV);
+    return std::malloc(size);
+  };
+  const std::string message = refusal(scenario({}));
+  mju_user_malloc = nullptr;
+  expect_at(scene_.string() + ": ", message,
+            {"MuJoCo crashes on this scene (signal SEGV)", "take out what was changed last"});
+  EXPECT_NO_THROW(World(scenario({})));
+}
+
+TEST_F(SceneRefused, WhereMemoryEnds) {
+  mju_user_malloc = [](std::size_t size) {
+    return ::getpid() != kThisProcess && size > 1000 ? nullptr : std::malloc(size);
+  };
+  const std::string message = refusal(scenario({}));
+  mju_user_malloc = nullptr;
+  expect_at(scene_.string() + ": ", message, {"not enough memory", "ulimit -v"});
 }
 
 TEST_F(SceneRefused, NotForAKeyframeOfItsOwn) {
