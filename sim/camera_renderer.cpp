@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "sim/gl_context.h"
+#include "sim/refusal.h"
 #include "sim/trial.h"
 
 namespace lcs::sim {
@@ -179,11 +180,13 @@ void CameraRenderer::update() {
   mjv_updateScene(&s.model.m(), &s.model.d(), &s.option, &s.perturb, &s.camera, mjCAT_ALL,
                   &s.scene);
   // a full buffer is only warned of, and then draws a part
-  if (const std::string warning = take_warning(); !warning.empty()) throw MujocoError(warning);
+  const std::string warning = take_warning();
   if (s.scene.ngeom >= s.scene.maxgeom) {
-    throw MujocoError("the scene has more to draw than " + std::to_string(s.scene.maxgeom) +
-                      " geoms");
+    throw MujocoError(fmt::format("the scene has more to draw than {} geoms and pieces of tendons; "
+                                  "give its tendons fewer sites",
+                                  s.scene.maxgeom));
   }
+  if (!warning.empty()) throw MujocoError(in_one_line(warning));
 }
 
 void CameraRenderer::render_colour(cv::Mat3b& bgr) {

@@ -152,14 +152,15 @@ std::string plain(std::string_view said) {
 
 scenario::Error refusal(const std::string& said, const xml::Printed& scene,
                         const std::filesystem::path& file) {
-  const std::string why = plain(said);
   const Origin* origin = culprit(said, scene);
-  if (!origin) {
-    return {{file.string(), 0},
-            fmt::format("MuJoCo refuses the scene: {}; {}", why, remedy_of(why))};
-  }
-  return {origin->source,
-          fmt::format("MuJoCo refuses {}: {}; {}", origin->tag, why, remedy_of(why))};
+  return {origin ? origin->source : scenario::Source{file.string(), 0},
+          fmt::format("MuJoCo refuses {}: {}", origin ? origin->tag : "the scene",
+                      in_one_line(said))};
+}
+
+std::string in_one_line(const std::string& said, const std::string& more) {
+  const std::string why = plain(said);
+  return fmt::format("{}{}; {}", why, more, remedy_of(why));
 }
 
 }  // namespace lcs::sim

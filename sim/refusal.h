@@ -14,4 +14,8 @@ namespace lcs::sim {
 scenario::Error refusal(const std::string& said, const xml::Printed& scene,
                         const std::filesystem::path& file);
 
+/// What MuJoCo says, in one line with what to do: "what; what to do".
+/// \param more to add to the what, as " (body 'ball')".
+std::string in_one_line(const std::string& said, const std::string& more = "");
+
 }  // namespace lcs::sim

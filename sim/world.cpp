@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -100,6 +101,18 @@ Twist velocity(const Model& model, mjtObj type, int id) {
   std::array<mjtNum, 6> v{};
   mj_objectVelocity(&model.m(), &model.d(), type, id, v.data(), 0);
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+
+/// " (body 'ball')" where a warning counts degrees of freedom; else empty.
+std::string body_of_dof(const Model& model, const std::string& warning) {
+  for (const std::string words : {"in QVEL at DOF ", "in QACC at DOF "}) {
+    const std::size_t at = warning.find(words);
+    if (at == std::string::npos) continue;
+    const int dof = std::atoi(warning.c_str() + at + words.size());
+    if (dof < 0 || dof >= model.m().nv) continue;
+    return fmt::format(" (body '{}')", model.name(mjOBJ_BODY, model.m().dof_bodyid[dof]));
+  }
+  return "";
 }
 
 bool in_gap(const std::vector<scenario::TimeSpan>& gaps, std::int64_t t_ns) {
@@ -249,8 +262,9 @@ void World::guarded(Action action) const {
         scenario::Error({scenario_.file.string(), 0}, less_contact(*scenario_.ground)).what());
   }
   if (!problem.empty()) {
-    throw PhysicsError(fmt::format("the physics failed at {:.4f} s of simulated time: {}",
-                                   1e-9 * static_cast<double>(t_ns_), problem));
+    throw PhysicsError(fmt::format("{}: the physics failed at {:.4f} s of simulated time: {}",
+                                   scenario_.scene.string(), 1e-9 * static_cast<double>(t_ns_),
+                                   in_one_line(problem, body_of_dof(model_, problem))));
   }
 }
 
