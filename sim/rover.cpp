@@ -79,6 +79,7 @@ class WheeledRover : public Rover {
  public:
   WheeledRover(const scenario::Scenario& scenario, const Model& model)
       : ego_(scenario.ego),
+        scene_{scenario.scene.string(), 0},
         command_(scenario.ego.phases),
         base_(model, "base"),
         joints_{Joint(model, "left"), Joint(model, "right")},
@@ -94,11 +95,13 @@ class WheeledRover : public Rover {
   void start(Model& model) override {
     mjModel& m = model.m();
     mjData& d = model.d();
-    place(d, ground_m(model) + kDrop_m);
+    const Footing under = footing(model);
+    place(d, under.height_m + kDrop_m);
     std::fill_n(d.ctrl, m.nu, 0.0);
     m.opt.timestep = kSettlingStep_s;
     for (int i = 0; i < static_cast<int>(kSettling_s / kSettlingStep_s); ++i) mj_step(&m, &d);
 
+    if (d.qpos[base_.qpos + 2] < under.height_m - kSunk_m) refuse_to_fall(model, under.geom);
     // as it came to rest, but where it shall start, and rolling
     place(d, d.qpos[base_.qpos + 2]);
     const PlanarVelocity v = command_.at(0);
@@ -127,6 +130,7 @@ class WheeledRover : public Rover {
   static constexpr double kAbove_m = 1.5;  // below a ceiling, above rough ground
   static constexpr double kSettling_s = 1.0;
   static constexpr double kSettlingStep_s = 0.002;
+  static constexpr double kSunk_m = 0.1;  // its wheels' radius: on the ground it sinks by less
 
   static void check(const scenario::Scenario& scenario) {
     for (const EgoPhase& phase : scenario.ego.phases) {
@@ -142,8 +146,12 @@ class WheeledRover : public Rover {
     }
   }
 
-  /// Height of what lies under the start; 0 where there is nothing.
-  double ground_m(Model& model) const {
+  /// What lies under the start; at height 0 where there is nothing (geom -1).
+  struct Footing {
+    double height_m;
+    int geom;
+  };
+  Footing footing(Model& model) const {
     mjData& d = model.d();
     place(d, 2 * kAbove_m);  // out of the way
     mj_kinematics(&model.m(), &d);
@@ -151,7 +159,25 @@ class WheeledRover : public Rover {
     const std::array<double, 3> down = {0, 0, -1};
     int geom = -1;
     const double distance = mj::ray(model.m(), d, from.data(), down.data(), -1, geom);
-    return geom < 0 ? 0.0 : kAbove_m - distance;
+    return {geom < 0 ? 0.0 : kAbove_m - distance, geom};
+  }
+
+  [[noreturn]] void refuse_to_fall(const Model& model, int geom) const {
+    const mjModel& m = model.m();
+    const std::string start = fmt::format("ego.start ({:g}, {:g}) m", ego_.start_m.x(),
+                                          ego_.start_m.y());
+    const std::string_view name = geom < 0 ? "" : model.name(mjOBJ_GEOM, geom);
+    throw scenario::Error(
+        scene_,
+        geom < 0 ? fmt::format("nothing is under {}, so that a wheeled rover falls there; put a "
+                               "floor under it, or make ego.drive holonomic",
+                               start)
+                 : fmt::format("the geom{} under {} has contype {} and conaffinity {}, so that a "
+                               "wheeled rover falls through it; give it contype=\"1\" and "
+                               "conaffinity=\"1\" (and no <flag contact=\"disable\"/>), or make "
+                               "ego.drive holonomic",
+                               name.empty() ? "" : fmt::format(" '{}'", name), start,
+                               m.geom_contype[geom], m.geom_conaffinity[geom]));
   }
 
   void place(mjData& d, double z) const {
@@ -177,6 +203,7 @@ class WheeledRover : public Rover {
   }
 
   scenario::Ego ego_;
+  scenario::Source scene_;
   SmoothCommand command_;
   Joint base_;
   std::array<Joint, 2> joints_;

@@ -49,7 +49,7 @@ class Rover {
   virtual ~Rover() = default;
 
   /// Puts the model into the state at t = 0: at its start, settled on the ground, moving as
-  /// commanded.
+  /// commanded. \throws scenario::Error where nothing holds it
   virtual void start(Model& model) = 0;
   /// Sets the controls for the next step.
   virtual void command(Model& model, std::int64_t t_ns) = 0;

@@ -124,6 +124,10 @@ const std::vector<Object>& Simulation::objects() const {
   return impl_->world.objects();
 }
 
+const Warnings& Simulation::warnings() const {
+  return impl_->world.warnings();
+}
+
 std::optional<Observation> Simulation::next() {
   if (impl_->next_index >= impl_->scenario.frames) return std::nullopt;
   return impl_->observe();

@@ -14,6 +14,7 @@
 #include "sim/imu.h"
 #include "sim/pose.h"
 #include "sim/truth.h"
+#include "sim/warnings.h"
 
 namespace lcs::sim {
 
@@ -58,6 +59,9 @@ class Simulation {
 
   const Calibration& calibration() const;
   const std::vector<Object>& objects() const;
+
+  /// Of all that has been until now.
+  const Warnings& warnings() const;
 
   /// The next frame, or nothing after the scenario's last one.
   /// \throws PhysicsError

@@ -150,6 +150,7 @@ World::World(const scenario::Scenario& scenario, const ComposedScene& composed)
     rover_->start(model_);
     mj_kinematics(&model_.m(), &model_.d());
     forward();
+    begin_watch(composed);
   });
 }
 
@@ -222,6 +223,29 @@ void World::find_actors(const ComposedScene& composed) {
                        about_z(-home.heading_rad) * Eigen::Quaterniond(T_WA.R), home,
                        actor.trajectory, Trigger(actor.start)});
     place(actors_.back(), pose_on(actor.trajectory, home, 0));
+  }
+}
+
+/// What starts as nothing could stand is refused; but actors may come out of walls.
+void World::begin_watch(const ComposedScene& composed) {
+  const std::vector<std::string>& bodies = composed.actor_bodies;
+  const auto actor_of = [&](int object) {
+    const std::string& name = objects_[static_cast<std::size_t>(object - 1)].name;
+    return std::find(bodies.begin(), bodies.end(), name) - bodies.begin();
+  };
+  std::vector<Watch::Named> named;
+  for (const Object& object : objects_) {
+    named.push_back({object.name, body_of(object.id), actor_of(object.id) < std::ssize(bodies)});
+  }
+  watch_ = std::make_unique<Watch>(model_, base_, named, object_of_geom_);
+  for (const Watch::Meeting& meeting : watch_->meetings(model_)) {
+    const bool is_rover = meeting.traveller == 0;
+    if (!is_rover && meeting.kind_b == Watch::Kind::setting) continue;
+    throw scenario::Error(
+        is_rover ? scenario::Source{scenario_.file.string(), 0}
+                 : scenario_.actors[static_cast<std::size_t>(actor_of(meeting.traveller))].source,
+        fmt::format("{}{} starts inside {}, at {}; move one of them",
+                    is_rover ? "ego.start: " : "", meeting.a, meeting.b, meeting.where));
   }
 }
 
@@ -301,6 +325,7 @@ void World::step_to(std::int64_t t_ns) {
       rover_->command(model_, t_ns_);
       move_actors();
       mj_step(&m, &model_.d());
+      watch_->look(model_, t_ns_);
     });
     t_ns_ = start_ns + span_ns * (i + 1) / steps;
   }

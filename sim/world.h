@@ -20,6 +20,7 @@
 #include "sim/rover.h"
 #include "sim/scene_builder.h"
 #include "sim/simulation.h"
+#include "sim/watch.h"
 
 namespace lcs::sim {
 
@@ -29,7 +30,8 @@ std::int64_t event_time_ns(std::int64_t k, double rate_hz);
 class World {
  public:
   /// Stands at t = 0 afterwards.
-  /// \throws scenario::Error, PhysicsError
+  /// \throws scenario::Error, also where the rover starts inside of anything, an actor inside of an
+  ///   object, or a wheeled rover where nothing holds it; PhysicsError
   explicit World(const scenario::Scenario& scenario);
 
   /// Moves on to a time, and appends the readings after the last time up to and including this one.
@@ -50,6 +52,9 @@ class World {
   int body_of(int object) const { return object_bodies_.at(static_cast<std::size_t>(object)); }
   /// What FrameTruth::object says of a geom.
   int object_of_geom(int geom) const { return object_of_geom_[static_cast<std::size_t>(geom)]; }
+
+  /// Of all that has been until now.
+  const Warnings& warnings() const { return watch_->warnings(); }
 
   Snapshot snapshot() const;
   Pose T_WB() const;
@@ -73,6 +78,7 @@ class World {
   void set_options(const ComposedScene& composed);
   void find_objects(const ComposedScene& composed);
   void find_actors(const ComposedScene& composed);
+  void begin_watch(const ComposedScene& composed);
   void place(const MovingActor& actor, const PlanarPose& pose);
   void move_actors();
   void forward();
@@ -90,6 +96,7 @@ class World {
   std::vector<Object> objects_;
   std::vector<int> object_bodies_;
   std::vector<int> object_of_geom_;
+  std::unique_ptr<Watch> watch_;
   ImuNoiseModel imu_noise_;
   OdometryNoiseModel odometry_noise_;
   int camera_, base_, imu_site_, accelerometer_, gyro_;

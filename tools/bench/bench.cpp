@@ -67,6 +67,7 @@ Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation,
     frame.object_truth = observation->objects;
     sink(frame, observation->image);
   }
+  recording.warnings = simulation.warnings();
   Diagnostics diagnostics = ego_motion.estimator().diagnostics();
   diagnostics += tracker.diagnostics();
   return diagnostics;

@@ -31,7 +31,7 @@ void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameR
 
 /// Runs the simulation to its end.
 /// \param scenario that the simulation was made of.
-/// \param recording is given every frame before the sink sees it.
+/// \param recording is given every frame before the sink sees it, and the warnings in the end.
 /// \return what was wrong with the sensors' readings and with what the tracker was told.
 /// \throws sim::PhysicsError, and what the tracker and the sink throw.
 Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracker& tracker,

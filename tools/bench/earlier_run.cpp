@@ -76,7 +76,8 @@ Recording EarlierRun::begin() const {
           .world = recorded_.world,
           .detector = {},
           .objects = recorded_.objects,
-          .frames = {}};
+          .frames = {},
+          .warnings = recorded_.warnings};
 }
 
 /// As large as the camera made it.

@@ -8,6 +8,7 @@ Recording unspoken(const Recording& recording) {
   unspoken.seed = recording.seed;
   unspoken.world = recording.world;
   unspoken.objects = recording.objects;
+  unspoken.warnings = recording.warnings;
   unspoken.frames.reserve(recording.frames.size());
   for (const FrameRecord& given : recording.frames) {
     FrameRecord& frame = unspoken.frames.emplace_back();

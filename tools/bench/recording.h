@@ -15,6 +15,7 @@
 #include "filter/layers.h"
 #include "filter/reason.h"
 #include "sim/truth.h"
+#include "sim/warnings.h"
 
 namespace lcs::bench {
 
@@ -62,6 +63,8 @@ struct Recording {
   Speaker detector;
   std::vector<sim::Object> objects;
   std::vector<FrameRecord> frames;  ///< by index
+  /// Of the world, until after the last frame; none where nobody looked.
+  std::optional<sim::Warnings> warnings = {};
 };
 
 /// The run before anyone spoke: what there was to see and what was true, without a detector's

@@ -41,7 +41,7 @@ class RecordingWriter {
   OutputFile truth_;
 };
 
-/// Reads both files back. \throws std::runtime_error naming file and line.
+/// Reads both files back, and the warnings beside them if there are any. \throws std::runtime_error naming file and line.
 Recording read_recording(const std::filesystem::path& folder);
 
 }  // namespace lcs::bench

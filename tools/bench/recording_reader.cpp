@@ -13,6 +13,7 @@
 #include "tools/bench/json_node.h"
 #include "tools/bench/recording_fields.h"
 #include "tools/bench/recording_io.h"
+#include "tools/bench/warnings.h"
 
 namespace lcs::bench {
 namespace {
@@ -267,6 +268,7 @@ Recording read_recording(const std::filesystem::path& folder) {
     recording.objects = read_columns<sim::Object>(json, "objects");
   });
   if (!has_header) truth.fail("is empty");
+  recording.warnings = world_warnings(folder);
 
   while (true) {
     FrameRecord frame;

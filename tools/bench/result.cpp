@@ -2,12 +2,13 @@
 
 #include "tools/bench/event_pictures.h"
 #include "tools/bench/report.h"
+#include "tools/bench/warnings.h"
 
 namespace lcs::bench {
 
 ResultFiles result_files() {
-  return {.names = {kMetricsFile, kFramesFile, kLayersFile, kTruthFile, kVideoFile, kEventsFile,
-                    kPicturesFile},
+  return {.names = {kMetricsFile, kFramesFile, kLayersFile, kTruthFile, kWarningsFile, kVideoFile,
+                    kEventsFile, kPicturesFile},
           .sign = kMetricsSign};
 }
 
@@ -36,6 +37,7 @@ Metrics Result::finish(const Recording& run) {
   Metrics metrics = score(run);
   write_metrics(folder_.staging() / kMetricsFile, metrics);
   write_frames(folder_.staging() / kFramesFile, run);
+  if (run.warnings) write_warnings(folder_.staging() / kWarningsFile, warnings_of(run));
   if (events_) {
     const FramePictures& pictures = kept_ ? *kept_ : own_pictures_;
     std::vector<Event> events = find_events(run);

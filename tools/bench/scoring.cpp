@@ -8,6 +8,7 @@
 #include "tools/bench/score_rebels.h"
 #include "tools/bench/score_squares.h"
 #include "tools/bench/statistics.h"
+#include "tools/bench/warnings.h"
 
 namespace lcs::bench {
 namespace {
@@ -242,6 +243,9 @@ Metrics score(const Recording& recording) {
   add_edges(metrics, recording);
   add_ego_motion(metrics, recording);
   add_times(metrics, recording);
+  for (const Warned& warned : warnings_of(recording)) {
+    metrics.emplace_back("warnings." + warned.word, warned.count);
+  }
   return metrics;
 }
 

@@ -15,6 +15,7 @@
 #include "tools/bench/result.h"
 #include "tools/bench/table.h"
 #include "tools/bench/tracker.h"
+#include "tools/bench/warnings.h"
 #include "tools/comparators/detectors.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/number_option.h"
@@ -38,12 +39,14 @@ Files written to the folder, all or none:
   frames.csv     a row a frame: sizes of all layers, precision, recall, times
   layers.jsonl   a line a frame: corners, verdicts, every layer
   truth.jsonl    a line a frame: the truth of every corner and object
+  warnings.json  what should not be: the rover or an actor ran into something, fell, tipped over
   video.mp4      the paper's four panels: corners, edges, circles, squares
   events.json    with --events: the worst misses and false alarms, with the rules that the corners
                  met their end by, and JPEG pictures
   pictures.mjpeg with --events: what the camera saw, compressed, for --recorded
 
-What was wrong with the data (readings of the sensors, times, corners) is counted and told on stderr.
+What was wrong with the data (readings of the sensors, times, corners) is counted and told on stderr,
+and what was wrong in the world, with its first time and place.
 
 Exit codes:
   0  fine
@@ -178,6 +181,9 @@ ExitCode run(const RunOptions& options) {
   check_interrupted();
   const bench::Metrics metrics = result.finish(recording);
 
+  for (const std::string& line : bench::lines_of(bench::warnings_of(recording))) {
+    tell("warning: " + line);
+  }
   for (const std::string& line : diagnostics.lines()) tell(line);
   if (!options.quiet) print_result(scenario, detector, metrics, result.target());
   const bool failed = report_failures(bench::failed_criteria(scenario.criteria, metrics));

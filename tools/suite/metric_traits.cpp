@@ -86,6 +86,13 @@ const std::vector<MetricTraits>& metric_traits() {
       neutral("time.truth_ms_median"),
       neutral("time.truth_ms_p99"),
       neutral("sim.frames_per_second"),
+      // Of the world, not of who watches it.
+      neutral("warnings.rover_below_ground"),
+      neutral("warnings.rover_tipped"),
+      neutral("warnings.rover_collisions"),
+      neutral("warnings.actor_collisions"),
+      neutral("warnings.objects_below_ground"),
+      neutral("warnings.few_corners"),
   };
   return all;
 }

@@ -1,0 +1,39 @@
+/// \file
+/// How deep two geoms of a model lie in each other, whether or not they have contacts.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+
+#include "sim/model.h"
+
+namespace lcs::sim {
+
+class Overlap {
+ public:
+  /// As things stood at the last forward pass.
+  struct Place {
+    double depth_m = 0;  ///< how far one would have to move to be free of the other; 0: apart
+    Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< of W, in both
+  };
+
+  /// Of two geoms that are no planes and no height fields. A mesh is its surface and what that
+  /// encloses, not its hull: one may stand under a table and in a room. Depths of round geoms, and
+  /// of meshes, may be too large by some per cent, never too small; apart is apart.
+  /// \param least_depth_m less is taken for apart.
+  Place of(const Model& model, int geom_a, int geom_b, double least_depth_m);
+
+  /// Whether a geom lies on both sides of a plane, at least so deep on either, and within its
+  /// sides.
+  Place across(const Model& model, int plane, int geom, double least_depth_m);
+
+  /// Points whose hull is the geom, in the geom's frame; kept.
+  const Eigen::Matrix3Xd& hull(const Model& model, int geom);
+
+ private:
+  double width_m(const Model& model, int geom_a, int geom_b, const Eigen::Vector3d& direction_W);
+
+  std::map<int, Eigen::Matrix3Xd> hulls_;
+};
+
+}  // namespace lcs::sim
