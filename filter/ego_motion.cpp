@@ -138,10 +138,18 @@ void EgoMotionEstimator::add_imu(std::int64_t t_ns, const Vector3d& gyro_radps,
   if (finding.believed) heard_ns_ = t_ns;
 }
 
+/// Once a gap, whether it ends or not.
+void EgoMotionEstimator::note_gap(std::int64_t silent_ns) {
+  if (in_gap_ || period_ns_ == 0 || silent_ns <= kSilentPeriods * period_ns_) return;
+  in_gap_ = true;
+  diagnostics_.add(Fault::imu_gap);
+}
+
 /// The shortest time that two intervals in a row had, so that one wrong time does not spoil it.
 void EgoMotionEstimator::measure_period(std::int64_t since_ns) {
   if (since_ns <= 0) return;
-  if (period_ns_ > 0 && since_ns > kSilentPeriods * period_ns_) diagnostics_.add(Fault::imu_gap);
+  note_gap(since_ns);
+  in_gap_ = false;
   if (interval_ns_ > 0) {
     const std::int64_t longer_ns = std::max(since_ns, interval_ns_);
     period_ns_ = period_ns_ == 0 ? longer_ns : std::min(period_ns_, longer_ns);
@@ -274,6 +282,7 @@ EgoMotion EgoMotionEstimator::frame(std::int64_t t_ns) {
   wrong_frame_ns_.reset();
   // The first frame sets the clock if it is not that of the start.
   if (!last_frame_ && std::abs(seconds_from(t_ns_, t_ns)) > kLongestStep_s) set_clock(t_ns);
+  if (last_) note_gap(t_ns - last_->t_ns);
   propagate_to(t_ns);
   const Matrix3d R_WC_now = R_WC();
   EgoMotion motion;

@@ -110,6 +110,7 @@ class EgoMotionEstimator {
  private:
   using Matrix12 = Eigen::Matrix<double, 12, 12>;
   void measure_period(std::int64_t since_ns);
+  void note_gap(std::int64_t silent_ns);
   void propagate_to(std::int64_t t_ns);
   bool far_ahead(std::int64_t t_ns) const;
   EgoMotion frame_out_of_time(std::int64_t t_ns);
@@ -137,6 +138,7 @@ class EgoMotionEstimator {
   std::optional<Reading> last_;   ///< newest reading
   std::int64_t heard_ns_ = 0;     ///< time of the newest reading that is believed
   std::int64_t interval_ns_ = 0;  ///< time between the last two readings
+  bool in_gap_ = false;           ///< and it is counted
   std::int64_t period_ns_ = 0;    ///< shortest that two intervals in a row had so far
   Diagnostics diagnostics_;
   ImuWatch watch_;

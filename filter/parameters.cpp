@@ -27,12 +27,22 @@ struct Choice {
 template <typename T>
 using Field = T& (*)(Parameters&);
 
+/// The rules that ask for a parameter, each by the choice that names it; none: it is always asked
+/// for.
+using AskedBy = std::vector<Rule>;
+const AskedBy kPaper{{"circle.edge_rule", "paper"}};
+const AskedBy kConstellation{{"circle.edge_rule", "constellation"}};
+const AskedBy kCouples{{"square.layer_rule", "couples"}};
+const AskedBy kLinks{{"square.layer_rule", "links"}};
+const AskedBy kGrounded{kConstellation.front(), kLinks.front()};
+
 struct Entry {
   std::string key;
   std::string symbol;
   std::string unit;  // "deg" fields are radians in the struct
   double min = 0, max = 0;
   std::variant<Field<double>, Field<int>, Field<bool>, Choice> field;
+  AskedBy asked_by = {};
 };
 
 // A captureless lambda that names the member: the table below reads as a list of fields.
@@ -52,8 +62,9 @@ const std::vector<Entry>& entries() {
       {"field.reference_depth", "Z_ref", "m", 1e-3, 1e4,
        LCS_FIELD(double, field.reference_depth_m)},
       {"field.nearest_depth", "z_min", "m", 1e-3, 1e4, LCS_FIELD(double, field.nearest_depth_m)},
-      {"field.ground", "", "", 0, 0, LCS_FIELD(bool, field.ground)},
-      {"field.ground_tilt", "", "deg", 0, 90, LCS_FIELD(double, field.ground_tilt_rad)},
+      {"field.ground", "", "", 0, 0, LCS_FIELD(bool, field.ground), kGrounded},
+      {"field.ground_tilt", "", "deg", 0, 90, LCS_FIELD(double, field.ground_tilt_rad),
+       kConstellation},
       {"field.still_speed", "", "m/s", 0, 10, LCS_FIELD(double, field.still_speed_mps)},
       {"field.unseen_turn", "", "", 0, 0, LCS_FIELD(bool, field.unseen_turn)},
       {"line.ignore", "psi", "", 0, 0, LCS_FIELD(bool, line.ignore)},
@@ -61,73 +72,90 @@ const std::vector<Entry>& entries() {
       {"circle.Tr_c", "Tr^c_c", "", 0, 1000, LCS_FIELD(int, circle.trust.critical)},
       {"circle.Tr_s", "Tr^c_s", "", 0, 1000, LCS_FIELD(int, circle.trust.standard)},
       {"circle.Tr_m", "Tr^c_m", "", 0, 1000, LCS_FIELD(int, circle.trust.maximum)},
-      {"circle.delta_v", "delta_v", "deg", 0, 90, LCS_FIELD(double, circle.delta_v)},
+      {"circle.delta_v", "delta_v", "deg", 0, 90, LCS_FIELD(double, circle.delta_v), kPaper},
       {"circle.edge_rule", "", "", 0, 0,
        LCS_CHOICE(EdgeRule, circle.edge_rule, "paper", "constellation")},
-      {"circle.mu_0", "mu_0", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_0)},
-      {"circle.mu_min", "", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_min)},
-      {"circle.mu_max", "", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_max)},
+      {"circle.mu_0", "mu_0", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_0), kPaper},
+      {"circle.mu_min", "", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_min), kPaper},
+      {"circle.mu_max", "", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_max), kPaper},
       {"circle.corner_noise", "", "px", 0, 100, LCS_FIELD(double, circle.corner_noise)},
-      {"circle.trust_bonus", "", "px", 0, 100, LCS_FIELD(double, circle.trust_bonus)},
-      {"circle.alpha_reach", "", "px", 0, 1000, LCS_FIELD(double, circle.alpha_reach)},
-      {"circle.alpha_deviation", "mu_r", "deg", 0, 180, LCS_FIELD(double, circle.alpha_deviation)},
-      {"circle.alpha_stretch", "", "", 0, 10, LCS_FIELD(double, circle.alpha_stretch)},
-      {"circle.alpha_branches", "", "", 1, 100, LCS_FIELD(int, circle.alpha_branches)},
-      {"circle.rebel_reach", "", "", 0, 10, LCS_FIELD(double, circle.rebel_reach)},
+      {"circle.trust_bonus", "", "px", 0, 100, LCS_FIELD(double, circle.trust_bonus), kPaper},
+      {"circle.alpha_reach", "", "px", 0, 1000, LCS_FIELD(double, circle.alpha_reach), kPaper},
+      {"circle.alpha_deviation", "mu_r", "deg", 0, 180,
+       LCS_FIELD(double, circle.alpha_deviation), kPaper},
+      {"circle.alpha_stretch", "", "", 0, 10, LCS_FIELD(double, circle.alpha_stretch), kPaper},
+      {"circle.alpha_branches", "", "", 1, 100, LCS_FIELD(int, circle.alpha_branches), kPaper},
+      {"circle.rebel_reach", "", "", 0, 10, LCS_FIELD(double, circle.rebel_reach), kPaper},
       {"constellation.normal_along", "", "px", 0, 100,
-       LCS_FIELD(double, circle.constellation.normal_along)},
+       LCS_FIELD(double, circle.constellation.normal_along), kConstellation},
       {"constellation.normal_along_growth", "", "", 0, 10,
-       LCS_FIELD(double, circle.constellation.normal_along_growth)},
+       LCS_FIELD(double, circle.constellation.normal_along_growth), kConstellation},
       {"constellation.normal_across", "", "px", 0, 100,
-       LCS_FIELD(double, circle.constellation.normal_across)},
+       LCS_FIELD(double, circle.constellation.normal_across), kConstellation},
       {"constellation.rebel_gate", "", "px", 0, 100,
-       LCS_FIELD(double, circle.constellation.rebel_gate)},
+       LCS_FIELD(double, circle.constellation.rebel_gate), kConstellation},
       {"constellation.rebel_growth", "", "", 0, 10,
-       LCS_FIELD(double, circle.constellation.rebel_growth)},
+       LCS_FIELD(double, circle.constellation.rebel_growth), kConstellation},
       {"constellation.rebel_gate_max", "", "px", 0, 1000,
-       LCS_FIELD(double, circle.constellation.rebel_gate_max)},
+       LCS_FIELD(double, circle.constellation.rebel_gate_max), kConstellation},
       {"constellation.max_speed", "", "px/s", 0, 100000,
-       LCS_FIELD(double, circle.constellation.max_speed)},
-      {"constellation.hit_1", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.hit_1)},
+       LCS_FIELD(double, circle.constellation.max_speed), kConstellation},
+      {"constellation.hit_1", "", "px", 0, 100,
+       LCS_FIELD(double, circle.constellation.hit_1), kConstellation},
       {"constellation.baseline", "", "s", 0, 1000,
-       LCS_FIELD(double, circle.constellation.baseline)},
-      {"constellation.hit_2", "", "px", 0, 100, LCS_FIELD(double, circle.constellation.hit_2)},
-      {"constellation.radius", "", "px", 0, 10000, LCS_FIELD(double, circle.constellation.radius)},
-      {"constellation.neighbours", "", "", 1, 100, LCS_FIELD(int, circle.constellation.neighbours)},
+       LCS_FIELD(double, circle.constellation.baseline), kConstellation},
+      {"constellation.hit_2", "", "px", 0, 100,
+       LCS_FIELD(double, circle.constellation.hit_2), kConstellation},
+      {"constellation.radius", "", "px", 0, 10000,
+       LCS_FIELD(double, circle.constellation.radius), kConstellation},
+      {"constellation.neighbours", "", "", 1, 100,
+       LCS_FIELD(int, circle.constellation.neighbours), kConstellation},
       {"constellation.vote_chance", "", "", 0, 1e6,
-       LCS_FIELD(double, circle.constellation.vote_chance)},
+       LCS_FIELD(double, circle.constellation.vote_chance), kConstellation},
       {"constellation.vote_own_past", "", "", 1, 1000,
-       LCS_FIELD(int, circle.constellation.vote_own_past)},
+       LCS_FIELD(int, circle.constellation.vote_own_past), kConstellation},
       {"constellation.vote_margin", "", "", 0, 1,
-       LCS_FIELD(double, circle.constellation.vote_margin)},
+       LCS_FIELD(double, circle.constellation.vote_margin), kConstellation},
       {"constellation.vote_static_cap", "", "", 0, 10,
-       LCS_FIELD(double, circle.constellation.vote_static_cap)},
+       LCS_FIELD(double, circle.constellation.vote_static_cap), kConstellation},
       {"constellation.off_field", "", "px", 0, 100,
-       LCS_FIELD(double, circle.constellation.off_field)},
+       LCS_FIELD(double, circle.constellation.off_field), kConstellation},
       {"constellation.path_across", "", "px", 0, 1000,
-       LCS_FIELD(double, circle.constellation.path_across)},
+       LCS_FIELD(double, circle.constellation.path_across), kConstellation},
       {"constellation.path_proof", "", "", 1, 1000,
-       LCS_FIELD(int, circle.constellation.path_proof)},
+       LCS_FIELD(int, circle.constellation.path_proof), kConstellation},
       {"constellation.established", "", "", 0, 1000,
-       LCS_FIELD(int, circle.constellation.established)},
-      {"constellation.sure", "", "", 0, 1000, LCS_FIELD(int, circle.constellation.sure)},
-      {"constellation.support", "", "", 1, 1000, LCS_FIELD(int, circle.constellation.support)},
+       LCS_FIELD(int, circle.constellation.established), kConstellation},
+      {"constellation.sure", "", "", 0, 1000,
+       LCS_FIELD(int, circle.constellation.sure), kConstellation},
+      {"constellation.support", "", "", 1, 1000,
+       LCS_FIELD(int, circle.constellation.support), kConstellation},
       {"constellation.support_off_field", "", "", 0, 1,
-       LCS_FIELD(double, circle.constellation.support_off_field)},
+       LCS_FIELD(double, circle.constellation.support_off_field), kConstellation},
       {"constellation.support_width", "", "px", 0, 100,
-       LCS_FIELD(double, circle.constellation.support_width)},
-      {"inheritance.radius", "", "px", 0, 10000, LCS_FIELD(double, circle.inheritance.radius)},
-      {"inheritance.chance", "", "", 0, 1, LCS_FIELD(double, circle.inheritance.chance)},
-      {"inheritance.bias", "", "", -100, 100, LCS_FIELD(double, circle.inheritance.bias)},
-      {"inheritance.nearness", "", "", -100, 100, LCS_FIELD(double, circle.inheritance.nearness)},
-      {"inheritance.gap", "", "1/rad", -100, 100, LCS_FIELD(double, circle.inheritance.gap)},
-      {"inheritance.crowd", "", "", -100, 100, LCS_FIELD(double, circle.inheritance.crowd)},
-      {"inheritance.unfounded", "", "", -100, 100, LCS_FIELD(double, circle.inheritance.unfounded)},
-      {"inheritance.confirms", "", "", -100, 100, LCS_FIELD(double, circle.inheritance.confirms)},
+       LCS_FIELD(double, circle.constellation.support_width), kConstellation},
+      {"inheritance.radius", "", "px", 0, 10000,
+       LCS_FIELD(double, circle.inheritance.radius), kConstellation},
+      {"inheritance.chance", "", "", 0, 1,
+       LCS_FIELD(double, circle.inheritance.chance), kConstellation},
+      {"inheritance.bias", "", "", -100, 100,
+       LCS_FIELD(double, circle.inheritance.bias), kConstellation},
+      {"inheritance.nearness", "", "", -100, 100,
+       LCS_FIELD(double, circle.inheritance.nearness), kConstellation},
+      {"inheritance.gap", "", "1/rad", -100, 100,
+       LCS_FIELD(double, circle.inheritance.gap), kConstellation},
+      {"inheritance.crowd", "", "", -100, 100,
+       LCS_FIELD(double, circle.inheritance.crowd), kConstellation},
+      {"inheritance.unfounded", "", "", -100, 100,
+       LCS_FIELD(double, circle.inheritance.unfounded), kConstellation},
+      {"inheritance.confirms", "", "", -100, 100,
+       LCS_FIELD(double, circle.inheritance.confirms), kConstellation},
       {"inheritance.stands_once", "", "", -100, 100,
-       LCS_FIELD(double, circle.inheritance.stands_once)},
-      {"inheritance.normal", "", "", -100, 100, LCS_FIELD(double, circle.inheritance.normal)},
-      {"inheritance.trusted", "", "", -100, 100, LCS_FIELD(double, circle.inheritance.trusted)},
+       LCS_FIELD(double, circle.inheritance.stands_once), kConstellation},
+      {"inheritance.normal", "", "", -100, 100,
+       LCS_FIELD(double, circle.inheritance.normal), kConstellation},
+      {"inheritance.trusted", "", "", -100, 100,
+       LCS_FIELD(double, circle.inheritance.trusted), kConstellation},
       {"circle.epsilon_beta_n", "eps_beta,n", "deg", 0, 180,
        LCS_FIELD(double, circle.epsilon_beta_n)},
       {"circle.epsilon_beta_r", "eps_beta,r", "deg", 0, 180,
@@ -139,50 +167,57 @@ const std::vector<Entry>& entries() {
       {"circle.reach_n", "", "px", 0.1, 10000, LCS_FIELD(double, circle.reach_n)},
       {"circle.reach_r", "", "px", 0.1, 10000, LCS_FIELD(double, circle.reach_r)},
       {"circle.min_members", "", "", 1, 1000, LCS_FIELD(int, circle.min_members)},
-      {"footing.time", "", "s", 0, 1000, LCS_FIELD(double, circle.footing.time)},
-      {"footing.reach", "", "px", 1, 1e4, LCS_FIELD(double, circle.footing.reach)},
-      {"footing.upward", "", "", 0.01, 100, LCS_FIELD(double, circle.footing.upward)},
-      {"footing.members", "", "", 2, 1e4, LCS_FIELD(int, circle.footing.members)},
-      {"footing.lift", "", "", 1, 1e4, LCS_FIELD(double, circle.footing.lift)},
-      {"footing.overhang", "", "m", 0, 1e4, LCS_FIELD(double, circle.footing.overhang)},
+      {"footing.time", "", "s", 0, 1000, LCS_FIELD(double, circle.footing.time), kConstellation},
+      {"footing.reach", "", "px", 1, 1e4, LCS_FIELD(double, circle.footing.reach), kConstellation},
+      {"footing.upward", "", "", 0.01, 100,
+       LCS_FIELD(double, circle.footing.upward), kConstellation},
+      {"footing.members", "", "", 2, 1e4, LCS_FIELD(int, circle.footing.members), kConstellation},
+      {"footing.lift", "", "", 1, 1e4, LCS_FIELD(double, circle.footing.lift), kConstellation},
+      {"footing.overhang", "", "m", 0, 1e4,
+       LCS_FIELD(double, circle.footing.overhang), kConstellation},
       {"circle.rebel_coast", "", "", 1, 1000, LCS_FIELD(int, circle.rebel_coast)},
       {"square.Tr_c", "Tr^s_c", "", 0, 1000, LCS_FIELD(int, square.trust.critical)},
       {"square.Tr_s", "Tr^s_s", "", 0, 1000, LCS_FIELD(int, square.trust.standard)},
       {"square.Tr_m", "Tr^s_m", "", 0, 1000, LCS_FIELD(int, square.trust.maximum)},
       {"square.layer_rule", "", "", 0, 0,
        LCS_CHOICE(LayerRule, square.layer_rule, "couples", "links")},
-      {"link.reach", "", "deg", 0.001, 90, LCS_FIELD(double, square.link.reach_rad)},
-      {"link.reach_m", "", "m", 0, 1000, LCS_FIELD(double, square.link.reach_m)},
-      {"link.upward", "", "", 0.01, 100, LCS_FIELD(double, square.link.upward)},
-      {"link.depth_share", "", "", 0.0001, 10, LCS_FIELD(double, square.link.depth_share)},
-      {"link.depth_error", "", "", 0, 100, LCS_FIELD(double, square.link.depth_error)},
-      {"link.mean_share", "", "", 0, 10, LCS_FIELD(double, square.link.mean_share)},
-      {"link.mean_spread", "", "m", 0, 100, LCS_FIELD(double, square.link.mean_spread)},
-      {"link.rebel_reach", "", "deg", 0.001, 90, LCS_FIELD(double, square.link.rebel_reach_rad)},
-      {"link.rebel_upward", "", "", 0.01, 100, LCS_FIELD(double, square.link.rebel_upward)},
-      {"link.rebel_speed_share", "", "", 0, 10, LCS_FIELD(double, square.link.rebel_speed_share)},
-      {"link.rebel_speed_px", "", "px", 0, 1000, LCS_FIELD(double, square.link.rebel_speed_px)},
-      {"link.followers", "", "", 0, 0, LCS_FIELD(bool, square.link.followers)},
-      {"link.min_edges", "", "", 1, 1000, LCS_FIELD(int, square.link.min_edges)},
-      {"link.min_rebels", "", "", 1, 1000, LCS_FIELD(int, square.link.min_rebels)},
-      {"link.min_area", "", "px^2", 0, 1000000000.0, LCS_FIELD(double, square.link.min_area)},
-      {"link.max_size", "", "m", 0, 10000, LCS_FIELD(double, square.link.max_size)},
+      {"link.reach", "", "deg", 0.001, 90, LCS_FIELD(double, square.link.reach_rad), kLinks},
+      {"link.reach_m", "", "m", 0, 1000, LCS_FIELD(double, square.link.reach_m), kLinks},
+      {"link.upward", "", "", 0.01, 100, LCS_FIELD(double, square.link.upward), kLinks},
+      {"link.depth_share", "", "", 0.0001, 10, LCS_FIELD(double, square.link.depth_share), kLinks},
+      {"link.depth_error", "", "", 0, 100, LCS_FIELD(double, square.link.depth_error), kLinks},
+      {"link.mean_share", "", "", 0, 10, LCS_FIELD(double, square.link.mean_share), kLinks},
+      {"link.mean_spread", "", "m", 0, 100, LCS_FIELD(double, square.link.mean_spread), kLinks},
+      {"link.rebel_reach", "", "deg", 0.001, 90,
+       LCS_FIELD(double, square.link.rebel_reach_rad), kLinks},
+      {"link.rebel_upward", "", "", 0.01, 100, LCS_FIELD(double, square.link.rebel_upward), kLinks},
+      {"link.rebel_speed_share", "", "", 0, 10,
+       LCS_FIELD(double, square.link.rebel_speed_share), kLinks},
+      {"link.rebel_speed_px", "", "px", 0, 1000,
+       LCS_FIELD(double, square.link.rebel_speed_px), kLinks},
+      {"link.followers", "", "", 0, 0, LCS_FIELD(bool, square.link.followers), kLinks},
+      {"link.min_edges", "", "", 1, 1000, LCS_FIELD(int, square.link.min_edges), kLinks},
+      {"link.min_rebels", "", "", 1, 1000, LCS_FIELD(int, square.link.min_rebels), kLinks},
+      {"link.min_area", "", "px^2", 0, 1000000000.0,
+       LCS_FIELD(double, square.link.min_area), kLinks},
+      {"link.max_size", "", "m", 0, 10000, LCS_FIELD(double, square.link.max_size), kLinks},
       {"square.delta_beta_1", "delta_beta,1", "deg", 0, 180,
-       LCS_FIELD(double, square.delta_beta_1)},
+       LCS_FIELD(double, square.delta_beta_1), kCouples},
       {"square.delta_beta_2", "delta_beta,2", "deg", 0, 180,
-       LCS_FIELD(double, square.delta_beta_2)},
+       LCS_FIELD(double, square.delta_beta_2), kCouples},
       {"square.epsilon_beta_1", "eps_beta,1", "deg", 0, 180,
-       LCS_FIELD(double, square.epsilon_beta_1)},
+       LCS_FIELD(double, square.epsilon_beta_1), kCouples},
       {"square.epsilon_beta_2", "eps_beta,2", "deg", 0, 180,
-       LCS_FIELD(double, square.epsilon_beta_2)},
-      {"square.epsilon_beta", "eps_beta", "deg", 0, 180, LCS_FIELD(double, square.epsilon_beta)},
+       LCS_FIELD(double, square.epsilon_beta_2), kCouples},
+      {"square.epsilon_beta", "eps_beta", "deg", 0, 180,
+       LCS_FIELD(double, square.epsilon_beta), kCouples},
       {"square.epsilon_beta_s", "eps_beta,s", "deg", 0, 180,
        LCS_FIELD(double, square.epsilon_beta_s)},
-      {"square.epsilon_v", "eps_v", "V_v", 0, 1000, LCS_FIELD(double, square.epsilon_v)},
+      {"square.epsilon_v", "eps_v", "V_v", 0, 1000, LCS_FIELD(double, square.epsilon_v), kCouples},
       {"square.epsilon_v_s", "eps_v,s", "V_v", 0, 1000, LCS_FIELD(double, square.epsilon_v_s)},
       {"square.rho_c", "rho_c", "%", 0, 100, LCS_FIELD(double, square.rho_c)},
-      {"square.d_t", "d_t", "diagonals", 0, 10, LCS_FIELD(double, square.d_t)},
-      {"square.mix_kinds", "", "", 0, 0, LCS_FIELD(bool, square.mix_kinds)},
+      {"square.d_t", "d_t", "diagonals", 0, 10, LCS_FIELD(double, square.d_t), kCouples},
+      {"square.mix_kinds", "", "", 0, 0, LCS_FIELD(bool, square.mix_kinds), kCouples},
   };
   return table;
 }
@@ -255,6 +290,20 @@ std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
+}
+
+/// As `set` takes it.
+std::string value_text(const Parameters& parameters, const Entry& entry) {
+  Parameters copy = parameters;  // the table's accessors are not const
+  if (const auto* real = std::get_if<Field<double>>(&entry.field)) {
+    return number((*real)(copy) / scale(entry));
+  }
+  if (const auto* whole = std::get_if<Field<int>>(&entry.field)) return number((*whole)(copy));
+  if (const auto* flag = std::get_if<Field<bool>>(&entry.field)) {
+    return (*flag)(copy) ? "true" : "false";
+  }
+  const auto& choice = std::get<Choice>(entry.field);
+  return choice.words[static_cast<std::size_t>(choice.get(parameters))];
 }
 
 void set_entry(Parameters& parameters, const Entry& entry, std::string_view value) {
@@ -392,24 +441,32 @@ void validate(const Parameters& parameters) {
   }
 }
 
+std::optional<Idle> idle(const Parameters& parameters, std::string_view key) {
+  const Entry& entry = find(key);
+  const auto is_asked_for = [&](const Parameters& p) {
+    return entry.asked_by.empty() ||
+           std::any_of(entry.asked_by.begin(), entry.asked_by.end(), [&](const Rule& rule) {
+             return value_text(p, find(rule.key)) == rule.value;
+           });
+  };
+  if (is_asked_for(parameters)) return std::nullopt;
+  Idle idle{entry.asked_by, {}};
+  for (const std::string& name : preset_names()) {
+    if (is_asked_for(preset(name))) idle.presets.push_back(name);
+  }
+  return idle;
+}
+
 std::vector<ParameterInfo> describe(const Parameters& parameters) {
-  Parameters copy = parameters;
   std::vector<ParameterInfo> infos;
   for (const Entry& entry : entries()) {
-    ParameterInfo info{entry.key, "", entry.unit, "", entry.symbol};
-    if (const auto* real = std::get_if<Field<double>>(&entry.field)) {
-      info.value = number((*real)(copy) / scale(entry));
-      info.range = range(entry);
-    } else if (const auto* whole = std::get_if<Field<int>>(&entry.field)) {
-      info.value = number((*whole)(copy));
-      info.range = range(entry);
-    } else if (const auto* flag = std::get_if<Field<bool>>(&entry.field)) {
-      info.value = (*flag)(copy) ? "true" : "false";
+    ParameterInfo info{entry.key, value_text(parameters, entry), entry.unit, "", entry.symbol};
+    if (std::holds_alternative<Field<bool>>(entry.field)) {
       info.range = "true, false";
+    } else if (const auto* choice = std::get_if<Choice>(&entry.field)) {
+      info.range = joined(choice->words);
     } else {
-      const auto& choice = std::get<Choice>(entry.field);
-      info.value = choice.words[static_cast<std::size_t>(choice.get(parameters))];
-      info.range = joined(choice.words);
+      info.range = range(entry);
     }
     infos.push_back(std::move(info));
   }

@@ -4,6 +4,7 @@
 /// Angles are radians in the structs and degrees in text.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -198,6 +199,19 @@ void set(Parameters& parameters, std::string_view key, std::string_view value);
 /// \throws std::invalid_argument naming the first parameter that is out of its range, or ranks of
 ///   trust out of order.
 void validate(const Parameters& parameters);
+
+/// A choice between rules: the key, and the word that names one of them.
+struct Rule {
+  std::string key, value;
+};
+
+/// Why a parameter has no effect: only these rules ask for it, which are those of these presets.
+struct Idle {
+  std::vector<Rule> rules;
+  std::vector<std::string> presets;
+};
+/// None for one that is in use. \throws std::invalid_argument as `set`.
+std::optional<Idle> idle(const Parameters& parameters, std::string_view key);
 
 /// One line a parameter: key, value, unit, range, symbol. For `--help` and manifests.
 struct ParameterInfo {

@@ -60,7 +60,7 @@ class Simulation {
   const Calibration& calibration() const;
   const std::vector<Object>& objects() const;
 
-  /// Of all that has been until now.
+  /// Of all that has been until now, or until the last frame.
   const Warnings& warnings() const;
 
   /// The next frame, or nothing after the scenario's last one.

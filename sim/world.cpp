@@ -325,7 +325,9 @@ void World::step_to(std::int64_t t_ns) {
       rover_->command(model_, t_ns_);
       move_actors();
       mj_step(&m, &model_.d());
-      watch_->look(model_, t_ns_);
+      if (t_ns_ <= event_time_ns(scenario_.frames - 1, scenario_.camera.rate_hz)) {
+        watch_->look(model_, t_ns_);
+      }
     });
     t_ns_ = start_ns + span_ns * (i + 1) / steps;
   }

@@ -53,7 +53,7 @@ class World {
   /// What FrameTruth::object says of a geom.
   int object_of_geom(int geom) const { return object_of_geom_[static_cast<std::size_t>(geom)]; }
 
-  /// Of all that has been until now.
+  /// Of all that has been until now, or until the last frame.
   const Warnings& warnings() const { return watch_->warnings(); }
 
   Snapshot snapshot() const;

@@ -209,6 +209,18 @@ TEST(ImuFaults, GapsAreCountedAndBridged) {
   }
 }
 
+TEST(ImuFaults, AGapThatIsOpenAtTheEndIsCountedLikewise) {
+  EgoMotionEstimator estimator(mounting(), {}, {.v_WB_mps = {kSpeed_mps, 0, 0}});
+  for (int i = 0; i <= kReadingsAFrame; ++i) {
+    estimator.add_imu(i * kImuStep_ns, {1e-3 * i, 0, 0}, {0, 0, kGravity_mps2});
+  }
+  for (int k = 1; k <= 5; ++k) {
+    EXPECT_EQ(estimator.diagnostics().count(Fault::imu_gap), k > 2 ? 1 : 0) << k;
+    estimator.frame(k * kFrameStep_ns);
+  }
+  EXPECT_EQ(estimator.diagnostics().total(), 1);
+}
+
 TEST(ImuFaults, WhatWasUnseenBeforeTheClockWasSetIsNotToldAfterIt) {
   EgoMotionEstimator estimator(mounting(), {}, {.v_WB_mps = {kSpeed_mps, 0, 0}});
   const auto hear = [&](std::int64_t from_ns) {
