@@ -99,7 +99,7 @@ std::string_view between(std::string_view said, std::string_view before, std::st
 
 /// The element that is meant: by its line, else by a name that is mentioned.
 const Origin* culprit(std::string_view said, const xml::Printed& scene) {
-  for (const std::string_view words : {", line = ", "', line "}) {
+  for (const std::string_view words : {", line = ", ", line "}) {  // MuJoCo 2, 3
     const int line = number_behind(said, words);
     if (const Origin* found = line > 0 ? scene.at_line(line) : nullptr) return found;
   }
@@ -136,7 +136,7 @@ std::string plain(std::string_view said) {
   for (const std::string_view prefix : {": ", "Schema violation: ", "engine error: "}) {
     if (said.starts_with(prefix)) said.remove_prefix(prefix.size());
   }
-  said = said.substr(0, std::min(said.find("\nObject name = "), said.find("\nElement '")));
+  said = said.substr(0, std::min(said.find("\nObject name = "), said.find("\nElement ")));
   std::string text;
   for (const char c : said) {
     const bool space = static_cast<unsigned char>(c) <= ' ';
