@@ -97,6 +97,8 @@ constexpr std::array<std::string_view, 31> kTexts = {
 constexpr std::array<std::string_view, 7> kLengths = {"pos",    "size",   "fromto", "vertex",
                                                       "refpos", "offset", "spacing"};
 
+constexpr std::size_t kMostShown = 40;  // characters of a value, in a message
+
 [[noreturn]] void refuse(const Element& e, const std::string& what) {
   throw scenario::Error(xml::source_of(e), xml::tag(e) + ": " + what);
 }
@@ -143,12 +145,12 @@ void check_finite(const Element& e) {
       // a range may be open
       const bool open = value && std::isinf(*value) && name.ends_with("range");
       if (value && !std::isfinite(*value) && !open) {
-        refuse(e, fmt::format("{} is {}; give a finite number", name, word));
+        refuse(e, fmt::format("{} is {}; give a finite number", name, word.substr(0, kMostShown)));
       }
       if (value && is_length && std::abs(*value) > kMostExtent_m) {
         refuse(e, fmt::format("{} has {}, and a camera sees no farther than {:g} m; give a smaller "
                               "number",
-                              name, word, kMostExtent_m));
+                              name, word.substr(0, kMostShown), kMostExtent_m));
       }
     }
   }
@@ -164,8 +166,8 @@ void check_numbers(const Element& e) {
     const std::optional<double> value = number_in(e, key.c_str());
     if (value && *value >= limit.least && *value <= limit.most) continue;
     refuse(e, fmt::format("{} is {}, and can be {:.10g} to {:.10g} ({}); give a number within these",
-                          key,
-                          xml::attribute(e, key.c_str()), limit.least, limit.most, limit.reason));
+                          key, xml::attribute(e, key.c_str()).substr(0, kMostShown), limit.least,
+                          limit.most, limit.reason));
   }
 }
 
@@ -177,7 +179,7 @@ std::vector<double> list(const Element& e, const char* attribute) {
   for (const std::string_view word : words(text)) {
     const std::optional<double> value = number(word);
     if (!value) {
-      refuse(e, fmt::format("'{}' in {} is no number; correct it", word.substr(0, 40), attribute));
+      refuse(e, fmt::format("'{}' in {} is no number; correct it", word.substr(0, kMostShown), attribute));
     }
     values.push_back(*value);
   }
@@ -332,9 +334,9 @@ void check_obj(const Element& e, const fs::path& file) {
         const std::string_view word = rest.substr(0, slash);
         rest.remove_prefix(std::min(slash + 1, rest.size()));
         if (word.empty()) {
-          if (k == 0) complain(fmt::format("'{}' names no vertex", corner.substr(0, 40)));
+          if (k == 0) complain(fmt::format("'{}' names no vertex", corner.substr(0, kMostShown)));
           if (counts[k] > 0) {
-            complain(fmt::format("'{}' has no {}, and the file has some", corner.substr(0, 40),
+            complain(fmt::format("'{}' has no {}, and the file has some", corner.substr(0, kMostShown),
                                  k == 1 ? "texture coordinate" : "normal"));
           }
           continue;
@@ -343,7 +345,7 @@ void check_obj(const Element& e, const fs::path& file) {
         const double place = index < 0 ? static_cast<double>(face.counts[k]) + index : index - 1;
         if (index == 0 || place < 0 || place >= static_cast<double>(counts[k])) {
           complain(fmt::format("a face names {} {}, and there are {}", kKinds[k],
-                               word.substr(0, 40), counts[k]));
+                               word.substr(0, kMostShown), counts[k]));
         }
       }
     }

@@ -28,8 +28,11 @@ struct Report {
   std::array<char, 4000> text{};
 };
 
-[[noreturn]] void fail(const char* what) {
-  throw std::system_error(errno, std::generic_category(), what);
+[[noreturn]] void fail(const char* call) {
+  throw std::system_error(errno, std::generic_category(),
+                          std::string("no child process can be started, to try what may crash; end "
+                                      "other programs, or raise ulimit -u (") +
+                              call + ")");
 }
 
 struct Unmap {
