@@ -43,8 +43,8 @@ void prepare(mjModel& m, int width_px, int height_px) {
   }
 }
 
-/// Mesa crashes where its memory ends. \throws std::runtime_error where it is limited (ulimit -v) and
-/// is not enough for a first picture, once, at the first renderer of the process.
+/// Mesa crashes where its memory ends. \throws std::runtime_error where it is limited (ulimit -v)
+/// and is not enough for a first picture, once, at the first renderer of the process.
 void check_memory(Model& model, int camera, int width_px, int height_px) {
   static std::atomic<bool> checked = false;
   struct rlimit memory = {};
@@ -66,11 +66,11 @@ void check_memory(Model& model, int camera, int width_px, int height_px) {
   });
   if (trial.fine) return;
   checked = false;
-  throw std::runtime_error(
-      fmt::format("software GL draws no picture of {}x{} with {} MB of memory ({}); raise ulimit -v, "
-                  "or choose a smaller camera size",
-                  width_px, height_px, memory.rlim_cur >> 20,
-                  trial.crash.empty() ? trial.refused : trial.crash));
+  throw std::runtime_error(fmt::format(
+      "software GL draws no picture of {}x{} with {} MB of memory ({}); raise ulimit -v, "
+      "or choose a smaller camera size",
+      width_px, height_px, memory.rlim_cur >> 20,
+      trial.crash.empty() ? trial.refused : trial.crash));
 }
 
 }  // namespace
@@ -126,12 +126,13 @@ struct CameraRenderer::Impl {
         buffer.height < height_px) {
       const bool is_picture = problem.empty() || problem.find("ffscreen") != std::string::npos;
       throw std::runtime_error(
-          is_picture ? fmt::format("software GL does not render images of {}x{} ({}); choose a smaller "
-                                   "camera size",
-                                   width_px, height_px, problem)
-                     : fmt::format("software GL does not take the scene ({}); choose fewer or smaller "
-                                   "textures and meshes",
-                                   problem));
+          is_picture
+              ? fmt::format("software GL does not render images of {}x{} ({}); choose a smaller "
+                            "camera size",
+                            width_px, height_px, problem)
+              : fmt::format("software GL does not take the scene ({}); choose fewer or smaller "
+                            "textures and meshes",
+                            problem));
     }
     rgb.resize(std::size_t(width_px) * height_px * 3);
     z.resize(std::size_t(width_px) * height_px);
@@ -182,9 +183,10 @@ void CameraRenderer::update() {
   // a full buffer is only warned of, and then draws a part
   const std::string warning = take_warning();
   if (s.scene.ngeom >= s.scene.maxgeom) {
-    throw MujocoError(fmt::format("the scene has more to draw than {} geoms and pieces of tendons; "
-                                  "give its tendons fewer sites",
-                                  s.scene.maxgeom));
+    throw MujocoError(
+        fmt::format("the scene has more to draw than {} geoms and pieces of tendons; "
+                    "give its tendons fewer sites",
+                    s.scene.maxgeom));
   }
   if (!warning.empty()) throw MujocoError(in_one_line(warning));
 }

@@ -117,7 +117,8 @@ void raise_ground(Model& model, const scenario::Ground& ground, std::uint64_t sc
 
 std::string less_contact(const scenario::Ground& ground) {
   return fmt::format(
-      "the rover touches more of the rough ground at once than there is room for; make ground.wavelength "
+      "the rover touches more of the rough ground at once than there is room for; make "
+      "ground.wavelength "
       "({:g} m) longer or ground.roughness ({:g} m) less",
       ground.wavelength_m, ground.roughness_m);
 }

@@ -24,8 +24,8 @@ void add_ground(xml::Element& scene, const scenario::Ground& ground,
 /// Raises the bumps in a model of that scene.
 void raise_ground(Model& model, const scenario::Ground& ground, std::uint64_t scenario_seed);
 
-/// Which of the numbers to change where wheels touch more of the ground at once than MuJoCo has room
-/// for: bumps that are short and high beside a wheel.
+/// Which of the numbers to change where wheels touch more of the ground at once than MuJoCo has
+/// room for: bumps that are short and high beside a wheel.
 std::string less_contact(const scenario::Ground& ground);
 
 }  // namespace lcs::sim

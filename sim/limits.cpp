@@ -12,10 +12,11 @@
 #include <fstream>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "scenarios/input_file.h"
 
 namespace lcs::sim {
 namespace {
@@ -82,15 +83,16 @@ constexpr double kMostTextureSide_px = 8192;  // of software GL
 constexpr double kMostCubeSide_px = 4096;     // likewise
 constexpr double kMostBodies = 2000;          // of a composite; each has joints of its own
 constexpr std::size_t kMostVertices = 1'000'000;
-constexpr std::size_t kMostNumerics = 500;     // of a <numeric>, which MuJoCo reads unbounded
-constexpr std::uintmax_t kMostFileBytes = 1 << 28;  // are read into memory
+constexpr std::size_t kMostNumerics = 500;  // of a <numeric>, which MuJoCo reads unbounded
+constexpr scenario::FileKind kAssetFile{256 * scenario::kMebibyte,  // is read into memory
+                                        "give a smaller file, of the kind that it is"};
 
 // Attributes that are text, in which "inf" and "nan" are nothing special.
 constexpr std::array<std::string_view, 31> kTexts = {
-    "name",     "class",     "childclass", "file",      "fileright", "fileleft", "fileup",
-    "filedown", "filefront", "fileback",   "texture",   "material",  "mesh",     "hfield",
-    "joint",    "joint1",    "joint2",     "site",      "body",      "body1",    "body2",
-    "geom",     "geom1",     "geom2",      "target",    "objname",   "refname",  "tendon",
+    "name",     "class",     "childclass", "file",    "fileright", "fileleft", "fileup",
+    "filedown", "filefront", "fileback",   "texture", "material",  "mesh",     "hfield",
+    "joint",    "joint1",    "joint2",     "site",    "body",      "body1",    "body2",
+    "geom",     "geom1",     "geom2",      "target",  "objname",   "refname",  "tendon",
     "tendon1",  "tendon2",   "actuator"};
 
 // Lengths, m: beyond the size of a scene that a camera sees.
@@ -165,21 +167,23 @@ void check_numbers(const Element& e) {
     // MuJoCo takes "12abc" for 12
     const std::optional<double> value = number_in(e, key.c_str());
     if (value && *value >= limit.least && *value <= limit.most) continue;
-    refuse(e, fmt::format("{} is {}, and can be {:.10g} to {:.10g} ({}); give a number within these",
-                          key, xml::attribute(e, key.c_str()).substr(0, kMostShown), limit.least,
-                          limit.most, limit.reason));
+    refuse(e,
+           fmt::format("{} is {}, and can be {:.10g} to {:.10g} ({}); give a number within these",
+                       key, xml::attribute(e, key.c_str()).substr(0, kMostShown), limit.least,
+                       limit.most, limit.reason));
   }
 }
 
-/// All numbers of an attribute. \throws scenario::Error where a word is none: MuJoCo would take those
-/// before it and be silent.
+/// All numbers of an attribute. \throws scenario::Error where a word is none: MuJoCo would take
+/// those before it and be silent.
 std::vector<double> list(const Element& e, const char* attribute) {
   std::vector<double> values;
   const std::string text = xml::attribute(e, attribute);
   for (const std::string_view word : words(text)) {
     const std::optional<double> value = number(word);
     if (!value) {
-      refuse(e, fmt::format("'{}' in {} is no number; correct it", word.substr(0, kMostShown), attribute));
+      refuse(e, fmt::format("'{}' in {} is no number; correct it", word.substr(0, kMostShown),
+                            attribute));
     }
     values.push_back(*value);
   }
@@ -195,23 +199,11 @@ void check_indices(const Element& e, const char* attribute, std::size_t count) {
 }
 
 void check_file(const Element& e, const fs::path& file) {
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  if (error || !std::ifstream(file)) {
-    refuse(e, "cannot read '" + file.string() + "'; correct the name, or make it readable");
-  }
-  if (size > kMostFileBytes) {
-    refuse(e, fmt::format("'{}' is larger than {} MB; give a smaller file", file.string(),
-                          kMostFileBytes >> 20));
-  }
+  scenario::InputFile(file, kAssetFile, xml::source_of(e));
 }
 
 std::string read(const Element& e, const fs::path& file) {
-  check_file(e, file);
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream content;
-  content << stream.rdbuf();
-  return content.str();
+  return scenario::InputFile(file, kAssetFile, xml::source_of(e)).bytes();
 }
 
 /// An integer of 4 bytes in a file.
@@ -248,9 +240,10 @@ Size picture_size(const Element& e, const fs::path& file, int bytes) {
   }
   const Size own{double(word_at(head, 0)), double(word_at(head, 4))};
   if (static_cast<double>(fs::file_size(file)) != 8 + bytes * own.product()) {
-    refuse(e, fmt::format("'{}' is neither called .png nor in MuJoCo's own binary format; give a PNG "
-                          "file",
-                          file.string()));
+    refuse(e,
+           fmt::format("'{}' is neither called .png nor in MuJoCo's own binary format; give a PNG "
+                       "file",
+                       file.string()));
   }
   return own;
 }
@@ -279,7 +272,8 @@ double check_texture(const Element& e) {
   if (const std::string file = xml::attribute(e, "file"); !file.empty()) {
     bytes += check(picture_size(e, file, 3), "'" + file + "'", flat ? 1 : kMostSquares);
   }
-  for (const char* side : {"fileright", "fileleft", "fileup", "filedown", "filefront", "fileback"}) {
+  for (const char* side :
+       {"fileright", "fileleft", "fileup", "filedown", "filefront", "fileback"}) {
     const std::string file = xml::attribute(e, side);
     if (!file.empty()) bytes += check(picture_size(e, file, 3), "'" + file + "'", 1);
   }
@@ -292,9 +286,10 @@ void check_hfield(const Element& e) {
   constexpr double kMostPoints = 2000;  // as in the table
   const Size size = picture_size(e, file, 4);
   if (size.columns > kMostPoints || size.rows > kMostPoints) {
-    refuse(e, fmt::format("'{}' has {:g} x {:g} points, and can have {:g} x {:g} (all of it is drawn "
-                          "in every picture); give a coarser one",
-                          file, size.columns, size.rows, kMostPoints, kMostPoints));
+    refuse(e,
+           fmt::format("'{}' has {:g} x {:g} points, and can have {:g} x {:g} (all of it is drawn "
+                       "in every picture); give a coarser one",
+                       file, size.columns, size.rows, kMostPoints, kMostPoints));
   }
 }
 
@@ -336,7 +331,8 @@ void check_obj(const Element& e, const fs::path& file) {
         if (word.empty()) {
           if (k == 0) complain(fmt::format("'{}' names no vertex", corner.substr(0, kMostShown)));
           if (counts[k] > 0) {
-            complain(fmt::format("'{}' has no {}, and the file has some", corner.substr(0, kMostShown),
+            complain(fmt::format("'{}' has no {}, and the file has some",
+                                 corner.substr(0, kMostShown),
                                  k == 1 ? "texture coordinate" : "normal"));
           }
           continue;
@@ -359,8 +355,8 @@ void check_msh(const Element& e, const fs::path& file) {
   const double coordinates = word_at(content, 8), faces = word_at(content, 12);
   const double expected = 16 + 4 * (3 * vertices + 3 * normals + 2 * coordinates + 3 * faces);
   if (static_cast<double>(content.size()) != expected) {
-    refuse(e, fmt::format("'{}' is not as long as its header says; give a whole file",
-                          file.string()));
+    refuse(e,
+           fmt::format("'{}' is not as long as its header says; give a whole file", file.string()));
   }
   const std::size_t first_face = content.size() - static_cast<std::size_t>(12 * faces);
   for (std::size_t at = 16; at < first_face; at += 4) {
@@ -394,20 +390,21 @@ void check_mesh(const Element& e) {
   if (has_extension(file, ".stl")) check_file(e, file);  // MuJoCo looks at what is in it
 }
 
-/// MuJoCo's own binary format: sizes, vertices, texture coordinates, faces; then each bone's name, place
-/// and attitude, 17 numbers of 4 bytes, and how many vertices and weights follow.
+/// MuJoCo's own binary format: sizes, vertices, texture coordinates, faces; then each bone's name,
+/// place and attitude, 17 numbers of 4 bytes, and how many vertices and weights follow.
 void check_skn(const Element& e, const fs::path& file) {
   const std::string content = read(e, file);
   const double all = static_cast<double>(content.size());
-  double at = 16 + 12.0 * word_at(content, 0) + 8.0 * word_at(content, 4) +
-              12.0 * word_at(content, 8);
+  double at =
+      16 + 12.0 * word_at(content, 0) + 8.0 * word_at(content, 4) + 12.0 * word_at(content, 8);
   for (double bones = word_at(content, 12); bones > 0 && at <= all; --bones) {
     constexpr double kNamePlaceAttitude = 68;
     const auto count = static_cast<std::size_t>(at + kNamePlaceAttitude);
     at += kNamePlaceAttitude + 4 + 8.0 * word_at(content, count);
   }
   if (at != all) {
-    refuse(e, fmt::format("'{}' is not as long as its sizes say; give a whole file", file.string()));
+    refuse(e,
+           fmt::format("'{}' is not as long as its sizes say; give a whole file", file.string()));
   }
 }
 
@@ -436,8 +433,9 @@ void check_composite(const Element& e) {
 
 void check_numeric(const Element& e) {
   if (list(e, "data").size() > kMostNumerics) {
-    refuse(e, fmt::format("its data are more than {} numbers, for which MuJoCo has room; give fewer",
-                          kMostNumerics));
+    refuse(e,
+           fmt::format("its data are more than {} numbers, for which MuJoCo has room; give fewer",
+                       kMostNumerics));
   }
 }
 
@@ -467,9 +465,10 @@ void check_limits(Element& root) {
     if (kind != "texture") return;
     texture_bytes += check_texture(e);
     if (++textures > kMostTextures || texture_bytes > kMostTextureBytes) {
-      refuse(e, fmt::format("with it the scene has {} textures of {:.0f} MB in all, and can have {} "
-                            "of {:.0f} MB; choose fewer or smaller ones",
-                            textures, texture_bytes / 1e6, kMostTextures, kMostTextureBytes / 1e6));
+      refuse(e,
+             fmt::format("with it the scene has {} textures of {:.0f} MB in all, and can have {} "
+                         "of {:.0f} MB; choose fewer or smaller ones",
+                         textures, texture_bytes / 1e6, kMostTextures, kMostTextureBytes / 1e6));
     }
   });
 }

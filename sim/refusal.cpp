@@ -153,9 +153,9 @@ std::string plain(std::string_view said) {
 scenario::Error refusal(const std::string& said, const xml::Printed& scene,
                         const std::filesystem::path& file) {
   const Origin* origin = culprit(said, scene);
-  return {origin ? origin->source : scenario::Source{file.string(), 0},
-          fmt::format("MuJoCo refuses {}: {}", origin ? origin->tag : "the scene",
-                      in_one_line(said))};
+  return {
+      origin ? origin->source : scenario::Source{file.string(), 0},
+      fmt::format("MuJoCo refuses {}: {}", origin ? origin->tag : "the scene", in_one_line(said))};
 }
 
 std::string in_one_line(const std::string& said, const std::string& more) {

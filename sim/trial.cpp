@@ -41,8 +41,8 @@ struct Unmap {
 using SharedReport = std::unique_ptr<Report, Unmap>;
 
 SharedReport shared_report() {
-  void* memory = ::mmap(nullptr, sizeof(Report), PROT_READ | PROT_WRITE,
-                        MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  void* memory =
+      ::mmap(nullptr, sizeof(Report), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) fail("mmap");
   return SharedReport(new (memory) Report);
 }

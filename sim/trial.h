@@ -17,8 +17,8 @@ struct Trial {
   std::string crash;
 };
 
-/// What a try may take at most. Scenes at the ends of the limits of `sim/limits.h` load in a tenth of
-/// that; the second time is for machines that do other things, too.
+/// What a try may take at most. Scenes at the ends of the limits of `sim/limits.h` load in a tenth
+/// of that; the second time is for machines that do other things, too.
 struct TrialBounds {
   unsigned processor_s = 10;
   unsigned wall_s = 30;

@@ -28,8 +28,7 @@ const fs::path& scene_folder() {
     fs::create_directories(made);
     fuzz::write_file(made / "m.obj",
                      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
-    fuzz::write_file(made / "i.xml",
-                     "<mujoco><geom name='in' size='.1'/></mujoco>");
+    fuzz::write_file(made / "i.xml", "<mujoco><geom name='in' size='.1'/></mujoco>");
     cv::imwrite((made / "t.png").string(), cv::Mat3b(8, 8, cv::Vec3b(9, 99, 199)));
     return made;
   }();
@@ -49,7 +48,8 @@ scenario::Scenario scenario_in(const fs::path& scene, std::size_t choice) {
   scenario::Actor actor;
   actor.name = "actor";
   actor.source = {s.file.string(), 2};
-  actor.trajectory = scenario::Line{.from_m = Eigen::Vector2d(3, 1), .heading_rad = 0, .speed_mps = 1};
+  actor.trajectory =
+      scenario::Line{.from_m = Eigen::Vector2d(3, 1), .heading_rad = 0, .speed_mps = 1};
   s.actors = {actor};
   return s;
 }
@@ -122,16 +122,18 @@ class Mutation {
   }
   std::string some_key() {
     static const std::vector<std::string> kKeys = {
-        "size", "pos", "mass",  "type",   "class",  "name",  "file",  "builtin", "width", "mesh",
-        "dim",  "nrow", "count", "vertex", "face",   "scale", "extent", "nstack", "user",  "range"};
+        "size", "pos",  "mass",  "type",   "class", "name",  "file",   "builtin", "width", "mesh",
+        "dim",  "nrow", "count", "vertex", "face",  "scale", "extent", "nstack",  "user",  "range"};
     return below(2) == 0 && !keys_.empty() ? one_of(keys_) : one_of(kKeys);
   }
   std::string some_value() {
     static const std::vector<std::string> kValues = {
-        "0",     "-1",          "1",     "1e-300",     "1e300",       "nan",   "inf",   "2147483647",
-        "65536", "-2147483648", "1e6",   "4294967296", "",            "abc",   "1e-9",  "0 0 0",
-        "1 1",   "true",        "m.obj", "t.png",      "0 0 0 0 0 0", "../..", "%s%n",  "1 2 3 4 5 6 7",
-        "3",     "100",         "1000",  "20000",      "0.5",         "free",  "plane", "mesh"};
+        "0",     "-1",         "1",           "1e-300",      "1e300", "nan",
+        "inf",   "2147483647", "65536",       "-2147483648", "1e6",   "4294967296",
+        "",      "abc",        "1e-9",        "0 0 0",       "1 1",   "true",
+        "m.obj", "t.png",      "0 0 0 0 0 0", "../..",       "%s%n",  "1 2 3 4 5 6 7",
+        "3",     "100",        "1000",        "20000",       "0.5",   "free",
+        "plane", "mesh"};
     return one_of(kValues);
   }
   void change_word(tinyxml2::XMLElement& e) {

@@ -98,7 +98,8 @@ TEST_F(SceneRefused, ByTheCompilerNamesLineAndElement) {
   expect({.asset = "<material name='m' texture='gone'/>"}, 4, {"<material name=\"m\">", "'gone'"});
   expect({.top = "<option integrator='magic'/>"}, 2, {"<option>", "'magic'"});
   expect({.end = "<equality><weld body1='gone'/></equality>"}, 9, {"<weld>", "'gone'"});
-  expect({.end = "<sensor><clock/><gyro name='a' site='gone'/></sensor>"}, 9, {"<gyro name=\"a\">"});
+  expect({.end = "<sensor><clock/><gyro name='a' site='gone'/></sensor>"}, 9,
+         {"<gyro name=\"a\">"});
   expect({.end = "<sensor><clock/><gyro site='gone'/></sensor>"}, 9, {"<gyro>"});
 }
 
@@ -128,8 +129,7 @@ TEST_F(SceneRefused, InAnActorsFileNamesThatFile) {
 }
 
 TEST_F(SceneRefused, LinesHoldBehindAttributesOfManyLines) {
-  expect({.top = "<custom><text name='t' data='x\n\n'/></custom>",
-          .world = "<geom type='box'/>"},
+  expect({.top = "<custom><text name='t' data='x\n\n'/></custom>", .world = "<geom type='box'/>"},
          9, {"sizes"});
 }
 
@@ -212,7 +212,8 @@ TEST_F(SceneRefused, ForTexturesThatAreTooLargeNamingThemAndNotTheCamera) {
   expect({.asset = builtin("type='cube' width='2147483647'")}, 4, {"2147483647"});
   expect({.asset = builtin("type='cube' width='5000'")}, 4, {"4096 a face"});
   // a header is enough to know
-  write("a.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\xea\x60\0\0\xea\x60\x08\x02\0\0\0", 29));
+  write("a.png",
+        std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\xea\x60\0\0\xea\x60\x08\x02\0\0\0", 29));
   expect({.asset = "<texture name='t' type='2d' file='a.png'/>"}, 4, {"60000 x 60000"});
   std::string all;
   for (int i = 0; i < 6; ++i) {
