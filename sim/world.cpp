@@ -48,9 +48,10 @@ void check_extent(const scenario::Scenario& scenario, const ComposedScene& compo
   throw scenario::Error(
       geom.empty() ? source_of(scenario, composed, "body", body)
                    : source_of(scenario, composed, "geom", geom),
-      fmt::format("the scene is {:g} m large, and a camera sees scenes of {:g} to {:g} m: geom '{}' of "
-                  "body '{}' reaches {:g} m from the middle of the world; correct its place and size",
-                  m.stat.extent, kLeastExtent_m, kMostExtent_m, geom, body, distance_m));
+      fmt::format(
+          "the scene is {:g} m large, and a camera sees scenes of {:g} to {:g} m: geom '{}' of "
+          "body '{}' reaches {:g} m from the middle of the world; correct its place and size",
+          m.stat.extent, kLeastExtent_m, kMostExtent_m, geom, body, distance_m));
 }
 
 Model load(const scenario::Scenario& scenario, const ComposedScene& composed) {
