@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "sim/random.h"
@@ -16,6 +17,7 @@ constexpr double kFarthest_m = 3;
 constexpr double kLeast_mm = 1;
 constexpr double kMost_mm = 6;         // larger ones break up
 constexpr double kDensity = 8000;      // N_0, per m^3 and mm
+constexpr double kMostStreaks = 1e7;   // a frame: seconds of work
 constexpr double kAperture_m = 0.002;  // of the lens
 constexpr float kSkyInDrop = 0.8F;     // a drop refracts most of the sky: nearly white
 constexpr float kBackscatter = 0.05F;  // of the light of one's own lamps
@@ -73,7 +75,18 @@ struct Rain::Streak {
 
 Rain::Rain(const scenario::Image::Rain& rain, double exposure_s, const Pinhole& camera,
            std::uint64_t scenario_seed)
-    : rain_(rain), exposure_s_(exposure_s), camera_(camera), seed_(scenario_seed) {}
+    : rain_(rain), exposure_s_(exposure_s), camera_(camera), seed_(scenario_seed) {
+  if (rain_.rate_mmph <= 0) return;
+  const double rays = camera_.width_px * camera_.height_px / std::pow(camera_.focal_px, 2);
+  const double volume_m3 = rays * (cube(kFarthest_m) - cube(kNearest_m)) / 3;
+  const double lambda = decay(rain_.rate_mmph);
+  expected_ = volume_m3 * kDensity / lambda * std::exp(-lambda * kLeast_mm);
+  if (!(expected_ <= kMostStreaks)) {
+    throw std::invalid_argument(
+        "the camera is so wide that more than ten million drops of image.rain are in sight; make "
+        "camera.fovy less, or rain.rate");
+  }
+}
 
 Rain::Streak Rain::draw_streak(RandomStream& random) const {
   const double near3 = cube(kNearest_m);
@@ -99,11 +112,7 @@ void Rain::add_streaks(cv::Mat3f& picture, const cv::Mat1f& depth_m, const Illum
                        int k) const {
   if (rain_.rate_mmph <= 0) return;
   RandomStream random(seed_, "rain.streaks." + std::to_string(k));
-  const double rays = camera_.width_px * camera_.height_px / std::pow(camera_.focal_px, 2);
-  const double volume_m3 = rays * (cube(kFarthest_m) - cube(kNearest_m)) / 3;
-  const double lambda = decay(rain_.rate_mmph);
-  const double expected = volume_m3 * kDensity / lambda * std::exp(-lambda * kLeast_mm);
-  const int count = static_cast<int>(expected + random.uniform());
+  const int count = static_cast<int>(expected_ + random.uniform());
   for (int i = 0; i < count; ++i) {
     const Streak s = draw_streak(random);
     const auto z = static_cast<float>(s.distance_m);

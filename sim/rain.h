@@ -33,6 +33,7 @@ struct LensDrop {
 
 class Rain {
  public:
+  /// \throws std::invalid_argument where more drops would be in sight than can be drawn.
   Rain(const scenario::Image::Rain& rain, double exposure_s, const Pinhole& camera,
        std::uint64_t scenario_seed);
 
@@ -64,6 +65,7 @@ class Rain {
   double exposure_s_;
   Pinhole camera_;
   std::uint64_t seed_;
+  double expected_ = 0;  ///< streaks in a frame
   std::vector<Place> places_;
   double places_s_ = 0;  ///< the time that they are of
 };

@@ -52,8 +52,10 @@ struct Simulation::Impl {
         parts(outlines(world)),
         calibration(calibrate(world, s.camera)),
         snapshot(world.snapshot()) {
-    if (s.image) {
-      photographer.emplace(*s.image, calibration.camera, s.camera.rate_hz, s.seed);
+    try {
+      if (s.image) photographer.emplace(*s.image, calibration.camera, s.camera.rate_hz, s.seed);
+    } catch (const std::invalid_argument& error) {
+      throw scenario::Error({s.file.string(), 0}, error.what());
     }
     world.advance_to(0, imu, odometry, &imu_truth);
   }

@@ -114,7 +114,7 @@ TEST(Set, WhatIsWrongIsReportedAtTheAssignment) {
             "--set actors.new.shape=box: actors.new needs 'trajectory'; add it "
             "(scenarios/README.md shows how)");
   EXPECT_EQ(refusal_with("ego.speed=\xff"),
-            "--set ego.speed=\xff: this is not UTF-8; save the file as UTF-8");
+            "--set ego.speed=\\xff: this is not UTF-8; save the file as UTF-8");
 }
 
 }  // namespace

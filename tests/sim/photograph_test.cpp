@@ -229,6 +229,16 @@ TEST(Photograph, DropsOnTheLensStayWhereTheyAreFromFrameToFrame) {
   EXPECT_EQ(staying(20), 0);
 }
 
+TEST(Photograph, MoreDropsThanCanBeDrawnAreRefused) {
+  for (const double fovy_deg : {179.0, 179.9}) {
+    auto s = test::scenario_in("lab", 0, 1);
+    s.image = rainy(200, 0);
+    s.camera.fovy_rad = fovy_deg * test::kDegree;
+    const std::string message = test::scenario_error([&] { Simulation simulation(s); });
+    EXPECT_NE(message.find("ten million drops"), std::string::npos) << message;
+  }
+}
+
 TEST(Photograph, DropsAreAFunctionOfTimeWhateverWasAskedBefore) {
   Rain rain(*rainy(0, 20).rain, 1e-3, camera(), 1);
   for (const double t_s : {0.0, 3.0, 3.0, 25.0, 1.0, 30.0}) {
