@@ -254,6 +254,12 @@ TEST_F(BrokenRecording, WhatCannotBeReplayedIsToldInOneLineAndNothingIsWritten) 
   std::string settings = read(sequence() / "lcs.json");
   write(sequence() / "lcs.json", "{\"scenario\": 7}");
   refused("lcs.json: scenario is not a text; correct it, or take it away");
+  const std::string gravity = "\"gravity_mps2\": ";
+  std::string heavy = settings;
+  ASSERT_NE(heavy.find(gravity), heavy.npos);
+  heavy.insert(heavy.find(gravity) + gravity.size(), "1e300, \"was\": ");
+  write(sequence() / "lcs.json", heavy);
+  refused("lcs.json: gravity_mps2 is not 0 or more and at most a million; correct it");
   const std::string width = "\"width_px\": 640";
   ASSERT_NE(settings.find(width), settings.npos);
   settings.replace(settings.find(width), width.size(), "\"width_px\": 8192");

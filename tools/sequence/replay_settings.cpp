@@ -1,9 +1,10 @@
 #include "tools/sequence/replay_settings.h"
 
+#include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <stdexcept>
 
 #include "tools/bench/json_node.h"
@@ -31,8 +32,16 @@ constexpr const char* kTruth = "truth";
 Json vector_json(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
+/// Beyond it dead reckoning has no digits left.
+constexpr double kMost = 1e6;
+
+void require_moderate(const Node& node, std::span<const double> numbers) {
+  for (const double number : numbers) node.require(std::abs(number) <= kMost, "within a million");
+}
+
 Eigen::Vector3d vector_in(const Node& node) {
   const auto numbers = node.numbers<3>();
+  require_moderate(node, numbers);
   return {numbers[0], numbers[1], numbers[2]};
 }
 
@@ -44,18 +53,19 @@ int pixels_in(const Node& node) {
 
 double above_zero_in(const Node& node) {
   const double number = node.number();
-  node.require(number > 0, "above 0");
+  node.require(number > 0 && number <= kMost, "above 0 and at most a million");
   return number;
 }
 
 double not_negative_in(const Node& node) {
   const double number = node.number();
-  node.require(number >= 0, "0 or more");
+  node.require(number >= 0 && number <= kMost, "0 or more and at most a million");
   return number;
 }
 
 sim::Pose pose_in(const Node& node) {
   const auto matrix = node.numbers<16>();
+  require_moderate(node, matrix);
   try {
     return pose_of(matrix);
   } catch (const std::invalid_argument&) {
@@ -147,7 +157,8 @@ ReplaySettings read_settings(const std::filesystem::path& file) {
     read_calibration(node, settings.calibration);
     settings.start_ns = node["start_ns"].whole();
     const auto most_ns = std::numeric_limits<std::int64_t>::max() / 2;  // any two have a difference
-    node["start_ns"].require(std::abs(settings.start_ns) <= most_ns, "a time");
+    const bool is_time = settings.start_ns >= -most_ns && settings.start_ns <= most_ns;
+    node["start_ns"].require(is_time, "a time");
     return settings;
   });
 }
