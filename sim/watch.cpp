@@ -189,7 +189,7 @@ Overlap::Place Watch::meeting(const Model& model, const Solid& who, const Solid&
   return {};
 }
 
-/// Calls `found(pair, point)` for the rover or an actor, and whatever it is in and was not before.
+/// Calls `found(pair, place)` for the rover or an actor, and whatever it is in and was not before.
 template <typename Found>
 void Watch::find_meetings(const Model& model, const Found& found) {
   const auto is_traveller = [&](std::size_t i) {
@@ -200,17 +200,18 @@ void Watch::find_meetings(const Model& model, const Found& found) {
     for (std::size_t k = 0; k < solids_.size(); ++k) {
       if ((is_traveller(k) && k <= i) || met_.contains({i, k})) continue;
       const Overlap::Place place = meeting(model, solids_[i], solids_[k]);
-      if (place.depth_m > 0) found(Pair(i, k), place.point_m);
+      if (place.depth_m > 0) found(Pair(i, k), place);
     }
   }
 }
 
 std::vector<Watch::Meeting> Watch::meetings(const Model& model) {
   std::vector<Meeting> all;
-  find_meetings(model, [&](const Pair& pair, const Vector3d& point) {
+  find_meetings(model, [&](const Pair& pair, const Overlap::Place& place) {
     const Solid& a = solids_[pair.first];
     const Solid& b = solids_[pair.second];
-    all.push_back({static_cast<int>(pair.first), b.kind, a.name, b.name, at_place(point)});
+    all.push_back({static_cast<int>(pair.first), b.kind, a.name, b.name, at_place(place.point_m),
+                   place.depth_m});
   });
   return all;
 }
@@ -306,8 +307,8 @@ void Watch::look(const Model& model, std::int64_t t_ns) {
   if (!has_moved(model)) return;
   note_attitude(model, t_ns);
   note_falls(model, t_ns);
-  find_meetings(model, [&](const Pair& pair, const Vector3d& point) {
-    note_meeting(pair, point, t_ns);
+  find_meetings(model, [&](const Pair& pair, const Overlap::Place& place) {
+    note_meeting(pair, place.point_m, t_ns);
   });
 }
 

@@ -40,6 +40,7 @@ class Watch {
     Kind kind_b = Kind::setting;
     std::string a, b;   ///< as in "actor 'car'"
     std::string where;  ///< as in "(1.20, -0.40) m"
+    double depth_m = 0;
   };
   /// All that there are now.
   std::vector<Meeting> meetings(const Model& model);

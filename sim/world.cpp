@@ -20,6 +20,7 @@ namespace lcs::sim {
 namespace {
 
 constexpr std::int64_t kLongestStep_ns = 2'000'000;
+constexpr double kActorInside_m = 0.25;  // about half of a pedestrian
 
 /// A geom or body of the scene, for what is wrong with it once it is compiled.
 scenario::Source source_of(const scenario::Scenario& scenario, const ComposedScene& composed,
@@ -227,7 +228,8 @@ void World::find_actors(const ComposedScene& composed) {
   }
 }
 
-/// What starts as nothing could stand is refused; but actors may come out of walls.
+/// What starts as nothing could stand is refused; but actors may come out of walls, and one that
+/// grazes something is told with the rest.
 void World::begin_watch(const ComposedScene& composed) {
   const std::vector<std::string>& bodies = composed.actor_bodies;
   const auto actor_of = [&](int object) {
@@ -241,7 +243,9 @@ void World::begin_watch(const ComposedScene& composed) {
   watch_ = std::make_unique<Watch>(model_, base_, named, object_of_geom_);
   for (const Watch::Meeting& meeting : watch_->meetings(model_)) {
     const bool is_rover = meeting.traveller == 0;
-    if (!is_rover && meeting.kind_b == Watch::Kind::setting) continue;
+    const bool is_inside =
+        meeting.kind_b != Watch::Kind::setting && meeting.depth_m > kActorInside_m;
+    if (!is_rover && !is_inside) continue;
     throw scenario::Error(
         is_rover ? scenario::Source{scenario_.file.string(), 0}
                  : scenario_.actors[static_cast<std::size_t>(actor_of(meeting.traveller))].source,

@@ -1,5 +1,9 @@
 #include "tools/bench/tracker.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 namespace lcs::bench {
@@ -37,6 +41,26 @@ Parameters filter_parameters(const scenario::Scenario& scenario) {
       scenario.filter.empty() ? scenario.filter_preset_source : scenario.filter.back().source;
   at(last, [&] { validate(parameters); });
   return parameters;
+}
+
+std::vector<std::string> idle_settings(const scenario::Scenario& scenario) {
+  const Parameters parameters = filter_parameters(scenario);
+  const std::string preset = scenario.filter_preset.empty() ? "default" : scenario.filter_preset;
+  std::vector<std::string> lines;
+  for (const scenario::FilterSetting& setting : scenario.filter) {
+    const std::optional<Idle> why = idle(parameters, setting.key);
+    if (!why) continue;
+    std::string rules, presets;
+    for (const Rule& rule : why->rules) {
+      rules += fmt::format("{}{}={}", rules.empty() ? "" : " or ", rule.key, rule.value);
+    }
+    for (const std::string& name : why->presets) presets += (presets.empty() ? "" : ", ") + name;
+    std::string line =
+        fmt::format("the filter's {} has no effect with preset {}: only {} asks for it, as in {}",
+                    setting.key, preset, rules, presets);
+    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+  }
+  return lines;
 }
 
 }  // namespace lcs::bench

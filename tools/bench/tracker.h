@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "filter/filter.h"
 #include "scenarios/scenario.h"
@@ -51,5 +53,9 @@ class LcsTracker : public Tracker {
 /// The scenario's preset with its settings on top.
 /// \throws scenario::Error at the line of a preset, key or value that the filter does not take.
 Parameters filter_parameters(const scenario::Scenario& scenario);
+
+/// A line for each of the scenario's settings of the filter that changes nothing, as it is of a
+/// rule that is not in use. \throws as `filter_parameters`.
+std::vector<std::string> idle_settings(const scenario::Scenario& scenario);
 
 }  // namespace lcs::bench

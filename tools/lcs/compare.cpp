@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kHelp = R"(Examples:
   lcs suite --out out/before
-  lcs suite --out out/after --set filter.circle.mu_0=20
+  lcs suite --out out/after --set filter.constellation.radius=60
   lcs compare out/before out/after
   lcs compare out/before out/after --metric 'rebel\.f1' --all
 

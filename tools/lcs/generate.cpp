@@ -14,12 +14,15 @@
 #include "scenarios/load.h"
 #include "tools/bench/csv.h"
 #include "tools/bench/output_folder.h"
+#include "tools/bench/tracker.h"
+#include "tools/bench/warnings.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/number_option.h"
 #include "tools/lcs/progress.h"
 #include "tools/lcs/set_option.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
+#include "tools/lcs/warn.h"
 #include "tools/sequence/generator.h"
 #include "tools/sequence/manifest.h"
 #include "tools/sequence/writer.h"
@@ -220,6 +223,8 @@ ExitCode generate(const GenerateOptions& options) {
   });
   if (journal.is_complete()) return check_complete(journal.folder(), options.quiet);
 
+  warn(bench::idle_settings(scenario));
+  bench::Recording seen;  // of which nothing but its world matters
   const int frames = range.last - range.first;
   int whole = 0;
   try {
@@ -230,7 +235,7 @@ ExitCode generate(const GenerateOptions& options) {
       check_interrupted();
     };
     if (options.jobs > 1) share_frames(options, journal, show);
-    sequence::generate_frames(scenario, what, journal, range, show);
+    seen.warnings = sequence::generate_frames(scenario, what, journal, range, show);
   } catch (const Interrupted&) {
     print_err(
         "lcs: interrupted; {} of {} frames are whole, and the same command goes on from "
@@ -238,6 +243,7 @@ ExitCode generate(const GenerateOptions& options) {
         whole, frames);
     return kInterrupted;
   }
+  warn(bench::lines_of(bench::warnings_of(seen)));
   if (is_part) {
     if (!options.quiet) {
       print_out(

@@ -17,6 +17,7 @@
 #include "tools/lcs/progress.h"
 #include "tools/lcs/set_option.h"
 #include "tools/lcs/terminal.h"
+#include "tools/lcs/warn.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/rectifier.h"
 
@@ -79,7 +80,7 @@ void apply(const ReplayOptions& options, scenario::Scenario& settings) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) {
       throw std::invalid_argument(
-          fmt::format("--set takes KEY=VALUE, as circle.mu_0=20, not '{}'", setting));
+          fmt::format("--set takes KEY=VALUE, as constellation.radius=60, not '{}'", setting));
     }
     settings.filter.push_back(
         {setting.substr(0, equals), setting.substr(equals + 1), {"--set " + setting, 0}});
@@ -189,7 +190,7 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
       .add_option("--preset", options.preset,
                   "Parameters of the filter: default, or the paper's lab or cars")
       ->type_name("NAME");
-  add_set_option(command, options.sets, "Set a parameter of the filter, as circle.mu_0=20");
+  add_set_option(command, options.sets, "Set a parameter of the filter, as constellation.radius=60");
   command.add_option("--out", options.out, "Folder for the results; out/<folder> if not given")
       ->type_name("DIR");
   command.add_flag("--no-video", options.no_video, "Write no video.mp4");
@@ -207,7 +208,8 @@ ExitCode replay(const ReplayOptions& options) {
     throw std::invalid_argument("the recording has no calibration of its camera; give --focal");
   }
   apply(options, recorded.settings);
-  bench::filter_parameters(recorded.settings);  // what is wrong with them is told before any output
+  // what is wrong with them is told before any output
+  const std::vector<std::string> idle_settings = bench::idle_settings(recorded.settings);
   const FastDetector detector(recorded.settings.fast_threshold);
   bench::PictureReader pictures(recorded.demosaic);
 
@@ -252,6 +254,8 @@ ExitCode replay(const ReplayOptions& options) {
                     options.folder));
   }
   const bench::Metrics metrics = result->finish(recording);
+  warn(idle_settings);
+  warn(bench::lines_of(bench::warnings_of(recording)));
   Diagnostics diagnostics = recorded.motion->diagnostics();
   diagnostics += tracker->diagnostics();
   diagnostics.forget(Fault::imu_gap);  // told by what read it, with its place

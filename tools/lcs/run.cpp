@@ -22,6 +22,7 @@
 #include "tools/lcs/progress.h"
 #include "tools/lcs/set_option.h"
 #include "tools/lcs/terminal.h"
+#include "tools/lcs/warn.h"
 
 namespace lcs::tools {
 namespace {
@@ -29,9 +30,9 @@ namespace {
 constexpr const char* kHelp = R"(Examples:
   lcs run scenarios/crossing.yaml
   lcs run scenarios/crossing.yaml --seed 7 --out out/seed7
-  lcs run scenarios/lab.yaml --set "ego.speed=10 cm/s" --set filter.circle.mu_0=20
+  lcs run scenarios/lab.yaml --set "ego.speed=10 cm/s" --set filter.constellation.radius=60
   lcs run scenarios/crossing.yaml --detector klt --out out/crossing-klt
-  lcs run scenarios/crossing.yaml --set filter.circle.mu_0=20 --recorded out/crossing --no-video
+  lcs run scenarios/crossing.yaml --set filter.constellation.radius=60 --recorded out/crossing --no-video
                                      the filter anew on the frames of an earlier run, in a moment
 
 Files written to the folder, all or none:
@@ -154,7 +155,8 @@ ExitCode run(const RunOptions& options) {
   // All that can be wrong with what was asked for is found before any output is begun.
   const scenario::Scenario scenario =
       scenario::load(options.scenario, {.sets = options.sets, .seed = options.seed});
-  bench::filter_parameters(scenario);  // whoever reads them: what is wrong is told
+  // whoever reads them: what is wrong is told
+  const std::vector<std::string> idle_settings = bench::idle_settings(scenario);
   bench::require_known_metrics(scenario.criteria);
   const Frames frames =
       options.recorded.empty() ? simulated(scenario) : recorded(options, scenario, detector);
@@ -168,6 +170,7 @@ ExitCode run(const RunOptions& options) {
            options.no_video ? std::nullopt : std::optional(scenario.camera.rate_hz),
        .events = options.events,
        .kept = frames.pictures});
+  warn(idle_settings);
   Diagnostics diagnostics;
   {
     Progress progress(scenario.name, scenario.frames, options.quiet);
@@ -181,9 +184,7 @@ ExitCode run(const RunOptions& options) {
   check_interrupted();
   const bench::Metrics metrics = result.finish(recording);
 
-  for (const std::string& line : bench::lines_of(bench::warnings_of(recording))) {
-    tell("warning: " + line);
-  }
+  warn(bench::lines_of(bench::warnings_of(recording)));
   for (const std::string& line : diagnostics.lines()) tell(line);
   if (!options.quiet) print_result(scenario, detector, metrics, result.target());
   const bool failed = report_failures(bench::failed_criteria(scenario.criteria, metrics));

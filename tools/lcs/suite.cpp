@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "tools/bench/output_folder.h"
+#include "tools/bench/tracker.h"
 #include "tools/comparators/detectors.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/number_option.h"
@@ -16,6 +17,7 @@
 #include "tools/lcs/suite_progress.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
+#include "tools/lcs/warn.h"
 #include "tools/report/report_page.h"
 #include "tools/suite/beside_table.h"
 #include "tools/suite/comparison.h"
@@ -34,7 +36,7 @@ constexpr int kMostSeeds = 1000;
 constexpr const char* kHelp = R"(Examples:
   lcs suite                                       every short scenario of the project, 3 seeds each
   lcs suite --seeds 1 --worst-first               quicker, and where to look first
-  lcs suite --filter crossing --set filter.circle.mu_0=20 --out out/mu20
+  lcs suite --filter crossing --set filter.constellation.radius=60 --out out/r60
   lcs suite --recorded out/suite --out out/mine --baseline out/suite
                                                   the filter anew on the frames of an earlier suite
   lcs suite --beside klt --beside homography      F1 beside what it is measured against
@@ -101,6 +103,21 @@ ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
     }
   }
   return is_broken ? kError : kFine;
+}
+
+/// Of all scenarios, each once. What is wrong with settings is told by the runs.
+std::vector<std::string> idle_settings(const std::vector<suite::PlannedScenario>& plan) {
+  std::vector<std::string> lines;
+  for (const suite::PlannedScenario& planned : plan) {
+    if (!planned.scenario) continue;
+    try {
+      for (const std::string& line : bench::idle_settings(*planned.scenario)) {
+        if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+      }
+    } catch (const scenario::Error&) {
+    }
+  }
+  return lines;
 }
 
 void print_changes(const suite::SuiteResult& baseline, const suite::SuiteResult& result,
@@ -204,6 +221,7 @@ ExitCode suite(const SuiteOptions& options) {
                    .sets = options.sets,
                    .seeds = options.seeds});
   if (options.list) return list_plan(plan);
+  warn(idle_settings(plan));
   std::optional<suite::SuiteResult> baseline;
   if (!options.baseline.empty()) baseline = suite::read_suite(options.baseline);
 
@@ -254,6 +272,7 @@ ExitCode suite(const SuiteOptions& options) {
     print_out("{}{}; results in {}\n", suite::suite_table(result, options.worst_first),
               suite::totals(result), folder.target().string());
   }
+  warn(suite::warnings(result));
   suite::Outcome outcome = suite::outcome_of(result);
   for (const std::string& problem : suite::problems(result)) tell(problem);
   for (const suite::SuiteResult& other : others) {

@@ -293,6 +293,7 @@ function runBody(run) {
   return el('div', null,
     el('p', { class: 'quiet small' }, 'To run it again:'), commandLine(run.command),
     run.error ? el('p', { class: 'message' }, run.error) : null,
+    ...run.warnings.map((warning) => el('p', { class: 'message' }, 'warning: ' + warning)),
     run.outcome === 'error' ? null : [el('h3', null, 'Over time'), framePlots(run),
       el('h3', null, 'Misses and false alarms'), eventList(run)]);
 }

@@ -228,6 +228,7 @@ Json run_json(const SuiteResult& suite, const ScenarioResult& scenario, const Ru
                {"wall_s", json_of(run.wall_s)},
                {"command", command_of(suite, scenario, run)},
                {"criteria", criteria_of(run)},
+               {"warnings", bench::lines_of(run.warnings)},
                {"metrics", Json::object()},
                {"frames", nullptr},
                {"events", nullptr}};

@@ -149,16 +149,16 @@ std::string plan_of(const scenario::Scenario& scenario, const GenerateOptions& o
   return plan.dump();
 }
 
-void generate_frames(const scenario::Scenario& scenario, const GenerateOptions& options,
-                     const Journal& journal, FrameRange range,
-                     const std::function<void(int)>& on_frame) {
+sim::Warnings generate_frames(const scenario::Scenario& scenario, const GenerateOptions& options,
+                              const Journal& journal, FrameRange range,
+                              const std::function<void(int)>& on_frame) {
   std::set<int> missing;
   for (int k = range.first; k < range.last; ++k) {
     if (!journal.is_whole(k)) missing.insert(k);
   }
   int whole = range.last - range.first - static_cast<int>(missing.size());
   on_frame(whole);
-  if (missing.empty()) return;
+  if (missing.empty()) return {};
 
   sim::Simulation simulation(scenario);
   const SequenceInfo info{scenario, simulation.calibration(), simulation.objects()};
@@ -185,6 +185,7 @@ void generate_frames(const scenario::Scenario& scenario, const GenerateOptions& 
       make(*now, nullptr);
     }
   }
+  return simulation.warnings();
 }
 
 std::vector<std::string> finish_sequence(const scenario::Scenario& scenario,

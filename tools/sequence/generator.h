@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "sim/warnings.h"
 #include "tools/sequence/journal.h"
 
 namespace lcs::sequence {
@@ -33,8 +34,9 @@ std::string plan_of(const scenario::Scenario& scenario, const GenerateOptions& o
 /// Renders and writes those frames of a range that are not whole yet.
 /// \param on_frame called with how many frames of the range are whole; what it throws ends the
 ///   generation between two frames.
+/// \return what was wrong in the world until the last frame that was missing; nothing if none was.
 /// \throws TruthError, sim::PhysicsError, bench::OutputError
-void generate_frames(const scenario::Scenario& scenario, const GenerateOptions& options,
+sim::Warnings generate_frames(const scenario::Scenario& scenario, const GenerateOptions& options,
                      const Journal& journal, FrameRange range,
                      const std::function<void(int)>& on_frame);
 

@@ -40,12 +40,17 @@ Json to_json(const RunResult& run) {
   for (const auto& [name, figure] : run.metrics) metrics[name] = to_json(figure);
   Json criteria = Json::array();
   for (const CriterionResult& criterion : run.criteria) criteria.push_back(to_json(criterion));
+  Json warnings = Json::object();
+  for (const bench::Warned& warned : run.warnings) {
+    warnings[warned.word] = {{"count", warned.count.value_or(0)}, {"first", warned.text}};
+  }
   return {{"seed", run.seed},
           {"outcome", kOutcomes.at(static_cast<std::size_t>(run.outcome))},
           {"error", run.error},
           {"folder", run.folder.generic_string()},
           {"wall_s", to_json(run.wall_s)},
           {"criteria", criteria},
+          {"warnings", warnings},
           {"metrics", metrics}};
 }
 
@@ -96,6 +101,12 @@ RunResult run_of(const Node& node) {
   run.folder = node["folder"].text();
   run.wall_s = node["wall_s"].figure().value_or(0);
   node["criteria"].each([&](const Node& item) { run.criteria.push_back(criterion_of(item)); });
+  if (node.has("warnings")) {
+    node["warnings"].each_entry([&](const std::string& word, const Node& warned) {
+      run.warnings.push_back(
+          {word, static_cast<std::int64_t>(warned["count"].natural()), warned["first"].text()});
+    });
+  }
   node["metrics"].each_entry([&](const std::string& name, const Node& figure) {
     run.metrics.emplace_back(name, figure.figure());
   });

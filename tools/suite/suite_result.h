@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tools/bench/scoring.h"
+#include "tools/bench/warnings.h"
 
 namespace lcs::suite {
 
@@ -37,6 +38,7 @@ struct RunResult {
   std::string error;       ///< the command's message, for an error
   bench::Metrics metrics;  ///< empty for an error
   std::vector<CriterionResult> criteria;
+  std::vector<bench::Warned> warnings;  ///< those that happened
   std::filesystem::path folder;  ///< of the run's own files, relative to the suite's
   double wall_s = 0;
 };

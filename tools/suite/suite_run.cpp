@@ -121,6 +121,9 @@ void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteRun
   run.folder = folder_of(planned, run.seed);
   try {
     run.metrics = bench::read_metrics(options.folder / run.folder / bench::kMetricsFile);
+    const fs::path warnings = options.folder / run.folder / bench::kWarningsFile;
+    if (fs::exists(warnings)) run.warnings = bench::read_warnings(warnings);
+    std::erase_if(run.warnings, [](const bench::Warned& w) { return w.count.value_or(0) == 0; });
     run.outcome = Outcome::passed;
     if (options.judged) judge_run(*planned.scenario, run);
   } catch (const std::exception& error) {

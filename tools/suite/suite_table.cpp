@@ -224,6 +224,35 @@ std::vector<std::string> problems(const SuiteResult& suite) {
   return failures;
 }
 
+std::vector<std::string> warnings(const SuiteResult& suite) {
+  std::vector<std::string> lines;
+  for (const ScenarioResult& scenario : suite.scenarios) {
+    struct Told {
+      bench::Warned first;
+      std::string seeds;
+    };
+    std::vector<Told> told;
+    for (const RunResult& run : scenario.runs) {
+      for (const bench::Warned& warned : run.warnings) {
+        const std::string seed = std::to_string(run.seed);
+        const auto found = std::find_if(told.begin(), told.end(), [&](const Told& entry) {
+          return entry.first.word == warned.word;
+        });
+        if (found == told.end()) {
+          told.push_back({warned, seed});
+        } else {
+          found->seeds += ", " + seed;
+        }
+      }
+    }
+    for (const Told& entry : told) {
+      lines.push_back(fmt::format("{} seed {}: {}", scenario.name, entry.seeds,
+                                  bench::lines_of({entry.first}).front()));
+    }
+  }
+  return lines;
+}
+
 std::string totals(const SuiteResult& suite) {
   std::map<Outcome, int> counts;
   for (const ScenarioResult& scenario : suite.scenarios) {

@@ -17,6 +17,10 @@ std::string suite_table(const SuiteResult& suite, bool worst_first);
 /// Errors and criteria that are not met, a line each; the same error of several seeds once.
 std::vector<std::string> problems(const SuiteResult& suite);
 
+/// What should not have been in a run, a line for each word of a scenario, with its seeds; the
+/// text is that of the first of them.
+std::vector<std::string> warnings(const SuiteResult& suite);
+
 /// "12 passed, 1 failed, 0 errors".
 std::string totals(const SuiteResult& suite);
 

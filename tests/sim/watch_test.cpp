@@ -1,0 +1,186 @@
+/// What the watch over a world tells, and that it tells nothing where nothing is wrong.
+#include "sim/watch.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/overlap.h"
+#include "sim/world.h"
+#include "tests/sim/support.h"
+
+namespace lcs::sim {
+namespace {
+
+using scenario::Shape;
+using test::floor_with;
+using test::line_actor;
+using test::scenario_error;
+using test::scenario_in_mjcf;
+
+constexpr const char* kCrate =
+    "<body name='crate' pos='2 0 .3'><geom type='box' size='.3 .3 .3'/></body>";
+
+/// Of a drive to the last frame.
+Warnings driven(const scenario::Scenario& scenario) {
+  World world(scenario);
+  std::vector<ImuSample> imu;
+  std::vector<OdometrySample> odometry;
+  world.advance_to(event_time_ns(scenario.frames, scenario.camera.rate_hz), imu, odometry);
+  return world.warnings();
+}
+
+std::vector<std::int64_t> counts(const Warnings& warnings) {
+  std::vector<std::int64_t> all;
+  for (std::size_t i = 0; i < kWarnings.size(); ++i) {
+    all.push_back(warnings.of(static_cast<Warning>(i)).count);
+  }
+  return all;
+}
+
+const std::vector<std::int64_t> kNone(kWarnings.size(), 0);
+
+void expect_told(const Warnings& warnings, Warning warning, const std::string& part) {
+  EXPECT_EQ(warnings.of(warning).count, 1);
+  EXPECT_NE(warnings.of(warning).first.find(part), std::string::npos)
+      << warnings.of(warning).first;
+}
+
+TEST(Watch, TellsOnceWhatTheRoverRunsIntoWithTimeAndPlace) {
+  // its hull is .2 m long to either side: 1.5 m to the crate's side, and 2 cm, at 1 m/s
+  const Warnings warnings = driven(scenario_in_mjcf(floor_with(kCrate), 1, 40));
+  expect_told(warnings, Warning::rover_collisions, "the rover runs into object 'crate' at 1.5");
+  EXPECT_EQ(warnings.of(Warning::actor_collisions).count, 0);
+}
+
+TEST(Watch, TellsNothingOfWhatIsOnlyPassed) {
+  auto scenario = scenario_in_mjcf(floor_with(kCrate), 1, 40);
+  scenario.ego.start_m = {0, .5};  // 5 cm beside it
+  EXPECT_EQ(counts(driven(scenario)), kNone);
+}
+
+TEST(Watch, TellsWhatAWallWasDrivenThroughAtAnySpeedAndRate) {
+  const std::string walls =
+      "<geom name='thin' type='box' pos='3 0 1' size='.005 2 1'/>"
+      "<geom name='sheet' type='plane' pos='6 0 1' zaxis='-1 0 0' size='1 2 .1'/>"
+      "<geom name='beside' type='plane' pos='8 9 1' zaxis='-1 0 0' size='1 2 .1'/>";
+  auto scenario = scenario_in_mjcf(floor_with(walls), 5, 3);
+  scenario.camera.rate_hz = 1;
+  scenario.imu.rate_hz = 1;
+  const Warnings warnings = driven(scenario);
+  EXPECT_EQ(warnings.of(Warning::rover_collisions).count, 2);
+  EXPECT_NE(warnings.of(Warning::rover_collisions).first.find("'thin'"), std::string::npos);
+}
+
+TEST(Watch, TellsActorsThatPassThroughThingsAndTheRover) {
+  auto scenario = scenario_in_mjcf(floor_with(kCrate), 0, 40);
+  scenario.actors = {line_actor("walker", Shape::pedestrian, {2, -2}, 90 * test::kDegree, 1),
+                     line_actor("car", Shape::car, {-4, 0}, 0, 2)};
+  const Warnings warnings = driven(scenario);
+  expect_told(warnings, Warning::rover_collisions, "the rover runs into actor 'car'");
+  EXPECT_EQ(warnings.of(Warning::actor_collisions).count, 3);  // walker, car; crate
+  EXPECT_NE(warnings.of(Warning::actor_collisions).first.find("object 'crate'"),
+            std::string::npos);
+}
+
+TEST(Watch, ActorsStepOverKerbsAndTheRoverDoesNot) {
+  const std::string kerb = "<geom name='kerb' type='box' pos='1 0 .06' size='.1 3 .07'/>";
+  auto scenario = scenario_in_mjcf(floor_with(kerb), 0, 30);
+  scenario.actors = {line_actor("walker", Shape::pedestrian, {0, 2}, 0, 1)};
+  EXPECT_EQ(counts(driven(scenario)), kNone);
+  scenario.ego.phases = {{.speed_mps = 1}};
+  expect_told(driven(scenario), Warning::rover_collisions, "the setting's geom 'kerb'");
+}
+
+/// A table of one mesh: a board on two boards, so that its hull is a solid block.
+constexpr const char* kTable = R"(
+  <body name='table' pos='2 0 0'><geom type='mesh' mesh='table'/></body>
+  </worldbody><asset><mesh name='table' vertex='
+    -.5 -.6 1  .5 -.6 1  .5 .6 1  -.5 .6 1   -.5 -.6 .9  .5 -.6 .9  .5 .6 .9  -.5 .6 .9
+    -.5 -.6 0  .5 -.6 0  .5 .6 0  -.5 .6 0' face='
+    0 1 2 0 2 3  4 6 5 4 7 6  4 5 9 4 9 8  4 9 5 4 8 9  7 11 10 7 10 6  7 10 11 7 6 10
+    0 4 5 0 5 1  1 5 6 1 6 2  2 6 7 2 7 3  3 7 4 3 4 0'/></asset><worldbody>)";
+
+TEST(Watch, AMeshIsItsSurfaceAndNotItsHull) {
+  EXPECT_EQ(counts(driven(scenario_in_mjcf(floor_with(kTable), 1, 40))), kNone);
+  auto beside = scenario_in_mjcf(floor_with(kTable), 1, 40);
+  beside.ego.start_m = {0, .6};  // along a board
+  expect_told(driven(beside), Warning::rover_collisions, "object 'table'");
+}
+
+TEST(Watch, TellsAWheeledRoverThatPushesAgainstSomething) {
+  const std::string block =
+      "<body name='block' pos='1 0 .3'><geom type='box' size='.2 .6 .3'/></body>";
+  auto scenario = scenario_in_mjcf(floor_with(block), .5, 40);
+  scenario.ego.drive = scenario::Drive::wheeled;
+  expect_told(driven(scenario), Warning::rover_collisions, "the rover runs into object 'block'");
+}
+
+TEST(Watch, TellsARoverThatDrivesOffTheFloorAndTipsOver) {
+  const std::string edge = R"(<mujoco><statistic extent="10" center="0 0 0"/><worldbody>
+    <geom name='deck' type='box' pos='0 0 -.5' size='1 1 .5'/></worldbody></mujoco>)";
+  auto scenario = scenario_in_mjcf(edge, 1, 30);
+  scenario.ego.drive = scenario::Drive::wheeled;
+  const Warnings warnings = driven(scenario);
+  expect_told(warnings, Warning::rover_below_ground, "the rover is below the ground at");
+  EXPECT_GE(warnings.of(Warning::rover_tipped).count, 1);
+}
+
+TEST(Watch, TellsAnObjectThatFallsThroughTheFloor) {
+  const std::string stone =
+      "<body name='stone' pos='3 0 .4'><freejoint/>"
+      "<geom size='.2' contype='0' conaffinity='0'/></body>";
+  expect_told(driven(scenario_in_mjcf(floor_with(stone), 0, 20)), Warning::objects_below_ground,
+              "object 'stone' is below the ground at 0.3");
+}
+
+TEST(Watch, RoughGroundRampsAndRestingObjectsAreNothingToTell) {
+  const std::string ramp =
+      "<geom name='ramp' type='box' pos='2.5 0 0' size='1.5 1 .02' euler='0 -5 0'/>"
+      "<body name='ball' pos='0 2 .2'><freejoint/><geom size='.2'/></body>";
+  auto scenario = scenario_in_mjcf(floor_with(ramp), .5, 60);
+  scenario.ego.drive = scenario::Drive::wheeled;
+  EXPECT_EQ(counts(driven(scenario)), kNone);
+  scenario = scenario_in_mjcf(floor_with(""), .5, 30);
+  scenario.ground = scenario::Ground{};
+  EXPECT_EQ(counts(driven(scenario)), kNone) << "holonomic";
+  scenario.ego.drive = scenario::Drive::wheeled;
+  EXPECT_EQ(counts(driven(scenario)), kNone);
+}
+
+TEST(Start, OfARoverInsideOfAnythingIsRefused) {
+  auto scenario = scenario_in_mjcf(floor_with(kCrate), 0, 1);
+  scenario.ego.start_m = {2.2, 0};
+  const std::string message = scenario_error([&] { World world(scenario); });
+  EXPECT_NE(message.find("ego.start: the rover starts inside object 'crate'"), std::string::npos)
+      << message;
+}
+
+TEST(Start, OfAnActorInsideOfAnObjectIsRefusedAtItsLineAndAGrazeIsTold) {
+  auto scenario = scenario_in_mjcf(floor_with(kCrate), 0, 1);
+  scenario.actors = {line_actor("walker", Shape::pedestrian, {2, 0}, 0, 0)};
+  const std::string message = scenario_error([&] { World world(scenario); });
+  EXPECT_NE(message.find("test.yaml:7: actor 'walker' starts inside object 'crate'"),
+            std::string::npos)
+      << message;
+  scenario = scenario_in_mjcf(floor_with(kCrate), 1, 3);
+  scenario.actors = {line_actor("box", Shape::box, {2.5, 0}, 0, 0)};
+  expect_told(driven(scenario), Warning::actor_collisions, "actor 'box' passes through object");
+}
+
+TEST(Start, OfAWheeledRoverThatNothingHoldsIsRefused) {
+  const std::string floor = R"(<mujoco><statistic extent="10"/><worldbody>
+    <geom name='floor' type='plane' size='5 5 .1' contype='0' conaffinity='0'/>
+    </worldbody></mujoco>)";
+  auto scenario = scenario_in_mjcf(floor, 1, 10);
+  EXPECT_EQ(counts(driven(scenario)), kNone) << "the holonomic one has no contacts";
+  scenario.ego.drive = scenario::Drive::wheeled;
+  std::string message = scenario_error([&] { World world(scenario); });
+  EXPECT_NE(message.find("geom 'floor' under ego.start"), std::string::npos) << message;
+  EXPECT_NE(message.find("contype 0"), std::string::npos) << message;
+  scenario = scenario_in_mjcf("<mujoco><worldbody/></mujoco>", 1, 10);
+  scenario.ego.drive = scenario::Drive::wheeled;
+  message = scenario_error([&] { World world(scenario); });
+  EXPECT_NE(message.find("nothing is under ego.start"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace lcs::sim
