@@ -164,7 +164,7 @@ bool Watch::is_step(const Model& model, const Solid& who, const Solid& what, int
   return T_WG.p.z() + z.maxCoeff() < foot_W_m + kStep_m;
 }
 
-/// Where who runs through what, if anywhere.
+/// Where who runs through what, if anywhere: where it is deepest.
 Overlap::Place Watch::meeting(const Model& model, const Solid& who, const Solid& what) {
   const mjModel& m = model.m();
   const auto far = [](const Vector3d& a, const Vector3d& b, double reach) {
@@ -174,6 +174,7 @@ Overlap::Place Watch::meeting(const Model& model, const Solid& who, const Solid&
   if (far(centre, model.body_pose(what.body) * what.centre_B, who.radius_m + what.radius_m)) {
     return {};
   }
+  Overlap::Place deepest;
   for (const int b : what.geoms) {
     const Vector3d p_b = model.geom_pose(b).p;
     for (const int a : who.geoms) {
@@ -183,10 +184,10 @@ Overlap::Place Watch::meeting(const Model& model, const Solid& who, const Solid&
       } else if (!far(model.geom_pose(a).p, p_b, m.geom_rbound[a] + m.geom_rbound[b])) {
         place = overlap_.of(model, a, b, kLeastDepth_m);
       }
-      if (place.depth_m > 0 && !is_step(model, who, what, b)) return place;
+      if (place.depth_m > deepest.depth_m && !is_step(model, who, what, b)) deepest = place;
     }
   }
-  return {};
+  return deepest;
 }
 
 /// Calls `found(pair, place)` for the rover or an actor, and whatever it is in and was not before.
