@@ -11,6 +11,7 @@
 #include "tools/bench/picture_folder.h"
 #include "tools/bench/result.h"
 #include "tools/bench/tracker.h"
+#include "tools/bench/warnings.h"
 #include "tools/comparators/detectors.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/number_option.h"
