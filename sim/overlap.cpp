@@ -133,7 +133,8 @@ Overlap::Place Overlap::of(const Model& model, int geom_a, int geom_b, double le
     normal = Eigen::Map<const Vector3d>(contact.frame);
   }
   if (place.depth_m <= least_depth_m) return {};
-  // What is found for round geoms and hulls is a way out, not always the shortest.
+  // What is found for round geoms and hulls is neither always the shortest way out nor one at all.
+  place.depth_m = width_m(model, geom_a, geom_b, normal);
   for (const int geom : {geom_a, geom_b}) {
     const Eigen::Matrix3d R_WG = model.geom_pose(geom).R;
     for (int i = 0; i < 3; ++i) {

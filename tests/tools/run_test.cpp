@@ -70,7 +70,7 @@ TEST_P(ShippedScenario, LeavesWholeFilesThatAgreeWithEachOther) {
   EXPECT_EQ(entries(folder_.path()), std::set<std::string>{"out"});
   const fs::path out = folder_.path() / "out" / name;
   EXPECT_EQ(entries(out), (std::set<std::string>{"metrics.json", "frames.csv", "layers.jsonl",
-                                                 "truth.jsonl", "video.mp4"}));
+                                                 "truth.jsonl", "video.mp4", "warnings.json"}));
 
   EXPECT_EQ(lines(read(out / kFramesFile)), 1 + kFrames);
   const Recording recording = read_recording(out);
@@ -111,6 +111,42 @@ TEST_F(Run, TwoProcessesWriteTheSameLayersAndTruthToTheByte) {
     EXPECT_GT(a.size(), 10'000u);
     EXPECT_TRUE(a == read(folder_.path() / "b" / file)) << file;
   }
+}
+
+TEST_F(Run, WhatShouldNotBeInItsWorldIsToldAndARecordingTellsTheSame) {
+  // The box starts a second's way before the rover.
+  const std::vector<std::string> into{
+      "--set", "ego.speed=2 m/s",
+      "--set", "actors.crossing_box.trajectory.line={from: [-3 m, 0 m], heading: 90 deg, speed: 0}"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), into.begin(), into.end());
+    return run(brief(more));
+  };
+  const CommandResult result = with({"--out", "a"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("warning: the rover runs into actor 'crossing_box' at 0."),
+            std::string::npos)
+      << result.err;
+  EXPECT_EQ(metrics("a")["warnings.rover_collisions"].get<int>(), 1);
+  EXPECT_EQ(metrics("a")["warnings.rover_tipped"].get<int>(), 0);
+  const CommandResult again = with({"--recorded", "a", "--out", "b"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NE(again.err.find("warning: the rover runs into actor 'crossing_box'"),
+            std::string::npos);
+  EXPECT_EQ(metrics("b")["warnings.rover_collisions"].get<int>(), 1);
+  fs::remove(folder_.path() / "a" / "warnings.json");  // as of an earlier program
+  ASSERT_EQ(with({"--recorded", "a", "--out", "c"}).exit_code, 0);
+  EXPECT_TRUE(metrics("c")["warnings.rover_collisions"].is_null());
+}
+
+TEST_F(Run, TellsASettingOfTheFilterThatNoRuleInUseAsksFor) {
+  const auto err = [&](const std::string& preset) {
+    return run(brief({"--set", "filter.circle.mu_0=20", "--set", "filter.preset=" + preset})).err;
+  };
+  EXPECT_NE(err("default").find("warning: the filter's circle.mu_0 has no effect with preset "
+                                "default: only circle.edge_rule=paper asks for it, as in lab, cars"),
+            std::string::npos);
+  EXPECT_EQ(err("lab").find("has no effect"), std::string::npos);
 }
 
 TEST_F(Run, AnotherSeedIsAnotherRun) {
