@@ -20,7 +20,7 @@ namespace lcs::sim {
 namespace {
 
 constexpr std::int64_t kLongestStep_ns = 2'000'000;
-constexpr double kActorInside_m = 0.15;  // a leg of a pedestrian that stands in a crate is deeper
+constexpr double kActorInside_m = 0.22;  // less is a graze; a leg of a pedestrian in a crate is deeper
 
 /// A geom or body of the scene, for what is wrong with it once it is compiled.
 scenario::Source source_of(const scenario::Scenario& scenario, const ComposedScene& composed,
