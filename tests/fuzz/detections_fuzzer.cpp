@@ -1,5 +1,6 @@
 // Someone else's detections in CSV: read, and the same once more when written and read again; or
 // refused by an error that names file and line.
+#include "scenarios/scenario.h"
 #include "tests/fuzz/input.h"
 #include "tools/bench/detections.h"
 

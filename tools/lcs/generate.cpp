@@ -22,7 +22,6 @@
 #include "tools/lcs/set_option.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
-#include "tools/lcs/warn.h"
 #include "tools/sequence/generator.h"
 #include "tools/sequence/manifest.h"
 #include "tools/sequence/writer.h"

@@ -18,7 +18,6 @@
 #include "tools/lcs/progress.h"
 #include "tools/lcs/set_option.h"
 #include "tools/lcs/terminal.h"
-#include "tools/lcs/warn.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/rectifier.h"
 

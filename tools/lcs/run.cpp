@@ -22,7 +22,6 @@
 #include "tools/lcs/progress.h"
 #include "tools/lcs/set_option.h"
 #include "tools/lcs/terminal.h"
-#include "tools/lcs/warn.h"
 
 namespace lcs::tools {
 namespace {

@@ -17,7 +17,6 @@
 #include "tools/lcs/suite_progress.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
-#include "tools/lcs/warn.h"
 #include "tools/report/report_page.h"
 #include "tools/suite/beside_table.h"
 #include "tools/suite/comparison.h"

@@ -41,6 +41,10 @@ void tell(std::string_view message) {
   write_err(scenario::one_line(message) + '\n');
 }
 
+void warn(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) tell("warning: " + line);
+}
+
 void finish_out() {
   std::cout.flush();
   const bool has_failed = std::ferror(stdout) != 0;  // what was to be written then is lost

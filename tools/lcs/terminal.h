@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace lcs::tools {
 
@@ -21,6 +22,8 @@ void write_err(const std::string& text);
 
 /// To standard error: one line that a terminal shows as it is, whatever is quoted in it.
 void tell(std::string_view message);
+/// Likewise, what is no error but seldom meant, a line each.
+void warn(const std::vector<std::string>& lines);
 
 template <class... Args>
 void print_out(fmt::format_string<Args...> format, Args&&... args) {
