@@ -71,6 +71,14 @@ Ego read_ego(Reader reader) {
   return ego;
 }
 
+Camera::Told read_told(Reader reader) {
+  Camera::Told told;
+  reader.read("height_error", kPosition, told.height_error_m);
+  reader.read("pitch_error", kAngle, told.pitch_error_rad);
+  reader.finish();
+  return told;
+}
+
 Camera read_camera(Reader reader) {
   Camera camera;
   if (const Value* size = reader.find("size")) {
@@ -87,6 +95,9 @@ Camera read_camera(Reader reader) {
   reader.read("rate", kCameraRate, camera.rate_hz);
   reader.read("position", kPosition, camera.mount_position_m);
   reader.read("rotation", kAngle, camera.mount_rpy_rad);
+  if (const Value* told = reader.find("told")) {
+    camera.told = read_told({*told, reader.path_of("told")});
+  }
   reader.finish();
   return camera;
 }

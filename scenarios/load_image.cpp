@@ -6,6 +6,7 @@ namespace lcs::scenario {
 namespace {
 
 constexpr int kMostLensDrops = 500;
+constexpr int kBestJpeg = 100;
 
 Image::Headlights read_headlights(Reader reader) {
   Image::Headlights headlights;
@@ -48,6 +49,7 @@ Image read_image(Reader reader) {
   reader.read("exposure", kExposure, image.exposure_s);
   reader.read("gain", kGain, image.gain);
   section("noise", read_noise, image.noise);
+  if (reader.find("jpeg")) reader.read("jpeg", 1, kBestJpeg, image.jpeg_quality.emplace());
   reader.finish();
   return image;
 }

@@ -67,6 +67,11 @@ struct Camera {
   /// Roll, pitch, yaw about B's fixed x, y, z in this order: R = Rz(yaw) Ry(pitch) Rx(roll). All 0
   /// looks along B's x, upright; positive pitch looks down, positive yaw to the left.
   Eigen::Vector3d mount_rpy_rad = Eigen::Vector3d::Zero();
+  /// What a calibration that is not perfect tells of the mount: the true height and pitch plus these.
+  struct Told {
+    double height_error_m = 0;
+    double pitch_error_rad = 0;
+  } told;
 };
 
 /// Kalibr's noise model and a turn-on bias, see `sim/imu_noise.h`. All 0 is the ideal IMU.
@@ -140,6 +145,7 @@ struct Image {
   double exposure_s = kDaylightExposure_s;
   double gain = 1;
   std::optional<Noise> noise;
+  std::optional<int> jpeg_quality;  ///< 1 to 100, of what arrives; none: not compressed
 };
 
 /// Bumps on the floor that wheels feel and the camera sees: a Gaussian random field.

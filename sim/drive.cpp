@@ -1,5 +1,7 @@
 #include "sim/drive.h"
 
+#include <Eigen/Geometry>
+
 #include "sim/world.h"
 
 namespace lcs::sim {
@@ -30,6 +32,8 @@ Calibration calibrate(const World& world, const scenario::Camera& camera) {
   Calibration c;
   c.camera = Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad);
   c.T_BC = T_BW * world.snapshot().T_WC;
+  c.T_BC.p.z() += camera.told.height_error_m;
+  c.T_BC.R = Eigen::AngleAxisd(camera.told.pitch_error_rad, Eigen::Vector3d::UnitY()) * c.T_BC.R;
   c.T_BS = T_BW * world.T_WS();
   c.T_WB_start = world.T_WB();
   c.v_WB_start_mps = world.v_WB_mps();

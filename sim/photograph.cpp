@@ -1,6 +1,8 @@
 #include "sim/photograph.h"
 
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "sim/linear_light.h"
 
@@ -9,6 +11,7 @@ namespace lcs::sim {
 Photographer::Photographer(const scenario::Image& image, const Pinhole& camera, double rate_hz,
                            std::uint64_t scenario_seed)
     : blur_px_(image.blur_px),
+      jpeg_quality_(image.jpeg_quality),
       rate_hz_(rate_hz),
       illumination_(image, camera),
       sensor_(image, scenario_seed) {
@@ -25,6 +28,11 @@ void Photographer::develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k) 
   if (blur_px_ > 0) cv::GaussianBlur(light, light, {}, blur_px_);
   sensor_.expose(light, k);
   to_codes(light, picture);
+  if (jpeg_quality_) {
+    std::vector<uchar> bytes;
+    cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, *jpeg_quality_});
+    cv::imdecode(bytes, cv::IMREAD_COLOR, &picture);
+  }
 }
 
 }  // namespace lcs::sim

@@ -1,6 +1,6 @@
 /// \file
 /// What a camera makes of a rendered picture: light and air, rain, blur and the sensor, in the
-/// order in which light meets them. The section `image` of a scenario. Truth is not touched: a
+/// order in which light meets them, and the compression of what arrives. The section `image` of a scenario. Truth is not touched: a
 /// corner on a drop counts as what lies behind it.
 #pragma once
 
@@ -27,6 +27,7 @@ class Photographer {
 
  private:
   double blur_px_;
+  std::optional<int> jpeg_quality_;
   double rate_hz_;
   Illumination illumination_;
   std::optional<Rain> rain_;

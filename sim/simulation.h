@@ -29,8 +29,8 @@ struct Observation {
   std::vector<ObjectTruth> objects;  ///< those with at least one visible pixel, by id
 };
 
-/// What the filter's user knows before the first frame: where the sensors are mounted, and the
-/// state that dead reckoning starts from.
+/// What the filter's user is told before the first frame: where the sensors are mounted, and the
+/// state that dead reckoning starts from. Exact but for `camera.told` of the scenario.
 struct Calibration {
   Pinhole camera;
   Pose T_BC;  ///< camera in the rover

@@ -138,6 +138,11 @@ INSTANTIATE_TEST_SUITE_P(
               "4: camera.rate is '1e-6 Hz'; it must be at least 0.1 and at most 1000 Hz"),
         added("DropsThatDoNotStay", "image: {rain: {lens_drops: 500, drop_life: 1e-9 s}}\n",
               "4: image.rain.drop_life is '1e-9 s'; it must be at least 0.01 and at most 100000 s"),
+        added("JpegZero", "image: {jpeg: 0}\n",
+              "4: image.jpeg is '0'; give a whole number from 1 to 100"),
+        added("ToldInPixels", "camera: {told: {height_error: 2 px}}\n",
+              "4: camera.told.height_error: '2 px' has the unknown unit 'px'; give a length in "
+              "m, cm, mm or km"),
         added("ImuRateZero", "imu: {rate: 0 Hz}\n",
               "4: imu.rate is '0 Hz'; it must be above 0 and at most 10000 Hz"),
         added("OdometryRateZero", "odometry: {rate: 0 Hz}\n",

@@ -153,6 +153,7 @@ image:
   exposure: 20 ms
   gain: 8
   noise: {full_well: 8000, read: 3}
+  jpeg: 60
 ground: {roughness: 4 mm, wavelength: 40 cm, centre: [1 m, 2 m], size: [6 m, 3 m]}
 )");
   ASSERT_TRUE(s.image);
@@ -168,11 +169,20 @@ ground: {roughness: 4 mm, wavelength: 40 cm, centre: [1 m, 2 m], size: [6 m, 3 m
   EXPECT_EQ(s.image->gain, 8);
   EXPECT_EQ(s.image->noise.value().full_well_e, 8000);
   EXPECT_EQ(s.image->noise->read_e, 3);
+  EXPECT_EQ(s.image->jpeg_quality, 60);
   ASSERT_TRUE(s.ground);
   EXPECT_EQ(s.ground->roughness_m, 0.004);
   EXPECT_EQ(s.ground->wavelength_m, 0.4);
   EXPECT_EQ(s.ground->centre_m, Eigen::Vector2d(1, 2));
   EXPECT_EQ(s.ground->size_m, Eigen::Vector2d(6, 3));
+}
+
+TEST(Load, WhatIsToldOfTheCameraArrives) {
+  const Scenario s =
+      load_text(smallest + "camera: {told: {height_error: -3 cm, pitch_error: 1 deg}}\n");
+  EXPECT_EQ(s.camera.told.height_error_m, -0.03);
+  EXPECT_DOUBLE_EQ(s.camera.told.pitch_error_rad, pi / 180);
+  EXPECT_EQ(s.camera.mount_position_m, load_text(smallest).camera.mount_position_m);
 }
 
 TEST(Load, ImageAndGroundAreLeftOutOrHaveTheirDefaults) {
@@ -182,7 +192,7 @@ TEST(Load, ImageAndGroundAreLeftOutOrHaveTheirDefaults) {
   EXPECT_EQ(s.image->light_lx, 10000);
   EXPECT_EQ(s.image->exposure_s, 1e-3);
   EXPECT_EQ(s.image->gain, 1);
-  EXPECT_FALSE(s.image->headlights || s.image->rain || s.image->visibility_m);
+  EXPECT_FALSE(s.image->headlights || s.image->rain || s.image->visibility_m || s.image->jpeg_quality);
   EXPECT_EQ(s.image->noise->full_well_e, 10000);
   EXPECT_EQ(s.ground->roughness_m, 0.01);
   EXPECT_FALSE(s.ground->centre_m);

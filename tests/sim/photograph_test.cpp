@@ -86,6 +86,20 @@ TEST(Photograph, ADefaultSectionChangesNoBit) {
   EXPECT_TRUE(same(photograph({}, all_codes(), wall_at(3)), all_codes()));
 }
 
+TEST(Photograph, CompressionIsThatOfAJpegFileAndBlocksShowAtLowQuality) {
+  cv::Mat3b ramp(240, 320);
+  for (int y = 0; y < ramp.rows; ++y) {
+    for (int x = 0; x < ramp.cols; ++x) ramp(y, x) = cv::Vec3b::all(static_cast<uchar>(x / 2 + 40));
+  }
+  const auto error = [&](int quality) {
+    Image image;
+    image.jpeg_quality = quality;
+    return cv::norm(photograph(image, ramp, wall_at(3)), ramp, cv::NORM_L1) / (3 * 240 * 320);
+  };
+  EXPECT_LT(error(95), 0.5);
+  EXPECT_GT(error(3), 2);
+}
+
 TEST(Photograph, ExposureAndGainAndLightScaleAlike) {
   Image image;
   image.light_lx = 1000;

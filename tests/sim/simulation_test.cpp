@@ -255,6 +255,20 @@ TEST(Simulation, CalibrationIsTheMountingOfTheScenario) {
   EXPECT_NEAR((o.truth.now.T_WC.R - (c.T_WB_start * c.T_BC).R).norm(), 0, 1e-12);
 }
 
+TEST(Simulation, WhatIsToldOfTheMountDiffersFromItAndThePictureDoesNot) {
+  auto s = scenario_in_mjcf(floor_with("<geom type='box' pos='3 0 .5' size='.2 .2 .5'/>"), 0.4, 1);
+  Simulation exact(s);
+  s.camera.told = {.height_error_m = 0.05, .pitch_error_rad = 0.02};
+  Simulation wrong(s);
+  const Pose& told = wrong.calibration().T_BC;
+  EXPECT_NEAR((told.p - exact.calibration().T_BC.p - Vector3d(0, 0, 0.05)).norm(), 0, 1e-12);
+  const Vector3d axis = told.R * Vector3d::UnitZ();
+  EXPECT_NEAR((axis - Vector3d(std::cos(0.02), 0, -std::sin(0.02))).norm(), 0, 1e-12);
+  const Observation a = exact.next().value(), b = wrong.next().value();
+  EXPECT_EQ(cv::norm(a.image, b.image, cv::NORM_INF), 0);
+  EXPECT_EQ(a.truth.now.T_WC.p, b.truth.now.T_WC.p);
+}
+
 // The camera's own velocity and rate against differences of its poses over 5 ms.
 TEST(Simulation, VelocityAndRateOfTheCameraAreThoseOfItsPoses) {
   auto s = scenario_in_mjcf(floor_with(""), 0.5, 6);
