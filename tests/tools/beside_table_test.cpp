@@ -38,6 +38,25 @@ TEST(BesideTable, HasMeansOverSeedsAndWhereTheSuiteIsLeastAhead) {
       "lcs is ahead of homography in 2 of 2, least in near (+0.200); takes 0.46 of its time\n");
 }
 
+TEST(BesideTable, HasARowForEachGroupThatIsNotAll) {
+  SuiteResult suite = suite_by("lcs", {scenario("a", {0.8}, 1), scenario("b", {0.6}, 1),
+                                       scenario("c", {0.1}, 1)});
+  suite.scenarios[0].groups = {"world", "room"};
+  suite.scenarios[1].groups = {"world", "yard"};
+  suite.scenarios[2].groups = {"world", "yard"};
+  const SuiteResult other = suite_by("klt", {scenario("a", {0.5}, 1), scenario("b", {0.4}, 1),
+                                             scenario("c", {0.2}, 1)});
+  EXPECT_EQ(beside_table(suite, {{other}}),
+            "F1            lcs    klt\n"
+            "a            0.80   0.50\n"
+            "b            0.60   0.40\n"
+            "c            0.10   0.20\n"
+            "= room (1)   0.80   0.50\n"
+            "= yard (2)   0.35   0.30\n"
+            "= mean (3)   0.50   0.37\n"
+            "lcs is ahead of klt in 2 of 3, least in c (-0.100); takes 1.00 of its time\n");
+}
+
 TEST(BesideTable, LeavesOutWhatOneOfThemHasNotAndSaysSoWhereNothingIsLeft) {
   const SuiteResult suite =
       suite_by("lcs", {scenario("near", {0.8}, 1), scenario("far", {0.5}, 1)});

@@ -23,6 +23,7 @@
 #include "tools/lcs/suite.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
+#include "tools/lcs/world.h"
 
 namespace {
 
@@ -38,6 +39,7 @@ through its camera and IMU, and the simulator's truth scores what the filter say
   lcs generate SCENARIO               a sequence of pictures and truth that other tools read
   lcs replay DIR                      the filter on EuRoC, KITTI, RobotCar, a folder of pictures
   lcs score DIR --detections FILE     someone else's detector, by a run's truth
+  lcs world FAMILY                    a scenario and its scene, drawn from a seed
   lcs kinematics                      when the motion model holds, for your camera and rover
   lcs run --help                      all about a command
 )";
@@ -63,6 +65,7 @@ int run_command_line(int argc, char** argv) {
   CompareOptions compare_options;
   GenerateOptions generate_options;
   KinematicsOptions kinematics_options;
+  WorldOptions world_options;
   const struct {
     const CLI::App& command;
     std::function<ExitCode()> carry_out;
@@ -75,6 +78,7 @@ int run_command_line(int argc, char** argv) {
       {add_compare_command(app, compare_options), [&] { return compare(compare_options); }},
       {add_kinematics_command(app, kinematics_options),
        [&] { return kinematics(kinematics_options); }},
+      {add_world_command(app, world_options), [&] { return world(world_options); }},
   };
   refuse_empty_options(app);
   try {

@@ -31,6 +31,7 @@ namespace {
 
 constexpr int kMostJobs = 1024;
 constexpr int kMostSeeds = 1000;
+constexpr int kMostWorlds = 100'000;
 
 constexpr const char* kHelp = R"(Examples:
   lcs suite                                       every short scenario of the project, 3 seeds each
@@ -42,7 +43,11 @@ constexpr const char* kHelp = R"(Examples:
   lcs suite --group sweep --filter distance       a sweep: one run a point and seed
   lcs suite my_scenarios other.yaml               other scenarios; of files any group
   lcs suite --group all --list                    what there is
+  lcs suite --worlds train --count 60             worlds drawn from seeds, one run each
   lcs compare out/before out/suite                what two suites differ in, beyond noise
+
+Worlds are kept in out/worlds/ and drawn anew only where the generator changed. Those of the split `test` are
+for stating figures: nothing is chosen by them (tools/worlds/README.md).
 
 Seeds are the scenario's own and those that follow. Each run is a process of its own; one that
 crashes, or a scenario that is broken, is an error, and the others still run.
@@ -170,8 +175,22 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
   add_integer_option(command, "--jobs", options.jobs,
                      "Runs at a time; if not given, as many as there are processors", 1, kMostJobs)
       ->type_name("N");
-  add_integer_option(command, "--seeds", options.seeds, "Runs of each scenario; 3 if not given", 1,
-                     kMostSeeds)
+  CLI::Option* split =
+      command
+          .add_option("--worlds", options.worlds.split,
+                      "Run worlds in place of scenario files: those of the split train, validate "
+                      "or test")
+          ->type_name("SPLIT")
+          ->excludes("PATH");
+  add_integer_option(command, "--count", options.worlds.count, "Worlds to run; 60 if not given", 1,
+                     kMostWorlds)
+      ->type_name("N")
+      ->needs(split);
+  command.add_option("--family", options.worlds.family, "Only worlds of this family")
+      ->type_name("NAME")
+      ->needs(split);
+  add_integer_option(command, "--seeds", options.seeds,
+                     "Runs of each scenario; 3 if not given, of worlds 1", 1, kMostSeeds)
       ->type_name("N");
   command
       .add_option("--detector", options.detector,
@@ -213,12 +232,15 @@ ExitCode suite(const SuiteOptions& options) {
     comparators::require_corners_suffice(detector);
     recorded = fmt::format("{}, {}", options.recorded, suite::read_suite(options.recorded).version);
   }
+  const bool of_worlds = !options.worlds.split.empty();
+  const std::vector<std::string> paths =
+      of_worlds ? make_worlds(options.worlds, jobs_at_once(options), interrupt) : options.paths;
   const std::vector<suite::PlannedScenario> plan =
-      suite::plan({.paths = {options.paths.begin(), options.paths.end()},
+      suite::plan({.paths = {paths.begin(), paths.end()},
                    .group = options.group,
                    .filter = options.filter,
                    .sets = options.sets,
-                   .seeds = options.seeds});
+                   .seeds = options.seeds.value_or(of_worlds ? 1 : 3)});
   if (options.list) return list_plan(plan);
   warn(idle_settings(plan));
   std::optional<suite::SuiteResult> baseline;

@@ -37,14 +37,31 @@ std::vector<Row> rows_of(const SuiteResult& suite, std::span<const SuiteResult> 
   return rows;
 }
 
-Row mean_of(const std::vector<Row>& rows) {
-  Row mean{fmt::format("= mean ({})", rows.size()), rows.front().figures};
+Row mean_of(const std::vector<Row>& rows, std::string_view of) {
+  Row mean{fmt::format("= {} ({})", of, rows.size()), rows.front().figures};
   for (std::size_t d = 0; d < mean.figures.size(); ++d) {
     std::vector<double> column;
     for (const Row& row : rows) column.push_back(row.figures[d]);
     mean.figures[d] = bench::mean(column).value();
   }
   return mean;
+}
+
+/// Means over the groups that some of the scenarios are in, and over all.
+std::vector<Row> means_of(const SuiteResult& suite, const std::vector<Row>& rows) {
+  std::vector<Row> means;
+  for (const std::string& group : groups_of(suite)) {
+    std::vector<Row> of_group;
+    for (const Row& row : rows) {
+      const auto& groups = find(suite, row.name)->groups;
+      if (std::find(groups.begin(), groups.end(), group) != groups.end()) of_group.push_back(row);
+    }
+    if (!of_group.empty() && of_group.size() < rows.size()) {
+      means.push_back(mean_of(of_group, group));
+    }
+  }
+  means.push_back(mean_of(rows, "mean"));
+  return means;
 }
 
 /// The suite's detector beside the one in a column.
@@ -78,7 +95,8 @@ std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> 
   for (std::size_t i = 0; i < others.size(); ++i) {
     lines += summary_line(suite, others[i], rows, times, i + 1);
   }
-  rows.push_back(mean_of(rows));
+  const std::vector<Row> means = means_of(suite, rows);
+  rows.insert(rows.end(), means.begin(), means.end());
 
   std::size_t longest = 0;
   for (const Row& row : rows) longest = std::max(longest, row.name.size());

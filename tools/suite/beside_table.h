@@ -10,7 +10,7 @@
 namespace lcs::suite {
 
 /// F1 of rebel corners (mean over seeds), a row a scenario that has it by every detector, and their
-/// means. Then a line for each other detector: in how many scenarios the suite's is ahead of it,
+/// means over each group and over all. Then a line for each other detector: in how many scenarios the suite's is ahead of it,
 /// where it is least so, and how long its step takes beside the other's (mean over scenarios of the
 /// ratio of medians).
 std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> others);

@@ -1,0 +1,90 @@
+#include "tools/lcs/world.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <vector>
+
+#include "tools/bench/output_file.h"
+#include "tools/bench/output_folder.h"
+#include "tools/sequence/png.h"
+#include "tools/worlds/sheet.h"
+#include "tools/worlds/textures.h"
+#include "tools/worlds/worlds.h"
+
+namespace lcs::tools {
+namespace {
+
+constexpr const char* kHelp = R"(Examples:
+  lcs world room --seed 7 --out my/room          my/room/room_7.yaml, and what it is made of
+  lcs run my/room/room_7.yaml                    as any other scenario
+  lcs world street --pictures ~/photos           with surfaces out of a folder of pictures
+  lcs suite --worlds test --count 60             many of them at once
+
+The same seed gives the same bytes. Seeds 1 to 999999 are of the split `train`, those of the next million
+`validate`, and of the one after that `test`, by which nothing is chosen (tools/worlds/README.md).
+
+Files written to the folder, all or none:
+  FAMILY_SEED.yaml   the scenario, with what it has in its first lines
+  scene.xml          the scene in MJCF, which MuJoCo's own viewer opens too
+  textures/, meshes/ PNG and OBJ files
+  sheet.png          with --sheet: the world at a glance
+
+Exit codes:
+  0  fine
+  2  error; nothing was written
+)";
+
+}  // namespace
+
+CLI::App& add_world_command(CLI::App& app, WorldOptions& options) {
+  CLI::App& command =
+      *app.add_subcommand("world", "Draw a scenario and its scene from a seed, and write them");
+  command
+      .add_option("FAMILY", options.family,
+                  fmt::format("One of {}", fmt::join(worlds::families(), ", ")))
+      ->type_name("")
+      ->required();
+  command.add_option("--seed", options.seed, "What it is drawn from; 1 if not given")
+      ->type_name("N");
+  command
+      .add_option("--out", options.out, "Folder for it; out/worlds/FAMILY_SEED if not given")
+      ->type_name("DIR");
+  command
+      .add_option("--pictures", options.pictures,
+                  "Folder of pictures (.png, .jpg, .jpeg, .bmp) to take some of the surfaces from")
+      ->type_name("DIR");
+  command.add_flag("--sheet", options.sheet,
+                   "Write sheet.png too: first, middle and last picture, and the plan from above");
+  command.add_flag("--quiet", options.quiet, "Print nothing but what went wrong");
+  command.footer(kHelp);
+  return command;
+}
+
+ExitCode world(const WorldOptions& options) {
+  std::vector<std::string> pictures;
+  if (!options.pictures.empty()) pictures = worlds::pictures_in(options.pictures);
+  const worlds::World drawn = worlds::draw_world({options.family, options.seed}, pictures);
+  const std::filesystem::path target =
+      options.out.empty() ? std::filesystem::path("out") / "worlds" / worlds::name_of(drawn)
+                          : std::filesystem::path(options.out);
+  bench::OutputFolder folder(target, worlds::world_files());
+  worlds::write_world(drawn, folder.staging());
+  if (options.sheet) {
+    const auto scenario = folder.staging() / (worlds::name_of(drawn) + ".yaml");
+    bench::OutputFile file(folder.staging() / worlds::kSheetFile);
+    file.write(sequence::encode_png(worlds::contact_sheet(drawn, scenario),
+                                    sequence::PngFilter::sub));
+    file.close();
+  }
+  folder.commit();
+  if (!options.quiet) {
+    fmt::print("{}: {} objects, {} movers, drawn again {} times\n  has      {}\n  files    {}\n",
+               worlds::name_of(drawn), drawn.bodies.size(), drawn.scenario.actors.size(),
+               drawn.attempt, fmt::join(drawn.features, ", "), folder.target().string());
+  }
+  return kFine;
+}
+
+}  // namespace lcs::tools

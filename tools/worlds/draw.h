@@ -1,0 +1,48 @@
+/// \file
+/// Random choices of a world, each from the project's own generator (sim/random.h).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <string_view>
+#include <vector>
+
+#include "sim/random.h"
+
+namespace lcs::worlds {
+
+class Draw {
+ public:
+  Draw(std::uint64_t seed, std::string_view name) : random_(seed, name) {}
+
+  double between(double low, double high) { return low + (high - low) * random_.uniform(); }
+  /// Both above 0; each factor is as likely as any other.
+  double scaled(double low, double high);
+  /// Both included.
+  int whole(int low, int high) {
+    return low + static_cast<int>(random_.bits() % static_cast<std::uint64_t>(high - low + 1));
+  }
+  bool chance(double share) { return random_.uniform() < share; }
+  double sign() { return chance(0.5) ? 1 : -1; }
+  double normal() { return random_.normal(); }
+
+  template <class T>
+  T pick(std::initializer_list<T> choices) {
+    return choices.begin()[whole(0, static_cast<int>(choices.size()) - 1)];
+  }
+  template <class T>
+  const T& pick(const std::vector<T>& choices) {
+    return choices[static_cast<std::size_t>(whole(0, static_cast<int>(choices.size()) - 1))];
+  }
+  template <class T, std::size_t N>
+  const T& pick(const std::array<T, N>& choices) {
+    return choices[static_cast<std::size_t>(whole(0, static_cast<int>(N) - 1))];
+  }
+
+ private:
+  sim::RandomStream random_;
+};
+
+}  // namespace lcs::worlds

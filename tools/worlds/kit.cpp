@@ -1,0 +1,371 @@
+#include "tools/worlds/kit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lcs::worlds {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr std::size_t kMostTextures = 16;
+constexpr double kPhotographs = 0.4;  // share of surfaces, where there are pictures
+
+/// Metres that a picture of a style spans, least and most.
+std::pair<double, double> span_of(Style style) {
+  switch (style) {
+    case Style::concrete:
+    case Style::plain:
+      return {1.5, 4};
+    case Style::facade:
+      return {3, 7};
+    case Style::worn:
+    case Style::fractal:
+      return {0.6, 2};
+    case Style::stripes:
+    case Style::grille:
+    case Style::speckle:
+      return {0.3, 1};
+    case Style::tiles:
+      return {0.4, 1.6};
+    default:
+      return {0.5, 1.2};
+  }
+}
+
+/// To whole millimetres, as files have them, so that like things share a mesh.
+double rounded(double value) {
+  return std::round(value * 1000) / 1000;
+}
+Vector3d rounded(const Vector3d& v) {
+  return {rounded(v.x()), rounded(v.y()), rounded(v.z())};
+}
+
+}  // namespace
+
+Kit::Kit(std::string_view family, std::uint64_t seed, int attempt,
+         std::vector<std::string> pictures)
+    : draw(seed, fmt::format("world/{}/{}", family, attempt)), pictures_(std::move(pictures)) {
+  world.family = family;
+  world.seed = seed;
+  world.attempt = attempt;
+  world.scenario.seed = seed;
+}
+
+int Kit::plain(const Vector3d& rgb, double alpha, double emission) {
+  Material material;
+  material.rgb = rgb;
+  material.alpha = alpha;
+  material.emission = emission;
+  material.bold = false;
+  world.materials.push_back(material);
+  return static_cast<int>(world.materials.size()) - 1;
+}
+
+int Kit::plain() {
+  const double grey = draw.between(0.2, 0.9), tint = draw.between(0, 0.25);
+  Vector3d rgb;
+  for (int i = 0; i < 3; ++i) rgb[i] = std::clamp(grey + draw.between(-tint, tint), 0.05, 1.0);
+  return plain(rgb);
+}
+
+int Kit::surface(const std::vector<Style>& styles, std::optional<double> side_m) {
+  const Style style = draw.pick(styles);
+  const bool again = draw.chance(0.3), round = draw.chance(0.4);
+  const auto [least, most] = span_of(style);
+  const double side = side_m.value_or(draw.scaled(least, most));
+  if (style == Style::lettering) tag("text");
+  if (style == Style::foliage) tag("foliage");
+  if (style == Style::speckle) tag("speckle");
+  if (style == Style::bricks || style == Style::tiles || style == Style::stripes ||
+      style == Style::grille || style == Style::facade || style == Style::corrugated) {
+    tag("pattern");
+  }
+  std::vector<int>& same = surfaces_[style];
+  if (!same.empty() && !side_m && (again || world.textures.size() >= kMostTextures)) {
+    return draw.pick(same);
+  }
+  Material material;
+  material.side_m = side;
+  material.fits = style == Style::lettering && !side_m;
+  material.cube = is_isotropic(style) && !side_m && round;
+  material.bold = style != Style::plain && style != Style::concrete;
+  material.texture = static_cast<int>(world.textures.size());
+  // a stream of its own: what a picture shows does not move what stands in the world
+  Draw brush(world.seed, fmt::format("texture/{}/{}/{}", world.family, world.attempt,
+                                     material.texture));
+  const int pixels = side > 1.5 ? 512 : 256;
+  const bool from_file = !pictures_.empty() && brush.chance(kPhotographs);
+  const std::string name =
+      fmt::format("{}_{}", from_file ? "photograph" : name_of(style), material.texture);
+  world.textures.push_back({name, from_file ? photograph(pictures_, pixels, brush)
+                                            : worlds::paint(style, pixels, brush)});
+  world.materials.push_back(material);
+  same.push_back(static_cast<int>(world.materials.size()) - 1);
+  return same.back();
+}
+
+int Kit::paint(const std::vector<Style>& styles) {
+  return draw.chance(plainness) ? plain() : surface(styles);
+}
+
+int Kit::paint() {
+  return paint({Style::plain, Style::fractal, Style::lettering, Style::lettering, Style::wood,
+                Style::stripes, Style::tiles, Style::corrugated, Style::worn, Style::speckle,
+                Style::grille});
+}
+
+double Kit::side_of(int material, double fit_m) const {
+  const Material& m = world.materials[static_cast<std::size_t>(material)];
+  return m.fits ? fit_m : m.side_m;
+}
+
+Part Kit::mesh_part(const std::string& key, const Mesh& mesh, const Vector3d& at_m, int material) {
+  const auto [found, is_new] =
+      meshes_by_key_.emplace(key, static_cast<int>(world.meshes.size()));
+  if (is_new) world.meshes.push_back(mesh);
+  Part part;
+  part.shape = Part::Shape::mesh;
+  part.position_m = at_m;
+  part.material = material;
+  part.mesh = found->second;
+  return part;
+}
+
+Part Kit::block(const Vector3d& size_m, const Vector3d& foot_m, int material, double heading_rad) {
+  const Vector3d size = rounded(size_m);
+  const Material& m = world.materials[static_cast<std::size_t>(material)];
+  Part part;
+  if (m.texture >= 0 && !m.cube) {
+    const double side = side_of(material, std::max(size.x(), size.z()));
+    part = mesh_part(fmt::format("box {} {} {} {:.4f}", size.x(), size.y(), size.z(), side),
+                     box_mesh(size, side), foot_m, material);
+  } else {
+    part.size_m = size / 2;
+    part.position_m = foot_m + Vector3d(0, 0, size.z() / 2);
+    part.material = material;
+  }
+  part.rotation = Eigen::AngleAxisd(heading_rad, Vector3d::UnitZ());
+  return part;
+}
+
+Part Kit::post(double radius_m, double height_m, const Vector3d& foot_m, int material) {
+  const Material& m = world.materials[static_cast<std::size_t>(material)];
+  if (m.texture >= 0 && !m.cube) {
+    return turned({{radius_m, 0}, {radius_m, height_m}}, foot_m, material);
+  }
+  Part part;
+  part.shape = Part::Shape::cylinder;
+  part.size_m = {rounded(radius_m), rounded(height_m) / 2, 0};
+  part.position_m = foot_m + Vector3d(0, 0, height_m / 2);
+  part.material = material;
+  return part;
+}
+
+Part Kit::bar(const Vector3d& from_m, const Vector3d& to_m, double radius_m, int material) const {
+  Part part;
+  part.shape = Part::Shape::capsule;
+  part.size_m = {rounded(radius_m), (to_m - from_m).norm() / 2, 0};
+  part.position_m = (from_m + to_m) / 2;
+  part.rotation = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), to_m - from_m);
+  part.material = material;
+  return part;
+}
+
+Part Kit::ball(const Vector3d& radii_m, const Vector3d& middle_m, int material) {
+  const Material& m = world.materials[static_cast<std::size_t>(material)];
+  if (m.texture >= 0 && !m.cube) return lump(radii_m, 0, middle_m, material);
+  Part part;
+  part.shape = Part::Shape::ellipsoid;
+  part.size_m = rounded(radii_m);
+  part.position_m = middle_m;
+  part.material = material;
+  return part;
+}
+
+Part Kit::lump(const Vector3d& radii_m, double bumps, const Vector3d& middle_m, int material) {
+  const double side = side_of(material, 2 * radii_m.x());
+  return mesh_part(fmt::format("lump {}", world.meshes.size()),
+                   lump_mesh(rounded(radii_m), bumps, side, draw), middle_m, material);
+}
+
+Part Kit::turned(const std::vector<Vector2d>& profile_m, const Vector3d& foot_m, int material) {
+  const double side = side_of(material, profile_m.back().y());
+  std::string key = fmt::format("turned {:.4f}", side);
+  for (const Vector2d& p : profile_m) key += fmt::format(" {:.3f} {:.3f}", p.x(), p.y());
+  return mesh_part(key, turned_mesh(profile_m, side), foot_m, material);
+}
+
+Part Kit::prism(const std::vector<Vector2d>& polygon_m, double height_m, const Vector3d& foot_m,
+                int material) {
+  const double side = side_of(material, height_m);
+  std::string key = fmt::format("prism {:.3f} {:.4f}", height_m, side);
+  for (const Vector2d& p : polygon_m) key += fmt::format(" {:.3f} {:.3f}", p.x(), p.y());
+  return mesh_part(key, prism_mesh(polygon_m, height_m, side), foot_m, material);
+}
+
+Part Kit::slice(const std::vector<Vector2d>& polygon_m, double width_m, const Vector3d& foot_m,
+                int material) {
+  Part part = prism(polygon_m, width_m, foot_m + Vector3d(0, width_m / 2, 0), material);
+  part.rotation = Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitX());
+  return part;
+}
+
+Box bounds(const World& world, const Parts& parts) {
+  Box box;
+  box.foot_m = std::numeric_limits<double>::infinity();
+  box.head_m = -box.foot_m;
+  const auto add = [&](const Part& part, const Vector3d& p) {
+    const Vector3d at = part.rotation * p + part.position_m;
+    box.half_m = box.half_m.cwiseMax(at.head<2>().cwiseAbs());
+    box.foot_m = std::min(box.foot_m, at.z());
+    box.head_m = std::max(box.head_m, at.z());
+  };
+  for (const Part& part : parts) {
+    if (part.shape == Part::Shape::mesh) {
+      for (const auto& v : world.meshes[static_cast<std::size_t>(part.mesh)].vertices) {
+        add(part, v.position_m);
+      }
+      continue;
+    }
+    Vector3d half = part.size_m;
+    const double radius = half.x();
+    if (part.shape == Part::Shape::cylinder) half = {radius, radius, half.y()};
+    if (part.shape == Part::Shape::capsule) half = {radius, radius, half.y() + radius};
+    for (int i = 0; i < 8; ++i) {
+      add(part, half.cwiseProduct(Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+    }
+  }
+  return box;
+}
+
+Box Kit::box_at(const Parts& parts, const Vector2d& at_m, double heading_rad) const {
+  Box box = bounds(parts);
+  box.centre_m = at_m;
+  box.heading_rad = heading_rad;
+  // the lowest under it, so that nothing hangs in the air
+  double height = ground(at_m);
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      height = std::min(height, ground(point_of(box, x, y, 0).head<2>()));
+    }
+  }
+  box.foot_m += height;
+  box.head_m += height;
+  return box;
+}
+
+Eigen::Quaterniond Kit::attitude(const Box& box) const {
+  constexpr double kLong_m = 0.45, kStep_m = 0.05;  // what is shorter stands upright on a slope
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(box.heading_rad, Vector3d::UnitZ()));
+  if (box.half_m.maxCoeff() < kLong_m) return turn;
+  const auto slope = [&](const Vector2d& along) {
+    return (ground(box.centre_m + kStep_m * along) - ground(box.centre_m - kStep_m * along)) /
+           (2 * kStep_m);
+  };
+  const Vector3d up(-slope(Vector2d::UnitX()), -slope(Vector2d::UnitY()), 1);
+  return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up) * turn;
+}
+
+void Kit::stand(const std::string& kind, const Parts& parts, const Vector2d& at_m,
+                double heading_rad) {
+  const Box box = box_at(parts, at_m, heading_rad);
+  const Eigen::Quaterniond rotation = attitude(box);
+  const bool is_tilted = rotation.toRotationMatrix()(2, 2) < 1 - 1e-9;
+  const Box own = bounds(parts);
+  const double height = is_tilted ? ground(at_m) : box.foot_m - own.foot_m;
+  world.bodies.push_back({fmt::format("{}_{}", kind, ++names_[kind]),
+                          {at_m.x(), at_m.y(), height},
+                          rotation,
+                          parts});
+  solids.push_back(box);
+  const auto is_bare = [&](const Part& part) {
+    return !world.materials[static_cast<std::size_t>(part.material)].bold;
+  };
+  // what touches the ground, or all of it, shows nothing that a corner could be
+  const Box whole = bounds(parts);
+  const bool bare_foot = std::all_of(parts.begin(), parts.end(), [&](const Part& part) {
+    return is_bare(part) || bounds({part}).foot_m > whole.foot_m + 0.05;
+  });
+  if (bare_foot) tag("bare_foot");
+}
+
+bool Kit::try_stand(const std::string& kind, const Parts& parts, const Vector2d& at_m,
+                    double heading_rad, double gap) {
+  const Box box = box_at(parts, at_m, heading_rad);
+  if (least_gap_m(box, solids) < gap || least_gap_m(box, kept_free) < gap) return false;
+  stand(kind, parts, at_m, heading_rad);
+  return true;
+}
+
+void Kit::fix(const Parts& parts, const Vector2d& at_m, double heading_rad, bool in_the_way) {
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(heading_rad, Vector3d::UnitZ()));
+  const Vector3d at(at_m.x(), at_m.y(),
+                    box_at(parts, at_m, heading_rad).foot_m - bounds(parts).foot_m);
+  for (Part part : parts) {
+    part.position_m = turn * part.position_m + at;
+    part.rotation = turn * part.rotation;
+    world.setting.push_back(part);
+  }
+  if (in_the_way) solids.push_back(box_at(parts, at_m, heading_rad));
+}
+
+void Kit::wall(const Vector2d& from_m, const Vector2d& to_m, double height_m, int material,
+               double foot_m, double thickness_m) {
+  const Vector2d along = to_m - from_m;
+  const double heading = std::atan2(along.y(), along.x());
+  const Vector2d middle = (from_m + to_m) / 2 + Vector2d(-along.y(), along.x()).normalized() * (thickness_m / 2);
+  fix({block({along.norm(), thickness_m, height_m}, {0, 0, foot_m}, material)}, middle, heading);
+}
+
+void Kit::floor(int material, const Vector2d& half_m) {
+  Part part;
+  part.shape = Part::Shape::plane;
+  part.size_m = {half_m.x(), half_m.y(), 0.1};
+  part.material = material;
+  part.is_solid = true;
+  world.setting.push_back(part);
+}
+
+void Kit::ramp(double from_x_m, double length_m, double width_m, double slope_rad, int material) {
+  tag("slope");
+  const double rise = std::tan(slope_rad);
+  // a wedge, so that its texture lies on the slope as it lies on the floor
+  Part part = slice({{0, -0.2}, {length_m, -0.2}, {length_m, length_m * rise}, {0, 0}}, width_m,
+                    {from_x_m, 0, 0}, material);
+  part.is_solid = true;
+  world.setting.push_back(part);
+  ground = [before = ground, from_x_m, rise](const Vector2d& at) {
+    return std::max(before(at), rise * (at.x() - from_x_m));
+  };
+}
+
+void Kit::decal(const Vector2d& at_m, double heading_rad, const Vector2d& size_m, int material) {
+  // each a little higher than the last, so that none fights with another for a pixel
+  const double lift = 0.003 + 0.0005 * (decals_++ % 8);
+  fix({block({size_m.x(), size_m.y(), 0.001}, {0, 0, lift}, material)}, at_m, heading_rad, false);
+}
+
+void Kit::shadow(const Vector2d& at_m) {
+  tag("painted_shadow");
+  const Vector2d size(draw.scaled(0.4, 2.5), draw.scaled(0.3, 1.2));
+  const double heading = draw.between(0, std::numbers::pi);
+  const double darkness = draw.between(0.3, 0.65);
+  std::vector<Vector2d> outline;
+  const int corners = draw.chance(0.5) ? 4 : draw.whole(6, 14);
+  const double phase = draw.between(0, 1);
+  for (int i = 0; i < corners; ++i) {
+    const double a = 2 * std::numbers::pi * (i + phase) / corners;
+    outline.push_back(towards(a).cwiseProduct(size) * draw.between(0.8, 1.0));
+  }
+  const double lift = 0.003 + 0.0005 * (decals_++ % 8);
+  fix({prism(outline, 0.001, {0, 0, lift}, plain({0.02, 0.02, 0.03}, darkness))}, at_m, heading,
+      false);
+}
+
+}  // namespace lcs::worlds

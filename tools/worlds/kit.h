@@ -1,0 +1,112 @@
+/// \file
+/// What layouts build a world with: surfaces, parts, things that stand somewhere, and the plan from
+/// above that keeps them apart.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/worlds/draw.h"
+#include "tools/worlds/placing.h"
+#include "tools/worlds/textures.h"
+#include "tools/worlds/world.h"
+
+namespace lcs::worlds {
+
+using Parts = std::vector<Part>;
+
+/// The box round some parts of a world, which is symmetric about their origin.
+Box bounds(const World& world, const Parts& parts);
+
+class Kit {
+ public:
+  /// \param pictures files to take surfaces from, among others; may be empty.
+  Kit(std::string_view family, std::uint64_t seed, int attempt, std::vector<std::string> pictures);
+
+  Draw draw;
+  World world;
+  std::vector<Box> solids;     ///< all that stands or hangs
+  std::vector<Box> kept_free;  ///< where the rover and the movers go
+  /// Height of the ground.
+  std::function<double(const Eigen::Vector2d&)> ground = [](const auto&) { return 0.0; };
+  double plainness = 0;  ///< share of things that have no texture
+
+  void tag(std::string_view feature) { world.features.emplace(feature); }
+
+  /// \name Materials, by their place in `world.materials`.
+  ///@{
+  int plain(const Eigen::Vector3d& rgb, double alpha = 1, double emission = 0);
+  int plain();  ///< of a drawn colour
+  /// One of the styles; a world has only so many pictures, and then uses them again.
+  int surface(const std::vector<Style>& styles, std::optional<double> side_m = {});
+  /// As a thing has it: a surface or, by `plainness`, none.
+  int paint(const std::vector<Style>& styles);
+  int paint();  ///< of any style
+  ///@}
+
+  /// \name Parts; places are those of the middle of the foot.
+  ///@{
+  Part block(const Eigen::Vector3d& size_m, const Eigen::Vector3d& foot_m, int material,
+             double heading_rad = 0);
+  Part post(double radius_m, double height_m, const Eigen::Vector3d& foot_m, int material);
+  Part bar(const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m, double radius_m,
+           int material) const;
+  /// About its middle.
+  Part ball(const Eigen::Vector3d& radii_m, const Eigen::Vector3d& middle_m, int material);
+  Part lump(const Eigen::Vector3d& radii_m, double bumps, const Eigen::Vector3d& middle_m,
+            int material);
+  Part turned(const std::vector<Eigen::Vector2d>& profile_m, const Eigen::Vector3d& foot_m,
+              int material);
+  Part prism(const std::vector<Eigen::Vector2d>& polygon_m, double height_m,
+             const Eigen::Vector3d& foot_m, int material);
+  /// A prism whose polygon stands upright along x and z, as wide as `width_m` along y.
+  Part slice(const std::vector<Eigen::Vector2d>& polygon_m, double width_m,
+             const Eigen::Vector3d& foot_m, int material);
+  ///@}
+
+  Box bounds(const Parts& parts) const { return worlds::bounds(world, parts); }
+  /// The same where a body stands.
+  Box box_at(const Parts& parts, const Eigen::Vector2d& at_m, double heading_rad) const;
+  /// How it stands there: upright or, where it is long, as the ground lies.
+  Eigen::Quaterniond attitude(const Box& box) const;
+
+  /// Puts an object of a new name that begins with `kind`, whatever is there.
+  void stand(const std::string& kind, const Parts& parts, const Eigen::Vector2d& at_m,
+             double heading_rad);
+  /// Where nothing is, `gap_m` about it. \return whether it was free.
+  bool try_stand(const std::string& kind, const Parts& parts, const Eigen::Vector2d& at_m,
+                 double heading_rad, double gap_m = 0.05);
+  /// Likewise as a part of the setting.
+  void fix(const Parts& parts, const Eigen::Vector2d& at_m, double heading_rad,
+           bool in_the_way = true);
+  /// A wall as a part of the setting, from one point to another, on the left of the line.
+  void wall(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m, double height_m,
+            int material, double foot_m = 0, double thickness_m = 0.1);
+  /// A level floor that wheels feel, of these half sizes.
+  void floor(int material, const Eigen::Vector2d& half_m);
+  /// Ground that rises from x = `from_x_m` on, as wide as `width_m` about y = 0.
+  void ramp(double from_x_m, double length_m, double width_m, double slope_rad, int material);
+  /// A dark patch on the floor, as of the shadow of something that is not there.
+  void shadow(const Eigen::Vector2d& at_m);
+  /// A flat mark on the floor.
+  void decal(const Eigen::Vector2d& at_m, double heading_rad, const Eigen::Vector2d& size_m,
+             int material);
+
+ private:
+  Part mesh_part(const std::string& key, const Mesh& mesh, const Eigen::Vector3d& at_m,
+                 int material);
+  double side_of(int material, double fit_m) const;
+
+  std::vector<std::string> pictures_;
+  std::map<std::string, int> meshes_by_key_;
+  std::map<Style, std::vector<int>> surfaces_;
+  std::map<std::string, int> names_;
+  int decals_ = 0;
+};
+
+}  // namespace lcs::worlds

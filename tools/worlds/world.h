@@ -1,0 +1,71 @@
+/// \file
+/// A world as it was drawn, before it is written as a scenario and a scene.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scenarios/scenario.h"
+#include "tools/worlds/meshes.h"
+
+namespace lcs::worlds {
+
+struct Texture {
+  std::string name;  ///< of its file, without .png
+  cv::Mat3b picture;
+};
+
+struct Material {
+  Eigen::Vector3d rgb{1, 1, 1};
+  double alpha = 1;
+  double emission = 0;
+  int texture = -1;   ///< -1: none
+  double side_m = 1;  ///< that a picture spans
+  bool fits = false;  ///< a picture spans a side of what it is put on, whatever its size
+  bool cube = false;  ///< put round primitives from all sides
+  bool bold = true;   ///< has corners to be seen
+};
+
+/// A geom in the frame of its body; MuJoCo's sizes.
+struct Part {
+  enum class Shape { box, cylinder, capsule, ellipsoid, plane, mesh } shape = Shape::box;
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  int material = 0;
+  int mesh = -1;
+  bool is_solid = false;  ///< wheels feel it
+};
+
+/// An object of the scene.
+struct Body {
+  std::string name;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  std::vector<Part> parts;
+};
+
+struct World {
+  std::string family;
+  std::uint64_t seed = 0;
+  int attempt = 0;                 ///< worlds of this seed that were thrown away before this one
+  std::set<std::string> features;  ///< of `all_features` (worlds.h)
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Part> setting;
+  std::vector<Body> bodies;
+  bool has_sky = false;
+  Eigen::Vector3d sky{0.6, 0.7, 0.85};
+  double ambient = 0.5;  ///< light from everywhere
+  double diffuse = 0.4;  ///< from a direction
+  double extent_m = 10;
+  /// Everything but the paths of files.
+  scenario::Scenario scenario;
+};
+
+}  // namespace lcs::worlds
