@@ -30,21 +30,23 @@ void scatter(Kit& kit, const std::vector<std::string>& kinds, int count, const V
   }
 }
 
+int pale(Kit& kit, double low, double high) {
+  const double grey = kit.draw.between(low, high);
+  return kit.plain({grey, grey * kit.draw.between(0.94, 1), grey * kit.draw.between(0.88, 1)});
+}
+
 int wall_surface(Kit& kit) {
   if (kit.draw.chance(0.35)) {
     kit.tag("bare_wall");
     return kit.plain();
   }
-  const double side = kit.draw.between(1.2, 3);
-  return kit.surface({Style::fractal, Style::bricks, Style::tiles, Style::stripes, Style::worn,
-                      Style::concrete, Style::plain, Style::wood, Style::speckle},
-                     side);
+  return kit.wide_surface({Style::fractal, Style::bricks, Style::tiles, Style::stripes, Style::worn,
+                           Style::concrete, Style::plain, Style::wood, Style::speckle});
 }
 
 int floor_surface(Kit& kit, const std::vector<Style>& styles) {
-  if (kit.draw.chance(0.15)) return kit.plain();
-  const double side = kit.draw.between(1, 3);
-  return kit.surface(styles, side);
+  if (kit.draw.chance(0.15)) return pale(kit, 0.25, 0.8);
+  return kit.wide_surface(styles);
 }
 
 void enclose(Kit& kit, const Vector2d& half_m, double height_m) {
@@ -56,7 +58,8 @@ void enclose(Kit& kit, const Vector2d& half_m, double height_m) {
   kit.wall({-x, y}, {x, y}, height_m, one);
   kit.wall({x, y}, {x, -y}, height_m, other);
   kit.wall({-x, -y}, {-x, y}, height_m, other);
-  const int ceiling = kit.draw.chance(0.7) ? kit.plain() : kit.surface({Style::tiles, Style::wood}, 1.5);
+  const int ceiling = kit.draw.chance(0.7) ? pale(kit, 0.6, 0.95)
+                                           : kit.wide_surface({Style::tiles, Style::wood});
   kit.fix({kit.block({2 * x, 2 * y, 0.1}, {0, 0, height_m}, ceiling)}, {0, 0}, 0, false);
 }
 

@@ -33,6 +33,8 @@ void scatter(Kit& kit, const std::vector<std::string>& kinds, int count,
 /// Bare, or with a texture.
 int wall_surface(Kit& kit);
 int floor_surface(Kit& kit, const std::vector<Style>& styles);
+/// A grey, or nearly.
+int pale(Kit& kit, double low, double high);
 /// Four walls round x and y from -half to half, and a ceiling.
 void enclose(Kit& kit, const Eigen::Vector2d& half_m, double height_m);
 /// Shadows on the floor, or none.

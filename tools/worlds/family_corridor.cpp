@@ -41,7 +41,7 @@ Layout lay_out_corridor(Kit& kit) {
   const int leaf = kit.draw.chance(0.5) ? kit.plain() : kit.surface({Style::wood, Style::worn});
   const int frame = kit.plain();
   kit.fix({kit.block({2 * half_length, 2 * (half_width + depth), 0.1}, {0, 0, height},
-                     kit.plain())},
+                     pale(kit, 0.6, 0.95))},
           {0, 0}, 0, false);
   const double x0 = -half_length, x1 = half_length, y1 = half_width + depth;
   kit.wall({x1, y1}, {x1, -y1}, height, ends);
@@ -93,7 +93,7 @@ Layout lay_out_corridor(Kit& kit) {
   if (d.chance(0.3)) {
     const double from = d.between(0.2, 0.6) * half_length;
     kit.ramp(from, half_length - from, 2 * y1, d.between(2, 5) * std::numbers::pi / 180,
-             kit.surface({Style::tiles, Style::concrete, Style::worn}, 1.5));
+             kit.wide_surface({Style::tiles, Style::concrete, Style::worn}));
   }
 
   Layout layout;
@@ -114,7 +114,7 @@ Layout lay_out_corridor(Kit& kit) {
       const Thing thing = make_thing(
           kit, d.pick({"bin", "plant", "bench", "shelf", "chair", "carton", "cart", "cupboard",
                        "sign", "pole", "person", "sack", "bollard"}));
-      const double off = kit.bounds(thing.parts).half_m.y() + 0.04;
+      const double off = kit.bounds(thing.parts).half_m.y() + 0.06;
       for (int n = 0; n < 8; ++n) {
         const double side = d.sign();
         if (kit.try_stand(thing.kind, thing.parts,

@@ -26,7 +26,7 @@ Layout lay_out_garage(Kit& kit) {
   }
   // pillars between the bays, with bands and numbers
   const double pitch = 2 * d.between(2.4, 2.7), thick = d.between(0.3, 0.6);
-  const int shaft = wall_surface(kit), band = kit.surface({Style::stripes, Style::worn}, 0.6);
+  const int shaft = wall_surface(kit), band = kit.wide_surface({Style::stripes, Style::worn});
   const bool round = d.chance(0.4);
   const int white = kit.plain({0.88, 0.88, 0.85});
   for (const double side : {-1.0, 1.0}) {

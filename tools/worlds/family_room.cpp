@@ -71,7 +71,7 @@ Layout lay_out_room(Kit& kit) {
       const Thing thing = make_thing(
           kit, d.pick({"shelf", "shelf", "cupboard", "table", "bin", "plant", "ladder", "statue",
                        "chair", "pole", "carton"}));
-      const double depth = kit.bounds(thing.parts).half_m.y() + 0.03;
+      const double depth = kit.bounds(thing.parts).half_m.y() + 0.06;
       for (int n = 0; n < 8; ++n) {
         const auto [at, heading] = at_wall(d.whole(0, 3), d.between(-0.85, 0.85), depth);
         if (kit.try_stand(thing.kind, thing.parts, at, heading)) break;

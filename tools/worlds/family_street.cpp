@@ -23,7 +23,7 @@ Layout lay_out_street(Kit& kit) {
                                           Style::fractal, Style::bricks});
   kit.floor(asphalt, {front + 15, road + pavement + 6});
   const double kerb = d.between(0.06, 0.14);
-  const int slabs = kit.surface({Style::tiles, Style::concrete, Style::speckle, Style::bricks}, 1.5);
+  const int slabs = kit.wide_surface({Style::tiles, Style::concrete, Style::speckle, Style::bricks});
   kit.ground = [road, pavement, kerb](const Vector2d& at) {
     return std::abs(at.y()) >= road && std::abs(at.y()) <= road + pavement ? kerb : 0.0;
   };

@@ -72,14 +72,14 @@ Layout lay_out_yard(Kit& kit) {
       kit.fix(fence, at, turn);
     } else if (kind < 0.6) {
       kit.fix({kit.block({length, d.between(0.5, 1), d.between(0.8, 2.2)}, {0, 0, 0},
-                         kit.surface({Style::foliage}, 1.2))},
+                         kit.wide_surface({Style::foliage}))},
               at, turn);
     } else if (kind < 0.85) {
       kit.fix({kit.block({length, 0.3, d.between(1, 3) + 1}, {0, 0, -0.5}, wall_surface(kit))}, at,
               turn);
     } else {
       kit.fix({kit.block({length, 0.6, d.between(4, 8)}, {0, 0, -0.3},
-                         kit.surface({Style::facade, Style::bricks}, 4))},
+                         kit.wide_surface({Style::facade, Style::bricks}))},
               at, turn);
     }
   }

@@ -74,11 +74,19 @@ int Kit::plain() {
   return plain(rgb);
 }
 
-int Kit::surface(const std::vector<Style>& styles, std::optional<double> side_m) {
+int Kit::surface(const std::vector<Style>& styles) {
   const Style style = draw.pick(styles);
-  const bool again = draw.chance(0.3), round = draw.chance(0.4);
-  const auto [least, most] = span_of(style);
-  const double side = side_m.value_or(draw.scaled(least, most));
+  const bool again = draw.chance(0.3), is_cube = draw.chance(0.4) && is_isotropic(style);
+  const std::vector<int>& same = surfaces_[style];
+  if (!same.empty() && (again || world.textures.size() >= kMostTextures)) return draw.pick(same);
+  return add_surface(style, false, is_cube);
+}
+
+int Kit::wide_surface(const std::vector<Style>& styles) {
+  return add_surface(draw.pick(styles), true, false);
+}
+
+int Kit::add_surface(Style style, bool is_wide, bool is_cube) {
   if (style == Style::lettering) tag("text");
   if (style == Style::foliage) tag("foliage");
   if (style == Style::speckle) tag("speckle");
@@ -86,28 +94,26 @@ int Kit::surface(const std::vector<Style>& styles, std::optional<double> side_m)
       style == Style::grille || style == Style::facade || style == Style::corrugated) {
     tag("pattern");
   }
-  std::vector<int>& same = surfaces_[style];
-  if (!same.empty() && !side_m && (again || world.textures.size() >= kMostTextures)) {
-    return draw.pick(same);
-  }
+  const auto [least, most] = span_of(style);
   Material material;
-  material.side_m = side;
-  material.fits = style == Style::lettering && !side_m;
-  material.cube = is_isotropic(style) && !side_m && round;
+  material.side_m = draw.scaled(least, most) * (is_wide ? 1.4 : 1);
+  material.fits = style == Style::lettering && !is_wide;
+  material.cube = is_cube;
   material.bold = style != Style::plain && style != Style::concrete;
   material.texture = static_cast<int>(world.textures.size());
   // a stream of its own: what a picture shows does not move what stands in the world
-  Draw brush(world.seed, fmt::format("texture/{}/{}/{}", world.family, world.attempt,
-                                     material.texture));
-  const int pixels = side > 1.5 ? 512 : 256;
+  Draw brush(world.seed,
+             fmt::format("texture/{}/{}/{}", world.family, world.attempt, material.texture));
+  const int pixels = material.side_m > 1.5 ? 512 : 256;
   const bool from_file = !pictures_.empty() && brush.chance(kPhotographs);
   const std::string name =
       fmt::format("{}_{}", from_file ? "photograph" : name_of(style), material.texture);
   world.textures.push_back({name, from_file ? photograph(pictures_, pixels, brush)
                                             : worlds::paint(style, pixels, brush)});
   world.materials.push_back(material);
-  same.push_back(static_cast<int>(world.materials.size()) - 1);
-  return same.back();
+  const int place = static_cast<int>(world.materials.size()) - 1;
+  if (!is_wide) surfaces_[style].push_back(place);
+  return place;
 }
 
 int Kit::paint(const std::vector<Style>& styles) {

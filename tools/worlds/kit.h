@@ -43,7 +43,9 @@ class Kit {
   int plain(const Eigen::Vector3d& rgb, double alpha = 1, double emission = 0);
   int plain();  ///< of a drawn colour
   /// One of the styles; a world has only so many pictures, and then uses them again.
-  int surface(const std::vector<Style>& styles, std::optional<double> side_m = {});
+  int surface(const std::vector<Style>& styles);
+  /// Likewise for floors, walls and what is tiled with it: always a picture of its own.
+  int wide_surface(const std::vector<Style>& styles);
   /// As a thing has it: a surface or, by `plainness`, none.
   int paint(const std::vector<Style>& styles);
   int paint();  ///< of any style
@@ -101,6 +103,7 @@ class Kit {
   Part mesh_part(const std::string& key, const Mesh& mesh, const Eigen::Vector3d& at_m,
                  int material);
   double side_of(int material, double fit_m) const;
+  int add_surface(Style style, bool is_wide, bool is_cube);
 
   std::vector<std::string> pictures_;
   std::map<std::string, int> meshes_by_key_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <opencv2/imgproc.hpp>
 
 #include "scenarios/load.h"
@@ -15,6 +16,7 @@ namespace lcs::worlds {
 namespace {
 
 using Eigen::Vector2d;
+constexpr std::array<std::pair<int, int>, 4> kCorners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
 constexpr int kWidth = 480, kHeight = 360;
 const cv::Scalar kMoves(255, 0, 255), kStands(0, 200, 0), kRover(220, 80, 0);
 
@@ -43,11 +45,14 @@ cv::Mat3b plan(const World& world, const sim::Drive& drive) {
     box.centre_m = at;
     box.heading_rad = std::atan2(ahead.y(), ahead.x());
     boxes.emplace_back(box, moves);
-    low = low.cwiseMin(at);
-    high = high.cwiseMax(at);
+    for (const auto& [x, y] : kCorners) {
+      const Vector2d corner = point_of(box, x, y, 0).head<2>();
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
   };
   for (const Part& part : world.setting) {
-    if (part.shape == Part::Shape::plane) continue;
+    if (part.is_solid) continue;
     Part own = part;
     own.position_m.setZero();
     own.rotation.setIdentity();
@@ -71,7 +76,7 @@ cv::Mat3b plan(const World& world, const sim::Drive& drive) {
   };
   for (const auto& [box, moves] : boxes) {
     std::vector<cv::Point> corners;
-    for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+    for (const auto& [x, y] : kCorners) {
       corners.push_back(pixel(point_of(box, x, y, 0).head<2>()));
     }
     cv::polylines(tile, corners, true, moves ? kMoves : cv::Scalar(120, 120, 120), 1);

@@ -105,7 +105,7 @@ void paint_plain(cv::Mat3b& p, Draw& draw) {
 }
 
 void paint_fractal(cv::Mat3b& p, Draw& draw) {
-  const Colour dark = colour(draw, 25, 110, 30), light = colour(draw, 130, 235, 30);
+  const Colour dark = colour(draw, 25, 110, 16), light = colour(draw, 130, 235, 16);
   const cv::Mat1f noise = fractal_noise(draw, p.cols, draw.whole(3, 6), draw.between(0.55, 0.85));
   for (int y = 0; y < p.rows; ++y) {
     for (int x = 0; x < p.cols; ++x) {
@@ -296,7 +296,7 @@ void paint_foliage(cv::Mat3b& p, Draw& draw) {
   for (int i = 0; i < leaves; ++i) {
     const double light = draw.between(0.35, 1.15) * (0.6 + 0.4 * i / leaves);
     const Colour leaf =
-        dry ? shaded({60, 130, 160}, light) : shaded({50, level(draw.between(120, 170)), 85}, light);
+        dry ? shaded({75, 160, 195}, light) : shaded({65, level(draw.between(145, 205)), 105}, light);
     const cv::Point at(draw.whole(0, side - 1), draw.whole(0, side - 1));
     const cv::Size axes(std::max(1, static_cast<int>(size * draw.between(0.7, 1.6))),
                         std::max(1, static_cast<int>(size * draw.between(0.3, 0.7))));
@@ -309,7 +309,7 @@ void paint_foliage(cv::Mat3b& p, Draw& draw) {
 
 void paint_worn(cv::Mat3b& p, Draw& draw) {
   const int side = p.cols;
-  const Colour paint = colour(draw, 60, 210, 60), below = colour(draw, 40, 150, 20);
+  const Colour paint = colour(draw, 60, 210, 40), below = colour(draw, 40, 150, 20);
   const cv::Mat1f chips = fractal_noise(draw, side, draw.whole(3, 5), 0.7);
   const double above = draw.between(0.9, 1.9);
   for (int y = 0; y < side; ++y) {

@@ -120,7 +120,7 @@ Parts car(Kit& k) {
         k.block({0.02, 0.25, 0.14}, {-l / 2, y, bonnet * .65}, k.plain({0.6, 0.08, 0.06})));
   }
   parts.push_back(k.block({0.02, 0.5, 0.11}, {-l / 2 - 0.005, 0, 0.5}, k.surface({Style::lettering})));
-  return on_wheels(k, parts, l * .31, w / 2 - 0.1, r, 0.2);
+  return on_wheels(k, parts, l * .31, w / 2 - 0.08, r, 0.2);
 }
 
 Parts van(Kit& k) {
@@ -133,7 +133,7 @@ Parts van(Kit& k) {
                       w * .96, {0, 0, 0}, k.plain()),
               k.slice({{l * .26, h * .52}, {l * .45, h * .52}, {l * .37, h * .86}, {l * .26, h * .86}},
                       w * .97, {0, 0, 0}, glass)};
-  return on_wheels(k, parts, l * .31, w / 2 - 0.12, 0.34, 0.22);
+  return on_wheels(k, parts, l * .31, w / 2 - 0.09, 0.34, 0.22);
 }
 
 Parts table(Kit& k) {

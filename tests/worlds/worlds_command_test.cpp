@@ -1,0 +1,86 @@
+// `lcs world` and `lcs suite --worlds` from their command lines to their files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/tools/command.h"
+#include "tests/tools/files.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/suite/suite_result.h"
+
+namespace lcs::worlds {
+namespace {
+
+namespace fs = std::filesystem;
+using bench::CommandResult;
+
+class WorldCommand : public testing::Test {
+ protected:
+  CommandResult run(const std::vector<std::string>& arguments) {
+    return bench::run_lcs(arguments, {.folder = folder_.path()});
+  }
+  const bench::TemporaryFolder folder_;
+};
+
+TEST_F(WorldCommand, WritesAScenarioThatRunsLikeAnyOther) {
+  const CommandResult made = run({"world", "corridor", "--seed", "4", "--out", "mine"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(bench::entries(folder_.path() / "mine"),
+            (std::set<std::string>{"corridor_4.yaml", "scene.xml", "textures", "meshes"}));
+  fs::rename(folder_.path() / "mine", folder_.path() / "moved");  // nothing knows where it was made
+  const CommandResult ran = run({"run", "moved/corridor_4.yaml", "--no-video", "--set", "frames=4"});
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_TRUE(fs::exists(folder_.path() / "out" / "corridor_4" / "metrics.json"));
+}
+
+TEST_F(WorldCommand, ASheetShowsIt) {
+  ASSERT_EQ(run({"world", "corridor", "--seed", "4", "--sheet", "--out", "mine"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_.path() / "mine" / "sheet.png"));
+  // an earlier world is replaced, sheet and all
+  ASSERT_EQ(run({"world", "corridor", "--seed", "4", "--out", "mine"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_.path() / "mine" / "sheet.png"));
+}
+
+TEST_F(WorldCommand, MistakesAreToldInOneLineAndNothingIsWritten) {
+  fs::create_directory(folder_.path() / "empty");
+  fs::create_directory(folder_.path() / "broken");
+  std::ofstream(folder_.path() / "broken" / "a.png") << "no picture";
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& with) {
+    const CommandResult command = run(arguments);
+    EXPECT_EQ(command.exit_code, 2);
+    EXPECT_NE(command.err.find(with), std::string::npos) << command.err;
+    EXPECT_EQ(std::count(command.err.begin(), command.err.end(), '\n'), 1) << command.err;
+  };
+  refused({"world", "moon"}, "no family of worlds 'moon'; there are room, corridor, warehouse");
+  refused({"world", "room", "--pictures", "empty"}, "no picture (.png, .jpg, .jpeg, .bmp)");
+  refused({"world", "room", "--pictures", "broken"}, "no picture that can be read");
+  refused({"world", "room", "--out", "broken"}, "broken");
+  refused({"suite", "--worlds", "dev"}, "no split 'dev'; give train, validate or test");
+  refused({"suite", "--worlds", "train", "--family", "moon"}, "no family of worlds 'moon'");
+  refused({"suite", "--count", "3"}, "--worlds");
+  refused({"suite", "scenarios", "--worlds", "train"}, "PATH");
+  EXPECT_FALSE(fs::exists(folder_.path() / "out"));
+}
+
+TEST_F(WorldCommand, ASuiteOfWorldsRunsEachOnceAndKeepsThem) {
+  const std::vector<std::string> command{"suite",    "--worlds", "train",  "--count", "2",
+                                         "--family", "corridor", "--set",  "frames=4"};
+  const CommandResult first = run(command);
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_NE(first.out.find("= corridor (2)"), std::string::npos) << first.out;
+  const suite::SuiteResult result =
+      suite::read_suite(folder_.path() / "out" / "suite" / suite::kSuiteFile);
+  ASSERT_EQ(result.scenarios.size(), 2u);
+  EXPECT_EQ(result.scenarios[0].name, "corridor_1");
+  EXPECT_EQ(result.scenarios[0].runs.size(), 1u);
+  const fs::path kept = folder_.path() / result.scenarios[0].file;
+  // what is kept is used as it is
+  std::ofstream(kept, std::ios::app) << "# looked at\n";
+  ASSERT_EQ(run(command).exit_code, 0);
+  EXPECT_NE(bench::read(kept).find("# looked at"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lcs::worlds

@@ -1,0 +1,306 @@
+// Worlds as they are drawn and written, and as the simulator's truth sees them.
+#include "tools/worlds/worlds.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+#include <set>
+
+#include "scenarios/load.h"
+#include "sim/drive.h"
+#include "sim/mujoco.h"
+#include "sim/simulation.h"
+#include "tests/tools/files.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/worlds/kit.h"
+#include "tools/worlds/textures.h"
+
+namespace lcs::worlds {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr int kWorlds = 60;
+
+/// The first worlds of `train`, drawn once for all tests.
+const std::vector<World>& sixty() {
+  static const std::vector<World> worlds = [] {
+    std::vector<World> all;
+    for (const Choice& choice : choose("train", kWorlds)) all.push_back(draw_world(choice));
+    return all;
+  }();
+  return worlds;
+}
+
+fs::path written(const World& world, const bench::TemporaryFolder& folder) {
+  write_world(world, folder.path());
+  return folder.path() / (name_of(world) + ".yaml");
+}
+
+/// A world with movers and a small picture, of each family.
+std::vector<World> small_ones() {
+  std::map<std::string, World> found;
+  for (const World& world : sixty()) {
+    if (world.scenario.actors.empty()) continue;
+    const auto [place, is_new] = found.emplace(world.family, world);
+    if (world.scenario.camera.width_px < place->second.scenario.camera.width_px) {
+      place->second = world;
+    }
+  }
+  std::vector<World> all;
+  for (auto& [family, world] : found) all.push_back(std::move(world));
+  return all;
+}
+
+TEST(Worlds, TheSameSeedGivesTheSameBytesAndAnotherSeedOthers) {
+  for (const std::string& family : families()) {
+    const bench::TemporaryFolder one, again, other;
+    write_world(draw_world({family, 5}), one.path());
+    write_world(draw_world({family, 5}), again.path());
+    write_world(draw_world({family, 6}), other.path());
+    const auto bytes = bench::bytes_in(one.path());
+    EXPECT_GT(bytes.size(), 10u);
+    EXPECT_TRUE(bytes == bench::bytes_in(again.path())) << family;
+    EXPECT_NE(bytes.at("scene.xml"), bench::read(other.path() / "scene.xml"));
+  }
+}
+
+TEST(Worlds, TheSceneOpensInMujocoAlone) {
+  for (const World& world : small_ones()) {
+    const bench::TemporaryFolder folder;
+    written(world, folder);
+    std::array<char, 1000> message{};
+    mjModel* model = mj_loadXML((folder.path() / "scene.xml").c_str(), nullptr, message.data(),
+                                static_cast<int>(message.size()));
+    ASSERT_TRUE(model) << world.family << ": " << message.data();
+    EXPECT_STREQ(message.data(), "");
+    EXPECT_EQ(model->nbody, static_cast<int>(world.bodies.size()) + 1);
+    EXPECT_GT(model->ntex, 3);
+    mj_deleteModel(model);
+  }
+}
+
+TEST(Worlds, TheScenarioSaysWhatWasDrawn) {
+  for (const World& world : small_ones()) {
+    const bench::TemporaryFolder folder;
+    const scenario::Scenario read = scenario::load(written(world, folder));
+    const scenario::Scenario& drawn = world.scenario;
+    EXPECT_EQ(read.name, drawn.name);
+    EXPECT_EQ(read.groups, drawn.groups);
+    EXPECT_EQ(read.seed, drawn.seed);
+    EXPECT_EQ(read.frames, drawn.frames);
+    EXPECT_EQ(read.ego.drive, drawn.ego.drive);
+    ASSERT_EQ(read.ego.phases.size(), drawn.ego.phases.size());
+    for (std::size_t i = 0; i < drawn.ego.phases.size(); ++i) {
+      const scenario::EgoPhase &a = read.ego.phases[i], &b = drawn.ego.phases[i];
+      EXPECT_NEAR(a.at_s, b.at_s, 1e-9);
+      EXPECT_NEAR(a.speed_mps, b.speed_mps, 1e-4);
+      EXPECT_NEAR(a.acceleration_mps2, b.acceleration_mps2, 1e-4);
+      EXPECT_NEAR(a.direction_rad, b.direction_rad, 1e-6);
+      EXPECT_NEAR(a.yaw_rate_radps, b.yaw_rate_radps, 1e-6);
+    }
+    EXPECT_NEAR(read.camera.fovy_rad, drawn.camera.fovy_rad, 1e-9);
+    EXPECT_EQ(read.camera.rate_hz, drawn.camera.rate_hz);
+    EXPECT_NEAR(read.camera.told.height_error_m, drawn.camera.told.height_error_m, 1e-9);
+    EXPECT_NEAR(read.camera.told.pitch_error_rad, drawn.camera.told.pitch_error_rad, 1e-9);
+    EXPECT_EQ(read.image->jpeg_quality, drawn.image->jpeg_quality);
+    EXPECT_NEAR(read.image->noise->full_well_e, drawn.image->noise->full_well_e, 1e-3);
+    EXPECT_EQ(read.imu.preset, drawn.imu.preset);
+    EXPECT_EQ(read.odometry.enabled, drawn.odometry.enabled);
+    EXPECT_EQ(read.ground.has_value(), drawn.ground.has_value());
+    ASSERT_EQ(read.actors.size(), drawn.actors.size());
+    for (std::size_t i = 0; i < drawn.actors.size(); ++i) {
+      EXPECT_EQ(read.actors[i].body, drawn.actors[i].body);
+      EXPECT_EQ(read.actors[i].trajectory.index(), drawn.actors[i].trajectory.index());
+    }
+  }
+}
+
+TEST(Worlds, WhatMustOccurOccurs) {
+  std::map<std::string, int> count;
+  for (const World& world : sixty()) {
+    for (const std::string& feature : world.features) ++count[feature];
+  }
+  for (const std::string& feature : all_features()) {
+    EXPECT_GE(count[feature], 2) << feature;
+    count.erase(feature);
+  }
+  EXPECT_TRUE(count.empty()) << count.begin()->first << " is in no list";
+}
+
+TEST(Worlds, OneInFourShowsNothingThatMoves) {
+  int still = 0;
+  for (const World& world : sixty()) {
+    const bool is_static = world.scenario.actors.empty();
+    still += is_static;
+    const auto& groups = world.scenario.groups;
+    EXPECT_EQ(std::count(groups.begin(), groups.end(), "static"), is_static);
+    EXPECT_EQ(std::count(groups.begin(), groups.end(), world.family), 1);
+  }
+  EXPECT_EQ(still, kWorlds / 4);
+}
+
+TEST(Worlds, CamerasAndSensorsAreInTheirRangesAndNeverWithoutNoise) {
+  std::set<std::string> imus;
+  std::set<int> widths;
+  std::set<double> rates;
+  for (const World& world : sixty()) {
+    const scenario::Scenario& s = world.scenario;
+    ASSERT_TRUE(s.image && s.image->noise);
+    EXPECT_GE(s.image->noise->read_e, 2);
+    EXPECT_LE(s.image->noise->full_well_e, 20000);
+    EXPECT_GE(s.camera.width_px, 320);
+    EXPECT_LE(s.camera.width_px, 1280);
+    const double fovx = 2 * std::atan(std::tan(s.camera.fovy_rad / 2) * s.camera.width_px /
+                                      s.camera.height_px);
+    EXPECT_GT(fovx, 44.5 * kDegree);
+    EXPECT_LT(fovx, 100.5 * kDegree);
+    EXPECT_GE(s.camera.rate_hz, 3);
+    EXPECT_LE(s.camera.rate_hz, 30);
+    EXPECT_GE(s.camera.mount_position_m.z(), 0.2);
+    EXPECT_LE(s.camera.mount_position_m.z(), 1.6);
+    EXPECT_GE(s.frames, 40);
+    EXPECT_LE(s.frames, 80);
+    EXPECT_EQ(s.ego.drive == scenario::Drive::wheeled, world.features.contains("wheeled"));
+    EXPECT_TRUE(!s.ground || s.ego.drive == scenario::Drive::wheeled);
+    imus.insert(s.imu.preset);
+    widths.insert(s.camera.width_px);
+    rates.insert(s.camera.rate_hz);
+  }
+  EXPECT_GE(imus.size(), 3u);
+  EXPECT_GE(widths.size(), 6u);
+  EXPECT_GE(rates.size(), 6u);
+}
+
+TEST(Worlds, MoversAreSeenTenFramesOrMoreByTheTruth) {
+  for (const World& world : small_ones()) {
+    const bench::TemporaryFolder folder;
+    const scenario::Scenario scenario = scenario::load(written(world, folder));
+    sim::Simulation simulation(scenario);
+    std::map<std::string, int> seen;
+    while (const auto o = simulation.next()) {
+      for (const sim::ObjectTruth& object : o->objects) {
+        constexpr int kSpeck_px = 20;
+        if (!object.moving || object.visible_px < kSpeck_px) continue;
+        ++seen[simulation.objects()[static_cast<std::size_t>(object.object - 1)].name];
+      }
+    }
+    for (const scenario::Actor& actor : scenario.actors) {
+      EXPECT_GE(seen[*actor.body], 10) << name_of(world) << " " << actor.name;
+    }
+  }
+}
+
+/// By the simulator's poses, the rover's and the movers'.
+TEST(Worlds, MoversAreFreeOfTheRoverOfWhatStandsAndOfEachOther) {
+  int movers = 0;
+  for (const World& world : sixty()) {
+    if (world.scenario.actors.empty() || ++movers > 20) continue;
+    const bench::TemporaryFolder folder;
+    const sim::Drive drive = sim::drive(scenario::load(written(world, folder)));
+    std::set<std::string> moving;
+    for (const scenario::Actor& actor : world.scenario.actors) moving.insert(*actor.body);
+    for (const sim::Observation& o : drive.frames) {
+      std::vector<Box> boxes;
+      for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+        const sim::Pose& T_WO = o.truth.now.T_WO[i + 1];
+        Box box = bounds(world, world.bodies[i].parts);
+        box.centre_m = T_WO.p.head<2>();
+        box.heading_rad = std::atan2(T_WO.R(1, 0), T_WO.R(0, 0));
+        box.foot_m += T_WO.p.z();
+        box.head_m += T_WO.p.z();
+        boxes.push_back(box);
+      }
+      const Eigen::Vector3d camera = o.truth.now.T_WC.p;
+      for (std::size_t i = 0; i < boxes.size(); ++i) {
+        if (!moving.contains(world.bodies[i].name)) continue;
+        for (std::size_t k = 0; k < boxes.size(); ++k) {
+          if (k == i) continue;
+          EXPECT_GT(gap_m(boxes[i], boxes[k]), -0.01)
+              << name_of(world) << " frame " << o.index << ": " << world.bodies[i].name << ", "
+              << world.bodies[k].name;
+        }
+        const Box rover{camera.head<2>(), {0.05, 0.05}, 0, 0, camera.z()};
+        EXPECT_GT(gap_m(boxes[i], rover), 0.02) << name_of(world) << " frame " << o.index;
+      }
+    }
+  }
+}
+
+TEST(Worlds, SplitsAreDisjointAndSpreadOverTheFamilies) {
+  std::set<std::uint64_t> seeds;
+  for (const Split& split : splits()) {
+    std::map<std::string, int> count;
+    for (const Choice& choice : choose(split.name, 60)) {
+      ++count[choice.family];
+      EXPECT_GE(choice.seed, split.first_seed);
+      EXPECT_LE(choice.seed, split.last_seed);
+      if (choice.family != "room") continue;
+      EXPECT_TRUE(seeds.insert(choice.seed).second);
+    }
+    for (const std::string& family : families()) EXPECT_EQ(count[family], 10);
+    for (const Split& other : splits()) {
+      if (other.name == split.name) continue;
+      EXPECT_TRUE(other.last_seed < split.first_seed || split.last_seed < other.first_seed);
+    }
+  }
+  EXPECT_EQ(choose("test", 3, "yard").back().family, "yard");
+  EXPECT_THROW(choose("dev", 3), std::invalid_argument);
+  EXPECT_THROW(choose("test", 3, "moon"), std::invalid_argument);
+}
+
+TEST(Worlds, PicturesOfAFolderAreSurfacesAndChangeNothingElse) {
+  const bench::TemporaryFolder folder;
+  cv::Mat3b red(60, 90, cv::Vec3b(0, 0, 255));
+  cv::imwrite((folder.path() / "red.png").string(), red);
+  const World painted = draw_world({"room", 5});
+  const World photographed = draw_world({"room", 5}, pictures_in(folder.path().string()));
+  int photographs = 0;
+  for (const Texture& texture : photographed.textures) {
+    if (!texture.name.starts_with("photograph")) continue;
+    ++photographs;
+    EXPECT_EQ(cv::norm(texture.picture, cv::Mat3b(texture.picture.size(), cv::Vec3b(0, 0, 255)),
+                       cv::NORM_INF),
+              0);
+  }
+  EXPECT_GT(photographs, 0);
+  EXPECT_LT(photographs, static_cast<int>(photographed.textures.size()));
+  ASSERT_EQ(painted.bodies.size(), photographed.bodies.size());
+  for (std::size_t i = 0; i < painted.bodies.size(); ++i) {
+    EXPECT_EQ(painted.bodies[i].position_m, photographed.bodies[i].position_m);
+  }
+}
+
+/// Where a picture meets the next one it differs from it no more than its own columns from each
+/// other.
+TEST(Textures, RepeatWithoutASeam) {
+  for (const Style style : {Style::fractal, Style::concrete, Style::foliage, Style::speckle,
+                            Style::worn, Style::plain}) {
+    Draw draw(3, name_of(style));
+    const cv::Mat3b picture = paint(style, 256, draw);
+    const auto step = [&](int a, int b) {
+      return cv::norm(picture.col(a), picture.col(b), cv::NORM_L1);
+    };
+    double inside = 0;
+    for (int x = 0; x + 1 < picture.cols; ++x) inside = std::max(inside, step(x, x + 1));
+    EXPECT_LE(step(picture.cols - 1, 0), 1.3 * inside) << name_of(style);
+  }
+}
+
+TEST(Textures, EachStyleIsAPictureOfItsOwn) {
+  std::vector<cv::Mat3b> pictures;
+  for (int i = 0; i <= static_cast<int>(Style::facade); ++i) {
+    Draw draw(1, "the same");
+    pictures.push_back(paint(static_cast<Style>(i), 64, draw));
+    for (std::size_t k = 0; k + 1 < pictures.size(); ++k) {
+      EXPECT_GT(cv::norm(pictures[k], pictures.back(), cv::NORM_L1), 64 * 64);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lcs::worlds
