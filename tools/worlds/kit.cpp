@@ -290,15 +290,14 @@ void Kit::stand(const std::string& kind, const Parts& parts, const Vector2d& at_
                           rotation,
                           parts});
   solids.push_back(box);
-  const auto is_bare = [&](const Part& part) {
-    return !world.materials[static_cast<std::size_t>(part.material)].bold;
-  };
-  // what touches the ground, or all of it, shows nothing that a corner could be
-  const Box whole = bounds(parts);
-  const bool bare_foot = std::all_of(parts.begin(), parts.end(), [&](const Part& part) {
-    return is_bare(part) || bounds({part}).foot_m > whole.foot_m + 0.05;
+  constexpr double kNotThin_m = 0.1;
+  if (own.half_m.minCoeff() > kNotThin_m && is_bare(parts)) tag("bare_thing");
+}
+
+bool Kit::is_bare(const Parts& parts) const {
+  return std::none_of(parts.begin(), parts.end(), [&](const Part& part) {
+    return world.materials[static_cast<std::size_t>(part.material)].bold;
   });
-  if (bare_foot) tag("bare_foot");
 }
 
 bool Kit::try_stand(const std::string& kind, const Parts& parts, const Vector2d& at_m,

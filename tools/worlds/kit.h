@@ -77,6 +77,9 @@ class Kit {
   /// How it stands there: upright or, where it is long, as the ground lies.
   Eigen::Quaterniond attitude(const Box& box) const;
 
+  /// Whether nothing of it has a texture that corners could be found in.
+  bool is_bare(const Parts& parts) const;
+
   /// Puts an object of a new name that begins with `kind`, whatever is there.
   void stand(const std::string& kind, const Parts& parts, const Eigen::Vector2d& at_m,
              double heading_rad);

@@ -50,12 +50,16 @@ class Planner {
     const double radius = box.half_m.norm();
     const Meeting meeting = meet(radius);
     const Stand& rover = way_.frames[meeting.frame];
-    const Path path =
+    Path path =
         d_.pick({Path::across, Path::across, Path::across, Path::slanting, Path::slanting,
                  Path::coming, Path::going, Path::pacing, Path::overtaking, Path::shuttle,
                  Path::circle});
     const double fastest = std::min(traffic_.fastest_mps, speed_in_view(meeting.distance_m));
     double speed = d_.scaled(std::min(0.15, fastest), fastest);
+    if (d_.chance(0.15)) {  // as fast as can be, and so to and fro: else it were gone
+      path = Path::shuttle;
+      speed = fastest * d_.between(0.7, 1);
+    }
     double heading = rover.heading_rad;
     switch (path) {
       case Path::across:
@@ -202,7 +206,9 @@ class Planner {
   }
 
   bool plan_circle(Mover& mover, const Meeting& meeting, const Box& box, double speed) {
+    constexpr double kInwards_mps2 = 1.5;  // what stays upright as it turns
     const double radius = to_cm(d_.between(0.5, std::min(3.0, 0.5 * meeting.distance_m + 0.5)));
+    speed = std::min(speed, std::sqrt(kInwards_mps2 * radius));
     const double angle = d_.between(-kPi, kPi);
     const Vector2d centre = to_cm(meeting.at_m - radius * towards(angle));
     const double level = kit_.ground(centre);
@@ -351,11 +357,7 @@ void add_movers(Kit& kit, const Way& way, const std::vector<Mover>& movers) {
                                 Eigen::Quaterniond(
                                     Eigen::AngleAxisd(first.heading_rad, Vector3d::UnitZ())),
                                 mover.parts});
-    const bool is_bare =
-        std::none_of(mover.parts.begin(), mover.parts.end(), [&](const Part& part) {
-          return kit.world.materials[static_cast<std::size_t>(part.material)].bold;
-        });
-    if (is_bare) kit.tag("plain_mover");
+    if (kit.is_bare(mover.parts)) kit.tag("plain_mover");
     const bool is_mesh = std::any_of(mover.parts.begin(), mover.parts.end(), [](const Part& part) {
       return part.shape == Part::Shape::mesh;
     });

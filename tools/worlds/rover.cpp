@@ -63,7 +63,7 @@ void draw_camera(Kit& kit, const Lane& lane) {
 void draw_image(Kit& kit) {
   Draw& d = kit.draw;
   scenario::Image image;
-  image.noise = {.full_well_e = to(d.scaled(1500, 20000), 10), .read_e = to(d.scaled(2, 15), 0.1)};
+  image.noise = {.full_well_e = to(d.scaled(2500, 20000), 10), .read_e = to(d.scaled(2, 12), 0.1)};
   if (d.chance(0.5)) image.blur_px = to(d.between(0.2, 1.0), 0.01);
   // less light on the sensor, and a gain that makes up for it, more or less
   const double light = d.scaled(0.3, 1);

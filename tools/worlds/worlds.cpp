@@ -151,7 +151,7 @@ const std::vector<std::string>& families() {
 }
 
 const std::vector<std::string>& all_features() {
-  static const std::vector<std::string> names{"bare_foot",
+  static const std::vector<std::string> names{"bare_thing",
                                               "text",
                                               "pattern",
                                               "bare_wall",
