@@ -26,6 +26,11 @@ class Draw {
   }
   bool chance(double share) { return random_.uniform() < share; }
   double sign() { return chance(0.5) ? 1 : -1; }
+  /// Between the two, or between their negatives.
+  double either(double low, double high) {
+    const double size = between(low, high);
+    return sign() * size;
+  }
   double normal() { return random_.normal(); }
 
   template <class T>

@@ -25,7 +25,7 @@ void scatter(Kit& kit, const std::vector<std::string>& kinds, int count, const V
                    (corner.array() <= high_m.array()).all();
         }
       }
-      if (inside && kit.try_stand(thing.kind, thing.parts, {x, y}, heading, gap_m)) break;
+      if (inside && kit.try_stand({thing.kind, thing.parts, {x, y}, heading, gap_m})) break;
     }
   }
 }
@@ -60,7 +60,7 @@ void enclose(Kit& kit, const Vector2d& half_m, double height_m) {
   kit.wall({-x, -y}, {-x, y}, height_m, other);
   const int ceiling = kit.draw.chance(0.7) ? pale(kit, 0.6, 0.95)
                                            : kit.wide_surface({Style::tiles, Style::wood});
-  kit.fix({kit.block({2 * x, 2 * y, 0.1}, {0, 0, height_m}, ceiling)}, {0, 0}, 0, false);
+  kit.fix({{kit.block({{2 * x, 2 * y, 0.1}, {0, 0, height_m}, ceiling})}, {0, 0}, 0, false});
 }
 
 void maybe_shadows(Kit& kit, const Vector2d& low_m, const Vector2d& high_m) {

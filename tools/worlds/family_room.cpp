@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 Layout lay_out_room(Kit& kit) {
   Draw& d = kit.draw;
-  const Vector2d half(d.between(2.6, 5.5), d.between(2.2, 4));
+  const Vector2d half{d.between(2.6, 5.5), d.between(2.2, 4)};
   const double height = d.between(2.3, 3.4);
   kit.plainness = d.between(0.05, 0.5);
   kit.world.extent_m = half.norm();
@@ -21,10 +21,10 @@ Layout lay_out_room(Kit& kit) {
   enclose(kit, half, height);
   const int skirting = kit.plain();
   for (const double side : {-1.0, 1.0}) {
-    kit.fix({kit.block({2 * half.x(), 0.02, 0.08}, {0, 0, 0}, skirting)},
-            {0, side * (half.y() - 0.01)}, 0, false);
-    kit.fix({kit.block({0.02, 2 * half.y(), 0.08}, {0, 0, 0}, skirting)},
-            {side * (half.x() - 0.01), 0}, 0, false);
+    kit.fix({{kit.block({{2 * half.x(), 0.02, 0.08}, {0, 0, 0}, skirting})},
+            {0, side * (half.y() - 0.01)}, 0, false});
+    kit.fix({{kit.block({{0.02, 2 * half.y(), 0.08}, {0, 0, 0}, skirting})},
+            {side * (half.x() - 0.01), 0}, 0, false});
   }
 
   const auto at_wall = [&kit, half](int wall, double along, double off) {
@@ -47,10 +47,11 @@ Layout lay_out_room(Kit& kit) {
                                                   Style::tiles, Style::stripes});
     const int frame = kit.plain();
     const double z = d.between(0.9, height - h - 0.1);
-    const auto [at, heading] = at_wall(d.whole(0, 3), d.between(-0.8, 0.8), 0.01);
-    kit.fix({kit.block({w, 0.03, h}, {0, 0, z}, frame),
-             kit.block({w - 0.08, 0.04, h - 0.08}, {0, 0, z + 0.04}, face)},
-            at, heading, false);
+    const int wall = d.whole(0, 3);
+    const auto [at, heading] = at_wall(wall, d.between(-0.8, 0.8), 0.01);
+    kit.fix({{kit.block({{w, 0.03, h}, {0, 0, z}, frame}),
+             kit.block({{w - 0.08, 0.04, h - 0.08}, {0, 0, z + 0.04}, face})},
+            at, heading, false});
   }
 
   Layout layout;
@@ -73,8 +74,9 @@ Layout lay_out_room(Kit& kit) {
                        "chair", "pole", "carton"}));
       const double depth = kit.bounds(thing.parts).half_m.y() + 0.06;
       for (int n = 0; n < 8; ++n) {
-        const auto [at, heading] = at_wall(d.whole(0, 3), d.between(-0.85, 0.85), depth);
-        if (kit.try_stand(thing.kind, thing.parts, at, heading)) break;
+        const int wall = d.whole(0, 3);
+        const auto [at, heading] = at_wall(wall, d.between(-0.85, 0.85), depth);
+        if (kit.try_stand({thing.kind, thing.parts, at, heading})) break;
       }
     }
     const Vector2d inner = half - Vector2d(0.3, 0.3);
@@ -83,9 +85,9 @@ Layout lay_out_room(Kit& kit) {
             d.whole(3, 10), -inner, inner);
     for (int i = d.whole(0, 3); i > 0; --i) {
       const Thing lamp = hanging(kit, height, d.between(1.5, height - 0.35));
-      kit.try_stand(lamp.kind, lamp.parts,
+      kit.try_stand({lamp.kind, lamp.parts,
                     {d.between(-0.6, 0.6) * half.x(), d.between(-0.6, 0.6) * half.y()},
-                    d.between(0, std::numbers::pi));
+                    d.between(0, std::numbers::pi)});
     }
     maybe_shadows(kit, -inner, inner);
   };

@@ -34,8 +34,8 @@ Layout lay_out_street(Kit& kit) {
              d.between(2, 7) * std::numbers::pi / 180, asphalt);
   }
   for (const double side : {-1.0, 1.0}) {
-    kit.world.setting.push_back(kit.block(
-        {front - back, pavement, kerb}, {(front + back) / 2, side * (road + pavement / 2), 0}, slabs));
+    kit.world.setting.push_back(kit.block({
+        {front - back, pavement, kerb}, {(front + back) / 2, side * (road + pavement / 2), 0}, slabs}));
     // fronts of houses, a wall, or a hedge
     double x = back;
     while (x < front) {
@@ -46,29 +46,30 @@ Layout lay_out_street(Kit& kit) {
         const double h = d.between(4, 10), deep = d.between(0.3, 0.9);
         const int face = d.chance(0.1) ? wall_surface(kit)
                                        : kit.surface({Style::facade, Style::facade, Style::bricks});
-        kit.fix({kit.block({w, 3, h + 1}, {0, 0, -0.5}, face)},
-                {x + w / 2, y + side * (1.5 + deep * d.between(0, 1))}, 0);
+        kit.fix({{kit.block({{w, 3, h + 1}, {0, 0, -0.5}, face})},
+                {x + w / 2, y + side * (1.5 + deep * d.between(0, 1))}, 0});
         if (d.chance(0.7)) {  // a door, and what hangs over it
           const int leaf = kit.plain();
-          kit.fix({kit.block({1, 0.08, 2.1}, {0, 0, kerb}, leaf)},
-                  {x + w * d.between(0.3, 0.7), y + side * 0.03}, 0, false);
+          kit.fix({{kit.block({{1, 0.08, 2.1}, {0, 0, kerb}, leaf})},
+                  {x + w * d.between(0.3, 0.7), y + side * 0.03}, 0, false});
           if (d.chance(0.5)) {
             kit.tag("hanging");
-            kit.fix({kit.block({0.05, 0.7, 0.5}, {0, 0, 2.4}, kit.surface({Style::lettering}))},
-                    {x + w * d.between(0.2, 0.8), y - side * 0.4}, 0, false);
+            kit.fix({{kit.block({{0.05, 0.7, 0.5}, {0, 0, 2.4}, kit.surface({Style::lettering})})},
+                    {x + w * d.between(0.2, 0.8), y - side * 0.4}, 0, false});
           }
         }
       } else if (kind < 0.85) {
-        kit.fix({kit.block({w, 0.3, d.between(1, 2.2)}, {0, 0, 0}, wall_surface(kit))},
-                {x + w / 2, y + side * 0.2}, 0);
+        kit.fix({{kit.block({{w, 0.3, d.between(1, 2.2)}, {0, 0, 0}, wall_surface(kit)})},
+                {x + w / 2, y + side * 0.2}, 0});
       } else {
-        kit.fix({kit.block({w, 0.8, d.between(0.9, 1.8)}, {0, 0, 0}, kit.surface({Style::foliage}))},
-                {x + w / 2, y + side * 0.5}, 0);
+        kit.fix({{kit.block({{w, 0.8, d.between(0.9, 1.8)}, {0, 0, 0}, kit.surface({Style::foliage})})},
+                {x + w / 2, y + side * 0.5}, 0});
       }
       x += w + (d.chance(0.2) ? d.between(1, 3) : 0);
     }
     const Vector2d behind(0, side * (road + pavement + 4)), ahead(front, 0);  // of the gaps
-    kit.wall(behind - side * ahead, behind + side * ahead, d.between(3, 8), kit.plain());
+    const double height = d.between(3, 8);
+    kit.wall(behind - side * ahead, behind + side * ahead, height, kit.plain());
   }
   if (d.chance(0.7)) {  // the line in the middle
     const int white = kit.plain({0.85, 0.85, 0.83});
@@ -95,9 +96,9 @@ Layout lay_out_street(Kit& kit) {
     for (const double side : {-1.0, 1.0}) {
       for (int i = d.whole(2, 6); i > 0; --i) {  // parked along the kerb
         const Thing car = make_thing(kit, d.pick({"car", "car", "car", "van"}));
-        kit.try_stand(car.kind, car.parts,
+        kit.try_stand({car.kind, car.parts,
                       {d.between(back, front), side * (road - 1.05)},
-                      d.chance(0.5) ? 0 : std::numbers::pi, 0.4);
+                      d.chance(0.5) ? 0 : std::numbers::pi, 0.4});
       }
       const double y0 = side * (road + 0.1), y1 = side * (road + pavement - 0.1);
       scatter(kit, {"lamp", "tree", "sign", "bin", "bench", "bollard", "person", "pole", "bush",

@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 Layout lay_out_yard(Kit& kit) {
   Draw& d = kit.draw;
-  const Vector2d half(d.between(9, 15), d.between(6, 10));
+  const Vector2d half{d.between(9, 15), d.between(6, 10)};
   kit.plainness = d.between(0.05, 0.4);
   kit.world.has_sky = true;
   const double cloud = d.between(0.6, 0.95);
@@ -64,23 +64,23 @@ Layout lay_out_yard(Kit& kit) {
       const int wood = kit.paint({Style::wood});
       const double h = d.between(0.8, 1.5), step = d.between(0.9, 1.8);
       for (double x = -length / 2; x <= length / 2; x += step) {
-        fence.push_back(kit.block({0.07, 0.07, h}, {x, 0, 0}, wood));
+        fence.push_back(kit.block({{0.07, 0.07, h}, {x, 0, 0}, wood}));
       }
       for (const double z : {0.3 * h, 0.6 * h, 0.9 * h}) {
-        fence.push_back(kit.block({length, 0.03, 0.06}, {0, 0, z}, wood));
+        fence.push_back(kit.block({{length, 0.03, 0.06}, {0, 0, z}, wood}));
       }
-      kit.fix(fence, at, turn);
+      kit.fix({fence, at, turn});
     } else if (kind < 0.6) {
-      kit.fix({kit.block({length, d.between(0.5, 1), d.between(0.8, 2.2)}, {0, 0, 0},
-                         kit.wide_surface({Style::foliage}))},
-              at, turn);
+      kit.fix({{kit.block({{length, d.between(0.5, 1), d.between(0.8, 2.2)}, {0, 0, 0},
+                         kit.wide_surface({Style::foliage})})},
+              at, turn});
     } else if (kind < 0.85) {
-      kit.fix({kit.block({length, 0.3, d.between(1, 3) + 1}, {0, 0, -0.5}, wall_surface(kit))}, at,
-              turn);
+      kit.fix({{kit.block({{length, 0.3, d.between(1, 3) + 1}, {0, 0, -0.5}, wall_surface(kit)})}, at,
+              turn});
     } else {
-      kit.fix({kit.block({length, 0.6, d.between(4, 8)}, {0, 0, -0.3},
-                         kit.wide_surface({Style::facade, Style::bricks}))},
-              at, turn);
+      kit.fix({{kit.block({{length, 0.6, d.between(4, 8)}, {0, 0, -0.3},
+                         kit.wide_surface({Style::facade, Style::bricks})})},
+              at, turn});
     }
   }
   layout.traffic = {.kinds = {"person", "person", "bicycle", "ball", "cart", "robot", "sack", "drum",

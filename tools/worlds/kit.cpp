@@ -143,81 +143,84 @@ Part Kit::mesh_part(const std::string& key, const Mesh& mesh, const Vector3d& at
   return part;
 }
 
-Part Kit::block(const Vector3d& size_m, const Vector3d& foot_m, int material, double heading_rad) {
-  const Vector3d size = rounded(size_m);
-  const Material& m = world.materials[static_cast<std::size_t>(material)];
+Part Kit::block(const Block& block) {
+  const Vector3d size = rounded(block.size_m);
+  const Material& m = world.materials[static_cast<std::size_t>(block.material)];
   Part part;
   if (m.texture >= 0 && !m.cube) {
-    const double side = side_of(material, std::max(size.x(), size.z()));
+    const double side = side_of(block.material, std::max(size.x(), size.z()));
     part = mesh_part(fmt::format("box {} {} {} {:.4f}", size.x(), size.y(), size.z(), side),
-                     box_mesh(size, side), foot_m, material);
+                     box_mesh(size, side), block.foot_m, block.material);
   } else {
     part.size_m = size / 2;
-    part.position_m = foot_m + Vector3d(0, 0, size.z() / 2);
-    part.material = material;
+    part.position_m = block.foot_m + Vector3d(0, 0, size.z() / 2);
+    part.material = block.material;
   }
-  part.rotation = Eigen::AngleAxisd(heading_rad, Vector3d::UnitZ());
+  part.rotation = Eigen::AngleAxisd(block.heading_rad, Vector3d::UnitZ());
   return part;
 }
 
-Part Kit::post(double radius_m, double height_m, const Vector3d& foot_m, int material) {
-  const Material& m = world.materials[static_cast<std::size_t>(material)];
+Part Kit::post(const Post& post) {
+  const Material& m = world.materials[static_cast<std::size_t>(post.material)];
   if (m.texture >= 0 && !m.cube) {
-    return turned({{radius_m, 0}, {radius_m, height_m}}, foot_m, material);
+    return turned({{{post.radius_m, 0}, {post.radius_m, post.height_m}}, post.foot_m,
+                   post.material});
   }
   Part part;
   part.shape = Part::Shape::cylinder;
-  part.size_m = {rounded(radius_m), rounded(height_m) / 2, 0};
-  part.position_m = foot_m + Vector3d(0, 0, height_m / 2);
-  part.material = material;
+  part.size_m = {rounded(post.radius_m), rounded(post.height_m) / 2, 0};
+  part.position_m = post.foot_m + Vector3d(0, 0, post.height_m / 2);
+  part.material = post.material;
   return part;
 }
 
-Part Kit::bar(const Vector3d& from_m, const Vector3d& to_m, double radius_m, int material) const {
+Part Kit::bar(const Bar& bar) const {
+  const Vector3d along = bar.to_m - bar.from_m;
   Part part;
   part.shape = Part::Shape::capsule;
-  part.size_m = {rounded(radius_m), (to_m - from_m).norm() / 2, 0};
-  part.position_m = (from_m + to_m) / 2;
-  part.rotation = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), to_m - from_m);
-  part.material = material;
+  part.size_m = {rounded(bar.radius_m), along.norm() / 2, 0};
+  part.position_m = (bar.from_m + bar.to_m) / 2;
+  part.rotation = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), along);
+  part.material = bar.material;
   return part;
 }
 
-Part Kit::ball(const Vector3d& radii_m, const Vector3d& middle_m, int material) {
-  const Material& m = world.materials[static_cast<std::size_t>(material)];
-  if (m.texture >= 0 && !m.cube) return lump(radii_m, 0, middle_m, material);
+Part Kit::ball(const Ball& ball) {
+  const Material& m = world.materials[static_cast<std::size_t>(ball.material)];
+  if (m.texture >= 0 && !m.cube) return lump({ball.radii_m, 0, ball.middle_m, ball.material});
   Part part;
   part.shape = Part::Shape::ellipsoid;
-  part.size_m = rounded(radii_m);
-  part.position_m = middle_m;
-  part.material = material;
+  part.size_m = rounded(ball.radii_m);
+  part.position_m = ball.middle_m;
+  part.material = ball.material;
   return part;
 }
 
-Part Kit::lump(const Vector3d& radii_m, double bumps, const Vector3d& middle_m, int material) {
-  const double side = side_of(material, 2 * radii_m.x());
+Part Kit::lump(const Lump& lump) {
+  const double side = side_of(lump.material, 2 * lump.radii_m.x());
   return mesh_part(fmt::format("lump {}", world.meshes.size()),
-                   lump_mesh(rounded(radii_m), bumps, side, draw), middle_m, material);
+                   lump_mesh(rounded(lump.radii_m), lump.bumps, side, draw), lump.middle_m,
+                   lump.material);
 }
 
-Part Kit::turned(const std::vector<Vector2d>& profile_m, const Vector3d& foot_m, int material) {
-  const double side = side_of(material, profile_m.back().y());
+Part Kit::turned(const Turned& turned) {
+  const double side = side_of(turned.material, turned.profile_m.back().y());
   std::string key = fmt::format("turned {:.4f}", side);
-  for (const Vector2d& p : profile_m) key += fmt::format(" {:.3f} {:.3f}", p.x(), p.y());
-  return mesh_part(key, turned_mesh(profile_m, side), foot_m, material);
+  for (const Vector2d& p : turned.profile_m) key += fmt::format(" {:.3f} {:.3f}", p.x(), p.y());
+  return mesh_part(key, turned_mesh(turned.profile_m, side), turned.foot_m, turned.material);
 }
 
-Part Kit::prism(const std::vector<Vector2d>& polygon_m, double height_m, const Vector3d& foot_m,
-                int material) {
-  const double side = side_of(material, height_m);
-  std::string key = fmt::format("prism {:.3f} {:.4f}", height_m, side);
-  for (const Vector2d& p : polygon_m) key += fmt::format(" {:.3f} {:.3f}", p.x(), p.y());
-  return mesh_part(key, prism_mesh(polygon_m, height_m, side), foot_m, material);
+Part Kit::prism(const Prism& prism) {
+  const double side = side_of(prism.material, prism.height_m);
+  std::string key = fmt::format("prism {:.3f} {:.4f}", prism.height_m, side);
+  for (const Vector2d& p : prism.polygon_m) key += fmt::format(" {:.3f} {:.3f}", p.x(), p.y());
+  return mesh_part(key, prism_mesh(prism.polygon_m, prism.height_m, side), prism.foot_m,
+                   prism.material);
 }
 
-Part Kit::slice(const std::vector<Vector2d>& polygon_m, double width_m, const Vector3d& foot_m,
-                int material) {
-  Part part = prism(polygon_m, width_m, foot_m + Vector3d(0, width_m / 2, 0), material);
+Part Kit::slice(const Prism& upright) {
+  Part part = prism(upright);
+  part.position_m += Vector3d(0, upright.height_m / 2, 0);
   part.rotation = Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitX());
   return part;
 }
@@ -300,24 +303,25 @@ bool Kit::is_bare(const Parts& parts) const {
   });
 }
 
-bool Kit::try_stand(const std::string& kind, const Parts& parts, const Vector2d& at_m,
-                    double heading_rad, double gap) {
+bool Kit::try_stand(const Standing& standing) {
+  const auto& [kind, parts, at_m, heading_rad, gap] = standing;
   const Box box = box_at(parts, at_m, heading_rad);
   if (least_gap_m(box, solids) < gap || least_gap_m(box, kept_free) < gap) return false;
   stand(kind, parts, at_m, heading_rad);
   return true;
 }
 
-void Kit::fix(const Parts& parts, const Vector2d& at_m, double heading_rad, bool in_the_way) {
+void Kit::fix(const Fixture& fixture) {
+  const auto& [parts, at_m, heading_rad, in_the_way] = fixture;
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(heading_rad, Vector3d::UnitZ()));
-  const Vector3d at(at_m.x(), at_m.y(),
-                    box_at(parts, at_m, heading_rad).foot_m - bounds(parts).foot_m);
+  const Box box = box_at(parts, at_m, heading_rad);
+  const Vector3d at(at_m.x(), at_m.y(), box.foot_m - bounds(parts).foot_m);
   for (Part part : parts) {
     part.position_m = turn * part.position_m + at;
     part.rotation = turn * part.rotation;
     world.setting.push_back(part);
   }
-  if (in_the_way) solids.push_back(box_at(parts, at_m, heading_rad));
+  if (in_the_way) solids.push_back(box);
 }
 
 void Kit::wall(const Vector2d& from_m, const Vector2d& to_m, double height_m, int material,
@@ -325,7 +329,7 @@ void Kit::wall(const Vector2d& from_m, const Vector2d& to_m, double height_m, in
   const Vector2d along = to_m - from_m;
   const double heading = std::atan2(along.y(), along.x());
   const Vector2d middle = (from_m + to_m) / 2 + Vector2d(-along.y(), along.x()).normalized() * (thickness_m / 2);
-  fix({block({along.norm(), thickness_m, height_m}, {0, 0, foot_m}, material)}, middle, heading);
+  fix({{block({{along.norm(), thickness_m, height_m}, {0, 0, foot_m}, material})}, middle, heading});
 }
 
 void Kit::floor(int material, const Vector2d& half_m) {
@@ -341,8 +345,8 @@ void Kit::ramp(double from_x_m, double length_m, double width_m, double slope_ra
   tag("slope");
   const double rise = std::tan(slope_rad);
   // a wedge, so that its texture lies on the slope as it lies on the floor
-  Part part = slice({{0, -0.2}, {length_m, -0.2}, {length_m, length_m * rise}, {0, 0}}, width_m,
-                    {from_x_m, 0, 0}, material);
+  Part part = slice({{{0, -0.2}, {length_m, -0.2}, {length_m, length_m * rise}, {0, 0}}, width_m,
+                     {from_x_m, 0, 0}, material});
   part.is_solid = true;
   world.setting.push_back(part);
   ground = [before = ground, from_x_m, rise](const Vector2d& at) {
@@ -353,12 +357,12 @@ void Kit::ramp(double from_x_m, double length_m, double width_m, double slope_ra
 void Kit::decal(const Vector2d& at_m, double heading_rad, const Vector2d& size_m, int material) {
   // each a little higher than the last, so that none fights with another for a pixel
   const double lift = 0.003 + 0.0005 * (decals_++ % 8);
-  fix({block({size_m.x(), size_m.y(), 0.001}, {0, 0, lift}, material)}, at_m, heading_rad, false);
+  fix({{block({{size_m.x(), size_m.y(), 0.001}, {0, 0, lift}, material})}, at_m, heading_rad, false});
 }
 
 void Kit::shadow(const Vector2d& at_m) {
   tag("painted_shadow");
-  const Vector2d size(draw.scaled(0.4, 2.5), draw.scaled(0.3, 1.2));
+  const Vector2d size{draw.scaled(0.4, 2.5), draw.scaled(0.3, 1.2)};
   const double heading = draw.between(0, std::numbers::pi);
   const double darkness = draw.between(0.3, 0.65);
   std::vector<Vector2d> outline;
@@ -369,8 +373,8 @@ void Kit::shadow(const Vector2d& at_m) {
     outline.push_back(towards(a).cwiseProduct(size) * draw.between(0.8, 1.0));
   }
   const double lift = 0.003 + 0.0005 * (decals_++ % 8);
-  fix({prism(outline, 0.001, {0, 0, lift}, plain({0.02, 0.02, 0.03}, darkness))}, at_m, heading,
-      false);
+  fix({{prism({outline, 0.001, {0, 0, lift}, plain({0.02, 0.02, 0.03}, darkness)})}, at_m, heading,
+       false});
 }
 
 }  // namespace lcs::worlds

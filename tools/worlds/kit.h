@@ -51,24 +51,54 @@ class Kit {
   int paint();  ///< of any style
   ///@}
 
-  /// \name Parts; places are those of the middle of the foot.
+  /// \name Parts. Each takes one braced list, whose values are drawn in the order in which they
+  /// stand there, whatever the compiler.
   ///@{
-  Part block(const Eigen::Vector3d& size_m, const Eigen::Vector3d& foot_m, int material,
-             double heading_rad = 0);
-  Part post(double radius_m, double height_m, const Eigen::Vector3d& foot_m, int material);
-  Part bar(const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m, double radius_m,
-           int material) const;
-  /// About its middle.
-  Part ball(const Eigen::Vector3d& radii_m, const Eigen::Vector3d& middle_m, int material);
-  Part lump(const Eigen::Vector3d& radii_m, double bumps, const Eigen::Vector3d& middle_m,
-            int material);
-  Part turned(const std::vector<Eigen::Vector2d>& profile_m, const Eigen::Vector3d& foot_m,
-              int material);
-  Part prism(const std::vector<Eigen::Vector2d>& polygon_m, double height_m,
-             const Eigen::Vector3d& foot_m, int material);
-  /// A prism whose polygon stands upright along x and z, as wide as `width_m` along y.
-  Part slice(const std::vector<Eigen::Vector2d>& polygon_m, double width_m,
-             const Eigen::Vector3d& foot_m, int material);
+  struct Block {
+    Eigen::Vector3d size_m, foot_m;  ///< places are those of the middle of the foot
+    int material = 0;
+    double heading_rad = 0;
+  };
+  Part block(const Block& block);
+  struct Post {
+    double radius_m, height_m;
+    Eigen::Vector3d foot_m;
+    int material = 0;
+  };
+  Part post(const Post& post);
+  struct Bar {
+    Eigen::Vector3d from_m, to_m;
+    double radius_m;
+    int material = 0;
+  };
+  Part bar(const Bar& bar) const;
+  struct Ball {
+    Eigen::Vector3d radii_m, middle_m;
+    int material = 0;
+  };
+  Part ball(const Ball& ball);
+  struct Lump {
+    Eigen::Vector3d radii_m;
+    double bumps;
+    Eigen::Vector3d middle_m;
+    int material = 0;
+  };
+  Part lump(const Lump& lump);
+  struct Turned {
+    std::vector<Eigen::Vector2d> profile_m;
+    Eigen::Vector3d foot_m;
+    int material = 0;
+  };
+  Part turned(const Turned& turned);
+  struct Prism {
+    std::vector<Eigen::Vector2d> polygon_m;
+    double height_m;
+    Eigen::Vector3d foot_m;
+    int material = 0;
+  };
+  Part prism(const Prism& prism);
+  /// A prism whose polygon stands upright along x and z, as wide as its height along y.
+  Part slice(const Prism& prism);
   ///@}
 
   Box bounds(const Parts& parts) const { return worlds::bounds(world, parts); }
@@ -83,12 +113,23 @@ class Kit {
   /// Puts an object of a new name that begins with `kind`, whatever is there.
   void stand(const std::string& kind, const Parts& parts, const Eigen::Vector2d& at_m,
              double heading_rad);
+  struct Standing {
+    std::string kind;
+    Parts parts;
+    Eigen::Vector2d at_m;
+    double heading_rad;
+    double gap_m = 0.05;
+  };
   /// Where nothing is, `gap_m` about it. \return whether it was free.
-  bool try_stand(const std::string& kind, const Parts& parts, const Eigen::Vector2d& at_m,
-                 double heading_rad, double gap_m = 0.05);
-  /// Likewise as a part of the setting.
-  void fix(const Parts& parts, const Eigen::Vector2d& at_m, double heading_rad,
-           bool in_the_way = true);
+  bool try_stand(const Standing& standing);
+  struct Fixture {
+    Parts parts;
+    Eigen::Vector2d at_m;
+    double heading_rad;
+    bool in_the_way = true;
+  };
+  /// Likewise as a part of the setting, whatever is there.
+  void fix(const Fixture& fixture);
   /// A wall as a part of the setting, from one point to another, on the left of the line.
   void wall(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m, double height_m,
             int material, double foot_m = 0, double thickness_m = 0.1);

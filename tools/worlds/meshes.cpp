@@ -149,9 +149,8 @@ Mesh lump_mesh(const Vector3d& radii_m, double bumps, double side_m, Draw& draw)
   };
   std::array<Wave, 4> waves;
   for (Wave& wave : waves) {
-    wave = {Vector3d(draw.normal(), draw.normal(), draw.normal()).normalized() *
-                draw.between(1.5, 5),
-            draw.between(0, kTurn)};
+    const Vector3d along{draw.normal(), draw.normal(), draw.normal()};
+    wave = {along.normalized() * draw.between(1.5, 5), draw.between(0, kTurn)};
   }
   const auto point = [&](int r, int k) {
     const double latitude = std::numbers::pi * (static_cast<double>(r) / kRings - 0.5);

@@ -64,10 +64,10 @@ class Planner {
     switch (path) {
       case Path::across:
       case Path::shuttle:
-        heading += d_.sign() * (kPi / 2 + d_.between(-0.25, 0.25));
+        heading += d_.either(kPi / 2 - 0.25, kPi / 2 + 0.25);
         break;
       case Path::slanting:
-        heading += d_.sign() * (d_.chance(0.5) ? d_.between(0.4, 1.2) : d_.between(1.9, 2.7));
+        heading += d_.chance(0.5) ? d_.either(0.4, 1.2) : d_.either(1.9, 2.7);
         break;
       case Path::coming:
         heading += kPi + d_.between(-0.25, 0.25);

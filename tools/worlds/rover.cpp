@@ -54,8 +54,8 @@ void draw_camera(Kit& kit, const Lane& lane) {
   camera.mount_rpy_rad = {0, to(down, 0.1) * kDegree, 0};
   if (d.chance(0.35)) {
     kit.tag("told_with_error");
-    camera.told.height_error_m = d.sign() * to(height * d.between(0.02, 0.12), 0.001);
-    camera.told.pitch_error_rad = d.sign() * to(d.between(0.2, 1.5), 0.01) * kDegree;
+    camera.told.height_error_m = to(height * d.either(0.02, 0.12), 0.001);
+    camera.told.pitch_error_rad = to(d.either(0.2, 1.5), 0.01) * kDegree;
   }
 }
 
@@ -102,14 +102,14 @@ std::vector<EgoPhase> phases_of(Draw& d, Kind kind, double duration_s, double fa
       if (d.chance(0.15)) first.direction_rad = std::numbers::pi;  // backwards
       return {first};
     case Kind::bend:
-      first.yaw_rate_radps = d.sign() * d.between(3, 25) * kDegree;
+      first.yaw_rate_radps = d.either(3, 25) * kDegree;
       return {first};
     case Kind::spin:
       first.speed_mps = 0;
-      first.yaw_rate_radps = d.sign() * d.between(4, 30) * kDegree;
+      first.yaw_rate_radps = d.either(4, 30) * kDegree;
       return {first};
     case Kind::aside:
-      if (!on_wheels) first.direction_rad = d.sign() * d.between(40, 140) * kDegree;
+      if (!on_wheels) first.direction_rad = d.either(40, 140) * kDegree;
       return {first};
     case Kind::brake: {
       EgoPhase second = first;
@@ -121,7 +121,7 @@ std::vector<EgoPhase> phases_of(Draw& d, Kind kind, double duration_s, double fa
       return {first, second};
     }
     case Kind::weave: {
-      first.yaw_rate_radps = d.sign() * d.between(3, 20) * kDegree;
+      first.yaw_rate_radps = d.either(3, 20) * kDegree;
       EgoPhase second = first;
       second.at_s = duration_s * d.between(0.3, 0.5);
       second.yaw_rate_radps = -first.yaw_rate_radps * d.between(0.6, 1.3);

@@ -82,8 +82,10 @@ cv::Mat1f fractal_noise(Draw& draw, int side, int cells, double keep, int stretc
   return sum;
 }
 
-/// Lightens and darkens by `levels` a deviation of the noise.
-void dirty(cv::Mat3b& picture, const cv::Mat1f& noise, double levels) {
+/// Lightens and darkens by noise, whose deviation is of `least` to `most` levels.
+void dirty(cv::Mat3b& picture, Draw& draw, int cells, double keep, double least, double most) {
+  const cv::Mat1f noise = fractal_noise(draw, picture.cols, cells, keep);
+  const double levels = draw.between(least, most);
   for (int y = 0; y < picture.rows; ++y) {
     for (int x = 0; x < picture.cols; ++x) {
       for (int c = 0; c < 3; ++c) picture(y, x)[c] = level(picture(y, x)[c] + levels * noise(y, x));
@@ -101,12 +103,13 @@ void without_seam(int side, DrawAt draw_at) {
 
 void paint_plain(cv::Mat3b& p, Draw& draw) {
   p.setTo(colour(draw, 60, 225, 35));
-  dirty(p, fractal_noise(draw, p.cols, 3, 0.5), draw.between(0.5, 2.5));
+  dirty(p, draw, 3, 0.5, 0.5, 2.5);
 }
 
 void paint_fractal(cv::Mat3b& p, Draw& draw) {
   const Colour dark = colour(draw, 25, 110, 16), light = colour(draw, 130, 235, 16);
-  const cv::Mat1f noise = fractal_noise(draw, p.cols, draw.whole(3, 6), draw.between(0.55, 0.85));
+  const int cells = draw.whole(3, 6);
+  const cv::Mat1f noise = fractal_noise(draw, p.cols, cells, draw.between(0.55, 0.85));
   for (int y = 0; y < p.rows; ++y) {
     for (int x = 0; x < p.cols; ++x) {
       p(y, x) = mixed(dark, light, std::clamp(0.5 + 0.28 * noise(y, x), 0.0, 1.0));
@@ -116,12 +119,13 @@ void paint_fractal(cv::Mat3b& p, Draw& draw) {
 
 void paint_concrete(cv::Mat3b& p, Draw& draw) {
   p.setTo(colour(draw, 100, 190, 8));
-  dirty(p, fractal_noise(draw, p.cols, 2, 0.6), draw.between(4, 10));
-  dirty(p, fractal_noise(draw, p.cols, 24, 0.7), draw.between(1, 5));
+  dirty(p, draw, 2, 0.6, 4, 10);
+  dirty(p, draw, 24, 0.7, 1, 5);
   const int side = p.cols;
   for (int i = draw.whole(0, 50); i > 0; --i) {  // pores
-    const cv::Point at(draw.whole(0, side - 1), draw.whole(0, side - 1));
-    cv::circle(p, at, draw.whole(0, 2), shaded(p(at), draw.between(0.5, 0.85)), cv::FILLED);
+    const cv::Point at{draw.whole(0, side - 1), draw.whole(0, side - 1)};
+    const int radius = draw.whole(0, 2);
+    cv::circle(p, at, radius, shaded(p(at), draw.between(0.5, 0.85)), cv::FILLED);
   }
 }
 
@@ -143,7 +147,7 @@ void paint_lettering(cv::Mat3b& p, Draw& draw) {
   const bool dark_ground = draw.chance(0.3);
   const Colour ground = dark_ground ? colour(draw, 30, 90, 40) : colour(draw, 160, 245, 25);
   p.setTo(ground);
-  if (draw.chance(0.5)) dirty(p, fractal_noise(draw, p.cols, 3, 0.6), draw.between(1, 6));
+  if (draw.chance(0.5)) dirty(p, draw, 3, 0.6, 1, 6);
   const int side = p.cols;
   for (int y = side / 12; y < side * 11 / 12;) {
     const int height = std::max(7, static_cast<int>(side * draw.scaled(0.035, 0.22)));
@@ -223,7 +227,7 @@ void paint_bricks(cv::Mat3b& p, Draw& draw) {
                                         : colour(draw, 90, 200, 15);
   const int rows = 2 * draw.whole(3, 6);
   paint_courses(p, draw, rows, rows / 2, 0.5, colour(draw, 120, 215, 10), {brick}, 0.18);
-  dirty(p, fractal_noise(draw, p.cols, 12, 0.7), draw.between(2, 8));
+  dirty(p, draw, 12, 0.7, 2, 8);
 }
 
 void paint_tiles(cv::Mat3b& p, Draw& draw) {
@@ -233,9 +237,9 @@ void paint_tiles(cv::Mat3b& p, Draw& draw) {
   const bool checkered = draw.chance(0.3);
   if (checkered) tones.push_back(colour(draw, 40, 200, 25));
   const bool odd = draw.chance(0.3);
-  paint_courses(p, draw, count, count, odd ? 0.5 : 0, shaded(one, draw.between(0.5, 0.9)), tones,
-                draw.between(0.01, 0.08));
-  if (draw.chance(0.5)) dirty(p, fractal_noise(draw, p.cols, 4, 0.6), draw.between(1, 5));
+  const Colour grout = shaded(one, draw.between(0.5, 0.9));
+  paint_courses(p, draw, count, count, odd ? 0.5 : 0, grout, tones, draw.between(0.01, 0.08));
+  if (draw.chance(0.5)) dirty(p, draw, 4, 0.6, 1, 5);
 }
 
 void paint_stripes(cv::Mat3b& p, Draw& draw) {
@@ -251,7 +255,7 @@ void paint_stripes(cv::Mat3b& p, Draw& draw) {
     }
   }
   if (!slant && draw.chance(0.5)) cv::transpose(p, p);
-  if (draw.chance(0.6)) dirty(p, fractal_noise(draw, side, 4, 0.6), draw.between(1, 7));
+  if (draw.chance(0.6)) dirty(p, draw, 4, 0.6, 1, 7);
 }
 
 void paint_grille(cv::Mat3b& p, Draw& draw) {
@@ -282,7 +286,7 @@ void paint_corrugated(cv::Mat3b& p, Draw& draw) {
       p(y, x) = shaded(base, 1 - depth * std::min(1.0, (t < 0.85 ? from_ridge : 0) / 0.15));
     }
   }
-  dirty(p, fractal_noise(draw, side, 3, 0.65), draw.between(1, 8));
+  dirty(p, draw, 3, 0.65, 1, 8);
 }
 
 void paint_foliage(cv::Mat3b& p, Draw& draw) {
@@ -297,9 +301,9 @@ void paint_foliage(cv::Mat3b& p, Draw& draw) {
     const double light = draw.between(0.35, 1.15) * (0.6 + 0.4 * i / leaves);
     const Colour leaf =
         dry ? shaded({75, 160, 195}, light) : shaded({65, level(draw.between(145, 205)), 105}, light);
-    const cv::Point at(draw.whole(0, side - 1), draw.whole(0, side - 1));
-    const cv::Size axes(std::max(1, static_cast<int>(size * draw.between(0.7, 1.6))),
-                        std::max(1, static_cast<int>(size * draw.between(0.3, 0.7))));
+    const cv::Point at{draw.whole(0, side - 1), draw.whole(0, side - 1)};
+    const cv::Size axes{std::max(1, static_cast<int>(size * draw.between(0.7, 1.6))),
+                        std::max(1, static_cast<int>(size * draw.between(0.3, 0.7)))};
     const int angle = draw.whole(0, 179);
     without_seam(side, [&](int dx, int dy) {
       cv::ellipse(p, {at.x + dx, at.y + dy}, axes, angle, 0, 360, leaf, cv::FILLED);
@@ -316,14 +320,15 @@ void paint_worn(cv::Mat3b& p, Draw& draw) {
     for (int x = 0; x < side; ++x) p(y, x) = chips(y, x) > above ? below : paint;
   }
   for (int i = draw.whole(5, 40); i > 0; --i) {
-    const cv::Point from(draw.whole(0, side - 1), draw.whole(0, side - 1));
-    const cv::Point by(draw.whole(-side / 6, side / 6), draw.whole(-side / 12, side / 12));
-    const Colour c = shaded(draw.chance(0.5) ? below : paint, draw.between(0.8, 1.3));
+    const cv::Point from{draw.whole(0, side - 1), draw.whole(0, side - 1)};
+    const cv::Point by{draw.whole(-side / 6, side / 6), draw.whole(-side / 12, side / 12)};
+    const Colour& of = draw.chance(0.5) ? below : paint;
+    const Colour c = shaded(of, draw.between(0.8, 1.3));
     without_seam(side, [&](int dx, int dy) {
       cv::line(p, from + cv::Point(dx, dy), from + by + cv::Point(dx, dy), c, 1, cv::LINE_AA);
     });
   }
-  dirty(p, fractal_noise(draw, side, 2, 0.6), draw.between(2, 8));
+  dirty(p, draw, 2, 0.6, 2, 8);
 }
 
 void paint_speckle(cv::Mat3b& p, Draw& draw) {
@@ -333,7 +338,7 @@ void paint_speckle(cv::Mat3b& p, Draw& draw) {
   const double contrast = draw.between(15, 90);
   const int largest = draw.whole(1, 3);
   for (int i = draw.whole(side * side / 160, side * side / 40); i > 0; --i) {
-    const cv::Point at(draw.whole(0, side - 1), draw.whole(0, side - 1));
+    const cv::Point at{draw.whole(0, side - 1), draw.whole(0, side - 1)};
     const double by = draw.between(-contrast, contrast);
     const Colour c{level(ground[0] + by), level(ground[1] + by), level(ground[2] + by)};
     const int radius = draw.whole(0, largest);
@@ -349,7 +354,7 @@ void paint_facade(cv::Mat3b& p, Draw& draw) {
     paint_bricks(p, draw);
   } else {
     p.setTo(colour(draw, 110, 225, 30));
-    dirty(p, fractal_noise(draw, side, 4, 0.65), draw.between(1, 6));
+    dirty(p, draw, 4, 0.65, 1, 6);
   }
   const int rows = draw.whole(1, 3), columns = draw.whole(1, 4);
   const double w = draw.between(0.35, 0.65), h = draw.between(0.45, 0.7);
@@ -449,8 +454,8 @@ cv::Mat3b photograph(const std::vector<std::string>& files, int side_px, Draw& d
   }
   const int shorter = std::min(whole.cols, whole.rows);
   const int side = std::max(1, static_cast<int>(shorter * draw.between(0.6, 1)));
-  const cv::Rect part(draw.whole(0, whole.cols - side), draw.whole(0, whole.rows - side), side,
-                      side);
+  const cv::Rect part{draw.whole(0, whole.cols - side), draw.whole(0, whole.rows - side), side,
+                      side};
   cv::Mat3b picture;
   cv::resize(whole(part), picture, {side_px, side_px}, 0, 0,
              side > side_px ? cv::INTER_AREA : cv::INTER_LINEAR_EXACT);

@@ -69,7 +69,7 @@ void put_near(Kit& kit, const Way& way) {
     const Vector2d eye = camera_at(camera, stand, 0).head<2>();
     const double away = kit.draw.between(0.35, 0.65) + kit.bounds(thing.parts).half_m.x();
     const double heading = kit.draw.between(0, 3);
-    if (kit.try_stand(thing.kind, thing.parts, eye + away * towards(bearing), heading, 0.01)) return;
+    if (kit.try_stand({thing.kind, thing.parts, eye + away * towards(bearing), heading, 0.01})) return;
   }
 }
 
