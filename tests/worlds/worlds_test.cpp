@@ -199,7 +199,7 @@ TEST(Worlds, MoversAreSeenTenFramesOrMoreByTheTruth) {
 TEST(Worlds, MoversAreFreeOfTheRoverOfWhatStandsAndOfEachOther) {
   int movers = 0;
   for (const World& world : sixty()) {
-    if (world.scenario.actors.empty() || ++movers > 20) continue;
+    if (world.scenario.actors.empty() || ++movers > 12) continue;
     const bench::TemporaryFolder folder;
     const sim::Drive drive = sim::drive(scenario::load(written(world, folder)));
     std::set<std::string> moving;
