@@ -30,7 +30,8 @@ TEST_F(WorldCommand, WritesAScenarioThatRunsLikeAnyOther) {
   EXPECT_EQ(bench::entries(folder_.path() / "mine"),
             (std::set<std::string>{"corridor_4.yaml", "scene.xml", "textures", "meshes"}));
   fs::rename(folder_.path() / "mine", folder_.path() / "moved");  // nothing knows where it was made
-  const CommandResult ran = run({"run", "moved/corridor_4.yaml", "--no-video", "--set", "frames=4"});
+  const CommandResult ran =
+      run({"run", "moved/corridor_4.yaml", "--no-video", "--set", "frames=4"});
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_TRUE(fs::exists(folder_.path() / "out" / "corridor_4" / "metrics.json"));
 }
@@ -65,8 +66,8 @@ TEST_F(WorldCommand, MistakesAreToldInOneLineAndNothingIsWritten) {
 }
 
 TEST_F(WorldCommand, ASuiteOfWorldsRunsEachOnceAndKeepsThem) {
-  const std::vector<std::string> command{"suite",    "--worlds", "train",  "--count", "2",
-                                         "--family", "corridor", "--set",  "frames=4"};
+  const std::vector<std::string> command{"suite",    "--worlds", "train", "--count", "2",
+                                         "--family", "corridor", "--set", "frames=4"};
   const CommandResult first = run(command);
   ASSERT_EQ(first.exit_code, 0) << first.err;
   EXPECT_NE(first.out.find("= corridor (2)"), std::string::npos) << first.out;

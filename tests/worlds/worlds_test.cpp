@@ -155,8 +155,8 @@ TEST(Worlds, CamerasAndSensorsAreInTheirRangesAndNeverWithoutNoise) {
     EXPECT_LE(s.image->noise->full_well_e, 20000);
     EXPECT_GE(s.camera.width_px, 320);
     EXPECT_LE(s.camera.width_px, 1280);
-    const double fovx = 2 * std::atan(std::tan(s.camera.fovy_rad / 2) * s.camera.width_px /
-                                      s.camera.height_px);
+    const double fovx =
+        2 * std::atan(std::tan(s.camera.fovy_rad / 2) * s.camera.width_px / s.camera.height_px);
     EXPECT_GT(fovx, 44.5 * kDegree);
     EXPECT_LT(fovx, 100.5 * kDegree);
     EXPECT_GE(s.camera.rate_hz, 3);

@@ -10,9 +10,9 @@
 namespace lcs::tools {
 
 struct WorldsOptions {
-  std::string split;      ///< "": no worlds
+  std::string split;  ///< "": no worlds
   int count = 60;
-  std::string family;     ///< "": all
+  std::string family;  ///< "": all
 };
 
 /// Makes the worlds in out/worlds/, each by a process of its own, `jobs` at a time.

@@ -48,8 +48,7 @@ CLI::App& add_world_command(CLI::App& app, WorldOptions& options) {
       ->required();
   command.add_option("--seed", options.seed, "What it is drawn from; 1 if not given")
       ->type_name("N");
-  command
-      .add_option("--out", options.out, "Folder for it; out/worlds/FAMILY_SEED if not given")
+  command.add_option("--out", options.out, "Folder for it; out/worlds/FAMILY_SEED if not given")
       ->type_name("DIR");
   command
       .add_option("--pictures", options.pictures,
@@ -74,8 +73,8 @@ ExitCode world(const WorldOptions& options) {
   if (options.sheet) {
     const auto scenario = folder.staging() / (worlds::name_of(drawn) + ".yaml");
     bench::OutputFile file(folder.staging() / worlds::kSheetFile);
-    file.write(sequence::encode_png(worlds::contact_sheet(drawn, scenario),
-                                    sequence::PngFilter::sub));
+    file.write(
+        sequence::encode_png(worlds::contact_sheet(drawn, scenario), sequence::PngFilter::sub));
     file.close();
   }
   folder.commit();

@@ -13,11 +13,12 @@ using Eigen::Vector3d;
 /// A door in its frame, flush with a wall along x whose room is towards -y.
 Parts door(Kit& kit, int leaf, int frame) {
   Draw& d = kit.draw;
-  Parts parts{kit.block({{0.06, 0.12, 2.1}, {-0.48, 0, 0}, frame}),
-              kit.block({{0.06, 0.12, 2.1}, {0.48, 0, 0}, frame}),
-              kit.block({{1.02, 0.12, 0.07}, {0, 0, 2.1}, frame}),
-              kit.block({{0.9, 0.04, 2.08}, {0, 0, 0.01}, leaf}),
-              kit.bar({{0.36, -0.06, 1.02}, {0.26, -0.06, 1.02}, 0.012, kit.plain({0.7, 0.7, 0.7})})};
+  Parts parts{
+      kit.block({{0.06, 0.12, 2.1}, {-0.48, 0, 0}, frame}),
+      kit.block({{0.06, 0.12, 2.1}, {0.48, 0, 0}, frame}),
+      kit.block({{1.02, 0.12, 0.07}, {0, 0, 2.1}, frame}),
+      kit.block({{0.9, 0.04, 2.08}, {0, 0, 0.01}, leaf}),
+      kit.bar({{0.36, -0.06, 1.02}, {0.26, -0.06, 1.02}, 0.012, kit.plain({0.7, 0.7, 0.7})})};
   if (d.chance(0.6)) {
     parts.push_back(
         kit.block({{0.22, 0.02, 0.12}, {0, -0.03, 1.55}, kit.surface({Style::lettering})}));
@@ -40,9 +41,12 @@ Layout lay_out_corridor(Kit& kit) {
   const int walls = wall_surface(kit), ends = wall_surface(kit), behind = wall_surface(kit);
   const int leaf = kit.draw.chance(0.5) ? kit.plain() : kit.surface({Style::wood, Style::worn});
   const int frame = kit.plain();
-  kit.fix({{kit.block({{2 * half_length, 2 * (half_width + depth), 0.1}, {0, 0, height},
-                     pale(kit, 0.6, 0.95)})},
-          {0, 0}, 0, false});
+  kit.fix({{kit.block({{2 * half_length, 2 * (half_width + depth), 0.1},
+                       {0, 0, height},
+                       pale(kit, 0.6, 0.95)})},
+           {0, 0},
+           0,
+           false});
   const double x0 = -half_length, x1 = half_length, y1 = half_width + depth;
   kit.wall({x1, y1}, {x1, -y1}, height, ends);
   kit.wall({x0, -y1}, {x0, y1}, height, ends);
@@ -66,8 +70,10 @@ Layout lay_out_corridor(Kit& kit) {
       const double to = i < passages.size() ? passages[i].first : x1;
       // doors stand out of the wall a little
       for (double x = from + d.between(0.8, 2); x < to - 0.8; x += d.between(1.8, 4)) {
-        kit.fix({door(kit, leaf, frame), {x, side * (half_width - 0.01)},
-                side > 0 ? 0 : std::numbers::pi, false});
+        kit.fix({door(kit, leaf, frame),
+                 {x, side * (half_width - 0.01)},
+                 side > 0 ? 0 : std::numbers::pi,
+                 false});
       }
       build(from, to, 0);
       if (i == passages.size()) break;
@@ -84,16 +90,19 @@ Layout lay_out_corridor(Kit& kit) {
     }
     for (int i = d.whole(0, 4); i > 0; --i) {  // boards
       const double w = d.between(0.3, 1.2);
-      kit.fix({{kit.block({{w, 0.02, w * d.between(0.6, 1.3)}, {0, 0, d.between(1.0, 1.4)},
-                         kit.surface({Style::lettering, Style::stripes, Style::fractal})})},
-              {d.between(x0 + 1, x1 - 1), side * (half_width - 0.02)},
-              side > 0 ? 0 : std::numbers::pi, false});
+      kit.fix({{kit.block({{w, 0.02, w * d.between(0.6, 1.3)},
+                           {0, 0, d.between(1.0, 1.4)},
+                           kit.surface({Style::lettering, Style::stripes, Style::fractal})})},
+               {d.between(x0 + 1, x1 - 1), side * (half_width - 0.02)},
+               side > 0 ? 0 : std::numbers::pi,
+               false});
     }
   }
   if (d.chance(0.3)) {
     const double from = d.between(0.2, 0.6) * half_length;
     const double slope = d.between(2, 5) * std::numbers::pi / 180;
-    kit.ramp(from, half_length - from, 2 * y1, slope, kit.wide_surface({Style::tiles, Style::concrete, Style::worn}));
+    kit.ramp(from, half_length - from, 2 * y1, slope,
+             kit.wide_surface({Style::tiles, Style::concrete, Style::worn}));
   }
 
   Layout layout;
@@ -111,15 +120,16 @@ Layout lay_out_corridor(Kit& kit) {
                     .farthest_m = half_length};
   layout.furnish = [&kit, &d, half_length, half_width, height] {
     for (int i = d.whole(6, 16); i > 0; --i) {
-      const Thing thing = make_thing(
-          kit, d.pick({"bin", "plant", "bench", "shelf", "chair", "carton", "cart", "cupboard",
-                       "sign", "pole", "person", "sack", "bollard"}));
+      const Thing thing =
+          make_thing(kit, d.pick({"bin", "plant", "bench", "shelf", "chair", "carton", "cart",
+                                  "cupboard", "sign", "pole", "person", "sack", "bollard"}));
       const double off = kit.bounds(thing.parts).half_m.y() + 0.06;
       for (int n = 0; n < 8; ++n) {
         const double side = d.sign();
-        if (kit.try_stand({thing.kind, thing.parts,
-                          {d.between(-0.8, 0.95) * half_length, side * (half_width - off)},
-                          side > 0 ? 0 : std::numbers::pi})) {
+        if (kit.try_stand({thing.kind,
+                           thing.parts,
+                           {d.between(-0.8, 0.95) * half_length, side * (half_width - off)},
+                           side > 0 ? 0 : std::numbers::pi})) {
           break;
         }
       }

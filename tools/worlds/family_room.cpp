@@ -22,9 +22,13 @@ Layout lay_out_room(Kit& kit) {
   const int skirting = kit.plain();
   for (const double side : {-1.0, 1.0}) {
     kit.fix({{kit.block({{2 * half.x(), 0.02, 0.08}, {0, 0, 0}, skirting})},
-            {0, side * (half.y() - 0.01)}, 0, false});
+             {0, side * (half.y() - 0.01)},
+             0,
+             false});
     kit.fix({{kit.block({{0.02, 2 * half.y(), 0.08}, {0, 0, 0}, skirting})},
-            {side * (half.x() - 0.01), 0}, 0, false});
+             {side * (half.x() - 0.01), 0},
+             0,
+             false});
   }
 
   const auto at_wall = [&kit, half](int wall, double along, double off) {
@@ -50,8 +54,10 @@ Layout lay_out_room(Kit& kit) {
     const int wall = d.whole(0, 3);
     const auto [at, heading] = at_wall(wall, d.between(-0.8, 0.8), 0.01);
     kit.fix({{kit.block({{w, 0.03, h}, {0, 0, z}, frame}),
-             kit.block({{w - 0.08, 0.04, h - 0.08}, {0, 0, z + 0.04}, face})},
-            at, heading, false});
+              kit.block({{w - 0.08, 0.04, h - 0.08}, {0, 0, z + 0.04}, face})},
+             at,
+             heading,
+             false});
   }
 
   Layout layout;
@@ -61,17 +67,17 @@ Layout lay_out_room(Kit& kit) {
                  .fastest_mps = 1.0,
                  .highest_camera_m = 1.4,
                  .is_rough = d.chance(0.1)};
-  layout.traffic = {.kinds = {"person", "person", "cart", "robot", "ball", "carton", "drum", "chair",
-                              "sack", "panel", "load", "cupboard"},
+  layout.traffic = {.kinds = {"person", "person", "cart", "robot", "ball", "carton", "drum",
+                              "chair", "sack", "panel", "load", "cupboard"},
                     .low_m = -half + Vector2d(0.1, 0.1),
                     .high_m = half - Vector2d(0.1, 0.1),
                     .fastest_mps = 2.5,
                     .farthest_m = 1.4 * half.x()};
   layout.furnish = [&kit, &d, half, height, at_wall] {
     for (int i = d.whole(5, 12); i > 0; --i) {
-      const Thing thing = make_thing(
-          kit, d.pick({"shelf", "shelf", "cupboard", "table", "bin", "plant", "ladder", "statue",
-                       "chair", "pole", "carton"}));
+      const Thing thing =
+          make_thing(kit, d.pick({"shelf", "shelf", "cupboard", "table", "bin", "plant", "ladder",
+                                  "statue", "chair", "pole", "carton"}));
       const double depth = kit.bounds(thing.parts).half_m.y() + 0.06;
       for (int n = 0; n < 8; ++n) {
         const int wall = d.whole(0, 3);
@@ -80,14 +86,16 @@ Layout lay_out_room(Kit& kit) {
       }
     }
     const Vector2d inner = half - Vector2d(0.3, 0.3);
-    scatter(kit, {"table", "chair", "carton", "ball", "drum", "plant", "bin", "cart", "sack",
-                  "person", "pole", "statue", "robot"},
+    scatter(kit,
+            {"table", "chair", "carton", "ball", "drum", "plant", "bin", "cart", "sack", "person",
+             "pole", "statue", "robot"},
             d.whole(3, 10), -inner, inner);
     for (int i = d.whole(0, 3); i > 0; --i) {
       const Thing lamp = hanging(kit, height, d.between(1.5, height - 0.35));
-      kit.try_stand({lamp.kind, lamp.parts,
-                    {d.between(-0.6, 0.6) * half.x(), d.between(-0.6, 0.6) * half.y()},
-                    d.between(0, std::numbers::pi)});
+      kit.try_stand({lamp.kind,
+                     lamp.parts,
+                     {d.between(-0.6, 0.6) * half.x(), d.between(-0.6, 0.6) * half.y()},
+                     d.between(0, std::numbers::pi)});
     }
     maybe_shadows(kit, -inner, inner);
   };

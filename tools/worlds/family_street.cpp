@@ -19,11 +19,12 @@ Layout lay_out_street(Kit& kit) {
   kit.world.extent_m = front;
   kit.world.ambient = d.between(0.45, 0.65);
   kit.world.diffuse = d.between(0.35, 0.5);
-  const int asphalt = floor_surface(kit, {Style::speckle, Style::speckle, Style::concrete,
-                                          Style::fractal, Style::bricks});
+  const int asphalt = floor_surface(
+      kit, {Style::speckle, Style::speckle, Style::concrete, Style::fractal, Style::bricks});
   kit.floor(asphalt, {front + 15, road + pavement + 6});
   const double kerb = d.between(0.06, 0.14);
-  const int slabs = kit.wide_surface({Style::tiles, Style::concrete, Style::speckle, Style::bricks});
+  const int slabs =
+      kit.wide_surface({Style::tiles, Style::concrete, Style::speckle, Style::bricks});
   kit.ground = [road, pavement, kerb](const Vector2d& at) {
     return std::abs(at.y()) >= road && std::abs(at.y()) <= road + pavement ? kerb : 0.0;
   };
@@ -34,8 +35,9 @@ Layout lay_out_street(Kit& kit) {
              d.between(2, 7) * std::numbers::pi / 180, asphalt);
   }
   for (const double side : {-1.0, 1.0}) {
-    kit.world.setting.push_back(kit.block({
-        {front - back, pavement, kerb}, {(front + back) / 2, side * (road + pavement / 2), 0}, slabs}));
+    kit.world.setting.push_back(kit.block({{front - back, pavement, kerb},
+                                           {(front + back) / 2, side * (road + pavement / 2), 0},
+                                           slabs}));
     // fronts of houses, a wall, or a hedge
     double x = back;
     while (x < front) {
@@ -47,23 +49,31 @@ Layout lay_out_street(Kit& kit) {
         const int face = d.chance(0.1) ? wall_surface(kit)
                                        : kit.surface({Style::facade, Style::facade, Style::bricks});
         kit.fix({{kit.block({{w, 3, h + 1}, {0, 0, -0.5}, face})},
-                {x + w / 2, y + side * (1.5 + deep * d.between(0, 1))}, 0});
+                 {x + w / 2, y + side * (1.5 + deep * d.between(0, 1))},
+                 0});
         if (d.chance(0.7)) {  // a door, and what hangs over it
           const int leaf = kit.plain();
           kit.fix({{kit.block({{1, 0.08, 2.1}, {0, 0, kerb}, leaf})},
-                  {x + w * d.between(0.3, 0.7), y + side * 0.03}, 0, false});
+                   {x + w * d.between(0.3, 0.7), y + side * 0.03},
+                   0,
+                   false});
           if (d.chance(0.5)) {
             kit.tag("hanging");
             kit.fix({{kit.block({{0.05, 0.7, 0.5}, {0, 0, 2.4}, kit.surface({Style::lettering})})},
-                    {x + w * d.between(0.2, 0.8), y - side * 0.4}, 0, false});
+                     {x + w * d.between(0.2, 0.8), y - side * 0.4},
+                     0,
+                     false});
           }
         }
       } else if (kind < 0.85) {
         kit.fix({{kit.block({{w, 0.3, d.between(1, 2.2)}, {0, 0, 0}, wall_surface(kit)})},
-                {x + w / 2, y + side * 0.2}, 0});
+                 {x + w / 2, y + side * 0.2},
+                 0});
       } else {
-        kit.fix({{kit.block({{w, 0.8, d.between(0.9, 1.8)}, {0, 0, 0}, kit.surface({Style::foliage})})},
-                {x + w / 2, y + side * 0.5}, 0});
+        kit.fix(
+            {{kit.block({{w, 0.8, d.between(0.9, 1.8)}, {0, 0, 0}, kit.surface({Style::foliage})})},
+             {x + w / 2, y + side * 0.5},
+             0});
       }
       x += w + (d.chance(0.2) ? d.between(1, 3) : 0);
     }
@@ -96,13 +106,16 @@ Layout lay_out_street(Kit& kit) {
     for (const double side : {-1.0, 1.0}) {
       for (int i = d.whole(2, 6); i > 0; --i) {  // parked along the kerb
         const Thing car = make_thing(kit, d.pick({"car", "car", "car", "van"}));
-        kit.try_stand({car.kind, car.parts,
-                      {d.between(back, front), side * (road - 1.05)},
-                      d.chance(0.5) ? 0 : std::numbers::pi, 0.4});
+        kit.try_stand({car.kind,
+                       car.parts,
+                       {d.between(back, front), side * (road - 1.05)},
+                       d.chance(0.5) ? 0 : std::numbers::pi,
+                       0.4});
       }
       const double y0 = side * (road + 0.1), y1 = side * (road + pavement - 0.1);
-      scatter(kit, {"lamp", "tree", "sign", "bin", "bench", "bollard", "person", "pole", "bush",
-                    "panel", "bicycle"},
+      scatter(kit,
+              {"lamp", "tree", "sign", "bin", "bench", "bollard", "person", "pole", "bush", "panel",
+               "bicycle"},
               d.whole(8, 16), {back, std::min(y0, y1)}, {front * 0.8, std::max(y0, y1)});
     }
     scatter(kit, {"cone", "barrier", "bollard", "sack", "ball", "carton"}, d.whole(0, 6),

@@ -39,9 +39,12 @@ Layout lay_out_warehouse(Kit& kit) {
                 side > 0 ? 0 : std::numbers::pi);
     }
     for (int i = d.whole(0, 2); i > 0; --i) {  // lamps along the ceiling
-      kit.fix({{kit.block({{d.between(1, 2.5), 0.15, 0.06}, {0, 0, height - 0.07},
-                         kit.plain({1, 1, 0.95}, 1, 0.4)})},
-              {d.between(-0.7, 0.7) * half.x(), side * d.between(0, aisle)}, 0, false});
+      kit.fix({{kit.block({{d.between(1, 2.5), 0.15, 0.06},
+                           {0, 0, height - 0.07},
+                           kit.plain({1, 1, 0.95}, 1, 0.4)})},
+               {d.between(-0.7, 0.7) * half.x(), side * d.between(0, aisle)},
+               0,
+               false});
     }
   }
 
@@ -60,14 +63,17 @@ Layout lay_out_warehouse(Kit& kit) {
                     .farthest_m = half.x() * 1.2};
   layout.furnish = [&kit, &d, half, aisle, height] {
     const Vector2d inner = half - Vector2d(0.3, 0.3);
-    scatter(kit, {"pallet", "drum", "bollard", "cone", "cart", "ladder", "sack", "person", "bin",
-                  "forklift", "sign", "barrier"},
+    scatter(kit,
+            {"pallet", "drum", "bollard", "cone", "cart", "ladder", "sack", "person", "bin",
+             "forklift", "sign", "barrier"},
             d.whole(6, 14), {-inner.x(), -aisle}, {inner.x(), aisle});
     scatter(kit, {"pallet", "drum", "carton", "panel"}, d.whole(4, 10), -inner, inner);
     for (int i = d.whole(1, 4); i > 0; --i) {
       const Thing board = hanging(kit, height, d.between(2.0, 2.6));
-      kit.try_stand({board.kind, board.parts,
-                    {d.between(-0.6, 0.8) * half.x(), d.between(-0.8, 0.8) * aisle}, 0});
+      kit.try_stand({board.kind,
+                     board.parts,
+                     {d.between(-0.6, 0.8) * half.x(), d.between(-0.8, 0.8) * aisle},
+                     0});
     }
     maybe_shadows(kit, {-half.x(), -aisle}, {half.x(), aisle});
   };

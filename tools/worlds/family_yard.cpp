@@ -18,8 +18,8 @@ Layout lay_out_yard(Kit& kit) {
   kit.world.extent_m = half.norm();
   kit.world.ambient = d.between(0.45, 0.65);
   kit.world.diffuse = d.between(0.35, 0.5);
-  const int grass = floor_surface(kit, {Style::foliage, Style::speckle, Style::fractal,
-                                        Style::concrete, Style::fractal});
+  const int grass = floor_surface(
+      kit, {Style::foliage, Style::speckle, Style::fractal, Style::concrete, Style::fractal});
   kit.floor(grass, half + Vector2d(12, 12));
   const bool is_rough = d.chance(0.7);
   double flat = half.x();
@@ -71,28 +71,34 @@ Layout lay_out_yard(Kit& kit) {
       }
       kit.fix({fence, at, turn});
     } else if (kind < 0.6) {
-      kit.fix({{kit.block({{length, d.between(0.5, 1), d.between(0.8, 2.2)}, {0, 0, 0},
-                         kit.wide_surface({Style::foliage})})},
-              at, turn});
+      kit.fix({{kit.block({{length, d.between(0.5, 1), d.between(0.8, 2.2)},
+                           {0, 0, 0},
+                           kit.wide_surface({Style::foliage})})},
+               at,
+               turn});
     } else if (kind < 0.85) {
-      kit.fix({{kit.block({{length, 0.3, d.between(1, 3) + 1}, {0, 0, -0.5}, wall_surface(kit)})}, at,
-              turn});
+      kit.fix({{kit.block({{length, 0.3, d.between(1, 3) + 1}, {0, 0, -0.5}, wall_surface(kit)})},
+               at,
+               turn});
     } else {
-      kit.fix({{kit.block({{length, 0.6, d.between(4, 8)}, {0, 0, -0.3},
-                         kit.wide_surface({Style::facade, Style::bricks})})},
-              at, turn});
+      kit.fix({{kit.block({{length, 0.6, d.between(4, 8)},
+                           {0, 0, -0.3},
+                           kit.wide_surface({Style::facade, Style::bricks})})},
+               at,
+               turn});
     }
   }
-  layout.traffic = {.kinds = {"person", "person", "bicycle", "ball", "cart", "robot", "sack", "drum",
-                              "bush", "panel"},
+  layout.traffic = {.kinds = {"person", "person", "bicycle", "ball", "cart", "robot", "sack",
+                              "drum", "bush", "panel"},
                     .low_m = -half + Vector2d(0.5, 0.5),
                     .high_m = half - Vector2d(0.5, 0.5),
                     .fastest_mps = 4,
                     .farthest_m = 10};
   layout.furnish = [&kit, &d, half] {
     const Vector2d inner = half - Vector2d(0.6, 0.6);
-    scatter(kit, {"tree", "tree", "bush", "bush", "rock", "rock", "bench", "lamp", "sign", "bin",
-                  "pole", "plant", "person", "statue", "drum", "pallet", "cart"},
+    scatter(kit,
+            {"tree", "tree", "bush", "bush", "rock", "rock", "bench", "lamp", "sign", "bin", "pole",
+             "plant", "person", "statue", "drum", "pallet", "cart"},
             d.whole(16, 34), -inner, inner);
     if (!kit.world.scenario.ground) maybe_shadows(kit, -inner, inner);
   };

@@ -132,8 +132,7 @@ double Kit::side_of(int material, double fit_m) const {
 }
 
 Part Kit::mesh_part(const std::string& key, const Mesh& mesh, const Vector3d& at_m, int material) {
-  const auto [found, is_new] =
-      meshes_by_key_.emplace(key, static_cast<int>(world.meshes.size()));
+  const auto [found, is_new] = meshes_by_key_.emplace(key, static_cast<int>(world.meshes.size()));
   if (is_new) world.meshes.push_back(mesh);
   Part part;
   part.shape = Part::Shape::mesh;
@@ -163,8 +162,8 @@ Part Kit::block(const Block& block) {
 Part Kit::post(const Post& post) {
   const Material& m = world.materials[static_cast<std::size_t>(post.material)];
   if (m.texture >= 0 && !m.cube) {
-    return turned({{{post.radius_m, 0}, {post.radius_m, post.height_m}}, post.foot_m,
-                   post.material});
+    return turned(
+        {{{post.radius_m, 0}, {post.radius_m, post.height_m}}, post.foot_m, post.material});
   }
   Part part;
   part.shape = Part::Shape::cylinder;
@@ -288,10 +287,8 @@ void Kit::stand(const std::string& kind, const Parts& parts, const Vector2d& at_
   const bool is_tilted = rotation.toRotationMatrix()(2, 2) < 1 - 1e-9;
   const Box own = bounds(parts);
   const double height = is_tilted ? ground(at_m) : box.foot_m - own.foot_m;
-  world.bodies.push_back({fmt::format("{}_{}", kind, ++names_[kind]),
-                          {at_m.x(), at_m.y(), height},
-                          rotation,
-                          parts});
+  world.bodies.push_back(
+      {fmt::format("{}_{}", kind, ++names_[kind]), {at_m.x(), at_m.y(), height}, rotation, parts});
   solids.push_back(box);
   constexpr double kNotThin_m = 0.1;
   if (own.half_m.minCoeff() > kNotThin_m && is_bare(parts)) tag("bare_thing");
@@ -328,8 +325,11 @@ void Kit::wall(const Vector2d& from_m, const Vector2d& to_m, double height_m, in
                double foot_m, double thickness_m) {
   const Vector2d along = to_m - from_m;
   const double heading = std::atan2(along.y(), along.x());
-  const Vector2d middle = (from_m + to_m) / 2 + Vector2d(-along.y(), along.x()).normalized() * (thickness_m / 2);
-  fix({{block({{along.norm(), thickness_m, height_m}, {0, 0, foot_m}, material})}, middle, heading});
+  const Vector2d middle =
+      (from_m + to_m) / 2 + Vector2d(-along.y(), along.x()).normalized() * (thickness_m / 2);
+  fix({{block({{along.norm(), thickness_m, height_m}, {0, 0, foot_m}, material})},
+       middle,
+       heading});
 }
 
 void Kit::floor(int material, const Vector2d& half_m) {
@@ -345,8 +345,10 @@ void Kit::ramp(double from_x_m, double length_m, double width_m, double slope_ra
   tag("slope");
   const double rise = std::tan(slope_rad);
   // a wedge, so that its texture lies on the slope as it lies on the floor
-  Part part = slice({{{0, -0.2}, {length_m, -0.2}, {length_m, length_m * rise}, {0, 0}}, width_m,
-                     {from_x_m, 0, 0}, material});
+  Part part = slice({{{0, -0.2}, {length_m, -0.2}, {length_m, length_m * rise}, {0, 0}},
+                     width_m,
+                     {from_x_m, 0, 0},
+                     material});
   part.is_solid = true;
   world.setting.push_back(part);
   ground = [before = ground, from_x_m, rise](const Vector2d& at) {
@@ -357,7 +359,10 @@ void Kit::ramp(double from_x_m, double length_m, double width_m, double slope_ra
 void Kit::decal(const Vector2d& at_m, double heading_rad, const Vector2d& size_m, int material) {
   // each a little higher than the last, so that none fights with another for a pixel
   const double lift = 0.003 + 0.0005 * (decals_++ % 8);
-  fix({{block({{size_m.x(), size_m.y(), 0.001}, {0, 0, lift}, material})}, at_m, heading_rad, false});
+  fix({{block({{size_m.x(), size_m.y(), 0.001}, {0, 0, lift}, material})},
+       at_m,
+       heading_rad,
+       false});
 }
 
 void Kit::shadow(const Vector2d& at_m) {
@@ -373,7 +378,9 @@ void Kit::shadow(const Vector2d& at_m) {
     outline.push_back(towards(a).cwiseProduct(size) * draw.between(0.8, 1.0));
   }
   const double lift = 0.003 + 0.0005 * (decals_++ % 8);
-  fix({{prism({outline, 0.001, {0, 0, lift}, plain({0.02, 0.02, 0.03}, darkness)})}, at_m, heading,
+  fix({{prism({outline, 0.001, {0, 0, lift}, plain({0.02, 0.02, 0.03}, darkness)})},
+       at_m,
+       heading,
        false});
 }
 

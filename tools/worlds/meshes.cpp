@@ -16,8 +16,7 @@ constexpr double kTurn = 2 * std::numbers::pi;
 /// Four corners, counter-clockwise from outside, flat.
 void add_quad(Mesh& mesh, const std::array<Vector3d, 4>& corners,
               const std::array<Vector2d, 4>& texture) {
-  const Vector3d normal =
-      (corners[2] - corners[0]).cross(corners[3] - corners[1]).normalized();
+  const Vector3d normal = (corners[2] - corners[0]).cross(corners[3] - corners[1]).normalized();
   const int first = static_cast<int>(mesh.vertices.size());
   for (std::size_t i = 0; i < 4; ++i) mesh.vertices.push_back({corners[i], normal, texture[i]});
   mesh.triangles.push_back({first, first + 1, first + 2});
@@ -104,10 +103,10 @@ Mesh prism_mesh(const std::vector<Vector2d>& polygon_m, double height_m, double 
 
 Mesh turned_mesh(const std::vector<Vector2d>& profile_m, double side_m, int around) {
   Mesh mesh;
-  const double widest = std::max_element(profile_m.begin(), profile_m.end(),
-                                         [](const Vector2d& a, const Vector2d& b) {
-                                           return a.x() < b.x();
-                                         })->x();
+  const double widest =
+      std::max_element(profile_m.begin(), profile_m.end(),
+                       [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x(); })
+          ->x();
   // whole pictures round it, so that they meet
   const double pictures = std::max(1.0, std::round(kTurn * widest / side_m));
   double up = 0;
@@ -168,9 +167,10 @@ Mesh lump_mesh(const Vector3d& radii_m, double bumps, double side_m, Draw& draw)
     for (int k = 0; k <= kAround; ++k) {
       const Vector3d p = point(r, k);
       const Vector3d normal = p.cwiseQuotient(radii_m).cwiseQuotient(radii_m).normalized();
-      mesh.vertices.push_back({p, normal,
-                               {pictures * k / kAround,
-                                std::numbers::pi * radii_m.z() * r / kRings / side_m}});
+      mesh.vertices.push_back(
+          {p,
+           normal,
+           {pictures * k / kAround, std::numbers::pi * radii_m.z() * r / kRings / side_m}});
     }
   }
   for (int r = 0; r < kRings; ++r) {

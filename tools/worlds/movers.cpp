@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 constexpr double kPi = std::numbers::pi;
 constexpr double kRoverGap_m = 0.12, kGap_m = 0.08;
 constexpr int kTries = 120;
-constexpr int kLeastSeen = 14;       // frames; ten by the truth are promised
+constexpr int kLeastSeen = 14;  // frames; ten by the truth are promised
 constexpr double kLeastHeight_px = 14;
 
 double to_cm(double value) {
@@ -39,8 +39,8 @@ class Planner {
  public:
   Planner(Kit& kit, const Way& way, const Traffic& traffic)
       : kit_(kit), d_(kit.draw), s_(kit.world.scenario), way_(way), traffic_(traffic) {
-    fovx_ = 2 * std::atan(std::tan(s_.camera.fovy_rad / 2) * s_.camera.width_px /
-                          s_.camera.height_px);
+    fovx_ =
+        2 * std::atan(std::tan(s_.camera.fovy_rad / 2) * s_.camera.width_px / s_.camera.height_px);
     focal_px_ = s_.camera.height_px / 2.0 / std::tan(s_.camera.fovy_rad / 2);
   }
 
@@ -50,10 +50,9 @@ class Planner {
     const double radius = box.half_m.norm();
     const Meeting meeting = meet(radius);
     const Stand& rover = way_.frames[meeting.frame];
-    Path path =
-        d_.pick({Path::across, Path::across, Path::across, Path::slanting, Path::slanting,
-                 Path::coming, Path::going, Path::pacing, Path::overtaking, Path::shuttle,
-                 Path::circle});
+    Path path = d_.pick({Path::across, Path::across, Path::across, Path::slanting, Path::slanting,
+                         Path::coming, Path::going, Path::pacing, Path::overtaking, Path::shuttle,
+                         Path::circle});
     const double fastest = std::min(traffic_.fastest_mps, speed_in_view(meeting.distance_m));
     double speed = d_.scaled(std::min(0.15, fastest), fastest);
     if (d_.chance(0.15)) {  // as fast as can be, and so to and fro: else it were gone
@@ -162,7 +161,8 @@ class Planner {
     constexpr double kStep_m = 0.1;
     const double level = kit_.ground(from);
     double way = 0;
-    while (way + kStep_m <= most_m && may_be(box, from + (way + kStep_m) * towards(heading), level)) {
+    while (way + kStep_m <= most_m &&
+           may_be(box, from + (way + kStep_m) * towards(heading), level)) {
       way += kStep_m;
     }
     return way;
@@ -235,7 +235,7 @@ class Planner {
 };
 
 struct Sight {
-  int points = 0;    ///< of 27 that are in the picture and not hidden
+  int points = 0;  ///< of 27 that are in the picture and not hidden
   double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;  ///< of those before the camera
   bool before = false;  ///< another mover that is nearer hides a part of it
 };
@@ -351,12 +351,11 @@ void add_movers(Kit& kit, const Way& way, const std::vector<Mover>& movers) {
     actor.trajectory = mover.trajectory;
     actor.start.at_s = mover.start_s;
     kit.world.scenario.actors.push_back(actor);
-    kit.world.bodies.push_back({actor.name,
-                                {first.centre_m.x(), first.centre_m.y(),
-                                 first.foot_m - kit.bounds(mover.parts).foot_m},
-                                Eigen::Quaterniond(
-                                    Eigen::AngleAxisd(first.heading_rad, Vector3d::UnitZ())),
-                                mover.parts});
+    kit.world.bodies.push_back(
+        {actor.name,
+         {first.centre_m.x(), first.centre_m.y(), first.foot_m - kit.bounds(mover.parts).foot_m},
+         Eigen::Quaterniond(Eigen::AngleAxisd(first.heading_rad, Vector3d::UnitZ())),
+         mover.parts});
     if (kit.is_bare(mover.parts)) kit.tag("plain_mover");
     const bool is_mesh = std::any_of(mover.parts.begin(), mover.parts.end(), [](const Part& part) {
       return part.shape == Part::Shape::mesh;

@@ -12,7 +12,7 @@ namespace lcs::worlds {
 
 /// What a layout lets move, and where.
 struct Traffic {
-  std::vector<std::string> kinds;  ///< of things (things.h)
+  std::vector<std::string> kinds;               ///< of things (things.h)
   Eigen::Vector2d low_m{-5, -5}, high_m{5, 5};  ///< corners of the ground that is theirs
   double fastest_mps = 2;
   double farthest_m = 8;  ///< from the camera, in the middle of its way

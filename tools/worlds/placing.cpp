@@ -56,8 +56,7 @@ bool is_between(const Box& box, const Vector3d& from_m, const Vector3d& to_m) {
 
 Vector3d point_of(const Box& box, double ahead, double left, double up) {
   const Vector2d flat =
-      box.centre_m +
-      turned({ahead * box.half_m.x(), left * box.half_m.y()}, box.heading_rad);
+      box.centre_m + turned({ahead * box.half_m.x(), left * box.half_m.y()}, box.heading_rad);
   return {flat.x(), flat.y(), (box.foot_m + box.head_m) / 2 + up * (box.head_m - box.foot_m) / 2};
 }
 

@@ -115,8 +115,7 @@ std::vector<EgoPhase> phases_of(Draw& d, Kind kind, double duration_s, double fa
       EgoPhase second = first;
       second.at_s = duration_s * d.between(0.3, 0.6);
       first.acceleration_mps2 = d.chance(0.5) ? 0 : d.between(0, 0.4);
-      second.speed_mps =
-          first.speed_mps + first.acceleration_mps2 * second.at_s;
+      second.speed_mps = first.speed_mps + first.acceleration_mps2 * second.at_s;
       second.acceleration_mps2 = -d.between(0.2, 1);
       return {first, second};
     }
@@ -177,9 +176,9 @@ Way draw_rover(Kit& kit, const Lane& lane) {
   s.ego.drive = lane.is_rough ? scenario::Drive::wheeled : scenario::Drive::holonomic;
   if (lane.is_rough) kit.tag("wheeled");
   const double duration_s = s.frames / s.camera.rate_hz;
-  const Kind kind = d.pick({Kind::stand, Kind::crawl, Kind::drive, Kind::drive, Kind::drive,
-                            Kind::bend, Kind::bend, Kind::spin, Kind::aside, Kind::brake,
-                            Kind::weave});
+  const Kind kind =
+      d.pick({Kind::stand, Kind::crawl, Kind::drive, Kind::drive, Kind::drive, Kind::bend,
+              Kind::bend, Kind::spin, Kind::aside, Kind::brake, Kind::weave});
   const double fastest = std::clamp(0.9 * lane.length_m / duration_s, 0.25, lane.fastest_mps);
   s.ego.phases = phases_of(d, kind, duration_s, fastest, lane.is_rough);
   // backwards it needs the lane behind it, and aside the width of it
@@ -218,8 +217,7 @@ Vector3d camera_at(const scenario::Camera& camera, const Stand& stand, double gr
 
 Vector3d seen_at(const scenario::Camera& camera, const Stand& stand, double ground_m,
                  const Vector3d& point_m) {
-  const auto pinhole =
-      sim::Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad);
+  const auto pinhole = sim::Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad);
   const Vector3d from = point_m - camera_at(camera, stand, ground_m);
   const Vector2d flat = turned(from.head<2>(), -stand.heading_rad);
   const double down = camera.mount_rpy_rad.y();

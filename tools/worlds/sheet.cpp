@@ -23,7 +23,8 @@ const cv::Scalar kMoves(255, 0, 255), kStands(0, 200, 0), kRover(220, 80, 0);
 void fit(const cv::Mat3b& picture, cv::Mat3b tile) {
   const double scale = std::min(static_cast<double>(tile.cols) / picture.cols,
                                 static_cast<double>(tile.rows) / picture.rows);
-  const cv::Size size(static_cast<int>(picture.cols * scale), static_cast<int>(picture.rows * scale));
+  const cv::Size size(static_cast<int>(picture.cols * scale),
+                      static_cast<int>(picture.rows * scale));
   cv::resize(picture, tile(cv::Rect({0, 0}, size)), size, 0, 0, cv::INTER_AREA);
 }
 
@@ -40,7 +41,8 @@ cv::Mat3b plan(const World& world, const sim::Drive& drive) {
   constexpr double kMargin_px = 8;
   std::vector<std::pair<Box, bool>> boxes;  // and whether it moves
   Vector2d low(1e9, 1e9), high(-1e9, -1e9);
-  const auto add = [&](Box box, const Vector2d& at, const Eigen::Quaterniond& rotation, bool moves) {
+  const auto add = [&](Box box, const Vector2d& at, const Eigen::Quaterniond& rotation,
+                       bool moves) {
     const Vector2d ahead = (rotation * Eigen::Vector3d::UnitX()).head<2>();
     box.centre_m = at;
     box.heading_rad = std::atan2(ahead.y(), ahead.x());
@@ -62,9 +64,9 @@ cv::Mat3b plan(const World& world, const sim::Drive& drive) {
     add(box, part.position_m.head<2>(), part.rotation, false);
   }
   for (const Body& body : world.bodies) {
-    const bool moves = std::any_of(
-        world.scenario.actors.begin(), world.scenario.actors.end(),
-        [&](const scenario::Actor& actor) { return actor.body == body.name; });
+    const bool moves =
+        std::any_of(world.scenario.actors.begin(), world.scenario.actors.end(),
+                    [&](const scenario::Actor& actor) { return actor.body == body.name; });
     add(bounds(world, body.parts), body.position_m.head<2>(), body.rotation, moves);
   }
   cv::Mat3b tile(kHeight, kWidth, cv::Vec3b(255, 255, 255));

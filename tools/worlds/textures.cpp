@@ -209,10 +209,9 @@ void paint_courses(cv::Mat3b& p, Draw& draw, int rows, int columns, double bond,
       const double shift = row % 2 == 1 ? bond : 0;
       const int left = static_cast<int>(side * (column + shift) / columns) + gap;
       const int right = static_cast<int>(side * (column + 1 + shift) / columns) - gap;
-      const Colour tone = shaded(tones[static_cast<std::size_t>(row * columns + column) % 2 == 0
-                                           ? 0
-                                           : tones.size() - 1],
-                                 draw.between(1 - vary, 1 + vary));
+      const Colour tone = shaded(
+          tones[static_cast<std::size_t>(row * columns + column) % 2 == 0 ? 0 : tones.size() - 1],
+          draw.between(1 - vary, 1 + vary));
       for (const int wrap : {0, -side}) {
         cv::rectangle(p, {left + wrap, top}, {right + wrap, bottom}, tone, cv::FILLED);
       }
@@ -221,10 +220,10 @@ void paint_courses(cv::Mat3b& p, Draw& draw, int rows, int columns, double bond,
 }
 
 void paint_bricks(cv::Mat3b& p, Draw& draw) {
-  const Colour brick = draw.chance(0.7) ? Colour{level(draw.between(40, 90)),
-                                                 level(draw.between(55, 105)),
-                                                 level(draw.between(110, 185))}
-                                        : colour(draw, 90, 200, 15);
+  const Colour brick = draw.chance(0.7)
+                           ? Colour{level(draw.between(40, 90)), level(draw.between(55, 105)),
+                                    level(draw.between(110, 185))}
+                           : colour(draw, 90, 200, 15);
   const int rows = 2 * draw.whole(3, 6);
   paint_courses(p, draw, rows, rows / 2, 0.5, colour(draw, 120, 215, 10), {brick}, 0.18);
   dirty(p, draw, 12, 0.7, 2, 8);
@@ -299,8 +298,8 @@ void paint_foliage(cv::Mat3b& p, Draw& draw) {
   const double size = side * draw.between(0.012, 0.035);
   for (int i = 0; i < leaves; ++i) {
     const double light = draw.between(0.35, 1.15) * (0.6 + 0.4 * i / leaves);
-    const Colour leaf =
-        dry ? shaded({75, 160, 195}, light) : shaded({65, level(draw.between(145, 205)), 105}, light);
+    const Colour leaf = dry ? shaded({75, 160, 195}, light)
+                            : shaded({65, level(draw.between(145, 205)), 105}, light);
     const cv::Point at{draw.whole(0, side - 1), draw.whole(0, side - 1)};
     const cv::Size axes{std::max(1, static_cast<int>(size * draw.between(0.7, 1.6))),
                         std::max(1, static_cast<int>(size * draw.between(0.3, 0.7)))};

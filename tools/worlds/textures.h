@@ -13,20 +13,20 @@
 namespace lcs::worlds {
 
 enum class Style {
-  plain,        ///< one colour, nearly
-  fractal,      ///< 1/f noise between two colours
-  concrete,     ///< the same at low contrast, with stains and pores
-  lettering,    ///< printed matter: words, numbers, rules
-  wood,         ///< planks with grain
-  bricks,       ///< in bond, with mortar
-  tiles,        ///< in a grid, with grout
-  stripes,      ///< bars, upright, lying or slanting
-  grille,       ///< a lattice before a dark ground
-  corrugated,   ///< sheet metal in waves
-  foliage,      ///< leaves over each other
-  worn,         ///< paint that chipped and was scratched
-  speckle,      ///< terrazzo, asphalt, granite
-  facade,       ///< windows in rows
+  plain,       ///< one colour, nearly
+  fractal,     ///< 1/f noise between two colours
+  concrete,    ///< the same at low contrast, with stains and pores
+  lettering,   ///< printed matter: words, numbers, rules
+  wood,        ///< planks with grain
+  bricks,      ///< in bond, with mortar
+  tiles,       ///< in a grid, with grout
+  stripes,     ///< bars, upright, lying or slanting
+  grille,      ///< a lattice before a dark ground
+  corrugated,  ///< sheet metal in waves
+  foliage,     ///< leaves over each other
+  worn,        ///< paint that chipped and was scratched
+  speckle,     ///< terrazzo, asphalt, granite
+  facade,      ///< windows in rows
 };
 
 /// For messages and names of files.

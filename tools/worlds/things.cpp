@@ -13,8 +13,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 constexpr double kPi = std::numbers::pi;
 
-const std::vector<Style> kPrinted{Style::lettering, Style::lettering, Style::stripes,
-                                  Style::plain};
+const std::vector<Style> kPrinted{Style::lettering, Style::lettering, Style::stripes, Style::plain};
 const std::vector<Style> kMetal{Style::worn, Style::corrugated, Style::grille, Style::plain,
                                 Style::fractal};
 const std::vector<Style> kStone{Style::concrete, Style::speckle, Style::fractal, Style::bricks};
@@ -25,9 +24,16 @@ const std::vector<Style> kWood{Style::wood};
 
 Parts drum(Kit& k) {
   const double r = k.draw.between(0.15, 0.35), h = r * k.draw.between(2, 3.2);
-  return {k.turned({{{r, 0}, {r, h * .32}, {r * 1.04, h * .34}, {r, h * .36}, {r, h * .64},
-                    {r * 1.04, h * .66}, {r, h * .68}, {r, h}},
-                   {0, 0, 0}, k.paint(kMetal)})};
+  return {k.turned({{{r, 0},
+                     {r, h * .32},
+                     {r * 1.04, h * .34},
+                     {r, h * .36},
+                     {r, h * .64},
+                     {r * 1.04, h * .66},
+                     {r, h * .68},
+                     {r, h}},
+                    {0, 0, 0},
+                    k.paint(kMetal)})};
 }
 
 Parts ball(Kit& k) {
@@ -59,12 +65,18 @@ Parts person(Kit& k) {
   Parts parts{
       k.bar({{stride, 0.09 * s, 0.06}, {0, 0.09 * s, 0.85 * s}, 0.075 * s, trousers}),
       k.bar({{-stride, -0.09 * s, 0.06}, {0, -0.09 * s, 0.85 * s}, 0.075 * s, trousers}),
-      k.turned({{{0.16 * s * wide, 0}, {0.19 * s * wide, 0.12 * s}, {0.17 * s * wide, 0.3 * s},
-                {0.22 * s * wide, 0.55 * s}, {0.09 * s, 0.68 * s}},
-               {0, 0, 0.8 * s}, coat}),
+      k.turned({{{0.16 * s * wide, 0},
+                 {0.19 * s * wide, 0.12 * s},
+                 {0.17 * s * wide, 0.3 * s},
+                 {0.22 * s * wide, 0.55 * s},
+                 {0.09 * s, 0.68 * s}},
+                {0, 0, 0.8 * s},
+                coat}),
       k.bar({{0.12 * s, 0.25 * s * wide, 0.85 * s}, {0, 0.2 * s * wide, 1.38 * s}, 0.05 * s, coat}),
-      k.bar({{-0.12 * s, -0.25 * s * wide, 0.85 * s}, {0, -0.2 * s * wide, 1.38 * s}, 0.05 * s,
-            coat}),
+      k.bar({{-0.12 * s, -0.25 * s * wide, 0.85 * s},
+             {0, -0.2 * s * wide, 1.38 * s},
+             0.05 * s,
+             coat}),
       k.ball({{0.1 * s, 0.085 * s, 0.125 * s}, {0, 0, 1.62 * s}, skin}),
       k.ball({{0.105 * s, 0.09 * s, 0.08 * s}, {-0.015 * s, 0, 1.69 * s}, k.plain()})};
   if (k.draw.chance(0.3)) {  // something carried
@@ -91,7 +103,8 @@ Parts cart(Kit& k) {
   const double r = k.draw.between(0.04, 0.1), h = k.draw.between(0.25, 0.9);
   Parts parts{k.block({{l, w, 0.05}, {0, 0, 2 * r}, k.plain()}),
               k.block({{l * .92, w * .92, h}, {0, 0, 2 * r + 0.05}, k.paint()})};
-  parts.push_back(k.bar({{-l / 2, -w * .4, 2 * r}, {-l / 2 - 0.1, -w * .4, 1.0}, 0.015, k.plain()}));
+  parts.push_back(
+      k.bar({{-l / 2, -w * .4, 2 * r}, {-l / 2 - 0.1, -w * .4, 1.0}, 0.015, k.plain()}));
   parts.push_back(k.bar({{-l / 2, w * .4, 2 * r}, {-l / 2 - 0.1, w * .4, 1.0}, 0.015, k.plain()}));
   parts.push_back(
       k.bar({{-l / 2 - 0.1, -w * .4, 1.0}, {-l / 2 - 0.1, w * .4, 1.0}, 0.015, k.plain()}));
@@ -106,20 +119,32 @@ Parts car(Kit& k) {
   const int glass = k.plain({0.1, 0.12, 0.14}), lamp = k.plain({0.9, 0.88, 0.8});
   const double sill = 0.22, bonnet = h * 0.58;
   Parts parts{
-      k.slice({{{-l / 2, sill}, {l / 2, sill}, {l / 2, bonnet * .85}, {l * .25, bonnet},
-               {-l / 2, bonnet * 1.02}},
-              w, {0, 0, 0}, body}),
+      k.slice({{{-l / 2, sill},
+                {l / 2, sill},
+                {l / 2, bonnet * .85},
+                {l * .25, bonnet},
+                {-l / 2, bonnet * 1.02}},
+               w,
+               {0, 0, 0},
+               body}),
       k.slice({{{-l * .42, bonnet * .98}, {l * .27, bonnet * .98}, {l * .1, h}, {-l * .3, h}},
-              w * .86, {0, 0, 0}, body}),
-      k.slice({{{-l * .37, bonnet * 1.04}, {l * .22, bonnet * 1.04}, {l * .09, h * .96},
-               {-l * .28, h * .96}},
-              w * .865, {0, 0, 0}, glass})};
+               w * .86,
+               {0, 0, 0},
+               body}),
+      k.slice({{{-l * .37, bonnet * 1.04},
+                {l * .22, bonnet * 1.04},
+                {l * .09, h * .96},
+                {-l * .28, h * .96}},
+               w * .865,
+               {0, 0, 0},
+               glass})};
   for (const double y : {-0.6, 0.6}) {
     parts.push_back(k.block({{0.02, 0.3, 0.12}, {l / 2, y, bonnet * .6}, lamp}));
     parts.push_back(
         k.block({{0.02, 0.25, 0.14}, {-l / 2, y, bonnet * .65}, k.plain({0.6, 0.08, 0.06})}));
   }
-  parts.push_back(k.block({{0.02, 0.5, 0.11}, {-l / 2 - 0.005, 0, 0.5}, k.surface({Style::lettering})}));
+  parts.push_back(
+      k.block({{0.02, 0.5, 0.11}, {-l / 2 - 0.005, 0, 0.5}, k.surface({Style::lettering})}));
   return on_wheels(k, parts, l * .31, w / 2 - 0.08, r, 0.2);
 }
 
@@ -127,12 +152,17 @@ Parts van(Kit& k) {
   const double l = k.draw.between(4.4, 5.8), h = k.draw.between(1.9, 2.6), w = 1.95;
   const int body = k.paint({Style::lettering, Style::plain, Style::worn, Style::corrugated});
   const int glass = k.plain({0.1, 0.12, 0.14});
-  Parts parts{k.block({{l * .72, w, h - 0.3}, {-l * .14, 0, 0.3}, body}),
-              k.slice({{{l * .22, 0.3}, {l / 2, 0.3}, {l / 2, h * .5}, {l * .38, h * .92},
-                       {l * .22, h * .92}},
-                      w * .96, {0, 0, 0}, k.plain()}),
-              k.slice({{{l * .26, h * .52}, {l * .45, h * .52}, {l * .37, h * .86}, {l * .26, h * .86}},
-                      w * .97, {0, 0, 0}, glass})};
+  Parts parts{
+      k.block({{l * .72, w, h - 0.3}, {-l * .14, 0, 0.3}, body}),
+      k.slice(
+          {{{l * .22, 0.3}, {l / 2, 0.3}, {l / 2, h * .5}, {l * .38, h * .92}, {l * .22, h * .92}},
+           w * .96,
+           {0, 0, 0},
+           k.plain()}),
+      k.slice({{{l * .26, h * .52}, {l * .45, h * .52}, {l * .37, h * .86}, {l * .26, h * .86}},
+               w * .97,
+               {0, 0, 0},
+               glass})};
   return on_wheels(k, parts, l * .31, w / 2 - 0.09, 0.34, 0.22);
 }
 
@@ -150,11 +180,13 @@ Parts table(Kit& k) {
     const Vector3d at{k.draw.between(-l * .4, l * .4), k.draw.between(-w * .35, w * .35), h + 0.04};
     const double s = k.draw.between(0.06, 0.2);
     if (k.draw.chance(0.6)) {
-      parts.push_back(k.block({{s, s * 1.4, s * k.draw.between(0.3, 1.6)}, at, k.paint(kPrinted),
-                              k.draw.between(0, kPi)}));
+      parts.push_back(k.block({{s, s * 1.4, s * k.draw.between(0.3, 1.6)},
+                               at,
+                               k.paint(kPrinted),
+                               k.draw.between(0, kPi)}));
     } else {
-      parts.push_back(k.turned({{{s * .3, 0}, {s * .5, s * .5}, {s * .25, s}, {s * .3, s * 1.3}}, at,
-                               k.paint()}));
+      parts.push_back(k.turned(
+          {{{s * .3, 0}, {s * .5, s * .5}, {s * .25, s}, {s * .3, s * 1.3}}, at, k.paint()}));
     }
   }
   return parts;
@@ -182,10 +214,9 @@ Parts cupboard(Kit& k) {
   const int doors = k.draw.whole(1, 3);
   for (int i = 0; i < doors; ++i) {  // doors that stand out, with gaps and knobs
     const double w = size.x() / doors, x = -size.x() / 2 + (i + 0.5) * w;
+    parts.push_back(k.block({{w - 0.03, 0.02, size.z() - 0.1}, {x, -size.y() / 2, 0.06}, face}));
     parts.push_back(
-        k.block({{w - 0.03, 0.02, size.z() - 0.1}, {x, -size.y() / 2, 0.06}, face}));
-    parts.push_back(k.ball({{0.02, 0.02, 0.02},
-                           {x + w * .35, -size.y() / 2 - 0.02, size.z() * .5}, knob}));
+        k.ball({{0.02, 0.02, 0.02}, {x + w * .35, -size.y() / 2 - 0.02, size.z() * .5}, knob}));
   }
   return parts;
 }
@@ -194,14 +225,17 @@ Parts bin(Kit& k) {
   const double r = k.draw.between(0.12, 0.3), h = k.draw.between(0.35, 1.0);
   const int m = k.paint(kMetal);
   return {k.turned({{{r * .8, 0}, {r, h}, {r * 1.08, h}, {r * 1.08, h * 1.04}, {r * .3, h * 1.15}},
-                   {0, 0, 0}, m})};
+                    {0, 0, 0},
+                    m})};
 }
 
 Parts plant(Kit& k) {
   const double r = k.draw.between(0.1, 0.25), h = r * 1.6, crown = k.draw.between(0.2, 0.5);
   return {k.turned({{{r * .7, 0}, {r, h}}, {0, 0, 0}, k.paint(kStone)}),
-          k.lump({{crown, crown, crown * k.draw.between(0.8, 1.6)}, 0.15,
-                 {0, 0, h + crown * .8}, k.surface(kLeaves)})};
+          k.lump({{crown, crown, crown * k.draw.between(0.8, 1.6)},
+                  0.15,
+                  {0, 0, h + crown * .8},
+                  k.surface(kLeaves)})};
 }
 
 Parts bush(Kit& k) {
@@ -210,9 +244,10 @@ Parts bush(Kit& k) {
   Parts parts;
   for (int i = k.draw.whole(1, 3); i > 0; --i) {
     const double s = r * k.draw.between(0.6, 1);
-    parts.push_back(k.lump({{s, s, s * k.draw.between(0.7, 1.2)}, 0.15,
-                           {k.draw.between(-r, r) * .5, k.draw.between(-r, r) * .5, s * .6},
-                           leaves}));
+    parts.push_back(k.lump({{s, s, s * k.draw.between(0.7, 1.2)},
+                            0.15,
+                            {k.draw.between(-r, r) * .5, k.draw.between(-r, r) * .5, s * .6},
+                            leaves}));
   }
   return parts;
 }
@@ -220,24 +255,32 @@ Parts bush(Kit& k) {
 Parts tree(Kit& k) {
   const double trunk = k.draw.between(0.06, 0.2), h = k.draw.between(1.8, 3.2);
   const double crown = k.draw.between(0.8, 1.7);
-  return {k.turned({{{trunk * 1.4, 0}, {trunk, 0.3}, {trunk * .8, h + 0.3}}, {0, 0, 0},
-                   k.surface({Style::wood, Style::fractal})}),
-          k.lump({{crown, crown, crown * k.draw.between(0.8, 1.5)}, 0.12,
-                 {0, 0, h + crown * .6}, k.surface(kLeaves)}),
-          k.lump({{crown * .7, crown * .7, crown * .6}, 0.15,
-                 {crown * .5, crown * .3, h + crown * .2}, k.surface(kLeaves)})};
+  return {k.turned({{{trunk * 1.4, 0}, {trunk, 0.3}, {trunk * .8, h + 0.3}},
+                    {0, 0, 0},
+                    k.surface({Style::wood, Style::fractal})}),
+          k.lump({{crown, crown, crown * k.draw.between(0.8, 1.5)},
+                  0.12,
+                  {0, 0, h + crown * .6},
+                  k.surface(kLeaves)}),
+          k.lump({{crown * .7, crown * .7, crown * .6},
+                  0.15,
+                  {crown * .5, crown * .3, h + crown * .2},
+                  k.surface(kLeaves)})};
 }
 
 Parts rock(Kit& k) {
   const double r = k.draw.scaled(0.12, 0.6);
-  return {k.lump({{r, r * k.draw.between(0.6, 1), r * k.draw.between(0.5, 0.9)}, 0.12,
-                 {0, 0, r * .3}, k.surface(kStone)})};
+  return {k.lump({{r, r * k.draw.between(0.6, 1), r * k.draw.between(0.5, 0.9)},
+                  0.12,
+                  {0, 0, r * .3},
+                  k.surface(kStone)})};
 }
 
 Parts pole(Kit& k) {
   k.tag("thin_pole");
   const double r = k.draw.between(0.012, 0.04), h = k.draw.between(1.4, 3.5);
-  Parts parts{k.post({r, h, {0, 0, 0}, k.draw.chance(0.6) ? k.plain() : k.surface({Style::stripes})})};
+  Parts parts{
+      k.post({r, h, {0, 0, 0}, k.draw.chance(0.6) ? k.plain() : k.surface({Style::stripes})})};
   parts.push_back(k.turned({{{0.16, 0}, {0.05, 0.05}}, {0, 0, 0}, k.plain()}));
   return parts;
 }
@@ -247,8 +290,9 @@ Parts sign(Kit& k) {
   const double h = k.draw.between(1.3, 2.4), w = k.draw.between(0.35, 0.8);
   Parts parts{k.post({0.025, h, {0, 0, 0}, k.plain({0.6, 0.6, 0.62})}),
               k.turned({{{0.14, 0}, {0.05, 0.04}}, {0, 0, 0}, k.plain()}),
-              k.block({{0.02, w, w * k.draw.between(0.6, 1.2)}, {0.035, 0, h - w * .7},
-                      k.surface({Style::lettering})})};
+              k.block({{0.02, w, w * k.draw.between(0.6, 1.2)},
+                       {0.035, 0, h - w * .7},
+                       k.surface({Style::lettering})})};
   return parts;
 }
 
@@ -291,8 +335,8 @@ Parts pallet(Kit& k) {
   } else if (load == 2) {
     const int m = k.paint(kPrinted);
     for (int i = 0; i < 2 * k.draw.whole(1, 3); ++i) {
-      parts.push_back(k.block({{0.5, 0.72, 0.3}, {i % 2 ? 0.28 : -0.28, 0, 0.125 + 0.302 * (i / 2)},
-                              m}));
+      parts.push_back(
+          k.block({{0.5, 0.72, 0.3}, {i % 2 ? 0.28 : -0.28, 0, 0.125 + 0.302 * (i / 2)}, m}));
     }
   } else if (load == 3) {
     const int m = k.paint({Style::plain, Style::fractal});
@@ -322,16 +366,22 @@ Parts statue(Kit& k) {
   const double s = k.draw.between(0.5, 1);
   const int stone = k.paint(kStone);
   return {k.block({{0.5 * s, 0.5 * s, 0.7 * s}, {0, 0, 0}, k.draw.chance(0.5) ? k.plain() : stone}),
-          k.turned({{{0.12 * s, 0}, {0.18 * s, 0.15 * s}, {0.1 * s, 0.4 * s}, {0.17 * s, 0.6 * s},
-                    {0.06 * s, 0.75 * s}},
-                   {0, 0, 0.7 * s}, stone}),
+          k.turned({{{0.12 * s, 0},
+                     {0.18 * s, 0.15 * s},
+                     {0.1 * s, 0.4 * s},
+                     {0.17 * s, 0.6 * s},
+                     {0.06 * s, 0.75 * s}},
+                    {0, 0, 0.7 * s},
+                    stone}),
           k.ball({{0.1 * s, 0.09 * s, 0.13 * s}, {0, 0, 1.55 * s}, stone})};
 }
 
 Parts sack(Kit& k) {
   const double r = k.draw.between(0.2, 0.4);
-  return {k.lump({{r, r * .7, r * .8}, 0.15, {0, 0, r * .65}, k.paint({Style::plain, Style::fractal,
-                                                                      Style::lettering})})};
+  return {k.lump({{r, r * .7, r * .8},
+                  0.15,
+                  {0, 0, r * .65},
+                  k.paint({Style::plain, Style::fractal, Style::lettering})})};
 }
 
 Parts panel(Kit& k) {
@@ -346,7 +396,8 @@ Parts panel(Kit& k) {
 Parts barrier(Kit& k) {
   const double l = k.draw.between(1, 2);
   const int board = k.surface({Style::stripes}), leg = k.plain();
-  return {k.block({{0.04, l, 0.2}, {0, 0, 0.75}, board}), k.block({{0.04, l, 0.15}, {0, 0, 0.35}, board}),
+  return {k.block({{0.04, l, 0.2}, {0, 0, 0.75}, board}),
+          k.block({{0.04, l, 0.15}, {0, 0, 0.35}, board}),
           k.block({{0.05, 0.05, 1.0}, {0, -l * .42, 0}, leg}),
           k.block({{0.05, 0.05, 1.0}, {0, l * .42, 0}, leg}),
           k.block({{0.5, 0.06, 0.05}, {0, -l * .42, 0}, leg}),
@@ -356,9 +407,10 @@ Parts barrier(Kit& k) {
 /// A low machine with a mast, as another rover.
 Parts robot(Kit& k) {
   const double r = k.draw.between(0.18, 0.35), h = k.draw.between(0.15, 0.5);
-  Parts parts{k.turned({{{r * .9, 0}, {r, 0.05}, {r, h}, {r * .8, h + 0.06}}, {0, 0, 0.03},
-                       k.paint(kMetal)}),
-              k.post({0.02, k.draw.between(0.2, 0.9), {-r * .4, 0, h}, k.plain()})};
+  Parts parts{
+      k.turned(
+          {{{r * .9, 0}, {r, 0.05}, {r, h}, {r * .8, h + 0.06}}, {0, 0, 0.03}, k.paint(kMetal)}),
+      k.post({0.02, k.draw.between(0.2, 0.9), {-r * .4, 0, h}, k.plain()})};
   parts.push_back(k.block({{0.1, 0.14, 0.1}, {r * .3, 0, h + 0.09}, k.plain({0.1, 0.1, 0.12})}));
   return parts;
 }
@@ -387,7 +439,9 @@ Parts bicycle(Kit& k) {
     for (int i = 0; i < 12; ++i) {
       const double a = kPi * i / 6, b = kPi * (i + 1) / 6;
       parts.push_back(k.bar({{x + 0.32 * std::cos(a), 0, 0.34 + 0.32 * std::sin(a)},
-                            {x + 0.32 * std::cos(b), 0, 0.34 + 0.32 * std::sin(b)}, 0.018, tyre}));
+                             {x + 0.32 * std::cos(b), 0, 0.34 + 0.32 * std::sin(b)},
+                             0.018,
+                             tyre}));
     }
   }
   parts.push_back(k.bar({{-0.5, 0, 0.34}, {-0.15, 0, 0.8}, 0.018, frame}));
@@ -414,21 +468,42 @@ Parts load(Kit& k) {
 }
 
 const std::map<std::string, std::function<Parts(Kit&)>> kThings{
-    {"drum", drum},         {"ball", ball},       {"bollard", bollard}, {"cone", cone},
-    {"person", person},     {"cart", cart},       {"car", car},         {"van", van},
-    {"table", table},       {"chair", chair},     {"cupboard", cupboard}, {"bin", bin},
-    {"plant", plant},       {"bush", bush},       {"tree", tree},       {"rock", rock},
-    {"pole", pole},         {"sign", sign},       {"lamp", lamp_post},  {"bench", bench},
-    {"pallet", pallet},     {"ladder", ladder},   {"statue", statue},   {"sack", sack},
-    {"panel", panel},       {"barrier", barrier}, {"robot", robot},     {"forklift", forklift},
-    {"bicycle", bicycle},   {"load", load},
+    {"drum", drum},
+    {"ball", ball},
+    {"bollard", bollard},
+    {"cone", cone},
+    {"person", person},
+    {"cart", cart},
+    {"car", car},
+    {"van", van},
+    {"table", table},
+    {"chair", chair},
+    {"cupboard", cupboard},
+    {"bin", bin},
+    {"plant", plant},
+    {"bush", bush},
+    {"tree", tree},
+    {"rock", rock},
+    {"pole", pole},
+    {"sign", sign},
+    {"lamp", lamp_post},
+    {"bench", bench},
+    {"pallet", pallet},
+    {"ladder", ladder},
+    {"statue", statue},
+    {"sack", sack},
+    {"panel", panel},
+    {"barrier", barrier},
+    {"robot", robot},
+    {"forklift", forklift},
+    {"bicycle", bicycle},
+    {"load", load},
     {"carton",
      [](Kit& k) {
        const double s = k.draw.scaled(0.2, 0.8);
        return carton(k, {s, s * k.draw.between(0.6, 1), s * k.draw.between(0.5, 1.3)}).parts;
      }},
-    {"shelf",
-     [](Kit& k) {
+    {"shelf", [](Kit& k) {
        const Vector3d size{k.draw.between(0.7, 1.8), k.draw.between(0.28, 0.45),
                            k.draw.between(1, 2.1)};
        return shelf(k, size, k.draw.whole(3, 5), false).parts;
@@ -464,7 +539,8 @@ Thing shelf(Kit& kit, const Vector3d& size_m, int boards, bool is_rack) {
     while (x < size_m.x() / 2 - post - 0.05) {  // a row of what lies there
       const double w = is_rack ? kit.draw.between(0.4, 1.1) : kit.draw.between(0.04, 0.3);
       if (x + w > size_m.x() / 2 - post) break;
-      const double h = room * kit.draw.between(0.4, 1), d = size_m.y() * kit.draw.between(0.6, 0.95);
+      const double h = room * kit.draw.between(0.4, 1),
+                   d = size_m.y() * kit.draw.between(0.6, 0.95);
       const double kind = kit.draw.between(0, 1);
       const Vector3d at(x + w / 2, 0, foot);
       if (kind < 0.2) {
@@ -484,12 +560,12 @@ Thing shelf(Kit& kit, const Vector3d& size_m, int boards, bool is_rack) {
 Thing hanging(Kit& kit, double ceiling_m, double foot_m) {
   kit.tag("hanging");
   const int cord = kit.plain({0.15, 0.15, 0.15});
-  const double w = kit.draw.between(0.25, 0.9), h = std::min(kit.draw.between(0.15, 0.5),
-                                                             ceiling_m - foot_m - 0.05);
+  const double w = kit.draw.between(0.25, 0.9),
+               h = std::min(kit.draw.between(0.15, 0.5), ceiling_m - foot_m - 0.05);
   Parts parts;
   if (kit.draw.chance(0.5)) {  // a board
-    parts.push_back(kit.block({{0.03, w, h}, {0, 0, foot_m}, kit.paint({Style::lettering,
-                                                                     Style::stripes})}));
+    parts.push_back(
+        kit.block({{0.03, w, h}, {0, 0, foot_m}, kit.paint({Style::lettering, Style::stripes})}));
     for (const double y : {-w * .4, w * .4}) {
       parts.push_back(kit.post({0.008, ceiling_m - foot_m - h, {0, y, foot_m + h}, cord}));
     }

@@ -22,9 +22,9 @@ struct Family {
   const char* name;
   Layout (*lay_out)(Kit&);
 };
-constexpr Family kFamilies[] = {
-    {"room", lay_out_room},     {"corridor", lay_out_corridor}, {"warehouse", lay_out_warehouse},
-    {"street", lay_out_street}, {"yard", lay_out_yard},         {"garage", lay_out_garage}};
+constexpr Family kFamilies[] = {{"room", lay_out_room},           {"corridor", lay_out_corridor},
+                                {"warehouse", lay_out_warehouse}, {"street", lay_out_street},
+                                {"yard", lay_out_yard},           {"garage", lay_out_garage}};
 
 const Family& family_of(const std::string& name) {
   for (const Family& family : kFamilies) {
@@ -47,8 +47,7 @@ void keep_ways_free(Kit& kit, const Way& way, const std::vector<Mover>& movers) 
     Vector2d last(1e9, 0);
     for (std::size_t k = 0; k + 1 < way.frames.size(); ++k) {
       for (const double share : {0.0, 0.25, 0.5, 0.75}) {
-        const double t =
-            way.frames[k].t_s + share * (way.frames[k + 1].t_s - way.frames[k].t_s);
+        const double t = way.frames[k].t_s + share * (way.frames[k + 1].t_s - way.frames[k].t_s);
         const Box box = mover.box_at(kit, t);
         if ((box.centre_m - last).norm() < kLeastStep_m) continue;
         last = box.centre_m;
@@ -62,14 +61,15 @@ void keep_ways_free(Kit& kit, const Way& way, const std::vector<Mover>& movers) 
 void put_near(Kit& kit, const Way& way) {
   const scenario::Camera& camera = kit.world.scenario.camera;
   for (int i = 0; i < 40; ++i) {
-    const Thing thing =
-        make_thing(kit, kit.draw.pick({"carton", "ball", "bollard", "bin", "drum", "pole", "chair"}));
+    const Thing thing = make_thing(
+        kit, kit.draw.pick({"carton", "ball", "bollard", "bin", "drum", "pole", "chair"}));
     const Stand& stand = kit.draw.pick(way.frames);
     const double bearing = stand.heading_rad + kit.draw.between(-0.7, 0.7);
     const Vector2d eye = camera_at(camera, stand, 0).head<2>();
     const double away = kit.draw.between(0.35, 0.65) + kit.bounds(thing.parts).half_m.x();
     const double heading = kit.draw.between(0, 3);
-    if (kit.try_stand({thing.kind, thing.parts, eye + away * towards(bearing), heading, 0.01})) return;
+    if (kit.try_stand({thing.kind, thing.parts, eye + away * towards(bearing), heading, 0.01}))
+      return;
   }
 }
 
@@ -181,9 +181,8 @@ const std::vector<std::string>& all_features() {
 }
 
 const std::vector<Split>& splits() {
-  static const std::vector<Split> all{{"train", 1, 999'999},
-                                      {"validate", 1'000'000, 1'999'999},
-                                      {"test", 2'000'000, 2'999'999}};
+  static const std::vector<Split> all{
+      {"train", 1, 999'999}, {"validate", 1'000'000, 1'999'999}, {"test", 2'000'000, 2'999'999}};
   return all;
 }
 

@@ -42,7 +42,8 @@ std::vector<Choice> choose(std::string_view split, int count, const std::string&
 bool is_static(const Choice& choice);
 
 /// \param pictures files to take a part of the surfaces from; may be empty.
-/// \throws std::invalid_argument for an unknown family, std::runtime_error for a picture that cannot
+/// \throws std::invalid_argument for an unknown family, std::runtime_error for a picture that
+/// cannot
 ///   be read.
 World draw_world(const Choice& choice, const std::vector<std::string>& pictures = {});
 

@@ -56,8 +56,8 @@ std::string geom_text(const Part& part) {
       shape = fmt::format("type=\"ellipsoid\" size=\"{}\"", numbers(part.size_m));
       break;
     case Part::Shape::cylinder:
-      shape = fmt::format("type=\"cylinder\" size=\"{}\"",
-                          numbers(part.size_m.x(), part.size_m.y()));
+      shape =
+          fmt::format("type=\"cylinder\" size=\"{}\"", numbers(part.size_m.x(), part.size_m.y()));
       break;
     case Part::Shape::capsule:
       shape =
@@ -110,8 +110,8 @@ std::string scene_text(const World& world) {
                         number(m.alpha));
     if (m.emission > 0) text += fmt::format(" emission=\"{}\"", number(m.emission));
     if (m.texture >= 0) {
-      text += fmt::format(" texture=\"{}\"",
-                          world.textures[static_cast<std::size_t>(m.texture)].name);
+      text +=
+          fmt::format(" texture=\"{}\"", world.textures[static_cast<std::size_t>(m.texture)].name);
       if (!m.cube) {
         text += fmt::format(" texrepeat=\"{0} {0}\" texuniform=\"true\"", number(1 / m.side_m));
       }
@@ -131,8 +131,8 @@ std::string scene_text(const World& world) {
   }
   for (const Part& part : world.setting) text += "    " + geom_text(part);
   for (const Body& body : world.bodies) {
-    text += fmt::format("    <body name=\"{}\" pos=\"{}\"{}>\n", body.name, numbers(body.position_m),
-                        rotation_text(body.rotation));
+    text += fmt::format("    <body name=\"{}\" pos=\"{}\"{}>\n", body.name,
+                        numbers(body.position_m), rotation_text(body.rotation));
     for (const Part& part : body.parts) text += "      " + geom_text(part);
     text += "    </body>\n";
   }
@@ -174,14 +174,16 @@ std::string motion_text(const scenario::EgoPhase& phase, std::string_view indent
 
 std::string scenario_text(const World& world) {
   const scenario::Scenario& s = world.scenario;
-  std::string text = fmt::format("# Written by `lcs world {} --seed {}`.\n", world.family, world.seed);
+  std::string text =
+      fmt::format("# Written by `lcs world {} --seed {}`.\n", world.family, world.seed);
   if (world.attempt > 0) text += fmt::format("# Drawn again {} times.\n", world.attempt);
   text += fmt::format("# It has: {}.\n", fmt::join(world.features, ", "));
   text += fmt::format("purpose: {}\ngroups: [{}]\nscene: scene.xml\nseed: {}\nframes: {}\n",
                       s.purpose, fmt::join(s.groups, ", "), s.seed, s.frames);
   text += "ego:\n";
   if (s.ego.drive == scenario::Drive::wheeled) text += "  drive: wheeled\n";
-  text += fmt::format("  start: {}\n  heading: {}\n", place(s.ego.start_m), angle(s.ego.heading_rad));
+  text +=
+      fmt::format("  start: {}\n  heading: {}\n", place(s.ego.start_m), angle(s.ego.heading_rad));
   text += motion_text(s.ego.phases.front(), "  ");
   if (s.ego.phases.size() > 1) text += "  phases:\n";
   for (std::size_t i = 1; i < s.ego.phases.size(); ++i) {
@@ -197,8 +199,8 @@ std::string scenario_text(const World& world) {
   text += fmt::format(
       "camera:\n  size: [{}, {}]\n  fovy: {}\n  rate: {} Hz\n  position: [{} m, 0 m, {} m]\n"
       "  rotation: [0 deg, {}, 0 deg]\n",
-      c.width_px, c.height_px, angle(c.fovy_rad), number(c.rate_hz),
-      number(c.mount_position_m.x()), number(c.mount_position_m.z()), angle(c.mount_rpy_rad.y()));
+      c.width_px, c.height_px, angle(c.fovy_rad), number(c.rate_hz), number(c.mount_position_m.x()),
+      number(c.mount_position_m.z()), angle(c.mount_rpy_rad.y()));
   if (c.told.height_error_m != 0 || c.told.pitch_error_rad != 0) {
     text += fmt::format("  told: {{height_error: {} m, pitch_error: {}}}\n",
                         number(c.told.height_error_m), angle(c.told.pitch_error_rad));
@@ -221,7 +223,8 @@ std::string scenario_text(const World& world) {
   if (!s.actors.empty()) text += "actors:\n";
   for (const scenario::Actor& actor : s.actors) {
     text += fmt::format("  {}:\n    body: {}\n", actor.name, *actor.body);
-    if (actor.start.at_s > 0) text += fmt::format("    start: {{time: {} s}}\n", number(actor.start.at_s));
+    if (actor.start.at_s > 0)
+      text += fmt::format("    start: {{time: {} s}}\n", number(actor.start.at_s));
     text += "    trajectory:\n" + trajectory_text(actor.trajectory);
   }
   return text;
@@ -230,8 +233,7 @@ std::string scenario_text(const World& world) {
 }  // namespace
 
 std::vector<std::string> world_files() {
-  return {"scene.xml", "*.yaml", "textures/*.png", "meshes/*.obj",
-          kSheetFile};
+  return {"scene.xml", "*.yaml", "textures/*.png", "meshes/*.obj", kSheetFile};
 }
 
 void write_world(const World& world, const std::filesystem::path& folder) {
