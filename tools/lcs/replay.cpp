@@ -190,7 +190,8 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
       .add_option("--preset", options.preset,
                   "Parameters of the filter: default, or the paper's lab or cars")
       ->type_name("NAME");
-  add_set_option(command, options.sets, "Set a parameter of the filter, as constellation.radius=60");
+  add_set_option(command, options.sets,
+                 "Set a parameter of the filter, as constellation.radius=60");
   command.add_option("--out", options.out, "Folder for the results; out/<folder> if not given")
       ->type_name("DIR");
   command.add_flag("--no-video", options.no_video, "Write no video.mp4");

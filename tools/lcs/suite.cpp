@@ -234,7 +234,7 @@ ExitCode suite(const SuiteOptions& options) {
   }
   const bool of_worlds = !options.worlds.split.empty();
   const std::vector<std::string> paths =
-      of_worlds ? make_worlds(options.worlds, jobs_at_once(options), interrupt) : options.paths;
+      of_worlds ? make_worlds(options.worlds, jobs_at_once(options)) : options.paths;
   const std::vector<suite::PlannedScenario> plan =
       suite::plan({.paths = {paths.begin(), paths.end()},
                    .group = options.group,

@@ -17,8 +17,8 @@ struct SuiteOptions {
   std::optional<std::string> group;  ///< none: `short` for folders, all for files
   std::string filter;                ///< regular expression for names
   int jobs = 0;                      ///< runs at a time; 0: as many as there are processors
-  std::optional<int> seeds;  ///< none: 3, of worlds 1
-  WorldsOptions worlds;      ///< to run in place of scenario files
+  std::optional<int> seeds;          ///< none: 3, of worlds 1
+  WorldsOptions worlds;              ///< to run in place of scenario files
   std::string detector = "lcs";
   std::vector<std::string> sets;    ///< "key=value"
   std::vector<std::string> beside;  ///< other detectors to run too

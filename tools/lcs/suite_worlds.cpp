@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "tools/lcs/interrupt.h"
 #include "tools/suite/child_process.h"
 #include "tools/worlds/worlds.h"
 
@@ -14,8 +15,7 @@ constexpr const char* kFolder = "out/worlds";
 
 }  // namespace
 
-std::vector<std::string> make_worlds(const WorldsOptions& options, std::size_t jobs,
-                                     const InterruptGuard& interrupt) {
+std::vector<std::string> make_worlds(const WorldsOptions& options, std::size_t jobs) {
   std::vector<worlds::Choice> choices =
       worlds::choose(options.split, options.count, options.family);
   std::stable_sort(choices.begin(), choices.end(),
@@ -37,7 +37,7 @@ std::vector<std::string> make_worlds(const WorldsOptions& options, std::size_t j
           throw std::runtime_error(suite::complaint_of(exit));
         }
       },
-      [&](const std::vector<std::size_t>&) { interrupt.check(); });
+      [&](const std::vector<std::size_t>&) { check_interrupted(); });
   return files;
 }
 

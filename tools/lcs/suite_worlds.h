@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "tools/lcs/interrupt.h"
-
 namespace lcs::tools {
 
 struct WorldsOptions {
@@ -18,7 +16,6 @@ struct WorldsOptions {
 /// Makes the worlds in out/worlds/, each by a process of its own, `jobs` at a time.
 /// \return their scenario files, family by family.
 /// \throws std::invalid_argument for an unknown split or family, Interrupted, std::runtime_error.
-std::vector<std::string> make_worlds(const WorldsOptions& options, std::size_t jobs,
-                                     const InterruptGuard& interrupt);
+std::vector<std::string> make_worlds(const WorldsOptions& options, std::size_t jobs);
 
 }  // namespace lcs::tools

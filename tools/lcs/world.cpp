@@ -8,6 +8,9 @@
 
 #include "tools/bench/output_file.h"
 #include "tools/bench/output_folder.h"
+#include "tools/lcs/interrupt.h"
+#include "tools/lcs/number_option.h"
+#include "tools/lcs/terminal.h"
 #include "tools/sequence/png.h"
 #include "tools/worlds/sheet.h"
 #include "tools/worlds/textures.h"
@@ -33,7 +36,8 @@ Files written to the folder, all or none:
 
 Exit codes:
   0  fine
-  2  error; nothing was written
+  2  error, or the folder holds something; nothing was written
+  130  interrupted (Ctrl-C): likewise
 )";
 
 }  // namespace
@@ -46,7 +50,13 @@ CLI::App& add_world_command(CLI::App& app, WorldOptions& options) {
                   fmt::format("One of {}", fmt::join(worlds::families(), ", ")))
       ->type_name("")
       ->required();
-  command.add_option("--seed", options.seed, "What it is drawn from; 1 if not given")
+  command
+      .add_option_function<std::string>(
+          "--seed",
+          [&options](const std::string& text) {
+            options.seed = scenario::as_seed(option_value("--seed", text), "the seed");
+          },
+          "What it is drawn from; 1 if not given")
       ->type_name("N");
   command.add_option("--out", options.out, "Folder for it; out/worlds/FAMILY_SEED if not given")
       ->type_name("DIR");
@@ -68,6 +78,11 @@ ExitCode world(const WorldOptions& options) {
   const std::filesystem::path target =
       options.out.empty() ? std::filesystem::path("out") / "worlds" / worlds::name_of(drawn)
                           : std::filesystem::path(options.out);
+  if (std::filesystem::exists(target) && !std::filesystem::is_empty(target)) {
+    throw bench::OutputError(fmt::format(
+        "{} holds something, perhaps a world that was edited; choose another folder with --out",
+        target.string()));
+  }
   bench::OutputFolder folder(target, worlds::world_files());
   worlds::write_world(drawn, folder.staging());
   if (options.sheet) {
@@ -77,11 +92,12 @@ ExitCode world(const WorldOptions& options) {
         sequence::encode_png(worlds::contact_sheet(drawn, scenario), sequence::PngFilter::sub));
     file.close();
   }
+  check_interrupted();
   folder.commit();
   if (!options.quiet) {
-    fmt::print("{}: {} objects, {} movers, drawn again {} times\n  has      {}\n  files    {}\n",
-               worlds::name_of(drawn), drawn.bodies.size(), drawn.scenario.actors.size(),
-               drawn.attempt, fmt::join(drawn.features, ", "), folder.target().string());
+    print_out("{}: {} objects, {} movers, drawn again {} times\n  has      {}\n  files    {}\n",
+              worlds::name_of(drawn), drawn.bodies.size(), drawn.scenario.actors.size(),
+              drawn.attempt, fmt::join(drawn.features, ", "), folder.target().string());
   }
   return kFine;
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/bench/output_folder.h"
 #include "tools/worlds/world.h"
 
 namespace lcs::worlds {
@@ -54,7 +55,7 @@ std::string name_of(const World& world);
 inline constexpr const char* kSheetFile = "sheet.png";
 
 /// Files that a world's folder may hold, as `bench::OutputFolder` takes them.
-std::vector<std::string> world_files();
+bench::ResultFiles world_files();
 
 /// Writes NAME.yaml, scene.xml, textures/ and meshes/ into a folder. \throws bench::OutputError
 void write_world(const World& world, const std::filesystem::path& folder);

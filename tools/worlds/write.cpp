@@ -232,8 +232,8 @@ std::string scenario_text(const World& world) {
 
 }  // namespace
 
-std::vector<std::string> world_files() {
-  return {"scene.xml", "*.yaml", "textures/*.png", "meshes/*.obj", kSheetFile};
+bench::ResultFiles world_files() {
+  return {{"scene.xml", "*.yaml", "textures/*.png", "meshes/*.obj", kSheetFile}, "<mujoco"};
 }
 
 void write_world(const World& world, const std::filesystem::path& folder) {
