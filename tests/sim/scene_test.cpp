@@ -433,7 +433,8 @@ TEST(Scene, EachFileLoadsAloneAsAViewerLoadsIt) {
 TEST(Scene, ActorsOfOneShapeDoNotClash) {
   auto s = scenario_in("lab", 0, 1);
   for (int i = 0; i < 4; ++i) {
-    s.actors.push_back(line_actor("car" + std::to_string(i), Shape::car, {0, i}, 0, 1));
+    s.actors.push_back(line_actor("car" + std::to_string(i), Shape::car, {0, i - 2}, 0, 1));
+    s.actors.back().size_m = {2, .8, .7};
   }
   EXPECT_NO_THROW(load(s));
 }

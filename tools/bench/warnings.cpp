@@ -21,6 +21,7 @@ Warned few_corners(const Recording& recording) {
   const auto& frames = recording.frames;
   const std::int64_t few = std::count_if(frames.begin(), frames.end(), has_few);
   Warned warned{kFewCornersWord, 0, ""};
+  if (frames.empty()) warned.count.reset();
   if (2 * few <= std::ssize(frames)) return warned;
   const auto first = std::find_if(frames.begin(), frames.end(), has_few);
   warned.count = few;
