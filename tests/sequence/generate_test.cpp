@@ -448,10 +448,12 @@ TEST_F(GenerateInParts, AKilledRunGoesOnToTheSameBytes) {
       EXPECT_NE(stopped.err.find("goes on from there"), std::string::npos) << stopped.err;
     }
     // What a stroke of bad luck may leave: a file that is not finished, and one that is too short.
-    write_file(folder() / "depth/000001.png.4711.partial", "half");
+    write_file(folder() / ".generate/4711.partial", "half");
+    write_file(folder() / "my.partial", "precious");
     write_file(folder() / "depth/000000.png", "short");
     const CommandResult result = generate({"--out", folder(), "--quiet"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(fs::remove(folder() / "my.partial")) << "it is the user's";
     EXPECT_TRUE(bytes_in(folder()) == whole);
     fs::remove_all(folder());
   }

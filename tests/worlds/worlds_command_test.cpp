@@ -39,9 +39,16 @@ TEST_F(WorldCommand, WritesAScenarioThatRunsLikeAnyOther) {
 TEST_F(WorldCommand, ASheetShowsIt) {
   ASSERT_EQ(run({"world", "corridor", "--seed", "4", "--sheet", "--out", "mine"}).exit_code, 0);
   EXPECT_TRUE(fs::exists(folder_.path() / "mine" / "sheet.png"));
-  // an earlier world is replaced, sheet and all
-  ASSERT_EQ(run({"world", "corridor", "--seed", "4", "--out", "mine"}).exit_code, 0);
-  EXPECT_FALSE(fs::exists(folder_.path() / "mine" / "sheet.png"));
+}
+
+TEST_F(WorldCommand, ReplacesNothing) {
+  const std::vector<std::string> command{"world", "corridor", "--seed", "4", "--out", "mine"};
+  ASSERT_EQ(run(command).exit_code, 0);
+  std::ofstream(folder_.path() / "mine" / "scene.xml") << "edited";
+  const CommandResult again = run(command);
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.err.find("perhaps a world that was edited"), std::string::npos) << again.err;
+  EXPECT_EQ(bench::read(folder_.path() / "mine" / "scene.xml"), "edited");
 }
 
 TEST_F(WorldCommand, MistakesAreToldInOneLineAndNothingIsWritten) {

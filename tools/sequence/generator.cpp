@@ -205,14 +205,14 @@ std::vector<std::string> finish_sequence(const scenario::Scenario& scenario,
   std::vector<std::string> notes;
   for (const GrowingDocument& document : documents) {
     const std::string text = document.text();
-    write_file(journal.folder() / document.path(), text);
+    journal.write(document.path(), text);
     files.push_back({document.path(), text.size(), sha256(text)});
     if (document.is_empty()) {
       notes.push_back(
           fmt::format("{} is empty: there is nothing to tell in any frame", document.path()));
     }
   }
-  write_file(journal.folder() / kManifestFile, manifest_text(plan, checks, std::move(files)));
+  journal.write(kManifestFile, manifest_text(plan, checks, std::move(files)));
   journal.close();
   for (const auto& [name, agreement] : checks) {
     notes.push_back(fmt::format("checked {}: at most {:.2g} over {} comparisons", name,

@@ -1,6 +1,7 @@
 #include "tools/sequence/journal.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -37,23 +38,6 @@ std::string first_stranger(const fs::path& folder) {
     if (entry.path().filename() != kJournal) return entry.path().filename().string();
   }
   return "";
-}
-
-/// Also under the names that `bench::write_whole` gives to what it has not finished.
-void remove_unfinished(const fs::path& folder) {
-  std::vector<fs::path> unfinished;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.path().extension() == ".partial") unfinished.push_back(entry.path());
-  }
-  for (const fs::path& path : unfinished) fs::remove(path);
-}
-
-void link_or_copy(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::create_directories(to.parent_path(), error);
-  fs::remove(to, error);
-  fs::create_hard_link(from, to, error);
-  if (error) write_file(to, read_file(from));  // a file system without links
 }
 
 }  // namespace
@@ -139,10 +123,10 @@ void Journal::add(int frame, const FrameOutput& output, const Agreements& checks
   for (const FrameFile& file : output.files) {
     Json record;
     if (file.same_as.empty()) {
-      write_file(folder_ / file.path, file.bytes);
+      write(file.path, file.bytes);
       record = {{"path", file.path}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}};
     } else {
-      link_or_copy(folder_ / file.same_as, folder_ / file.path);
+      link_or_copy(file.same_as, file.path);
       record = by_path.at(file.same_as);
       record["path"] = file.path;
     }
@@ -174,10 +158,45 @@ FrameRecordEntry Journal::read(int frame) const {
   return record;
 }
 
+void Journal::write(const fs::path& within, std::string_view bytes) const {
+  const fs::path unfinished =
+      folder_ / kJournal / fmt::format("{}{}", ::getpid(), bench::kUnfinished);
+  std::error_code error;
+  try {
+    bench::OutputFile file(unfinished);
+    file.write(bytes);
+    file.close();
+    fs::create_directories((folder_ / within).parent_path());
+    fs::rename(unfinished, folder_ / within);
+  } catch (const fs::filesystem_error& failure) {
+    fs::remove(unfinished, error);
+    throw bench::OutputError(fmt::format("cannot write {}: {}; {}", (folder_ / within).string(),
+                                         failure.code().message(), bench::remedy(failure.code())));
+  } catch (...) {
+    fs::remove(unfinished, error);
+    throw;
+  }
+}
+
+void Journal::link_or_copy(const fs::path& from, const fs::path& to) const {
+  std::error_code error;
+  fs::create_directories((folder_ / to).parent_path(), error);
+  fs::remove(folder_ / to, error);
+  fs::create_hard_link(folder_ / from, folder_ / to, error);
+  if (error) write(to, read_file(folder_ / from));  // a file system without links
+}
+
 void Journal::close() const {
   fs::remove(plan_file());  // first: without it the sequence is finished
-  fs::remove_all(folder_ / kJournal);
-  remove_unfinished(folder_);
+  std::vector<fs::path> own;
+  for (const auto& entry : fs::directory_iterator(folder_ / kJournal)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_record = name.starts_with("frame-") && name.ends_with(".json");
+    if (is_record || name.ends_with(bench::kUnfinished)) own.push_back(entry.path());
+  }
+  for (const fs::path& path : own) fs::remove(path);
+  std::error_code holds_something_else;
+  fs::remove(folder_ / kJournal, holds_something_else);
 }
 
 }  // namespace lcs::sequence

@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/sequence/frame_output.h"
@@ -54,10 +55,15 @@ class Journal {
   /// sequence together meanwhile. \throws bench::OutputError
   void add(int frame, const FrameOutput& output, const Agreements& checks) const;
 
+  /// Writes a file of the sequence, which appears whole or not at all; until then it is in the
+  /// journal, which takes it along. \throws bench::OutputError
+  void write(const std::filesystem::path& within, std::string_view bytes) const;
+
   /// \throws std::runtime_error for a frame without a record.
   FrameRecordEntry read(int frame) const;
 
-  /// Takes the journal away, when all that it tells of is in the manifest.
+  /// Takes the journal away, but nothing else that somebody put there, when all that it tells of is
+  /// in the manifest.
   void close() const;
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -66,6 +72,7 @@ class Journal {
   std::filesystem::path record_file(int frame) const;
   std::filesystem::path plan_file() const;
   void take_over(const std::string& plan);
+  void link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to) const;
 
   std::filesystem::path folder_;
   bool complete_ = false;
