@@ -288,7 +288,7 @@ Vector3d extent(const scenario::Actor& actor) {
 
 TEST(ActorShape, HasTheNaturalSizeThatItStates) {
   // sizes in the fragments' `size`; rounded limbs are given to a centimetre or two
-  const auto actor = [](Shape shape) { return line_actor("a", shape, {0, 0}, 0, 0); };
+  const auto actor = [](Shape shape) { return line_actor("a", shape, {6, 0}, 0, 0); };
   EXPECT_NEAR((extent(actor(Shape::box)) - Vector3d(0.5, 0.5, 0.5)).norm(), 0, 1e-9);
   EXPECT_NEAR((extent(actor(Shape::cylinder)) - Vector3d(0.5, 0.5, 0.8)).norm(), 0, 1e-3);
   EXPECT_NEAR((extent(actor(Shape::pedestrian)) - Vector3d(0.7, 0.56, 1.76)).norm(), 0, 0.03);
@@ -301,7 +301,7 @@ TEST(ActorShape, IsScaledToTheSizeAskedFor) {
                                                          {Shape::pedestrian, {0.6, 0.5, 1.6}},
                                                          {Shape::car, {5, 2, 1.5}}};
   for (const auto& [shape, size] : asked) {
-    scenario::Actor actor = line_actor("a", shape, {0, 0}, 0, 0);
+    scenario::Actor actor = line_actor("a", shape, {6, 0}, 0, 0);
     actor.size_m = size;
     // what is round stays round where the factors differ: within 3 % of the whole
     EXPECT_LT(((extent(actor) - size).cwiseQuotient(size)).cwiseAbs().maxCoeff(), 0.04)
@@ -319,7 +319,7 @@ TEST(ActorShape, ACylinderIsRound) {
 TEST(ActorShape, TextureIsAStyleOrAPictureAndElseAnError) {
   auto s = scenario_in_mjcf(floor_with(""), 0, 1);
   for (const Shape shape : {Shape::box, Shape::cylinder, Shape::pedestrian, Shape::car}) {
-    s.actors = {line_actor("a", shape, {2, 0}, 0, 0)};
+    s.actors = {line_actor("a", shape, {6, 0}, 0, 0)};
     s.actors[0].texture = "bricks";
     EXPECT_NO_THROW(load(s));
     s.actors[0].texture = "brocks";
