@@ -9,7 +9,7 @@ enum ExitCode : int {
   kCriterionFailed = 1,  ///< the run is whole, but not what the scenario asks for
   kRegressed = 1,        ///< of two suites, the second is worse
   kError = 2,            ///< one message on stderr says what, where, and what to do
-  kInterrupted = 130,    ///< by SIGINT or SIGTERM, as shells have it
+  kInterrupted = 130,    ///< by a signal that asks to end, as shells have it
 };
 
 }  // namespace lcs::tools
