@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "scenarios/message.h"
 #include "tests/fuzz/input.h"
 #include "tools/bench/events.h"
 #include "tools/bench/frame_pictures.h"
@@ -29,10 +30,9 @@ void read_or_be_refused(const fs::path& folder, Read read) {
   try {
     read();
   } catch (const std::runtime_error& error) {
-    fuzz::require(std::string_view(error.what()).starts_with(folder.native()),
-                  "a refusal begins with the file");
-    fuzz::require(std::string_view(error.what()).find('\n') == std::string_view::npos,
-                  "a refusal is one line");
+    const std::string said = scenario::message_of(error);
+    fuzz::require(said.starts_with(folder.native()), "a refusal begins with the file");
+    fuzz::require(said.find('\n') == said.npos, "a refusal is one line");
   }
 }
 

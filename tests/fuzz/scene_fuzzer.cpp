@@ -74,11 +74,12 @@ void drive(const scenario::Scenario& s, bool looks) {
 class Mutation {
  public:
   Mutation(tinyxml2::XMLDocument& document, unsigned seed) : document_(document), random_(seed) {
-    collect(*document.RootElement());
+    if (tinyxml2::XMLElement* root = document.RootElement()) collect(*root);
   }
 
   void apply() {
     using tinyxml2::XMLElement;
+    if (elements_.empty()) return;
     XMLElement& e = *one_of(elements_);
     switch (below(10)) {
       case 0:
