@@ -97,7 +97,8 @@ std::string read_texture(const Value& value, const std::string& path,
   const std::string& text = as_text(value, path);
   if (!text.ends_with(".png")) return text;
   const std::filesystem::path file = folder / text;
-  if (!std::filesystem::is_regular_file(file)) {
+  std::error_code too_long;  // a name that no file can have
+  if (!std::filesystem::is_regular_file(file, too_long)) {
     throw Error(value.where, path + ": there is no picture " + file.string() +
                                  "; give its path relative to the scenario file");
   }

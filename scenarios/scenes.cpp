@@ -38,15 +38,16 @@ std::filesystem::path shipped_file(const std::filesystem::path& relative) {
 
 std::filesystem::path find_scene(const Value& value, const std::filesystem::path& folder) {
   const std::string& text = as_text(value, "scene");
+  std::error_code too_long;  // a name that no file can have
   if (text.ends_with(".xml")) {
     const std::filesystem::path file = folder / text;
-    if (std::filesystem::is_regular_file(file)) return file;
+    if (std::filesystem::is_regular_file(file, too_long)) return file;
     throw Error(value.where, "there is no scene file " + file.string() +
                                  "; give its path relative to the scenario file");
   }
   const std::filesystem::path scenes = scenes_folder();
   const std::filesystem::path file = scenes / (text + ".xml");
-  if (std::filesystem::is_regular_file(file)) return file;
+  if (std::filesystem::is_regular_file(file, too_long)) return file;
   throw Error(value.where, "there is no scene '" + text + "' at " + file.string() +
                                "; give the name of a scene in that folder" + scenes_in(scenes) +
                                " or a path that ends in .xml");

@@ -103,7 +103,7 @@ class Mutation {
         one_of(elements_)->InsertEndChild(e.DeepClone(&document_));
         return;
       default:
-        e.SetName(one_of(elements_)->Name());
+        e.SetName(std::string(one_of(elements_)->Name()).c_str());
     }
   }
 

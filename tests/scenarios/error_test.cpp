@@ -373,5 +373,10 @@ TEST(Nearest, FindsAMisspellingAndNothingElse) {
   EXPECT_EQ(nearest("speed", {}), std::nullopt);
 }
 
+TEST(Refused, ASceneThatNoFileCanBeCalled) {
+  const std::string said = refusal("scene: " + std::string(300, 'a') + "\nframes: 1\n");
+  EXPECT_TRUE(said.starts_with("test.yaml:1: there is no scene 'aaa")) << said;
+}
+
 }  // namespace
 }  // namespace lcs::scenario
