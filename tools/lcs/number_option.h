@@ -32,15 +32,17 @@ CLI::Option* add_integer_option(CLI::App& command, const std::string& name, Out&
       about);
 }
 
-/// `--seed N`.
-inline void add_seed_option(CLI::App& command, std::optional<std::uint64_t>& seed) {
+/// `--seed N`. \param seed a std::uint64_t, or an optional one.
+template <class Seed>
+void add_seed_option(CLI::App& command, Seed& seed,
+                     const std::string& about = "Seed, instead of the scenario's") {
   command
       .add_option_function<std::string>(
           "--seed",
           [&seed](const std::string& text) {
             seed = scenario::as_seed(option_value("--seed", text), "the seed");
           },
-          "Seed, instead of the scenario's")
+          about)
       ->type_name("N");
 }
 

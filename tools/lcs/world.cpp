@@ -50,14 +50,7 @@ CLI::App& add_world_command(CLI::App& app, WorldOptions& options) {
                   fmt::format("One of {}", fmt::join(worlds::families(), ", ")))
       ->type_name("")
       ->required();
-  command
-      .add_option_function<std::string>(
-          "--seed",
-          [&options](const std::string& text) {
-            options.seed = scenario::as_seed(option_value("--seed", text), "the seed");
-          },
-          "What it is drawn from; 1 if not given")
-      ->type_name("N");
+  add_seed_option(command, options.seed, "What it is drawn from; 1 if not given");
   command.add_option("--out", options.out, "Folder for it; out/worlds/FAMILY_SEED if not given")
       ->type_name("DIR");
   command
