@@ -48,7 +48,11 @@ Image read_image(Reader reader) {
   reader.read("blur", kBlur, image.blur_px);
   reader.read("exposure", kExposure, image.exposure_s);
   reader.read("gain", kGain, image.gain);
-  section("noise", read_noise, image.noise);
+  if (const Value* noise = reader.find("noise"); noise && noise->text == "none") {
+    image.noise.reset();
+  } else {
+    section("noise", read_noise, image.noise);
+  }
   if (reader.find("jpeg")) reader.read("jpeg", 1, kBestJpeg, image.jpeg_quality.emplace());
   reader.finish();
   return image;

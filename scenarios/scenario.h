@@ -117,8 +117,9 @@ enum class EgoMotionSource {
   truth,  ///< exact poses, for experiments that say so by name
 };
 
-/// What the camera makes of the scene: `sim/photograph.h` has the model. As it stands here it
-/// leaves the rendered picture, which shows a white surface in daylight as white, as it is.
+/// What the camera makes of the scene: `sim/photograph.h` has the model. As it stands here it adds
+/// a sensor's noise to the rendered picture, which shows a white surface in daylight as white;
+/// without the noise it leaves it as it is.
 struct Image {
   static constexpr double kDaylight_lx = 10000;  ///< an overcast day
   static constexpr double kDaylightExposure_s = 1e-3;
@@ -144,7 +145,7 @@ struct Image {
   double blur_px = 0;  ///< standard deviation, on top of the lens's own
   double exposure_s = kDaylightExposure_s;
   double gain = 1;
-  std::optional<Noise> noise;
+  std::optional<Noise> noise = Noise{};  ///< none: a sensor without any
   std::optional<int> jpeg_quality;  ///< 1 to 100, of what arrives; none: not compressed
 };
 
@@ -248,8 +249,8 @@ struct Scenario {
   EgoMotionSource ego_motion = EgoMotionSource::imu;
   int fast_threshold = 20;         ///< grey levels, 1 to 254
   double truth_min_depth_m = 0.5;  ///< nearest depth of the static segment (`radial`)
-  std::optional<Image> image;      ///< none: the picture as it is rendered
-  std::optional<Ground> ground;    ///< none: as level as the scene has it
+  Image image;
+  std::optional<Ground> ground;  ///< none: as level as the scene has it
   std::vector<Actor> actors;
   std::string filter_preset;  ///< "" is the filter's default
   Source filter_preset_source;

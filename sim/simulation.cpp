@@ -29,6 +29,14 @@ std::vector<ConvexParts> outlines(const World& world) {
   return parts;
 }
 
+Photographer photographer_of(const scenario::Scenario& s, const Pinhole& camera) {
+  try {
+    return {s.image, camera, s.camera.rate_hz, s.seed};
+  } catch (const std::invalid_argument& error) {
+    throw scenario::Error({s.file.string(), 0}, error.what());
+  }
+}
+
 }  // namespace
 
 struct Simulation::Impl {
@@ -37,7 +45,7 @@ struct Simulation::Impl {
   CameraRenderer renderer;
   std::vector<ConvexParts> parts;
   Calibration calibration;
-  std::optional<Photographer> photographer;
+  Photographer photographer;
   Snapshot snapshot;           ///< at the frame that comes next
   std::vector<ImuSample> imu;  ///< since the last frame
   std::vector<OdometrySample> odometry;
@@ -51,12 +59,8 @@ struct Simulation::Impl {
         renderer(world.model(), world.camera_id(), s.camera.width_px, s.camera.height_px),
         parts(outlines(world)),
         calibration(calibrate(world, s.camera)),
+        photographer(photographer_of(s, calibration.camera)),
         snapshot(world.snapshot()) {
-    try {
-      if (s.image) photographer.emplace(*s.image, calibration.camera, s.camera.rate_hz, s.seed);
-    } catch (const std::invalid_argument& error) {
-      throw scenario::Error({s.file.string(), 0}, error.what());
-    }
     world.advance_to(0, imu, odometry, &imu_truth);
   }
 
@@ -94,7 +98,7 @@ struct Simulation::Impl {
     renderer.update();
     renderer.render_colour(o.image);
     renderer.render_depth_and_geoms(o.truth.depth_m, geoms);
-    if (photographer) photographer->develop(o.image, o.truth.depth_m, o.index);
+    photographer.develop(o.image, o.truth.depth_m, o.index);
     o.truth.object.create(geoms.size());
     std::transform(geoms.begin(), geoms.end(), o.truth.object.begin(),
                    [&](int geom) { return geom < 0 ? -1 : world.object_of_geom(geom); });

@@ -156,20 +156,19 @@ image:
   jpeg: 60
 ground: {roughness: 4 mm, wavelength: 40 cm, centre: [1 m, 2 m], size: [6 m, 3 m]}
 )");
-  ASSERT_TRUE(s.image);
-  EXPECT_EQ(s.image->light_lx, 2000);
-  EXPECT_EQ(s.image->headlights.value().intensity_cd, 3000);
-  EXPECT_DOUBLE_EQ(s.image->headlights->beam_rad, pi / 12);
-  EXPECT_EQ(s.image->visibility_m, 200);
-  EXPECT_EQ(s.image->rain.value().rate_mmph, 15);
-  EXPECT_EQ(s.image->rain->lens_drops, 25);
-  EXPECT_EQ(s.image->rain->drop_life_s, 3);
-  EXPECT_EQ(s.image->blur_px, 0.7);
-  EXPECT_EQ(s.image->exposure_s, 0.02);
-  EXPECT_EQ(s.image->gain, 8);
-  EXPECT_EQ(s.image->noise.value().full_well_e, 8000);
-  EXPECT_EQ(s.image->noise->read_e, 3);
-  EXPECT_EQ(s.image->jpeg_quality, 60);
+  EXPECT_EQ(s.image.light_lx, 2000);
+  EXPECT_EQ(s.image.headlights.value().intensity_cd, 3000);
+  EXPECT_DOUBLE_EQ(s.image.headlights->beam_rad, pi / 12);
+  EXPECT_EQ(s.image.visibility_m, 200);
+  EXPECT_EQ(s.image.rain.value().rate_mmph, 15);
+  EXPECT_EQ(s.image.rain->lens_drops, 25);
+  EXPECT_EQ(s.image.rain->drop_life_s, 3);
+  EXPECT_EQ(s.image.blur_px, 0.7);
+  EXPECT_EQ(s.image.exposure_s, 0.02);
+  EXPECT_EQ(s.image.gain, 8);
+  EXPECT_EQ(s.image.noise.value().full_well_e, 8000);
+  EXPECT_EQ(s.image.noise->read_e, 3);
+  EXPECT_EQ(s.image.jpeg_quality, 60);
   ASSERT_TRUE(s.ground);
   EXPECT_EQ(s.ground->roughness_m, 0.004);
   EXPECT_EQ(s.ground->wavelength_m, 0.4);
@@ -185,15 +184,19 @@ TEST(Load, WhatIsToldOfTheCameraArrives) {
   EXPECT_EQ(s.camera.mount_position_m, load_text(smallest).camera.mount_position_m);
 }
 
-TEST(Load, ImageAndGroundAreLeftOutOrHaveTheirDefaults) {
-  EXPECT_FALSE(load_text(smallest).image);
+TEST(Load, ImageAndGroundHaveTheirDefaults) {
+  for (const char* image : {"", "image: {}\n", "image: {noise: {}}\n"}) {
+    const Image::Noise noise = load_text(smallest + image).image.noise.value();
+    EXPECT_EQ(noise.full_well_e, 10000) << image;
+    EXPECT_EQ(noise.read_e, 5) << image;
+  }
+  EXPECT_FALSE(load_text(smallest + "image: {noise: none}\n").image.noise);
   EXPECT_FALSE(load_text(smallest).ground);
-  const Scenario s = load_text(smallest + "image: {noise: {}}\nground: {}\n");
-  EXPECT_EQ(s.image->light_lx, 10000);
-  EXPECT_EQ(s.image->exposure_s, 1e-3);
-  EXPECT_EQ(s.image->gain, 1);
-  EXPECT_FALSE(s.image->headlights || s.image->rain || s.image->visibility_m || s.image->jpeg_quality);
-  EXPECT_EQ(s.image->noise->full_well_e, 10000);
+  const Scenario s = load_text(smallest + "ground: {}\n");
+  EXPECT_EQ(s.image.light_lx, 10000);
+  EXPECT_EQ(s.image.exposure_s, 1e-3);
+  EXPECT_EQ(s.image.gain, 1);
+  EXPECT_FALSE(s.image.headlights || s.image.rain || s.image.visibility_m || s.image.jpeg_quality);
   EXPECT_EQ(s.ground->roughness_m, 0.01);
   EXPECT_FALSE(s.ground->centre_m);
 }

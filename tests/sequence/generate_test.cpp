@@ -495,6 +495,41 @@ TEST_F(GenerateInParts, PartsByOtherProcessesInAnyOrderAreTheSameBytes) {
   EXPECT_TRUE(bytes_in(home_.path() / "jobs") == whole);
 }
 
+TEST_F(GenerateInParts, WhatIsWrongWithItsWorldIsToldOnceHoweverManyProcessesMakeIt) {
+  const std::vector<std::string> into{
+      "--set",
+      "ego.speed=3 m/s",
+      "--formats",
+      "depth",
+      "--set",
+      "actors.crossing_box.trajectory.line={from: [-2.3 m, 0 m], heading: 90 deg, speed: 0}"};
+  const auto told = [](const CommandResult& result) {
+    const std::string sign = "the rover runs into actor 'crossing_box'";
+    int count = 0;
+    for (std::size_t at = result.err.find(sign); at != std::string::npos;
+         at = result.err.find(sign, at + 1)) {
+      ++count;
+    }
+    return count;
+  };
+  for (const char* jobs : {"1", "2"}) {
+    std::vector<std::string> all{"--out", home_.path() / jobs, "--jobs", jobs, "--quiet"};
+    all.insert(all.end(), into.begin(), into.end());
+    const CommandResult result = generate(all);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(told(result), 1) << jobs << ": " << result.err;
+  }
+  fs::create_directory(home_.path() / "scenarios");
+  fs::copy_file(kCrossing, home_.path() / "scenarios" / "one.yaml");
+  std::vector<std::string> suite{"generate", "--suite", home_.path() / "scenarios",
+                                 "--frames", "4",       "--set",
+                                 kSets[0],   "--out",   home_.path() / "suite"};
+  suite.insert(suite.end(), into.begin(), into.end());
+  const CommandResult result = run_lcs(suite, {.folder = home_.path()});
+  EXPECT_NE(result.err.find("warning: one-seed1: the rover runs into"), std::string::npos)
+      << result.err;
+}
+
 TEST_F(GenerateInParts, ShardsOfASuiteAreTheSuiteAndOneBrokenScenarioDoesNotStopTheOthers) {
   write_file(home_.path() / "scenarios/broken.yaml", "frames: many\n");
   for (const char* name : {"a", "b", "c"}) {

@@ -20,6 +20,7 @@ scenario::Scenario scenario_in(const std::string& scene, double speed_mps, int f
   s.camera.rate_hz = 10;
   s.camera.mount_position_m = {0.2, 0, 0.45};
   s.imu.preset = "ideal";
+  s.image.noise.reset();
   return s;
 }
 

@@ -16,7 +16,8 @@ namespace lcs::sim::test {
 
 inline constexpr double kDegree = std::numbers::pi / 180;
 
-/// A rover that drives along x at a constant speed, with an ideal IMU, in a scene of the project.
+/// A rover that drives along x at a constant speed, with an ideal IMU and a camera without noise,
+/// in a scene of the project.
 scenario::Scenario scenario_in(const std::string& scene, double speed_mps, int frames);
 
 /// The same in a scene that is given as MJCF; written to a file that lives as long as the test.

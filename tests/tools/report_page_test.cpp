@@ -230,6 +230,15 @@ TEST_F(Report, AnErrorHasItsMessageAndNoPlots) {
   EXPECT_EQ(told.at("events"), nullptr);
 }
 
+TEST_F(Report, TellsWhatARunWarnsOf) {
+  SuiteResult suite = suite_of({scenario_with("near", {run_with(1, 0.8), run_with(2, 0.8)})});
+  suite.scenarios[0].runs[1].warnings = {{"rover_tipped", 2, "it tips over: make it slower"}};
+  const json runs = data(suite)["scenarios"][0]["runs"];
+  EXPECT_EQ(runs[0].at("warnings"), json::array());
+  EXPECT_EQ(runs[1].at("warnings"),
+            json::array({"it tips over: make it slower (warnings.rover_tipped: 2)"}));
+}
+
 TEST_F(Report, ShowsFramesAndEventsOfARunThatHasThem) {
   RunResult run = run_with(1, 0.8);
   run.folder = run_folder("one", {event_with(12, 8)});

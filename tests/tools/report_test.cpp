@@ -10,6 +10,7 @@
 #include "tests/tools/recordings.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/bench/table.h"
+#include "tools/bench/warnings.h"
 
 namespace lcs::bench {
 namespace {
@@ -164,6 +165,25 @@ TEST(FramesCsv, ThatDoesNotFitTheRecordingIsRefusedAtItsLine) {
     }
   }
   EXPECT_THROW(read_times(folder.path() / "none.csv", recording), std::runtime_error);
+}
+
+TEST(Warnings, AreOfFewCornersWhereMoreThanHalfOfTheFramesHaveThem) {
+  const auto few = [](int frames_with_nine, int frames_with_ten) {
+    std::vector<FrameRecord> frames;
+    for (int k = 0; k < frames_with_ten + frames_with_nine; ++k) {
+      frames.push_back(
+          FrameMaker(k).corners(k < frames_with_ten ? 10 : 9, Verdict::normal, sim::Label::fixed));
+    }
+    return warnings_of(recording_of(std::move(frames))).back();
+  };
+  EXPECT_EQ(few(0, 2).word, "few_corners");
+  EXPECT_EQ(few(0, 2).count, 0);
+  EXPECT_EQ(few(2, 2).count, 0);
+  EXPECT_EQ(few(3, 2).count, 3);
+  EXPECT_NE(few(3, 2).text.find("fewer than 10 corners are in 3 of 5 frames, first at 0.20 s"),
+            std::string::npos)
+      << few(3, 2).text;
+  EXPECT_FALSE(few(0, 0).count) << "of no frame nothing is known";
 }
 
 TEST(MetricsJson, IsFlatWithEveryMetricInOrderAndNullForWhatIsUndefined) {

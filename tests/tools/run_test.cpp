@@ -193,7 +193,9 @@ TEST_F(Run, EventsAreWrittenWithPicturesAndChangeNothingElse) {
     int of_reasons = 0;
     for (const auto& [reason, corners] : event.reasons) of_reasons += corners;
     EXPECT_EQ(of_reasons, event.corners);
-    EXPECT_GE(event.views.size(), 3u);
+    // before, in and after it; at an end of the run one of them is not there
+    const bool is_at_an_end = event.first_frame == 0 || event.last_frame == 15;
+    EXPECT_GE(event.views.size(), is_at_an_end ? 2u : 3u);
     for (const EventView& view : event.views) {
       EXPECT_EQ(view.jpeg_base64.rfind("/9j/", 0), 0u);  // how every JPEG begins
     }

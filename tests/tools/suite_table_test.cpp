@@ -125,5 +125,17 @@ TEST(Problems, TellAnErrorOfSeveralSeedsOnce) {
   EXPECT_EQ(totals(suite), "1 passed, 0 failed, 2 errors");
 }
 
+TEST(Warnings, AreToldOnceAScenarioWithTheSeedsAndNotWhereNothingHappened) {
+  SuiteResult suite = suite_with({scenario("quiet", {0.5}), scenario("near", {0.5, 0.6, 0.7})});
+  std::vector<RunResult>& near = suite.scenarios[1].runs;
+  near[0].warnings = {{"rover_tipped", 1, "the rover tips over at 2 s: make it slower"}};
+  near[2].warnings = {{"rover_tipped", 3, "the rover tips over at 1 s: make it slower"},
+                      {"few_corners", 40, "few corners"}};
+  EXPECT_EQ(warnings(suite),
+            (std::vector<std::string>{"near seed 1, 3: the rover tips over at 2 s: make it slower "
+                                      "(warnings.rover_tipped: 1)",
+                                      "near seed 3: few corners (warnings.few_corners: 40)"}));
+}
+
 }  // namespace
 }  // namespace lcs::suite

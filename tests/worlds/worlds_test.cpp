@@ -107,8 +107,8 @@ TEST(Worlds, TheScenarioSaysWhatWasDrawn) {
     EXPECT_EQ(read.camera.rate_hz, drawn.camera.rate_hz);
     EXPECT_NEAR(read.camera.told.height_error_m, drawn.camera.told.height_error_m, 1e-9);
     EXPECT_NEAR(read.camera.told.pitch_error_rad, drawn.camera.told.pitch_error_rad, 1e-9);
-    EXPECT_EQ(read.image->jpeg_quality, drawn.image->jpeg_quality);
-    EXPECT_NEAR(read.image->noise->full_well_e, drawn.image->noise->full_well_e, 1e-3);
+    EXPECT_EQ(read.image.jpeg_quality, drawn.image.jpeg_quality);
+    EXPECT_NEAR(read.image.noise->full_well_e, drawn.image.noise->full_well_e, 1e-3);
     EXPECT_EQ(read.imu.preset, drawn.imu.preset);
     EXPECT_EQ(read.odometry.enabled, drawn.odometry.enabled);
     EXPECT_EQ(read.ground.has_value(), drawn.ground.has_value());
@@ -150,9 +150,9 @@ TEST(Worlds, CamerasAndSensorsAreInTheirRangesAndNeverWithoutNoise) {
   std::set<double> rates;
   for (const World& world : sixty()) {
     const scenario::Scenario& s = world.scenario;
-    ASSERT_TRUE(s.image && s.image->noise);
-    EXPECT_GE(s.image->noise->read_e, 2);
-    EXPECT_LE(s.image->noise->full_well_e, 20000);
+    ASSERT_TRUE(s.image.noise);
+    EXPECT_GE(s.image.noise->read_e, 2);
+    EXPECT_LE(s.image.noise->full_well_e, 20000);
     EXPECT_GE(s.camera.width_px, 320);
     EXPECT_LE(s.camera.width_px, 1280);
     const double fovx =

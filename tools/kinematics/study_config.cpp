@@ -40,7 +40,8 @@ scenario::Scenario straight_drive(const StudyConfig& config, double duration_s, 
   s.odometry.enabled = true;
   s.odometry.noise_mps = s.odometry.scale_error = 0;
   s.ego_motion = scenario::EgoMotionSource::imu;
-  s.image.reset();
+  s.image = {};
+  s.image.noise.reset();
   s.ground.reset();
   s.actors.clear();
   return s;

@@ -104,7 +104,9 @@ void share_frames(const GenerateOptions& options, const sequence::Journal& journ
   int shown = 0;
   suite::run_all(
       commands, static_cast<std::size_t>(options.jobs),
-      [](std::size_t, const suite::Exit& exit) {
+      [&](std::size_t place, const suite::Exit& exit) {
+        // The last one has seen the world to its end.
+        if (place + 1 == commands.size()) warn(suite::warnings_of(exit));
         if (exit.code != kFine || exit.signal != 0) {
           throw std::runtime_error(suite::complaint_of(exit));
         }
@@ -222,7 +224,7 @@ ExitCode generate(const GenerateOptions& options) {
   });
   if (journal.is_complete()) return check_complete(journal.folder(), options.quiet);
 
-  warn(bench::idle_settings(scenario));
+  if (options.jobs == 1) warn(bench::idle_settings(scenario));
   bench::Recording seen;  // of which nothing but its world matters
   const int frames = range.last - range.first;
   int whole = 0;

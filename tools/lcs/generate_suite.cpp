@@ -63,6 +63,9 @@ ExitCode generate_suite(const GenerateOptions& options) {
         [&](std::size_t place, const suite::Exit& exit) {
           ++done;
           const std::string& name = sequences[place].name;
+          for (const std::string& line : suite::warnings_of(exit)) {
+            tell(fmt::format("warning: {}: {}", name, line));
+          }
           if (exit.code != kFine || exit.signal != 0) {
             tell(fmt::format("error: {}: {}", name, suite::complaint_of(exit)));
             is_broken = true;

@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstring>
 #include <list>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -73,6 +74,16 @@ std::string complaint_of(const Exit& exit) {
   }
   if (exit.code == 2 && !said.empty()) return said;
   return fmt::format("exited with {}{}{}", exit.code, said.empty() ? "" : "; it said: ", said);
+}
+
+std::vector<std::string> warnings_of(const Exit& exit) {
+  constexpr std::string_view kBeginning = "warning: ";
+  std::vector<std::string> warnings;
+  std::istringstream lines(exit.err);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(kBeginning)) warnings.push_back(line.substr(kBeginning.size()));
+  }
+  return warnings;
 }
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {

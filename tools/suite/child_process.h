@@ -24,6 +24,9 @@ struct Exit {
 /// some.
 std::string complaint_of(const Exit& exit);
 
+/// What it warned of: its lines that begin so, without that beginning.
+std::vector<std::string> warnings_of(const Exit& exit);
+
 /// One run of this very program. Its stdout is dropped. It is asked to end when the thread ends
 /// that made it, also by SIGKILL.
 class ChildProcess {

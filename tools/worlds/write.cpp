@@ -205,7 +205,7 @@ std::string scenario_text(const World& world) {
     text += fmt::format("  told: {{height_error: {} m, pitch_error: {}}}\n",
                         number(c.told.height_error_m), angle(c.told.pitch_error_rad));
   }
-  const scenario::Image& image = *s.image;
+  const scenario::Image& image = s.image;
   text += "image:\n";
   if (image.blur_px > 0) text += fmt::format("  blur: {}\n", number(image.blur_px));
   text += fmt::format("  exposure: {} ms\n  gain: {}\n  noise: {{full_well: {}, read: {}}}\n",
