@@ -42,6 +42,51 @@ TEST(Detectors, AreKnownByNameAndOthersAreRefusedWithTheListOfThem) {
   }
 }
 
+TEST(Wanted, IsADetectorOrTheFilterWithAPresetOfItsOwn) {
+  EXPECT_EQ(&wanted("klt").detector, &detector("klt"));
+  EXPECT_EQ(wanted("klt").preset, "");
+  const Wanted lab = wanted("lcs:lab");
+  EXPECT_EQ(lab.name, "lcs:lab");
+  EXPECT_EQ(&lab.detector, &detector("lcs"));
+  EXPECT_EQ(lab.preset, "lab");
+  for (const auto& [name, said] :
+       {std::pair{"lcs:street", "the filter has no preset 'street'; there are default"},
+        {"lcs:", "the filter has no preset ''"},
+        {"klt:lab", "klt has no presets, which are the filter's; give klt alone, or lcs:lab"},
+        {"yolo:lab", "no detector is called 'yolo'"}}) {
+    try {
+      wanted(name);
+      ADD_FAILURE() << name;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(Wanted, APresetStandsAloneWhateverTheScenarioAndSettingsSay) {
+  const std::string file = std::string(LCS_SCENARIOS_DIR) + "/suite/night.yaml";
+  const scenario::Scenario plain = scenario::load(file);
+  ASSERT_EQ(plain.filter_preset, "night");
+  scenario::Scenario unchanged = plain;
+  EXPECT_TRUE(apply_preset(wanted("lcs"), unchanged).empty());
+  EXPECT_EQ(unchanged.filter_preset, "night");
+
+  scenario::Scenario with_lab = plain;
+  EXPECT_TRUE(apply_preset(wanted("lcs:lab"), with_lab).empty());  // none was set by hand
+  scenario::Scenario set = scenario::load(
+      file, {.sets = {"filter.constellation.radius=60", "filter.preset=cars"}, .seed = {}});
+  EXPECT_EQ(apply_preset(wanted("lcs:lab"), set),
+            (std::vector<std::string>{
+                "filter.preset has no effect with lcs:lab, which is the preset alone",
+                "filter.constellation.radius has no effect with lcs:lab, which is the preset "
+                "alone"}));
+  for (const scenario::Scenario& each : {with_lab, set}) {
+    const auto infos = describe(bench::filter_parameters(each)), lab = describe(preset("lab"));
+    ASSERT_EQ(infos.size(), lab.size());
+    for (std::size_t i = 0; i < lab.size(); ++i) EXPECT_EQ(infos[i].value, lab[i].value);
+  }
+}
+
 class EachDetector : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Names, EachDetector, testing::Values("lcs", "klt", "homography"),
                          [](const auto& test) { return test.param; });

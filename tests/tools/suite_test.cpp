@@ -246,9 +246,31 @@ TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
   EXPECT_FALSE(fs::exists(out_ / "beside"));
 }
 
+TEST_F(Suite, APresetBesideHasTheFiguresOfTheFilterWithThatPresetAlone) {
+  scenario("near", "filter: {preset: night, constellation.radius: 60}\n", 8);
+  const std::vector<std::string> command{"--seeds", "1", "--beside", "lcs:lab"};
+  const CommandResult beside = run(command);
+  ASSERT_EQ(beside.exit_code, 0) << beside.err;
+  EXPECT_NE(beside.err.find("[1/1] lcs:lab: near seed "), std::string::npos) << beside.err;
+  const SuiteResult lab = result(fs::path("out") / "suite" / "beside" / "lcs:lab");
+  EXPECT_EQ(lab.detector, "lcs:lab");
+
+  scenario("near", "filter: {preset: lab}\n", 8);
+  ASSERT_EQ(run({"--seeds", "1", "--out", "plain"}).exit_code, 0);
+  const fs::path plain =
+      folder_.path() / "plain" / result("plain").scenarios.at(0).runs.at(0).folder;
+  const fs::path own = out_ / "beside" / "lcs:lab" / lab.scenarios.at(0).runs.at(0).folder;
+  EXPECT_TRUE(read(own / "layers.jsonl") == read(plain / "layers.jsonl"));
+  EXPECT_FALSE(read(own / "layers.jsonl") ==
+               read(out_ / lab.scenarios.at(0).runs.at(0).folder / "layers.jsonl"));
+}
+
 TEST_F(Suite, ADetectorBesideThatIsUnknownOrRunAlreadyIsRefused) {
   scenario("near");
-  for (const auto& [name, said] : {std::pair{"lcs", "it is run already"}, {"orb", "no detector"}}) {
+  for (const auto& [name, said] : {std::pair{"lcs", "it is run already"},
+                                   {"orb", "no detector"},
+                                   {"lcs:orb", "no preset 'orb'"},
+                                   {"klt:lab", "klt has no presets"}}) {
     const CommandResult command = run({"--beside", name});
     EXPECT_EQ(command.exit_code, 2);
     EXPECT_NE(command.err.find(said), std::string::npos) << command.err;
@@ -429,8 +451,10 @@ TEST(JUnit, EscapesWhatXmlCannotHold) {
   EXPECT_STREQ(element->Attribute("name"), "a<b & \"c\"");
   const auto* error = element->FirstChildElement()->FirstChildElement("error");
   ASSERT_NE(error, nullptr);
-  EXPECT_STREQ(error->Attribute("message"), R"(bad <byte> \xff, control \x1b[K, letter )" "\xc3\xa9");
-  EXPECT_STREQ(error->GetText(), R"(bad <byte> \xff, control \x1b[K, letter )" "\xc3\xa9\nmore");
+  EXPECT_STREQ(error->Attribute("message"), R"(bad <byte> \xff, control \x1b[K, letter )"
+                                            "\xc3\xa9");
+  EXPECT_STREQ(error->GetText(), R"(bad <byte> \xff, control \x1b[K, letter )"
+                                 "\xc3\xa9\nmore");
 }
 
 // ---- What can happen to the processes

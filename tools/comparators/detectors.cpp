@@ -52,6 +52,37 @@ const Detector& detector(std::string_view name) {
   throw std::invalid_argument(fmt::format("no detector is called '{}'; there are {}", name, names));
 }
 
+Wanted wanted(const std::string& name) {
+  const std::size_t colon = name.find(':');
+  const Detector& found = detector(name.substr(0, colon));
+  if (colon == std::string::npos) return {name, found, ""};
+  if (!found.layered) {
+    throw std::invalid_argument(fmt::format(
+        "detector {}: {} has no presets, which are the filter's; give {} alone, or lcs:{}", name,
+        found.name, found.name, name.substr(colon + 1)));
+  }
+  const std::string preset = name.substr(colon + 1);
+  lcs::preset(preset);  // is there one?
+  return {name, found, preset};
+}
+
+std::vector<std::string> apply_preset(const Wanted& wanted, scenario::Scenario& scenario) {
+  std::vector<std::string> lines;
+  if (wanted.preset.empty()) return lines;
+  const auto leave_out = [&](std::string_view key, const scenario::Source& where) {
+    if (!where.file.starts_with("--set ")) return;
+    lines.push_back(fmt::format("filter.{} has no effect with {}, which is the preset alone", key,
+                                wanted.name));
+  };
+  leave_out("preset", scenario.filter_preset_source);
+  for (const scenario::FilterSetting& setting : scenario.filter) {
+    leave_out(setting.key, setting.source);
+  }
+  scenario.filter_preset = wanted.preset;
+  scenario.filter.clear();
+  return lines;
+}
+
 void require_corners_suffice(const Detector& detector) {
   if (!detector.sees_pictures) return;
   throw std::invalid_argument(

@@ -4,7 +4,9 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "scenarios/scenario.h"
 #include "sim/pose.h"
@@ -27,6 +29,22 @@ std::span<const Detector> detectors();
 
 /// \throws std::invalid_argument naming those that there are.
 const Detector& detector(std::string_view name);
+
+/// A detector as it is asked for: "klt", or the filter with one of its presets, "lcs:lab".
+struct Wanted {
+  std::string name;  ///< as it was asked for
+  const Detector& detector;
+  std::string preset;  ///< in place of all that a scenario says of the filter; "" for none
+};
+
+/// \throws std::invalid_argument for an unknown detector or preset, naming those that there are,
+/// and
+///   for a preset of what has none.
+Wanted wanted(const std::string& name);
+
+/// Gives a scenario the preset that is wanted, if any, alone: a yardstick does not move with what
+/// is measured. \return a line for each `--set` that has no effect by that.
+std::vector<std::string> apply_preset(const Wanted& wanted, scenario::Scenario& scenario);
 
 /// For frames of an earlier run, of which there are corners and no pictures as they were.
 /// \throws std::invalid_argument for a detector that looks at pictures.

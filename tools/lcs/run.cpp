@@ -60,9 +60,9 @@ std::filesystem::path target_of(const RunOptions& options, const scenario::Scena
   return std::filesystem::path("out") / scenario.name;
 }
 
-void print_result(const scenario::Scenario& scenario, const comparators::Detector& detector,
+void print_result(const scenario::Scenario& scenario, const std::string& detector,
                   const bench::Metrics& metrics, const std::filesystem::path& folder) {
-  const std::string by = detector.layered ? "" : fmt::format(" by {}", detector.name);
+  const std::string by = detector == "lcs" ? "" : fmt::format(" by {}", detector);
   print_out("{}{}: {} frames, seed {}, {:.1f} frames/s\n", scenario.name, by, scenario.frames,
             scenario.seed, bench::value(metrics, "sim.frames_per_second").value_or(0));
   print_out("{}  files    {}\n", bench::table(metrics), folder.string());
@@ -132,7 +132,8 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
   add_set_option(command, options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
   command
       .add_option("--detector", options.detector,
-                  "What watches: lcs (the filter), or klt or homography to compare it with")
+                  "What watches: lcs (the filter), lcs:lab (with the paper's preset, or another, "
+                  "and none of the scenario's parameters), or klt or homography to compare it with")
       ->type_name("NAME");
   command
       .add_option(
@@ -150,19 +151,21 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
 }
 
 ExitCode run(const RunOptions& options) {
-  const comparators::Detector& detector = comparators::detector(options.detector);
+  const comparators::Wanted wanted = comparators::wanted(options.detector);
+  const comparators::Detector& detector = wanted.detector;
   // All that can be wrong with what was asked for is found before any output is begun.
-  const scenario::Scenario scenario =
+  scenario::Scenario scenario =
       scenario::load(options.scenario, {.sets = options.sets, .seed = options.seed});
   // whoever reads them: what is wrong is told
-  const std::vector<std::string> idle_settings = bench::idle_settings(scenario);
+  std::vector<std::string> idle_settings = bench::idle_settings(scenario);
+  if (!wanted.preset.empty()) idle_settings = comparators::apply_preset(wanted, scenario);
   bench::require_known_metrics(scenario.criteria);
   const Frames frames =
       options.recorded.empty() ? simulated(scenario) : recorded(options, scenario, detector);
   const std::unique_ptr<bench::Tracker> tracker = detector.make(frames.camera, scenario);
 
   bench::Recording recording = frames.recording;
-  recording.detector = {std::string(detector.name), detector.layered};
+  recording.detector = {wanted.name, detector.layered};
   bench::Result result(
       target_of(options, scenario), recording, {frames.camera.width_px, frames.camera.height_px},
       {.video_frames_per_second =
@@ -185,7 +188,7 @@ ExitCode run(const RunOptions& options) {
 
   warn(bench::lines_of(bench::warnings_of(recording)));
   for (const std::string& line : diagnostics.lines()) tell(line);
-  if (!options.quiet) print_result(scenario, detector, metrics, result.target());
+  if (!options.quiet) print_result(scenario, wanted.name, metrics, result.target());
   const bool failed = report_failures(bench::failed_criteria(scenario.criteria, metrics));
   return failed ? kCriterionFailed : kFine;
 }

@@ -39,11 +39,14 @@ constexpr const char* kHelp = R"(Examples:
   lcs suite --filter crossing --set filter.constellation.radius=60 --out out/r60
   lcs suite --recorded out/suite --out out/mine --baseline out/suite
                                                   the filter anew on the frames of an earlier suite
-  lcs suite --beside klt --beside homography      F1 beside what it is measured against
+  lcs suite --beside klt --beside lcs:lab         F1 beside what it is measured against, and by the
+                                                  filter with the paper's preset
   lcs suite --group sweep --filter distance       a sweep: one run a point and seed
   lcs suite my_scenarios other.yaml               other scenarios; of files any group
   lcs suite --group all --list                    what there is
   lcs suite --worlds train --count 60             worlds drawn from seeds, one run each
+  lcs suite --worlds test --count 60 --beside klt --beside homography --beside lcs:lab
+                                                  how far the filter is from its yardsticks, by family
   lcs compare out/before out/suite                what two suites differ in, beyond noise
 
 Worlds are kept in out/worlds/ and drawn anew only where the generator changed. Those of the split `test` are
@@ -110,12 +113,17 @@ ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
 }
 
 /// Of all scenarios, each once. What is wrong with settings is told by the runs.
-std::vector<std::string> idle_settings(const std::vector<suite::PlannedScenario>& plan) {
+std::vector<std::string> idle_settings(const std::vector<suite::PlannedScenario>& plan,
+                                       const comparators::Wanted& wanted) {
   std::vector<std::string> lines;
   for (const suite::PlannedScenario& planned : plan) {
     if (!planned.scenario) continue;
     try {
-      for (const std::string& line : bench::idle_settings(*planned.scenario)) {
+      scenario::Scenario scenario = *planned.scenario;
+      const std::vector<std::string> of_one = wanted.preset.empty()
+                                                  ? bench::idle_settings(scenario)
+                                                  : comparators::apply_preset(wanted, scenario);
+      for (const std::string& line : of_one) {
         if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
       }
     } catch (const scenario::Error&) {
@@ -135,7 +143,7 @@ void print_changes(const suite::SuiteResult& baseline, const suite::SuiteResult&
 void require_others(const SuiteOptions& options) {
   std::set<std::string> names{options.detector};
   for (const std::string& name : options.beside) {
-    comparators::detector(name);
+    comparators::wanted(name);
     if (!names.insert(name).second) {
       throw std::invalid_argument(fmt::format("--beside {}: it is run already", name));
     }
@@ -194,7 +202,8 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
       ->type_name("N");
   command
       .add_option("--detector", options.detector,
-                  "What watches: lcs (the filter), or klt or homography to compare it with")
+                  "What watches: lcs (the filter), lcs:lab (with the paper's preset, or another, "
+                  "and none of the scenario's parameters), or klt or homography to compare it with")
       ->type_name("NAME");
   command
       .add_option("--recorded", options.recorded,
@@ -202,10 +211,10 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
                   "which takes seconds")
       ->type_name("DIR");
   command
-      .add_option(
-          "--beside", options.beside,
-          "Run this detector too on the same scenarios, and print F1 beside each other; may "
-          "be repeated")
+      .add_option("--beside", options.beside,
+                  "Run this detector too on the same scenarios, as klt or lcs:lab, and print F1 "
+                  "beside each "
+                  "other; may be repeated")
       ->type_name("NAME")
       ->allow_extra_args(false);
   add_set_option(command, options.sets, "Set a value in every scenario, as \"camera.rate=5 Hz\"");
@@ -225,11 +234,11 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
 
 ExitCode suite(const SuiteOptions& options) {
   // What cannot be is told before anything runs.
-  const comparators::Detector& detector = comparators::detector(options.detector);
+  const comparators::Wanted wanted = comparators::wanted(options.detector);
   require_others(options);
   std::string recorded;
   if (!options.recorded.empty()) {
-    comparators::require_corners_suffice(detector);
+    comparators::require_corners_suffice(wanted.detector);
     recorded = fmt::format("{}, {}", options.recorded, suite::read_suite(options.recorded).version);
   }
   const bool of_worlds = !options.worlds.split.empty();
@@ -242,7 +251,7 @@ ExitCode suite(const SuiteOptions& options) {
                    .sets = options.sets,
                    .seeds = options.seeds.value_or(of_worlds ? 1 : 3)});
   if (options.list) return list_plan(plan);
-  warn(idle_settings(plan));
+  warn(idle_settings(plan, wanted));
   std::optional<suite::SuiteResult> baseline;
   if (!options.baseline.empty()) baseline = suite::read_suite(options.baseline);
 
@@ -276,7 +285,9 @@ ExitCode suite(const SuiteOptions& options) {
   std::vector<suite::SuiteResult> others;
   for (const std::string& name : options.beside) {
     const fs::path part = fs::path("beside") / name;
-    others.push_back(run(name, "", false, part));
+    // what looks at no picture need not have them made again
+    const bool looks = comparators::wanted(name).detector.sees_pictures;
+    others.push_back(run(name, looks ? fs::path() : folder.staging(), false, part));
     suite::write_suite(folder.staging() / part / suite::kSuiteFile, others.back());
   }
   progress.wipe();
@@ -289,9 +300,9 @@ ExitCode suite(const SuiteOptions& options) {
 
   if (!options.quiet) {
     if (baseline) print_changes(*baseline, result, options.baseline);
+    print_out("{}\n", suite::suite_table(result, options.worst_first));
     if (!others.empty()) print_out("{}\n", suite::beside_table(result, others));
-    print_out("{}{}; results in {}\n", suite::suite_table(result, options.worst_first),
-              suite::totals(result), folder.target().string());
+    print_out("{}; results in {}\n", suite::totals(result), folder.target().string());
   }
   warn(suite::warnings(result));
   suite::Outcome outcome = suite::outcome_of(result);
