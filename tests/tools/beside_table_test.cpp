@@ -39,13 +39,13 @@ TEST(BesideTable, HasMeansOverSeedsAndWhereTheSuiteIsLeastAhead) {
 }
 
 TEST(BesideTable, HasARowForEachGroupThatIsNotAll) {
-  SuiteResult suite = suite_by("lcs", {scenario("a", {0.8}, 1), scenario("b", {0.6}, 1),
-                                       scenario("c", {0.1}, 1)});
+  SuiteResult suite =
+      suite_by("lcs", {scenario("a", {0.8}, 1), scenario("b", {0.6}, 1), scenario("c", {0.1}, 1)});
   suite.scenarios[0].groups = {"world", "room"};
   suite.scenarios[1].groups = {"world", "yard"};
   suite.scenarios[2].groups = {"world", "yard"};
-  const SuiteResult other = suite_by("klt", {scenario("a", {0.5}, 1), scenario("b", {0.4}, 1),
-                                             scenario("c", {0.2}, 1)});
+  const SuiteResult other =
+      suite_by("klt", {scenario("a", {0.5}, 1), scenario("b", {0.4}, 1), scenario("c", {0.2}, 1)});
   EXPECT_EQ(beside_table(suite, {{other}}),
             "F1            lcs    klt\n"
             "a            0.80   0.50\n"
@@ -55,6 +55,47 @@ TEST(BesideTable, HasARowForEachGroupThatIsNotAll) {
             "= yard (2)   0.35   0.30\n"
             "= mean (3)   0.50   0.37\n"
             "lcs is ahead of klt in 2 of 3, least in c (-0.100); takes 1.00 of its time\n");
+}
+
+TEST(BesideTable, OfWorldsHasTheIntervalOfEachMeanAndOfThePairedDifferenceByFamily) {
+  // lcs is ahead of klt by .1, .2 and .3: .2 +- 4.3027 * .1 / sqrt(3)
+  const auto world = [](const std::string& name, double f1, const std::string& family) {
+    ScenarioResult result = scenario(name, {f1}, 1);
+    result.groups = {"world", family};
+    result.drawn = Drawn{family, 0, {}};
+    result.runs[0].metrics.emplace_back("rebel.false_objects_per_100_frames", 10 * f1);
+    return result;
+  };
+  const auto still = [](const std::string& name, double false_objects) {
+    ScenarioResult result = scenario_with(name, "rebel.f1", {std::nullopt});
+    result.groups = {"world", "yard", "static"};
+    result.drawn = Drawn{"yard", 0, {}};
+    result.runs[0].metrics.emplace_back("rebel.false_objects_per_100_frames", false_objects);
+    return result;
+  };
+  const SuiteResult suite =
+      suite_by("lcs", {world("a", 0.5, "room"), world("b", 0.7, "yard"), world("c", 0.9, "yard"),
+                       still("d", 3), still("e", 5)});
+  const SuiteResult other =
+      suite_by("klt", {world("a", 0.4, "room"), world("b", 0.5, "yard"), world("c", 0.6, "yard"),
+                       still("d", 20), still("e", 20)});
+  EXPECT_EQ(beside_table(suite, {{other}}),
+            "F1                       lcs          klt\n"
+            "a                       0.50         0.40\n"
+            "b                       0.70         0.50\n"
+            "c                       0.90         0.60\n"
+            "= room (1)              0.50         0.40\n"
+            "= yard (2)              0.80±1.27    0.55±.64\n"
+            "= mean (3)              0.70±.50     0.50±.25\n"
+            "lcs ahead by                          klt\n"
+            "= room (1)                         +0.100\n"
+            "= yard (2)                         +0.250±.635\n"
+            "= mean (3)                         +0.200±.248\n"
+            "false per 100 frames     lcs          klt\n"
+            "= static (2)             4.0±13      20.0\n"
+            "= mean (5)               5.8±2.8     11.0±10\n"
+            "±: 95 % interval of the mean over worlds; ahead: by world, and then the mean\n"
+            "lcs is ahead of klt in 3 of 3, least in a (+0.100); takes 1.00 of its time\n");
 }
 
 TEST(BesideTable, LeavesOutWhatOneOfThemHasNotAndSaysSoWhereNothingIsLeft) {

@@ -26,6 +26,7 @@ SuiteResult full_suite() {
   near.purpose = "a box crosses";
   near.file = "scenarios/near.yaml";
   near.groups = {"short", "night"};
+  near.drawn = Drawn{"yard", 3, {"slope", "text"}};
   near.point = {{"ego.speed", "0.7 m/s"}, {"camera.rate", "10 Hz"}};
   RunResult& run = near.runs[0];
   run.seed = std::numeric_limits<std::uint64_t>::max();
@@ -158,8 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Damage{"list", "", Json::array(), "the file is not an object"},
         Damage{"other_json", "/format", Json(Json::value_t::discarded), "format is missing"},
-        Damage{"later_format", "/format", 2,
-               "its format is 2, this program reads 1"},
+        Damage{"later_format", "/format", 2, "its format is 2, this program reads 1"},
         Damage{"detector", "/detector", 1, "detector is not a text"},
         Damage{"sets", "/sets", "ego.speed=1", "sets is not a list"},
         Damage{"no_seed", "/scenarios/0/runs/1/seed", Json(Json::value_t::discarded),

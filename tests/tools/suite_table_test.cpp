@@ -94,6 +94,22 @@ TEST(SuiteTable, ShowsMeansWithHalfTheirSpreadGroupsAndADashForWhatIsUndefined) 
   EXPECT_NE(single.find(" - "), std::string::npos) << single;
 }
 
+TEST(SuiteTable, OfWorldsHasTheIntervalOfTheMeanOfEachGroup) {
+  SuiteResult suite =
+      suite_with({scenario("a", {0.5}, {"world", "room"}), scenario("b", {0.6}, {"world", "room"}),
+                  scenario("c", {0.7}, {"world", "yard"})});
+  EXPECT_FALSE(is_of_worlds(suite));
+  EXPECT_EQ(suite_table(suite, false).find("±"), std::string::npos);
+  for (ScenarioResult& one : suite.scenarios) one.drawn = Drawn{};
+  EXPECT_TRUE(is_of_worlds(suite));
+  const std::string text = suite_table(suite, false);
+  for (const char* row : {"= world (3)", "0.60±.25", "= room (2)", "0.55±.64", "= yard (1)",
+                          "the 95 % interval of its mean over worlds"}) {
+    EXPECT_NE(text.find(row), std::string::npos) << row << " in\n" << text;
+  }
+  EXPECT_FALSE(is_of_worlds(suite_with({})));
+}
+
 TEST(SuiteTable, MarksFailuresAndErrorsAndPutsTheWorstFirstOnRequest) {
   SuiteResult suite = suite_with({scenario("fine", {0.9}), scenario("poor", {0.1}),
                                   scenario("static", {std::nullopt}), broken("broken")});

@@ -4,20 +4,33 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tools/bench/statistics.h"
+#include "tools/suite/interval.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::suite {
 namespace {
 
-constexpr std::string_view kF1 = "rebel.f1", kTime = "time.filter_ms_median";
+constexpr std::string_view kF1 = "rebel.f1", kTime = "time.filter_ms_median",
+                           kFalse = "rebel.false_objects_per_100_frames";
+
+constexpr std::string_view kFalseHead = "false per 100 frames";
+constexpr const char* kIntervalLegend =
+    "±: 95 % interval of the mean over worlds; ahead: by world, and then the mean\n";
 
 /// A scenario's figure by each detector, the suite's own first.
 struct Row {
   std::string name;
   std::vector<double> figures;
+};
+
+/// Means of such figures.
+struct MeanRow {
+  std::string name;
+  std::vector<Interval> means;
 };
 
 /// Scenarios that have the figure by every detector.
@@ -37,25 +50,31 @@ std::vector<Row> rows_of(const SuiteResult& suite, std::span<const SuiteResult> 
   return rows;
 }
 
-Row mean_of(const std::vector<Row>& rows, std::string_view of) {
-  Row mean{fmt::format("= {} ({})", of, rows.size()), rows.front().figures};
-  for (std::size_t d = 0; d < mean.figures.size(); ++d) {
+MeanRow mean_of(const std::vector<Row>& rows, std::string_view of) {
+  MeanRow mean{fmt::format("= {} ({})", of, rows.size()), {}};
+  for (std::size_t d = 0; d < rows.front().figures.size(); ++d) {
     std::vector<double> column;
     for (const Row& row : rows) column.push_back(row.figures[d]);
-    mean.figures[d] = bench::mean(column).value();
+    mean.means.push_back(interval_of(column));
   }
   return mean;
 }
 
-/// Means over the groups that some of the scenarios are in, and over all.
-std::vector<Row> means_of(const SuiteResult& suite, const std::vector<Row>& rows) {
-  std::vector<Row> means;
+std::vector<Row> rows_in(const SuiteResult& suite, const std::vector<Row>& rows,
+                         const std::string& group) {
+  std::vector<Row> in;
+  for (const Row& row : rows) {
+    const auto& groups = find(suite, row.name)->groups;
+    if (std::find(groups.begin(), groups.end(), group) != groups.end()) in.push_back(row);
+  }
+  return in;
+}
+
+/// Over the groups that some of the scenarios are in, and over all.
+std::vector<MeanRow> means_of(const SuiteResult& suite, const std::vector<Row>& rows) {
+  std::vector<MeanRow> means;
   for (const std::string& group : groups_of(suite)) {
-    std::vector<Row> of_group;
-    for (const Row& row : rows) {
-      const auto& groups = find(suite, row.name)->groups;
-      if (std::find(groups.begin(), groups.end(), group) != groups.end()) of_group.push_back(row);
-    }
+    const std::vector<Row> of_group = rows_in(suite, rows, group);
     if (!of_group.empty() && of_group.size() < rows.size()) {
       means.push_back(mean_of(of_group, group));
     }
@@ -63,6 +82,86 @@ std::vector<Row> means_of(const SuiteResult& suite, const std::vector<Row>& rows
   means.push_back(mean_of(rows, "mean"));
   return means;
 }
+
+/// By how much the suite's own figure is more than each other's, in place of the figures.
+std::vector<Row> leads(std::vector<Row> rows) {
+  for (Row& row : rows) {
+    const double own = row.figures.front();
+    for (double& figure : row.figures) figure = own - figure;
+  }
+  return rows;
+}
+
+/// Where nothing moves there is no F1: what is found is false. Then over all.
+std::vector<MeanRow> false_objects(const SuiteResult& suite, std::span<const SuiteResult> others,
+                                   const std::vector<Row>& with_f1) {
+  const std::vector<Row> rows = rows_of(suite, others, kFalse);
+  std::vector<MeanRow> means;
+  if (rows.empty()) return means;
+  for (const std::string& group : groups_of(suite)) {
+    const std::vector<Row> of_group = rows_in(suite, rows, group);
+    if (!of_group.empty() && rows_in(suite, with_f1, group).empty()) {
+      means.push_back(mean_of(of_group, group));
+    }
+  }
+  means.push_back(mean_of(rows, "mean"));
+  return means;
+}
+
+/// Rows of figures below the detectors' names.
+class Columns {
+ public:
+  Columns(std::size_t name_width, std::vector<std::string> names, bool with_intervals)
+      : name_width_(name_width), names_(std::move(names)), half_width_(with_intervals ? 5 : 0) {}
+
+  void header(std::string_view figure, std::size_t first = 0) {
+    text_ += fmt::format("{:<{}}", figure, name_width_);
+    for (std::size_t d = 0; d < names_.size(); ++d) {
+      text_ += fmt::format("  {:>{}}{:{}}", d < first ? "" : names_[d], width(d), "", half_width_);
+    }
+    end();
+  }
+  void row(const Row& row) {
+    text_ += fmt::format("{:<{}}", row.name, name_width_);
+    for (std::size_t d = 0; d < names_.size(); ++d) cell({row.figures[d], {}}, d, 2, false);
+    end();
+  }
+  void row(const MeanRow& row, int decimals, std::size_t first = 0) {
+    text_ += fmt::format("{:<{}}", row.name, name_width_);
+    for (std::size_t d = 0; d < names_.size(); ++d) {
+      if (d < first) {
+        text_ += fmt::format("  {:{}}", "", width(d) + half_width_);
+      } else {
+        cell(row.means[d], d, decimals, first > 0);
+      }
+    }
+    end();
+  }
+  void line(std::string_view words) { text_ += words; }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::size_t width(std::size_t d) const {
+    return std::max<std::size_t>(half_width_ > 0 ? 6 : 5, names_[d].size());
+  }
+  void cell(const Interval& mean, std::size_t d, int decimals, bool is_signed) {
+    const std::string number = is_signed ? fmt::format("{:+.{}f}", mean.mean, decimals)
+                                         : fmt::format("{:.{}f}", mean.mean, decimals);
+    text_ += fmt::format("  {:>{}}", number, width(d));
+    if (half_width_ > 0) {
+      text_ += fmt::format("{:<{}}", half_text(mean.half.value_or(0), decimals), half_width_);
+    }
+  }
+  void end() {
+    while (text_.ends_with(' ')) text_.pop_back();
+    text_ += '\n';
+  }
+
+  std::size_t name_width_;
+  std::vector<std::string> names_;
+  std::size_t half_width_;  ///< 0: no intervals
+  std::string text_;
+};
 
 /// The suite's detector beside the one in a column.
 std::string summary_line(const SuiteResult& suite, const SuiteResult& other,
@@ -95,24 +194,28 @@ std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> 
   for (std::size_t i = 0; i < others.size(); ++i) {
     lines += summary_line(suite, others[i], rows, times, i + 1);
   }
-  const std::vector<Row> means = means_of(suite, rows);
-  rows.insert(rows.end(), means.begin(), means.end());
+  const std::vector<MeanRow> means = means_of(suite, rows);
+  const bool of_worlds = is_of_worlds(suite);
 
-  std::size_t longest = 0;
+  const std::string ahead = fmt::format("{} ahead by", suite.detector);
+  std::size_t longest = of_worlds ? std::max(ahead.size(), kFalseHead.size()) : 0;
   for (const Row& row : rows) longest = std::max(longest, row.name.size());
-  std::vector<std::string_view> names{suite.detector};
+  for (const MeanRow& row : means) longest = std::max(longest, row.name.size());
+  std::vector<std::string> names{suite.detector};
   for (const SuiteResult& other : others) names.push_back(other.detector);
-  std::string text = fmt::format("{:<{}}", "F1", longest);
-  for (const std::string_view name : names) text += fmt::format("  {:>5}", name);
-  text += '\n';
-  for (const Row& row : rows) {
-    text += fmt::format("{:<{}}", row.name, longest);
-    for (std::size_t d = 0; d < names.size(); ++d) {
-      text += fmt::format("  {:>{}.2f}", row.figures[d], std::max<std::size_t>(5, names[d].size()));
-    }
-    text += '\n';
+
+  Columns table(longest, names, of_worlds);
+  table.header("F1");
+  for (const Row& row : rows) table.row(row);
+  for (const MeanRow& row : means) table.row(row, 2);
+  if (of_worlds) {
+    table.header(ahead, 1);
+    for (const MeanRow& row : means_of(suite, leads(rows))) table.row(row, 3, 1);
+    table.header(kFalseHead);
+    for (const MeanRow& row : false_objects(suite, others, rows)) table.row(row, 1);
+    table.line(kIntervalLegend);
   }
-  return text + lines;
+  return table.text() + lines;
 }
 
 }  // namespace lcs::suite

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "tools/bench/statistics.h"
@@ -184,31 +183,6 @@ std::string section(const Comparison& comparison, Change verdict, const char* ti
 }
 
 }  // namespace
-
-double student_t_95(int degrees_of_freedom) {
-  // Below ten degrees exactly; from there the expansion in 1 / degrees (Abramowitz and Stegun,
-  // 26.7.5) is as good.
-  constexpr std::array<double, 9> kExact{12.7062, 4.3027, 3.1824, 2.7764, 2.5706,
-                                         2.4469,  2.3646, 2.3060, 2.2622};
-  if (degrees_of_freedom <= static_cast<int>(kExact.size()))
-    return kExact.at(degrees_of_freedom - 1);
-  constexpr double kNormal = 1.959964;
-  const double z2 = kNormal * kNormal, n = degrees_of_freedom;
-  const double first = (z2 + 1) / 4, second = ((5 * z2 + 16) * z2 + 3) / 96;
-  const double third = (((3 * z2 + 19) * z2 + 17) * z2 - 15) / 384;
-  return kNormal * (1 + first / n + second / (n * n) + third / (n * n * n));
-}
-
-Interval interval_of(const std::vector<double>& values) {
-  Interval interval{bench::mean(values).value(), std::nullopt};
-  if (values.size() < 2) return interval;
-  double squares = 0;
-  for (const double value : values) squares += std::pow(value - interval.mean, 2);
-  const auto count = static_cast<double>(values.size());
-  const double deviation = std::sqrt(squares / (count - 1));
-  interval.half = student_t_95(static_cast<int>(values.size()) - 1) * deviation / std::sqrt(count);
-  return interval;
-}
 
 int Comparison::count(Change verdict) const {
   return static_cast<int>(

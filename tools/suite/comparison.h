@@ -9,22 +9,11 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/suite/interval.h"
 #include "tools/suite/metric_traits.h"
 #include "tools/suite/suite_result.h"
 
 namespace lcs::suite {
-
-/// The two-sided 95 % quantile of Student's t. \param degrees_of_freedom >= 1. Error below 0.0005.
-double student_t_95(int degrees_of_freedom);
-
-/// A mean with the interval that holds it at 95 %, if the noise of seeds is normal.
-struct Interval {
-  double mean = 0;
-  std::optional<double> half;  ///< none: a single seed, whose noise is unknown
-};
-
-/// \param values at least one.
-Interval interval_of(const std::vector<double>& values);
 
 enum class Change { improved, regressed, moved, none };  ///< moved: of a neutral figure
 

@@ -59,12 +59,18 @@ Json to_json(const ScenarioResult& scenario) {
   for (const auto& [key, value] : scenario.point) point.push_back(Json::array({key, value}));
   Json runs = Json::array();
   for (const RunResult& run : scenario.runs) runs.push_back(to_json(run));
-  return {{"name", scenario.name},
-          {"purpose", scenario.purpose},
-          {"file", scenario.file.generic_string()},
-          {"groups", scenario.groups},
-          {"point", point},
-          {"runs", runs}};
+  Json json{{"name", scenario.name},
+            {"purpose", scenario.purpose},
+            {"file", scenario.file.generic_string()},
+            {"groups", scenario.groups},
+            {"point", point},
+            {"runs", runs}};
+  if (scenario.drawn) {
+    json["drawn"] = {{"family", scenario.drawn->family},
+                     {"again", scenario.drawn->again},
+                     {"features", scenario.drawn->features}};
+  }
+  return json;
 }
 
 // ---- Reading
@@ -120,6 +126,10 @@ ScenarioResult scenario_of(const Node& node) {
   scenario.file = node["file"].text();
   scenario.groups = node["groups"].texts();
   node["point"].each([&](const Node& item) { scenario.point.push_back(pair_of(item)); });
+  if (node.has("drawn")) {
+    const Node drawn = node["drawn"];
+    scenario.drawn = {drawn["family"].text(), drawn["again"].natural(), drawn["features"].texts()};
+  }
   std::set<std::uint64_t> seeds;
   node["runs"].each([&](const Node& item) {
     scenario.runs.push_back(run_of(item));

@@ -39,8 +39,15 @@ struct RunResult {
   bench::Metrics metrics;  ///< empty for an error
   std::vector<CriterionResult> criteria;
   std::vector<bench::Warned> warnings;  ///< those that happened
-  std::filesystem::path folder;  ///< of the run's own files, relative to the suite's
+  std::filesystem::path folder;         ///< of the run's own files, relative to the suite's
   double wall_s = 0;
+};
+
+/// What is known of a scenario that was drawn from a seed, a world (tools/worlds).
+struct Drawn {
+  std::string family;
+  std::uint64_t again = 0;            ///< times that it could not be drawn, and was drawn again
+  std::vector<std::string> features;  ///< what occurs in it
 };
 
 /// One scenario, or one point of the grid that it sweeps.
@@ -51,10 +58,11 @@ struct ScenarioResult {
   std::vector<std::string> groups;
   std::vector<std::pair<std::string, std::string>> point;  ///< swept keys and values, as given
   std::vector<RunResult> runs;                             ///< by seed, in the order asked for
+  std::optional<Drawn> drawn = {};                         ///< of a world
 };
 
 struct SuiteResult {
-  std::string detector;           ///< lcs, klt or homography
+  std::string detector;           ///< as asked for: lcs, lcs:lab, klt and so on
   std::vector<std::string> sets;  ///< "key=value", as given
   std::string version;            ///< of the program
   /// The earlier suite whose frames were watched, and the program that simulated them; empty where

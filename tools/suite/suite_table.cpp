@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "tools/suite/interval.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::suite {
@@ -38,16 +39,9 @@ constexpr const char* kLegend =
     "is\n"
     "found; found: share of objects; false: false objects per 100 frames; sq: squares at IoU 0.5;\n"
     "size: of all layers, over a store of 5 frames' corners; time: of the filter, over cv::FAST\n";
-/// "±.05": four columns, and five bytes.
+constexpr const char* kWorldsLegend = "±, of a group: the 95 % interval of its mean over worlds\n";
+/// Columns of `half_text` where there are at most two decimals.
 constexpr int kSpreadWidth = 4;
-
-std::string spread_text(double half, int decimals) {
-  std::string digits = fmt::format("{:.{}f}", half, decimals);
-  if (digits.find_first_not_of("0.") == std::string::npos) return std::string(kSpreadWidth, ' ');
-  if (decimals == 2 && digits.starts_with("0.")) digits.erase(0, 1);
-  if (decimals == 1 && digits.size() > kSpreadWidth - 1) digits = fmt::format("{:.0f}", half);
-  return fmt::format("±{:<{}}", digits, kSpreadWidth - 1);
-}
 
 class TableText {
  public:
@@ -85,8 +79,7 @@ class TableText {
       text_ += spread ? fmt::format("{:>{}.{}f}", spread->mean, column.width, column.decimals)
                       : fmt::format("{:>{}}", "-", column.width);
       if (with_spreads_) {
-        text_ +=
-            spread ? spread_text(spread->half, column.decimals) : std::string(kSpreadWidth, ' ');
+        text_ += spread ? half_text(spread->half, column.decimals) : std::string(kSpreadWidth, ' ');
       }
     }
     end();
@@ -161,8 +154,10 @@ std::string suite_table(const SuiteResult& suite, bool worst_first) {
       return badness_key(*a) < badness_key(*b);
     });
   }
-  const bool with_spreads =
-      std::any_of(rows.begin(), rows.end(), [](const auto* row) { return row->runs.size() > 1; });
+  const bool of_worlds = is_of_worlds(suite);
+  const bool with_spreads = of_worlds || std::any_of(rows.begin(), rows.end(), [](const auto* row) {
+                              return row->runs.size() > 1;
+                            });
   const std::vector<std::string> groups = groups_of(suite);
   std::size_t longest = std::string_view("scenario").size();
   for (const ScenarioResult* row : rows) longest = std::max(longest, marked(*row).size());
@@ -183,11 +178,14 @@ std::string suite_table(const SuiteResult& suite, bool worst_first) {
   }
   for (const std::string& group : groups) {
     table.row(group_row_name(suite, group), [&](std::string_view name) -> std::optional<Spread> {
-      const std::optional<double> mean = over_group(suite, group, name);
-      return mean ? std::optional(Spread{*mean, 0, 1}) : std::nullopt;
+      const std::vector<double> figures = figures_of_group(suite, group, name);
+      if (figures.empty()) return std::nullopt;
+      const Interval mean = interval_of(figures);
+      return Spread{mean.mean, of_worlds ? mean.half.value_or(0) : 0, 1};
     });
   }
   table.line(kLegend);
+  if (of_worlds) table.line(kWorldsLegend);
   return table.text();
 }
 

@@ -55,14 +55,19 @@ std::optional<double> mean_over_seeds(const SuiteResult& suite, const std::strin
   return spread ? std::optional(spread->mean) : std::nullopt;
 }
 
-std::optional<double> over_group(const SuiteResult& suite, const std::string& group,
-                                 std::string_view name) {
+std::vector<double> figures_of_group(const SuiteResult& suite, const std::string& group,
+                                     std::string_view name) {
   std::vector<double> figures;
   for (const ScenarioResult& scenario : suite.scenarios) {
     if (!is_in(scenario, group)) continue;
     if (const auto spread = over_seeds(scenario, name)) figures.push_back(spread->mean);
   }
-  return bench::mean(figures);
+  return figures;
+}
+
+std::optional<double> over_group(const SuiteResult& suite, const std::string& group,
+                                 std::string_view name) {
+  return bench::mean(figures_of_group(suite, group, name));
 }
 
 SuiteResult in_common(const SuiteResult& suite, const SuiteResult& other) {
@@ -84,6 +89,12 @@ std::vector<std::string> groups_of(const SuiteResult& suite) {
     }
   }
   return groups;
+}
+
+bool is_of_worlds(const SuiteResult& suite) {
+  return !suite.scenarios.empty() &&
+         std::all_of(suite.scenarios.begin(), suite.scenarios.end(),
+                     [](const ScenarioResult& scenario) { return scenario.drawn.has_value(); });
 }
 
 Outcome outcome_of(const ScenarioResult& scenario) {

@@ -36,8 +36,11 @@ std::optional<Spread> over_seeds(const ScenarioResult& scenario, std::string_vie
 std::optional<double> mean_over_seeds(const SuiteResult& suite, const std::string& scenario,
                                       std::string_view name);
 
-/// The mean of a group's scenarios, each with its mean over seeds; those without the figure are
-/// left out, and none is left where all are.
+/// Of each of a group's scenarios that has the figure its mean over seeds.
+std::vector<double> figures_of_group(const SuiteResult& suite, const std::string& group,
+                                     std::string_view name);
+
+/// Their mean, where there is any.
 std::optional<double> over_group(const SuiteResult& suite, const std::string& group,
                                  std::string_view name);
 
@@ -47,6 +50,10 @@ SuiteResult in_common(const SuiteResult& suite, const SuiteResult& other);
 
 /// In the order in which they first appear.
 std::vector<std::string> groups_of(const SuiteResult& suite);
+
+/// Whether its scenarios are worlds drawn from seeds, so that they are a sample of such worlds and
+/// their mean has an interval. False for no scenarios.
+bool is_of_worlds(const SuiteResult& suite);
 
 /// The worst of the runs'; `error` for no runs.
 Outcome outcome_of(const ScenarioResult& scenario);
