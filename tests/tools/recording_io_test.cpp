@@ -233,6 +233,33 @@ TEST(RecordingIo, AnEmptyRunComesBackEmpty) {
   EXPECT_TRUE(read_recording(folder.path()).frames.empty());
 }
 
+TEST(RecordingIo, TheObjectsOfSingleFramesAreThoseOfTheWholeRecording) {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < 5; ++k) {
+    FrameMaker frame(k);
+    for (int i = 0; i <= k; ++i) frame.object(i + 1, {10 * k, i, 10 * k + 20, i + 9}, i % 2 == 0);
+    frames.push_back(frame);
+  }
+  const TemporaryFolder folder;
+  const Recording recording = recording_of(frames);
+  RecordingWriter writer(folder.path(), recording);
+  for (const FrameRecord& frame : recording.frames) writer.write(frame);
+  writer.close();
+  const std::vector<int> wanted{0, 2, 2, 4};
+  const auto objects = read_object_truth(folder.path(), wanted);
+  ASSERT_EQ(objects.size(), wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const auto& expected = frames[static_cast<std::size_t>(wanted[i])].object_truth;
+    ASSERT_EQ(objects[i].size(), expected.size());
+    for (std::size_t o = 0; o < expected.size(); ++o) {
+      EXPECT_EQ(objects[i][o].left, expected[o].left);
+      EXPECT_EQ(objects[i][o].bottom, expected[o].bottom);
+      EXPECT_EQ(objects[i][o].moving, expected[o].moving);
+    }
+  }
+  EXPECT_THROW(read_object_truth(folder.path(), std::vector<int>{5}), std::runtime_error);
+}
+
 TEST(RecordingIo, ALayerThatIsNotFiniteIsRefusedByFrameAndField) {
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
     FrameMaker maker(12);

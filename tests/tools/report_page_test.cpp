@@ -12,6 +12,7 @@
 #include "tools/bench/output_file.h"
 #include "tools/bench/report.h"
 #include "tools/report/report_data.h"
+#include "tools/report/worlds_page.h"
 
 namespace lcs::report {
 namespace {
@@ -133,6 +134,34 @@ TEST_F(Report, IsWellFormedWhateverNamesHold) {
   // The same, but for the byte that is no UTF-8.
   const std::string name = data_of(html).at("scenarios")[0].at("name");
   EXPECT_EQ(name, kNasty.substr(0, kNasty.size() - 1) + "\xef\xbf\xbd");
+}
+
+TEST_F(Report, OfWorldsIsWellFormedAndHasEachWithTheFiguresOfAllDetectors) {
+  ScenarioResult one = scenario_with("room_1", {run_with(1, 0.8)});
+  one.drawn = suite::Drawn{"room", 2, {"slope", kNasty}};
+  one.runs[0].folder = "runs/room_1/seed-1";
+  ScenarioResult broken = scenario_with(kNasty, {run_with(2, 0.4)});
+  broken.drawn = suite::Drawn{kNasty, 0, {}};
+  broken.runs[0].metrics.clear();
+  broken.runs[0].error = kNasty;
+  const SuiteResult suite = suite_of({one, broken});
+  SuiteResult other = suite_of({scenario_with("room_1", {run_with(1, 0.6)})});
+  other.detector = kNasty;
+  fs::create_directory(folder_.path() / kSheetsFolder);
+  std::ofstream(folder_.path() / sheet_path(one)) << "a picture";
+  write_worlds_page(folder_.path(), kNasty, suite, {{other}});
+  std::ifstream stream(folder_.path() / kWorldsFile, std::ios::binary);
+  const std::string html{std::istreambuf_iterator<char>(stream), {}};
+  tinyxml2::XMLDocument document;
+  ASSERT_EQ(document.Parse(markup(html).c_str()), tinyxml2::XML_SUCCESS) << document.ErrorStr();
+  for (const char* part :
+       {"<td>0.80</td>", "<td>0.60</td>", "drawn again 2 times", "<b>1</b> drawn again",
+        "src=\"worlds/room_1.jpg\"", "href=\"runs/room_1/seed-1/\"", "report.html#scenario-0",
+        "<span class=\"feature\">slope</span>"}) {
+    EXPECT_NE(html.find(part), html.npos) << part;
+  }
+  EXPECT_EQ(html.find("<script"), html.npos);
+  EXPECT_EQ(html.find("<img"), html.rfind("<img"));  // there is but one sheet
 }
 
 TEST_F(Report, AsksTheNetworkForNothing) {

@@ -27,8 +27,9 @@ class WorldCommand : public testing::Test {
 TEST_F(WorldCommand, WritesAScenarioThatRunsLikeAnyOther) {
   const CommandResult made = run({"world", "corridor", "--seed", "4", "--out", "mine"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_EQ(bench::entries(folder_.path() / "mine"),
-            (std::set<std::string>{"corridor_4.yaml", "scene.xml", "textures", "meshes"}));
+  EXPECT_EQ(
+      bench::entries(folder_.path() / "mine"),
+      (std::set<std::string>{"corridor_4.yaml", "scene.xml", "plan.png", "textures", "meshes"}));
   fs::rename(folder_.path() / "mine", folder_.path() / "moved");  // nothing knows where it was made
   const CommandResult ran =
       run({"run", "moved/corridor_4.yaml", "--no-video", "--set", "frames=4"});
@@ -83,11 +84,42 @@ TEST_F(WorldCommand, ASuiteOfWorldsRunsEachOnceAndKeepsThem) {
   ASSERT_EQ(result.scenarios.size(), 2u);
   EXPECT_EQ(result.scenarios[0].name, "corridor_1");
   EXPECT_EQ(result.scenarios[0].runs.size(), 1u);
+  ASSERT_TRUE(result.scenarios[0].drawn);
+  EXPECT_EQ(result.scenarios[0].drawn->family, "corridor");
+  EXPECT_GT(result.scenarios[0].drawn->features.size(), 2u);
   const fs::path kept = folder_.path() / result.scenarios[0].file;
   // what is kept is used as it is
   std::ofstream(kept, std::ios::app) << "# looked at\n";
   ASSERT_EQ(run(command).exit_code, 0);
   EXPECT_NE(bench::read(kept).find("# looked at"), std::string::npos);
+}
+
+TEST_F(WorldCommand, ASuiteOfWorldsLeavesAPageToLookAtAndSaysWhatTheSplitIsFor) {
+  const CommandResult command =
+      run({"suite", "--worlds", "test", "--count", "2", "--family", "corridor", "--set", "frames=4",
+           "--beside", "lcs:lab", "--beside", "klt"});
+  ASSERT_EQ(command.exit_code, 0) << command.err;
+  EXPECT_NE(command.out.find(" drawn again\n"), std::string::npos) << command.out;
+  EXPECT_NE(command.out.find("The split test is to state figures: nothing is chosen by it"),
+            std::string::npos)
+      << command.out;
+  const fs::path out = folder_.path() / "out" / "suite";
+  EXPECT_EQ(bench::entries(out / "worlds"),
+            (std::set<std::string>{"corridor_2000000.jpg", "corridor_2000001.jpg"}));
+  const std::string page = bench::read(out / "worlds.html");
+  for (const char* part : {"worlds/corridor_2000001.jpg", "<td>lcs:lab</td>", "<td>klt</td>",
+                           "report.html#scenario-1", "runs/corridor_2000001/seed-2000001/"}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  }
+  // It is an earlier suite like any other.
+  fs::create_directory(folder_.path() / "scenarios");
+  std::ofstream(folder_.path() / "scenarios" / "near.yaml")
+      << "purpose: near\nscene: lab\nframes: 2\nego: {start: [-4 m, 0 m], speed: 0.5 m/s}\n"
+         "camera: {size: [160, 120]}\n";
+  const CommandResult again = run({"suite", "scenarios", "--seeds", "1"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_FALSE(fs::exists(out / "worlds.html"));
+  EXPECT_FALSE(fs::exists(out / "worlds"));
 }
 
 }  // namespace

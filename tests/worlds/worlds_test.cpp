@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
+#include <tuple>
 
 #include "scenarios/load.h"
 #include "sim/drive.h"
@@ -17,6 +20,8 @@
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/worlds/kit.h"
+#include "tools/worlds/rover.h"
+#include "tools/worlds/sheet.h"
 #include "tools/worlds/textures.h"
 
 namespace lcs::worlds {
@@ -118,6 +123,25 @@ TEST(Worlds, TheScenarioSaysWhatWasDrawn) {
       EXPECT_EQ(read.actors[i].trajectory.index(), drawn.actors[i].trajectory.index());
     }
   }
+}
+
+TEST(Worlds, TheScenarioSaysHowItWasDrawn) {
+  bool is_any_again = false;
+  for (const World& world : sixty()) {
+    if (world.attempt == 0 && is_any_again) continue;
+    const bench::TemporaryFolder folder;
+    const Origin origin = origin_of(written(world, folder));
+    EXPECT_EQ(origin.family, world.family);
+    EXPECT_EQ(origin.again, static_cast<std::uint64_t>(world.attempt));
+    EXPECT_EQ(std::set<std::string>(origin.features.begin(), origin.features.end()),
+              world.features);
+    is_any_again |= world.attempt > 0;
+  }
+  EXPECT_TRUE(is_any_again);
+  const bench::TemporaryFolder folder;
+  std::ofstream(folder.path() / "edited.yaml") << "purpose: no more than that\n";
+  EXPECT_EQ(origin_of(folder.path() / "edited.yaml").family, "");
+  EXPECT_THROW(origin_of(folder.path() / "missing.yaml"), std::runtime_error);
 }
 
 TEST(Worlds, WhatMustOccurOccurs) {
@@ -229,6 +253,68 @@ TEST(Worlds, MoversAreFreeOfTheRoverOfWhatStandsAndOfEachOther) {
       }
     }
   }
+}
+
+/// The plan has the way that the rover goes: by the commands, and by the simulator's physics.
+TEST(Sheet, TheWayOnThePlanIsTheRoversOwn) {
+  for (const World& world : small_ones()) {
+    const bench::TemporaryFolder folder;
+    const scenario::Scenario scenario = scenario::load(written(world, folder));
+    const Way way = way_of(scenario);
+    const sim::Drive drive = sim::drive(scenario);
+    ASSERT_GE(way.frames.size(), drive.frames.size());
+    for (std::size_t k = 0; k < drive.frames.size(); ++k) {
+      const Eigen::Vector3d planned = camera_at(scenario.camera, way.frames[k], 0);
+      EXPECT_LT((planned - drive.frames[k].truth.now.T_WC.p).head<2>().norm(), 0.3)
+          << name_of(world) << " frame " << k;
+    }
+  }
+}
+
+int count_of(const cv::Mat3b& picture, const cv::Vec3b& colour) {
+  return static_cast<int>(std::count(picture.begin(), picture.end(), colour));
+}
+
+TEST(Sheet, ThePlanHasAPathForWhatMovesAndNoneWhereNothingDoes) {
+  const cv::Vec3b moves(255, 0, 255), rover(220, 80, 0);
+  for (const World& world : sixty()) {
+    const cv::Mat3b picture = plan(world);
+    EXPECT_GT(count_of(picture, rover), 5) << name_of(world);
+    if (world.scenario.actors.empty()) {
+      EXPECT_EQ(count_of(picture, moves), 0) << name_of(world);
+    } else {
+      EXPECT_GT(count_of(picture, moves), 10) << name_of(world);
+    }
+  }
+}
+
+TEST(Sheet, HasBoxesWhereTheTruthHasThemAtAnyScaleOfThePicture) {
+  const cv::Vec3b moves(255, 0, 255), stands(0, 200, 0);
+  sim::ObjectTruth mover, thing;
+  std::tie(mover.left, mover.top, mover.right, mover.bottom) = std::tuple{200, 100, 300, 200};
+  std::tie(thing.left, thing.top, thing.right, thing.bottom) = std::tuple{400, 300, 600, 400};
+  mover.moving = true;
+  for (const double scale : {1.0, 0.5, 0.25}) {  // of an image of 960 x 720, two pixels for one
+    Shots shots;
+    for (Shot& shot : shots) {
+      shot.picture = cv::Mat3b(cvRound(720 * scale), cvRound(960 * scale), cv::Vec3b(9, 9, 9));
+      shot.scale = scale;
+      shot.objects = {mover, thing};
+    }
+    for (const int columns : {2, 4}) {
+      const cv::Mat3b sheet = contact_sheet(shots, {}, columns);
+      ASSERT_EQ(sheet.size(), columns == 2 ? cv::Size(960, 720) : cv::Size(1920, 360));
+      for (int tile = 0; tile < 3; ++tile) {
+        const cv::Point corner(tile % columns * 480, tile / columns * 360);
+        EXPECT_EQ(sheet(corner + cv::Point(100, 50)), moves);
+        EXPECT_EQ(sheet(corner + cv::Point(149, 99)), moves);
+        EXPECT_EQ(sheet(corner + cv::Point(200, 150)), stands);
+        EXPECT_EQ(sheet(corner + cv::Point(299, 199)), stands);
+        EXPECT_EQ(sheet(corner + cv::Point(120, 70)), cv::Vec3b(9, 9, 9));
+      }
+    }
+  }
+  EXPECT_EQ(frames_shown(60), (std::array{0, 30, 59}));
 }
 
 TEST(Worlds, SplitsAreDisjointAndSpreadOverTheFamilies) {

@@ -10,7 +10,9 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "tools/bench/output_file.h"
 #include "tools/bench/recording.h"
@@ -41,7 +43,14 @@ class RecordingWriter {
   OutputFile truth_;
 };
 
-/// Reads both files back, and the warnings beside them if there are any. \throws std::runtime_error naming file and line.
+/// Reads both files back, and the warnings beside them if there are any. \throws std::runtime_error
+/// naming file and line.
 Recording read_recording(const std::filesystem::path& folder);
+
+/// The truth of objects in single frames, without reading the rest: in milliseconds.
+/// \param frames from 0, in rising order; one may come again.
+/// \throws std::runtime_error naming file and line.
+std::vector<std::vector<sim::ObjectTruth>> read_object_truth(const std::filesystem::path& folder,
+                                                             std::span<const int> frames);
 
 }  // namespace lcs::bench

@@ -67,10 +67,10 @@ void read(const Json& json, OrNan value) {
 template <class Integer>
 requires std::is_integral_v<Integer>
 void read(const Json& json, Integer& number) {
-  const bool is_in_range = json.is_number_unsigned()
-                               ? std::in_range<Integer>(json.get<std::uint64_t>())
-                               : json.is_number_integer() &&
-                                     std::in_range<Integer>(json.get<std::int64_t>());
+  const bool is_in_range =
+      json.is_number_unsigned()
+          ? std::in_range<Integer>(json.get<std::uint64_t>())
+          : json.is_number_integer() && std::in_range<Integer>(json.get<std::int64_t>());
   require(is_in_range, "a whole number of its range");
   number = json.get<Integer>();
 }
@@ -237,6 +237,7 @@ class LineReader {
     }
     return true;
   }
+  bool skip() { return file_.next_line(text_); }
   [[noreturn]] void fail(std::string_view what) const {
     if (what.starts_with('.')) what.remove_prefix(1);
     throw scenario::Error(file_.here(), fmt::format("{}; {}", what, kRecordingFile.remedy));
@@ -280,6 +281,26 @@ Recording read_recording(const std::filesystem::path& folder) {
   }
   if (truth.next([](const Json&) {})) layers.fail("ends before the truth does");
   return recording;
+}
+
+std::vector<std::vector<sim::ObjectTruth>> read_object_truth(const std::filesystem::path& folder,
+                                                             std::span<const int> frames) {
+  LineReader truth(folder / kTruthFile);
+  std::vector<std::vector<sim::ObjectTruth>> objects;
+  int next = -1;  // the header
+  for (const int frame : frames) {
+    if (frame < next) {
+      objects.push_back(objects.back());
+      continue;
+    }
+    while (next < frame && truth.skip()) ++next;
+    const bool is_there = truth.next([&](const Json& json) {
+      objects.push_back(read_columns<sim::ObjectTruth>(json, "objects"));
+    });
+    if (!is_there) truth.fail(fmt::format("ends before frame {}", frame));
+    ++next;
+  }
+  return objects;
 }
 
 }  // namespace lcs::bench

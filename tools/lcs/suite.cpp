@@ -59,6 +59,7 @@ Files written to the folder, all or none:
   suite.json    every figure and criterion of every run
   report.html   all of it to look at: figures against the baseline, plots, and for each miss and
                 false alarm the reasons and a strip of pictures; open it in a browser
+  worlds.html, worlds/   of worlds: three pictures and the plan of each, with its figures
   junit.xml     a test case a criterion, for continuous integration
   runs/NAME/seed-N/   what `lcs run --events` leaves, without a video
   beside/DETECTOR/    with --beside: suite.json and runs/ of that detector, for lcs compare
@@ -279,6 +280,7 @@ ExitCode suite(const SuiteOptions& options) {
                progress.show(now);
              }});
     check_interrupted();
+    if (of_worlds) add_origins(result);
     return result;
   };
   suite::SuiteResult result = run(options.detector, options.recorded, true, "");
@@ -296,12 +298,14 @@ ExitCode suite(const SuiteOptions& options) {
   suite::write_junit(folder.staging() / suite::kJunitFile, result);
   report::write_report(folder.staging() / report::kReportFile, result,
                        baseline ? &*baseline : nullptr, folder.staging());
+  if (of_worlds) write_worlds(folder.staging(), options.worlds, plan, result, others);
   folder.commit();
 
   if (!options.quiet) {
     if (baseline) print_changes(*baseline, result, options.baseline);
     print_out("{}\n", suite::suite_table(result, options.worst_first));
     if (!others.empty()) print_out("{}\n", suite::beside_table(result, others));
+    if (of_worlds) print_out("{}", told_of_worlds(options.worlds, result));
     print_out("{}; results in {}\n", suite::totals(result), folder.target().string());
   }
   warn(suite::warnings(result));

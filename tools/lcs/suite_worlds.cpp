@@ -1,17 +1,59 @@
 #include "tools/lcs/suite_worlds.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
 #include <stdexcept>
 
+#include "tools/bench/frame_pictures.h"
+#include "tools/bench/output_file.h"
+#include "tools/bench/recording_io.h"
 #include "tools/lcs/interrupt.h"
+#include "tools/report/worlds_page.h"
 #include "tools/suite/child_process.h"
+#include "tools/worlds/sheet.h"
 #include "tools/worlds/worlds.h"
 
 namespace lcs::tools {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr const char* kFolder = "out/worlds";
+
+/// What a run's camera saw; none where it has left no pictures.
+std::optional<worlds::Shots> recorded_shots(const fs::path& run, int image_width_px) {
+  if (!fs::exists(run / bench::kPicturesFile)) return std::nullopt;
+  const auto pictures = bench::FramePictures::read(run / bench::kPicturesFile, image_width_px);
+  const auto shown = worlds::frames_shown(static_cast<int>(pictures.size()));
+  const auto objects = bench::read_object_truth(run, shown);
+  worlds::Shots shots;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    shots[i].frame = shown[i];
+    shots[i].picture = pictures.at(static_cast<std::size_t>(shown[i]), shots[i].scale);
+    shots[i].objects = objects[i];
+  }
+  return shots;
+}
+
+void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
+                 const suite::ScenarioResult& scenario) {
+  constexpr int kQuality = 85, kColumns = 4;
+  for (const suite::RunResult& run : scenario.runs) {
+    if (run.folder.empty() || !planned.scenario) continue;
+    const auto shots = recorded_shots(folder / run.folder, planned.scenario->camera.width_px);
+    if (!shots) continue;
+    const fs::path plan = scenario.file.parent_path() / worlds::kPlanFile;
+    const cv::Mat3b above = cv::imread(plan.string(), cv::IMREAD_COLOR);
+    const auto bytes = bench::jpeg(worlds::contact_sheet(*shots, above, kColumns), kQuality);
+    bench::OutputFile file(folder / report::sheet_path(scenario));
+    file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    file.close();
+    return;
+  }
+}
 
 }  // namespace
 
@@ -39,6 +81,38 @@ std::vector<std::string> make_worlds(const WorldsOptions& options, std::size_t j
       },
       [&](const std::vector<std::size_t>&) { check_interrupted(); });
   return files;
+}
+
+void add_origins(suite::SuiteResult& result) {
+  for (suite::ScenarioResult& scenario : result.scenarios) {
+    worlds::Origin origin = worlds::origin_of(scenario.file);
+    scenario.drawn = {std::move(origin.family), origin.again, std::move(origin.features)};
+  }
+}
+
+std::string told_of_worlds(const WorldsOptions& options, const suite::SuiteResult& result) {
+  const auto again = std::count_if(
+      result.scenarios.begin(), result.scenarios.end(),
+      [](const auto& scenario) { return scenario.drawn && scenario.drawn->again > 0; });
+  std::string text =
+      fmt::format("{} {} drawn again\n", again, again == 1 ? "world was" : "worlds were");
+  if (options.split == "test") {
+    text += fmt::format("The split test is {}\n", worlds::split(options.split).purpose);
+  }
+  return text;
+}
+
+void write_worlds(const fs::path& folder, const WorldsOptions& options,
+                  const std::vector<suite::PlannedScenario>& plan, const suite::SuiteResult& result,
+                  std::span<const suite::SuiteResult> others) {
+  fs::create_directories(folder / report::kSheetsFolder);
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    check_interrupted();
+    write_sheet(folder, plan[i], result.scenarios[i]);
+  }
+  const worlds::Split& split = worlds::split(options.split);
+  report::write_worlds_page(folder, fmt::format("The split {} is {}.", split.name, split.purpose),
+                            result, others);
 }
 
 }  // namespace lcs::tools

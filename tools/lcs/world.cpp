@@ -32,7 +32,8 @@ Files written to the folder, all or none:
   FAMILY_SEED.yaml   the scenario, with what it has in its first lines
   scene.xml          the scene in MJCF, which MuJoCo's own viewer opens too
   textures/, meshes/ PNG and OBJ files
-  sheet.png          with --sheet: the world at a glance
+  plan.png           the world from above: what stands, the rover's way (blue), the movers' (magenta)
+  sheet.png          with --sheet: first, middle and last picture with the truth's boxes, and the plan
 
 Exit codes:
   0  fine
@@ -80,9 +81,10 @@ ExitCode world(const WorldOptions& options) {
   worlds::write_world(drawn, folder.staging());
   if (options.sheet) {
     const auto scenario = folder.staging() / (worlds::name_of(drawn) + ".yaml");
+    const cv::Mat3b sheet =
+        worlds::contact_sheet(worlds::simulated_shots(scenario), worlds::plan(drawn), 2);
     bench::OutputFile file(folder.staging() / worlds::kSheetFile);
-    file.write(
-        sequence::encode_png(worlds::contact_sheet(drawn, scenario), sequence::PngFilter::sub));
+    file.write(sequence::encode_png(sheet, sequence::PngFilter::sub));
     file.close();
   }
   check_interrupted();

@@ -8,26 +8,6 @@
 namespace lcs::report {
 namespace {
 
-std::string escaped(std::string_view text) {
-  std::string html;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      default:
-        html += c;
-    }
-  }
-  return html;
-}
-
 /// JSON with every "<" written otherwise: "</script>" would end the element that it stands in.
 std::string embeddable(std::string_view json) {
   std::string safe;
@@ -65,6 +45,29 @@ std::string html_of(const Page& page) {
 }
 
 }  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string html;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      case '"':
+        html += "&quot;";
+        break;
+      default:
+        html += c;
+    }
+  }
+  return html;
+}
 
 void write_page(const std::filesystem::path& file, const Page& page) {
   bench::write_whole(file, [&](const std::filesystem::path& beside) {

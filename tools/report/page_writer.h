@@ -4,9 +4,13 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace lcs::report {
+
+/// Text as it stands in an element or between quotes of an attribute.
+std::string escaped(std::string_view text);
 
 struct Page {
   std::string_view title;

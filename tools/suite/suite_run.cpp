@@ -135,9 +135,9 @@ void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteRun
 }  // namespace
 
 bench::ResultFiles suite_files() {
-  bench::ResultFiles files{
-      {kSuiteFile, kJunitFile, "report.html", std::string("beside/*/") + kSuiteFile},
-      "\"detector\""};
+  bench::ResultFiles files{{kSuiteFile, kJunitFile, "report.html", "worlds.html", "worlds/*.jpg",
+                            std::string("beside/*/") + kSuiteFile},
+                           "\"detector\""};
   for (const std::string& file : bench::result_files().names) {
     for (const char* suite : {"", "beside/*/"}) {
       files.names.push_back(fmt::format("{}runs/*/seed-*/{}", suite, file));

@@ -130,25 +130,6 @@ std::vector<EgoPhase> phases_of(Draw& d, Kind kind, double duration_s, double fa
   return {first};
 }
 
-/// By the commands alone, as the simulator smooths them.
-std::vector<Stand> follow(const scenario::Scenario& s) {
-  sim::SmoothCommand command(s.ego.phases);
-  std::vector<Stand> frames;
-  Stand now{0, s.ego.start_m, s.ego.heading_rad};
-  std::int64_t steps = 0;
-  for (int k = 0; k <= s.frames; ++k) {
-    const double until = k / s.camera.rate_hz;
-    for (; kStep_s * static_cast<double>(steps) < until; ++steps) {
-      const auto v = command.at(static_cast<std::int64_t>(1e9 * kStep_s) * steps);
-      now.heading_rad += kStep_s * v.yaw_rate_radps;
-      now.at_m += kStep_s * turned(v.linear_mps, now.heading_rad);
-    }
-    now.t_s = until;
-    frames.push_back(now);
-  }
-  return frames;
-}
-
 bool stays_in(const std::vector<Stand>& frames, const Lane& lane) {
   return std::all_of(frames.begin(), frames.end(), [&](const Stand& stand) {
     const Vector2d in_lane = turned(stand.at_m - lane.start_m, -lane.heading_rad);
@@ -165,6 +146,24 @@ Box Way::box_of(const scenario::Camera& camera, const Stand& stand) const {
           .heading_rad = stand.heading_rad,
           .foot_m = 0,
           .head_m = std::max(0.45, camera.mount_position_m.z() + 0.12)};
+}
+
+Way way_of(const scenario::Scenario& s) {
+  sim::SmoothCommand command(s.ego.phases);
+  Way way;
+  Stand now{0, s.ego.start_m, s.ego.heading_rad};
+  std::int64_t steps = 0;
+  for (int k = 0; k <= s.frames; ++k) {
+    const double until = k / s.camera.rate_hz;
+    for (; kStep_s * static_cast<double>(steps) < until; ++steps) {
+      const auto v = command.at(static_cast<std::int64_t>(1e9 * kStep_s) * steps);
+      now.heading_rad += kStep_s * v.yaw_rate_radps;
+      now.at_m += kStep_s * turned(v.linear_mps, now.heading_rad);
+    }
+    now.t_s = until;
+    way.frames.push_back(now);
+  }
+  return way;
 }
 
 Way draw_rover(Kit& kit, const Lane& lane) {
@@ -199,7 +198,7 @@ Way draw_rover(Kit& kit, const Lane& lane) {
       phase.direction_rad = to(phase.direction_rad / kDegree, 0.1) * kDegree;
       phase.yaw_rate_radps = to(phase.yaw_rate_radps / kDegree, 0.1) * kDegree;
     }
-    way.frames = follow(s);
+    way = way_of(s);
     if (stays_in(way.frames, lane)) return way;
     for (EgoPhase& phase : s.ego.phases) {
       phase.speed_mps *= 0.8;

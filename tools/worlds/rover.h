@@ -33,6 +33,9 @@ struct Way {
   Box box_of(const scenario::Camera& camera, const Stand& stand) const;
 };
 
+/// As the simulator smooths the commands.
+Way way_of(const scenario::Scenario& scenario);
+
 /// Draws camera, sensors and commands into the world's scenario.
 Way draw_rover(Kit& kit, const Lane& lane);
 

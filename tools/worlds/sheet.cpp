@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <string>
 
 #include "scenarios/load.h"
-#include "sim/drive.h"
+#include "sim/actor.h"
 #include "sim/simulation.h"
 #include "tools/worlds/kit.h"
+#include "tools/worlds/rover.h"
 #include "tools/worlds/worlds.h"
 
 namespace lcs::worlds {
@@ -18,109 +20,217 @@ namespace {
 using Eigen::Vector2d;
 constexpr std::array<std::pair<int, int>, 4> kCorners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
 constexpr int kWidth = 480, kHeight = 360;
-const cv::Scalar kMoves(255, 0, 255), kStands(0, 200, 0), kRover(220, 80, 0);
+const cv::Scalar kMoves(255, 0, 255), kStands(0, 200, 0), kRover(220, 80, 0), kWall(120, 120, 120),
+    kThing(225, 225, 225), kInk(0, 0, 0), kPaper(255, 255, 255);
 
-void fit(const cv::Mat3b& picture, cv::Mat3b tile) {
-  const double scale = std::min(static_cast<double>(tile.cols) / picture.cols,
-                                static_cast<double>(tile.rows) / picture.rows);
-  const cv::Size size(static_cast<int>(picture.cols * scale),
-                      static_cast<int>(picture.rows * scale));
-  cv::resize(picture, tile(cv::Rect({0, 0}, size)), size, 0, 0, cv::INTER_AREA);
-}
-
-cv::Mat3b with_boxes(const sim::Observation& o) {
-  cv::Mat3b picture = o.image.clone();
-  for (const sim::ObjectTruth& object : o.objects) {
-    cv::rectangle(picture, {object.left, object.top}, {object.right - 1, object.bottom - 1},
-                  object.moving ? kMoves : kStands, 1);
+void write_on(cv::Mat3b& tile, const std::string& text, const cv::Point& at) {
+  for (const auto& [colour, width] : {std::pair{kPaper, 3}, {kInk, 1}}) {
+    cv::putText(tile, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.45, colour, width, cv::LINE_AA);
   }
-  return picture;
 }
 
-cv::Mat3b plan(const World& world, const sim::Drive& drive) {
-  constexpr double kMargin_px = 8;
-  std::vector<std::pair<Box, bool>> boxes;  // and whether it moves
-  Vector2d low(1e9, 1e9), high(-1e9, -1e9);
-  const auto add = [&](Box box, const Vector2d& at, const Eigen::Quaterniond& rotation,
-                       bool moves) {
-    const Vector2d ahead = (rotation * Eigen::Vector3d::UnitX()).head<2>();
-    box.centre_m = at;
-    box.heading_rad = std::atan2(ahead.y(), ahead.x());
-    boxes.emplace_back(box, moves);
-    for (const auto& [x, y] : kCorners) {
-      const Vector2d corner = point_of(box, x, y, 0).head<2>();
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
+/// As large as it fits, in the middle.
+void paint_shot(const Shot& shot, cv::Mat3b tile) {
+  const double zoom = std::min(static_cast<double>(tile.cols) / shot.picture.cols,
+                               static_cast<double>(tile.rows) / shot.picture.rows);
+  const cv::Size size(cvRound(shot.picture.cols * zoom), cvRound(shot.picture.rows * zoom));
+  const cv::Point corner((tile.cols - size.width) / 2, (tile.rows - size.height) / 2);
+  cv::Mat3b inside = tile(cv::Rect(corner, size));
+  cv::resize(shot.picture, inside, size, 0, 0, zoom < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
+  const double scale = shot.scale * zoom;
+  for (const bool moving : {false, true}) {  // what moves on top
+    for (const sim::ObjectTruth& object : shot.objects) {
+      if (object.moving != moving) continue;
+      cv::rectangle(inside, {cvRound(object.left * scale), cvRound(object.top * scale)},
+                    {cvRound(object.right * scale) - 1, cvRound(object.bottom * scale) - 1},
+                    moving ? kMoves : kStands, 1);
     }
-  };
+  }
+  write_on(inside, fmt::format("frame {}", shot.frame), {6, size.height - 8});
+}
+
+/// The part of a world that a plan shows.
+struct Extent {
+  Vector2d low = Vector2d::Constant(1e9), high = Vector2d::Constant(-1e9);
+  void add(const Vector2d& point) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+};
+
+/// What stands in a world, seen from above.
+std::vector<Box> walls_of(const World& world) {
+  std::vector<Box> boxes;
   for (const Part& part : world.setting) {
     if (part.is_solid) continue;
     Part own = part;
     own.position_m.setZero();
     own.rotation.setIdentity();
-    const Box box = bounds(world, {own});
+    Box box = bounds(world, {own});
     const double foot = box.foot_m + part.position_m.z();
     if (foot > 1.2 || box.head_m - box.foot_m < 0.2) continue;  // ceilings and marks
-    add(box, part.position_m.head<2>(), part.rotation, false);
+    const Vector2d ahead = (part.rotation * Eigen::Vector3d::UnitX()).head<2>();
+    box.centre_m = part.position_m.head<2>();
+    box.heading_rad = std::atan2(ahead.y(), ahead.x());
+    boxes.push_back(box);
   }
-  for (const Body& body : world.bodies) {
-    const bool moves =
-        std::any_of(world.scenario.actors.begin(), world.scenario.actors.end(),
-                    [&](const scenario::Actor& actor) { return actor.body == body.name; });
-    add(bounds(world, body.parts), body.position_m.head<2>(), body.rotation, moves);
+  return boxes;
+}
+
+Box box_of(const World& world, const Body& body) {
+  Box box = bounds(world, body.parts);
+  const Vector2d ahead = (body.rotation * Eigen::Vector3d::UnitX()).head<2>();
+  box.centre_m = body.position_m.head<2>();
+  box.heading_rad = std::atan2(ahead.y(), ahead.x());
+  return box;
+}
+
+const scenario::Actor* actor_of(const World& world, const Body& body) {
+  const auto& actors = world.scenario.actors;
+  const auto found = std::find_if(actors.begin(), actors.end(), [&](const scenario::Actor& actor) {
+    return actor.body == body.name;
+  });
+  return found == actors.end() ? nullptr : &*found;
+}
+
+/// Where a mover is in each frame.
+std::vector<Vector2d> path_of(const scenario::Actor& actor, const Box& at_rest, const Way& way) {
+  std::vector<Vector2d> path;
+  for (const Stand& stand : way.frames) {
+    path.push_back(sim::pose_on(actor.trajectory, {at_rest.centre_m, at_rest.heading_rad},
+                                stand.t_s - actor.start.at_s)
+                       .position_m);
   }
-  cv::Mat3b tile(kHeight, kWidth, cv::Vec3b(255, 255, 255));
-  const double scale = std::min((kWidth - 2 * kMargin_px) / (high.x() - low.x() + 1),
-                                (kHeight - 2 * kMargin_px) / (high.y() - low.y() + 1));
-  const auto pixel = [&](const Vector2d& p) {
-    return cv::Point(static_cast<int>(kMargin_px + scale * (p.x() - low.x() + 0.5)),
-                     static_cast<int>(kHeight - kMargin_px - scale * (p.y() - low.y() + 0.5)));
-  };
-  for (const auto& [box, moves] : boxes) {
-    std::vector<cv::Point> corners;
-    for (const auto& [x, y] : kCorners) {
-      corners.push_back(pixel(point_of(box, x, y, 0).head<2>()));
-    }
-    cv::polylines(tile, corners, true, moves ? kMoves : cv::Scalar(120, 120, 120), 1);
+  return path;
+}
+
+/// On round numbers of metres, as long as a fifth of the tile at the most.
+void paint_scale(cv::Mat3b& tile, double pixels_per_m) {
+  double length_m = 0.1;
+  for (const double next_m : {0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
+    if (next_m * pixels_per_m <= 0.2 * kWidth) length_m = next_m;
   }
-  for (const sim::Observation& o : drive.frames) {
-    cv::circle(tile, pixel(o.truth.now.T_WC.p.head<2>()), 2, kRover, cv::FILLED);
-    for (std::size_t i = 1; i < o.truth.now.T_WO.size(); ++i) {
-      if (!sim::moved(o.truth.now.T_WO[i], o.truth.next.T_WO[i])) continue;
-      cv::circle(tile, pixel(o.truth.now.T_WO[i].p.head<2>()), 2, kMoves, cv::FILLED);
-    }
-  }
-  for (const std::size_t k : {std::size_t{0}, drive.frames.size() - 1}) {  // where it looks
-    const sim::Pose& T_WC = drive.frames[k].truth.now.T_WC;
-    cv::arrowedLine(tile, pixel(T_WC.p.head<2>()),
-                    pixel(T_WC.p.head<2>() + 0.8 * T_WC.R.col(2).head<2>()), kRover, 1);
-  }
-  return tile;
+  const cv::Point end(kWidth - 10, kHeight - 10);
+  const cv::Point begin(end.x - cvRound(length_m * pixels_per_m), end.y);
+  cv::line(tile, begin, end, kInk, 2);
+  write_on(tile, fmt::format("{} m", length_m), {begin.x, begin.y - 6});
 }
 
 }  // namespace
 
-cv::Mat3b contact_sheet(const World& world, const std::filesystem::path& file) {
-  const scenario::Scenario scenario = scenario::load(file);
-  cv::Mat3b sheet(2 * kHeight, 2 * kWidth, cv::Vec3b(255, 255, 255));
-  sim::Simulation simulation(scenario);
-  int tile = 0;
-  for (int k = 0; k < scenario.frames; ++k) {
-    if (k != 0 && k != scenario.frames / 2 && k != scenario.frames - 1) {
-      simulation.skip();
-      continue;
-    }
-    fit(with_boxes(*simulation.next()),
-        sheet(cv::Rect(tile % 2 * kWidth, tile / 2 * kHeight, kWidth, kHeight)));
-    ++tile;
+cv::Mat3b plan(const World& world) {
+  constexpr double kMargin_px = 8, kAhead_m = 6, kAround_m = 2;
+  const Way way = way_of(world.scenario);
+  const scenario::Camera& camera = world.scenario.camera;
+  const std::vector<Box> walls = walls_of(world);
+
+  Extent all, shown;
+  const auto add_box = [&](const Box& box) {
+    for (const auto& [x, y] : kCorners) all.add(point_of(box, x, y, 0).head<2>());
+  };
+  for (const Box& wall : walls) add_box(wall);
+  for (const Stand& stand : way.frames) {
+    shown.add(stand.at_m);
+    shown.add(stand.at_m + kAhead_m * towards(stand.heading_rad));
   }
-  cv::Mat3b above = plan(world, sim::drive(scenario));
-  cv::putText(above,
-              fmt::format("{}: {}x{}, {} Hz, {} frames", name_of(world), scenario.camera.width_px,
-                          scenario.camera.height_px, scenario.camera.rate_hz, scenario.frames),
-              {8, 14}, cv::FONT_HERSHEY_SIMPLEX, 0.45, {0, 0, 0}, 1, cv::LINE_AA);
-  above.copyTo(sheet(cv::Rect(kWidth, kHeight, kWidth, kHeight)));
+  struct Standing {
+    Box box;
+    std::vector<Vector2d> path;  // of a mover
+  };
+  std::vector<Standing> things;
+  for (const Body& body : world.bodies) {
+    Standing& thing = things.emplace_back();
+    thing.box = box_of(world, body);
+    add_box(thing.box);
+    if (const scenario::Actor* actor = actor_of(world, body)) {
+      thing.path = path_of(*actor, thing.box, way);
+    }
+    for (const Vector2d& point : thing.path) shown.add(point);
+  }
+  all.add(shown.low);
+  all.add(shown.high);
+  shown.low = (shown.low - Vector2d::Constant(kAround_m)).cwiseMax(all.low);
+  shown.high = (shown.high + Vector2d::Constant(kAround_m)).cwiseMin(all.high);
+
+  cv::Mat3b tile(kHeight, kWidth, cv::Vec3b(255, 255, 255));
+  const Vector2d middle = (shown.low + shown.high) / 2, size = shown.high - shown.low;
+  const double scale = std::min((kWidth - 2 * kMargin_px) / std::max(size.x(), 1.0),
+                                (kHeight - 2 * kMargin_px) / std::max(size.y(), 1.0));
+  const auto pixel = [&](const Vector2d& p) {
+    return cv::Point(cvRound(kWidth / 2.0 + scale * (p.x() - middle.x())),
+                     cvRound(kHeight / 2.0 - scale * (p.y() - middle.y())));
+  };
+  const auto outline = [&](const Box& box) {
+    std::vector<cv::Point> corners;
+    for (const auto& [x, y] : kCorners) {
+      corners.push_back(pixel(point_of(box, x, y, 0).head<2>()));
+    }
+    return corners;
+  };
+  for (const Box& wall : walls) cv::polylines(tile, outline(wall), true, kWall, 1, cv::LINE_AA);
+  for (const Standing& thing : things) {
+    if (thing.path.empty()) cv::fillConvexPoly(tile, outline(thing.box), kThing);
+    cv::polylines(tile, outline(thing.box), true, thing.path.empty() ? kWall : kMoves, 1,
+                  cv::LINE_AA);
+  }
+  const double half_fov_rad =
+      std::atan(std::tan(camera.fovy_rad / 2) * camera.width_px / camera.height_px);
+  for (const Stand* stand : {&way.frames.front(), &way.frames.back()}) {
+    const Vector2d eye = camera_at(camera, *stand, 0).head<2>();
+    for (const double side : {-1.0, 1.0}) {
+      cv::line(tile, pixel(eye),
+               pixel(eye + 1.5 * towards(stand->heading_rad + side * half_fov_rad)), kRover, 1,
+               cv::LINE_AA);
+    }
+  }
+  for (const Stand& stand : way.frames) {
+    cv::circle(tile, pixel(camera_at(camera, stand, 0).head<2>()), 2, kRover, cv::FILLED);
+  }
+  for (const Standing& thing : things) {
+    for (std::size_t k = 0; k + 1 < thing.path.size(); ++k) {
+      if ((thing.path[k + 1] - thing.path[k]).norm() < 1e-4) continue;
+      cv::circle(tile, pixel(thing.path[k]), 2, kMoves, cv::FILLED);
+    }
+  }
+  paint_scale(tile, scale);
+  write_on(tile,
+           fmt::format("{}: {}x{}, {} Hz, {} frames", name_of(world), camera.width_px,
+                       camera.height_px, camera.rate_hz, world.scenario.frames),
+           {8, 14});
+  return tile;
+}
+
+std::array<int, 3> frames_shown(int frames) {
+  return {0, frames / 2, frames - 1};
+}
+
+cv::Mat3b contact_sheet(const Shots& shots, const cv::Mat3b& plan, int columns) {
+  const int tiles = static_cast<int>(shots.size()) + 1;
+  cv::Mat3b sheet((tiles + columns - 1) / columns * kHeight, columns * kWidth,
+                  cv::Vec3b(255, 255, 255));
+  const auto tile = [&](int place) {
+    return cv::Mat3b(
+        sheet(cv::Rect(place % columns * kWidth, place / columns * kHeight, kWidth, kHeight)));
+  };
+  int place = 0;
+  for (const Shot& shot : shots) paint_shot(shot, tile(place++));
+  if (plan.size() == cv::Size(kWidth, kHeight)) plan.copyTo(tile(place));
   return sheet;
+}
+
+Shots simulated_shots(const std::filesystem::path& file) {
+  const scenario::Scenario scenario = scenario::load(file);
+  const std::array<int, 3> shown = frames_shown(scenario.frames);
+  sim::Simulation simulation(scenario);
+  Shots shots;
+  int k = 0;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    for (; k < shown[i]; ++k) simulation.skip();
+    const sim::Observation o = *simulation.next();
+    ++k;
+    shots[i] = {shown[i], o.image.clone(), 1, o.objects};
+  }
+  return shots;
 }
 
 }  // namespace lcs::worlds

@@ -182,7 +182,9 @@ const std::vector<std::string>& all_features() {
 
 const std::vector<Split>& splits() {
   static const std::vector<Split> all{
-      {"train", 1, 999'999}, {"validate", 1'000'000, 1'999'999}, {"test", 2'000'000, 2'999'999}};
+      {"train", 1, 999'999, "to learn from: parameters are chosen here"},
+      {"validate", 1'000'000, 1'999'999, "to see whether what was learnt holds elsewhere"},
+      {"test", 2'000'000, 2'999'999, "to state figures: nothing is chosen by it"}};
   return all;
 }
 

@@ -25,6 +25,7 @@ const std::vector<std::string>& all_features();
 struct Split {
   std::string_view name;
   std::uint64_t first_seed, last_seed;
+  std::string_view purpose;
 };
 const std::vector<Split>& splits();
 /// \throws std::invalid_argument for an unknown name, naming the known ones.
@@ -51,14 +52,25 @@ World draw_world(const Choice& choice, const std::vector<std::string>& pictures 
 /// "room_7".
 std::string name_of(const World& world);
 
-/// Its contact sheet (sheet.h), where one was asked for.
+/// The plan from above, and a contact sheet where one was asked for (sheet.h).
+inline constexpr const char* kPlanFile = "plan.png";
 inline constexpr const char* kSheetFile = "sheet.png";
 
 /// Files that a world's folder may hold, as `bench::OutputFolder` takes them.
 bench::ResultFiles world_files();
 
-/// Writes NAME.yaml, scene.xml, textures/ and meshes/ into a folder. \throws bench::OutputError
+/// Writes NAME.yaml, scene.xml, plan.png, textures/ and meshes/ into a folder.
+/// \throws bench::OutputError
 void write_world(const World& world, const std::filesystem::path& folder);
+
+/// What the first lines of a world's scenario file say of how it was drawn.
+struct Origin {
+  std::string family;
+  std::uint64_t again = 0;  ///< worlds of this seed that were thrown away before this one
+  std::vector<std::string> features;
+};
+/// What the lines do not say, as after an edit, is left empty. \throws scenario::Error
+Origin origin_of(const std::filesystem::path& scenario);
 
 /// Where the scenario file of a world is kept, in a folder of worlds: named by what it is made of,
 /// this program's generator, family and seed.

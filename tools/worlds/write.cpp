@@ -3,12 +3,15 @@
 #include <fmt/ranges.h>
 
 #include <array>
+#include <charconv>
 #include <filesystem>
 #include <numbers>
 
+#include "scenarios/input_file.h"
 #include "tools/bench/output_file.h"
 #include "tools/sequence/png.h"
 #include "tools/worlds/meshes.h"
+#include "tools/worlds/sheet.h"
 #include "tools/worlds/worlds.h"
 
 namespace lcs::worlds {
@@ -16,6 +19,10 @@ namespace {
 
 using Eigen::Vector3d;
 constexpr double kDegree = std::numbers::pi / 180;
+
+/// How a scenario file begins, between which its family, attempts and features stand.
+constexpr std::string_view kWritten = "# Written by `lcs world ", kAgain = "# Drawn again ",
+                           kTimes = " times.", kHas = "# It has: ";
 
 void write_file(const std::filesystem::path& path, std::string_view text) {
   bench::OutputFile file(path);
@@ -174,10 +181,9 @@ std::string motion_text(const scenario::EgoPhase& phase, std::string_view indent
 
 std::string scenario_text(const World& world) {
   const scenario::Scenario& s = world.scenario;
-  std::string text =
-      fmt::format("# Written by `lcs world {} --seed {}`.\n", world.family, world.seed);
-  if (world.attempt > 0) text += fmt::format("# Drawn again {} times.\n", world.attempt);
-  text += fmt::format("# It has: {}.\n", fmt::join(world.features, ", "));
+  std::string text = fmt::format("{}{} --seed {}`.\n", kWritten, world.family, world.seed);
+  if (world.attempt > 0) text += fmt::format("{}{}{}\n", kAgain, world.attempt, kTimes);
+  text += fmt::format("{}{}.\n", kHas, fmt::join(world.features, ", "));
   text += fmt::format("purpose: {}\ngroups: [{}]\nscene: scene.xml\nseed: {}\nframes: {}\n",
                       s.purpose, fmt::join(s.groups, ", "), s.seed, s.frames);
   text += "ego:\n";
@@ -233,7 +239,8 @@ std::string scenario_text(const World& world) {
 }  // namespace
 
 bench::ResultFiles world_files() {
-  return {{"scene.xml", "*.yaml", "textures/*.png", "meshes/*.obj", kSheetFile}, "<mujoco"};
+  return {{"scene.xml", "*.yaml", "textures/*.png", "meshes/*.obj", kPlanFile, kSheetFile},
+          "<mujoco"};
 }
 
 void write_world(const World& world, const std::filesystem::path& folder) {
@@ -246,8 +253,37 @@ void write_world(const World& world, const std::filesystem::path& folder) {
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {
     write_file(folder / "meshes" / fmt::format("mesh_{}.obj", i), obj_text(world.meshes[i]));
   }
+  write_file(folder / kPlanFile, sequence::encode_png(plan(world), sequence::PngFilter::up));
   write_file(folder / "scene.xml", scene_text(world));
   write_file(folder / (name_of(world) + ".yaml"), scenario_text(world));
+}
+
+Origin origin_of(const std::filesystem::path& scenario) {
+  constexpr scenario::FileKind kScenario{scenario::kMebibyte, "draw the world again"};
+  scenario::InputFile file(scenario, kScenario);
+  Origin origin;
+  std::string line;
+  while (file.next_line(line) && line.starts_with('#')) {
+    std::string_view rest = line;
+    const auto follows = [&](std::string_view begin) {
+      if (!rest.starts_with(begin)) return false;
+      rest.remove_prefix(begin.size());
+      return true;
+    };
+    if (follows(kWritten)) {
+      origin.family = rest.substr(0, rest.find(' '));
+    } else if (follows(kAgain)) {
+      std::from_chars(rest.data(), rest.data() + rest.size(), origin.again);
+    } else if (follows(kHas)) {
+      rest = rest.substr(0, rest.rfind('.'));
+      while (!rest.empty()) {
+        const std::size_t comma = rest.find(", ");
+        origin.features.emplace_back(rest.substr(0, comma));
+        rest = comma == rest.npos ? "" : rest.substr(comma + 2);
+      }
+    }
+  }
+  return origin;
 }
 
 }  // namespace lcs::worlds

@@ -1,0 +1,238 @@
+#include "tools/report/worlds_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "tools/bench/output_file.h"
+#include "tools/bench/statistics.h"
+#include "tools/report/page_template.h"
+#include "tools/report/page_writer.h"
+#include "tools/report/report_page.h"
+#include "tools/suite/interval.h"
+#include "tools/suite/summary.h"
+
+namespace lcs::report {
+namespace {
+
+namespace fs = std::filesystem;
+using suite::ScenarioResult;
+using suite::SuiteResult;
+
+constexpr const char* kStyle = R"(
+article { border-top: 1px solid var(--line); padding: 0.6rem 0 1rem; }
+article h3 { margin: 0 0 0.3rem; display: flex; flex-wrap: wrap; gap: 0.1rem 0.9rem; align-items: baseline; }
+article h3 span { font-weight: 400; font-size: 0.85rem; color: var(--quiet); }
+article img { width: 100%; height: auto; display: block; background: #fff; border-radius: 4px; }
+article .beside { display: flex; flex-wrap: wrap; gap: 0.4rem 2.4rem; margin-top: 0.4rem; }
+article .words { flex: 1 1 22rem; font-size: 0.85rem; }
+article .words p { margin: 0.15rem 0; }
+article table { font-size: 0.85rem; }
+article td, article th { padding: 0.1rem 0.5rem; }
+.feature { display: inline-block; padding: 0 0.5em; margin: 0 0.2em 0.2em 0; border-radius: 0.7em; background: var(--mark); white-space: nowrap; }
+.moves { color: #d000d0; } .stands { color: #0a8f0a; } .rover { color: #0050dc; }
+nav a { margin-right: 0.9em; }
+)";
+
+struct Column {
+  const char* header;
+  std::string_view figure;
+  int decimals;
+};
+constexpr Column kColumns[] = {
+    {"F1", "rebel.f1", 2},
+    {"Precision", "rebel.precision", 2},
+    {"Recall", "rebel.recall", 2},
+    {"Objects found", "rebel.object_recall", 2},
+    {"False objects a 100 frames", "rebel.false_objects_per_100_frames", 1},
+    {"Squares' recall", "square.recall_50", 2},
+};
+constexpr std::string_view kCorners = "dimension.corners_mean", kFrames = "frames";
+
+/// The worlds of a family, or one alone.
+using Worlds = std::vector<const ScenarioResult*>;
+
+std::vector<double> figures_of(const SuiteResult& by, const Worlds& worlds,
+                               std::string_view figure) {
+  std::vector<double> figures;
+  for (const ScenarioResult* world : worlds) {
+    if (const auto value = suite::mean_over_seeds(by, world->name, figure)) {
+      figures.push_back(*value);
+    }
+  }
+  return figures;
+}
+
+std::string cell(const std::vector<double>& figures, int decimals) {
+  if (figures.empty()) return "<td class=\"nothing\">–</td>";
+  const suite::Interval mean = suite::interval_of(figures);
+  std::string text = fmt::format("<td>{:.{}f}", mean.mean, decimals);
+  if (mean.half)
+    text += fmt::format("<span class=\"spread\">±{:.{}f}</span>", *mean.half, decimals);
+  return text + "</td>";
+}
+
+class PageText {
+ public:
+  PageText(const fs::path& folder, const SuiteResult& suite, std::span<const SuiteResult> others)
+      : folder_(folder), suite_(suite), detectors_{&suite} {
+    for (const SuiteResult& other : others) detectors_.push_back(&other);
+    for (const ScenarioResult& scenario : suite.scenarios) {
+      const std::string family = family_of(scenario);
+      const auto found = std::find_if(families_.begin(), families_.end(),
+                                      [&](const auto& each) { return each.first == family; });
+      (found == families_.end() ? families_.emplace_back(family, Worlds{}) : *found)
+          .second.push_back(&scenario);
+      all_.push_back(&scenario);
+    }
+  }
+
+  std::string html(const std::string& about) {
+    add("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+        "<title>lcs: worlds</title>\n<style>\n{}{}</style>\n</head>\n<body>\n",
+        kPageCss, kStyle);
+    head(about);
+    for (const auto& [family, worlds] : families_) {
+      add("<section id=\"{0}\">\n<h2>{0}</h2>\n<p class=\"facts\"><span>{1} {2}</span>",
+          escaped(family), worlds.size(), worlds.size() == 1 ? "world" : "worlds");
+      say(worlds, kCorners, "corners a frame");
+      add("</p>\n");
+      table(worlds);
+      for (const ScenarioResult* world : worlds) article(*world);
+      add("</section>\n");
+    }
+    add("</body>\n</html>\n");
+    return std::move(text_);
+  }
+
+ private:
+  template <class... Args>
+  void add(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+  }
+
+  static std::string family_of(const ScenarioResult& scenario) {
+    return scenario.drawn && !scenario.drawn->family.empty() ? scenario.drawn->family : "others";
+  }
+
+  void head(const std::string& about) {
+    const auto again = std::count_if(all_.begin(), all_.end(), [](const ScenarioResult* world) {
+      return world->drawn && world->drawn->again > 0;
+    });
+    add("<header>\n<h1>Worlds</h1>\n<p>{}</p>\n<div class=\"facts\"><span><b>{}</b> worlds</span>"
+        "<span><b>{}</b> drawn again</span><span>{}</span>",
+        escaped(about), all_.size(), again, escaped(suite_.version));
+    for (const std::string& set : suite_.sets) add("<span><code>{}</code></span>", escaped(set));
+    add("<span><a href=\"{0}\">{0}</a></span></div>\n", kReportFile);
+    add("<p class=\"small\">Pictures: first, middle and last frame, with the truth's boxes: "
+        "<b class=\"moves\">moves</b>, <b class=\"stands\">stands</b>. Plan from above, as drawn: "
+        "<b class=\"rover\">the rover's way</b> and what it sees at first and at last, "
+        "<b class=\"moves\">the movers'</b>. ±: 95 % interval of the mean over worlds.</p>\n");
+    add("<h2>F1 of rebels by family</h2>\n<div "
+        "class=\"scroll\"><table>\n<thead><tr><th>family</th>");
+    for (const SuiteResult* by : detectors_) add("<th>{}</th>", escaped(by->detector));
+    add("</tr></thead>\n<tbody>\n");
+    for (const auto& [family, worlds] : families_) {
+      add("<tr><td><a href=\"#{0}\">{0}</a></td>", escaped(family));
+      f1_cells(worlds);
+    }
+    add("<tr><td><b>all</b></td>");
+    f1_cells(all_);
+    add("</tbody></table></div>\n</header>\n");
+  }
+
+  void f1_cells(const Worlds& worlds) {
+    for (const SuiteResult* by : detectors_) {
+      add("{}", cell(figures_of(*by, worlds, kColumns[0].figure), kColumns[0].decimals));
+    }
+    add("</tr>\n");
+  }
+
+  /// A row a detector.
+  void table(const Worlds& worlds) {
+    add("<div class=\"scroll\"><table>\n<thead><tr><th></th>");
+    for (const Column& column : kColumns) add("<th>{}</th>", column.header);
+    add("</tr></thead>\n<tbody>\n");
+    for (const SuiteResult* by : detectors_) {
+      add("<tr><td>{}</td>", escaped(by->detector));
+      for (const Column& column : kColumns) {
+        add("{}", cell(figures_of(*by, worlds, column.figure), column.decimals));
+      }
+      add("</tr>\n");
+    }
+    add("</tbody></table></div>\n");
+  }
+
+  /// What does not depend on the detector.
+  void say(const Worlds& worlds, std::string_view figure, const char* what) {
+    const auto mean = bench::mean(figures_of(suite_, worlds, figure));
+    if (mean) add("<span>{:.0f} {}</span>", *mean, what);
+  }
+
+  void article(const ScenarioResult& world) {
+    add("<article id=\"{0}\">\n<h3>{0}", escaped(world.name));
+    say({&world}, kFrames, "frames");
+    say({&world}, kCorners, "corners a frame");
+    if (std::count(world.groups.begin(), world.groups.end(), "static") > 0) {
+      add("<span>nothing moves</span>");
+    }
+    const std::uint64_t again = world.drawn ? world.drawn->again : 0;
+    if (again > 0) add("<span>drawn again {} {}</span>", again, again == 1 ? "time" : "times");
+    add("</h3>\n");
+    if (const fs::path sheet = sheet_path(world); fs::exists(folder_ / sheet)) {
+      add("<a href=\"{0}\"><img src=\"{0}\" alt=\"{1}: three pictures and the plan\" "
+          "width=\"1920\" "
+          "height=\"360\" loading=\"lazy\"/></a>\n",
+          sheet.generic_string(), escaped(world.name));
+    }
+    add("<div class=\"beside\">\n");
+    table({&world});
+    add("<div class=\"words\"><p>");
+    if (world.drawn) {
+      for (const std::string& feature : world.drawn->features) {
+        add("<span class=\"feature\">{}</span>", escaped(feature));
+      }
+    }
+    add("</p>\n");
+    for (const suite::RunResult& run : world.runs) links(world, run);
+    add("</div>\n</div>\n</article>\n");
+  }
+
+  void links(const ScenarioResult& world, const suite::RunResult& run) {
+    add("<p><code>lcs run {} --seed {}</code>", escaped(world.file.generic_string()), run.seed);
+    if (!run.error.empty()) add(" <span class=\"error\">{}</span>", escaped(run.error));
+    const auto place = &world - suite_.scenarios.data();
+    add(" <a href=\"{}#scenario-{}\">report</a>", kReportFile, place);
+    if (!run.folder.empty()) {
+      add(" <a href=\"{}/\">files</a>", escaped(run.folder.generic_string()));
+    }
+    add("</p>\n");
+  }
+
+  const fs::path& folder_;
+  const SuiteResult& suite_;
+  std::vector<const SuiteResult*> detectors_;
+  std::vector<std::pair<std::string, Worlds>> families_;
+  Worlds all_;
+  std::string text_;
+};
+
+}  // namespace
+
+fs::path sheet_path(const ScenarioResult& scenario) {
+  return fs::path(kSheetsFolder) / (scenario.name + ".jpg");
+}
+
+void write_worlds_page(const fs::path& suite_folder, const std::string& about,
+                       const SuiteResult& suite, std::span<const SuiteResult> others) {
+  bench::OutputFile file(suite_folder / kWorldsFile);
+  file.write(PageText(suite_folder, suite, others).html(about));
+  file.close();
+}
+
+}  // namespace lcs::report
