@@ -20,6 +20,7 @@
 #include "tools/bench/report.h"
 #include "tools/bench/scoring.h"
 #include "tools/bench/video.h"
+#include "tools/bench/warnings.h"
 
 namespace lcs::bench {
 namespace {
@@ -116,8 +117,8 @@ TEST_F(Run, TwoProcessesWriteTheSameLayersAndTruthToTheByte) {
 TEST_F(Run, WhatShouldNotBeInItsWorldIsToldAndARecordingTellsTheSame) {
   // The box starts a second's way before the rover.
   const std::vector<std::string> into{
-      "--set", "ego.speed=2 m/s",
-      "--set", "actors.crossing_box.trajectory.line={from: [-3 m, 0 m], heading: 90 deg, speed: 0}"};
+      "--set", "ego.speed=2 m/s", "--set",
+      "actors.crossing_box.trajectory.line={from: [-3 m, 0 m], heading: 90 deg, speed: 0}"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.end(), into.begin(), into.end());
     return run(brief(more));
@@ -131,8 +132,7 @@ TEST_F(Run, WhatShouldNotBeInItsWorldIsToldAndARecordingTellsTheSame) {
   EXPECT_EQ(metrics("a")["warnings.rover_tipped"].get<int>(), 0);
   const CommandResult again = with({"--recorded", "a", "--out", "b"});
   ASSERT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_NE(again.err.find("warning: the rover runs into actor 'crossing_box'"),
-            std::string::npos);
+  EXPECT_NE(again.err.find("warning: the rover runs into actor 'crossing_box'"), std::string::npos);
   EXPECT_EQ(metrics("b")["warnings.rover_collisions"].get<int>(), 1);
   fs::remove(folder_.path() / "a" / "warnings.json");  // as of an earlier program
   ASSERT_EQ(with({"--recorded", "a", "--out", "c"}).exit_code, 0);
@@ -143,9 +143,10 @@ TEST_F(Run, TellsASettingOfTheFilterThatNoRuleInUseAsksFor) {
   const auto err = [&](const std::string& preset) {
     return run(brief({"--set", "filter.circle.mu_0=20", "--set", "filter.preset=" + preset})).err;
   };
-  EXPECT_NE(err("default").find("warning: the filter's circle.mu_0 has no effect with preset "
-                                "default: only circle.edge_rule=paper asks for it, as in lab, cars"),
-            std::string::npos);
+  EXPECT_NE(
+      err("default").find("warning: the filter's circle.mu_0 has no effect with preset "
+                          "default: only circle.edge_rule=paper asks for it, as in lab, cars"),
+      std::string::npos);
   EXPECT_EQ(err("lab").find("has no effect"), std::string::npos);
 }
 
@@ -444,11 +445,34 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"unknown_metric",
                 {kCrossing, "--set", "criteria=[{metric: rebel.f2, min: 1}]"},
                 "rebel.f1"},
+        Mistake{"preset_that_the_detector_lacks",
+                {kCrossing, "--detector", "lcs:best"},
+                "no preset 'best'; there are default"},
+        Mistake{"nowhere_beside", {kCrossing, "--beside", "klt"}, "as klt=out/klt"},
+        Mistake{"two_in_one_folder",
+                {kCrossing, "--out", "a", "--beside", "klt=./a"},
+                "two detectors; give each a folder of its own"},
         Mistake{"recording_that_is_not_there",
                 {kCrossing, "--recorded", "nowhere"},
                 "there is no run in nowhere"},
         Mistake{"unwritable_folder", {kCrossing, "--out", "/proc/lcs"}, "/proc/lcs"}),
     [](const auto& test) { return test.param.name; });
+
+TEST_F(Run, WhoWatchesBesideOthersSaysWhatItSaysAlone) {
+  const std::vector<std::string> all{"--set",    "frames=8",         "--beside", "klt=klt",
+                                     "--beside", "lcs:lab=lab/here", "--out",    "own"};
+  const CommandResult together = run(brief(all));
+  ASSERT_EQ(together.exit_code, 0) << together.err;
+  EXPECT_EQ(entries(folder_.path()), (std::set<std::string>{"own", "klt", "lab"}));
+  for (const auto& [name, folder] :
+       {std::pair{"lcs", "own"}, {"klt", "klt"}, {"lcs:lab", "lab/here"}}) {
+    ASSERT_EQ(run(brief({"--set", "frames=8", "--detector", name, "--out", "alone"})).exit_code, 0);
+    for (const char* file : {kLayersFile, kTruthFile, kWarningsFile}) {
+      EXPECT_TRUE(read(folder_.path() / folder / file) == read(folder_.path() / "alone" / file))
+          << name << " " << file;
+    }
+  }
+}
 
 TEST_F(Run, AFolderThatHoldsSomethingElseIsRefusedAndUntouched) {
   fs::create_directory(folder_.path() / "papers");

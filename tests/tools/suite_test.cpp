@@ -224,9 +224,7 @@ TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
   EXPECT_EQ(command.exit_code, 0) << command.err;
   EXPECT_EQ(entries(out_),
             (std::set<std::string>{"suite.json", "junit.xml", "report.html", "runs", "beside"}));
-  for (const char* part : {"[2/2] klt: near seed ", "[2/2] homography: near seed "}) {
-    EXPECT_NE(command.err.find(part), std::string::npos) << part << " in\n" << command.err;
-  }
+  EXPECT_NE(command.err.find("[2/2] near seed "), std::string::npos) << command.err;
   EXPECT_EQ(result().detector, "lcs");
   for (const std::string name : {"klt", "homography"}) {
     const fs::path beside = fs::path("out") / "suite" / "beside" / name;
@@ -251,7 +249,6 @@ TEST_F(Suite, APresetBesideHasTheFiguresOfTheFilterWithThatPresetAlone) {
   const std::vector<std::string> command{"--seeds", "1", "--beside", "lcs:lab"};
   const CommandResult beside = run(command);
   ASSERT_EQ(beside.exit_code, 0) << beside.err;
-  EXPECT_NE(beside.err.find("[1/1] lcs:lab: near seed "), std::string::npos) << beside.err;
   const SuiteResult lab = result(fs::path("out") / "suite" / "beside" / "lcs:lab");
   EXPECT_EQ(lab.detector, "lcs:lab");
 

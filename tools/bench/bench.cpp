@@ -40,37 +40,53 @@ void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameR
   frame.times = times;
 }
 
-Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracker& tracker,
-                Recording& recording, const FrameSink& sink) {
+std::vector<Diagnostics> run(const scenario::Scenario& scenario, sim::Simulation& simulation,
+                             std::span<const Watcher> watchers) {
   const FastDetector detector(scenario.fast_threshold);
   const sim::Pinhole& camera = simulation.calibration().camera;
   EgoMotionFeed ego_motion(scenario, simulation.calibration());
 
   while (true) {
-    double simulate_ms = 0;
+    FrameTimes times;
     const std::optional<sim::Observation> observation =
-        timed(simulate_ms, [&] { return simulation.next(); });
+        timed(times.simulate_ms, [&] { return simulation.next(); });
     if (!observation) break;
-    FrameRecord& frame = recording.frames.emplace_back();
-    frame.index = observation->index;
-    frame.t_ns = observation->t_ns;
+    FrameRecord seen;  // by all
+    seen.index = observation->index;
+    seen.t_ns = observation->t_ns;
     const EgoMotionFeed::Motions motions = ego_motion.next(*observation);
-    frame.motion = motions.told;
-    frame.true_motion = motions.exact;
-    watch(observation->image, detector, tracker, frame);
-
-    frame.times->simulate_ms = simulate_ms;
-    frame.corner_truth = timed(frame.times->truth_ms, [&] {
-      return sim::label_corners(camera, observation->truth, frame.corners_px,
+    seen.motion = motions.told;
+    seen.true_motion = motions.exact;
+    cv::Mat1b grey;
+    cv::cvtColor(observation->image, grey, cv::COLOR_BGR2GRAY);
+    seen.corners_px = timed(times.detect_ms, [&] { return detector.detect(grey); });
+    seen.corner_truth = timed(times.truth_ms, [&] {
+      return sim::label_corners(camera, observation->truth, seen.corners_px,
                                 scenario.truth_min_depth_m);
     });
-    frame.object_truth = observation->objects;
-    sink(frame, observation->image);
+    seen.object_truth = observation->objects;
+    for (const Watcher& watcher : watchers) {
+      FrameRecord& frame = watcher.recording.frames.emplace_back(seen);
+      ask(watcher.tracker, observation->image, grey, frame);
+      frame.times->simulate_ms = times.simulate_ms;
+      frame.times->detect_ms = times.detect_ms;
+      frame.times->truth_ms = times.truth_ms;
+      watcher.sink(frame, observation->image);
+    }
   }
-  recording.warnings = simulation.warnings();
-  Diagnostics diagnostics = ego_motion.estimator().diagnostics();
-  diagnostics += tracker.diagnostics();
-  return diagnostics;
+  std::vector<Diagnostics> all;
+  for (const Watcher& watcher : watchers) {
+    watcher.recording.warnings = simulation.warnings();
+    all.push_back(ego_motion.estimator().diagnostics());
+    all.back() += watcher.tracker.diagnostics();
+  }
+  return all;
+}
+
+Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracker& tracker,
+                Recording& recording, const FrameSink& sink) {
+  const Watcher watcher{tracker, recording, sink};
+  return run(scenario, simulation, {&watcher, 1}).front();
 }
 
 }  // namespace lcs::bench

@@ -4,6 +4,8 @@
 
 #include <functional>
 #include <opencv2/core.hpp>
+#include <span>
+#include <vector>
 
 #include "filter/detect/fast.h"
 #include "scenarios/scenario.h"
@@ -29,11 +31,22 @@ void watch(const cv::Mat3b& image, const FastDetector& detector, Tracker& tracke
 /// \param grey,image may be empty for a tracker that does not look at them.
 void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame);
 
-/// Runs the simulation to its end.
+/// One of those who watch a run.
+struct Watcher {
+  Tracker& tracker;
+  Recording& recording;  ///< is given every frame before the sink sees it, and the warnings last
+  FrameSink sink;
+};
+
+/// Runs the simulation to its end. Who watches beside others gets the same frames as alone.
 /// \param scenario that the simulation was made of.
-/// \param recording is given every frame before the sink sees it, and the warnings in the end.
-/// \return what was wrong with the sensors' readings and with what the tracker was told.
-/// \throws sim::PhysicsError, and what the tracker and the sink throw.
+/// \return for each watcher, what was wrong with the sensors' readings and with what its tracker
+/// was
+///   told.
+/// \throws sim::PhysicsError, and what trackers and sinks throw.
+std::vector<Diagnostics> run(const scenario::Scenario& scenario, sim::Simulation& simulation,
+                             std::span<const Watcher> watchers);
+/// Of one alone.
 Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracker& tracker,
                 Recording& recording, const FrameSink& sink);
 

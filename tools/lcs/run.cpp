@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <set>
+#include <span>
 #include <vector>
 
 #include "scenarios/load.h"
@@ -31,6 +33,7 @@ constexpr const char* kHelp = R"(Examples:
   lcs run scenarios/crossing.yaml --seed 7 --out out/seed7
   lcs run scenarios/lab.yaml --set "ego.speed=10 cm/s" --set filter.constellation.radius=60
   lcs run scenarios/crossing.yaml --detector klt --out out/crossing-klt
+  lcs run scenarios/crossing.yaml --beside klt=out/crossing-klt     both on the same frames, made once
   lcs run scenarios/crossing.yaml --set filter.constellation.radius=60 --recorded out/crossing --no-video
                                      the filter anew on the frames of an earlier run, in a moment
 
@@ -73,22 +76,19 @@ struct Frames {
   sim::Pinhole camera;
   bench::Recording recording;  ///< without frames yet
   const bench::FramePictures* pictures = nullptr;
-  std::function<Diagnostics(bench::Tracker&, bench::Recording&, const bench::FrameSink&)> run;
+  std::function<std::vector<Diagnostics>(std::span<const bench::Watcher>)> run;
 };
 
 Frames simulated(const scenario::Scenario& scenario) {
   const auto simulation = std::make_shared<sim::Simulation>(scenario);
   return {.camera = simulation->calibration().camera,
           .recording = bench::begin_recording(scenario, *simulation),
-          .run = [&scenario, simulation](bench::Tracker& tracker, bench::Recording& recording,
-                                         const bench::FrameSink& sink) {
-            return bench::run(scenario, *simulation, tracker, recording, sink);
+          .run = [&scenario, simulation](std::span<const bench::Watcher> watchers) {
+            return bench::run(scenario, *simulation, watchers);
           }};
 }
 
-Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
-                const comparators::Detector& detector) {
-  comparators::require_corners_suffice(detector);
+Frames recorded(const RunOptions& options, const scenario::Scenario& scenario) {
   const auto earlier = std::make_shared<bench::EarlierRun>(options.recorded, scenario);
   const bool with_images = !options.no_video;
   if (with_images && !earlier->pictures()) {
@@ -100,10 +100,48 @@ Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
   return {.camera = earlier->camera(),
           .recording = earlier->begin(),
           .pictures = earlier->pictures(),
-          .run = [earlier, with_images](bench::Tracker& tracker, bench::Recording& recording,
-                                        const bench::FrameSink& sink) {
-            return earlier->run(tracker, recording, with_images, sink);
+          .run = [earlier, with_images](std::span<const bench::Watcher> watchers) {
+            std::vector<Diagnostics> all;
+            for (const bench::Watcher& watcher : watchers) {
+              all.push_back(
+                  earlier->run(watcher.tracker, watcher.recording, with_images, watcher.sink));
+            }
+            return all;
           }};
+}
+
+/// A detector that watches, and where what it says goes.
+struct Watching {
+  comparators::Wanted wanted;
+  std::filesystem::path target;
+  std::unique_ptr<bench::Tracker> tracker = {};
+  bench::Recording recording = {};
+  std::unique_ptr<bench::Result> result = {};
+};
+
+/// The run's own detector and those beside it.
+std::vector<Watching> watching(const RunOptions& options, const scenario::Scenario& scenario) {
+  std::vector<Watching> all;
+  all.push_back({comparators::wanted(options.detector), target_of(options, scenario)});
+  for (const std::string& beside : options.beside) {
+    const std::size_t equals = beside.find('=');
+    if (equals == std::string::npos || equals + 1 == beside.size()) {
+      throw std::invalid_argument(fmt::format(
+          "--beside {}: give a detector and the folder for its results, as klt=out/klt", beside));
+    }
+    all.push_back({comparators::wanted(beside.substr(0, equals)), beside.substr(equals + 1)});
+  }
+  std::set<std::filesystem::path> targets;
+  for (const Watching& one : all) {
+    if (!options.recorded.empty()) comparators::require_corners_suffice(one.wanted.detector);
+    if (!targets.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(one.target)))
+             .second) {
+      throw std::invalid_argument(
+          fmt::format("{} is to hold the results of two detectors; give each a folder of its own",
+                      one.target.string()));
+    }
+  }
+  return all;
 }
 
 /// One line each, on stderr. \return whether a required one is among them.
@@ -137,6 +175,13 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
       ->type_name("NAME");
   command
       .add_option(
+          "--beside", options.beside,
+          "Let this detector watch the same frames too, and write its figures and layers to "
+          "the folder; may be repeated")
+      ->type_name("NAME=DIR")
+      ->allow_extra_args(false);
+  command
+      .add_option(
           "--recorded", options.recorded,
           "Take corners, motion and truth from an earlier run of the same scenario and seed, "
           "instead of simulating")
@@ -151,45 +196,62 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
 }
 
 ExitCode run(const RunOptions& options) {
-  const comparators::Wanted wanted = comparators::wanted(options.detector);
-  const comparators::Detector& detector = wanted.detector;
   // All that can be wrong with what was asked for is found before any output is begun.
-  scenario::Scenario scenario =
+  const scenario::Scenario scenario =
       scenario::load(options.scenario, {.sets = options.sets, .seed = options.seed});
+  std::vector<Watching> all = watching(options, scenario);
+  Watching& own = all.front();
   // whoever reads them: what is wrong is told
   std::vector<std::string> idle_settings = bench::idle_settings(scenario);
-  if (!wanted.preset.empty()) idle_settings = comparators::apply_preset(wanted, scenario);
   bench::require_known_metrics(scenario.criteria);
   const Frames frames =
-      options.recorded.empty() ? simulated(scenario) : recorded(options, scenario, detector);
-  const std::unique_ptr<bench::Tracker> tracker = detector.make(frames.camera, scenario);
-
-  bench::Recording recording = frames.recording;
-  recording.detector = {wanted.name, detector.layered};
-  bench::Result result(
-      target_of(options, scenario), recording, {frames.camera.width_px, frames.camera.height_px},
-      {.video_frames_per_second =
-           options.no_video ? std::nullopt : std::optional(scenario.camera.rate_hz),
-       .events = options.events,
-       .kept = frames.pictures});
+      options.recorded.empty() ? simulated(scenario) : recorded(options, scenario);
+  for (Watching& one : all) {
+    scenario::Scenario as_taken = scenario;
+    const auto lines = comparators::apply_preset(one.wanted, as_taken);
+    if (&one == &own && !one.wanted.preset.empty()) idle_settings = lines;
+    one.tracker = one.wanted.detector.make(frames.camera, as_taken);
+    one.recording = frames.recording;
+    one.recording.detector = {one.wanted.name, one.wanted.detector.layered};
+  }
+  for (Watching& one : all) {
+    bench::ResultOptions what;
+    if (&one == &own) {
+      if (!options.no_video) what.video_frames_per_second = scenario.camera.rate_hz;
+      what.events = options.events;
+      what.kept = frames.pictures;
+    }
+    one.result = std::make_unique<bench::Result>(
+        one.target, one.recording, cv::Size(frames.camera.width_px, frames.camera.height_px), what);
+  }
   warn(idle_settings);
-  Diagnostics diagnostics;
+  std::vector<Diagnostics> diagnostics;
   {
     Progress progress(scenario.name, scenario.frames, options.quiet);
-    diagnostics = frames.run(*tracker, recording,
-                             [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
-                               check_interrupted();
-                               result.add(frame, image);
-                               progress.show(frame.index + 1);
-                             });
+    std::vector<bench::Watcher> watchers;
+    for (Watching& one : all) {
+      watchers.push_back({*one.tracker, one.recording,
+                          [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
+                            check_interrupted();
+                            one.result->add(frame, image);
+                            progress.show(frame.index + 1);
+                          }});
+    }
+    diagnostics = frames.run(watchers);
   }
   check_interrupted();
-  const bench::Metrics metrics = result.finish(recording);
+  std::vector<bench::Metrics> metrics;
+  for (Watching& one : all) metrics.push_back(one.result->finish(one.recording));
 
-  warn(bench::lines_of(bench::warnings_of(recording)));
-  for (const std::string& line : diagnostics.lines()) tell(line);
-  if (!options.quiet) print_result(scenario, wanted.name, metrics, result.target());
-  const bool failed = report_failures(bench::failed_criteria(scenario.criteria, metrics));
+  warn(bench::lines_of(bench::warnings_of(own.recording)));
+  for (const std::string& line : diagnostics.front().lines()) tell(line);
+  if (!options.quiet) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      print_result(scenario, all[i].wanted.name, metrics[i], all[i].result->target());
+    }
+  }
+  // which are the filter's, and so the run's own detector's
+  const bool failed = report_failures(bench::failed_criteria(scenario.criteria, metrics.front()));
   return failed ? kCriterionFailed : kFine;
 }
 

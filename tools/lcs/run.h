@@ -19,6 +19,7 @@ struct RunOptions {
   std::optional<std::uint64_t> seed;
   std::vector<std::string> sets;  ///< "key=value"
   std::string detector = "lcs";
+  std::vector<std::string> beside;  ///< "detector=folder": others that watch the same frames
   std::string recorded;  ///< folder of an earlier run to take the frames from; "": simulate
   bool no_video = false;
   bool events = false;

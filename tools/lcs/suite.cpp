@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "tools/bench/output_folder.h"
 #include "tools/bench/tracker.h"
@@ -62,7 +65,8 @@ Files written to the folder, all or none:
   worlds.html, worlds/   of worlds: three pictures and the plan of each, with its figures
   junit.xml     a test case a criterion, for continuous integration
   runs/NAME/seed-N/   what `lcs run --events` leaves, without a video
-  beside/DETECTOR/    with --beside: suite.json and runs/ of that detector, for lcs compare
+  beside/DETECTOR/    with --beside: suite.json and runs/ of that detector, without events and
+                      pictures, for lcs compare
 
 Exit codes:
   0  fine
@@ -151,6 +155,11 @@ void require_others(const SuiteOptions& options) {
   }
 }
 
+/// Of a detector's results, in the suite's folder.
+fs::path part_of(const std::string& detector, const SuiteOptions& options) {
+  return detector == options.detector ? fs::path() : fs::path("beside") / detector;
+}
+
 ExitCode exit_code(suite::Outcome outcome) {
   switch (outcome) {
     case suite::Outcome::passed:
@@ -213,9 +222,8 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
       ->type_name("DIR");
   command
       .add_option("--beside", options.beside,
-                  "Run this detector too on the same scenarios, as klt or lcs:lab, and print F1 "
-                  "beside each "
-                  "other; may be repeated")
+                  "Run this detector too on the same frames, as klt or lcs:lab, and print F1 beside "
+                  "each other; may be repeated")
       ->type_name("NAME")
       ->allow_extra_args(false);
   add_set_option(command, options.sets, "Set a value in every scenario, as \"camera.rate=5 Hz\"");
@@ -258,39 +266,49 @@ ExitCode suite(const SuiteOptions& options) {
 
   bench::OutputFolder folder(options.out, suite::suite_files());
   SuiteProgress progress(options.quiet);
-  const auto run = [&](const std::string& name, const fs::path& recordings, bool judged,
-                       const fs::path& part) {
-    fs::create_directories(folder.staging() / part);
-    if (!options.beside.empty()) progress.watched_by(name);
-    suite::SuiteResult result = suite::run_suite(
-        plan,
-        {.detector = name,
-         .sets = options.sets,
-         .recorded = recordings,
-         .version = version_line(),
-         .judged = judged,
-         .jobs = jobs_at_once(options),
-         .folder = folder.staging() / part,
-         .former = former_suite(folder.target() / part),
-         .on_run = [&](const suite::SuiteProgress& done, const suite::ScenarioResult& scenario,
-                       const suite::RunResult& of) { progress.finished(done, scenario, of); },
-         .on_tick =
-             [&](const suite::SuiteProgress& now) {
-               check_interrupted();
-               progress.show(now);
-             }});
+  const auto run = [&](const std::vector<std::string>& detectors, const fs::path& recordings) {
+    std::vector<suite::SuiteWatcher> watchers;
+    for (const std::string& name : detectors) {
+      const bool is_own = name == options.detector;
+      watchers.push_back({name, folder.staging() / part_of(name, options), is_own});
+      fs::create_directories(watchers.back().folder);
+    }
+    std::vector<suite::SuiteResult> results = suite::run_suite(
+        plan, {.watchers = watchers,
+               .sets = options.sets,
+               .recorded = recordings,
+               .version = version_line(),
+               .jobs = jobs_at_once(options),
+               .former = former_suite(folder.target() / part_of(detectors.front(), options)),
+               .on_run =
+                   [&](const suite::SuiteProgress& done, const std::string& scenario,
+                       std::span<const suite::RunResult* const> runs) {
+                     progress.finished(done, scenario, detectors, runs);
+                   },
+               .on_tick =
+                   [&](const suite::SuiteProgress& now) {
+                     check_interrupted();
+                     progress.show(now);
+                   }});
     check_interrupted();
-    if (of_worlds) add_origins(result);
-    return result;
+    if (of_worlds) {
+      for (suite::SuiteResult& result : results) add_origins(result);
+    }
+    return results;
   };
-  suite::SuiteResult result = run(options.detector, options.recorded, true, "");
-  std::vector<suite::SuiteResult> others;
+  // What looks at pictures cannot watch a recording.
+  std::vector<std::string> with_own{options.detector}, apart;
   for (const std::string& name : options.beside) {
-    const fs::path part = fs::path("beside") / name;
-    // what looks at no picture need not have them made again
     const bool looks = comparators::wanted(name).detector.sees_pictures;
-    others.push_back(run(name, looks ? fs::path() : folder.staging(), false, part));
-    suite::write_suite(folder.staging() / part / suite::kSuiteFile, others.back());
+    (looks && !options.recorded.empty() ? apart : with_own).push_back(name);
+  }
+  std::vector<suite::SuiteResult> others = run(with_own, options.recorded);
+  suite::SuiteResult result = std::move(others.front());
+  others.erase(others.begin());
+  if (!apart.empty()) std::ranges::move(run(apart, ""), std::back_inserter(others));
+  for (const suite::SuiteResult& other : others) {
+    suite::write_suite(folder.staging() / part_of(other.detector, options) / suite::kSuiteFile,
+                       other);
   }
   progress.wipe();
   result.recorded = recorded;

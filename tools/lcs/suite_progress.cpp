@@ -48,14 +48,21 @@ void SuiteProgress::wipe() {
   is_shown_ = false;
 }
 
-void SuiteProgress::finished(const suite::SuiteProgress& progress,
-                             const suite::ScenarioResult& scenario, const suite::RunResult& run) {
+void SuiteProgress::finished(const suite::SuiteProgress& progress, const std::string& scenario,
+                             const std::vector<std::string>& detectors,
+                             std::span<const suite::RunResult* const> runs) {
   if (quiet_) return;
   wipe();
-  const std::optional<double> f1 = suite::figure_of(run, "rebel.f1");
-  tell(fmt::format("[{}/{}] {}{}{} seed {}: {}{}, {:.1f} s", progress.done, progress.total,
-                   detector_, detector_.empty() ? "" : ": ", scenario.name, run.seed,
-                   outcome_text(run), f1 ? fmt::format(", F1 {:.2f}", *f1) : "", run.wall_s));
+  const suite::RunResult& own = *runs.front();
+  std::string figures;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::optional<double> f1 = suite::figure_of(*runs[i], "rebel.f1");
+    if (!f1) continue;
+    const std::string by = runs.size() > 1 ? detectors[i] + " " : "";
+    figures += fmt::format("{}{}{:.2f}", figures.empty() ? ", F1 " : ", ", by, *f1);
+  }
+  tell(fmt::format("[{}/{}] {} seed {}: {}{}, {:.1f} s", progress.done, progress.total, scenario,
+                   own.seed, outcome_text(own), figures, own.wall_s));
   shown_ = {};
 }
 
@@ -66,7 +73,6 @@ void SuiteProgress::show(const suite::SuiteProgress& progress) {
   wipe();
   std::string line = fmt::format("[{}/{}]", progress.done, progress.total);
   if (progress.left_s) line += fmt::format(" {:.0f} s left,", *progress.left_s);
-  if (!detector_.empty()) line += fmt::format(" {}:", detector_);
   line += fmt::format(" running {}", fmt::join(progress.running, ", "));
   line = scenario::one_line(line);
   print_err("{}", line.substr(0, terminal_width() - 1));

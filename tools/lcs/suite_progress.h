@@ -3,7 +3,9 @@
 #pragma once
 
 #include <chrono>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "tools/suite/suite_run.h"
 
@@ -18,11 +20,10 @@ class SuiteProgress {
   SuiteProgress(const SuiteProgress&) = delete;
   SuiteProgress& operator=(const SuiteProgress&) = delete;
 
-  /// What watches from now on, before the names of its runs; "" says nothing of it.
-  void watched_by(const std::string& detector) { detector_ = detector; }
-
-  void finished(const suite::SuiteProgress& progress, const suite::ScenarioResult& scenario,
-                const suite::RunResult& run);
+  /// \param detectors that watched, the suite's own first. \param runs what it came to for each.
+  void finished(const suite::SuiteProgress& progress, const std::string& scenario,
+                const std::vector<std::string>& detectors,
+                std::span<const suite::RunResult* const> runs);
   void show(const suite::SuiteProgress& progress);
   void wipe();
 
@@ -31,7 +32,6 @@ class SuiteProgress {
   bool quiet_;
   bool is_terminal_;
   bool is_shown_ = false;
-  std::string detector_;
   Clock::time_point shown_{};
 };
 

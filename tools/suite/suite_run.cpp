@@ -34,13 +34,19 @@ fs::path folder_of(const PlannedScenario& planned, std::uint64_t seed) {
 
 std::vector<std::string> command_of(const PlannedScenario& planned, std::uint64_t seed,
                                     const SuiteRunOptions& options) {
-  std::vector<std::string> command{
-      "run",        planned.file.string(),
-      "--seed",     std::to_string(seed),
-      "--detector", options.detector,
-      "--out",      (options.folder / folder_of(planned, seed)).string(),
-      "--no-video", "--quiet",
-      "--events"};
+  const SuiteWatcher& own = options.watchers.front();
+  std::vector<std::string> command{"run",        planned.file.string(),
+                                   "--seed",     std::to_string(seed),
+                                   "--detector", own.detector,
+                                   "--out",      (own.folder / folder_of(planned, seed)).string(),
+                                   "--no-video", "--quiet",
+                                   "--events"};
+  for (std::size_t i = 1; i < options.watchers.size(); ++i) {
+    const SuiteWatcher& other = options.watchers[i];
+    const fs::path folder = other.folder / folder_of(planned, seed);
+    command.insert(command.end(),
+                   {"--beside", fmt::format("{}={}", other.detector, folder.string())});
+  }
   if (!options.recorded.empty()) {
     command.insert(command.end(),
                    {"--recorded", (options.recorded / folder_of(planned, seed)).string()});
@@ -109,23 +115,23 @@ void judge_run(const scenario::Scenario& scenario, RunResult& run) {
   }
 }
 
-void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteRunOptions& options,
+void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteWatcher& watcher,
                 RunResult& run) {
   run.wall_s = exit.wall_s;
   const bool has_figures = exit.signal == 0 && (exit.code == 0 || exit.code == 1);
   if (!has_figures) {
     run.error = complaint_of(exit);
-    bench::remove_abandoned(options.folder / folder_of(planned, run.seed), bench::result_files());
+    bench::remove_abandoned(watcher.folder / folder_of(planned, run.seed), bench::result_files());
     return;
   }
   run.folder = folder_of(planned, run.seed);
   try {
-    run.metrics = bench::read_metrics(options.folder / run.folder / bench::kMetricsFile);
-    const fs::path warnings = options.folder / run.folder / bench::kWarningsFile;
+    run.metrics = bench::read_metrics(watcher.folder / run.folder / bench::kMetricsFile);
+    const fs::path warnings = watcher.folder / run.folder / bench::kWarningsFile;
     if (fs::exists(warnings)) run.warnings = bench::read_warnings(warnings);
     std::erase_if(run.warnings, [](const bench::Warned& w) { return w.count.value_or(0) == 0; });
     run.outcome = Outcome::passed;
-    if (options.judged) judge_run(*planned.scenario, run);
+    if (watcher.judged) judge_run(*planned.scenario, run);
   } catch (const std::exception& error) {
     run.outcome = Outcome::error;
     run.error = scenario::message_of(error);
@@ -146,19 +152,25 @@ bench::ResultFiles suite_files() {
   return files;
 }
 
-SuiteResult run_suite(const std::vector<PlannedScenario>& plan, const SuiteRunOptions& options) {
-  SuiteResult suite;
-  suite.detector = options.detector;
-  suite.sets = options.sets;
-  suite.version = options.version;
-  for (const PlannedScenario& planned : plan) suite.scenarios.push_back(begin_scenario(planned));
+std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
+                                   const SuiteRunOptions& options) {
+  std::vector<SuiteResult> suites;
+  for (const SuiteWatcher& watcher : options.watchers) {
+    SuiteResult& suite = suites.emplace_back();
+    suite.detector = watcher.detector;
+    suite.sets = options.sets;
+    suite.version = options.version;
+    for (const PlannedScenario& planned : plan) suite.scenarios.push_back(begin_scenario(planned));
+  }
 
   const std::vector<Job> jobs = jobs_of(plan, options.former);
   std::vector<std::vector<std::string>> commands;
   for (const Job& job : jobs) {
     const PlannedScenario& planned = plan[job.scenario];
     // Here, as one child would take away a folder that another one is about to use.
-    fs::create_directories(options.folder / "runs" / planned.name);
+    for (const SuiteWatcher& watcher : options.watchers) {
+      fs::create_directories(watcher.folder / "runs" / planned.name);
+    }
     commands.push_back(command_of(planned, planned.seeds[job.run], options));
   }
 
@@ -170,32 +182,37 @@ SuiteResult run_suite(const std::vector<PlannedScenario>& plan, const SuiteRunOp
   const auto start = std::chrono::steady_clock::now();
   const auto on_exit = [&](std::size_t place, const Exit& exit) {
     const Job& job = jobs[place];
-    ScenarioResult& scenario = suite.scenarios[job.scenario];
-    RunResult& run = scenario.runs[job.run];
-    finish_run(plan[job.scenario], exit, options, run);
+    std::vector<const RunResult*> finished;
+    for (std::size_t i = 0; i < suites.size(); ++i) {
+      RunResult& run = suites[i].scenarios[job.scenario].runs[job.run];
+      finish_run(plan[job.scenario], exit, options.watchers[i], run);
+      finished.push_back(&run);
+    }
     done_seconds += job.seconds;
     const double took_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ++progress.done;
     progress.left_s = took_s * (all_seconds - done_seconds) / done_seconds;
-    options.on_run(progress, scenario, run);
+    options.on_run(progress, plan[job.scenario].name, finished);
   };
   const auto on_tick = [&](const std::vector<std::size_t>& running) {
     progress.running.clear();
     for (const std::size_t place : running) {
-      const ScenarioResult& scenario = suite.scenarios[jobs[place].scenario];
+      const PlannedScenario& planned = plan[jobs[place].scenario];
       progress.running.push_back(
-          fmt::format("{} seed {}", scenario.name, scenario.runs[jobs[place].run].seed));
+          fmt::format("{} seed {}", planned.name, planned.seeds[jobs[place].run]));
     }
     options.on_tick(progress);
   };
   run_all(commands, options.jobs, on_exit, on_tick);
 
   std::error_code ignored;  // folders of scenarios without a single result are left out if they can
-  for (const PlannedScenario& planned : plan) {
-    fs::remove(options.folder / "runs" / planned.name, ignored);
+  for (const SuiteWatcher& watcher : options.watchers) {
+    for (const PlannedScenario& planned : plan) {
+      fs::remove(watcher.folder / "runs" / planned.name, ignored);
+    }
   }
-  return suite;
+  return suites;
 }
 
 }  // namespace lcs::suite

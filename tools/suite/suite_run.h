@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,21 +26,32 @@ struct SuiteProgress {
   std::optional<double> left_s;      ///< none before the first has ended
 };
 
-struct SuiteRunOptions {
+/// A detector that is run, and where its results go.
+struct SuiteWatcher {
   std::string detector;
+  std::filesystem::path folder;  ///< gets runs/<name>/seed-<n>/
+  bool judged = true;            ///< by the scenarios' criteria, which are the filter's
+};
+
+struct SuiteRunOptions {
+  /// At least one: all watch the same frames, which are made once. The first keeps pictures and
+  /// events.
+  std::vector<SuiteWatcher> watchers;
   std::vector<std::string> sets;
   std::filesystem::path recorded;  ///< folder of an earlier suite, for its frames; "": simulate
   std::string version;
-  bool judged = true;                 ///< by the scenarios' criteria, which are the filter's
   std::size_t jobs = 1;               ///< runs at a time, >= 1
-  std::filesystem::path folder;       ///< gets runs/<name>/seed-<n>/
   std::optional<SuiteResult> former;  ///< whose times tell which runs are long
-  /// Called when a run has ended.
-  std::function<void(const SuiteProgress&, const ScenarioResult&, const RunResult&)> on_run;
+  /// Called when a run has ended, with what it came to for each watcher.
+  std::function<void(const SuiteProgress&, const std::string& scenario,
+                     std::span<const RunResult* const>)>
+      on_run;
   /// Called some times a second. What it throws ends the suite and its children.
   std::function<void(const SuiteProgress&)> on_tick;
 };
 
-SuiteResult run_suite(const std::vector<PlannedScenario>& plan, const SuiteRunOptions& options);
+/// \return a result for each watcher.
+std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
+                                   const SuiteRunOptions& options);
 
 }  // namespace lcs::suite
