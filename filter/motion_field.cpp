@@ -17,13 +17,13 @@ constexpr double kLeastUpright = 0.5;
 /// Of places; a homography may bring what is farther than any picture back into one.
 constexpr double kFarthest_px = 1e9;
 
+}  // namespace
+
 Eigen::Matrix3d rotation_homography(const Intrinsics& camera, const Eigen::Matrix3d& R) {
   Eigen::Matrix3d K;
   K << camera.focal_px, 0, camera.centre_px.x(), 0, camera.focal_px, camera.centre_px.y(), 0, 0, 1;
   return K * R * K.inverse();
 }
-
-}  // namespace
 
 MotionField::MotionField(const Intrinsics& camera, const EgoMotion& motion,
                          const FieldParameters& parameters)

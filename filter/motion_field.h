@@ -18,6 +18,10 @@
 
 namespace lcs {
 
+/// K R K^-1: takes a pixel of a camera to where it lies once the camera's coordinates are turned by
+/// R.
+Eigen::Matrix3d rotation_homography(const Intrinsics& camera, const Eigen::Matrix3d& R);
+
 /// The field over one interval, from frame k-1 to k.
 class MotionField {
  public:

@@ -10,9 +10,12 @@
 #include "filter/geometry.h"
 #include "scenarios/load.h"
 #include "tools/bench/bench.h"
+#include "tools/bench/ego_motion_feed.h"
 #include "tools/bench/recording_io.h"
 #include "tools/bench/scoring.h"
 #include "tools/comparators/detectors.h"
+#include "tools/comparators/dis.h"
+#include "tools/comparators/epipolar.h"
 #include "tools/comparators/homography.h"
 #include "tools/comparators/klt.h"
 
@@ -38,7 +41,7 @@ TEST(Detectors, AreKnownByNameAndOthersAreRefusedWithTheListOfThem) {
     detector("yolo");
     FAIL();
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "no detector is called 'yolo'; there are lcs, klt, homography");
+    EXPECT_STREQ(error.what(), "no detector is called 'yolo'; there are lcs, klt, homography, dis");
   }
 }
 
@@ -88,7 +91,7 @@ TEST(Wanted, APresetStandsAloneWhateverTheScenarioAndSettingsSay) {
 }
 
 class EachDetector : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Names, EachDetector, testing::Values("lcs", "klt", "homography"),
+INSTANTIATE_TEST_SUITE_P(Names, EachDetector, testing::Values("lcs", "klt", "homography", "dis"),
                          [](const auto& test) { return test.param; });
 
 TEST_P(EachDetector, SaysTheSameToTheLastBitInTwoRuns) {
@@ -119,9 +122,7 @@ EgoMotion motion(const Eigen::Vector3d& v_C_mps, const Eigen::Vector3d& w_C_radp
 }
 
 MotionField field_of(const EgoMotion& motion) {
-  FieldParameters parameters;
-  parameters.rotation = RotationModel::homography;
-  return {bench::intrinsics(kCamera), motion, parameters};
+  return exact_field(bench::intrinsics(kCamera), motion);
 }
 
 class EgoMotions : public testing::TestWithParam<EgoMotion> {};
@@ -145,7 +146,7 @@ TEST_P(EgoMotions, StaticPointsLieOnTheSegmentAtEveryDepthFromTheNearest) {
     // In reverse the point was nearer in the frame before: the nearest depth holds there as well.
     const double nearest_m = 0.8 + std::max(0.0, -GetParam().v_C_mps.z() * GetParam().dt_s);
     for (const double depth_m : {nearest_m, 1.0, 3.0, 10.0, 1e3, 1e9}) {
-      EXPECT_LT(epipolar_distance(field, 0.8, x, earlier(GetParam(), x, depth_m)), 1e-6)
+      EXPECT_LT(epipolar_distance(field, x, earlier(GetParam(), x, depth_m)), 1e-6)
           << "depth " << depth_m;
     }
   }
@@ -158,7 +159,7 @@ TEST_P(EgoMotions, APointThatMovesAcrossTheFieldIsAsFarFromTheSegmentAsItMoved) 
   const Vec2 along = field.moving() ? field.direction(x) : Vec2(1, 0);
   const Eigen::Vector3d own(-along.y() * 0.05, along.x() * 0.05, 0);
   const double expected_px = kCamera.focal_px * 0.05 / (3 + GetParam().v_C_mps.z() * 0.1);
-  EXPECT_NEAR(epipolar_distance(field, 0.8, x, earlier(GetParam(), x, 3, own)), expected_px, 0.05);
+  EXPECT_NEAR(epipolar_distance(field, x, earlier(GetParam(), x, 3, own)), expected_px, 0.05);
 }
 
 TEST(EpipolarDistance, APointNearerThanTheNearestDepthIsOffTheSegmentsEnd) {
@@ -167,14 +168,43 @@ TEST(EpipolarDistance, APointNearerThanTheNearestDepthIsOffTheSegmentsEnd) {
   const Vec2 x(250, 60);
   const double beyond = (earlier(ahead, x, 0.4) - earlier(ahead, x, 0.8)).norm();
   ASSERT_GT(beyond, 3);
-  EXPECT_NEAR(epipolar_distance(field, 0.8, x, earlier(ahead, x, 0.4)), beyond, 1e-6);
+  EXPECT_NEAR(epipolar_distance(field, x, earlier(ahead, x, 0.4)), beyond, 1e-6);
 }
 
 TEST(EpipolarDistance, AgainstTheFieldIsAsFarAsItWent) {
   // The far end of the segment is the corner itself.
   const MotionField field = field_of(motion({0, 0, 1}, {0, 0, 0}));
   const Vec2 x(250, 60);
-  EXPECT_NEAR(epipolar_distance(field, 0.8, x, x + 4 * field.direction(x)), 4, 1e-9);
+  EXPECT_NEAR(epipolar_distance(field, x, x + 4 * field.direction(x)), 4, 1e-9);
+}
+
+TEST(EpipolarDistance, NothingStaticIsFartherThanTheGroundWhereThatIsKnown) {
+  EgoMotion ahead = motion({0, 0, 1}, {0, 0, 0});
+  const Vec2 below(250, 200), above(250, 60);
+  const auto distance = [&](const Vec2& x, double depth_m) {
+    return epipolar_distance(field_of(ahead), x, earlier(ahead, x, depth_m));
+  };
+  EXPECT_LT(distance(below, 20), 1e-9);
+  constexpr double kHeight_m = 1;
+  ahead.ground = Ground{.up_C = {0, -1, 0}, .height_m = kHeight_m};
+  // Straight ahead: where the ray of a row has come down by the camera's height.
+  const double ground_m = kCamera.focal_px * kHeight_m / (below.y() - kCamera.centre_px.y());
+  for (const double share : {0.5, 0.9, 1.0}) EXPECT_LT(distance(below, share * ground_m), 1e-9);
+  const double beyond_px = (earlier(ahead, below, 20) - earlier(ahead, below, ground_m)).norm();
+  ASSERT_GT(beyond_px, 2);
+  // But for what the ground may fall away by.
+  EXPECT_GT(distance(below, 20), 0.9 * beyond_px);
+  EXPECT_LE(distance(below, 20), beyond_px);
+  for (const double depth_m : {1.0, 20.0, 1e9}) EXPECT_LT(distance(above, depth_m), 1e-9);
+}
+
+TEST(EpipolarDistance, OfGroundThatIsNearerThanTheNearestDepthIsThatFromItsEnd) {
+  EgoMotion back = motion({0, 0, -1}, {0, 0, 0});
+  back.ground = Ground{.up_C = {0, -1, 0}, .height_m = 0.1};
+  const Vec2 x(250, 220);
+  const Vec2 nearest = earlier(back, x, 0.8 + 0.1);
+  EXPECT_LT(epipolar_distance(field_of(back), x, nearest), 1e-9);
+  EXPECT_NEAR(epipolar_distance(field_of(back), x, nearest + Vec2(0, 3)), 3, 1e-9);
 }
 
 // ---- Trackers on pictures drawn for the purpose: a plane at 3 m, seen by a camera that moves.
@@ -221,15 +251,20 @@ cv::Point pixel(const Eigen::Vector2f& px) {
 
 const cv::Rect kMover(200, 60, 60, 60);
 
-/// Another piece of texture, pasted at the mover's place and shifted.
-void paste_mover(cv::Mat1b& seen, cv::Point shift) {
-  texture()({30, 30, kMover.width, kMover.height}).copyTo(seen(kMover + shift));
+/// Another piece of texture, pasted at the mover's place and shifted; what is on it by parts of a
+/// pixel besides.
+void paste_mover(cv::Mat1b& seen, cv::Point shift, cv::Point2d slid = {}) {
+  cv::Mat1b piece;
+  const cv::Matx23d from(1, 0, 30 - slid.x, 0, 1, 30 - slid.y);
+  cv::warpAffine(texture(), piece, from, kMover.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
+  piece.copyTo(seen(kMover + shift));
 }
 
 class TrackerTest : public testing::TestWithParam<const char*> {
  protected:
   std::unique_ptr<bench::Tracker> make() const {
     if (GetParam() == std::string("klt")) return std::make_unique<KltTracker>(kCamera);
+    if (GetParam() == std::string("dis")) return std::make_unique<DisTracker>(kCamera);
     return std::make_unique<HomographyTracker>();
   }
   static std::vector<Eigen::Vector2f> corners_of(const cv::Mat1b& grey) {
@@ -246,7 +281,7 @@ class TrackerTest : public testing::TestWithParam<const char*> {
     return static_cast<double>(count) / static_cast<double>(verdicts.size());
   }
 };
-INSTANTIATE_TEST_SUITE_P(Names, TrackerTest, testing::Values("klt", "homography"),
+INSTANTIATE_TEST_SUITE_P(Names, TrackerTest, testing::Values("klt", "homography", "dis"),
                          [](const auto& test) { return test.param; });
 
 TEST_P(TrackerTest, InAStillWorldNothingIsARebelHoweverTheCameraMoves) {
@@ -310,6 +345,82 @@ TEST_P(TrackerTest, AMoverAcrossTheFieldIsFoundAndBoxed) {
   EXPECT_FALSE(said.layers.rebel_circles.empty());
 }
 
+/// At a high rate, so that several frames make a baseline.
+constexpr double kFastFrame_s = 1.0 / 60;
+
+TEST_P(TrackerTest, AtAHighRateAStillWorldHasNoRebelsWhileTheCameraTurnsAndGoes) {
+  const auto tracker = make();
+  const auto pose = [](int k) {
+    const double t_s = k * kFastFrame_s;
+    return sim::Pose{
+        Eigen::AngleAxisd(0.5 * t_s, Eigen::Vector3d(0.2, 1, 0.3).normalized()).toRotationMatrix(),
+        Eigen::Vector3d(0.4, 0.1, 1) * t_s};
+  };
+  for (int k = 0; k < 8; ++k) {
+    const cv::Mat1b seen = view(k == 0 ? EgoMotion() : bench::motion_between(pose(0), pose(k), 1));
+    const auto corners = corners_of(seen);
+    const FrameResult said =
+        step(*tracker, seen, corners,
+             k == 0 ? EgoMotion() : bench::motion_between(pose(k - 1), pose(k), kFastFrame_s));
+    ASSERT_GT(corners.size(), 100u);
+    EXPECT_LT(share(said.verdicts, Verdict::rebel), 0.02) << "frame " << k;
+    if (k > 0) {
+      EXPECT_GT(share(said.verdicts, Verdict::normal), 0.9) << "frame " << k;
+    }
+  }
+}
+
+TEST_P(TrackerTest, AtAHighRateAMoverIsFoundThatMovesLittleFromFrameToFrame) {
+  const auto tracker = make();
+  constexpr int kFrames = 8;
+  int inside = 0, found = 0;
+  for (int k = 0; k < kFrames; ++k) {
+    cv::Mat1b seen = view({});
+    // 0.8 px a frame, less than a corner must be off by.
+    paste_mover(seen, {0, 0}, {-0.8 * k, 0});
+    EgoMotion still;
+    still.dt_s = k == 0 ? 0 : kFastFrame_s;
+    const auto corners = corners_of(seen);
+    const FrameResult said = step(*tracker, seen, corners, still);
+    if (k + 1 < kFrames) continue;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (!kMover.contains(pixel(corners[i]))) continue;
+      ++inside;
+      found += said.verdicts[i] == Verdict::rebel;
+    }
+  }
+  ASSERT_GT(inside, 10);
+  EXPECT_GT(found, 0.6 * inside);
+}
+
+TEST_P(TrackerTest, WhatIsSeenBelowTheGroundMovesByItself) {
+  if (GetParam() == std::string("homography")) GTEST_SKIP() << "knows of no ground";
+  EgoMotion ego = motion({0, 0, 1.5}, {0, 0, 0});
+  const cv::Mat1b before = view({}), now = view(ego);
+  const auto corners = corners_of(now);
+  for (const bool known : {false, true}) {
+    // So low a camera would not see the plane 3 m ahead through the ground, from the horizon down.
+    if (known) ego.ground = Ground{.up_C = {0, -1, 0}, .height_m = 0.4};
+    const auto tracker = make();
+    step(*tracker, before, corners_of(before), {});
+    const FrameResult said = step(*tracker, now, corners, ego);
+    int low = 0, low_rebels = 0, high_rebels = 0;
+    const cv::Rect lower(20, 190, kWidth - 40, 30), upper(20, 20, kWidth - 40, 100);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const bool rebel = said.verdicts[i] == Verdict::rebel;
+      if (lower.contains(pixel(corners[i]))) ++low, low_rebels += rebel;
+      if (upper.contains(pixel(corners[i]))) high_rebels += rebel;
+    }
+    ASSERT_GT(low, 15);
+    EXPECT_EQ(high_rebels, 0);
+    if (known) {
+      EXPECT_GE(low_rebels, 0.9 * low);
+    } else {
+      EXPECT_EQ(low_rebels, 0);
+    }
+  }
+}
+
 TEST_P(TrackerTest, TheFirstFrameIsPending) {
   const cv::Mat1b seen = view({});
   const FrameResult said = step(*make(), seen, corners_of(seen), {});
@@ -329,7 +440,7 @@ TEST_P(TrackerTest, NoCornersAndOneCornerGetNoneAndOneVerdict) {
   EXPECT_EQ(step(*tracker, seen, one, {}).verdicts, std::vector{Verdict::normal});
 }
 
-TEST_P(TrackerTest, CornersOnTexturelessGreyAreLostNotRebels) {
+TEST_P(TrackerTest, CornersOnTexturelessGreyAreLostOrStandNoRebels) {
   const auto tracker = make();
   const cv::Mat1b grey(kHeight, kWidth, uchar{128});
   std::vector<Eigen::Vector2f> corners;
@@ -338,7 +449,9 @@ TEST_P(TrackerTest, CornersOnTexturelessGreyAreLostNotRebels) {
   }
   step(*tracker, grey, corners, {});
   const FrameResult said = step(*tracker, grey, corners, motion({0, 0, 1}, {0, 0, 0}));
-  EXPECT_EQ(share(said.verdicts, Verdict::pending), 1);
+  // Dense flow has an answer everywhere: here, that nothing moved.
+  const bool dense = GetParam() == std::string("dis");
+  EXPECT_EQ(share(said.verdicts, dense ? Verdict::normal : Verdict::pending), 1);
 }
 
 TEST_P(TrackerTest, TheGlobalGeneratorOfRandomNumbersHasNoSay) {
@@ -357,6 +470,41 @@ TEST_P(TrackerTest, TheGlobalGeneratorOfRandomNumbersHasNoSay) {
     return layers_line(frame);
   };
   EXPECT_EQ(said(1), said(77));
+}
+
+TEST(Dis, SaysTheSameHoweverManyThreadsThereAre) {
+  const EgoMotion ego = motion({0.3, 0, 1}, {0, 0.3, 0});
+  cv::Mat1b before = view({}), now = view(ego);
+  paste_mover(now, {-7, 5});
+  const auto corners = FastDetector(20).detect(now);
+  const int threads = cv::getNumThreads();
+  std::vector<std::string> lines;
+  for (const int count : {1, 2, 5}) {
+    cv::setNumThreads(count);
+    DisTracker tracker(kCamera);
+    tracker.step({cv::Mat3b(), before, {}, {}});
+    bench::FrameRecord frame;
+    frame.corners_px = corners;
+    const FrameResult& said = tracker.step({cv::Mat3b(), now, corners, ego});
+    frame.verdicts = said.verdicts;
+    frame.layers = said.layers;
+    lines.push_back(layers_line(frame));
+  }
+  cv::setNumThreads(threads);
+  EXPECT_EQ(lines[0], lines[1]);
+  EXPECT_EQ(lines[0], lines[2]);
+}
+
+TEST(Dis, TakesTheSmallestPictures) {
+  for (const cv::Size size : {cv::Size(16, 16), cv::Size(16, 320), cv::Size(40, 24)}) {
+    DisTracker tracker(sim::Pinhole::from_fovy(size.width, size.height, kPi / 3));
+    const cv::Mat1b seen = texture()(cv::Rect({0, 0}, size)).clone();
+    const std::vector<Eigen::Vector2f> corners{{8, 8}, {4, 10}};
+    tracker.step({cv::Mat3b(), seen, corners, {}});
+    const FrameResult& said =
+        tracker.step({cv::Mat3b(), seen, corners, motion({0, 0, 0}, {0, 0, 0})});
+    EXPECT_EQ(said.verdicts, std::vector(2, Verdict::normal));
+  }
 }
 
 TEST(Homography, OfTooFewCornersTellsNothing) {
@@ -381,11 +529,12 @@ TEST(Trackers, RefuseParametersOutOfTheirRange) {
   EXPECT_THROW(BackwardFlow({.window_px = 12, .round_trip_px = {}}), std::invalid_argument);
   EXPECT_THROW(BackwardFlow({.levels = -1, .round_trip_px = {}}), std::invalid_argument);
   EXPECT_THROW(BackwardFlow({.round_trip_px = -1}), std::invalid_argument);
+  EXPECT_THROW(BackwardFlow({.baseline_s = -1, .round_trip_px = {}}), std::invalid_argument);
   EXPECT_THROW(RebelGroups({.reach_px = 0}), std::invalid_argument);
   EXPECT_THROW(RebelGroups({.least_corners = 0}), std::invalid_argument);
-  KltParameters klt;
-  klt.nearest_depth_m = 0;
-  EXPECT_THROW(KltTracker(kCamera, klt), std::invalid_argument);
+  DisParameters dis;
+  dis.baseline_s = std::nan("");
+  EXPECT_THROW(DisTracker(kCamera, dis), std::invalid_argument);
   HomographyParameters homography;
   homography.least_corners = 3;
   EXPECT_THROW(HomographyTracker{homography}, std::invalid_argument);
@@ -402,10 +551,11 @@ TEST(BackwardFlow, FindsWhereCornersWereAndTheRoundTripDropsWhatWasCovered) {
 
   BackwardFlow plain({.round_trip_px = {}}), checked({.round_trip_px = 0.5});
   for (BackwardFlow* flow : {&plain, &checked}) {
-    for (const auto& place : flow->track(before, corners, guesses)) EXPECT_FALSE(place);
+    flow->see(before, {});
+    for (const auto& place : flow->track(corners, guesses)) EXPECT_FALSE(place);
+    flow->see(now, motion({0, 0, 0}, {0, 0, 0}));
   }
-  const auto found = plain.track(now, corners, guesses),
-             kept = checked.track(now, corners, guesses);
+  const auto found = plain.track(corners, guesses), kept = checked.track(corners, guesses);
   int covered = 0, dropped = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const cv::Point px = pixel(corners[i]);
@@ -458,26 +608,27 @@ TEST_F(GroupsTest, CornersNearEachOtherAndOfLikeStepAreOneBox) {
 }
 
 TEST_F(GroupsTest, CornersFarApartOrOfUnlikeStepAreNot) {
-  row({100, 100}, 4, {4, 0});
-  row({100, 240}, 4, {4, 0});  // farther than the reach of 80
-  row({500, 100}, 4, {4, 0});
-  row({505, 105}, 4, {-4, 0});  // among the former
+  row({100, 100}, 5, {4, 0});
+  row({100, 260}, 5, {4, 0});  // farther than the reach of 120
+  row({500, 100}, 5, {4, 0});
+  row({505, 105}, 5, {-4, 0});  // among the former
   EXPECT_EQ(group().layers.squares.size(), 4u);
 }
 
 TEST_F(GroupsTest, FewerThanAGroupAreNormal) {
-  row({100, 100}, 3, {4, 0});
+  row({100, 100}, 4, {4, 0});
   const FrameResult& said = group();
-  EXPECT_EQ(said.verdicts, std::vector<Verdict>(3, Verdict::normal));
+  EXPECT_EQ(said.verdicts, std::vector<Verdict>(4, Verdict::normal));
   EXPECT_TRUE(said.layers.rebel_circles.empty());
 }
 
 TEST_F(GroupsTest, LostCornersArePendingAndThoseInTheFieldNormal) {
-  row({100, 100}, 6, {4, 0});
+  row({100, 100}, 7, {4, 0});
   motions_[0] = {};
   motions_[1].off = false;
-  EXPECT_EQ(group().verdicts, (std::vector{Verdict::pending, Verdict::normal, Verdict::rebel,
-                                           Verdict::rebel, Verdict::rebel, Verdict::rebel}));
+  EXPECT_EQ(group().verdicts,
+            (std::vector{Verdict::pending, Verdict::normal, Verdict::rebel, Verdict::rebel,
+                         Verdict::rebel, Verdict::rebel, Verdict::rebel}));
 }
 
 TEST_F(GroupsTest, ABoxKeepsItsIdWhileItOverlapsItself) {

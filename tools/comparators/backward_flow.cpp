@@ -2,11 +2,11 @@
 
 #include <opencv2/video/tracking.hpp>
 #include <stdexcept>
-#include <utility>
 
 namespace lcs::comparators {
 
-BackwardFlow::BackwardFlow(const FlowParameters& parameters) : parameters_(parameters) {
+BackwardFlow::BackwardFlow(const FlowParameters& parameters)
+    : parameters_(parameters), pyramids_(parameters.baseline_s) {
   const bool window_is_right = parameters.window_px >= 3 && parameters.window_px % 2 == 1;
   const bool trip_is_right = !parameters.round_trip_px || *parameters.round_trip_px >= 0;
   if (!window_is_right || parameters.levels < 0 || parameters.max_iterations < 1 ||
@@ -15,16 +15,18 @@ BackwardFlow::BackwardFlow(const FlowParameters& parameters) : parameters_(param
   }
 }
 
-std::span<const std::optional<Vec2>> BackwardFlow::track(
-    const cv::Mat1b& grey, std::span<const Eigen::Vector2f> corners_px,
-    std::span<const Vec2> guesses_px) {
+const EgoMotion& BackwardFlow::see(const cv::Mat1b& grey, const EgoMotion& motion) {
   const cv::Size window(parameters_.window_px, parameters_.window_px);
-  std::swap(last_, now_);
-  cv::buildOpticalFlowPyramid(grey, now_, window, parameters_.levels, /*withDerivatives=*/true,
-                              cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT,
+  cv::buildOpticalFlowPyramid(grey, pyramids_.begin(motion), window, parameters_.levels,
+                              /*withDerivatives=*/true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT,
                               /*tryReuseInputImage=*/false);
+  return pyramids_.motion();
+}
+
+std::span<const std::optional<Vec2>> BackwardFlow::track(
+    std::span<const Eigen::Vector2f> corners_px, std::span<const Vec2> guesses_px) {
   result_.assign(corners_px.size(), std::nullopt);
-  if (last_.empty() || corners_px.empty()) return result_;
+  if (pyramids_.earlier() == nullptr || corners_px.empty()) return result_;
 
   corners_.clear();
   before_.clear();
@@ -32,7 +34,7 @@ std::span<const std::optional<Vec2>> BackwardFlow::track(
     corners_.emplace_back(corners_px[i].x(), corners_px[i].y());
     before_.emplace_back(cv::Point2d(guesses_px[i].x(), guesses_px[i].y()));
   }
-  lucas_kanade(now_, last_, corners_, before_, found_);
+  lucas_kanade(pyramids_.now(), *pyramids_.earlier(), corners_, before_, found_);
   if (parameters_.round_trip_px) drop_those_that_do_not_return(guesses_px);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     if (found_[i]) result_[i] = Vec2(before_[i].x, before_[i].y);
@@ -47,7 +49,7 @@ void BackwardFlow::drop_those_that_do_not_return(std::span<const Vec2> guesses_p
     const cv::Point2f guess(cv::Point2d(guesses_px[i].x(), guesses_px[i].y()));
     again_.push_back(before_[i] + (corners_[i] - guess));
   }
-  lucas_kanade(last_, now_, before_, again_, found_again_);
+  lucas_kanade(*pyramids_.earlier(), pyramids_.now(), before_, again_, found_again_);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     if (cv::norm(again_[i] - corners_[i]) > *parameters_.round_trip_px) found_[i] = 0;
     if (!found_again_[i]) found_[i] = 0;

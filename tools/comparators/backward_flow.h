@@ -1,9 +1,9 @@
 /// \file
-/// Where the corners of a frame were in the frame before, by pyramidal Lucas-Kanade (Bouguet,
-/// "Pyramidal Implementation of the Affine Lucas Kanade Feature Tracker", 2000; OpenCV's).
+/// Where the corners of a frame were a baseline ago, by pyramidal Lucas-Kanade (Bouguet, "Pyramidal
+/// Implementation of the Affine Lucas Kanade Feature Tracker", 2000; OpenCV's).
 ///
 /// A verdict on a corner is due in the corner's own frame, so the flow runs back from this frame's
-/// corners to the last image. Tracking the last frame's corners ahead, as is common, would end on
+/// corners to the earlier image. Tracking that one's corners ahead, as is common, would end on
 /// points that are nobody's corners.
 #pragma once
 
@@ -14,15 +14,17 @@
 #include <vector>
 
 #include "filter/camera.h"
+#include "tools/comparators/lookback.h"
 
 namespace lcs::comparators {
 
 struct FlowParameters {
-  int window_px = 11;              ///< side of the window that is matched; odd, >= 3
-  int levels = 3;                  ///< of the pyramid, above the image itself; >= 0
-  int max_iterations = 30;         ///< on each level
-  double least_step_px = 0.01;     ///< at which iterations end
-  double least_eigenvalue = 1e-4;  ///< of the window's gradients, as OpenCV normalises it
+  double baseline_s = kBaseline_s;  ///< to the image that is compared with, about; >= 0
+  int window_px = 15;               ///< side of the window that is matched; odd, >= 3
+  int levels = 4;                   ///< of the pyramid, above the image itself; >= 0
+  int max_iterations = 30;          ///< on each level
+  double least_step_px = 0.01;      ///< at which iterations end
+  double least_eigenvalue = 1e-4;   ///< of the window's gradients, as OpenCV normalises it
   /// A corner that, tracked there and back again, ends farther than this from itself is lost; none:
   /// no way back, in half the time. What fails the check lies on movers' outlines more often than
   /// not, so that checking costs more recall than it gains precision (README.md).
@@ -36,12 +38,19 @@ class BackwardFlow {
 
   /// To be called with every frame, in order.
   /// \param grey of this frame; all frames are of one size.
+  /// \param motion since the last frame.
+  /// \return the motion since the image that this frame is compared with; none in the first frame.
+  const EgoMotion& see(const cv::Mat1b& grey, const EgoMotion& motion);
+
+  /// For the frame that was seen last.
   /// \param guesses_px where each corner may have been; as many as corners.
   /// \return where it was; none where it is lost, and for all corners of the first frame. Valid
   ///   until the next call.
-  std::span<const std::optional<Vec2>> track(const cv::Mat1b& grey,
-                                             std::span<const Eigen::Vector2f> corners_px,
+  std::span<const std::optional<Vec2>> track(std::span<const Eigen::Vector2f> corners_px,
                                              std::span<const Vec2> guesses_px);
+
+  /// What was wrong with the motions that were told.
+  const Diagnostics& diagnostics() const { return pyramids_.diagnostics(); }
 
  private:
   using Pyramid = std::vector<cv::Mat>;
@@ -52,7 +61,7 @@ class BackwardFlow {
                     std::vector<unsigned char>& found) const;
 
   FlowParameters parameters_;
-  Pyramid last_, now_;  ///< empty before the first frame
+  Lookback<Pyramid> pyramids_;
 
   // Of the current frame; kept for their memory.
   Points corners_, before_, again_;

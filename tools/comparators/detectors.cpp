@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "tools/comparators/dis.h"
 #include "tools/comparators/homography.h"
 #include "tools/comparators/klt.h"
 
@@ -27,12 +28,17 @@ Made make_homography(const sim::Pinhole&, const scenario::Scenario&) {
   return std::make_unique<HomographyTracker>();
 }
 
-constexpr std::array<Detector, 3> kDetectors{{
+Made make_dis(const sim::Pinhole& camera, const scenario::Scenario&) {
+  return std::make_unique<DisTracker>(camera);
+}
+
+constexpr std::array<Detector, 4> kDetectors{{
     {"lcs", "the Line-Circle-Square filter", true, false, make_lcs},
     {"klt", "Lucas-Kanade, and distance to the epipolar segment that the IMU gives", false, true,
      make_klt},
     {"homography", "Lucas-Kanade, and distance to one homography by RANSAC", false, true,
      make_homography},
+    {"dis", "dense flow, and distance to the epipolar segment", false, true, make_dis},
 }};
 
 }  // namespace

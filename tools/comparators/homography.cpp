@@ -13,9 +13,10 @@ HomographyTracker::HomographyTracker(const HomographyParameters& parameters)
 }
 
 const FrameResult& HomographyTracker::step(const bench::TrackerInput& input) {
+  const EgoMotion& motion = flow_.see(input.grey, input.motion);
   guesses_.clear();
   for (const Eigen::Vector2f& corner : input.corners_px) guesses_.push_back(corner.cast<double>());
-  const auto tracked = flow_.track(input.grey, input.corners_px, guesses_);
+  const auto tracked = flow_.track(input.corners_px, guesses_);
 
   before_.clear();
   now_.clear();
@@ -45,7 +46,7 @@ const FrameResult& HomographyTracker::step(const bench::TrackerInput& input) {
     // A homography far from the truth may take a corner to infinity.
     if (step.allFinite()) motions_[i] = {true, step.norm() > parameters_.residual_px, step};
   }
-  return groups_.group(input.corners_px, motions_, input.motion.dt_s);
+  return groups_.group(input.corners_px, motions_, motion.dt_s);
 }
 
 }  // namespace lcs::comparators

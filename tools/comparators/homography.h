@@ -1,8 +1,8 @@
 /// \file
-/// The comparator `homography`: the last image is laid over this one by a single homography, fitted
-/// to the tracked corners by RANSAC; what does not fit moves by itself. No IMU; right for a far or
-/// flat world and for a camera that only turns, which is what most published code for moving
-/// cameras assumes.
+/// The comparator `homography`: the image of a baseline ago is laid over this one by a single
+/// homography, fitted to the tracked corners by RANSAC; what does not fit moves by itself. No IMU;
+/// right for a far or flat world and for a camera that only turns, which is what most published
+/// code for moving cameras assumes.
 #pragma once
 
 #include "tools/bench/tracker.h"
@@ -26,6 +26,7 @@ class HomographyTracker : public bench::Tracker {
   /// \throws std::invalid_argument for a parameter out of its range.
   explicit HomographyTracker(const HomographyParameters& parameters = {});
   const FrameResult& step(const bench::TrackerInput& input) override;
+  Diagnostics diagnostics() const override { return flow_.diagnostics(); }
 
  private:
   HomographyParameters parameters_;

@@ -13,20 +13,20 @@
 
 namespace lcs::comparators {
 
-/// How a corner moved since the last frame.
+/// How a corner moved since the picture that its frame is compared with.
 struct CornerMotion {
   bool known = false;  ///< false: it was lost, and nothing is said of it
   bool off = false;    ///< it does not move as the static world does
-  /// This frame's location less the last one's, with what the camera's motion explains for all
+  /// This frame's location less the one there, with what the camera's motion explains for all
   /// corners alike (its rotation, or a homography) removed.
   Vec2 step_px = Vec2::Zero();
 };
 
 struct GroupParameters {
-  double reach_px = 80;         ///< between two corners of one group
-  double like_px = 2;           ///< by which their steps may differ,
-  double like_share = 0.35;     ///< or by this share of the steps, if that is more
-  int least_corners = 4;        ///< of a group; what has fewer is taken for tracking gone wrong
+  double reach_px = 120;     ///< between two corners of one group
+  double like_px = 2;        ///< by which their steps may differ,
+  double like_share = 0.35;  ///< or by this share of the steps, if that is more
+  int least_corners = 5;  ///< of a group, as of a circle; fewer are taken for tracking gone wrong
   double least_area_px2 = 250;  ///< of a box
   double same_overlap = 0.3;    ///< IoU with a box of the last frame from which it is the same one
 };
@@ -40,7 +40,7 @@ class RebelGroups {
 
   /// To be called with every frame, in order.
   /// \param motions of the corners, as many.
-  /// \param dt_s since the last frame; 0 for none.
+  /// \param dt_s that the motions took; 0 for none.
   /// \return a verdict for each corner (`rebel` in a group, `pending` where lost, else `normal`);
   ///   as layers the corners as edges, the groups as rebel circles and squares. Valid until the
   ///   next call.

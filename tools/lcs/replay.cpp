@@ -180,7 +180,7 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
       ->check(CLI::IsMember({"imu", "truth"}));
   command
       .add_option("--detector", options.detector,
-                  "What watches: lcs (the filter), or klt or homography to compare it with")
+                  "What watches: lcs (the filter), or klt, homography or dis to compare it with")
       ->type_name("NAME");
   add_integer_option(
       command, "--fast-threshold", options.fast_threshold,

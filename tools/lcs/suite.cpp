@@ -213,7 +213,8 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
   command
       .add_option("--detector", options.detector,
                   "What watches: lcs (the filter), lcs:lab (with the paper's preset, or another, "
-                  "and none of the scenario's parameters), or klt or homography to compare it with")
+                  "and none of the scenario's parameters), or klt, homography or dis to compare it "
+                  "with")
       ->type_name("NAME");
   command
       .add_option("--recorded", options.recorded,

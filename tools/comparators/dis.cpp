@@ -1,0 +1,45 @@
+#include "tools/comparators/dis.h"
+
+#include <Eigen/Core>
+#include <opencv2/core/eigen.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "filter/pixels.h"
+
+namespace lcs::comparators {
+
+DisTracker::DisTracker(const sim::Pinhole& camera, const DisParameters& parameters)
+    : camera_(bench::intrinsics(camera)),
+      parameters_(parameters),
+      pictures_(parameters.baseline_s),
+      flow_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)),
+      groups_(parameters.groups) {}
+
+const FrameResult& DisTracker::step(const bench::TrackerInput& input) {
+  input.grey.copyTo(pictures_.begin(input.motion));
+  const EgoMotion& motion = pictures_.motion();
+  motions_.assign(input.corners_px.size(), {});
+  if (const cv::Mat1b* earlier = pictures_.earlier(); earlier != nullptr) {
+    cv::Matx33d rotation;
+    cv::eigen2cv(rotation_homography(camera_, motion.R_cur_prev), rotation);
+    cv::warpPerspective(*earlier, derotated_, rotation, earlier->size(), cv::INTER_LINEAR,
+                        cv::BORDER_REPLICATE);
+    flow_->calc(input.grey, derotated_, to_earlier_);
+
+    const MotionField field = exact_field(camera_, motion);
+    const MotionField back = exact_field(camera_, turned_back(motion));
+    const Pixels picture{camera_.width_px, camera_.height_px};
+    for (std::size_t i = 0; i < motions_.size(); ++i) {
+      const Vec2 now = input.corners_px[i].cast<double>();
+      if (!picture.contain(now)) continue;
+      const cv::Vec2f step = to_earlier_(nearest_pixel(now.y()), nearest_pixel(now.x()));
+      const Vec2 before = now + Vec2(step[0], step[1]);
+      // Beside the earlier picture there is nothing to be found.
+      if (!picture.contain(back.rotated(before))) continue;
+      motions_[i] = epipolar_motion(field, parameters_.residual_px, now, before);
+    }
+  }
+  return groups_.group(input.corners_px, motions_, motion.dt_s);
+}
+
+}  // namespace lcs::comparators
