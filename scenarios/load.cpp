@@ -91,6 +91,11 @@ Camera read_camera(Reader reader) {
     camera.width_px = pixels(0);
     camera.height_px = pixels(1);
   }
+  if (reader.at_most_one_of({"fovy", "focal"}) == "focal") {
+    double focal_px = 0;
+    reader.read("focal", kFocal, focal_px);
+    camera.fovy_rad = 2 * std::atan(camera.height_px / 2.0 / focal_px);
+  }
   reader.read("fovy", kFieldOfView, camera.fovy_rad);
   reader.read("rate", kCameraRate, camera.rate_hz);
   reader.read("position", kPosition, camera.mount_position_m);

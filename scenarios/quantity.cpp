@@ -45,6 +45,7 @@ constexpr std::array units = {
     Unit{"lx", Dimension::illuminance, 1, 1},
     Unit{"klx", Dimension::illuminance, 1000, 1},
     Unit{"cd", Dimension::intensity, 1, 1},
+    Unit{"px", Dimension::pixels, 1, 1},
 };
 
 const Unit* base(Dimension dimension) {
@@ -84,6 +85,8 @@ std::string_view noun(Dimension dimension) {
       return "an illuminance";
     case Dimension::intensity:
       return "a luminous intensity";
+    case Dimension::pixels:
+      return "a number of pixels";
   }
   return "";
 }

@@ -19,6 +19,7 @@ enum class Dimension {
   angular_rate,  ///< deg/s
   illuminance,   ///< lx
   intensity,     ///< cd, of a lamp
+  pixels,        ///< px, along the picture
 };
 
 /// The base unit, "" for a number.

@@ -148,11 +148,9 @@ const Value* Reader::require(std::string_view key) {
   return value;
 }
 
-std::optional<std::string> Reader::exactly_one_of(std::initializer_list<std::string_view> keys) {
-  std::vector<std::string> quoted;
+std::optional<std::string> Reader::at_most_one_of(std::initializer_list<std::string_view> keys) {
   std::optional<std::string> given;
   for (const std::string_view key : keys) {
-    quoted.push_back(quote(key));
     const Value* value = find(key);
     if (!value) continue;
     if (given) {
@@ -161,8 +159,16 @@ std::optional<std::string> Reader::exactly_one_of(std::initializer_list<std::str
     }
     given = key;
   }
-  if (!given) missing_.push_back(joined(quoted, " or "));
   return given;
+}
+
+std::optional<std::string> Reader::exactly_one_of(std::initializer_list<std::string_view> keys) {
+  const std::optional<std::string> given = at_most_one_of(keys);
+  if (given) return given;
+  std::vector<std::string> quoted;
+  for (const std::string_view key : keys) quoted.push_back(quote(key));
+  missing_.push_back(joined(quoted, " or "));
+  return std::nullopt;
 }
 
 void Reader::read(std::string_view key, bool& out) {

@@ -65,8 +65,9 @@ class Reader {
   const Value* find(std::string_view key);
   /// As `find`, but `finish` complains when it is absent.
   const Value* require(std::string_view key);
-  /// The one of these keys that is given; none when `finish` is going to complain that all are
-  /// absent.
+  /// The one of these keys that is given, if any is.
+  std::optional<std::string> at_most_one_of(std::initializer_list<std::string_view> keys);
+  /// As `at_most_one_of`, but `finish` complains when all are absent.
   std::optional<std::string> exactly_one_of(std::initializer_list<std::string_view> keys);
 
   /// \name Replace `out` when the key is given.

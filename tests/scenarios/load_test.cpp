@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numbers>
 #include <vector>
@@ -345,6 +346,31 @@ actors:
   EXPECT_FALSE(std::get<Line>(s.actors[4].trajectory).from_m);
   EXPECT_FALSE(std::get<Line>(s.actors[4].trajectory).heading_rad);
   EXPECT_FALSE(std::get<Still>(s.actors[5].trajectory).position_m);
+}
+
+TEST(Load, AFocalLengthStandsForTheFieldOfViewThatItMakes) {
+  const auto focal_px = [](const Scenario& s) {
+    return s.camera.height_px / 2.0 / std::tan(s.camera.fovy_rad / 2);
+  };
+  const std::string text = smallest + "camera: {focal: 600 px, size: [320, 240]}\n";
+  EXPECT_NEAR(focal_px(load_text(text)), 600, 1e-9);
+  EXPECT_NEAR(focal_px(load_text(text, {.sets = {"camera.focal=150"}, .seed = {}})), 150, 1e-9);
+  EXPECT_NEAR(load_text(text, {.sets = {"camera.focal=120"}, .seed = {}}).camera.fovy_rad, pi / 2,
+              1e-12);
+  EXPECT_DOUBLE_EQ(
+      load_text(text, {.sets = {"camera.focal=", "camera.fovy=45"}, .seed = {}}).camera.fovy_rad,
+      pi / 4);
+
+  const ScenarioFolder folder;
+  const auto file = folder.write("test.yaml", smallest + "sweep: {camera.focal: [300, 900 px]}\n");
+  std::vector<double> swept;
+  for (const SweepPoint& point : sweep_points(file)) {
+    const auto& [key, value] = point.settings.at(0);
+    swept.push_back(focal_px(load(file, {.sets = {key + "=" + value}, .seed = {}})));
+  }
+  ASSERT_EQ(swept.size(), 2u);
+  EXPECT_NEAR(swept[0], 300, 1e-9);
+  EXPECT_NEAR(swept[1], 900, 1e-9);
 }
 
 TEST(Load, FilterSettingsPassAsWrittenWithTheirLines) {

@@ -49,6 +49,7 @@ TEST(Quantity, EveryUnitBecomesSi) {
   EXPECT_EQ(parse_quantity("1.5 rad", Dimension::angle), 1.5);
   EXPECT_EQ(parse_quantity("90 deg/s", Dimension::angular_rate), pi / 2);
   EXPECT_EQ(parse_quantity("0.2 rad/s", Dimension::angular_rate), 0.2);
+  EXPECT_EQ(parse_quantity("600 px", Dimension::pixels), 600);
 }
 
 TEST(Quantity, WritingItInAnotherUnitGivesTheSameBits) {
