@@ -158,6 +158,7 @@ bool Watch::is_step(const Model& model, const Solid& who, const Solid& what, int
   if (who.kind != Kind::actor || (what.kind != Kind::object && what.kind != Kind::setting)) {
     return false;
   }
+  if (is_plane(model.m(), geom)) return false;  // a wall, as floors are nothing to be met
   const Pose T_WG = model.geom_pose(geom);
   const Eigen::RowVectorXd z = T_WG.R.row(2) * overlap_.hull(model, geom);
   const double foot_W_m = model.body_pose(who.body).p.z() + who.foot_m;

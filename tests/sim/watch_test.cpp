@@ -82,6 +82,15 @@ TEST(Watch, TellsActorsThatPassThroughThingsAndTheRover) {
             std::string::npos);
 }
 
+TEST(Watch, TellsAnActorThatPassesThroughAWallThatIsAPlane) {
+  auto scenario = scenario_in_mjcf(
+      floor_with("<geom name='wall' type='plane' pos='0 3 1' zaxis='0 -1 0' size='9 1 .1'/>"), 0,
+      40);
+  scenario.actors = {line_actor("walker", Shape::pedestrian, {2, 1}, 90 * test::kDegree, 1)};
+  expect_told(driven(scenario), Warning::actor_collisions,
+              "actor 'walker' passes through the setting's geom 'wall' at 1.");
+}
+
 TEST(Watch, ActorsStepOverKerbsAndTheRoverDoesNot) {
   const std::string kerb = "<geom name='kerb' type='box' pos='1 0 .06' size='.1 3 .07'/>";
   auto scenario = scenario_in_mjcf(floor_with(kerb), 0, 30);
