@@ -8,6 +8,7 @@
 #include "scenarios/document.h"
 #include "scenarios/imu_presets.h"
 #include "scenarios/load_actor.h"
+#include "scenarios/load_ego.h"
 #include "scenarios/load_image.h"
 #include "scenarios/load_sweep.h"
 #include "scenarios/quantities.h"
@@ -20,56 +21,6 @@ constexpr int kMostFrames = 1'000'000;
 constexpr int kSmallestImagePx = 16;
 constexpr int kLargestImagePx = 8192;
 const Value empty_map(Value::Kind::map, {});
-
-void read_motion(Reader& reader, EgoPhase& phase) {
-  reader.read("speed", kSpeed, phase.speed_mps);
-  reader.read("acceleration", kAcceleration, phase.acceleration_mps2);
-  reader.read("direction", kAngle, phase.direction_rad);
-  reader.read("yaw_rate", kAngularRate, phase.yaw_rate_radps);
-}
-
-/// What a phase has become at `at_s`.
-EgoPhase carried_on(const EgoPhase& before, double at_s) {
-  EgoPhase phase = before;
-  phase.at_s = at_s;
-  phase.speed_mps =
-      std::max(0.0, before.speed_mps + before.acceleration_mps2 * (at_s - before.at_s));
-  return phase;
-}
-
-EgoPhase next_phase(Reader reader, const EgoPhase& before) {
-  double at_s = before.at_s;
-  const Value* at = reader.require("at");
-  reader.read("at", kTime, at_s);
-  EgoPhase phase = carried_on(before, at_s);
-  read_motion(reader, phase);
-  reader.finish();
-  if (at_s <= before.at_s) {
-    throw Error(at->where, reader.path_of("at") + " is '" + at->text +
-                               "', not after the phase before (" + number_text(before.at_s) +
-                               " s); make the times increase");
-  }
-  return phase;
-}
-
-Ego read_ego(Reader reader) {
-  Ego ego;
-  if (const auto drive = reader.choice("drive", {"holonomic", "wheeled"})) {
-    ego.drive = static_cast<Drive>(*drive);
-  }
-  reader.read("start", kPosition, ego.start_m);
-  reader.read("heading", kAngle, ego.heading_rad);
-  read_motion(reader, ego.phases.emplace_back());
-  if (const Value* phases = reader.find("phases")) {
-    const std::string path = reader.path_of("phases");
-    for (const Value& phase : as_list(*phases, path)) {
-      const std::string index = std::to_string(ego.phases.size() - 1);
-      ego.phases.push_back(next_phase({phase, path + "." + index}, ego.phases.back()));
-    }
-  }
-  reader.finish();
-  return ego;
-}
 
 Camera::Told read_told(Reader reader) {
   Camera::Told told;
@@ -245,7 +196,7 @@ void read_top(Reader& reader, const std::filesystem::path& folder, Scenario& sce
     scenario.scene_source = scene->where;
   }
   if (const Value* seed = reader.find("seed")) scenario.seed = as_seed(*seed, "seed");
-  if (reader.require("ego")) section("ego", read_ego, scenario.ego);
+  if (const Value* ego = reader.require("ego")) scenario.ego = read_ego({*ego, "ego"}, folder);
   section("camera", read_camera, scenario.camera);
   scenario.frames = read_frames(reader, scenario.camera.rate_hz);
   const Value* imu = reader.find("imu");

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scenarios/quantities.h"
+#include "scenarios/scenes.h"
 
 namespace lcs::scenario {
 namespace {
@@ -35,26 +36,6 @@ Circular read_circle(Reader reader) {
   reader.read("speed", kSignedSpeed, circle.speed_mps);
   reader.finish();
   return circle;
-}
-
-Waypoints read_waypoints(const Value& value, const std::string& path) {
-  Waypoints waypoints;
-  for (const Value& item : as_list(value, path)) {
-    const std::string item_path = path + "." + std::to_string(waypoints.points.size());
-    const std::vector<Value>& triple = as_list(item, item_path, 3);
-    const Waypoint point{as_quantity(triple[0], item_path + ".0", kTime),
-                         {as_quantity(triple[1], item_path + ".1", kPosition),
-                          as_quantity(triple[2], item_path + ".2", kPosition)}};
-    if (!waypoints.points.empty() && point.at_s <= waypoints.points.back().at_s) {
-      throw Error(item.where, item_path + " is at '" + triple[0].text +
-                                  "', not after the one before; make the times increase");
-    }
-    waypoints.points.push_back(point);
-  }
-  if (waypoints.points.size() < 2) {
-    throw Error(value.where, path + " has fewer than two waypoints; give two or more [time, x, y]");
-  }
-  return waypoints;
 }
 
 Trajectory read_trajectory(const Value& value, const std::string& path) {
@@ -96,18 +77,17 @@ std::string read_texture(const Value& value, const std::string& path,
                          const std::filesystem::path& folder) {
   const std::string& text = as_text(value, path);
   if (!text.ends_with(".png")) return text;
-  const std::filesystem::path file = folder / text;
-  std::error_code too_long;  // a name that no file can have
-  if (!std::filesystem::is_regular_file(file, too_long)) {
-    throw Error(value.where, path + ": there is no picture " + file.string() +
-                                 "; give its path relative to the scenario file");
-  }
-  return file.string();
+  return file_beside(value, folder, path + ": there is no picture ").string();
 }
 
 void read_shape(Reader& reader, const std::filesystem::path& folder, Actor& actor) {
-  actor.shape =
-      static_cast<Shape>(*reader.choice("shape", {"box", "cylinder", "pedestrian", "car"}));
+  if (const auto file = own_file(reader, "shape", folder)) {
+    actor.shape = Shape::own;
+    actor.shape_file = *file;
+  } else {
+    actor.shape = static_cast<Shape>(
+        *reader.choice("shape", {"box", "cylinder", "pedestrian", "car"}, kOwnFile));
+  }
   reader.read("size", kSize, actor.size_m);
   if (const Value* texture = reader.find("texture")) {
     actor.texture = read_texture(*texture, reader.path_of("texture"), folder);
@@ -131,6 +111,9 @@ void check_name(const Entry& entry) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   };
+  if (entry.key == "ego") {
+    throw Error(entry.where, "an actor is called 'ego', which is the rover's name; rename it");
+  }
   if (std::all_of(entry.key.begin(), entry.key.end(), is_name_char)) return;
   throw Error(entry.where,
               "the actor's name '" + entry.key +
@@ -138,6 +121,26 @@ void check_name(const Entry& entry) {
 }
 
 }  // namespace
+
+Waypoints read_waypoints(const Value& value, const std::string& path) {
+  Waypoints waypoints;
+  for (const Value& item : as_list(value, path)) {
+    const std::string item_path = path + "." + std::to_string(waypoints.points.size());
+    const std::vector<Value>& triple = as_list(item, item_path, 3);
+    const Waypoint point{as_quantity(triple[0], item_path + ".0", kTime),
+                         {as_quantity(triple[1], item_path + ".1", kPosition),
+                          as_quantity(triple[2], item_path + ".2", kPosition)}};
+    if (!waypoints.points.empty() && point.at_s <= waypoints.points.back().at_s) {
+      throw Error(item.where, item_path + " is at '" + triple[0].text +
+                                  "', not after the one before; make the times increase");
+    }
+    waypoints.points.push_back(point);
+  }
+  if (waypoints.points.size() < 2) {
+    throw Error(value.where, path + " has fewer than two waypoints; give two or more [time, x, y]");
+  }
+  return waypoints;
+}
 
 Actor read_actor(const Entry& entry, const std::filesystem::path& folder) {
   check_name(entry);

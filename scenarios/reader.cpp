@@ -186,14 +186,17 @@ void Reader::read(std::string_view key, std::string& out) {
 }
 
 std::optional<std::size_t> Reader::choice(std::string_view key,
-                                          const std::vector<std::string>& words) {
+                                          const std::vector<std::string>& words,
+                                          std::string_view other) {
   const Value* value = find(key);
   if (!value) return std::nullopt;
   const std::string path = path_of(key);
-  require_scalar(*value, path, joined(words, " or "));
+  std::vector<std::string> all = words;
+  if (!other.empty()) all.emplace_back(other);
+  require_scalar(*value, path, joined(all, " or "));
   const auto word = std::find(words.begin(), words.end(), value->text);
   if (word == words.end()) {
-    throw Error(value->where, path + " is '" + value->text + "'; give " + joined(words, " or "));
+    throw Error(value->where, path + " is '" + value->text + "'; give " + joined(all, " or "));
   }
   return static_cast<std::size_t>(word - words.begin());
 }

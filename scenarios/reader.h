@@ -97,7 +97,9 @@ class Reader {
   ///@}
 
   /// The position of the key's word among `words`, none when the key is absent.
-  std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& words);
+  /// \param other what may be given too, as the message says it.
+  std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& words,
+                                    std::string_view other = "");
 
   /// Checks the map as a whole: no key that was not asked for, none missing that was required.
   void finish() const;

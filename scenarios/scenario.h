@@ -39,6 +39,7 @@ class Error : public std::runtime_error {
 enum class Drive {
   holonomic,  ///< planar base that follows any velocity command at once: the paper's assumption
   wheeled,    ///< two driven wheels and two casters on contacts; the camera shakes on rough ground
+  own,        ///< of a file, in one of these ways: its actuators say in which (`sim/fragment.h`)
 };
 
 /// The command that the ego follows from `at_s` on, until the next phase begins.
@@ -51,11 +52,22 @@ struct EgoPhase {
   double yaw_rate_radps = 0;  ///< ccw
 };
 
+/// A place on the ground, to be at a time.
+struct Waypoint {
+  double at_s = 0;
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
+};
+
 struct Ego {
+  Source source;
   Drive drive = Drive::holonomic;
+  std::filesystem::path drive_file;  ///< of `Drive::own`: MJCF, which exists
   Eigen::Vector2d start_m = Eigen::Vector2d::Zero();
   double heading_rad = 0;
   std::vector<EgoPhase> phases;  ///< at least one; the first is at 0, times increase
+  /// In place of all phases: at least two, times increase from 0 or later, and they lead somewhere.
+  /// `sim/route.h` has what comes between them. `start_m` is the first; they give the heading too.
+  std::vector<Waypoint> waypoints;
 };
 
 struct Camera {
@@ -169,12 +181,9 @@ struct Line {
   double speed_mps = 0;                   ///< >= 0
   double acceleration_mps2 = 0;           ///< a speed that reaches 0 stays 0: "comes and parks"
 };
-struct Waypoint {
-  double at_s = 0;  ///< after the start trigger
-  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
-};
 struct Waypoints {
-  std::vector<Waypoint> points;  ///< at least two, times increase; straight and uniform in between
+  /// At least two, straight and uniform in between; times count from the start trigger, and increase.
+  std::vector<Waypoint> points;
 };
 struct Circular {
   Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
@@ -191,7 +200,7 @@ struct StartTrigger {
   std::optional<double> ego_within_m;  ///< and not before the ego is as near as this
 };
 
-enum class Shape { box, cylinder, pedestrian, car };
+enum class Shape { box, cylinder, pedestrian, car, own };
 
 struct Actor {
   std::string name;
@@ -199,6 +208,7 @@ struct Actor {
   std::optional<std::string>
       body;  ///< moves this body of the scene; else an actor of `shape` is added
   Shape shape = Shape::box;
+  std::filesystem::path shape_file;  ///< of `Shape::own`: MJCF, which exists
   std::optional<Eigen::Vector3d>
       size_m;           ///< length (x), width (y), height (z); none: the shape's own
   std::string texture;  ///< style of the procedural texture, or a PNG file; "": own

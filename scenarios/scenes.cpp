@@ -2,20 +2,21 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <string>
+#include <set>
+#include <stdexcept>
 #include <system_error>
-#include <vector>
-
-#include "scenarios/reader.h"
 
 namespace lcs::scenario {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 /// " (it has lab, street)", or nothing.
-std::string scenes_in(const std::filesystem::path& folder) {
+std::string scenes_in(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code error;
-  for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
+  for (const auto& file : fs::directory_iterator(folder, error)) {
     if (file.path().extension() == ".xml") names.push_back(file.path().stem().string());
   }
   std::sort(names.begin(), names.end());
@@ -24,33 +25,98 @@ std::string scenes_in(const std::filesystem::path& folder) {
   return text.empty() ? text : text + ")";
 }
 
+const char* name_of(Drive drive) {
+  switch (drive) {
+    case Drive::holonomic:
+      return "ego/holonomic.xml";
+    case Drive::wheeled:
+      return "ego/wheeled.xml";
+    case Drive::own:
+      break;
+  }
+  throw std::invalid_argument("this rover does not ship with the project");
+}
+
+const char* name_of(Shape shape) {
+  switch (shape) {
+    case Shape::box:
+      return "actors/box.xml";
+    case Shape::cylinder:
+      return "actors/cylinder.xml";
+    case Shape::pedestrian:
+      return "actors/pedestrian.xml";
+    case Shape::car:
+      return "actors/car.xml";
+    case Shape::own:
+      break;
+  }
+  throw std::invalid_argument("an actor has a shape that does not ship with the project");
+}
+
+fs::path shipped_file(const fs::path& name) {
+  const fs::path file = scenes_folder() / name;
+  return fs::exists(file) ? file : LCS_SCENES_DIR / name;
+}
+
 }  // namespace
 
-std::filesystem::path scenes_folder() {
+fs::path scenes_folder() {
   const char* const folder = std::getenv("LCS_SCENES");
   return folder && *folder ? folder : LCS_SCENES_DIR;
 }
 
-std::filesystem::path shipped_file(const std::filesystem::path& relative) {
-  const std::filesystem::path file = scenes_folder() / relative;
-  return std::filesystem::exists(file) ? file : LCS_SCENES_DIR / relative;
+fs::path rover_file(const Ego& ego) {
+  return ego.drive == Drive::own ? ego.drive_file : shipped_file(name_of(ego.drive));
 }
 
-std::filesystem::path find_scene(const Value& value, const std::filesystem::path& folder) {
-  const std::string& text = as_text(value, "scene");
-  std::error_code too_long;  // a name that no file can have
-  if (text.ends_with(".xml")) {
-    const std::filesystem::path file = folder / text;
-    if (std::filesystem::is_regular_file(file, too_long)) return file;
-    throw Error(value.where, "there is no scene file " + file.string() +
-                                 "; give its path relative to the scenario file");
+fs::path actor_file(const Actor& actor) {
+  return actor.shape == Shape::own ? actor.shape_file : shipped_file(name_of(actor.shape));
+}
+
+std::vector<std::string> shadowed_files(const Scenario& scenario) {
+  std::set<fs::path> names;
+  const fs::path scene = scenario.scene.filename();
+  if (scenario.scene == scenes_folder() / scene) names.insert(scene);
+  if (scenario.ego.drive != Drive::own) names.insert(name_of(scenario.ego.drive));
+  for (const Actor& actor : scenario.actors) {
+    if (!actor.body && actor.shape != Shape::own) names.insert(name_of(actor.shape));
   }
-  const std::filesystem::path scenes = scenes_folder();
-  const std::filesystem::path file = scenes / (text + ".xml");
-  if (std::filesystem::is_regular_file(file, too_long)) return file;
+  std::vector<std::string> lines;
+  std::error_code none;  // of files that are not there, which are no others
+  for (const fs::path& name : names) {
+    const fs::path used = scenes_folder() / name, other = LCS_SCENES_DIR / name;
+    if (!fs::exists(used, none) || !fs::exists(other, none)) continue;
+    if (fs::equivalent(used, other, none)) continue;
+    lines.push_back(used.string() + " is used, as LCS_SCENES says, and not the project's own " +
+                    other.string() + "; unset LCS_SCENES for that one, or rename the file");
+  }
+  return lines;
+}
+
+fs::path find_scene(const Value& value, const fs::path& folder) {
+  const std::string& text = as_text(value, "scene");
+  if (text.ends_with(".xml")) return file_beside(value, folder, "there is no scene file ");
+  std::error_code too_long;  // a name that no file can have
+  const fs::path scenes = scenes_folder();
+  const fs::path file = scenes / (text + ".xml");
+  if (fs::is_regular_file(file, too_long)) return file;
   throw Error(value.where, "there is no scene '" + text + "' at " + file.string() +
                                "; give the name of a scene in that folder" + scenes_in(scenes) +
                                " or a path that ends in .xml");
+}
+
+fs::path file_beside(const Value& value, const fs::path& folder, const std::string& missing) {
+  const fs::path file = folder / value.text;
+  std::error_code too_long;  // a name that no file can have
+  if (fs::is_regular_file(file, too_long)) return file;
+  throw Error(value.where,
+              missing + file.string() + "; give its path relative to the scenario file");
+}
+
+std::optional<fs::path> own_file(Reader& reader, const char* key, const fs::path& folder) {
+  const Value* value = reader.find(key);
+  if (!value || value->kind != Value::Kind::scalar || !value->text.ends_with(".xml")) return {};
+  return file_beside(*value, folder, reader.path_of(key) + ": there is no file ");
 }
 
 }  // namespace lcs::scenario

@@ -5,121 +5,163 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <map>
 #include <string_view>
 #include <vector>
 
 #include "scenarios/scenes.h"
+#include "sim/fragment_contract.h"
+#include "sim/mjcf.h"
 #include "sim/texture.h"
 
 namespace lcs::sim {
 namespace {
 
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
 using scenario::Shape;
 
-const char* file_of(Shape shape) {
-  switch (shape) {
-    case Shape::box:
-      return "actors/box.xml";
-    case Shape::cylinder:
-      return "actors/cylinder.xml";
-    case Shape::pedestrian:
-      return "actors/pedestrian.xml";
-    case Shape::car:
-      return "actors/car.xml";
-  }
-  throw std::invalid_argument("unknown shape of an actor");
-}
-
 std::vector<double> numbers(const xml::Element& e, const char* key) {
-  std::vector<double> values;
-  std::istringstream text(xml::attribute(e, key));
-  for (double value; text >> value;) values.push_back(value);
-  return values;
+  return mjcf::numbers(mjcf::effective(e, key));
 }
 
-void set_numbers(xml::Element& e, const char* key, const std::vector<double>& values) {
-  e.SetAttribute(key, fmt::format("{:.17g}", fmt::join(values, " ")).c_str());
-}
-
-Eigen::Vector3d natural_size(xml::Element& root) {
+Vector3d natural_size(xml::Element& root) {
   const xml::Element* size = xml::child_named(xml::section(root, "custom"), "numeric", "size");
-  const std::vector<double> values = size ? numbers(*size, "data") : std::vector<double>{};
-  if (values.size() != 3) {
-    throw std::runtime_error(
-        "an actor's fragment must state its natural size: "
-        "<custom><numeric name=\"size\" data=\"x y z\"/></custom>");
-  }
-  return {values[0], values[1], values[2]};
+  const std::vector<double> values = numbers(*size, "data");
+  return {values.at(0), values.at(1), values.at(2)};
 }
 
-Eigen::Matrix3d rotation(const xml::Element& geom) {
-  const std::vector<double> q = numbers(geom, "quat");
-  if (q.size() != 4) return Eigen::Matrix3d::Identity();
-  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
-}
-
-/// Factors along the axes of a geom whose frame stands at R in the body.
-Eigen::Vector3d local_factors(const Eigen::Matrix3d& R, const Eigen::Vector3d& factor) {
+/// Factors along the axes of what stands at R in the body.
+Vector3d local_factors(const Matrix3d& R, const Vector3d& factor) {
   return (factor.asDiagonal() * R).colwise().norm();
 }
 
 /// Factor of the radius of what is round about an axis: what lies, as a wheel does, must keep
 /// standing on the ground, so it grows with the height; what stands takes the mean of the factors
 /// across.
-double radius_factor(const Eigen::Vector3d& axis, const Eigen::Vector3d& factor) {
+double radius_factor(const Vector3d& axis, const Vector3d& factor) {
   return std::abs(axis.z()) < std::sqrt(0.5) ? factor.z() : std::sqrt(factor.x() * factor.y());
 }
 
-void scale_vector(xml::Element& geom, const char* key, const Eigen::Vector3d& factor) {
-  std::vector<double> values = numbers(geom, key);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] *= factor[i % 3];
-  if (!values.empty()) set_numbers(geom, key, values);
-}
+/// Scales a fragment's geoms, and what places them, along the axes of its body.
+class Scaling {
+ public:
+  Scaling(xml::Element& root, const Vector3d& factor)
+      : assets_(xml::section(root, "asset")), factor_(factor) {}
 
-void scale_geom(xml::Element& geom, const Eigen::Vector3d& factor) {
-  std::vector<double> size = numbers(geom, "size");
-  const std::string type = xml::attribute(geom, "type");
-  scale_vector(geom, "pos", factor);
+  /// \param R of the body's axes in those of the fragment.
+  void scale_in(xml::Element& body, const Matrix3d& R) {
+    for (auto* e = body.FirstChildElement(); e; e = e->NextSiblingElement()) {
+      const std::string_view kind = e->Name();
+      if (kind == "geom") scale_geom(*e, R);
+      if (kind != "body") continue;
+      scale_places(*e, "pos", R);
+      scale_in(*e, R * mjcf::rotation(*e));
+    }
+  }
 
-  if (std::vector<double> ends = numbers(geom, "fromto"); ends.size() == 6) {
-    const Eigen::Vector3d along =
-        Eigen::Vector3d(ends[3] - ends[0], ends[4] - ends[1], ends[5] - ends[2]).normalized();
-    scale_vector(geom, "fromto", factor);
-    set_numbers(geom, "size", {size.at(0) * radius_factor(along, factor)});
-    return;
+ private:
+  /// One place, or more, in axes that stand at R.
+  void scale_places(xml::Element& e, const char* key, const Matrix3d& R) {
+    std::vector<double> values = numbers(e, key);
+    if (values.empty() || values.size() % 3 != 0) return;  // MuJoCo tells
+    for (std::size_t i = 0; i < values.size(); i += 3) {
+      const Eigen::Map<Vector3d> place(values.data() + i);
+      const Vector3d scaled = R.transpose() * factor_.cwiseProduct(R * place);
+      std::copy_n(scaled.data(), 3, values.data() + i);
+    }
+    mjcf::set_numbers(e, key, values);
   }
-  if (type == "mesh") return;  // its asset is scaled
-  const Eigen::Matrix3d R = rotation(geom);
-  const Eigen::Vector3d local = local_factors(R, factor);
-  if (type == "box" || type == "ellipsoid") {
-    set_numbers(geom, "size",
-                {size.at(0) * local.x(), size.at(1) * local.y(), size.at(2) * local.z()});
-  } else if (type == "sphere" || type.empty()) {
-    const double r = size.at(0);
-    geom.SetAttribute("type", "ellipsoid");
-    set_numbers(geom, "size", {r * local.x(), r * local.y(), r * local.z()});
-  } else {
-    set_numbers(geom, "size",
-                {size.at(0) * radius_factor(R.col(2), factor), size.at(1) * local.z()});
+
+  void scale_geom(xml::Element& geom, const Matrix3d& R_body) {
+    const std::vector<double> size = numbers(geom, "size");
+    const std::string type = mjcf::effective(geom, "type");
+    scale_places(geom, "pos", R_body);
+    const Matrix3d R = R_body * mjcf::rotation(geom);
+    const Vector3d local = local_factors(R, factor_);
+    if (!mjcf::effective(geom, "mesh").empty()) return scale_mesh(geom, local);
+    if (std::vector<double> ends = numbers(geom, "fromto"); ends.size() == 6 && !size.empty()) {
+      const Vector3d along =
+          R_body * Vector3d(ends[3] - ends[0], ends[4] - ends[1], ends[5] - ends[2]).normalized();
+      scale_places(geom, "fromto", R_body);
+      mjcf::set_numbers(geom, "size", {size[0] * radius_factor(along, factor_)});
+      return;
+    }
+    // what has fewer sizes than its type asks for is for MuJoCo to tell
+    if (type == "sphere" && !size.empty()) {
+      geom.SetAttribute("type", "ellipsoid");
+      mjcf::set_numbers(geom, "size",
+                        {size[0] * local.x(), size[0] * local.y(), size[0] * local.z()});
+    } else if ((type == "box" || type == "ellipsoid") && size.size() >= 3) {
+      mjcf::set_numbers(geom, "size",
+                        {size[0] * local.x(), size[1] * local.y(), size[2] * local.z()});
+    } else if ((type == "cylinder" || type == "capsule") && size.size() >= 2) {
+      mjcf::set_numbers(geom, "size",
+                        {size[0] * radius_factor(R.col(2), factor_), size[1] * local.z()});
+    }
   }
-}
+
+  /// Its asset is scaled, or a copy of it where another geom needs it scaled otherwise.
+  void scale_mesh(xml::Element& geom, const Vector3d& local) {
+    const std::string name = mjcf::effective(geom, "mesh");
+    xml::Element* asset = xml::child_named(assets_, "mesh", name);
+    if (!asset) return;  // MuJoCo tells
+    std::vector<Scaled>& copies = meshes_[name];
+    auto found = std::find_if(copies.begin(), copies.end(),
+                              [&](const Scaled& s) { return s.local.isApprox(local); });
+    if (found == copies.end()) {
+      Scaled scaled{name, local, scale_of(*asset)};
+      if (!copies.empty()) {
+        asset = assets_.InsertEndChild(asset->DeepClone(assets_.GetDocument()))->ToElement();
+        scaled.name = fmt::format("{}:{}", name, copies.size());
+        scaled.natural = copies.front().natural;
+        asset->SetAttribute("name", scaled.name.c_str());
+      }
+      const Vector3d scale = scaled.natural.cwiseProduct(local);
+      mjcf::set_numbers(*asset, "scale", {scale.x(), scale.y(), scale.z()});
+      found = copies.insert(copies.end(), scaled);
+    }
+    geom.SetAttribute("mesh", found->name.c_str());
+  }
+
+  static Vector3d scale_of(const xml::Element& mesh) {
+    const std::vector<double> scale = numbers(mesh, "scale");
+    return scale.size() == 3 ? Vector3d(scale[0], scale[1], scale[2]) : Vector3d::Ones();
+  }
+
+  struct Scaled {
+    std::string name;  ///< of the asset
+    Vector3d local;    ///< factors, along the axes of the geoms that have it
+    Vector3d natural;  ///< scale that its file gives it
+  };
+
+  xml::Element& assets_;
+  Vector3d factor_;
+  std::map<std::string, std::vector<Scaled>> meshes_;  ///< by the name that the file gives them
+};
 
 bool is_style(const std::string& texture) {
   const auto& styles = texture_styles();
   return std::find(styles.begin(), styles.end(), texture) != styles.end();
 }
 
-/// Gives the texture of the material `paint` the name that says what to fill it with.
+/// Gives the texture of the material `paint` the name that says what to fill it with. Other
+/// materials keep theirs.
 void paint_fragment(xml::Element& root, const scenario::Actor& actor) {
   if (actor.texture.empty()) return;
   xml::Element& assets = xml::section(root, "asset");
-  xml::Element* material = xml::child_named(assets, "material", "paint");
-  const std::string old_name = material ? xml::attribute(*material, "texture") : "";
+  xml::Element* paint = xml::child_named(assets, "material", "paint");
+  const std::string old_name = paint ? mjcf::effective(*paint, "texture") : "";
   xml::Element* texture = xml::child_named(assets, "texture", old_name);
-  if (!texture)
-    throw std::runtime_error("an actor's fragment needs a material 'paint' with a texture");
-
+  if (!texture || old_name.empty()) {
+    throw scenario::Error(
+        xml::source_of(paint ? *paint : root),
+        fmt::format("actor '{}' has the texture '{}', and its file no material 'paint' with a "
+                    "texture to put it on; give it <texture name=\"paint\" type=\"cube\" "
+                    "builtin=\"flat\" width=\"256\" height=\"1536\"/><material name=\"paint\" "
+                    "texture=\"paint\"/>, or the actor no texture",
+                    actor.name, actor.texture));
+  }
   std::string new_name = kPictureTexture;
   if (is_style(actor.texture)) {
     new_name = fmt::format("{}{}:paint", kProceduralPrefix, actor.texture);
@@ -129,43 +171,61 @@ void paint_fragment(xml::Element& root, const scenario::Actor& actor) {
         fmt::format("texture '{}' is no picture that exists and no style; styles are {}",
                     actor.texture, fmt::join(texture_styles(), ", ")));
   }
+  bool is_shared = false;
+  xml::for_each(assets, [&](const xml::Element& e) {
+    is_shared |= &e != paint && mjcf::effective(e, "texture") == old_name;
+  });
+  if (is_shared) {
+    texture = assets.InsertEndChild(texture->DeepClone(assets.GetDocument()))->ToElement();
+  }
   texture->SetAttribute("name", new_name.c_str());
-  xml::for_each(assets, [&](xml::Element& e) {
-    if (xml::attribute(e, "texture") == old_name) e.SetAttribute("texture", new_name.c_str());
+  paint->SetAttribute("texture", new_name.c_str());
+}
+
+/// What is put where it is, or follows any command, is not pushed.
+void take_contacts_away(xml::Element& root) {
+  xml::for_each(xml::section(root, "worldbody"), [](xml::Element& e) {
+    if (std::string_view(e.Name()) != "geom") return;
+    e.SetAttribute("contype", "0");
+    e.SetAttribute("conaffinity", "0");
   });
 }
 
 }  // namespace
 
-void scale_fragment(xml::Element& root, const Eigen::Vector3d& size_m) {
-  const Eigen::Vector3d factor = size_m.cwiseQuotient(natural_size(root));
-  if (factor.isApproxToConstant(1)) return;
-  xml::for_each(xml::section(root, "asset"), [&](xml::Element& e) {
-    if (std::string_view(e.Name()) != "mesh") return;
-    if (numbers(e, "scale").size() != 3) set_numbers(e, "scale", {1, 1, 1});
-    scale_vector(e, "scale", factor);
-  });
-  xml::for_each(xml::section(root, "worldbody"), [&](xml::Element& e) {
-    if (std::string_view(e.Name()) == "geom") scale_geom(e, factor);
-  });
-}
-
 bool has_picture(const scenario::Actor& actor) {
   return !actor.texture.empty() && !is_style(actor.texture);
 }
 
-xml::Document actor_fragment(const scenario::Actor& actor) {
-  xml::Document document = xml::load(scenario::shipped_file(file_of(actor.shape)), actor.source);
+xml::Document actor_fragment(const scenario::Actor& actor, const xml::Element& scene) {
+  xml::Document document = xml::load(scenario::actor_file(actor), actor.source);
   xml::Element& root = *document->RootElement();
+  mjcf::make_standalone(root, scene);
+  check_actor(root);
   if (actor.size_m) {
-    const Eigen::Vector3d& size = *actor.size_m;
+    const Vector3d& size = *actor.size_m;
     if (actor.shape == Shape::cylinder && size.x() != size.y()) {
       throw scenario::Error(actor.source, "a cylinder is round: give the same length and width");
     }
-    scale_fragment(root, size);
+    const Vector3d factor = size.cwiseQuotient(natural_size(root));
+    xml::Element& base = *xml::child_named(xml::section(root, "worldbody"), "body", "base");
+    if (!factor.isApproxToConstant(1)) Scaling(root, factor).scale_in(base, Matrix3d::Identity());
   }
   paint_fragment(root, actor);
+  take_contacts_away(root);
   xml::prefix_names(root, actor.name + "/");
+  return document;
+}
+
+xml::Document rover_fragment(const scenario::Ego& ego, const xml::Element& scene) {
+  xml::Document document = xml::load(scenario::rover_file(ego), ego.source);
+  xml::Element& root = *document->RootElement();
+  mjcf::make_standalone(root, scene);
+  check_rover(root);
+  // its cameras are for a viewer, and one of them may be called as the scenario's will be
+  xml::remove_all(root, "camera");
+  if (!is_wheeled(root)) take_contacts_away(root);
+  xml::prefix_names(root, kEgoPrefix);
   return document;
 }
 

@@ -96,6 +96,10 @@ Model::Model(const std::string& mjcf) {
   std::tie(model_, data_) = load(mjcf);
 }
 
+bool Model::has(mjtObj type, const std::string& name) const {
+  return mj_name2id(model_.get(), type, name.c_str()) >= 0;
+}
+
 int Model::id(mjtObj type, const std::string& name) const {
   const int id = mj_name2id(model_.get(), type, name.c_str());
   if (id < 0) throw MujocoError(std::string(mju_type2Str(type)) + " '" + name + "' is missing");

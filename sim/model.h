@@ -54,6 +54,7 @@ class Model {
   mjData& d() { return *data_; }
   const mjData& d() const { return *data_; }
 
+  bool has(mjtObj type, const std::string& name) const;
   /// Index of a named element. \throws MujocoError if there is none.
   int id(mjtObj type, const std::string& name) const;
   /// Name of an element, empty where it has none.

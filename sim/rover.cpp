@@ -7,8 +7,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
+#include "sim/route.h"
 #include "sim/scene_builder.h"
 
 namespace lcs::sim {
@@ -37,6 +39,7 @@ class HolonomicRover : public Rover {
   HolonomicRover(const scenario::Ego& ego, const Model& model)
       : ego_(ego),
         command_(ego.phases),
+        route_(ego.waypoints.empty() ? std::nullopt : std::optional<Route>(ego)),
         joints_{Joint(model, "x"), Joint(model, "y"), Joint(model, "yaw")},
         actuators_{actuator(model, "x"), actuator(model, "y"), actuator(model, "yaw")} {}
 
@@ -44,12 +47,12 @@ class HolonomicRover : public Rover {
     mjData& d = model.d();
     const std::array<double, 3> position = {ego_.start_m.x(), ego_.start_m.y(), ego_.heading_rad};
     for (std::size_t i = 0; i < 3; ++i) d.qpos[joints_[i].qpos] = position[i];
-    const std::array<double, 3> velocity = joint_rates(model, command_.at(0));
+    const std::array<double, 3> velocity = joint_rates(model, 0);
     for (std::size_t i = 0; i < 3; ++i) d.qvel[joints_[i].qvel] = velocity[i];
   }
 
   void command(Model& model, std::int64_t t_ns) override {
-    const std::array<double, 3> velocity = joint_rates(model, command_.at(t_ns));
+    const std::array<double, 3> velocity = joint_rates(model, t_ns);
     for (std::size_t i = 0; i < 3; ++i) model.d().ctrl[actuators_[i]] = velocity[i];
   }
 
@@ -63,13 +66,19 @@ class HolonomicRover : public Rover {
 
  private:
   /// Of the joints: x and y of W, and yaw.
-  std::array<double, 3> joint_rates(const Model& model, const PlanarVelocity& v) const {
+  std::array<double, 3> joint_rates(const Model& model, std::int64_t t_ns) {
+    if (route_) {
+      const Route::Motion motion = route_->at(1e-9 * static_cast<double>(t_ns));
+      return {motion.velocity_W_mps.x(), motion.velocity_W_mps.y(), motion.yaw_rate_radps};
+    }
+    const PlanarVelocity v = command_.at(t_ns);
     const Eigen::Vector2d v_W = Eigen::Rotation2Dd(model.d().qpos[joints_[2].qpos]) * v.linear_mps;
     return {v_W.x(), v_W.y(), v.yaw_rate_radps};
   }
 
   scenario::Ego ego_;
   SmoothCommand command_;
+  std::optional<Route> route_;  ///< in place of the command
   std::array<Joint, 3> joints_;
   std::array<int, 3> actuators_;
 };
@@ -133,6 +142,11 @@ class WheeledRover : public Rover {
   static constexpr double kSunk_m = 0.1;  // its wheels' radius: on the ground it sinks by less
 
   static void check(const scenario::Scenario& scenario) {
+    if (!scenario.ego.waypoints.empty()) {
+      throw scenario::Error(scenario.ego.source,
+                            "a wheeled rover slips, and cannot be at ego.waypoints at their times; "
+                            "make the drive holonomic, or give start, heading, speed and phases");
+    }
     for (const EgoPhase& phase : scenario.ego.phases) {
       constexpr double kTolerance = 1e-6;
       if (std::abs(std::sin(phase.direction_rad)) > kTolerance) {
@@ -251,10 +265,10 @@ PlanarVelocity SmoothCommand::at(std::int64_t t_ns) {
 }
 
 std::unique_ptr<Rover> make_rover(const scenario::Scenario& scenario, const Model& model) {
-  if (scenario.ego.drive == scenario::Drive::holonomic) {
-    return std::make_unique<HolonomicRover>(scenario.ego, model);
+  if (model.has(mjOBJ_ACTUATOR, kEgoPrefix + std::string("left"))) {
+    return std::make_unique<WheeledRover>(scenario, model);
   }
-  return std::make_unique<WheeledRover>(scenario, model);
+  return std::make_unique<HolonomicRover>(scenario.ego, model);
 }
 
 }  // namespace lcs::sim

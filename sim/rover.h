@@ -57,6 +57,7 @@ class Rover {
   virtual Eigen::Vector3d odometry(const Model& model) const = 0;
 };
 
+/// Wheeled where the rover has an actuator `left`, else holonomic.
 /// \throws scenario::Error for a command that the drive cannot carry out (a wheeled rover
 /// sideways).
 std::unique_ptr<Rover> make_rover(const scenario::Scenario& scenario, const Model& model);

@@ -10,11 +10,11 @@
 #include <string_view>
 #include <utility>
 
-#include "scenarios/scenes.h"
 #include "scenarios/spelling.h"
 #include "sim/fragment.h"
 #include "sim/ground.h"
 #include "sim/limits.h"
+#include "sim/texture.h"
 
 namespace lcs::sim {
 namespace {
@@ -84,16 +84,19 @@ void check_placed(const Actor& actor) {
   }
 }
 
+xml::Element& base_of(tinyxml2::XMLDocument& fragment, const std::string& prefix) {
+  xml::Element& worldbody = xml::section(*fragment.RootElement(), "worldbody");
+  return *xml::child_named(worldbody, "body", prefix + "base");
+}
+
 void add_actor(xml::Element& scene, const Actor& actor, ComposedScene& composed) {
   check_placed(actor);
-  const xml::Document fragment = actor_fragment(actor);
+  const xml::Document fragment = actor_fragment(actor, scene);
   const std::string prefix = actor.name + "/";
-  xml::Element* body = xml::child_named(xml::section(*fragment->RootElement(), "worldbody"), "body",
-                                        prefix + "base");
-  if (!body) throw std::runtime_error("an actor's fragment needs a body called 'base'");
+  xml::Element& body = base_of(*fragment, prefix);
   // the object is called as the actor is
-  body->SetAttribute("name", actor.name.c_str());
-  body->SetAttribute("mocap", "true");
+  body.SetAttribute("name", actor.name.c_str());
+  body.SetAttribute("mocap", "true");
   merge_fragment(scene, *fragment->RootElement());
   if (has_picture(actor)) {
     composed.pictures.push_back({prefix + kPictureTexture, actor.texture, actor.source});
@@ -158,15 +161,27 @@ void add_camera(xml::Element& base, const scenario::Camera& camera) {
 }
 
 void add_ego(xml::Element& scene, const Scenario& scenario) {
-  const bool holonomic = scenario.ego.drive == scenario::Drive::holonomic;
-  const auto file = scenario::shipped_file(holonomic ? "ego/holonomic.xml" : "ego/wheeled.xml");
-  const xml::Document fragment = xml::load(file, scenario.scene_source);
-  xml::Element& root = *fragment->RootElement();
-  xml::prefix_names(root, kEgoPrefix);
-  xml::Element* base = xml::child_named(xml::section(root, "worldbody"), "body", kEgoBody);
-  if (!base) throw std::runtime_error("the rover's fragment needs a body called 'base'");
-  add_camera(*base, scenario.camera);
-  merge_fragment(scene, root);
+  const xml::Document fragment = rover_fragment(scenario.ego, scene);
+  add_camera(base_of(*fragment, kEgoPrefix), scenario.camera);
+  merge_fragment(scene, *fragment->RootElement());
+}
+
+/// What is painted after loading must be known by then.
+void check_styles(xml::Element& scene) {
+  for (auto* assets = scene.FirstChildElement("asset"); assets;
+       assets = assets->NextSiblingElement("asset")) {
+    for (auto* e = assets->FirstChildElement("texture"); e; e = e->NextSiblingElement("texture")) {
+      const std::filesystem::path file = xml::attribute(*e, "file");
+      const char* name = e->Attribute("name");
+      const std::string called = name ? name : file.stem().string();
+      const std::string style(procedural_style(called));
+      const auto& known = texture_styles();
+      if (style.empty() || std::find(known.begin(), known.end(), style) != known.end()) continue;
+      throw scenario::Error(xml::source_of(*e),
+                            fmt::format("no texture style is called '{}'; there are {}", style,
+                                        fmt::join(known, ", ")));
+    }
+  }
 }
 
 /// Takes back what would undo the meaning of bodies and names, change the rover's mass, or look for
@@ -194,6 +209,7 @@ ComposedScene compose(const Scenario& scenario) {
   }
   add_ego(scene, scenario);
   check_limits(scene);
+  check_styles(scene);
   composed.mjcf = xml::Printed(*document);
   return composed;
 }

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "sim/fragment.h"
 #include "sim/xml.h"
 
 namespace lcs::sim {
 
-inline constexpr const char* kEgoPrefix = "ego/";
 inline constexpr const char* kEgoBody = "ego/base";
 inline constexpr const char* kCamera = "ego/camera";
 

@@ -69,11 +69,7 @@ Model load(const scenario::Scenario& scenario, const ComposedScene& composed) {
 
 void fill_textures(Model& model, const scenario::Scenario& scenario,
                    const ComposedScene& composed) {
-  try {
-    fill_procedural_textures(model, scenario.seed);
-  } catch (const std::invalid_argument& e) {
-    throw scenario::Error({scenario.scene.string(), 0}, e.what());
-  }
+  fill_procedural_textures(model, scenario.seed);
   for (const PictureTexture& picture : composed.pictures) {
     cv::Mat image = read_picture(picture.file, picture.source, cv::IMREAD_COLOR);
     if (image.empty()) {

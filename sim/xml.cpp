@@ -27,10 +27,10 @@ constexpr std::array<const char*, 7> kFiles = {"file",     "fileright", "filelef
                                                "filedown", "filefront", "fileback"};
 
 // Attributes that hold the name of another element.
-constexpr std::array<std::string_view, 18> kReferences = {
-    "texture", "material", "class",   "childclass", "mesh",     "hfield",
-    "joint",   "site",     "body",    "body1",      "body2",    "geom1",
-    "geom2",   "target",   "objname", "tendon",     "actuator", "geom"};
+constexpr std::array kReferences = {
+    "texture", "material", "class",  "childclass", "mesh",     "hfield", "joint",   "site",
+    "body",    "body1",    "body2",  "geom1",      "geom2",    "target", "objname", "refname",
+    "tendon",  "actuator", "geom",   "cranksite",  "slidersite", "refsite", "jointinparent"};
 
 // Holds "LINE FILE" where an element was written, as no user's attribute is called.
 constexpr const char* kSource = "lcs:source";
@@ -156,9 +156,20 @@ void prefix_names(Element& root, const std::string& prefix) {
   };
   const auto rename = [&](Element& e) {
     put(e, "name");
-    for (const std::string_view key : kReferences) put(e, key.data());
+    for (const char* key : kReferences) put(e, key);
   };
   for (Element* e = root.FirstChildElement(); e; e = e->NextSiblingElement()) for_each(*e, rename);
+}
+
+void remove_all(Element& root, const char* kind) {
+  for (Element *e = root.FirstChildElement(), *next = nullptr; e; e = next) {
+    next = e->NextSiblingElement();
+    if (e->Name() == std::string_view(kind)) {
+      root.DeleteChild(e);
+    } else {
+      remove_all(*e, kind);
+    }
+  }
 }
 
 void append_children(Element& to, const Element& from) {

@@ -29,6 +29,9 @@ Document load(const std::filesystem::path& file, const scenario::Source& where);
 /// Puts `prefix` before every name in a document, and before every use of one.
 void prefix_names(Element& root, const std::string& prefix);
 
+/// Takes all elements of a kind away, wherever they are below the root.
+void remove_all(Element& root, const char* kind);
+
 /// Appends copies of all children.
 void append_children(Element& to, const Element& from);
 

@@ -211,6 +211,30 @@ INSTANTIATE_TEST_SUITE_P(
               "test.yaml:3: ego.phases is a map; give a list, as in [...]")),
     name_of);
 
+Mistake ego(const std::string& name, const std::string& keys, const std::string& message) {
+  return whole(name, "scene: room.xml\nframes: 1\nego: " + keys + "\n", "test.yaml:3: " + message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ego, Refused,
+    testing::Values(
+        ego("UnknownDrive", "{drive: tracks}",
+            "ego.drive is 'tracks'; give holonomic, wheeled or the path of an .xml file"),
+        ego("NoOwnRover", "{drive: r.xml}",
+            "ego.drive: there is no file r.xml; give its path relative to the scenario file"),
+        ego("WaypointsAndSpeed", "{speed: 1, waypoints: [[0, 0, 0], [1, 1, 1]]}",
+            "both ego.speed and ego.waypoints are given; keep one of them"),
+        ego("WaypointsAndStart", "{start: [0, 0], waypoints: [[0, 0, 0], [1, 1, 1]]}",
+            "both ego.start and ego.waypoints are given; keep one of them"),
+        ego("WaypointsAndPhases", "{waypoints: [[0, 0, 0], [1, 1, 1]], phases: [{at: 1}]}",
+            "both ego.phases and ego.waypoints are given; keep one of them"),
+        ego("WaypointsNowhere", "{waypoints: [[0, 1, 2], [1, 1, 2]]}",
+            "ego.waypoints lead nowhere: all are one place; make one of them another, or give "
+            "start and heading for a rover that stands"),
+        ego("EgoAtOneWaypoint", "{waypoints: [[0, 1, 2]]}",
+            "ego.waypoints has fewer than two waypoints; give two or more [time, x, y]")),
+    name_of);
+
 INSTANTIATE_TEST_SUITE_P(
     Actors, Refused,
     testing::Values(
@@ -219,7 +243,14 @@ INSTANTIATE_TEST_SUITE_P(
         added("NeitherShapeNorBody", "actors:\n  a: {trajectory: {still: {}}}\n",
               "5: actors.a needs 'shape' or 'body'; add it (scenarios/README.md shows how)"),
         added("UnknownShape", "actors:\n  a: {shape: ball, trajectory: {still: {}}}\n",
-              "5: actors.a.shape is 'ball'; give box, cylinder, pedestrian or car"),
+              "5: actors.a.shape is 'ball'; give box, cylinder, pedestrian, car or the path of an "
+              ".xml "
+              "file"),
+        added("NoOwnShape", "actors:\n  a: {shape: truck.xml, trajectory: {still: {}}}\n",
+              "5: actors.a.shape: there is no file truck.xml; give its path relative to the "
+              "scenario file"),
+        added("NamedAsTheRover", "actors:\n  ego: {shape: box, trajectory: {still: {}}}\n",
+              "5: an actor is called 'ego', which is the rover's name; rename it"),
         added("SizeOfABody", "actors:\n  a: {body: b, size: [1, 1, 1], trajectory: {still: {}}}\n",
               "5: actors.a.size is given for a body of the scene, which has its own; remove it, or "
               "give 'shape' in place of 'body'"),

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "scenarios/scenes.h"
 #include "scenarios/sweep.h"
 #include "tests/scenarios/scenario_file.h"
 
@@ -410,6 +411,68 @@ TEST(Load, ASceneIsFoundByNameWhereTheEnvironmentSays) {
   ASSERT_EQ(unsetenv("LCS_SCENES"), 0);
 }
 
+TEST(Load, OwnRoversAndActorsAreFoundBesideTheScenario) {
+  const ScenarioFolder folder;
+  folder.write("truck.xml", "<mujoco/>");
+  folder.write("rover.xml", "<mujoco/>");
+  const std::string actor = "trajectory: {still: {position: [1, 2]}}}\n";
+  const Scenario s = load(folder.write(
+      "test.yaml", "scene: room.xml\nframes: 3\nego: {drive: rover.xml, speed: 1}\nactors:\n" +
+                       ("  a: {shape: truck.xml, " + actor) + "  b: {shape: box, " + actor));
+  EXPECT_EQ(s.ego.drive, Drive::own);
+  EXPECT_EQ(rover_file(s.ego), folder.path() / "rover.xml");
+  EXPECT_EQ(s.ego.source.line, 3);
+  EXPECT_EQ(s.actors.at(0).shape, Shape::own);
+  EXPECT_EQ(actor_file(s.actors.at(0)), folder.path() / "truck.xml");
+  EXPECT_EQ(actor_file(s.actors.at(1)), scenes_folder() / "actors/box.xml");
+  EXPECT_EQ(s.world.at("ego.drive"), "rover.xml");
+}
+
+TEST(Load, TheEgosWaypointsGiveItsStartAndHeading) {
+  const Scenario s = load_text(
+      "scene: room.xml\nframes: 3\n"
+      "ego: {waypoints: [[0 s, 1 m, 2 m], [1, 1, 2], [2 s, 1 m, 300 cm]]}\n",
+      {.sets = {"ego.waypoints.2.0=4"}, .seed = {}});
+  ASSERT_EQ(s.ego.waypoints.size(), 3u);
+  EXPECT_EQ(s.ego.waypoints[2].at_s, 4);
+  EXPECT_EQ(s.ego.waypoints[2].position_m, Eigen::Vector2d(1, 3));
+  EXPECT_EQ(s.ego.start_m, Eigen::Vector2d(1, 2));
+  EXPECT_DOUBLE_EQ(s.ego.heading_rad, pi / 2);
+}
+
+TEST(Load, WhatLcsScenesPutsBeforeTheProjectsOwnIsTold) {
+  const ScenarioFolder folder;
+  std::filesystem::create_directories(folder.path() / "ego");
+  folder.write("lab.xml", "<mujoco/>");
+  folder.write("ego/wheeled.xml", "<mujoco/>");
+  const auto file = folder.write(
+      "test.yaml", "scene: lab\nframes: 1\nego: {}\nactors:\n  a: {shape: box, trajectory: "
+                   "{still: {position: [1, 2]}}}\n");
+  const std::filesystem::path own = std::filesystem::path(LCS_SOURCE_DIR) / "scenes";
+  EXPECT_TRUE(shadowed_files(load(file)).empty());
+
+  ASSERT_EQ(setenv("LCS_SCENES", folder.path().c_str(), 1), 0);
+  const Scenario holonomic = load(file);
+  const Scenario wheeled = load(file, {.sets = {"ego.drive=wheeled"}, .seed = {}});
+  const std::vector<std::string> of_scene = shadowed_files(holonomic);
+  const std::vector<std::string> of_both = shadowed_files(wheeled);
+  const Scenario by_path = load(file, {.sets = {"scene=room.xml"}, .seed = {}});
+  EXPECT_TRUE(shadowed_files(by_path).empty());
+  // the project's own by another name is no other
+  std::filesystem::create_directory_symlink(own, folder.path() / "same");
+  ASSERT_EQ(setenv("LCS_SCENES", (folder.path() / "same").c_str(), 1), 0);
+  EXPECT_TRUE(shadowed_files(load(file)).empty());
+  ASSERT_EQ(unsetenv("LCS_SCENES"), 0);
+
+  ASSERT_EQ(of_scene.size(), 1u);
+  EXPECT_EQ(of_scene[0], (folder.path() / "lab.xml").string() +
+                             " is used, as LCS_SCENES says, and not the project's own " +
+                             (own / "lab.xml").string() +
+                             "; unset LCS_SCENES for that one, or rename the file");
+  ASSERT_EQ(of_both.size(), 2u);
+  EXPECT_EQ(of_both[0].find((folder.path() / "ego/wheeled.xml").string() + " is used"), 0u);
+}
+
 TEST(Load, TheWorldIsAllThatIsWrittenButWhoWatchesAndJudges) {
   const Scenario plain = load_text(smallest);
   const Scenario judged = load_text(
@@ -460,7 +523,7 @@ TEST(Shipped, EveryScenarioOfTheSuiteHasASizeAndANameOfItsOwn) {
     const Scenario s = load(std::filesystem::path(LCS_SOURCE_DIR) / "scenarios" / file);
     names.push_back(s.name);
     const auto sizes = std::count_if(s.groups.begin(), s.groups.end(), [](const std::string& g) {
-      return g == "short" || g == "long" || g == "sweep" || g == "probe";
+      return g == "short" || g == "long" || g == "sweep" || g == "probe" || g == "example";
     });
     EXPECT_EQ(sizes, 1) << file;
     EXPECT_EQ(s.sweep.empty(), s.groups.front() != "sweep") << file;

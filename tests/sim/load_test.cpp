@@ -118,8 +118,8 @@ TEST_F(SceneRefused, InAnIncludedFileNamesThatFile) {
 TEST_F(SceneRefused, InAnActorsFileNamesThatFile) {
   fs::create_directories(folder_ / "actors");
   write("actors/box.xml",
-        "<mujoco><worldbody>\n<body name='base'>\n<geom type='box' size='0 1 1'/></body>"
-        "</worldbody></mujoco>");
+        "<mujoco><custom><numeric name='size' data='1 1 1'/></custom><worldbody>\n<body "
+        "name='base'>\n<geom type='box' size='0 1 1'/></body></worldbody></mujoco>");
   ASSERT_EQ(setenv("LCS_SCENES", folder_.c_str(), 1), 0);
   auto s = scenario({});
   s.actors = {test::line_actor("visitor", scenario::Shape::box, {2, 0}, 0, 0)};

@@ -11,7 +11,6 @@
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 
-#include "sim/fragment.h"
 #include "sim/silhouette.h"
 #include "sim/world.h"
 #include "tests/sim/support.h"
@@ -229,7 +228,7 @@ TEST(Scene, AnUnknownTextureStyleOfTheSceneNamesTheKnownOnes) {
               "<asset><texture name='procedural:brocks' type='2d' builtin='flat' width='8' "
               "height='8'/></asset>");
   const auto s = scenario_in_mjcf(mjcf, 0, 1);
-  expect_error(s, {s.scene.string(), "brocks", "bricks"});
+  expect_error(s, {s.scene.string() + ":3: ", "brocks", "bricks"});
 }
 
 TEST(Scene, GravityMustPointDown) {
@@ -364,53 +363,11 @@ TEST(Scene, AFolderOfOnesOwnScenesNeedsNoRoversAndActors) {
   unsetenv("LCS_SCENES");
 }
 
-/// What the shapes' files promise the loader is told where one's own files lack it.
-class OwnFragment : public testing::Test {
- protected:
-  void SetUp() override {
-    std::filesystem::create_directories(folder_ / "actors");
-    ASSERT_EQ(setenv("LCS_SCENES", folder_.c_str(), 1), 0);
-  }
-  void TearDown() override {
-    unsetenv("LCS_SCENES");
-    std::filesystem::remove_all(folder_);
-  }
-  /// What loading says of a box with such a fragment.
-  std::string refusal(const std::string& mjcf, const std::string& texture) {
-    std::ofstream(folder_ / "actors/box.xml") << mjcf;
-    auto s = scenario_in_mjcf(floor_with(""), 0, 1);
-    s.actors = {line_actor("a", Shape::box, {2, 0}, 0, 0)};
-    s.actors[0].size_m = Vector3d(1, 1, 1);
-    s.actors[0].texture = texture;
-    try {
-      load(s);
-    } catch (const std::runtime_error& e) {
-      return e.what();
-    }
-    return "nothing";
-  }
-  const std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "own_scenes";
-};
-
-TEST_F(OwnFragment, MustStateItsNaturalSize) {
-  const std::string body =
-      "<worldbody><body name='base'><geom type='box' size='.5 .5 .5'/></body></worldbody></mujoco>";
-  const std::string two = "<mujoco><custom><numeric name='size' data='1 1'/></custom>";
-  EXPECT_NE(refusal("<mujoco>" + body, "").find("natural size"), std::string::npos);
-  EXPECT_NE(refusal(two + body, "").find("natural size"), std::string::npos);
-}
-
-TEST_F(OwnFragment, MustHaveWhatCanBePainted) {
-  const std::string unpainted =
-      "<mujoco><custom><numeric name='size' data='1 1 1'/></custom><worldbody><body name='base'>"
-      "<geom type='box' size='.5 .5 .5'/></body></worldbody></mujoco>";
-  EXPECT_NE(refusal(unpainted, "bricks").find("material 'paint'"), std::string::npos);
-  EXPECT_EQ(refusal(unpainted, ""), "nothing") << "nobody asked for paint";
-}
-
 TEST(ActorShape, AnUnknownOneIsRefused) {
   const auto actor = line_actor("a", static_cast<Shape>(99), {2, 0}, 0, 0);
-  EXPECT_THROW(actor_fragment(actor), std::invalid_argument);
+  auto s = scenario_in("lab", 0, 1);
+  s.actors = {actor};
+  EXPECT_THROW(World world(s), std::invalid_argument);
 }
 
 // What is painted later is plain there, but the file is whole.

@@ -139,6 +139,20 @@ TEST_F(Run, WhatShouldNotBeInItsWorldIsToldAndARecordingTellsTheSame) {
   EXPECT_TRUE(metrics("c")["warnings.rover_collisions"].is_null());
 }
 
+TEST_F(Run, TellsWhichFileIsUsedWhereLcsScenesHasOneOfTheProjectsOwnNames) {
+  const fs::path own = folder_.path() / "scenes";
+  fs::create_directories(own);
+  fs::copy_file(kScenarios.parent_path() / "scenes/lab.xml", own / "lab.xml");
+  ASSERT_EQ(setenv("LCS_SCENES", own.c_str(), 1), 0);
+  const CommandResult result = run(brief({"--quiet"}));
+  unsetenv("LCS_SCENES");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err.find("warning: " + (own / "lab.xml").string() + " is used"), 0u)
+      << result.err;
+  EXPECT_EQ(lines(result.err), 1) << result.err;
+  EXPECT_EQ(run(brief({"--quiet"})).err, "");
+}
+
 TEST_F(Run, TellsASettingOfTheFilterThatNoRuleInUseAsksFor) {
   const auto err = [&](const std::string& preset) {
     return run(brief({"--set", "filter.circle.mu_0=20", "--set", "filter.preset=" + preset})).err;

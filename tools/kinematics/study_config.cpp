@@ -21,6 +21,12 @@ StudyConfig configure(const scenario::Scenario& scenario, const Effort& effort) 
   for (const scenario::EgoPhase& phase : scenario.ego.phases) {
     config.speed_mps = std::max(config.speed_mps, phase.speed_mps);
   }
+  const std::vector<scenario::Waypoint>& points = scenario.ego.waypoints;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    config.speed_mps =
+        std::max(config.speed_mps, (points[i].position_m - points[i - 1].position_m).norm() /
+                                       (points[i].at_s - points[i - 1].at_s));
+  }
   config.stands = config.speed_mps <= config.filter.field.still_speed_mps;
   if (config.stands) config.speed_mps = kStandInSpeed_mps;
   const sim::Calibration calibration = sim::drive(straight_drive(config, 0, 1)).calibration;
@@ -34,6 +40,7 @@ scenario::Scenario straight_drive(const StudyConfig& config, double duration_s, 
   s.frames = static_cast<int>(std::floor(duration_s * rate_hz + 1e-9)) + 1;
   s.ego.drive = scenario::Drive::holonomic;
   s.ego.phases = {{.speed_mps = config.speed_mps}};
+  s.ego.waypoints.clear();
   s.camera.rate_hz = rate_hz;
   s.imu.noise = {};
   s.imu.gaps.clear();

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "scenarios/load.h"
+#include "scenarios/scenes.h"
 #include "tools/bench/csv.h"
 #include "tools/bench/output_folder.h"
 #include "tools/bench/tracker.h"
@@ -224,7 +225,10 @@ ExitCode generate(const GenerateOptions& options) {
   });
   if (journal.is_complete()) return check_complete(journal.folder(), options.quiet);
 
-  if (options.jobs == 1) warn(bench::idle_settings(scenario));
+  if (options.jobs == 1) {  // else its processes tell it
+    warn(scenario::shadowed_files(scenario));
+    warn(bench::idle_settings(scenario));
+  }
   bench::Recording seen;  // of which nothing but its world matters
   const int frames = range.last - range.first;
   int whole = 0;

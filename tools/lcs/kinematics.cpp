@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scenarios/load.h"
+#include "scenarios/scenes.h"
 #include "tools/bench/output_folder.h"
 #include "tools/kinematics/answer.h"
 #include "tools/kinematics/study.h"
@@ -72,6 +73,7 @@ ExitCode kinematics(const KinematicsOptions& options) {
   const kinematics::StudyConfig config = kinematics::configure(
       scenario::load(file, {.sets = options.sets, .seed = {}}),
       options.quick ? kinematics::Effort::quick() : kinematics::Effort::full());
+  warn(scenario::shadowed_files(config.scenario));
   bench::OutputFolder folder(options.out, kinematics::study_files());
   const auto study = [&] {
     Progress progress("kinematics", kinematics::study_pieces(config), options.quiet, "experiments");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scenarios/load.h"
+#include "scenarios/scenes.h"
 #include "sim/simulation.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/criteria.h"
@@ -225,6 +226,7 @@ ExitCode run(const RunOptions& options) {
     one.result = std::make_unique<bench::Result>(
         one.target, one.recording, cv::Size(frames.camera.width_px, frames.camera.height_px), what);
   }
+  warn(scenario::shadowed_files(scenario));
   warn(idle_settings);
   std::vector<Diagnostics> diagnostics;
   {

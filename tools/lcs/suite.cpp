@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "scenarios/scenes.h"
 #include "tools/bench/output_folder.h"
 #include "tools/bench/tracker.h"
 #include "tools/comparators/detectors.h"
@@ -117,20 +118,23 @@ ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
   return is_broken ? kError : kFine;
 }
 
-/// Of all scenarios, each once. What is wrong with settings is told by the runs.
-std::vector<std::string> idle_settings(const std::vector<suite::PlannedScenario>& plan,
-                                       const comparators::Wanted& wanted) {
+/// What is seldom meant, of all scenarios, each once. What is wrong with settings is told by the
+/// runs.
+std::vector<std::string> seldom_meant(const std::vector<suite::PlannedScenario>& plan,
+                                      const comparators::Wanted& wanted) {
   std::vector<std::string> lines;
+  const auto add = [&](const std::vector<std::string>& more) {
+    for (const std::string& line : more) {
+      if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+    }
+  };
   for (const suite::PlannedScenario& planned : plan) {
     if (!planned.scenario) continue;
+    add(scenario::shadowed_files(*planned.scenario));
     try {
       scenario::Scenario scenario = *planned.scenario;
-      const std::vector<std::string> of_one = wanted.preset.empty()
-                                                  ? bench::idle_settings(scenario)
-                                                  : comparators::apply_preset(wanted, scenario);
-      for (const std::string& line : of_one) {
-        if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
-      }
+      add(wanted.preset.empty() ? bench::idle_settings(scenario)
+                                : comparators::apply_preset(wanted, scenario));
     } catch (const scenario::Error&) {
     }
   }
@@ -261,7 +265,7 @@ ExitCode suite(const SuiteOptions& options) {
                    .sets = options.sets,
                    .seeds = options.seeds.value_or(of_worlds ? 1 : 3)});
   if (options.list) return list_plan(plan);
-  warn(idle_settings(plan, wanted));
+  warn(seldom_meant(plan, wanted));
   std::optional<suite::SuiteResult> baseline;
   if (!options.baseline.empty()) baseline = suite::read_suite(options.baseline);
 

@@ -134,7 +134,7 @@ FrameRange part_of(int count, int i, int n) {
 
 std::string plan_of(const scenario::Scenario& scenario, const GenerateOptions& options) {
   const sim::Versions versions = sim::versions();
-  const nlohmann::ordered_json plan = {
+  nlohmann::ordered_json plan = {
       {"scenario", scenario.name},
       {"scenario_sha256", sha256_of_file(scenario.file)},
       {"scene_sha256", sha256_of_file(scenario.scene)},
@@ -146,6 +146,13 @@ std::string plan_of(const scenario::Scenario& scenario, const GenerateOptions& o
       {"mujoco", versions.mujoco},
       {"renderer", versions.gl_renderer},
   };
+  if (scenario.ego.drive == scenario::Drive::own) {
+    plan["rover_sha256"] = sha256_of_file(scenario.ego.drive_file);
+  }
+  for (const scenario::Actor& actor : scenario.actors) {
+    if (actor.body || actor.shape != scenario::Shape::own) continue;
+    plan["shape_sha256"][actor.name] = sha256_of_file(actor.shape_file);
+  }
   return plan.dump();
 }
 

@@ -14,7 +14,7 @@ constexpr int kMotPedestrian = 1, kMotCar = 3, kMotDistractor = 8;
 std::string category_of(const scenario::Scenario& scenario, const sim::Object& object) {
   const auto actor = std::find_if(scenario.actors.begin(), scenario.actors.end(),
                                   [&](const scenario::Actor& a) { return a.name == object.name; });
-  if (actor == scenario.actors.end()) return "object";
+  if (actor == scenario.actors.end() || actor->body) return "object";
   switch (actor->shape) {
     case scenario::Shape::box:
       return "box";
@@ -24,6 +24,8 @@ std::string category_of(const scenario::Scenario& scenario, const sim::Object& o
       return "pedestrian";
     case scenario::Shape::car:
       return "car";
+    case scenario::Shape::own:
+      break;
   }
   return "object";
 }

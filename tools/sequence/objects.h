@@ -21,7 +21,7 @@ inline constexpr int kMostObjects = 253;
 cv::Mat1b object_mask(const sim::FrameTruth& truth);
 
 struct ObjectKind {
-  std::string category;  ///< pedestrian, car, box, cylinder; object, for those of the scene
+  std::string category;  ///< pedestrian, car, box, cylinder; object for all others
   int coco = 0;          ///< category_id
   int mot = 0;           ///< MOTChallenge's class: 1 pedestrian, 3 car, 8 distractor for the others
   bool moves = false;    ///< an actor that is given a motion
