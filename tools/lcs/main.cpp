@@ -16,6 +16,7 @@
 #include "tools/lcs/generate.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/kinematics.h"
+#include "tools/lcs/likeness.h"
 #include "tools/lcs/replay.h"
 #include "tools/lcs/run.h"
 #include "tools/lcs/score.h"
@@ -40,6 +41,7 @@ through its camera and IMU, and the simulator's truth scores what the filter say
   lcs replay DIR                      the filter on EuRoC, KITTI, RobotCar, a folder of pictures
   lcs score DIR --detections FILE     someone else's detector, by a run's truth
   lcs world FAMILY                    a scenario and its scene, drawn from a seed
+  lcs likeness                        worlds' corners beside those of real recordings
   lcs kinematics                      when the motion model holds, for your camera and rover
   lcs run --help                      all about a command
 )";
@@ -66,6 +68,7 @@ int run_command_line(int argc, char** argv) {
   GenerateOptions generate_options;
   KinematicsOptions kinematics_options;
   WorldOptions world_options;
+  LikenessOptions likeness_options;
   const struct {
     const CLI::App& command;
     std::function<ExitCode()> carry_out;
@@ -79,6 +82,7 @@ int run_command_line(int argc, char** argv) {
       {add_kinematics_command(app, kinematics_options),
        [&] { return kinematics(kinematics_options); }},
       {add_world_command(app, world_options), [&] { return world(world_options); }},
+      {add_likeness_command(app, likeness_options), [&] { return likeness(likeness_options); }},
   };
   refuse_empty_options(app);
   try {

@@ -35,7 +35,6 @@ namespace {
 
 constexpr int kMostJobs = 1024;
 constexpr int kMostSeeds = 1000;
-constexpr int kMostWorlds = 100'000;
 
 constexpr const char* kHelp = R"(Examples:
   lcs suite                                       every short scenario of the project, 3 seeds each
@@ -197,20 +196,8 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
   add_integer_option(command, "--jobs", options.jobs,
                      "Runs at a time; if not given, as many as there are processors", 1, kMostJobs)
       ->type_name("N");
-  CLI::Option* split =
-      command
-          .add_option("--worlds", options.worlds.split,
-                      "Run worlds in place of scenario files: those of the split train, validate "
-                      "or test")
-          ->type_name("SPLIT")
-          ->excludes("PATH");
-  add_integer_option(command, "--count", options.worlds.count, "Worlds to run; 60 if not given", 1,
-                     kMostWorlds)
-      ->type_name("N")
-      ->needs(split);
-  command.add_option("--family", options.worlds.family, "Only worlds of this family")
-      ->type_name("NAME")
-      ->needs(split);
+  add_worlds_options(command, options.worlds, "Run worlds in place of scenario files")
+      ->excludes("PATH");
   add_integer_option(command, "--seeds", options.seeds,
                      "Runs of each scenario; 3 if not given, of worlds 1", 1, kMostSeeds)
       ->type_name("N");

@@ -11,6 +11,7 @@
 #include "tools/bench/output_file.h"
 #include "tools/bench/recording_io.h"
 #include "tools/lcs/interrupt.h"
+#include "tools/lcs/number_option.h"
 #include "tools/report/worlds_page.h"
 #include "tools/suite/child_process.h"
 #include "tools/worlds/sheet.h"
@@ -22,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFolder = "out/worlds";
+constexpr int kMostWorlds = 100'000;
 
 /// What a run's camera saw; none where it has left no pictures.
 std::optional<worlds::Shots> recorded_shots(const fs::path& run, int image_width_px) {
@@ -56,6 +58,22 @@ void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
 }
 
 }  // namespace
+
+CLI::Option* add_worlds_options(CLI::App& command, WorldsOptions& options,
+                                const std::string& about) {
+  CLI::Option* split = command
+                           .add_option("--worlds", options.split,
+                                       about + ": those of the split train, validate or test")
+                           ->type_name("SPLIT");
+  add_integer_option(command, "--count", options.count, "How many worlds; 60 if not given", 1,
+                     kMostWorlds)
+      ->type_name("N")
+      ->needs(split);
+  command.add_option("--family", options.family, "Only worlds of this family")
+      ->type_name("NAME")
+      ->needs(split);
+  return split;
+}
 
 std::vector<std::string> make_worlds(const WorldsOptions& options, std::size_t jobs) {
   std::vector<worlds::Choice> choices =

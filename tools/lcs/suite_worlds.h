@@ -1,7 +1,8 @@
 /// \file
-/// The worlds that a suite runs, drawn where they are not there yet.
+/// The worlds that a command runs, drawn where they are not there yet.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -17,6 +18,11 @@ struct WorldsOptions {
   int count = 60;
   std::string family;  ///< "": all
 };
+
+/// Adds `--worlds`, `--count` and `--family`. \param about what `--worlds` does.
+/// \return `--worlds`
+CLI::Option* add_worlds_options(CLI::App& command, WorldsOptions& options,
+                                const std::string& about);
 
 /// Makes the worlds in out/worlds/, each by a process of its own, `jobs` at a time.
 /// \return their scenario files, family by family.
