@@ -20,6 +20,7 @@
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/worlds/kit.h"
+#include "tools/worlds/meshes.h"
 #include "tools/worlds/rover.h"
 #include "tools/worlds/sheet.h"
 #include "tools/worlds/textures.h"
@@ -375,6 +376,39 @@ TEST(Textures, RepeatWithoutASeam) {
     for (int x = 0; x + 1 < picture.cols; ++x) inside = std::max(inside, step(x, x + 1));
     EXPECT_LE(step(picture.cols - 1, 0), 1.3 * inside) << name_of(style);
   }
+}
+
+TEST(Textures, WeatherHasItsDeviationAndNoSeam) {
+  constexpr double kLevels = 20;
+  for (int seed = 1; seed <= 6; ++seed) {  // both kinds of it
+    Draw draw(static_cast<std::uint64_t>(seed), "weather");
+    cv::Mat3b picture(256, 256, cv::Vec3b(128, 128, 128));
+    weather(picture, kLevels, draw);
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(picture, mean, deviation);
+    EXPECT_NEAR(mean[0], 128, 3) << seed;
+    EXPECT_GT(deviation[0], 0.55 * kLevels) << seed;
+    EXPECT_LT(deviation[0], 1.45 * kLevels) << seed;
+    double inside = 0;
+    for (int x = 0; x + 1 < picture.cols; ++x) {
+      inside = std::max(inside, cv::norm(picture.col(x), picture.col(x + 1), cv::NORM_L1));
+    }
+    EXPECT_LE(cv::norm(picture.col(255), picture.col(0), cv::NORM_L1), 1.3 * inside) << seed;
+  }
+}
+
+TEST(Meshes, ChipsAreClosedAndFaceOutward) {
+  const std::vector<Chip> chips{{{0, 0, 0}, {0.1, 0.2, 0.3}, 0.06}, {{2, 1, 0}, {2, 1, -0.4}, 0.1}};
+  const Mesh mesh = chips_mesh(chips);
+  double volume = 0, expected = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const auto at = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)].position_m; };
+    volume += at(a).dot(at(b).cross(at(c))) / 6;  // the same from any origin, if it is closed
+  }
+  for (const Chip& chip : chips) {
+    expected += chip.width_m * chip.width_m / 4 * (chip.tip_m - chip.foot_m).norm() / 3;
+  }
+  EXPECT_NEAR(volume, expected, 1e-9);
 }
 
 TEST(Textures, EachStyleIsAPictureOfItsOwn) {

@@ -1,5 +1,6 @@
 #include "tools/worlds/families.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace lcs::worlds {
@@ -61,6 +62,36 @@ void enclose(Kit& kit, const Vector2d& half_m, double height_m) {
   const int ceiling =
       kit.draw.chance(0.7) ? pale(kit, 0.6, 0.95) : kit.wide_surface({Style::tiles, Style::wood});
   kit.fix({{kit.block({{2 * x, 2 * y, 0.1}, {0, 0, height_m}, ceiling})}, {0, 0}, 0, false});
+}
+
+void maybe_strew(Kit& kit, const Vector2d& low_m, const Vector2d& high_m) {
+  Draw& d = kit.draw;
+  if (!d.chance(0.7)) return;
+  const bool is_grass = d.chance(0.5);
+  const double dense_pm2 = d.scaled(0.5, 12), tall_m = d.scaled(0.03, 0.15);
+  const double area_m2 = (high_m - low_m).prod();
+  constexpr int kShades = 3;
+  constexpr double kMost = 2500;
+  const int count = static_cast<int>(std::min(kMost, dense_pm2 * area_m2) / kShades);
+  for (int shade = 0; shade < kShades; ++shade) {
+    std::vector<Chip> chips;
+    for (int i = 0; i <= count; ++i) {
+      const double x = d.between(low_m.x(), high_m.x()), y = d.between(low_m.y(), high_m.y());
+      const double size = tall_m * d.between(0.5, 1.5);
+      const double lean_x = d.between(-1, 1), lean_y = d.between(-1, 1);
+      const double rise = is_grass ? d.between(0.7, 1.2) : d.between(0.1, 0.5);
+      const Vector3d foot(x, y, kit.ground({x, y}));
+      const Box box{{x, y}, {1.5 * size, 1.5 * size}, 0, foot.z(), foot.z() + 2 * size};
+      if (least_gap_m(box, kit.kept_free) <= 0) continue;
+      chips.push_back({foot, foot + size * Vector3d(lean_x, lean_y, rise),
+                       size * (is_grass ? 0.3 : d.between(0.5, 1))});
+    }
+    if (chips.empty()) return;
+    const double light = d.between(0.08, 0.95);
+    const Vector3d green(0.75, 1, 0.5), grey(1, 0.9, 0.8);
+    const int colour = kit.plain(light * (is_grass ? green : grey));
+    kit.fix({{kit.chips(chips, colour)}, {0, 0}, 0, false});
+  }
 }
 
 void maybe_shadows(Kit& kit, const Vector2d& low_m, const Vector2d& high_m) {

@@ -37,6 +37,8 @@ int floor_surface(Kit& kit, const std::vector<Style>& styles);
 int pale(Kit& kit, double low, double high);
 /// Four walls round x and y from -half to half, and a ceiling.
 void enclose(Kit& kit, const Eigen::Vector2d& half_m, double height_m);
+/// Grass, or leaves and stones, that lie about where nothing goes; or none. For `furnish`.
+void maybe_strew(Kit& kit, const Eigen::Vector2d& low_m, const Eigen::Vector2d& high_m);
 /// Shadows on the floor, or none.
 void maybe_shadows(Kit& kit, const Eigen::Vector2d& low_m, const Eigen::Vector2d& high_m);
 ///@}

@@ -109,7 +109,7 @@ Layout lay_out_corridor(Kit& kit) {
   layout.lane = {.start_m = {x0 + 0.8, 0},
                  .length_m = half_length,
                  .half_width_m = 0.35 * half_width,
-                 .fastest_mps = 1.5,
+                 .fastest_mps = 2,
                  .highest_camera_m = 1.4,
                  .is_rough = d.chance(0.1)};
   layout.traffic = {.kinds = {"person", "person", "person", "cart", "robot", "carton", "ball",

@@ -70,7 +70,7 @@ Layout lay_out_garage(Kit& kit) {
   layout.lane = {.start_m = {-half.x() + 1, 0},
                  .length_m = half.x() * 1.1,
                  .half_width_m = 0.4 * aisle,
-                 .fastest_mps = 2,
+                 .fastest_mps = 3,
                  .highest_camera_m = 1.5,
                  .is_rough = d.chance(0.2)};
   layout.traffic = {

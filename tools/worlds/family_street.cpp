@@ -91,9 +91,9 @@ Layout lay_out_street(Kit& kit) {
   Layout layout;
   const bool on_wheels = d.chance(0.3);
   layout.lane = {.start_m = {-1, d.between(-0.5, 0.5) * road},
-                 .length_m = on_wheels ? 16 : std::min(16.0, flat),
+                 .length_m = on_wheels ? 16 : std::min(flat, front - 6),
                  .half_width_m = 0.45 * road,
-                 .fastest_mps = 2.5,
+                 .fastest_mps = on_wheels ? 2.5 : 8,
                  .highest_camera_m = 1.6,
                  .is_rough = on_wheels};
   layout.traffic = {.kinds = {"car", "car", "van", "person", "person", "bicycle", "bicycle", "cart",
@@ -103,6 +103,7 @@ Layout lay_out_street(Kit& kit) {
                     .fastest_mps = 9,
                     .farthest_m = 18};
   layout.furnish = [&kit, &d, road, pavement, back, front] {
+    maybe_strew(kit, {0, -road - pavement}, {front / 2, road + pavement});
     for (const double side : {-1.0, 1.0}) {
       for (int i = d.whole(2, 6); i > 0; --i) {  // parked along the kerb
         const Thing car = make_thing(kit, d.pick({"car", "car", "car", "van"}));

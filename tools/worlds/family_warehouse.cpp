@@ -52,7 +52,7 @@ Layout lay_out_warehouse(Kit& kit) {
   layout.lane = {.start_m = {-half.x() + 0.8, 0},
                  .length_m = half.x() * 1.2,
                  .half_width_m = 0.4 * aisle,
-                 .fastest_mps = 1.5,
+                 .fastest_mps = 2.5,
                  .highest_camera_m = 1.6,
                  .is_rough = d.chance(0.15)};
   layout.traffic = {.kinds = {"person", "person", "forklift", "cart", "robot", "pallet", "drum",

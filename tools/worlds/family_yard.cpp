@@ -95,6 +95,7 @@ Layout lay_out_yard(Kit& kit) {
                     .fastest_mps = 4,
                     .farthest_m = 10};
   layout.furnish = [&kit, &d, half] {
+    maybe_strew(kit, {-half.x(), -5}, {4, 5});
     const Vector2d inner = half - Vector2d(0.6, 0.6);
     scatter(kit,
             {"tree", "tree", "bush", "bush", "rock", "rock", "bench", "lamp", "sign", "bin", "pole",

@@ -14,6 +14,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr std::size_t kMostTextures = 16;
+// How much of it lies on the surfaces of a world; by recordings (README.md).
+constexpr double kLeastWeather_levels = 3, kMostWeather_levels = 45;
 constexpr double kPhotographs = 0.4;  // share of surfaces, where there are pictures
 
 /// Metres that a picture of a style spans, least and most.
@@ -55,6 +57,7 @@ Kit::Kit(std::string_view family, std::uint64_t seed, int attempt,
   world.seed = seed;
   world.attempt = attempt;
   world.scenario.seed = seed;
+  weather_levels_ = draw.between(kLeastWeather_levels, kMostWeather_levels);
 }
 
 int Kit::plain(const Vector3d& rgb, double alpha, double emission) {
@@ -108,8 +111,10 @@ int Kit::add_surface(Style style, bool is_wide, bool is_cube) {
   const bool from_file = !pictures_.empty() && brush.chance(kPhotographs);
   const std::string name =
       fmt::format("{}_{}", from_file ? "photograph" : name_of(style), material.texture);
-  world.textures.push_back({name, from_file ? photograph(pictures_, pixels, brush)
-                                            : worlds::paint(style, pixels, brush)});
+  cv::Mat3b picture =
+      from_file ? photograph(pictures_, pixels, brush) : worlds::paint(style, pixels, brush);
+  if (!from_file && style != Style::plain) weather(picture, weather_levels_, brush);
+  world.textures.push_back({name, picture});
   world.materials.push_back(material);
   const int place = static_cast<int>(world.materials.size()) - 1;
   if (!is_wide) surfaces_[style].push_back(place);
@@ -222,6 +227,11 @@ Part Kit::slice(const Prism& upright) {
   part.position_m += Vector3d(0, upright.height_m / 2, 0);
   part.rotation = Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitX());
   return part;
+}
+
+Part Kit::chips(const std::vector<Chip>& chips, int material) {
+  return mesh_part(fmt::format("chips {}", world.meshes.size()), chips_mesh(chips),
+                   Vector3d::Zero(), material);
 }
 
 Box bounds(const World& world, const Parts& parts) {

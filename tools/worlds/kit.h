@@ -99,6 +99,7 @@ class Kit {
   Part prism(const Prism& prism);
   /// A prism whose polygon stands upright along x and z, as wide as its height along y.
   Part slice(const Prism& prism);
+  Part chips(const std::vector<Chip>& chips, int material);
   ///@}
 
   Box bounds(const Parts& parts) const { return worlds::bounds(world, parts); }
@@ -150,6 +151,7 @@ class Kit {
   int add_surface(Style style, bool is_wide, bool is_cube);
 
   std::vector<std::string> pictures_;
+  double weather_levels_ = 0;
   std::map<std::string, int> meshes_by_key_;
   std::map<Style, std::vector<int>> surfaces_;
   std::map<std::string, int> names_;

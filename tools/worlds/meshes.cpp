@@ -183,6 +183,23 @@ Mesh lump_mesh(const Vector3d& radii_m, double bumps, double side_m, Draw& draw)
   return mesh;
 }
 
+Mesh chips_mesh(const std::vector<Chip>& chips) {
+  Mesh mesh;
+  for (const Chip& chip : chips) {
+    const Vector3d along = (chip.tip_m - chip.foot_m).normalized();
+    const Vector3d side = along.unitOrthogonal(), front = along.cross(side);
+    const double half = chip.width_m / 2;
+    const int first = static_cast<int>(mesh.vertices.size());
+    for (const Vector3d& off : {side, front, Vector3d(-side)}) {
+      mesh.vertices.push_back({chip.foot_m + half * off, off, {0, 0}});
+    }
+    mesh.vertices.push_back({chip.tip_m, along, {0, 0}});
+    const int a = first, b = first + 1, c = first + 2, tip = first + 3;
+    mesh.triangles.insert(mesh.triangles.end(), {{a, c, b}, {a, b, tip}, {b, c, tip}, {c, a, tip}});
+  }
+  return mesh;
+}
+
 std::string obj_text(const Mesh& mesh) {
   std::string text;
   for (const Mesh::Vertex& v : mesh.vertices) {

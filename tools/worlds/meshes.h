@@ -31,6 +31,14 @@ Mesh turned_mesh(const std::vector<Eigen::Vector2d>& profile_m, double side_m, i
 Mesh lump_mesh(const Eigen::Vector3d& radii_m, double bumps, double side_m, Draw& draw);
 ///@}
 
+/// A leaf, a blade of grass, a stone: a tetrahedron from its foot to its tip.
+struct Chip {
+  Eigen::Vector3d foot_m, tip_m;
+  double width_m;
+};
+/// Many of them as one, without a picture.
+Mesh chips_mesh(const std::vector<Chip>& chips);
+
 /// The text of an OBJ file: the same bytes for the same mesh.
 std::string obj_text(const Mesh& mesh);
 

@@ -63,8 +63,8 @@ void draw_camera(Kit& kit, const Lane& lane) {
 void draw_image(Kit& kit) {
   Draw& d = kit.draw;
   scenario::Image image;
-  image.noise = {.full_well_e = to(d.scaled(2500, 20000), 10), .read_e = to(d.scaled(2, 12), 0.1)};
-  if (d.chance(0.5)) image.blur_px = to(d.between(0.2, 1.0), 0.01);
+  image.noise = {.full_well_e = to(d.scaled(2000, 20000), 10), .read_e = to(d.scaled(2, 12), 0.1)};
+  if (d.chance(0.4)) image.blur_px = to(d.between(0.2, 1.0), 0.01);
   // less light on the sensor, and a gain that makes up for it, more or less
   const double light = d.scaled(0.3, 1);
   image.exposure_s = to(light * scenario::Image::kDaylightExposure_s, 1e-5);
@@ -89,7 +89,7 @@ enum class Kind { stand, crawl, drive, bend, spin, aside, brake, weave };
 
 std::vector<EgoPhase> phases_of(Draw& d, Kind kind, double duration_s, double fastest_mps,
                                 bool on_wheels) {
-  const double speed = d.scaled(0.2, fastest_mps);
+  const double speed = d.between(0.2, fastest_mps);
   EgoPhase first{.at_s = 0, .speed_mps = speed};
   switch (kind) {
     case Kind::stand:
@@ -175,9 +175,9 @@ Way draw_rover(Kit& kit, const Lane& lane) {
   s.ego.drive = lane.is_rough ? scenario::Drive::wheeled : scenario::Drive::holonomic;
   if (lane.is_rough) kit.tag("wheeled");
   const double duration_s = s.frames / s.camera.rate_hz;
-  const Kind kind =
-      d.pick({Kind::stand, Kind::crawl, Kind::drive, Kind::drive, Kind::drive, Kind::bend,
-              Kind::bend, Kind::spin, Kind::aside, Kind::brake, Kind::weave});
+  const Kind kind = d.pick({Kind::stand, Kind::stand, Kind::crawl, Kind::drive, Kind::drive,
+                            Kind::drive, Kind::drive, Kind::bend, Kind::bend, Kind::spin,
+                            Kind::aside, Kind::brake, Kind::weave});
   const double fastest = std::clamp(0.9 * lane.length_m / duration_s, 0.25, lane.fastest_mps);
   s.ego.phases = phases_of(d, kind, duration_s, fastest, lane.is_rough);
   // backwards it needs the lane behind it, and aside the width of it

@@ -63,6 +63,16 @@ cv::Mat1f smooth_noise(Draw& draw, int side, int across, int down) {
   return noise;
 }
 
+/// Mean 0, deviation 1.
+void standardise(cv::Mat1f& values) {
+  double mean = 0, squares = 0;
+  for (const float value : values) mean += value;
+  mean /= static_cast<double>(values.total());
+  for (const float value : values) squares += (value - mean) * (value - mean);
+  const double deviation = std::sqrt(squares / static_cast<double>(values.total())) + 1e-9;
+  for (float& value : values) value = static_cast<float>((value - mean) / deviation);
+}
+
 /// Octaves of that, each at `keep` of the one before; mean 0, deviation 1.
 cv::Mat1f fractal_noise(Draw& draw, int side, int cells, double keep, int stretch = 1) {
   cv::Mat1f sum(side, side, 0.F);
@@ -73,24 +83,23 @@ cv::Mat1f fractal_noise(Draw& draw, int side, int cells, double keep, int stretc
                    [weight](float a, float b) { return a + weight * b; });
     weight *= static_cast<float>(keep);
   }
-  double mean = 0, squares = 0;
-  for (const float value : sum) mean += value;
-  mean /= static_cast<double>(sum.total());
-  for (const float value : sum) squares += (value - mean) * (value - mean);
-  const double deviation = std::sqrt(squares / static_cast<double>(sum.total())) + 1e-9;
-  for (float& value : sum) value = static_cast<float>((value - mean) / deviation);
+  standardise(sum);
   return sum;
+}
+
+/// Adds as many levels times a value that there is for each pixel.
+void lighten(cv::Mat3b& picture, const cv::Mat1f& by, double levels) {
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) {
+      for (int c = 0; c < 3; ++c) picture(y, x)[c] = level(picture(y, x)[c] + levels * by(y, x));
+    }
+  }
 }
 
 /// Lightens and darkens by noise, whose deviation is of `least` to `most` levels.
 void dirty(cv::Mat3b& picture, Draw& draw, int cells, double keep, double least, double most) {
   const cv::Mat1f noise = fractal_noise(draw, picture.cols, cells, keep);
-  const double levels = draw.between(least, most);
-  for (int y = 0; y < picture.rows; ++y) {
-    for (int x = 0; x < picture.cols; ++x) {
-      for (int c = 0; c < 3; ++c) picture(y, x)[c] = level(picture(y, x)[c] + levels * noise(y, x));
-    }
-  }
+  lighten(picture, noise, draw.between(least, most));
 }
 
 /// Draws the same at all places where it would come in again from the other side.
@@ -99,6 +108,28 @@ void without_seam(int side, DrawAt draw_at) {
   for (const int dy : {-side, 0, side}) {
     for (const int dx : {-side, 0, side}) draw_at(dx, dy);
   }
+}
+
+/// Discs that lie over each other, few large and many small, with what lies on them cut off: the
+/// model of natural pictures of Lee, Mumford & Huang ("Occlusion Models for Natural Images", IJCV
+/// 2001). It looks alike from near and from afar, and has edges where 1/f noise has none.
+cv::Mat1f dead_leaves(Draw& draw, int side) {
+  constexpr double kSmallest_px = 0.7;
+  const double largest_px = side / 6.0;
+  cv::Mat1f leaves(side, side, 0.F);
+  for (int i = side * side / 9; i > 0; --i) {
+    const double share = draw.between(1e-6, 1);  // as many as their radius to the power -3
+    const int r = static_cast<int>(std::min(largest_px, kSmallest_px / std::sqrt(share)) + 0.5);
+    const cv::Point at{draw.whole(0, side - 1), draw.whole(0, side - 1)};
+    const double value = draw.normal();
+    without_seam(side, [&](int dx, int dy) {
+      const cv::Point centre = at + cv::Point(dx, dy);
+      if (std::min(centre.x, centre.y) < -r || std::max(centre.x, centre.y) >= side + r) return;
+      cv::circle(leaves, centre, r, value, cv::FILLED);
+    });
+  }
+  standardise(leaves);
+  return leaves;
 }
 
 void paint_plain(cv::Mat3b& p, Draw& draw) {
@@ -423,6 +454,16 @@ cv::Mat3b paint(Style style, int side_px, Draw& draw) {
   cv::Mat3b picture(side_px, side_px);
   painter(style).paint(picture, draw);
   return picture;
+}
+
+void weather(cv::Mat3b& picture, double levels, Draw& draw) {
+  const double own = levels * draw.between(0.6, 1.4);
+  if (draw.chance(0.75)) {
+    lighten(picture, dead_leaves(draw, picture.cols), own);
+    return;
+  }
+  const int cells = draw.whole(2, 8);
+  lighten(picture, fractal_noise(draw, picture.cols, cells, draw.between(0.75, 1.05)), own);
 }
 
 std::vector<std::string> pictures_in(const std::string& folder) {

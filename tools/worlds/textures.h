@@ -38,6 +38,11 @@ bool is_isotropic(Style style);
 /// A square picture, BGR, top row first.
 cv::Mat3b paint(Style style, int side_px, Draw& draw);
 
+/// Lightens and darkens a picture at all sizes alike, as wear, dirt, grain and small shadows do, so
+/// that there is something to be seen from near and from afar. \param levels deviation, grey
+/// levels.
+void weather(cv::Mat3b& picture, double levels, Draw& draw);
+
 /// A part of one of the pictures of a folder.
 /// \throws std::runtime_error for a picture that cannot be read.
 cv::Mat3b photograph(const std::vector<std::string>& files, int side_px, Draw& draw);

@@ -238,16 +238,35 @@ Parts plant(Kit& k) {
                   k.surface(kLeaves)})};
 }
 
+/// Leaves that stand off what is painted with them, light ones and dark ones; or none.
+void add_leaves(Kit& k, Parts& parts, const Vector3d& middle_m, const Vector3d& radii_m) {
+  if (!k.draw.chance(0.6)) return;
+  const double size = k.draw.scaled(0.03, 0.12);
+  const int count = k.draw.whole(60, 250);
+  for (const bool is_light : {false, true}) {
+    std::vector<Chip> chips;
+    for (int i = 0; i < count; ++i) {
+      const Vector3d out = Vector3d{k.draw.normal(), k.draw.normal(), k.draw.normal()}.normalized();
+      const Vector3d way{k.draw.normal(), k.draw.normal(), k.draw.normal()};
+      Vector3d foot = middle_m + k.draw.between(0.85, 1.05) * out.cwiseProduct(radii_m);
+      foot.z() = std::max(foot.z(), size);
+      chips.push_back({foot, foot + size * k.draw.between(0.5, 1.5) * way.normalized(), size});
+    }
+    const double light = is_light ? k.draw.between(0.4, 0.95) : k.draw.between(0.03, 0.25);
+    parts.push_back(k.chips(chips, k.plain(light * Vector3d(k.draw.between(0.5, 0.95), 1, 0.45))));
+  }
+}
+
 Parts bush(Kit& k) {
   const int leaves = k.surface(kLeaves);
   const double r = k.draw.between(0.3, 0.9);
   Parts parts;
   for (int i = k.draw.whole(1, 3); i > 0; --i) {
     const double s = r * k.draw.between(0.6, 1);
-    parts.push_back(k.lump({{s, s, s * k.draw.between(0.7, 1.2)},
-                            0.15,
-                            {k.draw.between(-r, r) * .5, k.draw.between(-r, r) * .5, s * .6},
-                            leaves}));
+    const Vector3d radii{s, s, s * k.draw.between(0.7, 1.2)};
+    const Vector3d middle{k.draw.between(-r, r) * .5, k.draw.between(-r, r) * .5, s * .6};
+    parts.push_back(k.lump({radii, 0.15, middle, leaves}));
+    add_leaves(k, parts, middle, radii);
   }
   return parts;
 }
@@ -255,17 +274,18 @@ Parts bush(Kit& k) {
 Parts tree(Kit& k) {
   const double trunk = k.draw.between(0.06, 0.2), h = k.draw.between(1.8, 3.2);
   const double crown = k.draw.between(0.8, 1.7);
-  return {k.turned({{{trunk * 1.4, 0}, {trunk, 0.3}, {trunk * .8, h + 0.3}},
-                    {0, 0, 0},
-                    k.surface({Style::wood, Style::fractal})}),
-          k.lump({{crown, crown, crown * k.draw.between(0.8, 1.5)},
-                  0.12,
-                  {0, 0, h + crown * .6},
-                  k.surface(kLeaves)}),
-          k.lump({{crown * .7, crown * .7, crown * .6},
-                  0.15,
-                  {crown * .5, crown * .3, h + crown * .2},
-                  k.surface(kLeaves)})};
+  const Vector3d radii{crown, crown, crown * k.draw.between(0.8, 1.5)};
+  const Vector3d middle{0, 0, h + crown * .6};
+  Parts parts{k.turned({{{trunk * 1.4, 0}, {trunk, 0.3}, {trunk * .8, h + 0.3}},
+                        {0, 0, 0},
+                        k.surface({Style::wood, Style::fractal})}),
+              k.lump({radii, 0.12, middle, k.surface(kLeaves)}),
+              k.lump({{crown * .7, crown * .7, crown * .6},
+                      0.15,
+                      {crown * .5, crown * .3, h + crown * .2},
+                      k.surface(kLeaves)})};
+  add_leaves(k, parts, middle, radii);
+  return parts;
 }
 
 Parts rock(Kit& k) {
