@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kMostTextures = 16;
 // How much of it lies on the surfaces of a world; by recordings (README.md).
-constexpr double kLeastWeather_levels = 3, kMostWeather_levels = 45;
+constexpr double kLeastWeather_levels = 4, kMostWeather_levels = 55;
 constexpr double kPhotographs = 0.4;  // share of surfaces, where there are pictures
 
 /// Metres that a picture of a style spans, least and most.
@@ -57,7 +57,7 @@ Kit::Kit(std::string_view family, std::uint64_t seed, int attempt,
   world.seed = seed;
   world.attempt = attempt;
   world.scenario.seed = seed;
-  weather_levels_ = draw.between(kLeastWeather_levels, kMostWeather_levels);
+  weather_levels_ = draw.scaled(kLeastWeather_levels, kMostWeather_levels);
 }
 
 int Kit::plain(const Vector3d& rgb, double alpha, double emission) {

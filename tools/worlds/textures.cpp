@@ -457,7 +457,7 @@ cv::Mat3b paint(Style style, int side_px, Draw& draw) {
 }
 
 void weather(cv::Mat3b& picture, double levels, Draw& draw) {
-  const double own = levels * draw.between(0.6, 1.4);
+  const double own = levels * draw.between(0.7, 1.3);
   if (draw.chance(0.75)) {
     lighten(picture, dead_leaves(draw, picture.cols), own);
     return;
