@@ -36,7 +36,7 @@ class Score : public testing::Test {
 };
 
 class ScoreOfDetector : public Score, public testing::WithParamInterface<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Names, ScoreOfDetector, testing::Values("lcs", "klt", "homography"),
+INSTANTIATE_TEST_SUITE_P(Names, ScoreOfDetector, testing::Values("lcs", "klt", "homography", "dis"),
                          [](const auto& test) { return test.param; });
 
 TEST_P(ScoreOfDetector, GivesTheRunsOwnFiguresToTheLastBitTimesIncluded) {
