@@ -159,11 +159,14 @@ Values measure(const cv::Mat1b& now, const cv::Mat1b& next, int threshold) {
 
   // From this picture's corners to the next one, which takes the place of the one before.
   comparators::BackwardFlow flow(
-      {.window_px = 15, .levels = 4, .round_trip_px = static_cast<double>(kMoves_px)});
-  flow.track(next, {}, {});
+      {.baseline_s = 0, .round_trip_px = static_cast<double>(kMoves_px)});
+  EgoMotion any;
+  flow.see(next, any);
+  any.dt_s = 0.1;
+  flow.see(now, any);
   std::vector<Vec2> guesses;
   for (const Eigen::Vector2f& place : here) guesses.push_back(place.cast<double>());
-  const auto ends = flow.track(now, here, guesses);
+  const auto ends = flow.track(here, guesses);
   const auto is_inside = [&](const Eigen::Vector2f& place) {
     return place.minCoeff() >= kFastMargin_px &&
            place.x() <= static_cast<float>(now.cols - 1) - kFastMargin_px &&
