@@ -135,8 +135,8 @@ TEST(Lookback, ForgetsWhatCameBeforeAMotionThatIsUnknown) {
 }
 
 TEST(Lookback, RefusesABaselineThatIsNoTime) {
-  EXPECT_THROW(Lookback<int>(-0.1), std::invalid_argument);
-  EXPECT_THROW(Lookback<int>(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
+  EXPECT_THROW(Lookback<int>{-0.1}, std::invalid_argument);
+  EXPECT_THROW(Lookback<int>{std::numeric_limits<double>::quiet_NaN()}, std::invalid_argument);
 }
 
 }  // namespace
