@@ -201,7 +201,7 @@ TEST(Worlds, CamerasAndSensorsAreInTheirRangesAndNeverWithoutNoise) {
   EXPECT_GE(rates.size(), 6u);
 }
 
-TEST(Worlds, MoversAreSeenTenFramesOrMoreByTheTruth) {
+TEST(Worlds, MoversAreSeenTenFramesOrMoreByTheTruthAndRunIntoNothing) {
   for (const World& world : small_ones()) {
     const bench::TemporaryFolder folder;
     const scenario::Scenario scenario = scenario::load(written(world, folder));
@@ -213,6 +213,10 @@ TEST(Worlds, MoversAreSeenTenFramesOrMoreByTheTruth) {
         if (!object.moving || object.visible_px < kSpeck_px) continue;
         ++seen[simulation.objects()[static_cast<std::size_t>(object.object - 1)].name];
       }
+    }
+    for (std::size_t i = 0; i < sim::kWarnings.size(); ++i) {
+      const sim::Warnings& met = simulation.warnings();
+      EXPECT_EQ(met.of(static_cast<sim::Warning>(i)).first, "") << name_of(world);
     }
     for (const scenario::Actor& actor : scenario.actors) {
       EXPECT_GE(seen[*actor.body], 10) << name_of(world) << " " << actor.name;

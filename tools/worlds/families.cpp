@@ -61,6 +61,7 @@ void enclose(Kit& kit, const Vector2d& half_m, double height_m) {
   kit.wall({-x, -y}, {-x, y}, height_m, other);
   const int ceiling =
       kit.draw.chance(0.7) ? pale(kit, 0.6, 0.95) : kit.wide_surface({Style::tiles, Style::wood});
+  kit.ceiling_m = height_m;
   kit.fix({{kit.block({{2 * x, 2 * y, 0.1}, {0, 0, height_m}, ceiling})}, {0, 0}, 0, false});
 }
 

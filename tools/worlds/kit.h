@@ -34,7 +34,8 @@ class Kit {
   std::vector<Box> kept_free;  ///< where the rover and the movers go
   /// Height of the ground.
   std::function<double(const Eigen::Vector2d&)> ground = [](const auto&) { return 0.0; };
-  double plainness = 0;  ///< share of things that have no texture
+  double ceiling_m = 100;  ///< its height; far up where there is none
+  double plainness = 0;    ///< share of things that have no texture
 
   void tag(std::string_view feature) { world.features.emplace(feature); }
 

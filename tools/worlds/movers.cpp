@@ -148,7 +148,8 @@ class Planner {
     for (const double x : {-1.0, 1.0}) {
       for (const double y : {-1.0, 1.0}) {
         const Vector2d corner = point_of(box, x, y, 0).head<2>();
-        if (std::abs(kit_.ground(corner) - level) > 0.06) return false;
+        const double above = kit_.ground(corner) - level;  // into a slope it would sink
+        if (above > 0.005 || above < -0.06) return false;
       }
     }
     box.foot_m += level;

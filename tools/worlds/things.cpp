@@ -483,8 +483,12 @@ Parts bicycle(Kit& k) {
 /// A load on a hook: hangs, and moves.
 Parts load(Kit& k) {
   const double s = k.draw.between(0.3, 0.8), foot = k.draw.between(0.4, 1.3);
+  const double hook = foot + s * .4;
   return {k.block({{s, s, s * k.draw.between(0.5, 1)}, {0, 0, foot}, k.paint()}),
-          k.post({0.012, 3, {0, 0, foot + s * .4}, k.plain({0.2, 0.2, 0.2})})};
+          k.post({0.012,
+                  std::min(3.0, k.ceiling_m - hook - 0.02),
+                  {0, 0, hook},
+                  k.plain({0.2, 0.2, 0.2})})};
 }
 
 const std::map<std::string, std::function<Parts(Kit&)>> kThings{
