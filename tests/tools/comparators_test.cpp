@@ -393,8 +393,11 @@ TEST_P(TrackerTest, AtAHighRateAMoverIsFoundThatMovesLittleFromFrameToFrame) {
   EXPECT_GT(found, 0.6 * inside);
 }
 
-TEST_P(TrackerTest, WhatIsSeenBelowTheGroundMovesByItself) {
-  if (GetParam() == std::string("homography")) GTEST_SKIP() << "knows of no ground";
+class TrackerOnGroundTest : public TrackerTest {};
+INSTANTIATE_TEST_SUITE_P(Names, TrackerOnGroundTest, testing::Values("klt", "dis"),
+                         [](const auto& test) { return test.param; });
+
+TEST_P(TrackerOnGroundTest, WhatIsSeenBelowTheGroundMovesByItself) {
   EgoMotion ego = motion({0, 0, 1.5}, {0, 0, 0});
   const cv::Mat1b before = view({}), now = view(ego);
   const auto corners = corners_of(now);

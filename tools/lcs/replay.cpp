@@ -13,6 +13,7 @@
 #include "tools/bench/tracker.h"
 #include "tools/bench/warnings.h"
 #include "tools/comparators/detectors.h"
+#include "tools/lcs/detector_option.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/number_option.h"
 #include "tools/lcs/progress.h"
@@ -178,10 +179,7 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
                   "imu: by dead reckoning; truth: by the recording's own truth")
       ->type_name("SOURCE")
       ->check(CLI::IsMember({"imu", "truth"}));
-  command
-      .add_option("--detector", options.detector,
-                  "What watches: lcs (the filter), or klt, homography or dis to compare it with")
-      ->type_name("NAME");
+  add_detector_option(command, options.detector);
   add_integer_option(
       command, "--fast-threshold", options.fast_threshold,
       "Contrast of a corner, 1 to 254 grey levels; if not given, 20 or the recording's", 1, 254)

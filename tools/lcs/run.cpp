@@ -20,6 +20,7 @@
 #include "tools/bench/tracker.h"
 #include "tools/bench/warnings.h"
 #include "tools/comparators/detectors.h"
+#include "tools/lcs/detector_option.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/number_option.h"
 #include "tools/lcs/progress.h"
@@ -169,12 +170,7 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
       ->type_name("DIR");
   add_seed_option(command, options.seed);
   add_set_option(command, options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
-  command
-      .add_option("--detector", options.detector,
-                  "What watches: lcs (the filter), lcs:lab (with the paper's preset, or another, "
-                  "and none of the scenario's parameters), or klt, homography or dis to compare it "
-                  "with")
-      ->type_name("NAME");
+  add_detector_option(command, options.detector, kPresetDetector);
   command
       .add_option(
           "--beside", options.beside,

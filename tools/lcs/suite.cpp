@@ -15,6 +15,7 @@
 #include "tools/bench/output_folder.h"
 #include "tools/bench/tracker.h"
 #include "tools/comparators/detectors.h"
+#include "tools/lcs/detector_option.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/number_option.h"
 #include "tools/lcs/set_option.h"
@@ -48,7 +49,7 @@ constexpr const char* kHelp = R"(Examples:
   lcs suite my_scenarios other.yaml               other scenarios; of files any group
   lcs suite --group all --list                    what there is
   lcs suite --worlds train --count 60             worlds drawn from seeds, one run each
-  lcs suite --worlds test --count 60 --beside klt --beside homography --beside lcs:lab
+  lcs suite --worlds test --count 60 --beside klt --beside dis --beside lcs:lab
                                                   how far the filter is from its yardsticks, by family
   lcs compare out/before out/suite                what two suites differ in, beyond noise
 
@@ -201,21 +202,17 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
   add_integer_option(command, "--seeds", options.seeds,
                      "Runs of each scenario; 3 if not given, of worlds 1", 1, kMostSeeds)
       ->type_name("N");
-  command
-      .add_option("--detector", options.detector,
-                  "What watches: lcs (the filter), lcs:lab (with the paper's preset, or another, "
-                  "and none of the scenario's parameters), or klt, homography or dis to compare it "
-                  "with")
-      ->type_name("NAME");
+  add_detector_option(command, options.detector, kPresetDetector);
   command
       .add_option("--recorded", options.recorded,
                   "Take corners, motion and truth from an earlier suite instead of simulating, "
                   "which takes seconds")
       ->type_name("DIR");
   command
-      .add_option("--beside", options.beside,
-                  "Run this detector too on the same frames, as klt or lcs:lab, and print F1 beside "
-                  "each other; may be repeated")
+      .add_option(
+          "--beside", options.beside,
+          "Run this detector too on the same frames, as klt or lcs:lab, and print F1 beside "
+          "each other; may be repeated")
       ->type_name("NAME")
       ->allow_extra_args(false);
   add_set_option(command, options.sets, "Set a value in every scenario, as \"camera.rate=5 Hz\"");
