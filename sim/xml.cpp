@@ -96,8 +96,8 @@ void make_absolute(Element& root, const fs::path& file) {
         throw scenario::Error(source_of(e), "file '" + normal +
                                                 "' is missing; put it there or correct the name");
       }
-      // MuJoCo opens it itself, and waits for a pipe.
-      scenario::InputFile(normal, kAssetFile, source_of(e));
+      // MuJoCo opens it itself, and would wait for a pipe.
+      const scenario::InputFile refused_if_unfit(normal, kAssetFile, source_of(e));
       e.SetAttribute(key, normal.c_str());
     }
   };

@@ -54,7 +54,7 @@ void add_noise(cv::Mat1b& picture, double levels, std::string_view stream) {
 TEST(Noise, IsEstimatedWithinATenthOnFlatAndOnCrowdedPictures) {
   for (const double levels : {1.0, 2.0, 5.0, 12.0}) {
     cv::Mat1b slope(kSize);
-    for (int x = 0; x < kSize.width; ++x) slope.col(x).setTo(60 + x / 4);
+    for (int x = 0; x < kSize.width; ++x) slope.col(x).setTo(60 + 0.25 * x);
     cv::Mat1b crowded = squares();
     crowded.rowRange(0, 80).setTo(140);  // a sky, which is all that can be judged
     for (cv::Mat1b picture : {slope, crowded}) {
