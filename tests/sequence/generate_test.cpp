@@ -173,7 +173,8 @@ TEST_F(Generated, FlowReadByOpenCvIsTheMotionOfThePixels) {
       int valid = 0, differ = 0;
       for (int y = 0; y < truth.rows; ++y) {
         for (int x = 0; x < truth.cols; ++x) {
-          const cv::Vec2f u = truth(y, x), read = flo.at<cv::Vec2f>(y, x);
+          const cv::Vec2f& u = truth(y, x);
+          const cv::Vec2f& read = flo.at<cv::Vec2f>(y, x);
           const bool is_known = !std::isnan(u[0]);
           if (is_known ? u != read : !(read[0] > 1e9F && read[1] > 1e9F)) ++differ;
           const cv::Vec3w& code = kitti(y, x);  // blue, green, red
