@@ -140,11 +140,6 @@ class Scaling {
   std::map<std::string, std::vector<Scaled>> meshes_;  ///< by the name that the file gives them
 };
 
-bool is_style(const std::string& texture) {
-  const auto& styles = texture_styles();
-  return std::find(styles.begin(), styles.end(), texture) != styles.end();
-}
-
 /// Gives the texture of the material `paint` the name that says what to fill it with. Other
 /// materials keep theirs.
 void paint_fragment(xml::Element& root, const scenario::Actor& actor) {
@@ -163,7 +158,7 @@ void paint_fragment(xml::Element& root, const scenario::Actor& actor) {
                     actor.name, actor.texture));
   }
   std::string new_name = kPictureTexture;
-  if (is_style(actor.texture)) {
+  if (is_texture_style(actor.texture)) {
     new_name = fmt::format("{}{}:paint", kProceduralPrefix, actor.texture);
   } else if (!std::filesystem::is_regular_file(actor.texture)) {
     throw scenario::Error(
@@ -185,7 +180,7 @@ void paint_fragment(xml::Element& root, const scenario::Actor& actor) {
 /// What is put where it is, or follows any command, is not pushed.
 void take_contacts_away(xml::Element& root) {
   xml::for_each(xml::section(root, "worldbody"), [](xml::Element& e) {
-    if (std::string_view(e.Name()) != "geom") return;
+    if (!xml::is_kind(e, "geom")) return;
     e.SetAttribute("contype", "0");
     e.SetAttribute("conaffinity", "0");
   });
@@ -194,7 +189,7 @@ void take_contacts_away(xml::Element& root) {
 }  // namespace
 
 bool has_picture(const scenario::Actor& actor) {
-  return !actor.texture.empty() && !is_style(actor.texture);
+  return !actor.texture.empty() && !is_texture_style(actor.texture);
 }
 
 xml::Document actor_fragment(const scenario::Actor& actor, const xml::Element& scene) {

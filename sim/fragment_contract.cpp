@@ -16,15 +16,12 @@ namespace {
 
 using Eigen::Vector3d;
 using xml::Element;
+using xml::is_kind;
 
 constexpr double kTolerance = 1e-6;
 
 [[noreturn]] void refuse(const Element& at, const std::string& what) {
   throw scenario::Error(xml::source_of(at), what);
-}
-
-bool is_kind(const Element& e, std::string_view kind) {
-  return e.Name() == kind;
 }
 
 Vector3d vector(const Element& e, const char* key, const Vector3d& otherwise) {

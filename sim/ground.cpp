@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "sim/mjcf.h"
 #include "sim/random.h"
 
 namespace lcs::sim {
@@ -76,9 +77,7 @@ void add_ground(xml::Element& scene, const scenario::Ground& ground,
   field->SetAttribute("name", kName);
   field->SetAttribute("nrow", points_along(ground.size_m.y(), ground.wavelength_m));
   field->SetAttribute("ncol", points_along(ground.size_m.x(), ground.wavelength_m));
-  field->SetAttribute("size", fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}", half.x(), half.y(),
-                                          kHighest * ground.roughness_m, kBase_m)
-                                  .c_str());
+  mjcf::set_numbers(*field, "size", {half.x(), half.y(), kHighest * ground.roughness_m, kBase_m});
 
   xml::Element& worldbody = xml::section(scene, "worldbody");
   const std::string material = material_of_floor(worldbody);
@@ -88,7 +87,7 @@ void add_ground(xml::Element& scene, const scenario::Ground& ground,
   geom->SetAttribute("name", kName);
   geom->SetAttribute("type", "hfield");
   geom->SetAttribute("hfield", kName);
-  geom->SetAttribute("pos", fmt::format("{:.17g} {:.17g} 0", centre.x(), centre.y()).c_str());
+  mjcf::set_numbers(*geom, "pos", {centre.x(), centre.y(), 0});
   geom->SetAttribute("contype", 1);
   geom->SetAttribute("conaffinity", 1);
   if (!material.empty()) geom->SetAttribute("material", material.c_str());

@@ -16,6 +16,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using xml::Element;
+using xml::is_kind;
 
 /// What a document's compiler says; the last one that says so.
 std::string compiler(const Element& root, const char* key, const char* otherwise) {
@@ -25,10 +26,6 @@ std::string compiler(const Element& root, const char* key, const char* otherwise
     if (const char* said = c->Attribute(key)) value = said;
   }
   return value;
-}
-
-bool is_kind(const Element& e, std::string_view kind) {
-  return e.Name() == kind;
 }
 
 /// The defaults of a class; nullptr where there are none.

@@ -14,6 +14,7 @@
 #include "sim/fragment.h"
 #include "sim/ground.h"
 #include "sim/limits.h"
+#include "sim/mjcf.h"
 #include "sim/texture.h"
 
 namespace lcs::sim {
@@ -153,11 +154,9 @@ void add_camera(xml::Element& base, const scenario::Camera& camera) {
   const Eigen::Vector3d& p = camera.mount_position_m;
   xml::Element* e = base.InsertNewChildElement("camera");
   e->SetAttribute("name", kCamera);
-  e->SetAttribute("pos", fmt::format("{:.17g} {:.17g} {:.17g}", p.x(), p.y(), p.z()).c_str());
-  e->SetAttribute("xyaxes", fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", R(0, 0),
-                                        R(1, 0), R(2, 0), R(0, 1), R(1, 1), R(2, 1))
-                                .c_str());
-  e->SetAttribute("fovy", fmt::format("{:.17g}", camera.fovy_rad * 180 / std::numbers::pi).c_str());
+  mjcf::set_numbers(*e, "pos", {p.x(), p.y(), p.z()});
+  mjcf::set_numbers(*e, "xyaxes", {R(0, 0), R(1, 0), R(2, 0), R(0, 1), R(1, 1), R(2, 1)});
+  mjcf::set_numbers(*e, "fovy", {camera.fovy_rad * 180 / std::numbers::pi});
 }
 
 void add_ego(xml::Element& scene, const Scenario& scenario) {
@@ -175,11 +174,10 @@ void check_styles(xml::Element& scene) {
       const char* name = e->Attribute("name");
       const std::string called = name ? name : file.stem().string();
       const std::string style(procedural_style(called));
-      const auto& known = texture_styles();
-      if (style.empty() || std::find(known.begin(), known.end(), style) != known.end()) continue;
+      if (style.empty() || is_texture_style(style)) continue;
       throw scenario::Error(xml::source_of(*e),
                             fmt::format("no texture style is called '{}'; there are {}", style,
-                                        fmt::join(known, ", ")));
+                                        fmt::join(texture_styles(), ", ")));
     }
   }
 }

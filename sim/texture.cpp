@@ -361,6 +361,11 @@ const std::vector<std::string>& texture_styles() {
   return names;
 }
 
+bool is_texture_style(std::string_view name) {
+  const auto& styles = texture_styles();
+  return std::find(styles.begin(), styles.end(), name) != styles.end();
+}
+
 std::string_view procedural_style(std::string_view texture_name) {
   const std::size_t at = texture_name.find(kProceduralPrefix);
   if (at == std::string_view::npos) return {};

@@ -17,6 +17,8 @@ namespace lcs::sim {
 /// Styles that `paint` knows, in alphabetical order.
 const std::vector<std::string>& texture_styles();
 
+bool is_texture_style(std::string_view name);
+
 /// A texture of the scene with this in its name is painted after loading, as in
 /// "procedural:windows:2": the style, and anything that tells it from others of its style.
 inline constexpr std::string_view kProceduralPrefix = "procedural:";

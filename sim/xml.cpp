@@ -14,8 +14,7 @@ namespace lcs::sim::xml {
 namespace {
 
 /// Of MJCF text, vertices of meshes included; of what it names: pictures, meshes, height fields.
-constexpr scenario::FileKind kModelFile{64 * scenario::kMebibyte,
-                                        "give the path of an MJCF file"};
+constexpr scenario::FileKind kModelFile{64 * scenario::kMebibyte, "give the path of an MJCF file"};
 constexpr scenario::FileKind kAssetFile{scenario::kGibibyte, "give a file of the kind that it is"};
 
 namespace fs = std::filesystem;
@@ -28,9 +27,10 @@ constexpr std::array<const char*, 7> kFiles = {"file",     "fileright", "filelef
 
 // Attributes that hold the name of another element.
 constexpr std::array kReferences = {
-    "texture", "material", "class",  "childclass", "mesh",     "hfield", "joint",   "site",
-    "body",    "body1",    "body2",  "geom1",      "geom2",    "target", "objname", "refname",
-    "tendon",  "actuator", "geom",   "cranksite",  "slidersite", "refsite", "jointinparent"};
+    "texture", "material",  "class",      "childclass", "mesh",         "hfield",
+    "joint",   "site",      "body",       "body1",      "body2",        "geom1",
+    "geom2",   "target",    "objname",    "refname",    "tendon",       "actuator",
+    "geom",    "cranksite", "slidersite", "refsite",    "jointinparent"};
 
 // Holds "LINE FILE" where an element was written, as no user's attribute is called.
 constexpr const char* kSource = "lcs:source";
@@ -58,8 +58,9 @@ Document parse(const fs::path& file, const scenario::Source& where) {
   if (kind != "mujoco" && kind != "mujocoinclude") {
     fail(file, root ? root->GetLineNum() : 1, "is not MJCF: its root element must be <mujoco>");
   }
-  for_each(*document->RootElement(),
-           [&](Element& e) { set_source(e, {file.string(), e.GetLineNum()}); });
+  for_each(*document->RootElement(), [&](Element& e) {
+    set_source(e, {file.string(), e.GetLineNum()});
+  });
   return document;
 }
 
@@ -84,7 +85,7 @@ Folders folders_of(const Element& root, const fs::path& file) {
 void make_absolute(Element& root, const fs::path& file) {
   const Folders folders = folders_of(root, file);
   const auto resolve = [&](Element& e) {
-    const bool picture = std::string_view(e.Name()) == "texture";
+    const bool picture = is_kind(e, "texture");
     for (const char* key : kFiles) {
       const char* value = e.Attribute(key);
       if (!value) continue;
@@ -93,8 +94,8 @@ void make_absolute(Element& root, const fs::path& file) {
       const std::string normal = path.lexically_normal().string();
       std::error_code error;
       if (!fs::exists(path, error) && !error) {
-        throw scenario::Error(source_of(e), "file '" + normal +
-                                                "' is missing; put it there or correct the name");
+        throw scenario::Error(source_of(e),
+                              "file '" + normal + "' is missing; put it there or correct the name");
       }
       // MuJoCo opens it itself, and would wait for a pipe.
       const scenario::InputFile refused_if_unfit(normal, kAssetFile, source_of(e));
@@ -164,7 +165,7 @@ void prefix_names(Element& root, const std::string& prefix) {
 void remove_all(Element& root, const char* kind) {
   for (Element *e = root.FirstChildElement(), *next = nullptr; e; e = next) {
     next = e->NextSiblingElement();
-    if (e->Name() == std::string_view(kind)) {
+    if (is_kind(*e, kind)) {
       root.DeleteChild(e);
     } else {
       remove_all(*e, kind);
@@ -181,6 +182,10 @@ void append_children(Element& to, const Element& from) {
 Element& section(Element& root, const char* kind) {
   if (Element* found = root.FirstChildElement(kind)) return *found;
   return *root.InsertNewChildElement(kind);
+}
+
+bool is_kind(const Element& element, std::string_view kind) {
+  return element.Name() == kind;
 }
 
 Element* child_named(Element& parent, const char* kind, const std::string& name) {
@@ -238,10 +243,9 @@ Printed::Printed(XMLDocument& document) {
                               "); nest its elements less deeply");
   }
   auto origin = origins.begin();
-  for_each(*again.RootElement(),
-           [&](Element& e) {
-             if (origin != origins.end()) origins_.emplace(e.GetLineNum(), std::move(*origin++));
-           });
+  for_each(*again.RootElement(), [&](Element& e) {
+    if (origin != origins.end()) origins_.emplace(e.GetLineNum(), std::move(*origin++));
+  });
 }
 
 const Printed::Origin* Printed::at_line(int line) const {

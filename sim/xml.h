@@ -41,6 +41,9 @@ Element& section(Element& root, const char* kind);
 /// Calls `visit` for an element and all below it.
 void for_each(Element& element, const std::function<void(Element&)>& visit);
 
+/// Whether it is, as in `<geom>`, of that kind.
+bool is_kind(const Element& element, std::string_view kind);
+
 /// The child with that name attribute, or nullptr.
 Element* child_named(Element& parent, const char* kind, const std::string& name);
 

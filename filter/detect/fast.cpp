@@ -14,15 +14,20 @@ FastDetector::FastDetector(int threshold) : threshold_(threshold) {
 }
 
 std::vector<Eigen::Vector2f> FastDetector::detect(const cv::Mat1b& grey) const {
-  std::vector<cv::KeyPoint> keypoints;
-  cv::FAST(grey, keypoints, threshold_, /*nonmaxSuppression=*/true,
-           cv::FastFeatureDetector::TYPE_9_16);
+  const std::vector<cv::KeyPoint> keypoints = detect_scored(grey);
   std::vector<Eigen::Vector2f> corners;
   corners.reserve(keypoints.size());
   for (const cv::KeyPoint& keypoint : keypoints) {
     corners.emplace_back(keypoint.pt.x, keypoint.pt.y);
   }
   return corners;
+}
+
+std::vector<cv::KeyPoint> FastDetector::detect_scored(const cv::Mat1b& grey) const {
+  std::vector<cv::KeyPoint> keypoints;
+  cv::FAST(grey, keypoints, threshold_, /*nonmaxSuppression=*/true,
+           cv::FastFeatureDetector::TYPE_9_16);
+  return keypoints;
 }
 
 }  // namespace lcs

@@ -20,6 +20,9 @@ class FastDetector {
   /// \return corners in pixels, row by row from the top, left to right in a row.
   std::vector<Eigen::Vector2f> detect(const cv::Mat1b& grey) const;
 
+  /// The same corners with OpenCV's score, the highest threshold at which each still is one.
+  std::vector<cv::KeyPoint> detect_scored(const cv::Mat1b& grey) const;
+
  private:
   int threshold_;
 };

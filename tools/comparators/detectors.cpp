@@ -73,8 +73,9 @@ Wanted wanted(const std::string& name) {
 }
 
 std::vector<std::string> apply_preset(const Wanted& wanted, scenario::Scenario& scenario) {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = bench::idle_settings(scenario);
   if (wanted.preset.empty()) return lines;
+  lines.clear();
   const auto leave_out = [&](std::string_view key, const scenario::Source& where) {
     if (!where.file.starts_with("--set ")) return;
     lines.push_back(fmt::format("filter.{} has no effect with {}, which is the preset alone", key,

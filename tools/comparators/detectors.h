@@ -43,7 +43,8 @@ struct Wanted {
 Wanted wanted(const std::string& name);
 
 /// Gives a scenario the preset that is wanted, if any, alone: a yardstick does not move with what
-/// is measured. \return a line for each `--set` that has no effect by that.
+/// is measured. \return a line for each setting that has no effect: with a preset each `--set`,
+/// else as `bench::idle_settings` has it. \throws as that one.
 std::vector<std::string> apply_preset(const Wanted& wanted, scenario::Scenario& scenario);
 
 /// For frames of an earlier run, of which there are corners and no pictures as they were.

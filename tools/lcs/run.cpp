@@ -116,6 +116,8 @@ Frames recorded(const RunOptions& options, const scenario::Scenario& scenario) {
 struct Watching {
   comparators::Wanted wanted;
   std::filesystem::path target;
+  scenario::Scenario scenario;  ///< as it takes it
+  std::vector<std::string> idle_settings = {};
   std::unique_ptr<bench::Tracker> tracker = {};
   bench::Recording recording = {};
   std::unique_ptr<bench::Result> result = {};
@@ -124,17 +126,20 @@ struct Watching {
 /// The run's own detector and those beside it.
 std::vector<Watching> watching(const RunOptions& options, const scenario::Scenario& scenario) {
   std::vector<Watching> all;
-  all.push_back({comparators::wanted(options.detector), target_of(options, scenario)});
+  all.push_back({comparators::wanted(options.detector), target_of(options, scenario), scenario});
   for (const std::string& beside : options.beside) {
     const std::size_t equals = beside.find('=');
     if (equals == std::string::npos || equals + 1 == beside.size()) {
       throw std::invalid_argument(fmt::format(
           "--beside {}: give a detector and the folder for its results, as klt=out/klt", beside));
     }
-    all.push_back({comparators::wanted(beside.substr(0, equals)), beside.substr(equals + 1)});
+    all.push_back(
+        {comparators::wanted(beside.substr(0, equals)), beside.substr(equals + 1), scenario});
   }
   std::set<std::filesystem::path> targets;
-  for (const Watching& one : all) {
+  for (Watching& one : all) {
+    // whoever reads the filter's settings: what is wrong is told
+    one.idle_settings = comparators::apply_preset(one.wanted, one.scenario);
     if (!options.recorded.empty()) comparators::require_corners_suffice(one.wanted.detector);
     if (!targets.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(one.target)))
              .second) {
@@ -199,16 +204,11 @@ ExitCode run(const RunOptions& options) {
       scenario::load(options.scenario, {.sets = options.sets, .seed = options.seed});
   std::vector<Watching> all = watching(options, scenario);
   Watching& own = all.front();
-  // whoever reads them: what is wrong is told
-  std::vector<std::string> idle_settings = bench::idle_settings(scenario);
   bench::require_known_metrics(scenario.criteria);
   const Frames frames =
       options.recorded.empty() ? simulated(scenario) : recorded(options, scenario);
   for (Watching& one : all) {
-    scenario::Scenario as_taken = scenario;
-    const auto lines = comparators::apply_preset(one.wanted, as_taken);
-    if (&one == &own && !one.wanted.preset.empty()) idle_settings = lines;
-    one.tracker = one.wanted.detector.make(frames.camera, as_taken);
+    one.tracker = one.wanted.detector.make(frames.camera, one.scenario);
     one.recording = frames.recording;
     one.recording.detector = {one.wanted.name, one.wanted.detector.layered};
   }
@@ -223,7 +223,7 @@ ExitCode run(const RunOptions& options) {
         one.target, one.recording, cv::Size(frames.camera.width_px, frames.camera.height_px), what);
   }
   warn(scenario::shadowed_files(scenario));
-  warn(idle_settings);
+  warn(own.idle_settings);
   std::vector<Diagnostics> diagnostics;
   {
     Progress progress(scenario.name, scenario.frames, options.quiet);

@@ -133,8 +133,7 @@ std::vector<std::string> seldom_meant(const std::vector<suite::PlannedScenario>&
     add(scenario::shadowed_files(*planned.scenario));
     try {
       scenario::Scenario scenario = *planned.scenario;
-      add(wanted.preset.empty() ? bench::idle_settings(scenario)
-                                : comparators::apply_preset(wanted, scenario));
+      add(comparators::apply_preset(wanted, scenario));
     } catch (const scenario::Error&) {
     }
   }

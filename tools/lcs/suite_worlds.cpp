@@ -14,6 +14,7 @@
 #include "tools/lcs/number_option.h"
 #include "tools/report/worlds_page.h"
 #include "tools/suite/child_process.h"
+#include "tools/suite/summary.h"
 #include "tools/worlds/sheet.h"
 #include "tools/worlds/worlds.h"
 
@@ -109,9 +110,7 @@ void add_origins(suite::SuiteResult& result) {
 }
 
 std::string told_of_worlds(const WorldsOptions& options, const suite::SuiteResult& result) {
-  const auto again = std::count_if(
-      result.scenarios.begin(), result.scenarios.end(),
-      [](const auto& scenario) { return scenario.drawn && scenario.drawn->again > 0; });
+  const std::int64_t again = suite::drawn_again(result);
   std::string text =
       fmt::format("{} {} drawn again\n", again, again == 1 ? "world was" : "worlds were");
   if (options.split == "test") {

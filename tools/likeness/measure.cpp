@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <set>
 #include <stdexcept>
 
+#include "filter/detect/fast.h"
 #include "sim/random.h"
 #include "tools/bench/statistics.h"
 #include "tools/comparators/backward_flow.h"
@@ -21,20 +21,6 @@ using Points = std::vector<Eigen::Vector2f>;
 constexpr float kMoves_px = 0.5;     // what moves less has no direction
 constexpr std::size_t kFewest = 5;   // corners that a figure is taken of
 constexpr float kFastMargin_px = 3;  // nearer to a side there are no corners
-
-/// FAST as the filter has it, by row from the top, with the scores that OpenCV gives.
-std::vector<cv::KeyPoint> corners_of(const cv::Mat1b& grey, int threshold) {
-  std::vector<cv::KeyPoint> corners;
-  cv::FAST(grey, corners, threshold, /*nonmaxSuppression=*/true,
-           cv::FastFeatureDetector::TYPE_9_16);
-  return corners;
-}
-
-Points places_of(const std::vector<cv::KeyPoint>& corners) {
-  Points places;
-  for (const cv::KeyPoint& corner : corners) places.emplace_back(corner.pt.x, corner.pt.y);
-  return places;
-}
 
 /// The distance to the nearest of `places`, which are sorted by y, that is farther than `beyond_px`
 /// and not farther than `within_px`.
@@ -141,18 +127,22 @@ std::optional<double> noise_levels(const cv::Mat1b& grey) {
 
 Values measure(const cv::Mat1b& now, const cv::Mat1b& next, int threshold) {
   Values values;
-  const std::vector<cv::KeyPoint> corners = corners_of(now, threshold);
-  const Points here = places_of(corners), there = places_of(corners_of(next, threshold));
+  const FastDetector detector(threshold);
+  const Points there = detector.detect(next);
+  Points here;
+  std::vector<double> spacing, contrast;
+  for (const cv::KeyPoint& corner : detector.detect_scored(now)) {
+    here.emplace_back(corner.pt.x, corner.pt.y);
+    contrast.push_back(corner.response);
+  }
   values[Measure::corners] = static_cast<double>(here.size());
   values[Measure::corners_per_mpx] =
       1e6 * static_cast<double>(here.size()) / static_cast<double>(now.total());
   values[Measure::noise] = noise_levels(now);
   if (here.size() < kFewest) return values;
 
-  std::vector<double> spacing, contrast;
-  for (std::size_t i = 0; i < here.size(); ++i) {
-    contrast.push_back(corners[i].response);
-    spacing.push_back(*nearest_px(here, here[i], 0, static_cast<float>(now.cols + now.rows)));
+  for (const Eigen::Vector2f& place : here) {
+    spacing.push_back(*nearest_px(here, place, 0, static_cast<float>(now.cols + now.rows)));
   }
   values[Measure::spacing_px] = bench::median(spacing);
   values[Measure::contrast] = bench::median(contrast);

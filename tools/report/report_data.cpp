@@ -93,11 +93,7 @@ Json figures_of(const ScenarioResult& scenario, const Baseline* baseline) {
 Json groups_of(const SuiteResult& suite, const Baseline* baseline) {
   Json groups = Json::array();
   for (const std::string& group : suite::groups_of(suite)) {
-    const auto members = std::count_if(
-        suite.scenarios.begin(), suite.scenarios.end(), [&](const ScenarioResult& scenario) {
-          return std::find(scenario.groups.begin(), scenario.groups.end(), group) !=
-                 scenario.groups.end();
-        });
+    const std::int64_t members = suite::count_in(suite, group);
     Json figures = Json::object();
     for (const std::string& name : figure_names()) {
       const auto now = suite::over_group(suite, group, name);

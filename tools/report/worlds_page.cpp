@@ -121,12 +121,9 @@ class PageText {
   }
 
   void head(const std::string& about) {
-    const auto again = std::count_if(all_.begin(), all_.end(), [](const ScenarioResult* world) {
-      return world->drawn && world->drawn->again > 0;
-    });
     add("<header>\n<h1>Worlds</h1>\n<p>{}</p>\n<div class=\"facts\"><span><b>{}</b> worlds</span>"
         "<span><b>{}</b> drawn again</span><span>{}</span>",
-        escaped(about), all_.size(), again, escaped(suite_.version));
+        escaped(about), all_.size(), suite::drawn_again(suite_), escaped(suite_.version));
     for (const std::string& set : suite_.sets) add("<span><code>{}</code></span>", escaped(set));
     add("<span><a href=\"{0}\">{0}</a></span></div>\n", kReportFile);
     add("<p class=\"small\">Pictures: first, middle and last frame, with the truth's boxes: "
@@ -178,7 +175,7 @@ class PageText {
     add("<article id=\"{0}\">\n<h3>{0}", escaped(world.name));
     say({&world}, kFrames, "frames");
     say({&world}, kCorners, "corners a frame");
-    if (std::count(world.groups.begin(), world.groups.end(), "static") > 0) {
+    if (suite::is_in(world, "static")) {
       add("<span>nothing moves</span>");
     }
     const std::uint64_t again = world.drawn ? world.drawn->again : 0;

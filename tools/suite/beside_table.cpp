@@ -64,8 +64,7 @@ std::vector<Row> rows_in(const SuiteResult& suite, const std::vector<Row>& rows,
                          const std::string& group) {
   std::vector<Row> in;
   for (const Row& row : rows) {
-    const auto& groups = find(suite, row.name)->groups;
-    if (std::find(groups.begin(), groups.end(), group) != groups.end()) in.push_back(row);
+    if (is_in(*find(suite, row.name), group)) in.push_back(row);
   }
   return in;
 }

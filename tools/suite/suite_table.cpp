@@ -132,16 +132,8 @@ std::string marked(const ScenarioResult& scenario) {
   return scenario.name;
 }
 
-int count(const SuiteResult& suite, const std::string& group) {
-  return static_cast<int>(
-      std::count_if(suite.scenarios.begin(), suite.scenarios.end(), [&](const auto& scenario) {
-        return std::find(scenario.groups.begin(), scenario.groups.end(), group) !=
-               scenario.groups.end();
-      }));
-}
-
 std::string group_row_name(const SuiteResult& suite, const std::string& group) {
-  return fmt::format("= {} ({})", group, count(suite, group));
+  return fmt::format("= {} ({})", group, count_in(suite, group));
 }
 
 }  // namespace

@@ -13,10 +13,6 @@ std::optional<double> metric_of(const RunResult& run, std::string_view name) {
   return found == run.metrics.end() ? std::nullopt : found->second;
 }
 
-bool is_in(const ScenarioResult& scenario, const std::string& group) {
-  return std::find(scenario.groups.begin(), scenario.groups.end(), group) != scenario.groups.end();
-}
-
 }  // namespace
 
 const ScenarioResult* find(const SuiteResult& suite, const std::string& name) {
@@ -81,6 +77,15 @@ SuiteResult in_common(const SuiteResult& suite, const SuiteResult& other) {
   return common;
 }
 
+bool is_in(const ScenarioResult& scenario, const std::string& group) {
+  return std::find(scenario.groups.begin(), scenario.groups.end(), group) != scenario.groups.end();
+}
+
+std::int64_t count_in(const SuiteResult& suite, const std::string& group) {
+  return std::count_if(suite.scenarios.begin(), suite.scenarios.end(),
+                       [&](const ScenarioResult& scenario) { return is_in(scenario, group); });
+}
+
 std::vector<std::string> groups_of(const SuiteResult& suite) {
   std::vector<std::string> groups;
   for (const ScenarioResult& scenario : suite.scenarios) {
@@ -95,6 +100,12 @@ bool is_of_worlds(const SuiteResult& suite) {
   return !suite.scenarios.empty() &&
          std::all_of(suite.scenarios.begin(), suite.scenarios.end(),
                      [](const ScenarioResult& scenario) { return scenario.drawn.has_value(); });
+}
+
+std::int64_t drawn_again(const SuiteResult& suite) {
+  return std::count_if(
+      suite.scenarios.begin(), suite.scenarios.end(),
+      [](const ScenarioResult& scenario) { return scenario.drawn && scenario.drawn->again > 0; });
 }
 
 Outcome outcome_of(const ScenarioResult& scenario) {

@@ -48,12 +48,19 @@ std::optional<double> over_group(const SuiteResult& suite, const std::string& gr
 /// in common tells what changed between them.
 SuiteResult in_common(const SuiteResult& suite, const SuiteResult& other);
 
+bool is_in(const ScenarioResult& scenario, const std::string& group);
+/// Scenarios of a group.
+std::int64_t count_in(const SuiteResult& suite, const std::string& group);
+
 /// In the order in which they first appear.
 std::vector<std::string> groups_of(const SuiteResult& suite);
 
 /// Whether its scenarios are worlds drawn from seeds, so that they are a sample of such worlds and
 /// their mean has an interval. False for no scenarios.
 bool is_of_worlds(const SuiteResult& suite);
+
+/// Worlds that could not be drawn at first, and were drawn again.
+std::int64_t drawn_again(const SuiteResult& suite);
 
 /// The worst of the runs'; `error` for no runs.
 Outcome outcome_of(const ScenarioResult& scenario);
