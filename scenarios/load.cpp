@@ -10,6 +10,7 @@
 #include "scenarios/load_actor.h"
 #include "scenarios/load_ego.h"
 #include "scenarios/load_image.h"
+#include "scenarios/load_recording.h"
 #include "scenarios/load_sweep.h"
 #include "scenarios/quantities.h"
 #include "scenarios/scenes.h"
@@ -106,7 +107,7 @@ Odometry read_odometry(Reader reader) {
 }
 
 int read_corners(Reader reader) {
-  int threshold = Scenario{}.fast_threshold;
+  int threshold = kFastThreshold;
   reader.read("threshold", 1, 254, threshold);
   reader.finish();
   return threshold;
@@ -184,14 +185,29 @@ int read_frames(Reader& reader, double rate_hz) {
                              : frames;
 }
 
-void read_top(Reader& reader, const std::filesystem::path& folder, Scenario& scenario) {
-  // A section under its key, when it is given.
+/// A section under its key, when it is given.
+void read_section(Reader& reader, std::string_view key, auto&& read, auto& out) {
+  if (const Value* value = reader.find(key)) out = read(Reader(*value, reader.path_of(key)));
+}
+
+/// What was recorded is not made, and so nothing else can be said of it.
+void read_recorded(Reader& reader, const std::filesystem::path& folder, Scenario& scenario) {
+  for (const char* key : {"scene", "seed", "ego", "camera", "imu", "odometry", "truth", "image",
+                          "ground", "actors"}) {
+    reader.at_most_one_of({"recording", key});
+  }
+  scenario.recording = read_recording({*reader.find("recording"), "recording"}, folder);
+  if (const auto& split = scenario.recording->split) {
+    scenario.groups.emplace_back(kSplits.at(static_cast<std::size_t>(*split)));
+  }
+  reader.read("frames", 1, kMostFrames, scenario.frames);
+}
+
+void read_simulated(Reader& reader, const std::filesystem::path& folder, Scenario& scenario) {
   const auto section = [&](std::string_view key, auto&& read, auto& out) {
-    if (const Value* value = reader.find(key)) out = read(Reader(*value, reader.path_of(key)));
+    read_section(reader, key, read, out);
   };
-  reader.read("purpose", scenario.purpose);
-  if (const Value* groups = reader.find("groups")) scenario.groups = read_groups(*groups);
-  if (const Value* scene = reader.require("scene")) {
+  if (const Value* scene = reader.find("scene")) {
     scenario.scene = find_scene(*scene, folder);
     scenario.scene_source = scene->where;
   }
@@ -202,10 +218,6 @@ void read_top(Reader& reader, const std::filesystem::path& folder, Scenario& sce
   const Value* imu = reader.find("imu");
   scenario.imu = read_imu({imu ? *imu : empty_map, "imu"});
   section("odometry", read_odometry, scenario.odometry);
-  if (const auto source = reader.choice("ego_motion", {"imu", "truth"})) {
-    scenario.ego_motion = static_cast<EgoMotionSource>(*source);
-  }
-  section("corners", read_corners, scenario.fast_threshold);
   section("truth", read_truth, scenario.truth_min_depth_m);
   section("image", read_image, scenario.image);
   section("ground", read_ground, scenario.ground);
@@ -215,6 +227,17 @@ void read_top(Reader& reader, const std::filesystem::path& folder, Scenario& sce
       scenario.actors.push_back(read_actor(entry, folder));
     }
   }
+}
+
+void read_top(Reader& reader, const std::filesystem::path& folder, Scenario& scenario) {
+  reader.read("purpose", scenario.purpose);
+  if (const Value* groups = reader.find("groups")) scenario.groups = read_groups(*groups);
+  const bool is_recorded = reader.exactly_one_of({"scene", "recording"}) == "recording";
+  (is_recorded ? read_recorded : read_simulated)(reader, folder, scenario);
+  if (const auto source = reader.choice("ego_motion", {"imu", "truth"})) {
+    scenario.ego_motion = static_cast<EgoMotionSource>(*source);
+  }
+  read_section(reader, "corners", read_corners, scenario.fast_threshold);
   if (const Value* filter = reader.find("filter")) read_filter(*filter, scenario);
   if (const Value* criteria = reader.find("criteria")) {
     for (const Value& item : as_list(*criteria, "criteria")) {
@@ -242,7 +265,12 @@ std::map<std::string, std::string> world_of(const Value& root) {
 Scenario load(const std::filesystem::path& file, const LoadOptions& options) {
   Value root = parse_file(file);
   for (const std::string& assignment : options.sets) apply_set(root, assignment);
+  Scenario scenario = load(root, file);
+  if (options.seed && !scenario.recording) scenario.seed = *options.seed;
+  return scenario;
+}
 
+Scenario load(const Value& root, const std::filesystem::path& file) {
   Scenario scenario;
   scenario.name = file.stem().string();
   scenario.file = file;
@@ -250,7 +278,6 @@ Scenario load(const std::filesystem::path& file, const LoadOptions& options) {
   read_top(reader, file.parent_path(), scenario);
   reader.finish();
   scenario.world = world_of(root);
-  if (options.seed) scenario.seed = *options.seed;
   return scenario;
 }
 

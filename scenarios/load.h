@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/document.h"
 #include "scenarios/scenario.h"
 
 namespace lcs::scenario {
@@ -22,5 +23,9 @@ struct LoadOptions {
 /// known
 ///   one, wrong units and types, values out of range or not finite, missing files).
 Scenario load(const std::filesystem::path& file, const LoadOptions& options = {});
+
+/// Likewise of a document that was not read from a file. \param file that it might be: its stem is
+/// the name, and paths begin at its folder.
+Scenario load(const Value& root, const std::filesystem::path& file);
 
 }  // namespace lcs::scenario

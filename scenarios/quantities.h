@@ -18,6 +18,8 @@ inline constexpr Quantity kAcceleration{Dimension::acceleration, {-100, 100}};
 inline constexpr Quantity kAngle{Dimension::angle, {-360, 360}};
 inline constexpr Quantity kFieldOfView{Dimension::angle, {0, 180, true, true}};
 inline constexpr Quantity kFocal{Dimension::pixels, {1, 1e6}};
+inline constexpr Quantity kInPicture{Dimension::pixels, {-100000, 100000}};
+inline constexpr Quantity kCoefficient{Dimension::number, {-1000, 1000}};
 inline constexpr Quantity kAngularRate{Dimension::angular_rate, {-720, 720}};
 /// Of the camera: ten seconds of physics between two pictures take long enough.
 inline constexpr Quantity kCameraRate{Dimension::frequency, {0.1, 1000}};

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -79,7 +80,8 @@ struct Camera {
   /// Roll, pitch, yaw about B's fixed x, y, z in this order: R = Rz(yaw) Ry(pitch) Rx(roll). All 0
   /// looks along B's x, upright; positive pitch looks down, positive yaw to the left.
   Eigen::Vector3d mount_rpy_rad = Eigen::Vector3d::Zero();
-  /// What a calibration that is not perfect tells of the mount: the true height and pitch plus these.
+  /// What a calibration that is not perfect tells of the mount: the true height and pitch plus
+  /// these.
   struct Told {
     double height_error_m = 0;
     double pitch_error_rad = 0;
@@ -158,7 +160,7 @@ struct Image {
   double exposure_s = kDaylightExposure_s;
   double gain = 1;
   std::optional<Noise> noise = Noise{};  ///< none: a sensor without any
-  std::optional<int> jpeg_quality;  ///< 1 to 100, of what arrives; none: not compressed
+  std::optional<int> jpeg_quality;       ///< 1 to 100, of what arrives; none: not compressed
 };
 
 /// Bumps on the floor that wheels feel and the camera sees: a Gaussian random field.
@@ -182,7 +184,8 @@ struct Line {
   double acceleration_mps2 = 0;           ///< a speed that reaches 0 stays 0: "comes and parks"
 };
 struct Waypoints {
-  /// At least two, straight and uniform in between; times count from the start trigger, and increase.
+  /// At least two, straight and uniform in between; times count from the start trigger, and
+  /// increase.
   std::vector<Waypoint> points;
 };
 struct Circular {
@@ -216,6 +219,44 @@ struct Actor {
   StartTrigger start;
 };
 
+/// The names of the layouts that recordings have on disk (`tools/replay/recorded.h` reads them).
+inline constexpr std::array<const char*, 8> kRecordingFormats{
+    "euroc", "kitti", "kitti_odometry", "robotcar", "tum_rgbd", "mot", "video", "pictures"};
+
+/// Frames that a camera took, in place of a simulation's. What is not given is as the layout says,
+/// or not known; nothing is made up. The camera looks along its z, with x right and y down.
+struct Recorded {
+  /// As OpenCV has it. Both begin with the distortion along the radius.
+  struct Distortion {
+    bool equidistant = false;          ///< else radial and tangential
+    std::vector<double> coefficients;  ///< k1 k2 p1 p2 k3, or of `equidistant` k1 k2 k3 k4
+  };
+  enum class Split { train, validate, test };
+
+  Source source;
+  std::filesystem::path path;  ///< a folder, or a video file; exists
+  std::string format;          ///< of `kRecordingFormats`; "": told from what is there
+  std::string camera;          ///< which of several; "": the layout's first
+  std::optional<double> fps;   ///< pictures a second
+  int every = 1;               ///< of the pictures each n-th is a frame, from the first one on
+  /// \name How the camera moved, each a file that exists. @{
+  std::optional<std::filesystem::path> poses;     ///< T_WC: lines of TUM, or of KITTI odometry
+  std::optional<std::filesystem::path> imu;       ///< columns as EuRoC has them
+  std::optional<std::filesystem::path> odometry;  ///< likewise, of a velocity; with an IMU
+  std::optional<double> speed_mps;                ///< along the optical axis; 0: it stands
+  ///@}
+  std::optional<double> focal_px;
+  std::optional<Eigen::Vector2d> centre_px;
+  std::optional<Distortion> distortion;
+  std::optional<double> camera_height_m;         ///< above the ground
+  std::optional<Eigen::Vector3d> mount_rpy_rad;  ///< as `Camera::mount_rpy_rad`
+  std::optional<std::filesystem::path> mask;     ///< a picture: white is the vehicle itself
+  std::optional<double> at_rest_s;               ///< from the start on it stands for as long
+  std::optional<std::filesystem::path> labels;   ///< boxes of what moves
+  bool nothing_moves = false;
+  std::optional<Split> split;  ///< what figures of it are for
+};
+
 /// Settings for the filter in the filter's own words; the scenario only carries them.
 struct FilterSetting {
   std::string key;    ///< as in "circle.mu_0"
@@ -243,22 +284,27 @@ struct SweptKey {
   Source source;
 };
 
+inline constexpr int kFastThreshold = 20;
+
 struct Scenario {
   std::string name;  ///< the file's stem
   std::filesystem::path file;
   std::string purpose;                          ///< one line
   std::vector<std::string> groups = {"short"};  ///< that it belongs to, at least one
-  std::filesystem::path scene;                  ///< the MJCF file, which exists
+  /// In place of `scene` and all that is made of it: `ego`, `camera`, `imu`, `odometry`, `image`,
+  /// `ground` and `actors`, which then are as they are by default.
+  std::optional<Recorded> recording;
+  std::filesystem::path scene;  ///< the MJCF file, which exists
   Source scene_source;
   std::uint64_t seed = 1;  ///< textures, IMU noise, odometry; independent streams by name
-  int frames = 0;          ///< > 0
+  int frames = 0;          ///< > 0; of a recording at the most, and 0 for all that it has
   Ego ego;
   Camera camera;
   Imu imu;
   Odometry odometry;
   EgoMotionSource ego_motion = EgoMotionSource::imu;
-  int fast_threshold = 20;         ///< grey levels, 1 to 254
-  double truth_min_depth_m = 0.5;  ///< nearest depth of the static segment (`radial`)
+  int fast_threshold = kFastThreshold;  ///< grey levels, 1 to 254
+  double truth_min_depth_m = 0.5;       ///< nearest depth of the static segment (`radial`)
   Image image;
   std::optional<Ground> ground;  ///< none: as level as the scene has it
   std::vector<Actor> actors;

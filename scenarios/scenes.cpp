@@ -74,6 +74,7 @@ fs::path actor_file(const Actor& actor) {
 }
 
 std::vector<std::string> shadowed_files(const Scenario& scenario) {
+  if (scenario.recording) return {};
   std::set<fs::path> names;
   const fs::path scene = scenario.scene.filename();
   if (scenario.scene == scenes_folder() / scene) names.insert(scene);

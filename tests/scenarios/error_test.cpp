@@ -50,10 +50,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         added("UnknownNear", "sede: 5\n", "4: unknown key 'sede'; did you mean 'seed'?"),
         added("UnknownFar", "weather: rain\n",
-              "4: unknown key 'weather'; known are purpose, groups, scene, seed, ego, camera, "
-              "frames, "
-              "duration, imu, odometry, ego_motion, corners, truth, image, ground, actors, filter, "
-              "criteria and sweep"),
+              "4: unknown key 'weather'; known are purpose, groups, scene, recording, seed, ego, "
+              "camera, frames, duration, imu, odometry, truth, image, ground, actors, ego_motion, "
+              "corners, filter, criteria and sweep"),
         added("UnknownInSection", "camera:\n  rate: 5\n  fov: 60\n",
               "6: unknown key 'fov' in camera; did you mean 'fovy'?"),
         added("UnknownBeforeMissing",
@@ -69,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
         added("NoValue", "seed:\n", "4: seed has no value; give one or remove the key"),
         added("NoSection", "odometry:\n", "4: odometry has no value; give one or remove the key"),
         whole("NoScene", "frames: 3\nego: {}\n",
-              "test.yaml:1: the scenario needs 'scene'; add it (scenarios/README.md shows how)"),
+              "test.yaml:1: the scenario needs 'scene' or 'recording'; add it (scenarios/README.md shows how)"),
         whole("NoEgo", "scene: room.xml\nframes: 3\n",
               "test.yaml:1: the scenario needs 'ego'; add it (scenarios/README.md shows how)"),
         whole("NoLength", "scene: room.xml\nego: {}\n",
