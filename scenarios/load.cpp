@@ -106,11 +106,11 @@ Odometry read_odometry(Reader reader) {
   return odometry;
 }
 
-int read_corners(Reader reader) {
-  int threshold = kFastThreshold;
-  reader.read("threshold", 1, 254, threshold);
+void read_corners(Reader reader, std::optional<int>& threshold) {
+  if (const Value* value = reader.find("threshold")) {
+    threshold = as_threshold(*value, reader.path_of("threshold"));
+  }
   reader.finish();
-  return threshold;
 }
 
 double read_truth(Reader reader) {
@@ -237,7 +237,10 @@ void read_top(Reader& reader, const std::filesystem::path& folder, Scenario& sce
   if (const auto source = reader.choice("ego_motion", {"imu", "truth"})) {
     scenario.ego_motion = static_cast<EgoMotionSource>(*source);
   }
-  read_section(reader, "corners", read_corners, scenario.fast_threshold);
+  if (is_recorded) scenario.fast_threshold.reset();  // each camera has its own noise
+  if (const Value* corners = reader.find("corners")) {
+    read_corners({*corners, "corners"}, scenario.fast_threshold);
+  }
   if (const Value* filter = reader.find("filter")) read_filter(*filter, scenario);
   if (const Value* criteria = reader.find("criteria")) {
     for (const Value& item : as_list(*criteria, "criteria")) {

@@ -51,10 +51,12 @@ void require_scalar(const Value& value, const std::string& path, std::string_vie
               path + " is " + std::string(kind_name(value.kind)) + "; give " + std::string(wanted));
 }
 
+/// \param other what may be given too, as " or auto"; "" for nothing.
 template <class Integer>
-Integer integer(const Value& value, const std::string& path, Integer low, Integer high) {
+Integer integer(const Value& value, const std::string& path, Integer low, Integer high,
+                const std::string& other = "") {
   const std::string wanted =
-      "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+      "a whole number from " + std::to_string(low) + " to " + std::to_string(high) + other;
   require_scalar(value, path, wanted);
   Integer number{};
   const char* const end = value.text.data() + value.text.size();
@@ -91,6 +93,11 @@ double as_quantity(const Value& value, const std::string& path, const Quantity& 
 std::int64_t as_integer(const Value& value, const std::string& path, std::int64_t low,
                         std::int64_t high) {
   return integer(value, path, low, high);
+}
+
+std::optional<int> as_threshold(const Value& value, const std::string& path) {
+  if (value.kind == Value::Kind::scalar && value.text == "auto") return std::nullopt;
+  return integer(value, path, 1, 254, " or auto");
 }
 
 std::uint64_t as_seed(const Value& value, const std::string& path) {

@@ -303,8 +303,9 @@ struct Scenario {
   Imu imu;
   Odometry odometry;
   EgoMotionSource ego_motion = EgoMotionSource::imu;
-  int fast_threshold = kFastThreshold;  ///< grey levels, 1 to 254
-  double truth_min_depth_m = 0.5;       ///< nearest depth of the static segment (`radial`)
+  /// Of corners, grey levels, 1 to 254; none: as each picture shows (`corners.threshold: auto`).
+  std::optional<int> fast_threshold = kFastThreshold;
+  double truth_min_depth_m = 0.5;  ///< nearest depth of the static segment (`radial`)
   Image image;
   std::optional<Ground> ground;  ///< none: as level as the scene has it
   std::vector<Actor> actors;

@@ -4,17 +4,37 @@
 #include <stdexcept>
 #include <string>
 
-namespace lcs {
+#include "filter/detect/picture_noise.h"
 
-FastDetector::FastDetector(int threshold) : threshold_(threshold) {
-  if (threshold < 1 || threshold > 254) {
+namespace lcs {
+namespace {
+
+std::vector<cv::KeyPoint> scored(const cv::Mat1b& grey, int threshold) {
+  std::vector<cv::KeyPoint> keypoints;
+  cv::FAST(grey, keypoints, threshold, /*nonmaxSuppression=*/true,
+           cv::FastFeatureDetector::TYPE_9_16);
+  return keypoints;
+}
+
+}  // namespace
+
+FastDetector::FastDetector(std::optional<int> threshold) : threshold_(threshold) {
+  if (threshold && (*threshold < 1 || *threshold > 254)) {
     throw std::invalid_argument("FAST threshold must be 1 to 254 grey levels, not " +
-                                std::to_string(threshold));
+                                std::to_string(*threshold));
   }
 }
 
+int FastDetector::threshold(const cv::Mat1b& grey) const {
+  return threshold_ ? *threshold_ : threshold_of(grey);
+}
+
 std::vector<Eigen::Vector2f> FastDetector::detect(const cv::Mat1b& grey) const {
-  const std::vector<cv::KeyPoint> keypoints = detect_scored(grey);
+  return detect(grey, threshold(grey));
+}
+
+std::vector<Eigen::Vector2f> FastDetector::detect(const cv::Mat1b& grey, int threshold) {
+  const std::vector<cv::KeyPoint> keypoints = scored(grey, threshold);
   std::vector<Eigen::Vector2f> corners;
   corners.reserve(keypoints.size());
   for (const cv::KeyPoint& keypoint : keypoints) {
@@ -24,10 +44,7 @@ std::vector<Eigen::Vector2f> FastDetector::detect(const cv::Mat1b& grey) const {
 }
 
 std::vector<cv::KeyPoint> FastDetector::detect_scored(const cv::Mat1b& grey) const {
-  std::vector<cv::KeyPoint> keypoints;
-  cv::FAST(grey, keypoints, threshold_, /*nonmaxSuppression=*/true,
-           cv::FastFeatureDetector::TYPE_9_16);
-  return keypoints;
+  return scored(grey, threshold(grey));
 }
 
 }  // namespace lcs

@@ -89,7 +89,7 @@ void fast(benchmark::State& state, const std::string& scene, int corners) {
   const Stream& of = stream(scene, corners);
   const cv::Mat1b grey = of.grey(kWarmUpFrames);
   std::vector<cv::KeyPoint> found;
-  const int threshold = footage(scene).scenario.fast_threshold;
+  const int threshold = footage(scene).scenario.fast_threshold.value();
   for (auto _ : state) {
     state.SetIterationTime(cpu_seconds(
         [&] { cv::FAST(grey, found, threshold, true, cv::FastFeatureDetector::TYPE_9_16); }));
@@ -147,7 +147,7 @@ double stream_seconds(const Stream& of, const std::vector<cv::Mat1b>& greys, int
 /// Corners found and filtered, the experts one after the other or side by side.
 void live(benchmark::State& state, const std::string& scene, int corners, bool side_by_side) {
   const Stream& of = stream(scene, corners);
-  const int threshold = footage(scene).scenario.fast_threshold;
+  const int threshold = footage(scene).scenario.fast_threshold.value();
   std::vector<cv::Mat1b> greys;
   for (std::size_t k = 0; k < of.size(); ++k) greys.push_back(of.grey(k));
   const Intrinsics camera = intrinsics(of.camera());

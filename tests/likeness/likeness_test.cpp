@@ -13,6 +13,7 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
+#include "filter/detect/picture_noise.h"
 #include "sim/random.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"

@@ -163,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(
         added("NegativeNoise", "imu: {gyroscope_noise_density: -1e-4}\n",
               "4: imu.gyroscope_noise_density is '-1e-4'; it must be at least 0 and at most 1000"),
         added("ThresholdZero", "corners: {threshold: 0}\n",
-              "4: corners.threshold is '0'; give a whole number from 1 to 254"),
+              "4: corners.threshold is '0'; give a whole number from 1 to 254 or auto"),
         added("DepthZero", "truth: {min_depth: 0 m}\n",
               "4: truth.min_depth is '0 m'; it must be above 0 and at most 10000 m"),
         added("ScaleErrorAboveOne", "odometry: {scale_error: 5}\n",

@@ -58,6 +58,13 @@ TEST(Load, LineEndsOfWindowsAndAByteOrderMarkMakeNoDifference) {
   EXPECT_EQ(s.ego.phases.at(0).speed_mps, 0.5);
 }
 
+TEST(Load, CornersMayHaveTheThresholdOfEachPicture) {
+  constexpr std::string_view kRest = "scene: room.xml\nframes: 1\nego: {start: [0 m, 0 m]}\n";
+  EXPECT_EQ(load_text(std::string(kRest)).fast_threshold, 20);
+  const Scenario s = load_text(std::string(kRest) + "corners: {threshold: auto}\n");
+  EXPECT_EQ(s.fast_threshold, std::nullopt);
+}
+
 TEST(Load, EveryKeyOfTheRoverAndItsSensorsArrives) {
   const Scenario s = load_text(R"(
 purpose: all keys

@@ -54,6 +54,9 @@ INSTANTIATE_TEST_SUITE_P(
                          "crossing.yaml",
                          {"frames=8", "camera.rate=7 Hz", "imu.rate=130 Hz", "corners.threshold=30",
                           "filter.preset=lab", "filter.circle.mu_0=20"}},
+                    Case{"ThresholdOfThePictures",
+                         "crossing.yaml",
+                         {"frames=6", "corners.threshold=auto", "image.jpeg=50"}},
                     Case{"WheelsOnRoughGround", "suite/rough_ground.yaml", {"frames=6"}},
                     Case{"GapInTheImu", "suite/imu_gap.yaml", {"frames=22"}}),
     [](const auto& test) { return test.param.name; });

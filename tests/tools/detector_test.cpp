@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <vector>
+
+#include "filter/detect/picture_noise.h"
 
 namespace lcs {
 namespace {
@@ -34,6 +39,90 @@ TEST(FastDetector, RefusesAThresholdThatIsNoContrast) {
   EXPECT_THROW(FastDetector(255), std::invalid_argument);
   EXPECT_NO_THROW(FastDetector(1));
   EXPECT_NO_THROW(FastDetector(254));
+}
+
+/// Tilted boards of many greys, with nothing in them that repeats itself; without noise.
+cv::Mat1b boards() {
+  cv::RNG random(7);
+  cv::Mat1b picture(480, 640, uchar{120});
+  for (int i = 0; i < 120; ++i) {
+    const cv::RotatedRect board(cv::Point2f(random.uniform(0.F, 640.F), random.uniform(0.F, 480.F)),
+                                cv::Size2f(random.uniform(10.F, 80.F), random.uniform(10.F, 80.F)),
+                                random.uniform(0.F, 180.F));
+    cv::Point2f at[4];
+    board.points(at);
+    std::vector<cv::Point> outline(at, at + 4);
+    cv::fillConvexPoly(picture, outline, cv::Scalar(random.uniform(40, 210)), cv::LINE_AA);
+  }
+  picture.rowRange(0, 100).setTo(150);  // a sky
+  return picture;
+}
+
+cv::Mat1b noisy(const cv::Mat1b& picture, double levels) {
+  cv::RNG random(11);
+  cv::Mat1f noise(picture.size());
+  random.fill(noise, cv::RNG::NORMAL, 0, levels);
+  cv::Mat1b sum;
+  cv::add(picture, noise, sum, cv::noArray(), CV_8U);
+  return sum;
+}
+
+cv::Mat1b compressed(const cv::Mat1b& picture, int quality) {
+  std::vector<uchar> bytes;
+  cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
+  return cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+}
+
+/// Root mean square of what compression has changed within FAST's circle about corners.
+double changed_levels(const cv::Mat1b& before, const cv::Mat1b& after) {
+  double squares = 0;
+  int pixels = 0;
+  for (const Eigen::Vector2f& corner : FastDetector(20).detect(before)) {
+    const cv::Rect circle(static_cast<int>(corner.x()) - 3, static_cast<int>(corner.y()) - 3, 7, 7);
+    squares += std::pow(cv::norm(before(circle), after(circle)), 2);
+    pixels += circle.area();
+  }
+  return std::sqrt(squares / pixels);
+}
+
+TEST(Compression, IsMeasuredByTheGridThatItLeaves) {
+  const cv::Mat1b clean = noisy(boards(), 2);  // as any camera has it
+  EXPECT_LT(compression_levels(clean), 1);
+  double last = 1;
+  for (const int quality : {80, 60, 40, 20}) {
+    const cv::Mat1b picture = compressed(clean, quality);
+    const double levels = compression_levels(picture), truth = changed_levels(clean, picture);
+    EXPECT_GT(levels, last) << quality;
+    EXPECT_GT(levels, 0.5 * truth) << quality;
+    EXPECT_LT(levels, 1.5 * truth) << quality;
+    last = levels;
+    // what is cut out of a larger picture has its grid elsewhere
+    const cv::Mat1b cut = picture(cv::Rect(5, 3, 600, 400));
+    EXPECT_NEAR(compression_levels(cut), levels, 0.2 * levels) << quality;
+  }
+}
+
+TEST(Compression, IsNoFenceNorTooSmallAPicture) {
+  cv::Mat1b fence(240, 320, uchar{200});
+  for (int x = 0; x < fence.cols; x += 8) fence.col(x).setTo(30);
+  EXPECT_EQ(compression_levels(fence), 0);
+  for (const int side : {1, 2, 3, 8, 16}) {
+    const cv::Mat1b small(side, side, uchar{90});
+    EXPECT_EQ(compression_levels(small), 0) << side;
+    EXPECT_EQ(threshold_of(small), 20) << side;
+  }
+}
+
+TEST(Threshold, FollowsWhatIsNotOfTheScene) {
+  EXPECT_EQ(threshold_of(boards()), 20);
+  EXPECT_EQ(threshold_of(noisy(boards(), 1)), 20);
+  EXPECT_NEAR(threshold_of(noisy(boards(), 4)), 32, 4);
+  EXPECT_NEAR(threshold_of(noisy(boards(), 8)), 64, 8);
+  const cv::Mat1b both = compressed(noisy(boards(), 3), 40);
+  EXPECT_GT(threshold_of(both), threshold_of(noisy(boards(), 3)));
+  EXPECT_EQ(FastDetector(std::nullopt).threshold(both), threshold_of(both));
+  EXPECT_EQ(FastDetector(std::nullopt).detect(both), FastDetector(threshold_of(both)).detect(both));
+  EXPECT_EQ(FastDetector(30).threshold(both), 30);
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ void watch(const cv::Mat3b& image, const FastDetector& detector, Tracker& tracke
   double detect_ms = 0;
   cv::Mat1b grey;
   cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  frame.corners_px = timed(detect_ms, [&] { return detector.detect(grey); });
+  const int threshold = detector.threshold(grey);
+  frame.corners_px = timed(detect_ms, [&] { return FastDetector::detect(grey, threshold); });
   ask(tracker, image, grey, frame);
   frame.times->detect_ms = detect_ms;
 }
@@ -59,7 +60,8 @@ std::vector<Diagnostics> run(const scenario::Scenario& scenario, sim::Simulation
     seen.true_motion = motions.exact;
     cv::Mat1b grey;
     cv::cvtColor(observation->image, grey, cv::COLOR_BGR2GRAY);
-    seen.corners_px = timed(times.detect_ms, [&] { return detector.detect(grey); });
+    const int threshold = detector.threshold(grey);
+    seen.corners_px = timed(times.detect_ms, [&] { return FastDetector::detect(grey, threshold); });
     seen.corner_truth = timed(times.truth_ms, [&] {
       return sim::label_corners(camera, observation->truth, seen.corners_px,
                                 scenario.truth_min_depth_m);

@@ -78,6 +78,8 @@ class JsonNode {
     }
   }
 
+  bool is_text(std::string_view word) const { return json_.is_string() && json_ == word; }
+
   std::string text() const {
     require(json_.is_string(), "a text");
     return json_.get<std::string>();

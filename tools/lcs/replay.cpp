@@ -180,10 +180,16 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
       ->type_name("SOURCE")
       ->check(CLI::IsMember({"imu", "truth"}));
   add_detector_option(command, options.detector);
-  add_integer_option(
-      command, "--fast-threshold", options.fast_threshold,
-      "Contrast of a corner, 1 to 254 grey levels; if not given, 20 or the recording's", 1, 254)
-      ->type_name("N");
+  command
+      .add_option_function<std::string>(
+          "--fast-threshold",
+          [&options](const std::string& text) {
+            options.fast_threshold =
+                scenario::as_threshold(option_value("--fast-threshold", text), "the number");
+          },
+          "Contrast of a corner, 1 to 254 grey levels; auto: by the noise and the compression of "
+          "each picture. If not given, auto or the recording's")
+      ->type_name("N|auto");
   command
       .add_option("--preset", options.preset,
                   "Parameters of the filter: default, or the paper's lab or cars")

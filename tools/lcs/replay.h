@@ -23,7 +23,8 @@ struct ReplayOptions {
   std::vector<double> mount_rpy_rad;  ///< none: the layout's own
   std::string ego_motion;             ///< imu or truth; "": as the recording has it
   std::string detector = "lcs";
-  std::optional<int> fast_threshold;  ///< grey levels
+  /// Of corners, grey levels; none within: as each picture shows.
+  std::optional<std::optional<int>> fast_threshold;
   std::string preset;                 ///< "": as the recording has it
   std::vector<std::string> sets;      ///< "key=value" of the filter
   std::string out;                    ///< folder; "" is out/<folder's name>

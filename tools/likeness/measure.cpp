@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "filter/detect/fast.h"
+#include "filter/detect/picture_noise.h"
 #include "sim/random.h"
 #include "tools/bench/statistics.h"
 #include "tools/comparators/backward_flow.h"
@@ -90,42 +91,7 @@ const std::array<MeasureText, kMeasures>& measures() {
   return kAll;
 }
 
-std::optional<double> noise_levels(const cv::Mat1b& grey) {
-  constexpr int kBlock_px = 16, kQuarter_px = kBlock_px / 2;
-  constexpr double kDarkest = 6, kBrightest = 249;  // what is clipped has lost its noise
-  constexpr std::size_t kFewestBlocks = 8;
-  const cv::Matx33f immerkaer(1, -2, 1, -2, 4, -2, 1, -2, 1);
-  cv::Mat1f residual;
-  cv::filter2D(grey, residual, CV_32F, immerkaer);
-  residual = cv::abs(residual);
-  std::vector<std::pair<double, double>> blocks;  // unevenness, mean residual
-  for (int y = 1; y + kBlock_px < grey.rows; y += kBlock_px) {
-    for (int x = 1; x + kBlock_px < grey.cols; x += kBlock_px) {
-      double least = 255, most = 0;
-      for (const int dy : {0, kQuarter_px}) {
-        for (const int dx : {0, kQuarter_px}) {
-          const cv::Rect quarter(x + dx, y + dy, kQuarter_px, kQuarter_px);
-          const double mean = cv::mean(grey(quarter))[0];
-          least = std::min(least, mean);
-          most = std::max(most, mean);
-        }
-      }
-      if (least < kDarkest || most > kBrightest) continue;
-      blocks.emplace_back(most - least,
-                          cv::mean(residual(cv::Rect(x, y, kBlock_px, kBlock_px)))[0]);
-    }
-  }
-  if (blocks.size() < kFewestBlocks) return std::nullopt;
-  std::sort(blocks.begin(), blocks.end());
-  std::vector<double> flat;
-  for (std::size_t i = 0; i < std::max(kFewestBlocks, blocks.size() / 10); ++i) {
-    flat.push_back(blocks[i].second);
-  }
-  // The operator's weights have a norm of 6; sqrt(pi / 2) takes a mean size to a deviation.
-  return std::sqrt(std::numbers::pi / 2) / 6 * *bench::median(flat);
-}
-
-Values measure(const cv::Mat1b& now, const cv::Mat1b& next, int threshold) {
+Values measure(const cv::Mat1b& now, const cv::Mat1b& next, std::optional<int> threshold) {
   Values values;
   const FastDetector detector(threshold);
   const Points there = detector.detect(next);

@@ -49,14 +49,8 @@ class Values {
   std::array<std::optional<double>, kMeasures> all_;
 };
 
-/// Standard deviation of the noise, grey levels: Immerkaer's operator ("Fast Noise Variance
-/// Estimation", CVIU 1996) over the flattest tenth of the picture's blocks. Blocks are told flat by
-/// the means of their quarters, on which the noise of a pixel has next to no say. None where all
-/// flat blocks are black or white, which has no noise.
-std::optional<double> noise_levels(const cv::Mat1b& grey);
-
-/// \param now, next pictures of one size. \param threshold of FAST, grey levels.
-Values measure(const cv::Mat1b& now, const cv::Mat1b& next, int threshold);
+/// \param now, next pictures of one size. \param threshold of FAST, as its detector takes it.
+Values measure(const cv::Mat1b& now, const cv::Mat1b& next, std::optional<int> threshold);
 
 /// The first frames of so many pairs of neighbours, spread over a run evenly; fewer where it is
 /// short.
@@ -69,7 +63,7 @@ struct Run {
   Origin origin = Origin::recording;
   std::string group, name;
   int frames = 0;
-  int threshold = 20;
+  std::optional<int> threshold = 20;
   /// Asked for each at most once, in rising order; empty for one that cannot be read.
   std::function<cv::Mat1b(int)> picture;
 };

@@ -51,8 +51,13 @@ struct Recorded {
   std::vector<RecordedFrame> frames;  ///< by time, each time once, at least one
   std::optional<Lens> lens;           ///< none: the layout has no calibration
   std::optional<int> demosaic;        ///< OpenCV's colour conversion for raw pictures
-  /// Detection, filter, noise; as they are by default where the recording does not say.
-  scenario::Scenario settings;
+  /// Detection, filter, noise; where the recording does not say, as they are by default, but
+  /// corners' threshold is each picture's own.
+  scenario::Scenario settings = [] {
+    scenario::Scenario unsaid;
+    unsaid.fast_threshold.reset();
+    return unsaid;
+  }();
   std::unique_ptr<MotionSource> motion;
   Tally tally;
 };

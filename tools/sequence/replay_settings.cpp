@@ -28,6 +28,7 @@ constexpr std::pair<const char*, double scenario::ImuNoise::*> kNoise[] = {
 
 constexpr const char* kImu = "imu";
 constexpr const char* kTruth = "truth";
+constexpr const char* kFromPicture = "auto";
 
 Json vector_json(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
@@ -49,6 +50,12 @@ int pixels_in(const Node& node) {
   const int pixels = node.natural<int>();
   node.require(pixels > 0, "above 0");
   return pixels;
+}
+
+/// Its range is the detector's to check.
+std::optional<int> threshold_in(const Node& node) {
+  if (node.is_text(kFromPicture)) return std::nullopt;
+  return node.natural<int>();
 }
 
 double above_zero_in(const Node& node) {
@@ -102,7 +109,7 @@ void read_scenario(const Node& node, const std::string& file, scenario::Scenario
   }
   scenario.odometry.enabled = node["odometry"].flag();
   scenario.odometry.noise_mps = not_negative_in(node["odometry_noise_mps"]);
-  scenario.fast_threshold = node["fast_threshold"].natural<int>();
+  scenario.fast_threshold = threshold_in(node["fast_threshold"]);
   scenario.filter_preset = node["filter_preset"].text();
   scenario.filter_preset_source = {file, 0};
   node["filter"].each_entry([&](const std::string& key, const Node& value) {
@@ -140,7 +147,8 @@ std::string settings_text(const scenario::Scenario& scenario, const sim::Calibra
       {"imu_noise", noise},
       {"odometry", scenario.odometry.enabled},
       {"odometry_noise_mps", scenario.odometry.noise_mps},
-      {"fast_threshold", scenario.fast_threshold},
+      {"fast_threshold",
+       scenario.fast_threshold ? Json(*scenario.fast_threshold) : Json(kFromPicture)},
       {"filter_preset", scenario.filter_preset},
       {"filter", filter},
   };
