@@ -92,8 +92,10 @@ std::optional<double> noise_levels(const cv::Mat1b& grey) {
 }
 
 double compression_levels(const cv::Mat1b& grey) {
+  cv::Mat1b columns;
+  cv::transpose(grey, columns);
   // A fence may repeat itself every 8 pixels, but not both ways.
-  return std::sqrt(std::max(0.0, std::min(excess(jumps(grey)), excess(jumps(grey.t())))));
+  return std::sqrt(std::max(0.0, std::min(excess(jumps(grey)), excess(jumps(columns)))));
 }
 
 int threshold_of(const cv::Mat1b& grey) {

@@ -9,7 +9,7 @@ source=$1 build=$2 cmake=$3 seconds=${4:-20}
 shift $(($# < 4 ? $# : 4))
 fuzzers=("$@")
 [[ ${#fuzzers[@]} -gt 0 ]] ||
-  fuzzers=(scenario parameters detections recording run_folder scene ego_motion filter)
+  fuzzers=(scenario parameters detections labels recording run_folder scene ego_motion filter)
 here=$source/tests/fuzz
 
 if ! echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' |

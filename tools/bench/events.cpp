@@ -345,6 +345,7 @@ const EventKindText& text_of(EventKind kind) {
 }
 
 std::vector<Event> find_events(const Recording& recording, std::size_t most) {
+  if (recording.truth == Truth::unknown) return {};  // nobody can say what was wrong
   const Outcomes outcomes = corner_outcomes(recording);
   std::vector<Event> events;
   find_missed(recording, outcomes, events);

@@ -13,6 +13,12 @@ cv::Mat3b FramePainter::paint(const FrameRecord& frame, const cv::Mat3b& image) 
     truth.push_back(
         {Vec2(object.left, object.top), Vec2(object.right - 1, object.bottom - 1), object.moving});
   }
+  if (frame.labels) {
+    for (const LabelledBox& label : *frame.labels) {
+      truth.push_back(
+          {Vec2(label.left, label.top), Vec2(label.right - 1, label.bottom - 1), !label.ignored});
+    }
+  }
   return sheet_.draw({.image = image,
                       .corners_px = frame.corners_px,
                       .verdicts = frame.verdicts,

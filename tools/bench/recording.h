@@ -16,6 +16,7 @@
 #include "filter/reason.h"
 #include "sim/truth.h"
 #include "sim/warnings.h"
+#include "tools/bench/labels.h"
 
 namespace lcs::bench {
 
@@ -42,7 +43,16 @@ struct FrameRecord {
   EgoMotion true_motion;                       ///< likewise, from the exact poses
   std::vector<sim::CornerTruth> corner_truth;  ///< of each corner
   std::vector<sim::ObjectTruth> object_truth;
+  /// Of a frame that somebody labelled: all that moves in it.
+  std::optional<std::vector<LabelledBox>> labels;
   std::optional<FrameTimes> times;  ///< none in a recording that was stored
+};
+
+/// What is known of corners and objects, by which they can be scored.
+enum class Truth : std::uint8_t {
+  all,            ///< of every corner and object: it was simulated
+  nothing_moves,  ///< that every corner is fixed; of objects nothing
+  unknown,        ///< nothing but `FrameRecord::labels`, where there are some
 };
 
 /// Who said what a recording holds of each corner.
@@ -61,11 +71,16 @@ struct Recording {
   /// empty where there is none.
   std::map<std::string, std::string> world;
   Speaker detector;
+  Truth truth = Truth::all;
   std::vector<sim::Object> objects;
   std::vector<FrameRecord> frames;  ///< by index
   /// Of the world, until after the last frame; none where nobody looked.
   std::optional<sim::Warnings> warnings = {};
 };
+
+/// Says of each corner of a frame what is known of it if no simulation does.
+/// \param frame with its corners. \param truth not `all`.
+void set_corner_truth(Truth truth, FrameRecord& frame);
 
 /// The run before anyone spoke: what there was to see and what was true, without a detector's
 /// verdicts, layers and times.

@@ -9,6 +9,7 @@
 #include "filter/layers.h"
 #include "filter/reason.h"
 #include "sim/truth.h"
+#include "tools/bench/recording.h"
 
 namespace lcs::bench {
 
@@ -16,6 +17,7 @@ namespace lcs::bench {
 ///@{
 inline constexpr std::array<const char*, 4> kVerdicts{"ignored", "pending", "normal", "rebel"};
 inline constexpr std::array<const char*, 4> kLabels{"none", "fixed", "indistinct", "rebel"};
+inline constexpr std::array<const char*, 3> kTruths{"all", "nothing_moves", "unknown"};
 inline constexpr std::array<const char*, 3> kShapes{"", "circle", "rectangle"};  // Ty begins at 1
 
 inline constexpr auto kReasonWords = [] {
@@ -32,6 +34,9 @@ inline const auto& names_of(Reason) {
 }
 inline const auto& names_of(sim::Label) {
   return kLabels;
+}
+inline const auto& names_of(Truth) {
+  return kTruths;
 }
 inline const auto& names_of(IgnoreRegion::Shape) {
   return kShapes;
@@ -200,6 +205,17 @@ void fields(sim::ObjectTruth& truth, Visit&& visit) {
   visit("visible_px", visible_px);
   visit("visible_fraction", visible_fraction);
   visit("moving", moving);
+}
+
+template <class Visit>
+void fields(LabelledBox& box, Visit&& visit) {
+  auto& [id, left, top, right, bottom, ignored] = box;
+  visit("id", id);
+  visit("left", left);
+  visit("top", top);
+  visit("right", right);
+  visit("bottom", bottom);
+  visit("ignored", ignored);
 }
 
 template <class Visit>

@@ -216,6 +216,7 @@ void read_truth(const Json& json, FrameRecord& frame) {
   frame.true_motion = read_motion(json);
   frame.corner_truth = read_columns<sim::CornerTruth>(json, "corners");
   frame.object_truth = read_columns<sim::ObjectTruth>(json, "objects");
+  if (json.contains("labels")) frame.labels = read_columns<LabelledBox>(json, "labels");
 }
 
 // A hundred kB a frame: of hundreds of thousands of frames.
@@ -266,6 +267,7 @@ Recording read_recording(const std::filesystem::path& folder) {
         for (const auto& [key, text] : world.items()) read(text, recording.world[key]);
       });
     }
+    if (json.contains("truth")) read_member(json, "truth", recording.truth);
     recording.objects = read_columns<sim::Object>(json, "objects");
   });
   if (!has_header) truth.fail("is empty");

@@ -215,6 +215,10 @@ std::string header_line(const Recording& run) {
     }
     out += '}';
   }
+  if (run.truth != Truth::all) {
+    append_key(out, "truth");
+    append(out, run.truth);
+  }
   append_columns(out, "objects", run.objects);
   out += '}';
   return out;
@@ -245,6 +249,7 @@ std::string truth_line(const FrameRecord& frame) {
     append_motion(out, "motion", frame.true_motion);
     append_columns(out, "corners", frame.corner_truth);
     append_columns(out, "objects", frame.object_truth);
+    if (frame.labels) append_columns(out, "labels", *frame.labels);
   });
 }
 

@@ -4,6 +4,8 @@
 #include <map>
 #include <set>
 
+#include "tools/bench/box.h"
+
 namespace lcs::bench {
 namespace {
 
@@ -71,12 +73,6 @@ std::set<int> moving_objects(const FrameRecord& frame) {
   return moving;
 }
 
-/// Pixel edges against pixel centres: the box of pixels l to r-1 reaches from l - 1/2 to r - 1/2.
-bool contains(const sim::ObjectTruth& box, const Vec2& px) {
-  return px.x() >= box.left - 0.5 && px.x() <= box.right - 0.5 &&  //
-         px.y() >= box.top - 0.5 && px.y() <= box.bottom - 0.5;
-}
-
 }  // namespace
 
 RebelCornerScore& RebelCornerScore::operator+=(const RebelCornerScore& other) {
@@ -137,9 +133,10 @@ std::vector<ObjectDetection> detect_objects(const Recording& recording) {
 }
 
 bool has_mover_under(const FrameRecord& frame, const Vec2& centre_px, double radius_px) {
-  const bool centre_in_box = std::any_of(
-      frame.object_truth.begin(), frame.object_truth.end(),
-      [&](const sim::ObjectTruth& truth) { return truth.moving && contains(truth, centre_px); });
+  const bool centre_in_box = std::any_of(frame.object_truth.begin(), frame.object_truth.end(),
+                                         [&](const sim::ObjectTruth& truth) {
+                                           return truth.moving && box_of(truth).contains(centre_px);
+                                         });
   if (centre_in_box) return true;
   const std::set<int> moving = moving_objects(frame);
   for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
@@ -175,7 +172,7 @@ RebelObjectScore score_rebel_objects(const Recording& recording) {
       const auto& circles = frame.layers.rebel_circles;
       ++score.seen;
       score.circled += std::any_of(circles.begin(), circles.end(), [&](const Circle& circle) {
-        return contains(truth, circle.location);
+        return box_of(truth).contains(circle.location);
       });
     }
   }

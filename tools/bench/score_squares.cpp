@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "tools/bench/box.h"
 #include "tools/bench/scoring.h"
 #include "tools/bench/statistics.h"
 
@@ -17,27 +18,6 @@ constexpr int kMinArea_px2 = 400;
 constexpr int kMinCorners = 4;
 constexpr double kMinVisibleFraction = 0.5;
 ///@}
-
-struct Box {
-  Vec2 min, max;
-  double area() const { return (max - min).prod(); }
-};
-
-/// Pixel edges against pixel centres: the box of pixels l to r-1 reaches from l - 1/2 to r - 1/2.
-Box box_of(const sim::ObjectTruth& truth) {
-  return {Vec2(truth.left - 0.5, truth.top - 0.5), Vec2(truth.right - 0.5, truth.bottom - 0.5)};
-}
-
-Box box_of(const Square& square) {
-  return {square.location - square.half_size, square.location + square.half_size};
-}
-
-double intersection_over_union(const Box& a, const Box& b) {
-  const Vec2 overlap = (a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min)).cwiseMax(0.0);
-  const double common = overlap.prod();
-  const double all = a.area() + b.area() - common;
-  return all > 0 ? common / all : 0;
-}
 
 bool is_eligible(const sim::ObjectTruth& truth, const FrameRecord& frame) {
   const int area = (truth.right - truth.left) * (truth.bottom - truth.top);

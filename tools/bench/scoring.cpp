@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "tools/bench/score_labels.h"
 #include "tools/bench/score_rebels.h"
 #include "tools/bench/score_squares.h"
 #include "tools/bench/statistics.h"
@@ -81,6 +82,26 @@ void add_squares(Metrics& metrics, const Recording& recording) {
     for (const sim::ObjectTruth& truth : frame.object_truth) seen.insert(truth.object);
   }
   metrics.emplace_back("truth.objects", static_cast<double>(seen.size()));
+}
+
+/// By what people labelled.
+void add_labels(Metrics& metrics, const Recording& recording) {
+  const LabelScore score = score_labels(recording);
+  const auto count = [&](int number) {
+    return score.frames > 0 ? std::optional<double>(number) : std::nullopt;
+  };
+  metrics.emplace_back("labels.frames", count(score.frames));
+  metrics.emplace_back("labels.boxes", count(score.boxes));
+  metrics.emplace_back("labels.found", ratio(score.found, score.boxes));
+  metrics.emplace_back("labels.boxed_50", ratio(score.boxed, score.boxes));
+  metrics.emplace_back("labels.rebels_off_per_frame", ratio(score.rebels_off, score.frames));
+  metrics.emplace_back("labels.circles_off_per_100_frames",
+                       ratio(100.0 * score.circles_off, score.frames));
+}
+
+/// Takes out figures of what is not known, those from `first` on.
+void forget(Metrics& metrics, std::size_t first) {
+  for (std::size_t i = first; i < metrics.size(); ++i) metrics[i].second.reset();
 }
 
 /// Corners in the last `length` frames, the current one included, at each frame.
@@ -238,7 +259,11 @@ Metrics score(const Recording& recording) {
   Metrics metrics;
   metrics.emplace_back("frames", static_cast<double>(recording.frames.size()));
   add_rebels(metrics, recording);
+  if (recording.truth == Truth::unknown) forget(metrics, 1);
+  const std::size_t rebels_end = metrics.size();
   add_squares(metrics, recording);
+  if (recording.truth != Truth::all) forget(metrics, rebels_end);
+  add_labels(metrics, recording);
   add_dimensions(metrics, recording);
   add_edges(metrics, recording);
   add_ego_motion(metrics, recording);

@@ -56,6 +56,15 @@ std::string table(const Metrics& metrics) {
                    share(get("square.precision_50")), share(get("square.recall_50")),
                    share(get("square.recall_50_movers")), share(get("square.recall_50_static")),
                    share(get("square.mean_iou"))));
+  if (const Figure labelled = get("labels.frames")) {
+    line("labels",
+         fmt::format("found {} and boxed {} of {} in {} frames   off them {} rebels a frame, {} "
+                     "circles per 100 frames",
+                     share(get("labels.found")), share(get("labels.boxed_50")),
+                     count(get("labels.boxes")), count(labelled),
+                     number(get("labels.rebels_off_per_frame"), 1, 0),
+                     number(get("labels.circles_off_per_100_frames"), 1, 0)));
+  }
   line("size", fmt::format("{} items, beside {} corners of 5 frames, {} of 8, {} of all",
                            count(get("dimension.mean")), count(get("dimension.five_frame_mean")),
                            count(get("dimension.eight_frame_mean")),

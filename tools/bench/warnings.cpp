@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "tools/bench/motion_warnings.h"
 #include "tools/bench/output_file.h"
 
 namespace lcs::bench {
@@ -44,6 +45,11 @@ std::vector<Warned> warnings_of(const Recording& recording) {
     warned.text = met.first;
   }
   all.push_back(few_corners(recording));
+  const bool is_recorded = recording.truth != Truth::all && !recording.frames.empty();
+  for (const MotionWarning& warning : motion_warnings(is_recorded ? recording : Recording{})) {
+    all.push_back({warning.word, warning.count, warning.text});
+    if (!is_recorded) all.back().count.reset();
+  }
   return all;
 }
 

@@ -1,6 +1,7 @@
 /// \file
 /// What should not have been in a run, told with its figures: what the simulation saw
-/// (`sim/warnings.h`), and pictures with hardly a corner.
+/// (`sim/warnings.h`), pictures with hardly a corner, and of recordings a motion that cannot be
+/// (`motion_warnings.h`).
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ inline constexpr int kFewCorners = 10;
 
 struct Warned {
   std::string word;                   ///< "warnings.WORD" is the metric
-  std::optional<std::int64_t> count;  ///< none: it is not known what the world was like
+  std::optional<std::int64_t> count;  ///< none: nobody looked, or it is not asked of such a run
   std::string text;                   ///< the first time, in words, and what to do; empty for none
 };
 

@@ -221,6 +221,7 @@ ExitCode replay(const ReplayOptions& options) {
   bench::Recording recording;
   recording.scenario = target_of(options).filename().string();
   recording.detector = {std::string(watcher.name), watcher.layered};
+  recording.truth = bench::Truth::unknown;
   const double fps = frames_per_second(recorded.frames);
   std::optional<replay::Rectifier> rectifier;
   std::unique_ptr<bench::Tracker> tracker;
@@ -249,7 +250,7 @@ ExitCode replay(const ReplayOptions& options) {
       frame.t_ns = recorded.frames[i].t_ns;
       frame.motion = recorded.motion->at(frame.t_ns);
       bench::watch(*image, detector, *tracker, frame);
-      frame.corner_truth.resize(frame.corners_px.size());  // none is known
+      bench::set_corner_truth(recording.truth, frame);
       result->add(frame, *image);
     }
   }

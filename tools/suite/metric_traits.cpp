@@ -56,6 +56,12 @@ const std::vector<MetricTraits>& metric_traits() {
       lower("square.identity_switches", 0.9),  // counts whole ones
       neutral("truth.boxes"),
       neutral("truth.objects"),
+      neutral("labels.frames"),
+      neutral("labels.boxes"),
+      higher_share("labels.found"),
+      higher_share("labels.boxed_50"),
+      lower("labels.rebels_off_per_frame", 0.1),
+      lower("labels.circles_off_per_100_frames", 1),
       neutral("dimension.corners_mean"),
       lower("dimension.mean", 1),
       lower("dimension.max", 1),
@@ -93,6 +99,10 @@ const std::vector<MetricTraits>& metric_traits() {
       neutral("warnings.actor_collisions"),
       neutral("warnings.objects_below_ground"),
       neutral("warnings.few_corners"),
+      neutral("warnings.runaway_speed"),
+      neutral("warnings.turn_not_told"),
+      neutral("warnings.still_camera"),
+      neutral("warnings.many_rebels"),
   };
   return all;
 }

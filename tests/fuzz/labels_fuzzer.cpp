@@ -1,0 +1,31 @@
+// Boxes that somebody labelled, as MOTChallenge or COCO have them: read, and what was read is
+// boxes; or refused by an error that names the file.
+#include <cmath>
+
+#include "scenarios/scenario.h"
+#include "tests/fuzz/input.h"
+#include "tools/bench/labels.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace lcs;
+  const std::filesystem::path file = fuzz::work_folder() / "labels";
+  fuzz::write_file(file, fuzz::text_of(data, size));
+  try {
+    const bench::Labels labels = bench::read_labels(file);
+    for (int number = 0; number < 8; ++number) {
+      const bench::Labels::Boxes* boxes = labels.of(number, std::to_string(number) + ".png");
+      if (!boxes) continue;
+      fuzz::require(labels.pictures() > 0, "a labelled picture is counted");
+      for (const bench::LabelledBox& box : *boxes) {
+        // of a million pixels a thin box may have no width left in a double
+        fuzz::require(box.right >= box.left && box.bottom >= box.top && box.id >= -1,
+                      "boxes are boxes");
+        fuzz::require(std::isfinite(box.left + box.top + box.right + box.bottom), "of numbers");
+      }
+    }
+  } catch (const scenario::Error& error) {
+    fuzz::require(std::string_view(error.what()).starts_with(file.string() + ":"),
+                  "an error begins with the file");
+  }
+  return 0;
+}

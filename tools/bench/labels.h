@@ -1,0 +1,59 @@
+/// \file
+/// What people labelled in the pictures of a recording: boxes round all that moves, in all of its
+/// pictures or in some. By MOTChallenge's `gt.txt` or a COCO file.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lcs::bench {
+
+struct LabelledBox {
+  int id = -1;  ///< of the object, the same in all pictures; -1: not said
+  /// Pixel edges, as those of `sim::ObjectTruth`: a box of one pixel at (0, 0) is 0, 0, 1, 1.
+  double left = 0, top = 0, right = 0, bottom = 0;
+  /// What is in it is neither right nor wrong: a crowd, a reflection, what may move or not.
+  bool ignored = false;
+};
+
+/// Of the pictures of one recording. A picture without labels was not looked at; one that was, and
+/// in which nothing moves, has no box.
+class Labels {
+ public:
+  using Boxes = std::vector<LabelledBox>;
+
+  /// Of a picture.
+  /// \param number of it in the recording, from 0.
+  /// \param name of its file, without folders; "" for one that has none.
+  /// \return null where it was not labelled.
+  const Boxes* of(int number, const std::string& name) const;
+
+  std::size_t pictures() const { return by_number_.size() + by_name_.size(); }
+
+  /// \name The boxes of a picture, which is labelled from then on. @{
+  Boxes& at(int number) { return by_number_[number]; }
+  Boxes& at(const std::string& name) { return by_name_[name]; }
+  ///@}
+
+ private:
+  std::map<int, Boxes> by_number_;
+  std::map<std::string, Boxes, std::less<>> by_name_;
+};
+
+/// One of these, told by the first character:
+///
+/// MOTChallenge: rows FRAME,ID,LEFT,TOP,WIDTH,HEIGHT[,CONSIDERED[,...]], frames and pixels from 1.
+/// What has 0 for CONSIDERED is ignored. A picture that no row names was not labelled.
+///
+/// COCO: `images` with `id`, `file_name` and, for videos, `frame_id` (from 0); `annotations` with
+/// `image_id`, `bbox` and, where objects are known again, `track_id`. What has 1 for `iscrowd` is
+/// ignored. Every image that is listed was labelled.
+///
+/// \throws scenario::Error naming file and line (of COCO: the entry), and what to do.
+Labels read_labels(const std::filesystem::path& file);
+
+}  // namespace lcs::bench
