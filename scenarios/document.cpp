@@ -1,5 +1,7 @@
 #include "scenarios/document.h"
 
+#include <yaml-cpp/emitter.h>
+#include <yaml-cpp/emittermanip.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
@@ -198,6 +200,31 @@ void flatten(const Value& value, const std::string& path,
   for (const Entry& entry : value.entries) flatten(entry.value, prefix + entry.key, texts);
 }
 
+/// In one line.
+void emit(YAML::Emitter& out, const Value& value) {
+  switch (value.kind) {
+    case Value::Kind::null:
+      out << YAML::Null;
+      return;
+    case Value::Kind::scalar:
+      out << value.text;
+      return;
+    case Value::Kind::list:
+      out << YAML::Flow << YAML::BeginSeq;
+      for (const Value& item : value.items) emit(out, item);
+      out << YAML::EndSeq;
+      return;
+    case Value::Kind::map:
+      out << YAML::Flow << YAML::BeginMap;
+      for (const Entry& entry : value.entries) {
+        out << YAML::Key << entry.key << YAML::Value;
+        emit(out, entry.value);
+      }
+      out << YAML::EndMap;
+      return;
+  }
+}
+
 }  // namespace
 
 std::string_view kind_name(Value::Kind kind) {
@@ -282,6 +309,32 @@ void apply_set(Value& root, const std::string& assignment) {
   if (Entry* entry = node->kind == Value::Kind::map ? find(*node, parts.back()) : nullptr) {
     entry->where = where;
   }
+}
+
+std::string line_of(const Value& value) {
+  YAML::Emitter out;
+  emit(out, value);
+  return out.c_str();
+}
+
+std::string yaml_text(const Value& root) {
+  YAML::Emitter out;
+  out << YAML::BeginMap;
+  for (const Entry& entry : root.entries) {
+    out << YAML::Key << entry.key << YAML::Value;
+    if (entry.value.kind != Value::Kind::map) {
+      emit(out, entry.value);
+      continue;
+    }
+    out << YAML::BeginMap;
+    for (const Entry& inner : entry.value.entries) {
+      out << YAML::Key << inner.key << YAML::Value;
+      emit(out, inner.value);
+    }
+    out << YAML::EndMap;
+  }
+  out << YAML::EndMap;
+  return out.c_str();
 }
 
 }  // namespace lcs::scenario

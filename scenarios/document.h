@@ -51,6 +51,11 @@ Value parse_file(const std::filesystem::path& file);
 /// As `parse_file`, with the lines counted from `where.line`.
 Value parse_text(const std::string& text, const Source& where);
 
+/// YAML that reads back as a value, in one line.
+std::string line_of(const Value& value);
+/// Likewise of a map, with a line for each key of it and of the maps in it.
+std::string yaml_text(const Value& root);
+
 /// What is written in the tree, by the paths that `apply_set` takes: {"ego.start.0", "-4 m"}. Empty
 /// text for what holds nothing.
 std::map<std::string, std::string> flattened(const Value& root);

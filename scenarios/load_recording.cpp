@@ -28,7 +28,7 @@ fs::path path_of(Reader& reader, const fs::path& folder) {
   std::error_code none;  // of a name that nothing can have
   if (fs::is_directory(path, none) || fs::is_regular_file(path, none)) return path;
   throw Error(value->where, reader.path_of("path") + ": there is no folder or video " +
-                                path.string() + "; give its path relative to the scenario file");
+                                path.string() + "; " + path_remedy(folder));
 }
 
 std::vector<double> coefficients_of(const Value& value, const std::string& path,
@@ -61,6 +61,7 @@ void read_motion(Reader& reader, const fs::path& folder, Recorded& recorded) {
   reader.at_most_one_of({"poses", "imu"});
   reader.at_most_one_of({"poses", "odometry"});
   reader.at_most_one_of({"poses", "speed"});
+  if (recorded.odometry && !recorded.imu) reader.require("imu");
   reader.read("speed", kSignedSpeed, recorded.speed_mps);
   reader.read("at_rest", kDuration, recorded.at_rest_s);
 }

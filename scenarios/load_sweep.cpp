@@ -1,8 +1,5 @@
 #include "scenarios/load_sweep.h"
 
-#include <yaml-cpp/emitter.h>
-#include <yaml-cpp/emittermanip.h>
-
 #include <algorithm>
 #include <array>
 
@@ -13,37 +10,6 @@ namespace {
 
 /// What says nothing about the run, or is not the scenario's to vary.
 constexpr std::array<std::string_view, 4> not_to_be_swept = {"sweep", "groups", "purpose", "seed"};
-
-void emit(YAML::Emitter& out, const Value& value) {
-  switch (value.kind) {
-    case Value::Kind::null:
-      out << YAML::Null;
-      return;
-    case Value::Kind::scalar:
-      out << value.text;
-      return;
-    case Value::Kind::list:
-      out << YAML::Flow << YAML::BeginSeq;
-      for (const Value& item : value.items) emit(out, item);
-      out << YAML::EndSeq;
-      return;
-    case Value::Kind::map:
-      out << YAML::Flow << YAML::BeginMap;
-      for (const Entry& entry : value.entries) {
-        out << YAML::Key << entry.key << YAML::Value;
-        emit(out, entry.value);
-      }
-      out << YAML::EndMap;
-      return;
-  }
-}
-
-/// One line of YAML that reads back as the value.
-std::string yaml_text(const Value& value) {
-  YAML::Emitter out;
-  emit(out, value);
-  return out.c_str();
-}
 
 SweptKey read_key(const Entry& entry) {
   const std::string path = "sweep." + entry.key;
@@ -58,7 +24,7 @@ SweptKey read_key(const Entry& entry) {
     if (value.kind == Value::Kind::null) {
       throw Error(value.where, path + "." + index + " is nothing; give a value");
     }
-    const std::string text = yaml_text(value);
+    const std::string text = line_of(value);
     const auto same = [&](const SweptKey::Value& other) { return other.text == text; };
     if (std::any_of(swept.values.begin(), swept.values.end(), same)) {
       throw Error(value.where, path + " has '" + text + "' twice; remove one");

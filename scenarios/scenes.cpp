@@ -110,8 +110,12 @@ fs::path file_beside(const Value& value, const fs::path& folder, const std::stri
   const fs::path file = folder / value.text;
   std::error_code too_long;  // a name that no file can have
   if (fs::is_regular_file(file, too_long)) return file;
-  throw Error(value.where,
-              missing + file.string() + "; give its path relative to the scenario file");
+  throw Error(value.where, missing + file.string() + "; " + path_remedy(folder));
+}
+
+std::string path_remedy(const fs::path& folder) {
+  return folder.empty() ? "give its path from the current folder"
+                        : "give its path relative to the scenario file";
 }
 
 std::optional<fs::path> own_file(Reader& reader, const char* key, const fs::path& folder) {

@@ -39,6 +39,9 @@ std::filesystem::path find_scene(const Value& value, const std::filesystem::path
 std::filesystem::path file_beside(const Value& value, const std::filesystem::path& folder,
                                   const std::string& missing);
 
+/// What to do about a file that is not there. \param folder that its path starts from.
+std::string path_remedy(const std::filesystem::path& folder);
+
 /// What else than a word may be given for a rover's drive and an actor's shape.
 inline constexpr const char* kOwnFile = "the path of an .xml file";
 

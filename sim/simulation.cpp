@@ -37,6 +37,13 @@ Photographer photographer_of(const scenario::Scenario& s, const Pinhole& camera)
   }
 }
 
+const scenario::Scenario& require_scene(const scenario::Scenario& scenario) {
+  if (!scenario.recording) return scenario;
+  throw scenario::Error(scenario.recording->source,
+                        "these are recorded frames, and there is no world to simulate; give a "
+                        "scenario with a scene");
+}
+
 }  // namespace
 
 struct Simulation::Impl {
@@ -120,7 +127,7 @@ struct Simulation::Impl {
 };
 
 Simulation::Simulation(const scenario::Scenario& scenario)
-    : impl_(std::make_unique<Impl>(scenario)) {}
+    : impl_(std::make_unique<Impl>(require_scene(scenario))) {}
 Simulation::~Simulation() = default;
 
 const Calibration& Simulation::calibration() const {

@@ -1,6 +1,6 @@
-// A recording of EuRoC, KITTI raw or RobotCar: it is read and its motion told for every picture, or
-// it is refused by an error. An input holds the files of the recording, each behind a line "===
-// NAME".
+// A recording of any layout but a video's, with poses or an IMU beside it: it is read and its
+// motion told for every picture, or it is refused by an error. An input holds the files of the
+// recording, each behind a line "=== NAME".
 #include <stdexcept>
 
 #include "tests/fuzz/input.h"
@@ -35,7 +35,45 @@ constexpr const char* kFiles[] = {
     "stereo.timestamps",
     "gps/ins.csv",
     "stereo/centre/0.png",
+    "calib.txt",
+    "times.txt",
+    "poses.txt",
+    "image_0/000000.png",
+    "image_0/000001.png",
+    "image_02/data/0000000000.jpg",
+    "image_02/data/0000000001.jpg",
+    "rgb.txt",
+    "groundtruth.txt",
+    "seqinfo.ini",
+    "img1/000001.jpg",
+    "img1/000002.jpg",
+    "0.png",
+    "1.png",
+    "asked_poses.txt",
+    "asked_imu.csv",
+    "asked_odometry.csv",
 };
+
+/// What the user says: what is there, and by the bits of a byte.
+scenario::Scenario asked(const fs::path& folder, std::uint8_t bits) {
+  scenario::Scenario scenario;
+  if (bits & 1) scenario.ego_motion = scenario::EgoMotionSource::truth;
+  scenario::Recorded& recording = scenario.recording.emplace();
+  recording.source = {"asked", 1};
+  recording.path = folder;
+  if (bits & 2) recording.fps = 10;
+  if (bits & 4) recording.focal_px = 300;
+  if (bits & 8) recording.mount_rpy_rad = Eigen::Vector3d(0, 0.1, 0);
+  if (bits & 16) recording.every = 2;
+  const auto file = [&](const char* name) {
+    return fs::exists(folder / name) ? std::optional(folder / name) : std::nullopt;
+  };
+  recording.poses = file("asked_poses.txt");
+  if (!recording.poses) recording.imu = file("asked_imu.csv");
+  if (recording.imu) recording.odometry = file("asked_odometry.csv");
+  if (bits & 128 && !recording.poses) recording.speed_mps = 1;
+  return scenario;
+}
 
 }  // namespace
 
@@ -45,8 +83,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::uint8_t options = size > 0 ? data[0] : 0;
   fuzz::write_sections(folder, kFiles, fuzz::text_of(data, size));
   try {
-    const replay::Layout& layout = replay::layout_of("auto", folder);
-    replay::Recorded recorded = layout.read({.folder = folder, .exact_motion = (options & 1) != 0});
+    replay::Recorded recorded = replay::read_recorded(asked(folder, options));
     fuzz::require(!recorded.frames.empty() && recorded.motion, "what is read has frames");
     for (std::size_t i = 0; i < recorded.frames.size() && i < kMostFrames; ++i) {
       if (i > 0) {
@@ -55,6 +92,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       }
       const EgoMotion motion = recorded.motion->at(recorded.frames[i].t_ns);
       fuzz::require(motion.dt_s >= 0 || i > 0, "the first frame is not before itself");
+      if (const auto up_C = recorded.motion->up_C()) {
+        fuzz::require(std::abs(up_C->norm() - 1) < 1e-3, "up is a direction");
+      }
     }
     for (const std::string& line : recorded.tally.lines()) {
       fuzz::require(!line.empty(), "what was wrong is told");

@@ -25,6 +25,12 @@ void write(const fs::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
+scenario::Recorded asked(const fs::path& path) {
+  scenario::Recorded recording;
+  recording.path = path;
+  return recording;
+}
+
 /// Drives a circle to the left at a constant speed, in a world with x east, y north, z up.
 struct Circle {
   static constexpr double kSpeed_mps = 5, kYawRate_radps = 0.2, kStart_rad = 0.7;
@@ -78,8 +84,8 @@ class Layouts : public testing::Test {
 
 TEST_F(Layouts, KittiRawGivesTheMotionOfItsNavigationUnit) {
   const fs::path drive = kitti(6);
-  EXPECT_EQ(layout_of("auto", drive).name, "kitti");
-  Recorded recorded = read_kitti({.folder = drive});
+  EXPECT_EQ(layout_of(asked(drive)).name, "kitti");
+  Recorded recorded = read_kitti(asked(drive), false);
   ASSERT_EQ(recorded.frames.size(), 6u);
   EXPECT_EQ(recorded.frames[3].picture, drive / "image_02/data/0000000003.png");
   EXPECT_EQ(recorded.frames[1].t_ns - recorded.frames[0].t_ns, 100'000'000);
@@ -98,7 +104,7 @@ TEST_F(Layouts, KittiRawTakesItsCalibrationFromTheFolderOfTheDate) {
         "P_rect_02: 700 0 600 42 0 700 180 0 0 0 1 0\n");
   write(date / "calib_imu_to_velo.txt", "R: 1 0 0 0 1 0 0 0 1\nT: -0.8 0.3 -0.8\n");
   write(date / "calib_velo_to_cam.txt", "R: 0 -1 0 0 0 -1 1 0 0\nT: 0 -0.08 -0.27\n");
-  Recorded recorded = read_kitti({.folder = drive});
+  Recorded recorded = read_kitti(asked(drive), false);
   ASSERT_TRUE(recorded.lens);
   EXPECT_EQ(recorded.lens->fu_px, 700);
   EXPECT_EQ(recorded.lens->cv_px, 180);
@@ -129,19 +135,20 @@ TEST_F(Layouts, RobotCarGivesTheMotionOfItsInertialUnitFromNorthEastDown) {
   write(run / "gps/ins.csv", ins);
   write(run / "stereo.timestamps", list);
   fs::create_directories(run / "stereo/centre");
-  EXPECT_EQ(layout_of("auto", run).name, "robotcar");
-  Recorded recorded = read_robotcar({.folder = run});
+  EXPECT_EQ(layout_of(asked(run)).name, "robotcar");
+  Recorded recorded = read_robotcar(asked(run), false);
   ASSERT_EQ(recorded.frames.size(), 6u);
   EXPECT_EQ(recorded.frames[0].picture, run / "stereo/centre/1400505794141322.png");
   expect_circle(recorded, 0.0625);
 
   write(run / "mono_rear.timestamps", list);
   fs::create_directories(run / "mono_rear");
-  EXPECT_THROW(read_robotcar({.folder = run, .camera = "mono_rear"}), std::runtime_error)
-      << "where it looks is not known";
-  Recorded rear = read_robotcar({.folder = run,
-                                 .camera = "mono_rear",
-                                 .mount_rpy_rad = Eigen::Vector3d(0, 0, std::numbers::pi)});
+  scenario::Recorded behind = asked(run);
+  behind.camera = "mono_rear";
+  EXPECT_EQ(read_robotcar(behind, false).lacks.size(), 1u) << "where it looks is not known";
+  behind.mount_rpy_rad = Eigen::Vector3d(0, 0, std::numbers::pi);
+  Recorded rear = read_robotcar(behind, false);
+  EXPECT_TRUE(rear.lacks.empty());
   rear.motion->at(rear.frames[0].t_ns);
   EXPECT_NEAR(rear.motion->at(rear.frames[1].t_ns).v_C_mps.z(), -Circle::kSpeed_mps, 1e-3);
 }
@@ -167,8 +174,10 @@ TEST_F(Layouts, RawPicturesOfRobotCarHaveTheirColours) {
     write(run / "gps/ins.csv",
           "timestamp,velocity_north,velocity_east,velocity_down,roll,pitch,yaw\n"
           "10,0,0,0,0,0,0\n20,0,0,0,0,0,0\n");
-    const Recorded recorded = read_robotcar(
-        {.folder = run, .camera = camera, .mount_rpy_rad = Eigen::Vector3d::Zero().eval()});
+    scenario::Recorded raw_pictures = asked(run);
+    raw_pictures.camera = camera;
+    raw_pictures.mount_rpy_rad = Eigen::Vector3d::Zero();
+    const Recorded recorded = read_robotcar(raw_pictures, false);
     bench::PictureReader reader(recorded.demosaic);
     const auto picture = reader.read(recorded.frames[0].picture);
     ASSERT_TRUE(picture);
@@ -179,9 +188,45 @@ TEST_F(Layouts, RawPicturesOfRobotCarHaveTheirColours) {
 
 TEST_F(Layouts, AFolderOfNothingKnownIsToldSo) {
   fs::create_directories(home_.path() / "empty");
-  EXPECT_THROW(layout_of("auto", home_.path() / "empty"), std::runtime_error);
-  EXPECT_THROW(layout_of("auto", home_.path() / "nowhere"), std::runtime_error);
-  EXPECT_THROW(layout_of("rosbag", home_.path() / "empty"), std::runtime_error);
+  EXPECT_THROW(layout_of(asked(home_.path() / "empty")), scenario::Error);
+}
+
+TEST_F(Layouts, HaveTheNamesThatScenariosTake) {
+  ASSERT_EQ(layouts().size(), scenario::kRecordingFormats.size());
+  for (std::size_t i = 0; i < layouts().size(); ++i) {
+    EXPECT_EQ(layouts()[i].name, scenario::kRecordingFormats[i]);
+  }
+}
+
+TEST(Rectifier, TakesCornersToWhereAPinholeSeesThem) {
+  const cv::Size size(320, 240);
+  // f r (1 + k1 r^2) with k1 = -0.1 at 45 degrees, f atan(r) at 45 degrees.
+  const Lens barrel{200, 200, 99.5, 119.5, Lens::Distortion::radial_tangential, {-0.1, 0, 0, 0, 0}};
+  const Lens fisheye{200, 200, 99.5, 119.5, Lens::Distortion::equidistant, {0, 0, 0, 0}};
+  for (const auto& [lens, x] :
+       {std::pair(barrel, 99.5 + 180), std::pair(fisheye, 99.5 + 200 * std::numbers::pi / 4)}) {
+    std::vector<Eigen::Vector2f> corners{{static_cast<float>(x), 119.5F}, {99.5F, 119.5F}};
+    Rectifier(lens, size).rectify(corners);
+    ASSERT_EQ(corners.size(), 2u);
+    EXPECT_NEAR(corners[0].x(), 299.5, 0.01);
+    EXPECT_NEAR(corners[0].y(), 119.5, 0.01);
+    EXPECT_NEAR(corners[1].x(), 99.5, 0.01);
+  }
+  // What the pinhole's picture of that size does not show is left out.
+  std::vector<Eigen::Vector2f> outside{{319, 119.5}};
+  Rectifier(barrel, size).rectify(outside);
+  EXPECT_TRUE(outside.empty());
+  // Behind the place where the polynomial turns back, one place in the picture has no one ray.
+  const Lens folded{
+      200, 200, 159.5, 119.5, Lens::Distortion::radial_tangential, {-0.6, 0, 0, 0, 0}};
+  std::vector<Eigen::Vector2f> no_ray{{319, 119.5}, {170, 120}};
+  Rectifier(folded, size).rectify(no_ray);
+  EXPECT_EQ(no_ray.size(), 1u);
+  // A box becomes the one round its outline.
+  double left = 89, top = 109, right = 280, bottom = 131;
+  Rectifier(barrel, size).rectify(left, top, right, bottom);
+  EXPECT_NEAR(right, 300, 1);
+  EXPECT_NEAR(left, 89, 0.1);
 }
 
 TEST(Rectifier, LeavesAPinholeAloneAndStraightensABarrel) {

@@ -150,6 +150,8 @@ TEST_F(RecordingKeys, ThatAreWrongAreRefusedAtTheirLine) {
       {more + "labels: gt.txt\n  nothing_moves: true\n",
        "test.yaml:4: both recording.labels and recording.nothing_moves are given; keep one of "
        "them"},
+      {more + "odometry: wheels.csv\n",
+       "test.yaml:1: recording needs 'imu'; add it (scenarios/README.md shows how)"},
       {more + "split: all\n",
        "test.yaml:3: recording.split is 'all'; give train, validate or test"},
       {more + "mask:\n", "test.yaml:3: recording.mask has no value; give one or remove the key"},

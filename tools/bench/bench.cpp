@@ -7,6 +7,47 @@
 #include "tools/bench/timed.h"
 
 namespace lcs::bench {
+namespace {
+
+class SimulatedFrames : public FrameSource {
+ public:
+  SimulatedFrames(const scenario::Scenario& scenario, sim::Simulation& simulation)
+      : scenario_(scenario),
+        simulation_(simulation),
+        ego_motion_(scenario, simulation.calibration()) {}
+
+  bool next(FrameRecord& frame, cv::Mat3b& image) override {
+    observation_ = timed(frame.times.value().simulate_ms, [&] { return simulation_.next(); });
+    if (!observation_) return false;
+    frame.index = observation_->index;
+    frame.t_ns = observation_->t_ns;
+    const EgoMotionFeed::Motions motions = ego_motion_.next(*observation_);
+    frame.motion = motions.told;
+    frame.true_motion = motions.exact;
+    image = observation_->image;
+    return true;
+  }
+
+  void label(FrameRecord& frame) override {
+    frame.corner_truth = timed(frame.times.value().truth_ms, [&] {
+      return sim::label_corners(simulation_.calibration().camera, observation_->truth,
+                                frame.corners_px, scenario_.truth_min_depth_m);
+    });
+    frame.object_truth = observation_->objects;
+  }
+
+  std::optional<sim::Warnings> warnings() const override { return simulation_.warnings(); }
+  Diagnostics diagnostics() const override { return ego_motion_.estimator().diagnostics(); }
+
+ private:
+  const scenario::Scenario& scenario_;
+  sim::Simulation& simulation_;
+  EgoMotionFeed ego_motion_;
+  std::optional<sim::Observation> observation_;  ///< the last one
+};
+
+}  // namespace
+
 Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulation& simulation) {
   Recording recording;
   recording.scenario = scenario.name;
@@ -16,19 +57,8 @@ Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulat
   return recording;
 }
 
-void watch(const cv::Mat3b& image, const FastDetector& detector, Tracker& tracker,
-           FrameRecord& frame) {
-  double detect_ms = 0;
-  cv::Mat1b grey;
-  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  const int threshold = detector.threshold(grey);
-  frame.corners_px = timed(detect_ms, [&] { return FastDetector::detect(grey, threshold); });
-  ask(tracker, image, grey, frame);
-  frame.times->detect_ms = detect_ms;
-}
-
 void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame) {
-  FrameTimes times;
+  FrameTimes times = frame.times.value_or(FrameTimes{});
   const FrameResult& result = timed(times.filter_ms, [&]() -> const FrameResult& {
     return tracker.step({image, grey, frame.corners_px, frame.motion});
   });
@@ -41,48 +71,39 @@ void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameR
   frame.times = times;
 }
 
-std::vector<Diagnostics> run(const scenario::Scenario& scenario, sim::Simulation& simulation,
+std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
                              std::span<const Watcher> watchers) {
-  const FastDetector detector(scenario.fast_threshold);
-  const sim::Pinhole& camera = simulation.calibration().camera;
-  EgoMotionFeed ego_motion(scenario, simulation.calibration());
-
   while (true) {
-    FrameTimes times;
-    const std::optional<sim::Observation> observation =
-        timed(times.simulate_ms, [&] { return simulation.next(); });
-    if (!observation) break;
     FrameRecord seen;  // by all
-    seen.index = observation->index;
-    seen.t_ns = observation->t_ns;
-    const EgoMotionFeed::Motions motions = ego_motion.next(*observation);
-    seen.motion = motions.told;
-    seen.true_motion = motions.exact;
+    FrameTimes& times = seen.times.emplace();
+    cv::Mat3b image;
+    if (!source.next(seen, image)) break;
     cv::Mat1b grey;
-    cv::cvtColor(observation->image, grey, cv::COLOR_BGR2GRAY);
+    cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
     const int threshold = detector.threshold(grey);
-    seen.corners_px = timed(times.detect_ms, [&] { return FastDetector::detect(grey, threshold); });
-    seen.corner_truth = timed(times.truth_ms, [&] {
-      return sim::label_corners(camera, observation->truth, seen.corners_px,
-                                scenario.truth_min_depth_m);
-    });
-    seen.object_truth = observation->objects;
+    seen.corners_px =
+        timed(times.detect_ms, [&] { return FastDetector::detect(grey, threshold); });
+    if (source.straighten(seen.corners_px, image)) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+    source.label(seen);
     for (const Watcher& watcher : watchers) {
       FrameRecord& frame = watcher.recording.frames.emplace_back(seen);
-      ask(watcher.tracker, observation->image, grey, frame);
-      frame.times->simulate_ms = times.simulate_ms;
-      frame.times->detect_ms = times.detect_ms;
-      frame.times->truth_ms = times.truth_ms;
-      watcher.sink(frame, observation->image);
+      ask(watcher.tracker, image, grey, frame);
+      watcher.sink(frame, image);
     }
   }
   std::vector<Diagnostics> all;
   for (const Watcher& watcher : watchers) {
-    watcher.recording.warnings = simulation.warnings();
-    all.push_back(ego_motion.estimator().diagnostics());
+    watcher.recording.warnings = source.warnings();
+    all.push_back(source.diagnostics());
     all.back() += watcher.tracker.diagnostics();
   }
   return all;
+}
+
+std::vector<Diagnostics> run(const scenario::Scenario& scenario, sim::Simulation& simulation,
+                             std::span<const Watcher> watchers) {
+  SimulatedFrames frames(scenario, simulation);
+  return run(frames, FastDetector(scenario.fast_threshold), watchers);
 }
 
 Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracker& tracker,

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,13 +19,30 @@ namespace lcs::bench {
 /// Called with every finished frame and its image (BGR), in order. What it throws ends the run.
 using FrameSink = std::function<void(const FrameRecord&, const cv::Mat3b& image)>;
 
+/// Where the frames of a run come from.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+
+  /// The next frame: its number, time and motions. What it took is added to its times.
+  /// \param image set to what the camera saw, BGR. \return false after the last one.
+  virtual bool next(FrameRecord& frame, cv::Mat3b& image) = 0;
+
+  /// From the camera that took the picture to the one that trackers are told of: its corners, those
+  /// that nobody is to judge left out, and the picture itself.
+  /// \return whether the picture is another one now.
+  virtual bool straighten(std::vector<Eigen::Vector2f>&, cv::Mat3b&) const { return false; }
+
+  /// What is true of the frame's corners and objects, so far as it is known.
+  virtual void label(FrameRecord& frame) = 0;
+
+  virtual std::optional<sim::Warnings> warnings() const { return std::nullopt; }
+  /// What was wrong with the sensors' readings so far.
+  virtual Diagnostics diagnostics() const = 0;
+};
+
 /// A recording of the scenario without frames yet.
 Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulation& simulation);
-
-/// Finds the corners of a picture and asks a tracker about them.
-/// \param frame whose motion is known; gets corners, verdicts, layers, and the times of all that.
-void watch(const cv::Mat3b& image, const FastDetector& detector, Tracker& tracker,
-           FrameRecord& frame);
 
 /// Asks a tracker about corners that are known.
 /// \param frame whose corners and motion are known; gets verdicts, layers, and the times of that.
@@ -38,12 +56,14 @@ struct Watcher {
   FrameSink sink;
 };
 
-/// Runs the simulation to its end. Who watches beside others gets the same frames as alone.
-/// \param scenario that the simulation was made of.
+/// Goes through all frames. Who watches beside others gets the same frames as alone.
 /// \return for each watcher, what was wrong with the sensors' readings and with what its tracker
-/// was
-///   told.
-/// \throws sim::PhysicsError, and what trackers and sinks throw.
+/// was told. \throws what the source, trackers and sinks throw.
+std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
+                             std::span<const Watcher> watchers);
+
+/// Runs the simulation to its end. \param scenario that the simulation was made of.
+/// \return,\throws as above, and sim::PhysicsError.
 std::vector<Diagnostics> run(const scenario::Scenario& scenario, sim::Simulation& simulation,
                              std::span<const Watcher> watchers);
 /// Of one alone.

@@ -18,9 +18,8 @@ class EarlierRun {
  public:
   /// \throws std::runtime_error naming the folder: it has no run, a broken one, or one of another
   ///   scenario, of another seed, or of the scenario as it was before its world changed.
-  EarlierRun(const std::filesystem::path& folder, const scenario::Scenario& scenario);
-
-  const sim::Pinhole& camera() const { return camera_; }
+  EarlierRun(const std::filesystem::path& folder, const scenario::Scenario& scenario,
+             const sim::Pinhole& camera);
 
   /// Of each frame, where the run kept them; else null.
   const FramePictures* pictures() const { return pictures_ ? &*pictures_ : nullptr; }

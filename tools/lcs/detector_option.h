@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "tools/comparators/detectors.h"
 
@@ -25,5 +26,16 @@ inline void add_detector_option(CLI::App& command, std::string& detector,
 inline constexpr const char* kPresetDetector =
     "\nlcs:lab    the filter with the paper's preset, or another, and nothing that scenarios say "
     "of it";
+
+/// --beside of one run, each with a folder of its own.
+inline void add_beside_option(CLI::App& command, std::vector<std::string>& beside) {
+  command
+      .add_option(
+          "--beside", beside,
+          "Let this detector watch the same frames too, and write its figures and layers to "
+          "the folder; may be repeated")
+      ->type_name("NAME=DIR")
+      ->allow_extra_args(false);
+}
 
 }  // namespace lcs::tools

@@ -14,13 +14,13 @@
 #include "scenarios/load.h"
 #include "sim/simulation.h"
 #include "tools/bench/output_folder.h"
-#include "tools/bench/picture_folder.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/number_option.h"
 #include "tools/lcs/progress.h"
 #include "tools/lcs/terminal.h"
 #include "tools/likeness/measure.h"
 #include "tools/likeness/page.h"
+#include "tools/replay/picture_stream.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/rectifier.h"
 #include "tools/suite/plan.h"
@@ -79,16 +79,19 @@ likeness::Run simulated(const scenario::Scenario& scenario, Origin origin,
 /// As a filter would be given it: without its colours, straightened.
 likeness::Run recorded(const std::string& name, const fs::path& folder, int threshold) {
   // what pictures do not say has no part in what is measured
-  const replay::ReadOptions options{.folder = folder, .fps = 1, .speed_mps = 0};
+  scenario::Recorded asked;
+  asked.source = {folder.string(), 0};
+  asked.path = folder;
+  asked.speed_mps = 0;
   const auto recording =
-      std::make_shared<const replay::Recorded>(replay::layout_of("auto", folder).read(options));
+      std::make_shared<const replay::Recorded>(replay::layout_of(asked).read(asked, false));
   likeness::Run run{Origin::recording, name, name, static_cast<int>(recording->frames.size()),
                     threshold,         {}};
-  run.picture = [recording, reader = bench::PictureReader(recording->demosaic),
+  run.picture = [recording, reader = replay::PictureStream(*recording),
                  rectifier = std::shared_ptr<replay::Rectifier>()](int frame) mutable -> cv::Mat1b {
     check_interrupted();
     std::optional<cv::Mat3b> picture =
-        reader.read(recording->frames[static_cast<std::size_t>(frame)].picture);
+        reader.read(recording->frames[static_cast<std::size_t>(frame)]);
     if (!picture) return {};
     if (recording->lens && !rectifier) {
       rectifier = std::make_shared<replay::Rectifier>(*recording->lens, picture->size());

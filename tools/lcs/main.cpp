@@ -38,7 +38,7 @@ through its camera and IMU, and the simulator's truth scores what the filter say
   lcs suite                           run all short scenarios, with several seeds each
   lcs compare out/before out/suite    what two suites differ in, beyond noise
   lcs generate SCENARIO               a sequence of pictures and truth that other tools read
-  lcs replay DIR                      the filter on EuRoC, KITTI, RobotCar, a folder of pictures
+  lcs replay PATH                     the filter on EuRoC, KITTI, TUM RGB-D, MOT, a video, pictures
   lcs score DIR --detections FILE     someone else's detector, by a run's truth
   lcs world FAMILY                    a scenario and its scene, drawn from a seed
   lcs likeness                        worlds' corners beside those of real recordings

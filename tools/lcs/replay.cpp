@@ -2,25 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <stdexcept>
 
-#include "filter/detect/fast.h"
-#include "tools/bench/bench.h"
-#include "tools/bench/picture_folder.h"
-#include "tools/bench/result.h"
-#include "tools/bench/tracker.h"
-#include "tools/bench/warnings.h"
-#include "tools/comparators/detectors.h"
+#include "scenarios/document.h"
+#include "scenarios/load.h"
+#include "tools/bench/csv.h"
+#include "tools/bench/output_file.h"
 #include "tools/lcs/detector_option.h"
-#include "tools/lcs/interrupt.h"
-#include "tools/lcs/number_option.h"
-#include "tools/lcs/progress.h"
+#include "tools/lcs/run.h"
 #include "tools/lcs/set_option.h"
 #include "tools/lcs/terminal.h"
 #include "tools/replay/recorded.h"
-#include "tools/replay/rectifier.h"
 
 namespace lcs::tools {
 namespace {
@@ -31,51 +25,108 @@ constexpr const char* kHelp =
   lcs replay MH_01_easy                           EuRoC: motion by its IMU, from the start of its truth
   lcs replay MH_01_easy --ego-motion truth        likewise, motion by its truth
   lcs replay 2011_09_26_drive_0005_sync           KITTI raw: motion by its navigation unit
+  lcs replay sequences/00 --camera-height 1.65    KITTI odometry, with the ground
+  lcs replay freiburg1_xyz --focal 517            TUM RGB-D
   lcs replay 2014-05-19-13-20-57 --focal 983      RobotCar: likewise, raw pictures in colour
+  lcs replay road.mp4 --speed 0 --focal 700       a video of a camera that stands
   lcs replay pictures --fps 1 --speed 0.03 --focal 600       pictures of a robot that drives ahead
   lcs replay pictures --fps 10 --imu imu.csv --focal 600     likewise, with an IMU (columns as EuRoC's)
+  lcs replay pictures --poses poses.txt --focal 600 --write mine.yaml
+                                                  a scenario of it, for lcs run and lcs suite
 
-The layout is told from the folder. Pictures without calibration need --focal; the principal point
-is their middle if --centre does not say. Distorted pictures are straightened first. What is missing,
-broken, of another size, out of order or twice there is left out or put in order, counted and told; the
-time of a picture that is left out passes.
+This makes a scenario whose frames are recorded, and runs it: each option up to --split is a key of its
+`recording` (scenarios/README.md, tools/replay/README.md). The layout is told from the folder. What is
+missing, broken, of another size, out of order or twice there is left out or put in order, counted and
+told; the time of a picture that is left out passes.
 
 Files are those of `lcs run`; without a truth, what is scored by it is null in metrics.json.
 )";
 
 namespace fs = std::filesystem;
+using scenario::Value;
 
-constexpr scenario::Range kPositive{.low = 0, .low_open = true};
+/// An option that is a key of `recording`; what it takes is the scenario's to check.
+struct KeyOption {
+  const char* key;
+  const char* type;  ///< with commas for a list
+  const char* about;
+};
+constexpr KeyOption kKeys[] = {
+    {"camera", "NAME", "Which camera, where the layout has several, as cam1 (EuRoC)"},
+    {"fps", "HZ", "Pictures a second, where the layout does not say"},
+    {"every", "N", "Take every N-th picture only"},
+    {"poses", "FILE",
+     "Poses of the camera: lines of TUM (t x y z qx qy qz qw) or KITTI (12 numbers)"},
+    {"imu", "FILE",
+     "Readings of an IMU, CSV as EuRoC's; where pictures have no clock the first one belongs to "
+     "the "
+     "first picture, --speed is the speed then"},
+    {"odometry", "FILE", "Velocities by the wheels beside them, CSV as EuRoC's"},
+    {"speed", "M/S", "Of the camera, ahead, in m/s; 0 where it stands"},
+    {"at_rest", "S", "It stands for as long at the start, in s"},
+    {"focal", "PX", "Focal length in pixels"},
+    {"centre", "X,Y", "Principal point in pixels, as 319.5,239.5; the middle if not given"},
+    {"distortion", "K1,K2,P1,P2,K3", "Of the lens, as OpenCV has it"},
+    {"equidistant", "K1,K2,K3,K4", "Distortion of a fisheye, as OpenCV has it"},
+    {"camera_height", "M", "Of the camera above the ground, in m"},
+    {"mount", "R,P,Y",
+     "Where the camera looks: roll, pitch (down), yaw (left) from straight ahead, in degrees"},
+    {"mask", "FILE", "A picture of the camera's size, white where the vehicle itself is seen"},
+    {"labels", "FILE", "Boxes of what moves: MOTChallenge's gt.txt, or COCO's JSON"},
+    {"split", "NAME", "What its figures are for: train, validate or test"},
+};
 
-fs::path target_of(const ReplayOptions& options) {
-  if (!options.out.empty()) return options.out;
-  // A trailing slash leaves an empty last part.
-  const auto folder = fs::absolute(options.folder).lexically_normal();
-  return fs::path("out") /
-         (folder.has_filename() ? folder.filename() : folder.parent_path().filename());
+std::string flag_of(const std::string& key) {
+  std::string flag = "--" + key;
+  std::replace(flag.begin(), flag.end(), '_', '-');
+  return flag;
 }
 
-replay::ReadOptions read_options(const ReplayOptions& options) {
-  replay::ReadOptions read{.folder = options.folder,
-                           .camera = options.camera,
-                           .fps = options.fps,
-                           .speed_mps = options.speed_mps,
-                           .imu = {},
-                           .mount_rpy_rad = {},
-                           .exact_motion = options.ego_motion == "truth"};
-  if (!options.imu.empty()) read.imu = options.imu;
-  if (!options.mount_rpy_rad.empty()) {
-    read.mount_rpy_rad = Eigen::Vector3d::Map(options.mount_rpy_rad.data());
+Value scalar(const std::string& flag, const std::string& text) {
+  return {Value::Kind::scalar, {flag, 0}, text};
+}
+
+Value list_of(const std::string& flag, const std::string& text) {
+  Value list(Value::Kind::list, {flag, 0});
+  for (const std::string_view item : bench::fields_of(text)) {
+    list.items.push_back(scalar(flag, std::string(item)));
   }
-  return read;
+  return list;
 }
 
-/// What the command line says of detection and filter takes the place of what the recording says.
-void apply(const ReplayOptions& options, scenario::Scenario& settings) {
-  if (options.fast_threshold) settings.fast_threshold = *options.fast_threshold;
+/// Behind what is there, or in the place of one of that name.
+void put(Value& map, const std::string& key, Value value) {
+  const auto found = std::find_if(map.entries.begin(), map.entries.end(),
+                                  [&](const scenario::Entry& entry) { return entry.key == key; });
+  if (found != map.entries.end()) {
+    found->value = std::move(value);
+  } else {
+    const scenario::Source where = value.where;
+    map.entries.push_back({key, where, std::move(value)});
+  }
+}
+
+Value recording_of(const ReplayOptions& options) {
+  Value recording(Value::Kind::map, {options.path, 0});
+  put(recording, "path", {Value::Kind::scalar, {"lcs replay", 0}, options.path});
+  for (const auto& [key, text] : options.recording) {
+    const std::string flag = flag_of(key);
+    if (key == "equidistant") {
+      Value fisheye(Value::Kind::map, {flag, 0});
+      put(fisheye, key, list_of(flag, text));
+      put(recording, "distortion", std::move(fisheye));
+    } else {
+      const bool is_list = key == "centre" || key == "mount" || key == "distortion";
+      put(recording, key, is_list ? list_of(flag, text) : scalar(flag, text));
+    }
+  }
+  return recording;
+}
+
+Value filter_of(const ReplayOptions& options) {
+  Value filter(Value::Kind::map, {"--set", 0});
   if (!options.preset.empty()) {
-    settings.filter_preset = options.preset;
-    settings.filter_preset_source = {"--preset " + options.preset, 0};
+    put(filter, "preset", scalar("--preset " + options.preset, options.preset));
   }
   for (const std::string& setting : options.sets) {
     const std::size_t equals = setting.find('=');
@@ -83,56 +134,52 @@ void apply(const ReplayOptions& options, scenario::Scenario& settings) {
       throw std::invalid_argument(
           fmt::format("--set takes KEY=VALUE, as constellation.radius=60, not '{}'", setting));
     }
-    settings.filter.push_back(
-        {setting.substr(0, equals), setting.substr(equals + 1), {"--set " + setting, 0}});
+    put(filter, setting.substr(0, equals), scalar("--set " + setting, setting.substr(equals + 1)));
   }
+  return filter;
 }
 
-/// By the recording's calibration, or by what the user says of the camera.
-replay::Lens lens_of(const ReplayOptions& options, const std::optional<replay::Lens>& recorded,
-                     cv::Size size_px) {
-  if (recorded && !options.focal_px) {
-    const bool is_said = recorded->width_px > 0;
-    if (is_said && size_px != cv::Size(recorded->width_px, recorded->height_px)) {
-      throw scenario::Error(
-          recorded->source,
-          fmt::format("the calibration is of {} x {} pixels, and the pictures have {} x {}; give "
-                      "that of these pictures, or --focal",
-                      recorded->width_px, recorded->height_px, size_px.width, size_px.height));
+/// What the options say, as a scenario file would.
+Value document_of(const ReplayOptions& options) {
+  Value root(Value::Kind::map, {"lcs replay", 0});
+  put(root, "recording", recording_of(options));
+  if (!options.ego_motion.empty()) {
+    put(root, "ego_motion", scalar("--ego-motion", options.ego_motion));
+  }
+  if (!options.fast_threshold.empty()) {
+    Value corners(Value::Kind::map, {"--fast-threshold", 0});
+    put(corners, "threshold", scalar("--fast-threshold", options.fast_threshold));
+    put(root, "corners", std::move(corners));
+  }
+  Value filter = filter_of(options);
+  if (!filter.entries.empty()) put(root, "filter", std::move(filter));
+  return root;
+}
+
+/// That of the folder or video.
+std::string name_of(const fs::path& path) {
+  // A trailing slash leaves an empty last part.
+  const fs::path whole = fs::absolute(path).lexically_normal();
+  const fs::path last = whole.has_filename() ? whole : whole.parent_path();
+  return (fs::is_directory(last) ? last.filename() : last.stem()).string();
+}
+
+/// Paths of a scenario begin at its file, wherever that is.
+void make_absolute(Value& recording) {
+  for (scenario::Entry& entry : recording.entries) {
+    for (const char* key : {"path", "poses", "imu", "odometry", "mask", "labels"}) {
+      if (entry.key == key) entry.value.text = fs::absolute(entry.value.text).lexically_normal();
     }
-    return *recorded;
   }
-  replay::Lens lens;
-  lens.fu_px = lens.fv_px = *options.focal_px;
-  lens.cu_px = options.centre_px.empty() ? 0.5 * (size_px.width - 1) : options.centre_px[0];
-  lens.cv_px = options.centre_px.empty() ? 0.5 * (size_px.height - 1) : options.centre_px[1];
-  return lens;
 }
 
-double frames_per_second(const std::vector<replay::RecordedFrame>& frames) {
-  if (frames.size() < 2) return 1;
-  const double span_s = static_cast<double>(frames.back().t_ns - frames.front().t_ns) * 1e-9;
-  return static_cast<double>(frames.size() - 1) / span_s;
-}
-
-void print_result(const bench::Recording& recording, const bench::Metrics& metrics,
-                  std::size_t skipped, const fs::path& target) {
-  using Figure = std::optional<double>;
-  const auto get = [&](const char* name) { return bench::value(metrics, name); };
-  const auto number = [](Figure figure, int decimals) {
-    return figure ? fmt::format("{:.{}f}", *figure, decimals) : "-";
-  };
-  const Figure size = get("dimension.mean"), store = get("dimension.five_frame_mean");
-  const Figure share = size && store && *store > 0 ? Figure(*size / *store) : std::nullopt;
-  print_out("{}: {} pictures, {} skipped\n", recording.scenario, recording.frames.size(), skipped);
-  print_out("  corners  {} a picture\n", number(get("dimension.corners_mean"), 0));
-  print_out("  edges    {} of the normal ones are matched again in the next picture\n",
-            number(get("edges.rematched"), 2));
-  print_out("  size     {} items: {} of a store of the last 5 pictures' corners\n", number(size, 0),
-            number(share, 2));
-  print_out("  time     {} ms a picture; cv::FAST {}\n", number(get("time.filter_ms_median"), 2),
-            number(get("time.detect_ms_median"), 2));
-  print_out("  files    {}\n", target.string());
+void write_scenario(Value document, const fs::path& file) {
+  for (scenario::Entry& entry : document.entries) {
+    if (entry.key == "recording") make_absolute(entry.value);
+  }
+  bench::OutputFile output(file);
+  output.write(scenario::yaml_text(document) + "\n");
+  output.close();
 }
 
 }  // namespace
@@ -140,65 +187,48 @@ void print_result(const bench::Recording& recording, const bench::Metrics& metri
 CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
   CLI::App& command =
       *app.add_subcommand("replay", "Run the LCS filter (or a comparator) on a recording");
-  command.add_option("--images,DIR", options.folder, "Folder of the recording")
+  command.add_option("--images,PATH", options.path, "The recording: a folder, or a video")
       ->required()
       ->type_name("");
-  std::string about = "Layout of the folder; if not given, told from what it holds:";
+  std::string about = "Layout of the recording; if not given, told from what is there:";
   for (const replay::Layout& layout : replay::layouts()) {
-    about += fmt::format("\n{:<9} {}", layout.name, layout.purpose);
+    about += fmt::format("\n{:<14} {}", layout.name, layout.purpose);
   }
-  command.add_option("--format", options.layout, about)->type_name("NAME");
-  command
-      .add_option("--camera", options.camera,
-                  "Which camera, where the layout has several, as cam1 (EuRoC)")
-      ->type_name("NAME");
-  add_quantity_option(command, "--fps", {scenario::Dimension::frequency, kPositive}, options.fps,
-                      "Pictures a second, where the layout does not say")
-      ->type_name("HZ");
-  add_quantity_option(command, "--speed", {scenario::Dimension::speed, {}}, options.speed_mps,
-                      "Of the camera, ahead, in m/s")
-      ->type_name("M/S");
-  command
-      .add_option("--imu", options.imu,
-                  "Readings of an IMU for a folder of pictures, CSV as EuRoC's; the first one "
-                  "belongs to the first picture, --speed is the speed then")
-      ->type_name("FILE");
-  add_quantity_option(command, "--focal", {scenario::Dimension::number, kPositive},
-                      options.focal_px, "Focal length in pixels")
-      ->type_name("PX");
-  add_quantities_option(command, "--centre", {scenario::Dimension::number, {}}, 2,
-                        options.centre_px, "Principal point in pixels, as 319.5,239.5")
-      ->type_name("X,Y");
-  add_quantities_option(command, "--mount", {scenario::Dimension::angle, {}}, 3,
-                        options.mount_rpy_rad,
-                        "Where the camera looks: roll, pitch (down), yaw (left) from straight "
-                        "ahead, in degrees")
-      ->type_name("R,P,Y");
+  const auto add_key = [&](const std::string& key, const std::string& what) {
+    return command.add_option_function<std::string>(
+        flag_of(key), [&options, key](const std::string& text) { options.recording[key] = text; },
+        what);
+  };
+  add_key("format", about)->type_name("NAME");
+  for (const KeyOption& key : kKeys) add_key(key.key, key.about)->type_name(key.type);
+  command.add_flag_callback(
+      "--nothing-moves", [&options] { options.recording["nothing_moves"] = "true"; },
+      "Nothing but the camera moves: every rebel is false");
   command
       .add_option("--ego-motion", options.ego_motion,
                   "imu: by dead reckoning; truth: by the recording's own truth")
-      ->type_name("SOURCE")
-      ->check(CLI::IsMember({"imu", "truth"}));
-  add_detector_option(command, options.detector);
+      ->type_name("SOURCE");
   command
-      .add_option_function<std::string>(
-          "--fast-threshold",
-          [&options](const std::string& text) {
-            options.fast_threshold =
-                scenario::as_threshold(option_value("--fast-threshold", text), "the number");
-          },
-          "Contrast of a corner, 1 to 254 grey levels; auto: by the noise and the compression of "
-          "each picture. If not given, auto or the recording's")
+      .add_option("--fast-threshold", options.fast_threshold,
+                  "Contrast of a corner, 1 to 254 grey levels; auto: by the noise and the "
+                  "compression of each picture. If not given, auto or the recording's")
       ->type_name("N|auto");
+  add_detector_option(command, options.detector, kPresetDetector);
   command
       .add_option("--preset", options.preset,
                   "Parameters of the filter: default, or the paper's lab or cars")
       ->type_name("NAME");
   add_set_option(command, options.sets,
                  "Set a parameter of the filter, as constellation.radius=60");
-  command.add_option("--out", options.out, "Folder for the results; out/<folder> if not given")
+  add_beside_option(command, options.beside);
+  command.add_option("--out", options.out, "Folder for the results; out/<recording> if not given")
       ->type_name("DIR");
+  command
+      .add_option("--write", options.write,
+                  "Write the scenario that the options make to this file, and run nothing")
+      ->type_name("FILE");
   command.add_flag("--no-video", options.no_video, "Write no video.mp4");
+  command.add_flag("--events", options.events, "Write events.json, as lcs run does");
   command.add_flag("--quiet", options.quiet,
                    "Print neither progress nor figures, only what went wrong");
   command.footer(kHelp);
@@ -206,72 +236,24 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
 }
 
 ExitCode replay(const ReplayOptions& options) {
-  const comparators::Detector& watcher = comparators::detector(options.detector);
-  replay::Recorded recorded =
-      replay::layout_of(options.layout, options.folder).read(read_options(options));
-  if (!recorded.lens && !options.focal_px) {
-    throw std::invalid_argument("the recording has no calibration of its camera; give --focal");
+  const Value document = document_of(options);
+  scenario::Scenario scenario = scenario::load(document, "");
+  scenario.name = options.out.empty() ? name_of(options.path) : name_of(options.out);
+  if (!options.write.empty()) {
+    write_scenario(document, options.write);
+    return kFine;
   }
-  apply(options, recorded.settings);
-  // what is wrong with them is told before any output
-  const std::vector<std::string> idle_settings = bench::idle_settings(recorded.settings);
-  const FastDetector detector(recorded.settings.fast_threshold);
-  bench::PictureReader pictures(recorded.demosaic);
-
-  bench::Recording recording;
-  recording.scenario = target_of(options).filename().string();
-  recording.detector = {std::string(watcher.name), watcher.layered};
-  recording.truth = bench::Truth::unknown;
-  const double fps = frames_per_second(recorded.frames);
-  std::optional<replay::Rectifier> rectifier;
-  std::unique_ptr<bench::Tracker> tracker;
-  std::optional<bench::Result> result;
-  {
-    Progress progress(recording.scenario, static_cast<int>(recorded.frames.size()), options.quiet);
-    for (std::size_t i = 0; i < recorded.frames.size(); ++i) {
-      check_interrupted();
-      progress.show(static_cast<int>(i) + 1);
-      std::optional<cv::Mat3b> image = pictures.read(recorded.frames[i].picture);
-      if (!image) {
-        tell("skipped: " + pictures.skipped().back());
-        continue;
-      }
-      if (!rectifier) {
-        rectifier.emplace(lens_of(options, recorded.lens, image->size()), image->size());
-        tracker = watcher.make(rectifier->camera(), recorded.settings);
-        result.emplace(
-            target_of(options), recording, image->size(),
-            bench::ResultOptions{.video_frames_per_second =
-                                     options.no_video ? std::nullopt : std::optional(fps)});
-      }
-      rectifier->rectify(*image);
-      bench::FrameRecord& frame = recording.frames.emplace_back();
-      frame.index = static_cast<int>(recording.frames.size()) - 1;
-      frame.t_ns = recorded.frames[i].t_ns;
-      frame.motion = recorded.motion->at(frame.t_ns);
-      bench::watch(*image, detector, *tracker, frame);
-      bench::set_corner_truth(recording.truth, frame);
-      result->add(frame, *image);
-    }
-  }
-  if (!result) {
-    throw std::runtime_error(
-        fmt::format("none of the pictures in {} can be read; give a recording with its pictures",
-                    options.folder));
-  }
-  const bench::Metrics metrics = result->finish(recording);
-  warn(idle_settings);
-  warn(bench::lines_of(bench::warnings_of(recording)));
-  Diagnostics diagnostics = recorded.motion->diagnostics();
-  diagnostics += tracker->diagnostics();
-  diagnostics.forget(Fault::imu_gap);  // told by what read it, with its place
-  for (const auto& lines : {recorded.tally.lines(), diagnostics.lines()}) {
-    for (const std::string& line : lines) tell(line);
-  }
-  if (!options.quiet) {
-    print_result(recording, metrics, pictures.skipped().size(), result->target());
-  }
-  return kFine;
+  return run_scenario({.scenario = {},
+                       .out = options.out,
+                       .seed = {},
+                       .sets = {},
+                       .detector = options.detector,
+                       .beside = options.beside,
+                       .recorded = {},
+                       .no_video = options.no_video,
+                       .events = options.events,
+                       .quiet = options.quiet},
+                      std::move(scenario));
 }
 
 }  // namespace lcs::tools

@@ -1,9 +1,9 @@
 /// \file
-/// `lcs replay`: a detector on a recording, without a truth to score it by.
+/// `lcs replay`: a detector on a recording, by options in place of a scenario.
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <optional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,31 +12,25 @@
 namespace lcs::tools {
 
 struct ReplayOptions {
-  std::string folder;                 ///< of the recording
-  std::string layout = "auto";        ///< of the folder
-  std::string camera;                 ///< of several; "" is the layout's first
-  std::optional<double> fps;          ///< pictures a second, > 0
-  std::optional<double> speed_mps;    ///< along the optical axis; negative is reverse
-  std::string imu;                    ///< CSV file; "" for none
-  std::optional<double> focal_px;     ///< > 0
-  std::vector<double> centre_px;      ///< x, y; none: the middle
-  std::vector<double> mount_rpy_rad;  ///< none: the layout's own
-  std::string ego_motion;             ///< imu or truth; "": as the recording has it
+  std::string path;                              ///< of the recording
+  std::map<std::string, std::string> recording;  ///< keys of a scenario's `recording`, as given
+  std::string ego_motion;                        ///< imu or truth; "": as the recording has it
+  std::string fast_threshold;                    ///< "": as the recording has it
+  std::string preset;                            ///< "": as the recording has it
+  std::vector<std::string> sets;                 ///< "key=value" of the filter
   std::string detector = "lcs";
-  /// Of corners, grey levels; none within: as each picture shows.
-  std::optional<std::optional<int>> fast_threshold;
-  std::string preset;                 ///< "": as the recording has it
-  std::vector<std::string> sets;      ///< "key=value" of the filter
-  std::string out;                    ///< folder; "" is out/<folder's name>
+  std::vector<std::string> beside;  ///< as `RunOptions`
+  std::string out;                  ///< folder; "" is out/<name of the recording>
+  std::string write;                ///< file for the scenario, and nothing is run; "": run it
   bool no_video = false;
+  bool events = false;
   bool quiet = false;
 };
 
 /// Adds the sub-command to the program's. \param options are filled in by parsing.
 CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options);
 
-/// \throws bench::OutputError, Interrupted, std::exception; then there is no new output, and an
-///   earlier one is as it was.
+/// \throws as `run`.
 ExitCode replay(const ReplayOptions& options);
 
 }  // namespace lcs::tools

@@ -26,6 +26,7 @@
 #include "tools/lcs/progress.h"
 #include "tools/lcs/set_option.h"
 #include "tools/lcs/terminal.h"
+#include "tools/replay/playback.h"
 
 namespace lcs::tools {
 namespace {
@@ -35,6 +36,7 @@ constexpr const char* kHelp = R"(Examples:
   lcs run scenarios/crossing.yaml --seed 7 --out out/seed7
   lcs run scenarios/lab.yaml --set "ego.speed=10 cm/s" --set filter.constellation.radius=60
   lcs run scenarios/crossing.yaml --detector klt --out out/crossing-klt
+  lcs run my_drive.yaml              recorded frames in place of a scene (scenarios/README.md)
   lcs run scenarios/crossing.yaml --beside klt=out/crossing-klt     both on the same frames, made once
   lcs run scenarios/crossing.yaml --set filter.constellation.radius=60 --recorded out/crossing --no-video
                                      the filter anew on the frames of an earlier run, in a moment
@@ -66,11 +68,21 @@ std::filesystem::path target_of(const RunOptions& options, const scenario::Scena
 }
 
 void print_result(const scenario::Scenario& scenario, const std::string& detector,
-                  const bench::Metrics& metrics, const std::filesystem::path& folder) {
+                  const bench::Metrics& metrics, const replay::Playback* playback,
+                  const std::filesystem::path& folder) {
   const std::string by = detector == "lcs" ? "" : fmt::format(" by {}", detector);
-  print_out("{}{}: {} frames, seed {}, {:.1f} frames/s\n", scenario.name, by, scenario.frames,
-            scenario.seed, bench::value(metrics, "sim.frames_per_second").value_or(0));
+  const double frames = bench::value(metrics, "frames").value_or(0);
+  const std::string what =
+      playback ? fmt::format("{:.0f} pictures, {} skipped", frames, playback->skipped())
+               : fmt::format("{:.0f} frames, seed {}", frames, scenario.seed);
+  print_out("{}{}: {}, {:.1f} frames/s\n", scenario.name, by, what,
+            bench::value(metrics, "sim.frames_per_second").value_or(0));
   print_out("{}  files    {}\n", bench::table(metrics), folder.string());
+}
+
+sim::Pinhole camera_of(const scenario::Scenario& scenario) {
+  const scenario::Camera& camera = scenario.camera;
+  return sim::Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad);
 }
 
 /// What the detector watches, and where it comes from.
@@ -90,8 +102,17 @@ Frames simulated(const scenario::Scenario& scenario) {
           }};
 }
 
-Frames recorded(const RunOptions& options, const scenario::Scenario& scenario) {
-  const auto earlier = std::make_shared<bench::EarlierRun>(options.recorded, scenario);
+Frames played(const scenario::Scenario& scenario, replay::Playback& playback) {
+  return {.camera = playback.camera(),
+          .recording = playback.begin(),
+          .run = [&scenario, &playback](std::span<const bench::Watcher> watchers) {
+            return bench::run(playback, FastDetector(scenario.fast_threshold), watchers);
+          }};
+}
+
+Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
+                const sim::Pinhole& camera) {
+  const auto earlier = std::make_shared<bench::EarlierRun>(options.recorded, scenario, camera);
   const bool with_images = !options.no_video;
   if (with_images && !earlier->pictures()) {
     throw std::invalid_argument(
@@ -99,7 +120,7 @@ Frames recorded(const RunOptions& options, const scenario::Scenario& scenario) {
                     "--events",
                     options.recorded));
   }
-  return {.camera = earlier->camera(),
+  return {.camera = camera,
           .recording = earlier->begin(),
           .pictures = earlier->pictures(),
           .run = [earlier, with_images](std::span<const bench::Watcher> watchers) {
@@ -167,7 +188,8 @@ bool report_failures(const std::vector<bench::FailedCriterion>& failures) {
 CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
   CLI::App& command = *app.add_subcommand(
       "run",
-      "Simulate a scenario, run the LCS filter (or a comparator) on it, and score it by the truth");
+      "Simulate a scenario, or read its recording, run the LCS filter (or a comparator) on it, and "
+      "score it by the truth");
   command.add_option("SCENARIO", options.scenario, "The scenario, a YAML file")
       ->required()
       ->type_name("");
@@ -176,13 +198,7 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
   add_seed_option(command, options.seed);
   add_set_option(command, options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
   add_detector_option(command, options.detector, kPresetDetector);
-  command
-      .add_option(
-          "--beside", options.beside,
-          "Let this detector watch the same frames too, and write its figures and layers to "
-          "the folder; may be repeated")
-      ->type_name("NAME=DIR")
-      ->allow_extra_args(false);
+  add_beside_option(command, options.beside);
   command
       .add_option(
           "--recorded", options.recorded,
@@ -199,14 +215,23 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
 }
 
 ExitCode run(const RunOptions& options) {
+  return run_scenario(
+      options, scenario::load(options.scenario, {.sets = options.sets, .seed = options.seed}));
+}
+
+ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   // All that can be wrong with what was asked for is found before any output is begun.
-  const scenario::Scenario scenario =
-      scenario::load(options.scenario, {.sets = options.sets, .seed = options.seed});
+  std::optional<replay::Playback> playback;
+  if (scenario.recording) scenario = playback.emplace(scenario).scenario();
   std::vector<Watching> all = watching(options, scenario);
   Watching& own = all.front();
   bench::require_known_metrics(scenario.criteria);
-  const Frames frames =
-      options.recorded.empty() ? simulated(scenario) : recorded(options, scenario);
+  const Frames frames = [&] {
+    if (!options.recorded.empty()) {
+      return recorded(options, scenario, playback ? playback->camera() : camera_of(scenario));
+    }
+    return playback ? played(scenario, *playback) : simulated(scenario);
+  }();
   for (Watching& one : all) {
     one.tracker = one.wanted.detector.make(frames.camera, one.scenario);
     one.recording = frames.recording;
@@ -243,10 +268,14 @@ ExitCode run(const RunOptions& options) {
   for (Watching& one : all) metrics.push_back(one.result->finish(one.recording));
 
   warn(bench::lines_of(bench::warnings_of(own.recording)));
+  if (playback && options.recorded.empty()) {
+    for (const std::string& line : playback->told()) tell(line);
+  }
   for (const std::string& line : diagnostics.front().lines()) tell(line);
   if (!options.quiet) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-      print_result(scenario, all[i].wanted.name, metrics[i], all[i].result->target());
+      print_result(scenario, all[i].wanted.name, metrics[i], playback ? &*playback : nullptr,
+                   all[i].result->target());
     }
   }
   // which are the filter's, and so the run's own detector's

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/scenario.h"
 #include "tools/lcs/exit_codes.h"
 
 namespace lcs::tools {
@@ -25,6 +26,10 @@ struct RunOptions {
   bool events = false;
   bool quiet = false;
 };
+
+/// The same for a scenario that is loaded: `options.scenario`, `seed` and `sets` are not looked at.
+/// \throws as `run`.
+ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario);
 
 /// Adds the sub-command to the program's. \param options are filled in by parsing.
 CLI::App& add_run_command(CLI::App& app, RunOptions& options);

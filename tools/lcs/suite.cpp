@@ -107,8 +107,9 @@ ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
   bool is_broken = false;
   for (const suite::PlannedScenario& planned : plan) {
     if (planned.scenario) {
+      const int frames = planned.scenario->frames;  // 0: all that a recording has
       print_out("{:<{}}  {:>4} frames, {} criteria [{}] {}\n", planned.name, longest,
-                planned.scenario->frames, planned.scenario->criteria.size(),
+                frames > 0 ? std::to_string(frames) : "all", planned.scenario->criteria.size(),
                 fmt::join(planned.scenario->groups, ", "), planned.scenario->purpose);
     } else {
       tell("error: " + planned.error);

@@ -38,7 +38,8 @@ std::vector<RecordedFrame> read_frames(const fs::path& camera, Tally& tally) {
     }
     const std::string name =
         row.fields.size() > 1 && !row.fields[1].empty() ? row.fields[1] : row.fields[0] + ".png";
-    frames.push_back({*t_ns, camera / "data" / name});
+    const auto place = static_cast<std::size_t>(&row - table.rows.data());
+    frames.push_back({*t_ns, camera / "data" / name, place});
   }
   put_in_order(frames, camera / "data.csv", tally);
   return frames;
@@ -74,7 +75,8 @@ Start start_at_rest(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns, T
     turning += sample.gyro_radps;
     ++count;
   }
-  if (count == 0) throw std::runtime_error(
+  if (count == 0)
+    throw std::runtime_error(
         "the IMU has no reading at the first picture; give both the times of one clock");
   tally.add("recordings have no truth to start from: at rest, upright as the accelerometer says",
             fmt::format("{} readings", count));
@@ -152,7 +154,7 @@ void move_by_files(const fs::path& mav, const sim::Pose& T_BC, bool exact_motion
   // The truth is of the body; it may begin later than the pictures do.
   std::int64_t first_ns = std::max(recorded.frames.front().t_ns, readings.imu.front().t_ns);
   if (!truth.empty()) first_ns = std::max(first_ns, truth.front().t_ns);
-  keep_within(first_ns, readings.imu.back().t_ns + kStill_ns,
+  keep_within(first_ns, readings.imu.back().t_ns + kBehindReadings_ns,
               "pictures are from before the truth or outside of the IMU's time", recorded);
   const Start start = truth.empty() ? start_at_rest(readings.imu, first_ns, recorded.tally)
                                     : start_by_truth(truth, first_ns);
@@ -167,14 +169,11 @@ void move_by_files(const fs::path& mav, const sim::Pose& T_BC, bool exact_motion
   }
 
   // Everything before the start is past; times count from it.
-  std::erase_if(readings.imu, [&](const auto& sample) { return sample.t_ns < start.t_ns; });
-  std::erase_if(readings.odometry, [&](const auto& sample) { return sample.t_ns < start.t_ns; });
+  begin_at(start.t_ns, readings);
   for (sim::ImuSample& sample : readings.imu) {
-    sample.t_ns -= start.t_ns;
     sample.gyro_radps -= start.gyro_bias_radps;
     sample.accel_mps2 -= start.accel_bias_mps2;
   }
-  for (sim::OdometrySample& sample : readings.odometry) sample.t_ns -= start.t_ns;
   for (RecordedFrame& frame : recorded.frames) frame.t_ns -= start.t_ns;
   recorded.settings.odometry.enabled = !readings.odometry.empty();
   recorded.motion =
@@ -187,28 +186,28 @@ bool is_euroc(const fs::path& folder) {
   return fs::exists(mav_of(folder) / "cam0" / "data.csv");
 }
 
-Recorded read_euroc(const ReadOptions& options) {
-  const fs::path mav = mav_of(options.folder);
-  const std::string camera = options.camera.empty() ? "cam0" : options.camera;
+Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion) {
+  const fs::path mav = mav_of(asked.path);
+  const std::string camera = asked.camera.empty() ? "cam0" : asked.camera;
   const fs::path camera_folder = mav / camera;
   if (!fs::exists(camera_folder / "data.csv")) {
-    throw std::runtime_error(fmt::format("{} is not there; name another camera with --camera",
-                                         (camera_folder / "data.csv").string()));
+    throw scenario::Error(asked.source, fmt::format("{} is not there; name another camera",
+                                                    (camera_folder / "data.csv").string()));
   }
   Recorded recorded;
   recorded.frames = read_frames(camera_folder, recorded.tally);
-  const fs::path settings_file = options.folder / sequence::kSettingsFile;
+  const fs::path settings_file = asked.path / sequence::kSettingsFile;
   if (fs::exists(settings_file)) {
     const sequence::ReplaySettings exact = sequence::read_settings(settings_file);
     recorded.settings = exact.scenario;
-    if (options.exact_motion) recorded.settings.ego_motion = scenario::EgoMotionSource::truth;
+    if (exact_motion) recorded.settings.ego_motion = scenario::EgoMotionSource::truth;
     recorded.lens = lens_of(exact.calibration.camera, settings_file);
-    move_as_run(mav, exact, recorded);
+    if (!motion_is_asked(asked)) move_as_run(mav, exact, recorded);
     return recorded;
   }
   const SensorYaml sensor = read_sensor_yaml(camera_folder / "sensor.yaml");
   recorded.lens = sensor.lens;
-  move_by_files(mav, sensor.T_BS, options.exact_motion, recorded);
+  if (!motion_is_asked(asked)) move_by_files(mav, sensor.T_BS, exact_motion, recorded);
   return recorded;
 }
 

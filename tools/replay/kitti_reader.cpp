@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 
 #include "scenarios/input_file.h"
 #include "tools/bench/csv.h"
+#include "tools/replay/kitti_calibration.h"
 #include "tools/replay/navigation.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
@@ -20,10 +20,9 @@ namespace lcs::replay {
 namespace {
 
 namespace fs = std::filesystem;
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// A state of 30 numbers, or a calibration.
+/// A state of 30 numbers.
 constexpr scenario::FileKind kSmallText{scenario::kMebibyte, "give the file as KITTI has it"};
 
 /// Line k is of item k; none where a line is no time.
@@ -67,41 +66,6 @@ std::vector<NavigationState> read_oxts(const fs::path& folder, Tally& tally) {
   return states;
 }
 
-/// "NAME: numbers" a line.
-class CalibrationFile {
- public:
-  explicit CalibrationFile(const fs::path& file) : file_(file) {
-    scenario::InputFile input(file, kSmallText);
-    for (std::string line; input.next_line(line);) {
-      const std::size_t colon = line.find(':');
-      if (colon == line.npos) continue;
-      std::istringstream words(line.substr(colon + 1));
-      std::vector<double>& numbers = values_[line.substr(0, colon)];
-      for (double number; words >> number;) numbers.push_back(number);
-    }
-  }
-  /// \throws std::runtime_error unless there are as many numbers.
-  const std::vector<double>& numbers(const std::string& name, std::size_t count) const {
-    const auto found = values_.find(name);
-    if (found == values_.end() || found->second.size() != count) {
-      throw scenario::Error({file_.string(), 0},
-                            fmt::format("{} is missing, or is not {} numbers; {}", name, count,
-                                        kSmallText.remedy));
-    }
-    return found->second;
-  }
-  Matrix3d matrix(const std::string& name) const {
-    return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers(name, 9).data());
-  }
-  sim::Pose pose() const {
-    return {matrix("R"), Eigen::Map<const Vector3d>(numbers("T", 3).data())};
-  }
-
- private:
-  fs::path file_;
-  std::map<std::string, std::vector<double>> values_;
-};
-
 struct Camera {
   Lens lens;
   sim::Pose T_BC;
@@ -112,59 +76,69 @@ struct Camera {
 std::optional<Camera> read_calibration(const fs::path& drive, const std::string& number) {
   for (const fs::path& folder : {drive, fs::absolute(drive / "..").lexically_normal()}) {
     if (!fs::exists(folder / "calib_cam_to_cam.txt")) continue;
-    const CalibrationFile cameras(folder / "calib_cam_to_cam.txt");
-    const std::vector<double>& P = cameras.numbers("P_rect_" + number, 12);
+    const KittiCalibration cameras(folder / "calib_cam_to_cam.txt");
     Camera camera;
-    camera.lens.fu_px = P[0];
-    camera.lens.fv_px = P[5];
-    camera.lens.cu_px = P[2];
-    camera.lens.cv_px = P[6];
-    const sim::Pose T_velo_imu = CalibrationFile(folder / "calib_imu_to_velo.txt").pose();
-    const sim::Pose T_cam_velo = CalibrationFile(folder / "calib_velo_to_cam.txt").pose();
+    camera.lens = cameras.lens("P_rect_" + number);
+    const sim::Pose T_velo_imu = KittiCalibration(folder / "calib_imu_to_velo.txt").pose();
+    const sim::Pose T_cam_velo = KittiCalibration(folder / "calib_velo_to_cam.txt").pose();
     const sim::Pose rectify{cameras.matrix("R_rect_00"), Vector3d::Zero()};
-    const sim::Pose beside{Matrix3d::Identity(), {P[3] / P[0], P[7] / P[5], P[11]}};
-    camera.T_BC = (beside * (rectify * (T_cam_velo * T_velo_imu))).inverse();
+    camera.T_BC =
+        (cameras.beside("P_rect_" + number) * (rectify * (T_cam_velo * T_velo_imu))).inverse();
     return camera;
   }
   return std::nullopt;
 }
 
 /// image_00 to image_03; the first there is if none is named.
-std::string camera_in(const ReadOptions& options) {
-  if (!options.camera.empty()) return options.camera;
+std::string camera_in(const scenario::Recorded& asked) {
+  if (!asked.camera.empty()) return asked.camera;
   for (const char* name : {"image_02", "image_00", "image_03", "image_01"}) {
-    if (fs::is_directory(options.folder / name)) return name;
+    if (fs::is_directory(asked.path / name)) return name;
   }
   return "image_02";
+}
+
+/// As KITTI has them, or, in smaller copies, as JPEG.
+fs::path picture_of(const fs::path& data, std::size_t number) {
+  const fs::path png = data / fmt::format("{:010}.png", number);
+  const fs::path jpeg = data / fmt::format("{:010}.jpg", number);
+  return !fs::exists(png) && fs::exists(jpeg) ? jpeg : png;
 }
 
 }  // namespace
 
 bool is_kitti(const fs::path& folder) {
-  return fs::is_directory(folder / "oxts") &&
-         fs::exists(folder / camera_in({.folder = folder}) / "timestamps.txt");
+  scenario::Recorded asked;
+  asked.path = folder;
+  return fs::is_directory(folder / "oxts") && fs::is_directory(folder / camera_in(asked));
 }
 
-Recorded read_kitti(const ReadOptions& options) {
-  const std::string name = camera_in(options);
-  const fs::path camera_folder = options.folder / name;
-  if (!name.starts_with("image_") || !fs::exists(camera_folder / "timestamps.txt")) {
-    throw std::runtime_error(fmt::format("{} is not there; name a camera by --camera, as image_02",
-                                         (camera_folder / "timestamps.txt").string()));
+Recorded read_kitti(const scenario::Recorded& asked, bool) {
+  const std::string name = camera_in(asked);
+  const fs::path camera_folder = asked.path / name;
+  if (!name.starts_with("image_") || !fs::is_directory(camera_folder)) {
+    throw scenario::Error(asked.source, fmt::format("{} is not there; name a camera, as image_02",
+                                                    camera_folder.string()));
   }
   Recorded recorded;
-  const auto times = read_times(camera_folder / "timestamps.txt", recorded.tally);
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (!times[i]) continue;
-    recorded.frames.push_back({*times[i], camera_folder / "data" / fmt::format("{:010}.png", i)});
+  fs::path clock = camera_folder / "timestamps.txt";
+  if (!fs::exists(clock)) {
+    clock = asked.path / "oxts" / "timestamps.txt";
+    recorded.tally.add("cameras have no times of their own: those of the navigation are used",
+                       name);
   }
-  put_in_order(recorded.frames, camera_folder / "timestamps.txt", recorded.tally);
-  sim::Pose T_BC{camera_mount(options.mount_rpy_rad.value_or(Vector3d::Zero())), Vector3d::Zero()};
-  if (const auto camera = read_calibration(options.folder, name.substr(name.find('_') + 1))) {
+  const auto times = read_times(clock, recorded.tally);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (times[i]) recorded.frames.push_back({*times[i], picture_of(camera_folder / "data", i), i});
+  }
+  put_in_order(recorded.frames, clock, recorded.tally);
+  sim::Pose T_BC{camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero())), Vector3d::Zero()};
+  if (const auto camera = read_calibration(asked.path, name.substr(name.find('_') + 1))) {
     recorded.lens = camera->lens;
     T_BC = camera->T_BC;
   }
-  move_by_navigation(read_oxts(options.folder / "oxts", recorded.tally), T_BC, recorded);
+  if (motion_is_asked(asked)) return recorded;
+  move_by_navigation(read_oxts(asked.path / "oxts", recorded.tally), T_BC, recorded);
   return recorded;
 }
 

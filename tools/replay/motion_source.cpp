@@ -5,7 +5,14 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "tools/replay/navigation.h"
+
 namespace lcs::replay {
+
+SteadyMotion::SteadyMotion(double speed_mps, const std::optional<Eigen::Vector3d>& mount_rpy_rad)
+    : speed_mps_(speed_mps) {
+  if (mount_rpy_rad) up_C_ = camera_mount(*mount_rpy_rad).row(2);
+}
 
 EgoMotion SteadyMotion::at(std::int64_t t_ns) {
   EgoMotion motion;
@@ -17,9 +24,20 @@ EgoMotion SteadyMotion::at(std::int64_t t_ns) {
   return motion;
 }
 
+void begin_at(std::int64_t t_ns, SensorReadings& readings) {
+  const auto begin = [&](auto& samples) {
+    std::erase_if(samples, [&](const auto& sample) { return sample.t_ns < t_ns; });
+    for (auto& sample : samples) sample.t_ns -= t_ns;
+  };
+  begin(readings.imu);
+  begin(readings.odometry);
+  begin(readings.poses);
+}
+
 SensorMotion::SensorMotion(const scenario::Scenario& settings, const sim::Calibration& calibration,
                            SensorReadings readings)
     : needs_poses_(settings.ego_motion == scenario::EgoMotionSource::truth),
+      R_SC_(calibration.T_BS.R.transpose() * calibration.T_BC.R),
       readings_(std::move(readings)),
       feed_(settings, calibration) {}
 
@@ -41,6 +59,10 @@ EgoMotion SensorMotion::at(std::int64_t t_ns) {
                     t_ns));
   }
   return feed_.next(observation).told;
+}
+
+std::optional<Eigen::Vector3d> SensorMotion::up_C() const {
+  return R_SC_.transpose() * feed_.estimator().R_WS().row(2).transpose();
 }
 
 NavigationMotion::NavigationMotion(std::vector<NavigationState> states, const sim::Pose& T_BC)
@@ -98,6 +120,43 @@ EgoMotion NavigationMotion::at(std::int64_t t_ns) {
   }
   last_ = now;
   return motion;
+}
+
+std::optional<Eigen::Vector3d> NavigationMotion::up_C() const {
+  if (!last_) return std::nullopt;
+  return (last_->q_WB.toRotationMatrix() * T_BC_.R).row(2);
+}
+
+PosesMotion::PosesMotion(std::vector<CameraPose> poses, const std::optional<Eigen::Vector3d>& up_W)
+    : poses_(std::move(poses)), up_W_(up_W) {}
+
+sim::Pose PosesMotion::pose_at(std::int64_t t_ns) const {
+  const auto after =
+      std::lower_bound(poses_.begin(), poses_.end(), t_ns,
+                       [](const CameraPose& pose, std::int64_t t) { return pose.t_ns < t; });
+  if (after == poses_.end()) return poses_.back().T_WC;
+  if (after == poses_.begin() || after->t_ns == t_ns) return after->T_WC;
+  const CameraPose& a = *std::prev(after);
+  const CameraPose& b = *after;
+  const double share = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
+  const Eigen::Quaterniond from(a.T_WC.R), to(b.T_WC.R);
+  return {from.slerp(share, to).toRotationMatrix(), (1 - share) * a.T_WC.p + share * b.T_WC.p};
+}
+
+EgoMotion PosesMotion::at(std::int64_t t_ns) {
+  const CameraPose now{t_ns, pose_at(t_ns)};
+  EgoMotion motion;
+  if (last_) {
+    const double dt_s = static_cast<double>(now.t_ns - last_->t_ns) * 1e-9;
+    motion = bench::motion_between(last_->T_WC, now.T_WC, dt_s);
+  }
+  last_ = now;
+  return motion;
+}
+
+std::optional<Eigen::Vector3d> PosesMotion::up_C() const {
+  if (!last_ || !up_W_) return std::nullopt;
+  return last_->T_WC.R.transpose() * *up_W_;
 }
 
 }  // namespace lcs::replay

@@ -21,6 +21,9 @@ class MotionSource {
   /// Motion since the last frame; of the first one all 0. Times increase.
   virtual EgoMotion at(std::int64_t t_ns) = 0;
 
+  /// Where up is at the last frame, against gravity, seen from the camera; none where nobody knows.
+  virtual std::optional<Eigen::Vector3d> up_C() const { return std::nullopt; }
+
   /// What was wrong with the readings that it was told from so far.
   virtual Diagnostics diagnostics() const { return {}; }
 };
@@ -28,11 +31,14 @@ class MotionSource {
 /// Straight ahead along the optical axis.
 class SteadyMotion : public MotionSource {
  public:
-  explicit SteadyMotion(double speed_mps) : speed_mps_(speed_mps) {}
+  /// \param mount_rpy_rad of the camera on what stands upright; none: not known.
+  SteadyMotion(double speed_mps, const std::optional<Eigen::Vector3d>& mount_rpy_rad);
   EgoMotion at(std::int64_t t_ns) override;
+  std::optional<Eigen::Vector3d> up_C() const override { return up_C_; }
 
  private:
   double speed_mps_;
+  std::optional<Eigen::Vector3d> up_C_;
   std::optional<std::int64_t> last_ns_;
 };
 
@@ -47,6 +53,9 @@ struct SensorReadings {
   std::vector<CameraPose> poses;  ///< exact, at frames
 };
 
+/// Leaves out what was before a time, and counts the rest from there.
+void begin_at(std::int64_t t_ns, SensorReadings& readings);
+
 /// Dead reckoning from IMU and odometry, as a run has it (or exact poses where the settings ask for
 /// them): the same readings give the same bits.
 class SensorMotion : public MotionSource {
@@ -55,10 +64,12 @@ class SensorMotion : public MotionSource {
                SensorReadings readings);
   /// \throws std::runtime_error where exact poses are asked for and there is none at this time.
   EgoMotion at(std::int64_t t_ns) override;
+  std::optional<Eigen::Vector3d> up_C() const override;
   Diagnostics diagnostics() const override { return feed_.estimator().diagnostics(); }
 
  private:
   bool needs_poses_;
+  Eigen::Matrix3d R_SC_;
   SensorReadings readings_;
   std::size_t imu_ = 0, odometry_ = 0, pose_ = 0;  ///< the next to be used
   bench::EgoMotionFeed feed_;
@@ -78,6 +89,7 @@ class NavigationMotion : public MotionSource {
   NavigationMotion(std::vector<NavigationState> states, const sim::Pose& T_BC);
   /// Beyond the first and last state those are held.
   EgoMotion at(std::int64_t t_ns) override;
+  std::optional<Eigen::Vector3d> up_C() const override;
 
   std::int64_t first_ns() const { return states_.front().t_ns; }
   std::int64_t last_ns() const { return states_.back().t_ns; }
@@ -88,6 +100,29 @@ class NavigationMotion : public MotionSource {
   std::vector<NavigationState> states_;
   sim::Pose T_BC_;
   std::optional<NavigationState> last_;
+};
+
+/// Differences of a camera's poses; linear between two of them.
+class PosesMotion : public MotionSource {
+ public:
+  using CameraPose = SensorReadings::CameraPose;
+
+  /// \param poses by time, each time once, at least one.
+  /// \param up_W against gravity in the world of the poses, if that is known.
+  PosesMotion(std::vector<CameraPose> poses, const std::optional<Eigen::Vector3d>& up_W);
+  /// Beyond the first and last pose those are held.
+  EgoMotion at(std::int64_t t_ns) override;
+  std::optional<Eigen::Vector3d> up_C() const override;
+
+  std::int64_t first_ns() const { return poses_.front().t_ns; }
+  std::int64_t last_ns() const { return poses_.back().t_ns; }
+
+ private:
+  sim::Pose pose_at(std::int64_t t_ns) const;
+
+  std::vector<CameraPose> poses_;
+  std::optional<Eigen::Vector3d> up_W_;
+  std::optional<CameraPose> last_;
 };
 
 }  // namespace lcs::replay

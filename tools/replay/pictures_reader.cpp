@@ -1,18 +1,54 @@
-// A folder of pictures, with nothing but what the user knows of them.
+// Pictures with nothing but what the user knows of them: a folder, a video, a sequence of
+// MOTChallenge.
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
+#include <cstdlib>
+#include <map>
+#include <opencv2/videoio.hpp>
 #include <stdexcept>
 
+#include "scenarios/input_file.h"
+#include "tools/bench/csv.h"
 #include "tools/bench/picture_folder.h"
-#include "tools/replay/navigation.h"
 #include "tools/replay/recorded.h"
-#include "tools/replay/sensor_csv.h"
 
 namespace lcs::replay {
+namespace {
 
-bool is_pictures(const std::filesystem::path& folder) {
+namespace fs = std::filesystem;
+
+constexpr scenario::FileKind kVideo{
+    64 * scenario::kGibibyte,
+    "give one that FFmpeg reads, as .mp4 or .avi, or its pictures in a folder"};
+
+constexpr const char* kSequenceInfo = "seqinfo.ini";
+
+/// "key=value" of a section [Sequence].
+std::map<std::string, std::string> read_info(const fs::path& file) {
+  constexpr scenario::FileKind kInfo{scenario::kMebibyte, "give the file as MOTChallenge has it"};
+  scenario::InputFile input(file, kInfo);
+  std::map<std::string, std::string> info;
+  for (std::string line; input.next_line(line);) {
+    const std::size_t equals = line.find('=');
+    if (equals == line.npos) continue;
+    const std::string_view text = line;
+    info[std::string(bench::trimmed(text.substr(0, equals)))] =
+        bench::trimmed(text.substr(equals + 1));
+  }
+  return info;
+}
+
+/// None for what is no rate.
+std::optional<double> rate_in(std::string_view text) {
+  const auto number = bench::number_in<double>(text);
+  constexpr double kFastest_hz = 10000;
+  return number && *number > 0 && *number <= kFastest_hz ? number : std::nullopt;
+}
+
+}  // namespace
+
+bool is_pictures(const fs::path& folder) {
   try {
     return bench::PictureFolder(folder).size() > 0;
   } catch (const std::runtime_error&) {
@@ -20,34 +56,59 @@ bool is_pictures(const std::filesystem::path& folder) {
   }
 }
 
-Recorded read_pictures(const ReadOptions& options) {
-  const bench::PictureFolder pictures(options.folder);
-  if (!options.fps) {
-    throw std::runtime_error("pictures do not say when they were taken; give --fps");
+Recorded read_pictures(const scenario::Recorded& asked, bool) {
+  Recorded recorded;
+  recorded.frames = frames_in(asked.path);
+  recorded.timed = false;
+  return recorded;
+}
+
+bool is_mot(const fs::path& folder) {
+  return fs::exists(folder / kSequenceInfo);
+}
+
+Recorded read_mot(const scenario::Recorded& asked, bool) {
+  const std::map<std::string, std::string> info = read_info(asked.path / kSequenceInfo);
+  const auto text = [&](const char* key, const char* otherwise) {
+    const auto found = info.find(key);
+    return found == info.end() ? std::string(otherwise) : found->second;
+  };
+  Recorded recorded;
+  recorded.frames = frames_in(asked.path / text("imDir", "img1"));
+  recorded.timed = false;
+  recorded.fps = rate_in(text("frameRate", ""));
+  const auto listed = bench::number_in<std::size_t>(text("seqLength", ""));
+  if (listed && *listed != recorded.frames.size()) {
+    recorded.tally.add("lists of pictures have another length than there are pictures",
+                       fmt::format("{}, {} and not {}", (asked.path / kSequenceInfo).string(),
+                                   *listed, recorded.frames.size()));
   }
-  if (!options.speed_mps && !options.imu) {
-    throw std::runtime_error("pictures do not say how the camera moved; give --speed or --imu");
+  return recorded;
+}
+
+bool is_video(const fs::path& file) {
+  return fs::is_regular_file(file);
+}
+
+Recorded read_video(const scenario::Recorded& asked, bool) {
+  // FFmpeg writes to stderr what is told here anyway. Read once, at its first use.
+  ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
+  const scenario::InputFile no_pipe(asked.path, kVideo, asked.source);
+  cv::VideoCapture video(asked.path.string(), cv::CAP_FFMPEG);
+  const double count = video.isOpened() ? video.get(cv::CAP_PROP_FRAME_COUNT) : 0;
+  constexpr double kMostPictures = 1e8;
+  if (!(count >= 1 && count <= kMostPictures)) {
+    throw scenario::Error(asked.source,
+                          fmt::format("{} is no video that says how many pictures it has; {}",
+                                      asked.path.string(), kVideo.remedy));
   }
   Recorded recorded;
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const std::int64_t t_ns = std::llround(static_cast<double>(i) * 1e9 / *options.fps);
-    recorded.frames.push_back({t_ns, pictures.file(i)});
+  recorded.video = true;
+  recorded.timed = false;
+  recorded.fps = rate_in(fmt::format("{}", video.get(cv::CAP_PROP_FPS)));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    recorded.frames.push_back({0, asked.path, i});
   }
-  if (!options.imu) {
-    recorded.motion = std::make_unique<SteadyMotion>(*options.speed_mps);
-    return recorded;
-  }
-  // The first picture is taken at the first reading; the IMU's axes are the rover's.
-  SensorReadings readings;
-  readings.imu = read_imu_csv(*options.imu, recorded.tally);
-  const std::int64_t first_ns = readings.imu.front().t_ns;
-  for (sim::ImuSample& sample : readings.imu) sample.t_ns -= first_ns;
-  sim::Calibration calibration;
-  calibration.T_BC.R = camera_mount(options.mount_rpy_rad.value_or(Eigen::Vector3d::Zero()));
-  calibration.v_WB_start_mps =
-      options.speed_mps.value_or(0) * calibration.T_BC.R.col(2);  // along the optical axis
-  recorded.motion =
-      std::make_unique<SensorMotion>(recorded.settings, calibration, std::move(readings));
   return recorded;
 }
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "tools/bench/picture_folder.h"
+#include "tools/replay/in_order.h"
+
 namespace lcs::replay {
 
 void Tally::add(const std::string& what, const std::string& example, int count) {
@@ -30,31 +33,41 @@ const std::vector<Layout>& layouts() {
       {"euroc", "mav0/cam0, imu0 (EuRoC ASL; sequences of lcs generate)", is_euroc, read_euroc},
       {"kitti", "image_0X, oxts: a drive of KITTI raw; calibration in the folder above", is_kitti,
        read_kitti},
-      {"robotcar", "stereo or mono_*, gps/ins.csv (Oxford RobotCar); needs --focal", is_robotcar,
+      {"kitti_odometry", "image_X, calib.txt, times.txt, poses.txt: a sequence of KITTI odometry",
+       is_kitti_odometry, read_kitti_odometry},
+      {"robotcar", "stereo or mono_*, gps/ins.csv (Oxford RobotCar); needs focal", is_robotcar,
        read_robotcar},
-      {"pictures", "a folder of pictures, with --fps and --speed or --imu", is_pictures,
+      {"tum_rgbd", "rgb.txt, groundtruth.txt (TUM RGB-D); needs focal", is_tum_rgbd, read_tum_rgbd},
+      {"mot", "seqinfo.ini, img1 (MOTChallenge); needs a motion and focal", is_mot, read_mot},
+      {"video", "a file that FFmpeg reads, as .mp4 or .avi; needs a motion and focal", is_video,
+       read_video},
+      {"pictures", "a folder of pictures; needs fps, a motion and focal", is_pictures,
        read_pictures},
   };
   return kLayouts;
 }
 
-const Layout& layout_of(const std::string& name, const std::filesystem::path& folder) {
-  if (!std::filesystem::is_directory(folder)) {
-    throw std::runtime_error(
-        fmt::format("{} is no folder; name that of a recording", folder.string()));
-  }
+const Layout& layout_of(const scenario::Recorded& asked) {
   std::string names;
   for (const Layout& layout : layouts()) {
-    if (name == layout.name || (name == "auto" && layout.fits(folder))) return layout;
+    if (asked.format.empty() ? layout.fits(asked.path) : asked.format == layout.name) return layout;
     names += fmt::format("{}{}", names.empty() ? "" : ", ", layout.name);
   }
-  if (name != "auto") {
-    throw std::runtime_error(fmt::format("no layout is called '{}'; there are {}", name, names));
-  }
-  throw std::runtime_error(fmt::format(
-      "{} holds no pictures, and none of the other layouts that are known ({}); see lcs "
-      "replay --help",
-      folder.string(), names));
+  throw scenario::Error(
+      asked.source, fmt::format("{} holds no pictures, and is none of the other layouts that are "
+                                "known ({}); tools/replay/README.md says what each holds",
+                                asked.path.string(), names));
+}
+
+bool motion_is_asked(const scenario::Recorded& asked) {
+  return asked.poses || asked.imu || asked.speed_mps;
+}
+
+std::vector<RecordedFrame> frames_in(const std::filesystem::path& folder) {
+  const bench::PictureFolder pictures(folder);
+  std::vector<RecordedFrame> frames;
+  for (std::size_t i = 0; i < pictures.size(); ++i) frames.push_back({0, pictures.file(i), i});
+  return frames;
 }
 
 void put_in_order(std::vector<RecordedFrame>& frames, const std::filesystem::path& list,
@@ -100,19 +113,7 @@ void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what,
 
 void move_by_navigation(std::vector<NavigationState> states, const sim::Pose& T_BC,
                         Recorded& recorded) {
-  const auto earlier = [](const auto& a, const auto& b) { return a.t_ns < b.t_ns; };
-  if (!std::is_sorted(states.begin(), states.end(), earlier)) {
-    recorded.tally.add("tables are not in the order of time and are sorted", "the navigation's");
-    std::stable_sort(states.begin(), states.end(), earlier);
-  }
-  const auto twice = std::unique(states.begin(), states.end(),
-                                 [](const auto& a, const auto& b) { return a.t_ns == b.t_ns; });
-  if (twice != states.end()) {
-    recorded.tally.add("states of the navigation have the time of another one and are left out",
-                       fmt::format("at {} ns", twice->t_ns),
-                       static_cast<int>(states.end() - twice));
-  }
-  states.erase(twice, states.end());
+  sort_by_time(states, "states of the navigation", "the navigation's", recorded.tally);
   auto motion = std::make_unique<NavigationMotion>(std::move(states), T_BC);
   keep_within(motion->first_ns(), motion->last_ns(),
               "pictures are outside of the navigation's time and are left out", recorded);

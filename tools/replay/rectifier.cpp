@@ -8,26 +8,28 @@ namespace lcs::replay {
 namespace {
 
 constexpr double kLeastCovered = 0.1;
+/// Polynomials of a lens fold back behind their edge, where no corner has one place.
+constexpr double kAstray_px = 0.1;
 
 }  // namespace
 
 Rectifier::Rectifier(const Lens& lens, cv::Size size_px)
-    : camera_{0.5 * (lens.fu_px + lens.fv_px),
+    : is_equidistant_(lens.distortion == Lens::Distortion::equidistant),
+      from_(lens.fu_px, 0, lens.cu_px, 0, lens.fv_px, lens.cv_px, 0, 0, 1),
+      coefficients_(lens.coefficients, true),
+      camera_{0.5 * (lens.fu_px + lens.fv_px),
               {lens.cu_px, lens.cv_px},
               size_px.width,
               size_px.height} {
   const bool is_straight = std::all_of(lens.coefficients.begin(), lens.coefficients.end(),
                                        [](double c) { return c == 0; });
-  const bool is_equidistant = lens.distortion == Lens::Distortion::equidistant;
-  if (lens.fu_px == lens.fv_px && is_straight && !is_equidistant) return;
-  const cv::Matx33d from(lens.fu_px, 0, lens.cu_px, 0, lens.fv_px, lens.cv_px, 0, 0, 1);
-  const cv::Matx33d to(camera_.focal_px, 0, lens.cu_px, 0, camera_.focal_px, lens.cv_px, 0, 0, 1);
-  const cv::Mat coefficients(lens.coefficients, true);
-  if (is_equidistant) {
-    cv::fisheye::initUndistortRectifyMap(from, coefficients, cv::Matx33d::eye(), to, size_px,
+  to_ = cv::Matx33d(camera_.focal_px, 0, lens.cu_px, 0, camera_.focal_px, lens.cv_px, 0, 0, 1);
+  if (lens.fu_px == lens.fv_px && is_straight && !is_equidistant_) return;
+  if (is_equidistant_) {
+    cv::fisheye::initUndistortRectifyMap(from_, coefficients_, cv::Matx33d::eye(), to_, size_px,
                                          CV_32FC1, map_x_, map_y_);
   } else {
-    cv::initUndistortRectifyMap(from, coefficients, cv::Matx33d::eye(), to, size_px, CV_32FC1,
+    cv::initUndistortRectifyMap(from_, coefficients_, cv::Matx33d::eye(), to_, size_px, CV_32FC1,
                                 map_x_, map_y_);
   }
   if (!(covered() >= kLeastCovered)) {
@@ -48,6 +50,71 @@ double Rectifier::covered() const {
     }
   }
   return inside / static_cast<double>(map_x_.total());
+}
+
+std::vector<cv::Point2f> Rectifier::straight(const std::vector<cv::Point2f>& bent) const {
+  std::vector<cv::Point2f> points;
+  if (is_equidistant_) {
+    cv::fisheye::undistortPoints(bent, points, from_, coefficients_, cv::Matx33d::eye(), to_);
+  } else {
+    const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 1e-9);
+    cv::undistortPoints(bent, points, from_, coefficients_, cv::noArray(), to_, until);
+  }
+  return points;
+}
+
+/// Where the lens sees what the pinhole sees at a place.
+std::vector<cv::Point2f> Rectifier::bent(const std::vector<cv::Point2f>& straight) const {
+  std::vector<cv::Point2f> points;
+  if (is_equidistant_) {
+    std::vector<cv::Point2f> rays;
+    cv::undistortPoints(straight, rays, to_, cv::noArray());
+    cv::fisheye::distortPoints(rays, points, from_, coefficients_);
+    return points;
+  }
+  std::vector<cv::Point3f> rays;
+  for (const cv::Point2f& px : straight) {
+    const Eigen::Vector3d ray = camera_.back_project({px.x, px.y}, 1);
+    rays.emplace_back(static_cast<float>(ray.x()), static_cast<float>(ray.y()), 1.0F);
+  }
+  cv::projectPoints(rays, cv::Vec3d::zeros(), cv::Vec3d::zeros(), from_, coefficients_, points);
+  return points;
+}
+
+void Rectifier::rectify(std::vector<Eigen::Vector2f>& corners_px) const {
+  if (is_pinhole() || corners_px.empty()) return;
+  std::vector<cv::Point2f> taken;
+  for (const Eigen::Vector2f& corner : corners_px) taken.emplace_back(corner.x(), corner.y());
+  const std::vector<cv::Point2f> places = straight(taken), back = bent(places);
+  corners_px.clear();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const cv::Point2f& px = places[i];
+    const bool is_seen = px.x >= 0 && px.y >= 0 &&
+                         px.x <= static_cast<float>(camera_.width_px - 1) &&
+                         px.y <= static_cast<float>(camera_.height_px - 1);
+    const bool is_one_ray = cv::norm(back[i] - taken[i]) < kAstray_px;  // no NaN
+    if (is_seen && is_one_ray) corners_px.emplace_back(px.x, px.y);
+  }
+}
+
+void Rectifier::rectify(double& left, double& top, double& right, double& bottom) const {
+  if (is_pinhole()) return;
+  constexpr double kEdge = 0.5;  // of a pixel, from its centre
+  std::vector<cv::Point2f> outline;
+  for (const double x : {left, 0.5 * (left + right), right}) {
+    for (const double y : {top, 0.5 * (top + bottom), bottom}) {
+      outline.emplace_back(static_cast<float>(x - kEdge), static_cast<float>(y - kEdge));
+    }
+  }
+  const std::vector<cv::Point2f> places = straight(outline);
+  const auto [x_least, x_most] =
+      std::minmax_element(places.begin(), places.end(), [](auto& a, auto& b) { return a.x < b.x; });
+  const auto [y_least, y_most] =
+      std::minmax_element(places.begin(), places.end(), [](auto& a, auto& b) { return a.y < b.y; });
+  left = x_least->x + kEdge;
+  right = x_most->x + kEdge;
+  top = y_least->y + kEdge;
+  bottom = y_most->y + kEdge;
 }
 
 void Rectifier::rectify(cv::Mat3b& picture) const {

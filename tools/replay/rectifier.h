@@ -1,9 +1,12 @@
 /// \file
-/// Pictures of any lens as a pinhole with square pixels would have taken them, which is what the
-/// filter knows.
+/// From any lens to a pinhole with square pixels, which is what trackers know. Corners are found in
+/// the picture as it was taken, and taken to where the pinhole would have seen them, to the digit;
+/// only for those who look at pictures is the picture itself straightened, which blurs it.
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "sim/pose.h"
 #include "tools/replay/recorded.h"
@@ -15,15 +18,26 @@ class Rectifier {
   /// \throws scenario::Error for a distortion that no lens has.
   Rectifier(const Lens& lens, cv::Size size_px);
 
-  /// Of the rectified pictures: the lens's principal point, and the mean of its focal lengths.
+  /// The pinhole: the lens's principal point, and the mean of its focal lengths.
   const sim::Pinhole& camera() const { return camera_; }
 
-  /// A lens without distortion and with square pixels leaves a picture as it is.
+  /// A lens without distortion and with square pixels, which leaves all as it is, bit by bit.
+  bool is_pinhole() const { return map_x_.empty(); }
+
+  /// Those that the pinhole does not see, or that the lens has no straight ray for, are left out.
+  void rectify(std::vector<Eigen::Vector2f>& corners_px) const;
   void rectify(cv::Mat3b& picture) const;
+  /// Of a box by pixel edges, the box round what it becomes.
+  void rectify(double& left, double& top, double& right, double& bottom) const;
 
  private:
   double covered() const;
+  std::vector<cv::Point2f> straight(const std::vector<cv::Point2f>& bent) const;
+  std::vector<cv::Point2f> bent(const std::vector<cv::Point2f>& straight) const;
 
+  bool is_equidistant_;
+  cv::Matx33d from_, to_;
+  cv::Mat coefficients_;
   sim::Pinhole camera_;
   cv::Mat map_x_, map_y_;  ///< empty for a lens that is a pinhole
 };

@@ -46,23 +46,24 @@ const CameraKind* first_camera(const fs::path& folder) {
   return found == std::end(kCameras) ? nullptr : found;
 }
 
-const CameraKind& camera_of(const ReadOptions& options) {
-  if (options.camera.empty()) {
-    if (const CameraKind* first = first_camera(options.folder)) return *first;
+const CameraKind& camera_of(const scenario::Recorded& asked) {
+  if (asked.camera.empty()) {
+    if (const CameraKind* first = first_camera(asked.path)) return *first;
     throw std::runtime_error(
         fmt::format("{} has no camera with its list of pictures; give one, as stereo/centre "
                     "with stereo.timestamps",
-                    options.folder.string()));
+                    asked.path.string()));
   }
   const auto found =
       std::find_if(std::begin(kCameras), std::end(kCameras),
-                   [&](const CameraKind& each) { return each.name == options.camera; });
+                   [&](const CameraKind& each) { return each.name == asked.camera; });
   if (found == std::end(kCameras)) {
-    throw std::runtime_error(
-        fmt::format("--camera is '{}'; it takes stereo/left, stereo/centre, stereo/right, "
+    throw scenario::Error(
+        asked.source,
+        fmt::format("the camera is '{}'; give stereo/left, stereo/centre, stereo/right, "
                     "mono_left, mono_right or "
                     "mono_rear",
-                    options.camera));
+                    asked.camera));
   }
   return *found;
 }
@@ -114,27 +115,29 @@ bool is_robotcar(const fs::path& folder) {
   return first_camera(folder) != nullptr;
 }
 
-Recorded read_robotcar(const ReadOptions& options) {
-  const CameraKind& camera = camera_of(options);
+Recorded read_robotcar(const scenario::Recorded& asked, bool) {
+  const CameraKind& camera = camera_of(asked);
   Recorded recorded;
   recorded.demosaic = camera.demosaic;
-  const TextTable list = read_table(list_of(options.folder, camera), ' ');
+  const TextTable list = read_table(list_of(asked.path, camera), ' ');
   for (const TextTable::Row& row : list.rows) {
     if (const auto t_ns = time_in(row.fields[0], kMicrosecond_ns)) {
-      recorded.frames.push_back({*t_ns, options.folder / camera.name / (row.fields[0] + ".png")});
+      const auto place = static_cast<std::size_t>(&row - list.rows.data());
+      recorded.frames.push_back(
+          {*t_ns, asked.path / camera.name / (row.fields[0] + ".png"), place});
     } else {
       recorded.tally.add("rows cannot be read and are left out", list.at(row));
     }
   }
   put_in_order(recorded.frames, list.file, recorded.tally);
-  if (!camera.looks_ahead && !options.mount_rpy_rad) {
-    throw std::runtime_error(fmt::format(
-        "{} does not look ahead; say by --mount where it looks, as 0,0,180 for backwards",
-        camera.name));
+  if (motion_is_asked(asked)) return recorded;
+  if (!camera.looks_ahead && !asked.mount_rpy_rad) {
+    recorded.lacks.push_back(
+        fmt::format("where {} looks (mount, as 0, 0, 180 for backwards)", camera.name));
   }
-  const sim::Pose T_BC{camera_mount(options.mount_rpy_rad.value_or(Vector3d::Zero())),
+  const sim::Pose T_BC{camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero())),
                        Vector3d::Zero()};
-  move_by_navigation(read_ins(options.folder / "gps" / "ins.csv", recorded.tally), T_BC, recorded);
+  move_by_navigation(read_ins(asked.path / "gps" / "ins.csv", recorded.tally), T_BC, recorded);
   return recorded;
 }
 

@@ -1,6 +1,8 @@
 #include "tools/replay/times.h"
 
 #include <chrono>
+#include <cmath>
+#include <string>
 
 namespace lcs::replay {
 namespace {
@@ -48,7 +50,32 @@ std::optional<std::chrono::nanoseconds> time_of_day_in(std::string_view clock) {
          std::chrono::nanoseconds(std::llround(*second * kNanosecondsASecond));
 }
 
+bool is_digits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+}
+
 }  // namespace
+
+std::optional<std::int64_t> seconds_in(std::string_view text) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  constexpr std::size_t kDigits = 9;
+  const std::size_t point = text.find('.');
+  const std::string_view fraction = point == text.npos ? "" : text.substr(point + 1);
+  if (is_digits(text.substr(0, point)) && (fraction.empty() || is_digits(fraction))) {
+    // not by a double, which has no nanoseconds left so long after 1970
+    std::string digits(fraction.substr(0, kDigits));
+    digits.resize(kDigits, '0');
+    const auto seconds = time_in(text.substr(0, point), kSecond_ns);
+    const auto rest = bench::number_in<std::int64_t>(digits);
+    return seconds && rest && is_time(*seconds + *rest) ? std::optional(*seconds + *rest)
+                                                        : std::nullopt;
+  }
+  const auto number = bench::number_in<double>(text);
+  if (!number || std::abs(*number) * kNanosecondsASecond >= static_cast<double>(kFarthest_ns)) {
+    return std::nullopt;
+  }
+  return std::llround(*number * kNanosecondsASecond);
+}
 
 std::optional<std::int64_t> calendar_time_in(std::string_view date, std::string_view clock) {
   const auto day = day_in(date);

@@ -27,6 +27,10 @@ inline std::optional<std::int64_t> time_in(std::string_view text, std::int64_t u
   return *units * unit_ns;
 }
 
+/// Seconds, as "1305031102.175304" or "1.5e-01", as a time; none if it is anything else, or too far
+/// away. Digits behind the ninth of a fraction are left out.
+std::optional<std::int64_t> seconds_in(std::string_view text);
+
 /// "2011-09-26" and "13:02:25.964389445", in UTC, as nanoseconds since 1970, to the nearest; none
 /// if that is no day of the years 1900 to 2099, or no time of a day. A leap second is the next
 /// minute's first.

@@ -112,7 +112,9 @@ PlannedScenario plan_point(const fs::path& file, const scenario::SweepPoint& poi
   try {
     planned.scenario = scenario::load(file, {.sets = planned.sets, .seed = {}});
     bench::require_known_metrics(planned.scenario->criteria);
-    for (int i = 0; i < options.seeds; ++i) {
+    // nothing in what was recorded is drawn
+    const int seeds = planned.scenario->recording ? 1 : options.seeds;
+    for (int i = 0; i < seeds; ++i) {
       planned.seeds.push_back(planned.scenario->seed + static_cast<std::uint64_t>(i));
     }
     return planned;
@@ -191,8 +193,9 @@ std::vector<PlannedScenario> plan(const PlanOptions& options) {
 }
 
 double work(const scenario::Scenario& scenario) {
-  return static_cast<double>(scenario.frames) * scenario.camera.width_px *
-         scenario.camera.height_px;
+  constexpr int kUsualRecording = 300;
+  const int frames = scenario.frames > 0 ? scenario.frames : kUsualRecording;
+  return static_cast<double>(frames) * scenario.camera.width_px * scenario.camera.height_px;
 }
 
 }  // namespace lcs::suite

@@ -41,7 +41,7 @@ struct PlannedScenario {
 ///   regular expression, two scenarios of one name, and when nothing is left.
 std::vector<PlannedScenario> plan(const PlanOptions& options);
 
-/// How much work a run is, in frames times pixels.
+/// How much work a run is, in frames times pixels; guessed for a recording.
 double work(const scenario::Scenario& scenario);
 
 }  // namespace lcs::suite

@@ -1,0 +1,435 @@
+// Scenarios whose frames are recorded, in layouts that are written here by their public
+// description: a camera that drives past a wall, and that is read back by its poses, its IMU or its
+// speed.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "scenarios/load.h"
+#include "tests/tools/command.h"
+#include "tests/tools/files.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/bench/recording_io.h"
+#include "tools/bench/report.h"
+#include "tools/replay/playback.h"
+
+namespace lcs::replay {
+namespace {
+
+namespace fs = std::filesystem;
+using bench::CommandResult;
+using bench::run_lcs;
+using Eigen::Vector3d;
+
+constexpr int kFrames = 4;
+constexpr double kDt_s = 0.1, kSpeed_mps = 2, kYawRate_radps = 0.2;
+
+void write(const fs::path& file, const std::string& text) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+/// What a camera sees that goes on by 4 px a frame.
+cv::Mat3b view(int frame) {
+  cv::Mat3b picture(120, 160, cv::Vec3b(190, 190, 190));
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      cv::rectangle(picture, {12 + 36 * column + 4 * frame, 12 + 36 * row, 14, 12},
+                    cv::Scalar(20, 40, 60), cv::FILLED);
+    }
+  }
+  cv::GaussianBlur(picture, picture, {}, 0.8);
+  return picture;
+}
+
+/// T_WC of frame k, and of what is beyond it: ahead along z of a world whose y points down, turning
+/// to the left.
+sim::Pose pose(double k) {
+  const double turn = -kYawRate_radps * kDt_s * k;  // about y, which points down
+  return {Eigen::AngleAxisd(turn, Vector3d::UnitY()).toRotationMatrix(),
+          {0, 0, kSpeed_mps * kDt_s * k}};
+}
+
+std::string kitti_line(const sim::Pose& pose) {
+  std::string line;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) line += fmt::format("{:e} ", pose.R(row, column));
+    line += fmt::format("{:e}{}", pose.p[row], row < 2 ? " " : "\n");
+  }
+  return line;
+}
+
+/// In a world with z up, as TUM's is.
+std::string tum_line(double t_s, const sim::Pose& pose) {
+  Eigen::Matrix3d R_up_down;
+  R_up_down << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  const Eigen::Quaterniond q(R_up_down * pose.R);
+  const Vector3d p = R_up_down * pose.p;
+  return fmt::format("{:.6f} {:.7f} {:.7f} {:.7f} {:.9f} {:.9f} {:.9f} {:.9f}\n", t_s, p.x(), p.y(),
+                     p.z(), q.x(), q.y(), q.z(), q.w());
+}
+
+class RecordedScenario : public testing::Test {
+ protected:
+  fs::path home() const { return home_.path(); }
+  void draw(const fs::path& folder, const std::string& format, int first = 0) const {
+    fs::create_directories(folder);
+    for (int k = 0; k < kFrames; ++k) {
+      cv::imwrite((folder / fmt::format(fmt::runtime(format), first + k)).string(), view(k));
+    }
+  }
+  fs::path scenario_file(const std::string& recording, const std::string& more = "") const {
+    write(home() / "drive.yaml", "recording: {" + recording + "}\n" + more);
+    return home() / "drive.yaml";
+  }
+  Playback playback(const std::string& recording, const std::string& more = "") const {
+    return Playback(scenario::load(scenario_file(recording, more)));
+  }
+  std::string refusal(const std::string& recording) const {
+    try {
+      playback(recording);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "nothing was refused";
+  }
+  std::string poses(bool tum, int count = kFrames) const {
+    std::string text;
+    for (int k = 0; k < count; ++k) {
+      text += tum ? tum_line(100 + kDt_s * k, pose(k)) : kitti_line(pose(k));
+    }
+    return text;
+  }
+  const bench::TemporaryFolder home_;
+};
+
+struct Seen {
+  std::vector<bench::FrameRecord> frames;
+  std::vector<cv::Mat3b> images;
+};
+
+Seen all_of(Playback& playback) {
+  Seen seen;
+  while (true) {
+    bench::FrameRecord frame;
+    cv::Mat3b image;
+    if (!playback.next(frame, image)) return seen;
+    seen.frames.push_back(frame);
+    seen.images.push_back(image);
+  }
+}
+
+/// By pictures of frames and the motion of `pose`.
+void expect_drive(const Seen& seen, int every = 1) {
+  ASSERT_EQ(seen.frames.size(), static_cast<std::size_t>(kFrames / every));
+  for (std::size_t k = 0; k < seen.frames.size(); ++k) {
+    SCOPED_TRACE(k);
+    const EgoMotion& motion = seen.frames[k].motion;
+    EXPECT_LT(cv::norm(seen.images[k], view(every * static_cast<int>(k)), cv::NORM_INF), 60)
+        << "it is that picture, but for compression";
+    EXPECT_EQ(seen.frames[k].index, static_cast<int>(k));
+    if (k == 0) continue;
+    EXPECT_NEAR(motion.dt_s, every * kDt_s, 1e-6);
+    EXPECT_NEAR(motion.w_C_radps.y(), -kYawRate_radps, 1e-4);
+    EXPECT_NEAR(motion.w_C_radps.x(), 0, 1e-4);
+    const Vector3d v_C =
+        pose(every * static_cast<double>(k)).R.transpose() * Vector3d(0, 0, kSpeed_mps);
+    EXPECT_LT((motion.v_C_mps - v_C).norm(), 1e-4);
+  }
+}
+
+void expect_ground(const Seen& seen, double height_m, const Vector3d& up_C) {
+  for (const bench::FrameRecord& frame : seen.frames) {
+    ASSERT_TRUE(frame.motion.ground);
+    EXPECT_EQ(frame.motion.ground->height_m, height_m);
+    EXPECT_LT((frame.motion.ground->up_C - up_C).norm(), 1e-6);
+  }
+}
+
+TEST_F(RecordedScenario, OfKittiOdometryHasItsTimesItsPosesAndItsGround) {
+  const fs::path folder = home() / "sequences" / "07";
+  draw(folder / "image_0", "{:06}.png");
+  write(folder / "calib.txt",
+        "P0: 700 0 80 0 0 700 60 0 0 0 1 0\nP1: 700 0 80 -70 0 700 60 0 0 0 1 0\n");
+  std::string times;
+  for (int k = 0; k < kFrames; ++k) times += fmt::format("{:e}\n", kDt_s * k);
+  write(folder / "times.txt", times);
+  write(home() / "poses" / "07.txt", poses(false));  // where the benchmark has them
+  Playback drive = playback("path: sequences/07, camera_height: 165 cm");
+  EXPECT_EQ(drive.camera().focal_px, 700);
+  EXPECT_EQ(drive.camera().centre_px, Eigen::Vector2d(80, 60));
+  const Seen seen = all_of(drive);
+  expect_drive(seen);
+  expect_ground(seen, 1.65, {0, -1, 0});
+
+  // Camera 1 is 0.1 m to the right of camera 0, and so goes faster ahead in a turn to the left.
+  draw(folder / "image_1", "{:06}.png");
+  Playback right = playback("path: sequences/07, camera: image_1");
+  const Seen from_right = all_of(right);
+  EXPECT_NEAR(from_right.frames[1].motion.v_C_mps.z(),
+              seen.frames[1].motion.v_C_mps.z() + 0.1 * kYawRate_radps, 1e-3);
+  EXPECT_FALSE(from_right.frames[1].motion.ground) << "how high it is was not said";
+  ASSERT_FALSE(right.told().empty());
+  EXPECT_NE(right.told().back().find("camera_height"), std::string::npos);
+}
+
+TEST_F(RecordedScenario, OfTumRgbdHasTheMotionBetweenItsPosesAtTheTimesOfItsPictures) {
+  draw(home() / "desk" / "rgb", "{}.png");
+  std::string list = "# color images\n# file: 'desk.bag'\n# timestamp filename\n", truth;
+  for (int k = 0; k < kFrames; ++k) list += fmt::format("{:.6f} rgb/{}.png\n", 100 + kDt_s * k, k);
+  for (int i = -1; i < 5 * kFrames; ++i) {  // at other times, and more often
+    truth += tum_line(100 + kDt_s * (0.2 * i + 0.1), pose(0.2 * i + 0.1));
+  }
+  write(home() / "desk" / "rgb.txt", list);
+  write(home() / "desk" / "groundtruth.txt", "# ground truth trajectory\n# timestamp tx\n" + truth);
+  Playback drive = playback("path: desk, focal: 517, camera_height: 1 m");
+  const Seen seen = all_of(drive);
+  expect_drive(seen);
+  expect_ground(seen, 1, {0, -1, 0});
+  EXPECT_EQ(drive.camera().centre_px, Eigen::Vector2d(79.5, 59.5)) << "the middle";
+}
+
+TEST_F(RecordedScenario, OfMotChallengeHasItsRateAndMovesAsTheUserSays) {
+  draw(home() / "MOT17-02" / "img1", "{:06}.jpg", 1);
+  write(
+      home() / "MOT17-02" / "seqinfo.ini",
+      "[Sequence]\r\nname=MOT17-02\r\nimDir=img1\r\nframeRate=10\r\nseqLength=4\r\nimExt=.jpg\r\n");
+  write(home() / "poses.txt", poses(false));
+  Playback drive = playback("path: MOT17-02, poses: poses.txt, focal: 300");
+  expect_drive(all_of(drive));
+  Playback standing = playback("path: MOT17-02, speed: 0 m/s, focal: 300");
+  const Seen seen = all_of(standing);
+  EXPECT_EQ(seen.frames[3].motion.v_C_mps, Vector3d::Zero());
+  EXPECT_NEAR(seen.frames[3].motion.dt_s, 0.1, 1e-9);
+}
+
+TEST_F(RecordedScenario, OfAVideoHasItsPicturesAtItsRateOrAtTheUsers) {
+  const std::string file = (home() / "road.avi").string();
+  {
+    cv::VideoWriter video(file, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10,
+                          {160, 120});
+    ASSERT_TRUE(video.isOpened());
+    for (int k = 0; k < kFrames; ++k) video.write(view(k));
+  }
+  write(home() / "poses.txt", poses(true));
+  Playback drive = playback("path: road.avi, poses: poses.txt, focal: 300");
+  expect_drive(all_of(drive));
+  Playback half = playback("path: road.avi, poses: poses.txt, focal: 300, every: 2");
+  expect_drive(all_of(half), 2);
+  Playback slow = playback("path: road.avi, speed: 1 m/s, focal: 300, fps: 5 Hz", "frames: 2\n");
+  const Seen seen = all_of(slow);
+  ASSERT_EQ(seen.frames.size(), 2u);
+  EXPECT_NEAR(seen.frames[1].motion.dt_s, 0.2, 1e-9);
+  write(home() / "words.avi", "not a video");
+  EXPECT_NE(refusal("path: words.avi, speed: 0, focal: 300").find("words.avi is no video"),
+            std::string::npos);
+}
+
+TEST_F(RecordedScenario, OfPicturesWithPosesTakesTheirTimesOrTheUsersRate) {
+  draw(home() / "pictures", "view{}.png");
+  write(home() / "tum.txt", poses(true));
+  write(home() / "kitti.txt", poses(false));
+  Playback by_poses = playback("path: pictures, poses: tum.txt, focal: 300");
+  expect_drive(all_of(by_poses));
+  Playback by_rate = playback("path: pictures, poses: tum.txt, focal: 300, fps: 10");
+  expect_drive(all_of(by_rate));
+  Playback by_line = playback("path: pictures, poses: kitti.txt, focal: 300, fps: 10, every: 2");
+  expect_drive(all_of(by_line), 2);
+  // Fewer poses than pictures, each at its place.
+  write(home() / "kitti.txt", poses(false, 2));
+  Playback fewer = playback("path: pictures, poses: kitti.txt, focal: 300, fps: 10");
+  EXPECT_EQ(all_of(fewer).frames.size(), 2u);
+  EXPECT_NE(fewer.told().front().find("2 pictures have no pose"), std::string::npos);
+}
+
+TEST_F(RecordedScenario, OfKittiRawTakesJpegAndTheClockOfTheNavigation) {
+  const fs::path drive = home() / "drive";
+  draw(drive / "image_00" / "data", "{:010}.jpg");
+  std::string times;
+  for (int k = 0; k < kFrames; ++k) {
+    times += fmt::format("2011-10-03 12:00:{:012.9f}\n", kDt_s * k);
+    const double yaw = kYawRate_radps * kDt_s * k;
+    write(
+        drive / "oxts/data" / fmt::format("{:010}.txt", k),
+        fmt::format("49 8 116 0 0 {} {} {} 2 0 0 0 0 9.8 0 0 9.8 0 0 .2 0 0 .2 .1 .05 4 10 4 4 0\n",
+                    yaw, kSpeed_mps * std::sin(yaw), kSpeed_mps * std::cos(yaw)));
+  }
+  write(drive / "oxts/timestamps.txt", times);
+  Playback playback_of_it = playback("path: drive, focal: 700, camera_height: 1.65");
+  const Seen seen = all_of(playback_of_it);
+  ASSERT_EQ(seen.frames.size(), 4u);
+  EXPECT_NEAR(seen.frames[2].motion.w_C_radps.y(), -kYawRate_radps, 1e-4);
+  EXPECT_NEAR(seen.frames[2].motion.v_C_mps.z(), kSpeed_mps, 1e-2);
+  expect_ground(seen, 1.65, {0, -1, 0});
+  EXPECT_NE(playback_of_it.told().front().find("those of the navigation are used"),
+            std::string::npos);
+}
+
+TEST_F(RecordedScenario, GroundIsWhereTheMountSaysThatItIs) {
+  draw(home() / "pictures", "{}.png");
+  const std::string pictures = "path: pictures, fps: 10, focal: 300, camera_height: 0.5";
+  const double pitch = std::numbers::pi / 18;
+  const Vector3d looking_down(0, -std::cos(pitch), -std::sin(pitch));
+  Playback mounted = playback(pictures + ", speed: 1, mount: [0, 10 deg, 0]");
+  expect_ground(all_of(mounted), 0.5, looking_down);
+  Playback unknown = playback(pictures + ", speed: 1");
+  EXPECT_FALSE(all_of(unknown).frames[1].motion.ground);
+  EXPECT_NE(unknown.told().back().find("give mount"), std::string::npos);
+
+  std::string imu = "#timestamp [ns],w_RS_S_x,w_RS_S_y,w_RS_S_z,a_RS_S_x,a_RS_S_y,a_RS_S_z\n";
+  for (int i = 0; i <= 60; ++i)
+    imu += fmt::format("{},0,0,0,0,0,9.81\n", 7'000'000 + 5'000'000 * i);
+  write(home() / "imu.csv", imu);
+  Playback felt = playback(pictures + ", imu: imu.csv, speed: 2, mount: [0, 10 deg, 0]");
+  const Seen seen = all_of(felt);
+  expect_ground(seen, 0.5, looking_down);
+  EXPECT_NEAR(seen.frames[3].motion.v_C_mps.z(), 2, 1e-3);
+
+  // By the mount on a vehicle that is upright at the first pose, whatever the world of the poses.
+  write(home() / "poses.txt", poses(true));
+  Playback posed = playback(pictures + ", poses: poses.txt, mount: [0, 10 deg, 0]");
+  const Seen moved = all_of(posed);
+  EXPECT_LT((moved.frames[0].motion.ground.value().up_C - looking_down).norm(), 1e-6);
+}
+
+TEST_F(RecordedScenario, AllThatItLacksIsToldInOneMessage) {
+  draw(home() / "pictures", "{}.png");
+  const std::string message = refusal("path: pictures");
+  EXPECT_NE(message.find("drive.yaml:1: "), std::string::npos) << message;
+  for (const char* needed : {"(fps)", "(poses, imu, or speed: 0 where it stands)", "(focal)"}) {
+    EXPECT_NE(message.find(needed), std::string::npos) << message;
+  }
+  write(home() / "poses.txt", poses(true, 3));
+  EXPECT_NE(refusal("path: pictures, poses: poses.txt, focal: 300")
+                .find("which of 3 poses belong to its 4 pictures (fps"),
+            std::string::npos);
+  write(home() / "poses.txt", poses(false));
+  EXPECT_NE(refusal("path: pictures, poses: poses.txt, focal: 300").find("(fps)"),
+            std::string::npos);
+}
+
+TEST_F(RecordedScenario, WhatCannotBeIsRefusedWithItsPlace) {
+  draw(home() / "pictures", "{}.png");
+  const std::string pictures = "path: pictures, fps: 10, focal: 300, ";
+  write(home() / "poses.txt", "1 2 3\n");
+  EXPECT_NE(refusal(pictures + "poses: poses.txt").find("poses.txt:1: a pose has 8 numbers"),
+            std::string::npos);
+  write(home() / "poses.txt", "# t x y z\n1 0 0 0 0 0 0 7\n");
+  EXPECT_NE(refusal(pictures + "poses: poses.txt").find("poses.txt: holds no pose"),
+            std::string::npos);
+  cv::imwrite((home() / "mask.png").string(), cv::Mat1b(20, 20, uchar{255}));
+  EXPECT_NE(refusal(pictures + "speed: 0, mask: mask.png").find("mask.png is of 20 x 20 pixels"),
+            std::string::npos);
+  write(home() / "mask.png", "not a picture");
+  EXPECT_NE(refusal(pictures + "speed: 0, mask: mask.png").find("mask.png is no picture"),
+            std::string::npos);
+  EXPECT_NE(refusal(pictures + "speed: 0, format: mot").find("seqinfo.ini: there is no such file"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal(pictures + "speed: 0, distortion: [0, 0, 0, 0, 900]").find("a tenth of its own"),
+      std::string::npos);
+  const fs::path odometry = home() / "07";
+  draw(odometry / "image_0", "{:06}.png");
+  write(odometry / "calib.txt", "P0: 0.5 0 80 0 0 0.5 60 0 0 0 1 0\n");
+  write(odometry / "times.txt", "0\n.1\n.2\n.3\n");
+  EXPECT_NE(refusal("path: 07, speed: 1").find("those of no camera"), std::string::npos);
+  EXPECT_NE(refusal("path: 07, speed: 1, fps: 10").find("remove fps"), std::string::npos);
+  write(odometry / "calib.txt", "P0: 700 0 80\n");
+  EXPECT_NE(refusal("path: 07, speed: 1").find("P0 is missing, or is not 12 numbers"),
+            std::string::npos);
+}
+
+TEST_F(RecordedScenario, CornersOfTheVehicleItselfAreLeftOut) {
+  draw(home() / "pictures", "{}.png");
+  cv::Mat1b mask(120, 160, uchar{0});
+  mask.rowRange(60, 120) = 255;
+  cv::imwrite((home() / "mask.png").string(), mask);
+  Playback masked = playback("path: pictures, fps: 10, focal: 300, speed: 0, mask: mask.png");
+  std::vector<Eigen::Vector2f> corners{{10, 20}, {10, 59.4F}, {10, 60}, {159, 119}};
+  cv::Mat3b image = view(0);
+  EXPECT_FALSE(masked.straighten(corners, image)) << "the picture is as it was";
+  EXPECT_EQ(corners.size(), 2u);
+}
+
+TEST_F(RecordedScenario, IsRunAndRecordedAndComparedAsAnyOther) {
+  draw(home() / "pictures", "{}.png");
+  const fs::path file =
+      scenario_file("path: pictures, fps: 10, focal: 300, speed: 0, nothing_moves: true",
+                    "criteria: [{metric: rebel.false_corners_per_frame, max: 1000}]\n");
+  const auto lcs = [&](std::vector<std::string> arguments) {
+    return run_lcs(arguments, {.folder = home()});
+  };
+  CommandResult result = lcs({"run", file, "--events", "--no-video", "--out", home() / "first",
+                              "--beside", "klt=" + (home() / "klt").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("drive: 4 pictures, 0 skipped"), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find("where the ground is"), std::string::npos) << result.err;
+  const auto metrics = nlohmann::json::parse(bench::read(home() / "first" / bench::kMetricsFile));
+  EXPECT_TRUE(metrics["ego.rotation_error_mrad_median"].is_null()) << "nobody knows the truth";
+  EXPECT_TRUE(metrics["square.precision_50"].is_null());
+  EXPECT_TRUE(metrics["rebel.recall"].is_null()) << "nothing moves";
+  EXPECT_TRUE(fs::exists(home() / "klt" / bench::kMetricsFile));
+
+  result =
+      lcs({"run", file, "--recorded", home() / "first", "--no-video", "--out", home() / "again"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(bench::read(home() / "first" / bench::kLayersFile),
+            bench::read(home() / "again" / bench::kLayersFile));
+
+  // One run, whatever the number of seeds.
+  result = lcs({"suite", file, "--seeds", "3", "--out", home() / "suite"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(fs::exists(home() / "suite/runs/drive/seed-1"));
+  EXPECT_FALSE(fs::exists(home() / "suite/runs/drive/seed-2"));
+  EXPECT_TRUE(fs::exists(home() / "suite/report.html"));
+  result = lcs({"compare", home() / "suite", home() / "suite"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+
+  result = lcs({"generate", file, "--out", home() / "sequence"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("these are recorded frames"), std::string::npos) << result.err;
+  result = lcs({"run", file, "--set", "recording.camera_hieght=1"});
+  EXPECT_NE(result.err.find("did you mean 'camera_height'?"), std::string::npos) << result.err;
+}
+
+TEST_F(RecordedScenario, IsWhatReplayMakesOfItsOptions) {
+  draw(home() / "pictures", "{}.png");
+  const std::vector<std::string> options{"replay",   "pictures", "--fps",   "10",
+                                         "--focal",  "300",      "--speed", "0.5",
+                                         "--centre", "80,60",    "--set",   "circle.mu_0=20"};
+  const auto lcs = [&](std::vector<std::string> arguments, std::vector<std::string> more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_lcs(arguments, {.folder = home()});
+  };
+  CommandResult result = lcs(options, {"--no-video", "--out", home() / "replayed"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  fs::create_directory(home() / "elsewhere");
+  result = lcs(options, {"--write", home() / "elsewhere" / "mine.yaml"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  result =
+      lcs({"run", home() / "elsewhere" / "mine.yaml"}, {"--no-video", "--out", home() / "run"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(bench::read(home() / "replayed" / bench::kLayersFile),
+            bench::read(home() / "run" / bench::kLayersFile));
+  result = lcs({"replay", "pictures"}, {});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("(focal)"), std::string::npos) << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  result = lcs(options, {"--mask", "none.png"});
+  EXPECT_NE(
+      result.err.find("--mask: recording.mask: there is no file none.png; give its path from"),
+      std::string::npos)
+      << result.err;
+}
+
+}  // namespace
+}  // namespace lcs::replay

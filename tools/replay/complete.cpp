@@ -1,0 +1,226 @@
+// What a layout says of a recording, completed by what the user says.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "tools/replay/in_order.h"
+#include "tools/replay/navigation.h"
+#include "tools/replay/poses_file.h"
+#include "tools/replay/recorded.h"
+#include "tools/replay/sensor_csv.h"
+#include "tools/replay/times.h"
+
+namespace lcs::replay {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr const char* kNoTimes = "when its pictures were taken (fps)";
+
+/// \return whether the times of frames are known, or only their order.
+bool set_times(const scenario::Recorded& asked, Recorded& recorded) {
+  if (recorded.timed) {
+    if (!asked.fps) return true;
+    throw scenario::Error(asked.source,
+                          "the recording itself says when its pictures were taken; remove fps");
+  }
+  const std::optional<double> fps = asked.fps ? asked.fps : recorded.fps;
+  if (fps) time_by(*fps, recorded);
+  return fps.has_value();
+}
+
+/// Those that are asked for.
+void choose(const scenario::Recorded& asked, int most, std::vector<RecordedFrame>& frames) {
+  const auto every = static_cast<std::size_t>(asked.every);
+  std::erase_if(frames, [&](const RecordedFrame& frame) { return frame.number % every != 0; });
+  if (most > 0 && frames.size() > static_cast<std::size_t>(most)) {
+    frames.resize(static_cast<std::size_t>(most));
+  }
+}
+
+void leave_out_without_pose(std::size_t poses, Recorded& recorded) {
+  auto& frames = recorded.frames;
+  const auto first = std::find_if(frames.begin(), frames.end(),
+                                  [&](const auto& frame) { return frame.number >= poses; });
+  if (first == frames.end()) return;
+  recorded.tally.add("pictures have no pose and are left out", first->picture.filename().string(),
+                     static_cast<int>(frames.end() - first));
+  std::erase_if(frames, [&](const auto& frame) { return frame.number >= poses; });
+}
+
+/// Of line k for picture k, as KITTI has them, and TUM's where nobody else says the time.
+std::vector<PosesMotion::CameraPose> poses_by_number(const PosesFile& file, Recorded& recorded) {
+  leave_out_without_pose(file.lines.size(), recorded);
+  std::vector<PosesMotion::CameraPose> poses;
+  std::erase_if(recorded.frames, [&](RecordedFrame& frame) {
+    const auto& line = file.lines[frame.number];
+    if (line) poses.push_back({line->t_ns.value_or(frame.t_ns), line->T_WC});
+    if (line) frame.t_ns = poses.back().t_ns;
+    return !line;
+  });
+  return poses;
+}
+
+/// TUM's by their times; the first one belongs to the first picture where pictures have a clock of
+/// their own.
+std::vector<PosesMotion::CameraPose> poses_by_time(const PosesFile& file, bool own_clock) {
+  std::vector<PosesMotion::CameraPose> poses;
+  for (const auto& line : file.lines) {
+    if (line) poses.push_back({line->t_ns.value(), line->T_WC});
+  }
+  const std::int64_t zero_ns = own_clock ? poses.front().t_ns : 0;
+  for (auto& pose : poses) pose.t_ns -= zero_ns;
+  return poses;
+}
+
+void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& recorded) {
+  const PosesFile file = read_poses(*asked.poses, recorded.tally);
+  const bool by_number = !file.timed || !times_known;
+  if (!times_known && !file.timed) return;  // and so it is told that there are no times
+  if (!times_known) {
+    if (file.lines.size() != recorded.frames.size()) {
+      recorded.lacks.push_back(
+          fmt::format("which of {} poses belong to its {} pictures (fps, if the first pose belongs "
+                      "to the first picture)",
+                      file.lines.size(), recorded.frames.size()));
+      return;
+    }
+  }
+  auto poses = by_number ? poses_by_number(file, recorded) : poses_by_time(file, !recorded.timed);
+  if (poses.empty()) {
+    throw scenario::Error({asked.poses->string(), 0},
+                          "none of the poses belongs to a picture; give a line for each picture");
+  }
+  sort_by_time(poses, "poses", asked.poses->string(), recorded.tally);
+  if (!times_known) {
+    sort_by_time(recorded.frames, "pictures", asked.poses->string(), recorded.tally);
+  }
+  // KITTI's world is its first camera.
+  const auto level = file.timed ? std::nullopt : std::optional(Vector3d(0, -1, 0));
+  const auto up_W = up_of_world(asked, poses.front().T_WC, level);
+  auto motion = std::make_unique<PosesMotion>(std::move(poses), up_W);
+  keep_within(motion->first_ns(), motion->last_ns(),
+              "pictures are outside of the poses' time and are left out", recorded);
+  recorded.motion = std::move(motion);
+}
+
+/// The IMU's axes are the vehicle's, which starts upright.
+void move_by_imu(const scenario::Recorded& asked, Recorded& recorded) {
+  SensorReadings readings;
+  readings.imu = read_imu_csv(*asked.imu, recorded.tally);
+  if (asked.odometry) readings.odometry = read_odometry_csv(*asked.odometry, recorded.tally);
+  recorded.settings.odometry.enabled = !readings.odometry.empty();
+  // Pictures without a clock begin at the first reading.
+  const std::int64_t first_reading_ns = readings.imu.front().t_ns;
+  std::int64_t start_ns = first_reading_ns;
+  if (recorded.timed) {
+    start_ns = std::max(start_ns, recorded.frames.front().t_ns);
+    keep_within(start_ns, readings.imu.back().t_ns + kBehindReadings_ns,
+                "pictures are outside of the IMU's time and are left out", recorded);
+    for (RecordedFrame& frame : recorded.frames) frame.t_ns -= start_ns;
+  }
+  begin_at(start_ns, readings);
+  sim::Calibration calibration;
+  calibration.T_BC.R = camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero()));
+  calibration.v_WB_start_mps =
+      asked.speed_mps.value_or(0) * calibration.T_BC.R.col(2);  // along the optical axis
+  recorded.motion =
+      std::make_unique<SensorMotion>(recorded.settings, calibration, std::move(readings));
+}
+
+void set_motion(const scenario::Recorded& asked, bool times_known, Recorded& recorded) {
+  if (asked.poses) {
+    move_by_poses(asked, times_known, recorded);
+  } else if (asked.imu) {
+    move_by_imu(asked, recorded);
+  } else if (asked.speed_mps) {
+    recorded.motion = std::make_unique<SteadyMotion>(*asked.speed_mps, asked.mount_rpy_rad);
+  } else if (!recorded.motion) {
+    recorded.lacks.emplace_back("how the camera moved (poses, imu, or speed: 0 where it stands)");
+  }
+}
+
+void require_lens(const Lens& lens) {
+  const auto is_within = [](double number, double low, double high) {
+    return number >= low && number <= high;  // and no NaN
+  };
+  constexpr double kMostFocal_px = 1e6, kMostCentre_px = 1e5;
+  const bool is_lens = is_within(lens.fu_px, 1, kMostFocal_px) &&
+                       is_within(lens.fv_px, 1, kMostFocal_px) &&
+                       is_within(lens.cu_px, -kMostCentre_px, kMostCentre_px) &&
+                       is_within(lens.cv_px, -kMostCentre_px, kMostCentre_px);
+  if (is_lens) return;
+  throw scenario::Error(
+      lens.source, fmt::format("a focal length of {}, {} px and a principal point at {}, {} px "
+                               "are those of no camera; correct the calibration, or give focal",
+                               lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px));
+}
+
+void set_lens(const scenario::Recorded& asked, Recorded& recorded) {
+  if (asked.focal_px) {
+    Lens& lens = recorded.lens.emplace();
+    lens.fu_px = lens.fv_px = *asked.focal_px;
+    lens.centred = true;
+    lens.source = asked.source;
+  } else if (!recorded.lens) {
+    recorded.lacks.emplace_back("the focal length of its camera (focal)");
+    return;
+  }
+  Lens& lens = *recorded.lens;
+  if (asked.centre_px) {
+    lens.cu_px = asked.centre_px->x();
+    lens.cv_px = asked.centre_px->y();
+    lens.centred = false;
+  }
+  if (asked.distortion) {
+    lens.distortion = asked.distortion->equidistant ? Lens::Distortion::equidistant
+                                                    : Lens::Distortion::radial_tangential;
+    lens.coefficients = asked.distortion->coefficients;
+    lens.source = asked.source;
+  }
+  require_lens(lens);
+}
+
+}  // namespace
+
+void time_by(double fps, Recorded& recorded) {
+  for (RecordedFrame& frame : recorded.frames) {
+    const double t_ns = static_cast<double>(frame.number) * 1e9 / fps;
+    if (!(t_ns <= static_cast<double>(kFarthest_ns))) {
+      throw std::runtime_error(fmt::format(
+          "at {} pictures a second the recording takes more than 146 years; give a higher fps",
+          fps));
+    }
+    frame.t_ns = std::llround(t_ns);
+  }
+}
+
+Recorded read_recorded(const scenario::Scenario& scenario) {
+  const scenario::Recorded& asked = scenario.recording.value();
+  Recorded recorded =
+      layout_of(asked).read(asked, scenario.ego_motion == scenario::EgoMotionSource::truth);
+  const bool times_known = set_times(asked, recorded);
+  if (!times_known && !asked.poses) recorded.lacks.emplace_back(kNoTimes);
+  set_motion(asked, times_known, recorded);
+  if (!times_known && asked.poses && !recorded.motion && recorded.lacks.empty()) {
+    recorded.lacks.emplace_back(kNoTimes);
+  }
+  set_lens(asked, recorded);
+  if (!recorded.lacks.empty()) {
+    throw scenario::Error(asked.source,
+                          fmt::format("{} does not say {}; give these keys of recording, or the "
+                                      "options of lcs replay",
+                                      asked.path.string(), fmt::join(recorded.lacks, ", and ")));
+  }
+  choose(asked, scenario.frames, recorded.frames);
+  if (recorded.frames.empty()) {
+    throw scenario::Error(asked.source, "no picture is left; give a smaller every");
+  }
+  return recorded;
+}
+
+}  // namespace lcs::replay

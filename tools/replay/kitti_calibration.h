@@ -1,0 +1,38 @@
+/// \file
+/// Calibrations as KITTI has them: "NAME: numbers" a line.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/pose.h"
+#include "tools/replay/recorded.h"
+
+namespace lcs::replay {
+
+class KittiCalibration {
+ public:
+  /// Lines without a name are those of P0, P1, ... \throws scenario::Error if it cannot be read.
+  explicit KittiCalibration(const std::filesystem::path& file);
+
+  /// \name Of a line. \throws scenario::Error unless it is there and has as many numbers.
+  ///@{
+  const std::vector<double>& numbers(const std::string& name, std::size_t count) const;
+  Eigen::Matrix3d matrix(const std::string& name) const;
+  /// Of lines R and T.
+  sim::Pose pose() const;
+  /// Of a projection of pictures that are straight, [K | K t].
+  Lens lens(const std::string& name) const;
+  /// Its t: takes points of the frame that cameras are rectified to, to the camera.
+  sim::Pose beside(const std::string& name) const;
+  ///@}
+
+ private:
+  std::filesystem::path file_;
+  std::map<std::string, std::vector<double>> values_;
+};
+
+}  // namespace lcs::replay

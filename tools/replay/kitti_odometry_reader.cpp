@@ -1,0 +1,112 @@
+// KITTI odometry: image_0/ to image_3/, calib.txt, times.txt and, for some sequences, poses of
+// camera 0, beside the pictures or as the benchmark has them, in poses/NN.txt for sequences/NN/.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "tools/replay/in_order.h"
+#include "tools/replay/kitti_calibration.h"
+#include "tools/replay/poses_file.h"
+#include "tools/replay/text_table.h"
+#include "tools/replay/times.h"
+
+namespace lcs::replay {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCameras[] = {"image_0", "image_2", "image_1", "image_3"};
+constexpr std::string_view kPrefix = "image_";
+
+/// The first there is if none is named; "" for none.
+std::string camera_in(const scenario::Recorded& asked) {
+  if (!asked.camera.empty()) return asked.camera;
+  for (const char* name : kCameras) {
+    if (fs::is_directory(asked.path / name)) return name;
+  }
+  return "";
+}
+
+/// Line k is of picture k.
+void read_times(const fs::path& file, Recorded& recorded) {
+  const TextTable table = read_table(file, ' ');
+  std::vector<RecordedFrame> timed;
+  for (const RecordedFrame& frame : recorded.frames) {
+    if (frame.number >= table.rows.size()) {
+      recorded.tally.add("pictures have no time and are left out",
+                         frame.picture.filename().string());
+      continue;
+    }
+    const TextTable::Row& row = table.rows[frame.number];
+    if (const auto t_ns = seconds_in(row.fields.front())) {
+      timed.push_back({*t_ns, frame.picture, frame.number});
+    } else {
+      recorded.tally.add("rows cannot be read and are left out", table.at(row));
+    }
+  }
+  recorded.frames = std::move(timed);
+  put_in_order(recorded.frames, file, recorded.tally);
+}
+
+/// Beside the pictures, or where the benchmark has them; "" for neither.
+fs::path poses_of(const fs::path& folder) {
+  const fs::path whole = fs::absolute(folder).lexically_normal();
+  const fs::path name = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
+  for (const fs::path& file :
+       {folder / "poses.txt", folder / ".." / ".." / "poses" / (name.string() + ".txt")}) {
+    if (fs::exists(file)) return file;
+  }
+  return "";
+}
+
+/// Line k is of picture k, and camera 0's; y of its world points down.
+void read_motion(const scenario::Recorded& asked, const fs::path& file, const sim::Pose& T_C0C,
+                 Recorded& recorded) {
+  const PosesFile poses = read_poses(file, recorded.tally);
+  std::vector<PosesMotion::CameraPose> at_frames;
+  for (const RecordedFrame& frame : recorded.frames) {
+    if (frame.number >= poses.lines.size() || !poses.lines[frame.number]) continue;
+    at_frames.push_back({frame.t_ns, poses.lines[frame.number]->T_WC * T_C0C});
+  }
+  if (at_frames.empty()) {
+    throw scenario::Error({file.string(), 0},
+                          "none of the poses belongs to a picture; give a line for each picture");
+  }
+  const auto up_W = up_of_world(asked, at_frames.front().T_WC, Eigen::Vector3d(0, -1, 0));
+  auto motion = std::make_unique<PosesMotion>(std::move(at_frames), up_W);
+  keep_within(motion->first_ns(), motion->last_ns(), "pictures have no pose and are left out",
+              recorded);
+  recorded.motion = std::move(motion);
+}
+
+}  // namespace
+
+bool is_kitti_odometry(const fs::path& folder) {
+  const bool any = std::any_of(std::begin(kCameras), std::end(kCameras),
+                               [&](const char* name) { return fs::is_directory(folder / name); });
+  return any && fs::exists(folder / "calib.txt");
+}
+
+Recorded read_kitti_odometry(const scenario::Recorded& asked, bool) {
+  const std::string camera = camera_in(asked);
+  if (!camera.starts_with(kPrefix) || !fs::is_directory(asked.path / camera)) {
+    throw scenario::Error(asked.source, fmt::format("{} is not there; name a camera, as image_0",
+                                                    (asked.path / camera).string()));
+  }
+  Recorded recorded;
+  recorded.frames = frames_in(asked.path / camera);
+  recorded.timed = fs::exists(asked.path / "times.txt");
+  if (recorded.timed) read_times(asked.path / "times.txt", recorded);
+  const std::string projection = fmt::format("P{}", camera.substr(kPrefix.size()));
+  const KittiCalibration calibration(asked.path / "calib.txt");
+  recorded.lens = calibration.lens(projection);
+  const fs::path poses = poses_of(asked.path);
+  if (motion_is_asked(asked) || poses.empty()) return recorded;
+  // Without times and a rate it will be refused, but not for its motion.
+  if (!recorded.timed) time_by(asked.fps.value_or(1), recorded);
+  read_motion(asked, poses, calibration.beside(projection).inverse(), recorded);
+  return recorded;
+}
+
+}  // namespace lcs::replay

@@ -1,0 +1,38 @@
+/// \file
+/// The pictures of a recording's frames, from files or from a video.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/bench/picture_folder.h"
+#include "tools/replay/recorded.h"
+
+namespace lcs::replay {
+
+class PictureStream {
+ public:
+  explicit PictureStream(const Recorded& recorded);
+
+  /// The picture of a frame, BGR; frames come in rising order. Nothing for one that cannot be used;
+  /// `skipped` then says why.
+  std::optional<cv::Mat3b> read(const RecordedFrame& frame);
+
+  /// One line for each picture that was skipped.
+  const std::vector<std::string>& skipped() const;
+
+ private:
+  std::optional<cv::Mat3b> read_video(const RecordedFrame& frame);
+
+  bool video_;
+  bench::PictureReader files_;
+  cv::VideoCapture capture_;
+  std::size_t next_ = 0;  ///< picture of the video
+  cv::Size size_;
+  std::vector<std::string> skipped_;  ///< of the video
+};
+
+}  // namespace lcs::replay

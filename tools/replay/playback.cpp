@@ -1,0 +1,175 @@
+#include "tools/replay/playback.h"
+
+#include <fmt/format.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <utility>
+
+#include "sim/picture_file.h"
+
+namespace lcs::replay {
+namespace {
+
+constexpr std::size_t kMostToldOneByOne = 5;
+
+double frames_per_second(const std::vector<RecordedFrame>& frames) {
+  if (frames.size() < 2) return 1;
+  const double span_s = static_cast<double>(frames.back().t_ns - frames.front().t_ns) * 1e-9;
+  return static_cast<double>(frames.size() - 1) / span_s;
+}
+
+}  // namespace
+
+Playback::Playback(const scenario::Scenario& asked)
+    : scenario_(asked),
+      recorded_(read_recorded(asked)),
+      pictures_(recorded_),
+      truth_(asked.recording->nothing_moves ? bench::Truth::nothing_moves : bench::Truth::unknown) {
+  take_settings();
+  look_at_first_picture();
+  read_mask();
+  if (asked.recording->labels) labels_ = bench::read_labels(*asked.recording->labels);
+}
+
+/// What a generated sequence says of how its run was watched.
+void Playback::take_settings() {
+  const scenario::Scenario& own = recorded_.settings;
+  if (!scenario_.world.contains("corners.threshold")) {
+    scenario_.fast_threshold = own.fast_threshold;
+  }
+  if (scenario_.filter_preset.empty()) {
+    scenario_.filter_preset = own.filter_preset;
+    scenario_.filter_preset_source = own.filter_preset_source;
+  }
+  scenario_.filter.insert(scenario_.filter.begin(), own.filter.begin(), own.filter.end());
+  scenario_.frames = static_cast<int>(recorded_.frames.size());
+  scenario_.camera.rate_hz = frames_per_second(recorded_.frames);
+}
+
+void Playback::look_at_first_picture() {
+  PictureStream pictures(recorded_);
+  std::optional<cv::Mat3b> first;
+  for (std::size_t i = 0; i < recorded_.frames.size() && !first; ++i) {
+    first = pictures.read(recorded_.frames[i]);
+  }
+  const scenario::Recorded& asked = scenario_.recording.value();
+  if (!first) {
+    throw scenario::Error(
+        asked.source, fmt::format("none of the pictures in {} can be read; give a recording with "
+                                  "its pictures",
+                                  asked.path.string()));
+  }
+  Lens& lens = recorded_.lens.value();
+  const cv::Size size_px = first->size();
+  if (lens.width_px > 0 && size_px != cv::Size(lens.width_px, lens.height_px)) {
+    throw scenario::Error(
+        lens.source,
+        fmt::format("the calibration is of {} x {} pixels, and the pictures have {} x {}; give "
+                    "that of these pictures, or focal",
+                    lens.width_px, lens.height_px, size_px.width, size_px.height));
+  }
+  if (lens.centred) {
+    lens.cu_px = 0.5 * (size_px.width - 1);
+    lens.cv_px = 0.5 * (size_px.height - 1);
+  }
+  rectifier_.emplace(lens, size_px);
+}
+
+void Playback::read_mask() {
+  const auto& file = scenario_.recording->mask;
+  if (!file) return;
+  constexpr double kWhite = 127;
+  const scenario::Source& where = scenario_.recording->source;
+  const cv::Mat grey = sim::read_picture(*file, where, cv::IMREAD_GRAYSCALE);
+  const cv::Size size_px(camera().width_px, camera().height_px);
+  if (grey.size() != size_px) {
+    throw scenario::Error(
+        where, fmt::format("the mask {} is {}, and the pictures have {} x {} pixels; give one of "
+                           "that size, white where the vehicle itself is seen",
+                           file->string(),
+                           grey.empty() ? "no picture"
+                                        : fmt::format("of {} x {} pixels", grey.cols, grey.rows),
+                           size_px.width, size_px.height));
+  }
+  mask_ = grey > kWhite;
+}
+
+bench::Recording Playback::begin() const {
+  bench::Recording recording;
+  recording.scenario = scenario_.name;
+  recording.seed = scenario_.seed;
+  recording.world = scenario_.world;
+  recording.truth = truth_;
+  return recording;
+}
+
+bool Playback::next(bench::FrameRecord& frame, cv::Mat3b& image) {
+  while (next_ < recorded_.frames.size()) {
+    const RecordedFrame& recorded = recorded_.frames[next_++];
+    std::optional<cv::Mat3b> picture = pictures_.read(recorded);
+    if (!picture) continue;  // its time passes
+    image = *picture;
+    frame.index = index_++;
+    frame.t_ns = recorded.t_ns;
+    frame.motion = recorded_.motion->at(recorded.t_ns);
+    const auto height_m = scenario_.recording->camera_height_m;
+    const auto up_C = recorded_.motion->up_C();
+    if (height_m && up_C) frame.motion.ground = Ground{.up_C = *up_C, .height_m = *height_m};
+    grounded_ = frame.motion.ground.has_value();
+    return true;
+  }
+  return false;
+}
+
+bool Playback::straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat3b& image) const {
+  if (!mask_.empty()) {
+    std::erase_if(corners_px, [&](const Eigen::Vector2f& px) {
+      return mask_(cvRound(px.y()), cvRound(px.x())) != 0;
+    });
+  }
+  if (rectifier_->is_pinhole()) return false;
+  rectifier_->rectify(corners_px);
+  rectifier_->rectify(image);
+  return true;
+}
+
+void Playback::label(bench::FrameRecord& frame) {
+  bench::set_corner_truth(truth_, frame);
+  const RecordedFrame& recorded = recorded_.frames[next_ - 1];
+  const std::string name = recorded_.video ? "" : recorded.picture.filename().string();
+  const bench::Labels::Boxes* boxes = labels_.of(static_cast<int>(recorded.number), name);
+  if (!boxes) return;
+  frame.labels = *boxes;
+  for (bench::LabelledBox& box : *frame.labels) {
+    rectifier_->rectify(box.left, box.top, box.right, box.bottom);
+  }
+}
+
+Diagnostics Playback::diagnostics() const {
+  Diagnostics diagnostics = recorded_.motion->diagnostics();
+  diagnostics.forget(Fault::imu_gap);  // told by what read it, with its place
+  return diagnostics;
+}
+
+std::vector<std::string> Playback::told() const {
+  std::vector<std::string> lines;
+  const std::vector<std::string>& skipped = pictures_.skipped();
+  for (std::size_t i = 0; i < skipped.size() && i < kMostToldOneByOne; ++i) {
+    lines.push_back("skipped: " + skipped[i]);
+  }
+  if (skipped.size() > kMostToldOneByOne) {
+    lines.push_back(fmt::format("skipped: {} more", skipped.size() - kMostToldOneByOne));
+  }
+  for (const std::string& line : recorded_.tally.lines()) lines.push_back(line);
+  if (!grounded_) {
+    const bool has_height = scenario_.recording->camera_height_m.has_value();
+    lines.push_back(fmt::format(
+        "the filter was not told where the ground is: {}",
+        has_height
+            ? "where up is is not known; give mount, or poses of KITTI, or an IMU"
+            : "give camera_height, and mount where neither poses nor an IMU say where up is"));
+  }
+  return lines;
+}
+
+}  // namespace lcs::replay
