@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <numbers>
+#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
@@ -50,6 +51,21 @@ double excess(const Jumps& jumps) {
     other = std::max(other, jumps[static_cast<std::size_t>((most + beside) % kGrid_px)]);
   }
   return jumps[static_cast<std::size_t>(most)] - other;
+}
+
+/// The highest threshold at which there still is a corner for every 16x16 pixels.
+/// \return less than `least` where there are fewer at `least` already.
+int crowded_up_to(const cv::Mat1b& grey, int least) {
+  constexpr std::size_t kPixelsEach = 256;
+  std::vector<cv::KeyPoint> corners;
+  cv::FAST(grey, corners, least, /*nonmaxSuppression=*/true, cv::FastFeatureDetector::TYPE_9_16);
+  const std::size_t enough = grey.total() / kPixelsEach;
+  if (corners.size() <= enough) return 0;
+  const auto last = corners.begin() + static_cast<std::ptrdiff_t>(enough);
+  std::nth_element(corners.begin(), last, corners.end(), [](const auto& a, const auto& b) {
+    return a.response > b.response;  // the highest threshold at which it still is a corner
+  });
+  return static_cast<int>(last->response);
 }
 
 }  // namespace
@@ -100,8 +116,14 @@ double compression_levels(const cv::Mat1b& grey) {
 
 int threshold_of(const cv::Mat1b& grey) {
   constexpr double kLeast = 20, kMost = 254, kDeviations = 8;
-  const double levels = std::hypot(noise_levels(grey).value_or(0), compression_levels(grey));
-  return static_cast<int>(std::lround(std::clamp(kDeviations * levels, kLeast, kMost)));
+  const auto levels = [&](double deviation) {
+    return static_cast<int>(std::lround(std::clamp(kDeviations * deviation, kLeast, kMost)));
+  };
+  const double noise = noise_levels(grey).value_or(0);
+  const int by_noise = levels(noise);
+  const int by_both = levels(std::hypot(noise, compression_levels(grey)));
+  return by_both > by_noise ? std::clamp(crowded_up_to(grey, by_noise), by_noise, by_both)
+                            : by_noise;
 }
 
 }  // namespace lcs

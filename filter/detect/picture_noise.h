@@ -22,8 +22,11 @@ std::optional<double> noise_levels(const cv::Mat1b& grey);
 /// (H.264) hides the most of it.
 double compression_levels(const cv::Mat1b& grey);
 
-/// FAST's threshold, by what of the picture is not of the scene: eight standard deviations of both,
-/// and at least 20 grey levels, of a picture without.
+/// FAST's threshold, by what of the picture is not of the scene: at least 20 grey levels, as for a
+/// picture of the scene alone, and eight standard deviations of the noise, which looks like corners
+/// otherwise. Against compression, which moves corners about rather than making them, it goes on to
+/// eight of both, but no further than there is a corner for every 16x16 pixels: where there are
+/// few, weak ones are better than none.
 int threshold_of(const cv::Mat1b& grey);
 
 }  // namespace lcs

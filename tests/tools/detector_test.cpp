@@ -113,13 +113,40 @@ TEST(Compression, IsNoFenceNorTooSmallAPicture) {
   }
 }
 
+TEST(Threshold, FollowsCompressionWhereCornersAreMany) {
+  cv::RNG random(3);
+  cv::Mat1b gravel(480, 640, uchar{120});
+  for (int i = 0; i < 12000; ++i) {
+    const cv::Point at(random.uniform(0, 640), random.uniform(0, 480));
+    cv::circle(gravel, at, random.uniform(1, 5), cv::Scalar(random.uniform(30, 220)), cv::FILLED);
+  }
+  EXPECT_EQ(threshold_of(gravel), 20);
+  const std::size_t enough = gravel.total() / 256;
+  int last = 20;
+  for (const int quality : {90, 70, 40, 10}) {
+    const cv::Mat1b picture = compressed(gravel, quality);
+    const int threshold = threshold_of(picture);
+    const double most = 8 * std::hypot(compression_levels(picture), *noise_levels(picture));
+    EXPECT_GE(threshold, last) << quality;
+    EXPECT_LE(threshold, most + 1) << quality;
+    EXPECT_GE(FastDetector(threshold).detect(picture).size(), enough) << quality;
+    // and it goes as far as either lets it
+    const bool ends_there = FastDetector(threshold + 2).detect(picture).size() < enough + 100;
+    EXPECT_TRUE(ends_there || threshold >= most - 1) << quality << " has " << threshold;
+    last = std::min(threshold, 40);
+  }
+  EXPECT_GT(last, 20);
+}
+
 TEST(Threshold, FollowsWhatIsNotOfTheScene) {
   EXPECT_EQ(threshold_of(boards()), 20);
   EXPECT_EQ(threshold_of(noisy(boards(), 1)), 20);
   EXPECT_NEAR(threshold_of(noisy(boards(), 4)), 32, 4);
   EXPECT_NEAR(threshold_of(noisy(boards(), 8)), 64, 8);
-  const cv::Mat1b both = compressed(noisy(boards(), 3), 40);
-  EXPECT_GT(threshold_of(both), threshold_of(noisy(boards(), 3)));
+  // boards have far fewer corners than one for every 16x16 px: compression does not take them
+  const cv::Mat1b both = compressed(noisy(boards(), 4), 40);
+  EXPECT_GT(compression_levels(both), 4);
+  EXPECT_LT(threshold_of(both), 32) << "and it has less noise";
   EXPECT_EQ(FastDetector(std::nullopt).threshold(both), threshold_of(both));
   EXPECT_EQ(FastDetector(std::nullopt).detect(both), FastDetector(threshold_of(both)).detect(both));
   EXPECT_EQ(FastDetector(30).threshold(both), 30);
