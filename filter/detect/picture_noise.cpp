@@ -119,7 +119,8 @@ int threshold_of(const cv::Mat1b& grey) {
   const auto levels = [&](double deviation) {
     return static_cast<int>(std::lround(std::clamp(kDeviations * deviation, kLeast, kMost)));
   };
-  const double noise = noise_levels(grey).value_or(0);
+  constexpr double kMostNoise = 6;  // more is texture: there is no flat place to tell it by
+  const double noise = std::min(noise_levels(grey).value_or(0), kMostNoise);
   const int by_noise = levels(noise);
   const int by_both = levels(std::hypot(noise, compression_levels(grey)));
   return by_both > by_noise ? std::clamp(crowded_up_to(grey, by_noise), by_noise, by_both)

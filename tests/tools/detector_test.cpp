@@ -120,6 +120,7 @@ TEST(Threshold, FollowsCompressionWhereCornersAreMany) {
     const cv::Point at(random.uniform(0, 640), random.uniform(0, 480));
     cv::circle(gravel, at, random.uniform(1, 5), cv::Scalar(random.uniform(30, 220)), cv::FILLED);
   }
+  gravel.rowRange(0, 120).setTo(150);  // a sky: of gravel alone no noise can be told
   EXPECT_EQ(threshold_of(gravel), 20);
   const std::size_t enough = gravel.total() / 256;
   int last = 20;
@@ -142,7 +143,7 @@ TEST(Threshold, FollowsWhatIsNotOfTheScene) {
   EXPECT_EQ(threshold_of(boards()), 20);
   EXPECT_EQ(threshold_of(noisy(boards(), 1)), 20);
   EXPECT_NEAR(threshold_of(noisy(boards(), 4)), 32, 4);
-  EXPECT_NEAR(threshold_of(noisy(boards(), 8)), 64, 8);
+  EXPECT_EQ(threshold_of(noisy(boards(), 8)), 48) << "what is more is taken for texture";
   // boards have far fewer corners than one for every 16x16 px: compression does not take them
   const cv::Mat1b both = compressed(noisy(boards(), 4), 40);
   EXPECT_GT(compression_levels(both), 4);

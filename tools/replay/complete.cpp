@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "tools/replay/at_rest.h"
 #include "tools/replay/in_order.h"
 #include "tools/replay/navigation.h"
 #include "tools/replay/poses_file.h"
@@ -108,6 +109,26 @@ void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& 
   recorded.motion = std::move(motion);
 }
 
+/// By a time at rest, if it is said or seen: biases out, upright. A speed at the start says that
+/// there is none.
+void calibrate_at_rest(const scenario::Recorded& asked, SensorReadings& readings,
+                       sim::Calibration& calibration, Tally& tally) {
+  if (!asked.at_rest_s && asked.speed_mps.value_or(0) != 0) return;
+  const auto rest = rest_at_start(readings.imu, asked.at_rest_s, calibration.gravity_mps2);
+  if (!rest) return;
+  for (sim::ImuSample& sample : readings.imu) {
+    sample.gyro_radps -= rest->gyro_bias_radps;
+    sample.accel_mps2 -= rest->accel_bias_mps2;
+  }
+  calibration.T_WB_start.R = rest->R_WS;
+  const std::string until =
+      fmt::format("until {:.2f} s", 1e-9 * static_cast<double>(rest->until_ns));
+  tally.add("times at rest at the start give the IMU's biases and what is upright", until);
+  if (rest->moved) {
+    tally.add("times that at_rest names are not at rest, as the IMU says; shorten it", until);
+  }
+}
+
 /// The IMU's axes are the vehicle's, which starts upright.
 void move_by_imu(const scenario::Recorded& asked, Recorded& recorded) {
   SensorReadings readings;
@@ -128,6 +149,7 @@ void move_by_imu(const scenario::Recorded& asked, Recorded& recorded) {
   calibration.T_BC.R = camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero()));
   calibration.v_WB_start_mps =
       asked.speed_mps.value_or(0) * calibration.T_BC.R.col(2);  // along the optical axis
+  calibrate_at_rest(asked, readings, calibration, recorded.tally);
   recorded.motion =
       std::make_unique<SensorMotion>(recorded.settings, calibration, std::move(readings));
 }

@@ -1,0 +1,127 @@
+#include "tools/replay/at_rest.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace lcs::replay {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::int64_t kPart_ns = 250'000'000;
+constexpr std::size_t kFewestParts = 4;  // a second
+
+/// More than the biases and the noise of any sensor that is worth to be heard.
+constexpr double kMostBias_radps = 0.1, kMostBias_mps2 = 0.6;
+constexpr double kMostNoise_radps = 0.05, kMostNoise_mps2 = 0.5;
+
+/// Means of parts of what stands differ by their noise, and no more than by these.
+constexpr double kDeviations = 5, kLeastChange_radps = 2e-3, kLeastChange_mps2 = 0.03;
+
+struct Part {
+  std::int64_t end_ns = 0;
+  int count = 0;
+  Vector3d gyro = Vector3d::Zero(), accel = Vector3d::Zero();              ///< means
+  Vector3d gyro_noise = Vector3d::Zero(), accel_noise = Vector3d::Zero();  ///< deviations
+};
+
+Part part_of(std::span<const sim::ImuSample> readings) {
+  Part part;
+  Vector3d gyro2 = Vector3d::Zero(), accel2 = Vector3d::Zero();
+  for (const sim::ImuSample& reading : readings) {
+    part.gyro += reading.gyro_radps;
+    part.accel += reading.accel_mps2;
+  }
+  part.count = static_cast<int>(readings.size());
+  part.gyro /= part.count;
+  part.accel /= part.count;
+  for (const sim::ImuSample& reading : readings) {
+    gyro2 += (reading.gyro_radps - part.gyro).cwiseAbs2();
+    accel2 += (reading.accel_mps2 - part.accel).cwiseAbs2();
+  }
+  part.gyro_noise = (gyro2 / part.count).cwiseSqrt();
+  part.accel_noise = (accel2 / part.count).cwiseSqrt();
+  part.end_ns = readings.back().t_ns;
+  return part;
+}
+
+std::vector<Part> parts_of(std::span<const sim::ImuSample> readings) {
+  std::vector<Part> parts;
+  while (!readings.empty()) {
+    const std::int64_t end_ns = readings.front().t_ns + kPart_ns;
+    const auto end = std::find_if(readings.begin(), readings.end(),
+                                  [&](const sim::ImuSample& r) { return r.t_ns >= end_ns; });
+    const auto count = static_cast<std::size_t>(end - readings.begin());
+    if (end == readings.end()) break;  // not a whole one
+    parts.push_back(part_of(readings.first(count)));
+    readings = readings.subspan(count);
+  }
+  return parts;
+}
+
+bool is_noise(const Part& part, double gravity_mps2) {
+  return part.gyro.norm() <= kMostBias_radps &&
+         std::abs(part.accel.norm() - gravity_mps2) <= kMostBias_mps2 &&
+         part.gyro_noise.maxCoeff() <= kMostNoise_radps &&
+         part.accel_noise.maxCoeff() <= kMostNoise_mps2;
+}
+
+bool is_same(const Part& a, const Part& b) {
+  const auto within = [&](const Vector3d& change, const Vector3d& noise, double least) {
+    const double of_means = std::sqrt(1.0 / a.count + 1.0 / b.count);
+    return (change.array().abs() <= (kDeviations * of_means * noise.array()).max(least)).all();
+  };
+  return within(b.gyro - a.gyro, a.gyro_noise, kLeastChange_radps) &&
+         within(b.accel - a.accel, a.accel_noise, kLeastChange_mps2);
+}
+
+/// How many parts from the first one on are alike.
+std::size_t still_parts(const std::vector<Part>& parts, double gravity_mps2) {
+  std::size_t still = 0;
+  while (still < parts.size() && is_noise(parts[still], gravity_mps2) &&
+         is_same(parts.front(), parts[still])) {
+    ++still;
+  }
+  return still;
+}
+
+Rest rest_of(std::span<const sim::ImuSample> readings, double gravity_mps2) {
+  const Part all = part_of(readings);
+  Rest rest;
+  rest.until_ns = all.end_ns;
+  rest.gyro_bias_radps = all.gyro;
+  if (all.accel.norm() > 0) {
+    const Vector3d up = all.accel.normalized();
+    rest.accel_bias_mps2 = all.accel - gravity_mps2 * up;
+    rest.R_WS = Eigen::Quaterniond::FromTwoVectors(up, Vector3d::UnitZ()).toRotationMatrix();
+  }
+  return rest;
+}
+
+}  // namespace
+
+std::optional<Rest> rest_at_start(std::span<const sim::ImuSample> readings,
+                                  std::optional<double> said_s, double gravity_mps2) {
+  if (readings.empty()) return std::nullopt;
+  const std::vector<Part> parts = parts_of(readings);
+  const std::size_t still = still_parts(parts, gravity_mps2);
+  std::int64_t until_ns = still > 0 ? parts[still - 1].end_ns : readings.front().t_ns;
+  bool moved = false;
+  if (said_s) {
+    const std::int64_t still_until_ns = until_ns;
+    until_ns = readings.front().t_ns + std::llround(1e9 * *said_s);
+    moved = still < parts.size() && still_until_ns + kPart_ns < until_ns;
+  } else if (still < kFewestParts) {
+    return std::nullopt;
+  }
+  const auto end = std::find_if(readings.begin(), readings.end(),
+                                [&](const sim::ImuSample& r) { return r.t_ns > until_ns; });
+  Rest rest =
+      rest_of(readings.first(static_cast<std::size_t>(end - readings.begin())), gravity_mps2);
+  rest.moved = moved;
+  return rest;
+}
+
+}  // namespace lcs::replay
