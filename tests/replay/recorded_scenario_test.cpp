@@ -335,7 +335,7 @@ TEST_F(RecordedScenario, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_NE(refusal(pictures + "speed: 0, format: mot").find("seqinfo.ini: there is no such file"),
             std::string::npos);
   EXPECT_NE(
-      refusal(pictures + "speed: 0, distortion: [0, 0, 0, 0, 900]").find("a tenth of its own"),
+      refusal(pictures + "speed: 0, distortion: [900, 0, 0, 0, 0]").find("a tenth of its own"),
       std::string::npos);
   const fs::path odometry = home() / "07";
   draw(odometry / "image_0", "{:06}.png");
