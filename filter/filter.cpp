@@ -18,9 +18,9 @@ Filter& Filter::operator=(Filter&&) noexcept = default;
 const FrameResult& Filter::step(std::span<const Eigen::Vector2f> corners_px,
                                 const EgoMotion& motion) {
   Frame& frame = impl_->frame;
-  impl_->stages.line(corners_px, motion, frame, frame);
-  impl_->stages.circle(frame, frame);
-  impl_->stages.square(frame, frame);
+  impl_->stages.line(corners_px, motion, frame);
+  impl_->stages.circle(frame);
+  impl_->stages.square(frame);
   return frame.result;
 }
 

@@ -38,12 +38,6 @@ const Parameters& checked(const Parameters& parameters) {
   return parameters;
 }
 
-/// What a frame goes on from.
-const Layers& left_by(const Frame& before, const Frame& frame) {
-  static const Layers kNothing;
-  return frame.is_anew ? kNothing : before.result.layers;
-}
-
 }  // namespace
 
 Stages::Stages(const Intrinsics& camera, const Parameters& parameters)
@@ -55,24 +49,26 @@ Stages::Stages(const Intrinsics& camera, const Parameters& parameters)
       circles_(camera_, parameters_.circle),
       squares_(camera_, parameters_.square) {}
 
+/// Forgets all but the ids.
+void Stages::start_anew(Layers& layers) {
+  layers.normal_edges.clear();
+  layers.rebel_edges.clear();
+  layers.normal_circles.clear();
+  layers.rebel_circles.clear();
+  layers.squares.clear();
+  layers.chains.clear();
+  edges_->forget();
+}
+
 /// What the gyro did not see of the motion, the corners show.
-void Stages::see_turn(const Frame& before, Frame& frame, std::span<const Vec2> corners_px) {
-  frame.motion = turn_.seen(frame.motion, left_by(before, frame).normal_edges, corners_px);
+void Stages::see_turn(Frame& frame, std::span<const Vec2> corners_px) {
+  frame.motion = turn_.seen(frame.motion, frame.result.layers.normal_edges, corners_px);
   frame.field.emplace(camera_, frame.motion, parameters_.field);
 }
 
 /// Edges and circles of the frame before go to where this frame should show them.
-void Stages::predict_circles(const Frame& before, Frame& frame) {
+void Stages::predict_circles(Frame& frame) {
   Layers& layers = frame.result.layers;
-  const Layers& left = left_by(before, frame);
-  if (&left != &layers) {
-    copy_over(left.normal_edges, layers.normal_edges);
-    copy_over(left.rebel_edges, layers.rebel_edges);
-    copy_over(left.normal_circles, layers.normal_circles);
-    copy_over(left.rebel_circles, layers.rebel_circles);
-    copy_over(left.chains, layers.chains);
-  }
-  if (frame.is_anew) edges_->forget();
   edges_->predict(layers, *frame.field);
   circles_.predict(layers, *frame.field);
   layers.ignored.clear();
@@ -80,11 +76,8 @@ void Stages::predict_circles(const Frame& before, Frame& frame) {
   circles_.feed_back(layers, layers.ignored, layers.collectors);
 }
 
-void Stages::predict_squares(const Frame& before, Frame& frame) {
-  Layers& layers = frame.result.layers;
-  const Layers& left = left_by(before, frame);
-  if (&left != &layers) copy_over(left.squares, layers.squares);
-  squares_.predict(layers, *frame.field);
+void Stages::predict_squares(Frame& frame) {
+  squares_.predict(frame.result.layers, *frame.field);
 }
 
 /// Says of the corners that the Line expert did not hand on why, and counts them.
@@ -113,12 +106,13 @@ void Stages::turn_away(std::span<const Eigen::Vector2f> corners_px, Frame& frame
 }
 
 void Stages::line(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& told,
-                  const Frame& before, Frame& frame) {
+                  Frame& frame) {
   const auto start = Clock::now();
   const std::optional<EgoMotion> usable = intake_.take(told, diagnostics_);
   frame.is_anew = !usable;
   frame.motion = usable.value_or(EgoMotion{});
   frame.field.emplace(camera_, frame.motion, parameters_.field);
+  if (frame.is_anew) start_anew(frame.result.layers);
   std::span<const IgnoreRegion> psi;
   if (feeds_back()) {
     if (is_turn_unseen(frame)) {
@@ -127,10 +121,10 @@ void Stages::line(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& 
         if (std::ssize(finite_) == parameters_.line.max_corners) break;
         if (x.allFinite()) finite_.push_back(x.cast<double>());
       }
-      see_turn(before, frame, finite_);
+      see_turn(frame, finite_);
     }
-    predict_circles(before, frame);
-    predict_squares(before, frame);
+    predict_circles(frame);
+    predict_squares(frame);
     squares_.feed_back(frame.result.layers, frame.result.layers.ignored);
     psi = frame.result.layers.ignored;
   }
@@ -139,13 +133,13 @@ void Stages::line(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& 
   frame.result.times.line_ms = ms_since(start);
 }
 
-void Stages::circle(const Frame& before, Frame& frame) {
+void Stages::circle(Frame& frame) {
   const auto start = Clock::now();
   FrameResult& result = frame.result;
   const Chi& chi = frame.chi;
   if (!feeds_back()) {
-    if (is_turn_unseen(frame)) see_turn(before, frame, chi.locations);
-    predict_circles(before, frame);
+    if (is_turn_unseen(frame)) see_turn(frame, chi.locations);
+    predict_circles(frame);
   }
   grouping_.group(result.layers.collectors, frame.chi);
   edges_->update(result.layers, chi, *frame.field, result.verdicts);
@@ -156,16 +150,15 @@ void Stages::circle(const Frame& before, Frame& frame) {
     result.verdicts[repeat.source] = result.verdicts[repeat.of_source];
     result.reasons[repeat.source] = result.reasons[repeat.of_source];
   }
-  copy_over(edges_->followers(), frame.followers);
   circles_.update(result.layers, *frame.field);
   if (feeds_back()) circles_.update_ignorance(result.layers);  // transition II
   result.times.circle_ms = ms_since(start);
 }
 
-void Stages::square(const Frame& before, Frame& frame) {
+void Stages::square(Frame& frame) {
   const auto start = Clock::now();
-  if (!feeds_back()) predict_squares(before, frame);
-  squares_.update(frame.result.layers, *frame.field, frame.followers);  // transition III
+  if (!feeds_back()) predict_squares(frame);
+  squares_.update(frame.result.layers, *frame.field, edges_->followers());  // transition III
   if (feeds_back()) squares_.update_ignorance(frame.result.layers);     // transition IV
   frame.result.times.square_ms = ms_since(start);
 }

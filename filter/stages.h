@@ -2,9 +2,8 @@
 /// The three experts of a frame, and what goes from one to the next and from one frame to the next.
 ///
 /// Of the frame before, each expert goes on from what it made itself: Circle from edges and
-/// circles, Square from squares. So the experts of different frames can be at work at once
-/// (`filter/pipeline.h`), unless regions are ignored: psi, which the Line expert starts from, comes
-/// from the circles and squares of the frame before (transitions II and IV).
+/// circles, Square from squares. Only psi, which the Line expert starts from where regions are
+/// ignored, comes from the circles and squares of the frame before (transitions II and IV).
 #pragma once
 
 #include <Eigen/Core>
@@ -25,13 +24,12 @@
 
 namespace lcs {
 
-/// What is known of a frame while the experts are at it.
+/// What is known of a frame while the experts are at it. One is carried on from frame to frame.
 struct Frame {
   bool is_anew = true;               ///< nothing of the frame before is to be used
   EgoMotion motion;                  ///< since then
   std::optional<MotionField> field;  ///< of it
   Chi chi;
-  std::vector<Follower> followers;  ///< from the Circle expert to the Square expert
   FrameResult result;
 };
 
@@ -40,15 +38,11 @@ class Stages {
   /// \throws std::invalid_argument for parameters out of range, or a camera that is none.
   Stages(const Intrinsics& camera, const Parameters& parameters);
 
-  /// Whether the Line expert needs the frame before finished.
-  bool feeds_back() const { return parameters_.line.ignore; }
-
-  /// Each in turn for a frame; each expert takes frames in their order. `before` may be the frame
-  /// itself, which then is carried on in place.
-  void line(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& told, const Frame& before,
-            Frame& frame);
-  void circle(const Frame& before, Frame& frame);
-  void square(const Frame& before, Frame& frame);
+  /// Each in turn for a frame.
+  /// \param frame the one before, in whose place this one comes.
+  void line(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& told, Frame& frame);
+  void circle(Frame& frame);
+  void square(Frame& frame);
 
   /// Of all frames that the Line expert has seen.
   const Diagnostics& diagnostics() const { return diagnostics_; }
@@ -57,9 +51,12 @@ class Stages {
   bool is_turn_unseen(const Frame& frame) const {
     return parameters_.field.unseen_turn && !frame.is_anew && frame.motion.unseen_turn_rad > 0;
   }
-  void see_turn(const Frame& before, Frame& frame, std::span<const Vec2> corners_px);
-  void predict_circles(const Frame& before, Frame& frame);
-  void predict_squares(const Frame& before, Frame& frame);
+  /// Whether the Line expert starts from circles and squares.
+  bool feeds_back() const { return parameters_.line.ignore; }
+  void start_anew(Layers& layers);
+  void see_turn(Frame& frame, std::span<const Vec2> corners_px);
+  void predict_circles(Frame& frame);
+  void predict_squares(Frame& frame);
   void turn_away(std::span<const Eigen::Vector2f> corners_px, Frame& frame);
 
   Intrinsics camera_;

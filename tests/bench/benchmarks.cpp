@@ -17,7 +17,6 @@
 #include <utility>
 
 #include "filter/filter.h"
-#include "filter/pipeline.h"
 #include "scenarios/load.h"
 #include "sim/camera_renderer.h"
 #include "sim/drive.h"
@@ -127,48 +126,6 @@ void filter(benchmark::State& state, const std::string& scene, int corners) {
   state.counters["line_ms"] = share_ms * sum.line_ms;
   state.counters["circle_ms"] = share_ms * sum.circle_ms;
   state.counters["square_ms"] = share_ms * sum.square_ms;
-}
-
-/// A whole stream, corners found and filtered, by the wall clock.
-/// \param step(k) filters frame k; \param rest() what is under way then.
-template <typename Step, typename Rest>
-double stream_seconds(const Stream& of, const std::vector<cv::Mat1b>& greys, int threshold,
-                      Step&& step, Rest&& rest) {
-  std::vector<cv::KeyPoint> found;
-  return wall_seconds([&] {
-    for (std::size_t k = 0; k < of.size(); ++k) {
-      cv::FAST(greys[k], found, threshold, true, cv::FastFeatureDetector::TYPE_9_16);
-      step(k);
-    }
-    rest();
-  });
-}
-
-/// Corners found and filtered, the experts one after the other or side by side.
-void live(benchmark::State& state, const std::string& scene, int corners, bool side_by_side) {
-  const Stream& of = stream(scene, corners);
-  const int threshold = footage(scene).scenario.fast_threshold.value();
-  std::vector<cv::Mat1b> greys;
-  for (std::size_t k = 0; k < of.size(); ++k) greys.push_back(of.grey(k));
-  const Intrinsics camera = intrinsics(of.camera());
-  const Parameters parameters = preset("default");
-  for (auto _ : state) {
-    if (side_by_side) {
-      FilterPipeline pipeline(camera, parameters);
-      state.SetIterationTime(stream_seconds(
-          of, greys, threshold, [&](auto k) { pipeline.push(of.corners_px(k), of.motion(k)); },
-          [&] {
-            while (pipeline.drain()) continue;
-          }));
-    } else {
-      Filter under_test(camera, parameters);
-      state.SetIterationTime(stream_seconds(
-          of, greys, threshold, [&](auto k) { under_test.step(of.corners_px(k), of.motion(k)); },
-          [] {}));
-    }
-  }
-  state.counters["corners"] = of.mean_corners();
-  state.counters["frames"] = static_cast<double>(of.size());
 }
 
 void klt(benchmark::State& state, const std::string& scene, int corners) {
@@ -295,8 +252,6 @@ void add_all() {
       const std::string of = scene + "/" + std::to_string(n);
       add("fast/" + of, [=](auto& s) { fast(s, scene, n); });
       add("filter/" + of, [=](auto& s) { filter(s, scene, n); });
-      add("serial/" + of, [=](auto& s) { live(s, scene, n, false); });
-      add("side_by_side/" + of, [=](auto& s) { live(s, scene, n, true); });
       if (n <= kMostForKlt) add("klt/" + of, [=](auto& s) { klt(s, scene, n); });
     }
   }

@@ -160,22 +160,6 @@ std::string PageReporter::filter_table(const std::string& scene, std::string& ta
   return table + "<td colspan=5></td></tr>\n</table>\n";
 }
 
-std::string PageReporter::side_by_side_table(const std::string& scene) const {
-  std::string table =
-      "<table><tr><th><th colspan=2>ms a frame, corners found and filtered<th></tr>\n"
-      "<tr><th>corners<th>experts in turn<th>side by side<th>ratio</tr>\n";
-  for (const int n : kCorners) {
-    const std::string of = fmt::format("{}/{}", scene, n);
-    const auto frame_ms = [&](const std::string& name) {
-      return ratio(ms(name), counter(name, "frames"));
-    };
-    const auto serial = frame_ms("serial/" + of), side_by_side = frame_ms("side_by_side/" + of);
-    table += "<tr>" + cell(counter("serial/" + of, "corners"), "{:.0f}") + cell(serial, "{:.3f}") +
-             cell(side_by_side, "{:.3f}") + cell(ratio(side_by_side, serial), "{:.2f}") + "</tr>\n";
-  }
-  return table + "</table>\n";
-}
-
 std::string PageReporter::simulation_table(const std::string& scene) const {
   const auto render = ms("render/" + scene), simulate = ms("simulate/" + scene);
   const auto ego_motion =
@@ -215,7 +199,6 @@ void PageReporter::write(const std::filesystem::path& page) const {
     tables += fmt::format("<h2>{}</h2>\n", scene);
     const std::string of_filter = filter_table(scene, targets);
     if (any("fast/" + scene) || any("filter/" + scene) || any("klt/" + scene)) tables += of_filter;
-    if (any("side_by_side/" + scene)) tables += side_by_side_table(scene);
     if (any("render/" + scene) || any("simulate/" + scene) || any("generate/" + scene) ||
         any("ego_motion/" + scene)) {
       tables += simulation_table(scene);

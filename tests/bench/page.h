@@ -37,7 +37,6 @@ class PageReporter : public benchmark::ConsoleReporter {
   std::optional<double> counter(const std::string& name, const char* key) const;
   /// Appends what the filter should reach to `targets`.
   std::string filter_table(const std::string& scene, std::string& targets) const;
-  std::string side_by_side_table(const std::string& scene) const;
   std::string simulation_table(const std::string& scene) const;
   std::string settings_table(const std::string& scene) const;
 
