@@ -14,6 +14,7 @@
 #include "filter/layers.h"
 #include "filter/parameters.h"
 #include "filter/reason.h"
+#include "filter/signature.h"
 
 namespace lcs {
 
@@ -32,8 +33,8 @@ struct FrameResult {
   StageTimes times;
 };
 
-/// Deterministic: the same corners and motions give the same bits, in whatever order the corners of
-/// a frame come.
+/// Deterministic: the same corners, signatures and motions give the same bits, in whatever order
+/// the corners of a frame come.
 ///
 /// Bad data never throw and leave no trace: corners that are none are left out; where the time or
 /// the motion since the last frame is unknown, the filter starts anew, and from that frame on gives
@@ -50,6 +51,13 @@ class Filter {
   /// \param motion since the last frame.
   /// \return the filter's own storage: valid until the next step.
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& motion);
+
+  /// Likewise, and what each corner looks like.
+  /// \param signatures one for each corner, in their order.
+  /// \throws std::invalid_argument for fewer or more of them than corners; the frame then is as if
+  ///   it had not been given.
+  const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,
+                          std::span<const Signature> signatures, const EgoMotion& motion);
 
   /// What was wrong with the data of all frames so far.
   const Diagnostics& diagnostics() const;

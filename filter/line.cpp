@@ -25,8 +25,8 @@ bool inside_any(std::span<const IgnoreRegion> regions, const Vec2& x) {
 }
 
 void LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
-                         std::span<const IgnoreRegion> psi, Chi& chi,
-                         std::vector<Verdict>& verdicts) {
+                         std::span<const Signature> signatures, std::span<const IgnoreRegion> psi,
+                         Chi& chi, std::vector<Verdict>& verdicts) {
   refill(verdicts, corners_px.size(), Verdict::pending);
   entries_.clear();
   for (std::size_t i = 0; i < corners_px.size(); ++i) {
@@ -39,11 +39,14 @@ void LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
     }
   }
   // The distance from the centre survives mirroring and quarter turns of the image; the coordinates
-  // only part what it leaves equal.
-  const auto nearer = [](const Entry& a, const Entry& b) {
+  // only part what it leaves equal, and the signatures those at one place.
+  const auto signature = [&](const Entry& entry) {
+    return signatures.empty() ? Signature{} : signatures[static_cast<std::size_t>(entry.source)];
+  };
+  const auto nearer = [&](const Entry& a, const Entry& b) {
     if (a.distance2 != b.distance2) return a.distance2 < b.distance2;
-    return std::tuple(a.location.y(), a.location.x(), a.source) <
-           std::tuple(b.location.y(), b.location.x(), b.source);
+    return std::tuple(a.location.y(), a.location.x(), signature(a), a.source) <
+           std::tuple(b.location.y(), b.location.x(), signature(b), b.source);
   };
   if (entries_.size() > max_corners_) {
     const auto end = entries_.begin() + static_cast<std::ptrdiff_t>(max_corners_);
@@ -54,6 +57,7 @@ void LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
 
   chi.locations.clear();
   chi.sources.clear();
+  chi.signatures.clear();
   chi.repeats.clear();
   for (const Entry& entry : entries_) {
     if (!chi.locations.empty() && entry.location == chi.locations.back()) {
@@ -62,6 +66,7 @@ void LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
     }
     chi.locations.push_back(entry.location);
     chi.sources.push_back(entry.source);
+    if (!signatures.empty()) chi.signatures.push_back(signature(entry));
   }
 }
 

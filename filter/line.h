@@ -12,6 +12,7 @@
 #include "filter/layers.h"
 #include "filter/pixels.h"
 #include "filter/point_grid.h"
+#include "filter/signature.h"
 
 namespace lcs {
 
@@ -20,6 +21,7 @@ namespace lcs {
 struct Chi {
   std::vector<Vec2> locations;  ///< px
   std::vector<int> sources;     ///< index of each in the caller's corners
+  std::vector<Signature> signatures;  ///< of each; empty where the caller gives none
   std::vector<int>
       groups;  ///< collector that each falls into (the nearest one), -1: a single landmark
 
@@ -45,12 +47,13 @@ class LineExpert {
         picture_{camera.width_px, camera.height_px},
         max_corners_(max_corners) {}
 
+  /// \param signatures one for each corner, or none at all.
   /// \param chi its groups are left alone.
   /// \param verdicts one for each corner: set to `ignored` inside psi, to `pending` elsewhere.
   ///   Corners that are not in the picture stay `pending` and go no further, nor do those that
   ///   repeat another one.
-  void collect(std::span<const Eigen::Vector2f> corners_px, std::span<const IgnoreRegion> psi,
-               Chi& chi, std::vector<Verdict>& verdicts);
+  void collect(std::span<const Eigen::Vector2f> corners_px, std::span<const Signature> signatures,
+               std::span<const IgnoreRegion> psi, Chi& chi, std::vector<Verdict>& verdicts);
 
  private:
   Vec2 centre_px_;

@@ -105,8 +105,8 @@ void Stages::turn_away(std::span<const Eigen::Vector2f> corners_px, Frame& frame
   diagnostics_.add(Fault::corner_repeated, static_cast<std::int64_t>(frame.chi.repeats.size()));
 }
 
-void Stages::line(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& told,
-                  Frame& frame) {
+void Stages::line(std::span<const Eigen::Vector2f> corners_px,
+                  std::span<const Signature> signatures, const EgoMotion& told, Frame& frame) {
   const auto start = Clock::now();
   const std::optional<EgoMotion> usable = intake_.take(told, diagnostics_);
   frame.is_anew = !usable;
@@ -128,7 +128,7 @@ void Stages::line(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& 
     squares_.feed_back(frame.result.layers, frame.result.layers.ignored);
     psi = frame.result.layers.ignored;
   }
-  line_.collect(corners_px, psi, frame.chi, frame.result.verdicts);
+  line_.collect(corners_px, signatures, psi, frame.chi, frame.result.verdicts);
   turn_away(corners_px, frame);
   frame.result.times.line_ms = ms_since(start);
 }

@@ -39,8 +39,10 @@ class Stages {
   Stages(const Intrinsics& camera, const Parameters& parameters);
 
   /// Each in turn for a frame.
+  /// \param signatures one for each corner, or none at all.
   /// \param frame the one before, in whose place this one comes.
-  void line(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& told, Frame& frame);
+  void line(std::span<const Eigen::Vector2f> corners_px, std::span<const Signature> signatures,
+            const EgoMotion& told, Frame& frame);
   void circle(Frame& frame);
   void square(Frame& frame);
 

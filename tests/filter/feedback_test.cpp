@@ -84,7 +84,7 @@ TEST(Psi, ComesBeforeLambda) {
   LineExpert line(vga());
   std::vector<Verdict> verdicts;
   Chi chi;
-  line.collect(corners, psi, chi, verdicts);
+  line.collect(corners, {}, psi, chi, verdicts);
   CornerGrouping().group(lambda, chi);
   ASSERT_EQ(chi.size(), 1u);
   EXPECT_EQ(chi.sources[0], 1);

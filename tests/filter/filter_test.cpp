@@ -8,16 +8,19 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include "filter/geometry.h"
 #include "tests/filter/presets.h"
+#include "tests/filter/same_result.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
 namespace {
 
 using Eigen::Vector3d;
+using testing::expect_same;
 using testing::Random;
 using testing::record;
 using testing::Scene;
@@ -51,6 +54,30 @@ TEST_P(FilterWith, OrderOfTheCornersMakesNoDifference) {
       EXPECT_EQ(a.layers.squares[i].location, b.layers.squares[i].location);
     }
   }
+}
+
+TEST_P(FilterWith, RefusesMoreOrFewerSignaturesThanCornersAndGoesOnAsIfNotAsked) {
+  Scene scene(3);
+  const auto frames = record(scene, 6);
+  Filter asked(scene.world.camera, parameters()), spared(scene.world.camera, parameters());
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const EgoMotion motion = k == 0 ? EgoMotion{} : scene.motion;
+    const std::vector<Signature> signatures(frames[k].size(), Signature{k});
+    const std::vector<Signature> more(frames[k].size() + 1), none;
+    EXPECT_THROW(asked.step(frames[k], more, motion), std::invalid_argument);
+    EXPECT_THROW(asked.step(frames[k], none, motion), std::invalid_argument);
+    expect_same(asked.step(frames[k], signatures, motion),
+                spared.step(frames[k], signatures, motion), k);
+  }
+  EXPECT_NO_THROW(asked.step({}, std::vector<Signature>{}, scene.motion));
+}
+
+TEST(SignatureDistance, IsTheNumberOfBitsThatDiffer) {
+  const Signature none{}, all{~0ULL, ~0ULL, ~0ULL, ~0ULL}, some{1, 1ULL << 63, 0, 6};
+  EXPECT_EQ(distance(none, none), 0);
+  EXPECT_EQ(distance(none, all), 256);
+  EXPECT_EQ(distance(none, some), 4);
+  EXPECT_EQ(distance(all, some), 252);
 }
 
 /// Compares the layers of a filter with those of one that sees the world transformed.

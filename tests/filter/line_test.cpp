@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #include "tests/filter/world.h"
@@ -24,8 +25,47 @@ IgnoreRegion rectangle(const Vec2& at, const Vec2& half) {
 Chi collected(const std::vector<Eigen::Vector2f>& corners, const std::vector<IgnoreRegion>& psi,
               std::vector<Verdict>& verdicts, std::size_t most = 1000) {
   Chi chi;
-  LineExpert(testing::vga(), most).collect(corners, psi, chi, verdicts);
+  LineExpert(testing::vga(), most).collect(corners, {}, psi, chi, verdicts);
   return chi;
+}
+
+TEST(LineExpert, HandsOnTheSignaturesOfTheCornersItLooksAtInTheirOrder) {
+  Random random(11);
+  std::vector<Eigen::Vector2f> corners;
+  std::vector<Signature> signatures;
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    // A part outside of the picture, and inside of psi.
+    corners.emplace_back(random.uniform(-60, 639), random.uniform(0, 479));
+    signatures.push_back({i, i << 40, ~i, 7});
+  }
+  corners.emplace_back(std::numeric_limits<float>::quiet_NaN(), 10.F);
+  signatures.push_back({});
+  const std::vector<IgnoreRegion> psi = {disc({100, 100}, 90)};
+  LineExpert line(testing::vga(), 40);
+  Chi chi;
+  std::vector<Verdict> verdicts;
+  line.collect(corners, signatures, psi, chi, verdicts);
+  ASSERT_EQ(chi.size(), 40U);
+  ASSERT_EQ(chi.signatures.size(), chi.size());
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    EXPECT_EQ(chi.signatures[c], signatures[static_cast<std::size_t>(chi.sources[c])]) << c;
+  }
+  line.collect(corners, {}, psi, chi, verdicts);
+  EXPECT_EQ(chi.size(), 40U);
+  EXPECT_TRUE(chi.signatures.empty()) << "of the frame before";
+}
+
+TEST(LineExpert, OfCornersAtOnePlaceTakesTheSameSignatureInWhateverOrderTheyCome) {
+  const std::vector<Eigen::Vector2f> corners(3, {200, 100});
+  const std::vector<Signature> one = {Signature{5}, Signature{3}, Signature{4}},
+                               other = {Signature{3}, Signature{4}, Signature{5}};
+  Chi chi;
+  std::vector<Verdict> verdicts;
+  for (const std::vector<Signature>& signatures : {one, other}) {
+    LineExpert(testing::vga()).collect(corners, signatures, {}, chi, verdicts);
+    EXPECT_EQ(chi.signatures, std::vector{Signature{3}});
+    EXPECT_EQ(chi.repeats.size(), 2U);
+  }
 }
 
 TEST(LineExpert, LooksAtTheNearestToTheCentreOfTooManyCorners) {

@@ -2,12 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
+#include <opencv2/features2d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
+#include "filter/detect/describe.h"
 #include "filter/detect/picture_noise.h"
 
 namespace lcs {
@@ -151,6 +157,144 @@ TEST(Threshold, FollowsWhatIsNotOfTheScene) {
   EXPECT_EQ(FastDetector(std::nullopt).threshold(both), threshold_of(both));
   EXPECT_EQ(FastDetector(std::nullopt).detect(both), FastDetector(threshold_of(both)).detect(both));
   EXPECT_EQ(FastDetector(30).threshold(both), 30);
+// ---- Signatures
+
+using Corners = std::vector<Eigen::Vector2f>;
+
+/// Rectangles of all greys over each other: full of corners, none like another.
+cv::Mat1b clutter(int width_px, int height_px) {
+  std::mt19937 random(5);
+  const auto below = [&](int end) {
+    return static_cast<int>(random() % static_cast<unsigned>(end));
+  };
+  cv::Mat1b picture(height_px, width_px, uchar{128});
+  for (int i = 0; i < 600; ++i) {
+    const cv::Rect where(below(width_px) - 10, below(height_px) - 10, 3 + below(30), 3 + below(30));
+    picture(where & cv::Rect(0, 0, width_px, height_px)) = static_cast<uchar>(below(256));
+  }
+  return picture;
+}
+
+Corners corners_of(const cv::Mat1b& picture) {
+  const Corners corners = FastDetector(20).detect(picture);
+  EXPECT_GT(corners.size(), 80U);
+  return corners;
+}
+
+TEST(Describe, TellsCornersApartAndGivesTheSameBitsAgain) {
+  const cv::Mat1b picture = clutter(320, 240);
+  const Corners corners = corners_of(picture);
+  const std::vector<Signature> signatures = describe(picture, corners);
+  ASSERT_EQ(signatures.size(), corners.size());
+  const int threads = cv::getNumThreads();
+  for (const int count : {1, 2, 4}) {
+    cv::setNumThreads(count);
+    EXPECT_EQ(describe(picture, corners), signatures) << count << " threads";
+  }
+  cv::setNumThreads(threads);
+  int alike = 0;
+  for (std::size_t a = 0; a < corners.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      if ((corners[a] - corners[b]).norm() < 20) continue;
+      alike += distance(signatures[a], signatures[b]) < 40;
+    }
+  }
+  EXPECT_LT(alike, static_cast<int>(corners.size()) / 10) << "pairs of " << corners.size();
+}
+
+TEST(Describe, IsInTheOrderOfTheCornersAndOfEachAlone) {
+  const cv::Mat1b picture = clutter(320, 240);
+  Corners corners = corners_of(picture);
+  std::vector<Signature> signatures = describe(picture, corners);
+  for (std::size_t i = 0; i < corners.size(); i += 17) {
+    EXPECT_EQ(describe(picture, {&corners[i], 1}), std::vector{signatures[i]}) << i;
+  }
+  std::reverse(corners.begin(), corners.end());
+  std::reverse(signatures.begin(), signatures.end());
+  EXPECT_EQ(describe(picture, corners), signatures);
+}
+
+TEST(Describe, MovesWithThePictureByWholePixels) {
+  const cv::Mat1b world = clutter(400, 300);
+  const cv::Rect here(20, 30, 320, 240);
+  for (const cv::Point shift : {cv::Point(1, 0), cv::Point(0, -3), cv::Point(-13, 17)}) {
+    const cv::Mat1b before = world(here), after = world(here + shift);
+    Corners at, moved;
+    for (const Eigen::Vector2f& x : corners_of(before)) {
+      const Eigen::Vector2f there =
+          x - Eigen::Vector2f(static_cast<float>(shift.x), static_cast<float>(shift.y));
+      const auto is_inside = [&](const Eigen::Vector2f& place) {
+        // of a patch of 31 pixels, turned in no way, and the blur of 7
+        return place.x() >= 19 && place.y() >= 19 && place.x() < 301 && place.y() < 221;
+      };
+      if (!is_inside(x) || !is_inside(there)) continue;
+      at.push_back(x);
+      moved.push_back(there);
+    }
+    EXPECT_GT(at.size(), 40U);
+    EXPECT_EQ(describe(before, at), describe(after, moved)) << shift;
+  }
+}
+
+TEST(Describe, OfAPartOfAPictureLooksAtNothingElse) {
+  const cv::Mat1b world = clutter(400, 300);
+  const cv::Mat1b part = world(cv::Rect(20, 30, 320, 240));
+  const Corners corners = corners_of(part);
+  EXPECT_EQ(describe(part, corners), describe(part.clone(), corners));
+}
+
+/// By OpenCV's own call, which leaves out what is near the border and turns by the angle it finds
+/// or is given: 0 here.
+TEST(Describe, IsOrbsDescriptorUpright) {
+  const cv::Mat1b picture = clutter(320, 240);
+  std::vector<cv::KeyPoint> keypoints;
+  for (const cv::KeyPoint& found : FastDetector(20).detect_scored(picture)) {
+    keypoints.emplace_back(found.pt, 31.F, 0.F);
+  }
+  cv::Mat1b expected;
+  cv::ORB::create(500, 1.2F, 1)->compute(picture, keypoints, expected);
+  ASSERT_GT(keypoints.size(), 50U);
+  Corners corners;
+  for (const cv::KeyPoint& kept : keypoints) corners.emplace_back(kept.pt.x, kept.pt.y);
+  const std::vector<Signature> signatures = describe(picture, corners);
+  for (int k = 0; k < expected.rows; ++k) {
+    const auto bytes = std::bit_cast<SignatureBytes>(signatures[static_cast<std::size_t>(k)]);
+    EXPECT_TRUE(std::equal(bytes.begin(), bytes.end(), expected[k])) << k;
+  }
+}
+
+TEST(Describe, ReachesEveryPixelAndGivesZeroWhereThereIsNone) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const cv::Mat1b picture = clutter(64, 48);
+  const Corners edges{{0, 0}, {63, 0}, {0, 47}, {63, 47}, {-0.49F, 47.49F}, {31.6F, 20.4F}};
+  for (const Signature& signature : describe(picture, edges)) EXPECT_NE(signature, Signature{});
+  const Corners near{{31.6F, 20.4F}}, pixel{{32, 20}};
+  EXPECT_EQ(describe(picture, near), describe(picture, pixel));
+
+  const Corners none{{kNan, 10},     {10, kNan},  {kInfinity, 10}, {10, -kInfinity},
+                     {-0.6F, 10},    {63.6F, 10}, {10, -0.6F},     {10, 47.6F},
+                     {1e30F, 1e30F}, {-1e30F, 5}, {2.2e9F, 10},    {10, -2.2e9F}};
+  Corners mixed = none;
+  mixed.insert(mixed.begin() + 5, edges[5]);
+  std::vector<Signature> expected(none.size(), Signature{});
+  EXPECT_EQ(describe(picture, none), expected);
+  expected.insert(expected.begin() + 5, describe(picture, near).front());
+  EXPECT_EQ(describe(picture, mixed), expected);
+}
+
+TEST(Describe, TakesPicturesOfAnySize) {
+  EXPECT_TRUE(describe(clutter(64, 48), {}).empty());
+  EXPECT_TRUE(describe(cv::Mat1b(), {}).empty());
+  const Corners corners{{0, 0}, {5, 3}};
+  EXPECT_EQ(describe(cv::Mat1b(), corners), std::vector<Signature>(2));
+  const std::vector<Signature> of_a_pixel = describe(cv::Mat1b(1, 1, uchar{7}), corners);
+  EXPECT_EQ(of_a_pixel.size(), 2U);
+  EXPECT_EQ(of_a_pixel[1], Signature{}) << "is outside";
+  for (const cv::Size& size :
+       {cv::Size(6, 4), cv::Size(1, 40), cv::Size(40, 1), cv::Size(20, 31)}) {
+    EXPECT_EQ(describe(cv::Mat1b(size, uchar{7}), corners).size(), 2U) << size;
+  }
 }
 
 }  // namespace
