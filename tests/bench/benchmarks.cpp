@@ -16,6 +16,7 @@
 #include <string>
 #include <utility>
 
+#include "filter/detect/describe.h"
 #include "filter/filter.h"
 #include "scenarios/load.h"
 #include "sim/camera_renderer.h"
@@ -92,6 +93,16 @@ void fast(benchmark::State& state, const std::string& scene, int corners) {
   for (auto _ : state) {
     state.SetIterationTime(cpu_seconds(
         [&] { cv::FAST(grey, found, threshold, true, cv::FastFeatureDetector::TYPE_9_16); }));
+  }
+  state.counters["corners"] = static_cast<double>(found.size());
+}
+
+void signatures(benchmark::State& state, const std::string& scene, int corners) {
+  const Stream& of = stream(scene, corners);
+  const cv::Mat1b grey = of.grey(kWarmUpFrames);
+  const std::vector<Eigen::Vector2f>& found = of.corners_px(kWarmUpFrames);
+  for (auto _ : state) {
+    state.SetIterationTime(cpu_seconds([&] { benchmark::DoNotOptimize(describe(grey, found)); }));
   }
   state.counters["corners"] = static_cast<double>(found.size());
 }
@@ -251,6 +262,7 @@ void add_all() {
     for (const int n : {100, 200, 700, 2000, 5000, 10000, 20000}) {
       const std::string of = scene + "/" + std::to_string(n);
       add("fast/" + of, [=](auto& s) { fast(s, scene, n); });
+      add("describe/" + of, [=](auto& s) { signatures(s, scene, n); });
       add("filter/" + of, [=](auto& s) { filter(s, scene, n); });
       if (n <= kMostForKlt) add("klt/" + of, [=](auto& s) { klt(s, scene, n); });
     }

@@ -68,8 +68,9 @@ TEST_P(GeneratedReplayOf, HasEveryBitOfTheRun) {
   const CommandResult result = replay();
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::string of_run = layers("run");
-  EXPECT_FALSE(of_run.empty());
-  EXPECT_TRUE(layers("replay") == of_run) << "motion, corners, verdicts and layers, as text";
+  EXPECT_NE(of_run.find("\"signatures\":\""), std::string::npos);
+  EXPECT_TRUE(layers("replay") == of_run)
+      << "motion, corners, signatures, verdicts and layers, as text";
 }
 
 TEST_F(GeneratedReplay, OfAComparatorHasTheVerdictsOfItsRun) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/imgproc.hpp>
+
+#include "filter/detect/describe.h"
 #include "scenarios/load.h"
 #include "tools/bench/scoring.h"
 
@@ -14,17 +17,23 @@ class Alarmist : public Tracker {
   const FrameResult& step(const TrackerInput& input) override {
     images_.push_back(input.image.clone());
     motions_.push_back(input.motion);
+    signatures_.emplace_back(input.signatures.begin(), input.signatures.end());
     result_.verdicts.assign(input.corners_px.size(), Verdict::rebel);
     result_.times.line_ms = 1.25;
     return result_;
   }
   const std::vector<cv::Mat3b>& images() const { return images_; }
   const std::vector<EgoMotion>& motions() const { return motions_; }
+  const std::vector<std::vector<Signature>>& signatures() const { return signatures_; }
+  bool wants_signatures() const override { return wants_signatures_; }
+  void want_signatures() { wants_signatures_ = true; }
 
  private:
+  bool wants_signatures_ = false;
   FrameResult result_;
   std::vector<cv::Mat3b> images_;
   std::vector<EgoMotion> motions_;
+  std::vector<std::vector<Signature>> signatures_;
 };
 
 constexpr int kFrames = 6;
@@ -65,6 +74,28 @@ TEST_F(BenchTest, RunsAnyTrackerThroughTheWholeLoop) {
   EXPECT_FALSE(std::equal(tracker_.images()[0].begin(), tracker_.images()[0].end(),
                           tracker_.images()[1].begin()))
       << "the world stood still";
+}
+
+TEST_F(BenchTest, SignaturesAreMadeOnceForThoseWhoWantThemAndForNobodyElse) {
+  Alarmist other;
+  tracker_.want_signatures();
+  Recording of_other = begin_recording(scenario_, simulation_);
+  const FrameSink sink = [](const FrameRecord&, const cv::Mat3b&) {};
+  const Watcher both[] = {{tracker_, recording_, sink}, {other, of_other, sink}};
+  run(scenario_, simulation_, both);
+  for (std::size_t k = 0; k < recording_.frames.size(); ++k) {
+    const FrameRecord &frame = recording_.frames[k], &without = of_other.frames[k];
+    cv::Mat1b grey;
+    cv::cvtColor(tracker_.images()[k], grey, cv::COLOR_BGR2GRAY);
+    ASSERT_FALSE(frame.corners_px.empty());
+    EXPECT_EQ(frame.signatures, describe(grey, frame.corners_px));
+    EXPECT_EQ(tracker_.signatures()[k], frame.signatures);
+    EXPECT_GT(frame.times.value().describe_ms, 0);
+    EXPECT_EQ(without.corners_px, frame.corners_px);
+    EXPECT_TRUE(without.signatures.empty());
+    EXPECT_TRUE(other.signatures()[k].empty());
+    EXPECT_EQ(without.times.value().describe_ms, 0);
+  }
 }
 
 TEST_F(BenchTest, AnAlarmistMissesNothingAndHasThePrecisionOfChance) {

@@ -60,6 +60,7 @@ class Filler {
       }
     }
   }
+  Signature signature() { return {random_(), random_(), random_(), random_()}; }
   Eigen::Vector3d vector() { return {awkward(), awkward(), awkward()}; }
   EgoMotion motion() {
     EgoMotion motion;
@@ -84,6 +85,7 @@ FrameRecord full_frame(Filler& filler, int index) {
     frame.corners_px.emplace_back(static_cast<float>(i) + 0.1f, 1.0f / static_cast<float>(i + 3));
     frame.verdicts.push_back(static_cast<Verdict>(i % 4));
     frame.reasons.push_back(static_cast<Reason>((7 * index + i) % kReasons.size()));
+    frame.signatures.push_back(filler.signature());
   }
   frame.motion = filler.motion();
   frame.true_motion = filler.motion();
@@ -162,6 +164,7 @@ TEST(RecordingIo, EveryFieldComesBackToTheSameBits) {
     EXPECT_EQ(layers_line(back.frames[k]), layers_line(recording.frames[k]));
     EXPECT_EQ(truth_line(back.frames[k]), truth_line(recording.frames[k]));
     EXPECT_EQ(back.frames[k].corners_px, recording.frames[k].corners_px);
+    EXPECT_EQ(back.frames[k].signatures, recording.frames[k].signatures);
     EXPECT_EQ(back.frames[k].verdicts, recording.frames[k].verdicts);
     EXPECT_EQ(back.frames[k].reasons, recording.frames[k].reasons);
     EXPECT_EQ(back.frames[k].t_ns, recording.frames[k].t_ns);
@@ -207,6 +210,28 @@ TEST(RecordingIo, LinesAreJsonWithAKeyForEveryLayer) {
   for (const char* key : {"t_ns", "motion", "rebel_edges", "normal_circles", "rebel_circles",
                           "squares", "ignored", "collectors", "chains"}) {
     EXPECT_TRUE(layers.contains(key)) << key;
+  }
+}
+
+TEST(RecordingIo, SignaturesAreTheBytesOfTheirMakerInHexadecimalDigits) {
+  FrameMaker maker(0);
+  maker.corners(2, Verdict::normal, sim::Label::fixed);
+  SignatureBytes bytes;
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i + 1);
+  maker.record().signatures = {std::bit_cast<Signature>(bytes), Signature{}};
+  EXPECT_EQ(
+      nlohmann::json::parse(layers_line(maker)).at("signatures"),
+      "0102030405060708090a0b0c0d0e0f101112131415161718191a1b1c1d1e1f20" + std::string(64, '0'));
+}
+
+TEST(RecordingIo, FramesFromBeforeThereWereSignaturesHaveNone) {
+  const TemporaryFolder folder;
+  write(scorable(), folder.path());
+  const Recording back = read_recording(folder.path());
+  ASSERT_FALSE(back.frames[0].corners_px.empty());
+  for (const FrameRecord& frame : back.frames) {
+    EXPECT_TRUE(frame.signatures.empty());
+    EXPECT_FALSE(nlohmann::json::parse(layers_line(frame)).contains("signatures"));
   }
 }
 
@@ -356,6 +381,28 @@ TEST_F(BrokenRecording, AHundredThousandNestedLists) {
   const std::string lists = std::string(100000, '[') + std::string(100000, ']');
   edit(kLayersFile, 2, "\"index\":", "\"index\":" + lists + ",\"was\":");
   expect_error("layers.jsonl:2: index is not a whole number");
+}
+TEST_F(BrokenRecording, SignaturesThatAreNotOneForEachCorner) {
+  Recording recording = scorable();
+  for (FrameRecord& frame : recording.frames) frame.signatures.resize(frame.corners_px.size());
+  write(recording, folder_.path());
+  EXPECT_NO_THROW(read_recording(folder_.path()));
+  const std::string wrong =
+      "signatures is not 64 hexadecimal digits for each corner; name the folder of a whole run";
+  edit(kLayersFile, 2, "\"signatures\":\"00", "\"signatures\":\"");  // a byte too few
+  expect_error("layers.jsonl:2: " + wrong);
+  edit(kLayersFile, 2, "\"signatures\":\"", "\"signatures\":\"0000");  // one too many
+  expect_error("layers.jsonl:2: " + wrong);
+  for (const char* digits : {"0x", "-1", "+1", " 1", "g0", "0G"}) {
+    SCOPED_TRACE(digits);
+    write(recording, folder_.path());
+    edit(kLayersFile, 3, "\"signatures\":\"00", std::string("\"signatures\":\"") + digits);
+    expect_error("layers.jsonl:3: " + wrong);
+  }
+}
+TEST_F(BrokenRecording, SignaturesThatAreNoText) {
+  edit(kLayersFile, 2, "\"squares\"", "\"signatures\":[1],\"squares\"");
+  expect_error("layers.jsonl:2: signatures is not a text; name the folder of a whole run");
 }
 TEST_F(BrokenRecording, ATruthThatEndsEarly) {
   drop_last_line(kTruthFile);

@@ -107,6 +107,7 @@ TEST(FramesCsv, GivesARecordingItsTimesAgainToTheLastBit) {
   Recording written = five_frames(true);
   written.frames[1].times = FrameTimes{.simulate_ms = 1.0 / 3,
                                        .detect_ms = 0.1 + 0.2,
+                                       .describe_ms = 0.7,
                                        .line_ms = 1e-7,
                                        .circle_ms = 2.0 / 7,
                                        .square_ms = 12345.678901234567,
@@ -118,12 +119,27 @@ TEST(FramesCsv, GivesARecordingItsTimesAgainToTheLastBit) {
   read_times(path, read);
   EXPECT_FALSE(read.frames[2].times);
   const FrameTimes &a = written.frames[1].times.value(), &b = read.frames[1].times.value();
-  for (const auto member : {&FrameTimes::simulate_ms, &FrameTimes::detect_ms, &FrameTimes::line_ms,
-                            &FrameTimes::circle_ms, &FrameTimes::square_ms, &FrameTimes::filter_ms,
-                            &FrameTimes::truth_ms}) {
+  for (const auto member :
+       {&FrameTimes::simulate_ms, &FrameTimes::detect_ms, &FrameTimes::describe_ms,
+        &FrameTimes::line_ms, &FrameTimes::circle_ms, &FrameTimes::square_ms,
+        &FrameTimes::filter_ms, &FrameTimes::truth_ms}) {
     EXPECT_EQ(a.*member, b.*member);
   }
   EXPECT_EQ(score(written), score(read));
+}
+
+TEST(FramesCsv, FromBeforeThereWereSignaturesHasTheOtherTimes) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / kFramesFile;
+  std::ofstream(path) << "frame,simulate_ms,detect_ms,line_ms,circle_ms,square_ms,filter_ms,"
+                         "truth_ms\n0,1,2,3,4,5,6,7\n1,,,,,,,\n2,,,,,,,\n3,,,,,,,\n4,,,,,,,\n";
+  Recording read = five_frames(false);
+  read_times(path, read);
+  const FrameTimes& times = read.frames[0].times.value();
+  EXPECT_EQ(times.detect_ms, 2);
+  EXPECT_EQ(times.describe_ms, 0);
+  EXPECT_EQ(times.truth_ms, 7);
+  EXPECT_FALSE(value(score(read), "time.describe_ms_median"));
 }
 
 TEST(FramesCsv, LeavesOutWhatADetectorWithoutLayersDoesNotHave) {

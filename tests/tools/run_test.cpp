@@ -81,6 +81,7 @@ TEST_P(ShippedScenario, LeavesWholeFilesThatAgreeWithEachOther) {
   for (const FrameRecord& frame : recording.frames) {
     EXPECT_GT(frame.corners_px.size(), 20u) << "frame " << frame.index;
     EXPECT_FALSE(frame.object_truth.empty()) << "frame " << frame.index;
+    EXPECT_EQ(frame.signatures.size(), frame.corners_px.size()) << "frame " << frame.index;
   }
 
   // Scored again from its files, the run has the same figures to the last bit, times apart.
@@ -300,8 +301,9 @@ TEST_F(Again, TheFilterSaysWhatItWouldSayInARunOfItsOwn) {
   // What was not done took no time.
   const nlohmann::json times = metrics("again");
   EXPECT_TRUE(times["time.filter_ms_median"].is_number());
-  for (const char* stage : {"time.detect_ms_median", "time.simulate_ms_median",
-                            "time.truth_ms_median", "time.filter_over_fast"}) {
+  for (const char* stage :
+       {"time.detect_ms_median", "time.describe_ms_median", "time.simulate_ms_median",
+        "time.truth_ms_median", "time.filter_over_fast"}) {
     EXPECT_TRUE(times[stage].is_null()) << stage;
   }
   // One made so can be gone on from, and replaced by what is made from it.
@@ -337,6 +339,19 @@ TEST_F(Again, WithoutPicturesThereAreEventsButNoVideo) {
   ASSERT_FALSE(events.empty());
   EXPECT_EQ(events.front().views.at(0).jpeg_base64, "");
   EXPECT_FALSE(fs::exists(folder_.path() / "again" / kPicturesFile));
+}
+
+TEST_F(Again, FramesWithoutSignaturesAreToldAndTheFilterGoesByPlaces) {
+  ASSERT_EQ(run(brief({"--quiet", "--detector", "klt", "--out", "first"})).exit_code, 0);
+  const CommandResult again = run(brief({"--quiet", "--recorded", "first", "--out", "again"}));
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_EQ(again.err,
+            "warning: first has no signatures of its corners, so that the filter goes by their "
+            "places alone; leave out --recorded to have them made\n");
+  for (const FrameRecord& frame : read_recording(folder_.path() / "again").frames) {
+    EXPECT_TRUE(frame.signatures.empty());
+    EXPECT_EQ(frame.verdicts.size(), frame.corners_px.size());
+  }
 }
 
 TEST_F(Again, ARecordingOfAnythingElseIsRefusedWithTheFirstDifference) {

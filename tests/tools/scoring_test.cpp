@@ -73,6 +73,7 @@ TEST(Scoring, EveryMetricThatUsersRelyOnExistsOnce) {
                            "dimension.eight_frame_mean",
                            "dimension.accumulative",
                            "time.detect_ms_median",
+                           "time.describe_ms_median",
                            "time.line_ms_median",
                            "time.circle_ms_median",
                            "time.square_ms_median",
@@ -674,17 +675,19 @@ TEST(Times, AreQuantilesOverFramesAndRatiosToFastOnTheSameFrame) {
     const double k = frame.record().index;
     FrameTimes times;
     times.detect_ms = 1 + k;        // 1, 2, 3
+    times.describe_ms = 2 * k;      // 0, 2, 4
     times.line_ms = 4 - k;          // 4, 3, 2: ratios 4, 1.5, 0.67
     times.filter_ms = 10 * k;       // 0, 10, 20
-    times.simulate_ms = 7 - 2 * k;  // makes (7 + 5 + 3) + (1 + 2 + 3) + 30 + 9 = 60 ms in all
+    times.simulate_ms = 7 - 2 * k;  // makes (7 + 5 + 3) + (1 + 2 + 3) + 6 + 30 + 9 = 66 ms in all
     times.truth_ms = 3;
     frame.record().times = times;
   }));
   EXPECT_DOUBLE_EQ(get(metrics, "time.detect_ms_median"), 2);
+  EXPECT_DOUBLE_EQ(get(metrics, "time.describe_ms_median"), 2);
   EXPECT_DOUBLE_EQ(get(metrics, "time.line_ms_median"), 3);
   EXPECT_DOUBLE_EQ(get(metrics, "time.line_over_fast"), 1.5);
   EXPECT_DOUBLE_EQ(get(metrics, "time.filter_ms_p99"), 10 + 0.98 * 10);
-  EXPECT_DOUBLE_EQ(get(metrics, "sim.frames_per_second"), 3 / 0.060);
+  EXPECT_DOUBLE_EQ(get(metrics, "sim.frames_per_second"), 3 / 0.066);
 }
 
 TEST(Times, OfARecordingWithoutThemAreUndefined) {

@@ -1,8 +1,10 @@
 #include "tools/bench/bench.h"
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "filter/detect/describe.h"
 #include "tools/bench/ego_motion_feed.h"
 #include "tools/bench/timed.h"
 
@@ -60,7 +62,7 @@ Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulat
 void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame) {
   FrameTimes times = frame.times.value_or(FrameTimes{});
   const FrameResult& result = timed(times.filter_ms, [&]() -> const FrameResult& {
-    return tracker.step({image, grey, frame.corners_px, frame.motion});
+    return tracker.step({image, grey, frame.corners_px, frame.motion, frame.signatures});
   });
   frame.verdicts = result.verdicts;
   frame.reasons = result.reasons;
@@ -73,6 +75,10 @@ void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameR
 
 std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
                              std::span<const Watcher> watchers) {
+  const bool are_signatures_wanted =
+      std::any_of(watchers.begin(), watchers.end(),
+                  [](const Watcher& watcher) { return watcher.tracker.wants_signatures(); });
+
   while (true) {
     FrameRecord seen;  // by all
     FrameTimes& times = seen.times.emplace();
@@ -84,9 +90,18 @@ std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
     seen.corners_px =
         timed(times.detect_ms, [&] { return FastDetector::detect(grey, threshold); });
     if (source.straighten(seen.corners_px, image)) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+    std::vector<Signature> signatures;  // only for those who want them, as alone
+    double describe_ms = 0;
+    if (are_signatures_wanted) {
+      signatures = timed(describe_ms, [&] { return describe(grey, seen.corners_px); });
+    }
     source.label(seen);
     for (const Watcher& watcher : watchers) {
       FrameRecord& frame = watcher.recording.frames.emplace_back(seen);
+      if (watcher.tracker.wants_signatures()) {
+        frame.signatures = signatures;
+        frame.times->describe_ms = describe_ms;
+      }
       ask(watcher.tracker, image, grey, frame);
       watcher.sink(frame, image);
     }

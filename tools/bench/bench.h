@@ -1,5 +1,6 @@
 /// \file
-/// The loop of a run: observation -> corners -> ego-motion -> tracker -> record with truth.
+/// The loop of a run: observation -> corners and their signatures -> ego-motion -> tracker ->
+/// record with truth.
 #pragma once
 
 #include <functional>
@@ -45,7 +46,8 @@ class FrameSource {
 Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulation& simulation);
 
 /// Asks a tracker about corners that are known.
-/// \param frame whose corners and motion are known; gets verdicts, layers, and the times of that.
+/// \param frame whose corners, motion, and signatures if any, are known; gets verdicts, layers, and
+///   the times of that.
 /// \param grey,image may be empty for a tracker that does not look at them.
 void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
@@ -69,6 +70,12 @@ EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenari
                                          pictures.string(), pictures_->size(),
                                          recorded_.frames.size()));
   }
+}
+
+bool EarlierRun::lacks_signatures() const {
+  return std::any_of(
+      recorded_.frames.begin(), recorded_.frames.end(),
+      [](const FrameRecord& frame) { return frame.signatures.size() < frame.corners_px.size(); });
 }
 
 Recording EarlierRun::begin() const {

@@ -1,7 +1,7 @@
 /// \file
-/// An earlier run of a scenario in place of a simulation: the same corners, motions and truth, so
-/// that a detector that looks at no pictures says what it would say in a run of its own, in a
-/// fraction of the time.
+/// An earlier run of a scenario in place of a simulation: the same corners, signatures, motions and
+/// truth, so that a detector that looks at no pictures says what it would say in a run of its own,
+/// in a fraction of the time.
 #pragma once
 
 #include <filesystem>
@@ -23,6 +23,10 @@ class EarlierRun {
 
   /// Of each frame, where the run kept them; else null.
   const FramePictures* pictures() const { return pictures_ ? &*pictures_ : nullptr; }
+
+  /// Whether there is a corner without a signature, as where a comparator was alone in the run: the
+  /// filter then is given places alone, and may say something else than in a run of its own.
+  bool lacks_signatures() const;
 
   /// A recording of the scenario without frames yet.
   Recording begin() const;

@@ -22,6 +22,7 @@ Recording unspoken(const Recording& recording) {
     frame.index = given.index;
     frame.t_ns = given.t_ns;
     frame.corners_px = given.corners_px;
+    frame.signatures = given.signatures;
     frame.motion = given.motion;
     frame.true_motion = given.true_motion;
     frame.corner_truth = given.corner_truth;

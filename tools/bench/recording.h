@@ -14,6 +14,7 @@
 #include "filter/ego_motion.h"
 #include "filter/layers.h"
 #include "filter/reason.h"
+#include "filter/signature.h"
 #include "sim/truth.h"
 #include "sim/warnings.h"
 #include "tools/bench/labels.h"
@@ -25,6 +26,7 @@ namespace lcs::bench {
 struct FrameTimes {
   double simulate_ms = 0;  ///< physics and rendering
   double detect_ms = 0;    ///< `cv::FAST` on this frame: the yardstick
+  double describe_ms = 0;  ///< signatures of its corners
   double line_ms = 0;
   double circle_ms = 0;
   double square_ms = 0;
@@ -36,6 +38,7 @@ struct FrameRecord {
   int index = 0;
   std::int64_t t_ns = 0;
   std::vector<Eigen::Vector2f> corners_px;  ///< chi
+  std::vector<Signature> signatures;        ///< of each corner; empty where none were made
   std::vector<Verdict> verdicts;            ///< of each corner
   std::vector<Reason> reasons;              ///< of each verdict; empty where none are given
   Layers layers;

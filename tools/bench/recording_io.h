@@ -4,6 +4,10 @@
 /// one line more about the run and its detector. Lists of items are stored by column, as {"id": [1,
 /// 2], "x": [3.5, 4]}.
 ///
+/// Where the tracker was given signatures, `layers.jsonl` has "signatures": the 32 bytes of each
+/// corner's in the corners' order, as ORB has them, in hexadecimal digits (Python:
+/// `bytes.fromhex(frame["signatures"])`).
+///
 /// Numbers are written in the shortest form that reads back to the same bits, so that scoring a
 /// recording that was stored gives the same figures. JSON knows no infinity: null stands for +inf
 /// (the depth of the sky).

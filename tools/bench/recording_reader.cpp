@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <charconv>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -173,6 +175,25 @@ EgoMotion read_motion(const Json& json) {
   return read;
 }
 
+std::vector<Signature> signatures_of(const Json& json, std::size_t corners) {
+  std::string digits;
+  read(json, digits);
+  require(digits.size() == corners * 2 * sizeof(Signature),
+          "64 hexadecimal digits for each corner");
+  std::vector<Signature> signatures(corners);
+  const char* next = digits.data();
+  for (Signature& signature : signatures) {
+    SignatureBytes bytes;
+    for (std::uint8_t& byte : bytes) {
+      require(std::from_chars(next, next + 2, byte, 16).ptr == next + 2,
+              "64 hexadecimal digits for each corner");
+      next += 2;
+    }
+    signature = std::bit_cast<Signature>(bytes);
+  }
+  return signatures;
+}
+
 std::vector<Chain> chains_of(const std::vector<ChainRow>& rows) {
   std::vector<Chain> chains;
   for (const ChainRow& row : rows) {
@@ -195,6 +216,10 @@ void read_layers(const Json& json, FrameRecord& frame) {
     frame.corners_px.push_back(Vec2(corner.x, corner.y).cast<float>());
     frame.verdicts.push_back(corner.verdict);
     frame.reasons.push_back(corner.reason);
+  }
+  if (json.contains("signatures")) {
+    within(".signatures",
+           [&] { frame.signatures = signatures_of(json["signatures"], frame.corners_px.size()); });
   }
   Layers& layers = frame.layers;
   layers.normal_edges = read_columns<Edge>(json, "normal_edges");

@@ -1,4 +1,5 @@
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -171,6 +172,19 @@ std::vector<CornerRow> corner_rows(const FrameRecord& frame) {
   return rows;
 }
 
+/// Two digits for each byte in memory, whose order thus is the maker's on any machine.
+void append(std::string& out, const std::vector<Signature>& signatures) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  out += '"';
+  for (const Signature& signature : signatures) {
+    for (const std::uint8_t byte : std::bit_cast<SignatureBytes>(signature)) {
+      out += kDigits[byte >> 4];
+      out += kDigits[byte & 15];
+    }
+  }
+  out += '"';
+}
+
 std::vector<ChainRow> chain_rows(const std::vector<Chain>& chains) {
   std::vector<ChainRow> rows;
   for (const Chain& chain : chains) {
@@ -233,6 +247,10 @@ std::string layers_line(const FrameRecord& frame) {
     append(out, frame.t_ns);
     append_motion(out, "motion", frame.motion);
     append_columns(out, "corners", corner_rows(frame));
+    if (!frame.signatures.empty()) {
+      append_key(out, "signatures");
+      append(out, frame.signatures);
+    }
     append_columns(out, "normal_edges", layers.normal_edges);
     append_columns(out, "rebel_edges", layers.rebel_edges);
     append_columns(out, "normal_circles", layers.normal_circles);

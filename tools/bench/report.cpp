@@ -63,7 +63,8 @@ Row row_of(const FrameRecord& frame, const RebelCounts& rebels, bool layered) {
   row("true_rebels", rebels.true_rebels)("false_rebels", rebels.false_rebels);
   row("found_rebels", rebels.found_rebels)("missed_rebels", rebels.missed_rebels);
   row("precision", rebels.precision())("recall", rebels.recall());
-  row("detect_ms", time(&FrameTimes::detect_ms))("line_ms", stage_time(&FrameTimes::line_ms));
+  row("detect_ms", time(&FrameTimes::detect_ms));
+  row("describe_ms", time(&FrameTimes::describe_ms))("line_ms", stage_time(&FrameTimes::line_ms));
   row("circle_ms", stage_time(&FrameTimes::circle_ms));
   row("square_ms", stage_time(&FrameTimes::square_ms));
   row("filter_ms", time(&FrameTimes::filter_ms))("simulate_ms", time(&FrameTimes::simulate_ms));

@@ -173,6 +173,7 @@ struct Stage {
 
 void add_times(Metrics& metrics, const Recording& recording) {
   constexpr Stage kDetect{"detect", &FrameTimes::detect_ms};
+  constexpr Stage kDescribe{"describe", &FrameTimes::describe_ms};
   constexpr Stage kStages[] = {{"line", &FrameTimes::line_ms, true},
                                {"circle", &FrameTimes::circle_ms, true},
                                {"square", &FrameTimes::square_ms, true},
@@ -198,6 +199,7 @@ void add_times(Metrics& metrics, const Recording& recording) {
   const std::vector<double> fast = all(kDetect);
 
   add_quantiles(kDetect);
+  add_quantiles(kDescribe);
   for (const Stage& stage : kStages) {
     add_quantiles(stage);
     const std::vector<double> times = all(stage);
@@ -214,7 +216,8 @@ void add_times(Metrics& metrics, const Recording& recording) {
   for (const FrameRecord& frame : recording.frames) {
     if (!frame.times) continue;
     const FrameTimes& times = *frame.times;
-    seconds += 1e-3 * (times.simulate_ms + times.detect_ms + times.filter_ms + times.truth_ms);
+    seconds += 1e-3 * (times.simulate_ms + times.detect_ms + times.describe_ms + times.filter_ms +
+                       times.truth_ms);
     ++timed;
   }
   metrics.emplace_back("sim.frames_per_second", ratio(timed, seconds));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "scenarios/input_file.h"
 #include "tools/bench/csv.h"
@@ -12,16 +11,27 @@
 namespace lcs::bench {
 namespace {
 
-constexpr std::pair<const char*, double FrameTimes::*> kColumns[] = {
-    {"simulate_ms", &FrameTimes::simulate_ms}, {"detect_ms", &FrameTimes::detect_ms},
-    {"line_ms", &FrameTimes::line_ms},         {"circle_ms", &FrameTimes::circle_ms},
-    {"square_ms", &FrameTimes::square_ms},     {"filter_ms", &FrameTimes::filter_ms},
-    {"truth_ms", &FrameTimes::truth_ms}};
+struct Column {
+  std::string_view name;
+  double FrameTimes::*time_ms;
+  bool may_lack = false;  ///< as in tables from before there were signatures
+};
+
+constexpr Column kColumns[] = {
+    {"simulate_ms", &FrameTimes::simulate_ms},       {"detect_ms", &FrameTimes::detect_ms},
+    {"describe_ms", &FrameTimes::describe_ms, true}, {"line_ms", &FrameTimes::line_ms},
+    {"circle_ms", &FrameTimes::circle_ms},           {"square_ms", &FrameTimes::square_ms},
+    {"filter_ms", &FrameTimes::filter_ms},           {"truth_ms", &FrameTimes::truth_ms}};
+
+/// The number of columns where there is none.
+std::size_t place_of(const std::vector<std::string_view>& header, std::string_view name) {
+  return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+}
 
 std::size_t column_of(const std::vector<std::string_view>& header, std::string_view name) {
-  const auto found = std::find(header.begin(), header.end(), name);
-  if (found == header.end()) throw std::runtime_error(fmt::format("has no column {}", name));
-  return static_cast<std::size_t>(found - header.begin());
+  const std::size_t place = place_of(header, name);
+  if (place == header.size()) throw std::runtime_error(fmt::format("has no column {}", name));
+  return place;
 }
 
 /// None where every time is empty; a stage that the detector does not have is empty, and 0.
@@ -29,12 +39,13 @@ std::optional<FrameTimes> times_in(const std::vector<std::string_view>& header,
                                    const std::vector<std::string_view>& row) {
   FrameTimes times;
   bool any = false;
-  for (const auto& [name, member] : kColumns) {
+  for (const auto& [name, time_ms, may_lack] : kColumns) {
+    if (may_lack && place_of(header, name) == header.size()) continue;
     const std::string_view text = row[column_of(header, name)];
     if (text.empty()) continue;
     const std::optional<double> ms = number_in<double>(text);
     if (!ms) throw std::runtime_error(fmt::format("{} is '{}', not a number", name, text));
-    times.*member = *ms;
+    times.*time_ms = *ms;
     any = true;
   }
   return any ? std::optional(times) : std::nullopt;

@@ -19,7 +19,8 @@ LcsTracker::LcsTracker(const sim::Pinhole& camera, const Parameters& parameters)
     : filter_(intrinsics(camera), parameters) {}
 
 const FrameResult& LcsTracker::step(const TrackerInput& input) {
-  return filter_.step(input.corners_px, input.motion);
+  if (input.signatures.empty()) return filter_.step(input.corners_px, input.motion);
+  return filter_.step(input.corners_px, input.signatures, input.motion);
 }
 
 Parameters filter_parameters(const scenario::Scenario& scenario) {

@@ -21,6 +21,7 @@ struct TrackerInput {
   const cv::Mat1b& grey;   ///< the same: what the corners were found in
   std::span<const Eigen::Vector2f> corners_px;
   const EgoMotion& motion;  ///< since the last frame
+  std::span<const Signature> signatures = {};  ///< of each corner; none where none are known
 };
 
 class Tracker {
@@ -32,6 +33,9 @@ class Tracker {
   ///   of stages. Valid until the next step.
   virtual const FrameResult& step(const TrackerInput& input) = 0;
 
+  /// Whether signatures are to be made for it, which takes longer than to find the corners.
+  virtual bool wants_signatures() const { return false; }
+
   /// What was wrong with what it was told so far, if it looks.
   virtual Diagnostics diagnostics() const { return {}; }
 };
@@ -39,11 +43,13 @@ class Tracker {
 /// The camera as trackers on the filter's geometry take it.
 Intrinsics intrinsics(const sim::Pinhole& camera);
 
-/// The LCS filter. It sees corners and ego-motion, never the image.
+/// The LCS filter. It sees corners, their signatures if there are any, and ego-motion, never the
+/// image.
 class LcsTracker : public Tracker {
  public:
   LcsTracker(const sim::Pinhole& camera, const Parameters& parameters);
   const FrameResult& step(const TrackerInput& input) override;
+  bool wants_signatures() const override { return true; }
   Diagnostics diagnostics() const override { return filter_.diagnostics(); }
 
  private:

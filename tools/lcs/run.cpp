@@ -90,6 +90,7 @@ struct Frames {
   sim::Pinhole camera;
   bench::Recording recording;  ///< without frames yet
   const bench::FramePictures* pictures = nullptr;
+  std::vector<std::string> missing = {};  ///< a line for each thing that a run would have made
   std::function<std::vector<Diagnostics>(std::span<const bench::Watcher>)> run;
 };
 
@@ -120,9 +121,17 @@ Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
                     "--events",
                     options.recorded));
   }
+  std::vector<std::string> missing;
+  if (earlier->lacks_signatures()) {
+    missing.push_back(
+        fmt::format("{} has no signatures of its corners, so that the filter goes by their places "
+                    "alone; leave out --recorded to have them made",
+                    options.recorded));
+  }
   return {.camera = camera,
           .recording = earlier->begin(),
           .pictures = earlier->pictures(),
+          .missing = std::move(missing),
           .run = [earlier, with_images](std::span<const bench::Watcher> watchers) {
             std::vector<Diagnostics> all;
             for (const bench::Watcher& watcher : watchers) {
@@ -249,6 +258,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   }
   warn(scenario::shadowed_files(scenario));
   warn(own.idle_settings);
+  warn(frames.missing);
   std::vector<Diagnostics> diagnostics;
   {
     Progress progress(scenario.name, scenario.frames, options.quiet);

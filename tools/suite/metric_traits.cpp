@@ -75,6 +75,8 @@ const std::vector<MetricTraits>& metric_traits() {
       // Times differ from run to run and machine to machine: told, never judged.
       neutral("time.detect_ms_median"),
       neutral("time.detect_ms_p99"),
+      neutral("time.describe_ms_median"),
+      neutral("time.describe_ms_p99"),
       neutral("time.line_ms_median"),
       neutral("time.line_ms_p99"),
       neutral("time.line_over_fast"),
