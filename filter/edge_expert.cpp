@@ -4,6 +4,7 @@
 
 #include "filter/constellation_edges.h"
 #include "filter/geometry.h"
+#include "filter/hypotheses/hypothesis_edges.h"
 #include "filter/paper_edges.h"
 #include "filter/refill.h"
 
@@ -57,6 +58,9 @@ std::unique_ptr<EdgeExpert> make_edge_expert(const Intrinsics& camera,
                                              const CircleParameters& parameters) {
   if (parameters.edge_rule == EdgeRule::paper) {
     return std::make_unique<PaperEdges>(camera, parameters);
+  }
+  if (parameters.edge_rule == EdgeRule::hypotheses) {
+    return std::make_unique<HypothesisEdges>(camera, parameters);
   }
   return std::make_unique<ConstellationEdges>(camera, parameters);
 }

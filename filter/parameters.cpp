@@ -32,9 +32,10 @@ using Field = T& (*)(Parameters&);
 using AskedBy = std::vector<Rule>;
 const AskedBy kPaper{{"circle.edge_rule", "paper"}};
 const AskedBy kConstellation{{"circle.edge_rule", "constellation"}};
+const AskedBy kHypotheses{{"circle.edge_rule", "hypotheses"}};
 const AskedBy kCouples{{"square.layer_rule", "couples"}};
 const AskedBy kLinks{{"square.layer_rule", "links"}};
-const AskedBy kGrounded{kConstellation.front(), kLinks.front()};
+const AskedBy kGrounded{kConstellation.front(), kHypotheses.front(), kLinks.front()};
 
 struct Entry {
   std::string key;
@@ -64,7 +65,7 @@ const std::vector<Entry>& entries() {
       {"field.nearest_depth", "z_min", "m", 1e-3, 1e4, LCS_FIELD(double, field.nearest_depth_m)},
       {"field.ground", "", "", 0, 0, LCS_FIELD(bool, field.ground), kGrounded},
       {"field.ground_tilt", "", "deg", 0, 90, LCS_FIELD(double, field.ground_tilt_rad),
-       kConstellation},
+       {kConstellation.front(), kHypotheses.front()}},
       {"field.still_speed", "", "m/s", 0, 10, LCS_FIELD(double, field.still_speed_mps)},
       {"field.unseen_turn", "", "", 0, 0, LCS_FIELD(bool, field.unseen_turn)},
       {"line.ignore", "psi", "", 0, 0, LCS_FIELD(bool, line.ignore)},
@@ -74,7 +75,7 @@ const std::vector<Entry>& entries() {
       {"circle.Tr_m", "Tr^c_m", "", 0, 1000, LCS_FIELD(int, circle.trust.maximum)},
       {"circle.delta_v", "delta_v", "deg", 0, 90, LCS_FIELD(double, circle.delta_v), kPaper},
       {"circle.edge_rule", "", "", 0, 0,
-       LCS_CHOICE(EdgeRule, circle.edge_rule, "paper", "constellation")},
+       LCS_CHOICE(EdgeRule, circle.edge_rule, "paper", "constellation", "hypotheses")},
       {"circle.mu_0", "mu_0", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_0), kPaper},
       {"circle.mu_min", "", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_min), kPaper},
       {"circle.mu_max", "", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_max), kPaper},
@@ -86,6 +87,46 @@ const std::vector<Entry>& entries() {
       {"circle.alpha_stretch", "", "", 0, 10, LCS_FIELD(double, circle.alpha_stretch), kPaper},
       {"circle.alpha_branches", "", "", 1, 100, LCS_FIELD(int, circle.alpha_branches), kPaper},
       {"circle.rebel_reach", "", "", 0, 10, LCS_FIELD(double, circle.rebel_reach), kPaper},
+      {"hypotheses.noise", "", "px", 0.01, 100,
+       LCS_FIELD(double, circle.hypotheses.noise_px), kHypotheses},
+      {"hypotheses.prior", "", "", 1e-06, 0.5,
+       LCS_FIELD(double, circle.hypotheses.prior), kHypotheses},
+      {"hypotheses.turnover", "", "1/s", 0.001, 1000,
+       LCS_FIELD(double, circle.hypotheses.turnover_ps), kHypotheses},
+      {"hypotheses.wrong_first", "", "", 1e-06, 0.999,
+       LCS_FIELD(double, circle.hypotheses.wrong_first), kHypotheses},
+      {"hypotheses.wrong", "", "", 1e-06, 0.999,
+       LCS_FIELD(double, circle.hypotheses.wrong), kHypotheses},
+      {"hypotheses.ego_share", "", "", 0, 10,
+       LCS_FIELD(double, circle.hypotheses.ego_share), kHypotheses},
+      {"hypotheses.acceleration", "", "1/s", 0.001, 1000,
+       LCS_FIELD(double, circle.hypotheses.acceleration_ps), kHypotheses},
+      {"hypotheses.max_speed", "", "px/s", 1, 100000,
+       LCS_FIELD(double, circle.hypotheses.max_speed_pxps), kHypotheses},
+      {"hypotheses.reach", "", "px", 1, 1000,
+       LCS_FIELD(double, circle.hypotheses.reach_px), kHypotheses},
+      {"hypotheses.coast", "", "", 0, 100,
+       LCS_FIELD(int, circle.hypotheses.coast), kHypotheses},
+      {"hypotheses.bits_same", "", "", 0, 256,
+       LCS_FIELD(double, circle.hypotheses.bits_same), kHypotheses},
+      {"hypotheses.bits_other", "", "", 0, 256,
+       LCS_FIELD(double, circle.hypotheses.bits_other), kHypotheses},
+      {"hypotheses.bits_spread", "", "", 1, 256,
+       LCS_FIELD(double, circle.hypotheses.bits_spread), kHypotheses},
+      {"hypotheses.voters", "", "", 0, 1000,
+       LCS_FIELD(int, circle.hypotheses.voters), kHypotheses},
+      {"hypotheses.voters_reach", "", "px", 1, 1000,
+       LCS_FIELD(double, circle.hypotheses.voters_reach_px), kHypotheses},
+      {"hypotheses.voters_share", "", "", 0, 0.999,
+       LCS_FIELD(double, circle.hypotheses.voters_share), kHypotheses},
+      {"hypotheses.step_share", "", "", 0, 10,
+       LCS_FIELD(double, circle.hypotheses.step_share), kHypotheses},
+      {"hypotheses.coupling", "", "", 0, 1000,
+       LCS_FIELD(double, circle.hypotheses.coupling), kHypotheses},
+      {"hypotheses.coupling_reach", "", "px", 1, 1000,
+       LCS_FIELD(double, circle.hypotheses.coupling_reach_px), kHypotheses},
+      {"hypotheses.first_log_odds", "", "", -100, 100,
+       LCS_FIELD(double, circle.hypotheses.first_log_odds), kHypotheses},
       {"constellation.normal_along", "", "px", 0, 100,
        LCS_FIELD(double, circle.constellation.normal_along), kConstellation},
       {"constellation.normal_along_growth", "", "", 0, 10,
@@ -399,14 +440,23 @@ Parameters night() {
   return p;
 }
 
+/// Edges by two hypotheses.
+Parameters hypotheses() {
+  Parameters p = project_default();
+  p.circle.edge_rule = EdgeRule::hypotheses;
+  p.field.nearest_depth_m = 0.4;
+  return p;
+}
+
 }  // namespace
 
 std::vector<std::string> preset_names() {
-  return {"default", "night", "lab", "cars"};
+  return {"default", "hypotheses", "night", "lab", "cars"};
 }
 
 Parameters preset(std::string_view name) {
   if (name == "default") return project_default();
+  if (name == "hypotheses") return hypotheses();
   if (name == "night") return night();
   if (name == "lab") return lab();
   if (name == "cars") return cars();

@@ -24,6 +24,7 @@ enum class RotationModel {
 enum class EdgeRule {
   paper,          ///< the five cases xi, and alpha: three sightings of a single corner in line
   constellation,  ///< a corner and its neighbours move alike over three frames
+  hypotheses,     ///< each corner is a static point or moves by itself, weighed at each sighting
 };
 
 /// How circles or edges become squares.
@@ -106,10 +107,37 @@ struct FootingParameters {
   double overhang = 0.3;  ///< m: how far beside what is below the ground its body reaches
 };
 
+/// Two hypotheses a corner (`filter/hypotheses/`), which stand in for xi and alpha; where each comes
+/// from is in filter/RULES.md.
+struct HypothesisParameters {
+  double noise_px = 0.6;  ///< standard deviation of a corner's place on an axis: whole pixels, FAST
+  double prior = 0.03;    ///< share of corners that move
+  double turnover_ps = 1;      ///< 1/s: how often a corner changes its kind, or a track its corner
+  double wrong_first = 0.15;   ///< share of first matches that are none
+  double wrong = 0.02;         ///< and of later ones
+  double ego_share = 0.02;     ///< of the image motion by which the camera's velocity may be wrong
+  double acceleration_ps = 1;  ///< 1/s: share of its image velocity by which a mover changes it
+  double max_speed_pxps = 600;  ///< px/s: the fastest that a mover is looked for, the rotation
+                                ///< removed,
+  double reach_px = 60;         ///< px: and the farthest in a frame
+  int coast = 3;                ///< frames that a track goes on unseen
+  double bits_same = 30;        ///< that differ between two signatures of one place,
+  double bits_other = 125;      ///< of two places,
+  double bits_spread = 25;      ///< and by how much either varies
+  int voters = 16;              ///< neighbours that are asked about a match
+  double voters_reach_px = 40;  ///< px: and how far they are, at the most
+  double voters_share = 0.5;    ///< of them that are found again beside it where it is right
+  double step_share = 0.08;     ///< by which the steps of neighbours may differ
+  double coupling = 8;          ///< J: what those round a corner count at the most, log odds
+  double coupling_reach_px = 25;  ///< px: where it has fallen to 0.6
+  double first_log_odds = 0.4;    ///< of a corner that no track has, before those round it count
+};
+
 /// Circle expert: edges, alpha, circles.
 struct CircleParameters {
   TrustRanks trust{2, 3, 5};  ///< Tr^c
   EdgeRule edge_rule = EdgeRule::constellation;
+  HypothesisParameters hypotheses;
   ConstellationParameters constellation;
   InheritanceParameters inheritance;
   FootingParameters footing;

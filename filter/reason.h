@@ -42,6 +42,9 @@ enum class Reason : std::uint8_t {
   // then the ground.
   unfounded,
 
+  // `EdgeRule::hypotheses`, on a corner that no track has.
+  first_sighting,
+
   // `EdgeRule::paper`: no edge took the corner, so that it starts a row of alpha,
   alpha_first,
   xi_5,
@@ -66,7 +69,7 @@ struct ReasonText {
 };
 
 /// By the order of `Reason`. For each, the verdicts that it may come with.
-inline constexpr std::array<ReasonText, 32> kReasons{{
+inline constexpr std::array<ReasonText, 33> kReasons{{
     {"unknown", "no reason given"},
     {"not_finite", "its place is not a number"},                               // pending
     {"outside", "outside of the picture"},                                     // pending
@@ -88,6 +91,7 @@ inline constexpr std::array<ReasonText, 32> kReasons{{
     {"normal_stands", "among rebels, but a normal edge has it"},                         // normal
     {"inherited", "likely a rebel by those round it"},                                   // rebel
     {"unfounded", "its group stands on nothing where it seems to be"},                   // rebel
+    {"first_sighting", "in no frame before, and not among rebels"},                      // pending
     {"alpha_first", "near no edge and on no row of alpha: starts one"},                  // pending
     {"xi_5", "outside the span of the edges near it: starts a row of alpha"},            // pending
     {"xi_4", "against the field or too fast for it: starts a row of alpha"},             // pending

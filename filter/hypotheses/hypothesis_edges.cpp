@@ -1,0 +1,259 @@
+#include "filter/hypotheses/hypothesis_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "filter/geometry.h"
+#include "filter/hypotheses/gauss.h"
+#include "filter/rebel_groups.h"
+#include "filter/refill.h"
+
+namespace lcs {
+namespace {
+
+/// Frames after which a track that is sure to stand says what the rotation is off by, and log odds
+/// from which it is.
+constexpr int kSureSightings = 4;
+constexpr double kSure = -2;
+
+/// A static point's images that are shorter than this share of the noise are one place.
+constexpr double kPlace = 0.3;
+
+/// Depth is known where its variance is this share of what the bounds alone say.
+constexpr double kKnownDepth = 0.25;
+
+}  // namespace
+
+HypothesisEdges::HypothesisEdges(const Intrinsics& camera, const CircleParameters& parameters)
+    : EdgeExpert(camera, parameters.trust),
+      parameters_(parameters.hypotheses),
+      noise2_px2_(parameters_.noise_px * parameters_.noise_px),
+      association_(parameters_),
+      coupling_(parameters_) {}
+
+void HypothesisEdges::predict(Layers&, const MotionField& field) {
+  predicted_.clear();
+  for (const Track& track : tracks_) {
+    Track& next = predicted_.emplace_back(track);
+    next.place_px = field.rotated(track.place_px);
+    next.as_static = track.as_static.predicted(camera_, field, parameters_.ego_share);
+    if (track.has_motion()) {
+      next.as_moving = track.as_moving.predicted(field, parameters_.acceleration_ps);
+    }
+    next.corner = -1;
+    ++next.age;
+  }
+}
+
+/// Predictions are moved by what the rotation is off by.
+void HypothesisEdges::fix_rotation(const Chi& chi, const std::vector<int>& track_of) {
+  residuals_.clear();
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    if (track_of[c] < 0) continue;
+    const Track& track = predicted_[track_of[c]];
+    if (track.sightings < kSureSightings || track.belief > kSure) continue;
+    residuals_.push_back({chi.locations[c], chi.locations[c] - track.as_static.place_px});
+  }
+  const Eigen::Vector3d rotation = rotation_fix(camera_, residuals_, noise2_px2_);
+  if (rotation.isZero()) return;
+  for (Track& track : predicted_) {
+    track.place_px += shift(camera_, rotation, track.place_px);
+    track.as_static.place_px += shift(camera_, rotation, track.as_static.place_px);
+    track.as_moving.place_px += shift(camera_, rotation, track.as_moving.place_px);
+  }
+}
+
+Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner, const MotionField& field) {
+  Track track;
+  track.id = next_id();
+  track.place_px = chi.locations[corner];
+  if (!chi.signatures.empty()) track.signature = chi.signatures[corner];
+  track.as_static =
+      StaticPoint::first(track.place_px, noise2_px2_, depth_bounds(field, track.place_px));
+  track.sightings = 1;
+  track.corner = static_cast<int>(corner);
+  return track;
+}
+
+/// Log odds a frame on: a corner may have changed its kind, or its track may have jumped.
+double HypothesisEdges::faded(double log_odds, double dt_s) const {
+  const double turnover = std::min(0.5, parameters_.turnover_ps * dt_s);
+  return lcs::log_odds(chance(log_odds) * (1 - turnover) + parameters_.prior * turnover);
+}
+
+/// ln p(x | moves) / p(x | stands) of the second sighting. A static point may have come along a
+/// segment l of the image, all depths alike; a mover may have come by as much from any of it, at
+/// speeds of which each order of magnitude is as likely:
+///   p(x | moves) = [atan((l - a) / s) + atan(a / s)] / (pi l s ln(1 + R^2 / 2 sigma^2)),
+/// a along the segment and b across, s^2 = b^2 + 2 sigma^2, R the reach.
+double HypothesisEdges::first_step(const Track& track, const Vec2& x_px, double still,
+                                   const DepthBounds& bounds, const MotionField& field) const {
+  const Eigen::Vector3d d = field.displacement_C_m();
+  const Vec2 parallax =
+      (track.place_px - camera_.centre_px) * d.z() - camera_.focal_px * d.head<2>();
+  const double length = parallax.norm();
+  const Vec2 along = length > 1e-9 ? Vec2(parallax / length) : Vec2::UnitX();
+  const Vec2 step = x_px - track.place_px;
+  const double segment = (bounds.most_pm - bounds.least_pm) * length;
+  const double a = step.dot(along) - bounds.least_pm * length, b = cross(along, step);
+  const double s2 = b * b + 2 * noise2_px2_, s = std::sqrt(s2);
+  const double reach = association_.reach_px(field.dt_s());
+  const double orders = std::log(1 + reach * reach / (2 * noise2_px2_));
+  const double moving =
+      segment > kPlace * s
+          ? (std::atan((segment - a) / s) + std::atan(a / s)) / (segment * kPi * orders * s)
+          : 1 / (kPi * orders * (s2 + (a - segment / 2) * (a - segment / 2)));
+  const double clutter = parameters_.wrong_first / (kPi * reach * reach);
+  const double right = 1 - parameters_.wrong_first;
+  return std::log((right * moving + clutter) / (right * still + clutter));
+}
+
+/// Takes a sighting in. \return false where neither hypothesis has a place for it, so that it is
+/// none: nothing is changed then.
+bool HypothesisEdges::see(Track& track, const Vec2& x_px, const MotionField& field) const {
+  const DepthBounds bounds = depth_bounds(field, x_px);
+  StaticPoint seen = track.as_static;
+  const double still = seen.see(x_px, noise2_px2_, bounds);
+  const double reach = association_.reach_px(field.dt_s());
+  if (!track.has_motion()) {
+    track.log_odds =
+        lcs::log_odds(parameters_.prior) + first_step(track, x_px, still, bounds, field);
+    track.as_moving = OwnMotion::first(track.place_px, x_px, noise2_px2_, field.dt_s());
+  } else {
+    const double moving = track.as_moving.density(x_px, noise2_px2_);
+    const double clutter = parameters_.wrong / (kPi * reach * reach);
+    const double right = 1 - parameters_.wrong;
+    if (right * std::max(still, moving) < clutter) return false;
+    track.log_odds = faded(track.log_odds, field.dt_s()) +
+                     std::log((right * moving + clutter) / (right * still + clutter));
+    track.as_moving.see(x_px, noise2_px2_);
+  }
+  const double turnover = std::min(0.5, parameters_.turnover_ps * field.dt_s());
+  const double most = lcs::log_odds((1 - turnover) / (1 - turnover + turnover * parameters_.prior));
+  track.log_odds = std::clamp(track.log_odds, -most, most);
+  track.as_static = seen;
+  track.place_px = x_px;
+  track.unseen = 0;
+  ++track.sightings;
+  return true;
+}
+
+/// Tracks without a corner go on as they are likelier to, for some frames.
+void HypothesisEdges::coast(const MotionField& field) {
+  for (Track& track : predicted_) {
+    if (track.corner >= 0 || !track.has_motion() || track.unseen >= parameters_.coast) continue;
+    track.belief = track.log_odds = faded(track.belief, field.dt_s());
+    track.place_px = track.belief > 0 ? track.as_moving.place_px : track.as_static.place_px;
+    ++track.unseen;
+    const Vec2& x = track.place_px;
+    if (x.x() < 0 || x.y() < 0 || x.x() >= camera_.width_px || x.y() >= camera_.height_px) continue;
+    tracks_.push_back(track);
+  }
+}
+
+void HypothesisEdges::couple(const MotionField& field) {
+  nodes_.clear();
+  for (const Track& track : tracks_) {
+    if (track.corner < 0) break;
+    const bool moves = track.has_motion();
+    nodes_.push_back({track.place_px, moves ? track.log_odds : parameters_.first_log_odds, moves,
+                      track.as_moving.velocity_pxps * field.dt_s(),
+                      track.as_moving.step_variance_px2(field.dt_s())});
+  }
+  const std::vector<double>& beliefs = coupling_.settle(nodes_);
+  for (std::size_t c = 0; c < beliefs.size(); ++c) tracks_[c].belief = beliefs[c];
+}
+
+/// The paper's edge of a track.
+Edge HypothesisEdges::edge_of(const Track& track, const MotionField& field) const {
+  Edge edge;
+  edge.id = track.id;
+  edge.rebel = edge.called = track.belief > 0;
+  edge.location = track.place_px;
+  edge.predicted = edge.rebel ? track.as_moving.place_px : track.as_static.place_px;
+  edge.depth_ratio = track.as_static.inverse_depth_pm * field.reference_depth_m();
+  edge.age = track.age;
+  edge.corner = track.corner;
+  // How sure it is, from 0 to 1, of the ranks that there are.
+  const double sure = std::abs(std::tanh(0.5 * track.belief));
+  const double ranks = trust_.maximum - trust_.critical;
+  edge.trust = trust_.critical + static_cast<int>(std::lround(sure * ranks)) - track.unseen;
+  if (edge.rebel) {
+    set_velocity(edge, track.as_moving.velocity_pxps, field.dt_s());
+    return edge;
+  }
+  edge.origin = field.origin(edge.location);
+  edge.speed = edge.depth_ratio * field.reference_speed(edge.location);
+  const Vec2 along = field.direction(edge.location);
+  edge.angle = angle_of(along.isZero() ? Vec2(edge.location - camera_.centre_px) : along);
+  edge.path.ratio = edge.depth_ratio;
+  const DepthBounds bounds = depth_bounds(field, edge.location);
+  const double half = 0.5 * (bounds.most_pm - bounds.least_pm);
+  const double variance = track.as_static.covariance(2, 2);
+  if (variance < kKnownDepth * half * half) {
+    const double sigma = std::sqrt(variance) * field.reference_depth_m();
+    edge.path.weight = Path::kSighting_px * Path::kSighting_px / (sigma * sigma);
+  }
+  return edge;
+}
+
+void HypothesisEdges::decide(Layers& layers, const Chi& chi, const MotionField& field,
+                             std::vector<Verdict>& verdicts) {
+  layers.normal_edges.clear();
+  layers.rebel_edges.clear();
+  layers.chains.clear();
+  followers_.clear();
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    const Track& track = tracks_[t];
+    const bool rebel = track.belief > 0;
+    if (track.corner >= 0) {
+      const int source = chi.sources[track.corner];
+      if (rebel) {
+        verdicts[source] = Verdict::rebel;
+        reasons_[t] = track.has_motion() ? Reason::rebel_edge : Reason::inherited;
+      } else if (track.has_motion()) {
+        verdicts[source] = Verdict::normal;
+        reasons_[t] = Reason::normal_edge;
+      } else {
+        reasons_[t] = Reason::first_sighting;
+      }
+    }
+    if (!track.has_motion()) {
+      const int model = rebel ? coupling_.model_of(t) : -1;
+      if (model >= 0) followers_.push_back({track.place_px, tracks_[model].id});
+      continue;
+    }
+    Edge edge = edge_of(track, field);
+    if (edge.corner >= 0) edge.corner = chi.sources[edge.corner];
+    (rebel ? layers.rebel_edges : layers.normal_edges).push_back(edge);
+  }
+  bury(layers.normal_edges);
+  bury(layers.rebel_edges);
+}
+
+void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& field,
+                             std::vector<Verdict>& verdicts) {
+  refill(reasons_, chi.size(), Reason::unknown);
+  if (!(field.dt_s() > 0)) predicted_.clear();
+  const std::vector<int>& track_of = association_.match(chi, predicted_, noise2_px2_, field.dt_s());
+  fix_rotation(chi, track_of);
+  tracks_.clear();
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    if (track_of[c] >= 0) {
+      Track& track = predicted_[track_of[c]];
+      track.corner = static_cast<int>(c);
+      if (see(track, chi.locations[c], field)) {
+        if (!chi.signatures.empty()) track.signature = chi.signatures[c];
+        tracks_.push_back(track);
+        continue;
+      }
+    }
+    tracks_.push_back(first_seen(chi, c, field));
+  }
+  if (field.dt_s() > 0) coast(field);
+  couple(field);
+  decide(layers, chi, field, verdicts);
+}
+
+}  // namespace lcs

@@ -1,0 +1,88 @@
+#include "filter/hypotheses/static_point.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "filter/hypotheses/gauss.h"
+
+namespace lcs {
+namespace {
+
+/// What the camera passes within a frame is taken to come this much nearer, and no more.
+constexpr double kMostApproach = 0.2;
+
+/// Chance of a normal variable between the bounds; never 0, as it is divided by.
+double mass(double mean, double variance, const DepthBounds& bounds) {
+  const double least_variance = variance + bounds.least_sigma_pm * bounds.least_sigma_pm;
+  return std::max(1e-12, below((bounds.most_pm - mean) / std::sqrt(variance)) -
+                             below((bounds.least_pm - mean) / std::sqrt(least_variance)));
+}
+
+}  // namespace
+
+DepthBounds depth_bounds(const MotionField& field, const Vec2& x_px) {
+  DepthBounds bounds;
+  bounds.most_pm = field.max_ratio() / field.reference_depth_m();
+  const double least = field.least_ratio(x_px) / field.reference_depth_m();
+  if (least <= 0) return bounds;
+  bounds.least_pm = std::min(least, 0.95 * bounds.most_pm);
+  bounds.least_sigma_pm = field.ground_slack() / field.reference_depth_m();
+  return bounds;
+}
+
+StaticPoint StaticPoint::first(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds) {
+  const double middle = 0.5 * (bounds.least_pm + bounds.most_pm);
+  const double half = 0.5 * (bounds.most_pm - bounds.least_pm);
+  StaticPoint point{x_px, middle, Eigen::Matrix3d::Zero()};
+  point.covariance.diagonal() << noise2_px2, noise2_px2, half * half;
+  return point;
+}
+
+StaticPoint StaticPoint::predicted(const Intrinsics& camera, const MotionField& field,
+                                   double ego_share) const {
+  const Eigen::Vector3d d = field.displacement_C_m();
+  const Vec2 shift = camera.focal_px * d.head<2>();
+  const Vec2 rotated = field.rotated(place_px);
+  const Vec2 h = rotated - camera.centre_px;
+  const double nearing = std::max(kMostApproach, 1 - inverse_depth_pm * d.z());
+  StaticPoint next;
+  next.place_px = camera.centre_px + (h - inverse_depth_pm * shift) / nearing;
+  next.inverse_depth_pm = inverse_depth_pm / nearing;
+  Eigen::Matrix3d F = Eigen::Matrix3d::Identity() / nearing;
+  F.topRightCorner<2, 1>() = (h * d.z() - shift) / (nearing * nearing);
+  F(2, 2) /= nearing;
+  next.covariance = F * covariance * F.transpose();
+  const Vec2 flow = next.place_px - rotated;
+  next.covariance.topLeftCorner<2, 2>() +=
+      ego_share * ego_share *
+      (flow * flow.transpose() + 0.25 * flow.squaredNorm() * Eigen::Matrix2d::Identity());
+  return next;
+}
+
+double StaticPoint::density(const Vec2& x_px, double noise2_px2) const {
+  const Eigen::Matrix2d S =
+      covariance.topLeftCorner<2, 2>() + noise2_px2 * Eigen::Matrix2d::Identity();
+  return gauss(x_px - place_px, S);
+}
+
+double StaticPoint::see(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds) {
+  const Eigen::Matrix2d S =
+      covariance.topLeftCorner<2, 2>() + noise2_px2 * Eigen::Matrix2d::Identity();
+  const Vec2 residual = x_px - place_px;
+  const double before = mass(inverse_depth_pm, covariance(2, 2), bounds);
+  const Eigen::Matrix<double, 3, 2> gain = covariance.leftCols<2>() * S.inverse();
+  const Eigen::Vector3d change = gain * residual;
+  place_px += change.head<2>();
+  inverse_depth_pm += change.z();
+  covariance -= gain * S * gain.transpose();
+  covariance(2, 2) = std::max(covariance(2, 2), 1e-9);
+  const double after = mass(inverse_depth_pm, covariance(2, 2), bounds);
+  // Out of bounds, the likeliest point within them.
+  const double bounded = std::clamp(inverse_depth_pm, bounds.least_pm, bounds.most_pm);
+  place_px += covariance.col(2).head<2>() / covariance(2, 2) * (bounded - inverse_depth_pm);
+  inverse_depth_pm = bounded;
+  return gauss(residual, S) * std::min(1.0, after / std::max(1e-6, before));
+}
+
+}  // namespace lcs

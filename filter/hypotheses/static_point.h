@@ -1,0 +1,49 @@
+/// \file
+/// A corner as a static point: where it is seen and how near it is, with what is not known of both.
+/// The state (x, y, w), w = 1/Z, goes from frame to frame as the camera's motion says,
+///
+///   x' = c + (x_r - c - f w d_xy) / (1 - w d_z),   w' = w / (1 - w d_z),
+///
+/// where x_r is x after the rotation and d the camera's displacement in its own frame, and takes
+/// each sighting as an extended Kalman filter does. No point is nearer than z_min, nor behind the
+/// ground that is seen there.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "filter/camera.h"
+#include "filter/motion_field.h"
+
+namespace lcs {
+
+/// 1/Z that a static point may have at a place, 1/m.
+struct DepthBounds {
+  double least_pm = 0;        ///< of the ground, less what it may fall away; 0: infinity
+  double most_pm = 0;         ///< at z_min
+  double least_sigma_pm = 0;  ///< standard deviation of the former
+};
+
+/// \param x_px of frame k.
+DepthBounds depth_bounds(const MotionField& field, const Vec2& x_px);
+
+struct StaticPoint {
+  Vec2 place_px = Vec2::Zero();
+  double inverse_depth_pm = 0;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, w)
+
+  /// Seen for the first time, at a depth within the bounds.
+  static StaticPoint first(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds);
+
+  /// One frame on.
+  /// \param ego_share of the image motion by which the camera's velocity may be wrong.
+  StaticPoint predicted(const Intrinsics& camera, const MotionField& field, double ego_share) const;
+
+  /// Of a predicted point: takes the sighting in.
+  /// \return the density of a sighting just there, 1/px^2.
+  double see(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds);
+
+  /// Density of a sighting at `x_px` of a predicted point, 1/px^2, bounds left aside.
+  double density(const Vec2& x_px, double noise2_px2) const;
+};
+
+}  // namespace lcs
