@@ -48,7 +48,8 @@ StaticPoint StaticPoint::predicted(const Intrinsics& camera, const MotionField& 
   const double nearing = std::max(kMostApproach, 1 - inverse_depth_pm * d.z());
   StaticPoint next;
   next.place_px = camera.centre_px + (h - inverse_depth_pm * shift) / nearing;
-  next.inverse_depth_pm = inverse_depth_pm / nearing;
+  next.inverse_depth_pm =
+      std::min(inverse_depth_pm / nearing, field.max_ratio() / field.reference_depth_m());
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity() / nearing;
   F.topRightCorner<2, 1>() = (h * d.z() - shift) / (nearing * nearing);
   F(2, 2) /= nearing;
@@ -75,8 +76,10 @@ double StaticPoint::see(const Vec2& x_px, double noise2_px2, const DepthBounds& 
   const Eigen::Vector3d change = gain * residual;
   place_px += change.head<2>();
   inverse_depth_pm += change.z();
-  covariance -= gain * S * gain.transpose();
-  covariance(2, 2) = std::max(covariance(2, 2), 1e-9);
+  // Joseph's form, which stays positive however well a place is known.
+  Eigen::Matrix3d kept = Eigen::Matrix3d::Identity();
+  kept.leftCols<2>() -= gain;
+  covariance = kept * covariance * kept.transpose() + noise2_px2 * gain * gain.transpose();
   const double after = mass(inverse_depth_pm, covariance(2, 2), bounds);
   // Out of bounds, the likeliest point within them.
   const double bounded = std::clamp(inverse_depth_pm, bounds.least_pm, bounds.most_pm);
