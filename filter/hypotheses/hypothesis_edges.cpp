@@ -37,8 +37,11 @@ void HypothesisEdges::predict(Layers&, const MotionField& field) {
   for (const Track& track : tracks_) {
     Track& next = predicted_.emplace_back(track);
     next.place_px = field.rotated(track.place_px);
-    next.as_static = track.as_static.predicted(camera_, field, parameters_.ego_share);
-    if (track.has_motion()) {
+    if (!track.has_motion()) {
+      next.as_static =
+          StaticPoint::seen_once(next.place_px, camera_, field, noise2_px2_, parameters_.ego_share);
+    } else {
+      next.as_static = track.as_static.predicted(camera_, field, parameters_.ego_share);
       next.as_moving = track.as_moving.predicted(field, parameters_.acceleration_ps);
     }
     next.corner = -1;
@@ -64,13 +67,11 @@ void HypothesisEdges::fix_rotation(const Chi& chi, const std::vector<int>& track
   }
 }
 
-Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner, const MotionField& field) {
+Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner) {
   Track track;
   track.id = next_id();
   track.place_px = chi.locations[corner];
   if (!chi.signatures.empty()) track.signature = chi.signatures[corner];
-  track.as_static =
-      StaticPoint::first(track.place_px, noise2_px2_, depth_bounds(field, track.place_px));
   track.sightings = 1;
   track.corner = static_cast<int>(corner);
   return track;
@@ -89,9 +90,7 @@ double HypothesisEdges::faded(double log_odds, double dt_s) const {
 /// a along the segment and b across, s^2 = b^2 + 2 sigma^2, R the reach.
 double HypothesisEdges::first_step(const Track& track, const Vec2& x_px, double still,
                                    const DepthBounds& bounds, const MotionField& field) const {
-  const Eigen::Vector3d d = field.displacement_C_m();
-  const Vec2 parallax =
-      (track.place_px - camera_.centre_px) * d.z() - camera_.focal_px * d.head<2>();
+  const Vec2 parallax = parallax_px_m(camera_, field.displacement_C_m(), track.place_px);
   const double length = parallax.norm();
   const Vec2 along = length > 1e-9 ? Vec2(parallax / length) : Vec2::UnitX();
   const Vec2 step = x_px - track.place_px;
@@ -249,7 +248,7 @@ void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& 
         continue;
       }
     }
-    tracks_.push_back(first_seen(chi, c, field));
+    tracks_.push_back(first_seen(chi, c));
   }
   if (field.dt_s() > 0) coast(field);
   couple(field);

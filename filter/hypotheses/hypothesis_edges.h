@@ -30,7 +30,7 @@ class HypothesisEdges : public EdgeExpert {
 
  private:
   void fix_rotation(const Chi& chi, const std::vector<int>& track_of);
-  Track first_seen(const Chi& chi, std::size_t corner, const MotionField& field);
+  Track first_seen(const Chi& chi, std::size_t corner);
   bool see(Track& track, const Vec2& x_px, const MotionField& field) const;
   double first_step(const Track& track, const Vec2& x_px, double still, const DepthBounds& bounds,
                     const MotionField& field) const;

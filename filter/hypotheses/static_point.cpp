@@ -19,7 +19,21 @@ double mass(double mean, double variance, const DepthBounds& bounds) {
                              below((bounds.least_pm - mean) / std::sqrt(least_variance)));
 }
 
+/// What a velocity that is wrong by a share does to an image motion: by as much along it, and by
+/// half of that across.
+Eigen::Matrix2d wrong_flow(const Vec2& flow_px, double ego_share) {
+  return ego_share * ego_share *
+         (0.75 * flow_px * flow_px.transpose() +
+          0.25 * flow_px.squaredNorm() * Eigen::Matrix2d::Identity());
+}
+
 }  // namespace
+
+Vec2 parallax_px_m(const Intrinsics& camera, const Eigen::Vector3d& displacement_C_m,
+                   const Vec2& rotated_px) {
+  return (rotated_px - camera.centre_px) * displacement_C_m.z() -
+         camera.focal_px * displacement_C_m.head<2>();
+}
 
 DepthBounds depth_bounds(const MotionField& field, const Vec2& x_px) {
   DepthBounds bounds;
@@ -31,11 +45,20 @@ DepthBounds depth_bounds(const MotionField& field, const Vec2& x_px) {
   return bounds;
 }
 
-StaticPoint StaticPoint::first(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds) {
-  const double middle = 0.5 * (bounds.least_pm + bounds.most_pm);
+StaticPoint StaticPoint::seen_once(const Vec2& rotated_px, const Intrinsics& camera,
+                                   const MotionField& field, double noise2_px2, double ego_share) {
+  const DepthBounds bounds = depth_bounds(field, rotated_px);
   const double half = 0.5 * (bounds.most_pm - bounds.least_pm);
-  StaticPoint point{x_px, middle, Eigen::Matrix3d::Zero()};
-  point.covariance.diagonal() << noise2_px2, noise2_px2, half * half;
+  const Vec2 parallax = parallax_px_m(camera, field.displacement_C_m(), rotated_px);
+  StaticPoint point;
+  point.inverse_depth_pm = bounds.least_pm + half;
+  const Vec2 flow = point.inverse_depth_pm * parallax;
+  point.place_px = rotated_px + flow;
+  Eigen::Vector3d by_depth;
+  by_depth << parallax, 1;
+  point.covariance = half * half * by_depth * by_depth.transpose();
+  point.covariance.topLeftCorner<2, 2>() +=
+      noise2_px2 * Eigen::Matrix2d::Identity() + wrong_flow(flow, ego_share);
   return point;
 }
 
@@ -54,10 +77,7 @@ StaticPoint StaticPoint::predicted(const Intrinsics& camera, const MotionField& 
   F.topRightCorner<2, 1>() = (h * d.z() - shift) / (nearing * nearing);
   F(2, 2) /= nearing;
   next.covariance = F * covariance * F.transpose();
-  const Vec2 flow = next.place_px - rotated;
-  next.covariance.topLeftCorner<2, 2>() +=
-      ego_share * ego_share *
-      (flow * flow.transpose() + 0.25 * flow.squaredNorm() * Eigen::Matrix2d::Identity());
+  next.covariance.topLeftCorner<2, 2>() += wrong_flow(next.place_px - rotated, ego_share);
   return next;
 }
 

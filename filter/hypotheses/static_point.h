@@ -26,13 +26,21 @@ struct DepthBounds {
 /// \param x_px of frame k.
 DepthBounds depth_bounds(const MotionField& field, const Vec2& x_px);
 
+/// px m: what a static point moves by within a frame, the rotation removed, over its w at the end.
+Vec2 parallax_px_m(const Intrinsics& camera, const Eigen::Vector3d& displacement_C_m,
+                   const Vec2& rotated_px);
+
 struct StaticPoint {
   Vec2 place_px = Vec2::Zero();
   double inverse_depth_pm = 0;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, w)
 
-  /// Seen for the first time, at a depth within the bounds.
-  static StaticPoint first(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds);
+  /// Of a point that was seen once, and lies at `rotated_px` after the rotation: where this frame
+  /// should show it, at any depth within the bounds. In this frame's w the place is linear,
+  ///   x = x_r + w (d_z (x_r - c) - f d_xy),
+  /// however far the camera has come.
+  static StaticPoint seen_once(const Vec2& rotated_px, const Intrinsics& camera,
+                               const MotionField& field, double noise2_px2, double ego_share);
 
   /// One frame on.
   /// \param ego_share of the image motion by which the camera's velocity may be wrong.

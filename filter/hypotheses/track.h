@@ -14,8 +14,8 @@ struct Track {
   Id id = 0;
   Vec2 place_px = Vec2::Zero();  ///< last sighting, or where it is expected; rotated on predicting
   Signature signature{};
-  StaticPoint as_static;
-  OwnMotion as_moving;  ///< from the second sighting on
+  StaticPoint as_static;  ///< of a track seen once in predictions alone
+  OwnMotion as_moving;    ///< from the second sighting on
   int sightings = 0;
   int age = 0;          ///< frames since the first
   int unseen = 0;       ///< frames since the last
