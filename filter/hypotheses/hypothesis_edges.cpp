@@ -38,8 +38,7 @@ void HypothesisEdges::predict(Layers&, const MotionField& field) {
     Track& next = predicted_.emplace_back(track);
     next.place_px = field.rotated(track.place_px);
     if (!track.has_motion()) {
-      next.as_static =
-          StaticPoint::seen_once(next.place_px, camera_, field, noise2_px2_, parameters_.ego_share);
+      next.as_static = StaticPoint::seen_once(next.place_px, camera_, field, noise2_px2_);
     } else {
       next.as_static = track.as_static.predicted(camera_, field, parameters_.ego_share);
       next.as_moving = track.as_moving.predicted(field, parameters_.acceleration_ps);
@@ -113,7 +112,11 @@ double HypothesisEdges::first_step(const Track& track, const Vec2& x_px, double 
 bool HypothesisEdges::see(Track& track, const Vec2& x_px, const MotionField& field) const {
   const DepthBounds bounds = depth_bounds(field, x_px);
   StaticPoint seen = track.as_static;
-  const double still = seen.see(x_px, noise2_px2_, bounds);
+  double noise2_px2 = noise2_px2_;
+  if (!track.has_motion()) {
+    noise2_px2 += std::pow(parameters_.ego_share * (x_px - track.place_px).norm(), 2);
+  }
+  const double still = seen.see(x_px, noise2_px2, bounds);
   const double reach = association_.reach_px(field.dt_s());
   if (!track.has_motion()) {
     track.log_odds =

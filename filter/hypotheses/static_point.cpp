@@ -46,19 +46,17 @@ DepthBounds depth_bounds(const MotionField& field, const Vec2& x_px) {
 }
 
 StaticPoint StaticPoint::seen_once(const Vec2& rotated_px, const Intrinsics& camera,
-                                   const MotionField& field, double noise2_px2, double ego_share) {
+                                   const MotionField& field, double noise2_px2) {
   const DepthBounds bounds = depth_bounds(field, rotated_px);
   const double half = 0.5 * (bounds.most_pm - bounds.least_pm);
   const Vec2 parallax = parallax_px_m(camera, field.displacement_C_m(), rotated_px);
   StaticPoint point;
   point.inverse_depth_pm = bounds.least_pm + half;
-  const Vec2 flow = point.inverse_depth_pm * parallax;
-  point.place_px = rotated_px + flow;
+  point.place_px = rotated_px + point.inverse_depth_pm * parallax;
   Eigen::Vector3d by_depth;
   by_depth << parallax, 1;
   point.covariance = half * half * by_depth * by_depth.transpose();
-  point.covariance.topLeftCorner<2, 2>() +=
-      noise2_px2 * Eigen::Matrix2d::Identity() + wrong_flow(flow, ego_share);
+  point.covariance.topLeftCorner<2, 2>() += noise2_px2 * Eigen::Matrix2d::Identity();
   return point;
 }
 

@@ -38,9 +38,10 @@ struct StaticPoint {
   /// Of a point that was seen once, and lies at `rotated_px` after the rotation: where this frame
   /// should show it, at any depth within the bounds. In this frame's w the place is linear,
   ///   x = x_r + w (d_z (x_r - c) - f d_xy),
-  /// however far the camera has come.
+  /// however far the camera has come. What the velocity may be wrong by is left out, as it grows
+  /// with how far the point will have moved.
   static StaticPoint seen_once(const Vec2& rotated_px, const Intrinsics& camera,
-                               const MotionField& field, double noise2_px2, double ego_share);
+                               const MotionField& field, double noise2_px2);
 
   /// One frame on.
   /// \param ego_share of the image motion by which the camera's velocity may be wrong.

@@ -83,6 +83,7 @@ Recording EarlierRun::begin() const {
           .seed = recorded_.seed,
           .world = recorded_.world,
           .detector = {},
+          .truth = recorded_.truth,
           .objects = recorded_.objects,
           .frames = {},
           .warnings = recorded_.warnings};
