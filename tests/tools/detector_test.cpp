@@ -157,6 +157,8 @@ TEST(Threshold, FollowsWhatIsNotOfTheScene) {
   EXPECT_EQ(FastDetector(std::nullopt).threshold(both), threshold_of(both));
   EXPECT_EQ(FastDetector(std::nullopt).detect(both), FastDetector(threshold_of(both)).detect(both));
   EXPECT_EQ(FastDetector(30).threshold(both), 30);
+}
+
 // ---- Signatures
 
 using Corners = std::vector<Eigen::Vector2f>;

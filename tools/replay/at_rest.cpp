@@ -1,8 +1,11 @@
 #include "tools/replay/at_rest.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace lcs::replay {
@@ -122,6 +125,15 @@ std::optional<Rest> rest_at_start(std::span<const sim::ImuSample> readings,
       rest_of(readings.first(static_cast<std::size_t>(end - readings.begin())), gravity_mps2);
   rest.moved = moved;
   return rest;
+}
+
+void tell_rest(const Rest& rest, Tally& tally) {
+  const std::string until =
+      fmt::format("until {:.2f} s", 1e-9 * static_cast<double>(rest.until_ns));
+  tally.add("times at rest at the start give the IMU's biases and what is upright", until);
+  if (rest.moved) {
+    tally.add("times that at_rest names are not at rest, as the IMU says; shorten it", until);
+  }
 }
 
 }  // namespace lcs::replay

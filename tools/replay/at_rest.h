@@ -8,6 +8,7 @@
 #include <span>
 
 #include "sim/imu.h"
+#include "tools/replay/recorded.h"
 
 namespace lcs::replay {
 
@@ -26,5 +27,8 @@ struct Rest {
 /// \return none where nobody said that it stands and it does not.
 std::optional<Rest> rest_at_start(std::span<const sim::ImuSample> readings,
                                   std::optional<double> said_s, double gravity_mps2);
+
+/// Says what was found at rest, and what of it contradicts what was said.
+void tell_rest(const Rest& rest, Tally& tally);
 
 }  // namespace lcs::replay

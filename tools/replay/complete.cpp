@@ -121,12 +121,7 @@ void calibrate_at_rest(const scenario::Recorded& asked, SensorReadings& readings
     sample.accel_mps2 -= rest->accel_bias_mps2;
   }
   calibration.T_WB_start.R = rest->R_WS;
-  const std::string until =
-      fmt::format("until {:.2f} s", 1e-9 * static_cast<double>(rest->until_ns));
-  tally.add("times at rest at the start give the IMU's biases and what is upright", until);
-  if (rest->moved) {
-    tally.add("times that at_rest names are not at rest, as the IMU says; shorten it", until);
-  }
+  tell_rest(*rest, tally);
 }
 
 /// The IMU's axes are the vehicle's, which starts upright.

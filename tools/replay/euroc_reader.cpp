@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
+#include "tools/replay/at_rest.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/sensor_csv.h"
 #include "tools/replay/sensor_yaml.h"
@@ -65,8 +67,21 @@ struct Start {
   Vector3d accel_bias_mps2 = Vector3d::Zero();
 };
 
-/// At rest, upright as the accelerometer says.
-Start start_at_rest(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns, Tally& tally) {
+/// At rest, upright as the accelerometer says: for as long as it is said or seen to be, or else for
+/// a moment.
+Start start_at_rest(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns,
+                    std::optional<double> at_rest_s, Tally& tally) {
+  const auto first = std::lower_bound(
+      imu.begin(), imu.end(), t_ns,
+      [](const sim::ImuSample& sample, std::int64_t t) { return sample.t_ns < t; });
+  if (const auto rest = rest_at_start({first, imu.end()}, at_rest_s, kGravity_mps2)) {
+    tell_rest(*rest, tally);
+    return {t_ns,
+            {rest->R_WS, Vector3d::Zero()},
+            Vector3d::Zero(),
+            rest->gyro_bias_radps,
+            rest->accel_bias_mps2};
+  }
   Vector3d up = Vector3d::Zero(), turning = Vector3d::Zero();
   int count = 0;
   for (const sim::ImuSample& sample : imu) {
@@ -128,7 +143,7 @@ void move_as_run(const fs::path& mav, const sequence::ReplaySettings& exact, Rec
 
 /// By what EuRoC's own files say. The body is the frame B.
 void move_by_files(const fs::path& mav, const sim::Pose& T_BC, bool exact_motion,
-                   Recorded& recorded) {
+                   std::optional<double> at_rest_s, Recorded& recorded) {
   std::vector<TrueState> truth;
   if (fs::exists(mav / kTruth / "data.csv")) {
     truth = read_truth_csv(mav / kTruth / "data.csv", recorded.tally);
@@ -156,8 +171,9 @@ void move_by_files(const fs::path& mav, const sim::Pose& T_BC, bool exact_motion
   if (!truth.empty()) first_ns = std::max(first_ns, truth.front().t_ns);
   keep_within(first_ns, readings.imu.back().t_ns + kBehindReadings_ns,
               "pictures are from before the truth or outside of the IMU's time", recorded);
-  const Start start = truth.empty() ? start_at_rest(readings.imu, first_ns, recorded.tally)
-                                    : start_by_truth(truth, first_ns);
+  const Start start = truth.empty()
+                          ? start_at_rest(readings.imu, first_ns, at_rest_s, recorded.tally)
+                          : start_by_truth(truth, first_ns);
   calibration.T_WB_start.R = start.T_WS.R;
   calibration.v_WB_start_mps = start.v_WS_mps;
   if (fs::exists(mav / "odometry0" / "data.csv")) {
@@ -207,7 +223,9 @@ Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion) {
   }
   const SensorYaml sensor = read_sensor_yaml(camera_folder / "sensor.yaml");
   recorded.lens = sensor.lens;
-  if (!motion_is_asked(asked)) move_by_files(mav, sensor.T_BS, exact_motion, recorded);
+  if (!motion_is_asked(asked)) {
+    move_by_files(mav, sensor.T_BS, exact_motion, asked.at_rest_s, recorded);
+  }
   return recorded;
 }
 
