@@ -212,9 +212,9 @@ struct Parameters {
   SquareParameters square;
 };
 
-/// Preset by name: "default" (this project's), "night" (likewise, for the light of headlights), or
-/// the paper's: "lab" (Table 1), "cars" (section 5.2). \throws std::invalid_argument naming the
-/// known presets.
+/// Preset by name: "default" (this project's), "hypotheses" (likewise, with the other rule for
+/// edges), "night" (for the light of headlights), or the paper's: "lab" (Table 1), "cars" (section
+/// 5.2). \throws std::invalid_argument naming the known presets.
 Parameters preset(std::string_view name);
 std::vector<std::string> preset_names();
 

@@ -15,7 +15,7 @@ namespace lcs {
 enum class Reason : std::uint8_t {
   unknown,  // The tracker gives no reasons.
 
-  // Both rules.
+  // All rules.
   not_finite,
   outside,
   too_many,

@@ -1,4 +1,4 @@
-/// Properties of the whole filter, for both rules of the Circle expert.
+/// Properties of the whole filter, for all rules of the Circle expert.
 #include "filter/filter.h"
 
 #include <gtest/gtest.h>

@@ -11,6 +11,7 @@
 
 #include "filter/camera.h"
 #include "filter/ego_motion.h"
+#include "filter/signature.h"
 
 namespace lcs::testing {
 
@@ -64,6 +65,19 @@ inline Eigen::Vector3d back_project(const Intrinsics& camera, const Vec2& px, do
   return {xy.x(), xy.y(), depth};
 }
 
+/// What a point looks like in a frame: bits of its own, of which one in ten is wrong each time.
+inline Signature signature_of(std::size_t point, std::uint64_t frame) {
+  Random own(point), wrong(1000003 * (frame + 1) + point);
+  Signature signature{};
+  for (std::uint64_t& word : signature) {
+    for (int bit = 0; bit < 64; ++bit) {
+      const bool is_set = (own.uniform(0, 1) < 0.5) != (wrong.uniform(0, 1) < 0.1);
+      word |= static_cast<std::uint64_t>(is_set) << bit;
+    }
+  }
+  return signature;
+}
+
 /// Points in the coordinates of the camera, carried along from frame to frame.
 struct World {
   struct Point {
@@ -91,6 +105,15 @@ struct World {
     std::vector<Eigen::Vector2f> seen;
     for (const Point& point : points) {
       if (const auto px = image(point)) seen.push_back(px->cast<float>());
+    }
+    return seen;
+  }
+
+  /// Of the same points.
+  std::vector<Signature> signatures(std::uint64_t frame) const {
+    std::vector<Signature> seen;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (image(points[i])) seen.push_back(signature_of(i, frame));
     }
     return seen;
   }

@@ -1,0 +1,679 @@
+/// Edges told by two hypotheses: each room of `filter/hypotheses/` alone, then the rule as a whole.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "filter/filter.h"
+#include "filter/hypotheses/association.h"
+#include "filter/hypotheses/coupling.h"
+#include "filter/hypotheses/own_motion.h"
+#include "filter/hypotheses/rotation_fix.h"
+#include "filter/hypotheses/static_point.h"
+#include "tests/filter/same_result.h"
+#include "tests/filter/world.h"
+
+namespace lcs {
+namespace {
+
+using Eigen::Vector2f;
+using Eigen::Vector3d;
+using testing::expect_same;
+using testing::Random;
+using testing::record;
+using testing::Scene;
+using testing::sparse_world;
+using testing::steady_motion;
+using testing::vga;
+using testing::World;
+
+using Corners = std::vector<Vector2f>;
+
+constexpr double kNoise2_px2 = 0.36;
+constexpr double kDt_s = 0.1;
+
+const HypothesisParameters kUsual = preset("hypotheses").circle.hypotheses;
+
+/// Images of a point, frame by frame, and its 1/Z in the last.
+struct Seen {
+  std::vector<Vec2> places;
+  double inverse_depth_pm = 0;
+};
+Seen watch(const Vec2& px, double depth, const EgoMotion& motion, int frames) {
+  World world;
+  world.add(px, depth);
+  Seen seen;
+  for (int k = 0; k < frames; ++k) {
+    if (k > 0) world.advance(motion);
+    seen.places.push_back(testing::project(world.camera, world.points[0].x_C));
+  }
+  seen.inverse_depth_pm = 1 / world.points[0].x_C.z();
+  return seen;
+}
+
+template <int N>
+void expect_covariance(const Eigen::Matrix<double, N, N>& C) {
+  EXPECT_TRUE(C.isApprox(C.transpose(), 1e-9)) << C;
+  // The scales of its axes differ by orders of magnitude: of the correlations, not of it.
+  const Eigen::Matrix<double, N, 1> scale = C.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::Matrix<double, N, N> correlations = scale.asDiagonal() * C * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> solver(correlations);
+  EXPECT_GT(solver.eigenvalues().minCoeff(), 0) << C;
+}
+
+// ---- A static point
+
+TEST(StaticPoint, LearnsTheDepthOfWhatItSeesWhateverTheMotion) {
+  struct Drive {
+    Vector3d v_mps, w_radps;
+  };
+  for (const Drive& drive : {Drive{{0.5, 0, 0}, {0, 0, 0}}, Drive{{0, 0, 0.8}, {0, 0, 0}},
+                             Drive{{0, 0, -0.8}, {0, 0, 0}}, Drive{{0.1, -0.3, 0.6}, {0, 0, 0}},
+                             Drive{{0.1, 0, 0.8}, {0.02, -0.05, 0.1}}}) {
+    const EgoMotion motion = steady_motion(drive.v_mps, drive.w_radps, kDt_s);
+    const MotionField field(vga(), motion, {});
+    for (const Vec2& px : {Vec2(180, 130), Vec2(430, 330)}) {
+      for (const double depth : {2.5, 3.5, 6.0}) {
+        SCOPED_TRACE(::testing::Message()
+                     << "v " << drive.v_mps.transpose() << ", w " << drive.w_radps.transpose()
+                     << ", from " << px.transpose() << ", " << depth << " m");
+        const Seen seen = watch(px, depth, motion, 12);
+        StaticPoint point = StaticPoint::first(px, kNoise2_px2, depth_bounds(field, px));
+        double last_miss = 0;
+        for (std::size_t k = 1; k < seen.places.size(); ++k) {
+          const Vec2& x = seen.places[k];
+          point = point.predicted(vga(), field, kUsual.ego_share);
+          last_miss = (point.place_px - x).norm();
+          point.see(x, kNoise2_px2, depth_bounds(field, x));
+          expect_covariance<3>(point.covariance);
+        }
+        // Half a standard deviation of what the filter itself says it does not know: what is left
+        // is of the first guess, the middle of the bounds, which the sightings outweigh, and of the
+        // rotation, whose change of depth off the axis is left out (0.4 % a frame here).
+        EXPECT_NEAR(point.inverse_depth_pm, seen.inverse_depth_pm,
+                    0.5 * std::sqrt(point.covariance(2, 2)) + 0.02 * seen.inverse_depth_pm);
+        EXPECT_LT(std::sqrt(point.covariance(2, 2)), 0.15) << "it has learnt";
+        EXPECT_LT((point.place_px - seen.places.back()).norm(), 0.2);
+        EXPECT_LT(last_miss, 0.5) << "px, before it was seen";
+      }
+    }
+  }
+}
+
+/// Of a camera that goes sideways places are linear in 1/Z, so that all sightings at once give the
+/// same as one after the other.
+TEST(StaticPoint, IsTheLeastSquaresFitWhereThatIsLinear) {
+  const double d = 0.05;
+  const EgoMotion motion = steady_motion({d / kDt_s, 0, 0}, Vector3d::Zero(), kDt_s);
+  const MotionField field(vga(), motion, {});
+  const Seen seen = watch({400, 200}, 2.5, motion, 8);
+  Random random(4);
+  const Vec2 start = seen.places[0];
+  const DepthBounds bounds = depth_bounds(field, start);
+  StaticPoint point = StaticPoint::first(start, kNoise2_px2, bounds);
+  const double middle = point.inverse_depth_pm, variance = point.covariance(2, 2);
+  EXPECT_NEAR(middle, 0.5 * (bounds.least_pm + bounds.most_pm), 1e-12);
+  // Sums of the slope s of x over 1/Z and of x, by 1/variance.
+  double n = 1, s = 0, ss = 0, x = start.x(), sx = 0;
+  for (std::size_t k = 1; k < seen.places.size(); ++k) {
+    const Vec2 noisy = seen.places[k] + random.vector(0.6).head<2>();
+    point = point.predicted(vga(), field, 0);
+    point.see(noisy, kNoise2_px2, bounds);
+    const double slope = -vga().focal_px * d * static_cast<double>(k);
+    n += 1, s += slope, ss += slope * slope, x += noisy.x(), sx += slope * noisy.x();
+  }
+  const double information = (ss - s * s / n) / kNoise2_px2 + 1 / variance;
+  const double expected = ((sx - s * x / n) / kNoise2_px2 + middle / variance) / information;
+  EXPECT_NEAR(point.inverse_depth_pm, expected, 1e-9);
+  EXPECT_NEAR(point.covariance(2, 2), 1 / information, 1e-12);
+}
+
+TEST(StaticPoint, IsLikeliestWhereItIsExpected) {
+  const MotionField field(vga(), steady_motion({0.1, 0, 0.6}, {0, 0.05, 0}, kDt_s), {});
+  const StaticPoint point =
+      StaticPoint::first({200, 150}, kNoise2_px2, depth_bounds(field, {200, 150}))
+          .predicted(vga(), field, kUsual.ego_share);
+  const double there = point.density(point.place_px, kNoise2_px2);
+  for (int i = 0; i < 16; ++i) {
+    const Vec2 aside(std::cos(i * 0.4), std::sin(i * 0.4));
+    const double near = point.density(point.place_px + aside, kNoise2_px2);
+    EXPECT_LT(near, there);
+    EXPECT_LT(point.density(point.place_px + 2 * aside, kNoise2_px2), near);
+  }
+  // A density: it sums to one. Of steps of 1 px as the noise is no finer.
+  double sum = 0;
+  for (int v = -80; v <= 80; ++v) {
+    for (int u = -80; u <= 80; ++u) sum += point.density(point.place_px + Vec2(u, v), kNoise2_px2);
+  }
+  EXPECT_NEAR(sum, 1, 0.01);
+}
+
+/// Beside what the normal distribution alone says of the place.
+TEST(StaticPoint, IsNotNearerThanItMayBeNorBehindTheGround) {
+  EgoMotion motion = steady_motion({1, 0, 0}, Vector3d::Zero(), kDt_s);
+  motion.ground = Ground{.up_C = {0, -1, 0}, .height_m = 0.8};
+  const MotionField field(vga(), motion, {});
+  const Vec2 px(420, 330);
+  const DepthBounds bounds = depth_bounds(field, px);
+  const double ground = (px.y() - vga().centre_px.y()) / vga().focal_px / 0.8;
+  EXPECT_NEAR(bounds.most_pm, 1 / 0.8, 1e-12) << "at z_min";
+  EXPECT_LT(bounds.least_pm, ground) << "which may fall away";
+  EXPECT_GT(bounds.least_pm, 0.9 * ground);
+  const auto share = [&](double inverse_depth_pm) {
+    StaticPoint point =
+        StaticPoint::first(px, kNoise2_px2, bounds).predicted(vga(), field, kUsual.ego_share);
+    const Vec2 x = px - Vec2(vga().focal_px * 0.1 * inverse_depth_pm, 0);
+    const double unbounded = point.density(x, kNoise2_px2);
+    const double density = point.see(x, kNoise2_px2, bounds);
+    EXPECT_GE(point.inverse_depth_pm, bounds.least_pm);
+    EXPECT_LE(point.inverse_depth_pm, bounds.most_pm);
+    return density / unbounded;
+  };
+  EXPECT_GT(share(0.5 * (bounds.least_pm + bounds.most_pm)), 0.99);
+  // A frame shows 1/Z to 0.6 px of 42 px m, and the bounds' place in it to as much: 0.02 1/m.
+  EXPECT_GT(share(bounds.most_pm - 0.1), 0.99);
+  EXPECT_LT(share(bounds.most_pm + 0.1), 1e-3);
+  EXPECT_LT(share(3 * bounds.most_pm), 1e-3);
+  EXPECT_GT(share(ground + 0.1), 0.99);
+  EXPECT_LT(share(ground - 0.15), 1e-3) << "what the ground may fall away by is 0.019 1/m";
+  EXPECT_LT(share(0), 1e-3);
+}
+
+TEST(StaticPoint, AStandingCameraSaysNothingOfDepth) {
+  for (const Vector3d& turn : {Vector3d(0, 0, 0), Vector3d(0.02, -0.1, 0.05)}) {
+    const MotionField field(vga(), steady_motion(Vector3d::Zero(), turn, kDt_s), {});
+    Random random(6);
+    Vec2 x(180, 300);
+    const DepthBounds bounds = depth_bounds(field, x);
+    StaticPoint point = StaticPoint::first(x, kNoise2_px2, bounds);
+    const StaticPoint before = point;
+    for (int k = 0; k < 40; ++k) {
+      x = field.rotated(x);
+      point = point.predicted(vga(), field, kUsual.ego_share);
+      point.see(x + random.vector(1).head<2>(), kNoise2_px2, bounds);
+      EXPECT_EQ(point.inverse_depth_pm, before.inverse_depth_pm);
+      EXPECT_EQ(point.covariance(2, 2), before.covariance(2, 2));
+      EXPECT_TRUE(point.covariance.topRightCorner(2, 1).isZero(0));
+      EXPECT_LT((point.place_px - x).norm(), 2) << "it is where it is seen";
+    }
+    EXPECT_LT(point.covariance(0, 0), kNoise2_px2 / 40 * 1.01) << "a mean of 41";
+  }
+}
+
+TEST(StaticPoint, IsFiniteWhereTheCameraGoesThroughIt) {
+  const MotionField field(vga(), steady_motion({0, 0, 30}, Vector3d::Zero(), kDt_s), {});
+  const Vec2 x(250, 200);
+  StaticPoint point = StaticPoint::first(x, kNoise2_px2, depth_bounds(field, x));
+  for (int k = 0; k < 5; ++k) {
+    point = point.predicted(vga(), field, kUsual.ego_share);
+    const double density = point.see(x, kNoise2_px2, depth_bounds(field, x));
+    EXPECT_TRUE(std::isfinite(density));
+    EXPECT_TRUE(point.place_px.allFinite() && point.covariance.allFinite());
+  }
+}
+
+// ---- A motion of its own
+
+/// Without acceleration it is the line through all sightings.
+TEST(OwnMotion, IsTheLeastSquaresFitOfAConstantVelocity) {
+  const MotionField field(vga(), steady_motion(Vector3d::Zero(), Vector3d::Zero(), kDt_s), {});
+  Random random(3);
+  std::vector<Vec2> places;
+  for (int k = 0; k < 9; ++k) {
+    places.push_back(Vec2(100, 200) + k * kDt_s * Vec2(80, -25) + random.vector(0.6).head<2>());
+  }
+  OwnMotion motion = OwnMotion::first(places[0], places[1], kNoise2_px2, kDt_s);
+  for (std::size_t k = 2; k < places.size(); ++k) {
+    motion = motion.predicted(field, 0);
+    motion.see(places[k], kNoise2_px2);
+    const double last = static_cast<double>(k), mean = last / 2;
+    double tt = 0;
+    Vec2 tx = Vec2::Zero(), x = Vec2::Zero();
+    for (std::size_t i = 0; i <= k; ++i) {
+      const double t = (static_cast<double>(i) - mean) * kDt_s;
+      tt += t * t, tx += t * places[i], x += places[i] / (last + 1);
+    }
+    const Vec2 slope = tx / tt, end = x + slope * (last - mean) * kDt_s;
+    EXPECT_LT((motion.velocity_pxps - slope).norm(), 1e-9);
+    EXPECT_LT((motion.place_px - end).norm(), 1e-9);
+    EXPECT_NEAR(motion.covariance(1, 1), kNoise2_px2 / tt, 1e-9);
+    EXPECT_NEAR(motion.step_variance_px2(kDt_s), kNoise2_px2 / tt * kDt_s * kDt_s, 1e-9);
+  }
+}
+
+TEST(OwnMotion, FollowsAVelocityUnderARotationAndGrowsSurer) {
+  const MotionField field(vga(), steady_motion({0, 0, 0.5}, {0.02, -0.2, 0.1}, kDt_s), {});
+  const Vec2 velocity(60, 30);
+  std::vector<Vec2> places = {{200, 150}};
+  for (int k = 1; k < 15; ++k) places.push_back(field.rotated(places.back()) + velocity * kDt_s);
+  OwnMotion motion = OwnMotion::first(field.rotated(places[0]), places[1], kNoise2_px2, kDt_s);
+  double variance = motion.covariance(1, 1);
+  for (std::size_t k = 2; k < places.size(); ++k) {
+    motion = motion.predicted(field, kUsual.acceleration_ps);
+    EXPECT_LT((motion.place_px - places[k]).norm(), 1e-9);
+    const double there = motion.density(places[k], kNoise2_px2);
+    EXPECT_GT(there, motion.density(places[k] + Vec2(1, 0), kNoise2_px2));
+    EXPECT_EQ(motion.density(places[k] + Vec2(1, 0), kNoise2_px2),
+              motion.density(places[k] - Vec2(1, 0), kNoise2_px2));
+    motion.see(places[k], kNoise2_px2);
+    expect_covariance<2>(motion.covariance);
+    // What it may change by in a frame is added each time: it falls to a balance, about which it
+    // swings by less than a hundredth.
+    EXPECT_LT(motion.covariance(1, 1), variance * 1.01);
+    variance = motion.covariance(1, 1);
+  }
+  // The velocity wanders by q = 45 px^2/s^2 a frame, and a step tells it to r = 72: of the two the
+  // balance lies below the latter.
+  EXPECT_LT(variance, kNoise2_px2 * 2 / (kDt_s * kDt_s));
+  EXPECT_LT(motion.covariance(0, 0), kNoise2_px2) << "more than a sighting tells";
+  EXPECT_LT((motion.velocity_pxps - velocity).norm(), 1e-9);
+}
+
+// ---- Association
+
+/// A track that was seen once and stood, and stays as sure of it as `first` sightings are.
+Track track_at(const Vec2& x, const Signature& signature = {}) {
+  const MotionField still(vga(), steady_motion(Vector3d::Zero(), Vector3d::Zero(), kDt_s), {});
+  Track track;
+  track.place_px = x;
+  track.signature = signature;
+  track.as_static = StaticPoint::first(x, kNoise2_px2, depth_bounds(still, x));
+  track.sightings = 1;
+  return track;
+}
+
+Chi chi_of(const std::vector<Vec2>& corners, const std::vector<Signature>& signatures = {}) {
+  Chi chi;
+  chi.locations = corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) chi.sources.push_back(static_cast<int>(i));
+  chi.signatures = signatures;
+  return chi;
+}
+
+Signature with_bits(int bits) {
+  Signature signature{};
+  for (int i = 0; i < bits; ++i) signature[i / 64] |= 1ULL << (i % 64);
+  return signature;
+}
+
+std::vector<int> match(const HypothesisParameters& parameters, const Chi& chi,
+                       const std::vector<Track>& tracks) {
+  return Association(parameters).match(chi, tracks, kNoise2_px2, kDt_s);
+}
+
+/// Corners that jittered, came and went, some of them of a group that moved.
+struct Crowd {
+  explicit Crowd(std::uint64_t seed) {
+    Random random(seed);
+    const auto at = [](const Vec2& x) { return Vec2((64 * x).array().round() / 64); };
+    for (int i = 0; i < 150; ++i) {
+      const Vec2 x = at({random.uniform(5, 634), random.uniform(5, 474)});
+      tracks.push_back(track_at(x));
+      if (i % 10 > 0) corners.push_back(at(x + random.vector(0.6).head<2>()));
+    }
+    for (int i = 0; i < 20; ++i) {
+      const Vec2 x = at({random.uniform(300, 360), random.uniform(200, 260)});
+      tracks.push_back(track_at(x));
+      corners.push_back(at(x + Vec2(14, -5) + random.vector(0.6).head<2>()));
+    }
+    for (int i = 0; i < 15; ++i)
+      corners.push_back(at({random.uniform(5, 634), random.uniform(5, 474)}));
+  }
+  std::vector<Track> tracks;
+  std::vector<Vec2> corners;
+};
+
+TEST(Association, IsOneToOne) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Crowd crowd(seed);
+    const auto track_of = match(kUsual, chi_of(crowd.corners), crowd.tracks);
+    ASSERT_EQ(track_of.size(), crowd.corners.size());
+    std::set<int> taken;
+    int matched = 0;
+    for (const int track : track_of) {
+      ASSERT_GE(track, -1);
+      ASSERT_LT(track, static_cast<int>(crowd.tracks.size()));
+      if (track < 0) continue;
+      ++matched;
+      EXPECT_TRUE(taken.insert(track).second) << "track " << track << " has two corners";
+    }
+    EXPECT_GT(matched, 130) << "of the 155 that are seen again";
+  }
+}
+
+TEST(Association, MatchesTheSameWhateverTheOrderAndTheSide) {
+  const Crowd crowd(4);
+  const auto mirrored = [](Vec2 x) { return Vec2(639 - x.x(), x.y()); };
+  std::vector<Track> tracks;
+  for (const Track& track : crowd.tracks) tracks.push_back(track_at(mirrored(track.place_px)));
+  std::reverse(tracks.begin(), tracks.end());
+  std::vector<Vec2> corners;
+  for (const Vec2& x : crowd.corners) corners.push_back(mirrored(x));
+  std::reverse(corners.begin(), corners.end());
+  const auto straight = match(kUsual, chi_of(crowd.corners), crowd.tracks);
+  const auto other = match(kUsual, chi_of(corners), tracks);
+  const int last_track = static_cast<int>(tracks.size()) - 1;
+  for (std::size_t c = 0; c < straight.size(); ++c) {
+    const int there = other[other.size() - 1 - c];
+    EXPECT_EQ(straight[c], there < 0 ? -1 : last_track - there) << "corner " << c;
+  }
+}
+
+TEST(Association, SignaturesDecideBetweenTwoThatAreEquallyNear) {
+  const std::vector<Track> tracks = {track_at({300, 200})};
+  const std::vector<Vec2> either_side = {{298.5, 200}, {301.5, 200}};
+  const Signature like = with_bits(40), less_like = with_bits(70), unlike = with_bits(120);
+  EXPECT_EQ(match(kUsual, chi_of(either_side, {like, less_like}), tracks),
+            (std::vector<int>{0, -1}));
+  EXPECT_EQ(match(kUsual, chi_of(either_side, {less_like, like}), tracks),
+            (std::vector<int>{-1, 0}));
+  EXPECT_EQ(match(kUsual, chi_of(either_side, {unlike, unlike}), tracks),
+            (std::vector<int>{-1, -1}));
+}
+
+TEST(Association, WhatNeighboursAgreeOnGoesBeforeANearerChanceMatch) {
+  const std::vector<Vec2> group = {{300, 200}, {311, 197}, {304, 213}, {290, 208}, {296, 189},
+                                   {317, 209}, {283, 195}, {308, 186}, {292, 221}};
+  std::vector<Track> tracks;
+  std::vector<Vec2> corners;
+  for (const Vec2& x : group) {
+    tracks.push_back(track_at(x));
+    corners.push_back(x + Vec2(22, 5));
+  }
+  corners.push_back(group[0] + Vec2(1, 1));  // a chance match of the first
+  const auto asked = match(kUsual, chi_of(corners), tracks);
+  for (int c = 0; c < 9; ++c) EXPECT_EQ(asked[c], c);
+  EXPECT_EQ(asked[9], -1);
+  HypothesisParameters parameters = kUsual;
+  parameters.voters = 0;
+  const auto alone = match(parameters, chi_of(corners), tracks);
+  EXPECT_NE(alone[0], 0);
+  EXPECT_EQ(alone[9], 0) << "or the test says nothing";
+}
+
+TEST(Association, ReachesNoFartherThanTheFastest) {
+  HypothesisParameters parameters = kUsual;
+  parameters.max_speed_pxps = 600;
+  parameters.reach_px = 60;
+  EXPECT_DOUBLE_EQ(Association(parameters).reach_px(0.02), 12);
+  EXPECT_DOUBLE_EQ(Association(parameters).reach_px(1), 60);
+  const std::vector<Track> tracks = {track_at({300, 200})};
+  const Signature same{};
+  Track fast = tracks[0];
+  fast.as_static.covariance.topLeftCorner<2, 2>() *= 1e4;
+  EXPECT_EQ(match(parameters, chi_of({{359, 200}}, {same}), {fast}), (std::vector<int>{0}));
+  EXPECT_EQ(match(parameters, chi_of({{361, 200}}, {same}), {fast}), (std::vector<int>{-1}));
+  EXPECT_EQ(match(parameters, chi_of({}), tracks), std::vector<int>{});
+  EXPECT_EQ(match(parameters, chi_of({{300, 200}}), {}), (std::vector<int>{-1}));
+}
+
+// ---- Coupling
+
+Coupling::Node node(double x, double log_odds, const Vec2& step = Vec2::Zero()) {
+  return {{x, 240}, log_odds, true, step, 0};
+}
+
+TEST(Coupling, ANodeAloneKeepsWhatItKnows) {
+  const std::vector<Coupling::Node> nodes = {node(100, 1.5), node(300, -4), node(500, 0.2)};
+  const std::vector<double> m = Coupling(kUsual).settle(nodes);
+  for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_EQ(m[i], nodes[i].log_odds);
+}
+
+TEST(Coupling, OfTwoNodesIsTheSumByHand) {
+  HypothesisParameters parameters = kUsual;
+  parameters.coupling = 8;
+  parameters.coupling_reach_px = 25;
+  // One reach apart: w = exp(-1/2), so that either counts J w / (1/2 + w) = 4.3851 at the most. The
+  // first is sure, so that the second has -1 + 4.3851; and the first 20 + 4.3851 tanh(3.3851 / 2).
+  Coupling coupling(parameters);
+  std::vector<double> m = coupling.settle(std::vector{node(100, 20), node(125, -1)});
+  EXPECT_NEAR(m[0], 24.0973, 1e-3);
+  EXPECT_NEAR(m[1], 3.3851, 1e-3);
+  EXPECT_EQ(coupling.model_of(1), 0);
+  // 6 px apart in their steps, of which 1 + (0.2 * 6)^2 = 2.44 px^2 is nothing: w = exp(-1/2 (1 +
+  // 36 / 2.44)) = 0.00038, which is left out.
+  m = coupling.settle(std::vector{node(100, 20), node(125, -1, {6, 0})});
+  EXPECT_EQ(m[1], -1);
+  EXPECT_EQ(coupling.model_of(1), -1);
+  // 1 px apart in their steps: w = exp(-1/2 (1 + 1 / 1.04)) = 0.37502, and 8 w / (1/2 + w)
+  // = 3.4287.
+  m = coupling.settle(std::vector{node(100, 20), node(125, -1, {1, 0})});
+  EXPECT_NEAR(m[1], 2.4287, 1e-3);
+}
+
+TEST(Coupling, ADoubtfulNodeAmongSureOnesTakesTheirs) {
+  for (const double theirs : {-6.0, 6.0}) {
+    std::vector<Coupling::Node> nodes = {node(300, theirs > 0 ? -1 : 1, {10, 0})};
+    for (const double aside : {-20, -12, 9, 17})
+      nodes.push_back(node(300 + aside, theirs, {10.3, 0}));
+    const std::vector<double> m = Coupling(kUsual).settle(nodes);
+    EXPECT_GT(m[0] * theirs, 0);
+    EXPECT_GT(std::abs(m[0]), 4);
+  }
+}
+
+TEST(Coupling, ASureNodeAmongAnotherMotionKeepsItsOwn) {
+  std::vector<Coupling::Node> nodes = {node(300, 5, {10, 0})};
+  for (const double aside : {-20, -12, 9, 17}) nodes.push_back(node(300 + aside, -6));
+  const std::vector<double> m = Coupling(kUsual).settle(nodes);
+  EXPECT_NEAR(m[0], 5, 0.05);
+  for (std::size_t i = 1; i < m.size(); ++i) EXPECT_LT(m[i], -6);
+}
+
+TEST(Coupling, ANodeWithoutMotionTakesAndGivesNothing) {
+  Coupling::Node fresh = node(300, 0.4);
+  fresh.has_motion = false;
+  std::vector<Coupling::Node> nodes = {node(290, -1), node(312, -1.5)};
+  const std::vector<double> without = Coupling(kUsual).settle(nodes);
+  fresh.log_odds = 30;
+  nodes.push_back(fresh);
+  Coupling coupling(kUsual);
+  EXPECT_EQ(coupling.settle(nodes)[0], without[0]);
+  EXPECT_EQ(coupling.settle(nodes)[1], without[1]);
+  nodes[2].log_odds = 0.4;
+  EXPECT_LT(coupling.settle(nodes)[2], -1) << "it is told by those round it";
+  EXPECT_EQ(coupling.model_of(2), -1);
+  // Whatever their steps are, for it has none: the nearest of those that move is its model.
+  for (Coupling::Node& other : nodes) other.log_odds = other.has_motion ? 5 : 0.4;
+  nodes[0].step_px = {10, 0};
+  EXPECT_GT(coupling.settle(nodes)[2], 2);
+  EXPECT_EQ(coupling.model_of(2), 0);
+}
+
+// ---- The rotation
+
+TEST(RotationFix, ShiftsAsTheRotationDoes) {
+  Random random(2);
+  for (int i = 0; i < 50; ++i) {
+    const Vector3d turn = random.vector(1e-3);
+    const Vec2 x(random.uniform(0, 639), random.uniform(0, 479));
+    const MotionField field(vga(), steady_motion(Vector3d::Zero(), turn / kDt_s, kDt_s), {});
+    // First order: what is left out is f angle^2, 0.0005 px, and some times that off the axis.
+    EXPECT_LT((shift(vga(), turn, x) - (field.rotated(x) - x)).norm(), 3e-3);
+  }
+}
+
+TEST(RotationFix, FindsASmallRotationAmongWrongMatches) {
+  Random random(5);
+  for (const Vector3d& turn : {Vector3d(1e-3, -5e-4, 8e-4), Vector3d(-2e-3, 1e-3, -1e-3)}) {
+    std::vector<Residual> residuals;
+    for (int i = 0; i < 80; ++i) {
+      const Vec2 x(random.uniform(0, 639), random.uniform(0, 479));
+      residuals.push_back({x, shift(vga(), turn, x) + random.vector(0.3).head<2>()});
+      if (i % 5 == 0) residuals.back().off_px = 30 * random.vector(1).head<2>();
+    }
+    // 64 sightings that are 0.17 px off on an axis tell 0.17 / (415 * 8) = 5e-5 rad about x and y,
+    // and twice that about z; a wrong match as much as one that is 4 / 20 px off.
+    const Vector3d found = rotation_fix(vga(), residuals, kNoise2_px2);
+    EXPECT_LT((found - turn).norm(), 3e-4) << found.transpose();
+  }
+}
+
+TEST(RotationFix, SaysNothingWhereTooFewTell) {
+  std::vector<Residual> residuals;
+  for (int i = 0; i < 19; ++i) residuals.push_back({Vec2(30 * i, 20 * i), Vec2(1, 0)});
+  EXPECT_TRUE(rotation_fix(vga(), residuals, kNoise2_px2).isZero(0));
+  residuals.push_back({Vec2(320, 240), Vec2(1, 0)});
+  EXPECT_GT(rotation_fix(vga(), residuals, kNoise2_px2).norm(), 1e-3);
+}
+
+// ---- The rule
+
+/// As FAST finds them: on whole pixels.
+Corners rounded(Corners corners) {
+  for (Vector2f& x : corners) x = x.array().round();
+  return corners;
+}
+
+std::ptrdiff_t rebels(const FrameResult& result, std::size_t first, std::size_t last) {
+  const auto begin = result.verdicts.begin();
+  return std::count(begin + static_cast<std::ptrdiff_t>(first),
+                    begin + static_cast<std::ptrdiff_t>(last), Verdict::rebel);
+}
+std::ptrdiff_t rebels(const FrameResult& result) {
+  return rebels(result, 0, result.verdicts.size());
+}
+
+TEST(HypothesisEdges, AStaticWorldOfWholePixelsIsSilent) {
+  for (const double spacing : {60, 30}) {
+    for (const Vector3d& v : {Vector3d(0, 0, 0.5), Vector3d(0.3, 0, 0), Vector3d(0, 0, -0.4)}) {
+      World world = sparse_world(5, spacing);
+      const EgoMotion motion = steady_motion(v, {0.01, 0.05, -0.02}, kDt_s);
+      Filter filter(world.camera, preset("hypotheses"));
+      for (int k = 0; k < 25; ++k) {
+        const FrameResult& result =
+            filter.step(rounded(world.corners()), k == 0 ? EgoMotion{} : motion);
+        if (k >= 5) {
+          EXPECT_EQ(rebels(result), 0)
+              << "v " << v.transpose() << ", every " << spacing << " px, frame " << k;
+        }
+        world.advance(motion);
+      }
+    }
+  }
+}
+
+TEST(HypothesisEdges, CornersThatJitterBeforeAStandingCameraStand) {
+  for (const double spacing : {60, 20}) {
+    const World world = sparse_world(8, spacing);
+    const EgoMotion motion = steady_motion(Vector3d::Zero(), Vector3d::Zero(), kDt_s);
+    Random random(1);
+    Filter filter(world.camera, preset("hypotheses"));
+    for (int k = 0; k < 40; ++k) {
+      Corners corners = world.corners();
+      for (Vector2f& x : corners) x += random.vector(0.7).head<2>().cast<float>();
+      const FrameResult& result = filter.step(rounded(corners), k == 0 ? EgoMotion{} : motion);
+      EXPECT_EQ(rebels(result), 0) << "every " << spacing << " px, frame " << k;
+    }
+  }
+}
+
+/// A background, and twelve corners close together that cross it, before a camera that drives or
+/// stands; with signatures and without.
+TEST(HypothesisEdges, APatchThatCrossesIsCalledAndTheBackgroundIsNot) {
+  for (const double speed_mps : {0.0, 0.3}) {
+    for (const bool looks : {false, true}) {
+      World world = sparse_world(4, 40);
+      for (int i = 0; i < 12; ++i) {
+        world.add({500 + 11 * (i % 4) + 3 * (i / 4), 200 + 13 * (i / 4) + 2 * (i % 4)}, 3,
+                  {-0.6, 0.05, 0});
+      }
+      const EgoMotion motion = steady_motion({0, 0, speed_mps}, {0, 0.02, 0}, kDt_s);
+      Filter filter(world.camera, preset("hypotheses"));
+      for (std::size_t k = 0; k < 12; ++k) {
+        SCOPED_TRACE(::testing::Message()
+                     << speed_mps << " m/s, frame " << k << (looks ? ", signatures" : ""));
+        const Corners corners = rounded(world.corners());
+        const EgoMotion told = k == 0 ? EgoMotion{} : motion;
+        const FrameResult& result =
+            looks ? filter.step(corners, world.signatures(k), told) : filter.step(corners, told);
+        world.advance(motion);
+        if (k < 3) continue;
+        const std::size_t patch = corners.size() - 12;
+        EXPECT_GE(rebels(result, patch, corners.size()), 10);
+        // The patch hides nothing here: what shows through it, or beside it for the first time, may
+        // be taken for a part of it.
+        EXPECT_LE(rebels(result, 0, patch), 2);
+        for (std::size_t i = 0; i < patch; ++i) {
+          const bool apart = std::all_of(corners.begin() + static_cast<std::ptrdiff_t>(patch),
+                                         corners.end(), [&](const Vector2f& x) {
+                                           return (x - corners[i]).norm() >
+                                                  static_cast<float>(2 * kUsual.coupling_reach_px);
+                                         });
+          EXPECT_FALSE(apart && result.verdicts[i] == Verdict::rebel) << corners[i].transpose();
+        }
+      }
+    }
+  }
+}
+
+TEST(HypothesisEdges, ACornerThatNobodyKnowsIsNotCalled) {
+  // First frames, and later a corner that comes on by itself.
+  Filter filter(vga(), preset("hypotheses"));
+  const EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), kDt_s);
+  for (int k = 0; k < 3; ++k) {
+    const Corners corners(1, Vector2f(100 + 200 * k, 200));
+    const FrameResult& result = filter.step(corners, k == 0 ? EgoMotion{} : motion);
+    EXPECT_EQ(result.verdicts[0], Verdict::pending);
+    EXPECT_EQ(result.reasons[0], Reason::first_sighting);
+  }
+}
+
+TEST(HypothesisEdges, SayTheSameAgainAndWhateverTheOrderOfTheCorners) {
+  Scene scene(2);
+  Filter first(vga(), preset("hypotheses")), second(vga(), preset("hypotheses"));
+  Filter backward(vga(), preset("hypotheses"));
+  std::ptrdiff_t found = 0;
+  for (std::size_t k = 0; k < 10; ++k) {
+    const EgoMotion motion = k == 0 ? EgoMotion{} : scene.motion;
+    Corners corners = scene.world.corners();
+    std::vector<Signature> signatures = scene.world.signatures(k);
+    const FrameResult& a = first.step(corners, signatures, motion);
+    expect_same(a, second.step(corners, signatures, motion), k);
+    std::reverse(corners.begin(), corners.end());
+    std::reverse(signatures.begin(), signatures.end());
+    FrameResult reversed = backward.step(corners, signatures, motion);
+    std::reverse(reversed.verdicts.begin(), reversed.verdicts.end());
+    std::reverse(reversed.reasons.begin(), reversed.reasons.end());
+    expect_same(a, reversed, k);
+    found += rebels(a);
+    scene.world.advance(scene.motion);
+  }
+  EXPECT_GT(found, 20) << "or there is little to compare";
+}
+
+TEST(HypothesisEdges, ForgetAllWhereTheyStartAnew) {
+  Scene scene(6);
+  const auto frames = record(scene, 12);
+  // Time that stands still, and motion that nobody knows.
+  for (const double dt_s : {0.0, std::nan("")}) {
+    Filter used(vga(), preset("hypotheses")), fresh(vga(), preset("hypotheses"));
+    std::ptrdiff_t found = 0;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      EgoMotion motion = scene.motion;
+      if (k == 0 || k == 6) motion = {};
+      if (k == 6) motion.dt_s = dt_s;
+      const FrameResult& result = used.step(frames[k], motion);
+      found += rebels(result);
+      if (k < 6) continue;
+      const FrameResult& expected = fresh.step(frames[k], motion);
+      ASSERT_EQ(result.verdicts, expected.verdicts) << "frame " << k;
+      ASSERT_EQ(result.reasons, expected.reasons) << "frame " << k;
+      ASSERT_EQ(result.layers.normal_edges.size(), expected.layers.normal_edges.size());
+      for (std::size_t i = 0; i < expected.layers.normal_edges.size(); ++i)
+        EXPECT_EQ(result.layers.normal_edges[i].speed, expected.layers.normal_edges[i].speed);
+      if (std::isnan(dt_s)) expect_same(result, expected, k);  // circles and squares, too
+      if (k > 6) continue;
+      EXPECT_TRUE(result.layers.normal_edges.empty() && result.layers.rebel_edges.empty());
+      for (const Reason reason : result.reasons) EXPECT_EQ(reason, Reason::first_sighting);
+      for (const Verdict verdict : result.verdicts) EXPECT_EQ(verdict, Verdict::pending);
+    }
+    EXPECT_GT(found, 0) << "or there is nothing to forget";
+  }
+}
+
+}  // namespace
+}  // namespace lcs
