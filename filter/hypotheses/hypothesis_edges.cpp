@@ -208,7 +208,9 @@ void HypothesisEdges::decide(Layers& layers, const Chi& chi, const MotionField& 
   followers_.clear();
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const Track& track = tracks_[t];
-    const bool rebel = track.belief > 0;
+    // Who has no motion is a rebel by one that has: where nobody knows, nobody is called.
+    const int model = track.has_motion() ? -1 : coupling_.model_of(t);
+    const bool rebel = track.belief > 0 && (track.has_motion() || model >= 0);
     if (track.corner >= 0) {
       const int source = chi.sources[track.corner];
       if (rebel) {
@@ -222,8 +224,7 @@ void HypothesisEdges::decide(Layers& layers, const Chi& chi, const MotionField& 
       }
     }
     if (!track.has_motion()) {
-      const int model = rebel ? coupling_.model_of(t) : -1;
-      if (model >= 0) followers_.push_back({track.place_px, tracks_[model].id});
+      if (rebel) followers_.push_back({track.place_px, tracks_[model].id});
       continue;
     }
     Edge edge = edge_of(track, field);
