@@ -6,6 +6,7 @@
 
 #include "filter/geometry.h"
 #include "filter/hypotheses/gauss.h"
+#include "filter/pixels.h"
 #include "filter/rebel_groups.h"
 #include "filter/refill.h"
 
@@ -141,16 +142,21 @@ bool HypothesisEdges::see(Track& track, const Vec2& x_px, const MotionField& fie
   return true;
 }
 
-/// Tracks without a corner go on as they are likelier to, for some frames.
-void HypothesisEdges::coast(const MotionField& field) {
+/// Tracks without a corner go on as they are likelier to, for some frames, and where nobody looks
+/// for as long as that is so.
+void HypothesisEdges::coast(const std::vector<IgnoreRegion>& psi, const MotionField& field) {
+  const Pixels picture{camera_.width_px, camera_.height_px};
   for (Track& track : predicted_) {
-    if (track.corner >= 0 || !track.has_motion() || track.unseen >= parameters_.coast) continue;
-    track.belief = track.log_odds = faded(track.belief, field.dt_s());
-    track.place_px = track.belief > 0 ? track.as_moving.place_px : track.as_static.place_px;
-    ++track.unseen;
-    const Vec2& x = track.place_px;
-    if (x.x() < 0 || x.y() < 0 || x.x() >= camera_.width_px || x.y() >= camera_.height_px) continue;
-    tracks_.push_back(track);
+    if (track.corner >= 0 || !track.has_motion()) continue;
+    const auto expected_px = [&] {
+      return track.belief > 0 ? track.as_moving.place_px : track.as_static.place_px;
+    };
+    if (!inside_any(psi, expected_px())) {
+      if (track.unseen++ >= parameters_.coast) continue;
+      track.belief = track.log_odds = faded(track.belief, field.dt_s());
+    }
+    track.place_px = expected_px();
+    if (picture.contain(track.place_px)) tracks_.push_back(track);
   }
 }
 
@@ -231,8 +237,11 @@ void HypothesisEdges::decide(Layers& layers, const Chi& chi, const MotionField& 
     if (edge.corner >= 0) edge.corner = chi.sources[edge.corner];
     (rebel ? layers.rebel_edges : layers.normal_edges).push_back(edge);
   }
-  bury(layers.normal_edges);
-  bury(layers.rebel_edges);
+  for (std::vector<Edge>* edges : {&layers.normal_edges, &layers.rebel_edges}) {
+    bury(*edges);
+    std::sort(edges->begin(), edges->end(),
+              [](const Edge& a, const Edge& b) { return a.id < b.id; });
+  }
 }
 
 void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& field,
@@ -254,7 +263,7 @@ void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& 
     }
     tracks_.push_back(first_seen(chi, c));
   }
-  if (field.dt_s() > 0) coast(field);
+  if (field.dt_s() > 0) coast(layers.ignored, field);
   couple(field);
   decide(layers, chi, field, verdicts);
 }

@@ -35,7 +35,7 @@ class HypothesisEdges : public EdgeExpert {
   double first_step(const Track& track, const Vec2& x_px, double still, const DepthBounds& bounds,
                     const MotionField& field) const;
   double faded(double log_odds, double dt_s) const;
-  void coast(const MotionField& field);
+  void coast(const std::vector<IgnoreRegion>& psi, const MotionField& field);
   void couple(const MotionField& field);
   void decide(Layers& layers, const Chi& chi, const MotionField& field,
               std::vector<Verdict>& verdicts);
