@@ -22,6 +22,7 @@ using testing::Random;
 
 struct Shot {
   std::vector<Eigen::Vector2f> corners;
+  std::vector<Signature> signatures;
   EgoMotion motion;
 };
 
@@ -60,9 +61,13 @@ std::vector<Shot> everything() {
       shot.motion.R_cur_prev = testing::rotation({0, 0.02, 0}) * shot.motion.R_cur_prev;
       shot.motion.unseen_turn_rad = 0.05;
     }
-    for (Eigen::Vector2f& x : world.corners()) {
+    const auto corners = world.corners();
+    const auto signatures = world.signatures(k);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
       const Eigen::Vector3d noise = random.vector(0.6);
-      if (random.uniform(0, 1) < 0.9) shot.corners.emplace_back(x + noise.head<2>().cast<float>());
+      if (random.uniform(0, 1) >= 0.9) continue;
+      shot.corners.emplace_back(corners[i] + noise.head<2>().cast<float>());
+      shot.signatures.push_back(signatures[i]);
     }
   }
   return shots;
@@ -117,7 +122,8 @@ class Digest {
 std::vector<Digest> said(const std::vector<Shot>& shots, const Parameters& parameters) {
   Filter filter(testing::vga(), parameters);
   std::vector<Digest> all;
-  for (const Shot& shot : shots) all.emplace_back(filter.step(shot.corners, shot.motion));
+  for (const Shot& shot : shots)
+    all.emplace_back(filter.step(shot.corners, shot.signatures, shot.motion));
   return all;
 }
 
@@ -125,7 +131,8 @@ bool says_else(const std::vector<Shot>& shots, const Parameters& parameters,
                const std::vector<Digest>& usual) {
   Filter filter(testing::vga(), parameters);
   for (std::size_t k = 0; k < shots.size(); ++k) {
-    if (Digest(filter.step(shots[k].corners, shots[k].motion)) != usual[k]) return true;
+    const Shot& shot = shots[k];
+    if (Digest(filter.step(shot.corners, shot.signatures, shot.motion)) != usual[k]) return true;
   }
   return false;
 }
@@ -163,7 +170,7 @@ const std::map<std::string, std::string> kNotOnThisDrive{
 
 /// The others have the rules of one of these.
 struct IdleParameters : testing::OfEachPreset {};
-INSTANTIATE_TEST_SUITE_P(Presets, IdleParameters, ::testing::Values("default", "lab"),
+INSTANTIATE_TEST_SUITE_P(Presets, IdleParameters, ::testing::Values("default", "hypotheses", "lab"),
                          testing::name_of_preset);
 
 TEST_P(IdleParameters, ChangeNothingAndTheOthersDo) {

@@ -247,6 +247,20 @@ TEST(ConstellationReasons, ANormalEdgeStandsAmongRebels) {
   expect_all(frames, reasons, 5, 6, Reason::normal_stands, Verdict::normal);
 }
 
+// ---- Two hypotheses
+
+TEST(HypothesisReasons, ACornerIsSeenOnceAndThenStandsOrMoves) {
+  Frames frames("hypotheses");
+  const Corners standing = shifted(kFive, -150);
+  expect_all(frames, frames.see(kFive + standing), Reason::first_sighting, Verdict::pending);
+  for (int k = 1; k < 4; ++k) frames.see(shifted(kFive, 8 * k) + standing);
+  const auto reasons = frames.see(shifted(kFive, 32) + standing + Corners{{241, 204}, {500, 400}});
+  expect_all(frames, reasons, 0, 5, Reason::rebel_edge, Verdict::rebel);
+  expect_all(frames, reasons, 5, 10, Reason::normal_edge, Verdict::normal);
+  expect_all(frames, reasons, 10, 11, Reason::inherited, Verdict::rebel);
+  expect_all(frames, reasons, 11, 12, Reason::first_sighting, Verdict::pending);
+}
+
 // ---- The paper's rule
 
 TEST(PaperReasons, ACornerAloneStartsARowOfAlphaAndIsMatchedThen) {
