@@ -37,14 +37,14 @@ Photographer photographer_of(const scenario::Scenario& s, const Pinhole& camera)
   }
 }
 
+}  // namespace
+
 const scenario::Scenario& require_scene(const scenario::Scenario& scenario) {
   if (!scenario.recording) return scenario;
   throw scenario::Error(scenario.recording->source,
                         "these are recorded frames, and there is no world to simulate; give a "
                         "scenario with a scene");
 }
-
-}  // namespace
 
 struct Simulation::Impl {
   scenario::Scenario scenario;

@@ -47,6 +47,9 @@ class PhysicsError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// \throws scenario::Error for a scenario whose frames are recorded: it has no world to simulate.
+const scenario::Scenario& require_scene(const scenario::Scenario& scenario);
+
 /// Owns the world and the GL context; to be used from the thread that made it. Two runs of one
 /// scenario give the same bits.
 class Simulation {

@@ -81,11 +81,12 @@ TEST(StaticPoint, LearnsTheDepthOfWhatItSeesWhateverTheMotion) {
                      << "v " << drive.v_mps.transpose() << ", w " << drive.w_radps.transpose()
                      << ", from " << px.transpose() << ", " << depth << " m");
         const Seen seen = watch(px, depth, motion, 12);
-        StaticPoint point = StaticPoint::first(px, kNoise2_px2, depth_bounds(field, px));
+        StaticPoint point;
         double last_miss = 0;
         for (std::size_t k = 1; k < seen.places.size(); ++k) {
           const Vec2& x = seen.places[k];
-          point = point.predicted(vga(), field, kUsual.ego_share);
+          point = k == 1 ? StaticPoint::seen_once(field.rotated(px), vga(), field, kNoise2_px2)
+                         : point.predicted(vga(), field, kUsual.ego_share);
           last_miss = (point.place_px - x).norm();
           point.see(x, kNoise2_px2, depth_bounds(field, x));
           expect_covariance<3>(point.covariance);
@@ -113,14 +114,14 @@ TEST(StaticPoint, IsTheLeastSquaresFitWhereThatIsLinear) {
   Random random(4);
   const Vec2 start = seen.places[0];
   const DepthBounds bounds = depth_bounds(field, start);
-  StaticPoint point = StaticPoint::first(start, kNoise2_px2, bounds);
+  StaticPoint point = StaticPoint::seen_once(field.rotated(start), vga(), field, kNoise2_px2);
   const double middle = point.inverse_depth_pm, variance = point.covariance(2, 2);
   EXPECT_NEAR(middle, 0.5 * (bounds.least_pm + bounds.most_pm), 1e-12);
   // Sums of the slope s of x over 1/Z and of x, by 1/variance.
   double n = 1, s = 0, ss = 0, x = start.x(), sx = 0;
   for (std::size_t k = 1; k < seen.places.size(); ++k) {
     const Vec2 noisy = seen.places[k] + random.vector(0.6).head<2>();
-    point = point.predicted(vga(), field, 0);
+    if (k > 1) point = point.predicted(vga(), field, 0);
     point.see(noisy, kNoise2_px2, bounds);
     const double slope = -vga().focal_px * d * static_cast<double>(k);
     n += 1, s += slope, ss += slope * slope, x += noisy.x(), sx += slope * noisy.x();
@@ -134,8 +135,7 @@ TEST(StaticPoint, IsTheLeastSquaresFitWhereThatIsLinear) {
 TEST(StaticPoint, IsLikeliestWhereItIsExpected) {
   const MotionField field(vga(), steady_motion({0.1, 0, 0.6}, {0, 0.05, 0}, kDt_s), {});
   const StaticPoint point =
-      StaticPoint::first({200, 150}, kNoise2_px2, depth_bounds(field, {200, 150}))
-          .predicted(vga(), field, kUsual.ego_share);
+      StaticPoint::seen_once(field.rotated({200, 150}), vga(), field, kNoise2_px2);
   const double there = point.density(point.place_px, kNoise2_px2);
   for (int i = 0; i < 16; ++i) {
     const Vec2 aside(std::cos(i * 0.4), std::sin(i * 0.4));
@@ -163,8 +163,7 @@ TEST(StaticPoint, IsNotNearerThanItMayBeNorBehindTheGround) {
   EXPECT_LT(bounds.least_pm, ground) << "which may fall away";
   EXPECT_GT(bounds.least_pm, 0.9 * ground);
   const auto share = [&](double inverse_depth_pm) {
-    StaticPoint point =
-        StaticPoint::first(px, kNoise2_px2, bounds).predicted(vga(), field, kUsual.ego_share);
+    StaticPoint point = StaticPoint::seen_once(px, vga(), field, kNoise2_px2);
     const Vec2 x = px - Vec2(vga().focal_px * 0.1 * inverse_depth_pm, 0);
     const double unbounded = point.density(x, kNoise2_px2);
     const double density = point.see(x, kNoise2_px2, bounds);
@@ -188,11 +187,11 @@ TEST(StaticPoint, AStandingCameraSaysNothingOfDepth) {
     Random random(6);
     Vec2 x(180, 300);
     const DepthBounds bounds = depth_bounds(field, x);
-    StaticPoint point = StaticPoint::first(x, kNoise2_px2, bounds);
+    StaticPoint point = StaticPoint::seen_once(field.rotated(x), vga(), field, kNoise2_px2);
     const StaticPoint before = point;
     for (int k = 0; k < 40; ++k) {
       x = field.rotated(x);
-      point = point.predicted(vga(), field, kUsual.ego_share);
+      if (k > 0) point = point.predicted(vga(), field, kUsual.ego_share);
       point.see(x + random.vector(1).head<2>(), kNoise2_px2, bounds);
       EXPECT_EQ(point.inverse_depth_pm, before.inverse_depth_pm);
       EXPECT_EQ(point.covariance(2, 2), before.covariance(2, 2));
@@ -206,9 +205,9 @@ TEST(StaticPoint, AStandingCameraSaysNothingOfDepth) {
 TEST(StaticPoint, IsFiniteWhereTheCameraGoesThroughIt) {
   const MotionField field(vga(), steady_motion({0, 0, 30}, Vector3d::Zero(), kDt_s), {});
   const Vec2 x(250, 200);
-  StaticPoint point = StaticPoint::first(x, kNoise2_px2, depth_bounds(field, x));
+  StaticPoint point = StaticPoint::seen_once(field.rotated(x), vga(), field, kNoise2_px2);
   for (int k = 0; k < 5; ++k) {
-    point = point.predicted(vga(), field, kUsual.ego_share);
+    if (k > 0) point = point.predicted(vga(), field, kUsual.ego_share);
     const double density = point.see(x, kNoise2_px2, depth_bounds(field, x));
     EXPECT_TRUE(std::isfinite(density));
     EXPECT_TRUE(point.place_px.allFinite() && point.covariance.allFinite());
@@ -280,7 +279,7 @@ Track track_at(const Vec2& x, const Signature& signature = {}) {
   Track track;
   track.place_px = x;
   track.signature = signature;
-  track.as_static = StaticPoint::first(x, kNoise2_px2, depth_bounds(still, x));
+  track.as_static = StaticPoint::seen_once(x, vga(), still, kNoise2_px2);
   track.sightings = 1;
   return track;
 }

@@ -71,7 +71,7 @@ std::string table(const Metrics& metrics) {
                            count(get("dimension.accumulative_final"))));
   line("time",
        fmt::format(
-           "{} ms a frame (line {}, circle {}, square {}), 99 % in {}; cv::FAST {}, signatures {}",
+           "{} ms (line {}, circle {}, square {}), 99 % in {}; FAST {}, signatures {}",
            milliseconds(get("time.filter_ms_median")), milliseconds(get("time.line_ms_median")),
            milliseconds(get("time.circle_ms_median")), milliseconds(get("time.square_ms_median")),
            milliseconds(get("time.filter_ms_p99")), milliseconds(get("time.detect_ms_median")),

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "scenarios/load.h"
+#include "sim/simulation.h"
 #include "scenarios/scenes.h"
 #include "tools/bench/csv.h"
 #include "tools/bench/output_folder.h"
@@ -65,6 +66,7 @@ fs::path target_of(const GenerateOptions& options, const scenario::Scenario& sce
 scenario::Scenario load(const GenerateOptions& options) {
   scenario::Scenario scenario =
       scenario::load(options.paths.front(), {.sets = options.sets, .seed = options.seed});
+  sim::require_scene(scenario);
   if (options.frames > 0) scenario.frames = std::min(scenario.frames, options.frames);
   return scenario;
 }
