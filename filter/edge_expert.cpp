@@ -38,17 +38,21 @@ void EdgeExpert::bury(std::vector<Edge>& edges) const {
   });
 }
 
+void EdgeExpert::move_as_static(Edge& edge, const MotionField& field) const {
+  edge.origin = field.origin(edge.location);
+  edge.speed = edge.depth_ratio * field.reference_speed(edge.location);
+  const Vec2 along = field.direction(edge.location);
+  edge.angle = angle_of(along.isZero() ? Vec2(edge.location - camera_.centre_px) : along);
+}
+
 Edge EdgeExpert::make_normal(const Vec2& x, double depth_ratio, double mu,
                              const MotionField& field) {
   Edge edge;
   edge.id = next_id();
   edge.location = edge.rotated = edge.predicted = x;
-  edge.origin = field.origin(x);
   edge.depth_ratio = depth_ratio;
   edge.path.start(x, depth_ratio, camera_);
-  edge.speed = depth_ratio * field.reference_speed(x);
-  const Vec2 along = field.direction(x);
-  edge.angle = angle_of(along.isZero() ? Vec2(x - camera_.centre_px) : along);
+  move_as_static(edge, field);
   edge.mu = mu;
   edge.trust = trust_.initial_normal();
   return edge;

@@ -55,6 +55,9 @@ class EdgeExpert {
   /// Deletes what is no longer trusted, or has left the image.
   void bury(std::vector<Edge>& edges) const;
 
+  /// Gives an edge the origin, speed and angle that a static point of its depth has where it is.
+  void move_as_static(Edge& edge, const MotionField& field) const;
+
   /// A normal edge at a corner, with V = depth_ratio * V_v.
   Edge make_normal(const Vec2& x, double depth_ratio, double mu, const MotionField& field);
 

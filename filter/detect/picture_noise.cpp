@@ -6,10 +6,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <numbers>
-#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
+
+#include "filter/detect/fast.h"
 
 namespace lcs {
 namespace {
@@ -57,8 +58,7 @@ double excess(const Jumps& jumps) {
 /// \return less than `least` where there are fewer at `least` already.
 int crowded_up_to(const cv::Mat1b& grey, int least) {
   constexpr std::size_t kPixelsEach = 256;
-  std::vector<cv::KeyPoint> corners;
-  cv::FAST(grey, corners, least, /*nonmaxSuppression=*/true, cv::FastFeatureDetector::TYPE_9_16);
+  std::vector<cv::KeyPoint> corners = FastDetector(least).detect_scored(grey);
   const std::size_t enough = grey.total() / kPixelsEach;
   if (corners.size() <= enough) return 0;
   const auto last = corners.begin() + static_cast<std::ptrdiff_t>(enough);

@@ -79,17 +79,21 @@ Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner) {
 
 /// Log odds a frame on: a corner may have changed its kind, or its track may have jumped.
 double HypothesisEdges::faded(double log_odds, double dt_s) const {
-  const double turnover = std::min(0.5, parameters_.turnover_ps * dt_s);
+  const double turnover = turnover_in(dt_s);
   return lcs::log_odds(chance(log_odds) * (1 - turnover) + parameters_.prior * turnover);
 }
 
-/// ln p(x | moves) / p(x | stands) of the second sighting. A static point may have come along a
+double HypothesisEdges::turnover_in(double dt_s) const {
+  return std::min(0.5, parameters_.turnover_ps * dt_s);
+}
+
+/// Density of a second sighting of what moves. A static point may have come along a
 /// segment l of the image, all depths alike; a mover may have come by as much from any of it, at
 /// speeds of which each order of magnitude is as likely:
 ///   p(x | moves) = [atan((l - a) / s) + atan(a / s)] / (pi l s ln(1 + R^2 / 2 sigma^2)),
 /// a along the segment and b across, s^2 = b^2 + 2 sigma^2, R the reach.
-double HypothesisEdges::first_step(const Track& track, const Vec2& x_px, double still,
-                                   const DepthBounds& bounds, const MotionField& field) const {
+double HypothesisEdges::first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds,
+                                   const MotionField& field) const {
   const Vec2 parallax = parallax_px_m(camera_, field.displacement_C_m(), track.place_px);
   const double length = parallax.norm();
   const Vec2 along = length > 1e-9 ? Vec2(parallax / length) : Vec2::UnitX();
@@ -99,13 +103,9 @@ double HypothesisEdges::first_step(const Track& track, const Vec2& x_px, double 
   const double s2 = b * b + 2 * noise2_px2_, s = std::sqrt(s2);
   const double reach = association_.reach_px(field.dt_s());
   const double orders = std::log(1 + reach * reach / (2 * noise2_px2_));
-  const double moving =
-      segment > kPlace * s
-          ? (std::atan((segment - a) / s) + std::atan(a / s)) / (segment * kPi * orders * s)
-          : 1 / (kPi * orders * (s2 + (a - segment / 2) * (a - segment / 2)));
-  const double clutter = parameters_.wrong_first / (kPi * reach * reach);
-  const double right = 1 - parameters_.wrong_first;
-  return std::log((right * moving + clutter) / (right * still + clutter));
+  return segment > kPlace * s
+             ? (std::atan((segment - a) / s) + std::atan(a / s)) / (segment * kPi * orders * s)
+             : 1 / (kPi * orders * (s2 + (a - segment / 2) * (a - segment / 2)));
 }
 
 /// Takes a sighting in. \return false where neither hypothesis has a place for it, so that it is
@@ -119,20 +119,23 @@ bool HypothesisEdges::see(Track& track, const Vec2& x_px, const MotionField& fie
   }
   const double still = seen.see(x_px, noise2_px2, bounds);
   const double reach = association_.reach_px(field.dt_s());
+  const double wrong = track.has_motion() ? parameters_.wrong : parameters_.wrong_first;
+  const double clutter = wrong / (kPi * reach * reach), right = 1 - wrong;
+  // What a sighting adds to the log odds: a match may be none, and then it may be anywhere.
+  const auto evidence = [&](double moving) {
+    return std::log((right * moving + clutter) / (right * still + clutter));
+  };
   if (!track.has_motion()) {
     track.log_odds =
-        lcs::log_odds(parameters_.prior) + first_step(track, x_px, still, bounds, field);
+        lcs::log_odds(parameters_.prior) + evidence(first_step(track, x_px, bounds, field));
     track.as_moving = OwnMotion::first(track.place_px, x_px, noise2_px2_, field.dt_s());
   } else {
     const double moving = track.as_moving.density(x_px, noise2_px2_);
-    const double clutter = parameters_.wrong / (kPi * reach * reach);
-    const double right = 1 - parameters_.wrong;
     if (right * std::max(still, moving) < clutter) return false;
-    track.log_odds = faded(track.log_odds, field.dt_s()) +
-                     std::log((right * moving + clutter) / (right * still + clutter));
+    track.log_odds = faded(track.log_odds, field.dt_s()) + evidence(moving);
     track.as_moving.see(x_px, noise2_px2_);
   }
-  const double turnover = std::min(0.5, parameters_.turnover_ps * field.dt_s());
+  const double turnover = turnover_in(field.dt_s());
   const double most = lcs::log_odds((1 - turnover) / (1 - turnover + turnover * parameters_.prior));
   track.log_odds = std::clamp(track.log_odds, -most, most);
   track.as_static = seen;
@@ -191,13 +194,9 @@ Edge HypothesisEdges::edge_of(const Track& track, const MotionField& field) cons
     set_velocity(edge, track.as_moving.velocity_pxps, field.dt_s());
     return edge;
   }
-  edge.origin = field.origin(edge.location);
-  edge.speed = edge.depth_ratio * field.reference_speed(edge.location);
-  const Vec2 along = field.direction(edge.location);
-  edge.angle = angle_of(along.isZero() ? Vec2(edge.location - camera_.centre_px) : along);
+  move_as_static(edge, field);
   edge.path.ratio = edge.depth_ratio;
-  const DepthBounds bounds = depth_bounds(field, edge.location);
-  const double half = 0.5 * (bounds.most_pm - bounds.least_pm);
+  const double half = depth_bounds(field, edge.location).half_pm();
   const double variance = track.as_static.covariance(2, 2);
   if (variance < kKnownDepth * half * half) {
     const double sigma = std::sqrt(variance) * field.reference_depth_m();

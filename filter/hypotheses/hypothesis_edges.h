@@ -32,9 +32,10 @@ class HypothesisEdges : public EdgeExpert {
   void fix_rotation(const Chi& chi, const std::vector<int>& track_of);
   Track first_seen(const Chi& chi, std::size_t corner);
   bool see(Track& track, const Vec2& x_px, const MotionField& field) const;
-  double first_step(const Track& track, const Vec2& x_px, double still, const DepthBounds& bounds,
+  double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds,
                     const MotionField& field) const;
   double faded(double log_odds, double dt_s) const;
+  double turnover_in(double dt_s) const;
   void coast(const std::vector<IgnoreRegion>& psi, const MotionField& field);
   void couple(const MotionField& field);
   void decide(Layers& layers, const Chi& chi, const MotionField& field,

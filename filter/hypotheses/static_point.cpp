@@ -19,6 +19,11 @@ double mass(double mean, double variance, const DepthBounds& bounds) {
                              below((bounds.least_pm - mean) / std::sqrt(least_variance)));
 }
 
+/// 1/z_min.
+double nearest_pm(const MotionField& field) {
+  return field.max_ratio() / field.reference_depth_m();
+}
+
 /// What a velocity that is wrong by a share does to an image motion: by as much along it, and by
 /// half of that across.
 Eigen::Matrix2d wrong_flow(const Vec2& flow_px, double ego_share) {
@@ -37,7 +42,7 @@ Vec2 parallax_px_m(const Intrinsics& camera, const Eigen::Vector3d& displacement
 
 DepthBounds depth_bounds(const MotionField& field, const Vec2& x_px) {
   DepthBounds bounds;
-  bounds.most_pm = field.max_ratio() / field.reference_depth_m();
+  bounds.most_pm = nearest_pm(field);
   const double least = field.least_ratio(x_px) / field.reference_depth_m();
   if (least <= 0) return bounds;
   bounds.least_pm = std::min(least, 0.95 * bounds.most_pm);
@@ -48,7 +53,7 @@ DepthBounds depth_bounds(const MotionField& field, const Vec2& x_px) {
 StaticPoint StaticPoint::seen_once(const Vec2& rotated_px, const Intrinsics& camera,
                                    const MotionField& field, double noise2_px2) {
   const DepthBounds bounds = depth_bounds(field, rotated_px);
-  const double half = 0.5 * (bounds.most_pm - bounds.least_pm);
+  const double half = bounds.half_pm();
   const Vec2 parallax = parallax_px_m(camera, field.displacement_C_m(), rotated_px);
   StaticPoint point;
   point.inverse_depth_pm = bounds.least_pm + half;
@@ -69,8 +74,7 @@ StaticPoint StaticPoint::predicted(const Intrinsics& camera, const MotionField& 
   const double nearing = std::max(kMostApproach, 1 - inverse_depth_pm * d.z());
   StaticPoint next;
   next.place_px = camera.centre_px + (h - inverse_depth_pm * shift) / nearing;
-  next.inverse_depth_pm =
-      std::min(inverse_depth_pm / nearing, field.max_ratio() / field.reference_depth_m());
+  next.inverse_depth_pm = std::min(inverse_depth_pm / nearing, nearest_pm(field));
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity() / nearing;
   F.topRightCorner<2, 1>() = (h * d.z() - shift) / (nearing * nearing);
   F(2, 2) /= nearing;
@@ -79,15 +83,16 @@ StaticPoint StaticPoint::predicted(const Intrinsics& camera, const MotionField& 
   return next;
 }
 
+Eigen::Matrix2d StaticPoint::spread(double noise2_px2) const {
+  return covariance.topLeftCorner<2, 2>() + noise2_px2 * Eigen::Matrix2d::Identity();
+}
+
 double StaticPoint::density(const Vec2& x_px, double noise2_px2) const {
-  const Eigen::Matrix2d S =
-      covariance.topLeftCorner<2, 2>() + noise2_px2 * Eigen::Matrix2d::Identity();
-  return gauss(x_px - place_px, S);
+  return gauss(x_px - place_px, spread(noise2_px2));
 }
 
 double StaticPoint::see(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds) {
-  const Eigen::Matrix2d S =
-      covariance.topLeftCorner<2, 2>() + noise2_px2 * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d S = spread(noise2_px2);
   const Vec2 residual = x_px - place_px;
   const double before = mass(inverse_depth_pm, covariance(2, 2), bounds);
   const Eigen::Matrix<double, 3, 2> gain = covariance.leftCols<2>() * S.inverse();

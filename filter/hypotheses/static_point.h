@@ -21,6 +21,8 @@ struct DepthBounds {
   double least_pm = 0;        ///< of the ground, less what it may fall away; 0: infinity
   double most_pm = 0;         ///< at z_min
   double least_sigma_pm = 0;  ///< standard deviation of the former
+
+  double half_pm() const { return 0.5 * (most_pm - least_pm); }
 };
 
 /// \param x_px of frame k.
@@ -53,6 +55,10 @@ struct StaticPoint {
 
   /// Density of a sighting at `x_px` of a predicted point, 1/px^2, bounds left aside.
   double density(const Vec2& x_px, double noise2_px2) const;
+
+ private:
+  /// Of a sighting about the place, px^2.
+  Eigen::Matrix2d spread(double noise2_px2) const;
 };
 
 }  // namespace lcs

@@ -1,11 +1,12 @@
 #include "tools/bench/score_labels.h"
 
 #include <algorithm>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "tools/bench/box.h"
 #include "tools/bench/score_rebels.h"
+#include "tools/bench/score_squares.h"
 #include "tools/bench/scoring.h"
 
 namespace lcs::bench {
@@ -59,26 +60,18 @@ bool may_move(const Square& square) {
   return square.rebel_circles > 0 || square.circles == 0;
 }
 
-/// How many boxes have a square of their own, best pairs first; places settle ties.
+/// How many boxes have a square of their own; places in the lists settle ties.
 int count_boxed(const FrameRecord& frame, const std::vector<Labelled>& labels) {
-  std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;  // -IoU, label, square
+  std::vector<BoxPair> pairs;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i].ignored) continue;
     for (std::size_t j = 0; j < frame.layers.squares.size(); ++j) {
       const Square& square = frame.layers.squares[j];
       const double iou = intersection_over_union(labels[i].box, box_of(square));
-      if (may_move(square) && iou >= kMatch) pairs.emplace_back(-iou, i, j);
+      if (may_move(square) && iou >= kMatch) pairs.push_back({iou, static_cast<int>(i), j});
     }
   }
-  std::sort(pairs.begin(), pairs.end());
-  std::vector<bool> label_taken(labels.size()), square_taken(frame.layers.squares.size());
-  int boxed = 0;
-  for (const auto& [iou, label, square] : pairs) {
-    if (label_taken[label] || square_taken[square]) continue;
-    label_taken[label] = square_taken[square] = true;
-    ++boxed;
-  }
-  return boxed;
+  return static_cast<int>(one_to_one(std::move(pairs)).size());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "tools/bench/box.h"
 #include "tools/bench/scoring.h"
@@ -28,17 +29,11 @@ bool is_eligible(const sim::ObjectTruth& truth, const FrameRecord& frame) {
          truth.visible_fraction >= kMinVisibleFraction;
 }
 
-struct Pair {
-  double iou = 0;
-  int object = 0;
-  Id square = 0;
-};
-
 /// What squares and objects of one frame have to do with each other, at any threshold.
 struct FrameSquares {
   std::set<int> eligible;      ///< objects
-  std::vector<Pair> pairs;     ///< of eligible objects and squares, one to one, greedy: best first
-  std::vector<Pair> best_box;  ///< of each square, among all boxes; object 0 where none overlaps
+  std::vector<BoxPair> pairs;  ///< of eligible objects and squares, one to one, greedy: best first
+  std::vector<BoxPair> best_box;  ///< of each square, among all boxes; object 0 where none overlaps
 };
 
 FrameSquares compare(const FrameRecord& frame) {
@@ -47,9 +42,9 @@ FrameSquares compare(const FrameRecord& frame) {
     if (is_eligible(truth, frame)) result.eligible.insert(truth.object);
   }
 
-  std::vector<Pair> candidates;
+  std::vector<BoxPair> candidates;
   for (const Square& square : frame.layers.squares) {
-    Pair best{0, 0, square.id};
+    BoxPair best{0, 0, square.id};
     for (const sim::ObjectTruth& truth : frame.object_truth) {
       const double iou = intersection_over_union(box_of(truth), box_of(square));
       const bool eligible = result.eligible.contains(truth.object);
@@ -61,18 +56,7 @@ FrameSquares compare(const FrameRecord& frame) {
     result.best_box.push_back(best);
   }
 
-  // Ids settle ties, so that the order in which squares and objects come does not matter.
-  std::sort(candidates.begin(), candidates.end(), [](const Pair& a, const Pair& b) {
-    return std::tuple(-a.iou, a.object, a.square) < std::tuple(-b.iou, b.object, b.square);
-  });
-  std::set<int> taken_objects;
-  std::set<Id> taken_squares;
-  for (const Pair& pair : candidates) {
-    if (taken_objects.contains(pair.object) || taken_squares.contains(pair.square)) continue;
-    taken_objects.insert(pair.object);
-    taken_squares.insert(pair.square);
-    result.pairs.push_back(pair);
-  }
+  result.pairs = one_to_one(std::move(candidates));
   return result;
 }
 
@@ -80,12 +64,12 @@ SquareCounts count(const FrameSquares& frame, double threshold) {
   SquareCounts counts;
   counts.boxes = static_cast<int>(frame.eligible.size());
   std::set<Id> matched;
-  for (const Pair& pair : frame.pairs) {
+  for (const BoxPair& pair : frame.pairs) {
     if (pair.iou >= threshold) matched.insert(pair.square);
   }
   counts.matched = static_cast<int>(matched.size());
-  for (const Pair& best : frame.best_box) {
-    const bool on_other_object = best.iou >= threshold && !frame.eligible.contains(best.object);
+  for (const BoxPair& best : frame.best_box) {
+    const bool on_other_object = best.iou >= threshold && !frame.eligible.contains(best.box);
     counts.squares += matched.contains(best.square) || !on_other_object;
   }
   return counts;
@@ -109,6 +93,22 @@ std::set<int> movers(const Recording& recording) {
 
 }  // namespace
 
+std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs) {
+  std::sort(pairs.begin(), pairs.end(), [](const BoxPair& a, const BoxPair& b) {
+    return std::tuple(-a.iou, a.box, a.square) < std::tuple(-b.iou, b.box, b.square);
+  });
+  std::set<int> taken_boxes;
+  std::set<Id> taken_squares;
+  std::vector<BoxPair> matched;
+  for (const BoxPair& pair : pairs) {
+    if (taken_boxes.contains(pair.box) || taken_squares.contains(pair.square)) continue;
+    taken_boxes.insert(pair.box);
+    taken_squares.insert(pair.square);
+    matched.push_back(pair);
+  }
+  return matched;
+}
+
 std::optional<double> SquareCounts::recall() const {
   return ratio(matched, boxes);
 }
@@ -130,12 +130,12 @@ SquareScore score_squares(const Recording& recording) {
     for (const int object : squares.eligible) {
       ++(moving.contains(object) ? score.movers_50 : score.static_50).boxes;
     }
-    for (const Pair& pair : squares.pairs) {
+    for (const BoxPair& pair : squares.pairs) {
       if (pair.iou < kMiddle) continue;
-      const bool mover = moving.contains(pair.object);
+      const bool mover = moving.contains(pair.box);
       ++(mover ? score.movers_50 : score.static_50).matched;
       (mover ? score.movers_iou : score.static_iou).push_back(pair.iou);
-      const auto [last, first_time] = last_square.try_emplace(pair.object, pair.square);
+      const auto [last, first_time] = last_square.try_emplace(pair.box, pair.square);
       score.identity_switches += last->second != pair.square;
       last->second = pair.square;
     }

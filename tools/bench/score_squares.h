@@ -19,6 +19,17 @@ struct SquareCounts {
   std::optional<double> precision() const;
 };
 
+/// A box and a square that overlap.
+struct BoxPair {
+  double iou = 0;
+  int box = 0;  ///< its object, or whatever else tells it from other boxes
+  Id square = 0;
+};
+
+/// Those that belong together: one to one, greedy, best first. Ids settle ties, so that the order
+/// in which pairs come does not matter.
+std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs);
+
 struct SquareScore {
   SquareCounts at_30, at_50, at_70;
   /// \name At 0.5, by whether the object moves at any time in the run.
