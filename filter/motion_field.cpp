@@ -1,5 +1,6 @@
 #include "filter/motion_field.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 
@@ -30,21 +31,31 @@ MotionField::MotionField(const Intrinsics& camera, const EgoMotion& motion,
     : centre_px_(camera.centre_px),
       focal_px_(camera.focal_px),
       dt_s_(motion.dt_s),
-      rotation_(parameters.rotation),
       R_cur_prev_(motion.R_cur_prev),
       homography_(rotation_homography(camera, motion.R_cur_prev)),
       w_dt_(motion.w_C_radps * motion.dt_s),
       v_C_mps_(motion.v_C_mps),
-      reference_depth_m_(parameters.reference_depth_m),
-      nearest_depth_m_(parameters.nearest_depth_m),
+      parameters_(parameters),
       ground_(parameters.ground ? motion.ground : std::nullopt),
-      ground_tilt_rad_(parameters.ground_tilt_rad),
       moving_(motion.dt_s > 0 && motion.v_C_mps.norm() > parameters.still_speed_mps) {
   T_prev_cur_.topLeftCorner<3, 3>() = R_cur_prev_.transpose();
   T_prev_cur_.topRightCorner<3, 1>() = R_cur_prev_.transpose() * displacement_C_m();
   if (moving_ && std::abs(v_C_mps_.z()) * kFarFoe > v_C_mps_.head<2>().norm()) {
     foe_ = centre_px_ + focal_px_ * v_C_mps_.head<2>() / v_C_mps_.z();
   }
+}
+
+MotionField MotionField::corrected(const Eigen::Vector3d& turn_rad,
+                                   const Eigen::Vector3d& velocity_mps) const {
+  if (!(dt_s_ > 0)) return *this;
+  EgoMotion motion;
+  motion.dt_s = dt_s_;
+  motion.R_cur_prev =
+      Eigen::AngleAxisd(-turn_rad.norm(), turn_rad.stableNormalized()) * R_cur_prev_;
+  motion.w_C_radps = (w_dt_ + turn_rad) / dt_s_;
+  motion.v_C_mps = v_C_mps_ + velocity_mps;
+  motion.ground = ground_;
+  return MotionField({.focal_px = focal_px_, .centre_px = centre_px_}, motion, parameters_);
 }
 
 /// What is turned behind the camera has no image, and the first-order models have one for it that
@@ -55,7 +66,7 @@ Vec2 MotionField::rotated(const Vec2& x_px) const {
 }
 
 Vec2 MotionField::rotated_unbounded(const Vec2& x_px) const {
-  switch (rotation_) {
+  switch (parameters_.rotation) {
     case RotationModel::first_order:
       return x_px + first_order(x_px - centre_px_);
     case RotationModel::as_printed:
@@ -101,7 +112,7 @@ Vec2 MotionField::direction(const Vec2& x_px) const {
 
 Vec2 MotionField::earlier(const Vec2& x_px, double depth_ratio,
                           const Eigen::Vector3d& displacement_C_m) const {
-  const double w = depth_ratio / reference_depth_m_;  // 1 / Z
+  const double w = depth_ratio / parameters_.reference_depth_m;  // 1 / Z
   const Eigen::Vector3d h((x_px.x() - centre_px_.x()) / focal_px_ + w * displacement_C_m.x(),
                           (x_px.y() - centre_px_.y()) / focal_px_ + w * displacement_C_m.y(),
                           1 + w * displacement_C_m.z());
@@ -121,7 +132,7 @@ std::optional<double> MotionField::ground_ratio(const Vec2& x_px) const {
   if (!ground_) return std::nullopt;
   Eigen::Vector3d ray;
   ray << (x_px - centre_px_) / focal_px_, 1;
-  return -reference_depth_m_ * ground_->up_C.dot(ray) / ground_->height_m;
+  return -parameters_.reference_depth_m * ground_->up_C.dot(ray) / ground_->height_m;
 }
 
 double MotionField::least_ratio(const Vec2& x_px) const {
@@ -137,11 +148,11 @@ double MotionField::ratio_from(const Vec2& x_px, const Vec2& earlier_px,
   const double length2 = parallax.squaredNorm();
   if (length2 < 1e-12) return 0;
   const double w = (earlier_px - x_px).dot(parallax) / length2;
-  return std::clamp(w * reference_depth_m_, 0.0, max_ratio());
+  return std::clamp(w * parameters_.reference_depth_m, 0.0, max_ratio());
 }
 
 double MotionField::advanced_ratio(double depth_ratio) const {
-  const double shrink = 1 - depth_ratio * v_C_mps_.z() * dt_s_ / reference_depth_m_;
+  const double shrink = 1 - depth_ratio * v_C_mps_.z() * dt_s_ / parameters_.reference_depth_m;
   return shrink > 0 ? std::min(depth_ratio / shrink, 2 * max_ratio()) : 2 * max_ratio();
 }
 

@@ -27,6 +27,10 @@ class MotionField {
  public:
   MotionField(const Intrinsics& camera, const EgoMotion& motion, const FieldParameters& parameters);
 
+  /// The field of this motion followed by a small turn of the camera, and of another velocity, m/s
+  /// more along each axis of the camera at k. The same where no time passed.
+  MotionField corrected(const Eigen::Vector3d& turn_rad, const Eigen::Vector3d& velocity_mps) const;
+
   double dt_s() const { return dt_s_; }
 
   /// Where a location of frame k-1 lies after the rotation alone: what every stored location is
@@ -44,12 +48,14 @@ class MotionField {
   Vec2 direction(const Vec2& x_px) const;
 
   /// V_v(x) = |g(x)| / Z_ref, px/s: image speed of a static point at the reference depth.
-  double reference_speed(const Vec2& x_px) const { return flow(x_px).norm() / reference_depth_m_; }
+  double reference_speed(const Vec2& x_px) const {
+    return flow(x_px).norm() / parameters_.reference_depth_m;
+  }
 
   /// Where a static point comes to, given its rotated location and, at the end of the interval,
   /// Z_ref / Z. Exact: the depth's own change is in it.
   Vec2 translated(const Vec2& rotated_px, double depth_ratio) const {
-    return rotated_px + flow(rotated_px) * (depth_ratio * dt_s_ / reference_depth_m_);
+    return rotated_px + flow(rotated_px) * (depth_ratio * dt_s_ / parameters_.reference_depth_m);
   }
 
   /// Where a static point that is seen at `x_px` now was seen (rotation removed) before the camera
@@ -62,9 +68,11 @@ class MotionField {
                     const Eigen::Vector3d& displacement_C_m) const;
 
   /// Image of a length across the line of sight, at the reference depth.
-  double length_px(double length_m) const { return focal_px_ * length_m / reference_depth_m_; }
+  double length_px(double length_m) const {
+    return focal_px_ * length_m / parameters_.reference_depth_m;
+  }
 
-  double reference_depth_m() const { return reference_depth_m_; }
+  double reference_depth_m() const { return parameters_.reference_depth_m; }
 
   /// Of the camera over the interval, in the camera frame of k.
   Eigen::Vector3d displacement_C_m() const { return v_C_mps_ * dt_s_; }
@@ -78,7 +86,7 @@ class MotionField {
 
   /// By how much a patch grows that is at `depth_ratio` at the end of the interval: Z(k-1) / Z(k).
   double expansion(double depth_ratio) const {
-    return 1 + depth_ratio * v_C_mps_.z() * dt_s_ / reference_depth_m_;
+    return 1 + depth_ratio * v_C_mps_.z() * dt_s_ / parameters_.reference_depth_m;
   }
 
   /// Z_ref / Z of the ground seen at a place: the least that a static point may have there.
@@ -91,7 +99,8 @@ class MotionField {
 
   /// Z_ref / Z by which the ground may differ from its plane.
   double ground_slack() const {
-    return ground_ ? reference_depth_m_ * ground_tilt_rad_ / ground_->height_m : 0;
+    return ground_ ? parameters_.reference_depth_m * parameters_.ground_tilt_rad / ground_->height_m
+                   : 0;
   }
 
   /// Unit vector along the horizon in the image, to the right where the camera is upright; none
@@ -103,7 +112,7 @@ class MotionField {
   const std::optional<Ground>& ground() const { return ground_; }
 
   /// Largest Z_ref / Z of a static point: at the nearest plausible depth.
-  double max_ratio() const { return reference_depth_m_ / nearest_depth_m_; }
+  double max_ratio() const { return parameters_.reference_depth_m / parameters_.nearest_depth_m; }
 
   /// Point that the flow is seen to come from: the FOE, or, where that is at infinity, a point far
   /// behind along the flow, so that directions and homotheties about it stay what they should be.
@@ -127,16 +136,13 @@ class MotionField {
   Vec2 centre_px_;
   double focal_px_;
   double dt_s_;
-  RotationModel rotation_;
   Eigen::Matrix3d R_cur_prev_;
   Eigen::Matrix4d T_prev_cur_ = Eigen::Matrix4d::Identity();
   Eigen::Matrix3d homography_;  // K dR K^-1
   Eigen::Vector3d w_dt_;        // rotation over the interval, rad
   Eigen::Vector3d v_C_mps_;
-  double reference_depth_m_;
-  double nearest_depth_m_;
+  FieldParameters parameters_;
   std::optional<Ground> ground_;
-  double ground_tilt_rad_;
   bool moving_;
   std::optional<Vec2> foe_;
 };

@@ -114,7 +114,7 @@ struct HypothesisParameters {
   double prior = 0.03;    ///< share of corners that move
   double turnover_ps = 1;      ///< 1/s: how often a corner changes its kind, or a track its corner
   double wrong_first = 0.15;   ///< share of first matches that are none
-  double wrong = 0.02;         ///< and of later ones
+  double wrong = 0.05;         ///< and of later ones
   double ego_share = 0.02;     ///< of the image motion by which the camera's velocity may be wrong
   double acceleration_ps = 1;  ///< 1/s: share of its image velocity by which a mover changes it
   double max_speed_pxps = 600;  ///< px/s: the fastest that a mover is looked for, the rotation

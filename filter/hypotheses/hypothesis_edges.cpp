@@ -13,10 +13,10 @@
 namespace lcs {
 namespace {
 
-/// Frames after which a track that is sure to stand says what the rotation is off by, and log odds
-/// from which it is.
-constexpr int kSureSightings = 4;
-constexpr double kSure = -2;
+/// Sightings after which a track says what the told motion is off by.
+constexpr int kKnownSightings = 3;
+/// Share of them that are another's.
+constexpr double kWrongWitness = 0.1;
 
 /// A static point's images that are shorter than this share of the noise are one place.
 constexpr double kPlace = 0.3;
@@ -33,7 +33,11 @@ HypothesisEdges::HypothesisEdges(const Intrinsics& camera, const CircleParameter
       association_(parameters_),
       coupling_(parameters_) {}
 
-void HypothesisEdges::predict(Layers&, const MotionField& field) {
+void HypothesisEdges::predict(Layers&, const MotionField& told) {
+  predict_tracks(told);
+}
+
+void HypothesisEdges::predict_tracks(const MotionField& field) {
   predicted_.clear();
   for (const Track& track : tracks_) {
     Track& next = predicted_.emplace_back(track);
@@ -49,22 +53,28 @@ void HypothesisEdges::predict(Layers&, const MotionField& field) {
   }
 }
 
-/// Predictions are moved by what the rotation is off by.
-void HypothesisEdges::fix_rotation(const Chi& chi, const std::vector<int>& track_of) {
+/// The field of the motion as the tracks show it that are likely to stand.
+MotionField HypothesisEdges::corrected(const MotionField& told, const Chi& chi,
+                                       const std::vector<int>& track_of) {
   residuals_.clear();
+  const double reach = association_.reach_px(told.dt_s());
+  const double anywhere = kWrongWitness / (kPi * reach * reach);
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (track_of[c] < 0) continue;
     const Track& track = predicted_[track_of[c]];
-    if (track.sightings < kSureSightings || track.belief > kSure) continue;
-    residuals_.push_back({chi.locations[c], chi.locations[c] - track.as_static.place_px});
+    if (track.sightings < kKnownSightings) continue;
+    const Vec2& x = chi.locations[c];
+    const StaticPoint& point = track.as_static;
+    const Vec2 by_depth = depth_bounds(told, point.place_px).half_pm() *
+                          parallax_px_m(camera_, told.displacement_C_m(), point.place_px);
+    const double moves = chance(track.belief);
+    residuals_.push_back({point.place_px, x - point.place_px,
+                          point.spread(noise2_px2_) + by_depth * by_depth.transpose(),
+                          point.inverse_depth_pm, point.covariance(2, 2), 1 - moves,
+                          moves * track.as_moving.density(x, noise2_px2_) + anywhere});
   }
-  const Eigen::Vector3d rotation = rotation_fix(camera_, residuals_, noise2_px2_);
-  if (rotation.isZero()) return;
-  for (Track& track : predicted_) {
-    track.place_px += shift(camera_, rotation, track.place_px);
-    track.as_static.place_px += shift(camera_, rotation, track.as_static.place_px);
-    track.as_moving.place_px += shift(camera_, rotation, track.as_moving.place_px);
-  }
+  const MotionFix fix = motion_fix(camera_, told, residuals_, parameters_.ego_share);
+  return told.corrected(fix.turn_rad, fix.velocity_mps);
 }
 
 Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner) {
@@ -243,12 +253,13 @@ void HypothesisEdges::decide(Layers& layers, const Chi& chi, const MotionField& 
   }
 }
 
-void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& field,
+void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& told,
                              std::vector<Verdict>& verdicts) {
   refill(reasons_, chi.size(), Reason::unknown);
-  if (!(field.dt_s() > 0)) predicted_.clear();
-  const std::vector<int>& track_of = association_.match(chi, predicted_, noise2_px2_, field.dt_s());
-  fix_rotation(chi, track_of);
+  if (!(told.dt_s() > 0)) predicted_.clear();
+  const std::vector<int>& track_of = association_.match(chi, predicted_, noise2_px2_, told.dt_s());
+  const MotionField field = predicted_.empty() ? told : corrected(told, chi, track_of);
+  if (!predicted_.empty()) predict_tracks(field);
   tracks_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (track_of[c] >= 0) {

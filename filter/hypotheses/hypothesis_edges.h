@@ -14,7 +14,7 @@
 #include "filter/edge_expert.h"
 #include "filter/hypotheses/association.h"
 #include "filter/hypotheses/coupling.h"
-#include "filter/hypotheses/rotation_fix.h"
+#include "filter/hypotheses/motion_fix.h"
 #include "filter/hypotheses/track.h"
 
 namespace lcs {
@@ -29,7 +29,8 @@ class HypothesisEdges : public EdgeExpert {
   void forget() override { tracks_.clear(); }
 
  private:
-  void fix_rotation(const Chi& chi, const std::vector<int>& track_of);
+  void predict_tracks(const MotionField& field);
+  MotionField corrected(const MotionField& told, const Chi& chi, const std::vector<int>& track_of);
   Track first_seen(const Chi& chi, std::size_t corner);
   bool see(Track& track, const Vec2& x_px, const MotionField& field) const;
   double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds,

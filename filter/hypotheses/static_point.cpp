@@ -12,11 +12,18 @@ namespace {
 /// What the camera passes within a frame is taken to come this much nearer, and no more.
 constexpr double kMostApproach = 0.2;
 
+/// Of the height above the ground that is told, by which it may be wrong.
+constexpr double kWrongHeight = 0.1;
+/// Standard deviations of the ground beyond which nothing static is.
+constexpr double kFarBelow = 2;
+
 /// Chance of a normal variable between the bounds; never 0, as it is divided by.
 double mass(double mean, double variance, const DepthBounds& bounds) {
-  const double least_variance = variance + bounds.least_sigma_pm * bounds.least_sigma_pm;
-  return std::max(1e-12, below((bounds.most_pm - mean) / std::sqrt(variance)) -
-                             below((bounds.least_pm - mean) / std::sqrt(least_variance)));
+  const double sigma = std::sqrt(variance);
+  const double to_ground = std::hypot(sigma, bounds.ground_sigma_pm);
+  return std::max(1e-12,
+                  below((bounds.most_pm - mean) / sigma) -
+                      std::max(below(-mean / sigma), below((bounds.ground_pm - mean) / to_ground)));
 }
 
 /// 1/z_min.
@@ -43,10 +50,13 @@ Vec2 parallax_px_m(const Intrinsics& camera, const Eigen::Vector3d& displacement
 DepthBounds depth_bounds(const MotionField& field, const Vec2& x_px) {
   DepthBounds bounds;
   bounds.most_pm = nearest_pm(field);
-  const double least = field.least_ratio(x_px) / field.reference_depth_m();
-  if (least <= 0) return bounds;
-  bounds.least_pm = std::min(least, 0.95 * bounds.most_pm);
-  bounds.least_sigma_pm = field.ground_slack() / field.reference_depth_m();
+  const auto ground = field.ground_ratio(x_px);
+  if (!ground || *ground <= 0) return bounds;
+  bounds.ground_pm = *ground / field.reference_depth_m();
+  bounds.ground_sigma_pm =
+      std::hypot(field.ground_slack() / field.reference_depth_m(), kWrongHeight * bounds.ground_pm);
+  bounds.least_pm =
+      std::clamp(bounds.ground_pm - kFarBelow * bounds.ground_sigma_pm, 0.0, 0.95 * bounds.most_pm);
   return bounds;
 }
 

@@ -18,9 +18,10 @@ namespace lcs {
 
 /// 1/Z that a static point may have at a place, 1/m.
 struct DepthBounds {
-  double least_pm = 0;        ///< of the ground, less what it may fall away; 0: infinity
-  double most_pm = 0;         ///< at z_min
-  double least_sigma_pm = 0;  ///< standard deviation of the former
+  double least_pm = 0;         ///< as far below the ground as it may have fallen away; 0: infinity
+  double most_pm = 0;          ///< at z_min
+  double ground_pm = 0;        ///< of the ground as told; 0 above the horizon, or where not known
+  double ground_sigma_pm = 0;  ///< standard deviation of that, by its tilt and height
 
   double half_pm() const { return 0.5 * (most_pm - least_pm); }
 };
@@ -56,7 +57,6 @@ struct StaticPoint {
   /// Density of a sighting at `x_px` of a predicted point, 1/px^2, bounds left aside.
   double density(const Vec2& x_px, double noise2_px2) const;
 
- private:
   /// Of a sighting about the place, px^2.
   Eigen::Matrix2d spread(double noise2_px2) const;
 };

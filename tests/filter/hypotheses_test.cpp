@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "filter/filter.h"
+#include "filter/geometry.h"
 #include "filter/hypotheses/association.h"
 #include "filter/hypotheses/coupling.h"
+#include "filter/hypotheses/motion_fix.h"
 #include "filter/hypotheses/own_motion.h"
-#include "filter/hypotheses/rotation_fix.h"
 #include "filter/hypotheses/static_point.h"
 #include "tests/filter/same_result.h"
 #include "tests/filter/world.h"
@@ -160,8 +162,11 @@ TEST(StaticPoint, IsNotNearerThanItMayBeNorBehindTheGround) {
   const DepthBounds bounds = depth_bounds(field, px);
   const double ground = (px.y() - vga().centre_px.y()) / vga().focal_px / 0.8;
   EXPECT_NEAR(bounds.most_pm, 1 / 0.8, 1e-12) << "at z_min";
-  EXPECT_LT(bounds.least_pm, ground) << "which may fall away";
-  EXPECT_GT(bounds.least_pm, 0.9 * ground);
+  EXPECT_NEAR(bounds.ground_pm, ground, 1e-12);
+  // It may fall away by 0.015 rad, and the height be wrong by a tenth.
+  const double sigma = std::hypot(0.015 / 0.8, 0.1 * ground);
+  EXPECT_NEAR(bounds.ground_sigma_pm, sigma, 1e-12);
+  EXPECT_NEAR(bounds.least_pm, ground - 2 * sigma, 1e-12);
   const auto share = [&](double inverse_depth_pm) {
     StaticPoint point = StaticPoint::seen_once(px, vga(), field, kNoise2_px2);
     const Vec2 x = px - Vec2(vga().focal_px * 0.1 * inverse_depth_pm, 0);
@@ -482,41 +487,92 @@ TEST(Coupling, ANodeWithoutMotionTakesAndGivesNothing) {
   EXPECT_EQ(coupling.model_of(2), 0);
 }
 
-// ---- The rotation
+// ---- What the told motion is off by
 
-TEST(RotationFix, ShiftsAsTheRotationDoes) {
-  Random random(2);
-  for (int i = 0; i < 50; ++i) {
-    const Vector3d turn = random.vector(1e-3);
-    const Vec2 x(random.uniform(0, 639), random.uniform(0, 479));
-    const MotionField field(vga(), steady_motion(Vector3d::Zero(), turn / kDt_s, kDt_s), {});
-    // First order: what is left out is f angle^2, 0.0005 px, and some times that off the axis.
-    EXPECT_LT((shift(vga(), turn, x) - (field.rotated(x) - x)).norm(), 3e-3);
-  }
-}
-
-TEST(RotationFix, FindsASmallRotationAmongWrongMatches) {
-  Random random(5);
-  for (const Vector3d& turn : {Vector3d(1e-3, -5e-4, 8e-4), Vector3d(-2e-3, 1e-3, -1e-3)}) {
-    std::vector<Residual> residuals;
-    for (int i = 0; i < 80; ++i) {
-      const Vec2 x(random.uniform(0, 639), random.uniform(0, 479));
-      residuals.push_back({x, shift(vga(), turn, x) + random.vector(0.3).head<2>()});
-      if (i % 5 == 0) residuals.back().off_px = 30 * random.vector(1).head<2>();
-    }
-    // 64 sightings that are 0.17 px off on an axis tell 0.17 / (415 * 8) = 5e-5 rad about x and y,
-    // and twice that about z; a wrong match as much as one that is 4 / 20 px off.
-    const Vector3d found = rotation_fix(vga(), residuals, kNoise2_px2);
-    EXPECT_LT((found - turn).norm(), 3e-4) << found.transpose();
-  }
-}
-
-TEST(RotationFix, SaysNothingWhereTooFewTell) {
+/// A camera that goes ahead is told a motion that is off by a turn and by a velocity. Static points
+/// all over the picture, and by how far each misses where it was expected.
+struct Misled {
+  MotionField told, truth;
   std::vector<Residual> residuals;
-  for (int i = 0; i < 19; ++i) residuals.push_back({Vec2(30 * i, 20 * i), Vec2(1, 0)});
-  EXPECT_TRUE(rotation_fix(vga(), residuals, kNoise2_px2).isZero(0));
-  residuals.push_back({Vec2(320, 240), Vec2(1, 0)});
-  EXPECT_GT(rotation_fix(vga(), residuals, kNoise2_px2).norm(), 1e-3);
+
+  Misled(const Vector3d& turn, const Vector3d& velocity, int points, Random& random)
+      : told(vga(), steady_motion({0, 0, 1}, {0, 0.1, 0}, kDt_s), {}),
+        truth(told.corrected(turn, velocity)) {
+    for (int i = 0; i < points; ++i) {
+      const Vec2 before(random.uniform(0, 639), random.uniform(0, 479));
+      const double ratio = told.reference_depth_m() / random.uniform(2, 10);
+      const Vec2 expected = told.translated(told.rotated(before), ratio);
+      const Vec2 x = truth.translated(truth.rotated(before), ratio);
+      const Vec2 by_depth = 0.5 * parallax_px_m(vga(), told.displacement_C_m(), expected);
+      residuals.push_back(
+          {expected, x - expected + random.vector(0.3).head<2>(),
+           kNoise2_px2 * Eigen::Matrix2d::Identity() + by_depth * by_depth.transpose(),
+           ratio / told.reference_depth_m(), 1e-4, 0.97, 1e-6});
+    }
+  }
+
+  /// px: the most that a field differs from the true one across the parallax.
+  double worst_across(const MotionField& field) const {
+    double worst = 0;
+    for (const Residual& residual : residuals) {
+      const double ratio = residual.inverse_depth_pm * told.reference_depth_m();
+      const Vec2 is = field.translated(field.rotated(residual.place_px), ratio);
+      const Vec2 should = truth.translated(truth.rotated(residual.place_px), ratio);
+      worst = std::max(worst, std::abs(cross(truth.direction(should), is - should)));
+    }
+    return worst;
+  }
+};
+
+TEST(MotionFix, FindsWhatTheToldMotionIsOffByAmongWrongMatches) {
+  Random random(5);
+  for (const auto& [turn, velocity] :
+       {std::pair<Vector3d, Vector3d>({1e-3, -5e-4, 8e-4}, {0, 0.02, 0}),
+        {{-1e-3, 1e-3, -1e-3}, {-0.01, -0.02, 0}}}) {
+    Misled misled(turn, velocity, 200, random);
+    for (std::size_t i = 0; i < misled.residuals.size(); i += 5) {
+      misled.residuals[i].off_px = 30 * random.vector(1).head<2>();
+    }
+    const double before = misled.worst_across(misled.told);
+    const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, 0.02);
+    const double after = misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps));
+    EXPECT_GT(before, 0.6);
+    // The worst of 200 places. A turn and a velocity aside look alike where depths are, and each
+    // residual speaks with a fifth of its voice, so that what is told holds the fix back.
+    EXPECT_LT(after, before / 2);
+  }
+}
+
+/// As a depth that was learnt under a wrong motion would have it.
+TEST(MotionFix, TakesNothingFromWhatADepthExplains) {
+  Random random(6);
+  Misled misled(Vector3d::Zero(), Vector3d::Zero(), 200, random);
+  for (Residual& residual : misled.residuals) {
+    residual.off_px += 3 * misled.told.direction(residual.place_px);
+  }
+  const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, 0.02);
+  EXPECT_LT(fix.turn_rad.norm(), 2e-4);
+  EXPECT_LT(misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps)), 0.3);
+}
+
+TEST(MotionFix, TakesLittleFromWhatIsKnownToMove) {
+  Random random(7);
+  Misled misled(Vector3d::Zero(), Vector3d::Zero(), 200, random);
+  for (std::size_t i = 0; i < 120; ++i) {
+    misled.residuals[i].off_px += Vec2(2, 2);
+    misled.residuals[i].stands = 0.01;
+    misled.residuals[i].otherwise_ppx2 = 0.2;
+  }
+  const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, 0.02);
+  EXPECT_LT(misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps)), 0.3);
+}
+
+TEST(MotionFix, SaysNothingWhereTooFewTell) {
+  Random random(8);
+  const Misled few({1e-3, 0, 0}, Vector3d::Zero(), 19, random);
+  EXPECT_TRUE(motion_fix(vga(), few.told, few.residuals, 0.02).turn_rad.isZero(0));
+  const Misled enough({1e-3, 0, 0}, Vector3d::Zero(), 20, random);
+  EXPECT_GT(motion_fix(vga(), enough.told, enough.residuals, 0.02).turn_rad.norm(), 2e-4);
 }
 
 // ---- The rule

@@ -154,6 +154,25 @@ TEST(MotionField, StandingStillHasNoFlow) {
   EXPECT_TRUE(field.translated({100, 100}, 5).isApprox(Vec2(100, 100)));
 }
 
+TEST(MotionField, CorrectedIsTheFieldOfTheOtherMotion) {
+  Random random(8);
+  const Vector3d v(0.1, -0.2, 0.8), w(0.1, 0.2, -0.1), more(0.02, 0.01, -0.03);
+  const double dt = 0.1;
+  const Vector3d turn(1e-3, -2e-3, 5e-4);
+  const MotionField told(vga(), steady_motion(v, w, dt), {});
+  // Small turns add up to second order: 1e-5 rad, times the focal length.
+  const MotionField other(vga(), steady_motion(v + more, w + turn / dt, dt), {});
+  const MotionField corrected = told.corrected(turn, more);
+  for (int i = 0; i < 50; ++i) {
+    const Vec2 x = random_pixel(random);
+    EXPECT_LT((corrected.rotated(x) - other.rotated(x)).norm(), 0.03);
+    EXPECT_TRUE(corrected.direction(x).isApprox(other.direction(x), 1e-9));
+    EXPECT_NEAR(corrected.reference_speed(x), other.reference_speed(x), 1e-9);
+  }
+  const MotionField still(vga(), EgoMotion{}, {});
+  EXPECT_TRUE(still.corrected(turn, more).direction({9, 9}).isZero()) << "no time passed";
+}
+
 TEST(MotionField, SpeedOverReferenceSpeedIsTheSameAtOneDepthEverywhere) {
   Random random(6);
   FieldParameters parameters;
