@@ -14,7 +14,7 @@ constexpr int kIterations = 4;
 constexpr double kTurn_rad = 1e-3;
 constexpr double kStill_mps = 0.003;
 /// What a residual counts for: those of one body are off together.
-constexpr double kOwnVoice = 0.2;
+constexpr double kOwnVoice = 0.05;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;

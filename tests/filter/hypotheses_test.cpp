@@ -538,7 +538,7 @@ TEST(MotionFix, FindsWhatTheToldMotionIsOffByAmongWrongMatches) {
     const double after = misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps));
     EXPECT_GT(before, 0.6);
     // The worst of 200 places. A turn and a velocity aside look alike where depths are, and each
-    // residual speaks with a fifth of its voice, so that what is told holds the fix back.
+    // residual speaks with a twentieth of its voice, so that what is told holds the fix back.
     EXPECT_LT(after, before / 2);
   }
 }
