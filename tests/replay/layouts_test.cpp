@@ -117,6 +117,25 @@ TEST_F(Layouts, KittiRawTakesItsCalibrationFromTheFolderOfTheDate) {
   EXPECT_NEAR(motion.v_C_mps.x(), Circle::kSpeed_mps * 0.01 - Circle::kYawRate_radps * ahead, 2e-3);
 }
 
+TEST_F(Layouts, KittiRawRefusesACalibrationThatTurnsNothing) {
+  const fs::path drive = kitti(3);
+  const fs::path date = drive.parent_path();
+  write(date / "calib_cam_to_cam.txt",
+        "R_rect_00: 1 0 0 0 1 0 0 0 1\nP_rect_02: 700 0 600 42 0 700 180 0 0 0 1 0\n");
+  write(date / "calib_imu_to_velo.txt", "R: 1 0 0 0 1 0 0 0 1\nT: -0.8 0.3 -0.8\n");
+  for (const char* R : {"0 -1 0 0 0 61 1 0 0", "1 0 0 0 1 0 0 0 -1", "0 0 0 0 0 0 0 0 0"}) {
+    write(date / "calib_velo_to_cam.txt", fmt::format("R: {}\nT: 0 -0.08 -0.27\n", R));
+    try {
+      read_kitti(asked(drive), false);
+      ADD_FAILURE() << R << " was taken";
+    } catch (const scenario::Error& error) {
+      const std::string told = error.what();
+      EXPECT_NE(told.find("calib_velo_to_cam.txt"), told.npos) << told;
+      EXPECT_NE(told.find("R is no rotation"), told.npos) << told;
+    }
+  }
+}
+
 TEST_F(Layouts, RobotCarGivesTheMotionOfItsInertialUnitFromNorthEastDown) {
   const fs::path run = home_.path() / "2014-05-19";
   std::string list,

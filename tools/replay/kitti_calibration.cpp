@@ -8,6 +8,7 @@
 
 #include "scenarios/input_file.h"
 #include "tools/bench/csv.h"
+#include "tools/replay/poses_file.h"
 
 namespace lcs::replay {
 namespace {
@@ -42,12 +43,18 @@ const std::vector<double>& KittiCalibration::numbers(const std::string& name,
   return found->second;
 }
 
-Eigen::Matrix3d KittiCalibration::matrix(const std::string& name) const {
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers(name, 9).data());
+Eigen::Matrix3d KittiCalibration::rotation(const std::string& name) const {
+  const auto R = rotation_of(
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers(name, 9).data()));
+  if (!R) {
+    throw scenario::Error({file_.string(), 0},
+                          fmt::format("{} is no rotation; {}", name, kCalibration.remedy));
+  }
+  return *R;
 }
 
 sim::Pose KittiCalibration::pose() const {
-  return {matrix("R"), Eigen::Map<const Eigen::Vector3d>(numbers("T", 3).data())};
+  return {rotation("R"), Eigen::Map<const Eigen::Vector3d>(numbers("T", 3).data())};
 }
 
 Lens KittiCalibration::lens(const std::string& name) const {

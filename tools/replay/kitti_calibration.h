@@ -21,7 +21,8 @@ class KittiCalibration {
   /// \name Of a line. \throws scenario::Error unless it is there and has as many numbers.
   ///@{
   const std::vector<double>& numbers(const std::string& name, std::size_t count) const;
-  Eigen::Matrix3d matrix(const std::string& name) const;
+  /// \throws scenario::Error, too, for what is no rotation.
+  Eigen::Matrix3d rotation(const std::string& name) const;
   /// Of lines R and T.
   sim::Pose pose() const;
   /// Of a projection of pictures that are straight, [K | K t].

@@ -81,7 +81,7 @@ std::optional<Camera> read_calibration(const fs::path& drive, const std::string&
     camera.lens = cameras.lens("P_rect_" + number);
     const sim::Pose T_velo_imu = KittiCalibration(folder / "calib_imu_to_velo.txt").pose();
     const sim::Pose T_cam_velo = KittiCalibration(folder / "calib_velo_to_cam.txt").pose();
-    const sim::Pose rectify{cameras.matrix("R_rect_00"), Vector3d::Zero()};
+    const sim::Pose rectify{cameras.rotation("R_rect_00"), Vector3d::Zero()};
     camera.T_BC =
         (cameras.beside("P_rect_" + number) * (rectify * (T_cam_velo * T_velo_imu))).inverse();
     return camera;

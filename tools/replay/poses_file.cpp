@@ -51,16 +51,19 @@ std::optional<PosesFile::Line> kitti_line(const std::vector<std::string>& fields
   const auto n = numbers_in<kKittiFields>(fields, 0);
   if (!n) return std::nullopt;
   const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> rows(n->data());
-  const Eigen::Matrix3d R = rows.leftCols<3>();
-  if (!is_place(rows.col(3)) || !R.allFinite() || !(R.determinant() > 0) ||
-      !(R * R.transpose()).isIdentity(kTolerance)) {
-    return std::nullopt;
-  }
-  const Eigen::Matrix3d nearest = Eigen::Quaterniond(R).normalized().toRotationMatrix();
-  return PosesFile::Line{std::nullopt, {nearest, rows.col(3)}};
+  const auto R = rotation_of(rows.leftCols<3>());
+  if (!is_place(rows.col(3)) || !R) return std::nullopt;
+  return PosesFile::Line{std::nullopt, {*R, rows.col(3)}};
 }
 
 }  // namespace
+
+std::optional<Eigen::Matrix3d> rotation_of(const Eigen::Matrix3d& R) {
+  if (!R.allFinite() || !(R.determinant() > 0) || !(R * R.transpose()).isIdentity(kTolerance)) {
+    return std::nullopt;
+  }
+  return Eigen::Quaterniond(R).normalized().toRotationMatrix();
+}
 
 PosesFile read_poses(const std::filesystem::path& file, Tally& tally) {
   const TextTable table = read_table(file, ' ');

@@ -28,6 +28,9 @@ struct PosesFile {
 /// without a pose, or of other lines.
 PosesFile read_poses(const std::filesystem::path& file, Tally& tally);
 
+/// The rotation that a matrix is but for its digits; none if it is no rotation.
+std::optional<Eigen::Matrix3d> rotation_of(const Eigen::Matrix3d& R);
+
 /// Against gravity in the world of the poses: by the camera's mount on a vehicle that stands
 /// upright at the first pose, where the user gives it. \param otherwise where that is not given.
 std::optional<Eigen::Vector3d> up_of_world(const scenario::Recorded& asked,
