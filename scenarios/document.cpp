@@ -267,8 +267,11 @@ Value parse_text(const std::string& text, const Source& where) {
 }
 
 Value parse_file(const std::filesystem::path& file) {
-  const std::string bytes = read_file(file, kScenarioFile);
-  Value root = parse_text(bytes, {file.string(), 1});
+  return parse_document(read_file(file, kScenarioFile), file);
+}
+
+Value parse_document(const std::string& text, const std::filesystem::path& file) {
+  Value root = parse_text(text, {file.string(), 1});
   if (root.kind == Value::Kind::null) {
     throw Error({file.string(), 0},
                 "the file is empty; see scenarios/README.md for a first scenario");

@@ -48,7 +48,10 @@ std::string_view kind_name(Value::Kind kind);
 /// \throws Error when the file cannot be read, is not UTF-8, or is not one YAML document.
 Value parse_file(const std::filesystem::path& file);
 
-/// As `parse_file`, with the lines counted from `where.line`.
+/// As `parse_file`, of what the file might hold.
+Value parse_document(const std::string& text, const std::filesystem::path& file);
+
+/// Any value, with the lines counted from `where.line`.
 Value parse_text(const std::string& text, const Source& where);
 
 /// YAML that reads back as a value, in one line.

@@ -266,14 +266,11 @@ std::map<std::string, std::string> world_of(const Value& root) {
 }  // namespace
 
 Scenario load(const std::filesystem::path& file, const LoadOptions& options) {
-  Value root = parse_file(file);
-  for (const std::string& assignment : options.sets) apply_set(root, assignment);
-  Scenario scenario = load(root, file);
-  if (options.seed && !scenario.recording) scenario.seed = *options.seed;
-  return scenario;
+  return load(parse_file(file), file, options);
 }
 
-Scenario load(const Value& root, const std::filesystem::path& file) {
+Scenario load(Value root, const std::filesystem::path& file, const LoadOptions& options) {
+  for (const std::string& assignment : options.sets) apply_set(root, assignment);
   Scenario scenario;
   scenario.name = file.stem().string();
   scenario.file = file;
@@ -281,6 +278,7 @@ Scenario load(const Value& root, const std::filesystem::path& file) {
   read_top(reader, file.parent_path(), scenario);
   reader.finish();
   scenario.world = world_of(root);
+  if (options.seed && !scenario.recording) scenario.seed = *options.seed;
   return scenario;
 }
 

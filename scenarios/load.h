@@ -26,6 +26,6 @@ Scenario load(const std::filesystem::path& file, const LoadOptions& options = {}
 
 /// Likewise of a document that was not read from a file. \param file that it might be: its stem is
 /// the name, and paths begin at its folder.
-Scenario load(const Value& root, const std::filesystem::path& file);
+Scenario load(Value root, const std::filesystem::path& file, const LoadOptions& options = {});
 
 }  // namespace lcs::scenario

@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 namespace lcs::scenario {
 
@@ -53,16 +54,25 @@ const char* name_of(Shape shape) {
   throw std::invalid_argument("an actor has a shape that does not ship with the project");
 }
 
+fs::path& shipped_scenes() {
+  static fs::path folder = LCS_SCENES_DIR;
+  return folder;
+}
+
 fs::path shipped_file(const fs::path& name) {
   const fs::path file = scenes_folder() / name;
-  return fs::exists(file) ? file : LCS_SCENES_DIR / name;
+  return fs::exists(file) ? file : shipped_scenes() / name;
 }
 
 }  // namespace
 
 fs::path scenes_folder() {
   const char* const folder = std::getenv("LCS_SCENES");
-  return folder && *folder ? folder : LCS_SCENES_DIR;
+  return folder && *folder ? fs::path(folder) : shipped_scenes();
+}
+
+void set_shipped_scenes(fs::path folder) {
+  shipped_scenes() = std::move(folder);
 }
 
 fs::path rover_file(const Ego& ego) {
@@ -85,7 +95,7 @@ std::vector<std::string> shadowed_files(const Scenario& scenario) {
   std::vector<std::string> lines;
   std::error_code none;  // of files that are not there, which are no others
   for (const fs::path& name : names) {
-    const fs::path used = scenes_folder() / name, other = LCS_SCENES_DIR / name;
+    const fs::path used = scenes_folder() / name, other = shipped_scenes() / name;
     if (!fs::exists(used, none) || !fs::exists(other, none)) continue;
     if (fs::equivalent(used, other, none)) continue;
     lines.push_back(used.string() + " is used, as LCS_SCENES says, and not the project's own " +

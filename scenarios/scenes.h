@@ -13,18 +13,22 @@
 
 namespace lcs::scenario {
 
-/// The environment's LCS_SCENES, else `scenes/` of the source tree.
+/// The environment's LCS_SCENES, else the folder of those that ship.
 std::filesystem::path scenes_folder();
 
+/// Says where those that ship are, in place of `scenes/` of the source tree: for what is installed
+/// without that. To be called before anything else here.
+void set_shipped_scenes(std::filesystem::path folder);
+
 /// \name Of one's own, or the one that ships with the project ("ego/wheeled.xml"): that of
-/// `scenes_folder()` if it has one, else that of the source tree, so that a user's folder need not
+/// `scenes_folder()` if it has one, else that of those that ship, so that a user's folder need not
 /// hold them all.
 ///@{
 std::filesystem::path rover_file(const Ego& ego);
 std::filesystem::path actor_file(const Actor& actor);  ///< of an actor with a shape
 ///@}
 
-/// Which file is used where both the environment's LCS_SCENES and the source tree have one of a
+/// Which file is used where both the environment's LCS_SCENES and those that ship have one of a
 /// name that the scenario uses: a line for people each.
 std::vector<std::string> shadowed_files(const Scenario& scenario);
 
