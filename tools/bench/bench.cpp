@@ -9,46 +9,62 @@
 #include "tools/bench/timed.h"
 
 namespace lcs::bench {
-namespace {
 
-class SimulatedFrames : public FrameSource {
- public:
-  SimulatedFrames(const scenario::Scenario& scenario, sim::Simulation& simulation)
-      : scenario_(scenario),
-        simulation_(simulation),
-        ego_motion_(scenario, simulation.calibration()) {}
+SimulatedFrames::SimulatedFrames(const scenario::Scenario& scenario, sim::Simulation& simulation)
+    : scenario_(scenario),
+      simulation_(simulation),
+      ego_motion_(scenario, simulation.calibration()) {}
 
-  bool next(FrameRecord& frame, cv::Mat3b& image) override {
-    observation_ = timed(frame.times.value().simulate_ms, [&] { return simulation_.next(); });
-    if (!observation_) return false;
-    frame.index = observation_->index;
-    frame.t_ns = observation_->t_ns;
-    const EgoMotionFeed::Motions motions = ego_motion_.next(*observation_);
-    frame.motion = motions.told;
-    frame.true_motion = motions.exact;
-    image = observation_->image;
-    return true;
+bool SimulatedFrames::next(FrameRecord& frame, cv::Mat3b& image) {
+  observation_ = timed(frame.times.value().simulate_ms, [&] { return simulation_.next(); });
+  if (!observation_) return false;
+  frame.index = observation_->index;
+  frame.t_ns = observation_->t_ns;
+  const EgoMotionFeed::Motions motions = ego_motion_.next(*observation_);
+  frame.motion = motions.told;
+  frame.true_motion = motions.exact;
+  image = observation_->image;
+  return true;
+}
+
+void SimulatedFrames::label(FrameRecord& frame) {
+  frame.corner_truth = timed(frame.times.value().truth_ms, [&] {
+    return sim::label_corners(simulation_.calibration().camera, observation_->truth,
+                              frame.corners_px, scenario_.truth_min_depth_m);
+  });
+  frame.object_truth = observation_->objects;
+}
+
+std::optional<SeenFrame> see(FrameSource& source, const FastDetector& detector,
+                             bool are_signatures_wanted) {
+  SeenFrame seen;
+  FrameRecord& frame = seen.record;
+  cv::Mat3b& image = seen.image;
+  cv::Mat1b& grey = seen.grey;
+  FrameTimes& times = frame.times.emplace();
+  if (!source.next(frame, image)) return std::nullopt;
+  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  const int threshold = detector.threshold(grey);
+  frame.corners_px = timed(times.detect_ms, [&] { return FastDetector::detect(grey, threshold); });
+  if (source.straighten(frame.corners_px, image)) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  if (are_signatures_wanted) {
+    frame.signatures = timed(times.describe_ms, [&] { return describe(grey, frame.corners_px); });
   }
+  source.label(frame);
+  return seen;
+}
 
-  void label(FrameRecord& frame) override {
-    frame.corner_truth = timed(frame.times.value().truth_ms, [&] {
-      return sim::label_corners(simulation_.calibration().camera, observation_->truth,
-                                frame.corners_px, scenario_.truth_min_depth_m);
-    });
-    frame.object_truth = observation_->objects;
-  }
-
-  std::optional<sim::Warnings> warnings() const override { return simulation_.warnings(); }
-  Diagnostics diagnostics() const override { return ego_motion_.estimator().diagnostics(); }
-
- private:
-  const scenario::Scenario& scenario_;
-  sim::Simulation& simulation_;
-  EgoMotionFeed ego_motion_;
-  std::optional<sim::Observation> observation_;  ///< the last one
-};
-
-}  // namespace
+void note(const FrameResult& said, double filter_ms, FrameRecord& frame) {
+  FrameTimes times = frame.times.value_or(FrameTimes{});
+  times.filter_ms = filter_ms;
+  times.line_ms = said.times.line_ms;
+  times.circle_ms = said.times.circle_ms;
+  times.square_ms = said.times.square_ms;
+  frame.times = times;
+  frame.verdicts = said.verdicts;
+  frame.reasons = said.reasons;
+  frame.layers = said.layers;
+}
 
 Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulation& simulation) {
   Recording recording;
@@ -60,17 +76,11 @@ Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulat
 }
 
 void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame) {
-  FrameTimes times = frame.times.value_or(FrameTimes{});
-  const FrameResult& result = timed(times.filter_ms, [&]() -> const FrameResult& {
+  double filter_ms = 0;
+  const FrameResult& said = timed(filter_ms, [&]() -> const FrameResult& {
     return tracker.step({image, grey, frame.corners_px, frame.motion, frame.signatures});
   });
-  frame.verdicts = result.verdicts;
-  frame.reasons = result.reasons;
-  frame.layers = result.layers;
-  times.line_ms = result.times.line_ms;
-  times.circle_ms = result.times.circle_ms;
-  times.square_ms = result.times.square_ms;
-  frame.times = times;
+  note(said, filter_ms, frame);
 }
 
 std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
@@ -79,31 +89,15 @@ std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
       std::any_of(watchers.begin(), watchers.end(),
                   [](const Watcher& watcher) { return watcher.tracker.wants_signatures(); });
 
-  while (true) {
-    FrameRecord seen;  // by all
-    FrameTimes& times = seen.times.emplace();
-    cv::Mat3b image;
-    if (!source.next(seen, image)) break;
-    cv::Mat1b grey;
-    cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-    const int threshold = detector.threshold(grey);
-    seen.corners_px =
-        timed(times.detect_ms, [&] { return FastDetector::detect(grey, threshold); });
-    if (source.straighten(seen.corners_px, image)) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-    std::vector<Signature> signatures;  // only for those who want them, as alone
-    double describe_ms = 0;
-    if (are_signatures_wanted) {
-      signatures = timed(describe_ms, [&] { return describe(grey, seen.corners_px); });
-    }
-    source.label(seen);
+  while (const std::optional<SeenFrame> seen = see(source, detector, are_signatures_wanted)) {
     for (const Watcher& watcher : watchers) {
-      FrameRecord& frame = watcher.recording.frames.emplace_back(seen);
-      if (watcher.tracker.wants_signatures()) {
-        frame.signatures = signatures;
-        frame.times->describe_ms = describe_ms;
+      FrameRecord& frame = watcher.recording.frames.emplace_back(seen->record);
+      if (!watcher.tracker.wants_signatures()) {  // as alone
+        frame.signatures = {};
+        frame.times->describe_ms = 0;
       }
-      ask(watcher.tracker, image, grey, frame);
-      watcher.sink(frame, image);
+      ask(watcher.tracker, seen->image, seen->grey, frame);
+      watcher.sink(frame, seen->image);
     }
   }
   std::vector<Diagnostics> all;

@@ -12,6 +12,7 @@
 #include "filter/detect/fast.h"
 #include "scenarios/scenario.h"
 #include "sim/simulation.h"
+#include "tools/bench/ego_motion_feed.h"
 #include "tools/bench/recording.h"
 #include "tools/bench/tracker.h"
 
@@ -41,6 +42,41 @@ class FrameSource {
   /// What was wrong with the sensors' readings so far.
   virtual Diagnostics diagnostics() const = 0;
 };
+
+class SimulatedFrames : public FrameSource {
+ public:
+  /// \param scenario that the simulation was made of. Both are referred to.
+  SimulatedFrames(const scenario::Scenario& scenario, sim::Simulation& simulation);
+
+  bool next(FrameRecord& frame, cv::Mat3b& image) override;
+  void label(FrameRecord& frame) override;
+  std::optional<sim::Warnings> warnings() const override { return simulation_.warnings(); }
+  Diagnostics diagnostics() const override { return ego_motion_.estimator().diagnostics(); }
+
+  /// All that there is of the last frame.
+  const std::optional<sim::Observation>& observation() const { return observation_; }
+
+ private:
+  const scenario::Scenario& scenario_;
+  sim::Simulation& simulation_;
+  EgoMotionFeed ego_motion_;
+  std::optional<sim::Observation> observation_;  ///< the last one
+};
+
+/// A frame before anyone speaks.
+struct SeenFrame {
+  FrameRecord record;  ///< without verdicts and layers
+  cv::Mat3b image;     ///< BGR
+  cv::Mat1b grey;      ///< the same: what the corners were found in
+};
+
+/// The next frame with its corners and what is true of them, and signatures where they are wanted.
+/// \return none after the last one. \throws what the source throws.
+std::optional<SeenFrame> see(FrameSource& source, const FastDetector& detector,
+                             bool are_signatures_wanted);
+
+/// Gives a frame what a tracker says of it. \param filter_ms that the tracker took.
+void note(const FrameResult& said, double filter_ms, FrameRecord& frame);
 
 /// A recording of the scenario without frames yet.
 Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulation& simulation);
