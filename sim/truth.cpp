@@ -25,6 +25,12 @@ struct Surface {
 /// each side of the one that a corner lies in.
 template <typename Visit>
 void visit_about(const Eigen::Vector2f& corner, int radius_px, cv::Size image_px, Visit&& visit) {
+  // what is farther out, or no number, has no whole pixel that an int could hold
+  const double reach_px = radius_px + 1;
+  if (!((corner.cast<double>().array() >= -reach_px).all() &&
+        corner.x() <= image_px.width + reach_px && corner.y() <= image_px.height + reach_px)) {
+    return;
+  }
   const int cx = static_cast<int>(std::lround(corner.x()));
   const int cy = static_cast<int>(std::lround(corner.y()));
   for (int y = std::max(0, cy - radius_px); y <= std::min(image_px.height - 1, cy + radius_px); ++y)
