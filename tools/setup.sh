@@ -12,6 +12,7 @@ packages=(
   libmujoco-dev libosmesa6-dev libopencv-dev libeigen3-dev
   libyaml-cpp-dev libtinyxml2-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev
   libdeflate-dev libssl-dev
+  pybind11-dev python3-dev python3-numpy
 )
 
 say() { printf '%s\n' "$*" >&2; }

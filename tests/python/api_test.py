@@ -1,0 +1,541 @@
+"""What the package promises beyond its figures: arrays that stay, errors in words, and no crash."""
+
+import ast
+import gc
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+import lcs
+
+CROSSING = lcs.SCENARIOS / "crossing.yaml"
+TEXT = """
+scene: lab
+frames: 4
+camera: {size: [320, 240]}
+ego: {start: [-4 m, 0 m], speed: 0.5 m/s}
+"""
+
+
+def small(**set_):
+    return lcs.Scenario.from_yaml(TEXT, set=set_)
+
+
+class Scenarios(unittest.TestCase):
+    def test_says_what_it_is(self):
+        scenario = lcs.Scenario(CROSSING, set={"camera.rate": "5 Hz", "frames": 7}, seed=9)
+        self.assertEqual((scenario.name, scenario.frames, scenario.seed), ("crossing", 7, 9))
+        self.assertFalse(scenario.recorded)
+        self.assertIn("short", scenario.groups)
+        camera = scenario.camera
+        self.assertEqual((camera.width, camera.height, camera.rate), (640, 480, 5))
+        self.assertEqual((camera.cx, camera.cy), (319.5, 239.5))
+        self.assertAlmostEqual(camera.fy, 240 / np.tan(np.pi / 6))
+        np.testing.assert_array_equal(
+            camera.matrix, [[camera.fx, 0, 319.5], [0, camera.fy, 239.5], [0, 0, 1]]
+        )
+
+    def test_takes_numbers_as_text(self):
+        for speed in ("0.7 m/s", "0.7", 0.7, np.float64(0.7), np.float32(0.5)):
+            lcs.Scenario(CROSSING, set={"ego.speed": speed, "frames": np.int64(3)})
+        self.assertEqual(lcs.Scenario(str(CROSSING), seed=np.uint64(2**63)).seed, 2**63)
+
+    def test_runs_from_any_folder(self):
+        code = (
+            "import lcs; s = lcs.Scenario(lcs.SCENARIOS / 'examples' / 'warehouse' / 'warehouse.yaml',"
+            " set={'frames': 1}); print(next(lcs.simulate(s)).corners.shape[0] > 0)"
+        )
+        with tempfile.TemporaryDirectory() as elsewhere:
+            path = os.pathsep.join(map(os.path.abspath, filter(None, sys.path)))
+            done = subprocess.run(
+                [sys.executable, "-c", code],
+                cwd=elsewhere,
+                env={**os.environ, "PYTHONPATH": path},
+                capture_output=True,
+                text=True,
+            )
+        self.assertEqual((done.stdout, done.stderr), ("True\n", ""))
+
+    def test_refuses_as_the_program_does(self):
+        def refusal(*arguments, **settings):
+            with self.assertRaises(lcs.Error) as raised:
+                lcs.Scenario(*arguments, **settings)
+            return str(raised.exception)
+
+        self.assertEqual(
+            refusal("nowhere.yaml"),
+            "nowhere.yaml: there is no such file; give the path of a scenario file (.yaml)",
+        )
+        self.assertEqual(
+            refusal(CROSSING, set={"ego.sped": 1}),
+            "--set ego.sped=1: unknown key 'sped' in ego; did you mean 'speed'?",
+        )
+        self.assertIn("is an angle", refusal(CROSSING, set={"ego.speed": "9 deg"}))
+        self.assertIn("circle.mu_0", refusal(CROSSING, set={"filter.circle.mu_00": 3}))
+        self.assertIn("the seed", refusal(CROSSING, seed=-1))
+        self.assertIn("the seed", refusal(CROSSING, seed="many"))
+        self.assertIn("there is no scene 'moon'", refusal(CROSSING, set={"scene": "moon"}))
+        with self.assertRaises(lcs.Error) as raised:
+            lcs.Scenario.from_yaml("scene: lab\nframes: many\n", file="mine.yaml")
+        self.assertTrue(str(raised.exception).startswith("mine.yaml:2: "), raised.exception)
+        for text, told in (("", "scenario.yaml: the file is empty"), ("[1]", "scenario.yaml:1: a scenario is a map")):
+            with self.assertRaisesRegex(lcs.Error, told):
+                lcs.Scenario.from_yaml(text)
+
+    def test_refuses_what_is_no_setting(self):
+        for settings in ({"ego.start": [1, 2]}, {3: 4}, "ego.speed=1", {"ego.speed": None}):
+            with self.assertRaises(TypeError, msg=settings):
+                lcs.Scenario(CROSSING, set=settings)
+        with self.assertRaises(TypeError):
+            lcs.Scenario(3)
+
+    def test_warns_of_settings_without_effect(self):
+        with self.assertWarnsRegex(UserWarning, "has no effect"):
+            lcs.Scenario(CROSSING, set={"filter.circle.alpha_reach": 3})
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with self.assertRaises(UserWarning):
+                lcs.Scenario(CROSSING, set={"filter.circle.alpha_reach": 3})
+
+
+class Frames(unittest.TestCase):
+    def test_arrays_have_the_shapes_that_they_are_said_to_have(self):
+        frame = list(lcs.simulate(lcs.Scenario(CROSSING, set={"frames": 2})))[1]
+        n = len(frame.corners)
+        self.assertGreater(n, 100)
+        truth = frame.truth
+        shapes = {
+            "picture": (frame.picture, (480, 640, 3), np.uint8),
+            "grey": (frame.grey, (480, 640), np.uint8),
+            "corners": (frame.corners, (n, 2), np.float64),
+            "signatures": (frame.signatures, (n, 32), np.uint8),
+            "rotation": (frame.motion.rotation, (3, 3), np.float64),
+            "velocity": (frame.motion.velocity, (3,), np.float64),
+            "labels": (truth.labels, (n,), np.uint8),
+            "boxes": (truth.boxes, (len(truth.objects), 4), np.float64),
+            "depth": (truth.depth, (480, 640), np.float32),
+            "object_ids": (truth.object_ids, (480, 640), np.int32),
+            "T_WC": (truth.T_WC, (4, 4), np.float64),
+            "T_WO": (truth.T_WO, (len(truth.names) + 1, 4, 4), np.float64),
+        }
+        for name, (array, shape, dtype) in shapes.items():
+            self.assertEqual((array.shape, array.dtype), (shape, dtype), name)
+            with self.assertRaises(ValueError, msg=name):
+                array[...] = 0
+        self.assertEqual((frame.index, frame.time, frame.time_ns), (1, 0.1, 100_000_000))
+        np.testing.assert_allclose(frame.imu["t"], np.arange(1, 21) * 0.005)
+        self.assertEqual(frame.imu["accel"].shape, (20, 3))
+        np.testing.assert_allclose(frame.imu["accel"].mean(axis=0), [0, 0, 9.81], atol=0.1)
+        np.testing.assert_allclose(frame.odometry["velocity"].mean(axis=0), [0.5, 0, 0], atol=0.05)
+        self.assertEqual(len(truth.corners), n)
+        np.testing.assert_array_equal(truth.corners["label"], truth.labels)
+
+    def test_the_truth_fits_together(self):
+        """A corner's object is what the pixels show there, and the poses are those of the motion."""
+        before, frame = list(lcs.simulate(lcs.Scenario(CROSSING, set={"frames": 2})))
+        truth = frame.truth
+        x, y = frame.corners.astype(int).T
+        near = [truth.object_ids[y + dy, x + dx] for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
+        self.assertTrue((np.array(near) == truth.corners["object"]).any(axis=0).all())
+        left, top, right, bottom = truth.boxes[0].astype(int)
+        rows, columns = np.nonzero(truth.object_ids == truth.objects["object"][0])
+        self.assertEqual((left, right), (columns.min(), columns.max() + 1))
+        self.assertEqual((top, bottom), (rows.min(), rows.max() + 1))
+        again = lcs.Motion.between(before.truth.T_WC, truth.T_WC, truth.motion.dt)
+        np.testing.assert_array_equal(again.rotation, truth.motion.rotation)
+        np.testing.assert_array_equal(again.velocity, truth.motion.velocity)
+        np.testing.assert_array_equal(truth.of(frame.corners), truth.corners)
+        outside = [[-5, 3], [3, 1e30], [np.inf, 3], [3, np.nan], [-(2.0**32), 2.0**40]]
+        self.assertEqual(truth.of(outside)["label"].tolist(), [lcs.Label.NONE] * 5)
+        with self.assertRaises(ValueError):
+            truth.of([1, 2, 3])
+        self.assertFalse(before.motion.usable)
+        self.assertTrue(frame.motion.usable)
+
+    def test_arrays_outlive_frame_and_simulation(self):
+        simulation = lcs.simulate(small())
+        first = next(simulation)
+        arrays = [
+            first.picture, first.grey, first.signatures, first.truth.depth, first.truth.object_ids,
+            first.corners, first.imu, first.truth.corners, first.truth.T_WC,
+        ]  # fmt: skip
+        copies = [array.copy() for array in arrays]
+        result = lcs.Filter(small()).step(first.corners, first.motion)
+        verdicts = result.verdicts
+        pending = verdicts.copy()
+        del first, result
+        for _ in simulation:
+            gc.collect()
+        del simulation
+        gc.collect()
+        trash = [np.full((240, 320, 3), 255, np.uint8) for _ in range(20)]
+        for array, copy in zip(arrays, copies):
+            np.testing.assert_array_equal(array, copy)
+        np.testing.assert_array_equal(verdicts, pending)
+        self.assertEqual(len(trash), 20)
+
+    def test_ends_once_and_for_all(self):
+        simulation = lcs.simulate(small())
+        self.assertEqual([frame.index for frame in simulation], [0, 1, 2, 3])
+        for _ in range(2):
+            with self.assertRaises(StopIteration):
+                next(simulation)
+        self.assertEqual(simulation.warnings, [])
+
+    def test_is_of_one_thread(self):
+        simulation = lcs.simulate(small())
+        raised = []
+
+        def elsewhere():
+            try:
+                next(simulation)
+            except lcs.Error as error:
+                raised.append(str(error))
+
+        thread = threading.Thread(target=elsewhere)
+        thread.start()
+        thread.join()
+        self.assertIn("another thread", raised[0])
+        self.assertEqual(len(list(simulation)), 4)
+
+    def test_threads_have_one_each_and_the_same_bits(self):
+        expected = [frame.picture.tobytes() for frame in lcs.simulate(small())]
+        seen = {}
+
+        def run(name):
+            seen[name] = [frame.picture.tobytes() for frame in lcs.simulate(small())]
+
+        threads = [threading.Thread(target=run, args=(name,)) for name in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual([seen[name] == expected for name in range(3)], [True] * 3)
+
+    def test_dropped_by_another_thread(self):
+        box = [lcs.simulate(small())]
+        next(box[0])
+        thread = threading.Thread(target=box.clear)
+        thread.start()
+        thread.join()
+        gc.collect()
+        self.assertEqual(len(list(lcs.simulate(small()))), 4)
+
+    def test_ctrl_c_ends_it_between_two_frames(self):
+        code = (
+            "import lcs, sys\n"
+            "s = lcs.Scenario(lcs.SCENARIOS / 'crossing.yaml', set={'frames': 100000})\n"
+            "simulation = lcs.simulate(s)\n"
+            "print(next(simulation).index, flush=True)\n"
+            "try:\n"
+            "    list(f.index for f in simulation) if sys.argv[1] == 'loop' else max(map(id, simulation))\n"
+            "except KeyboardInterrupt:\n"
+            "    print('goes on at', next(simulation).index > 0)\n"
+        )
+        for kind in ("loop", "in C"):
+            child = subprocess.Popen(
+                [sys.executable, "-c", code, kind],
+                env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+            )
+            self.assertEqual(child.stdout.readline(), "0\n")
+            time.sleep(0.3)
+            child.send_signal(signal.SIGINT)
+            out, err = child.communicate(timeout=60)
+            self.assertEqual((out, err, child.returncode), ("goes on at True\n", "", 0))
+
+    def test_a_fork_is_told_that_it_cannot_go_on(self):
+        simulation = lcs.simulate(small())
+        next(simulation)
+        told = []
+        for attempt in (lambda: next(simulation), lambda: lcs.simulate(small())):
+            read_end, write_end = os.pipe()
+            child = os.fork()
+            if child == 0:
+                try:
+                    attempt()
+                except BaseException as error:
+                    os.write(write_end, repr(error).encode())
+                os._exit(0)
+            os.close(write_end)
+            os.waitpid(child, 0)
+            with os.fdopen(read_end) as pipe:
+                told.append(pipe.read())
+        for text in told:
+            self.assertRegex(text, "^Error.*spawn")
+        self.assertEqual(len(list(simulation)), 3)
+
+    def test_what_cannot_be_simulated_is_told(self):
+        with self.assertRaisesRegex(lcs.Error, "moves body 'ghost', which the scene lacks"):
+            lcs.simulate(small(**{"actors.ghost.body": "ghost", "actors.ghost.trajectory.line.speed": 1}))
+        for nothing in (CROSSING, None):
+            with self.assertRaises(TypeError):
+                lcs.simulate(nothing)
+
+
+class Recorded(unittest.TestCase):
+    def test_frames_of_pictures(self):
+        with tempfile.TemporaryDirectory() as folder:
+            frames = list(lcs.simulate(lcs.Scenario(CROSSING, set={"frames": 5})))
+            for frame in frames:
+                rgb = frame.picture[..., ::-1].tobytes()
+                Path(folder, f"{frame.index:03}.ppm").write_bytes(b"P6 640 480 255\n" + rgb)
+            text = f"recording: {{path: {folder}, fps: 10, focal: 415.7 px, speed: 0.5 m/s, nothing_moves: true}}"
+            scenario = lcs.Scenario.from_yaml(text, file="played.yaml", set={"corners.threshold": 20})
+            self.assertTrue(scenario.recorded)
+            self.assertEqual((scenario.frames, scenario.camera.fx, scenario.camera.rate), (5, 415.7, 10))
+            played = list(lcs.simulate(scenario))
+            self.assertEqual(len(played), 5)
+            for frame, again in zip(frames, played):
+                np.testing.assert_array_equal(frame.picture, again.picture)
+                np.testing.assert_array_equal(frame.corners, again.corners)
+                self.assertTrue((again.truth.labels == lcs.Label.FIXED).all())
+                self.assertEqual((len(again.imu), len(again.truth.objects)), (0, 0))
+                for name in ("motion", "depth", "object_ids", "T_WC", "T_WO"):
+                    with self.assertRaisesRegex(ValueError, "recorded"):
+                        getattr(again.truth, name)
+                with self.assertRaisesRegex(ValueError, "recorded"):
+                    again.truth.of(again.corners)
+            metrics = lcs.score((frame, np.zeros(len(frame.corners), bool)) for frame in played)
+            self.assertEqual(metrics["rebel.false_corners_per_frame"], 0)
+            self.assertIsNone(metrics["truth.boxes"])
+
+
+class Motions(unittest.TestCase):
+    def test_says_whether_it_is_of_use(self):
+        self.assertTrue(lcs.Motion(dt=0.1, velocity=[0, 0, 1]).usable)
+        for bad in (
+            {"dt": 0}, {"dt": -1}, {"dt": 100}, {"dt": np.nan}, {"dt": 0.1, "velocity": [np.inf, 0, 0]},
+            {"dt": 0.1, "rotation": np.ones((3, 3))},
+        ):  # fmt: skip
+            self.assertFalse(lcs.Motion(**bad).usable, bad)
+
+    def test_has_the_rate_of_its_rotation(self):
+        c, s = np.cos(0.02), np.sin(0.02)
+        motion = lcs.Motion(dt=0.1, rotation=[[c, 0, s], [0, 1, 0], [-s, 0, c]], velocity=(1, 2, 3))
+        np.testing.assert_allclose(motion.angular_velocity, [0, -0.2, 0], atol=1e-12)
+        np.testing.assert_allclose(motion.displacement, [0.1, 0.2, 0.3])
+        self.assertIsNone(motion.up)
+        self.assertEqual(lcs.Motion(dt=1, up=[0, -1, 0], height=0.5).height, 0.5)
+
+    def test_refuses_what_is_none(self):
+        for error, bad in (
+            (ValueError, {"dt": 1, "rotation": np.eye(4)}),
+            (ValueError, {"dt": 1, "velocity": [1, 2]}),
+            (ValueError, {"dt": 1, "velocity": [[1, 2, 3]]}),
+            (ValueError, {"dt": 1, "height": 0.5}),
+            (ValueError, {"dt": 1, "up": [0, -1, 0]}),
+            (TypeError, {"dt": 1, "velocity": "fast"}),
+            (TypeError, {"dt": 1, "velocity": [1j, 0, 0]}),
+            (TypeError, {"dt": "soon"}),
+            (TypeError, {}),
+        ):
+            with self.assertRaises(error, msg=bad):
+                lcs.Motion(**bad)
+        with self.assertRaisesRegex(ValueError, "above 0"):
+            lcs.Motion.between(np.eye(4), np.eye(4), 0)
+        with self.assertRaisesRegex(ValueError, "T_WC_now"):
+            lcs.Motion.between(np.eye(4), np.eye(3), 1)
+
+
+class Filters(unittest.TestCase):
+    def setUp(self):
+        self.camera = lcs.Camera(focal=400, cx=159.5, cy=119.5, width=320, height=240)
+        self.motion = lcs.Motion(dt=0.1, velocity=[0, 0, 0.5])
+
+    def test_takes_whatever_is_an_array_of_numbers(self):
+        corners = [[10, 20], [30.5, 40]]
+        for given in (corners, np.array(corners), np.array(corners, np.float32), np.array(corners)[::-1],
+                      np.array(corners, order="F"), [], np.zeros((0, 2)), np.array([[1, 2]], np.uint16)):  # fmt: skip
+            result = lcs.Filter(self.camera).step(given, self.motion)
+            self.assertEqual(len(result.verdicts), len(given))
+            self.assertEqual(result.verdicts.dtype, np.uint8)
+
+    def test_order_in_memory_does_not_matter(self):
+        corners = np.random.default_rng(1).uniform(0, 239, (50, 2))
+        rows = lcs.Filter(self.camera).step(corners, self.motion)
+        columns = lcs.Filter(self.camera).step(np.asfortranarray(corners), self.motion)
+        np.testing.assert_array_equal(rows.edges["x"], columns.edges["x"])
+
+    def test_refuses_what_is_none_and_goes_on(self):
+        fine, signatures = [[10, 20], [30, 40]], np.zeros((2, 32), np.uint8)
+        lcs_filter = lcs.Filter(self.camera)
+        for error, arguments in (
+            (ValueError, ([[1, 2, 3]], self.motion)),
+            (ValueError, ([1, 2], self.motion)),
+            (ValueError, (np.zeros((2, 2, 2)), self.motion)),
+            (ValueError, (np.float64(3), self.motion)),
+            (TypeError, (["a", "b"], self.motion)),
+            (TypeError, ([[1, 2], [3]], self.motion)),
+            (TypeError, (np.array(fine, complex), self.motion)),
+            (TypeError, (np.array(fine, object), self.motion)),
+            (TypeError, (np.array(fine, bool), self.motion)),
+            (TypeError, (None, self.motion)),
+            (TypeError, (fine, None)),
+            (TypeError, (fine, 0.1)),
+            (TypeError, (fine,)),
+            (ValueError, (fine, self.motion, signatures[:1])),
+            (ValueError, (fine, self.motion, signatures[:, :31])),
+            (ValueError, (fine, self.motion, signatures[0])),
+            (TypeError, (fine, self.motion, signatures.astype(np.int8))),
+            (TypeError, (fine, self.motion, signatures.astype(np.uint16))),
+            (TypeError, (fine, self.motion, signatures.astype(float))),
+            (TypeError, (fine, self.motion, "none")),
+        ):
+            with self.assertRaises(error, msg=arguments):
+                lcs_filter.step(*arguments)
+        after, untouched = lcs_filter.step(fine, self.motion), lcs.Filter(self.camera).step(fine, self.motion)
+        np.testing.assert_array_equal(after.verdicts, untouched.verdicts)
+        self.assertEqual(lcs_filter.diagnostics, [])
+
+    def test_bad_numbers_are_left_out_and_told(self):
+        lcs_filter = lcs.Filter(self.camera)
+        corners = [[np.nan, 3], [1e300, 3], [-4, 2], [5, 5]]
+        result = lcs_filter.step(corners, lcs.Motion(dt=np.nan))
+        self.assertEqual(len(result.verdicts), 4)
+        self.assertEqual(lcs.Reason(result.reasons[0]), lcs.Reason.NOT_FINITE)
+        self.assertTrue(any("corner_not_finite" in line for line in lcs_filter.diagnostics))
+
+    def test_settings_are_checked(self):
+        for settings in ({"circle.mu_00": 3}, {"circle.mu_0": "wide"}, {"circle.mu_0": -1}):
+            with self.assertRaisesRegex(lcs.Error, "circle.mu_0"):
+                lcs.Filter(self.camera, set=settings)
+        with self.assertRaisesRegex(lcs.Error, "hypotheses"):
+            lcs.Filter(self.camera, "labb")
+        with self.assertRaises(ValueError):
+            lcs.Filter(lcs.Camera(focal=-1, cx=0, cy=0, width=10, height=10))
+        for nothing in ("crossing", None):
+            with self.assertRaises(TypeError):
+                lcs.Filter(nothing)
+        with self.assertWarnsRegex(UserWarning, "circle.alpha_reach has no effect"):
+            lcs.Filter(self.camera, set={"circle.alpha_reach": 3})
+
+
+class Scores(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.frames = list(lcs.simulate(lcs.Scenario(CROSSING, set={"frames": 6})))
+        cls.other = next(lcs.simulate(lcs.Scenario(CROSSING, set={"frames": 1})))
+
+    def test_the_truth_itself_scores_best(self):
+        def said():
+            for frame in self.frames:
+                truth = frame.truth
+                yield frame, lcs.Detections(
+                    truth.labels == lcs.Label.REBEL, boxes=truth.boxes, ids=truth.objects["object"]
+                )
+
+        metrics = lcs.score(said())
+        self.assertEqual(metrics["frames"], 6)
+        for name in ("rebel.f1", "square.recall_70", "square.precision_70", "square.mean_iou"):
+            self.assertEqual(metrics[name], 1, name)
+        self.assertEqual(metrics["square.identity_switches"], 0)
+
+    def test_nothing_said_finds_nothing(self):
+        metrics = lcs.score((frame, lcs.Detections()) for frame in self.frames)
+        self.assertEqual((metrics["rebel.recall"], metrics["square.recall_30"]), (0, 0))
+        self.assertIsNone(metrics["rebel.precision"])
+        self.assertEqual(lcs.score([])["frames"], 0)
+
+    def test_what_is_refused_counts_for_nothing(self):
+        scorer = lcs.Scorer()
+        frame = self.frames[0]
+        n = len(frame.corners)
+        fine = np.zeros(n, bool)
+        result = lcs.Filter(lcs.Scenario(CROSSING)).step(frame.corners[:5], frame.motion)
+        for error, arguments in (
+            (ValueError, (frame, fine[:-1])),
+            (ValueError, (frame, fine[None])),
+            (TypeError, (frame, fine.astype(int))),
+            (TypeError, (frame, "none")),
+            (ValueError, (frame, result)),
+            (ValueError, (self.frames[1], fine)),
+            (TypeError, (None, fine)),
+        ):
+            with self.assertRaises(error, msg=arguments):
+                scorer.add(*arguments)
+        scorer.add(frame, fine)
+        for error, arguments in (
+            (ValueError, (frame, fine)),
+            (ValueError, (self.other, fine)),
+            (ValueError, (self.frames[1], lcs.Filter(lcs.Scenario(CROSSING)).step([], frame.motion))),
+        ):
+            with self.assertRaises(error, msg=arguments):
+                scorer.add(*arguments)
+        scorer.add(self.frames[1], np.zeros(len(self.frames[1].corners), bool))
+        self.assertEqual(scorer.metrics()["frames"], 2)
+        with self.assertRaises(TypeError):
+            lcs.score(self.frames)
+
+    def test_detections_that_are_none(self):
+        for error, bad in (
+            (ValueError, {"boxes": [[0, 0, 10, 10]]}),
+            (ValueError, {"boxes": [[0, 0, 10]], "ids": [1]}),
+            (ValueError, {"boxes": [[10, 0, 0, 10]], "ids": [1]}),
+            (ValueError, {"boxes": [[0, 0, np.nan, 10]], "ids": [1]}),
+            (ValueError, {"boxes": [[0, 0, 1, 1]], "ids": [1, 2]}),
+            (ValueError, {"boxes": [[0, 0, 1, 1]], "ids": [-1]}),
+            (ValueError, {"boxes": [[0, 0, 1, 1]] * 2, "ids": [1, 1]}),
+            (TypeError, {"boxes": [[0, 0, 1, 1]], "ids": [1.5]}),
+            (TypeError, {"boxes": [[0, 0, 1, 1]], "ids": 1}),
+            (TypeError, {"boxes": "none"}),
+            (ValueError, {"circles": [[1, 2, -3]]}),
+            (ValueError, {"circles": [1, 2, 3]}),
+            (TypeError, {"rebels": [0, 1]}),
+        ):
+            with self.assertRaises(error, msg=bad):
+                lcs.Detections(**bad)
+
+
+class Types(unittest.TestCase):
+    """The stubs say what is there: no more, no less."""
+
+    def test_stubs_name_what_the_module_has(self):
+        stubs = ast.parse((Path(lcs.__file__).parent / "_core.pyi").read_text(encoding="utf-8"))
+        for node in stubs.body:
+            if not isinstance(node, ast.ClassDef):
+                continue
+            real = getattr(lcs, node.name)
+            members = {
+                item.name: item for item in node.body if isinstance(item, ast.FunctionDef)
+            }
+            values = {
+                item.targets[0].id: item.value.value
+                for item in node.body if isinstance(item, ast.Assign)
+            }  # fmt: skip
+            if values:
+                self.assertEqual(values, {member.name: member.value for member in real})
+                continue
+            public = {name for name in vars(real) if not name.startswith("_")}
+            self.assertEqual({name for name in members if not name.startswith("_")}, public, node.name)
+            for name in public:
+                self.assertEqual(
+                    isinstance(vars(real)[name], property), self.is_property(members[name]), name
+                )
+        self.assertTrue((Path(lcs.__file__).parent / "py.typed").exists())
+
+    @staticmethod
+    def is_property(function):
+        return any(getattr(d, "id", "") == "property" for d in function.decorator_list)
+
+    def test_everything_says_what_it_is(self):
+        for name in lcs.__all__:
+            self.assertTrue(hasattr(lcs, name), name)
+            thing = getattr(lcs, name)
+            if isinstance(thing, type):
+                self.assertTrue(thing.__doc__, name)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# Usage: install.sh SOURCE WORK LCS
+#
+# Installs SOURCE/tools/python by pip in a fresh virtual environment, as its README says, and runs its
+# tests with what was installed, from another folder; LCS is the program that the bits are compared
+# with. Exits with 77, skipped, where pip cannot download what it builds with.
+set -euo pipefail
+source=$1 work=$2 lcs=$3
+
+skip() {
+  printf 'SKIPPED: %s\n' "$*"
+  exit 77
+}
+
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+python3 -m venv venv 2>/dev/null ||
+  skip "pip needs a virtual environment (Debian: python3-venv, which tools/test --all installs)"
+if ! venv/bin/pip install --disable-pip-version-check --retries 1 --timeout 30 "$source/tools/python" \
+  >pip.log 2>&1; then
+  cat pip.log
+  if grep -qE 'Retrying|Max retries|Connection|timed out|ProxyError|name resolution' pip.log; then
+    skip "the Python package registry is not reachable, so there is nothing to build with"
+  fi
+  printf 'FAILED: pip does not install the package\n'
+  exit 1
+fi
+
+# A scene that is read from SOURCE would not be missed here.
+installed=$(venv/bin/python -c 'import lcs; print(lcs.SCENARIOS.parent)')
+[[ $installed == "$work"/venv/* && -f $installed/scenes/lab.xml && -f $installed/py.typed ]] || {
+  printf 'FAILED: the installed package is not whole: %s\n' "$installed"
+  exit 1
+}
+unset PYTHONPATH
+export LCS_PROGRAM=$lcs PYTHONDONTWRITEBYTECODE=1
+for test in api same_bits readme; do
+  venv/bin/python "$source/tests/python/${test}_test.py"
+done

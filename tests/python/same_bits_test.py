@@ -1,0 +1,170 @@
+"""What comes through Python is what the program writes, to the bit. LCS_PROGRAM is the program."""
+
+import csv
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import lcs
+
+PROGRAM = os.environ.get("LCS_PROGRAM")
+SETTINGS = {"frames": 15, "criteria": "[]"}
+SEED = 3
+
+
+def lines_of(path):
+    with open(path, encoding="utf-8") as file:
+        return [json.loads(line) for line in file]
+
+
+def is_of_times(name):
+    return name.startswith("time.") or name == "sim.frames_per_second"
+
+
+@unittest.skipUnless(PROGRAM, "LCS_PROGRAM does not name the program lcs")
+class SameBits(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+
+    def program(self, *arguments):
+        subprocess.run([PROGRAM, *map(str, arguments)], check=True, stdout=subprocess.DEVNULL)
+
+    def run_program(self, scenario):
+        out = Path(self.folder.name) / scenario.stem
+        sets = [f"--set={key}={value}" for key, value in SETTINGS.items()]
+        self.program("run", scenario, *sets, "--seed", SEED, "--no-video", "--quiet", "--out", out)
+        return out
+
+    def assert_columns(self, rows, columns, what):
+        """columns: of a file, null for what is not finite, words for enumerators."""
+        words = {"label": lcs.Label}
+        for name, expected in columns.items():
+            if name in words:
+                expected = [words[name][word.upper()] for word in expected]
+            got = rows[name].tolist()
+            finite = [g if e is not None else None for g, e in zip(got, expected)]
+            self.assertEqual(finite, expected, f"{what}: {name}")
+            for number, expects in zip(got, expected):
+                self.assertEqual(expects is None, not np.isfinite(number), f"{what}: {name}")
+
+    def assert_motion(self, motion, line, what):
+        self.assertEqual(motion.dt, line["dt_s"], what)
+        self.assertEqual(motion.rotation.ravel().tolist(), line["R_cur_prev"], what)
+        self.assertEqual(motion.velocity.tolist(), line["v_C_mps"], what)
+        self.assertEqual(motion.angular_velocity.tolist(), line["w_C_radps"], what)
+        self.assertEqual(motion.up.tolist(), line["up_C"], what)
+        self.assertEqual(motion.height, line["height_m"], what)
+
+    def assert_layers(self, frame, result, line):
+        what = f"frame {frame.index}"
+        self.assertEqual(frame.time_ns, line["t_ns"], what)
+        self.assertEqual(frame.corners[:, 0].tolist(), line["corners"]["x"], what)
+        self.assertEqual(frame.corners[:, 1].tolist(), line["corners"]["y"], what)
+        self.assertEqual(frame.signatures.tobytes().hex(), line["signatures"], what)
+        self.assert_motion(frame.motion, line["motion"], what)
+        verdicts = [lcs.Verdict(verdict).name.lower() for verdict in result.verdicts]
+        self.assertEqual(verdicts, line["corners"]["verdict"], what)
+        reasons = [lcs.Reason(reason).name.lower() for reason in result.reasons]
+        self.assertEqual(reasons, line["corners"]["reason"], what)
+        for items, normal, rebel in [
+            (result.edges, "normal_edges", "rebel_edges"),
+            (result.circles, "normal_circles", "rebel_circles"),
+        ]:
+            self.assert_columns(items[~items["rebel"]], line[normal], f"{what}, {normal}")
+            self.assert_columns(items[items["rebel"]], line[rebel], f"{what}, {rebel}")
+        self.assert_columns(result.squares, line["squares"], f"{what}, squares")
+        self.assert_columns(result.collectors, line["collectors"], f"{what}, collectors")
+
+    def assert_truth(self, frame, line):
+        what = f"truth of frame {frame.index}"
+        self.assert_motion(frame.truth.motion, line["motion"], what)
+        self.assert_columns(frame.truth.corners, line["corners"], what)
+        self.assert_columns(frame.truth.objects, line["objects"], what)
+
+    def assert_same(self, scenario_file):
+        out = self.run_program(scenario_file)
+        layers, truth = lines_of(out / "layers.jsonl"), lines_of(out / "truth.jsonl")[1:]
+        scenario = lcs.Scenario(scenario_file, set=SETTINGS, seed=SEED)
+        lcs_filter = lcs.Filter(scenario)
+        frames = []
+
+        def said():
+            for frame in lcs.simulate(scenario):
+                result = lcs_filter.step(frame.corners, frame.motion, frame.signatures)
+                self.assert_layers(frame, result, layers[frame.index])
+                self.assert_truth(frame, truth[frame.index])
+                frames.append(frame.index)
+                yield frame, result
+
+        metrics = lcs.score(said())
+        self.assertEqual(frames, list(range(SETTINGS["frames"])))
+        expected = json.loads((out / "metrics.json").read_text())
+        self.assertEqual(list(metrics), list(expected))
+        for name, figure in expected.items():
+            if is_of_times(name):
+                self.assertEqual(metrics[name] is None, figure is None, name)
+            else:
+                self.assertEqual(metrics[name], figure, name)
+        self.assertGreater(metrics["truth.rebel_corners"], 0)
+        self.assertGreater(metrics["time.filter_ms_median"], 0)
+
+    def test_of_the_filter_by_day(self):
+        self.assert_same(lcs.SCENARIOS / "crossing.yaml")
+
+    def test_of_the_filter_by_night_in_rain(self):
+        self.assert_same(lcs.SCENARIOS / "suite" / "night_rain.yaml")
+
+    def test_of_somebodys_detector(self):
+        """By the arrays, and by a file as DETECTIONS.md has it: the same figures."""
+        scenario_file = lcs.SCENARIOS / "suite" / "crossing_near.yaml"
+        out = self.run_program(scenario_file)
+        detections = out.parent / "own.csv"
+        with open(detections, "w", newline="") as file:
+            table = csv.writer(file)
+
+            def said():
+                for frame in lcs.simulate(lcs.Scenario(scenario_file, set=SETTINGS, seed=SEED)):
+                    rebels = frame.truth.labels == lcs.Label.REBEL
+                    rebels[::3] ^= True
+                    boxes = np.array([[250, 180.5, 330, 300], [331, 100, 420, 290.25]])
+                    circles = [[300, 240, 30]] if frame.index % 2 else []
+                    for corner in np.flatnonzero(rebels):
+                        table.writerow([frame.index, "rebel", corner])
+                    for row, (left, top, right, bottom) in enumerate(boxes):
+                        place = [left, top, right - left, bottom - top]
+                        table.writerow([frame.index, "box", row + 5, *place])
+                    for circle in circles:
+                        table.writerow([frame.index, "circle", *circle])
+                    yield frame, lcs.Detections(rebels, boxes=boxes, ids=[5, 6], circles=circles)
+
+            metrics = lcs.score(said())
+        figures = out.parent / "own.json"
+        self.program("score", out, "--detections", detections, "--quiet", "--out", figures)
+        self.assertEqual(metrics, json.loads(figures.read_text()))
+        self.assertGreater(metrics["rebel.recall"], 0)
+        self.assertIsNone(metrics["time.filter_ms_median"])
+        self.assertIsNone(metrics["dimension.mean"])
+
+    def test_of_two_that_take_turns(self):
+        """Worlds that are open at once do not disturb each other."""
+        scenarios = [
+            lcs.Scenario(lcs.SCENARIOS / name, set={"frames": 3}, seed=SEED)
+            for name in ("crossing.yaml", "suite/dusk.yaml")
+        ]
+        alone = [[frame.picture for frame in lcs.simulate(scenario)] for scenario in scenarios]
+        together = zip(*map(lcs.simulate, scenarios))
+        for index, frames in enumerate(together):
+            for frame, pictures in zip(frames, alone):
+                self.assertTrue((frame.picture == pictures[index]).all())
+        self.assertEqual(index, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

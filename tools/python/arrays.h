@@ -1,0 +1,170 @@
+/// \file
+/// Between the project's values and NumPy's arrays. Arrays that go out are read-only: views of what
+/// they keep alive, or rows of a structured array with the fields that `layers.jsonl` and
+/// `truth.jsonl` have. Arrays that come in are checked here.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <opencv2/core.hpp>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "filter/signature.h"
+#include "tools/bench/recording_fields.h"
+
+namespace lcs::python {
+
+namespace py = pybind11;
+
+inline py::array read_only(py::array array) {
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+/// No copy. \param owner of the data, which the array keeps alive.
+template <class Number>
+py::array view(const std::vector<py::ssize_t>& shape, const Number* data, py::handle owner) {
+  return read_only(py::array_t<Number>(shape, data, owner));
+}
+
+/// No copy, H x W or H x W x C. \param owner of the picture, which the array keeps alive.
+template <class Number, int Channels = 1>
+py::array view(const cv::Mat_<cv::Vec<Number, Channels>>& picture, py::handle owner) {
+  const py::ssize_t row = static_cast<py::ssize_t>(picture.step[0]);
+  constexpr py::ssize_t kNumber = sizeof(Number);
+  return read_only(py::array_t<Number>(
+      {py::ssize_t{picture.rows}, py::ssize_t{picture.cols}, py::ssize_t{Channels}},
+      {row, Channels * kNumber, kNumber}, reinterpret_cast<const Number*>(picture.data), owner));
+}
+template <class Number>
+py::array view(const cv::Mat_<Number>& picture, py::handle owner) {
+  return read_only(
+      py::array_t<Number>({py::ssize_t{picture.rows}, py::ssize_t{picture.cols}},
+                          {static_cast<py::ssize_t>(picture.step[0]), py::ssize_t{sizeof(Number)}},
+                          reinterpret_cast<const Number*>(picture.data), owner));
+}
+
+/// Of any size, row by row.
+template <class Derived>
+py::array copy(const Eigen::MatrixBase<Derived>& matrix) {
+  using Scalar = typename Derived::Scalar;
+  using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  std::vector<py::ssize_t> shape{matrix.rows()};
+  if (Derived::ColsAtCompileTime != 1) shape.push_back(matrix.cols());
+  py::array_t<Scalar> array(shape);
+  Eigen::Map<Rows>(array.mutable_data(), matrix.rows(), matrix.cols()) = matrix;
+  return read_only(array);
+}
+
+/// What NumPy has for a field of `bench::fields`.
+template <class Member>
+auto number_of(const Member& member) {
+  if constexpr (requires { member.number; }) {
+    return member.number;
+  } else if constexpr (std::is_enum_v<Member>) {
+    return static_cast<std::uint8_t>(member);
+  } else {
+    return member;
+  }
+}
+
+/// Names, formats and places of the fields of a row.
+class RowFormat {
+ public:
+  template <class Number>
+  void add(const char* name) {
+    place_after<Number>(size_);
+    names_.append(name);
+    formats_.append(py::dtype::of<Number>());
+    offsets_.append(size_);
+    size_ += sizeof(Number);
+  }
+  py::dtype dtype() {
+    place_after<double>(size_);
+    return {names_, formats_, offsets_, static_cast<py::ssize_t>(size_)};
+  }
+
+  /// The next place for such a number.
+  template <class Number>
+  static void place_after(std::size_t& place) {
+    place = (place + alignof(Number) - 1) / alignof(Number) * alignof(Number);
+  }
+
+ private:
+  py::list names_, formats_, offsets_;
+  std::size_t size_ = 0;
+};
+
+/// As `bench::fields`; of what is of two kinds also which, which the files tell by their lists.
+template <class Item, class Visit>
+void all_fields(Item& item, const Visit& visit) {
+  if constexpr (requires { item.rebel; }) visit("rebel", item.rebel);
+  bench::fields(item, visit);
+}
+
+/// A structured array with a row for each item.
+template <class Item>
+py::array rows(std::vector<Item> items) {
+  RowFormat format;
+  Item any{};
+  all_fields(any, [&](const char* name, const auto& member) {
+    format.add<decltype(number_of(member))>(name);
+  });
+  py::array array(format.dtype(), static_cast<py::ssize_t>(items.size()));
+  auto* const data = static_cast<std::byte*>(array.mutable_data());
+  const auto row_size = static_cast<std::size_t>(array.itemsize());
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    std::size_t place = 0;
+    all_fields(items[i], [&](const char*, const auto& member) {
+      const auto number = number_of(member);
+      RowFormat::place_after<decltype(number)>(place);
+      std::memcpy(data + i * row_size + place, &number, sizeof number);
+      place += sizeof number;
+    });
+  }
+  return read_only(std::move(array));
+}
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// What came in, as an array. \param expected as "N x 2 numbers, x and y in pixels".
+/// \param kinds NumPy's letters for the kinds of numbers that are taken.
+/// \throws py::type_error for what is no array, or of something else.
+py::array array_of(py::handle value, const char* name, const char* expected, const char* kinds);
+
+/// \param columns 0: a list of N numbers. Anything empty is taken for N = 0.
+/// \throws py::type_error as `array_of`, py::value_error for another shape.
+Numbers table_of(py::handle value, const char* name, const char* expected, py::ssize_t columns);
+
+/// \throws as `table_of`.
+template <int Rows, int Columns>
+Eigen::Matrix<double, Rows, Columns> matrix_of(py::handle value, const char* name,
+                                               const char* expected) {
+  constexpr bool is_vector = Columns == 1;
+  const Numbers table = table_of(value, name, expected, is_vector ? 0 : Columns);
+  if (table.shape(0) != Rows) {
+    throw py::value_error(std::string(name) + " has " + std::to_string(table.shape(0)) +
+                          (is_vector ? " numbers" : " rows") + "; give " + expected);
+  }
+  using RowMajor =
+      Eigen::Matrix<double, Rows, Columns, is_vector ? Eigen::ColMajor : Eigen::RowMajor>;
+  return Eigen::Map<const RowMajor>(table.data());
+}
+
+/// N x 2. \throws as `table_of`.
+std::vector<Eigen::Vector2f> points_of(py::handle value, const char* name);
+
+/// N x 32 bytes. \throws as `table_of`.
+std::vector<Signature> signatures_of(py::handle value);
+
+/// N of them. \throws as `table_of`.
+std::vector<bool> flags_of(py::handle value, const char* name);
+
+}  // namespace lcs::python

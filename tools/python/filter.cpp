@@ -1,0 +1,161 @@
+#include "tools/python/filter.h"
+
+#include <pybind11/stl.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "tools/bench/box.h"
+#include "tools/bench/timed.h"
+#include "tools/bench/tracker.h"
+#include "tools/python/arrays.h"
+#include "tools/python/scenario.h"
+
+namespace lcs::python {
+namespace {
+
+Filter of_scenario(const Scenario& scenario) {
+  return {bench::intrinsics(scenario.camera.pinhole), bench::filter_parameters(scenario.full)};
+}
+
+/// As a scenario with these settings has it.
+Filter of_camera(const Camera& camera, const std::string& preset, const py::object& set) {
+  scenario::Scenario settings;
+  settings.filter_preset = preset;
+  settings.filter_preset_source = {"preset", 0};
+  for (const std::string& assignment : assignments_of(set)) {
+    const std::size_t equals = assignment.find('=');
+    settings.filter.push_back(
+        {assignment.substr(0, equals), assignment.substr(equals + 1), {"set " + assignment, 0}});
+  }
+  const Parameters parameters = bench::filter_parameters(settings);
+  warn(bench::idle_settings(settings));
+  return {bench::intrinsics(camera.pinhole), parameters};
+}
+
+std::shared_ptr<Result> step(Filter& filter, const py::object& corners, const EgoMotion& motion,
+                             const py::object& signatures) {
+  const std::vector<Eigen::Vector2f> corners_px = points_of(corners, "corners");
+  auto result = std::make_shared<Result>();
+  if (signatures.is_none()) {
+    result->said = bench::timed(
+        result->filter_ms, [&]() -> const FrameResult& { return filter.step(corners_px, motion); });
+  } else {
+    const std::vector<Signature> given = signatures_of(signatures);
+    result->said = bench::timed(result->filter_ms, [&]() -> const FrameResult& {
+      return filter.step(corners_px, given, motion);
+    });
+  }
+  return result;
+}
+
+/// \param list of `FrameResult`, of an enumerator a byte.
+template <class Enum>
+py::array codes(const py::object& self, std::vector<Enum> FrameResult::*list) {
+  static_assert(sizeof(Enum) == 1);
+  const std::vector<Enum>& values = self.cast<const Result&>().said.*list;
+  return view({std::ssize(values)}, reinterpret_cast<const std::uint8_t*>(values.data()), self);
+}
+
+py::array rebels(const Result& result) {
+  const std::vector<Verdict>& verdicts = result.said.verdicts;
+  py::array_t<bool> flags(std::ssize(verdicts));
+  std::transform(verdicts.begin(), verdicts.end(), flags.mutable_data(),
+                 [](Verdict verdict) { return verdict == Verdict::rebel; });
+  return read_only(flags);
+}
+
+/// Both kinds of edges or circles, the normal ones first.
+template <class Item>
+py::array both(const std::vector<Item>& normal, const std::vector<Item>& rebel) {
+  std::vector<Item> all = normal;
+  all.insert(all.end(), rebel.begin(), rebel.end());
+  return rows(std::move(all));
+}
+
+py::array boxes(const Result& result) {
+  const std::vector<Square>& squares = result.said.layers.squares;
+  py::array_t<double> array({std::ssize(squares), py::ssize_t{4}});
+  double* to = array.mutable_data();
+  const Vec2 half_pixel(0.5, 0.5);
+  for (const Square& square : squares) {
+    const bench::Box box = bench::box_of(square);
+    Eigen::Map<Eigen::Vector4d>{to} << box.min + half_pixel, box.max + half_pixel;
+    to += 4;
+  }
+  return read_only(array);
+}
+
+void bind_result(py::module_& module) {
+  py::class_<Result, std::shared_ptr<Result>>(module, "Result",
+                                              "What the filter says of a frame. Structured arrays "
+                                              "have the fields of layers.jsonl; places are in\n"
+                                              "pixels, angles in rad, speeds in px/s.")
+      .def_property_readonly(
+          "verdicts", [](const py::object& self) { return codes(self, &FrameResult::verdicts); },
+          "N uint8, a Verdict for each corner.")
+      .def_property_readonly(
+          "reasons", [](const py::object& self) { return codes(self, &FrameResult::reasons); },
+          "N uint8, a Reason for each verdict.")
+      .def_property_readonly("rebels", &rebels, "N bool: the corners that move by themselves.")
+      .def_property_readonly(
+          "edges",
+          [](const Result& r) {
+            return both(r.said.layers.normal_edges, r.said.layers.rebel_edges);
+          },
+          "Tracked corners, normal and then rebel ones: id, rebel, x, y, trust, age, speed, angle, "
+          "corner\n"
+          "(its place in the corners, -1 none), circle (its place among the circles of its kind, "
+          "-1 none), ...")
+      .def_property_readonly(
+          "circles",
+          [](const Result& r) {
+            return both(r.said.layers.normal_circles, r.said.layers.rebel_circles);
+          },
+          "Groups of edges: id, rebel, x, y, radius, speed, angle, trust, age, members, ...")
+      .def_property_readonly(
+          "squares", [](const Result& r) { return rows(r.said.layers.squares); },
+          "Objects: id, x, y, half_width, half_height, speed, angle, trust, age, circles,\n"
+          "rebel_circles, ...")
+      .def_property_readonly("boxes", &boxes,
+                             "M x 4 float64: left, top, right, bottom of the squares, pixel edges.")
+      .def_property_readonly(
+          "ignored", [](const Result& r) { return rows(r.said.layers.ignored); },
+          "Regions psi whose corners were not looked at: shape (1 circle, 2 rectangle), x, y, "
+          "size_x,\n"
+          "size_y.")
+      .def_property_readonly(
+          "collectors", [](const Result& r) { return rows(r.said.layers.collectors); },
+          "Regions lambda: x, y, radius, depth_ratio.");
+}
+
+}  // namespace
+
+void bind_filter(py::module_& module) {
+  bind_result(module);
+  py::class_<Filter>(
+      module, "Filter",
+      "The Line-Circle-Square filter. The same corners, signatures and motions give the same bits.")
+      .def(py::init(&of_scenario), py::arg("scenario"),
+           "With the scenario's camera, preset and settings.")
+      .def(
+          py::init(&of_camera), py::arg("camera"), py::arg("preset") = "default", py::kw_only(),
+          py::arg("set") = py::none(),
+          "preset: default, hypotheses, night, lab or cars. set: parameters on top of it, by the "
+          "keys of\n"
+          "filter/parameters.h: {\"circle.mu_0\": 25}; angles in degrees.\n"
+          "Raises Error for what is no preset, key or value, ValueError for a camera that is none.")
+      .def("step", &step, py::arg("corners"), py::arg("motion"), py::arg("signatures") = py::none(),
+           "The next frame.\n\n"
+           "corners: N x 2, x and y in pixels; motion: since the last frame; signatures: N x 32 "
+           "uint8.\n"
+           "Raises TypeError or ValueError for arrays that are none of these, and is then as if "
+           "the frame had\n"
+           "not been given. Bad numbers never raise: they are left out, see diagnostics.")
+      .def_property_readonly(
+          "diagnostics", [](const Filter& f) { return f.diagnostics().lines(); },
+          "What was wrong with the data so far, a line for each kind.");
+}
+
+}  // namespace lcs::python

@@ -1,0 +1,483 @@
+#include "tools/python/frame.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <unistd.h>
+
+#include <map>
+#include <mutex>
+#include <opencv2/core/utility.hpp>
+#include <utility>
+
+#include "filter/intake.h"
+#include "tools/bench/box.h"
+#include "tools/bench/warnings.h"
+#include "tools/python/arrays.h"
+#include "tools/replay/playback.h"
+
+namespace lcs::python {
+namespace {
+
+/// Whether this process was forked from one that has simulated: software GL has no threads in it,
+/// and would wait for them forever.
+bool is_fork() {
+  static const pid_t first = ::getpid();
+  return ::getpid() != first;
+}
+
+void require_no_fork() {
+  if (!is_fork()) return;
+  throw std::runtime_error(
+      "this process was forked from one that has simulated, and software GL does not live on in "
+      "it; start processes by multiprocessing's \"spawn\", or simulate in these alone");
+}
+
+/// OpenCV on one thread while any of these lives, as in the program. A `cv2` in the same process
+/// may be on the same OpenCV, and gets its threads back.
+class OneThread {
+ public:
+  OneThread() {
+    const std::lock_guard lock(mutex_);
+    if (count_++ > 0) return;
+    before_ = cv::getNumThreads();
+    cv::setNumThreads(0);
+  }
+  ~OneThread() {
+    const std::lock_guard lock(mutex_);
+    if (--count_ == 0) cv::setNumThreads(before_);
+  }
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+
+ private:
+  static inline std::mutex mutex_;
+  static inline int count_ = 0, before_ = 0;
+};
+
+// ---- Motion
+
+/// The mean body rate of a rotation over a time, as the bench has it of poses.
+Eigen::Vector3d rate_of(const Eigen::Matrix3d& R_cur_prev, double dt_s) {
+  if (!(dt_s > 0)) return Eigen::Vector3d::Zero();
+  return bench::motion_between({.R = R_cur_prev}, {}, dt_s).w_C_radps;
+}
+
+EgoMotion motion_of(double dt, const py::object& rotation, const py::object& velocity,
+                    const py::object& angular_velocity, const py::object& up,
+                    std::optional<double> height, double unseen_turn) {
+  EgoMotion motion;
+  motion.dt_s = dt;
+  if (!rotation.is_none()) {
+    motion.R_cur_prev = matrix_of<3, 3>(rotation, "rotation", "3 x 3 numbers");
+  }
+  constexpr const char* kVelocity = "3 numbers, m/s";
+  if (!velocity.is_none()) motion.v_C_mps = matrix_of<3, 1>(velocity, "velocity", kVelocity);
+  motion.w_C_radps =
+      angular_velocity.is_none()
+          ? rate_of(motion.R_cur_prev, dt)
+          : matrix_of<3, 1>(angular_velocity, "angular_velocity", "3 numbers, rad/s");
+  if (up.is_none() == height.has_value()) {
+    throw py::value_error("the ground is known by up and height; give both or none");
+  }
+  if (height) {
+    motion.ground =
+        Ground{.up_C = matrix_of<3, 1>(up, "up", "3 numbers, of length 1"), .height_m = *height};
+  }
+  motion.unseen_turn_rad = unseen_turn;
+  return motion;
+}
+
+sim::Pose pose_of(const py::object& T, const char* name) {
+  const auto matrix =
+      matrix_of<4, 4>(T, name, "4 x 4 numbers, which take camera coordinates to the world's");
+  return {.R = matrix.topLeftCorner<3, 3>(), .p = matrix.topRightCorner<3, 1>()};
+}
+
+EgoMotion motion_between(const py::object& before, const py::object& now, double dt) {
+  if (!(dt > 0)) throw py::value_error(fmt::format("dt is {} s; it must be above 0", dt));
+  return bench::motion_between(pose_of(before, "T_WC_before"), pose_of(now, "T_WC_now"), dt);
+}
+
+bool is_usable(const EgoMotion& motion) {
+  Diagnostics nobody_asks;
+  const std::optional<EgoMotion> taken = Intake().take(motion, nobody_asks);
+  return taken && taken->dt_s > 0;
+}
+
+void bind_motion(py::module_& module) {
+  py::class_<EgoMotion>(
+      module, "Motion",
+      "How the camera moved from the last frame to this one. Camera frame: x right, y down, z\n"
+      "forward.")
+      .def(py::init(&motion_of), py::kw_only(), py::arg("dt"), py::arg("rotation") = py::none(),
+           py::arg("velocity") = py::none(), py::arg("angular_velocity") = py::none(),
+           py::arg("up") = py::none(), py::arg("height") = py::none(), py::arg("unseen_turn") = 0.0,
+           "dt in s; rotation 3 x 3, none where not given; velocity 3, m/s, of the camera in its "
+           "frame of now;\n"
+           "angular_velocity 3, rad/s, that of the rotation where not given; up and height: the "
+           "ground, see\n"
+           "there; unseen_turn in rad.")
+      .def_static("between", &motion_between, py::arg("T_WC_before"), py::arg("T_WC_now"),
+                  py::arg("dt"), "Of two poses of the camera, 4 x 4, that are dt seconds apart.")
+      .def_property_readonly(
+          "dt", [](const EgoMotion& m) { return m.dt_s; },
+          "Time since the last frame, s; 0 in the first one.")
+      .def_property_readonly(
+          "rotation", [](const EgoMotion& m) { return copy(m.R_cur_prev); },
+          "3 x 3: takes camera coordinates of the last frame to those of this one.")
+      .def_property_readonly(
+          "velocity", [](const EgoMotion& m) { return copy(m.v_C_mps); },
+          "3, m/s: mean velocity of the camera since the last frame, in its frame of now.")
+      .def_property_readonly(
+          "displacement", [](const EgoMotion& m) { return copy((m.v_C_mps * m.dt_s).eval()); },
+          "3, m: of the camera since the last frame, in its frame of now.")
+      .def_property_readonly(
+          "angular_velocity", [](const EgoMotion& m) { return copy(m.w_C_radps); },
+          "3, rad/s: mean body rate of the camera.")
+      .def_property_readonly(
+          "unseen_turn", [](const EgoMotion& m) { return m.unseen_turn_rad; },
+          "rad: standard deviation of what is wrong with the rotation where the gyro was\n"
+          "not heard; 0 where it was.")
+      .def_property_readonly(
+          "up",
+          [](const EgoMotion& m) -> py::object {
+            return m.ground ? py::object(copy(m.ground->up_C)) : py::none();
+          },
+          "3: unit normal of the ground, against gravity, in the camera's frame; None where not "
+          "known.")
+      .def_property_readonly(
+          "height",
+          [](const EgoMotion& m) {
+            return m.ground ? std::optional(m.ground->height_m) : std::nullopt;
+          },
+          "m: of the camera above the ground; None where not known.")
+      .def_property_readonly(
+          "usable", &is_usable,
+          "Whether a filter can go on by it from the last frame; it starts anew where not.\n"
+          "False for the first frame.")
+      .def("__repr__", [](const EgoMotion& m) {
+        return fmt::format("<lcs.Motion: {} s, {:.3f} m/s, {:.3f} rad/s{}>", m.dt_s,
+                           m.v_C_mps.norm(), m.w_C_radps.norm(),
+                           is_usable(m) ? "" : ", not usable");
+      });
+}
+
+// ---- Frame
+
+Eigen::Matrix4d matrix_of(const sim::Pose& pose) {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.topLeftCorner<3, 3>() = pose.R;
+  matrix.topRightCorner<3, 1>() = pose.p;
+  return matrix;
+}
+
+py::array signatures(const py::object& self) {
+  const auto& given = self.cast<const Frame&>().seen.record.signatures;
+  return view({std::ssize(given), py::ssize_t{sizeof(SignatureBytes)}},
+              reinterpret_cast<const std::uint8_t*>(given.data()), self);
+}
+
+py::array corners(const Frame& frame) {
+  const auto& given = frame.seen.record.corners_px;
+  py::array_t<double> array({std::ssize(given), py::ssize_t{2}});
+  double* number = array.mutable_data();
+  for (const Eigen::Vector2f& corner : given) {
+    *number++ = corner.x();
+    *number++ = corner.y();
+  }
+  return read_only(array);
+}
+
+double seconds(std::int64_t t_ns) {
+  return static_cast<double>(t_ns) * 1e-9;
+}
+
+/// A structured array of times and vectors. \param names of the vectors.
+/// \param put called with an item and where its vectors go.
+template <class Sample, class Put>
+py::array readings(const std::vector<Sample>& samples, const std::vector<const char*>& names,
+                   const Put& put) {
+  py::list columns, formats, offsets;
+  columns.append("t");
+  formats.append("f8");
+  offsets.append(0);
+  std::size_t size = sizeof(double);
+  for (const char* name : names) {
+    columns.append(name);
+    formats.append("3f8");
+    offsets.append(size);
+    size += 3 * sizeof(double);
+  }
+  py::array array(py::dtype(columns, formats, offsets, static_cast<py::ssize_t>(size)),
+                  std::ssize(samples));
+  auto* number = static_cast<double*>(array.mutable_data());
+  for (const Sample& sample : samples) {
+    *number++ = seconds(sample.t_ns);
+    number = put(sample, number);
+  }
+  return read_only(array);
+}
+
+double* put(const Eigen::Vector3d& vector, double* to) {
+  Eigen::Map<Eigen::Vector3d>{to} = vector;
+  return to + vector.size();
+}
+
+py::array imu(const Frame& frame) {
+  const auto& samples = frame.observation ? frame.observation->imu : std::vector<sim::ImuSample>{};
+  return readings(samples, {"gyro", "accel"}, [](const sim::ImuSample& sample, double* to) {
+    return put(sample.accel_mps2, put(sample.gyro_radps, to));
+  });
+}
+
+py::array odometry(const Frame& frame) {
+  const auto& samples =
+      frame.observation ? frame.observation->odometry : std::vector<sim::OdometrySample>{};
+  return readings(samples, {"velocity"}, [](const sim::OdometrySample& sample, double* to) {
+    return put(sample.velocity_mps, to);
+  });
+}
+
+void bind_seen(py::module_& module) {
+  py::class_<Frame, std::shared_ptr<Frame>>(
+      module, "Frame",
+      "What the sensors said, and apart from that what is true. Arrays are read-only and stay as "
+      "they are\n"
+      "when the simulation goes on; those of pictures are views.")
+      .def_property_readonly(
+          "index", [](const Frame& f) { return f.seen.record.index; }, "From 0.")
+      .def_property_readonly(
+          "time", [](const Frame& f) { return seconds(f.seen.record.t_ns); }, "s")
+      .def_property_readonly(
+          "time_ns", [](const Frame& f) { return f.seen.record.t_ns; }, "ns")
+      .def_property_readonly(
+          "picture",
+          [](const py::object& self) { return view(self.cast<const Frame&>().seen.image, self); },
+          "H x W x 3 uint8, blue, green, red, as OpenCV has it; picture[..., ::-1] is RGB.")
+      .def_property_readonly(
+          "grey",
+          [](const py::object& self) { return view(self.cast<const Frame&>().seen.grey, self); },
+          "H x W uint8: what the corners were found in.")
+      .def_property_readonly("corners", &corners, "N x 2 float64, x and y in pixels: FAST's.")
+      .def_property_readonly("signatures", &signatures,
+                             "N x 32 uint8: what each corner looks like, ORB's bits.")
+      .def_property_readonly(
+          "motion", [](const Frame& f) { return f.seen.record.motion; },
+          "Motion since the last frame, as detectors are told: by the IMU and the odometry, with\n"
+          "their errors, unless the scenario says otherwise.")
+      .def_property_readonly(
+          "imu", &imu,
+          "Readings since the last frame, fields t (s), gyro (3, rad/s), accel (3, m/s^2), in the\n"
+          "IMU's frame; none of a recorded frame.")
+      .def_property_readonly(
+          "odometry", &odometry,
+          "Likewise, fields t (s), velocity (3, m/s, of the rover in its frame: x forward, z up).")
+      .def_property_readonly(
+          "truth", [](std::shared_ptr<const Frame> f) { return Truth{std::move(f)}; },
+          "What no detector is to be told.")
+      .def("__repr__", [](const Frame& f) {
+        return fmt::format("<lcs.Frame {} of {}: {} corners at {} s>", f.seen.record.index,
+                           f.run->recording.scenario, f.seen.record.corners_px.size(),
+                           seconds(f.seen.record.t_ns));
+      });
+}
+
+// ---- Truth
+
+const sim::Observation& observation_of(const Truth& truth) {
+  if (truth.frame->observation) return *truth.frame->observation;
+  throw py::value_error(
+      "what is true of a recorded frame is not known but for labels; give a scenario with a scene");
+}
+
+py::array labels_of(const std::vector<sim::CornerTruth>& corners) {
+  py::array_t<std::uint8_t> labels(std::ssize(corners));
+  std::uint8_t* to = labels.mutable_data();
+  for (const sim::CornerTruth& corner : corners) *to++ = static_cast<std::uint8_t>(corner.label);
+  return read_only(labels);
+}
+
+py::array truth_of_points(const Truth& truth, const py::object& points) {
+  const sim::Observation& observation = observation_of(truth);
+  const Scenario& scenario = *truth.frame->run->scenario;
+  return rows(sim::label_corners(scenario.camera.pinhole, observation.truth,
+                                 points_of(points, "points"), scenario.full.truth_min_depth_m));
+}
+
+py::array object_poses(const Truth& truth) {
+  const std::vector<sim::Pose>& poses = observation_of(truth).truth.now.T_WO;
+  py::array_t<double> array({std::ssize(poses), py::ssize_t{4}, py::ssize_t{4}});
+  double* to = array.mutable_data();
+  for (const sim::Pose& pose : poses) {
+    Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>{to} = matrix_of(pose);
+    to += 16;
+  }
+  return read_only(array);
+}
+
+py::array object_boxes(const Truth& truth) {
+  const auto& objects = truth.frame->seen.record.object_truth;
+  py::array_t<double> array({std::ssize(objects), py::ssize_t{4}});
+  double* to = array.mutable_data();
+  for (const sim::ObjectTruth& object : objects) {
+    for (const int edge : {object.left, object.top, object.right, object.bottom}) *to++ = edge;
+  }
+  return read_only(array);
+}
+
+void bind_truth(py::module_& module) {
+  py::class_<Truth>(module, "Truth",
+                    "What is true of a frame, as tools/bench/SCORING.md defines it. Of a recorded "
+                    "frame there are\n"
+                    "labels alone, and motion, depth, object_ids and poses raise ValueError.")
+      .def_property_readonly(
+          "motion",
+          [](const Truth& t) {
+            observation_of(t);
+            return t.frame->seen.record.true_motion;
+          },
+          "Motion since the last frame by the exact poses.")
+      .def_property_readonly(
+          "labels", [](const Truth& t) { return labels_of(t.frame->seen.record.corner_truth); },
+          "N uint8, a Label for each of the frame's corners.")
+      .def_property_readonly(
+          "corners", [](const Truth& t) { return rows(t.frame->seen.record.corner_truth); },
+          "A row for each of the frame's corners: label, radial, outline, object (its id; 0 the\n"
+          "fixed setting, -1 none), depth_m, motion_x, motion_y (px until the next frame),\n"
+          "static_motion_x, static_motion_y (px: as if it were fixed).")
+      .def("of", &truth_of_points, py::arg("points"),
+           "The same of other points, N x 2 in pixels: for corners of one's own.")
+      .def_property_readonly(
+          "objects", [](const Truth& t) { return rows(t.frame->seen.record.object_truth); },
+          "A row for each object that is seen: object (its id), left, top, right, bottom (pixel\n"
+          "edges of what is seen of it), visible_px, visible_fraction, moving.")
+      .def_property_readonly("boxes", &object_boxes,
+                             "M x 4 float64: left, top, right, bottom of these, pixel edges.")
+      .def_property_readonly(
+          "names",
+          [](const Truth& t) {
+            std::map<int, std::string> names;
+            for (const sim::Object& object : t.frame->run->recording.objects)
+              names[object.id] = object.name;
+            return names;
+          },
+          "Of all objects, by id.")
+      .def_property_readonly(
+          "depth",
+          [](const py::object& self) {
+            return view(observation_of(self.cast<const Truth&>()).truth.depth_m, self);
+          },
+          "H x W float32: z-depth, m; inf where there is sky.")
+      .def_property_readonly(
+          "object_ids",
+          [](const py::object& self) {
+            return view(observation_of(self.cast<const Truth&>()).truth.object, self);
+          },
+          "H x W int32: id of the object that a pixel shows; 0 the fixed setting, -1 sky and the "
+          "rover.")
+      .def_property_readonly(
+          "T_WC", [](const Truth& t) { return copy(matrix_of(observation_of(t).truth.now.T_WC)); },
+          "4 x 4: takes camera coordinates to the world's (z up), m.")
+      .def_property_readonly(
+          "T_WO", &object_poses,
+          "K x 4 x 4: likewise of the object with that id; 0 is the world itself.");
+}
+
+}  // namespace
+
+Simulation::Simulation(std::shared_ptr<const Scenario> scenario)
+    : run_(std::make_shared<Run>()), detector_(scenario->full.fast_threshold) {
+  const py::gil_scoped_release others_may_run;
+  require_no_fork();
+  const OneThread one_thread;
+  if (scenario->asked.recording) {
+    auto playback = std::make_unique<replay::Playback>(scenario->asked);
+    run_->recording = playback->begin();
+    source_ = std::move(playback);
+  } else {
+    simulation_ = std::make_unique<sim::Simulation>(scenario->full);
+    run_->recording = bench::begin_recording(scenario->full, *simulation_);
+    auto frames = std::make_unique<bench::SimulatedFrames>(scenario->full, *simulation_);
+    simulated_ = frames.get();
+    source_ = std::move(frames);
+  }
+  run_->recording.warnings = source_->warnings();
+  run_->scenario = std::move(scenario);
+}
+
+Simulation::~Simulation() {
+  // In another thread GL might still be busy with it, and in a fork it is dead: the memory is lost.
+  if (std::this_thread::get_id() == thread_ && !is_fork()) return;
+  static_cast<void>(source_.release());
+  static_cast<void>(simulation_.release());
+}
+
+void Simulation::require_own_thread() const {
+  if (std::this_thread::get_id() == thread_) return;
+  throw std::runtime_error(
+      "this simulation was begun by another thread; go on with it there, or begin one here");
+}
+
+std::shared_ptr<Frame> Simulation::next() {
+  require_no_fork();
+  require_own_thread();
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  if (!source_) return nullptr;
+  auto frame = std::make_shared<Frame>();
+  bool is_over = true;
+  struct AtEnd {  // of a frame that throws, too
+    Simulation& self;
+    bool& is_over;
+    ~AtEnd() {
+      if (!is_over) return;
+      self.source_.reset();
+      self.simulation_.reset();
+    }
+  } at_end{*this, is_over};
+  {
+    const py::gil_scoped_release others_may_run;
+    const OneThread one_thread;
+    std::optional<bench::SeenFrame> seen = bench::see(*source_, detector_, true);
+    is_over = !seen;
+    if (seen) frame->seen = std::move(*seen);
+  }
+  run_->recording.warnings = source_->warnings();
+  if (is_over) return nullptr;
+  if (simulated_) frame->observation = simulated_->observation();
+  frame->run = run_;
+  return frame;
+}
+
+void bind_frame(py::module_& module) {
+  bind_motion(module);
+  bind_truth(module);
+  bind_seen(module);
+  py::class_<Simulation>(
+      module, "Simulation",
+      "The frames of a scenario, one after another. To be used by the thread that made it; other\n"
+      "threads run meanwhile. The same scenario and seed give the same bits.")
+      .def(py::init([](std::shared_ptr<Scenario> scenario) {
+             return std::make_unique<Simulation>(std::move(scenario));
+           }),
+           py::arg("scenario").none(false))
+      .def("__iter__", [](const py::object& self) { return self; })
+      .def("__next__",
+           [](Simulation& self) {
+             std::shared_ptr<Frame> frame = self.next();
+             if (!frame) throw py::stop_iteration();
+             return frame;
+           })
+      .def_property_readonly(
+          "scenario",
+          [](const Simulation& s) { return std::const_pointer_cast<Scenario>(s.run().scenario); })
+      .def_property_readonly(
+          "warnings",
+          [](const Simulation& s) {
+            return bench::lines_of(bench::warnings_of(s.run().recording));
+          },
+          "What should not be, until now, a line each: the rover or an actor ran into something, "
+          "fell,\n"
+          "tipped over.");
+}
+
+}  // namespace lcs::python

@@ -1,0 +1,94 @@
+"""Test bench for the Line-Circle-Square filter: sequences with their truth, the filter, scores.
+
+    import lcs
+
+    scenario = lcs.Scenario(lcs.SCENARIOS / "crossing.yaml", set={"ego.speed": "0.7 m/s"}, seed=7)
+    lcs_filter = lcs.Filter(scenario)
+    metrics = lcs.score(
+        (frame, lcs_filter.step(frame.corners, frame.motion, frame.signatures))
+        for frame in lcs.simulate(scenario)
+    )
+    print(metrics["rebel.f1"])
+
+Pixels have (0, 0) at the centre of the top-left one; all else is in SI units and radians.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable as _Iterable
+from pathlib import Path as _Path
+from typing import Optional as _Optional, Union as _Union
+
+from numpy.typing import ArrayLike as _ArrayLike
+
+from . import _core
+from ._core import (
+    Camera,
+    Detections,
+    Error,
+    Filter,
+    Frame,
+    Label,
+    Motion,
+    Reason,
+    Result,
+    Scenario,
+    Scorer,
+    Simulation,
+    Truth,
+    Verdict,
+    __version__,
+)
+
+__all__ = [
+    "SCENARIOS",
+    "Camera",
+    "Detections",
+    "Error",
+    "Filter",
+    "Frame",
+    "Label",
+    "Motion",
+    "Reason",
+    "Result",
+    "Scenario",
+    "Scorer",
+    "Simulation",
+    "Truth",
+    "Verdict",
+    "__version__",
+    "score",
+    "simulate",
+]
+
+for _type in (Camera, Detections, Filter, Frame, Motion, Result, Scenario, Scorer, Simulation, Truth):
+    _type.__module__ = "lcs"
+
+_folder = _Path(__file__).parent
+_core._use_scenes(_folder / "scenes")
+
+#: Folder of the project's own scenarios, as `lcs.SCENARIOS / "suite" / "night.yaml"`.
+SCENARIOS: _Path = _folder / "scenarios"
+
+
+def simulate(scenario: Scenario) -> Simulation:
+    """The frames of a Scenario, one after another; of a recorded one, what was recorded.
+
+    Raises Error for what cannot be simulated, at once or, of physics that fail, in the frame where
+    they do.
+    """
+    return Simulation(scenario)
+
+
+def score(
+    said: _Iterable[tuple[Frame, _Union[Result, Detections, _ArrayLike]]],
+) -> dict[str, _Optional[float]]:
+    """The figures of metrics.json, by name; None where undefined.
+
+    said: pairs of a Frame and what a detector says of it: a Result of the filter, Detections, or
+    N bool, which of frame.corners are rebels. All frames of one run, in order.
+    """
+    scorer = Scorer()
+    for frame, detections in said:
+        scorer.add(frame, detections)
+    return scorer.metrics()

@@ -1,0 +1,77 @@
+/// \file
+/// The Python module behind the package `lcs`.
+#include <pybind11/pybind11.h>
+
+#include <opencv2/core.hpp>
+
+#include "scenarios/message.h"
+#include "tools/bench/recording_fields.h"
+#include "tools/python/filter.h"
+#include "tools/python/frame.h"
+#include "tools/python/scenario.h"
+#include "tools/python/scorer.h"
+
+namespace lcs::python {
+namespace {
+
+namespace py = pybind11;
+
+PyObject* error_type = nullptr;  // lives as long as the process
+
+/// With the text that the program prints behind "lcs: ".
+void translate(std::exception_ptr thrown) {
+  try {
+    std::rethrow_exception(std::move(thrown));
+  } catch (const py::error_already_set&) {
+    throw;
+  } catch (const py::builtin_exception&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::invalid_argument& error) {
+    PyErr_SetString(PyExc_ValueError, scenario::message_of(error).c_str());
+  } catch (const cv::Exception& error) {
+    PyErr_SetString(error.code == cv::Error::StsNoMem ? PyExc_MemoryError : error_type,
+                    scenario::message_of(error).c_str());
+  } catch (const std::exception& error) {
+    PyErr_SetString(error_type, scenario::message_of(error).c_str());
+  }
+}
+
+/// Words by their numbers. \param words empty where a number has none.
+template <class Words>
+void add_enumeration(py::module_& module, const char* name, const char* about, const Words& words) {
+  py::dict members;
+  int number = 0;
+  for (const std::string word : words) {
+    if (!word.empty()) members[py::str(word).attr("upper")()] = number;
+    ++number;
+  }
+  const py::object type =
+      py::module_::import("enum").attr("IntEnum")(name, members, py::arg("module") = "lcs");
+  type.attr("__doc__") = about;
+  module.attr(name) = type;
+}
+
+}  // namespace
+}  // namespace lcs::python
+
+PYBIND11_MODULE(_core, module) {
+  namespace python = lcs::python;
+  python::error_type = PyErr_NewExceptionWithDoc(
+      "lcs.Error", "What is wrong, where, and what to do, as the program lcs says it.", nullptr,
+      nullptr);
+  module.attr("Error") = pybind11::handle(python::error_type);
+  pybind11::register_exception_translator(python::translate);
+  module.attr("__version__") = LCS_VERSION;
+  python::add_enumeration(module, "Verdict", "What became of a corner.", lcs::bench::kVerdicts);
+  python::add_enumeration(
+      module, "Reason", "Which of the filter's rules settled a corner's verdict (filter/reason.h).",
+      lcs::bench::kReasonWords);
+  python::add_enumeration(module, "Label", "What is true of a corner (tools/bench/SCORING.md).",
+                          lcs::bench::kLabels);
+  python::bind_scenario(module);
+  python::bind_frame(module);
+  python::bind_filter(module);
+  python::bind_scorer(module);
+}

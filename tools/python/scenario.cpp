@@ -1,0 +1,176 @@
+#include "tools/python/scenario.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <optional>
+
+#include "scenarios/load.h"
+#include "scenarios/reader.h"
+#include "scenarios/scenes.h"
+#include "tools/bench/tracker.h"
+#include "tools/python/arrays.h"
+#include "tools/replay/playback.h"
+
+namespace lcs::python {
+namespace {
+
+/// As `--seed` takes it.
+std::optional<std::uint64_t> seed_of(const py::object& seed) {
+  if (seed.is_none()) return std::nullopt;
+  const scenario::Value value{scenario::Value::Kind::scalar, {"seed", 0}, py::str(seed)};
+  return scenario::as_seed(value, "the seed");
+}
+
+std::shared_ptr<Scenario> made_of(scenario::Scenario asked) {
+  auto made = std::make_shared<Scenario>();
+  if (asked.recording) {
+    const replay::Playback playback(asked);
+    made->full = playback.scenario();
+    made->camera = {playback.camera(), made->full.camera.rate_hz};
+  } else {
+    made->full = asked;
+    const scenario::Camera& camera = asked.camera;
+    made->camera = {sim::Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad),
+                    camera.rate_hz};
+  }
+  made->asked = std::move(asked);
+  warn(scenario::shadowed_files(made->full));
+  warn(bench::idle_settings(made->full));
+  return made;
+}
+
+std::shared_ptr<Scenario> from_file(const std::filesystem::path& file, const py::object& set,
+                                    const py::object& seed) {
+  return made_of(scenario::load(file, {.sets = assignments_of(set), .seed = seed_of(seed)}));
+}
+
+std::shared_ptr<Scenario> from_yaml(const std::string& text, const std::filesystem::path& file,
+                                    const py::object& set, const py::object& seed) {
+  return made_of(scenario::load(scenario::parse_document(text, file), file,
+                                {.sets = assignments_of(set), .seed = seed_of(seed)}));
+}
+
+Camera camera_of(double focal, double cx, double cy, int width, int height, double rate) {
+  return {{.focal_px = focal, .centre_px = {cx, cy}, .width_px = width, .height_px = height}, rate};
+}
+
+py::array intrinsic_matrix(const Camera& camera) {
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+  K(0, 0) = K(1, 1) = camera.pinhole.focal_px;
+  K.block<2, 1>(0, 2) = camera.pinhole.centre_px;
+  return copy(K);
+}
+
+void bind_camera(py::module_& module) {
+  py::class_<Camera>(
+      module, "Camera",
+      "A pinhole with square pixels and no distortion: x right, y down, z forward, pixels with\n"
+      "(0, 0) at the centre of the top-left one.")
+      .def(py::init(&camera_of), py::kw_only(), py::arg("focal"), py::arg("cx"), py::arg("cy"),
+           py::arg("width"), py::arg("height"), py::arg("rate") = 0.0,
+           "focal, cx, cy in pixels; width, height of the picture; rate in Hz, 0 where it is not "
+           "known.")
+      .def_property_readonly(
+          "fx", [](const Camera& c) { return c.pinhole.focal_px; }, "px")
+      .def_property_readonly(
+          "fy", [](const Camera& c) { return c.pinhole.focal_px; }, "px, as fx")
+      .def_property_readonly(
+          "cx", [](const Camera& c) { return c.pinhole.centre_px.x(); }, "px")
+      .def_property_readonly(
+          "cy", [](const Camera& c) { return c.pinhole.centre_px.y(); }, "px")
+      .def_property_readonly(
+          "width", [](const Camera& c) { return c.pinhole.width_px; }, "px")
+      .def_property_readonly(
+          "height", [](const Camera& c) { return c.pinhole.height_px; }, "px")
+      .def_readonly("rate", &Camera::rate_hz, "Pictures a second, Hz; 0: not known.")
+      .def_property_readonly("matrix", &intrinsic_matrix, "K, 3 x 3 float64, in pixels.")
+      .def("__repr__", [](const Camera& c) {
+        return fmt::format("Camera(focal={}, cx={}, cy={}, width={}, height={}, rate={})",
+                           c.pinhole.focal_px, c.pinhole.centre_px.x(), c.pinhole.centre_px.y(),
+                           c.pinhole.width_px, c.pinhole.height_px, c.rate_hz);
+      });
+}
+
+}  // namespace
+
+std::vector<std::string> assignments_of(const py::object& mapping, const std::string& prefix) {
+  std::vector<std::string> assignments;
+  if (mapping.is_none()) return assignments;
+  if (!py::hasattr(mapping, "items")) {
+    throw py::type_error("set is no mapping; give one, as {\"ego.speed\": \"0.7 m/s\"}");
+  }
+  for (const py::handle item : mapping.attr("items")()) {
+    auto [key, value] = py::cast<std::pair<py::object, py::object>>(item);
+    if (py::hasattr(value, "item")) value = value.attr("item")();  // a number of NumPy's
+    if (!py::isinstance<py::str>(key)) {
+      throw py::type_error("a key of set is " + py::cast<std::string>(py::repr(key)) +
+                           "; give the name of one");
+    }
+    std::string text;
+    if (py::isinstance<py::bool_>(value)) {
+      text = py::cast<bool>(value) ? "true" : "false";
+    } else if (py::isinstance<py::str>(value) || py::isinstance<py::int_>(value) ||
+               py::isinstance<py::float_>(value)) {
+      text = py::str(value);
+    } else {
+      throw py::type_error(fmt::format("set['{}'] is {}; give text, as in a scenario, or a number",
+                                       py::cast<std::string>(key),
+                                       py::cast<std::string>(py::repr(value))));
+    }
+    assignments.push_back(prefix + py::cast<std::string>(key) + '=' + text);
+  }
+  return assignments;
+}
+
+void warn(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) {
+    if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 1) != 0) throw py::error_already_set();
+  }
+}
+
+void bind_scenario(py::module_& module) {
+  bind_camera(module);
+  py::class_<Scenario, std::shared_ptr<Scenario>>(
+      module, "Scenario",
+      "What is simulated, or what was recorded: a YAML file as scenarios/README.md has it.")
+      .def(py::init(&from_file), py::arg("file"), py::kw_only(), py::arg("set") = py::none(),
+           py::arg("seed") = py::none(),
+           "Reads and checks all of it.\n\n"
+           "set: values in place of the file's, as lcs run --set takes them: {\"ego.speed\": \"0.7 "
+           "m/s\"}.\n"
+           "seed: in place of the file's.\n"
+           "Raises Error with file, line, what is wrong and what to do. Warns of settings of the "
+           "filter that\n"
+           "have no effect.")
+      .def_static("from_yaml", &from_yaml, py::arg("text"), py::kw_only(),
+                  py::arg("file") = std::filesystem::path("scenario.yaml"),
+                  py::arg("set") = py::none(), py::arg("seed") = py::none(),
+                  "The same of text. file: that it might be, which gives the name; paths begin at "
+                  "its folder.")
+      .def_property_readonly(
+          "name", [](const Scenario& s) { return s.full.name; }, "The file's stem.")
+      .def_property_readonly("file", [](const Scenario& s) { return s.full.file; })
+      .def_property_readonly(
+          "purpose", [](const Scenario& s) { return s.full.purpose; }, "One line.")
+      .def_property_readonly(
+          "groups", [](const Scenario& s) { return s.full.groups; },
+          "That it belongs to, as \"short\".")
+      .def_property_readonly("seed", [](const Scenario& s) { return s.full.seed; })
+      .def_property_readonly(
+          "frames", [](const Scenario& s) { return s.full.frames; },
+          "How many; of a recording at the most.")
+      .def_property_readonly(
+          "recorded", [](const Scenario& s) { return s.full.recording.has_value(); },
+          "Whether the frames are those of a recording, not of a simulation.")
+      .def_readonly("camera", &Scenario::camera)
+      .def("__repr__", [](const Scenario& s) {
+        return fmt::format("<lcs.Scenario {}: {} frames, seed {}>", s.full.name, s.full.frames,
+                           s.full.seed);
+      });
+  module.def("_use_scenes", &scenario::set_shipped_scenes,
+             "Where the project's own scenes are, in place of the source tree's.");
+}
+
+}  // namespace lcs::python

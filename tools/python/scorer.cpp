@@ -1,0 +1,229 @@
+#include "tools/python/scorer.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/bench/scoring.h"
+#include "tools/bench/warnings.h"
+#include "tools/python/arrays.h"
+#include "tools/python/filter.h"
+#include "tools/python/frame.h"
+
+namespace lcs::python {
+namespace {
+
+/// What somebody's own detector says of a frame.
+struct Detections {
+  std::optional<std::vector<bool>> rebels;  ///< of each corner; none: of no corner
+  std::vector<Square> squares;
+  std::vector<Circle> circles;
+};
+
+/// Row `i` of a table of numbers. \throws py::value_error for one that is not finite.
+template <int Columns>
+Eigen::Matrix<double, Columns, 1> row_of(const Numbers& table, py::ssize_t i, const char* name) {
+  const Eigen::Map<const Eigen::Matrix<double, Columns, 1>> row(table.data(i, 0));
+  if (!row.allFinite()) {
+    throw py::value_error(fmt::format("row {} of {} has what is no number; leave it out", i, name));
+  }
+  return row;
+}
+
+std::vector<Id> ids_of(const py::object& ids, py::ssize_t boxes) {
+  if (ids.is_none() && boxes == 0) return {};
+  if (ids.is_none()) {
+    throw py::value_error(
+        "boxes have no ids, by which they are followed from frame to frame; give ids, or "
+        "ids=range(len(boxes)) where nothing is followed");
+  }
+  const py::object list = py::isinstance<py::array>(ids) ? ids : py::object(py::list(ids));
+  const py::array array = array_of(list, "ids", "a whole number for each box", "iu");
+  if (array.ndim() != 1 || array.size() != boxes) {
+    throw py::value_error(
+        fmt::format("there are {} ids and {} boxes; give one for each", array.size(), boxes));
+  }
+  std::vector<Id> numbers;
+  std::set<Id> met;
+  for (const py::handle each : array) {
+    if (py::cast<bool>(each.attr("__lt__")(0))) {
+      throw py::value_error(fmt::format("the id is {}; give a whole number from 0 on",
+                                        py::cast<std::string>(py::str(each))));
+    }
+    const Id id = py::cast<Id>(each.attr("__int__")());
+    if (!met.insert(id).second) {
+      throw py::value_error(fmt::format("id {} is given twice; an id is one object's", id));
+    }
+    numbers.push_back(id);
+  }
+  return numbers;
+}
+
+/// From pixel edges to the centres of pixels, where corners and squares are measured.
+std::vector<Square> squares_of(const py::object& boxes, const py::object& ids) {
+  const Numbers table =
+      boxes.is_none()
+          ? Numbers(std::vector<py::ssize_t>{0, 4})
+          : table_of(boxes, "boxes", "M x 4 numbers, left, top, right, bottom in pixels", 4);
+  std::vector<Square> squares;
+  const std::vector<Id> numbers = ids_of(ids, table.shape(0));
+  for (py::ssize_t i = 0; i < table.shape(0); ++i) {
+    const Eigen::Vector4d edges = row_of<4>(table, i, "boxes");
+    const Vec2 size = edges.tail<2>() - edges.head<2>();
+    if (!(size.array() > 0).all()) {
+      throw py::value_error(
+          fmt::format("box {} has left {}, top {}, right {}, bottom {}; left must be less than "
+                      "right, and top than bottom",
+                      i, edges[0], edges[1], edges[2], edges[3]));
+    }
+    Square& square = squares.emplace_back();
+    square.id = numbers[static_cast<std::size_t>(i)];
+    square.location = edges.head<2>() + 0.5 * size - Vec2(0.5, 0.5);
+    square.half_size = 0.5 * size;
+  }
+  return squares;
+}
+
+std::vector<Circle> circles_of(const py::object& circles) {
+  std::vector<Circle> made;
+  if (circles.is_none()) return made;
+  const Numbers table = table_of(circles, "circles", "K x 3 numbers, x, y and radius in pixels", 3);
+  for (py::ssize_t i = 0; i < table.shape(0); ++i) {
+    const Eigen::Vector3d row = row_of<3>(table, i, "circles");
+    if (row[2] < 0) {
+      throw py::value_error(
+          fmt::format("circle {} has the radius {}; it must be 0 or more", i, row[2]));
+    }
+    Circle& circle = made.emplace_back();
+    circle.id = static_cast<Id>(i);
+    circle.rebel = true;
+    circle.location = row.head<2>();
+    circle.radius = row[2];
+  }
+  return made;
+}
+
+Detections detections_of(const py::object& rebels, const py::object& boxes, const py::object& ids,
+                         const py::object& circles) {
+  Detections detections;
+  if (!rebels.is_none()) detections.rebels = flags_of(rebels, "rebels");
+  detections.squares = squares_of(boxes, ids);
+  detections.circles = circles_of(circles);
+  return detections;
+}
+
+class Scorer {
+ public:
+  void add(const Frame& frame, const py::object& said) {
+    const bool is_filter = py::isinstance<Result>(said);
+    if (!is_filter && !py::isinstance<Detections>(said)) {
+      return add(frame, py::cast(detections_of(said, py::none(), py::none(), py::none())));
+    }
+    require_next(frame, is_filter);
+    bench::FrameRecord record = frame.seen.record;
+    if (is_filter) {
+      const auto& result = said.cast<const Result&>();
+      require_all_corners(frame, result.said.verdicts.size());
+      bench::note(result.said, result.filter_ms, record);
+    } else {
+      const auto& detections = said.cast<const Detections&>();
+      record.times.reset();
+      record.verdicts.assign(record.corners_px.size(), Verdict::normal);
+      if (detections.rebels) {
+        require_all_corners(frame, detections.rebels->size());
+        std::transform(detections.rebels->begin(), detections.rebels->end(),
+                       record.verdicts.begin(),
+                       [](bool rebel) { return rebel ? Verdict::rebel : Verdict::normal; });
+      }
+      record.layers.squares = detections.squares;
+      record.layers.rebel_circles = detections.circles;
+    }
+    if (!run_) {
+      run_ = frame.run;
+      recording_ = run_->recording;
+      recording_.detector = {.name = is_filter ? "lcs" : "python", .layered = is_filter};
+    }
+    recording_.frames.push_back(std::move(record));
+  }
+
+  /// In the order of metrics.json.
+  py::dict metrics() {
+    if (run_) recording_.warnings = run_->recording.warnings;
+    py::dict figures;
+    for (const auto& [name, figure] : bench::score(recording_)) figures[name.c_str()] = figure;
+    return figures;
+  }
+
+  std::vector<std::string> warnings() {
+    if (run_) recording_.warnings = run_->recording.warnings;
+    return bench::lines_of(bench::warnings_of(recording_));
+  }
+
+ private:
+  void require_next(const Frame& frame, bool is_filter) const {
+    if (run_ && run_ != frame.run) {
+      throw py::value_error("this frame is of another run; give each run a Scorer of its own");
+    }
+    const std::size_t due = recording_.frames.size();
+    const int index = frame.seen.record.index;
+    if (static_cast<std::size_t>(index) != due) {
+      throw py::value_error(fmt::format(
+          "frame {} comes where frame {} is due; give all frames in order", index, due));
+    }
+    if (run_ && recording_.detector.layered != is_filter) {
+      throw py::value_error(
+          "some frames have a Result of the filter and others something else; give each detector a "
+          "Scorer of its own");
+    }
+  }
+
+  static void require_all_corners(const Frame& frame, std::size_t verdicts) {
+    const bench::FrameRecord& record = frame.seen.record;
+    if (verdicts == record.corners_px.size()) return;
+    throw py::value_error(fmt::format(
+        "there are verdicts on {} corners, and frame {} has {}; give one for each of frame.corners",
+        verdicts, record.index, record.corners_px.size()));
+  }
+
+  std::shared_ptr<const Run> run_;  ///< none until a frame is added
+  bench::Recording recording_;
+};
+
+}  // namespace
+
+void bind_scorer(py::module_& module) {
+  py::class_<Detections>(module, "Detections", "What somebody's own detector says of a frame.")
+      .def(
+          py::init(&detections_of), py::arg("rebels") = py::none(), py::kw_only(),
+          py::arg("boxes") = py::none(), py::arg("ids") = py::none(),
+          py::arg("circles") = py::none(),
+          "rebels: N bool, which of the frame's corners move by themselves; none where not given.\n"
+          "boxes: M x 4, left, top, right, bottom, pixel edges: a box over columns l to r-1 has "
+          "left l and right\n"
+          "r. ids: M whole numbers from 0 on, which stay with their objects from frame to frame.\n"
+          "circles: K x 3, x, y, radius in pixels: groups of rebels, by which false objects are "
+          "counted.\n"
+          "Raises TypeError or ValueError for what is none of these.");
+  py::class_<Scorer>(module, "Scorer",
+                     "Scores a run's frames, one after another, without keeping their pictures.")
+      .def(py::init<>())
+      .def("add", &Scorer::add, py::arg("frame"), py::arg("said"),
+           "said: a Result of the filter, Detections, or N bool, which of the frame's corners are "
+           "rebels.\n"
+           "Frames come in order, each once, from the first on; what raises counts for nothing.")
+      .def("metrics", &Scorer::metrics,
+           "All figures of metrics.json (tools/bench/SCORING.md) by name; None where undefined. "
+           "Times and\n"
+           "sizes are those of the filter; of other detectors they are None.")
+      .def_property_readonly("warnings", &Scorer::warnings,
+                             "What should not be, a line each, as lcs run tells it.");
+}
+
+}  // namespace lcs::python
