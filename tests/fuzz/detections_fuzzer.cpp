@@ -31,7 +31,7 @@ const bench::Recording& sequence() {
 void check(const bench::Detections& detections) {
   fuzz::require(detections.recording.frames.size() == sequence().frames.size(),
                 "no frame is lost or made");
-  fuzz::require(detections.corners() >= 0, "no more rows are left out than there are");
+  fuzz::require(detections.counts.corners() >= 0, "no more rows are left out than there are");
   for (const bench::FrameRecord& frame : detections.recording.frames) {
     fuzz::require(frame.verdicts.size() == frame.corners_px.size(), "each corner has a verdict");
     for (const Square& square : frame.layers.squares) {

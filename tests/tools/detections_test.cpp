@@ -83,21 +83,25 @@ TEST_F(DetectionsTest, NameCornersByPlaceOrByIndex) {
   EXPECT_EQ(said.recording.frames[3].verdicts,
             (std::vector{Verdict::pending, Verdict::rebel, Verdict::normal, Verdict::rebel}));
   EXPECT_EQ(said.recording.frames[5].verdicts[0], Verdict::ignored);
-  EXPECT_EQ(said.verdicts, 4);
-  EXPECT_EQ(said.corners(), 4);
+  EXPECT_EQ(said.counts.verdicts, 4);
+  EXPECT_EQ(said.counts.corners(), 4);
 }
 
 TEST_F(DetectionsTest, CountVerdictsThatAreOnNoCornerOrOnOneThatHasOne) {
-  // 0.5 px is within reach, 0.51 is not; the first row on a corner holds.
+  // 2 px is within reach, 2.01 is not; of two rows for one corner the nearer holds.
   const Detections said = detections(
-      "3,rebel,30.5,20\n3,rebel,50.51,20\n3,rebel,400,300\n"
-      "3,normal,30,20.1\n4,rebel,1\n4,normal,30,20\n");
-  EXPECT_EQ(said.verdicts, 6);
-  EXPECT_EQ(said.without_corner, 2);
-  EXPECT_EQ(said.repeated, 2);
-  EXPECT_EQ(said.corners(), 2);
-  EXPECT_EQ(said.recording.frames[3].verdicts[1], Verdict::rebel);
+      "3,rebel,32,20\n3,rebel,52.01,20\n3,rebel,400,300\n"
+      "3,pending,30,20.1\n4,rebel,1\n4,normal,30,20\n");
+  EXPECT_EQ(said.counts.verdicts, 6);
+  EXPECT_EQ(said.counts.without_corner, 2);
+  EXPECT_EQ(said.counts.repeated, 2);
+  EXPECT_EQ(said.counts.corners(), 2);
+  EXPECT_EQ(said.recording.frames[3].verdicts[1], Verdict::pending);
   EXPECT_EQ(said.recording.frames[4].verdicts[1], Verdict::rebel);
+  EXPECT_EQ(lines_of(said.counts),
+            (std::vector<std::string>{
+                "2 of 6 verdicts are on no corner: there is none within 2 px",
+                "2 of 6 verdicts are on a corner that has one already: the nearest holds"}));
 }
 
 TEST_F(DetectionsTest, OfTwoCornersInReachTakeTheNearerThatIsFree) {
@@ -112,6 +116,14 @@ TEST_F(DetectionsTest, OfTwoCornersInReachTakeTheNearerThatIsFree) {
   EXPECT_EQ(verdicts("0,rebel,10.3,10\n"), (std::vector{Verdict::normal, Verdict::rebel}));
   EXPECT_EQ(verdicts("0,rebel,10.3,10\n0,pending,10.3,10\n"),
             (std::vector{Verdict::pending, Verdict::rebel}));
+  // Whatever the order of rows, the nearest pair is matched first.
+  for (const char* text :
+       {"0,rebel,10.2,10\n0,pending,10.6,10\n", "0,pending,10.6,10\n0,rebel,10.2,10\n"}) {
+    EXPECT_EQ(verdicts(text), (std::vector{Verdict::rebel, Verdict::pending})) << text;
+  }
+  EXPECT_EQ(verdicts("0,rebel,12,10\n0,pending,10.6,10\n"),
+            (std::vector{Verdict::rebel, Verdict::pending}))
+      << "a corner for each, if not its nearest";
 }
 
 TEST_F(DetectionsTest, BoxesArePixelEdgesAsThoseOfTheTruth) {
@@ -137,10 +149,23 @@ TEST_F(DetectionsTest, CirclesCountForFalseObjects) {
   EXPECT_EQ(value(score(detections(rows).recording), "rebel.false_objects_per_100_frames"), 100);
 }
 
+TEST_F(DetectionsTest, WithoutCirclesFalseObjectsAreUnknownAndNotNone) {
+  constexpr const char* kFigures[] = {"rebel.false_objects_per_100_frames", "rebel.circle_recall"};
+  const std::string rebels = "3,rebel,0\n3,rebel,1\n3,rebel,2\n4,box,1,0,0,4,4\n";
+  const Detections silent = detections(rebels);
+  EXPECT_FALSE(silent.recording.detector.circles);
+  for (const char* figure : kFigures)
+    EXPECT_FALSE(value(score(silent.recording), figure)) << figure;
+  // A row without values says that there are none.
+  const Detections none = detections(rebels + "0,circle\n");
+  EXPECT_TRUE(none.recording.detector.circles);
+  EXPECT_EQ(value(score(none.recording), "rebel.false_objects_per_100_frames"), 0);
+}
+
 TEST_F(DetectionsTest, TakeSpacesCommentsEmptyLinesAndAHeader) {
   const Detections said =
       detections("# by me\r\nframe,type,x,y\r\n\r\n 3 , rebel , 30 , 20 \r\n\t\n3,rebel,50,20");
-  EXPECT_EQ(said.corners(), 2);
+  EXPECT_EQ(said.counts.corners(), 2);
   EXPECT_EQ(said.recording.frames[3].verdicts[2], Verdict::rebel);
 }
 
@@ -155,8 +180,8 @@ TEST_F(DetectionsTest, EveryBadRowIsToldWithItsLineAndWhatToWriteInstead) {
       {"3,", "there is no type ''; give ignored, pending, normal, rebel, box, square or circle"},
       {"3,Rebel,1",
        "there is no type 'Rebel'; give ignored, pending, normal, rebel, box, square or circle"},
-      {"3,rebel", "names no corner; write FRAME,rebel,X,Y or FRAME,rebel,INDEX"},
-      {"3,normal,1,2,3", "names no corner; write FRAME,normal,X,Y or FRAME,normal,INDEX"},
+      {"3,rebel", "rebel names no corner; give it an INDEX, or X,Y"},
+      {"3,normal,1,2,3", "normal names no corner; give it an INDEX, or X,Y"},
       {"3,rebel,x,20", "x is 'x'; give a number"},
       {"3,rebel,10,nan", "y is 'nan'; give a number"},
       {"3,rebel,inf,20", "x is 'inf'; give a number"},
@@ -165,18 +190,17 @@ TEST_F(DetectionsTest, EveryBadRowIsToldWithItsLineAndWhatToWriteInstead) {
       {"3,rebel,-1", "the corner is '-1'; give its index from 0 on, or x and y"},
       {"3,rebel,1.5", "the corner is '1.5'; give its index from 0 on, or x and y"},
       {"3,rebel,4", "there is no corner 4: frame 3 has 4; count them from 0"},
-      {"3,rebel,10,20\n3,normal,0", "corner 0 of frame 3 has a verdict already; give one for each"},
-      {"3,box,1,2,3,4", "not all of a box is there; write FRAME,box,ID,LEFT,TOP,WIDTH,HEIGHT"},
+      {"3,rebel,0\n3,normal,0", "corner 0 of frame 3 has a verdict already; give one for each"},
+      {"3,box,1,2,3,4", "not all of a box is there; give ID,LEFT,TOP,WIDTH,HEIGHT"},
       {"3,box,-1,0,0,4,4", "the id is '-1'; give a whole number from 0 on"},
       {"3,box,a,0,0,4,4", "the id is 'a'; give a whole number from 0 on"},
       {"3,box,1,0,0,0,4", "width is 0; it must be above 0"},
       {"3,box,1,0,0,4,-4", "height is -4; it must be above 0"},
       {"3,box,1,,0,4,4", "left is ''; give a number"},
       {"3,box,1,0,0,4,4\n3,square,1,9,9,4,4", "frame 3 has a box 1 already; an id is one object's"},
-      {"3,square,1,2,3,4",
-       "not all of a square is there; write FRAME,square,ID,X,Y,HALF_WIDTH,HALF_HEIGHT"},
+      {"3,square,1,2,3,4", "not all of a square is there; give ID,X,Y,HALF_WIDTH,HALF_HEIGHT"},
       {"3,square,1,2,3,4,0", "half height is 0; it must be above 0"},
-      {"3,circle,1,2", "not all of a circle is there; write FRAME,circle,X,Y,RADIUS"},
+      {"3,circle,1,2", "not all of a circle is there; give X,Y,RADIUS, or nothing"},
       {"3,circle,1,2,-1", "the radius is -1; it must be 0 or more"},
       {"3,rebel,1\nframe,type", "the frame is 'frame'; give its number"},
   };
@@ -187,8 +211,14 @@ TEST_F(DetectionsTest, EveryBadRowIsToldWithItsLineAndWhatToWriteInstead) {
 }
 
 TEST_F(DetectionsTest, AByteOrderMarkIsNotRead) {
-  EXPECT_EQ(detections("\xef\xbb\xbf" "3,rebel,3\n").verdicts, 1);
-  EXPECT_EQ(detections("\xef\xbb\xbf" "frame,type,x,y\n3,rebel,3\n").verdicts, 1);
+  EXPECT_EQ(detections("\xef\xbb\xbf"
+                       "3,rebel,3\n")
+                .counts.verdicts,
+            1);
+  EXPECT_EQ(detections("\xef\xbb\xbf"
+                       "frame,type,x,y\n3,rebel,3\n")
+                .counts.verdicts,
+            1);
 }
 
 TEST_F(DetectionsTest, AFileThatCannotBeReadIsNamed) {
@@ -237,7 +267,7 @@ TEST_F(DetectionsTest, WrittenAndReadAgainHaveTheSameFiguresToTheLastBit) {
   const Recording recording = awkward();
   write_detections(path_, recording);
   const Detections again = read_detections(path_, recording);
-  EXPECT_EQ(again.without_corner + again.repeated, 0);
+  EXPECT_EQ(again.counts.without_corner + again.counts.repeated, 0);
   for (std::size_t k = 0; k < recording.frames.size(); ++k) {
     EXPECT_EQ(again.recording.frames[k].verdicts, recording.frames[k].verdicts);
   }
@@ -257,7 +287,7 @@ TEST_F(DetectionsTest, TheDocumentsRowsAreRead) {
   const std::size_t from = document.find(begin) + begin.size();
   const std::string rows = document.substr(from, document.find("```", from) - from);
   const Detections said = detections(rows);
-  EXPECT_EQ(said.verdicts, 2);
+  EXPECT_EQ(said.counts.verdicts, 2);
   ASSERT_EQ(said.recording.frames[0].layers.squares.size(), 1u);
   const Square& box = said.recording.frames[0].layers.squares[0];
   EXPECT_EQ(box.location - box.half_size, Vec2(199.5, 179.5));

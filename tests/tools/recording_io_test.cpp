@@ -207,7 +207,7 @@ TEST(RecordingIo, LinesAreJsonWithAKeyForEveryLayer) {
   EXPECT_EQ(layers.at("corners").at("verdict"),
             (nlohmann::json{"ignored", "pending", "normal", "rebel", "ignored", "pending"}));
   EXPECT_EQ(layers.at("normal_edges").at("id").size(), 3u);
-  for (const char* key : {"t_ns", "motion", "rebel_edges", "normal_circles", "rebel_circles",
+  for (const char* key : {"t_ns", "told_motion", "rebel_edges", "normal_circles", "rebel_circles",
                           "squares", "ignored", "collectors", "chains"}) {
     EXPECT_TRUE(layers.contains(key)) << key;
   }
@@ -371,7 +371,7 @@ TEST_F(BrokenRecording, FramesThatDoNotPair) {
 }
 TEST_F(BrokenRecording, AWordWhereANumberBelongs) {
   edit(kLayersFile, 2, "\"dt_s\":", "\"dt_s\":\"soon\",\"was\":");
-  expect_error("layers.jsonl:2: motion.dt_s is not a number; name the folder of a whole run");
+  expect_error("layers.jsonl:2: told_motion.dt_s is not a number; name the folder of a whole run");
 }
 TEST_F(BrokenRecording, ANumberThatNoIntegerHolds) {
   edit(kTruthFile, 2, "\"visible_px\":[2000]", "\"visible_px\":[4294967296]");

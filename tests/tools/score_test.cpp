@@ -90,7 +90,7 @@ TEST_F(Score, ReportsVerdictsOnNoCorner) {
   std::ofstream(folder_.path() / "far.csv") << "3,rebel,-50,-50\n3,rebel,0\n3,rebel,-60,-50\n";
   const CommandResult result = lcs({"score", "run", "--detections", "far.csv", "--quiet"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err, "2 of 3 verdicts are on no corner: there is none within 0.5 px\n");
+  EXPECT_EQ(result.err, "2 of 3 verdicts are on no corner: there is none within 2 px\n");
 }
 
 TEST_F(Score, WithoutFramesCsvHasNoTimes) {

@@ -54,16 +54,18 @@ std::optional<SeenFrame> see(FrameSource& source, const FastDetector& detector,
   return seen;
 }
 
-void note(const FrameResult& said, double filter_ms, FrameRecord& frame) {
+void note(const FrameResult& said, double FrameTimes::*step_time, double step_ms,
+          FrameRecord& frame) {
+  frame.verdicts = said.verdicts;
+  frame.reasons = said.reasons;
+  frame.layers = said.layers;
+  if (step_time == nullptr) return;
   FrameTimes times = frame.times.value_or(FrameTimes{});
-  times.filter_ms = filter_ms;
+  times.*step_time = step_ms;
   times.line_ms = said.times.line_ms;
   times.circle_ms = said.times.circle_ms;
   times.square_ms = said.times.square_ms;
   frame.times = times;
-  frame.verdicts = said.verdicts;
-  frame.reasons = said.reasons;
-  frame.layers = said.layers;
 }
 
 Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulation& simulation) {
@@ -76,11 +78,12 @@ Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulat
 }
 
 void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame) {
-  double filter_ms = 0;
-  const FrameResult& said = timed(filter_ms, [&]() -> const FrameResult& {
-    return tracker.step({image, grey, frame.corners_px, frame.motion, frame.signatures});
+  double step_ms = 0;
+  const FrameResult& said = timed(step_ms, [&]() -> const FrameResult& {
+    return tracker.step(
+        {image, grey, frame.corners_px, frame.motion, frame.signatures, frame.index, frame.t_ns});
   });
-  note(said, filter_ms, frame);
+  note(said, tracker.step_time(), step_ms, frame);
 }
 
 std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
@@ -104,6 +107,7 @@ std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
   for (const Watcher& watcher : watchers) {
     watcher.recording.warnings = source.warnings();
     all.push_back(source.diagnostics());
+    watcher.tracker.finish();
     all.back() += watcher.tracker.diagnostics();
   }
   return all;

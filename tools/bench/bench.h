@@ -75,8 +75,10 @@ struct SeenFrame {
 std::optional<SeenFrame> see(FrameSource& source, const FastDetector& detector,
                              bool are_signatures_wanted);
 
-/// Gives a frame what a tracker says of it. \param filter_ms that the tracker took.
-void note(const FrameResult& said, double filter_ms, FrameRecord& frame);
+/// Gives a frame what a tracker says of it. \param step_ms that the tracker took, which is the time
+///   of the frame that `step_time` names; none if that is null.
+void note(const FrameResult& said, double FrameTimes::*step_time, double step_ms,
+          FrameRecord& frame);
 
 /// A recording of the scenario without frames yet.
 Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulation& simulation);

@@ -4,27 +4,17 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
 
+#include "tools/bench/frame_detections.h"
 #include "tools/bench/output_file.h"
 #include "tools/bench/recording.h"
 
 namespace lcs::bench {
 
-/// A verdict that gives a place is one on the nearest corner within this distance.
-inline constexpr double kCornerReach_px = 0.5;
-
 struct Detections {
   /// The sequence with the detector's verdicts and boxes in place of what it had; no times.
   Recording recording;
-  int verdicts = 0;  ///< rows
-  /// \name Of these, rows by place that name no corner, and so were left out.
-  ///@{
-  int without_corner = 0;  ///< no corner within reach
-  int repeated = 0;        ///< only corners that an earlier row names
-  int corners() const { return verdicts - without_corner - repeated; }
-  ///@}
+  VerdictCounts counts;
 };
 
 /// \param sequence whose corners and truth the detections are of.

@@ -31,6 +31,9 @@ std::string rows_of(const FrameRecord& frame) {
 void write_detections(const std::filesystem::path& csv, const Recording& recording) {
   OutputFile file(csv);
   file.write(fmt::format("{}\n", kDetectionsHeader));
+  if (recording.detector.circles && !recording.frames.empty()) {
+    file.write(fmt::format("{},circle\n", recording.frames.front().index));  // should there be none
+  }
   for (const FrameRecord& frame : recording.frames) file.write(rows_of(frame));
   file.close();
 }

@@ -102,9 +102,11 @@ Diagnostics EarlierRun::run(Tracker& tracker, Recording& recording, bool with_im
                             const FrameSink& sink) const {
   for (std::size_t k = 0; k < recorded_.frames.size(); ++k) {
     FrameRecord& frame = recording.frames.emplace_back(recorded_.frames[k]);
-    ask(tracker, {}, {}, frame);
-    sink(frame, with_images ? image(k) : cv::Mat3b{});
+    const cv::Mat3b picture = with_images ? image(k) : cv::Mat3b{};
+    ask(tracker, picture, {}, frame);
+    sink(frame, picture);
   }
+  tracker.finish();
   return tracker.diagnostics();
 }
 

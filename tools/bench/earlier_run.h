@@ -24,6 +24,9 @@ class EarlierRun {
   /// Of each frame, where the run kept them; else null.
   const FramePictures* pictures() const { return pictures_ ? &*pictures_ : nullptr; }
 
+  /// What there was to see and what was true, and what nobody has said anything of.
+  const Recording& recording() const { return recorded_; }
+
   /// Whether there is a corner without a signature, as where a comparator was alone in the run: the
   /// filter then is given places alone, and may say something else than in a run of its own.
   bool lacks_signatures() const;
@@ -32,8 +35,8 @@ class EarlierRun {
   Recording begin() const;
 
   /// Goes through all frames, as `bench::run` does.
-  /// \param tracker that looks at no pictures: it is given none.
-  /// \param with_images whether the sink gets them, which takes `pictures()`; else they are empty.
+  /// \param with_images whether tracker and sink get pictures, in colour alone and as they
+  ///   are after their compression, which takes `pictures()`; else they are empty.
   /// \return what was wrong with what the tracker was told.
   /// \throws what the tracker and the sink throw.
   Diagnostics run(Tracker& tracker, Recording& recording, bool with_images,

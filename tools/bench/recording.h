@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "filter/camera.h"
 #include "filter/ego_motion.h"
 #include "filter/layers.h"
 #include "filter/reason.h"
@@ -30,7 +31,8 @@ struct FrameTimes {
   double line_ms = 0;
   double circle_ms = 0;
   double square_ms = 0;
-  double filter_ms = 0;  ///< whole step
+  double filter_ms = 0;   ///< whole step
+  double process_ms = 0;  ///< likewise of a detector that is a process: what it is handed included
   double truth_ms = 0;   ///< labelling of the corners
 };
 
@@ -65,6 +67,9 @@ struct Speaker {
   /// so that their size is a figure. False for a comparator or a stranger's detector, which give
   /// boxes and no more.
   bool layered = true;
+  /// It groups rebels to circles, by which false objects are counted. False for a stranger's
+  /// detector that has not said so.
+  bool circles = true;
 };
 
 struct Recording {
@@ -74,6 +79,7 @@ struct Recording {
   /// empty where there is none.
   std::map<std::string, std::string> world;
   Speaker detector;
+  std::optional<Intrinsics> camera = {};  ///< as detectors are told of it
   Truth truth = Truth::all;
   std::vector<sim::Object> objects;
   std::vector<FrameRecord> frames;  ///< by index

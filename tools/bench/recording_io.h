@@ -1,8 +1,9 @@
 /// \file
 /// A recording on disk, times apart: `layers.jsonl`, what the tracker was given and said, and
 /// `truth.jsonl`, what was true. A JSON object a line, a line a frame; `truth.jsonl` begins with
-/// one line more about the run and its detector. Lists of items are stored by column, as {"id": [1,
-/// 2], "x": [3.5, 4]}.
+/// one line more about the run and its detector. The motion that was told is `told_motion` in the
+/// one, the exact one `true_motion` in the other. Lists of items are stored by column, as {"id":
+/// [1, 2], "x": [3.5, 4]}.
 ///
 /// Where the tracker was given signatures, `layers.jsonl` has "signatures": the 32 bytes of each
 /// corner's in the corners' order, as ORB has them, in hexadecimal digits (Python:
@@ -25,13 +26,22 @@ namespace lcs::bench {
 
 inline constexpr const char* kLayersFile = "layers.jsonl";
 inline constexpr const char* kTruthFile = "truth.jsonl";
+inline constexpr const char* kCameraFile = "camera.json";
 
 /// Lines of one frame, without the line end. \throws std::invalid_argument for any other number
 /// that is not finite, naming frame and field.
 std::string layers_line(const FrameRecord& frame);
 std::string truth_line(const FrameRecord& frame);
 
-/// Writes both files into a folder that exists, frame by frame.
+/// Of a frame what a detector is given beside the picture, as `layers_line` has it.
+/// \param motion what it can use of `frame.motion`; null: nothing.
+std::string given_line(const FrameRecord& frame, const EgoMotion* motion);
+
+/// {"model": "pinhole", "focal_px": f, "centre_px": [x, y], "width_px": w, "height_px": h}
+std::string camera_json(const Intrinsics& camera);
+
+/// Writes both files into a folder that exists, frame by frame, and `camera.json`: the camera as
+/// detectors are told of it.
 class RecordingWriter {
  public:
   /// \param run whose frames are not written here. \throws OutputError

@@ -168,10 +168,10 @@ EgoMotion motion_of(const Json& json) {
   return motion;
 }
 
-EgoMotion read_motion(const Json& json) {
-  const Json& motion = member(json, "motion");
+EgoMotion read_motion(const Json& json, const char* key) {
+  const Json& motion = member(json, key);
   EgoMotion read;
-  within(".motion", [&] { read = motion_of(motion); });
+  within(fmt::format(".{}", key), [&] { read = motion_of(motion); });
   return read;
 }
 
@@ -211,7 +211,7 @@ std::vector<Chain> chains_of(const std::vector<ChainRow>& rows) {
 void read_layers(const Json& json, FrameRecord& frame) {
   read_member(json, "index", frame.index);
   read_member(json, "t_ns", frame.t_ns);
-  frame.motion = read_motion(json);
+  frame.motion = read_motion(json, "told_motion");
   for (const CornerRow& corner : read_columns<CornerRow>(json, "corners")) {
     frame.corners_px.push_back(Vec2(corner.x, corner.y).cast<float>());
     frame.verdicts.push_back(corner.verdict);
@@ -238,7 +238,7 @@ void read_truth(const Json& json, FrameRecord& frame) {
   int index = 0;
   read_member(json, "index", index);
   if (index != frame.index) throw std::runtime_error("index is not that of the layers");
-  frame.true_motion = read_motion(json);
+  frame.true_motion = read_motion(json, "true_motion");
   frame.corner_truth = read_columns<sim::CornerTruth>(json, "corners");
   frame.object_truth = read_columns<sim::ObjectTruth>(json, "objects");
   if (json.contains("labels")) frame.labels = read_columns<LabelledBox>(json, "labels");
@@ -285,6 +285,7 @@ Recording read_recording(const std::filesystem::path& folder) {
     read_member(json, "seed", recording.seed);
     read_member(json, "detector", recording.detector.name);
     read_member(json, "layered", recording.detector.layered);
+    read_member(json, "circles", recording.detector.circles);
     if (json.contains("world")) {
       const Json& world = json.at("world");
       within(".world", [&] {

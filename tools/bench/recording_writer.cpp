@@ -140,6 +140,12 @@ void append_array(std::string& out, std::string_view list, std::string_view name
   out += ']';
 }
 
+std::vector<double> column_of(const std::vector<Eigen::Vector2f>& points, int axis) {
+  std::vector<double> column;
+  for (const Eigen::Vector2f& point : points) column.push_back(point[axis]);
+  return column;
+}
+
 /// Matrices row by row.
 void append_motion(std::string& out, std::string_view name, const EgoMotion& motion) {
   const Eigen::Matrix3d by_rows = motion.R_cur_prev.transpose();
@@ -218,6 +224,8 @@ std::string header_line(const Recording& run) {
   append(out, run.detector.name);
   append_key(out, "layered");
   append(out, run.detector.layered);
+  append_key(out, "circles");
+  append(out, run.detector.circles);
   if (!run.world.empty()) {
     append_key(out, "world");
     out += '{';
@@ -245,7 +253,7 @@ std::string layers_line(const FrameRecord& frame) {
     const Layers& layers = frame.layers;
     append_key(out, "t_ns");
     append(out, frame.t_ns);
-    append_motion(out, "motion", frame.motion);
+    append_motion(out, "told_motion", frame.motion);
     append_columns(out, "corners", corner_rows(frame));
     if (!frame.signatures.empty()) {
       append_key(out, "signatures");
@@ -264,16 +272,50 @@ std::string layers_line(const FrameRecord& frame) {
 
 std::string truth_line(const FrameRecord& frame) {
   return line(frame, [&](std::string& out) {
-    append_motion(out, "motion", frame.true_motion);
+    append_motion(out, "true_motion", frame.true_motion);
     append_columns(out, "corners", frame.corner_truth);
     append_columns(out, "objects", frame.object_truth);
     if (frame.labels) append_columns(out, "labels", *frame.labels);
   });
 }
 
+std::string given_line(const FrameRecord& frame, const EgoMotion* motion) {
+  return line(frame, [&](std::string& out) {
+    append_key(out, "t_ns");
+    append(out, frame.t_ns);
+    if (motion != nullptr) {
+      append_motion(out, "told_motion", *motion);
+    } else {
+      out += ",\"told_motion\":null";
+    }
+    append_key(out, "corners");
+    out += '{';
+    append_array(out, "corners", "x", column_of(frame.corners_px, 0));
+    append_array(out, "corners", "y", column_of(frame.corners_px, 1));
+    out += '}';
+  });
+}
+
+std::string camera_json(const Intrinsics& camera) {
+  std::string out = R"({"model":"pinhole")";
+  append_key(out, "focal_px");
+  append_named(out, "camera", "focal_px", camera.focal_px);
+  append_array(out, "camera", "centre_px", {camera.centre_px.data(), 2});
+  append_key(out, "width_px");
+  append(out, camera.width_px);
+  append_key(out, "height_px");
+  append(out, camera.height_px);
+  out += '}';
+  return out;
+}
+
 RecordingWriter::RecordingWriter(const std::filesystem::path& folder, const Recording& run)
     : layers_(folder / kLayersFile), truth_(folder / kTruthFile) {
   truth_.write(header_line(run) + '\n');
+  if (!run.camera) return;
+  OutputFile camera(folder / kCameraFile);
+  camera.write(camera_json(*run.camera) + '\n');
+  camera.close();
 }
 
 void RecordingWriter::write(const FrameRecord& frame) {

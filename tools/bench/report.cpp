@@ -67,7 +67,8 @@ Row row_of(const FrameRecord& frame, const RebelCounts& rebels, bool layered) {
   row("describe_ms", time(&FrameTimes::describe_ms))("line_ms", stage_time(&FrameTimes::line_ms));
   row("circle_ms", stage_time(&FrameTimes::circle_ms));
   row("square_ms", stage_time(&FrameTimes::square_ms));
-  row("filter_ms", time(&FrameTimes::filter_ms))("simulate_ms", time(&FrameTimes::simulate_ms));
+  row("filter_ms", time(&FrameTimes::filter_ms))("process_ms", time(&FrameTimes::process_ms));
+  row("simulate_ms", time(&FrameTimes::simulate_ms));
   row("truth_ms", time(&FrameTimes::truth_ms));
   return row;
 }

@@ -7,8 +7,8 @@
 namespace lcs::bench {
 
 ResultFiles result_files() {
-  return {.names = {kMetricsFile, kFramesFile, kLayersFile, kTruthFile, kWarningsFile, kVideoFile,
-                    kEventsFile, kPicturesFile},
+  return {.names = {kMetricsFile, kFramesFile, kLayersFile, kTruthFile, kCameraFile, kWarningsFile,
+                    kVideoFile, kEventsFile, kPicturesFile},
           .sign = kMetricsSign};
 }
 

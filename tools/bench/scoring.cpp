@@ -43,9 +43,12 @@ void add_rebels(Metrics& metrics, const Recording& recording) {
                        ratio(corners.overall.false_rebels, objects.frames));
   metrics.emplace_back("rebel.object_recall", ratio(objects.found, objects.objects));
   metrics.emplace_back("rebel.latency_frames_median", median(objects.latencies));
-  metrics.emplace_back("rebel.false_objects_per_100_frames",
-                       ratio(100.0 * objects.false_circles, objects.frames));
-  metrics.emplace_back("rebel.circle_recall", ratio(objects.circled, objects.seen));
+  const bool circles = recording.detector.circles;
+  metrics.emplace_back(
+      "rebel.false_objects_per_100_frames",
+      circles ? ratio(100.0 * objects.false_circles, objects.frames) : std::nullopt);
+  metrics.emplace_back("rebel.circle_recall",
+                       circles ? ratio(objects.circled, objects.seen) : std::nullopt);
 
   const auto counted = [](const RebelCounts& counts) {
     return counts.found_rebels + counts.missed_rebels;
@@ -95,8 +98,9 @@ void add_labels(Metrics& metrics, const Recording& recording) {
   metrics.emplace_back("labels.found", ratio(score.found, score.boxes));
   metrics.emplace_back("labels.boxed_50", ratio(score.boxed, score.boxes));
   metrics.emplace_back("labels.rebels_off_per_frame", ratio(score.rebels_off, score.frames));
-  metrics.emplace_back("labels.circles_off_per_100_frames",
-                       ratio(100.0 * score.circles_off, score.frames));
+  metrics.emplace_back(
+      "labels.circles_off_per_100_frames",
+      recording.detector.circles ? ratio(100.0 * score.circles_off, score.frames) : std::nullopt);
 }
 
 /// Takes out figures of what is not known, those from `first` on.
@@ -178,7 +182,8 @@ void add_times(Metrics& metrics, const Recording& recording) {
                                {"circle", &FrameTimes::circle_ms, true},
                                {"square", &FrameTimes::square_ms, true},
                                {"filter", &FrameTimes::filter_ms}};
-  constexpr Stage kBench[] = {{"simulate", &FrameTimes::simulate_ms},
+  constexpr Stage kBench[] = {{"process", &FrameTimes::process_ms},
+                              {"simulate", &FrameTimes::simulate_ms},
                               {"truth", &FrameTimes::truth_ms}};
 
   const auto all = [&](const Stage& stage) {
@@ -217,7 +222,7 @@ void add_times(Metrics& metrics, const Recording& recording) {
     if (!frame.times) continue;
     const FrameTimes& times = *frame.times;
     seconds += 1e-3 * (times.simulate_ms + times.detect_ms + times.describe_ms + times.filter_ms +
-                       times.truth_ms);
+                       times.process_ms + times.truth_ms);
     ++timed;
   }
   metrics.emplace_back("sim.frames_per_second", ratio(timed, seconds));

@@ -69,6 +69,13 @@ std::string table(const Metrics& metrics) {
                            count(get("dimension.mean")), count(get("dimension.five_frame_mean")),
                            count(get("dimension.eight_frame_mean")),
                            count(get("dimension.accumulative_final"))));
+  if (const Figure process = get("time.process_ms_median")) {
+    line("time",
+         fmt::format("a process: {} ms to be handed a frame and answer, 99 % in {}; FAST {}",
+                     milliseconds(process), milliseconds(get("time.process_ms_p99")),
+                     milliseconds(get("time.detect_ms_median"))));
+    return text;
+  }
   line("time",
        fmt::format(
            "{} ms (line {}, circle {}, square {}), 99 % in {}; FAST {}, signatures {}",

@@ -14,14 +14,18 @@ namespace {
 struct Column {
   std::string_view name;
   double FrameTimes::*time_ms;
-  bool may_lack = false;  ///< as in tables from before there were signatures
+  bool may_lack = false;  ///< as in tables from before there was such a time
 };
 
-constexpr Column kColumns[] = {
-    {"simulate_ms", &FrameTimes::simulate_ms},       {"detect_ms", &FrameTimes::detect_ms},
-    {"describe_ms", &FrameTimes::describe_ms, true}, {"line_ms", &FrameTimes::line_ms},
-    {"circle_ms", &FrameTimes::circle_ms},           {"square_ms", &FrameTimes::square_ms},
-    {"filter_ms", &FrameTimes::filter_ms},           {"truth_ms", &FrameTimes::truth_ms}};
+constexpr Column kColumns[] = {{"simulate_ms", &FrameTimes::simulate_ms},
+                               {"detect_ms", &FrameTimes::detect_ms},
+                               {"describe_ms", &FrameTimes::describe_ms, true},
+                               {"line_ms", &FrameTimes::line_ms},
+                               {"circle_ms", &FrameTimes::circle_ms},
+                               {"square_ms", &FrameTimes::square_ms},
+                               {"filter_ms", &FrameTimes::filter_ms},
+                               {"process_ms", &FrameTimes::process_ms, true},
+                               {"truth_ms", &FrameTimes::truth_ms}};
 
 /// The number of columns where there is none.
 std::size_t place_of(const std::vector<std::string_view>& header, std::string_view name) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include "filter/filter.h"
 #include "scenarios/scenario.h"
 #include "sim/pose.h"
+#include "tools/bench/recording.h"
 
 namespace lcs::bench {
 
@@ -22,6 +24,8 @@ struct TrackerInput {
   std::span<const Eigen::Vector2f> corners_px;
   const EgoMotion& motion;  ///< since the last frame
   std::span<const Signature> signatures = {};  ///< of each corner; none where none are known
+  int index = 0;                               ///< of the frame
+  std::int64_t t_ns = 0;                       ///< its time
 };
 
 class Tracker {
@@ -36,8 +40,20 @@ class Tracker {
   /// Whether signatures are to be made for it, which takes longer than to find the corners.
   virtual bool wants_signatures() const { return false; }
 
+  /// Which of a frame's times a step takes; null where it takes none, as what it says was read.
+  virtual double FrameTimes::*step_time() const { return &FrameTimes::filter_ms; }
+
+  /// As `Speaker::circles`. Known from the start.
+  virtual bool gives_circles() const { return true; }
+
+  /// To be called after the last frame. \throws for what was wrong with it until then.
+  virtual void finish() {}
+
   /// What was wrong with what it was told so far, if it looks.
   virtual Diagnostics diagnostics() const { return {}; }
+
+  /// What else there is to tell of it after the last frame: a line for people each.
+  virtual std::vector<std::string> told() const { return {}; }
 };
 
 /// The camera as trackers on the filter's geometry take it.

@@ -12,12 +12,15 @@
 #include "tools/bench/table.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/terminal.h"
+#include "tools/suite/suite_result.h"
+#include "tools/suite/suite_table.h"
 
 namespace lcs::tools {
 namespace {
 
 constexpr const char* kHelp = R"(Examples:
   lcs score out/crossing                                    a run's figures again
+  lcs score out/suite                                       those of all runs of a suite
   lcs score out/crossing --detections mine.csv              another detector's on the same frames
   lcs score out/crossing --detections mine.csv --out mine.json
   lcs score out/crossing --write-detections lcs.csv         what the run's detector said, as CSV
@@ -26,7 +29,8 @@ A row of detections is one of these; corners that no row names are normal
 (tools/bench/DETECTIONS.md has all of it, and how to write them from Python):
   FRAME,rebel,X,Y                        or normal, pending, ignored; or FRAME,rebel,INDEX
   FRAME,box,ID,LEFT,TOP,WIDTH,HEIGHT     an object, in pixels
-  FRAME,circle,X,Y,RADIUS                a group of rebels: counts for false objects
+  FRAME,circle,X,Y,RADIUS                a group of rebels, by which false objects are counted;
+                                         without values: there is none in this frame
 
 Of the run's folder, layers.jsonl (for its corners), truth.jsonl and, for the times, frames.csv are
 read; none of it is changed. Figures are those of tools/bench/SCORING.md. The times of the run's own
@@ -49,17 +53,6 @@ bench::Recording read_run(const std::filesystem::path& folder) {
   return recording;
 }
 
-void report_unmatched(const bench::Detections& detections) {
-  if (detections.without_corner > 0) {
-    print_err("{} of {} verdicts are on no corner: there is none within {} px\n",
-              detections.without_corner, detections.verdicts, bench::kCornerReach_px);
-  }
-  if (detections.repeated > 0) {
-    print_err("{} of {} verdicts are on a corner that has one already: the first holds\n",
-              detections.repeated, detections.verdicts);
-  }
-}
-
 /// Detections that were read are somebody's own.
 void require_other_file(const std::filesystem::path& out, const std::filesystem::path& in) {
   std::error_code is_not_there;
@@ -68,12 +61,34 @@ void require_other_file(const std::filesystem::path& out, const std::filesystem:
       "{} is the file that is scored; choose another one with --write-detections", out.string()));
 }
 
+/// Each run's figures anew, in the table that `lcs suite` prints.
+ExitCode score_suite(const ScoreOptions& options) {
+  if (!options.detections.empty() || !options.out.empty() || !options.write_detections.empty()) {
+    throw std::invalid_argument(fmt::format(
+        "{0} is a suite, of which figures are only printed; for detections there is lcs suite "
+        "--recorded {0} --detections DIR, or name a run in its runs/",
+        options.sequence));
+  }
+  const std::filesystem::path folder = options.sequence;
+  suite::SuiteResult suite = suite::read_suite(folder);
+  for (suite::ScenarioResult& scenario : suite.scenarios) {
+    for (suite::RunResult& run : scenario.runs) {
+      check_interrupted();
+      if (run.outcome != suite::Outcome::error) {
+        run.metrics = bench::score(read_run(folder / run.folder));
+      }
+    }
+  }
+  if (!options.quiet) print_out("{}", suite::suite_table(suite, false));
+  return kFine;
+}
+
 }  // namespace
 
 CLI::App& add_score_command(CLI::App& app, ScoreOptions& options) {
   CLI::App& command = *app.add_subcommand(
       "score", "Score a run by its files, or someone else's detector on the same frames");
-  command.add_option("--sequence,DIR", options.sequence, "Folder of a run")
+  command.add_option("--sequence,DIR", options.sequence, "Folder of a run, or of a suite")
       ->required()
       ->type_name("");
   command
@@ -93,10 +108,13 @@ CLI::App& add_score_command(CLI::App& app, ScoreOptions& options) {
 }
 
 ExitCode score(const ScoreOptions& options) {
+  if (std::filesystem::exists(std::filesystem::path(options.sequence) / suite::kSuiteFile)) {
+    return score_suite(options);
+  }
   bench::Recording recording = read_run(options.sequence);
   if (!options.detections.empty()) {
     bench::Detections detections = bench::read_detections(options.detections, recording);
-    report_unmatched(detections);
+    for (const std::string& line : bench::lines_of(detections.counts)) tell(line);
     recording = std::move(detections.recording);
   }
   const bench::Metrics metrics = bench::score(recording);

@@ -131,7 +131,7 @@ class Scorer {
     if (is_filter) {
       const auto& result = said.cast<const Result&>();
       require_all_corners(frame, result.said.verdicts.size());
-      bench::note(result.said, result.filter_ms, record);
+      bench::note(result.said, &bench::FrameTimes::filter_ms, result.filter_ms, record);
     } else {
       const auto& detections = said.cast<const Detections&>();
       record.times.reset();

@@ -89,6 +89,8 @@ const std::vector<MetricTraits>& metric_traits() {
       neutral("time.filter_ms_median"),
       neutral("time.filter_ms_p99"),
       neutral("time.filter_over_fast"),
+      neutral("time.process_ms_median"),
+      neutral("time.process_ms_p99"),
       neutral("time.simulate_ms_median"),
       neutral("time.simulate_ms_p99"),
       neutral("time.truth_ms_median"),
