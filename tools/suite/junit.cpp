@@ -4,6 +4,7 @@
 #include <tinyxml2.h>
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "scenarios/message.h"
@@ -38,10 +39,15 @@ struct Counts {
   }
 };
 
-std::string name_of(const CriterionResult& criterion, std::uint64_t seed) {
+/// Without the bounds: a test of another bound has the same history. What still is called like
+/// one before it is counted.
+std::string name_of(const CriterionResult& criterion, std::uint64_t seed,
+                    std::map<std::string, int>& times) {
   std::string name = criterion.metric;
-  if (criterion.min) name += fmt::format(" >= {}", *criterion.min);
-  if (criterion.max) name += fmt::format(" <= {}", *criterion.max);
+  if (criterion.min) name += " min";
+  if (criterion.max) name += " max";
+  if (!criterion.required) name += " (not required)";
+  if (const int number = ++times[name]; number > 1) name += fmt::format(" #{}", number);
   return name + fmt::format(", seed {}", seed);
 }
 
@@ -74,8 +80,9 @@ Counts add_run(XMLElement& parent, const ScenarioResult& scenario, const RunResu
     }
     return counts;
   }
+  std::map<std::string, int> times;
   for (const CriterionResult& criterion : run.criteria) {
-    XMLElement& element = add_case(parent, scenario, name_of(criterion, run.seed),
+    XMLElement& element = add_case(parent, scenario, name_of(criterion, run.seed, times),
                                    counts.tests == 0 ? run.wall_s : 0);
     ++counts.tests;
     if (criterion.met) continue;
