@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <stdexcept>
 #include <string>
 
 #include "tools/comparators/dis.h"
 #include "tools/comparators/homography.h"
 #include "tools/comparators/klt.h"
+#include "tools/comparators/stored_detections.h"
 
 namespace lcs::comparators {
 namespace {
@@ -40,6 +42,37 @@ constexpr std::array<Detector, 4> kDetectors{{
      make_homography},
     {"dis", "dense flow, and distance to the epipolar segment", false, true, make_dis},
 }};
+
+constexpr Detector kProgram{"program", "a program of yours", false, true, nullptr};
+constexpr Detector kFile{"file", "what a detector has written", false, false, nullptr};
+
+/// Letters of the name of a folder, and of a test.
+std::string own_name(const std::string& name) {
+  const bool is_plain = !name.empty() && name.front() != '.' &&
+                        std::all_of(name.begin(), name.end(), [](unsigned char c) {
+                          return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+                        });
+  if (!is_plain) {
+    throw std::invalid_argument(fmt::format(
+        "'{}' cannot be a detector's name; give one of letters, digits, '_', '-' and '.' by "
+        "--detector",
+        name));
+  }
+  for (const Detector& each : kDetectors) {
+    if (each.name != name) continue;
+    throw std::invalid_argument(fmt::format(
+        "{} is a detector of this program; give yours another name by --detector", name));
+  }
+  return name;
+}
+
+/// Of "python3 mine.py" it is python3.
+std::string program_name(const std::string& command) {
+  const std::size_t begin = command.find_first_not_of(" \t\n");
+  if (begin == std::string::npos) return "";
+  const std::size_t end = command.find_first_of(" \t\n", begin);
+  return std::filesystem::path(command.substr(begin, end - begin)).stem().string();
+}
 
 }  // namespace
 
@@ -72,6 +105,42 @@ Wanted wanted(const std::string& name) {
   return {name, found, preset};
 }
 
+Wanted wanted_program(const std::string& name, const Program& program) {
+  return {own_name(name.empty() ? program_name(program.command) : name), kProgram, "", program, {}};
+}
+
+Wanted wanted_file(const std::string& name, const std::filesystem::path& detections_file) {
+  return {own_name(name.empty() ? detections_file.stem().string() : name),
+          kFile,
+          "",
+          {},
+          detections_file};
+}
+
+std::unique_ptr<bench::Tracker> make(const Wanted& wanted, const Occasion& occasion) {
+  if (!wanted.detections_file.empty()) {
+    if (occasion.recorded == nullptr) {
+      throw std::invalid_argument(
+          "--detections are of the frames of an earlier run; name it by "
+          "--recorded");
+    }
+    return std::make_unique<StoredDetections>(wanted.detections_file, *occasion.recorded);
+  }
+  if (!wanted.program) return wanted.detector.make(occasion.camera, occasion.scenario);
+  const scenario::Scenario& scenario = occasion.scenario;
+  const int frames = occasion.recorded != nullptr
+                         ? static_cast<int>(occasion.recorded->frames.size())
+                         : scenario.frames;
+  const Announced announced{.scenario = scenario.name,
+                            .seed = scenario.seed,
+                            .frames = frames,
+                            .rate_hz = scenario.camera.rate_hz,
+                            .camera = bench::intrinsics(occasion.camera),
+                            .compressed = occasion.recorded != nullptr};
+  return std::make_unique<ProgramTracker>(wanted.name, *wanted.program, announced,
+                                          occasion.on_wait);
+}
+
 std::vector<std::string> apply_preset(const Wanted& wanted, scenario::Scenario& scenario) {
   std::vector<std::string> lines = bench::idle_settings(scenario);
   if (wanted.preset.empty()) return lines;
@@ -90,11 +159,10 @@ std::vector<std::string> apply_preset(const Wanted& wanted, scenario::Scenario& 
   return lines;
 }
 
-void require_corners_suffice(const Detector& detector) {
-  if (!detector.sees_pictures) return;
-  throw std::invalid_argument(
-      fmt::format("{} looks at the pictures, and a recording has corners; leave out --recorded",
-                  detector.name));
+void require_corners_suffice(const Wanted& wanted) {
+  if (!wanted.detector.sees_pictures || wanted.program) return;
+  throw std::invalid_argument(fmt::format(
+      "{} looks at the pictures, and a recording has corners; leave out --recorded", wanted.name));
 }
 
 }  // namespace lcs::comparators

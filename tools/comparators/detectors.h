@@ -2,7 +2,10 @@
 /// The detectors that a run can be made with, by name.
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +14,7 @@
 #include "scenarios/scenario.h"
 #include "sim/pose.h"
 #include "tools/bench/tracker.h"
+#include "tools/comparators/program.h"
 
 namespace lcs::comparators {
 
@@ -19,7 +23,8 @@ struct Detector {
   std::string_view purpose;    ///< one line for people
   bool layered = false;        ///< as in `bench::Speaker`
   bool sees_pictures = false;  ///< beside corners and motion
-  /// \throws scenario::Error for parameters that the detector does not take.
+  /// \throws scenario::Error for parameters that the detector does not take. Null for what is none
+  /// of this program's.
   std::unique_ptr<bench::Tracker> (*make)(const sim::Pinhole& camera,
                                           const scenario::Scenario& scenario);
 };
@@ -30,11 +35,15 @@ std::span<const Detector> detectors();
 /// \throws std::invalid_argument naming those that there are.
 const Detector& detector(std::string_view name);
 
-/// A detector as it is asked for: "klt", or the filter with one of its presets, "lcs:lab".
+/// A detector as it is asked for: "klt", the filter with one of its presets, "lcs:lab", any
+/// program, or what somebody's has written to a file.
 struct Wanted {
   std::string name;  ///< as it was asked for
   const Detector& detector;
-  std::string preset;  ///< in place of all that a scenario says of the filter; "" for none
+  std::string preset;                          ///< in place of all that a scenario says of the
+                                               ///< filter; "" for none
+  std::optional<Program> program = {};         ///< to be run
+  std::filesystem::path detections_file = {};  ///< to be read
 };
 
 /// \throws std::invalid_argument for an unknown detector or preset, naming those that there are,
@@ -42,13 +51,30 @@ struct Wanted {
 ///   for a preset of what has none.
 Wanted wanted(const std::string& name);
 
+/// Somebody's own. \param name "": that of the program, or of the file.
+/// \throws std::invalid_argument for a name that is taken, or no name of a folder.
+Wanted wanted_program(const std::string& name, const Program& program);
+Wanted wanted_file(const std::string& name, const std::filesystem::path& detections_file);
+
+/// What a detector is made for.
+struct Occasion {
+  const sim::Pinhole& camera;
+  const scenario::Scenario& scenario;
+  const bench::Recording* recorded = nullptr;  ///< the frames that will come, where they are known
+  std::function<void()> on_wait = {};          ///< as `DetectorProcess` has it
+};
+
+/// \throws scenario::Error, DetectorError, std::runtime_error.
+std::unique_ptr<bench::Tracker> make(const Wanted& wanted, const Occasion& occasion);
+
 /// Gives a scenario the preset that is wanted, if any, alone: a yardstick does not move with what
 /// is measured. \return a line for each setting that has no effect: with a preset each `--set`,
 /// else as `bench::idle_settings` has it. \throws as that one.
 std::vector<std::string> apply_preset(const Wanted& wanted, scenario::Scenario& scenario);
 
 /// For frames of an earlier run, of which there are corners and no pictures as they were.
-/// \throws std::invalid_argument for a detector that looks at pictures.
-void require_corners_suffice(const Detector& detector);
+/// \throws std::invalid_argument for a detector that looks at pictures; not for a program, which is
+///   told that they are compressed.
+void require_corners_suffice(const Wanted& wanted);
 
 }  // namespace lcs::comparators

@@ -8,18 +8,55 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/quantities.h"
 #include "tools/comparators/detectors.h"
+#include "tools/lcs/number_option.h"
 
 namespace lcs::tools {
 
-/// --detector, with all that there are and what each is.
-inline void add_detector_option(CLI::App& command, std::string& detector,
+/// What watches, as it is asked for.
+struct DetectorOptions {
+  std::string name;     ///< "": lcs, or what a program or file is called
+  std::string command;  ///< of a program; "" for none
+  double timeout_s = comparators::Program{}.timeout_s;
+  std::string detections;  ///< file; "" for none
+};
+
+/// \throws std::invalid_argument as `comparators::wanted` and its like.
+inline comparators::Wanted wanted(const DetectorOptions& options) {
+  if (!options.command.empty()) {
+    return comparators::wanted_program(options.name, {options.command, options.timeout_s});
+  }
+  if (!options.detections.empty()) {
+    return comparators::wanted_file(options.name, options.detections);
+  }
+  return comparators::wanted(options.name.empty() ? "lcs" : options.name);
+}
+
+/// --detector, with all that there are and what each is, and how to give one's own.
+inline void add_detector_option(CLI::App& command, DetectorOptions& options,
                                 const std::string& more = "") {
   std::string about = "What watches; lcs if not given:";
   for (const comparators::Detector& each : comparators::detectors()) {
     about += fmt::format("\n{:<10} {}", each.name, each.purpose);
   }
-  command.add_option("--detector", detector, about + more)->type_name("NAME");
+  command
+      .add_option("--detector", options.name,
+                  about + more + "\nWith a detector of yours: what it is called in the results")
+      ->type_name("NAME");
+  CLI::Option* own =
+      command
+          .add_option("--detector-command", options.command,
+                      "A program of yours that watches, as 'python3 mine.py': it is handed each "
+                      "frame on its standard input and answers with a line "
+                      "(tools/comparators/PROTOCOL.md)")
+          ->type_name("COMMAND");
+  add_quantity_option(command, "--detector-timeout", scenario::kDuration, options.timeout_s,
+                      fmt::format("That it may take to start, to answer and to end; {} s if not "
+                                  "given",
+                                  options.timeout_s))
+      ->type_name("TIME")
+      ->needs(own);
 }
 
 /// What stands behind it where presets are taken.

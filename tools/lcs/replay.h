@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/lcs/detector_option.h"
 #include "tools/lcs/exit_codes.h"
 
 namespace lcs::tools {
@@ -18,7 +19,7 @@ struct ReplayOptions {
   std::string fast_threshold;                    ///< "": as the recording has it
   std::string preset;                            ///< "": as the recording has it
   std::vector<std::string> sets;                 ///< "key=value" of the filter
-  std::string detector = "lcs";
+  DetectorOptions detector;
   std::vector<std::string> beside;  ///< as `RunOptions`
   std::string out;                  ///< folder; "" is out/<name of the recording>
   std::string write;                ///< file for the scenario, and nothing is run; "": run it

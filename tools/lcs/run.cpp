@@ -36,6 +36,8 @@ constexpr const char* kHelp = R"(Examples:
   lcs run scenarios/crossing.yaml --seed 7 --out out/seed7
   lcs run scenarios/lab.yaml --set "ego.speed=10 cm/s" --set filter.constellation.radius=60
   lcs run scenarios/crossing.yaml --detector klt --out out/crossing-klt
+  lcs run scenarios/crossing.yaml --detector mine --detector-command 'python3 mine.py'
+                                     a detector of yours, in any language (tools/comparators/PROTOCOL.md)
   lcs run my_drive.yaml              recorded frames in place of a scene (scenarios/README.md)
   lcs run scenarios/crossing.yaml --beside klt=out/crossing-klt     both on the same frames, made once
   lcs run scenarios/crossing.yaml --set filter.constellation.radius=60 --recorded out/crossing --no-video
@@ -46,6 +48,7 @@ Files written to the folder, all or none:
   frames.csv     a row a frame: sizes of all layers, precision, recall, times
   layers.jsonl   a line a frame: corners, verdicts, every layer
   truth.jsonl    a line a frame: the truth of every corner and object
+  camera.json    the camera, as detectors are told of it
   warnings.json  what should not be: the rover or an actor ran into something, fell, tipped over
   video.mp4      the paper's four panels: corners, edges, circles, squares
   events.json    with --events: the worst misses and false alarms, with the rules that the corners
@@ -88,7 +91,8 @@ sim::Pinhole camera_of(const scenario::Scenario& scenario) {
 /// What the detector watches, and where it comes from.
 struct Frames {
   sim::Pinhole camera;
-  bench::Recording recording;  ///< without frames yet
+  bench::Recording recording;                 ///< without frames yet
+  const bench::Recording* earlier = nullptr;  ///< with the frames of an earlier run
   const bench::FramePictures* pictures = nullptr;
   std::vector<std::string> missing = {};  ///< a line for each thing that a run would have made
   std::function<std::vector<Diagnostics>(std::span<const bench::Watcher>)> run;
@@ -114,7 +118,13 @@ Frames played(const scenario::Scenario& scenario, replay::Playback& playback) {
 Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
                 const sim::Pinhole& camera) {
   const auto earlier = std::make_shared<bench::EarlierRun>(options.recorded, scenario, camera);
-  const bool with_images = !options.no_video;
+  const bool is_program = !options.detector.command.empty();
+  const bool with_images = !options.no_video || is_program;
+  if (is_program && !earlier->pictures()) {
+    throw std::invalid_argument(
+        fmt::format("{} has no pictures to hand to {}; record it with --events", options.recorded,
+                    wanted(options.detector).name));
+  }
   if (with_images && !earlier->pictures()) {
     throw std::invalid_argument(
         fmt::format("{} has no pictures to make a video of; give --no-video, or record it with "
@@ -130,6 +140,7 @@ Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
   }
   return {.camera = camera,
           .recording = earlier->begin(),
+          .earlier = &earlier->recording(),
           .pictures = earlier->pictures(),
           .missing = std::move(missing),
           .run = [earlier, with_images](std::span<const bench::Watcher> watchers) {
@@ -156,7 +167,7 @@ struct Watching {
 /// The run's own detector and those beside it.
 std::vector<Watching> watching(const RunOptions& options, const scenario::Scenario& scenario) {
   std::vector<Watching> all;
-  all.push_back({comparators::wanted(options.detector), target_of(options, scenario), scenario});
+  all.push_back({wanted(options.detector), target_of(options, scenario), scenario});
   for (const std::string& beside : options.beside) {
     const std::size_t equals = beside.find('=');
     if (equals == std::string::npos || equals + 1 == beside.size()) {
@@ -170,7 +181,7 @@ std::vector<Watching> watching(const RunOptions& options, const scenario::Scenar
   for (Watching& one : all) {
     // whoever reads the filter's settings: what is wrong is told
     one.idle_settings = comparators::apply_preset(one.wanted, one.scenario);
-    if (!options.recorded.empty()) comparators::require_corners_suffice(one.wanted.detector);
+    if (!options.recorded.empty()) comparators::require_corners_suffice(one.wanted);
     if (!targets.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(one.target)))
              .second) {
       throw std::invalid_argument(
@@ -208,12 +219,20 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
   add_set_option(command, options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
   add_detector_option(command, options.detector, kPresetDetector);
   add_beside_option(command, options.beside);
+  CLI::Option* recorded =
+      command
+          .add_option(
+              "--recorded", options.recorded,
+              "Take corners, motion and truth from an earlier run of the same scenario and seed, "
+              "instead of simulating")
+          ->type_name("DIR");
   command
-      .add_option(
-          "--recorded", options.recorded,
-          "Take corners, motion and truth from an earlier run of the same scenario and seed, "
-          "instead of simulating")
-      ->type_name("DIR");
+      .add_option("--detections", options.detector.detections,
+                  "With --recorded: what a detector of yours has said of these frames, a CSV file "
+                  "(tools/bench/DETECTIONS.md)")
+      ->type_name("FILE")
+      ->needs(recorded)
+      ->excludes(command.get_option("--detector-command"));
   command.add_flag("--no-video", options.no_video, "Write no video.mp4");
   command.add_flag("--events", options.events,
                    "Write events.json: where rebels were missed or false, why, and pictures of it");
@@ -242,9 +261,14 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
     return playback ? played(scenario, *playback) : simulated(scenario);
   }();
   for (Watching& one : all) {
-    one.tracker = one.wanted.detector.make(frames.camera, one.scenario);
+    one.tracker = comparators::make(one.wanted, {.camera = frames.camera,
+                                                 .scenario = one.scenario,
+                                                 .recorded = frames.earlier,
+                                                 .on_wait = check_interrupted});
     one.recording = frames.recording;
-    one.recording.detector = {one.wanted.name, one.wanted.detector.layered};
+    one.recording.detector = {one.wanted.name, one.wanted.detector.layered,
+                              one.tracker->gives_circles()};
+    one.recording.camera = bench::intrinsics(frames.camera);
   }
   for (Watching& one : all) {
     bench::ResultOptions what;
@@ -282,6 +306,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
     for (const std::string& line : playback->told()) tell(line);
   }
   for (const std::string& line : diagnostics.front().lines()) tell(line);
+  for (const std::string& line : own.tracker->told()) tell(line);
   if (!options.quiet) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       print_result(scenario, all[i].wanted.name, metrics[i], playback ? &*playback : nullptr,

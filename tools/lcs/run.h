@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "tools/lcs/detector_option.h"
 #include "tools/lcs/exit_codes.h"
 
 namespace lcs::tools {
@@ -19,7 +20,7 @@ struct RunOptions {
   std::string out;       ///< folder; "" is out/<scenario's name>
   std::optional<std::uint64_t> seed;
   std::vector<std::string> sets;  ///< "key=value"
-  std::string detector = "lcs";
+  DetectorOptions detector;
   std::vector<std::string> beside;  ///< "detector=folder": others that watch the same frames
   std::string recorded;  ///< folder of an earlier run to take the frames from; "": simulate
   bool no_video = false;

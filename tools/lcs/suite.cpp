@@ -45,6 +45,10 @@ constexpr const char* kHelp = R"(Examples:
                                                   the filter anew on the frames of an earlier suite
   lcs suite --beside klt --beside lcs:lab         F1 beside what it is measured against, and by the
                                                   filter with the paper's preset
+  lcs suite --detector mine --detector-command 'python3 mine.py' --beside lcs --beside klt
+                                                  a detector of yours beside the filter
+  lcs suite --recorded out/suite --detections csv --out out/mine
+                                                  what it has written of an earlier suite's frames
   lcs suite --group sweep --filter distance       a sweep: one run a point and seed
   lcs suite my_scenarios other.yaml               other scenarios; of files any group
   lcs suite --group all --list                    what there is
@@ -149,8 +153,8 @@ void print_changes(const suite::SuiteResult& baseline, const suite::SuiteResult&
 }
 
 /// Detectors to run beside the suite's own, each once.
-void require_others(const SuiteOptions& options) {
-  std::set<std::string> names{options.detector};
+void require_others(const SuiteOptions& options, const std::string& own) {
+  std::set<std::string> names{own};
   for (const std::string& name : options.beside) {
     comparators::wanted(name);
     if (!names.insert(name).second) {
@@ -160,8 +164,37 @@ void require_others(const SuiteOptions& options) {
 }
 
 /// Of a detector's results, in the suite's folder.
-fs::path part_of(const std::string& detector, const SuiteOptions& options) {
-  return detector == options.detector ? fs::path() : fs::path("beside") / detector;
+fs::path part_of(const std::string& detector, const std::string& own) {
+  return detector == own ? fs::path() : fs::path("beside") / detector;
+}
+
+/// Options of `lcs run` that make the suite's own detector, its name apart.
+std::vector<std::string> detector_arguments(const DetectorOptions& detector) {
+  if (detector.command.empty()) return {};
+  return {"--detector-command", detector.command, "--detector-timeout",
+          fmt::format("{} s", detector.timeout_s)};
+}
+
+/// All that are missing are told at once.
+void require_detections(const fs::path& folder, const std::vector<suite::PlannedScenario>& plan) {
+  if (!fs::is_directory(folder)) {
+    throw std::invalid_argument(
+        fmt::format("--detections {} is no folder; name one that holds {} for each run",
+                    folder.string(), suite::detections_of("SCENARIO", 1).string()));
+  }
+  std::vector<std::string> missing;
+  for (const suite::PlannedScenario& planned : plan) {
+    if (!planned.scenario) continue;
+    for (const std::uint64_t seed : planned.seeds) {
+      const fs::path file = suite::detections_of(planned.name, seed);
+      if (!fs::is_regular_file(folder / file)) missing.push_back(file.string());
+    }
+  }
+  if (missing.empty()) return;
+  throw std::runtime_error(fmt::format(
+      "{} lacks {} of the files of detections: {}; write them, an empty one where nothing was "
+      "found, or choose other runs by --filter and --seeds",
+      folder.string(), missing.size(), fmt::join(missing, ", ")));
 }
 
 ExitCode exit_code(suite::Outcome outcome) {
@@ -203,11 +236,19 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
                      "Runs of each scenario; 3 if not given, of worlds 1", 1, kMostSeeds)
       ->type_name("N");
   add_detector_option(command, options.detector, kPresetDetector);
+  CLI::Option* recorded =
+      command
+          .add_option("--recorded", options.recorded,
+                      "Take corners, motion and truth from an earlier suite instead of simulating, "
+                      "which takes seconds")
+          ->type_name("DIR");
   command
-      .add_option("--recorded", options.recorded,
-                  "Take corners, motion and truth from an earlier suite instead of simulating, "
-                  "which takes seconds")
-      ->type_name("DIR");
+      .add_option("--detections", options.detector.detections,
+                  "With --recorded: what a detector of yours has said, a folder of CSV files "
+                  "(tools/bench/DETECTIONS.md), SCENARIO/seed-N.csv for each run")
+      ->type_name("DIR")
+      ->needs(recorded)
+      ->excludes(command.get_option("--detector-command"));
   command
       .add_option(
           "--beside", options.beside,
@@ -232,11 +273,12 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
 
 ExitCode suite(const SuiteOptions& options) {
   // What cannot be is told before anything runs.
-  const comparators::Wanted wanted = comparators::wanted(options.detector);
-  require_others(options);
+  const comparators::Wanted wanted = tools::wanted(options.detector);
+  const std::string& own = wanted.name;
+  require_others(options, own);
   std::string recorded;
   if (!options.recorded.empty()) {
-    comparators::require_corners_suffice(wanted.detector);
+    comparators::require_corners_suffice(wanted);
     recorded = fmt::format("{}, {}", options.recorded, suite::read_suite(options.recorded).version);
   }
   const bool of_worlds = !options.worlds.split.empty();
@@ -249,6 +291,7 @@ ExitCode suite(const SuiteOptions& options) {
                    .sets = options.sets,
                    .seeds = options.seeds.value_or(of_worlds ? 1 : 3)});
   if (options.list) return list_plan(plan);
+  if (!options.detector.detections.empty()) require_detections(options.detector.detections, plan);
   warn(seldom_meant(plan, wanted));
   std::optional<suite::SuiteResult> baseline;
   if (!options.baseline.empty()) baseline = suite::read_suite(options.baseline);
@@ -256,19 +299,23 @@ ExitCode suite(const SuiteOptions& options) {
   bench::OutputFolder folder(options.out, suite::suite_files());
   SuiteProgress progress(options.quiet);
   const auto run = [&](const std::vector<std::string>& detectors, const fs::path& recordings) {
+    const bool with_own = detectors.front() == own;
     std::vector<suite::SuiteWatcher> watchers;
     for (const std::string& name : detectors) {
-      const bool is_own = name == options.detector;
-      watchers.push_back({name, folder.staging() / part_of(name, options), is_own});
+      const bool is_own = name == own;
+      watchers.push_back({name, folder.staging() / part_of(name, own), is_own});
       fs::create_directories(watchers.back().folder);
     }
     std::vector<suite::SuiteResult> results = suite::run_suite(
         plan, {.watchers = watchers,
+               .own_detector =
+                   with_own ? detector_arguments(options.detector) : std::vector<std::string>{},
+               .detections = with_own ? options.detector.detections : "",
                .sets = options.sets,
                .recorded = recordings,
                .version = version_line(),
                .jobs = jobs_at_once(options),
-               .former = former_suite(folder.target() / part_of(detectors.front(), options)),
+               .former = former_suite(folder.target() / part_of(detectors.front(), own)),
                .on_run =
                    [&](const suite::SuiteProgress& done, const std::string& scenario,
                        std::span<const suite::RunResult* const> runs) {
@@ -286,21 +333,21 @@ ExitCode suite(const SuiteOptions& options) {
     return results;
   };
   // What looks at pictures cannot watch a recording.
-  std::vector<std::string> with_own{options.detector}, apart;
+  std::vector<std::string> beside_own{own}, apart;
   for (const std::string& name : options.beside) {
     const bool looks = comparators::wanted(name).detector.sees_pictures;
-    (looks && !options.recorded.empty() ? apart : with_own).push_back(name);
+    (looks && !options.recorded.empty() ? apart : beside_own).push_back(name);
   }
-  std::vector<suite::SuiteResult> others = run(with_own, options.recorded);
+  std::vector<suite::SuiteResult> others = run(beside_own, options.recorded);
   suite::SuiteResult result = std::move(others.front());
   others.erase(others.begin());
   if (!apart.empty()) std::ranges::move(run(apart, ""), std::back_inserter(others));
   for (const suite::SuiteResult& other : others) {
-    suite::write_suite(folder.staging() / part_of(other.detector, options) / suite::kSuiteFile,
-                       other);
+    suite::write_suite(folder.staging() / part_of(other.detector, own) / suite::kSuiteFile, other);
   }
   progress.wipe();
   result.recorded = recorded;
+  result.command = options.detector.command;
   suite::write_suite(folder.staging() / suite::kSuiteFile, result);
   suite::write_junit(folder.staging() / suite::kJunitFile, result);
   report::write_report(folder.staging() / report::kReportFile, result,

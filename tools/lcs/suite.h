@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/lcs/detector_option.h"
 #include "tools/lcs/exit_codes.h"
 #include "tools/lcs/suite_worlds.h"
 
@@ -19,7 +20,7 @@ struct SuiteOptions {
   int jobs = 0;                      ///< runs at a time; 0: as many as there are processors
   std::optional<int> seeds;          ///< none: 3, of worlds 1
   WorldsOptions worlds;              ///< to run in place of scenario files
-  std::string detector = "lcs";
+  DetectorOptions detector;
   std::vector<std::string> sets;    ///< "key=value"
   std::vector<std::string> beside;  ///< other detectors to run too
   std::string recorded;             ///< folder of an earlier suite, for its frames; "": simulate

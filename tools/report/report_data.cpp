@@ -136,6 +136,7 @@ std::string command_of(const SuiteResult& suite, const ScenarioResult& scenario,
     command += " --set " + quoted(fmt::format("{}={}", key, value));
   }
   if (suite.detector != "lcs") command += " --detector " + quoted(suite.detector);
+  if (!suite.command.empty()) command += " --detector-command " + quoted(suite.command);
   return command;
 }
 

@@ -148,6 +148,7 @@ SuiteResult suite_of(const Node& node) {
   }
   SuiteResult suite;
   suite.detector = node["detector"].text();
+  if (node.has("command")) suite.command = node["command"].text();
   suite.sets = node["sets"].texts();
   suite.version = node["version"].text();
   if (node.has("recorded")) suite.recorded = node["recorded"].text();
@@ -165,9 +166,12 @@ SuiteResult suite_of(const Node& node) {
 void write_suite(const std::filesystem::path& file, const SuiteResult& suite) {
   Json scenarios = Json::array();
   for (const ScenarioResult& scenario : suite.scenarios) scenarios.push_back(to_json(scenario));
-  const Json json{{"format", kFormat},          {"detector", suite.detector},
-                  {"sets", suite.sets},         {"version", suite.version},
-                  {"recorded", suite.recorded}, {"scenarios", scenarios}};
+  Json json{{"format", kFormat}, {"detector", suite.detector}};
+  if (!suite.command.empty()) json["command"] = suite.command;
+  json["sets"] = suite.sets;
+  json["version"] = suite.version;
+  json["recorded"] = suite.recorded;
+  json["scenarios"] = scenarios;
   bench::OutputFile output(file);
   // What a child wrote to stderr need not be UTF-8; JSON is.
   output.write(json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');

@@ -63,6 +63,7 @@ struct ScenarioResult {
 
 struct SuiteResult {
   std::string detector;           ///< as asked for: lcs, lcs:lab, klt and so on
+  std::string command = {};       ///< of a detector that is a program
   std::vector<std::string> sets;  ///< "key=value", as given
   std::string version;            ///< of the program
   /// The earlier suite whose frames were watched, and the program that simulated them; empty where

@@ -51,6 +51,12 @@ std::vector<std::string> command_of(const PlannedScenario& planned, std::uint64_
     command.insert(command.end(),
                    {"--recorded", (options.recorded / folder_of(planned, seed)).string()});
   }
+  command.insert(command.end(), options.own_detector.begin(), options.own_detector.end());
+  if (!options.detections.empty()) {
+    command.insert(
+        command.end(),
+        {"--detections", (options.detections / detections_of(planned.name, seed)).string()});
+  }
   for (const std::string& set : planned.sets) command.insert(command.end(), {"--set", set});
   return command;
 }
@@ -150,6 +156,10 @@ bench::ResultFiles suite_files() {
     }
   }
   return files;
+}
+
+fs::path detections_of(const std::string& scenario, std::uint64_t seed) {
+  return fs::path(scenario) / fmt::format("seed-{}.csv", seed);
 }
 
 std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,

@@ -37,6 +37,9 @@ struct SuiteRunOptions {
   /// At least one: all watch the same frames, which are made once. The first keeps pictures and
   /// events.
   std::vector<SuiteWatcher> watchers;
+  std::vector<std::string> own_detector;  ///< options of `lcs run` for the first, its name apart
+  /// Folder with what the first one says of each run, as `detections_of` has it; "": it is asked.
+  std::filesystem::path detections = {};
   std::vector<std::string> sets;
   std::filesystem::path recorded;  ///< folder of an earlier suite, for its frames; "": simulate
   std::string version;
@@ -49,6 +52,9 @@ struct SuiteRunOptions {
   /// Called some times a second. What it throws ends the suite and its children.
   std::function<void(const SuiteProgress&)> on_tick;
 };
+
+/// NAME/seed-N.csv
+std::filesystem::path detections_of(const std::string& scenario, std::uint64_t seed);
 
 /// \return a result for each watcher.
 std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,

@@ -1,0 +1,326 @@
+#include "tools/comparators/detector_process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "scenarios/message.h"
+
+namespace lcs::comparators {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kTick = 50ms;        // between two calls of on_wait
+constexpr auto kPatience = 2s;      // with what was asked to end
+constexpr auto kLastWords = 500ms;  // to write what a process that ends has to say
+constexpr std::size_t kMostAnswer = 64U << 20U;
+constexpr std::size_t kMostStderr = 1U << 16U;
+constexpr std::size_t kMostLines = 8;  // of stderr that are told
+
+constexpr int kCannotStart = 127;  // as a shell has it
+
+[[noreturn]] void fail(const char* what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+/// In the child, up to and with exec; does nothing that a forked process may not.
+[[noreturn]] void become(const char* command, int in, int out, int err, pid_t parent) {
+  ::setpgid(0, 0);
+  // However the parent ends, the program does not stay behind.
+  if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || ::getppid() != parent) ::_exit(kCannotStart);
+  const bool is_plugged = ::dup2(in, STDIN_FILENO) >= 0 && ::dup2(out, STDOUT_FILENO) >= 0 &&
+                          ::dup2(err, STDERR_FILENO) >= 0;
+  if (is_plugged) ::execl("/bin/sh", "sh", "-c", command, static_cast<char*>(nullptr));
+  ::_exit(kCannotStart);
+}
+
+/// For a shell, which a single program takes the place of: what ends the shell then ends it.
+std::string for_shell(const std::string& command) {
+  const bool is_list = command.find_first_of(";&|(){}<>\n!") != std::string::npos;
+  const std::string first = command.substr(0, command.find(' '));
+  return is_list || first.find('=') != std::string::npos ? command : "exec " + command;
+}
+
+/// What is written to a process that is gone is an error like any other, and no signal to this one,
+/// in which that means that its own output is gone.
+class WithoutPipeSignal {
+ public:
+  WithoutPipeSignal() {
+    sigemptyset(&pipe_);
+    sigaddset(&pipe_, SIGPIPE);
+    sigset_t pending;
+    sigpending(&pending);
+    was_pending_ = sigismember(&pending, SIGPIPE) == 1;
+    pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+  }
+  ~WithoutPipeSignal() {
+    const int error = errno;
+    constexpr timespec kNow{};
+    if (!was_pending_) {
+      while (sigtimedwait(&pipe_, nullptr, &kNow) < 0 && errno == EINTR) {
+      }
+    }
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+    errno = error;
+  }
+  WithoutPipeSignal(const WithoutPipeSignal&) = delete;
+  WithoutPipeSignal& operator=(const WithoutPipeSignal&) = delete;
+
+ private:
+  sigset_t pipe_{}, before_{};
+  bool was_pending_ = false;
+};
+
+/// The beginning of what was said out of turn.
+std::string quoted(const std::string& text) {
+  constexpr std::size_t kMost = 60;
+  return fmt::format("'{}'{}", text.substr(0, std::min(text.find('\n'), kMost)),
+                     text.size() > kMost ? "..." : "");
+}
+
+}  // namespace
+
+void DetectorProcess::Pipe::take(int descriptor) {
+  close();
+  descriptor_ = descriptor;
+}
+
+void DetectorProcess::Pipe::close() {
+  if (is_open()) ::close(std::exchange(descriptor_, -1));
+}
+
+DetectorProcess::DetectorProcess(const std::string& command, double timeout_s,
+                                 std::function<void()> on_wait)
+    : timeout_s_(timeout_s), on_wait_(std::move(on_wait)) {
+  Pipe its_in, its_out, its_err;
+  const auto connect = [](Pipe& reads, Pipe& writes) {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("pipe2");
+    reads.take(ends[0]);
+    writes.take(ends[1]);
+  };
+  connect(its_in, in_);
+  connect(out_, its_out);
+  connect(err_, its_err);
+  for (const Pipe* own : {&in_, &out_, &err_}) {
+    if (::fcntl(own->get(), F_SETFL, O_NONBLOCK) != 0) fail("fcntl");
+  }
+  ::fcntl(in_.get(), F_SETPIPE_SZ, 1 << 20);  // pictures go faster; it is no matter if not
+
+  const pid_t self = ::getpid();
+  const std::string line = for_shell(command);
+  pid_ = ::fork();
+  if (pid_ == 0) become(line.c_str(), its_in.get(), its_out.get(), its_err.get(), self);
+  if (pid_ < 0) fail("fork");
+  ::setpgid(pid_, pid_);  // by whoever of the two comes first
+}
+
+DetectorProcess::~DetectorProcess() {
+  in_.close();
+  if (status_) return;
+  if (!has_ended()) end_group(SIGTERM);
+  const Clock::time_point deadline = Clock::now() + kPatience;
+  while (!has_ended() && Clock::now() < deadline) {
+    // what it says meanwhile must not keep it
+    std::array<char, 4096> rest{};
+    for (const Pipe* pipe : {&out_, &err_}) {
+      while (pipe->is_open() && ::read(pipe->get(), rest.data(), rest.size()) > 0) {
+      }
+    }
+    std::this_thread::sleep_for(5ms);
+  }
+  reap();
+}
+
+std::string DetectorProcess::ask(std::string_view line, std::span<const unsigned char> bytes) {
+  const Clock::time_point deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                        std::chrono::duration<double>(timeout_s_));
+  read_what_is_there();
+  if (!answers_.empty()) {
+    throw DetectorError(fmt::format(
+        "it wrote {} before this was asked; write one line for each frame, and nothing else",
+        quoted(answers_)));
+  }
+  std::string_view picture(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  while (true) {
+    if (in_.is_open()) write_some(line, picture);
+    const std::size_t unread = line.size() + picture.size();
+    const bool ended = has_ended();  // and all that it wrote is there
+    read_what_is_there();
+    if (const std::size_t end = answers_.find('\n'); end != std::string::npos) {
+      if (unread > 0 && in_.is_open()) {
+        throw DetectorError(
+            fmt::format("it answered before it had read the last {} bytes of the frame; read the "
+                        "line and all bytes of the picture behind it",
+                        unread));
+      }
+      std::string answer = answers_.substr(0, end);
+      answers_.erase(0, end + 1);
+      return answer;
+    }
+    if (answers_.size() > kMostAnswer) {
+      throw DetectorError(
+          fmt::format("it wrote {} MiB without the end of a line", kMostAnswer >> 20U));
+    }
+    if (ended || !out_.is_open() || !in_.is_open()) fail_ended();
+    if (Clock::now() >= deadline) {
+      throw DetectorError(with_stderr(fmt::format(
+          "no answer within {} s; end each answer with a line end and flush it, or give more time "
+          "by --detector-timeout",
+          timeout_s_)));
+    }
+    wait(unread > 0, deadline);
+  }
+}
+
+void DetectorProcess::finish() {
+  in_.close();
+  const Clock::time_point deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                        std::chrono::duration<double>(timeout_s_));
+  wait_for_end(deadline);
+  if (!answers_.empty()) {
+    throw DetectorError(fmt::format(
+        "it wrote {} after its last answer; write one line for each frame, and nothing else",
+        quoted(answers_)));
+  }
+  if (!has_ended()) {
+    throw DetectorError(with_stderr(fmt::format(
+        "it has not ended within {} s after its input did; end where nothing more is to be read",
+        timeout_s_)));
+  }
+  reap();
+  if (*status_ != 0) fail_ended();
+}
+
+std::vector<std::string> DetectorProcess::said() const {
+  std::vector<std::string> lines;
+  std::size_t begin = 0;
+  while (begin < stderr_.size()) {
+    const std::size_t end = std::min(stderr_.find('\n', begin), stderr_.size());
+    if (end > begin) lines.push_back(stderr_.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  if (lines.size() > kMostLines) {
+    lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(kMostLines));
+  }
+  return lines;
+}
+
+/// Until something can be done, or for a tick.
+void DetectorProcess::wait(bool to_write, Clock::time_point deadline) const {
+  const auto descriptor = [](const Pipe& pipe) { return pipe.get(); };  // below 0: not looked at
+  std::array<pollfd, 3> pipes{{{descriptor(out_), POLLIN, 0},
+                               {descriptor(err_), POLLIN, 0},
+                               {to_write ? descriptor(in_) : -1, POLLOUT, 0}}};
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+  const auto most = std::clamp<std::chrono::milliseconds>(left, 0ms, kTick);
+  ::poll(pipes.data(), pipes.size(), static_cast<int>(most.count()));  // a signal ends it, too
+  if (on_wait_) on_wait_();
+}
+
+void DetectorProcess::read_what_is_there() {
+  std::array<char, 65536> some{};
+  const auto drain = [&](Pipe& pipe, std::string& text, std::size_t most) {
+    // not for ever where it writes for ever
+    for (int i = 0; i < 64 && pipe.is_open() && text.size() <= most; ++i) {
+      const ssize_t got = ::read(pipe.get(), some.data(), some.size());
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0 && errno == EAGAIN) return;
+      if (got <= 0) {
+        pipe.close();
+      } else {
+        text.append(some.data(), static_cast<std::size_t>(got));
+      }
+      if (&text == &stderr_ && text.size() > kMostStderr) text.erase(0, text.size() - kMostStderr);
+    }
+  };
+  drain(out_, answers_, kMostAnswer);
+  drain(err_, stderr_, kMostStderr);
+}
+
+void DetectorProcess::write_some(std::string_view& first, std::string_view& second) {
+  const WithoutPipeSignal guard;
+  for (std::string_view* part : {&first, &second}) {
+    while (!part->empty()) {
+      const ssize_t written = ::write(in_.get(), part->data(), part->size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0 && errno == EAGAIN) return;
+      if (written < 0) {
+        in_.close();  // nobody reads it
+        return;
+      }
+      part->remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+}
+
+void DetectorProcess::fail_ended() {
+  wait_for_end(Clock::now() + kLastWords);
+  if (!has_ended()) {
+    throw DetectorError(with_stderr(
+        fmt::format("it has closed its {}, and still runs", in_.is_open() ? "output" : "input")));
+  }
+  reap();
+  constexpr int kOfSignal = 128;  // to which a shell adds the signal that ended its command
+  const int code = WIFSIGNALED(*status_) ? kOfSignal + WTERMSIG(*status_) : WEXITSTATUS(*status_);
+  const bool is_signal = code > kOfSignal && code < kOfSignal + NSIG;
+  throw DetectorError(with_stderr(is_signal
+                                      ? fmt::format("it was ended by signal {} ({})",
+                                                    code - kOfSignal, ::strsignal(code - kOfSignal))
+                                      : fmt::format("it ended with exit code {}", code)));
+}
+
+/// And for what it has to say until then.
+void DetectorProcess::wait_for_end(Clock::time_point deadline) {
+  bool ended = has_ended();
+  while (!ended && Clock::now() < deadline) {
+    read_what_is_there();
+    wait(false, std::min(deadline, Clock::now() + 5ms));
+    ended = has_ended();
+  }
+  read_what_is_there();
+}
+
+/// Without taking its id from it, by which its group is ended.
+bool DetectorProcess::has_ended() const {
+  if (status_) return true;
+  siginfo_t info{};
+  return ::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid == pid_;
+}
+
+void DetectorProcess::end_group(int signal) const {
+  ::kill(-pid_, signal);
+}
+
+void DetectorProcess::reap() {
+  if (status_) return;
+  end_group(SIGKILL);  // those that it started as well
+  int status = 0;
+  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  }
+  status_ = status;
+}
+
+std::string DetectorProcess::with_stderr(const std::string& what) const {
+  const std::vector<std::string> lines = said();
+  if (lines.empty()) return what + "; it wrote nothing to stderr";
+  std::string text = what + "; it wrote to stderr: ";
+  for (const std::string& line : lines) text += (&line == &lines.front() ? "" : " | ") + line;
+  return text;
+}
+
+}  // namespace lcs::comparators

@@ -1,0 +1,156 @@
+#include "tools/comparators/program.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "scenarios/message.h"
+#include "tools/bench/recording_io.h"
+
+namespace lcs::comparators {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::string_view kIndex = "index", kCircle = "circle";
+
+Json parsed(const std::string& line) {
+  const std::string shown = scenario::one_line(std::string_view(line).substr(0, 200));
+  Json json;
+  try {
+    json = Json::parse(line);
+  } catch (const Json::parse_error& error) {
+    throw DetectorError(fmt::format("its answer is not JSON at byte {}: '{}'", error.byte, shown));
+  } catch (const Json::exception&) {
+    throw DetectorError("its answer has a number that is too large");
+  }
+  if (!json.is_object()) throw DetectorError(fmt::format("its answer is no object: '{}'", shown));
+  return json;
+}
+
+/// As text of JSON, which is what a row of CSV has for numbers.
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// Adds who and where it was to what goes wrong in `work`.
+template <class Work>
+decltype(auto) at(const std::string& name, const std::string& place, Work&& work) {
+  const auto told = [&](const std::exception& error) {
+    return DetectorError(fmt::format("detector {}, {}: {}", name, place, error.what()));
+  };
+  try {
+    return work();
+  } catch (const DetectorError& error) {
+    throw told(error);
+  } catch (const std::invalid_argument& error) {  // of FrameDetections
+    throw told(error);
+  }
+}
+
+/// All rows of one type: each a list of values, or a value alone.
+void add_rows(const std::string& type, const Json& rows, bench::FrameDetections& detections) {
+  if (!rows.is_array()) {
+    throw DetectorError(fmt::format("its \"{}\" is no list; give one of rows", type));
+  }
+  if (rows.empty() && type == kCircle) detections.add(type, {});
+  for (const Json& row : rows) {
+    std::vector<std::string> texts;
+    if (row.is_array()) {
+      for (const Json& value : row) texts.push_back(text_of(value));
+    } else {
+      texts.push_back(text_of(row));
+    }
+    const std::vector<std::string_view> values(texts.begin(), texts.end());
+    detections.add(type, values);
+  }
+}
+
+}  // namespace
+
+ProgramTracker::ProgramTracker(std::string name, const Program& program, const Announced& announced,
+                               std::function<void()> on_wait)
+    : name_(std::move(name)), process_(program.command, program.timeout_s, std::move(on_wait)) {
+  at(name_, "its greeting", [&] { greet(announced); });
+}
+
+void ProgramTracker::greet(const Announced& announced) {
+  const std::size_t bytes = static_cast<std::size_t>(announced.camera.width_px) *
+                            static_cast<std::size_t>(announced.camera.height_px) * 3;
+  const std::string header = fmt::format(
+      R"({{"protocol":{},"scenario":{},"seed":{},"frames":{},"rate_hz":{},"camera":{},)"
+      R"("picture":{{"pixels":"bgr8","bytes":{},"compressed":{}}}}})",
+      kProtocol, text_of(announced.scenario), announced.seed,
+      announced.frames > 0 ? std::to_string(announced.frames) : "null", announced.rate_hz,
+      bench::camera_json(announced.camera), bytes, announced.compressed);
+  const Json greeting = parsed(process_.ask(header + '\n'));
+  const auto protocol = greeting.find("protocol");
+  if (protocol == greeting.end() || *protocol != kProtocol) {
+    throw DetectorError(fmt::format("it does not say {{\"protocol\": {}}}, but '{}'", kProtocol,
+                                    scenario::one_line(text_of(greeting).substr(0, 200))));
+  }
+  const auto circles = greeting.find("circles");
+  if (circles == greeting.end()) return;
+  if (!circles->is_boolean()) throw DetectorError("its \"circles\" is not true or false");
+  gives_circles_ = circles->get<bool>();
+}
+
+void ProgramTracker::read_answer(const std::string& line, bench::FrameRecord& frame) {
+  const Json answer = parsed(line);
+  const auto index = answer.find(kIndex);
+  if (index == answer.end()) {
+    throw DetectorError("its answer has no \"index\"; give that of the frame that it answers");
+  }
+  if (*index != frame.index) {
+    throw DetectorError(
+        fmt::format("its answer has the index {}; give one answer to each frame, "
+                    "in their order",
+                    text_of(*index)));
+  }
+  bench::FrameDetections detections(frame);
+  for (const auto& [type, rows] : answer.items()) {
+    if (type != kIndex) add_rows(type, rows, detections);
+  }
+  if (detections.gives_circles() && !gives_circles_) {
+    throw DetectorError("it gives circles, and has not said \"circles\": true in its greeting");
+  }
+  counts_ += detections.finish();
+}
+
+const FrameResult& ProgramTracker::step(const bench::TrackerInput& input) {
+  if (input.image.empty()) {
+    throw DetectorError(
+        fmt::format("detector {}: there is no picture of frame {}", name_, input.index));
+  }
+  bench::FrameRecord frame;
+  frame.index = input.index;
+  frame.t_ns = input.t_ns;
+  frame.corners_px.assign(input.corners_px.begin(), input.corners_px.end());
+  const std::optional<EgoMotion> motion = intake_.take(input.motion, diagnostics_);
+  const std::string line = bench::given_line(frame, motion ? &*motion : nullptr) + '\n';
+  const cv::Mat3b picture = input.image.isContinuous() ? input.image : input.image.clone();
+  at(name_, fmt::format("frame {}", frame.index), [&] {
+    read_answer(process_.ask(line, {picture.data, picture.total() * picture.elemSize()}), frame);
+  });
+  result_.verdicts = std::move(frame.verdicts);
+  result_.layers = std::move(frame.layers);
+  return result_;
+}
+
+void ProgramTracker::finish() {
+  at(name_, "after the last frame", [&] { process_.finish(); });
+}
+
+std::vector<std::string> ProgramTracker::told() const {
+  std::vector<std::string> lines = bench::lines_of(counts_);
+  for (const std::string& line : process_.said()) {
+    lines.push_back(fmt::format("{}: {}", name_, line));
+  }
+  return lines;
+}
+
+}  // namespace lcs::comparators

@@ -1,0 +1,37 @@
+/// \file
+/// What a detector said in a CSV file (tools/bench/DETECTIONS.md), frame by frame.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/bench/detections.h"
+#include "tools/bench/tracker.h"
+
+namespace lcs::comparators {
+
+class StoredDetections : public bench::Tracker {
+ public:
+  /// \param sequence whose frames it will be asked of, in order.
+  /// \throws scenario::Error by file and line.
+  StoredDetections(const std::filesystem::path& csv, const bench::Recording& sequence)
+      : said_(bench::read_detections(csv, sequence)) {}
+
+  const FrameResult& step(const bench::TrackerInput&) override {
+    bench::FrameRecord& frame = said_.recording.frames.at(next_++);
+    result_.verdicts = std::move(frame.verdicts);
+    result_.layers = std::move(frame.layers);
+    return result_;
+  }
+  double bench::FrameTimes::*step_time() const override { return nullptr; }
+  bool gives_circles() const override { return said_.recording.detector.circles; }
+  std::vector<std::string> told() const override { return bench::lines_of(said_.counts); }
+
+ private:
+  bench::Detections said_;
+  std::size_t next_ = 0;
+  FrameResult result_;
+};
+
+}  // namespace lcs::comparators
