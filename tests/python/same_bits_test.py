@@ -68,7 +68,7 @@ class SameBits(unittest.TestCase):
         self.assertEqual(frame.corners[:, 0].tolist(), line["corners"]["x"], what)
         self.assertEqual(frame.corners[:, 1].tolist(), line["corners"]["y"], what)
         self.assertEqual(frame.signatures.tobytes().hex(), line["signatures"], what)
-        self.assert_motion(frame.motion, line["motion"], what)
+        self.assert_motion(frame.motion, line["told_motion"], what)
         verdicts = [lcs.Verdict(verdict).name.lower() for verdict in result.verdicts]
         self.assertEqual(verdicts, line["corners"]["verdict"], what)
         reasons = [lcs.Reason(reason).name.lower() for reason in result.reasons]
@@ -84,7 +84,7 @@ class SameBits(unittest.TestCase):
 
     def assert_truth(self, frame, line):
         what = f"truth of frame {frame.index}"
-        self.assert_motion(frame.truth.motion, line["motion"], what)
+        self.assert_motion(frame.truth.motion, line["true_motion"], what)
         self.assert_columns(frame.truth.corners, line["corners"], what)
         self.assert_columns(frame.truth.objects, line["objects"], what)
 
