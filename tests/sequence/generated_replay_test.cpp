@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 
 #include "tests/tools/command.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/bench/recording_io.h"
+#include "tools/bench/report.h"
 #include "tools/sequence/replay_settings.h"
 #include "tools/sequence/text_file.h"
 
@@ -73,14 +75,47 @@ TEST_P(GeneratedReplayOf, HasEveryBitOfTheRun) {
       << "motion, corners, signatures, verdicts and layers, as text";
 }
 
-TEST_F(GeneratedReplay, OfAComparatorHasTheVerdictsOfItsRun) {
-  make("run", "crossing.yaml", {"frames=5"},
+/// Figures but for times and for what the world tells.
+std::map<std::string, std::optional<double>> figures_of(const fs::path& run) {
+  std::map<std::string, std::optional<double>> figures;
+  for (const auto& [name, figure] : bench::read_metrics(run / "metrics.json")) {
+    const bool is_own =
+        name.starts_with("time.") || name.starts_with("sim.") || name.starts_with("warnings.");
+    if (!is_own) figures[name] = figure;
+  }
+  return figures;
+}
+
+TEST_F(GeneratedReplay, OfAComparatorHasTheVerdictsAndTheFiguresOfItsRun) {
+  const std::vector<std::string> sets{"frames=8"};
+  make("run", "crossing.yaml", sets,
        {"--no-video", "--detector", "klt", "--out", home_.path() / "run"});
-  make("generate", "crossing.yaml", {"frames=5"},
-       {"--formats", "euroc", "--out", home_.path() / "sequence"});
+  make("generate", "crossing.yaml", sets,
+       {"--formats", "euroc,landmarks", "--out", home_.path() / "sequence"});
   const CommandResult result = replay({"--detector", "klt"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(layers("replay") == layers("run"));
+  const auto figures = figures_of(home_.path() / "run");
+  EXPECT_GT(figures.at("truth.rebel_corners"), 0);
+  EXPECT_TRUE(figures.at("rebel.f1") && figures.at("square.recall_50"));
+  EXPECT_TRUE(figures.at("ego.rotation_error_mrad_median"));
+  EXPECT_EQ(figures_of(home_.path() / "replay"), figures);
+
+  // Corners that nobody has the truth of count for nothing, and are told.
+  const CommandResult fainter = replay({"--fast-threshold", "15"});
+  ASSERT_EQ(fainter.exit_code, 0) << fainter.err;
+  EXPECT_NE(fainter.err.find(" corners are none of those whose truth truth.jsonl has, and count"),
+            std::string::npos)
+      << fainter.err;
+  EXPECT_NEAR(figures_of(home_.path() / "replay").at("truth.fixed_corners").value_or(0),
+              figures.at("truth.fixed_corners").value(), 0.1 * *figures.at("truth.fixed_corners"));
+  // Of every other picture motions are others.
+  ASSERT_EQ(replay({"--every", "2"}).exit_code, 0);
+  EXPECT_FALSE(figures_of(home_.path() / "replay").at("truth.rebel_corners"));
+  std::ofstream(home_.path() / "sequence" / kTruthFile) << "{\"objects\":3}\n";
+  const CommandResult broken = replay();
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_NE(broken.err.find("truth.jsonl:1: objects"), std::string::npos) << broken.err;
 }
 
 TEST_F(GeneratedReplay, ByEurocsOwnFilesAloneIsTheSameToTheNoise) {

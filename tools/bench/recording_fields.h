@@ -62,6 +62,12 @@ struct CornerRow {
   Reason reason = Reason::unknown;
 };
 
+/// Of a corner.
+struct Place {
+  double x = 0;
+  double y = 0;
+};
+
 /// A row of alpha, with as many sightings as it has.
 struct ChainRow {
   std::vector<Vec2> sightings;
@@ -79,6 +85,13 @@ void fields(CornerRow& corner, Visit&& visit) {
   visit("y", y);
   visit("verdict", verdict);
   visit("reason", reason);
+}
+
+template <class Visit>
+void fields(Place& place, Visit&& visit) {
+  auto& [x, y] = place;
+  visit("x", x);
+  visit("y", y);
 }
 
 template <class Visit>

@@ -37,6 +37,15 @@ std::string truth_line(const FrameRecord& frame);
 /// \param motion what it can use of `frame.motion`; null: nothing.
 std::string given_line(const FrameRecord& frame, const EgoMotion* motion);
 
+/// \name The truth of frames that nobody has watched (`lcs generate`): a line of the objects, then
+/// one a frame, with places and truth of its corners and the truth of its objects.
+///@{
+std::string objects_line(const std::vector<sim::Object>& objects);
+std::string seen_line(const FrameRecord& frame);
+/// \return objects and frames. \throws std::runtime_error naming file and line.
+Recording read_seen(const std::filesystem::path& file);
+///@}
+
 /// {"model": "pinhole", "focal_px": f, "centre_px": [x, y], "width_px": w, "height_px": h}
 std::string camera_json(const Intrinsics& camera);
 

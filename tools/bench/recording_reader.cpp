@@ -311,6 +311,31 @@ Recording read_recording(const std::filesystem::path& folder) {
   return recording;
 }
 
+Recording read_seen(const std::filesystem::path& file) {
+  Recording recording;
+  LineReader lines(file);
+  if (!lines.next([&](const Json& json) {
+        recording.objects = read_columns<sim::Object>(json, "objects");
+      })) {
+    lines.fail("is empty");
+  }
+  while (lines.next([&](const Json& json) {
+    FrameRecord& frame = recording.frames.emplace_back();
+    read_member(json, "index", frame.index);
+    read_member(json, "t_ns", frame.t_ns);
+    for (const Place& place : read_columns<Place>(json, "corners")) {
+      frame.corners_px.push_back(Vec2(place.x, place.y).cast<float>());
+    }
+    frame.corner_truth = read_columns<sim::CornerTruth>(json, "truth");
+    frame.object_truth = read_columns<sim::ObjectTruth>(json, "objects");
+    if (frame.corner_truth.size() != frame.corners_px.size()) {
+      throw std::runtime_error("truth is of another number of corners");
+    }
+  })) {
+  }
+  return recording;
+}
+
 std::vector<std::vector<sim::ObjectTruth>> read_object_truth(const std::filesystem::path& folder,
                                                              std::span<const int> frames) {
   LineReader truth(folder / kTruthFile);

@@ -140,12 +140,6 @@ void append_array(std::string& out, std::string_view list, std::string_view name
   out += ']';
 }
 
-std::vector<double> column_of(const std::vector<Eigen::Vector2f>& points, int axis) {
-  std::vector<double> column;
-  for (const Eigen::Vector2f& point : points) column.push_back(point[axis]);
-  return column;
-}
-
 /// Matrices row by row.
 void append_motion(std::string& out, std::string_view name, const EgoMotion& motion) {
   const Eigen::Matrix3d by_rows = motion.R_cur_prev.transpose();
@@ -166,6 +160,12 @@ void append_motion(std::string& out, std::string_view name, const EgoMotion& mot
     append_named(out, name, "height_m", motion.ground->height_m);
   }
   out += '}';
+}
+
+std::vector<Place> places_of(const FrameRecord& frame) {
+  std::vector<Place> places;
+  for (const Eigen::Vector2f& corner : frame.corners_px) places.push_back({corner.x(), corner.y()});
+  return places;
 }
 
 std::vector<CornerRow> corner_rows(const FrameRecord& frame) {
@@ -288,11 +288,23 @@ std::string given_line(const FrameRecord& frame, const EgoMotion* motion) {
     } else {
       out += ",\"told_motion\":null";
     }
-    append_key(out, "corners");
-    out += '{';
-    append_array(out, "corners", "x", column_of(frame.corners_px, 0));
-    append_array(out, "corners", "y", column_of(frame.corners_px, 1));
-    out += '}';
+    append_columns(out, "corners", places_of(frame));
+  });
+}
+
+std::string objects_line(const std::vector<sim::Object>& objects) {
+  std::string out = "{";
+  append_columns(out, "objects", objects);
+  return out + '}';
+}
+
+std::string seen_line(const FrameRecord& frame) {
+  return line(frame, [&](std::string& out) {
+    append_key(out, "t_ns");
+    append(out, frame.t_ns);
+    append_columns(out, "corners", places_of(frame));
+    append_columns(out, "truth", frame.corner_truth);
+    append_columns(out, "objects", frame.object_truth);
   });
 }
 

@@ -39,7 +39,8 @@ This makes a scenario whose frames are recorded, and runs it: each option up to 
 missing, broken, of another size, out of order or twice there is left out or put in order, counted and
 told; the time of a picture that is left out passes.
 
-Files are those of `lcs run`; without a truth, what is scored by it is null in metrics.json.
+Files are those of `lcs run`; without a truth, what is scored by it is null in metrics.json. A sequence of
+lcs generate that has truth.jsonl (--formats landmarks, or all) is scored as its run.
 )";
 
 namespace fs = std::filesystem;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "tools/bench/recording_io.h"
 #include "tools/replay/at_rest.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/sensor_csv.h"
@@ -128,8 +129,9 @@ void move_as_run(const fs::path& mav, const sequence::ReplaySettings& exact, Rec
                                         sequence::kSettingsFile));
     }
   }
-  if (recorded.settings.ego_motion == scenario::EgoMotionSource::truth) {
-    readings.poses = read_pose_csv(mav / "cam0" / "pose.csv", recorded.tally);
+  const fs::path poses = mav / "cam0" / "pose.csv";
+  if (recorded.settings.ego_motion == scenario::EgoMotionSource::truth || fs::exists(poses)) {
+    readings.poses = read_pose_csv(poses, recorded.tally);
   }
   // A run's clock begins at 0.
   const std::int64_t epoch_ns = exact.start_ns;
@@ -218,6 +220,11 @@ Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion) {
     recorded.settings = exact.scenario;
     if (exact_motion) recorded.settings.ego_motion = scenario::EgoMotionSource::truth;
     recorded.lens = lens_of(exact.calibration.camera, settings_file);
+    // The truth is of motions from each picture to the next.
+    const fs::path truth_file = asked.path / sequence::kTruthFile;
+    if (asked.every == 1 && fs::exists(truth_file)) {
+      recorded.truth = bench::read_seen(truth_file);
+    }
     if (!motion_is_asked(asked)) move_as_run(mav, exact, recorded);
     return recorded;
   }

@@ -50,7 +50,8 @@ EgoMotion SensorMotion::at(std::int64_t t_ns) {
   take(readings_.imu, imu_, observation.imu);
   take(readings_.odometry, odometry_, observation.odometry);
   while (pose_ < readings_.poses.size() && readings_.poses[pose_].t_ns < t_ns) ++pose_;
-  if (pose_ < readings_.poses.size() && readings_.poses[pose_].t_ns == t_ns) {
+  const bool has_pose = pose_ < readings_.poses.size() && readings_.poses[pose_].t_ns == t_ns;
+  if (has_pose) {
     observation.truth.now.T_WC = readings_.poses[pose_].T_WC;
   } else if (needs_poses_) {
     throw std::runtime_error(
@@ -58,7 +59,10 @@ EgoMotion SensorMotion::at(std::int64_t t_ns) {
                     "picture, or leave --ego-motion truth out",
                     t_ns));
   }
-  return feed_.next(observation).told;
+  const bench::EgoMotionFeed::Motions motions = feed_.next(observation);
+  exact_ = has_pose && had_pose_ ? std::optional(motions.exact) : std::nullopt;
+  had_pose_ = has_pose;
+  return motions.told;
 }
 
 std::optional<Eigen::Vector3d> SensorMotion::up_C() const {

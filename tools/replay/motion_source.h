@@ -24,6 +24,9 @@ class MotionSource {
   /// Where up is at the last frame, against gravity, seen from the camera; none where nobody knows.
   virtual std::optional<Eigen::Vector3d> up_C() const { return std::nullopt; }
 
+  /// The exact motion to the last frame; none where it is not known.
+  virtual std::optional<EgoMotion> exact() const { return std::nullopt; }
+
   /// What was wrong with the readings that it was told from so far.
   virtual Diagnostics diagnostics() const { return {}; }
 };
@@ -65,6 +68,7 @@ class SensorMotion : public MotionSource {
   /// \throws std::runtime_error where exact poses are asked for and there is none at this time.
   EgoMotion at(std::int64_t t_ns) override;
   std::optional<Eigen::Vector3d> up_C() const override;
+  std::optional<EgoMotion> exact() const override { return exact_; }
   Diagnostics diagnostics() const override { return feed_.estimator().diagnostics(); }
 
  private:
@@ -73,6 +77,8 @@ class SensorMotion : public MotionSource {
   SensorReadings readings_;
   std::size_t imu_ = 0, odometry_ = 0, pose_ = 0;  ///< the next to be used
   bench::EgoMotionFeed feed_;
+  bool had_pose_ = true;  ///< the last frame, or there was none
+  std::optional<EgoMotion> exact_;
 };
 
 /// Attitude and velocity as a navigation unit tells them, in its own time.

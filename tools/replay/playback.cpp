@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/picture_file.h"
+#include "tools/sequence/replay_settings.h"
 
 namespace lcs::replay {
 namespace {
@@ -24,7 +25,14 @@ Playback::Playback(const scenario::Scenario& asked)
     : scenario_(asked),
       recorded_(read_recorded(asked)),
       pictures_(recorded_),
-      truth_(asked.recording->nothing_moves ? bench::Truth::nothing_moves : bench::Truth::unknown) {
+      truth_(asked.recording->nothing_moves ? bench::Truth::nothing_moves
+             : recorded_.truth              ? bench::Truth::all
+                                            : bench::Truth::unknown) {
+  if (truth_ == bench::Truth::all) {
+    for (const bench::FrameRecord& frame : recorded_.truth->frames) {
+      truth_of_[std::to_string(frame.t_ns)] = &frame;
+    }
+  }
   take_settings();
   look_at_first_picture();
   read_mask();
@@ -100,6 +108,7 @@ bench::Recording Playback::begin() const {
   recording.seed = scenario_.seed;
   recording.world = scenario_.world;
   recording.truth = truth_;
+  if (truth_ == bench::Truth::all) recording.objects = recorded_.truth->objects;
   return recording;
 }
 
@@ -133,9 +142,35 @@ bool Playback::straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat3b& i
   return true;
 }
 
+/// Of corners by their places: with another threshold there may be others.
+void Playback::label_by_truth(const RecordedFrame& recorded, bench::FrameRecord& frame) {
+  frame.corner_truth.assign(frame.corners_px.size(), {});
+  corners_ += static_cast<int>(frame.corners_px.size());
+  untold_ += static_cast<int>(frame.corners_px.size());
+  const auto found = truth_of_.find(recorded.picture.stem().string());
+  if (found == truth_of_.end()) return;
+  const bench::FrameRecord& truth = *found->second;
+  std::map<std::pair<float, float>, std::size_t> places;
+  for (std::size_t i = 0; i < truth.corners_px.size(); ++i) {
+    places[{truth.corners_px[i].x(), truth.corners_px[i].y()}] = i;
+  }
+  for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
+    const auto place = places.find({frame.corners_px[i].x(), frame.corners_px[i].y()});
+    if (place == places.end()) continue;
+    frame.corner_truth[i] = truth.corner_truth[place->second];
+    --untold_;
+  }
+  frame.object_truth = truth.object_truth;
+  frame.true_motion = recorded_.motion->exact().value_or(EgoMotion{});
+}
+
 void Playback::label(bench::FrameRecord& frame) {
-  bench::set_corner_truth(truth_, frame);
   const RecordedFrame& recorded = recorded_.frames[next_ - 1];
+  if (truth_ == bench::Truth::all) {
+    label_by_truth(recorded, frame);
+  } else {
+    bench::set_corner_truth(truth_, frame);
+  }
   const std::string name = recorded_.video ? "" : recorded.picture.filename().string();
   const bench::Labels::Boxes* boxes = labels_.of(static_cast<int>(recorded.number), name);
   if (!boxes) return;
@@ -161,6 +196,12 @@ std::vector<std::string> Playback::told() const {
     lines.push_back(fmt::format("skipped: {} more", skipped.size() - kMostToldOneByOne));
   }
   for (const std::string& line : recorded_.tally.lines()) lines.push_back(line);
+  if (untold_ > 0) {
+    lines.push_back(fmt::format(
+        "{} of {} corners are none of those whose truth {} has, and count for nothing; leave "
+        "pictures, lens and corners.threshold as they were generated",
+        untold_, corners_, sequence::kTruthFile));
+  }
   if (!grounded_) {
     const bool has_height = scenario_.recording->camera_height_m.has_value();
     lines.push_back(fmt::format(

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,13 +44,15 @@ class Playback : public bench::FrameSource {
   void take_settings();
   void look_at_first_picture();
   void read_mask();
-  bool ground_is_known() const;
+  void label_by_truth(const RecordedFrame& recorded, bench::FrameRecord& frame);
 
   scenario::Scenario scenario_;
   Recorded recorded_;
   PictureStream pictures_;
   std::optional<Rectifier> rectifier_;
   bench::Truth truth_;     ///< of corners
+  std::map<std::string, const bench::FrameRecord*> truth_of_;  ///< by picture, where all is known
+  int corners_ = 0, untold_ = 0;  ///< that were met, and those of which no truth is known
   bench::Labels labels_;   ///< of movers, where there are some
   cv::Mat1b mask_;         ///< empty, or not 0 where nobody looks
   std::size_t next_ = 0;   ///< of the recorded frames

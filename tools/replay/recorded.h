@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "tools/bench/recording.h"
 #include "tools/replay/motion_source.h"
 
 namespace lcs::replay {
@@ -64,6 +65,9 @@ struct Recorded {
     unsaid.fast_threshold.reset();
     return unsaid;
   }();
+  /// Of corners and objects, where it is known. The time of each of its frames is the name of the
+  /// picture that it is of.
+  std::optional<bench::Recording> truth;
   std::unique_ptr<MotionSource> motion;  ///< null: the layout does not say how the camera moved
   std::vector<std::string> lacks;  ///< what nobody can know but the user, and the keys that say it
   Tally tally;

@@ -6,6 +6,8 @@
 
 #include "filter/detect/fast.h"
 #include "tools/bench/recording_fields.h"
+#include "tools/bench/recording_io.h"
+#include "tools/sequence/replay_settings.h"
 #include "tools/sequence/writers.h"
 
 namespace lcs::sequence {
@@ -27,6 +29,13 @@ class LandmarksWriter : public Writer {
     const std::vector<Eigen::Vector2f> corners = detector_.detect(grey);
     const std::vector<sim::CornerTruth> truth = sim::label_corners(
         info_.calibration.camera, o.truth, corners, info_.scenario.truth_min_depth_m);
+    bench::FrameRecord seen;
+    seen.index = o.index;
+    seen.t_ns = o.t_ns + kEpoch_ns;
+    seen.corners_px = corners;
+    seen.corner_truth = truth;
+    seen.object_truth = o.objects;
+    output.rows["truth"] = bench::seen_line(seen) + '\n';
     std::string& rows = output.rows["landmarks"];
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const sim::CornerTruth& corner = truth[i];
@@ -43,10 +52,12 @@ class LandmarksWriter : public Writer {
   }
 
   std::vector<Document> documents() const override {
-    return {{"landmarks.csv",
-             {{.text = "frame,x_px,y_px,object,depth_m,motion_x_px,motion_y_px,static_motion_x_px,"
-                       "static_motion_y_px,label,radial\n"},
-              {.stream = "landmarks"}}}};
+    return {
+        {"landmarks.csv",
+         {{.text = "frame,x_px,y_px,object,depth_m,motion_x_px,motion_y_px,static_motion_x_px,"
+                   "static_motion_y_px,label,radial\n"},
+          {.stream = "landmarks"}}},
+        {kTruthFile, {{.text = bench::objects_line(info_.objects) + '\n'}, {.stream = "truth"}}}};
   }
 
  private:

@@ -15,6 +15,8 @@
 namespace lcs::sequence {
 
 inline constexpr const char* kSettingsFile = "lcs.json";
+/// What a replay is scored by (`bench::read_seen`), times as the pictures' names have them.
+inline constexpr const char* kTruthFile = "truth.jsonl";
 
 struct ReplaySettings {
   /// Name, seed, rates, noise, odometry, detection and filter of the scenario; the rest is left as
