@@ -142,6 +142,31 @@ TEST_F(DetectionsTest, BoxesArePixelEdgesAsThoseOfTheTruth) {
   EXPECT_EQ(same.half_size, box.half_size);
 }
 
+TEST_F(DetectionsTest, MasksAreTheBoxesThatHoldThem) {
+  // Of 48 x 96 pixels: the words and boxes (left, top, width, height) are those of pycocotools.
+  const std::pair<const char*, Eigen::Vector4d> masks[] = {
+      {"Zn0n0b00000000000000000000000000000000000000000000000000000000000000000000000000"
+       "0000fe1",
+       {20, 10, 40, 30}},
+      {"dn0>Q17JO001O001O0016I01O001O001O07JO001O001O1O25JO2N1O2N1O2N16KN1O2N1O2N1O25JO2N1O^e1",
+       {20, 10, 40, 30}},
+      {"o52oY4", {3, 0, 2, 48}},
+      {"0P`4", {0, 0, 96, 48}},
+      {"03m_4", {0, 0, 1, 3}},
+      {R"(e]1110;0S40\N0nM0R10\O0\O0P30K0_N0b20jL070h10aM0^O0j00g00gN0l00\O0e20]N)"
+       "0e30QK0:0]40P10iK0b40WK0N0af0",
+       {30, 6, 50, 35}},
+      {"147,2,4459", {3, 3, 1, 2}},  // in numbers: 3 columns of 48, 3 pixels, 2 of the mask
+  };
+  for (const auto& [word, box] : masks) {
+    const Square square =
+        detections(fmt::format("3,mask,7,48,96,{}", word)).recording.frames[3].layers.squares.at(0);
+    EXPECT_EQ(square.id, 7u);
+    EXPECT_EQ(square.location - square.half_size, Vec2(box[0] - 0.5, box[1] - 0.5)) << word;
+    EXPECT_EQ(2 * square.half_size, Vec2(box[2], box[3])) << word;
+  }
+}
+
 TEST_F(DetectionsTest, CirclesCountForFalseObjects) {
   // One over the mover, one on empty ground, in three frames after the warm-up.
   std::string rows;
@@ -177,9 +202,11 @@ TEST_F(DetectionsTest, EveryBadRowIsToldWithItsLineAndWhatToWriteInstead) {
       {"3.0,rebel,1", "the frame is '3.0'; give its number"},
       {"6,rebel,1", "there is no frame 6: the sequence has 0 to 5; give one of these"},
       {"-1,rebel,1", "there is no frame -1: the sequence has 0 to 5; give one of these"},
-      {"3,", "there is no type ''; give ignored, pending, normal, rebel, box, square or circle"},
+      {"3,",
+       "there is no type ''; give ignored, pending, normal, rebel, box, mask, square or circle"},
       {"3,Rebel,1",
-       "there is no type 'Rebel'; give ignored, pending, normal, rebel, box, square or circle"},
+       "there is no type 'Rebel'; give ignored, pending, normal, rebel, box, mask, square or "
+       "circle"},
       {"3,rebel", "rebel names no corner; give it an INDEX, or X,Y"},
       {"3,normal,1,2,3", "normal names no corner; give it an INDEX, or X,Y"},
       {"3,rebel,x,20", "x is 'x'; give a number"},
@@ -198,6 +225,26 @@ TEST_F(DetectionsTest, EveryBadRowIsToldWithItsLineAndWhatToWriteInstead) {
       {"3,box,1,0,0,4,-4", "height is -4; it must be above 0"},
       {"3,box,1,,0,4,4", "left is ''; give a number"},
       {"3,box,1,0,0,4,4\n3,square,1,9,9,4,4", "frame 3 has a box 1 already; an id is one object's"},
+      {"3,mask,1,48,96", "not all of a mask is there; give ID,HEIGHT,WIDTH,COUNTS"},
+      {"3,mask,1,48,x,0P`4", "the mask's width is 'x'; give that of the picture"},
+      {"3,mask,1,24,48,0Pb0",
+       "the mask is of 48 x 24 pixels, and a corner lies at 50, 20; give one of the picture's "
+       "size"},
+      {"3,mask,1,48,96,0P`", "the mask's counts end within a number; give all of them"},
+      {"3,mask,1,48,96,0P!4",
+       "the mask's counts have '!' where none can be; give COCO's word or its numbers"},
+      {"3,mask,1,48,96,oooooooo4",
+       "the mask's counts have 'o' where none can be; give COCO's word or its numbers"},
+      {"3,mask,1,48,96,0,4608.5", "a count of the mask is '4608.5'; give whole numbers"},
+      {"3,mask,1,48,96,0,9,4598",
+       "the mask's counts do not add up to 48 x 96 pixels; give all of them, of pixels outside "
+       "first"},
+      {"3,mask,1,48,96,9,-9,4608",
+       "the mask's counts do not add up to 48 x 96 pixels; give all of them, of pixels outside "
+       "first"},
+      {"3,mask,1,48,96,P`4", "the mask has no pixel; leave out what is not seen"},
+      {"3,mask,1,48,96,0P`4\n3,box,1,0,0,4,4",
+       "frame 3 has a box 1 already; an id is one object's"},
       {"3,square,1,2,3,4", "not all of a square is there; give ID,X,Y,HALF_WIDTH,HALF_HEIGHT"},
       {"3,square,1,2,3,4,0", "half height is 0; it must be above 0"},
       {"3,circle,1,2", "not all of a circle is there; give X,Y,RADIUS, or nothing"},

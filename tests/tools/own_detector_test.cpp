@@ -15,6 +15,8 @@
 #include "tests/tools/files.h"
 #include "tests/tools/processes.h"
 #include "tests/tools/temporary_folder.h"
+#include "tools/bench/box.h"
+#include "tools/bench/recording_io.h"
 #include "tools/bench/report.h"
 #include "tools/suite/suite_result.h"
 
@@ -57,6 +59,9 @@ for line in sys.stdin.buffer:
     if mode == "writes":
         frame["picture"] = len(picture), sum(picture)
         open(sys.argv[2], "a").write(json.dumps(frame) + "\n")
+    if mode == "masks":
+        answer["mask"] = [[1, {"size": [240, 320], "counts": "mV11b7a0\\YY2"}],
+                          [2, {"size": [240, 320], "counts": [0, 240, 76560]}]]
     if mode == "dies for far" and header["scenario"] == "far": os.kill(os.getpid(), signal.SIGSEGV)
     if k == 3:
         if mode == "hangs": print("still thinking", file=sys.stderr, flush=True); time.sleep(1000)
@@ -67,6 +72,7 @@ for line in sys.stdin.buffer:
         if mode == "word": answer["rebels"] = [1]
         if mode == "nan": answer["box"] = [[1, float("nan"), 2, 3, 4]]
         if mode == "circle": answer["circle"] = []
+        if mode == "mask": answer["mask"] = [[1, {"size": [240, 320], "counts": [9, 9]}]]
         if mode == "twice": print(json.dumps(answer), flush=True)
         if mode == "skips": answer["index"] = 4
         if mode == "dies": print("no more", file=sys.stderr); raise ValueError("of frame 3")
@@ -167,6 +173,15 @@ TEST_F(OwnDetector, HasATimeOfItsOwnKindAndFiguresThatItCannotHaveAreNull) {
   EXPECT_NE(again.out.find("a process: "), std::string::npos) << again.out;
 }
 
+TEST_F(OwnDetector, MayGiveMasksAsCocosToolsHaveThem) {
+  const CommandResult command = lcs(run_arguments("masks"));
+  ASSERT_EQ(command.exit_code, 0) << command.err;
+  const auto squares = bench::read_recording(folder_.path() / "out").frames.at(2).layers.squares;
+  ASSERT_EQ(squares.size(), 2U);
+  EXPECT_EQ(bench::edges_of(squares[0]), Eigen::Vector4d(5, 45, 7, 66)) << "as pycocotools has it";
+  EXPECT_EQ(bench::edges_of(squares[1]), Eigen::Vector4d(0, 0, 1, 240));
+}
+
 TEST_F(OwnDetector, ThatDoesNotKeepToTheProtocolEndsTheRunWithOneMessageAndNoOutput) {
   const std::map<std::string, std::string> faults{
       {"silent",
@@ -181,6 +196,7 @@ TEST_F(OwnDetector, ThatDoesNotKeepToTheProtocolEndsTheRunWithOneMessageAndNoOut
       {"corner", "frame 3: there is no corner 99999: frame 3 has "},
       {"word", "frame 3: there is no type 'rebels'; give ignored, pending, normal, rebel, box"},
       {"nan", "frame 3: its answer is not JSON at byte 26"},
+      {"mask", "frame 3: the mask's counts do not add up to 240 x 320 pixels"},
       {"circle", "frame 3: it gives circles, and has not said \"circles\": true in its greeting"},
       {"twice", "frame 4: it"},  // before it was asked, or with the index of the last one
       {"skips", "frame 3: its answer has the index 4"},

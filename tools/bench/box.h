@@ -26,6 +26,20 @@ inline Box box_of(const sim::ObjectTruth& truth) {
 inline Box box_of(const LabelledBox& label) {
   return {Vec2(label.left - 0.5, label.top - 0.5), Vec2(label.right - 0.5, label.bottom - 0.5)};
 }
+/// \param corner left, top; \param size width, height.
+inline Square square_of(Id id, const Vec2& corner, const Vec2& size) {
+  Square square;
+  square.id = id;
+  square.location = corner + 0.5 * size - Vec2(0.5, 0.5);
+  square.half_size = 0.5 * size;
+  return square;
+}
+/// left, top, right, bottom.
+inline Eigen::Vector4d edges_of(const Square& square) {
+  Eigen::Vector4d edges;
+  edges << square.location - square.half_size, square.location + square.half_size;
+  return edges.array() + 0.5;
+}
 ///@}
 
 inline Box box_of(const Square& square) {

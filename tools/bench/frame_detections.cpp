@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "scenarios/message.h"
+#include "tools/bench/box.h"
+#include "tools/bench/coco_mask.h"
 #include "tools/bench/csv.h"
 #include "tools/bench/recording_fields.h"
 
@@ -40,6 +42,18 @@ Id id_in(std::string_view text) {
   const std::optional<Id> id = number_in<Id>(text);
   if (!id) refuse("the id is '{}'; give a whole number from 0 on", text);
   return *id;
+}
+
+/// Numbers, or one word that holds all of them.
+std::vector<std::int64_t> runs_in(std::span<const std::string_view> counts) {
+  if (counts.size() == 1) return unpacked_runs(counts[0]);
+  std::vector<std::int64_t> runs;
+  for (const std::string_view text : counts) {
+    const std::optional<std::int64_t> run = number_in<std::int64_t>(text);
+    if (!run) refuse("a count of the mask is '{}'; give whole numbers", text);
+    runs.push_back(*run);
+  }
+  return runs;
 }
 
 }  // namespace
@@ -76,12 +90,14 @@ void FrameDetections::add(std::string_view type, std::span<const std::string_vie
     add_verdict(static_cast<Verdict>(verdict - kVerdicts.begin()), values);
   } else if (type == "box") {
     add_box(values);
+  } else if (type == "mask") {
+    add_mask(values);
   } else if (type == "square") {
     add_square(values);
   } else if (type == "circle") {
     add_circle(values);
   } else {
-    refuse("there is no type '{}'; give {}, box, square or circle", type,
+    refuse("there is no type '{}'; give {}, box, mask, square or circle", type,
            fmt::join(kVerdicts, ", "));
   }
 }
@@ -113,30 +129,51 @@ std::size_t FrameDetections::corner_by_index(std::string_view text) const {
   return *index;
 }
 
-/// From pixel edges to the centres of pixels, where corners and squares are measured.
 void FrameDetections::add_box(std::span<const std::string_view> values) {
   if (values.size() != 5) refuse("not all of a box is there; give ID,LEFT,TOP,WIDTH,HEIGHT");
   const Vec2 corner(number(values[1], "left"), number(values[2], "top"));
   const Vec2 size(above_zero(values[3], "width"), above_zero(values[4], "height"));
-  put_square(id_in(values[0]), corner + 0.5 * size - Vec2(0.5, 0.5), 0.5 * size);
+  put(square_of(id_in(values[0]), corner, size));
+}
+
+void FrameDetections::add_mask(std::span<const std::string_view> values) {
+  if (values.size() < 4) refuse("not all of a mask is there; give ID,HEIGHT,WIDTH,COUNTS");
+  const auto side = [&](std::size_t i, const char* what) {
+    const std::optional<int> px = number_in<int>(values[i]);
+    if (!px || *px < 1) refuse("{} is '{}'; give that of the picture", what, values[i]);
+    return *px;
+  };
+  const cv::Size size_px(side(2, "the mask's width"), side(1, "the mask's height"));
+  for (const Eigen::Vector2f& corner : frame_->corners_px) {
+    if (corner.x() < static_cast<float>(size_px.width) &&
+        corner.y() < static_cast<float>(size_px.height)) {
+      continue;
+    }
+    refuse(
+        "the mask is of {} x {} pixels, and a corner lies at {}, {}; give one of the picture's "
+        "size",
+        size_px.width, size_px.height, corner.x(), corner.y());
+  }
+  const cv::Rect box = box_of_runs(runs_in(values.subspan(3)), size_px);
+  put(square_of(id_in(values[0]), Vec2(box.x, box.y), Vec2(box.width, box.height)));
 }
 
 void FrameDetections::add_square(std::span<const std::string_view> values) {
   if (values.size() != 5) {
     refuse("not all of a square is there; give ID,X,Y,HALF_WIDTH,HALF_HEIGHT");
   }
-  put_square(id_in(values[0]), {number(values[1], "x"), number(values[2], "y")},
-             {above_zero(values[3], "half width"), above_zero(values[4], "half height")});
+  Square square;
+  square.id = id_in(values[0]);
+  square.location = {number(values[1], "x"), number(values[2], "y")};
+  square.half_size = {above_zero(values[3], "half width"), above_zero(values[4], "half height")};
+  put(square);
 }
 
-void FrameDetections::put_square(Id id, const Vec2& location, const Vec2& half_size) {
-  if (!boxes_.insert(id).second) {
-    refuse("frame {} has a box {} already; an id is one object's", frame_->index, id);
+void FrameDetections::put(const Square& square) {
+  if (!boxes_.insert(square.id).second) {
+    refuse("frame {} has a box {} already; an id is one object's", frame_->index, square.id);
   }
-  Square& square = frame_->layers.squares.emplace_back();
-  square.id = id;
-  square.location = location;
-  square.half_size = half_size;
+  frame_->layers.squares.push_back(square);
 }
 
 void FrameDetections::add_circle(std::span<const std::string_view> values) {

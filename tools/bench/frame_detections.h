@@ -36,7 +36,7 @@ class FrameDetections {
   /// it.
   explicit FrameDetections(FrameRecord& frame);
 
-  /// \param type a verdict, "box", "square" or "circle". \param values its fields, as text.
+  /// \param type a verdict, "box", "mask", "square" or "circle". \param values its fields, as text.
   /// \throws std::invalid_argument saying what to give instead.
   void add(std::string_view type, std::span<const std::string_view> values);
 
@@ -55,8 +55,9 @@ class FrameDetections {
   void add_verdict(Verdict verdict, std::span<const std::string_view> values);
   std::size_t corner_by_index(std::string_view text) const;
   void add_box(std::span<const std::string_view> values);
+  void add_mask(std::span<const std::string_view> values);
   void add_square(std::span<const std::string_view> values);
-  void put_square(Id id, const Vec2& location, const Vec2& half_size);
+  void put(const Square& square);
   void add_circle(std::span<const std::string_view> values);
 
   FrameRecord* frame_;

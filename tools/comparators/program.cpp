@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::string_view kIndex = "index", kCircle = "circle";
+constexpr std::string_view kIndex = "index", kCircle = "circle", kMask = "mask";
 
 Json parsed(const std::string& line) {
   const std::string shown = scenario::one_line(std::string_view(line).substr(0, 200));
@@ -52,6 +52,21 @@ decltype(auto) at(const std::string& name, const std::string& place, Work&& work
   }
 }
 
+/// The values of a row: as text of JSON, but what COCO has of a mask (an object) as its size and
+/// its counts, and its counts' word as it is.
+void add_values(const Json& json, bool is_mask, std::vector<std::string>& texts, int depth = 0) {
+  constexpr int kOfCounts = 2;  // in an object in a row
+  if (json.is_array() && depth <= (is_mask ? kOfCounts : 0)) {
+    for (const Json& value : json) add_values(value, is_mask, texts, depth + 1);
+  } else if (is_mask && json.is_object() && depth < kOfCounts) {
+    for (const char* key : {"size", "counts"}) {
+      if (json.contains(key)) add_values(json[key], is_mask, texts, depth + 1);
+    }
+  } else {
+    texts.push_back(is_mask && json.is_string() ? json.get<std::string>() : text_of(json));
+  }
+}
+
 /// All rows of one type: each a list of values, or a value alone.
 void add_rows(const std::string& type, const Json& rows, bench::FrameDetections& detections) {
   if (!rows.is_array()) {
@@ -60,11 +75,7 @@ void add_rows(const std::string& type, const Json& rows, bench::FrameDetections&
   if (rows.empty() && type == kCircle) detections.add(type, {});
   for (const Json& row : rows) {
     std::vector<std::string> texts;
-    if (row.is_array()) {
-      for (const Json& value : row) texts.push_back(text_of(value));
-    } else {
-      texts.push_back(text_of(row));
-    }
+    add_values(row, type == kMask, texts);
     const std::vector<std::string_view> values(texts.begin(), texts.end());
     detections.add(type, values);
   }

@@ -29,6 +29,7 @@ A row of detections is one of these; corners that no row names are normal
 (tools/bench/DETECTIONS.md has all of it, and how to write them from Python):
   FRAME,rebel,X,Y                        or normal, pending, ignored; or FRAME,rebel,INDEX
   FRAME,box,ID,LEFT,TOP,WIDTH,HEIGHT     an object, in pixels
+  FRAME,mask,ID,HEIGHT,WIDTH,COUNTS      the same by COCO's RLE
   FRAME,circle,X,Y,RADIUS                a group of rebels, by which false objects are counted;
                                          without values: there is none in this frame
 

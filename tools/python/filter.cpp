@@ -78,10 +78,8 @@ py::array boxes(const Result& result) {
   const std::vector<Square>& squares = result.said.layers.squares;
   py::array_t<double> array({std::ssize(squares), py::ssize_t{4}});
   double* to = array.mutable_data();
-  const Vec2 half_pixel(0.5, 0.5);
   for (const Square& square : squares) {
-    const bench::Box box = bench::box_of(square);
-    Eigen::Map<Eigen::Vector4d>{to} << box.min + half_pixel, box.max + half_pixel;
+    Eigen::Map<Eigen::Vector4d>{to} = bench::edges_of(square);
     to += 4;
   }
   return read_only(array);

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/bench/box.h"
 #include "tools/bench/scoring.h"
 #include "tools/bench/warnings.h"
 #include "tools/python/arrays.h"
@@ -66,7 +67,6 @@ std::vector<Id> ids_of(const py::object& ids, py::ssize_t boxes) {
   return numbers;
 }
 
-/// From pixel edges to the centres of pixels, where corners and squares are measured.
 std::vector<Square> squares_of(const py::object& boxes, const py::object& ids) {
   const Numbers table =
       boxes.is_none()
@@ -83,10 +83,8 @@ std::vector<Square> squares_of(const py::object& boxes, const py::object& ids) {
                       "right, and top than bottom",
                       i, edges[0], edges[1], edges[2], edges[3]));
     }
-    Square& square = squares.emplace_back();
-    square.id = numbers[static_cast<std::size_t>(i)];
-    square.location = edges.head<2>() + 0.5 * size - Vec2(0.5, 0.5);
-    square.half_size = 0.5 * size;
+    squares.push_back(
+        bench::square_of(numbers[static_cast<std::size_t>(i)], edges.head<2>(), size));
   }
   return squares;
 }
