@@ -156,6 +156,7 @@ Criterion read_criterion(Reader reader) {
   reader.read("min", kBound, criterion.min);
   reader.read("max", kBound, criterion.max);
   reader.read("required", criterion.required);
+  reader.read("detector", criterion.detector);
   reader.finish();
   if (!criterion.min && !criterion.max) {
     throw Error(criterion.source, reader.path() + " has no bound; give min, max or both");

@@ -271,6 +271,7 @@ struct Criterion {
   std::optional<double> max;
   bool required = true;
   Source source;
+  std::string detector = {};  ///< that is asked, by its name in a run; "": the run's own
 };
 
 /// A key that a sweep gives several values; each is YAML text, fit for `--set`.

@@ -112,6 +112,8 @@ INSTANTIATE_TEST_SUITE_P(
               "4: criteria.0.required is 'maybe'; give false or true"),
         added("MapForActors", "actors: [{shape: box}]\n",
               "4: actors is a list; give a map, as in {key: value}"),
+        added("NamelessDetector", "criteria: [{metric: a, min: 1, detector: ''}]\n",
+              "4: criteria.0.detector is empty; give a text"),
         added("EmptyText", "purpose: ''\n", "4: purpose is empty; give a text"),
         added("ValueOnALaterLine", "camera:\n  rate:\n    fast\n",
               "6: camera.rate: 'fast' is not a number; give a frequency in Hz or kHz")),

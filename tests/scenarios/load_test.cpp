@@ -397,8 +397,11 @@ TEST(Load, CriteriaArriveWithTheirLines) {
   const Scenario s = load_text(smallest +
                                "criteria:\n"
                                "  - {metric: rebel.f1, min: 0.4}\n"
-                               "  - {metric: dimension.mean, min: 1, max: 90, required: false}\n");
+                               "  - {metric: dimension.mean, min: 1, max: 90, required: false,\n"
+                               "     detector: 'lcs:lab'}\n");
   ASSERT_EQ(s.criteria.size(), 2u);
+  EXPECT_EQ(s.criteria[0].detector, "") << "the run's own";
+  EXPECT_EQ(s.criteria[1].detector, "lcs:lab");
   EXPECT_EQ(s.criteria[0].metric, "rebel.f1");
   EXPECT_EQ(s.criteria[0].min.value(), 0.4);
   EXPECT_FALSE(s.criteria[0].max);

@@ -436,6 +436,21 @@ TEST_F(Run, ACriterionThatIsMetOrNotRequiredExitsWithZero) {
   EXPECT_NE(result.err.find("frames is 4"), std::string::npos) << result.err;
 }
 
+TEST_F(Run, ACriterionAsksTheDetectorThatItNamesAndNobodyWhereThatIsNotThere) {
+  const std::string criteria = "criteria=[{metric: frames, min: 5, detector: klt}]";
+  const CommandResult alone = run(brief({"--quiet", "--set", criteria}));
+  EXPECT_EQ(alone.exit_code, 0);
+  EXPECT_EQ(lines(alone.err), 1);
+  EXPECT_NE(alone.err.find("not asked: criteria of klt (--set criteria"), std::string::npos)
+      << alone.err;
+  const CommandResult beside = run(brief({"--quiet", "--set", criteria, "--beside", "klt=klt"}));
+  EXPECT_EQ(beside.exit_code, 1);
+  EXPECT_EQ(lines(beside.err), 1);
+  EXPECT_NE(beside.err.find("frames of klt is 4, must be at least 5"), std::string::npos)
+      << beside.err;
+  EXPECT_EQ(run(brief({"--set", criteria, "--detector", "klt"})).exit_code, 1) << "the run's own";
+}
+
 // ---- Errors
 
 struct Mistake {

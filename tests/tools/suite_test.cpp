@@ -218,10 +218,25 @@ TEST_F(Suite, OnTheFramesOfAnEarlierOneItHasTheFiguresOfOneThatSimulates) {
 }
 
 TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
-  // The criterion is the filter's; it does not judge the others, which are not layered.
-  scenario("near", "criteria: [{metric: dimension.mean, min: 1}]\n", 8);
+  // The first criterion is the filter's; it does not judge the others, which are not layered.
+  scenario("near",
+           "criteria:\n  - {metric: dimension.mean, min: 1}\n"
+           "  - {metric: frames, max: 7, detector: klt}\n"
+           "  - {metric: frames, max: 7, detector: dis}\n",
+           8);
   const CommandResult command = run({"--seeds", "2", "--beside", "klt", "--beside", "homography"});
-  EXPECT_EQ(command.exit_code, 0) << command.err;
+  EXPECT_EQ(command.exit_code, 1) << command.err;
+  EXPECT_NE(command.err.find("klt: failed: near seed 2: "), std::string::npos) << command.err;
+  EXPECT_NE(command.err.find("frames of klt is 8, must be at most 7"), std::string::npos);
+  const std::string not_asked = "not asked: criteria of dis (scenarios/near.yaml:9)";
+  EXPECT_NE(command.err.find(not_asked), std::string::npos) << command.err;
+  EXPECT_EQ(command.err.find(not_asked), command.err.rfind(not_asked)) << "told once";
+  tinyxml2::XMLDocument junit;
+  ASSERT_EQ(junit.LoadFile((out_ / kJunitFile).c_str()), tinyxml2::XML_SUCCESS);
+  EXPECT_EQ(junit.RootElement()->IntAttribute("tests"), 4);
+  EXPECT_EQ(junit.RootElement()->IntAttribute("failures"), 2);
+  const auto* of_klt = junit.RootElement()->FirstChildElement()->LastChildElement();
+  EXPECT_STREQ(of_klt->Attribute("name"), "klt: frames max, seed 2");
   EXPECT_EQ(entries(out_),
             (std::set<std::string>{"suite.json", "junit.xml", "report.html", "runs", "beside"}));
   EXPECT_NE(command.err.find("[2/2] near seed "), std::string::npos) << command.err;
@@ -233,14 +248,14 @@ TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
     ASSERT_EQ(other.scenarios.size(), 1u);
     ASSERT_EQ(other.scenarios[0].runs.size(), 2u);
     const RunResult& run = other.scenarios[0].runs[1];
-    EXPECT_EQ(run.outcome, Outcome::passed);
+    EXPECT_EQ(run.outcome, name == "klt" ? Outcome::failed : Outcome::passed);
     const auto frames = [](const std::string& truth) { return truth.substr(truth.find('\n')); };
     EXPECT_TRUE(frames(read(folder_.path() / beside / run.folder / "truth.jsonl")) ==
                 frames(read(run_folder(result().scenarios[0], 1) / "truth.jsonl")))
         << "not the same frames";
   }
   // It is an earlier suite like any other.
-  EXPECT_EQ(run({"--seeds", "1"}).exit_code, 0);
+  EXPECT_EQ(run({"--seeds", "1"}).exit_code, 0) << "klt is not asked";
   EXPECT_FALSE(fs::exists(out_ / "beside"));
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <map>
 #include <optional>
 
 #include "scenarios/spelling.h"
@@ -43,6 +45,32 @@ void require_known_metrics(const std::vector<scenario::Criterion>& criteria) {
   }
 }
 
+std::vector<scenario::Criterion> asked_of(const std::string& detector, bool is_own,
+                                          const std::vector<scenario::Criterion>& criteria) {
+  std::vector<scenario::Criterion> asked;
+  std::ranges::copy_if(criteria, std::back_inserter(asked), [&](const auto& criterion) {
+    return criterion.detector == detector || (is_own && criterion.detector.empty());
+  });
+  return asked;
+}
+
+std::vector<std::string> not_asked(const std::vector<scenario::Criterion>& criteria,
+                                   const std::set<std::string>& detectors) {
+  std::map<std::string, std::vector<std::string>> places;  // by detector
+  for (const scenario::Criterion& criterion : criteria) {
+    if (!criterion.detector.empty() && !detectors.contains(criterion.detector)) {
+      places[criterion.detector].push_back(place(criterion.source));
+    }
+  }
+  std::vector<std::string> lines;
+  for (const auto& [detector, at] : places) {
+    lines.push_back(fmt::format("not asked: criteria of {} ({}{}); let it watch, by --beside",
+                                detector, at.front(),
+                                at.size() > 1 ? fmt::format(", the first of {}", at.size()) : ""));
+  }
+  return lines;
+}
+
 std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& criteria,
                                    const Metrics& metrics) {
   std::vector<JudgedCriterion> judged;
@@ -51,9 +79,10 @@ std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& crite
     one.figure = value(metrics, criterion.metric);
     one.met = is_met(criterion, one.figure);
     if (one.met) continue;
-    one.message = fmt::format("{}: {} is {}, must be {}", place(criterion.source), criterion.metric,
-                              one.figure ? fmt::format("{:.4g}", *one.figure) : "undefined",
-                              bounds(criterion));
+    const std::string of = criterion.detector.empty() ? "" : " of " + criterion.detector;
+    one.message = fmt::format(
+        "{}: {}{} is {}, must be {}", place(criterion.source), criterion.metric, of,
+        one.figure ? fmt::format("{:.4g}", *one.figure) : "undefined", bounds(criterion));
   }
   return judged;
 }

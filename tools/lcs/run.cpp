@@ -282,6 +282,9 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   }
   warn(scenario::shadowed_files(scenario));
   warn(own.idle_settings);
+  std::set<std::string> names;
+  for (const Watching& one : all) names.insert(one.wanted.name);
+  warn(bench::not_asked(scenario.criteria, names));
   warn(frames.missing);
   std::vector<Diagnostics> diagnostics;
   {
@@ -313,8 +316,11 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
                    all[i].result->target());
     }
   }
-  // which are the filter's, and so the run's own detector's
-  const bool failed = report_failures(bench::failed_criteria(scenario.criteria, metrics.front()));
+  bool failed = false;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto asked = bench::asked_of(all[i].wanted.name, i == 0, scenario.criteria);
+    failed |= report_failures(bench::failed_criteria(asked, metrics[i]));
+  }
   return failed ? kCriterionFailed : kFine;
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "scenarios/scenes.h"
+#include "tools/bench/criteria.h"
 #include "tools/bench/output_folder.h"
 #include "tools/bench/tracker.h"
 #include "tools/comparators/detectors.h"
@@ -152,8 +153,8 @@ void print_changes(const suite::SuiteResult& baseline, const suite::SuiteResult&
   print_out("Against {}:\n{}\n", name, suite::text_of(comparison, false));
 }
 
-/// Detectors to run beside the suite's own, each once.
-void require_others(const SuiteOptions& options, const std::string& own) {
+/// The suite's own detector and those beside it, each once.
+std::set<std::string> names_of_all(const SuiteOptions& options, const std::string& own) {
   std::set<std::string> names{own};
   for (const std::string& name : options.beside) {
     comparators::wanted(name);
@@ -161,6 +162,15 @@ void require_others(const SuiteOptions& options, const std::string& own) {
       throw std::invalid_argument(fmt::format("--beside {}: it is run already", name));
     }
   }
+  return names;
+}
+
+std::vector<scenario::Criterion> criteria_of(const std::vector<suite::PlannedScenario>& plan) {
+  std::vector<scenario::Criterion> all;
+  for (const suite::PlannedScenario& planned : plan) {
+    if (planned.scenario) std::ranges::copy(planned.scenario->criteria, std::back_inserter(all));
+  }
+  return all;
 }
 
 /// Of a detector's results, in the suite's folder.
@@ -275,7 +285,7 @@ ExitCode suite(const SuiteOptions& options) {
   // What cannot be is told before anything runs.
   const comparators::Wanted wanted = tools::wanted(options.detector);
   const std::string& own = wanted.name;
-  require_others(options, own);
+  const std::set<std::string> watching = names_of_all(options, own);
   std::string recorded;
   if (!options.recorded.empty()) {
     comparators::require_corners_suffice(wanted);
@@ -293,6 +303,7 @@ ExitCode suite(const SuiteOptions& options) {
   if (options.list) return list_plan(plan);
   if (!options.detector.detections.empty()) require_detections(options.detector.detections, plan);
   warn(seldom_meant(plan, wanted));
+  warn(bench::not_asked(criteria_of(plan), watching));
   std::optional<suite::SuiteResult> baseline;
   if (!options.baseline.empty()) baseline = suite::read_suite(options.baseline);
 
@@ -349,7 +360,7 @@ ExitCode suite(const SuiteOptions& options) {
   result.recorded = recorded;
   result.command = options.detector.command;
   suite::write_suite(folder.staging() / suite::kSuiteFile, result);
-  suite::write_junit(folder.staging() / suite::kJunitFile, result);
+  suite::write_junit(folder.staging() / suite::kJunitFile, result, others);
   report::write_report(folder.staging() / report::kReportFile, result,
                        baseline ? &*baseline : nullptr, folder.staging());
   if (of_worlds) write_worlds(folder.staging(), options.worlds, plan, result, others);

@@ -9,6 +9,7 @@
 
 #include "scenarios/message.h"
 #include "tools/bench/output_file.h"
+#include "tools/suite/summary.h"
 
 namespace lcs::suite {
 namespace {
@@ -67,12 +68,14 @@ void add_problem(XMLElement& element, const char* kind, const std::string& messa
   problem.SetText(scenario::printable(message).c_str());
 }
 
-Counts add_run(XMLElement& parent, const ScenarioResult& scenario, const RunResult& run) {
+/// \param by "" for the suite's own detector, or as "klt: ".
+Counts add_run(XMLElement& parent, const ScenarioResult& scenario, const RunResult& run,
+               const std::string& by) {
   Counts counts;
   counts.time_s = run.wall_s;
   if (run.outcome == Outcome::error || run.criteria.empty()) {
     XMLElement& element =
-        add_case(parent, scenario, fmt::format("runs, seed {}", run.seed), run.wall_s);
+        add_case(parent, scenario, fmt::format("{}runs, seed {}", by, run.seed), run.wall_s);
     ++counts.tests;
     if (run.outcome == Outcome::error) {
       ++counts.errors;
@@ -82,7 +85,7 @@ Counts add_run(XMLElement& parent, const ScenarioResult& scenario, const RunResu
   }
   std::map<std::string, int> times;
   for (const CriterionResult& criterion : run.criteria) {
-    XMLElement& element = add_case(parent, scenario, name_of(criterion, run.seed, times),
+    XMLElement& element = add_case(parent, scenario, by + name_of(criterion, run.seed, times),
                                    counts.tests == 0 ? run.wall_s : 0);
     ++counts.tests;
     if (criterion.met) continue;
@@ -97,9 +100,28 @@ Counts add_run(XMLElement& parent, const ScenarioResult& scenario, const RunResu
   return counts;
 }
 
+/// Criteria that ask another detector, and its errors where the suite's own has none.
+Counts add_others(XMLElement& parent, const ScenarioResult& scenario, const RunResult& run,
+                  std::span<const SuiteResult> others) {
+  Counts counts;
+  for (const SuiteResult& other : others) {
+    const ScenarioResult* by_other = find(other, scenario.name);
+    const RunResult* found = by_other ? find(*by_other, run.seed) : nullptr;
+    if (!found) continue;
+    const bool is_error = found->outcome == Outcome::error && run.outcome != Outcome::error;
+    if (is_error || !found->criteria.empty()) {
+      RunResult untimed = *found;
+      untimed.wall_s = 0;  // the same process
+      counts += add_run(parent, scenario, untimed, other.detector + ": ");
+    }
+  }
+  return counts;
+}
+
 }  // namespace
 
-void write_junit(const std::filesystem::path& file, const SuiteResult& suite) {
+void write_junit(const std::filesystem::path& file, const SuiteResult& suite,
+                 std::span<const SuiteResult> others) {
   tinyxml2::XMLDocument document;
   document.InsertEndChild(document.NewDeclaration());
   XMLElement& root = *document.NewElement("testsuites");
@@ -110,7 +132,10 @@ void write_junit(const std::filesystem::path& file, const SuiteResult& suite) {
     XMLElement& element = *root.InsertNewChildElement("testsuite");
     set(element, "name", scenario.name);
     Counts counts;
-    for (const RunResult& run : scenario.runs) counts += add_run(element, scenario, run);
+    for (const RunResult& run : scenario.runs) {
+      counts += add_run(element, scenario, run, "");
+      counts += add_others(element, scenario, run, others);
+    }
     counts.write(element);
     total += counts;
   }

@@ -111,10 +111,10 @@ ScenarioResult begin_scenario(const PlannedScenario& planned) {
   return result;
 }
 
-void judge_run(const scenario::Scenario& scenario, RunResult& run) {
-  const std::vector<bench::JudgedCriterion> judged = bench::judge(scenario.criteria, run.metrics);
+void judge_run(const std::vector<scenario::Criterion>& criteria, RunResult& run) {
+  const std::vector<bench::JudgedCriterion> judged = bench::judge(criteria, run.metrics);
   for (std::size_t i = 0; i < judged.size(); ++i) {
-    const scenario::Criterion& criterion = scenario.criteria[i];
+    const scenario::Criterion& criterion = criteria[i];
     run.criteria.push_back({criterion.metric, criterion.min, criterion.max, judged[i].figure,
                             criterion.required, judged[i].met, judged[i].message});
     if (criterion.required && !judged[i].met) run.outcome = Outcome::failed;
@@ -137,7 +137,7 @@ void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteWat
     if (fs::exists(warnings)) run.warnings = bench::read_warnings(warnings);
     std::erase_if(run.warnings, [](const bench::Warned& w) { return w.count.value_or(0) == 0; });
     run.outcome = Outcome::passed;
-    if (watcher.judged) judge_run(*planned.scenario, run);
+    judge_run(bench::asked_of(watcher.detector, watcher.is_own, planned.scenario->criteria), run);
   } catch (const std::exception& error) {
     run.outcome = Outcome::error;
     run.error = scenario::message_of(error);

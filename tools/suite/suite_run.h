@@ -30,7 +30,7 @@ struct SuiteProgress {
 struct SuiteWatcher {
   std::string detector;
   std::filesystem::path folder;  ///< gets runs/<name>/seed-<n>/
-  bool judged = true;            ///< by the scenarios' criteria, which are the filter's
+  bool is_own = true;            ///< the suite's, which criteria ask that name none
 };
 
 struct SuiteRunOptions {
