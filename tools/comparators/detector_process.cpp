@@ -146,8 +146,7 @@ DetectorProcess::~DetectorProcess() {
 }
 
 std::string DetectorProcess::ask(std::string_view line, std::span<const unsigned char> bytes) {
-  const Clock::time_point deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                                        std::chrono::duration<double>(timeout_s_));
+  const Clock::time_point deadline = time_is_up();
   read_what_is_there();
   if (!answers_.empty()) {
     throw DetectorError(fmt::format(
@@ -186,10 +185,14 @@ std::string DetectorProcess::ask(std::string_view line, std::span<const unsigned
   }
 }
 
+DetectorProcess::Clock::time_point DetectorProcess::time_is_up() const {
+  return Clock::now() +
+         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_s_));
+}
+
 void DetectorProcess::finish() {
   in_.close();
-  const Clock::time_point deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                                        std::chrono::duration<double>(timeout_s_));
+  const Clock::time_point deadline = time_is_up();
   wait_for_end(deadline);
   if (!answers_.empty()) {
     throw DetectorError(fmt::format(

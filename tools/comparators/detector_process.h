@@ -65,6 +65,7 @@ class DetectorProcess {
     int descriptor_ = -1;
   };
 
+  Clock::time_point time_is_up() const;  ///< of what is asked now
   void wait(bool to_write, Clock::time_point deadline) const;
   void read_what_is_there();
   void write_some(std::string_view& first, std::string_view& second);
