@@ -286,7 +286,9 @@ TEST_F(OwnDetector, ThatFailsInOneRunOfASuiteLeavesTheOthers) {
       << command.err;
   const suite::SuiteResult result = suite::read_suite(folder_.path() / "suite");
   EXPECT_EQ(result.detector, "mine");
-  EXPECT_EQ(result.command, mine("dies for far"));
+  EXPECT_EQ(result.scenarios.at(0).runs.at(0).command,
+            "lcs run scenarios/far.yaml --seed 1 --detector mine --detector-command '" + python() +
+                R"( mine.py '\''dies for far'\''' --detector-timeout '30 s')");
   EXPECT_EQ(result.scenarios.at(0).runs.at(0).outcome, suite::Outcome::error);
   EXPECT_EQ(result.scenarios.at(1).runs.at(0).outcome, suite::Outcome::passed);
   EXPECT_EQ(bench::value(result.scenarios.at(1).runs.at(0).metrics, "rebel.recall"), 0);
@@ -386,6 +388,9 @@ TEST_F(OwnDetector, FilesOfDetectionsThatAreMissingAreAllNamedBeforeAnythingRuns
       << one.err;
   const suite::SuiteResult result = suite::read_suite(folder_.path() / "said");
   EXPECT_EQ(result.detector, "csv");
+  EXPECT_EQ(result.scenarios.at(0).runs.at(1).command,
+            "lcs run scenarios/far.yaml --seed 2 --detector csv --recorded frames/runs/far/seed-2 "
+            "--detections csv/far/seed-2.csv");
   EXPECT_EQ(result.scenarios.at(0).runs.at(1).outcome, suite::Outcome::passed);
 }
 

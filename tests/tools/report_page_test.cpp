@@ -237,14 +237,10 @@ TEST_F(Report, EveryFigureHasADirection) {
 }
 
 TEST_F(Report, GivesTheCommandThatRunsItAgain) {
-  ScenarioResult scenario = scenario_with("it's", {run_with(7, 0.8)});
-  scenario.point = {{"ego.speed", "0.5 m/s"}};
-  SuiteResult suite = suite_of({scenario});
-  suite.sets = {"frames=20"};
-  suite.detector = "klt";
-  EXPECT_EQ(data(suite)["scenarios"][0]["runs"][0].at("command"),
-            "lcs run 'scenarios/it'\\''s.yaml' --seed 7 --set frames=20 --set 'ego.speed=0.5 m/s' "
-            "--detector klt");
+  RunResult run = run_with(7, 0.8);
+  run.command = "lcs run 'a b.yaml'";
+  EXPECT_EQ(data(suite_of({scenario_with("a b", {run})}))["scenarios"][0]["runs"][0].at("command"),
+            run.command);
 }
 
 TEST_F(Report, AnErrorHasItsMessageAndNoPlots) {

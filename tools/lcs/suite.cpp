@@ -358,7 +358,6 @@ ExitCode suite(const SuiteOptions& options) {
   }
   progress.wipe();
   result.recorded = recorded;
-  result.command = options.detector.command;
   suite::write_suite(folder.staging() / suite::kSuiteFile, result);
   suite::write_junit(folder.staging() / suite::kJunitFile, result, others);
   report::write_report(folder.staging() / report::kReportFile, result,

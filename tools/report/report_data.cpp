@@ -112,34 +112,6 @@ Json groups_of(const SuiteResult& suite, const Baseline* baseline) {
 
 // ---- Runs
 
-/// A word for a POSIX shell.
-std::string quoted(const std::string& word) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=:,@%+-";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string text = "'";
-  for (const char c : word) {
-    if (c == '\'')
-      text += R"('\'')";
-    else
-      text += c;
-  }
-  return text + "'";
-}
-
-std::string command_of(const SuiteResult& suite, const ScenarioResult& scenario,
-                       const RunResult& run) {
-  std::string command =
-      fmt::format("lcs run {} --seed {}", quoted(scenario.file.string()), run.seed);
-  for (const std::string& set : suite.sets) command += " --set " + quoted(set);
-  for (const auto& [key, value] : scenario.point) {
-    command += " --set " + quoted(fmt::format("{}={}", key, value));
-  }
-  if (suite.detector != "lcs") command += " --detector " + quoted(suite.detector);
-  if (!suite.command.empty()) command += " --detector-command " + quoted(suite.command);
-  return command;
-}
-
 Json criteria_of(const RunResult& run) {
   Json criteria = Json::array();
   for (const suite::CriterionResult& criterion : run.criteria) {
@@ -217,13 +189,12 @@ Json event_json(const bench::Event& event) {
           {"views", views}};
 }
 
-Json run_json(const SuiteResult& suite, const ScenarioResult& scenario, const RunResult& run,
-              const fs::path& suite_folder) {
+Json run_json(const RunResult& run, const fs::path& suite_folder) {
   Json json = {{"seed", run.seed},
                {"outcome", kOutcomes[static_cast<std::size_t>(run.outcome)]},
                {"error", run.error},
                {"wall_s", json_of(run.wall_s)},
-               {"command", command_of(suite, scenario, run)},
+               {"command", run.command},
                {"criteria", criteria_of(run)},
                {"warnings", bench::lines_of(run.warnings)},
                {"metrics", Json::object()},
@@ -276,8 +247,8 @@ void keep_to_budget(Json& scenarios, std::size_t budget) {
   }
 }
 
-Json scenario_json(const SuiteResult& suite, const ScenarioResult& scenario,
-                   const Baseline* baseline, const fs::path& suite_folder) {
+Json scenario_json(const ScenarioResult& scenario, const Baseline* baseline,
+                   const fs::path& suite_folder) {
   Json json = {{"name", scenario.name},
                {"purpose", scenario.purpose},
                {"file", scenario.file.generic_string()},
@@ -290,7 +261,7 @@ Json scenario_json(const SuiteResult& suite, const ScenarioResult& scenario,
     json["point"].push_back(Json::array({key, value}));
   }
   for (const RunResult& run : scenario.runs) {
-    json["runs"].push_back(run_json(suite, scenario, run, suite_folder));
+    json["runs"].push_back(run_json(run, suite_folder));
   }
   return json;
 }
@@ -315,7 +286,7 @@ std::string report_data(const SuiteResult& suite, const SuiteResult* baseline,
         {"detector", baseline->detector}, {"version", baseline->version}, {"sets", baseline->sets}};
   }
   for (const ScenarioResult& scenario : suite.scenarios) {
-    data["scenarios"].push_back(scenario_json(suite, scenario, beside, suite_folder));
+    data["scenarios"].push_back(scenario_json(scenario, beside, suite_folder));
   }
   keep_to_budget(data["scenarios"], picture_budget);
 

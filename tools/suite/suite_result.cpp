@@ -46,6 +46,7 @@ Json to_json(const RunResult& run) {
   }
   return {{"seed", run.seed},
           {"outcome", kOutcomes.at(static_cast<std::size_t>(run.outcome))},
+          {"command", run.command},
           {"error", run.error},
           {"folder", run.folder.generic_string()},
           {"wall_s", to_json(run.wall_s)},
@@ -103,6 +104,7 @@ RunResult run_of(const Node& node) {
   RunResult run;
   run.seed = node["seed"].natural();
   run.outcome = outcome_of(node["outcome"]);
+  if (node.has("command")) run.command = node["command"].text();
   run.error = node["error"].text();
   run.folder = node["folder"].text();
   run.wall_s = node["wall_s"].figure().value_or(0);
@@ -148,7 +150,6 @@ SuiteResult suite_of(const Node& node) {
   }
   SuiteResult suite;
   suite.detector = node["detector"].text();
-  if (node.has("command")) suite.command = node["command"].text();
   suite.sets = node["sets"].texts();
   suite.version = node["version"].text();
   if (node.has("recorded")) suite.recorded = node["recorded"].text();
@@ -166,12 +167,9 @@ SuiteResult suite_of(const Node& node) {
 void write_suite(const std::filesystem::path& file, const SuiteResult& suite) {
   Json scenarios = Json::array();
   for (const ScenarioResult& scenario : suite.scenarios) scenarios.push_back(to_json(scenario));
-  Json json{{"format", kFormat}, {"detector", suite.detector}};
-  if (!suite.command.empty()) json["command"] = suite.command;
-  json["sets"] = suite.sets;
-  json["version"] = suite.version;
-  json["recorded"] = suite.recorded;
-  json["scenarios"] = scenarios;
+  const Json json{{"format", kFormat},          {"detector", suite.detector},
+                  {"sets", suite.sets},         {"version", suite.version},
+                  {"recorded", suite.recorded}, {"scenarios", scenarios}};
   bench::OutputFile output(file);
   // What a child wrote to stderr need not be UTF-8; JSON is.
   output.write(json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');

@@ -35,6 +35,7 @@ struct CriterionResult {
 struct RunResult {
   std::uint64_t seed = 0;
   Outcome outcome = Outcome::error;
+  std::string command;     ///< that makes it again, as a shell takes it
   std::string error;       ///< the command's message, for an error
   bench::Metrics metrics;  ///< empty for an error
   std::vector<CriterionResult> criteria;
@@ -63,7 +64,6 @@ struct ScenarioResult {
 
 struct SuiteResult {
   std::string detector;           ///< as asked for: lcs, lcs:lab, klt and so on
-  std::string command = {};       ///< of a detector that is a program
   std::vector<std::string> sets;  ///< "key=value", as given
   std::string version;            ///< of the program
   /// The earlier suite whose frames were watched, and the program that simulated them; empty where

@@ -28,36 +28,68 @@ struct Job {
   double seconds;
 };
 
+/// A word for a POSIX shell.
+std::string quoted(const std::string& word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=:,@%+-";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) {
+    if (c == '\'')
+      text += R"('\'')";
+    else
+      text += c;
+  }
+  return text + "'";
+}
+
+std::string shell_line(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) {
+    if (!line.empty()) line += ' ';
+    line += quoted(word);
+  }
+  return line;
+}
+
 fs::path folder_of(const PlannedScenario& planned, std::uint64_t seed) {
   return fs::path("runs") / planned.name / fmt::format("seed-{}", seed);
 }
 
-std::vector<std::string> command_of(const PlannedScenario& planned, std::uint64_t seed,
-                                    const SuiteRunOptions& options) {
-  const SuiteWatcher& own = options.watchers.front();
-  std::vector<std::string> command{"run",        planned.file.string(),
-                                   "--seed",     std::to_string(seed),
-                                   "--detector", own.detector,
-                                   "--out",      (own.folder / folder_of(planned, seed)).string(),
-                                   "--no-video", "--quiet",
-                                   "--events"};
-  for (std::size_t i = 1; i < options.watchers.size(); ++i) {
-    const SuiteWatcher& other = options.watchers[i];
-    const fs::path folder = other.folder / folder_of(planned, seed);
-    command.insert(command.end(),
-                   {"--beside", fmt::format("{}={}", other.detector, folder.string())});
-  }
+/// What makes a run, wherever its results go. \param is_own whether by the suite's own detector.
+std::vector<std::string> run_of(const PlannedScenario& planned, std::uint64_t seed,
+                                const std::string& detector, bool is_own,
+                                const SuiteRunOptions& options) {
+  std::vector<std::string> command{"run", planned.file.string(), "--seed", std::to_string(seed)};
+  for (const std::string& set : planned.sets) command.insert(command.end(), {"--set", set});
+  if (detector != "lcs") command.insert(command.end(), {"--detector", detector});
   if (!options.recorded.empty()) {
     command.insert(command.end(),
                    {"--recorded", (options.recorded / folder_of(planned, seed)).string()});
   }
+  if (!is_own) return command;
   command.insert(command.end(), options.own_detector.begin(), options.own_detector.end());
   if (!options.detections.empty()) {
     command.insert(
         command.end(),
         {"--detections", (options.detections / detections_of(planned.name, seed)).string()});
   }
-  for (const std::string& set : planned.sets) command.insert(command.end(), {"--set", set});
+  return command;
+}
+
+/// Of a child: the first watcher's run, with the others beside it.
+std::vector<std::string> command_of(const PlannedScenario& planned, std::uint64_t seed,
+                                    const SuiteRunOptions& options) {
+  const SuiteWatcher& first = options.watchers.front();
+  std::vector<std::string> command = run_of(planned, seed, first.detector, first.is_own, options);
+  command.insert(command.end(), {"--out", (first.folder / folder_of(planned, seed)).string(),
+                                 "--no-video", "--quiet", "--events"});
+  for (std::size_t i = 1; i < options.watchers.size(); ++i) {
+    const SuiteWatcher& other = options.watchers[i];
+    const fs::path folder = other.folder / folder_of(planned, seed);
+    command.insert(command.end(),
+                   {"--beside", fmt::format("{}={}", other.detector, folder.string())});
+  }
   return command;
 }
 
@@ -94,7 +126,8 @@ std::vector<Job> jobs_of(const std::vector<PlannedScenario>& plan,
   return jobs;
 }
 
-ScenarioResult begin_scenario(const PlannedScenario& planned) {
+ScenarioResult begin_scenario(const PlannedScenario& planned, const SuiteWatcher& watcher,
+                              const SuiteRunOptions& options) {
   ScenarioResult result;
   result.name = planned.name;
   result.file = planned.file;
@@ -106,6 +139,8 @@ ScenarioResult begin_scenario(const PlannedScenario& planned) {
   for (const std::uint64_t seed : planned.seeds) {
     RunResult& run = result.runs.emplace_back();
     run.seed = seed;
+    run.command = fmt::format(
+        "lcs {}", shell_line(run_of(planned, seed, watcher.detector, watcher.is_own, options)));
     run.error = planned.error;
   }
   return result;
@@ -170,7 +205,9 @@ std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
     suite.detector = watcher.detector;
     suite.sets = options.sets;
     suite.version = options.version;
-    for (const PlannedScenario& planned : plan) suite.scenarios.push_back(begin_scenario(planned));
+    for (const PlannedScenario& planned : plan) {
+      suite.scenarios.push_back(begin_scenario(planned, watcher, options));
+    }
   }
 
   const std::vector<Job> jobs = jobs_of(plan, options.former);
