@@ -32,13 +32,14 @@ def moves_by_itself(camera, motion, now, before):
 
 def groups_of(points):
     """Lists of places in `points` whose neighbours are near, the largest groups there are."""
-    left, groups = set(range(len(points))), []
-    while left:
-        group = [left.pop()]
+    left, groups = np.ones(len(points), bool), []
+    while left.any():
+        group = [int(np.argmax(left))]
+        left[group] = False
         for i in group:  # it grows meanwhile
-            near = [j for j in left if np.linalg.norm(points[i] - points[j]) < NEAR_PX]
-            left.difference_update(near)
-            group += near
+            near = np.flatnonzero(left & (np.linalg.norm(points - points[i], axis=1) < NEAR_PX))
+            left[near] = False
+            group += near.tolist()
         groups.append(group)
     return [group for group in groups if len(group) >= LEAST]
 
