@@ -38,6 +38,24 @@ TEST(BesideTable, HasMeansOverSeedsAndWhereTheSuiteIsLeastAhead) {
       "lcs is ahead of homography in 2 of 2, least in near (+0.200); takes 0.46 of its time\n");
 }
 
+TEST(StandingTable, HasARowForEachDetectorOverWhatItHas) {
+  // .8 and .5: .65 +- 12.706 * .2121 / sqrt(2)
+  SuiteResult suite = suite_by(
+      "lcs", {scenario("near", {0.8}, 1), scenario("far", {0.5}, 2), scenario("c", {}, 3)});
+  SuiteResult other = suite_by("klt", {scenario("near", {0.6, 0.7}, 3)});
+  other.scenarios[0].runs[0].metrics.emplace_back("time.process_ms_median", 7);
+  const std::string head =
+      "| detector | F1 | recall | boxes of movers | false objects per 100 frames | ms a frame | ms "
+      "as a process |\n|---|---|---|---|---|---|---|\n";
+  const std::vector<SuiteResult> others{other};
+  EXPECT_EQ(standing_table(suite, others), head +
+                                               "| `lcs` | 0.650 | - | - | - | 1.5 | - |\n"
+                                               "| `klt` | 0.650 | - | - | - | 3.0 | 7.0 |\n");
+  for (ScenarioResult& world : suite.scenarios) world.drawn = Drawn{"room", 0, {}};
+  EXPECT_NE(standing_table(suite, others).find("| `lcs` | 0.650±1.906 |"), std::string::npos)
+      << standing_table(suite, others);
+}
+
 TEST(BesideTable, HasARowForEachGroupThatIsNotAll) {
   SuiteResult suite =
       suite_by("lcs", {scenario("a", {0.8}, 1), scenario("b", {0.6}, 1), scenario("c", {0.1}, 1)});

@@ -241,8 +241,8 @@ TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
   EXPECT_EQ(junit.RootElement()->IntAttribute("failures"), 2);
   const auto* of_klt = junit.RootElement()->FirstChildElement()->LastChildElement();
   EXPECT_STREQ(of_klt->Attribute("name"), "klt: frames max, seed 2");
-  EXPECT_EQ(entries(out_),
-            (std::set<std::string>{"suite.json", "junit.xml", "report.html", "runs", "beside"}));
+  EXPECT_EQ(entries(out_), (std::set<std::string>{"suite.json", "junit.xml", "report.html", "runs",
+                                                  "beside", "standing.md"}));
   EXPECT_NE(command.err.find("[2/2] near seed "), std::string::npos) << command.err;
   EXPECT_EQ(result().detector, "lcs");
   for (const std::string name : {"klt", "homography"}) {

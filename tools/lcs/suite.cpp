@@ -13,6 +13,7 @@
 
 #include "scenarios/scenes.h"
 #include "tools/bench/criteria.h"
+#include "tools/bench/output_file.h"
 #include "tools/bench/output_folder.h"
 #include "tools/bench/tracker.h"
 #include "tools/comparators/detectors.h"
@@ -73,6 +74,7 @@ Files written to the folder, all or none:
   runs/NAME/seed-N/   what `lcs run --events` leaves, without a video
   beside/DETECTOR/    with --beside: suite.json and runs/ of that detector, without events and
                       pictures, for lcs compare
+  standing.md   with --beside: a row a detector, with its means, in Markdown
 
 Exit codes:
   0  fine
@@ -362,6 +364,11 @@ ExitCode suite(const SuiteOptions& options) {
   suite::write_junit(folder.staging() / suite::kJunitFile, result, others);
   report::write_report(folder.staging() / report::kReportFile, result,
                        baseline ? &*baseline : nullptr, folder.staging());
+  if (!others.empty()) {
+    bench::OutputFile standing(folder.staging() / suite::kStandingFile);
+    standing.write(suite::standing_table(result, others));
+    standing.close();
+  }
   if (of_worlds) write_worlds(folder.staging(), options.worlds, plan, result, others);
   folder.commit();
 

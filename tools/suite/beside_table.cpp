@@ -183,7 +183,52 @@ std::string summary_line(const SuiteResult& suite, const SuiteResult& other,
   return line + '\n';
 }
 
+struct Column {
+  std::string_view name;
+  std::string_view metric;
+  int decimals;
+};
+constexpr Column kStanding[] = {{"F1", kF1, 3},
+                                {"recall", "rebel.recall", 2},
+                                {"boxes of movers", "square.recall_50_movers", 2},
+                                {"false objects per 100 frames", kFalse, 1},
+                                {"ms a frame", kTime, 1},
+                                {"ms as a process", "time.process_ms_median", 1}};
+
 }  // namespace
+
+std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult> others) {
+  std::string text = "| detector |", rule = "|---|";
+  for (const Column& column : kStanding) {
+    text += fmt::format(" {} |", column.name);
+    rule += "---|";
+  }
+  text += '\n' + rule + '\n';
+  const auto add = [&](const SuiteResult& by) {
+    text += fmt::format("| `{}` |", by.detector);
+    for (const Column& column : kStanding) {
+      std::vector<double> figures;
+      for (const ScenarioResult& scenario : by.scenarios) {
+        if (const auto spread = over_seeds(scenario, column.metric))
+          figures.push_back(spread->mean);
+      }
+      if (figures.empty()) {
+        text += " - |";
+        continue;
+      }
+      const Interval mean = interval_of(figures);
+      text += fmt::format(" {:.{}f}", mean.mean, column.decimals);
+      const bool is_time = column.metric.starts_with("time.");
+      if (is_of_worlds(by) && !is_time) text += half_text(mean.half.value_or(0), column.decimals);
+      while (text.ends_with(' ')) text.pop_back();
+      text += " |";
+    }
+    text += '\n';
+  };
+  add(suite);
+  for (const SuiteResult& other : others) add(other);
+  return text;
+}
 
 std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> others) {
   std::vector<Row> rows = rows_of(suite, others, kF1);

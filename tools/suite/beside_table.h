@@ -18,4 +18,11 @@ namespace lcs::suite {
 /// all.
 std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> others);
 
+inline constexpr const char* kStandingFile = "standing.md";
+
+/// A table in Markdown, a row a detector: means over all scenarios that have the figure (of worlds
+/// with their 95 % interval, `±`) of F1 and recall of rebel corners, of recall of boxes of movers,
+/// and of false objects, and without an interval of the time of a frame. What nobody knows is `-`.
+std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult> others);
+
 }  // namespace lcs::suite

@@ -10,6 +10,7 @@
 #include "tools/bench/criteria.h"
 #include "tools/bench/report.h"
 #include "tools/bench/result.h"
+#include "tools/suite/beside_table.h"
 #include "tools/suite/child_process.h"
 #include "tools/suite/junit.h"
 #include "tools/suite/summary.h"
@@ -183,7 +184,7 @@ void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteWat
 
 bench::ResultFiles suite_files() {
   bench::ResultFiles files{{kSuiteFile, kJunitFile, "report.html", "worlds.html", "worlds/*.jpg",
-                            std::string("beside/*/") + kSuiteFile},
+                            kStandingFile, std::string("beside/*/") + kSuiteFile},
                            "\"detector\""};
   for (const std::string& file : bench::result_files().names) {
     for (const char* suite : {"", "beside/*/"}) {
