@@ -23,14 +23,13 @@ const pick = (some, column) => some.map((row) => row[column]);
 
 /** One curve a series: {name, style, dashed, where}; `y` of the rows that fit, by their `x`. */
 function curves({ title, table, where, x, xName, y, series, ...more }) {
-  const all = series.map((s) => ({ ...s, rows: rows(table, { ...where, ...s.where }) }));
-  const xs = [...new Set(all.flatMap((s) => pick(s.rows, x)))].sort((a, b) => a - b)
-    .filter((value) => !more.logX || value > 0);
-  return plot({ title, x: xs, xName, ...more, series: all.map((s) => ({ name: s.name, style: s.style,
-    dashed: s.dashed, values: xs.map((value) => {
-      const row = s.rows.find((r) => r[x] === value);
-      return row ? row[s.y || y] : null;
-    }) })) });
+  const tables = series.map((s) => {
+    const some = rows(table, { ...where, ...s.where }).filter((row) => !more.logX || row[x] > 0).sort((a, b) => a[x] - b[x]);
+    return [pick(some, x), pick(some, s.y || y)];
+  });
+  const [xs, ...ys] = uPlot.join(tables);
+  return plot({ title, x: xs, xName, ...more, series: series.map(({ name, style, dashed }, i) =>
+    ({ name, style, dashed, values: ys[i] })) });
 }
 
 const ROTATIONS = [['as_printed', 'as printed', 's4'], ['first_order', 'first order', 's2'],

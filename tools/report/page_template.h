@@ -11,4 +11,9 @@ extern const std::string_view kPageHtml;  ///< with {{title}}, {{style}}, {{data
 extern const std::string_view kPageCss;
 extern const std::string_view kPlotJs;  ///< elements, numbers, plots
 
+/// uPlot, which draws the plots, as it was published, and its licence.
+extern const std::string_view kUplotJs;
+extern const std::string_view kUplotCss;
+extern const std::string_view kUplotLicence;
+
 }  // namespace lcs::report

@@ -1,5 +1,7 @@
 #include "tools/report/page_writer.h"
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "tools/bench/output_file.h"
@@ -25,16 +27,18 @@ std::string embeddable(std::string_view json) {
 std::string html_of(const Page& page) {
   const std::string title = escaped(page.title);
   const std::string data = embeddable(page.data);
-  const std::string script = std::string(kPlotJs).append("\n").append(page.script);
+  const std::string style = fmt::format("{}\n{}", kUplotCss, kPageCss);
+  const std::string script =
+      fmt::format("/*\n{}*/\n{}\n{}\n{}", kUplotLicence, kUplotJs, kPlotJs, page.script);
   std::string html;
-  html.reserve(kPageHtml.size() + kPageCss.size() + script.size() + data.size());
+  html.reserve(kPageHtml.size() + style.size() + script.size() + data.size());
   std::string_view rest = kPageHtml;
   for (std::size_t open = rest.find("{{"); open != rest.npos; open = rest.find("{{")) {
     const std::size_t close = rest.find("}}", open);
     const std::string_view name = rest.substr(open + 2, close - open - 2);
     html += rest.substr(0, open);
     html += name == "title"        ? std::string_view(title)
-            : name == "style"      ? kPageCss
+            : name == "style"      ? std::string_view(style)
             : name == "script"     ? std::string_view(script)
             : name == "where_else" ? page.where_else
                                    : std::string_view(data);

@@ -34,111 +34,71 @@ function digits(value) {
   return value.toFixed(decimals).replace('-', '−');
 }
 
-// ---- Plots
-
-const WIDTH = 480, HEIGHT = 190, LEFT = 40, RIGHT = 10, TOP = 8, BOTTOM = 24;
-
-function ticks(low, high, about) {
-  const raw = (high - low) / about;
-  const power = 10 ** Math.floor(Math.log10(raw));
-  const step = power * [1, 2, 5, 10].find((factor) => factor * power >= raw);
-  const all = [];
-  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i++) all.push(i * step);
-  return all;
-}
 const tickText = (value) => value !== 0 && Math.abs(value) < 1e-3 ? value.toExponential(0)
   : String(Number(value.toPrecision(6)));
 
-/** Points joined where none is missing between them; a lone one as a dot. */
-function curve(xs, ys, at, style) {
-  const parts = [];
-  let path = '', count = 0, last = null;
-  const end = () => {
-    if (count > 1) parts.push(svg('path', { class: 'curve ' + style, d: path }));
-    if (count === 1) parts.push(svg('circle', { class: 'dot ' + style, cx: last[0], cy: last[1], r: 1.8 }));
-    path = '';
-    count = 0;
-  };
-  xs.forEach((x, i) => {
-    if (!isNumber(ys[i])) return end();
-    last = [at.x(x).toFixed(1), at.y(ys[i]).toFixed(1)];
-    path += (count++ ? 'L' : 'M') + last.join(' ');
-  });
-  end();
-  return parts;
-}
+// ---- Plots, by uPlot
 
-/** The share of the way from low to high, and the round values between them. */
-function linear(low, high, about) {
-  return { share: (value) => high > low ? (value - low) / (high - low) : 0.5,
-    ticks: ticks(low, high > low ? high : low + 1, about) };
-}
-/** Likewise by powers of ten; what is smaller than low lies on it. */
-function logarithmic(low, high) {
-  const from = Math.log10(low), decades = Math.max(1e-9, Math.log10(high) - from);
-  const all = [];
-  for (let power = Math.floor(from); power <= from + decades; power++) {
-    for (const factor of decades < 2 ? [1, 2, 5] : [1]) {
-      const value = factor * 10 ** power;
-      if (value >= low * 0.999 && value <= high * 1.001) all.push(value);
-    }
-  }
-  return { share: (value) => (Math.log10(Math.max(value, low)) - from) / decades, ticks: all };
-}
+const HEIGHT = 170;
+const BANDS = { miss: { name: 'missed', style: 's2' }, false: { name: 'false alarm', style: 's5' } };
+
+const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue('--' + name);
+
+/** Places of values that have none beside them, which no line shows. */
+const loneOnes = (values) => values.flatMap((v, i) =>
+  v !== null && !isNumber(values[i - 1]) && !isNumber(values[i + 1]) ? [i] : []);
 
 /**
- * series: {name, values, style, dashed, spread}; a band is {from, to, kind, title}.
- * logX and logY: by powers of ten, y from `bottom` up.
- * Pointing at the plot reads the values there.
+ * series: {name, values, style, dashed, faint, spread}; a band is {from, to, kind}.
+ * logX and logY: by powers of ten, y from `bottom` up; what is below lies on it.
+ * Pointing at the plot reads the values there, in all plots of the same `sync`, and tells `onPoint` the place in x.
+ * `pointAt(value of x)` of the figure that is returned does likewise in this plot.
  */
-function plot({ title, x, xName, series, top, bands, logX, logY, bottom }) {
+function plot({ title, x, xName, series, top, bands = [], logX, logY, bottom, sync, onPoint }) {
   const low = Math.min(...x), high = Math.max(...x);
-  const values = series.flatMap((s) => s.values).filter(isNumber);
-  const greatest = top || Math.max(1e-9, ...values) * 1.05;
-  const scale = {
-    x: logX ? logarithmic(low, high) : linear(low, high, 6),
-    y: logY ? logarithmic(bottom, Math.max(greatest, 10 * bottom)) : linear(0, greatest, 4),
+  const shown = series.map((s) => s.values.map((v) => !isNumber(v) ? null : logY ? Math.max(v, bottom) : v));
+  const greatest = top || Math.max(1e-9, ...shown.flat()) * 1.05;
+  const scale = (log, range) => ({ time: false, distr: log ? 3 : 1, range: () => range });
+  const axis = (more) => ({ stroke: () => colour('quiet'), font: '11px system-ui, sans-serif', ticks: { show: false },
+    values: (_, ticks) => ticks.map((v) => v === null ? '' : tickText(v)), ...more });
+  const drawBands = ({ ctx, bbox, valToPos }) => {
+    ctx.save();
+    ctx.globalAlpha = 0.13;
+    for (const band of bands) {
+      const from = valToPos(band.from, 'x', true), to = valToPos(band.to, 'x', true);
+      ctx.fillStyle = colour(BANDS[band.kind].style);
+      ctx.fillRect(from - 1, bbox.top, to - from + 2, bbox.height);
+    }
+    ctx.restore();
   };
-  const at = {
-    x: (value) => LEFT + scale.x.share(value) * (WIDTH - LEFT - RIGHT),
-    y: (value) => HEIGHT - BOTTOM - scale.y.share(value) * (HEIGHT - TOP - BOTTOM),
-  };
-  const cursor = svg('line', { class: 'cursor', y1: TOP, y2: HEIGHT - BOTTOM });
-  const picture = svg('svg', { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: 'img',
-    'aria-label': title + ' over ' + xName + ': ' + series.map((s) => s.name).join(', ') },
-    ...(bands || []).map((band) => svg('rect', { class: 'band ' + band.kind, x: at.x(band.from) - 1, y: TOP,
-      width: Math.max(2, at.x(band.to) - at.x(band.from) + 2), height: HEIGHT - TOP - BOTTOM },
-      svg('title', null, band.title))),
-    ...scale.y.ticks.flatMap((value) => [
-      svg('line', { class: 'grid', x1: LEFT, x2: WIDTH - RIGHT, y1: at.y(value), y2: at.y(value) }),
-      svg('text', { x: LEFT - 5, y: at.y(value) + 4, 'text-anchor': 'end' }, tickText(value))]),
-    ...scale.x.ticks.filter((value) => at.x(value) <= WIDTH - RIGHT - 8 * xName.length - 12).map((value) =>
-      svg('text', { x: at.x(value), y: HEIGHT - 7, 'text-anchor': 'middle' }, tickText(value))),
-    svg('text', { x: WIDTH - RIGHT, y: HEIGHT - 7, 'text-anchor': 'end' }, xName),
-    ...series.flatMap((s) => curve(x, s.values, at, s.style + (s.dashed ? ' dashed' : ''))),
-    ...series.filter((s) => s.spread).flatMap((s) => x.flatMap((value, i) => isNumber(s.values[i]) ? [
-      svg('circle', { class: 'dot ' + s.style, cx: at.x(value), cy: at.y(s.values[i]), r: 3 }),
-      svg('line', { class: 'whisker ' + s.style, x1: at.x(value), x2: at.x(value),
-        y1: at.y(s.values[i] - (s.spread[i] || 0)), y2: at.y(s.values[i] + (s.spread[i] || 0)) })] : [])),
-    cursor);
-  const readout = el('div', { class: 'readout' });
-  const read = (event) => {
-    const box = picture.getBoundingClientRect();
-    const px = (event.clientX - box.left) / box.width * WIDTH;
-    let nearest = 0;
-    x.forEach((value, i) => { if (Math.abs(at.x(value) - px) < Math.abs(at.x(x[nearest]) - px)) nearest = i; });
-    cursor.setAttribute('x1', at.x(x[nearest]));
-    cursor.setAttribute('x2', at.x(x[nearest]));
-    cursor.style.visibility = 'visible';
-    readout.textContent = tickText(x[nearest]) + ' ' + xName + ':  ' +
-      series.map((s) => s.name + ' ' + digits(s.values[nearest])).join(',  ');
-  };
-  picture.addEventListener('pointermove', read);
-  picture.addEventListener('pointerleave', () => { cursor.style.visibility = 'hidden'; readout.textContent = ''; });
-  return el('figure', { class: 'plot' },
-    el('figcaption', null, el('b', null, title), ...series.map((s) =>
-      el('span', { class: 'key ' + s.style + (s.dashed ? ' dashed' : '') }, el('span', null, s.name))),
-      ...[['miss', 'missed'], ['false', 'false alarm']].filter(([kind]) => (bands || []).some((b) => b.kind === kind))
-        .map(([kind, name]) => el('span', { class: 'key ' + kind }, el('span', null, name)))),
-    picture, readout);
+  const drawSpreads = ({ ctx, valToPos }) => series.forEach((s) => (s.spread || []).forEach((spread, i) => {
+    if (!isNumber(s.values[i])) return;
+    ctx.strokeStyle = colour(s.style);
+    ctx.beginPath();
+    for (const end of [-spread, spread]) ctx.lineTo(valToPos(x[i], 'x', true), valToPos(s.values[i] + end, 'y', true));
+    ctx.stroke();
+  }));
+  const chart = new uPlot({ width: 480, height: HEIGHT,
+    scales: { x: scale(logX, [low, high > low ? high : low + 1]),
+      y: scale(logY, logY ? [bottom, Math.max(greatest, 10 * bottom)] : [0, greatest]) },
+    axes: [axis({ size: 26, grid: { show: false } }), axis({ size: 44, grid: { stroke: () => colour('line'), width: 1 } })],
+    legend: { markers: { width: 2, dash: (_, i) => !series[i - 1] ? 'none' : series[i - 1].faint ? 'dotted' : series[i - 1].dashed ? 'dashed' : 'solid' } },
+    cursor: { y: false, drag: { x: false }, sync: sync ? { key: sync } : undefined },
+    series: [{ label: xName, value: (_, v) => v === null ? '' : tickText(v) },
+      ...series.map((s, i) => ({ label: s.name, stroke: () => colour(s.style), width: s.faint ? 1 : 1.6,
+        dash: s.dashed ? [5, 4] : s.faint ? [2, 3] : undefined,
+        value: (_, v, __, at) => at === null ? '' : digits(s.values[at]),
+        points: { show: Boolean(s.spread), size: 5, filter: s.spread ? undefined : () => loneOnes(shown[i]) } }))],
+    hooks: { drawClear: [drawBands], draw: [drawSpreads],
+      setCursor: [({ cursor }) => { if (onPoint && isNumber(cursor.idx)) onPoint(cursor.idx); }] },
+  }, [x, ...shown]);
+  chart.root.setAttribute('role', 'img');
+  chart.root.setAttribute('aria-label', title + ' over ' + xName + ': ' + series.map((s) => s.name).join(', '));
+  const figure = el('figure', { class: 'plot' }, el('figcaption', null, el('b', null, title),
+    ...Object.entries(BANDS).filter(([kind]) => bands.some((b) => b.kind === kind))
+      .map(([kind, { name }]) => el('span', { class: 'key ' + kind }, name))), chart.root);
+  figure.pointAt = (value) => chart.setCursor({ left: chart.valToPos(value, 'x'), top: 1 });
+  const fit = () => { if (figure.clientWidth > 0) chart.setSize({ width: figure.clientWidth, height: HEIGHT }); };
+  new ResizeObserver(() => requestAnimationFrame(fit)).observe(figure);
+  return figure;
 }
