@@ -7,13 +7,61 @@
   };
   try {
     const data = JSON.parse(document.getElementById('data').textContent);
+    expect('the verdict is the first line', document.body.innerText.trim().split('\n')[0].includes(data.verdict));
+    expect('the versions are at the foot', document.querySelector('footer').textContent.includes(data.version));
+    /** Whether something is drawn: looked at in a copy. */
+    const isDrawn = (canvas) => {
+      if (canvas.width === 0) return false;
+      const copy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
+      const context = copy.getContext('2d', { willReadFrequently: true });
+      context.drawImage(canvas, 0, 0);
+      return context.getImageData(0, 0, copy.width, copy.height).data.some((value) => value > 0);
+    };
+    const plotsAreDrawn = async (section, what) => {
+      const canvases = [...section.querySelectorAll('figure.plot canvas')];
+      expect(what + ' has four plots', canvases.length === 4);
+      await until(() => canvases.every(isDrawn));
+      expect(what + ' has drawn plots', canvases.every(isDrawn));
+    };
+
+    if (data.is_run) {
+      await plotsAreDrawn(document, 'the run');
+      const video = document.querySelector('video');
+      await until(() => video.readyState > 0);
+      expect('the video is there', video.duration > 0);
+      // Pointing at the end of a plot shows the last frame.
+      const plots = document.querySelector('.plots'), over = plots.querySelector('.u-over');
+      const box = over.getBoundingClientRect();
+      plots.dispatchEvent(new MouseEvent('mouseenter'));
+      for (const type of ['mouseenter', 'mousemove']) {
+        over.dispatchEvent(new MouseEvent(type, { clientX: box.right - 1, clientY: box.top + 5, bubbles: true }));
+      }
+      await until(() => video.currentTime > 0.8 * video.duration);
+      expect('pointing shows the frame', video.currentTime > 0.8 * video.duration);
+      // Where the video is, the plots are.
+      plots.dispatchEvent(new MouseEvent('mouseleave'));
+      video.currentTime = 0.01;
+      video.dispatchEvent(new Event('seeked'));  // the decoder lives in real time, not in the budget's
+      const first = () => [...plots.querySelectorAll('.u-legend tr:first-child .u-value')].map((cell) => cell.textContent);
+      await until(() => first().every((text) => text === '0'));
+      expect('the plots follow the video', first().every((text) => text === '0'));
+      throw null;
+    }
     const table = document.getElementById('scenarios');
     const rows = () => [...table.tBodies[0].rows];
     const names = () => rows().map((row) => row.dataset.scenario);
 
     // The table has a row a scenario, with the figures that it was given.
     expect('a row a scenario', rows().length === data.scenarios.length && rows().length >= 2);
-    expect('a heading says the detector', document.querySelector('h1').textContent.includes(data.detector));
+
+    // What is worst is told before the tables, and leads to its section.
+    expect('regressions are told', data.baseline === null || data.remarks.some((r) => r.standing === 'regressed'));
+    for (const remark of document.querySelectorAll('#worst .remark')) {
+      const link = remark.querySelector('a');
+      link.click();
+      expect(link.textContent + ' has reasons and a section', remark.querySelectorAll('li').length > 0 &&
+        document.querySelector(link.getAttribute('href')).open);
+    }
 
     // Headings sort, first upwards, then downwards; figures that are not defined stay last.
     const headings = [...table.tHead.rows[0].cells];
@@ -61,8 +109,9 @@
       await until(() => section.querySelector('.body'));
       for (const button of section.querySelectorAll('.tabs button')) {
         button.click();
-        expect(row.dataset.scenario + ' has three plots', section.querySelectorAll('figure.plot svg').length === 3);
-        expect(row.dataset.scenario + ' has curves', section.querySelectorAll('svg .curve').length >= 6);
+        await plotsAreDrawn(section, row.dataset.scenario);
+        expect(row.dataset.scenario + ' has the baseline beside', data.baseline === null ||
+          [...section.querySelectorAll('.u-legend th')].some((label) => label.textContent === 'before'));
         expect(row.dataset.scenario + ' has no figure that is none', !/NaN|undefined/.test(section.innerHTML.replace(/base64,[^"]*/g, '')));
         expect(row.dataset.scenario + ' has its command', section.querySelector('.command code').textContent.startsWith('lcs run '));
         for (const picture of section.querySelectorAll('.strip img')) {
@@ -75,7 +124,7 @@
     expect('there are pictures', pictures >= 3);
     expect('reasons are told', document.querySelectorAll('.reason').length > 0);
   } catch (error) {
-    faults.push(String(error && error.stack || error));
+    if (error) faults.push(String(error.stack || error));
   }
   const result = document.createElement('pre');
   result.id = 'exercise';

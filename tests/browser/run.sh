@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Usage: run.sh LCS SCENARIOS WORK
 #
-# Runs two small suites, the second one with the first as its baseline, opens the page of each in a
-# headless Chromium and uses it: headings sort, the filter filters, sections open, pictures show, and
-# the console stays empty. Exits with 77, skipped, where there is no Chromium.
+# Runs two small suites, the second one with the first as its baseline, and a single run, opens the page
+# of each in a headless Chromium and uses it: headings sort, the filter filters, sections open, plots are
+# drawn, pictures show, the video follows the plots, and the console stays empty. Exits with 77, skipped, where there is no Chromium.
 set -euo pipefail
 lcs=$1 scenarios=$2 work=$3
 here=$(dirname "${BASH_SOURCE[0]}")
@@ -28,6 +28,7 @@ suite() {
 suite --out "$work/first"
 suite --out "$work/second" --set filter.preset=lab \
   --baseline "$work/first/suite.json"
+"$lcs" run "$scenarios/crossing.yaml" --frames 12 --report --quiet --out "$work/run" || [[ $? -eq 1 ]]
 
 # browse PAGE: what the page is after it was used, on stdout.
 browse() {
@@ -37,9 +38,9 @@ browse() {
     --dump-dom "file://$1" 2>"$work/log"
 }
 
-for name in first second; do
+for name in first second run; do
   report=$work/$name/report.html
-  [[ -s $report ]] || fail "the suite left no report.html"
+  [[ -s $report ]] || fail "$name left no report.html"
   # A copy with a listener before all else and the exercise after it.
   used=$work/$name.html
   awk -v exercise="$here/exercise.js" '

@@ -33,7 +33,7 @@ TEST_F(CompareCommand, ExitsWithZeroForTheSameAndForTheBetter) {
   suite("b", {0.7, 0.8});
   const CommandResult same = compare({"a", "a/suite.json"});
   EXPECT_EQ(same.exit_code, 0) << same.err;
-  EXPECT_NE(same.out.find("0 improved, 0 regressed"), std::string::npos) << same.out;
+  EXPECT_TRUE(same.out.ends_with("\n0 regressed, 0 improved, 1 as before\n")) << same.out;
   const CommandResult better = compare({"a", "b"});
   EXPECT_EQ(better.exit_code, 0) << better.err;
   EXPECT_NE(better.out.find("improved:\n  near  rebel.f1"), std::string::npos) << better.out;
@@ -43,6 +43,7 @@ TEST_F(CompareCommand, ExitsWithOneForARegressionAmongTheFiguresAskedFor) {
   suite("a", {0.7, 0.8});
   suite("b", {0.5, 0.6});
   EXPECT_EQ(compare({"a", "b"}).exit_code, 1);
+  EXPECT_EQ(compare({"a", "b", "--fail-on-regression"}).exit_code, 1);
   EXPECT_EQ(compare({"a", "b", "--metric", "f1$"}).exit_code, 1);
   EXPECT_EQ(compare({"a", "b", "--metric", "square"}).exit_code, 0);
 }

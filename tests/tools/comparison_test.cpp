@@ -105,6 +105,63 @@ TEST(Compare, TimesAreNeverComparedAndNeutralFiguresNeverJudged) {
   EXPECT_EQ(comparison.judged, 0);
 }
 
+TEST(Compare, TheSizeBesideAStoreIsJudgedAsAnyOtherFigure) {
+  const auto with_size = [](double size) {
+    ScenarioResult scenario = scenario_with("near", "dimension.mean", {size, size});
+    for (RunResult& run : scenario.runs) run.metrics.push_back({"dimension.five_frame_mean", 100});
+    return suite_with({scenario});
+  };
+  const Comparison comparison = compare(with_size(20), with_size(30),
+                                        [](std::string_view name) { return name == kSizeShare; });
+  ASSERT_EQ(comparison.differences.size(), 1u);
+  EXPECT_EQ(comparison.differences[0].verdict, Change::regressed);
+  EXPECT_DOUBLE_EQ(comparison.differences[0].after, 0.3);
+}
+
+// ---- Scenarios and groups
+
+TEST(Compare, AScenarioIsAsItsWorstFigure) {
+  const auto with = [](double f1, double recall) {
+    ScenarioResult scenario = scenario_with("near", "rebel.f1", {f1});
+    scenario.runs[0].metrics.push_back({"rebel.recall", recall});
+    return suite_with({scenario});
+  };
+  EXPECT_EQ(compare_all(with(0.5, 0.5), with(0.6, 0.5)).of_scenario("near"), Change::improved);
+  EXPECT_EQ(compare_all(with(0.5, 0.5), with(0.6, 0.4)).of_scenario("near"), Change::regressed);
+  EXPECT_EQ(compare_all(with(0.5, 0.5), with(0.5, 0.5)).of_scenario("near"), Change::none);
+  EXPECT_EQ(compare_all(with(0.5, 0.5), with(0.5, 0.5)).of_scenario("far"), std::nullopt);
+}
+
+TEST(Compare, AGroupChangesSeedBySeedAsItsScenariosAreNoSample) {
+  // Scenarios differ in how they change by far more than seeds do.
+  const auto with = [](const Values& near, const Values& far) {
+    return suite_with(
+        {scenario_with("near", "rebel.f1", near), scenario_with("far", "rebel.f1", far)});
+  };
+  const Comparison comparison =
+      compare_all(with({0.5, 0.5}, {0.5, 0.5}), with({0.80, 0.81}, {0.52, 0.51}));
+  ASSERT_EQ(comparison.groups.size(), 1u);
+  const Difference& group = comparison.groups[0];
+  EXPECT_EQ(group.scenario, "short");
+  EXPECT_NEAR(group.change.mean, 0.16, 1e-12);
+  EXPECT_NEAR(group.change.half.value(), 0, 1e-12) << "0.16 with each seed";
+  EXPECT_EQ(group.verdict, Change::improved);
+}
+
+TEST(Compare, AGroupOfWorldsChangesWorldByWorld) {
+  const auto with = [](double one, double two) {
+    SuiteResult suite = suite_with(
+        {scenario_with("room_1", "rebel.f1", {one}), scenario_with("room_2", "rebel.f1", {two})});
+    for (ScenarioResult& world : suite.scenarios) world.drawn = Drawn{"room", 0, {}};
+    return suite;
+  };
+  const Comparison comparison = compare_all(with(0.5, 0.5), with(0.8, 0.52));
+  ASSERT_EQ(comparison.groups.size(), 1u);
+  EXPECT_EQ(comparison.groups[0].seeds, 2);
+  EXPECT_NEAR(comparison.groups[0].change.half.value(), 12.7062 * 0.14, 1e-3);
+  EXPECT_EQ(comparison.groups[0].verdict, Change::none);
+}
+
 // ---- What cannot be compared
 
 TEST(Compare, AScenarioOfOneSideIsNamed) {
@@ -112,7 +169,7 @@ TEST(Compare, AScenarioOfOneSideIsNamed) {
   const Comparison comparison =
       compare_all(suite_with({both, scenario_with("old", "rebel.f1", {0.5})}),
                   suite_with({scenario_with("new", "rebel.f1", {0.5}), both}));
-  EXPECT_EQ(comparison.scenarios, 1);
+  EXPECT_EQ(comparison.scenarios, std::vector<std::string>{"both"});
   EXPECT_EQ(comparison.differences.size(), 1u);
   EXPECT_TRUE(names(comparison, "old: only before"));
   EXPECT_TRUE(names(comparison, "new: only after"));
@@ -145,10 +202,12 @@ TEST(Compare, ARunThatEndsWithAnErrorNowIsNamedAndIsARegression) {
   after.scenarios[0].runs[1].seed = 2;
   const Comparison lost = compare_all(before, after);
   EXPECT_TRUE(names(lost, "near: seed 2 ended with an error after"));
-  EXPECT_TRUE(lost.lost_runs);
+  EXPECT_EQ(lost.lost, std::set<std::string>{"near"});
+  EXPECT_EQ(lost.of_scenario("near"), Change::regressed);
+  EXPECT_TRUE(lost.has_regressed());
   const Comparison gained = compare_all(after, before);
   EXPECT_TRUE(names(gained, "near: seed 2 ended with an error before"));
-  EXPECT_FALSE(gained.lost_runs);
+  EXPECT_FALSE(gained.has_regressed());
 }
 
 // ---- In words
@@ -166,7 +225,7 @@ TEST(ComparisonText, TellsWhatRegressedAndImprovedWithTheInterval) {
             "  far  rebel.f1    0.500 ->   0.250   -0.250  [-0.250, -0.250]\n"
             "improved:\n"
             "  near  rebel.f1    0.500 ->   0.750   +0.250  [+0.250, +0.250]\n"
-            "3 scenarios, 3 figures judged: 1 improved, 1 regressed, 1 as they were\n");
+            "3 figures judged: 1 regressed, 1 improved, 1 as before\n");
   const std::string all = text_of(compare_all(before, after), true);
   EXPECT_NE(all.find("no real change:\n  same"), std::string::npos) << all;
 }

@@ -332,10 +332,34 @@ TEST_F(Suite, ADetectorReachesEveryRunAndIsWrittenDown) {
 TEST_F(Suite, ABaselineShowsWhatChangedAndOneThatCannotBeReadIsToldBeforeAnythingRuns) {
   scenario("near");
   ASSERT_EQ(run({"--seeds", "1", "--out", "before"}).exit_code, 0);
-  const CommandResult same = run({"--seeds", "1", "--baseline", "before"});
+  const CommandResult same =
+      run({"--seeds", "1", "--recorded", "before", "--baseline", "before", "--fail-on-regression"});
   EXPECT_EQ(same.exit_code, 0) << same.err;
-  EXPECT_NE(same.out.find("Against before:"), std::string::npos) << same.out;
-  EXPECT_NE(same.out.find("0 improved, 0 regressed"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("\n0 regressed, 0 improved, 1 as before\n"), std::string::npos)
+      << same.out;
+
+  // A suite that was better: what is as it was has regressed from it.
+  const fs::path better = folder_.path() / "better";
+  fs::copy(folder_.path() / "before", better, fs::copy_options::recursive);
+  SuiteResult suite = read_suite(better);
+  for (auto& [name, figure] : suite.scenarios[0].runs[0].metrics) {
+    if (name == "dimension.mean") figure = figure.value() / 2;
+  }
+  write_suite(better / kSuiteFile, suite);
+  const std::vector<std::string> against{"--seeds", "1",          "--recorded",
+                                         "before",  "--baseline", "better"};
+  const CommandResult worse = run(against);
+  EXPECT_EQ(worse.exit_code, 0) << "it is not asked to fail";
+  EXPECT_NE(worse.out.find("regressed: near\n  dimension.mean "), std::string::npos) << worse.out;
+  EXPECT_NE(worse.out.find("\n1 regressed, 0 improved, 0 as before\n"), std::string::npos)
+      << worse.out;
+  std::vector<std::string> strict = against;
+  strict.insert(strict.end(), {"--fail-on-regression", "--quiet"});
+  const CommandResult failed = run(strict);
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_NE(failed.err.find("regressed against better: 1 regressed"), std::string::npos)
+      << failed.err;
+
   const CommandResult missing = run({"--baseline", "no_such", "--out", "other"});
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_NE(missing.err.find("no_such"), std::string::npos) << missing.err;
@@ -390,6 +414,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"no_such_group", {"--group", "nightly"}, "the groups are short"},
                     Mistake{"bad_filter", {"--filter", "("}, "regular expression"},
                     Mistake{"no_seeds", {"--seeds", "0"}, "--seeds"},
+                    Mistake{"no_baseline", {"--fail-on-regression"}, "--baseline"},
                     Mistake{"no_jobs", {"--jobs", "0"}, "--jobs"},
                     Mistake{"unknown_detector", {"--detector", "yolo"}, "yolo"},
                     Mistake{"unwritable_folder", {"--out", "/proc/lcs"}, "/proc/lcs"}),

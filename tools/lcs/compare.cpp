@@ -10,6 +10,7 @@
 #include "tools/suite/comparison.h"
 #include "tools/suite/pattern.h"
 #include "tools/suite/suite_result.h"
+#include "tools/suite/verdict.h"
 
 namespace lcs::tools {
 namespace {
@@ -51,6 +52,10 @@ CLI::App& add_compare_command(CLI::App& app, CompareOptions& options) {
       ->type_name("REGEX");
   command.add_flag("--all", options.all,
                    "Also what did not change, and figures of which neither way is better");
+  command.add_flag_callback(
+      "--fail-on-regression", [] {},
+      "Exit with 1 where something regressed: this command always does, lcs suite only where it is "
+      "asked");
   command.footer(kHelp);
   return command;
 }
@@ -61,7 +66,7 @@ ExitCode compare(const CompareOptions& options) {
   const suite::SuiteResult after = suite::read_suite(options.after);
   const suite::Comparison comparison =
       suite::compare(before, after, [&](std::string_view metric) { return wanted.is_in(metric); });
-  if (comparison.scenarios == 0) {
+  if (comparison.scenarios.empty()) {
     throw std::runtime_error(
         fmt::format("{} and {} have no scenario in common; give two suites of the same "
                     "scenarios",
@@ -70,8 +75,8 @@ ExitCode compare(const CompareOptions& options) {
   print_suite("before", options.before, before);
   print_suite("after ", options.after, after);
   print_out("{}", scenario::printable(suite::text_of(comparison, options.all)));
-  const bool is_worse = comparison.count(suite::Change::regressed) > 0 || comparison.lost_runs;
-  return is_worse ? kRegressed : kFine;
+  print_out("{}\n", suite::verdict_of({after, {}}, nullptr, &comparison).line);
+  return comparison.has_regressed() ? kRegressed : kFine;
 }
 
 }  // namespace lcs::tools

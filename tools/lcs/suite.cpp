@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "scenarios/message.h"
 #include "scenarios/scenes.h"
 #include "tools/bench/criteria.h"
 #include "tools/bench/output_file.h"
@@ -32,6 +33,7 @@
 #include "tools/suite/suite_run.h"
 #include "tools/suite/suite_table.h"
 #include "tools/suite/summary.h"
+#include "tools/suite/verdict.h"
 
 namespace lcs::tools {
 namespace {
@@ -78,7 +80,7 @@ Files written to the folder, all or none:
 
 Exit codes:
   0  fine
-  1  a required criterion is not met
+  1  a required criterion is not met; with --fail-on-regression also: something regressed
   2  a run ended with an error, or nothing could be run
   130  interrupted (Ctrl-C): nothing was written, an earlier suite is as it was
 )";
@@ -97,14 +99,6 @@ std::optional<suite::SuiteResult> former_suite(const fs::path& target) {
   } catch (const std::exception&) {
     return std::nullopt;
   }
-}
-
-std::string version_line() {
-  std::string text = version_text();
-  for (std::size_t i = text.find('\n'); i != std::string::npos; i = text.find('\n')) {
-    text.replace(i, 1, ", ");
-  }
-  return text;
 }
 
 ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
@@ -148,11 +142,14 @@ std::vector<std::string> seldom_meant(const std::vector<suite::PlannedScenario>&
   return lines;
 }
 
-void print_changes(const suite::SuiteResult& baseline, const suite::SuiteResult& result,
-                   const std::string& name) {
-  const suite::Comparison comparison =
-      suite::compare(baseline, result, [](std::string_view) { return true; });
-  print_out("Against {}:\n{}\n", name, suite::text_of(comparison, false));
+/// What changed, worst first, and the verdict last, which is what is seen.
+void print_changes(const suite::Verdict& verdict, const suite::Comparison& comparison,
+                   const std::string& baseline) {
+  print_out("Against {}:\n", baseline);
+  for (const std::string& what : comparison.incomparable) {
+    print_out("not compared: {}\n", scenario::printable(what));
+  }
+  print_out("{}", scenario::printable(suite::text_of(verdict)));
 }
 
 /// The suite's own detector and those beside it, each once.
@@ -231,8 +228,9 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
                   "Scenario files, and folders of them; the project's own if not given")
       ->type_name("");
   command
-      .add_option("--group", options.group,
-                  "Only scenarios of this group; 'all' for any. If not given: short, but any for "
+      .add_option(
+          "--group", options.group,
+          "Only scenarios of this group; 'all' for any. If not given: short, but any for "
                   "scenario files that are named")
       ->type_name("NAME");
   command
@@ -271,10 +269,15 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
   add_set_option(command, options.sets, "Set a value in every scenario, as \"camera.rate=5 Hz\"");
   command.add_option("--out", options.out, "Folder for the results; out/suite if not given")
       ->type_name("DIR");
+  CLI::Option* baseline =
+      command
+          .add_option("--baseline", options.baseline,
+                      "An earlier suite.json or its folder, to show changes against")
+          ->type_name("FILE");
   command
-      .add_option("--baseline", options.baseline,
-                  "An earlier suite.json or its folder, to show changes against")
-      ->type_name("FILE");
+      .add_flag("--fail-on-regression", options.fail_on_regression,
+                "Exit with 1 where something regressed against the baseline, as lcs compare does")
+      ->needs(baseline);
   command.add_flag("--worst-first", options.worst_first, "Sort the table by F1");
   command.add_flag("--list", options.list, "Only list what would be run");
   command.add_flag("--quiet", options.quiet,
@@ -362,21 +365,30 @@ ExitCode suite(const SuiteOptions& options) {
   result.recorded = recorded;
   suite::write_suite(folder.staging() / suite::kSuiteFile, result);
   suite::write_junit(folder.staging() / suite::kJunitFile, result, others);
-  report::write_report(folder.staging() / report::kReportFile, result,
-                       baseline ? &*baseline : nullptr, folder.staging());
   if (!others.empty()) {
     bench::OutputFile standing(folder.staging() / suite::kStandingFile);
     standing.write(suite::standing_table(result, others));
     standing.close();
   }
+  const suite::SuiteInFolder made{result, folder.staging()};
+  std::optional<suite::SuiteInFolder> before;
+  std::optional<suite::Comparison> comparison;
+  if (baseline) {
+    before.emplace(suite::SuiteInFolder{*baseline, suite::folder_of(options.baseline)});
+    comparison = suite::compare(*baseline, result, [](std::string_view) { return true; });
+  }
+  const suite::SuiteInFolder* beside = before ? &*before : nullptr;
+  const suite::Verdict verdict =
+      suite::verdict_of(made, beside, comparison ? &*comparison : nullptr);
+  report::write_report(folder.staging() / report::kReportFile, made, beside);
   if (of_worlds) write_worlds(folder.staging(), options.worlds, plan, result, others);
   folder.commit();
 
   if (!options.quiet) {
-    if (baseline) print_changes(*baseline, result, options.baseline);
     print_out("{}\n", suite::suite_table(result, options.worst_first));
     if (!others.empty()) print_out("{}\n", suite::beside_table(result, others));
     if (of_worlds) print_out("{}", told_of_worlds(options.worlds, result));
+    if (comparison) print_changes(verdict, *comparison, options.baseline);
     print_out("{}; results in {}\n", suite::totals(result), folder.target().string());
   }
   warn(suite::warnings(result));
@@ -388,7 +400,10 @@ ExitCode suite(const SuiteOptions& options) {
       tell(fmt::format("{}: {}", other.detector, problem));
     }
   }
-  return exit_code(outcome);
+  const bool is_worse = comparison && comparison->has_regressed();
+  if (!is_worse || !options.fail_on_regression) return exit_code(outcome);
+  tell(fmt::format("regressed against {}: {}", options.baseline, verdict.line));
+  return outcome == suite::Outcome::error ? kError : kRegressed;
 }
 
 }  // namespace lcs::tools

@@ -26,6 +26,7 @@ struct SuiteOptions {
   std::string recorded;             ///< folder of an earlier suite, for its frames; "": simulate
   std::string out = "out/suite";    ///< folder
   std::string baseline;             ///< suite.json, or its folder; "" for none
+  bool fail_on_regression = false;  ///< against the baseline
   bool worst_first = false;
   bool list = false;
   bool quiet = false;

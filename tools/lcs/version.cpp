@@ -11,8 +11,16 @@ namespace lcs::tools {
 
 std::string version_text() {
   const sim::Versions versions = sim::versions();
-  return fmt::format("lcs {}\nMuJoCo {}\n{}\nOpenCV {}", LCS_VERSION, versions.mujoco,
+  return fmt::format("lcs {}\nMuJoCo {}\n{}\nOpenCV {}", program_text(), versions.mujoco,
                      versions.gl_renderer, cv::getVersionString());
+}
+
+std::string version_line() {
+  std::string text = version_text();
+  for (std::size_t i = text.find('\n'); i != std::string::npos; i = text.find('\n')) {
+    text.replace(i, 1, ", ");
+  }
+  return text;
 }
 
 std::string program_text() {

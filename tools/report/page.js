@@ -18,15 +18,7 @@ function changeText(change, of) {
   return text === '' ? '≈' : (change > 0 ? '+' : '−') + text;
 }
 
-/** Which way the change of a figure is: 'good', 'bad', or '' where it is too small to matter. */
-function judged(name, figure) {
-  const traits = data.traits[name];
-  if (!figure || !isNumber(figure.change) || !traits) return '';
-  const change = figure.change;
-  const least = Math.max(traits.least_change, traits.least_share * Math.abs(figure.before));
-  if (traits.direction === 'neutral' || change === 0 || Math.abs(change) < least) return '';
-  return (change > 0) === (traits.direction === 'higher') ? 'good' : 'bad';
-}
+const COLOURS = { improved: 'good', regressed: 'bad' };
 
 function figureCell(name, figure) {
   if (!figure) return el('td', { class: 'nothing' }, '–');
@@ -36,16 +28,17 @@ function figureCell(name, figure) {
       '±' + (digitsBeside(figure.spread, figure.mean) || '0')));
   }
   if (hasBaseline) {
-    const known = isNumber(figure.mean) && isNumber(figure.change);
-    cell.append(el('span', { class: ('change ' + judged(name, figure)).trim(),
-      title: isNumber(figure.before) ? 'was ' + Number(figure.before.toPrecision(6)) +
-        ', over the scenarios and seeds that both have' : 'not in the baseline' },
-      known ? changeText(figure.change, figure.mean) : ''));
+    const { before, change, half, verdict } = figure;
+    const noise = isNumber(half) ? ', 95 % interval ±' + Number(half.toPrecision(2)) : ', noise unknown';
+    cell.append(el('span', { class: 'change ' + (COLOURS[verdict] || ''),
+      title: isNumber(before) ? 'was ' + Number(before.toPrecision(6)) + noise +
+        ', over the scenarios and seeds that both have' : 'not compared' },
+      isNumber(change) ? changeText(change, figure.mean) : ''));
   }
   return cell;
 }
 
-const OUTCOMES = { passed: '✓ passed', failed: '✗ failed', error: '! error' };
+const OUTCOMES = { passed: '✓ passed', failed: '✗ failed', error: '! error', regressed: '▼ regressed', improved: '▲ improved' };
 const badge = (outcome) => el('span', { class: 'badge ' + outcome }, OUTCOMES[outcome]);
 
 // ---- The head
@@ -65,21 +58,44 @@ const COLUMNS = [
   ['time.filter_over_fast', 'Time', 'of the detector\'s step, over that of FAST'],
 ];
 
+/** The verdict first; what it is of beneath it. */
 function head() {
+  const count = (number, what) => number + ' ' + what + (number === 1 ? '' : 's');
   const runs = data.scenarios.flatMap((s) => s.runs);
-  const fact = (name, value) => value === '' ? null : el('span', null, name + ' ', el('b', null, value));
-  const count = (outcome) => data.scenarios.filter((s) => s.outcome === outcome).length;
+  const what = data.is_run ? data.scenarios[0].name + ' by ' + data.detector + ', seed ' + runs[0].seed
+    : 'Suite by ' + data.detector + ': ' + count(data.scenarios.length, 'scenario') + ', ' + count(runs.length, 'run');
+  const f1 = data.is_run && runs[0].metrics['rebel.f1'];
   document.getElementById('head').append(
-    el('h1', null, 'Suite: ' + data.detector),
-    el('div', { class: 'facts' },
-      fact('version', data.version), fact('settings', data.sets.join(', ')),
-      fact('frames of', data.recorded),
-      fact('scenarios', String(data.scenarios.length)), fact('runs', String(runs.length)),
-      fact('baseline', hasBaseline
-        ? [data.baseline.detector, data.baseline.version, ...data.baseline.sets].join(', ') : 'none')),
-    el('p', { id: 'totals' }, ...['passed', 'failed', 'error'].filter((o) => count(o) > 0)
-      .map((o) => el('span', null, badge(o), ' ' + count(o) + ' ')),
-      el('span', { class: 'quiet' }, 'of ' + data.scenarios.length + ' scenarios')));
+    el('h1', null, (isNumber(f1) ? 'F1 ' + digits(f1) + ', ' : '') + data.verdict),
+    el('p', { class: 'quiet' }, what + (hasBaseline ? ', against ' + data.baseline.folder : '') +
+      (data.sets.length ? ', with ' + data.sets.join(', ') : ''), data.note ? [el('br'), data.note] : null));
+}
+
+function foot() {
+  const fact = (name, value) => value === '' ? null : el('span', null, name + ' ', el('b', null, value));
+  return el('footer', { class: 'facts' }, fact('version', data.version), fact('settings', data.sets.join(', ')),
+    fact('frames of', data.recorded), fact('baseline', hasBaseline
+      ? [data.baseline.detector, data.baseline.version, ...data.baseline.sets].join(', ') : ''));
+}
+
+// ---- What is worst
+
+const SHOWN = 8;
+
+function remarkOf(remark) {
+  const scenario = data.scenarios.find((s) => s.name === remark.scenario);
+  return el('article', { class: 'remark' }, badge(remark.standing), ' ', data.is_run ? null : link(scenario),
+    el('ul', null, ...remark.reasons.map((reason) => el('li', null, reason))));
+}
+
+function worst() {
+  const bad = data.remarks.filter((r) => r.standing !== 'improved').map(remarkOf);
+  const good = data.remarks.filter((r) => r.standing === 'improved').map(remarkOf);
+  const folded = (title, content) => content.length === 0 ? null
+    : el('details', null, el('summary', null, title), ...content);
+  return el('section', { id: 'worst' }, bad.length ? el('h2', null, 'Worst first') : null, ...bad.slice(0, SHOWN),
+    folded((bad.length - SHOWN) + ' more', bad.slice(SHOWN)), folded(good.length + ' improved', good),
+    folded('Not compared', data.not_compared.map((what) => el('p', { class: 'small' }, what))));
 }
 
 function headerRow(first, sorting) {
@@ -103,16 +119,19 @@ function groupTable() {
 
 const anchor = (scenario) => 'scenario-' + data.scenarios.indexOf(scenario);
 
-function scenarioRow(scenario) {
-  const open = (event) => {
+/** To the scenario's section, which it opens. */
+function link(scenario) {
+  return el('a', { href: '#' + anchor(scenario), title: scenario.purpose, onclick: (event) => {
     event.preventDefault();
     const section = document.getElementById(anchor(scenario));
     section.open = true;
     section.scrollIntoView();
-  };
+  } }, scenario.name);
+}
+
+function scenarioRow(scenario) {
   const row = el('tr', { 'data-scenario': scenario.name },
-    el('td', null, el('a', { href: '#' + anchor(scenario), onclick: open, title: scenario.purpose }, scenario.name),
-      scenario.outcome === 'passed' ? null : el('span', null, ' ', badge(scenario.outcome))),
+    el('td', null, link(scenario), scenario.outcome === 'passed' ? null : el('span', null, ' ', badge(scenario.outcome))),
     ...COLUMNS.map(([name]) => figureCell(name, scenario.figures[name])));
   row.scenario = scenario;
   return row;
@@ -172,7 +191,7 @@ function scenarioTable() {
     el('h2', null, 'Scenarios'),
     el('div', { class: 'controls' }, filter, hasBaseline ? change : null, shown),
     el('p', { class: 'quiet small' }, 'Means over the seeds',
-      hasBaseline ? '; below them the change against the baseline, coloured where it is for the better or the worse by more than matters.' : '.'),
+      hasBaseline ? '; below them the change against the baseline, coloured where it is real (lcs compare has the same rule).' : '.'),
     el('div', { class: 'scroll' }, el('table', { id: 'scenarios' }, headerRow('Scenario', onSort), body)));
 }
 
@@ -183,28 +202,63 @@ function fiveFrameStore(corners) {
   return corners.map((_, i) => corners.slice(Math.max(0, i - 4), i + 1).reduce((sum, n) => sum + (n || 0), 0));
 }
 
-function framePlots(run) {
+let plotted = 0;
+
+function framePlots(run, onPoint) {
   const f = run.frames;
-  if (!f || f.t_s.length === 0) return el('p', { class: 'nothing' }, 'The run left no frames.csv.');
   // Times have gaps nowhere; the events know frames, which the rows are.
   const time = (frame) => f.t_s[Math.min(Math.max(frame, 0), f.t_s.length - 1)];
   const bands = (run.events || []).map((event) => ({ from: time(event.first), to: time(event.last),
-    kind: event.of > 0 ? 'miss' : 'false', title: headline(event) }));
-  const common = { x: f.t_s, xName: 's' };
+    kind: event.of > 0 ? 'miss' : 'false' }));
+  const common = { x: f.t_s, xName: 's', sync: 'run' + ++plotted, onPoint };
+  const was = run.before && run.before.frames;
+  /** A column, and the baseline's beside it. */
+  const both = (name, style, column) => [{ name, values: f[column], style },
+    ...(was ? [{ name: 'before', values: f.t_s.map((_, i) => was[column][i]), style, faint: true }] : [])];
   return el('div', { class: 'plots' },
     plot({ ...common, title: 'Precision and recall', top: 1.05, bands, series: [
-      { name: 'precision', values: f.precision, style: 's1' },
-      { name: 'recall', values: f.recall, style: 's2' }] }),
-    plot({ ...common, title: 'Layers', series: [
-      { name: 'normal edges', values: f.normal_edges, style: 's1' },
-      { name: 'rebel edges', values: f.rebel_edges, style: 's4' },
-      { name: 'normal circles', values: f.normal_circles, style: 's3' },
-      { name: 'rebel circles', values: f.rebel_circles, style: 's2', dashed: true },
-      { name: 'squares', values: f.squares, style: 's5' }] }),
+      ...both('precision', 's1', 'precision'), ...both('recall', 's2', 'recall')] }),
+    plot({ ...common, title: 'Edges', series: [
+      ...both('normal', 's1', 'normal_edges'), ...both('rebel', 's4', 'rebel_edges')] }),
+    plot({ ...common, title: 'Circles and squares', series: [...both('normal circles', 's3', 'normal_circles'),
+      ...both('rebel circles', 's2', 'rebel_circles'), ...both('squares', 's5', 'squares')] }),
     plot({ ...common, title: 'Dimensionality', series: [
-      { name: 'all layers', values: f.dimension, style: 's1' },
-      { name: 'corners', values: f.corners, style: 's3' },
+      ...both('all layers', 's1', 'dimension'), { name: 'corners', values: f.corners, style: 's3' },
       { name: 'store of five frames', values: fiveFrameStore(f.corners), style: 's2', dashed: true }] }));
+}
+
+/** The plots, and the run's video where it has one: pointing at a plot shows that frame. */
+function overTime(run) {
+  if (!run.frames || run.frames.t_s.length === 0) return el('p', { class: 'nothing' }, 'The run left no frames.csv.');
+  if (!data.video) return framePlots(run);
+  const times = run.frames.t_s, last = times.length - 1;
+  const readout = el('div', { class: 'readout' }, 'Point at a plot to see its frame; ← and → go to the next.');
+  const video = el('video', { src: 'data:video/mp4;base64,' + data.video, controls: '', muted: '',
+    onerror: () => readout.replaceChildren('This browser cannot show the video; it is in video.mp4.') });
+  const frame = () => Math.min(last, Math.floor(video.currentTime / video.duration * times.length));
+  const show = (wanted) => {
+    if (!video.duration || wanted === frame()) return;
+    video.currentTime = (Math.min(last, Math.max(0, wanted)) + 0.5) * video.duration / times.length;
+  };
+  let pointing = false;
+  const plots = framePlots(run, (pointed) => { if (video.paused && pointing) show(pointed); });
+  plots.addEventListener('mouseenter', () => { pointing = true; });
+  plots.addEventListener('mouseleave', () => { pointing = false; });
+  const follow = () => {
+    readout.textContent = 'frame ' + frame() + ' · ' + times[frame()].toFixed(2) + ' s';
+    if (!pointing) for (const figure of plots.children) figure.pointAt(times[frame()]);
+    if (!video.paused) requestAnimationFrame(follow);
+  };
+  video.addEventListener('play', follow);
+  video.addEventListener('seeked', follow);
+  video.addEventListener('keydown', (event) => {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    video.pause();
+    show(frame() + step);
+  });
+  return el('div', { class: 'scrub' }, el('div', null, video, readout), plots);
 }
 
 // ---- Events
@@ -240,14 +294,17 @@ function strip(event) {
 
 function eventList(run) {
   if (!run.events) return el('p', { class: 'nothing' }, 'The run left no events.json.');
-  if (run.events.length === 0) return el('p', { class: 'nothing' }, 'No misses and no false alarms to speak of.');
+  const gone = run.before && run.before.gone.length > 0 ? el('div', null, el('h4', null, 'Gone since the baseline'),
+    el('ul', null, ...run.before.gone.map((event) => el('li', null, headline(event))))) : null;
+  if (run.events.length === 0) return gone || el('p', { class: 'nothing' }, 'No misses and no false alarms to speak of.');
   const mark = (style, sign, text) => el('span', null, el('i', { class: style, 'aria-hidden': 'true' }, sign), text);
   return el('div', null,
     el('div', { class: 'marks' }, mark('m1', '○', 'missed (orange ring)'), mark('m2', '●', 'found (green dot)'),
       mark('m3', '×', 'false (magenta cross or circle)'), mark('m4', '□', 'where a mover really is (thin box)')),
     ...run.events.map((event) => el('article', { class: 'event' },
-      el('h4', null, headline(event)),
-      strip(event), reasonBars(event))));
+      el('h4', null, event.is_new ? el('span', { class: 'badge new', title: 'not among the worst of the baseline' }, 'new') : null,
+        (event.is_new ? ' ' : '') + headline(event)),
+      strip(event), reasonBars(event))), gone);
 }
 
 // ---- A scenario
@@ -294,7 +351,8 @@ function runBody(run) {
     el('p', { class: 'quiet small' }, 'To run it again:'), commandLine(run.command),
     run.error ? el('p', { class: 'message' }, run.error) : null,
     ...run.warnings.map((warning) => el('p', { class: 'message' }, 'warning: ' + warning)),
-    run.outcome === 'error' ? null : [el('h3', null, 'Over time'), framePlots(run),
+    run.before && run.before.error ? el('p', { class: 'message' }, 'baseline: ' + run.before.error) : null,
+    run.outcome === 'error' ? null : [el('h3', null, 'Over time'), overTime(run),
       el('h3', null, 'Misses and false alarms'), eventList(run)]);
 }
 
@@ -312,7 +370,7 @@ function scenarioBody(scenario) {
       el('span', null, 'groups ' + scenario.groups.join(', ')),
       ...scenario.point.map(([key, value]) => el('span', null, key + ' ', el('b', null, value)))),
     el('h3', null, 'Criteria'), criteriaTable(scenario), allFigures(scenario),
-    el('div', { class: 'tabs', role: 'group', 'aria-label': 'Seed' }, ...buttons), place);
+    data.is_run ? null : el('div', { class: 'tabs', role: 'group', 'aria-label': 'Seed' }, ...buttons), place);
 }
 
 function scenarioSection(scenario) {
@@ -404,10 +462,10 @@ function sweepSection() {
 // ---- The page
 
 head();
-document.getElementById('page').append(...[
-  groupTable(), scenarioTable(), sweepSection(),
+document.getElementById('page').append(...(data.is_run ? [worst(), scenarioBody(data.scenarios[0])] : [
+  worst(), groupTable(), scenarioTable(), sweepSection(),
   el('section', null, el('h2', null, 'Each scenario'), ...data.scenarios.map(scenarioSection)),
-].filter(Boolean));
+]).filter(Boolean), foot());
 // A link into the page opens what it leads to.
 const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
 if (target && target.tagName === 'DETAILS') {

@@ -5,16 +5,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scenarios/input_file.h"
 #include "tools/bench/csv.h"
 #include "tools/bench/events.h"
 #include "tools/bench/report.h"
+#include "tools/bench/video.h"
 #include "tools/suite/metric_traits.h"
 #include "tools/suite/summary.h"
 
@@ -25,10 +30,11 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using suite::RunResult;
 using suite::ScenarioResult;
+using suite::SuiteInFolder;
 using suite::SuiteResult;
 
 constexpr std::array<const char*, 3> kOutcomes{"passed", "failed", "error"};
-constexpr std::array<const char*, 3> kDirections{"higher", "lower", "neutral"};
+constexpr std::array<const char*, 4> kChanges{"improved", "regressed", "moved", "none"};
 
 /// Columns of frames.csv that are plotted.
 constexpr std::array<const char*, 10> kColumns{
@@ -48,64 +54,52 @@ std::vector<std::string> figure_names() {
   return names;
 }
 
-Json figure_traits() {
-  Json all = Json::object();
-  for (const std::string& name : figure_names()) {
-    const bool is_size = name == suite::kSizeShare;
-    const suite::MetricTraits traits = suite::traits_of(is_size ? "dimension.mean" : name);
-    all[name] = {{"direction", kDirections[static_cast<std::size_t>(traits.direction)]},
-                 {"least_change", is_size ? 0.01 : traits.least_change},
-                 {"least_share", traits.least_share}};
-  }
+/// The one of a scenario, or a group, and a figure.
+using DifferenceOf = std::map<std::pair<std::string, std::string>, const suite::Difference*>;
+
+DifferenceOf by_name(const std::vector<suite::Difference>& differences) {
+  DifferenceOf all;
+  for (const suite::Difference& one : differences) all[{one.scenario, one.metric}] = &one;
   return all;
 }
 
-/// The suite beside a baseline, as far as both have the same scenarios and seeds: with others, a
-/// change would be of what was run and not of the filter.
-struct Baseline {
-  Baseline(const SuiteResult& suite, const SuiteResult& baseline)
-      : before(suite::in_common(baseline, suite)), after(suite::in_common(suite, baseline)) {}
-  SuiteResult before, after;
-};
-
-/// What a figure was, and by how much it changed, where that is known.
-void add_change(Json& figure, std::optional<double> before, std::optional<double> after) {
-  if (before) figure["before"] = *before;
-  if (before && after) figure["change"] = *after - *before;
+/// What a figure was, by how much it changed, and whether that is real, where the two have it in
+/// common.
+void add_change(Json& figure, const DifferenceOf& differences, const std::string& owner,
+                const std::string& name) {
+  const auto found = differences.find({owner, name});
+  if (found == differences.end()) return;
+  const suite::Difference& difference = *found->second;
+  figure["before"] = difference.before;
+  figure["change"] = difference.change.mean;
+  figure["half"] = json_of(difference.change.half);
+  figure["verdict"] = kChanges[static_cast<std::size_t>(difference.verdict)];
 }
 
-Json figures_of(const ScenarioResult& scenario, const Baseline* baseline) {
+Json figures_of(const ScenarioResult& scenario, const DifferenceOf& differences) {
   Json figures = Json::object();
   for (const std::string& name : figure_names()) {
     const auto now = suite::over_seeds(scenario, name);
-    const auto before =
-        baseline ? suite::mean_over_seeds(baseline->before, scenario.name, name) : std::nullopt;
-    if (!now && !before) continue;
-    Json& figure = figures[name] = Json::object();
-    figure["mean"] = now ? Json(now->mean) : Json(nullptr);
-    if (now && now->count > 1) figure["spread"] = now->half;
-    if (baseline)
-      add_change(figure, before, suite::mean_over_seeds(baseline->after, scenario.name, name));
+    if (!now) continue;
+    Json& figure = figures[name] = {{"mean", now->mean}};
+    if (now->count > 1) figure["spread"] = now->half;
+    add_change(figure, differences, scenario.name, name);
   }
   return figures;
 }
 
-Json groups_of(const SuiteResult& suite, const Baseline* baseline) {
+Json groups_of(const SuiteResult& suite, const DifferenceOf& differences) {
   Json groups = Json::array();
   for (const std::string& group : suite::groups_of(suite)) {
-    const std::int64_t members = suite::count_in(suite, group);
     Json figures = Json::object();
     for (const std::string& name : figure_names()) {
       const auto now = suite::over_group(suite, group, name);
-      const auto before =
-          baseline ? suite::over_group(baseline->before, group, name) : std::nullopt;
-      if (!now && !before) continue;
+      if (!now) continue;
       figures[name] = {{"mean", json_of(now)}};
-      if (baseline) {
-        add_change(figures[name], before, suite::over_group(baseline->after, group, name));
-      }
+      add_change(figures[name], differences, group, name);
     }
-    groups.push_back({{"name", group}, {"scenarios", members}, {"figures", figures}});
+    groups.push_back(
+        {{"name", group}, {"scenarios", suite::count_in(suite, group)}, {"figures", figures}});
   }
   return groups;
 }
@@ -189,7 +183,54 @@ Json event_json(const bench::Event& event) {
           {"views", views}};
 }
 
-Json run_json(const RunResult& run, const fs::path& suite_folder) {
+/// A run's frames.csv; null where it left none.
+Json frames_in(const fs::path& folder) {
+  const fs::path file = folder / bench::kFramesFile;
+  return fs::exists(file) ? frames_of(file) : Json(nullptr);
+}
+
+using Events = std::optional<std::vector<bench::Event>>;
+
+Events events_in(const fs::path& folder) {
+  const fs::path file = folder / bench::kEventsFile;
+  return fs::exists(file) ? Events(bench::read_events(file)) : std::nullopt;
+}
+
+/// Whether two events may be the same one: both missed or both false, on the same object, in frames
+/// that overlap.
+bool are_alike(const bench::Event& a, const bench::Event& b) {
+  return (a.of > 0) == (b.of > 0) && a.object_name == b.object_name &&
+         a.first_frame <= b.last_frame && b.first_frame <= a.last_frame;
+}
+
+bool has_like(const std::vector<bench::Event>& events, const bench::Event& event) {
+  return std::any_of(events.begin(), events.end(),
+                     [&](const bench::Event& other) { return are_alike(event, other); });
+}
+
+/// The baseline's curves, and its events that are gone, without pictures.
+Json before_json(const fs::path& folder, const Events& events, Json& events_now) {
+  Json before = {{"frames", nullptr}, {"gone", Json::array()}, {"error", ""}};
+  try {
+    before["frames"] = frames_in(folder);
+    const Events former = events_in(folder);
+    if (!events || !former) return before;
+    for (std::size_t i = 0; i < events->size(); ++i) {
+      events_now[i]["is_new"] = !has_like(*former, (*events)[i]);
+    }
+    for (const bench::Event& event : *former) {
+      if (has_like(*events, event)) continue;
+      before["gone"].push_back(event_json(event));
+      before["gone"].back()["views"] = Json::array();
+    }
+  } catch (const std::exception& error) {
+    before["error"] = error.what();
+  }
+  return before;
+}
+
+Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
+              const ScenarioResult& scenario, const RunResult& run) {
   Json json = {{"seed", run.seed},
                {"outcome", kOutcomes[static_cast<std::size_t>(run.outcome)]},
                {"error", run.error},
@@ -199,20 +240,23 @@ Json run_json(const RunResult& run, const fs::path& suite_folder) {
                {"warnings", bench::lines_of(run.warnings)},
                {"metrics", Json::object()},
                {"frames", nullptr},
-               {"events", nullptr}};
+               {"events", nullptr},
+               {"before", nullptr}};
   for (const std::string& name : figure_names()) {
     if (const auto figure = suite::figure_of(run, name)) json["metrics"][name] = *figure;
   }
   if (run.folder.empty()) return json;
-  const fs::path folder = suite_folder / run.folder;
-  if (fs::exists(folder / bench::kFramesFile)) {
-    json["frames"] = frames_of(folder / bench::kFramesFile);
-  }
-  if (fs::exists(folder / bench::kEventsFile)) {
+  const fs::path folder = suite.folder / run.folder;
+  json["frames"] = frames_in(folder);
+  const Events events = events_in(folder);
+  if (events) {
     json["events"] = Json::array();
-    for (const bench::Event& event : bench::read_events(folder / bench::kEventsFile)) {
-      json["events"].push_back(event_json(event));
-    }
+    for (const bench::Event& event : *events) json["events"].push_back(event_json(event));
+  }
+  const ScenarioResult* other = baseline ? suite::find(baseline->suite, scenario.name) : nullptr;
+  const RunResult* former = other ? suite::find(*other, run.seed) : nullptr;
+  if (former && !former->folder.empty()) {
+    json["before"] = before_json(baseline->folder / former->folder, events, json["events"]);
   }
   return json;
 }
@@ -247,51 +291,94 @@ void keep_to_budget(Json& scenarios, std::size_t budget) {
   }
 }
 
-Json scenario_json(const ScenarioResult& scenario, const Baseline* baseline,
-                   const fs::path& suite_folder) {
+Json scenario_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
+                   const DifferenceOf& differences, const ScenarioResult& scenario) {
   Json json = {{"name", scenario.name},
                {"purpose", scenario.purpose},
                {"file", scenario.file.generic_string()},
                {"groups", scenario.groups},
                {"point", Json::array()},
                {"outcome", kOutcomes[static_cast<std::size_t>(suite::outcome_of(scenario))]},
-               {"figures", figures_of(scenario, baseline)},
+               {"figures", figures_of(scenario, differences)},
                {"runs", Json::array()}};
   for (const auto& [key, value] : scenario.point) {
     json["point"].push_back(Json::array({key, value}));
   }
   for (const RunResult& run : scenario.runs) {
-    json["runs"].push_back(run_json(run, suite_folder));
+    json["runs"].push_back(run_json(suite, baseline, scenario, run));
   }
   return json;
 }
 
-}  // namespace
+Json remarks_of(const suite::Verdict& verdict) {
+  Json remarks = Json::array();
+  for (const suite::Remark& remark : verdict.remarks) {
+    remarks.push_back({{"scenario", remark.scenario},
+                       {"standing", suite::word_of(remark.standing)},
+                       {"reasons", remark.reasons}});
+  }
+  return remarks;
+}
 
-std::string report_data(const SuiteResult& suite, const SuiteResult* baseline,
-                        const fs::path& suite_folder, std::size_t picture_budget) {
-  std::optional<Baseline> both;
-  if (baseline) both.emplace(suite, *baseline);
-  const Baseline* beside = both ? &*both : nullptr;
-  Json data = {{"detector", suite.detector},
-               {"version", suite.version},
-               {"sets", suite.sets},
-               {"recorded", suite.recorded},
+/// All but pictures are there whatever the budget is.
+Json data_of(const SuiteInFolder& suite, const SuiteInFolder* baseline, std::size_t budget) {
+  std::optional<suite::Comparison> comparison;
+  if (baseline) {
+    comparison =
+        suite::compare(baseline->suite, suite.suite, [](std::string_view) { return true; });
+  }
+  const suite::Verdict verdict =
+      suite::verdict_of(suite, baseline, comparison ? &*comparison : nullptr);
+  const DifferenceOf of_groups = comparison ? by_name(comparison->groups) : DifferenceOf{};
+  const DifferenceOf of_scenarios = comparison ? by_name(comparison->differences) : DifferenceOf{};
+  Json data = {{"verdict", verdict.line},
+               {"note", verdict.note},
+               {"remarks", remarks_of(verdict)},
+               {"not_compared", Json::array()},
+               {"detector", suite.suite.detector},
+               {"version", suite.suite.version},
+               {"sets", suite.suite.sets},
+               {"recorded", suite.suite.recorded},
                {"baseline", nullptr},
-               {"traits", figure_traits()},
-               {"groups", groups_of(suite, beside)},
+               {"is_run", false},
+               {"groups", groups_of(suite.suite, of_groups)},
                {"scenarios", Json::array()}};
   if (baseline) {
-    data["baseline"] = {
-        {"detector", baseline->detector}, {"version", baseline->version}, {"sets", baseline->sets}};
+    data["not_compared"] = comparison->incomparable;
+    data["baseline"] = {{"detector", baseline->suite.detector},
+                        {"version", baseline->suite.version},
+                        {"sets", baseline->suite.sets},
+                        {"folder", baseline->folder.generic_string()}};
   }
-  for (const ScenarioResult& scenario : suite.scenarios) {
-    data["scenarios"].push_back(scenario_json(scenario, beside, suite_folder));
+  for (const ScenarioResult& scenario : suite.suite.scenarios) {
+    data["scenarios"].push_back(scenario_json(suite, baseline, of_scenarios, scenario));
   }
-  keep_to_budget(data["scenarios"], picture_budget);
+  keep_to_budget(data["scenarios"], budget);
+  return data;
+}
 
-  // Names and messages may hold any bytes, JSON only UTF-8.
+/// Names and messages may hold any bytes, JSON only UTF-8.
+std::string text_of(const Json& data) {
   return data.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string report_data(const SuiteInFolder& suite, const SuiteInFolder* baseline,
+                        std::size_t picture_budget) {
+  return text_of(data_of(suite, baseline, picture_budget));
+}
+
+std::string run_report_data(const SuiteInFolder& suite) {
+  Json data = data_of(suite, nullptr, kPictureBudget);
+  data["is_run"] = true;
+  const fs::path video = suite.folder / bench::kVideoFile;
+  if (fs::exists(video) && fs::file_size(video) <= kVideoBudget) {
+    std::ifstream stream(video, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    data["video"] = bench::base64(bytes);
+  }
+  return text_of(data);
 }
 
 }  // namespace lcs::report

@@ -2,20 +2,23 @@
 /// What the page shows, as one JSON value: the script of the page lays it out.
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <string>
 
-#include "tools/suite/suite_result.h"
+#include "tools/suite/verdict.h"
 
 namespace lcs::report {
 
 /// Bytes of pictures that a page holds; those of the costliest events come first.
-inline constexpr std::size_t kPictureBudget = 10'000'000;
+inline constexpr std::size_t kPictureBudget = 6'000'000;
+/// Bytes of the largest video that a page holds.
+inline constexpr std::uintmax_t kVideoBudget = 64'000'000;
 
-/// Text of a JSON object, fit to stand inside a script element: it has no "<".
-/// \throws std::runtime_error as `write_report`.
-std::string report_data(const suite::SuiteResult& suite, const suite::SuiteResult* baseline,
-                        const std::filesystem::path& suite_folder,
+/// Text of a JSON object. \throws std::runtime_error as `write_report`.
+std::string report_data(const suite::SuiteInFolder& suite, const suite::SuiteInFolder* baseline,
                         std::size_t picture_budget = kPictureBudget);
+
+/// Likewise of a single run, with its video where its folder has one.
+std::string run_report_data(const suite::SuiteInFolder& suite);
 
 }  // namespace lcs::report

@@ -2,18 +2,26 @@
 
 #include <string>
 
+#include "tools/bench/report.h"
 #include "tools/report/page_writer.h"
 #include "tools/report/report_data.h"
 #include "tools/report/report_script.h"
 
 namespace lcs::report {
 
-void write_report(const std::filesystem::path& file, const suite::SuiteResult& suite,
-                  const suite::SuiteResult* baseline, const std::filesystem::path& suite_folder) {
-  const std::string title = "lcs suite: " + suite.detector;
-  const std::string data = report_data(suite, baseline, suite_folder);
+void write_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite,
+                  const suite::SuiteInFolder* baseline) {
+  const std::string title = "lcs suite: " + suite.suite.detector;
+  const std::string data = report_data(suite, baseline);
   write_page(file,
              {.title = title, .data = data, .script = kReportJs, .where_else = suite::kSuiteFile});
+}
+
+void write_run_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite) {
+  const std::string title = "lcs run: " + suite.suite.scenarios.at(0).name;
+  const std::string data = run_report_data(suite);
+  write_page(
+      file, {.title = title, .data = data, .script = kReportJs, .where_else = bench::kMetricsFile});
 }
 
 }  // namespace lcs::report

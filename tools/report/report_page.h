@@ -1,25 +1,29 @@
 /// \file
-/// The result of a suite as one page: a table of all scenarios with the change against a baseline,
-/// and for each scenario its criteria, its plots over time, and its misses and false alarms with
-/// pictures and reasons. HTML, CSS, script, figures and pictures are all in the one file: it opens
-/// from disk and asks the network for nothing.
+/// The result of a suite as one page: the verdict and what is worst with its reasons, a table of
+/// all scenarios with the change against a baseline, and for each scenario its criteria, its plots
+/// over time, and its misses and false alarms with pictures and reasons. Of a single run likewise,
+/// with its video. HTML, CSS, script, figures and pictures are all in the one file: it opens from
+/// disk and asks the network for nothing.
 #pragma once
 
 #include <filesystem>
 
-#include "tools/suite/suite_result.h"
+#include "tools/suite/verdict.h"
 
 namespace lcs::report {
 
 inline constexpr const char* kReportFile = "report.html";
 
-/// Written beside its place, then renamed: the file appears whole or not at all.
+/// Written beside its place, then renamed: the file appears whole or not at all. Of each run
+/// frames.csv and events.json are shown where they are there.
 /// \param baseline may be null.
-/// \param suite_folder where the folders of the runs are: of each, frames.csv and events.json are
-///   shown where they are there.
-/// \throws bench::OutputError; std::runtime_error for a frames.csv or events.json that cannot be
-///   read, naming it.
-void write_report(const std::filesystem::path& file, const suite::SuiteResult& suite,
-                  const suite::SuiteResult* baseline, const std::filesystem::path& suite_folder);
+/// \throws bench::OutputError; std::runtime_error for a frames.csv or events.json of the suite that
+///   cannot be read, naming it. What is wrong with one of the baseline is told on the page.
+void write_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite,
+                  const suite::SuiteInFolder* baseline);
+
+/// Of the one run that `suite` has.
+/// \throws likewise.
+void write_run_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite);
 
 }  // namespace lcs::report

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "tools/bench/statistics.h"
 #include "tools/suite/summary.h"
@@ -37,12 +39,17 @@ class Comparer {
  public:
   Comparer(const SuiteResult& before, const SuiteResult& after,
            const std::function<bool(std::string_view)>& is_wanted)
-      : before_(before), after_(after), is_wanted_(is_wanted) {}
+      : before_(before), after_(after), by_world_(is_of_worlds(after)) {
+    for (const MetricTraits& traits : metric_traits()) {
+      if (!is_time(traits.name) && is_wanted(traits.name)) compared_.push_back(traits);
+    }
+    if (is_wanted(kSizeShare)) compared_.push_back(traits_of(kSizeShare));
+  }
 
   Comparison compare() {
     for (const ScenarioResult& scenario : before_.scenarios) {
       if (const ScenarioResult* other = find(after_, scenario.name)) {
-        ++result_.scenarios;
+        result_.scenarios.push_back(scenario.name);
         compare(scenario, *other);
       } else {
         note("{}: only before", scenario.name);
@@ -50,6 +57,9 @@ class Comparer {
     }
     for (const ScenarioResult& scenario : after_.scenarios) {
       if (!find(before_, scenario.name)) note("{}: only after", scenario.name);
+    }
+    for (const std::string& group : groups_of(after_)) {
+      for (const MetricTraits& traits : compared_) compare_group(group, traits);
     }
     return result_;
   }
@@ -62,9 +72,7 @@ class Comparer {
 
   void compare(const ScenarioResult& before, const ScenarioResult& after) {
     const std::vector<RunPair> pairs = pair_up(before, after);
-    for (const MetricTraits& traits : metric_traits()) {
-      if (!is_time(traits.name) && is_wanted_(traits.name)) compare(before.name, traits, pairs);
-    }
+    for (const MetricTraits& traits : compared_) compare(before.name, traits, pairs);
   }
 
   /// The runs with figures that both have.
@@ -81,7 +89,7 @@ class Comparer {
       if (!other) continue;
       if (run.metrics.empty() || other->metrics.empty()) {
         const bool is_lost = !run.metrics.empty();
-        result_.lost_runs |= is_lost;
+        if (is_lost) result_.lost.insert(before.name);
         const char* when = is_lost                  ? "after"
                            : other->metrics.empty() ? "before and after"
                                                     : "before";
@@ -96,12 +104,14 @@ class Comparer {
   void compare(const std::string& scenario, const MetricTraits& traits,
                const std::vector<RunPair>& pairs) {
     std::vector<double> before, after, changes;
+    std::vector<std::optional<double>> by_pair;
     std::vector<std::uint64_t> lost, gained;  // seeds in which the figure is defined on one side
     for (const RunPair& pair : pairs) {
       const std::optional<double> was = figure_of(*pair.before, traits.name);
       const std::optional<double> is = figure_of(*pair.after, traits.name);
       if (was && !is) lost.push_back(pair.before->seed);
       if (!was && is) gained.push_back(pair.before->seed);
+      by_pair.push_back(was && is ? std::optional(*is - *was) : std::nullopt);
       if (!was || !is) continue;
       before.push_back(*was);
       after.push_back(*is);
@@ -113,30 +123,66 @@ class Comparer {
     }
     if (changes.empty()) return;
 
-    Difference& difference = result_.differences.emplace_back();
-    difference.scenario = scenario;
-    difference.metric = traits.name;
-    difference.direction = traits.direction;
-    difference.before = *bench::mean(before);
-    difference.after = *bench::mean(after);
-    difference.change = interval_of(changes);
-    difference.seeds = static_cast<int>(changes.size());
-    difference.verdict = verdict_of(difference, traits);
+    result_.differences.push_back(
+        difference_of(scenario, traits, *bench::mean(before), *bench::mean(after), changes));
+    changes_[{scenario, std::string(traits.name)}] = std::move(by_pair);
     result_.judged += traits.direction != Direction::neutral;
-    result_.single_seeds |= !difference.change.half;
+    result_.single_seeds |= changes.size() == 1;
+  }
+
+  /// Worlds are a sample of worlds, whose changes differ; the project's own scenarios are what they
+  /// are, and only the seeds differ: of each seed in turn the mean change over the scenarios.
+  void compare_group(const std::string& group, const MetricTraits& traits) {
+    std::vector<double> before, after;
+    std::vector<std::vector<double>> samples;
+    for (const Difference& one : result_.differences) {
+      const ScenarioResult* scenario = find(after_, one.scenario);
+      if (one.metric != traits.name || !scenario || !is_in(*scenario, group)) continue;
+      before.push_back(one.before);
+      after.push_back(one.after);
+      if (by_world_) {
+        samples.push_back({one.change.mean});
+        continue;
+      }
+      const auto& changes = changes_.at({one.scenario, one.metric});
+      samples.resize(std::max(samples.size(), changes.size()));
+      for (std::size_t i = 0; i < changes.size(); ++i) {
+        if (changes[i]) samples[i].push_back(*changes[i]);
+      }
+    }
+    if (before.empty()) return;
+    std::vector<double> changes;
+    for (const std::vector<double>& sample : samples) {
+      if (const auto mean = bench::mean(sample)) changes.push_back(*mean);
+    }
+    result_.groups.push_back(
+        difference_of(group, traits, *bench::mean(before), *bench::mean(after), changes));
   }
 
   /// Real is what lies beyond the least change that matters with all of its interval.
-  static Change verdict_of(const Difference& difference, const MetricTraits& traits) {
+  static Difference difference_of(const std::string& name, const MetricTraits& traits,
+                                  double before, double after, const std::vector<double>& changes) {
+    Difference difference{.scenario = name,
+                          .metric = std::string(traits.name),
+                          .direction = traits.direction,
+                          .before = before,
+                          .after = after,
+                          .change = interval_of(changes),
+                          .seeds = static_cast<int>(changes.size())};
     const double certain = std::abs(difference.change.mean) - difference.change.half.value_or(0);
-    if (certain <= least_change(traits, difference.before)) return Change::none;
-    const int sign = sign_of_change(traits.direction, difference.before, difference.after);
-    return sign > 0 ? Change::improved : sign < 0 ? Change::regressed : Change::moved;
+    const double least = least_change(traits, before);
+    if (certain <= least) return difference;
+    const int sign = sign_of_change(traits.direction, before, after);
+    difference.verdict = sign > 0 ? Change::improved : sign < 0 ? Change::regressed : Change::moved;
+    difference.weight = least > 0 ? certain / least : 1;
+    return difference;
   }
 
   const SuiteResult& before_;
   const SuiteResult& after_;
-  const std::function<bool(std::string_view)>& is_wanted_;
+  bool by_world_;
+  std::vector<MetricTraits> compared_;
+  std::map<std::pair<std::string, std::string>, std::vector<std::optional<double>>> changes_;
   Comparison result_;
 };
 
@@ -154,16 +200,18 @@ std::string signed_number(double value) {
   return fmt::format("{:+.{}f}", value, decimals_of(value));
 }
 
+std::string interval_text(const Interval& change) {
+  if (!change.half) return "noise unknown";
+  return fmt::format("[{}, {}]", signed_number(change.mean - *change.half),
+                     signed_number(change.mean + *change.half));
+}
+
 std::string line_of(const Difference& difference, std::size_t scenario_width,
                     std::size_t metric_width) {
-  const Interval& change = difference.change;
   return fmt::format("  {:<{}}  {:<{}}  {:>7} -> {:>7}  {:>7}  {}\n", difference.scenario,
                      scenario_width, difference.metric, metric_width, number(difference.before),
-                     number(difference.after), signed_number(change.mean),
-                     change.half
-                         ? fmt::format("[{}, {}]", signed_number(change.mean - *change.half),
-                                       signed_number(change.mean + *change.half))
-                         : "noise unknown");
+                     number(difference.after), signed_number(difference.change.mean),
+                     interval_text(difference.change));
 }
 
 std::string section(const Comparison& comparison, Change verdict, const char* title) {
@@ -190,6 +238,28 @@ int Comparison::count(Change verdict) const {
                     [&](const Difference& difference) { return difference.verdict == verdict; }));
 }
 
+std::string Comparison::note() const {
+  return single_seeds ? "some scenarios have a single seed in common, whose noise is unknown: "
+                        "differences there are plain ones"
+                      : "";
+}
+
+std::optional<Change> Comparison::of_scenario(const std::string& name) const {
+  if (lost.contains(name)) return Change::regressed;
+  std::optional<Change> worst;
+  for (const Difference& difference : differences) {
+    if (difference.scenario != name) continue;
+    if (difference.verdict == Change::regressed) return Change::regressed;
+    if (difference.verdict == Change::improved) worst = Change::improved;
+    if (!worst) worst = Change::none;
+  }
+  return worst;
+}
+
+bool Comparison::has_regressed() const {
+  return !lost.empty() || count(Change::regressed) > 0;
+}
+
 Comparison compare(const SuiteResult& before, const SuiteResult& after,
                    const std::function<bool(std::string_view metric)>& is_wanted) {
   return Comparer(before, after, is_wanted).compare();
@@ -206,17 +276,18 @@ std::string text_of(const Comparison& comparison, bool all) {
     text += "not compared:\n";
     for (const std::string& what : comparison.incomparable) text += fmt::format("  {}\n", what);
   }
-  if (comparison.single_seeds) {
-    text +=
-        "some scenarios have a single seed in common, whose noise is unknown: differences there "
-        "are plain ones\n";
-  }
+  if (comparison.single_seeds) text += comparison.note() + '\n';
   const int improved = comparison.count(Change::improved);
   const int regressed = comparison.count(Change::regressed);
   text +=
-      fmt::format("{} scenarios, {} figures judged: {} improved, {} regressed, {} as they were\n",
-                  comparison.scenarios, comparison.judged, improved, regressed,
-                  comparison.judged - improved - regressed);
+      fmt::format("{} figures judged: {} regressed, {} improved, {} as before\n", comparison.judged,
+                  regressed, improved, comparison.judged - improved - regressed);
+  return text;
+}
+
+std::string change_text(const Difference& difference) {
+  std::string text = fmt::format("{} -> {}", number(difference.before), number(difference.after));
+  if (difference.change.half) text += fmt::format(" {}", interval_text(difference.change));
   return text;
 }
 

@@ -112,6 +112,7 @@ const std::vector<MetricTraits>& metric_traits() {
 }
 
 MetricTraits traits_of(std::string_view metric) {
+  if (metric == kSizeShare) return {kSizeShare, Direction::lower, kShare, kRelative};
   const std::vector<MetricTraits>& all = metric_traits();
   const auto found = std::find_if(
       all.begin(), all.end(), [&](const MetricTraits& traits) { return traits.name == metric; });

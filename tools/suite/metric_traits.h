@@ -9,6 +9,10 @@
 
 namespace lcs::suite {
 
+/// `dimension.mean` over `dimension.five_frame_mean`: the size of all layers beside that of a store
+/// of the last five frames' corners. A figure of `figure_of`, not of metrics.json.
+inline constexpr std::string_view kSizeShare = "size_share";
+
 enum class Direction {
   higher,   ///< is better
   lower,    ///< is better
@@ -26,7 +30,7 @@ struct MetricTraits {
 /// Every figure of a run, in the order of `bench::score`.
 const std::vector<MetricTraits>& metric_traits();
 
-/// Neutral for a figure that is not known, as one of a later version.
+/// `kSizeShare` is known too. Neutral for a figure that is not known, as one of a later version.
 MetricTraits traits_of(std::string_view metric);
 
 /// What `metric` may change by from `before` without anybody caring.

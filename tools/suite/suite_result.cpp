@@ -176,6 +176,11 @@ void write_suite(const std::filesystem::path& file, const SuiteResult& suite) {
   output.close();
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::is_directory(path, error) ? path : path.parent_path();
+}
+
 SuiteResult read_suite(const std::filesystem::path& path) {
   constexpr scenario::FileKind kSuiteDocument{
       bench::kMostJsonBytes, "name the folder of a suite, or its suite.json; lcs suite makes one"};

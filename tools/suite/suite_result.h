@@ -75,6 +75,9 @@ struct SuiteResult {
 /// \throws bench::OutputError
 void write_suite(const std::filesystem::path& file, const SuiteResult& suite);
 
+/// The suite's folder. \param path of that, or of its file.
+std::filesystem::path folder_of(const std::filesystem::path& path);
+
 /// \param path of the file, or of the suite's folder.
 /// \throws std::runtime_error naming file and what is wrong with it.
 SuiteResult read_suite(const std::filesystem::path& path);

@@ -66,17 +66,6 @@ std::optional<double> over_group(const SuiteResult& suite, const std::string& gr
   return bench::mean(figures_of_group(suite, group, name));
 }
 
-SuiteResult in_common(const SuiteResult& suite, const SuiteResult& other) {
-  SuiteResult common = suite;
-  std::erase_if(common.scenarios, [&](ScenarioResult& scenario) {
-    const ScenarioResult* same = find(other, scenario.name);
-    if (!same) return true;
-    std::erase_if(scenario.runs, [&](const RunResult& run) { return !find(*same, run.seed); });
-    return scenario.runs.empty();
-  });
-  return common;
-}
-
 bool is_in(const ScenarioResult& scenario, const std::string& group) {
   return std::find(scenario.groups.begin(), scenario.groups.end(), group) != scenario.groups.end();
 }

@@ -8,13 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/suite/metric_traits.h"
 #include "tools/suite/suite_result.h"
 
 namespace lcs::suite {
-
-/// `dimension.mean` over `dimension.five_frame_mean`: the size of all layers beside that of a store
-/// of the last five frames' corners. A figure of `figure_of`, not of metrics.json.
-inline constexpr std::string_view kSizeShare = "size_share";
 
 /// Null where there is none.
 const ScenarioResult* find(const SuiteResult& suite, const std::string& name);
@@ -43,10 +40,6 @@ std::vector<double> figures_of_group(const SuiteResult& suite, const std::string
 /// Their mean, where there is any.
 std::optional<double> over_group(const SuiteResult& suite, const std::string& group,
                                  std::string_view name);
-
-/// What of a suite another one has too: scenarios by name, runs by seed. Only what two suites have
-/// in common tells what changed between them.
-SuiteResult in_common(const SuiteResult& suite, const SuiteResult& other);
 
 bool is_in(const ScenarioResult& scenario, const std::string& group);
 /// Scenarios of a group.
