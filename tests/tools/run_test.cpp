@@ -108,6 +108,25 @@ TEST_P(ShippedScenario, LeavesWholeFilesThatAgreeWithEachOther) {
   EXPECT_EQ(pictures, kFrames);
 }
 
+TEST_F(Run, AReportIsAPageOfTheRunWithItsVideo) {
+  const CommandResult result =
+      run({kScenarios / "crossing.yaml", "--frames", "3", "--report", "--quiet", "--out", "out"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(metrics("out")["frames"], 3);
+  const std::string page = read(folder_.path() / "out" / "report.html");
+  const std::string open = R"(<script type="application/json" id="data">)";
+  const std::size_t begin = page.find(open) + open.size();
+  const auto data =
+      nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  EXPECT_EQ(data["scenarios"][0]["name"], "crossing");
+  EXPECT_EQ(data["scenarios"][0]["runs"][0]["frames"]["t_s"].size(), 3u);
+  EXPECT_TRUE(data["scenarios"][0]["runs"][0]["events"].is_array());
+  EXPECT_EQ(data["sets"], nlohmann::json{"frames=3"});
+  EXPECT_EQ(data["video"].get<std::string>().size(),
+            (fs::file_size(folder_.path() / "out" / kVideoFile) + 2) / 3 * 4);
+  EXPECT_NE(data["version"].get<std::string>().find(" ("), std::string::npos) << "with the commit";
+}
+
 TEST_F(Run, TwoProcessesWriteTheSameLayersAndTruthToTheByte) {
   ASSERT_EQ(run(brief({"--out", "a"})).exit_code, 0);
   ASSERT_EQ(run(brief({"--out", "b"})).exit_code, 0);

@@ -8,7 +8,7 @@ namespace lcs::bench {
 
 ResultFiles result_files() {
   return {.names = {kMetricsFile, kFramesFile, kLayersFile, kTruthFile, kCameraFile, kWarningsFile,
-                    kVideoFile, kEventsFile, kPicturesFile},
+                    kVideoFile, kEventsFile, kPicturesFile, "report.html"},
           .sign = kMetricsSign};
 }
 
@@ -18,7 +18,8 @@ Result::Result(const std::filesystem::path& target, const Recording& run, cv::Si
       writer_(folder_.staging(), run),
       painter_(image_px),
       events_(options.events),
-      kept_(options.kept) {
+      kept_(options.kept),
+      add_page_(options.add_page) {
   if (options.video_frames_per_second) {
     video_.emplace(folder_.staging() / kVideoFile, painter_.size_px(),
                    *options.video_frames_per_second);
@@ -47,6 +48,7 @@ Metrics Result::finish(const Recording& run) {
     }
     write_events(folder_.staging() / kEventsFile, events);
   }
+  if (add_page_) add_page_(folder_.staging(), metrics);
   folder_.commit();
   return metrics;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -27,6 +28,9 @@ struct ResultOptions {
   /// Of the same frames, as an earlier run kept them; then `events` keeps no others. Without any,
   /// there are none.
   const FramePictures* kept = nullptr;
+  /// Writes what else belongs to the result into the folder, where all other files are, before it
+  /// takes its place.
+  std::function<void(const std::filesystem::path& folder, const Metrics& metrics)> add_page = {};
 };
 
 class Result {
@@ -52,6 +56,7 @@ class Result {
   std::optional<Video> video_;
   bool events_;
   const FramePictures* kept_;
+  decltype(ResultOptions::add_page) add_page_;
   FramePictures own_pictures_;
 };
 

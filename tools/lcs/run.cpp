@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <set>
 #include <span>
@@ -26,7 +28,10 @@
 #include "tools/lcs/progress.h"
 #include "tools/lcs/set_option.h"
 #include "tools/lcs/terminal.h"
+#include "tools/lcs/version.h"
 #include "tools/replay/playback.h"
+#include "tools/report/report_page.h"
+#include "tools/suite/suite_run.h"
 
 namespace lcs::tools {
 namespace {
@@ -51,8 +56,9 @@ Files written to the folder, all or none:
   camera.json    the camera, as detectors are told of it
   warnings.json  what should not be: the rover or an actor ran into something, fell, tipped over
   video.mp4      the paper's four panels: corners, edges, circles, squares
-  events.json    with --events: the worst misses and false alarms, with the rules that the corners
+  events.json    with --events or --report: the worst misses and false alarms, with the rules that the corners
                  met their end by, and JPEG pictures
+  report.html    with --report: all of it to look at in a browser, the video beside the plots
   pictures.mjpeg with --events: what the camera saw, compressed, for --recorded
 
 What was wrong with the data (readings of the sensors, times, corners) is counted and told on stderr,
@@ -192,6 +198,44 @@ std::vector<Watching> watching(const RunOptions& options, const scenario::Scenar
   return all;
 }
 
+/// The page of the run, as of a suite of this one.
+void write_page(const RunOptions& options, const scenario::Scenario& scenario, const Watching& own,
+                const std::filesystem::path& folder, const bench::Metrics& metrics) {
+  suite::RunResult run{.seed = scenario.seed,
+                       .outcome = suite::Outcome::passed,
+                       .error = {},
+                       .metrics = metrics,
+                       .criteria = {},
+                       .warnings = bench::warnings_of(own.recording),
+                       .folder = "."};
+  suite::judge_run(bench::asked_of(own.wanted.name, true, scenario.criteria), run);
+  std::vector<std::string> command{"run", options.scenario, "--seed",
+                                   std::to_string(scenario.seed)};
+  const auto add = [&](const std::string& option, const std::string& value) {
+    if (!value.empty()) command.insert(command.end(), {option, value});
+  };
+  for (const std::string& set : options.sets) add("--set", set);
+  add("--frames", options.frames);
+  if (own.wanted.name != "lcs") add("--detector", own.wanted.name);
+  add("--recorded", options.recorded);
+  add("--detections", options.detector.detections);
+  std::ranges::move(detector_arguments(options.detector), std::back_inserter(command));
+  run.command = suite::shell_line(command);
+  suite::SuiteResult suite{.detector = own.wanted.name,
+                           .sets = options.sets,
+                           .version = version_line(),
+                           .recorded = options.recorded,
+                           .scenarios = {}};
+  if (!options.frames.empty()) suite.sets.push_back("frames=" + options.frames);
+  suite.scenarios.push_back({.name = scenario.name,
+                             .purpose = scenario.purpose,
+                             .file = options.scenario,
+                             .groups = scenario.groups,
+                             .point = {},
+                             .runs = {run}});
+  report::write_run_report(folder / report::kReportFile, {suite, folder});
+}
+
 /// One line each, on stderr. \return whether a required one is among them.
 bool report_failures(const std::vector<bench::FailedCriterion>& failures) {
   bool required = false;
@@ -216,6 +260,8 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
   command.add_option("--out", options.out, "Folder for the results; out/<scenario> if not given")
       ->type_name("DIR");
   add_seed_option(command, options.seed);
+  command.add_option("--frames", options.frames, "Frames to run, instead of the scenario's")
+      ->type_name("N");
   add_set_option(command, options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
   add_detector_option(command, options.detector, kPresetDetector);
   add_beside_option(command, options.beside);
@@ -236,6 +282,8 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
   command.add_flag("--no-video", options.no_video, "Write no video.mp4");
   command.add_flag("--events", options.events,
                    "Write events.json: where rebels were missed or false, why, and pictures of it");
+  command.add_flag("--report", options.report,
+                   "Write report.html too, a page of the run with its video, and events.json");
   command.add_flag("--quiet", options.quiet,
                    "Print neither progress nor figures, only what went wrong");
   command.footer(kHelp);
@@ -243,8 +291,10 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
 }
 
 ExitCode run(const RunOptions& options) {
-  return run_scenario(
-      options, scenario::load(options.scenario, {.sets = options.sets, .seed = options.seed}));
+  std::vector<std::string> sets = options.sets;
+  if (!options.frames.empty()) sets.push_back("frames=" + options.frames);
+  return run_scenario(options,
+                      scenario::load(options.scenario, {.sets = sets, .seed = options.seed}));
 }
 
 ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
@@ -274,7 +324,12 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
     bench::ResultOptions what;
     if (&one == &own) {
       if (!options.no_video) what.video_frames_per_second = scenario.camera.rate_hz;
-      what.events = options.events;
+      what.events = options.events || options.report;
+      if (options.report) {
+        what.add_page = [&](const std::filesystem::path& folder, const bench::Metrics& figures) {
+          write_page(options, scenario, own, folder, figures);
+        };
+      }
       what.kept = frames.pictures;
     }
     one.result = std::make_unique<bench::Result>(

@@ -20,11 +20,13 @@ struct RunOptions {
   std::string out;       ///< folder; "" is out/<scenario's name>
   std::optional<std::uint64_t> seed;
   std::vector<std::string> sets;  ///< "key=value"
+  std::string frames = {};        ///< that many, instead of the scenario's; "" for those
   DetectorOptions detector;
   std::vector<std::string> beside;  ///< "detector=folder": others that watch the same frames
   std::string recorded;  ///< folder of an earlier run to take the frames from; "": simulate
   bool no_video = false;
   bool events = false;
+  bool report = false;  ///< with the events
   bool quiet = false;
 };
 

@@ -44,15 +44,6 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-std::string shell_line(const std::vector<std::string>& words) {
-  std::string line;
-  for (const std::string& word : words) {
-    if (!line.empty()) line += ' ';
-    line += quoted(word);
-  }
-  return line;
-}
-
 fs::path folder_of(const PlannedScenario& planned, std::uint64_t seed) {
   return fs::path("runs") / planned.name / fmt::format("seed-{}", seed);
 }
@@ -140,21 +131,10 @@ ScenarioResult begin_scenario(const PlannedScenario& planned, const SuiteWatcher
   for (const std::uint64_t seed : planned.seeds) {
     RunResult& run = result.runs.emplace_back();
     run.seed = seed;
-    run.command = fmt::format(
-        "lcs {}", shell_line(run_of(planned, seed, watcher.detector, watcher.is_own, options)));
+    run.command = shell_line(run_of(planned, seed, watcher.detector, watcher.is_own, options));
     run.error = planned.error;
   }
   return result;
-}
-
-void judge_run(const std::vector<scenario::Criterion>& criteria, RunResult& run) {
-  const std::vector<bench::JudgedCriterion> judged = bench::judge(criteria, run.metrics);
-  for (std::size_t i = 0; i < judged.size(); ++i) {
-    const scenario::Criterion& criterion = criteria[i];
-    run.criteria.push_back({criterion.metric, criterion.min, criterion.max, judged[i].figure,
-                            criterion.required, judged[i].met, judged[i].message});
-    if (criterion.required && !judged[i].met) run.outcome = Outcome::failed;
-  }
 }
 
 void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteWatcher& watcher,
@@ -196,6 +176,22 @@ bench::ResultFiles suite_files() {
 
 fs::path detections_of(const std::string& scenario, std::uint64_t seed) {
   return fs::path(scenario) / fmt::format("seed-{}.csv", seed);
+}
+
+std::string shell_line(const std::vector<std::string>& arguments) {
+  std::string line = "lcs";
+  for (const std::string& word : arguments) line += ' ' + quoted(word);
+  return line;
+}
+
+void judge_run(const std::vector<scenario::Criterion>& criteria, RunResult& run) {
+  const std::vector<bench::JudgedCriterion> judged = bench::judge(criteria, run.metrics);
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    const scenario::Criterion& criterion = criteria[i];
+    run.criteria.push_back({criterion.metric, criterion.min, criterion.max, judged[i].figure,
+                            criterion.required, judged[i].met, judged[i].message});
+    if (criterion.required && !judged[i].met) run.outcome = Outcome::failed;
+  }
 }
 
 std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,

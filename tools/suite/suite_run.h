@@ -56,6 +56,12 @@ struct SuiteRunOptions {
 /// NAME/seed-N.csv
 std::filesystem::path detections_of(const std::string& scenario, std::uint64_t seed);
 
+/// A command of `lcs`, as a POSIX shell takes it.
+std::string shell_line(const std::vector<std::string>& arguments);
+
+/// Holds a run's figures against what is asked of its detector.
+void judge_run(const std::vector<scenario::Criterion>& criteria, RunResult& run);
+
 /// \return a result for each watcher.
 std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
                                    const SuiteRunOptions& options);
