@@ -48,7 +48,6 @@ std::vector<std::string> body_names(xml::Element& worldbody) {
 /// Takes a body of the scene out of the physics: from now on it is where it is put.
 void make_mocap(xml::Element& worldbody, const Actor& actor) {
   xml::Element* body = xml::child_named(worldbody, "body", *actor.body);
-  if (!body) fail_no_body(actor, body_names(worldbody));
   if (!actor.texture.empty() || actor.size_m) {
     throw scenario::Error(
         actor.source, fmt::format("actor '{}' moves a body of the scene, which has its size and "
@@ -111,6 +110,8 @@ void add_actors(xml::Element& scene, const Scenario& scenario, ComposedScene& co
   for (const Actor& actor : scenario.actors) {
     const std::string object = actor.body.value_or(actor.name);
     const bool is_body = std::find(bodies.begin(), bodies.end(), actor.name) != bodies.end();
+    const bool is_there = std::find(bodies.begin(), bodies.end(), object) != bodies.end();
+    if (actor.body && !is_there) fail_no_body(actor, bodies);
     if (is_body && object != actor.name) {
       throw scenario::Error(actor.source,
                             fmt::format("actor '{}' is called like another body of the "

@@ -95,6 +95,8 @@ TEST(Scene, AnActorOnABodyThatTheSceneLacksNamesTheNearest) {
   auto s = scenario_in_mjcf(floor_with(kTwoBodies), 0, 1);
   s.actors = {moving_body("thief", "statu")};
   expect_error(s, {"test.yaml:7", "'statu'", "statue"});
+  s.actors = {moving_body("statue", "statu")};  // called as the body that is meant
+  expect_error(s, {"test.yaml:7", "'statu'", "lacks", "statue"});
   s.scene = scenario_in_mjcf(floor_with(""), 0, 1).scene;
   expect_error(s, {"test.yaml:7", "no named body"});
 }

@@ -101,6 +101,12 @@ TEST_F(Score, WithoutFramesCsvHasNoTimes) {
   EXPECT_FALSE(json("again.json")["dimension.mean"].is_null());
 }
 
+TEST_F(Score, ItsHelpAsksForTheFolderOnce) {
+  const std::string help = run_lcs({"score", "--help"}, {.folder = folder_.path()}).out;
+  EXPECT_NE(help.find("DIR REQUIRED"), std::string::npos) << help;
+  EXPECT_EQ(help.find("--sequence"), std::string::npos) << help;
+}
+
 TEST_F(Score, MistakesAreToldInOneLineAndNothingIsWritten) {
   make_run("lcs", "frames=4");
   std::ofstream(folder_.path() / "bad.csv") << "3,rebel,0\n4,rebel,0\n";

@@ -22,6 +22,13 @@ struct DetectorOptions {
   std::string detections;  ///< file; "" for none
 };
 
+/// The options that ask for a program again; none for another detector.
+inline std::vector<std::string> arguments_of(const DetectorOptions& options) {
+  if (options.command.empty()) return {};
+  return {"--detector-command", options.command, "--detector-timeout",
+          fmt::format("{} s", options.timeout_s)};
+}
+
 /// \throws std::invalid_argument as `comparators::wanted` and its like.
 inline comparators::Wanted wanted(const DetectorOptions& options) {
   if (!options.command.empty()) {

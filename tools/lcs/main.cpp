@@ -5,10 +5,13 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <new>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
+#include <string>
+#include <vector>
 
 #include "scenarios/message.h"
 #include "tools/lcs/compare.h"
@@ -49,6 +52,18 @@ through its camera and IMU, and the simulator's truth scores what the filter say
 constexpr const char* kNoMemory =
     "not enough memory; raise ulimit -v where it is set, or choose a smaller camera or scene";
 
+/// Shows what has a place on the command line there alone, though it may be named as an option too.
+class Help : public CLI::Formatter {
+ public:
+  std::string make_group(std::string group, bool is_positional,
+                         std::vector<const CLI::Option*> options) const override {
+    if (!is_positional) {
+      std::erase_if(options, [](const CLI::Option* option) { return option->get_positional(); });
+    }
+    return Formatter::make_group(group, is_positional, options);
+  }
+};
+
 int fail(const std::string& message) {
   tell(fmt::format("lcs: {}", message));
   return kError;
@@ -56,8 +71,10 @@ int fail(const std::string& message) {
 
 int run_command_line(int argc, char** argv) {
   CLI::App app("Test bench for the Line-Circle-Square filter", "lcs");
-  app.set_version_flag("--version", version_text,
-                       "Print the versions of this program, MuJoCo, the renderer and OpenCV");
+  app.formatter(std::make_shared<Help>());
+  app.set_version_flag(
+      "--version", version_text,
+      "Print the versions of this program (with its commit), MuJoCo, the renderer and OpenCV");
   app.require_subcommand(1);
   app.footer(kHelp);
   RunOptions run_options;

@@ -219,7 +219,7 @@ void write_page(const RunOptions& options, const scenario::Scenario& scenario, c
   if (own.wanted.name != "lcs") add("--detector", own.wanted.name);
   add("--recorded", options.recorded);
   add("--detections", options.detector.detections);
-  std::ranges::move(detector_arguments(options.detector), std::back_inserter(command));
+  std::ranges::move(arguments_of(options.detector), std::back_inserter(command));
   run.command = suite::shell_line(command);
   suite::SuiteResult suite{.detector = own.wanted.name,
                            .sets = options.sets,

@@ -54,7 +54,7 @@ constexpr const char* kHelp = R"(Examples:
   lcs suite --recorded out/suite --detections csv --out out/mine
                                                   what it has written of an earlier suite's frames
   lcs suite --group sweep --filter distance       a sweep: one run a point and seed
-  lcs suite my_scenarios other.yaml               other scenarios; of files any group
+  lcs suite my_scenarios other.yaml               other scenarios, of any group
   lcs suite --group all --list                    what there is
   lcs suite --worlds train --count 60             worlds drawn from seeds, one run each
   lcs suite --worlds test --count 60 --beside klt --beside dis --beside lcs:lab
@@ -177,13 +177,6 @@ fs::path part_of(const std::string& detector, const std::string& own) {
   return detector == own ? fs::path() : fs::path("beside") / detector;
 }
 
-/// Options of `lcs run` that make the suite's own detector, its name apart.
-std::vector<std::string> detector_arguments(const DetectorOptions& detector) {
-  if (detector.command.empty()) return {};
-  return {"--detector-command", detector.command, "--detector-timeout",
-          fmt::format("{} s", detector.timeout_s)};
-}
-
 /// All that are missing are told at once.
 void require_detections(const fs::path& folder, const std::vector<suite::PlannedScenario>& plan) {
   if (!fs::is_directory(folder)) {
@@ -230,8 +223,8 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
   command
       .add_option(
           "--group", options.group,
-          "Only scenarios of this group; 'all' for any. If not given: short, but any for "
-                  "scenario files that are named")
+          "Only scenarios of this group; 'all' for any. If not given: any of paths that are "
+          "named, short of the project's own")
       ->type_name("NAME");
   command
       .add_option("--filter", options.filter,
@@ -325,7 +318,7 @@ ExitCode suite(const SuiteOptions& options) {
     std::vector<suite::SuiteResult> results = suite::run_suite(
         plan, {.watchers = watchers,
                .own_detector =
-                   with_own ? detector_arguments(options.detector) : std::vector<std::string>{},
+                   with_own ? arguments_of(options.detector) : std::vector<std::string>{},
                .detections = with_own ? options.detector.detections : "",
                .sets = options.sets,
                .recorded = recordings,

@@ -58,6 +58,7 @@ XMLElement& add_case(XMLElement& parent, const ScenarioResult& scenario, const s
   XMLElement& element = *parent.InsertNewChildElement("testcase");
   set(element, "classname", "lcs." + scenario.name);
   set(element, "name", name);
+  set(element, "file", scenario.file.generic_string());
   set(element, "time", fmt::format("{:.3f}", time_s));
   return element;
 }

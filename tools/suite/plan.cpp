@@ -24,7 +24,7 @@ constexpr const char* kDefaultGroup = "short";
 
 struct File {
   fs::path path;
-  bool is_named = false;  ///< and not found in a folder
+  bool is_own = false;  ///< of the project's scenarios, and not named
 };
 
 /// Relative to the current folder for files below it, so that what is written down holds elsewhere.
@@ -46,7 +46,9 @@ void add_folder(const fs::path& folder, std::vector<File>& files) {
         fmt::format("there is no .yaml file in {}; give a folder of scenarios", folder.string()));
   }
   std::sort(found.begin(), found.end());
-  for (const fs::path& path : found) files.push_back({path, false});
+  std::error_code error;
+  const bool is_own = fs::equivalent(folder, LCS_SCENARIOS_DIR, error);
+  for (const fs::path& path : found) files.push_back({path, is_own});
 }
 
 /// Each once, whatever way it was named.
@@ -57,7 +59,7 @@ std::vector<File> files_of(std::vector<fs::path> paths) {
     if (fs::is_directory(path)) {
       add_folder(path, files);
     } else if (fs::exists(path)) {
-      files.push_back({path, true});
+      files.push_back({path, false});
     } else {
       throw std::runtime_error(fmt::format(
           "there is no file or folder {}; give scenario files or folders of them", path.string()));
@@ -174,7 +176,7 @@ std::vector<PlannedScenario> plan(const PlanOptions& options) {
   const Pattern filter(options.filter, "--filter", "cross.*far");
   std::vector<PlannedScenario> all, chosen;
   for (const File& file : files_of(options.paths)) {
-    const std::string group = options.group.value_or(file.is_named ? kAnyGroup : kDefaultGroup);
+    const std::string group = options.group.value_or(file.is_own ? kDefaultGroup : kAnyGroup);
     for (PlannedScenario& planned : plan_file(file.path, options)) {
       if (is_in_group(planned, group) && filter.is_in(planned.name)) {
         chosen.push_back(planned);

@@ -17,7 +17,8 @@ namespace lcs::suite {
 
 struct PlanOptions {
   std::vector<std::filesystem::path> paths;  ///< files and folders; none: the project's scenarios
-  /// Only scenarios of this group; "all" is any. None: `short` in folders, any for named files.
+  /// Only scenarios of this group; "all" is any. None: any, but `short` of the project's own
+  /// folder.
   std::optional<std::string> group;
   std::string filter;             ///< regular expression, found anywhere in a name; "" is any
   std::vector<std::string> sets;  ///< "key=value", for all of them
