@@ -294,7 +294,7 @@ function strip(event) {
 
 function eventList(run) {
   if (!run.events) return el('p', { class: 'nothing' }, 'The run left no events.json.');
-  const gone = run.before && run.before.gone.length > 0 ? el('div', null, el('h4', null, 'Gone since the baseline'),
+  const gone = run.before && run.before.gone.length > 0 ? el('div', null, el('h4', null, 'Gone: among the worst of the baseline, no longer here'),
     el('ul', null, ...run.before.gone.map((event) => el('li', null, headline(event))))) : null;
   if (run.events.length === 0) return gone || el('p', { class: 'nothing' }, 'No misses and no false alarms to speak of.');
   const mark = (style, sign, text) => el('span', null, el('i', { class: style, 'aria-hidden': 'true' }, sign), text);

@@ -49,15 +49,15 @@ const loneOnes = (values) => values.flatMap((v, i) =>
   v !== null && !isNumber(values[i - 1]) && !isNumber(values[i + 1]) ? [i] : []);
 
 /**
- * series: {name, values, style, dashed, faint, spread}; a band is {from, to, kind}.
+ * x: in ascending order. series: {name, values, style, dashed, faint, spread}; a band is {from, to, kind}.
  * logX and logY: by powers of ten, y from `bottom` up; what is below lies on it.
  * Pointing at the plot reads the values there, in all plots of the same `sync`, and tells `onPoint` the place in x.
  * `pointAt(value of x)` of the figure that is returned does likewise in this plot.
  */
 function plot({ title, x, xName, series, top, bands = [], logX, logY, bottom, sync, onPoint }) {
-  const low = Math.min(...x), high = Math.max(...x);
+  const low = x[0], high = x[x.length - 1];
   const shown = series.map((s) => s.values.map((v) => !isNumber(v) ? null : logY ? Math.max(v, bottom) : v));
-  const greatest = top || Math.max(1e-9, ...shown.flat()) * 1.05;
+  const greatest = top || shown.flat().reduce((most, v) => Math.max(most, v), 1e-9) * 1.05;
   const scale = (log, range) => ({ time: false, distr: log ? 3 : 1, range: () => range });
   const axis = (more) => ({ stroke: () => colour('quiet'), font: '11px system-ui, sans-serif', ticks: { show: false },
     values: (_, ticks) => ticks.map((v) => v === null ? '' : tickText(v)), ...more });
@@ -81,7 +81,8 @@ function plot({ title, x, xName, series, top, bands = [], logX, logY, bottom, sy
   const chart = new uPlot({ width: 480, height: HEIGHT,
     scales: { x: scale(logX, [low, high > low ? high : low + 1]),
       y: scale(logY, logY ? [bottom, Math.max(greatest, 10 * bottom)] : [0, greatest]) },
-    axes: [axis({ size: 26, grid: { show: false } }), axis({ size: 44, grid: { stroke: () => colour('line'), width: 1 } })],
+    axes: [axis({ size: 26, grid: { show: false } }), axis({ size: 44, grid: { stroke: () => colour('line'), width: 1,
+      filter: (_, ticks) => logY ? ticks.map((v) => Number.isInteger(Number(Math.log10(v).toFixed(6))) ? v : null) : ticks } })],
     legend: { markers: { width: 2, dash: (_, i) => !series[i - 1] ? 'none' : series[i - 1].faint ? 'dotted' : series[i - 1].dashed ? 'dashed' : 'solid' } },
     cursor: { y: false, drag: { x: false }, sync: sync ? { key: sync } : undefined },
     series: [{ label: xName, value: (_, v) => v === null ? '' : tickText(v) },
