@@ -1,7 +1,9 @@
 #include "filter/circle.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 
 #include "filter/geometry.h"
@@ -99,9 +101,22 @@ CircleExpert::Group CircleExpert::mean_circle(const std::vector<Edge>& edges, st
   return group;
 }
 
-/// Trusted, and a rebel only where it is called one.
-bool CircleExpert::groupable(const Edge& edge) const {
-  return edge.trust >= parameters_.trust.standard && (!edge.rebel || edge.called);
+/// Whether the members grouped from `first` on lie along a line.
+bool CircleExpert::is_line(std::size_t first) const {
+  const auto members = std::span(grouped_).subspan(first);
+  Vec2 mean = Vec2::Zero();
+  for (const std::size_t i : members) mean += free_[i]->location;
+  mean /= static_cast<double>(members.size());
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  for (const std::size_t i : members) {
+    const Vec2 off = free_[i]->location - mean;
+    scatter += off * off.transpose();
+  }
+  // Across the line their deviation is the root of the lesser eigenvalue, t - sqrt(t^2 - det).
+  const double t = 0.5 * scatter.trace();
+  const double least = t - std::sqrt(std::max(0.0, t * t - scatter.determinant()));
+  return least <
+         parameters_.min_width * parameters_.min_width * static_cast<double>(members.size());
 }
 
 /// The groups C_m: each starts from the most trusted edge that is still free, of those the oldest,
@@ -111,7 +126,7 @@ void CircleExpert::group(const std::vector<Edge>& edges, const MotionField& fiel
   points_.clear();
   seeds_.clear();
   for (const Edge& edge : edges) {
-    if (!groupable(edge)) continue;
+    if (edge.trust < parameters_.trust.standard) continue;
     seeds_.push_back({edge.trust, edge.age, free_.size()});
     free_.push_back(&edge);
     points_.push_back(edge.location);
@@ -133,7 +148,8 @@ void CircleExpert::group(const std::vector<Edge>& edges, const MotionField& fiel
     });
     std::sort(grouped_.begin() + static_cast<std::ptrdiff_t>(first), grouped_.end());
     const std::size_t count = grouped_.size() - first;
-    if (static_cast<int>(count) < parameters_.min_members) {
+    if (static_cast<int>(count) < parameters_.min_members ||
+        (rebels && parameters_.min_width > 0 && is_line(first))) {
       grouped_.resize(first);
       continue;
     }
@@ -226,6 +242,8 @@ void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
     if (inside_any(layers.ignored, circles[c].location)) continue;
     circles[c].trust -= circles[c].rebel ? parameters_.rebel_coast : 1;
   }
+  const std::size_t most = circles.size() + groups_.size();
+  if (circles.capacity() < most) circles.reserve(2 * most);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     if (circle_of_group_[g] >= 0) continue;
     Circle circle = groups_[g].mean;

@@ -51,8 +51,8 @@ class CircleExpert {
     bool aligned;
   };
 
-  bool groupable(const Edge& edge) const;
   bool alike(const Edge& a, const Edge& b, const MotionField& field) const;
+  bool is_line(std::size_t first) const;
   void group(const std::vector<Edge>& edges, const MotionField& field);
   Group mean_circle(const std::vector<Edge>& edges, std::size_t first, std::size_t count,
                     const MotionField& field) const;
@@ -67,7 +67,7 @@ class CircleExpert {
 
   // Of the current frame; kept for their memory.
   PointGrid grid_;
-  std::vector<const Edge*> free_;  // groupable, null: in a group
+  std::vector<const Edge*> free_;  // trusted, null: in a group
   std::vector<Vec2> points_;       // of them
   std::vector<Seed> seeds_;
   std::vector<std::size_t> grouped_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "filter/constellation_edges.h"
 #include "filter/geometry.h"
 #include "filter/hypotheses/hypothesis_edges.h"
 #include "filter/paper_edges.h"
@@ -51,7 +50,6 @@ Edge EdgeExpert::make_normal(const Vec2& x, double depth_ratio, double mu,
   edge.id = next_id();
   edge.location = edge.rotated = edge.predicted = x;
   edge.depth_ratio = depth_ratio;
-  edge.path.start(x, depth_ratio, camera_);
   move_as_static(edge, field);
   edge.mu = mu;
   edge.trust = trust_.initial_normal();
@@ -63,10 +61,7 @@ std::unique_ptr<EdgeExpert> make_edge_expert(const Intrinsics& camera,
   if (parameters.edge_rule == EdgeRule::paper) {
     return std::make_unique<PaperEdges>(camera, parameters);
   }
-  if (parameters.edge_rule == EdgeRule::hypotheses) {
-    return std::make_unique<HypothesisEdges>(camera, parameters);
-  }
-  return std::make_unique<ConstellationEdges>(camera, parameters);
+  return std::make_unique<HypothesisEdges>(camera, parameters);
 }
 
 }  // namespace lcs

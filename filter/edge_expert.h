@@ -1,11 +1,11 @@
 /// \file
 /// Circle expert, first part: which corner belongs to which edge, which edges are new, and which
-/// are rebels. Three rules for it stand side by side; what they share is here.
+/// are rebels. Two rules for it stand side by side; what they share is here.
 ///
 /// All predict normal edges by the motion field and rebels by their own motion, assign corners to
 /// edges one to one, and give trust. They differ in how a rebel is told: `PaperEdges` by single
-/// corners that line up over three frames (alpha), `ConstellationEdges` by groups of corners that
-/// do, `HypothesisEdges` by how much likelier each sighting is of what moves.
+/// corners that line up over three frames (alpha), `HypothesisEdges` by how much likelier each
+/// sighting is of what moves.
 #pragma once
 
 #include <memory>

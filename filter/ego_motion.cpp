@@ -287,6 +287,7 @@ EgoMotion EgoMotionEstimator::frame(std::int64_t t_ns) {
   const Matrix3d R_WC_now = R_WC();
   EgoMotion motion;
   motion.ground = ground();
+  motion.velocity_sigma_mps = std::sqrt(covariance_.block<3, 3>(kVelocity, kVelocity).trace() / 3);
   if (last_frame_ && t_ns > last_frame_->t_ns) {
     motion.dt_s = static_cast<double>(t_ns - last_frame_->t_ns) * 1e-9;
     motion.R_cur_prev = R_WC_now.transpose() * last_frame_->R_WC;

@@ -38,6 +38,9 @@ struct EgoMotion {
   /// Standard deviation of what is wrong with the rotation because the gyro was not heard, about
   /// any axis; 0 where it was.
   double unseen_turn_rad = 0;
+  /// Standard deviation of what is wrong with the velocity, along any axis, by the estimator's own
+  /// account: it grows while the IMU is integrated without odometry. 0 where nobody tells.
+  double velocity_sigma_mps = 0;
   /// At frame k; none where nobody knows how the camera is mounted.
   std::optional<Ground> ground;
 };

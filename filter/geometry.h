@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
-#include <span>
 
 #include "filter/camera.h"
 
@@ -39,15 +37,6 @@ inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Whether a convex polygon holds x, its border included. Its corners go round from x to y.
-inline bool holds(std::span<const Vec2> polygon, const Vec2& x) {
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2& a = polygon[i];
-    if (cross(polygon[(i + 1) % polygon.size()] - a, x - a) < 0) return false;
-  }
-  return true;
-}
-
 /// Where distances upwards count less: bodies are taller than the gaps between them are wide.
 struct UprightMetric {
   Vec2 along_horizon = Vec2::UnitX();
@@ -74,27 +63,6 @@ inline double distance_to_segment(const Vec2& x, const Vec2& a, const Vec2& b) {
   const double length2 = ab.squaredNorm();
   const double t = length2 > 0 ? std::clamp((x - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
   return (x - (a + t * ab)).norm();
-}
-
-/// Of points, as many as lie within `band_px` of one line: the best of those through any two of the
-/// first dozen that are apart; 0 where none are.
-inline std::size_t most_on_a_line(std::span<const Vec2> points, double band_px) {
-  constexpr std::size_t kTried = 12;
-  constexpr double kApart_px = 10;
-  std::size_t most = 0;
-  const auto tried = points.first(std::min(kTried, points.size()));
-  for (std::size_t i = 0; i < tried.size(); ++i) {
-    for (std::size_t j = i + 1; j < tried.size(); ++j) {
-      const Vec2 along = tried[j] - tried[i];
-      const double length = along.norm();
-      if (length < kApart_px) continue;
-      const auto on = std::count_if(points.begin(), points.end(), [&](const Vec2& x) {
-        return std::abs(cross(along, x - tried[i])) < band_px * length;
-      });
-      most = std::max(most, static_cast<std::size_t>(on));
-    }
-  }
-  return most;
 }
 
 }  // namespace lcs

@@ -19,7 +19,8 @@ constexpr double kLeastHeight_m = 1e-3, kMostHeight_m = 1e4;
 
 std::optional<Fault> fault_of(const EgoMotion& m) {
   if (!std::isfinite(m.dt_s) || !m.R_cur_prev.allFinite() || !m.v_C_mps.allFinite() ||
-      !m.w_C_radps.allFinite() || !std::isfinite(m.unseen_turn_rad)) {
+      !m.w_C_radps.allFinite() || !std::isfinite(m.unseen_turn_rad) ||
+      !std::isfinite(m.velocity_sigma_mps)) {
     return Fault::motion_not_finite;
   }
   if (m.dt_s < 0) return Fault::time_back;

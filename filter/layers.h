@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "filter/camera.h"
-#include "filter/path.h"
 
 namespace lcs {
 
@@ -21,8 +21,8 @@ using Id = std::uint64_t;
 struct Edge {
   Id id = 0;
   bool rebel = false;
-  Vec2 location = Vec2::Zero();  ///< L, px
-  Vec2 origin = Vec2::Zero();  ///< O, px: first sighting (rebel), FOE or start of its path (normal)
+  Vec2 location = Vec2::Zero();   ///< L, px
+  Vec2 origin = Vec2::Zero();     ///< O, px: first sighting (rebel), FOE (normal)
   Vec2 rotated = Vec2::Zero();    ///< L of the frame before, moved by the rotation alone, px
   Vec2 predicted = Vec2::Zero();  ///< L~, px: where this frame's corner was expected
   double speed = 0;               ///< V, px/s, along beta; never negative
@@ -31,12 +31,10 @@ struct Edge {
   double mu = 0;                  ///< normal: radius of detection, px; rebel: deviation angle, rad
   int trust = 0;                  ///< Tr
   int age = 0;                    ///< frames since it was made, 0 in its first
-  Path path;                      ///< since its first sighting, as a static point's
-  bool called = false;            ///< rebel: borne out enough to be called one
-  double off_field_px = 0;  ///< rebel: by how much its motion of late leaves the static images
-  int unfounded = 0;        ///< frames for which its group stood on nothing, as `Footing` counts
-  int corner = -1;          ///< index in chi of the corner that supports it, -1: none this frame
-  int circle = -1;          ///< index in its kind's circles, -1: in none
+  /// Standard deviation of depth_ratio; infinite where nothing is known.
+  double depth_ratio_sigma = std::numeric_limits<double>::infinity();
+  int corner = -1;  ///< index in chi of the corner that supports it, -1: none this frame
+  int circle = -1;  ///< index in its kind's circles, -1: in none
 
   /// px/s, rotation removed.
   Vec2 velocity() const { return speed * Vec2(std::cos(angle), std::sin(angle)); }

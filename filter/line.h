@@ -19,8 +19,8 @@ namespace lcs {
 /// chi after the Line expert: the corners that are looked at, in an order that does not depend on
 /// the caller's (nearest to the principal point first).
 struct Chi {
-  std::vector<Vec2> locations;  ///< px
-  std::vector<int> sources;     ///< index of each in the caller's corners
+  std::vector<Vec2> locations;        ///< px
+  std::vector<int> sources;           ///< index of each in the caller's corners
   std::vector<Signature> signatures;  ///< of each; empty where the caller gives none
   std::vector<int>
       groups;  ///< collector that each falls into (the nearest one), -1: a single landmark

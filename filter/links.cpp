@@ -37,16 +37,16 @@ void LinkLayering::gather(const std::vector<Edge>& edges, double upward, const M
   depths_.clear();
   points_.clear();
   for (const Edge& edge : edges) {
-    if (edge.corner < 0 || (edge.rebel && !edge.called)) continue;
+    if (edge.corner < 0) continue;
     Node node;
     node.edge = &edge;
     if (edge.rebel) {
       node.velocity_pxps = edge.velocity();
     } else {
-      if (edge.path.weight <= 0) continue;
-      const double w = edge.path.ratio / field.reference_depth_m();
+      if (!std::isfinite(edge.depth_ratio_sigma)) continue;
+      const double w = edge.depth_ratio / field.reference_depth_m();
       depths_.push_back(
-          {w, std::max(kDepthFloor * w, edge.path.sigma() / field.reference_depth_m())});
+          {w, std::max(kDepthFloor * w, edge.depth_ratio_sigma / field.reference_depth_m())});
     }
     node.low = node.high = edge.location;
     nodes_.push_back(node);

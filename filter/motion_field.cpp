@@ -31,6 +31,7 @@ MotionField::MotionField(const Intrinsics& camera, const EgoMotion& motion,
     : centre_px_(camera.centre_px),
       focal_px_(camera.focal_px),
       dt_s_(motion.dt_s),
+      velocity_sigma_mps_(motion.velocity_sigma_mps),
       R_cur_prev_(motion.R_cur_prev),
       homography_(rotation_homography(camera, motion.R_cur_prev)),
       w_dt_(motion.w_C_radps * motion.dt_s),
@@ -38,8 +39,6 @@ MotionField::MotionField(const Intrinsics& camera, const EgoMotion& motion,
       parameters_(parameters),
       ground_(parameters.ground ? motion.ground : std::nullopt),
       moving_(motion.dt_s > 0 && motion.v_C_mps.norm() > parameters.still_speed_mps) {
-  T_prev_cur_.topLeftCorner<3, 3>() = R_cur_prev_.transpose();
-  T_prev_cur_.topRightCorner<3, 1>() = R_cur_prev_.transpose() * displacement_C_m();
   if (moving_ && std::abs(v_C_mps_.z()) * kFarFoe > v_C_mps_.head<2>().norm()) {
     foe_ = centre_px_ + focal_px_ * v_C_mps_.head<2>() / v_C_mps_.z();
   }
@@ -55,6 +54,7 @@ MotionField MotionField::corrected(const Eigen::Vector3d& turn_rad,
   motion.w_C_radps = (w_dt_ + turn_rad) / dt_s_;
   motion.v_C_mps = v_C_mps_ + velocity_mps;
   motion.ground = ground_;
+  motion.velocity_sigma_mps = velocity_sigma_mps_;
   return MotionField({.focal_px = focal_px_, .centre_px = centre_px_}, motion, parameters_);
 }
 

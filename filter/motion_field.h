@@ -32,6 +32,8 @@ class MotionField {
   MotionField corrected(const Eigen::Vector3d& turn_rad, const Eigen::Vector3d& velocity_mps) const;
 
   double dt_s() const { return dt_s_; }
+  /// As told (`EgoMotion`).
+  double velocity_sigma_mps() const { return velocity_sigma_mps_; }
 
   /// Where a location of frame k-1 lies after the rotation alone: what every stored location is
   /// moved by first.
@@ -67,18 +69,13 @@ class MotionField {
   double ratio_from(const Vec2& x_px, const Vec2& earlier_px,
                     const Eigen::Vector3d& displacement_C_m) const;
 
-  /// Image of a length across the line of sight, at the reference depth.
-  double length_px(double length_m) const {
-    return focal_px_ * length_m / parameters_.reference_depth_m;
-  }
+  /// Takes camera coordinates of frame k-1 to those of frame k.
+  const Eigen::Matrix3d& R_cur_prev() const { return R_cur_prev_; }
 
   double reference_depth_m() const { return parameters_.reference_depth_m; }
 
   /// Of the camera over the interval, in the camera frame of k.
   Eigen::Vector3d displacement_C_m() const { return v_C_mps_ * dt_s_; }
-  const Eigen::Matrix3d& R_cur_prev() const { return R_cur_prev_; }
-  /// Takes a static point's homogeneous coordinates of frame k to those of frame k-1.
-  const Eigen::Matrix4d& T_prev_cur() const { return T_prev_cur_; }
 
   /// Z_ref / Z at the end of the interval from the one at its start. A point that the camera passes
   /// within the interval gets the largest plausible ratio.
@@ -135,9 +132,8 @@ class MotionField {
 
   Vec2 centre_px_;
   double focal_px_;
-  double dt_s_;
+  double dt_s_, velocity_sigma_mps_;
   Eigen::Matrix3d R_cur_prev_;
-  Eigen::Matrix4d T_prev_cur_ = Eigen::Matrix4d::Identity();
   Eigen::Matrix3d homography_;  // K dR K^-1
   Eigen::Vector3d w_dt_;        // rotation over the interval, rad
   Eigen::Vector3d v_C_mps_;

@@ -23,7 +23,6 @@ void PaperEdges::predict(Layers& layers, const MotionField& field) {
     if (field.moving()) edge.depth_ratio = 0.5 * (edge.depth_ratio + 1);
     edge.predicted = field.translated(edge.rotated, edge.depth_ratio);
     edge.origin = field.origin(edge.predicted);
-    edge.path.carry(field);
     edge.speed = edge.depth_ratio * field.reference_speed(edge.rotated);
     const Vec2 along = field.direction(edge.predicted);
     if (!along.isZero()) edge.angle = angle_of(along);
@@ -155,7 +154,6 @@ void PaperEdges::update_normal(Edge& edge, const Vec2& x, const Chi& chi,
     edge.depth_ratio =
         std::min(std::abs(edge.depth_ratio + residual / reference_step), 2 * field.max_ratio());
   }
-  edge.path.see(x, camera_, field);
   edge.location = estimate(edge.trust, trust_, edge.predicted, x);
   edge.speed = edge.depth_ratio * field.reference_speed(edge.location);
   const Vec2 along = field.direction(edge.location);
@@ -211,7 +209,7 @@ Edge PaperEdges::make_rebel(const Chain& chain, const Vec2& x, const MotionField
   const Vec2& second = chain.sightings[1];
   Edge edge;
   edge.id = next_id();
-  edge.rebel = edge.called = true;
+  edge.rebel = true;
   edge.location = edge.predicted = x;
   edge.rotated = second;
   edge.origin = first;

@@ -31,11 +31,10 @@ using Field = T& (*)(Parameters&);
 /// for.
 using AskedBy = std::vector<Rule>;
 const AskedBy kPaper{{"circle.edge_rule", "paper"}};
-const AskedBy kConstellation{{"circle.edge_rule", "constellation"}};
 const AskedBy kHypotheses{{"circle.edge_rule", "hypotheses"}};
 const AskedBy kCouples{{"square.layer_rule", "couples"}};
 const AskedBy kLinks{{"square.layer_rule", "links"}};
-const AskedBy kGrounded{kConstellation.front(), kHypotheses.front(), kLinks.front()};
+const AskedBy kGrounded{kHypotheses.front(), kLinks.front()};
 
 struct Entry {
   std::string key;
@@ -65,7 +64,7 @@ const std::vector<Entry>& entries() {
       {"field.nearest_depth", "z_min", "m", 1e-3, 1e4, LCS_FIELD(double, field.nearest_depth_m)},
       {"field.ground", "", "", 0, 0, LCS_FIELD(bool, field.ground), kGrounded},
       {"field.ground_tilt", "", "deg", 0, 90, LCS_FIELD(double, field.ground_tilt_rad),
-       {kConstellation.front(), kHypotheses.front()}},
+       kHypotheses},
       {"field.still_speed", "", "m/s", 0, 10, LCS_FIELD(double, field.still_speed_mps)},
       {"field.unseen_turn", "", "", 0, 0, LCS_FIELD(bool, field.unseen_turn)},
       {"line.ignore", "psi", "", 0, 0, LCS_FIELD(bool, line.ignore)},
@@ -75,128 +74,56 @@ const std::vector<Entry>& entries() {
       {"circle.Tr_m", "Tr^c_m", "", 0, 1000, LCS_FIELD(int, circle.trust.maximum)},
       {"circle.delta_v", "delta_v", "deg", 0, 90, LCS_FIELD(double, circle.delta_v), kPaper},
       {"circle.edge_rule", "", "", 0, 0,
-       LCS_CHOICE(EdgeRule, circle.edge_rule, "paper", "constellation", "hypotheses")},
+       LCS_CHOICE(EdgeRule, circle.edge_rule, "paper", "hypotheses")},
       {"circle.mu_0", "mu_0", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_0), kPaper},
       {"circle.mu_min", "", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_min), kPaper},
       {"circle.mu_max", "", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_max), kPaper},
       {"circle.corner_noise", "", "px", 0, 100, LCS_FIELD(double, circle.corner_noise)},
       {"circle.trust_bonus", "", "px", 0, 100, LCS_FIELD(double, circle.trust_bonus), kPaper},
       {"circle.alpha_reach", "", "px", 0, 1000, LCS_FIELD(double, circle.alpha_reach), kPaper},
-      {"circle.alpha_deviation", "mu_r", "deg", 0, 180,
-       LCS_FIELD(double, circle.alpha_deviation), kPaper},
+      {"circle.alpha_deviation", "mu_r", "deg", 0, 180, LCS_FIELD(double, circle.alpha_deviation),
+       kPaper},
       {"circle.alpha_stretch", "", "", 0, 10, LCS_FIELD(double, circle.alpha_stretch), kPaper},
       {"circle.alpha_branches", "", "", 1, 100, LCS_FIELD(int, circle.alpha_branches), kPaper},
       {"circle.rebel_reach", "", "", 0, 10, LCS_FIELD(double, circle.rebel_reach), kPaper},
-      {"hypotheses.noise", "", "px", 0.01, 100,
-       LCS_FIELD(double, circle.hypotheses.noise_px), kHypotheses},
-      {"hypotheses.prior", "", "", 1e-06, 0.5,
-       LCS_FIELD(double, circle.hypotheses.prior), kHypotheses},
+      {"hypotheses.noise", "", "px", 0.01, 100, LCS_FIELD(double, circle.hypotheses.noise_px),
+       kHypotheses},
+      {"hypotheses.prior", "", "", 1e-06, 0.5, LCS_FIELD(double, circle.hypotheses.prior),
+       kHypotheses},
       {"hypotheses.turnover", "", "1/s", 0.001, 1000,
        LCS_FIELD(double, circle.hypotheses.turnover_ps), kHypotheses},
       {"hypotheses.wrong_first", "", "", 1e-06, 0.999,
        LCS_FIELD(double, circle.hypotheses.wrong_first), kHypotheses},
-      {"hypotheses.wrong", "", "", 1e-06, 0.999,
-       LCS_FIELD(double, circle.hypotheses.wrong), kHypotheses},
-      {"hypotheses.ego_share", "", "", 0, 10,
-       LCS_FIELD(double, circle.hypotheses.ego_share), kHypotheses},
+      {"hypotheses.wrong", "", "", 1e-06, 0.999, LCS_FIELD(double, circle.hypotheses.wrong),
+       kHypotheses},
+      {"hypotheses.ego_share", "", "", 0, 10, LCS_FIELD(double, circle.hypotheses.ego_share),
+       kHypotheses},
       {"hypotheses.acceleration", "", "1/s", 0.001, 1000,
        LCS_FIELD(double, circle.hypotheses.acceleration_ps), kHypotheses},
       {"hypotheses.max_speed", "", "px/s", 1, 100000,
        LCS_FIELD(double, circle.hypotheses.max_speed_pxps), kHypotheses},
-      {"hypotheses.reach", "", "px", 1, 1000,
-       LCS_FIELD(double, circle.hypotheses.reach_px), kHypotheses},
-      {"hypotheses.coast", "", "", 0, 100,
-       LCS_FIELD(int, circle.hypotheses.coast), kHypotheses},
-      {"hypotheses.bits_same", "", "", 0, 256,
-       LCS_FIELD(double, circle.hypotheses.bits_same), kHypotheses},
-      {"hypotheses.bits_other", "", "", 0, 256,
-       LCS_FIELD(double, circle.hypotheses.bits_other), kHypotheses},
-      {"hypotheses.bits_spread", "", "", 1, 256,
-       LCS_FIELD(double, circle.hypotheses.bits_spread), kHypotheses},
-      {"hypotheses.voters", "", "", 0, 1000,
-       LCS_FIELD(int, circle.hypotheses.voters), kHypotheses},
+      {"hypotheses.reach", "", "px", 1, 1000, LCS_FIELD(double, circle.hypotheses.reach_px),
+       kHypotheses},
+      {"hypotheses.coast", "", "", 0, 100, LCS_FIELD(int, circle.hypotheses.coast), kHypotheses},
+      {"hypotheses.bits_same", "", "", 0, 256, LCS_FIELD(double, circle.hypotheses.bits_same),
+       kHypotheses},
+      {"hypotheses.bits_other", "", "", 0, 256, LCS_FIELD(double, circle.hypotheses.bits_other),
+       kHypotheses},
+      {"hypotheses.bits_spread", "", "", 1, 256, LCS_FIELD(double, circle.hypotheses.bits_spread),
+       kHypotheses},
+      {"hypotheses.voters", "", "", 0, 1000, LCS_FIELD(int, circle.hypotheses.voters), kHypotheses},
       {"hypotheses.voters_reach", "", "px", 1, 1000,
        LCS_FIELD(double, circle.hypotheses.voters_reach_px), kHypotheses},
       {"hypotheses.voters_share", "", "", 0, 0.999,
        LCS_FIELD(double, circle.hypotheses.voters_share), kHypotheses},
-      {"hypotheses.step_share", "", "", 0, 10,
-       LCS_FIELD(double, circle.hypotheses.step_share), kHypotheses},
-      {"hypotheses.coupling", "", "", 0, 1000,
-       LCS_FIELD(double, circle.hypotheses.coupling), kHypotheses},
+      {"hypotheses.step_share", "", "", 0, 10, LCS_FIELD(double, circle.hypotheses.step_share),
+       kHypotheses},
+      {"hypotheses.coupling", "", "", 0, 1000, LCS_FIELD(double, circle.hypotheses.coupling),
+       kHypotheses},
       {"hypotheses.coupling_reach", "", "px", 1, 1000,
        LCS_FIELD(double, circle.hypotheses.coupling_reach_px), kHypotheses},
       {"hypotheses.first_log_odds", "", "", -100, 100,
        LCS_FIELD(double, circle.hypotheses.first_log_odds), kHypotheses},
-      {"constellation.normal_along", "", "px", 0, 100,
-       LCS_FIELD(double, circle.constellation.normal_along), kConstellation},
-      {"constellation.normal_along_growth", "", "", 0, 10,
-       LCS_FIELD(double, circle.constellation.normal_along_growth), kConstellation},
-      {"constellation.normal_across", "", "px", 0, 100,
-       LCS_FIELD(double, circle.constellation.normal_across), kConstellation},
-      {"constellation.rebel_gate", "", "px", 0, 100,
-       LCS_FIELD(double, circle.constellation.rebel_gate), kConstellation},
-      {"constellation.rebel_growth", "", "", 0, 10,
-       LCS_FIELD(double, circle.constellation.rebel_growth), kConstellation},
-      {"constellation.rebel_gate_max", "", "px", 0, 1000,
-       LCS_FIELD(double, circle.constellation.rebel_gate_max), kConstellation},
-      {"constellation.max_speed", "", "px/s", 0, 100000,
-       LCS_FIELD(double, circle.constellation.max_speed), kConstellation},
-      {"constellation.hit_1", "", "px", 0, 100,
-       LCS_FIELD(double, circle.constellation.hit_1), kConstellation},
-      {"constellation.baseline", "", "s", 0, 1000,
-       LCS_FIELD(double, circle.constellation.baseline), kConstellation},
-      {"constellation.hit_2", "", "px", 0, 100,
-       LCS_FIELD(double, circle.constellation.hit_2), kConstellation},
-      {"constellation.radius", "", "px", 0, 10000,
-       LCS_FIELD(double, circle.constellation.radius), kConstellation},
-      {"constellation.neighbours", "", "", 1, 100,
-       LCS_FIELD(int, circle.constellation.neighbours), kConstellation},
-      {"constellation.vote_chance", "", "", 0, 1e6,
-       LCS_FIELD(double, circle.constellation.vote_chance), kConstellation},
-      {"constellation.vote_own_past", "", "", 1, 1000,
-       LCS_FIELD(int, circle.constellation.vote_own_past), kConstellation},
-      {"constellation.vote_margin", "", "", 0, 1,
-       LCS_FIELD(double, circle.constellation.vote_margin), kConstellation},
-      {"constellation.vote_static_cap", "", "", 0, 10,
-       LCS_FIELD(double, circle.constellation.vote_static_cap), kConstellation},
-      {"constellation.off_field", "", "px", 0, 100,
-       LCS_FIELD(double, circle.constellation.off_field), kConstellation},
-      {"constellation.path_across", "", "px", 0, 1000,
-       LCS_FIELD(double, circle.constellation.path_across), kConstellation},
-      {"constellation.path_proof", "", "", 1, 1000,
-       LCS_FIELD(int, circle.constellation.path_proof), kConstellation},
-      {"constellation.established", "", "", 0, 1000,
-       LCS_FIELD(int, circle.constellation.established), kConstellation},
-      {"constellation.sure", "", "", 0, 1000,
-       LCS_FIELD(int, circle.constellation.sure), kConstellation},
-      {"constellation.support", "", "", 1, 1000,
-       LCS_FIELD(int, circle.constellation.support), kConstellation},
-      {"constellation.support_off_field", "", "", 0, 1,
-       LCS_FIELD(double, circle.constellation.support_off_field), kConstellation},
-      {"constellation.support_width", "", "px", 0, 100,
-       LCS_FIELD(double, circle.constellation.support_width), kConstellation},
-      {"inheritance.radius", "", "px", 0, 10000,
-       LCS_FIELD(double, circle.inheritance.radius), kConstellation},
-      {"inheritance.chance", "", "", 0, 1,
-       LCS_FIELD(double, circle.inheritance.chance), kConstellation},
-      {"inheritance.bias", "", "", -100, 100,
-       LCS_FIELD(double, circle.inheritance.bias), kConstellation},
-      {"inheritance.nearness", "", "", -100, 100,
-       LCS_FIELD(double, circle.inheritance.nearness), kConstellation},
-      {"inheritance.gap", "", "1/rad", -100, 100,
-       LCS_FIELD(double, circle.inheritance.gap), kConstellation},
-      {"inheritance.crowd", "", "", -100, 100,
-       LCS_FIELD(double, circle.inheritance.crowd), kConstellation},
-      {"inheritance.unfounded", "", "", -100, 100,
-       LCS_FIELD(double, circle.inheritance.unfounded), kConstellation},
-      {"inheritance.confirms", "", "", -100, 100,
-       LCS_FIELD(double, circle.inheritance.confirms), kConstellation},
-      {"inheritance.stands_once", "", "", -100, 100,
-       LCS_FIELD(double, circle.inheritance.stands_once), kConstellation},
-      {"inheritance.normal", "", "", -100, 100,
-       LCS_FIELD(double, circle.inheritance.normal), kConstellation},
-      {"inheritance.trusted", "", "", -100, 100,
-       LCS_FIELD(double, circle.inheritance.trusted), kConstellation},
       {"circle.epsilon_beta_n", "eps_beta,n", "deg", 0, 180,
        LCS_FIELD(double, circle.epsilon_beta_n)},
       {"circle.epsilon_beta_r", "eps_beta,r", "deg", 0, 180,
@@ -208,14 +135,7 @@ const std::vector<Entry>& entries() {
       {"circle.reach_n", "", "px", 0.1, 10000, LCS_FIELD(double, circle.reach_n)},
       {"circle.reach_r", "", "px", 0.1, 10000, LCS_FIELD(double, circle.reach_r)},
       {"circle.min_members", "", "", 1, 1000, LCS_FIELD(int, circle.min_members)},
-      {"footing.time", "", "s", 0, 1000, LCS_FIELD(double, circle.footing.time), kConstellation},
-      {"footing.reach", "", "px", 1, 1e4, LCS_FIELD(double, circle.footing.reach), kConstellation},
-      {"footing.upward", "", "", 0.01, 100,
-       LCS_FIELD(double, circle.footing.upward), kConstellation},
-      {"footing.members", "", "", 2, 1e4, LCS_FIELD(int, circle.footing.members), kConstellation},
-      {"footing.lift", "", "", 1, 1e4, LCS_FIELD(double, circle.footing.lift), kConstellation},
-      {"footing.overhang", "", "m", 0, 1e4,
-       LCS_FIELD(double, circle.footing.overhang), kConstellation},
+      {"circle.min_width", "", "px", 0, 1000, LCS_FIELD(double, circle.min_width)},
       {"circle.rebel_coast", "", "", 1, 1000, LCS_FIELD(int, circle.rebel_coast)},
       {"square.Tr_c", "Tr^s_c", "", 0, 1000, LCS_FIELD(int, square.trust.critical)},
       {"square.Tr_s", "Tr^s_s", "", 0, 1000, LCS_FIELD(int, square.trust.standard)},
@@ -229,29 +149,29 @@ const std::vector<Entry>& entries() {
       {"link.depth_error", "", "", 0, 100, LCS_FIELD(double, square.link.depth_error), kLinks},
       {"link.mean_share", "", "", 0, 10, LCS_FIELD(double, square.link.mean_share), kLinks},
       {"link.mean_spread", "", "m", 0, 100, LCS_FIELD(double, square.link.mean_spread), kLinks},
-      {"link.rebel_reach", "", "deg", 0.001, 90,
-       LCS_FIELD(double, square.link.rebel_reach_rad), kLinks},
+      {"link.rebel_reach", "", "deg", 0.001, 90, LCS_FIELD(double, square.link.rebel_reach_rad),
+       kLinks},
       {"link.rebel_upward", "", "", 0.01, 100, LCS_FIELD(double, square.link.rebel_upward), kLinks},
-      {"link.rebel_speed_share", "", "", 0, 10,
-       LCS_FIELD(double, square.link.rebel_speed_share), kLinks},
-      {"link.rebel_speed_px", "", "px", 0, 1000,
-       LCS_FIELD(double, square.link.rebel_speed_px), kLinks},
+      {"link.rebel_speed_share", "", "", 0, 10, LCS_FIELD(double, square.link.rebel_speed_share),
+       kLinks},
+      {"link.rebel_speed_px", "", "px", 0, 1000, LCS_FIELD(double, square.link.rebel_speed_px),
+       kLinks},
       {"link.followers", "", "", 0, 0, LCS_FIELD(bool, square.link.followers), kLinks},
       {"link.min_edges", "", "", 1, 1000, LCS_FIELD(int, square.link.min_edges), kLinks},
       {"link.min_rebels", "", "", 1, 1000, LCS_FIELD(int, square.link.min_rebels), kLinks},
-      {"link.min_area", "", "px^2", 0, 1000000000.0,
-       LCS_FIELD(double, square.link.min_area), kLinks},
+      {"link.min_area", "", "px^2", 0, 1000000000.0, LCS_FIELD(double, square.link.min_area),
+       kLinks},
       {"link.max_size", "", "m", 0, 10000, LCS_FIELD(double, square.link.max_size), kLinks},
-      {"square.delta_beta_1", "delta_beta,1", "deg", 0, 180,
-       LCS_FIELD(double, square.delta_beta_1), kCouples},
-      {"square.delta_beta_2", "delta_beta,2", "deg", 0, 180,
-       LCS_FIELD(double, square.delta_beta_2), kCouples},
+      {"square.delta_beta_1", "delta_beta,1", "deg", 0, 180, LCS_FIELD(double, square.delta_beta_1),
+       kCouples},
+      {"square.delta_beta_2", "delta_beta,2", "deg", 0, 180, LCS_FIELD(double, square.delta_beta_2),
+       kCouples},
       {"square.epsilon_beta_1", "eps_beta,1", "deg", 0, 180,
        LCS_FIELD(double, square.epsilon_beta_1), kCouples},
       {"square.epsilon_beta_2", "eps_beta,2", "deg", 0, 180,
        LCS_FIELD(double, square.epsilon_beta_2), kCouples},
-      {"square.epsilon_beta", "eps_beta", "deg", 0, 180,
-       LCS_FIELD(double, square.epsilon_beta), kCouples},
+      {"square.epsilon_beta", "eps_beta", "deg", 0, 180, LCS_FIELD(double, square.epsilon_beta),
+       kCouples},
       {"square.epsilon_beta_s", "eps_beta,s", "deg", 0, 180,
        LCS_FIELD(double, square.epsilon_beta_s)},
       {"square.epsilon_v", "eps_v", "V_v", 0, 1000, LCS_FIELD(double, square.epsilon_v), kCouples},
@@ -421,29 +341,14 @@ Parameters project_default() {
   p.circle.trust = {2, 3, 7};
   // What makes an object of rebels makes a circle of them.
   p.circle.min_members = p.square.link.min_rebels;
+  // An outline's crossings, and the stairs that a slanting line is drawn in, slide along it.
+  p.circle.min_width = 1.5;
   p.circle.reach_n = 100;
   p.circle.reach_r = 60;
   // A square is made again in each frame: one that the next frame does not bear out is gone.
   p.square.trust = {3, 3, 6};
   p.square.epsilon_beta_s = 60 * kDegree;
   p.line.ignore = false;
-  return p;
-}
-
-/// Corners by headlights are few, and many are noise: a motion must win more clearly, a rebel is
-/// followed farther from where it is expected, and what is farther off passes no verdict on.
-Parameters night() {
-  Parameters p = project_default();
-  p.circle.constellation.rebel_growth = 0.4;
-  p.circle.constellation.vote_margin = 0.2;
-  p.circle.inheritance.radius = 30;
-  return p;
-}
-
-/// Edges by two hypotheses.
-Parameters hypotheses() {
-  Parameters p = project_default();
-  p.circle.edge_rule = EdgeRule::hypotheses;
   p.field.nearest_depth_m = 0.4;
   return p;
 }
@@ -451,13 +356,11 @@ Parameters hypotheses() {
 }  // namespace
 
 std::vector<std::string> preset_names() {
-  return {"default", "hypotheses", "night", "lab", "cars"};
+  return {"default", "lab", "cars"};
 }
 
 Parameters preset(std::string_view name) {
   if (name == "default") return project_default();
-  if (name == "hypotheses") return hypotheses();
-  if (name == "night") return night();
   if (name == "lab") return lab();
   if (name == "cars") return cars();
   throw std::invalid_argument("the filter has no preset '" + std::string(name) + "'; there are " +

@@ -22,9 +22,8 @@ enum class RotationModel {
 
 /// How edges are matched and rebels are told.
 enum class EdgeRule {
-  paper,          ///< the five cases xi, and alpha: three sightings of a single corner in line
-  constellation,  ///< a corner and its neighbours move alike over three frames
-  hypotheses,     ///< each corner is a static point or moves by itself, weighed at each sighting
+  paper,       ///< the five cases xi, and alpha: three sightings of a single corner in line
+  hypotheses,  ///< each corner is a static point or moves by itself, weighed at each sighting
 };
 
 /// How circles or edges become squares.
@@ -51,72 +50,16 @@ struct LineParameters {
   int max_corners = 20000;
 };
 
-/// The constellation rule of the Circle expert, which stands in for xi and alpha. A gate is an
-/// ellipse about the prediction, along and across the displacement; it grows with the
-/// displacement's length.
-struct ConstellationParameters {
-  double normal_along = 2;            ///< px
-  double normal_along_growth = 0.05;  ///< of the displacement
-  double normal_across = 1.3;         ///< px
-  double rebel_gate = 1.2;            ///< px
-  double rebel_growth = 0.3;          ///< of the displacement, until
-  double rebel_gate_max = 3.5;        ///< px
-  double baseline = 0.09;             ///< s: what a motion is measured over, at the least
-  double max_speed = 450;             ///< px/s: the fastest that a rebel is looked for
-  double hit_1 = 2;                   ///< px: a sighting one baseline ago counts within this
-  double hit_2 = 3;                   ///< px: and two baselines ago within this
-  double radius = 80;                 ///< px: how far neighbours are
-  int neighbours = 8;                 ///< that vote, at the most
-  double vote_chance = 0.16;          ///< motions that chance may bear out at a corner
-  int vote_own_past = 2;              ///< baselines of so many frames ask for a corner's own past
-  double vote_margin = 0.15;          ///< by which it must beat the static explanation
-  double vote_static_cap = 0.55;      ///< share that the static explanation must stay below
-  double off_field = 1.5;             ///< px that it must leave the static images by
-  double path_across = 2.02;          ///< px that a normal edge's whole path may lie off the field
-  int path_proof = 4;              ///< baselines after which a rebel's path must lie off by as much
-  int established = 4;             ///< trust from which a normal edge explains its corner
-  int sure = 7;                    ///< and from which a rebel edge's corner cannot have stood
-  int support = 4;                 ///< rebels near each other that bear each other out
-  double support_off_field = 0.2;  ///< share of them that are off the field by more than 1 px
-  double support_width = 2.2;      ///< px: where four in five lie as near to one line, none is
-};
-
-/// How a corner without a motion of its own is told by what is round it (`filter/inheritance.h`):
-/// a chance, and the natural logarithms by which each piece of evidence changes its odds.
-struct InheritanceParameters {
-  double radius = 60;         ///< px: how far off rebels are that a corner is asked about for
-  double chance = 0.35;       ///< of being a rebel, from which it is called one; 1: none is
-  double bias = 2.76;         ///< where nothing else speaks
-  double nearness = 1.1;      ///< for each e-fold by which standing ones are farther than rebels
-  double gap = -0.5;          ///< per rad of the widest angle without rebels
-  double crowd = -0.55;       ///< of ln of one and the rebels round it
-  double unfounded = 0.2;     ///< the nearest rebel's group stands on nothing
-  double confirms = 0.8;      ///< two earlier frames show it where the nearest rebel's motion does
-  double stands_once = -0.9;  ///< one of them shows it where a static point was
-  double normal = -0.85;      ///< a normal edge has it
-  double trusted = -1.4;      ///< and is of the highest trust: this besides
-};
-
-/// Groups that stand on nothing (`filter/footing.h`), told beside the constellation rule.
-struct FootingParameters {
-  double time = 0.24;    ///< s for which a group must stand on nothing; 0: never asked
-  double reach = 60;     ///< px: how far apart along the horizon the edges of a group may lie
-  double upward = 0.45;  ///< what a distance upwards counts beside one along the horizon
-  int members = 6;       ///< that a group aloft needs
-  double lift = 2;       ///< the depth of the ground at its foot, over its own, that it must exceed
-  double overhang = 0.3;  ///< m: how far beside what is below the ground its body reaches
-};
-
-/// Two hypotheses a corner (`filter/hypotheses/`), which stand in for xi and alpha; where each comes
-/// from is in filter/RULES.md.
+/// Two hypotheses a corner (`filter/hypotheses/`), which stand in for xi and alpha; where each
+/// comes from is in filter/RULES.md.
 struct HypothesisParameters {
   double noise_px = 0.6;  ///< standard deviation of a corner's place on an axis: whole pixels, FAST
   double prior = 0.03;    ///< share of corners that move
-  double turnover_ps = 1;      ///< 1/s: how often a corner changes its kind, or a track its corner
-  double wrong_first = 0.15;   ///< share of first matches that are none
-  double wrong = 0.05;         ///< and of later ones
-  double ego_share = 0.02;     ///< of the image motion by which the camera's velocity may be wrong
-  double acceleration_ps = 1;  ///< 1/s: share of its image velocity by which a mover changes it
+  double turnover_ps = 1;       ///< 1/s: how often a corner changes its kind, or a track its corner
+  double wrong_first = 0.15;    ///< share of first matches that are none
+  double wrong = 0.05;          ///< and of later ones
+  double ego_share = 0.02;      ///< of the image motion by which the camera's velocity may be wrong
+  double acceleration_ps = 1;   ///< 1/s: share of its image velocity by which a mover changes it
   double max_speed_pxps = 600;  ///< px/s: the fastest that a mover is looked for, the rotation
                                 ///< removed,
   double reach_px = 60;         ///< px: and the farthest in a frame
@@ -124,7 +67,7 @@ struct HypothesisParameters {
   double bits_same = 30;        ///< that differ between two signatures of one place,
   double bits_other = 125;      ///< of two places,
   double bits_spread = 25;      ///< and by how much either varies
-  int voters = 16;              ///< neighbours that are asked about a match
+  int voters = 8;               ///< neighbours that are asked about a match
   double voters_reach_px = 40;  ///< px: and how far they are, at the most
   double voters_share = 0.5;    ///< of them that are found again beside it where it is right
   double step_share = 0.08;     ///< by which the steps of neighbours may differ
@@ -136,11 +79,8 @@ struct HypothesisParameters {
 /// Circle expert: edges, alpha, circles.
 struct CircleParameters {
   TrustRanks trust{2, 3, 5};  ///< Tr^c
-  EdgeRule edge_rule = EdgeRule::constellation;
+  EdgeRule edge_rule = EdgeRule::hypotheses;
   HypothesisParameters hypotheses;
-  ConstellationParameters constellation;
-  InheritanceParameters inheritance;
-  FootingParameters footing;
   double delta_v = 0;           ///< delta_v, 9 deg: half angle of the error span, seen from O_I
   double mu_0 = 25;             ///< mu_0, px: radius of detection of a new normal edge
   double mu_min = 3;            ///< px: bounds on mu, which the paper leaves open
@@ -162,6 +102,7 @@ struct CircleParameters {
   double reach_n = 50;        ///< px: how far apart the edges of one normal circle may lie
   double reach_r = 50;        ///< px: and of a rebel one
   int min_members = 3;        ///< edges that make a new circle
+  double min_width = 0;       ///< px: deviation across their line of rebels that make one
   int rebel_coast = 4;  ///< trust that a rebel circle loses in a frame without its edges; paper: 1
 };
 
@@ -212,8 +153,7 @@ struct Parameters {
   SquareParameters square;
 };
 
-/// Preset by name: "default" (this project's), "hypotheses" (likewise, with the other rule for
-/// edges), "night" (for the light of headlights), or the paper's: "lab" (Table 1), "cars" (section
+/// Preset by name: "default" (this project's), or the paper's: "lab" (Table 1), "cars" (section
 /// 5.2). \throws std::invalid_argument naming the known presets.
 Parameters preset(std::string_view name);
 std::vector<std::string> preset_names();

@@ -20,29 +20,12 @@ enum class Reason : std::uint8_t {
   outside,
   too_many,
   in_psi,
-  no_past,
   no_time,
   normal_edge,
   rebel_edge,
 
-  // `EdgeRule::constellation`: the vote of the neighbours, on corners that no trusted edge
-  // explains,
-  few_neighbours,
-  vote_floor,
-  static_wins,
-  vote_on_field,
-  voted,
-  // then the support of the rebel edges that came of it or were there before,
-  rebel_alone,
-  rebel_on_field,
-  rebel_in_line,
-  // then the neighbours' verdicts.
-  normal_stands,
-  inherited,
-  // then the ground.
-  unfounded,
-
   // `EdgeRule::hypotheses`, on a corner that no track has.
+  inherited,
   first_sighting,
 
   // `EdgeRule::paper`: no edge took the corner, so that it starts a row of alpha,
@@ -69,28 +52,16 @@ struct ReasonText {
 };
 
 /// By the order of `Reason`. For each, the verdicts that it may come with.
-inline constexpr std::array<ReasonText, 33> kReasons{{
+inline constexpr std::array<ReasonText, 22> kReasons{{
     {"unknown", "no reason given"},
-    {"not_finite", "its place is not a number"},                               // pending
-    {"outside", "outside of the picture"},                                     // pending
-    {"too_many", "farther out than the most corners that are looked at"},      // pending
-    {"in_psi", "inside a region psi that was not looked at"},                  // ignored
-    {"no_past", "too few frames seen so far"},                                 // pending
-    {"no_time", "no time has passed since the frame before"},                  // pending
-    {"normal_edge", "taken by a normal edge"},                                 // normal
-    {"rebel_edge", "taken by a rebel edge"},                                   // rebel
-    {"few_neighbours", "too few undecided neighbours to vote"},                // normal, pending
-    {"vote_floor", "no motion has more of the votes than chance may give"},    // normal, pending
-    {"static_wins", "a static explanation of the neighbours is as good"},      // normal, pending
-    {"vote_on_field", "the motion voted for may be a static point's"},         // normal, pending
-    {"voted", "the neighbours' vote made it a rebel edge"},                    // rebel
-    {"rebel_alone", "its rebel edge has too few others of like motion near"},  // pending
-    {"rebel_on_field", "its rebel edge's group moves as static points may"},   // pending
-    {"rebel_in_line",
-     "its rebel edge's group lies in one line, as where an outline hides a pattern"},    // pending
-    {"normal_stands", "among rebels, but a normal edge has it"},                         // normal
+    {"not_finite", "its place is not a number"},                                         // pending
+    {"outside", "outside of the picture"},                                               // pending
+    {"too_many", "farther out than the most corners that are looked at"},                // pending
+    {"in_psi", "inside a region psi that was not looked at"},                            // ignored
+    {"no_time", "no time has passed since the frame before"},                            // pending
+    {"normal_edge", "taken by a normal edge"},                                           // normal
+    {"rebel_edge", "taken by a rebel edge"},                                             // rebel
     {"inherited", "likely a rebel by those round it"},                                   // rebel
-    {"unfounded", "its group stands on nothing where it seems to be"},                   // rebel
     {"first_sighting", "in no frame before, and not among rebels"},                      // pending
     {"alpha_first", "near no edge and on no row of alpha: starts one"},                  // pending
     {"xi_5", "outside the span of the edges near it: starts a row of alpha"},            // pending

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -18,9 +17,16 @@ using SignatureBytes = std::array<std::uint8_t, sizeof(Signature)>;
 
 /// How many bits differ: 0 to 256.
 inline int distance(const Signature& a, const Signature& b) {
-  int bits = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) bits += std::popcount(a[i] ^ b[i]);
-  return bits;
+  // All words at once, in bytes: on the x86-64 baseline std::popcount is a call for each.
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::uint64_t x = a[i] ^ b[i];
+    x -= (x >> 1) & 0x5555555555555555;
+    x = (x & 0x3333333333333333) + ((x >> 2) & 0x3333333333333333);
+    sum += (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0f;
+  }
+  sum = (sum & 0x00ff00ff00ff00ff) + ((sum >> 8) & 0x00ff00ff00ff00ff);
+  return static_cast<int>((sum * 0x0001000100010001) >> 48);
 }
 
 }  // namespace lcs

@@ -159,7 +159,7 @@ void Stages::square(Frame& frame) {
   const auto start = Clock::now();
   if (!feeds_back()) predict_squares(frame);
   squares_.update(frame.result.layers, *frame.field, edges_->followers());  // transition III
-  if (feeds_back()) squares_.update_ignorance(frame.result.layers);     // transition IV
+  if (feeds_back()) squares_.update_ignorance(frame.result.layers);         // transition IV
   frame.result.times.square_ms = ms_since(start);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <opencv2/features2d.hpp>
 #include <stdexcept>
 
@@ -23,8 +24,8 @@ std::vector<cv::KeyPoint> keypoints_at(std::span<const Eigen::Vector2f> corners_
   for (std::size_t i = 0; i < corners_px.size(); ++i) {
     const Vec2 x = corners_px[i].cast<double>();
     if (!picture.contain(x)) continue;  // nor is it where it is not a number
-    keypoints.emplace_back(cv::Point2f(static_cast<float>(nearest_pixel(x.x()) + kMargin_px),
-                                       static_cast<float>(nearest_pixel(x.y()) + kMargin_px)),
+    keypoints.emplace_back(cv::Point2f(static_cast<float>(std::lround(x.x()) + kMargin_px),
+                                       static_cast<float>(std::lround(x.y()) + kMargin_px)),
                            static_cast<float>(kPatch_px), /*angle=*/0.F, /*response=*/0.F,
                            /*octave=*/0, static_cast<int>(i));
   }

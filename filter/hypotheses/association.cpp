@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "filter/hypotheses/gauss.h"
@@ -81,18 +82,23 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
 double Association::ask_neighbours(const Pair& pair, double noise2_px2) const {
   const double unlike = parameters_.step_share * parameters_.step_share;
   const double variance = 4 * noise2_px2 + unlike * pair.step_px.squaredNorm();
-  const double half_reach = 0.5 * parameters_.voters_reach_px;
+  const double share = parameters_.voters_share, none_agrees = std::log(1 - share);
   double sum = 0;
-  for (const Neighbour& other : near_) {
-    double best = 0;
-    for (const Pair& theirs : pairs_of(other.index)) {
+  for (std::size_t k = 0; k < near_.size(); ++k) {
+    const int other = near_[k].index;
+    constexpr double kNone = -std::numeric_limits<double>::infinity();
+    double best = kNone;  // ln
+    for (const Pair& theirs : pairs_of(other)) {
       const double apart2 = (theirs.step_px - pair.step_px).squaredNorm();
       if (apart2 > kFarStep * kFarStep * variance) continue;
-      best = std::max(best, std::exp(-0.5 * apart2 / variance + theirs.signature));
+      best = std::max(best, -0.5 * apart2 / variance + theirs.signature);
     }
-    const double agrees = best / (2 * std::numbers::pi * variance * clutter_[other.index]);
-    sum += std::exp(-0.5 * other.distance2 / (half_reach * half_reach)) *
-           std::log(1 - parameters_.voters_share + parameters_.voters_share * agrees);
+    if (best == kNone) {  // as for most
+      sum += voices_[k] * none_agrees;
+      continue;
+    }
+    const double agrees = std::exp(best) / (2 * std::numbers::pi * variance * clutter_[other]);
+    sum += voices_[k] * std::log(1 - share + share * agrees);
   }
   return sum;
 }
@@ -103,6 +109,7 @@ const std::vector<int>& Association::match(const Chi& chi, std::span<const Track
   if (predicted.empty() || chi.size() == 0) return track_of_;
   find_pairs(chi, predicted, noise2_px2, dt_s);
   corners_.build(chi.locations, parameters_.voters_reach_px / 2);
+  const double half_reach = 0.5 * parameters_.voters_reach_px;
   matches_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     const auto pairs = pairs_of(c);
@@ -110,6 +117,10 @@ const std::vector<int>& Association::match(const Chi& chi, std::span<const Track
     corners_.nearest(
         chi.locations[c], parameters_.voters_reach_px, static_cast<std::size_t>(parameters_.voters),
         [&](int other) { return other != static_cast<int>(c); }, near_);
+    voices_.clear();
+    for (const Neighbour& other : near_) {
+      voices_.push_back(std::exp(-0.5 * other.distance2 / (half_reach * half_reach)));
+    }
     Match best{0, static_cast<int>(c), -1};
     for (const Pair& pair : pairs) {
       const double weight = pair.weight + ask_neighbours(pair, noise2_px2);

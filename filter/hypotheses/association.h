@@ -56,6 +56,7 @@ class Association {
   std::vector<std::size_t> first_;
   std::vector<double> clutter_;  // corners of the last frame about each, 1/px^2
   std::vector<Neighbour> near_;
+  std::vector<double> voices_;  // what each of them counts
   struct Match {
     double weight;
     int corner, track;

@@ -9,10 +9,10 @@ namespace lcs {
 namespace {
 
 constexpr int kIterations = 6;
-/// Ties weaker than this are left out.
-constexpr double kLeastWeight = 0.01;
+/// Ties that are weaker than e^(-kMostExponent / 2), a hundredth, are left out.
+constexpr double kMostExponent = 9.2;
 /// Of the distance at which a tie has fallen to 0.6, where none is looked for.
-constexpr double kFar = 2.5;
+constexpr double kFar = 2;
 /// What the sum of weights must exceed before those round a corner speak with full voice.
 constexpr double kVoice = 0.5;
 /// px: by which two motions of one body may differ, at the least.
@@ -31,7 +31,7 @@ double Coupling::weight(const Node& of, const Node& other, double distance2_px2)
                             of.step_variance_px2 + other.step_variance_px2;
     exponent += (of.step_px - other.step_px).squaredNorm() / variance;
   }
-  return std::exp(-0.5 * exponent);
+  return exponent < kMostExponent ? std::exp(-0.5 * exponent) : 0;
 }
 
 const std::vector<double>& Coupling::settle(std::span<const Node> nodes) {
@@ -49,7 +49,7 @@ const std::vector<double>& Coupling::settle(std::span<const Node> nodes) {
     grid_.visit_within(places_[i], kFar * parameters_.coupling_reach_px, [&](int j, double apart2) {
       if (j == static_cast<int>(i) || !nodes[j].has_motion) return;
       const double w = weight(nodes[i], nodes[j], apart2);
-      if (w < kLeastWeight) return;
+      if (w == 0) return;
       ties_.push_back({j, w});
       sums_[i] += w;
     });

@@ -7,7 +7,6 @@
 #include "filter/geometry.h"
 #include "filter/hypotheses/gauss.h"
 #include "filter/pixels.h"
-#include "filter/rebel_groups.h"
 #include "filter/refill.h"
 
 namespace lcs {
@@ -21,6 +20,9 @@ constexpr double kWrongWitness = 0.1;
 /// A static point's images that are shorter than this share of the noise are one place.
 constexpr double kPlace = 0.3;
 
+/// How far behind a rebel its origin is kept, in steps, so that beta is its direction of now.
+constexpr double kOriginSteps = 5;
+
 /// Depth is known where its variance is this share of what the bounds alone say.
 constexpr double kKnownDepth = 0.25;
 
@@ -31,10 +33,12 @@ HypothesisEdges::HypothesisEdges(const Intrinsics& camera, const CircleParameter
       parameters_(parameters.hypotheses),
       noise2_px2_(parameters_.noise_px * parameters_.noise_px),
       association_(parameters_),
-      coupling_(parameters_) {}
+      coupling_(parameters_),
+      velocity_error_(parameters_.ego_share) {}
 
 void HypothesisEdges::predict(Layers&, const MotionField& told) {
-  predict_tracks(told);
+  velocity_error_.advance(told);
+  predict_tracks(velocity_error_.without(told));
 }
 
 void HypothesisEdges::predict_tracks(const MotionField& field) {
@@ -53,9 +57,10 @@ void HypothesisEdges::predict_tracks(const MotionField& field) {
   }
 }
 
-/// The field of the motion as the tracks show it that are likely to stand.
-MotionField HypothesisEdges::corrected(const MotionField& told, const Chi& chi,
-                                       const std::vector<int>& track_of) {
+/// What the told motion is off by, as the tracks show it that are likely to stand.
+std::optional<MotionFix> HypothesisEdges::fix(const MotionField& told, const Chi& chi,
+                                              const std::vector<int>& track_of) {
+  if (predicted_.empty()) return std::nullopt;
   residuals_.clear();
   const double reach = association_.reach_px(told.dt_s());
   const double anywhere = kWrongWitness / (kPi * reach * reach);
@@ -73,8 +78,7 @@ MotionField HypothesisEdges::corrected(const MotionField& told, const Chi& chi,
                           point.inverse_depth_pm, point.covariance(2, 2), 1 - moves,
                           moves * track.as_moving.density(x, noise2_px2_) + anywhere});
   }
-  const MotionFix fix = motion_fix(camera_, told, residuals_, parameters_.ego_share);
-  return told.corrected(fix.turn_rad, fix.velocity_mps);
+  return motion_fix(camera_, told, residuals_, velocity_error_.covariance(told));
 }
 
 Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner) {
@@ -190,7 +194,7 @@ void HypothesisEdges::couple(const MotionField& field) {
 Edge HypothesisEdges::edge_of(const Track& track, const MotionField& field) const {
   Edge edge;
   edge.id = track.id;
-  edge.rebel = edge.called = track.belief > 0;
+  edge.rebel = track.belief > 0;
   edge.location = track.place_px;
   edge.predicted = edge.rebel ? track.as_moving.place_px : track.as_static.place_px;
   edge.depth_ratio = track.as_static.inverse_depth_pm * field.reference_depth_m();
@@ -201,16 +205,17 @@ Edge HypothesisEdges::edge_of(const Track& track, const MotionField& field) cons
   const double ranks = trust_.maximum - trust_.critical;
   edge.trust = trust_.critical + static_cast<int>(std::lround(sure * ranks)) - track.unseen;
   if (edge.rebel) {
-    set_velocity(edge, track.as_moving.velocity_pxps, field.dt_s());
+    const Vec2& velocity_pxps = track.as_moving.velocity_pxps;
+    edge.speed = velocity_pxps.norm();
+    if (edge.speed > 0) edge.angle = angle_of(velocity_pxps);
+    edge.origin = edge.location - kOriginSteps * field.dt_s() * velocity_pxps;
     return edge;
   }
   move_as_static(edge, field);
-  edge.path.ratio = edge.depth_ratio;
   const double half = depth_bounds(field, edge.location).half_pm();
   const double variance = track.as_static.covariance(2, 2);
   if (variance < kKnownDepth * half * half) {
-    const double sigma = std::sqrt(variance) * field.reference_depth_m();
-    edge.path.weight = Path::kSighting_px * Path::kSighting_px / (sigma * sigma);
+    edge.depth_ratio_sigma = std::sqrt(variance) * field.reference_depth_m();
   }
   return edge;
 }
@@ -258,8 +263,12 @@ void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& 
   refill(reasons_, chi.size(), Reason::unknown);
   if (!(told.dt_s() > 0)) predicted_.clear();
   const std::vector<int>& track_of = association_.match(chi, predicted_, noise2_px2_, told.dt_s());
-  const MotionField field = predicted_.empty() ? told : corrected(told, chi, track_of);
-  if (!predicted_.empty()) predict_tracks(field);
+  MotionField field = velocity_error_.without(told);
+  if (const std::optional<MotionFix> off = fix(field, chi, track_of)) {
+    velocity_error_.see(*off, field);
+    field = field.corrected(off->turn_rad, off->velocity_mps);
+    predict_tracks(field);
+  }
   tracks_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (track_of[c] >= 0) {

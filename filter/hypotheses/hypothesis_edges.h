@@ -9,6 +9,7 @@
 ///    from how sure that is.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "filter/edge_expert.h"
@@ -26,11 +27,15 @@ class HypothesisEdges : public EdgeExpert {
   void predict(Layers& layers, const MotionField& field) override;
   void update(Layers& layers, const Chi& chi, const MotionField& field,
               std::vector<Verdict>& verdicts) override;
-  void forget() override { tracks_.clear(); }
+  void forget() override {
+    tracks_.clear();
+    velocity_error_.forget();
+  }
 
  private:
   void predict_tracks(const MotionField& field);
-  MotionField corrected(const MotionField& told, const Chi& chi, const std::vector<int>& track_of);
+  std::optional<MotionFix> fix(const MotionField& told, const Chi& chi,
+                               const std::vector<int>& track_of);
   Track first_seen(const Chi& chi, std::size_t corner);
   bool see(Track& track, const Vec2& x_px, const MotionField& field) const;
   double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds,
@@ -47,6 +52,7 @@ class HypothesisEdges : public EdgeExpert {
   double noise2_px2_;
   Association association_;
   Coupling coupling_;
+  VelocityError velocity_error_;
   std::vector<Track> tracks_;     // of the last frame; those of its corners first, by chi
   std::vector<Track> predicted_;  // the same, in this frame
   std::vector<Residual> residuals_;

@@ -20,10 +20,10 @@ constexpr double kFarBelow = 2;
 /// Chance of a normal variable between the bounds; never 0, as it is divided by.
 double mass(double mean, double variance, const DepthBounds& bounds) {
   const double sigma = std::sqrt(variance);
-  const double to_ground = std::hypot(sigma, bounds.ground_sigma_pm);
-  return std::max(1e-12,
-                  below((bounds.most_pm - mean) / sigma) -
-                      std::max(below(-mean / sigma), below((bounds.ground_pm - mean) / to_ground)));
+  // Infinity is a bound as the ground is, and sharp.
+  const double least = std::max(
+      -mean / sigma, (bounds.ground_pm - mean) / std::hypot(sigma, bounds.ground_sigma_pm));
+  return std::max(1e-12, below((bounds.most_pm - mean) / sigma) - below(least));
 }
 
 /// 1/z_min.

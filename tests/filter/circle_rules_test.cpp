@@ -36,7 +36,7 @@ Edge normal(const Vec2& at, double depth_ratio = 1) {
 
 Edge rebel(const Vec2& at, double angle, double speed) {
   Edge edge = normal(at);
-  edge.rebel = edge.called = true;
+  edge.rebel = true;
   edge.angle = angle;
   edge.speed = speed;
   edge.origin = at - 50 * unit_vector(angle);

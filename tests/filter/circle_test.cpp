@@ -28,7 +28,7 @@ Edge normal(const Vec2& at, double depth_ratio = 1) {
 
 Edge rebel(const Vec2& at, double angle, double speed) {
   Edge edge = normal(at);
-  edge.rebel = edge.called = true;
+  edge.rebel = true;
   edge.angle = angle;
   edge.speed = speed;
   return edge;
@@ -101,13 +101,6 @@ TEST_F(Circling, RebelsGroupByTheirOwnMotion) {
   ASSERT_EQ(layers.rebel_circles.size(), 1u);
   EXPECT_EQ(layers.rebel_circles[0].members, 3);
   EXPECT_EQ(layers.rebel_edges[3].circle, -1);
-}
-
-TEST_F(Circling, RebelsThatAreNotCalledOnesMakeNoCircle) {
-  for (int i = 0; i < 5; ++i) layers.rebel_edges.push_back(rebel({300.0 + i, 200}, 0, 80));
-  for (Edge& edge : layers.rebel_edges) edge.called = false;
-  update();
-  EXPECT_TRUE(layers.rebel_circles.empty());
 }
 
 TEST_F(Circling, AnAlignedMatchRaisesTrustAndAMissLowersItUntilDeletion) {

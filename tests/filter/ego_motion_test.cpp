@@ -132,7 +132,7 @@ TEST(EgoMotion, OdometryHoldsTheDriftOfABiasedImu) {
                   [](double t) { return Vector3d(0.03 * t, 0, 0); }};
   const Mounting m = mounting();
   const Vector3d gyro_bias(1e-3, -1e-3, 5e-4), accel_bias(0.02, -0.03, 0.01);
-  double error[2];
+  double error[2], told_sigma[2];
   for (const bool odometry : {false, true}) {
     EgoMotionEstimator estimator = start(path, m);
     for (std::int64_t t_ns = 0; t_ns <= 30'000'000'000; t_ns += kImuStep_ns) {
@@ -141,9 +141,13 @@ TEST(EgoMotion, OdometryHoldsTheDriftOfABiasedImu) {
       if (odometry && t_ns % 20'000'000 == 0) estimator.add_odometry(t_ns, {0.03, 0, 0});
     }
     error[odometry] = (estimator.v_WS_mps() - Vector3d(0.03, 0, 0)).norm();
+    told_sigma[odometry] = estimator.frame(30'000'000'000).velocity_sigma_mps;
   }
   EXPECT_GT(error[0], 0.5);   // 30 s of these biases
   EXPECT_LT(error[1], 0.01);  // a third of the speed, from 2 cm/s of odometry noise assumed
+  // It says so; more than ten times of what it expects of an IMU is wrong with this one.
+  EXPECT_GT(told_sigma[0], 0.2);
+  EXPECT_LT(told_sigma[1], 0.01);
 }
 
 TEST(EgoMotion, ACorrectionIsNoMotionOfTheFrame) {

@@ -37,7 +37,7 @@ using Corners = std::vector<Vector2f>;
 constexpr double kNoise2_px2 = 0.36;
 constexpr double kDt_s = 0.1;
 
-const HypothesisParameters kUsual = preset("hypotheses").circle.hypotheses;
+const HypothesisParameters kUsual = preset("default").circle.hypotheses;
 
 /// Images of a point, frame by frame, and its 1/Z in the last.
 struct Seen {
@@ -524,6 +524,9 @@ struct Misled {
   }
 };
 
+/// (m/s)^2, of the told velocity: 2 cm/s on each axis.
+const Eigen::Matrix3d kWrong = 4e-4 * Eigen::Matrix3d::Identity();
+
 TEST(MotionFix, FindsWhatTheToldMotionIsOffByAmongWrongMatches) {
   Random random(5);
   for (const auto& [turn, velocity] :
@@ -534,7 +537,7 @@ TEST(MotionFix, FindsWhatTheToldMotionIsOffByAmongWrongMatches) {
       misled.residuals[i].off_px = 30 * random.vector(1).head<2>();
     }
     const double before = misled.worst_across(misled.told);
-    const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, 0.02);
+    const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong).value();
     const double after = misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps));
     EXPECT_GT(before, 0.6);
     // The worst of 200 places. A turn and a velocity aside look alike where depths are, and each
@@ -550,7 +553,7 @@ TEST(MotionFix, TakesNothingFromWhatADepthExplains) {
   for (Residual& residual : misled.residuals) {
     residual.off_px += 3 * misled.told.direction(residual.place_px);
   }
-  const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, 0.02);
+  const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong).value();
   EXPECT_LT(fix.turn_rad.norm(), 2e-4);
   EXPECT_LT(misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps)), 0.3);
 }
@@ -563,16 +566,62 @@ TEST(MotionFix, TakesLittleFromWhatIsKnownToMove) {
     misled.residuals[i].stands = 0.01;
     misled.residuals[i].otherwise_ppx2 = 0.2;
   }
-  const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, 0.02);
+  const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong).value();
   EXPECT_LT(misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps)), 0.3);
 }
 
 TEST(MotionFix, SaysNothingWhereTooFewTell) {
   Random random(8);
   const Misled few({1e-3, 0, 0}, Vector3d::Zero(), 19, random);
-  EXPECT_TRUE(motion_fix(vga(), few.told, few.residuals, 0.02).turn_rad.isZero(0));
+  EXPECT_FALSE(motion_fix(vga(), few.told, few.residuals, kWrong));
   const Misled enough({1e-3, 0, 0}, Vector3d::Zero(), 20, random);
-  EXPECT_GT(motion_fix(vga(), enough.told, enough.residuals, 0.02).turn_rad.norm(), 2e-4);
+  EXPECT_GT(motion_fix(vga(), enough.told, enough.residuals, kWrong)->turn_rad.norm(), 2e-4);
+}
+
+/// A camera whose told velocity is off by the same in each frame, of which the corners show half.
+struct Drifting {
+  explicit Drifting(double told_sigma_mps, const Vector3d& rate_radps = Vector3d::Zero())
+      : motion(steady_motion({0, 0, 1}, rate_radps, kDt_s)) {
+    motion.velocity_sigma_mps = told_sigma_mps;
+  }
+  /// What is told and believed of a frame that is really `error_mps` faster.
+  Vector3d left_after(int frames, const Vector3d& error_mps) {
+    for (int k = 0; k < frames; ++k) {
+      const MotionField told(vga(), motion, {});
+      error.advance(told);
+      const MotionField field = error.without(told);
+      left = error_mps - (field.displacement_C_m() - told.displacement_C_m()) / kDt_s;
+      const Eigen::Matrix3d before = error.covariance(field);
+      error.see({Vector3d::Zero(), left / 2, before / 2}, field);
+    }
+    return left;
+  }
+  EgoMotion motion;
+  VelocityError error{0.02};
+  Vector3d left;
+};
+
+TEST(VelocityErrors, AreCarriedOnWhereTheEstimatorSaysThatTheyLast) {
+  const Vector3d off(0.1, -0.05, 0.02);
+  EXPECT_LT(Drifting(0.2).left_after(10, off).norm(), 0.15 * off.norm());
+  EXPECT_DOUBLE_EQ(Drifting(0).left_after(10, off).norm(), off.norm());
+}
+
+TEST(VelocityErrors, AreForgottenOnceTheEstimatorKnowsBetter) {
+  Drifting drifting(0.2);
+  const Vector3d off(0.1, -0.05, 0.02);
+  drifting.left_after(10, off);
+  drifting.motion.velocity_sigma_mps = 0.002;  // the wheels were heard
+  EXPECT_LT(drifting.left_after(1, Vector3d::Zero()).norm(), 0.02 * off.norm());
+}
+
+TEST(VelocityErrors, StayInTheWorldWhileTheCameraTurns) {
+  Drifting drifting(0.2, {0, 0, 0.5 * kPi / kDt_s});  // a quarter a frame
+  drifting.left_after(1, {0.1, 0, 0});
+  const MotionField told(vga(), drifting.motion, {});
+  drifting.error.advance(told);
+  const Vector3d known = drifting.error.without(told).displacement_C_m() - told.displacement_C_m();
+  EXPECT_GT(std::abs(known.y()), 10 * std::abs(known.x()));
 }
 
 // ---- The rule
@@ -597,7 +646,7 @@ TEST(HypothesisEdges, AStaticWorldOfWholePixelsIsSilent) {
     for (const Vector3d& v : {Vector3d(0, 0, 0.5), Vector3d(0.3, 0, 0), Vector3d(0, 0, -0.4)}) {
       World world = sparse_world(5, spacing);
       const EgoMotion motion = steady_motion(v, {0.01, 0.05, -0.02}, kDt_s);
-      Filter filter(world.camera, preset("hypotheses"));
+      Filter filter(world.camera, preset("default"));
       for (int k = 0; k < 25; ++k) {
         const FrameResult& result =
             filter.step(rounded(world.corners()), k == 0 ? EgoMotion{} : motion);
@@ -616,7 +665,7 @@ TEST(HypothesisEdges, CornersThatJitterBeforeAStandingCameraStand) {
     const World world = sparse_world(8, spacing);
     const EgoMotion motion = steady_motion(Vector3d::Zero(), Vector3d::Zero(), kDt_s);
     Random random(1);
-    Filter filter(world.camera, preset("hypotheses"));
+    Filter filter(world.camera, preset("default"));
     for (int k = 0; k < 40; ++k) {
       Corners corners = world.corners();
       for (Vector2f& x : corners) x += random.vector(0.7).head<2>().cast<float>();
@@ -637,7 +686,7 @@ TEST(HypothesisEdges, APatchThatCrossesIsCalledAndTheBackgroundIsNot) {
                   {-0.6, 0.05, 0});
       }
       const EgoMotion motion = steady_motion({0, 0, speed_mps}, {0, 0.02, 0}, kDt_s);
-      Filter filter(world.camera, preset("hypotheses"));
+      Filter filter(world.camera, preset("default"));
       for (std::size_t k = 0; k < 12; ++k) {
         SCOPED_TRACE(::testing::Message()
                      << speed_mps << " m/s, frame " << k << (looks ? ", signatures" : ""));
@@ -667,7 +716,7 @@ TEST(HypothesisEdges, APatchThatCrossesIsCalledAndTheBackgroundIsNot) {
 
 TEST(HypothesisEdges, ACornerThatNobodyKnowsIsNotCalled) {
   // First frames, and later a corner that comes on by itself.
-  Filter filter(vga(), preset("hypotheses"));
+  Filter filter(vga(), preset("default"));
   const EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), kDt_s);
   for (int k = 0; k < 3; ++k) {
     const Corners corners(1, Vector2f(100 + 200 * k, 200));
@@ -679,8 +728,8 @@ TEST(HypothesisEdges, ACornerThatNobodyKnowsIsNotCalled) {
 
 TEST(HypothesisEdges, SayTheSameAgainAndWhateverTheOrderOfTheCorners) {
   Scene scene(2);
-  Filter first(vga(), preset("hypotheses")), second(vga(), preset("hypotheses"));
-  Filter backward(vga(), preset("hypotheses"));
+  Filter first(vga(), preset("default")), second(vga(), preset("default"));
+  Filter backward(vga(), preset("default"));
   std::ptrdiff_t found = 0;
   for (std::size_t k = 0; k < 10; ++k) {
     const EgoMotion motion = k == 0 ? EgoMotion{} : scene.motion;
@@ -705,7 +754,7 @@ TEST(HypothesisEdges, ForgetAllWhereTheyStartAnew) {
   const auto frames = record(scene, 12);
   // Time that stands still, and motion that nobody knows.
   for (const double dt_s : {0.0, std::nan("")}) {
-    Filter used(vga(), preset("hypotheses")), fresh(vga(), preset("hypotheses"));
+    Filter used(vga(), preset("default")), fresh(vga(), preset("default"));
     std::ptrdiff_t found = 0;
     for (std::size_t k = 0; k < frames.size(); ++k) {
       EgoMotion motion = scene.motion;

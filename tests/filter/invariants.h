@@ -19,10 +19,8 @@ inline bool finite(std::initializer_list<double> numbers) {
 
 inline bool is_finite(const Edge& e) {
   return e.location.allFinite() && e.origin.allFinite() && e.rotated.allFinite() &&
-         e.predicted.allFinite() && e.path.anchor.allFinite() && e.path.travelled_C_m.allFinite() &&
-         finite({e.speed, e.depth_ratio, e.angle, e.mu, e.path.ratio, e.path.weight,
-                 e.off_field_px}) &&
-         e.speed >= 0 && e.path.weight >= 0 && e.path.sightings.allFinite();
+         e.predicted.allFinite() && finite({e.speed, e.depth_ratio, e.angle, e.mu}) &&
+         e.speed >= 0 && e.depth_ratio_sigma > 0;
 }
 
 inline bool is_finite(const Circle& c) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "filter/geometry.h"
@@ -30,8 +31,8 @@ void add_patch(Layers& layers, const Vec2& low, const Vec2& high, double depth_m
       Edge edge;
       edge.location = {x, y};
       edge.origin = vga().centre_px;
-      edge.path.ratio = edge.depth_ratio = FieldParameters{}.reference_depth_m / depth_m;
-      edge.path.weight = 1e4;
+      edge.depth_ratio = FieldParameters{}.reference_depth_m / depth_m;
+      edge.depth_ratio_sigma = 0.004;
       edge.corner = 0;
       layers.normal_edges.push_back(edge);
     }
@@ -44,7 +45,7 @@ void add_rebels(Layers& layers, const Vec2& low, const Vec2& high, const Vec2& v
       Edge edge;
       edge.location = {x, y};
       edge.id = layers.rebel_edges.size() + 1;
-      edge.rebel = edge.called = true;
+      edge.rebel = true;
       edge.speed = velocity.norm();
       edge.angle = angle_of(velocity);
       edge.corner = 0;
@@ -125,9 +126,9 @@ TEST(Links, ARebelSquareReachesAsFarAsWhatFollowsItsEdges) {
   Layers layers;
   add_rebels(layers, {100, 100}, {140, 140}, {80, 0});
   add_rebels(layers, {400, 100}, {440, 140}, {80, 0});
-  layers.rebel_edges.front().called = false;  // id 1
+  layers.rebel_edges.front().corner = -1;  // id 1
   const Id last = layers.rebel_edges.back().id;
-  // Of the second body, of an edge that is not called, of one that is not there any more.
+  // Of the second body, of an edge that is not seen, of one that is not there any more.
   const std::vector<Follower> followers = {
       {{430, 190}, last}, {{470, 120}, last - 3}, {{50, 50}, 1}, {{600, 400}, last + 1}};
   LinkLayering layering(vga(), LinkParameters{});
@@ -145,13 +146,13 @@ TEST(Links, ARebelSquareReachesAsFarAsWhatFollowsItsEdges) {
                   .half_size.isApprox(Vec2(20, 20)));
 }
 
-TEST(Links, FewEdgesThinGroupsAndUncalledRebelsMakeNoSquare) {
+TEST(Links, FewEdgesThinGroupsAndUnseenRebelsMakeNoSquare) {
   Layers layers;
   add_patch(layers, {100, 100}, {200, 100}, 3);  // on a line
   add_patch(layers, {100, 300}, {160, 300}, 3);  // seven, one less than it takes
   layers.normal_edges.back().location.y() += 30;
   add_rebels(layers, {300, 100}, {340, 140}, {80, 0});
-  for (Edge& edge : layers.rebel_edges) edge.called = false;
+  for (Edge& edge : layers.rebel_edges) edge.corner = -1;
   EXPECT_TRUE(squares_of(layers).empty());
   EXPECT_TRUE(squares_of({}).empty());
 }
@@ -230,7 +231,9 @@ TEST(Links, WhatIsLargerThanAnObjectMayBeIsBackground) {
 TEST(Links, EdgesWithoutParallaxAreLeftOut) {
   Layers layers;
   add_patch(layers, {100, 100}, {150, 150}, 3);
-  for (Edge& edge : layers.normal_edges) edge.path.weight = 0;
+  for (Edge& edge : layers.normal_edges) {
+    edge.depth_ratio_sigma = std::numeric_limits<double>::infinity();
+  }
   EXPECT_TRUE(squares_of(layers).empty());
 }
 

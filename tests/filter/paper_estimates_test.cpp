@@ -260,21 +260,6 @@ TEST(PaperVelocity, ANearerLandmarkOutgrowsItsRadiusNowAndThen) {
   for (const int frames : lived) EXPECT_GT(frames, 3);
 }
 
-/// What the layering by links rests on is measured under either rule of the edges: the depth over
-/// the whole path, which has none of this.
-TEST(PaperVelocity, ThePathTellsTheTrueDepthBesideIt) {
-  const MotionField field(vga(), steady_motion({-0.5, 0, 0}, Vector3d::Zero(), 0.1),
-                          FieldParameters{});
-  const double ratio = 1.1, step_px = field.reference_speed({300, 240}) * 0.1;
-  PaperEdges experts(vga(), kLab);
-  Layers layers;
-  for (double x = 20; x < 300; x += ratio * step_px) step(experts, layers, {{x, 240}}, field);
-  ASSERT_EQ(layers.normal_edges.size(), 1u);
-  EXPECT_GT(layers.normal_edges[0].path.weight, 0);
-  EXPECT_NEAR(layers.normal_edges[0].path.ratio, ratio, 1e-6);
-  EXPECT_GT(layers.normal_edges[0].depth_ratio, ratio + 0.03);
-}
-
 /// A new normal edge: V = V_v, beta from the focus, mu_0, and (Tr_c + Tr_s)/2.
 TEST(NormalEdge, StartsAtTheVehiclesSpeedFromTheFocusWithMu0) {
   Random random(2);
@@ -605,7 +590,7 @@ struct RebelEstimates : ::testing::Test {
   };
   Case any() {
     Edge edge;
-    edge.rebel = edge.called = true;
+    edge.rebel = true;
     edge.location = {random.uniform(200, 440), random.uniform(150, 330)};
     edge.origin = edge.location - random.uniform(20, 60) * unit_vector(random.uniform(-kPi, kPi));
     edge.angle = angle_of(edge.location - edge.origin);

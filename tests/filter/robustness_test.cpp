@@ -56,6 +56,7 @@ std::vector<BadMotion> bad_motions() {
       {"too fast", Fault::motion_too_fast, [](EgoMotion& m) { m.v_C_mps.z() = 1001; }},
       {"no rate", Fault::motion_not_finite, [](EgoMotion& m) { m.w_C_radps.x() = kNan; }},
       {"no unseen turn", Fault::motion_not_finite, [](EgoMotion& m) { m.unseen_turn_rad = kNan; }},
+      {"no sigma", Fault::motion_not_finite, [](EgoMotion& m) { m.velocity_sigma_mps = kInf; }},
       {"huge rate", Fault::motion_too_fast, [](EgoMotion& m) { m.w_C_radps.x() = -1e200; }},
       {"rotation not finite", Fault::motion_not_finite,
        [](EgoMotion& m) { m.R_cur_prev(1, 2) = kNan; }},
@@ -324,7 +325,7 @@ TEST_P(BadData, TheFilterWorksAtBothEndsOfEveryRange) {
 TEST(BadDataOfAnyKind, ParametersThatAreNoNumbersAreRefused) {
   for (const double value : {kNan, kInf, -kInf, 1e300}) {
     Parameters parameters = preset("default");
-    parameters.circle.constellation.radius = value;
+    parameters.circle.hypotheses.voters_reach_px = value;
     EXPECT_THROW(Filter(testing::vga(), parameters), std::invalid_argument);
     parameters = preset("default");
     parameters.field.reference_depth_m = value;

@@ -54,6 +54,7 @@ EgoMotion next_motion(Bytes& bytes) {
     if (how & 16) motion.ground->up_C.normalize();
   }
   if (how & 32) motion.unseen_turn_rad = bytes.number(0.05);
+  if (how & 64) motion.velocity_sigma_mps = bytes.number(0.05);
   if (how == 255) motion.R_cur_prev(bytes.byte() % 3, bytes.byte() % 3) = bytes.number(1);
   return motion;
 }

@@ -411,7 +411,7 @@ class Filters(unittest.TestCase):
         for settings in ({"circle.mu_00": 3}, {"circle.mu_0": "wide"}, {"circle.mu_0": -1}):
             with self.assertRaisesRegex(lcs.Error, "circle.mu_0"):
                 lcs.Filter(self.camera, set=settings)
-        with self.assertRaisesRegex(lcs.Error, "hypotheses"):
+        with self.assertRaisesRegex(lcs.Error, "default, lab, cars"):
             lcs.Filter(self.camera, "labb")
         with self.assertRaises(ValueError):
             lcs.Filter(lcs.Camera(focal=-1, cx=0, cy=0, width=10, height=10))

@@ -18,7 +18,7 @@ constexpr int kFrames = 20, kCorners = 6;
 const PixelBox kMover{100, 100, 140, 150};
 
 /// A mover with six corners, of which `missed` are missed, and a static wall far from it.
-FrameMaker frame_of(int index, int missed, Reason reason = Reason::vote_floor) {
+FrameMaker frame_of(int index, int missed, Reason reason = Reason::normal_edge) {
   FrameMaker frame(index);
   frame.object(1, kMover, true);
   for (int i = 0; i < kCorners; ++i) {
@@ -79,7 +79,7 @@ TEST(Events, AnObjectThatIsNeverFoundIsOneOverAllFramesThatCount) {
   EXPECT_EQ(event.last_frame, kFrames - 1);
   EXPECT_EQ(event.corners, total(recording).missed_rebels);
   EXPECT_EQ(event.of, event.corners);
-  EXPECT_EQ(event.reasons, (decltype(event.reasons){{Reason::vote_floor, event.corners}}));
+  EXPECT_EQ(event.reasons, (decltype(event.reasons){{Reason::normal_edge, event.corners}}));
 }
 
 TEST(Events, AnObjectThatIsFoundAtLastIsLate) {
@@ -119,12 +119,12 @@ TEST(Events, FramesOfOneMissMergeOverTwoGoodOnesNotOverThree) {
 TEST(Events, ReasonsAreCountedMostFrequentFirst) {
   std::vector<FrameRecord> frames;
   for (int k = 0; k < kFrames; ++k) {
-    frames.push_back(frame_of(k, kCorners, k < 8 ? Reason::rebel_alone : Reason::normal_edge));
+    frames.push_back(frame_of(k, kCorners, k < 8 ? Reason::first_sighting : Reason::normal_edge));
   }
   const auto events = find_events(recording_of(frames));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].reasons, (decltype(events[0].reasons){{Reason::normal_edge, 12 * kCorners},
-                                                            {Reason::rebel_alone, 5 * kCorners}}));
+                                                            {Reason::first_sighting, 5 * kCorners}}));
 }
 
 TEST(Events, ATrackerWithoutReasonsHasUnknownOnes) {

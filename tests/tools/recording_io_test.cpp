@@ -69,6 +69,7 @@ class Filler {
     motion.v_C_mps = vector();
     motion.w_C_radps = vector();
     motion.unseen_turn_rad = std::abs(awkward());
+    motion.velocity_sigma_mps = std::abs(awkward());
     motion.ground = Ground{.up_C = vector(), .height_m = awkward()};
     return motion;
   }
@@ -170,6 +171,8 @@ TEST(RecordingIo, EveryFieldComesBackToTheSameBits) {
     EXPECT_EQ(back.frames[k].t_ns, recording.frames[k].t_ns);
     EXPECT_EQ(back.frames[k].motion.R_cur_prev, recording.frames[k].motion.R_cur_prev);
     EXPECT_EQ(back.frames[k].motion.unseen_turn_rad, recording.frames[k].motion.unseen_turn_rad);
+    EXPECT_EQ(back.frames[k].motion.velocity_sigma_mps,
+              recording.frames[k].motion.velocity_sigma_mps);
     EXPECT_EQ(back.frames[k].motion.ground->up_C, recording.frames[k].motion.ground->up_C);
     EXPECT_TRUE(back.frames[k].layers.rebel_edges.front().rebel);
     EXPECT_TRUE(back.frames[k].layers.rebel_circles.front().rebel);

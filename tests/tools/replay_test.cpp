@@ -83,7 +83,7 @@ TEST_F(Replay, TracksAWallThatComesNearerAndLearnsItsDepth) {
   const double ratio = 3.0 / (3 - 11 * kSpeed_mps / kFps);  // Z_ref / Z
   const auto near =
       std::count_if(layers.normal_edges.begin(), layers.normal_edges.end(),
-                    [&](const Edge& edge) { return std::abs(edge.path.ratio / ratio - 1) < 0.1; });
+                    [&](const Edge& edge) { return std::abs(edge.depth_ratio / ratio - 1) < 0.1; });
   EXPECT_GT(static_cast<double>(near), 0.5 * static_cast<double>(layers.normal_edges.size()));
   EXPECT_TRUE(fs::exists(out() / "video.mp4"));
 }

@@ -65,7 +65,7 @@ bench::Event event_with(int corners, std::size_t picture_bytes) {
   event.object_name = "box";
   event.corners = corners;
   event.of = 2 * corners;
-  event.reasons = {{Reason::vote_floor, corners}};
+  event.reasons = {{Reason::normal_edge, corners}};
   event.views.resize(1);
   event.views[0].jpeg_base64 = std::string(picture_bytes, 'A');
   return event;
@@ -310,8 +310,8 @@ TEST_F(Report, ShowsFramesAndEventsOfARunThatHasThem) {
   EXPECT_EQ(event.at("kind"), "found_late");
   EXPECT_EQ(event.at("object"), "box");
   EXPECT_EQ(event.at("corners"), 12);
-  EXPECT_EQ(event.at("reasons")[0].at("word"), "vote_floor");
-  EXPECT_EQ(event["reasons"][0].at("meaning"), text_of(Reason::vote_floor).meaning);
+  EXPECT_EQ(event.at("reasons")[0].at("word"), "normal_edge");
+  EXPECT_EQ(event["reasons"][0].at("meaning"), text_of(Reason::normal_edge).meaning);
   EXPECT_EQ(event.at("views")[0].at("jpeg"), "AAAAAAAA");
 }
 

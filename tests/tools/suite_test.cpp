@@ -196,7 +196,7 @@ nlohmann::ordered_json timeless(const fs::path& file) {
 }
 
 TEST_F(Suite, OnTheFramesOfAnEarlierOneItHasTheFiguresOfOneThatSimulates) {
-  const char* const kSetting = "filter.constellation.neighbours=4";
+  const char* const kSetting = "filter.hypotheses.voters=4";
   scenario("near", "", 8);
   scenario("speeds", "sweep: {ego.speed: [0.1 m/s, 0.9 m/s]}\n", 8);
   ASSERT_EQ(run({"--seeds", "2", "--out", "first"}).exit_code, 0);
@@ -265,7 +265,7 @@ TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
 }
 
 TEST_F(Suite, APresetBesideHasTheFiguresOfTheFilterWithThatPresetAlone) {
-  scenario("near", "filter: {preset: night, constellation.radius: 60}\n", 8);
+  scenario("near", "filter: {preset: cars, circle.mu_0: 20}\n", 8);
   const std::vector<std::string> command{"--seeds", "1", "--beside", "lcs:lab"};
   const CommandResult beside = run(command);
   ASSERT_EQ(beside.exit_code, 0) << beside.err;

@@ -107,11 +107,11 @@ class VerdictOnRules : public testing::Test {
 
 TEST_F(VerdictOnRules, TheRuleThatTookMostNewRebelsIsNamed) {
   const SuiteResult before =
-      suite("before", 0.8, {event(true, {{Reason::vote_floor, 50}, {Reason::normal_edge, 2}})});
+      suite("before", 0.8, {event(true, {{Reason::first_sighting, 50}, {Reason::normal_edge, 2}})});
   const SuiteResult after =
       suite("after", 0.6,
-            {event(true, {{Reason::vote_floor, 60}, {Reason::normal_edge, 20}}),
-             event(true, {{Reason::normal_edge, 5}}), event(false, {{Reason::voted, 9}})});
+            {event(true, {{Reason::first_sighting, 60}, {Reason::normal_edge, 20}}),
+             event(true, {{Reason::normal_edge, 5}}), event(false, {{Reason::inherited, 9}})});
   const Verdict verdict =
       verdict_against({after, folder_.path() / "after"}, {before, folder_.path() / "before"});
   ASSERT_EQ(verdict.remarks.size(), 1u);
@@ -119,13 +119,13 @@ TEST_F(VerdictOnRules, TheRuleThatTookMostNewRebelsIsNamed) {
             (std::vector<std::string>{
                 "rebel.f1 0.800 -> 0.600",
                 "most new misses by normal_edge (taken by a normal edge): 2 -> 25 corners",
-                "most new false rebels by voted (the neighbours' vote made it a rebel edge): 0 -> "
+                "most new false rebels by inherited (likely a rebel by those round it): 0 -> "
                 "9 corners"}));
 }
 
 TEST_F(VerdictOnRules, EventsThatAreNotThereOrCannotBeReadExplainNothing) {
   const SuiteResult before = suite("before", 0.8, {});
-  const SuiteResult after = suite("after", 0.6, {event(true, {{Reason::vote_floor, 60}})});
+  const SuiteResult after = suite("after", 0.6, {event(true, {{Reason::first_sighting, 60}})});
   fs::remove_all(folder_.path() / "before");
   const Verdict verdict =
       verdict_against({after, folder_.path() / "after"}, {before, folder_.path() / "before"});

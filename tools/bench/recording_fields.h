@@ -104,7 +104,7 @@ void fields(ChainRow& chain, Visit&& visit) {
 template <class Visit>
 void fields(Edge& edge, Visit&& visit) {
   auto& [id, rebel, location, origin, rotated, predicted, speed, depth_ratio, angle, mu, trust, age,
-         path, called, off_field_px, unfounded, corner, circle] = edge;
+         depth_ratio_sigma, corner, circle] = edge;
   visit("id", id);
   visit("x", location.x());
   visit("y", location.y());
@@ -120,16 +120,7 @@ void fields(Edge& edge, Visit&& visit) {
   visit("mu", mu);
   visit("trust", trust);
   visit("age", age);
-  visit("anchor_x", path.anchor.x());
-  visit("anchor_y", path.anchor.y());
-  visit("travelled_x_m", path.travelled_C_m.x());
-  visit("travelled_y_m", path.travelled_C_m.y());
-  visit("travelled_z_m", path.travelled_C_m.z());
-  visit("path_ratio", path.ratio);
-  visit("path_weight", path.weight);
-  visit("called", called);
-  visit("off_field_px", off_field_px);
-  visit("unfounded", unfounded);
+  visit("depth_ratio_sigma", OrInfinite{depth_ratio_sigma});
   visit("corner", corner);
   visit("circle", circle);
 }

@@ -157,9 +157,11 @@ EgoMotion motion_of(const Json& json) {
   motion.R_cur_prev = by_rows.transpose();
   read_member_array(json, "v_C_mps", {motion.v_C_mps.data(), 3});
   read_member_array(json, "w_C_radps", {motion.w_C_radps.data(), 3});
-  if (json.contains("unseen_turn_rad")) {
-    read_member(json, "unseen_turn_rad", motion.unseen_turn_rad);
-  }
+  const auto read_known = [&](const char* key, double& value) {
+    if (json.contains(key)) read_member(json, key, value);
+  };
+  read_known("unseen_turn_rad", motion.unseen_turn_rad);
+  read_known("velocity_sigma_mps", motion.velocity_sigma_mps);
   if (json.contains("height_m")) {
     Ground& ground = motion.ground.emplace();
     read_member_array(json, "up_C", {ground.up_C.data(), 3});

@@ -150,10 +150,13 @@ void append_motion(std::string& out, std::string_view name, const EgoMotion& mot
   append_array(out, name, "R_cur_prev", {by_rows.data(), 9});
   append_array(out, name, "v_C_mps", {motion.v_C_mps.data(), 3});
   append_array(out, name, "w_C_radps", {motion.w_C_radps.data(), 3});
-  if (motion.unseen_turn_rad > 0) {
-    append_key(out, "unseen_turn_rad");
-    append_named(out, name, "unseen_turn_rad", motion.unseen_turn_rad);
-  }
+  const auto append_known = [&](const char* key, double value) {
+    if (value <= 0) return;
+    append_key(out, key);
+    append_named(out, name, key, value);
+  };
+  append_known("unseen_turn_rad", motion.unseen_turn_rad);
+  append_known("velocity_sigma_mps", motion.velocity_sigma_mps);
   if (motion.ground) {
     append_array(out, name, "up_C", {motion.ground->up_C.data(), 3});
     append_key(out, "height_m");

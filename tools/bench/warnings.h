@@ -17,7 +17,7 @@ namespace lcs::bench {
 
 inline constexpr const char* kWarningsFile = "warnings.json";
 
-/// A frame with fewer corners tells nothing: a constellation of eight neighbours needs as many.
+/// A frame with fewer corners tells nothing: those round a corner bear its match out.
 inline constexpr int kFewCorners = 10;
 
 struct Warned {

@@ -32,7 +32,7 @@ const FrameResult& DisTracker::step(const bench::TrackerInput& input) {
     for (std::size_t i = 0; i < motions_.size(); ++i) {
       const Vec2 now = input.corners_px[i].cast<double>();
       if (!picture.contain(now)) continue;
-      const cv::Vec2f step = to_earlier_(nearest_pixel(now.y()), nearest_pixel(now.x()));
+      const cv::Vec2f step = to_earlier_(cvRound(now.y()), cvRound(now.x()));
       const Vec2 before = now + Vec2(step[0], step[1]);
       // Beside the earlier picture there is nothing to be found.
       if (!picture.contain(back.rotated(before))) continue;

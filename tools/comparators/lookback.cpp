@@ -17,6 +17,7 @@ EgoMotion composed(const EgoMotion& earlier, const EgoMotion& later) {
     motion.w_C_radps = -logarithm(motion.R_cur_prev) / motion.dt_s;
   }
   motion.unseen_turn_rad = std::hypot(earlier.unseen_turn_rad, later.unseen_turn_rad);
+  motion.velocity_sigma_mps = later.velocity_sigma_mps;
   motion.ground = later.ground;
   return motion;
 }

@@ -23,7 +23,7 @@ Edge edge_of(Id id, int corner, const Vec2& location, const CornerMotion& motion
   edge.id = id;
   edge.corner = corner;
   edge.location = edge.predicted = location;
-  edge.origin = edge.rotated = edge.path.anchor = location - motion.step_px;
+  edge.origin = edge.rotated = location - motion.step_px;
   edge.angle = angle_of(motion.step_px);
   if (dt_s > 0) edge.speed = motion.step_px.norm() / dt_s;
   return edge;
@@ -97,7 +97,7 @@ void RebelGroups::add_group(const std::vector<int>& members, std::span<const Cor
     high = high.cwiseMax(points_[i]);
     step += motions[corner].step_px / static_cast<double>(members.size());
     Edge edge = edge_of(next_edge_++, corner, points_[i], motions[corner], dt_s);
-    edge.rebel = edge.called = true;
+    edge.rebel = true;
     edge.circle = static_cast<int>(layers.rebel_circles.size());
     layers.rebel_edges.push_back(edge);
   }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kHelp = R"(Examples:
   lcs suite --out out/before
-  lcs suite --out out/after --set filter.constellation.radius=60
+  lcs suite --out out/after --set filter.hypotheses.prior=0.05
   lcs compare out/before out/after
   lcs compare out/before out/after --metric 'rebel\.f1' --all
 

@@ -133,7 +133,7 @@ Value filter_of(const ReplayOptions& options) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) {
       throw std::invalid_argument(
-          fmt::format("--set takes KEY=VALUE, as constellation.radius=60, not '{}'", setting));
+          fmt::format("--set takes KEY=VALUE, as hypotheses.prior=0.05, not '{}'", setting));
     }
     put(filter, setting.substr(0, equals), scalar("--set " + setting, setting.substr(equals + 1)));
   }
@@ -221,7 +221,7 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
           "Parameters of the filter: default, night, hypotheses, or the paper's lab or cars")
       ->type_name("NAME");
   add_set_option(command, options.sets,
-                 "Set a parameter of the filter, as constellation.radius=60");
+                 "Set a parameter of the filter, as hypotheses.prior=0.05");
   add_beside_option(command, options.beside);
   command.add_option("--out", options.out, "Folder for the results; out/<recording> if not given")
       ->type_name("DIR");

@@ -39,13 +39,13 @@ namespace {
 constexpr const char* kHelp = R"(Examples:
   lcs run scenarios/crossing.yaml
   lcs run scenarios/crossing.yaml --seed 7 --out out/seed7
-  lcs run scenarios/lab.yaml --set "ego.speed=10 cm/s" --set filter.constellation.radius=60
+  lcs run scenarios/lab.yaml --set "ego.speed=10 cm/s" --set filter.hypotheses.prior=0.05
   lcs run scenarios/crossing.yaml --detector klt --out out/crossing-klt
   lcs run scenarios/crossing.yaml --detector mine --detector-command 'python3 mine.py'
                                      a detector of yours, in any language (tools/comparators/PROTOCOL.md)
   lcs run my_drive.yaml              recorded frames in place of a scene (scenarios/README.md)
   lcs run scenarios/crossing.yaml --beside klt=out/crossing-klt     both on the same frames, made once
-  lcs run scenarios/crossing.yaml --set filter.constellation.radius=60 --recorded out/crossing --no-video
+  lcs run scenarios/crossing.yaml --set filter.hypotheses.prior=0.05 --recorded out/crossing --no-video
                                      the filter anew on the frames of an earlier run, in a moment
 
 Files written to the folder, all or none:
@@ -201,14 +201,6 @@ std::vector<Watching> watching(const RunOptions& options, const scenario::Scenar
 /// The page of the run, as of a suite of this one.
 void write_page(const RunOptions& options, const scenario::Scenario& scenario, const Watching& own,
                 const std::filesystem::path& folder, const bench::Metrics& metrics) {
-  suite::RunResult run{.seed = scenario.seed,
-                       .outcome = suite::Outcome::passed,
-                       .error = {},
-                       .metrics = metrics,
-                       .criteria = {},
-                       .warnings = bench::warnings_of(own.recording),
-                       .folder = "."};
-  suite::judge_run(bench::asked_of(own.wanted.name, true, scenario.criteria), run);
   std::vector<std::string> command{"run", options.scenario, "--seed",
                                    std::to_string(scenario.seed)};
   const auto add = [&](const std::string& option, const std::string& value) {
@@ -220,7 +212,15 @@ void write_page(const RunOptions& options, const scenario::Scenario& scenario, c
   add("--recorded", options.recorded);
   add("--detections", options.detector.detections);
   std::ranges::move(arguments_of(options.detector), std::back_inserter(command));
-  run.command = suite::shell_line(command);
+  suite::RunResult run{.seed = scenario.seed,
+                       .outcome = suite::Outcome::passed,
+                       .command = suite::shell_line(command),
+                       .error = {},
+                       .metrics = metrics,
+                       .criteria = {},
+                       .warnings = bench::warnings_of(own.recording),
+                       .folder = "."};
+  suite::judge_run(bench::asked_of(own.wanted.name, true, scenario.criteria), run);
   suite::SuiteResult suite{.detector = own.wanted.name,
                            .sets = options.sets,
                            .version = version_line(),

@@ -44,7 +44,7 @@ constexpr int kMostSeeds = 1000;
 constexpr const char* kHelp = R"(Examples:
   lcs suite                                       every short scenario of the project, 3 seeds each
   lcs suite --seeds 1 --worst-first               quicker, and where to look first
-  lcs suite --filter crossing --set filter.constellation.radius=60 --out out/r60
+  lcs suite --filter crossing --set filter.hypotheses.prior=0.05 --out out/r60
   lcs suite --recorded out/suite --out out/mine --baseline out/suite
                                                   the filter anew on the frames of an earlier suite
   lcs suite --beside klt --beside lcs:lab         F1 beside what it is measured against, and by the

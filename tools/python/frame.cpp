@@ -64,7 +64,7 @@ Eigen::Vector3d rate_of(const Eigen::Matrix3d& R_cur_prev, double dt_s) {
 
 EgoMotion motion_of(double dt, const py::object& rotation, const py::object& velocity,
                     const py::object& angular_velocity, const py::object& up,
-                    std::optional<double> height, double unseen_turn) {
+                    std::optional<double> height, double unseen_turn, double velocity_sigma) {
   EgoMotion motion;
   motion.dt_s = dt;
   if (!rotation.is_none()) {
@@ -84,6 +84,7 @@ EgoMotion motion_of(double dt, const py::object& rotation, const py::object& vel
         Ground{.up_C = matrix_of<3, 1>(up, "up", "3 numbers, of length 1"), .height_m = *height};
   }
   motion.unseen_turn_rad = unseen_turn;
+  motion.velocity_sigma_mps = velocity_sigma;
   return motion;
 }
 
@@ -112,11 +113,12 @@ void bind_motion(py::module_& module) {
       .def(py::init(&motion_of), py::kw_only(), py::arg("dt"), py::arg("rotation") = py::none(),
            py::arg("velocity") = py::none(), py::arg("angular_velocity") = py::none(),
            py::arg("up") = py::none(), py::arg("height") = py::none(), py::arg("unseen_turn") = 0.0,
+           py::arg("velocity_sigma") = 0.0,
            "dt in s; rotation 3 x 3, none where not given; velocity 3, m/s, of the camera in its "
            "frame of now;\n"
            "angular_velocity 3, rad/s, that of the rotation where not given; up and height: the "
            "ground, see\n"
-           "there; unseen_turn in rad.")
+           "there; unseen_turn in rad, velocity_sigma in m/s.")
       .def_static("between", &motion_between, py::arg("T_WC_before"), py::arg("T_WC_now"),
                   py::arg("dt"), "Of two poses of the camera, 4 x 4, that are dt seconds apart.")
       .def_property_readonly(
@@ -138,6 +140,9 @@ void bind_motion(py::module_& module) {
           "unseen_turn", [](const EgoMotion& m) { return m.unseen_turn_rad; },
           "rad: standard deviation of what is wrong with the rotation where the gyro was\n"
           "not heard; 0 where it was.")
+      .def_property_readonly(
+          "velocity_sigma", [](const EgoMotion& m) { return m.velocity_sigma_mps; },
+          "m/s: standard deviation of what is wrong with the velocity; 0 where nobody tells.")
       .def_property_readonly(
           "up",
           [](const EgoMotion& m) -> py::object {

@@ -36,34 +36,23 @@ class Reason(IntEnum):
     OUTSIDE = 2
     TOO_MANY = 3
     IN_PSI = 4
-    NO_PAST = 5
-    NO_TIME = 6
-    NORMAL_EDGE = 7
-    REBEL_EDGE = 8
-    FEW_NEIGHBOURS = 9
-    VOTE_FLOOR = 10
-    STATIC_WINS = 11
-    VOTE_ON_FIELD = 12
-    VOTED = 13
-    REBEL_ALONE = 14
-    REBEL_ON_FIELD = 15
-    REBEL_IN_LINE = 16
-    NORMAL_STANDS = 17
-    INHERITED = 18
-    UNFOUNDED = 19
-    FIRST_SIGHTING = 20
-    ALPHA_FIRST = 21
-    XI_5 = 22
-    XI_4 = 23
-    OUTBID = 24
-    XI_1 = 25
-    ALPHA_SECOND = 26
-    ALPHA_BEND = 27
-    ALPHA_ON_FIELD = 28
-    ALPHA_TAKEN = 29
-    ALPHA_THIRD = 30
-    XI_3 = 31
-    XI_2 = 32
+    NO_TIME = 5
+    NORMAL_EDGE = 6
+    REBEL_EDGE = 7
+    INHERITED = 8
+    FIRST_SIGHTING = 9
+    ALPHA_FIRST = 10
+    XI_5 = 11
+    XI_4 = 12
+    OUTBID = 13
+    XI_1 = 14
+    ALPHA_SECOND = 15
+    ALPHA_BEND = 16
+    ALPHA_ON_FIELD = 17
+    ALPHA_TAKEN = 18
+    ALPHA_THIRD = 19
+    XI_3 = 20
+    XI_2 = 21
 
 @final
 class Camera:
@@ -133,6 +122,7 @@ class Motion:
         up: Optional[ArrayLike] = None,
         height: Optional[float] = None,
         unseen_turn: float = 0.0,
+        velocity_sigma: float = 0.0,
     ) -> None: ...
     @staticmethod
     def between(T_WC_before: ArrayLike, T_WC_now: ArrayLike, dt: float) -> Motion: ...
@@ -148,6 +138,8 @@ class Motion:
     def angular_velocity(self) -> NDArray[np.float64]: ...
     @property
     def unseen_turn(self) -> float: ...
+    @property
+    def velocity_sigma(self) -> float: ...
     @property
     def up(self) -> Optional[NDArray[np.float64]]: ...
     @property
