@@ -49,6 +49,8 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
   for (const Track& track : predicted) places_.push_back(track.place_px);
   tracks_.build(places_, std::max(20.0, reach / 2));
   pairs_.clear();
+  // As many as there may ever be of so many corners, so that no later frame asks for more.
+  pairs_.reserve(chi.size() * kMostPairs + predicted.size());
   first_.assign(1, 0);
   clutter_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
