@@ -138,10 +138,9 @@ std::size_t peak_bytes(const Intrinsics& camera, const char* max_corners, int of
 }
 
 TEST(Memory, IsBoundedByTheMostCornersAndHowCloseTheyLie) {
-  // Measured: 3.6 kB for each corner that is looked at.
-  const std::size_t few = peak_bytes(vga(), "300", 300);
-  EXPECT_LT(few, 300 * 4500);
-  // Ten times as close each has more that it may be and more about it, 9.9 kB; those that are not
+  // Measured: 8.2 kB for each corner that is looked at, while its pairs are moved to more room.
+  EXPECT_LT(peak_bytes(vga(), "300", 300), 300 * 9500);
+  // Ten times as close each has more about it; those that are not
   // looked at cost what is said of each, and their place in the queue.
   EXPECT_LT(peak_bytes(vga(), "300", 3000), 300 * 12000 + 2700 * 120);
 }
