@@ -72,8 +72,6 @@ class DepthGroups {
   }
 
   DisjointSets& sets() { return sets_; }
-  /// Of the group that this root stands for.
-  double mean(int root) const { return mean_[root]; }
 
  private:
   DisjointSets sets_;

@@ -2,7 +2,7 @@
 /// Circle expert, first part: which corner belongs to which edge, which edges are new, and which
 /// are rebels. Two rules for it stand side by side; what they share is here.
 ///
-/// All predict normal edges by the motion field and rebels by their own motion, assign corners to
+/// Both predict normal edges by the motion field and rebels by their own motion, assign corners to
 /// edges one to one, and give trust. They differ in how a rebel is told: `PaperEdges` by single
 /// corners that line up over three frames (alpha), `HypothesisEdges` by how much likelier each
 /// sighting is of what moves.
@@ -11,12 +11,10 @@
 #include <memory>
 #include <vector>
 
-#include "filter/couples.h"
 #include "filter/layers.h"
 #include "filter/line.h"
 #include "filter/motion_field.h"
 #include "filter/parameters.h"
-#include "filter/point_grid.h"
 #include "filter/reason.h"
 
 namespace lcs {
@@ -45,32 +43,16 @@ class EdgeExpert {
  protected:
   EdgeExpert(const Intrinsics& camera, const TrustRanks& trust) : camera_(camera), trust_(trust) {}
 
-  /// Takes pairs_ cheapest first, each edge and each corner once, into the two lists of matches.
-  void assign_one_to_one(std::size_t edges, std::size_t corners);
-
-  /// An edge without a corner follows its prediction. It loses trust for that, unless it lies in a
-  /// region that was not looked at.
-  void coast(Edge& edge, const std::vector<IgnoreRegion>& psi) const;
-
   /// Deletes what is no longer trusted, or has left the image.
   void bury(std::vector<Edge>& edges) const;
 
   /// Gives an edge the origin, speed and angle that a static point of its depth has where it is.
   void move_as_static(Edge& edge, const MotionField& field) const;
 
-  /// A normal edge at a corner, with V = depth_ratio * V_v.
-  Edge make_normal(const Vec2& x, double depth_ratio, double mu, const MotionField& field);
-
   Id next_id() { return next_id_++; }
 
   const Intrinsics camera_;
   const TrustRanks trust_;
-  PointGrid corner_grid_;
-  /// Edges and corners inside their gates, and how badly these fit. Edges are counted normal ones
-  /// first; corners as in chi.
-  std::vector<Couple> pairs_;
-  CheapestFirst order_;
-  std::vector<int> match_of_edge_, match_of_corner_;  // -1: none
   std::vector<Reason> reasons_;
   std::vector<Follower> followers_;
 

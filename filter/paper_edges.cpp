@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "filter/geometry.h"
+#include "filter/refill.h"
 
 namespace lcs {
 namespace {
@@ -15,6 +16,38 @@ constexpr double kLeastDisplacement_px = 0.2;
 
 PaperEdges::PaperEdges(const Intrinsics& camera, const CircleParameters& parameters)
     : EdgeExpert(camera, parameters.trust), parameters_(parameters) {}
+
+void PaperEdges::assign_one_to_one(std::size_t edges, std::size_t corners) {
+  refill(match_of_edge_, edges, -1);
+  refill(match_of_corner_, corners, -1);
+  order_.visit(
+      pairs_,
+      [&](const Couple& pair) {
+        return match_of_edge_[pair.a] >= 0 || match_of_corner_[pair.b] >= 0;
+      },
+      [&](const Couple& pair) {
+        match_of_edge_[pair.a] = pair.b;
+        match_of_corner_[pair.b] = pair.a;
+      });
+}
+
+void PaperEdges::coast(Edge& edge, const std::vector<IgnoreRegion>& psi) const {
+  edge.corner = -1;
+  edge.location = edge.predicted;
+  if (!inside_any(psi, edge.predicted)) --edge.trust;
+}
+
+Edge PaperEdges::make_normal(const Vec2& x, double depth_ratio, double mu,
+                             const MotionField& field) {
+  Edge edge;
+  edge.id = next_id();
+  edge.location = edge.rotated = edge.predicted = x;
+  edge.depth_ratio = depth_ratio;
+  move_as_static(edge, field);
+  edge.mu = mu;
+  edge.trust = trust_.initial_normal();
+  return edge;
+}
 
 void PaperEdges::predict(Layers& layers, const MotionField& field) {
   for (Edge& edge : layers.normal_edges) {

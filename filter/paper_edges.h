@@ -5,7 +5,9 @@
 
 #include <vector>
 
+#include "filter/couples.h"
 #include "filter/edge_expert.h"
+#include "filter/point_grid.h"
 
 namespace lcs {
 
@@ -49,9 +51,25 @@ class PaperEdges : public EdgeExpert {
   double off_field(const Vec2& from, const Vec2& to, const MotionField& field) const;
   Edge make_rebel(const Chain& chain, const Vec2& x, const MotionField& field);
 
+  /// Takes pairs_ cheapest first, each edge and each corner once, into the two lists of matches.
+  void assign_one_to_one(std::size_t edges, std::size_t corners);
+
+  /// An edge without a corner follows its prediction. It loses trust for that, unless it lies in a
+  /// region that was not looked at.
+  void coast(Edge& edge, const std::vector<IgnoreRegion>& psi) const;
+
+  /// A normal edge at a corner, with V = depth_ratio * V_v.
+  Edge make_normal(const Vec2& x, double depth_ratio, double mu, const MotionField& field);
+
   CircleParameters parameters_;
 
   // Of the current frame; kept for their memory.
+  PointGrid corner_grid_;
+  /// Edges and corners inside their gates, and how badly these fit. Edges are counted normal ones
+  /// first; corners as in chi.
+  std::vector<Couple> pairs_;
+  CheapestFirst order_;
+  std::vector<int> match_of_edge_, match_of_corner_;  // -1: none
   PointGrid edge_grid_;
   std::vector<Vec2> predictions_;
   std::vector<char> to_alpha_, to_normal_;  // what becomes of the unmatched corners
