@@ -2,7 +2,7 @@
 // refused by an error that names file and line.
 #include "scenarios/scenario.h"
 #include "tests/fuzz/input.h"
-#include "tools/bench/detections.h"
+#include "tools/recording/detections.h"
 
 namespace {
 

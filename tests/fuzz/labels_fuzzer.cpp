@@ -4,7 +4,7 @@
 
 #include "scenarios/scenario.h"
 #include "tests/fuzz/input.h"
-#include "tools/bench/labels.h"
+#include "tools/recording/labels.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lcs;

@@ -6,11 +6,11 @@
 
 #include "scenarios/message.h"
 #include "tests/fuzz/input.h"
-#include "tools/bench/events.h"
-#include "tools/bench/frame_pictures.h"
-#include "tools/bench/recording_io.h"
-#include "tools/bench/report.h"
-#include "tools/bench/scoring.h"
+#include "tools/output/frame_pictures.h"
+#include "tools/recording/recording_io.h"
+#include "tools/scoring/events.h"
+#include "tools/scoring/figures_file.h"
+#include "tools/scoring/scoring.h"
 #include "tools/suite/suite_result.h"
 
 namespace {

@@ -18,7 +18,7 @@
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/bench/csv.h"
+#include "tools/files/csv.h"
 #include "tools/likeness/measure.h"
 #include "tools/likeness/page.h"
 

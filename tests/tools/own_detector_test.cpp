@@ -15,9 +15,9 @@
 #include "tests/tools/files.h"
 #include "tests/tools/processes.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/bench/box.h"
-#include "tools/bench/recording_io.h"
-#include "tools/bench/report.h"
+#include "tools/recording/box.h"
+#include "tools/recording/recording_io.h"
+#include "tools/scoring/figures_file.h"
 #include "tools/suite/suite_result.h"
 
 namespace lcs {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tools/bench/recording.h"
+#include "tools/recording/recording.h"
 
 namespace lcs::bench {
 

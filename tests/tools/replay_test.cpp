@@ -12,9 +12,8 @@
 
 #include "tests/tools/command.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/bench/picture_folder.h"
-#include "tools/bench/recording_io.h"
-#include "tools/bench/report.h"
+#include "tools/recording/recording_io.h"
+#include "tools/scoring/figures_file.h"
 
 namespace lcs::bench {
 namespace {
@@ -157,18 +156,6 @@ TEST_F(Replay, PicturesWithoutCornersHaveNoFiguresRatherThanWrongOnes) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out.find("nan"), std::string::npos) << result.out;
   EXPECT_TRUE(metrics()["edges.rematched"].is_null());
-}
-
-TEST(PictureFolder, TakesPicturesByTheirNumbersAndLeavesTheRest) {
-  const TemporaryFolder folder;
-  for (const char* name : {"a10.png", "a2.png", "a1.JPG", "b02.png", "cover.png", "log.txt"}) {
-    std::ofstream(folder.path() / name) << name;
-  }
-  const PictureFolder pictures(folder.path());
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < pictures.size(); ++i) names.push_back(pictures.file(i).filename());
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"cover.png", "a1.JPG", "a2.png", "b02.png", "a10.png"}));
 }
 
 }  // namespace

@@ -14,13 +14,13 @@
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/bench/events.h"
-#include "tools/bench/frame_pictures.h"
-#include "tools/bench/recording_io.h"
-#include "tools/bench/report.h"
-#include "tools/bench/scoring.h"
-#include "tools/bench/video.h"
-#include "tools/bench/warnings.h"
+#include "tools/output/frame_pictures.h"
+#include "tools/output/video.h"
+#include "tools/recording/recording_io.h"
+#include "tools/recording/warnings.h"
+#include "tools/scoring/events.h"
+#include "tools/scoring/figures_file.h"
+#include "tools/scoring/scoring.h"
 
 namespace lcs::bench {
 namespace {

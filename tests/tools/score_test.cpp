@@ -8,8 +8,8 @@
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/bench/recording_io.h"
-#include "tools/bench/report.h"
+#include "tools/recording/recording_io.h"
+#include "tools/scoring/figures_file.h"
 
 namespace lcs::bench {
 namespace {

@@ -14,7 +14,7 @@
 #include "tests/tools/files.h"
 #include "tests/tools/processes.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/bench/report.h"
+#include "tools/scoring/figures_file.h"
 #include "tools/suite/junit.h"
 #include "tools/suite/suite_result.h"
 

@@ -13,8 +13,8 @@
 #include "scenarios/scenario.h"
 #include "sim/simulation.h"
 #include "tools/bench/ego_motion_feed.h"
-#include "tools/bench/recording.h"
 #include "tools/bench/tracker.h"
+#include "tools/recording/recording.h"
 
 namespace lcs::bench {
 

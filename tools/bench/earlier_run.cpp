@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "tools/bench/recording_io.h"
+#include "tools/recording/recording_io.h"
 
 namespace lcs::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include "scenarios/scenario.h"
 #include "sim/pose.h"
 #include "tools/bench/bench.h"
-#include "tools/bench/frame_pictures.h"
+#include "tools/output/frame_pictures.h"
 
 namespace lcs::bench {
 

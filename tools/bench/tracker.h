@@ -13,7 +13,7 @@
 #include "filter/filter.h"
 #include "scenarios/scenario.h"
 #include "sim/pose.h"
-#include "tools/bench/recording.h"
+#include "tools/recording/recording.h"
 
 namespace lcs::bench {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "scenarios/message.h"
-#include "tools/bench/recording_io.h"
+#include "tools/recording/recording_io.h"
 
 namespace lcs::comparators {
 namespace {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "filter/intake.h"
-#include "tools/bench/frame_detections.h"
 #include "tools/bench/tracker.h"
 #include "tools/comparators/detector_process.h"
+#include "tools/recording/frame_detections.h"
 
 namespace lcs::comparators {
 

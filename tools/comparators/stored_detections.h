@@ -1,13 +1,13 @@
 /// \file
-/// What a detector said in a CSV file (tools/bench/DETECTIONS.md), frame by frame.
+/// What a detector said in a CSV file (tools/recording/DETECTIONS.md), frame by frame.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "tools/bench/detections.h"
 #include "tools/bench/tracker.h"
+#include "tools/recording/detections.h"
 
 namespace lcs::comparators {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "tools/bench/statistics.h"
+#include "tools/scoring/statistics.h"
 
 namespace lcs::kinematics {
 namespace {

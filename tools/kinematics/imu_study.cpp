@@ -8,9 +8,9 @@
 
 #include "scenarios/imu_presets.h"
 #include "tools/bench/ego_motion_feed.h"
-#include "tools/bench/statistics.h"
 #include "tools/kinematics/parallel.h"
 #include "tools/kinematics/theory.h"
+#include "tools/scoring/statistics.h"
 
 namespace lcs::kinematics {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tools/bench/statistics.h"
+#include "tools/scoring/statistics.h"
 
 namespace lcs::kinematics {
 namespace {

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "tools/bench/events.h"
-#include "tools/bench/output_file.h"
+#include "tools/files/output_file.h"
 #include "tools/kinematics/kinematics_script.h"
 #include "tools/kinematics/tables.h"
 #include "tools/report/page_writer.h"
+#include "tools/scoring/events.h"
 
 namespace lcs::kinematics {
 namespace {

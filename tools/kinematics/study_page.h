@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "tools/bench/output_folder.h"
+#include "tools/files/output_folder.h"
 #include "tools/kinematics/study.h"
 
 namespace lcs::kinematics {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/bench/statistics.h"
 #include "tools/kinematics/theory.h"
+#include "tools/scoring/statistics.h"
 
 namespace lcs::kinematics {
 namespace {

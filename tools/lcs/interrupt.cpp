@@ -5,7 +5,7 @@
 #include <csignal>
 #include <system_error>
 
-#include "tools/bench/output_file.h"
+#include "tools/files/output_file.h"
 
 namespace lcs::tools {
 namespace {

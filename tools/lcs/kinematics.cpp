@@ -4,7 +4,7 @@
 
 #include "scenarios/load.h"
 #include "scenarios/scenes.h"
-#include "tools/bench/output_folder.h"
+#include "tools/files/output_folder.h"
 #include "tools/kinematics/answer.h"
 #include "tools/kinematics/study.h"
 #include "tools/kinematics/study_page.h"

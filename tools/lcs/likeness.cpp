@@ -13,7 +13,7 @@
 
 #include "scenarios/load.h"
 #include "sim/simulation.h"
-#include "tools/bench/output_folder.h"
+#include "tools/files/output_folder.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/number_option.h"
 #include "tools/lcs/progress.h"

@@ -8,8 +8,8 @@
 
 #include "scenarios/document.h"
 #include "scenarios/load.h"
-#include "tools/bench/csv.h"
-#include "tools/bench/output_file.h"
+#include "tools/files/csv.h"
+#include "tools/files/output_file.h"
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/run.h"
 #include "tools/lcs/set_option.h"

@@ -15,12 +15,8 @@
 #include "scenarios/scenes.h"
 #include "sim/simulation.h"
 #include "tools/bench/bench.h"
-#include "tools/bench/criteria.h"
 #include "tools/bench/earlier_run.h"
-#include "tools/bench/result.h"
-#include "tools/bench/table.h"
 #include "tools/bench/tracker.h"
-#include "tools/bench/warnings.h"
 #include "tools/comparators/detectors.h"
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/interrupt.h"
@@ -29,8 +25,12 @@
 #include "tools/lcs/set_option.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
+#include "tools/output/result.h"
+#include "tools/output/table.h"
+#include "tools/recording/warnings.h"
 #include "tools/replay/playback.h"
 #include "tools/report/report_page.h"
+#include "tools/scoring/criteria.h"
 #include "tools/suite/suite_run.h"
 
 namespace lcs::tools {
@@ -49,7 +49,7 @@ constexpr const char* kHelp = R"(Examples:
                                      the filter anew on the frames of an earlier run, in a moment
 
 Files written to the folder, all or none:
-  metrics.json   every figure, flat; null where it is not defined (tools/bench/SCORING.md)
+  metrics.json   every figure, flat; null where it is not defined (tools/scoring/SCORING.md)
   frames.csv     a row a frame: sizes of all layers, precision, recall, times
   layers.jsonl   a line a frame: corners, verdicts, every layer
   truth.jsonl    a line a frame: the truth of every corner and object
@@ -275,7 +275,7 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
   command
       .add_option("--detections", options.detector.detections,
                   "With --recorded: what a detector of yours has said of these frames, a CSV file "
-                  "(tools/bench/DETECTIONS.md)")
+                  "(tools/recording/DETECTIONS.md)")
       ->type_name("FILE")
       ->needs(recorded)
       ->excludes(command.get_option("--detector-command"));

@@ -5,13 +5,13 @@
 #include <filesystem>
 
 #include "scenarios/message.h"
-#include "tools/bench/detections.h"
-#include "tools/bench/recording_io.h"
-#include "tools/bench/report.h"
-#include "tools/bench/scoring.h"
-#include "tools/bench/table.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/terminal.h"
+#include "tools/output/table.h"
+#include "tools/recording/detections.h"
+#include "tools/recording/recording_io.h"
+#include "tools/scoring/figures_file.h"
+#include "tools/scoring/scoring.h"
 #include "tools/suite/suite_result.h"
 #include "tools/suite/suite_table.h"
 
@@ -26,7 +26,7 @@ constexpr const char* kHelp = R"(Examples:
   lcs score out/crossing --write-detections lcs.csv         what the run's detector said, as CSV
 
 A row of detections is one of these; corners that no row names are normal
-(tools/bench/DETECTIONS.md has all of it, and how to write them from Python):
+(tools/recording/DETECTIONS.md has all of it, and how to write them from Python):
   FRAME,rebel,X,Y                        or normal, pending, ignored; or FRAME,rebel,INDEX
   FRAME,box,ID,LEFT,TOP,WIDTH,HEIGHT     an object, in pixels
   FRAME,mask,ID,HEIGHT,WIDTH,COUNTS      the same by COCO's RLE
@@ -34,7 +34,7 @@ A row of detections is one of these; corners that no row names are normal
                                          without values: there is none in this frame
 
 Of the run's folder, layers.jsonl (for its corners), truth.jsonl and, for the times, frames.csv are
-read; none of it is changed. Figures are those of tools/bench/SCORING.md. The times of the run's own
+read; none of it is changed. Figures are those of tools/scoring/SCORING.md. The times of the run's own
 detector are those of the run; someone else's has none, nor a dimension.
 
 Exit codes:

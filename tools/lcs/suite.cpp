@@ -13,11 +13,10 @@
 
 #include "scenarios/message.h"
 #include "scenarios/scenes.h"
-#include "tools/bench/criteria.h"
-#include "tools/bench/output_file.h"
-#include "tools/bench/output_folder.h"
 #include "tools/bench/tracker.h"
 #include "tools/comparators/detectors.h"
+#include "tools/files/output_file.h"
+#include "tools/files/output_folder.h"
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/number_option.h"
@@ -26,6 +25,7 @@
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
 #include "tools/report/report_page.h"
+#include "tools/scoring/criteria.h"
 #include "tools/suite/beside_table.h"
 #include "tools/suite/comparison.h"
 #include "tools/suite/junit.h"
@@ -248,7 +248,7 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
   command
       .add_option("--detections", options.detector.detections,
                   "With --recorded: what a detector of yours has said, a folder of CSV files "
-                  "(tools/bench/DETECTIONS.md), SCENARIO/seed-N.csv for each run")
+                  "(tools/recording/DETECTIONS.md), SCENARIO/seed-N.csv for each run")
       ->type_name("DIR")
       ->needs(recorded)
       ->excludes(command.get_option("--detector-command"));

@@ -7,11 +7,11 @@
 #include <optional>
 #include <stdexcept>
 
-#include "tools/bench/frame_pictures.h"
-#include "tools/bench/output_file.h"
-#include "tools/bench/recording_io.h"
+#include "tools/files/output_file.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/number_option.h"
+#include "tools/output/frame_pictures.h"
+#include "tools/recording/recording_io.h"
 #include "tools/report/worlds_page.h"
 #include "tools/suite/child_process.h"
 #include "tools/suite/summary.h"

@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "scenarios/message.h"
-#include "tools/bench/output_file.h"
+#include "tools/files/output_file.h"
 
 namespace lcs::tools {
 namespace {

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "tools/bench/output_file.h"
-#include "tools/bench/output_folder.h"
+#include "tools/files/output_file.h"
+#include "tools/files/output_folder.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/number_option.h"
 #include "tools/lcs/terminal.h"

@@ -12,8 +12,8 @@
 #include "filter/detect/fast.h"
 #include "filter/detect/picture_noise.h"
 #include "sim/random.h"
-#include "tools/bench/statistics.h"
 #include "tools/comparators/backward_flow.h"
+#include "tools/scoring/statistics.h"
 
 namespace lcs::likeness {
 namespace {

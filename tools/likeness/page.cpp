@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "tools/bench/output_file.h"
-#include "tools/bench/statistics.h"
+#include "tools/files/output_file.h"
 #include "tools/likeness/likeness_script.h"
 #include "tools/report/page_writer.h"
+#include "tools/scoring/statistics.h"
 
 namespace lcs::likeness {
 namespace {

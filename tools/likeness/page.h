@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/bench/output_folder.h"
+#include "tools/files/output_folder.h"
 #include "tools/likeness/measure.h"
 
 namespace lcs::likeness {

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "filter/signature.h"
-#include "tools/bench/recording_fields.h"
+#include "tools/recording/recording_fields.h"
 
 namespace lcs::python {
 

@@ -6,11 +6,11 @@
 #include <memory>
 #include <vector>
 
-#include "tools/bench/box.h"
 #include "tools/bench/timed.h"
 #include "tools/bench/tracker.h"
 #include "tools/python/arrays.h"
 #include "tools/python/scenario.h"
+#include "tools/recording/box.h"
 
 namespace lcs::python {
 namespace {

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "filter/intake.h"
-#include "tools/bench/box.h"
-#include "tools/bench/warnings.h"
 #include "tools/python/arrays.h"
+#include "tools/recording/box.h"
+#include "tools/recording/warnings.h"
 #include "tools/replay/playback.h"
 
 namespace lcs::python {
@@ -331,10 +331,11 @@ py::array object_boxes(const Truth& truth) {
 }
 
 void bind_truth(py::module_& module) {
-  py::class_<Truth>(module, "Truth",
-                    "What is true of a frame, as tools/bench/SCORING.md defines it. Of a recorded "
-                    "frame there are\n"
-                    "labels alone, and motion, depth, object_ids and poses raise ValueError.")
+  py::class_<Truth>(
+      module, "Truth",
+      "What is true of a frame, as tools/scoring/SCORING.md defines it. Of a recorded "
+      "frame there are\n"
+      "labels alone, and motion, depth, object_ids and poses raise ValueError.")
       .def_property_readonly(
           "motion",
           [](const Truth& t) {

@@ -5,11 +5,11 @@
 #include <opencv2/core.hpp>
 
 #include "scenarios/message.h"
-#include "tools/bench/recording_fields.h"
 #include "tools/python/filter.h"
 #include "tools/python/frame.h"
 #include "tools/python/scenario.h"
 #include "tools/python/scorer.h"
+#include "tools/recording/recording_fields.h"
 
 namespace lcs::python {
 namespace {
@@ -68,7 +68,7 @@ PYBIND11_MODULE(_core, module) {
   python::add_enumeration(
       module, "Reason", "Which of the filter's rules settled a corner's verdict (filter/reason.h).",
       lcs::bench::kReasonWords);
-  python::add_enumeration(module, "Label", "What is true of a corner (tools/bench/SCORING.md).",
+  python::add_enumeration(module, "Label", "What is true of a corner (tools/scoring/SCORING.md).",
                           lcs::bench::kLabels);
   python::bind_scenario(module);
   python::bind_frame(module);

@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "tools/bench/box.h"
-#include "tools/bench/scoring.h"
-#include "tools/bench/warnings.h"
 #include "tools/python/arrays.h"
 #include "tools/python/filter.h"
 #include "tools/python/frame.h"
+#include "tools/recording/box.h"
+#include "tools/recording/warnings.h"
+#include "tools/scoring/scoring.h"
 
 namespace lcs::python {
 namespace {
@@ -217,7 +217,7 @@ void bind_scorer(py::module_& module) {
            "rebels.\n"
            "Frames come in order, each once, from the first on; what raises counts for nothing.")
       .def("metrics", &Scorer::metrics,
-           "All figures of metrics.json (tools/bench/SCORING.md) by name; None where undefined. "
+           "All figures of metrics.json (tools/scoring/SCORING.md) by name; None where undefined. "
            "Times and\n"
            "sizes are those of the filter; of other detectors they are None.")
       .def_property_readonly("warnings", &Scorer::warnings,

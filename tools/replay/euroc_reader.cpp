@@ -6,7 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "tools/bench/recording_io.h"
+#include "tools/recording/recording_io.h"
 #include "tools/replay/at_rest.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/sensor_csv.h"

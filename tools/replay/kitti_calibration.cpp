@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "scenarios/input_file.h"
-#include "tools/bench/csv.h"
+#include "tools/files/csv.h"
 #include "tools/replay/poses_file.h"
 
 namespace lcs::replay {

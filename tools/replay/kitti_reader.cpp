@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "scenarios/input_file.h"
-#include "tools/bench/csv.h"
+#include "tools/files/csv.h"
 #include "tools/replay/kitti_calibration.h"
 #include "tools/replay/navigation.h"
 #include "tools/replay/recorded.h"

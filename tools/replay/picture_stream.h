@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/bench/picture_folder.h"
+#include "tools/replay/picture_folder.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {
@@ -28,7 +28,7 @@ class PictureStream {
   std::optional<cv::Mat3b> read_video(const RecordedFrame& frame);
 
   bool video_;
-  bench::PictureReader files_;
+  PictureReader files_;
   cv::VideoCapture capture_;
   std::size_t next_ = 0;  ///< picture of the video
   cv::Size size_;

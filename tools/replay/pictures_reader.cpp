@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "scenarios/input_file.h"
-#include "tools/bench/csv.h"
-#include "tools/bench/picture_folder.h"
+#include "tools/files/csv.h"
+#include "tools/replay/picture_folder.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {
@@ -50,7 +50,7 @@ std::optional<double> rate_in(std::string_view text) {
 
 bool is_pictures(const fs::path& folder) {
   try {
-    return bench::PictureFolder(folder).size() > 0;
+    return PictureFolder(folder).size() > 0;
   } catch (const std::runtime_error&) {
     return false;
   }

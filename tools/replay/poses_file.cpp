@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "tools/bench/csv.h"
+#include "tools/files/csv.h"
 #include "tools/replay/navigation.h"
 #include "tools/replay/text_table.h"
 #include "tools/replay/times.h"

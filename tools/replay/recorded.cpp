@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "tools/bench/picture_folder.h"
 #include "tools/replay/in_order.h"
+#include "tools/replay/picture_folder.h"
 
 namespace lcs::replay {
 
@@ -64,7 +64,7 @@ bool motion_is_asked(const scenario::Recorded& asked) {
 }
 
 std::vector<RecordedFrame> frames_in(const std::filesystem::path& folder) {
-  const bench::PictureFolder pictures(folder);
+  const PictureFolder pictures(folder);
   std::vector<RecordedFrame> frames;
   for (std::size_t i = 0; i < pictures.size(); ++i) frames.push_back({0, pictures.file(i), i});
   return frames;

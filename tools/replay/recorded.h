@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
-#include "tools/bench/recording.h"
+#include "tools/recording/recording.h"
 #include "tools/replay/motion_source.h"
 
 namespace lcs::replay {

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "tools/bench/csv.h"
+#include "tools/files/csv.h"
 #include "tools/replay/navigation.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "filter/imu_watch.h"
-#include "tools/bench/csv.h"
+#include "tools/files/csv.h"
 #include "tools/replay/navigation.h"
 #include "tools/replay/times.h"
 #include "tools/sequence/pose_text.h"

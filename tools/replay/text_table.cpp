@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "scenarios/input_file.h"
-#include "tools/bench/csv.h"
+#include "tools/files/csv.h"
 
 namespace lcs::replay {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "tools/bench/csv.h"
+#include "tools/files/csv.h"
 
 namespace lcs::replay {
 

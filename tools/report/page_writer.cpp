@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tools/bench/output_file.h"
+#include "tools/files/output_file.h"
 #include "tools/report/page_template.h"
 
 namespace lcs::report {

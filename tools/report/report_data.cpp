@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "scenarios/input_file.h"
-#include "tools/bench/csv.h"
-#include "tools/bench/events.h"
-#include "tools/bench/report.h"
-#include "tools/bench/video.h"
+#include "tools/files/csv.h"
+#include "tools/output/video.h"
+#include "tools/scoring/events.h"
+#include "tools/scoring/figures_file.h"
 #include "tools/suite/metric_traits.h"
 #include "tools/suite/summary.h"
 

@@ -2,10 +2,10 @@
 
 #include <string>
 
-#include "tools/bench/report.h"
 #include "tools/report/page_writer.h"
 #include "tools/report/report_data.h"
 #include "tools/report/report_script.h"
+#include "tools/scoring/figures_file.h"
 
 namespace lcs::report {
 

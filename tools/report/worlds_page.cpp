@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "tools/bench/output_file.h"
-#include "tools/bench/statistics.h"
+#include "tools/files/output_file.h"
 #include "tools/report/page_template.h"
 #include "tools/report/page_writer.h"
 #include "tools/report/report_page.h"
+#include "tools/scoring/statistics.h"
 #include "tools/suite/interval.h"
 #include "tools/suite/summary.h"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "tools/bench/output_file.h"
+#include "tools/files/output_file.h"
 #include "tools/sequence/manifest.h"
 #include "tools/sequence/sha256.h"
 #include "tools/sequence/text_file.h"

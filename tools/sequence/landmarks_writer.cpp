@@ -5,8 +5,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "filter/detect/fast.h"
-#include "tools/bench/recording_fields.h"
-#include "tools/bench/recording_io.h"
+#include "tools/recording/recording_fields.h"
+#include "tools/recording/recording_io.h"
 #include "tools/sequence/replay_settings.h"
 #include "tools/sequence/writers.h"
 

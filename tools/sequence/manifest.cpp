@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "tools/bench/json_node.h"
+#include "tools/files/json_node.h"
 #include "tools/sequence/sha256.h"
 #include "tools/sequence/text_file.h"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "tools/bench/json_node.h"
+#include "tools/files/json_node.h"
 #include "tools/sequence/pose_text.h"
 #include "tools/sequence/writer.h"
 

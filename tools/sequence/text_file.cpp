@@ -3,7 +3,7 @@
 #include <system_error>
 
 #include "scenarios/input_file.h"
-#include "tools/bench/output_file.h"
+#include "tools/files/output_file.h"
 
 namespace lcs::sequence {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/bench/statistics.h"
+#include "tools/scoring/statistics.h"
 #include "tools/suite/interval.h"
 #include "tools/suite/summary.h"
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "tools/bench/statistics.h"
+#include "tools/scoring/statistics.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::suite {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "tools/bench/statistics.h"
+#include "tools/scoring/statistics.h"
 
 namespace lcs::suite {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "scenarios/message.h"
-#include "tools/bench/output_file.h"
+#include "tools/files/output_file.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::suite {

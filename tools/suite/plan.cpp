@@ -11,7 +11,7 @@
 #include "scenarios/load.h"
 #include "scenarios/message.h"
 #include "scenarios/sweep.h"
-#include "tools/bench/criteria.h"
+#include "tools/scoring/criteria.h"
 #include "tools/suite/pattern.h"
 
 namespace lcs::suite {

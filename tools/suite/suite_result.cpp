@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "tools/bench/json_node.h"
-#include "tools/bench/output_file.h"
+#include "tools/files/json_node.h"
+#include "tools/files/output_file.h"
 
 namespace lcs::suite {
 namespace {

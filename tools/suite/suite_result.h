@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "tools/bench/scoring.h"
-#include "tools/bench/warnings.h"
+#include "tools/recording/warnings.h"
+#include "tools/scoring/scoring.h"
 
 namespace lcs::suite {
 

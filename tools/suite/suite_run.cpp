@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "scenarios/message.h"
-#include "tools/bench/criteria.h"
-#include "tools/bench/report.h"
-#include "tools/bench/result.h"
+#include "tools/output/result.h"
+#include "tools/scoring/criteria.h"
+#include "tools/scoring/figures_file.h"
 #include "tools/suite/beside_table.h"
 #include "tools/suite/child_process.h"
 #include "tools/suite/junit.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/bench/output_folder.h"
+#include "tools/files/output_folder.h"
 #include "tools/suite/plan.h"
 #include "tools/suite/suite_result.h"
 

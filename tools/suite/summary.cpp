@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/bench/statistics.h"
+#include "tools/scoring/statistics.h"
 
 namespace lcs::suite {
 namespace {

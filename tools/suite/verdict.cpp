@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "filter/reason.h"
-#include "tools/bench/events.h"
+#include "tools/scoring/events.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::suite {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/bench/output_folder.h"
+#include "tools/files/output_folder.h"
 #include "tools/worlds/world.h"
 
 namespace lcs::worlds {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "scenarios/input_file.h"
-#include "tools/bench/output_file.h"
+#include "tools/files/output_file.h"
 #include "tools/sequence/png.h"
 #include "tools/worlds/meshes.h"
 #include "tools/worlds/sheet.h"

@@ -1,0 +1,142 @@
+#include "tools/bench/bench.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "filter/detect/describe.h"
+#include "scenarios/load.h"
+#include "tools/scoring/scoring.h"
+
+namespace lcs::bench {
+namespace {
+
+/// Any tracker will do: this one calls every corner a rebel and keeps what it was told.
+class Alarmist : public Tracker {
+ public:
+  const FrameResult& step(const TrackerInput& input) override {
+    images_.push_back(input.image.clone());
+    motions_.push_back(input.motion);
+    signatures_.emplace_back(input.signatures.begin(), input.signatures.end());
+    result_.verdicts.assign(input.corners_px.size(), Verdict::rebel);
+    result_.times.line_ms = 1.25;
+    return result_;
+  }
+  const std::vector<cv::Mat3b>& images() const { return images_; }
+  const std::vector<EgoMotion>& motions() const { return motions_; }
+  const std::vector<std::vector<Signature>>& signatures() const { return signatures_; }
+  bool wants_signatures() const override { return wants_signatures_; }
+  void want_signatures() { wants_signatures_ = true; }
+
+ private:
+  bool wants_signatures_ = false;
+  FrameResult result_;
+  std::vector<cv::Mat3b> images_;
+  std::vector<EgoMotion> motions_;
+  std::vector<std::vector<Signature>> signatures_;
+};
+
+constexpr int kFrames = 6;
+
+class BenchTest : public testing::Test {
+ protected:
+  scenario::Scenario scenario_ =
+      scenario::load(LCS_SCENARIOS_DIR "/crossing.yaml", {.sets = {"frames=6"}, .seed = {}});
+  sim::Simulation simulation_{scenario_};
+  Alarmist tracker_;
+  Recording recording_ = begin_recording(scenario_, simulation_);
+};
+
+TEST_F(BenchTest, RunsAnyTrackerThroughTheWholeLoop) {
+  int seen = 0;
+  run(scenario_, simulation_, tracker_, recording_,
+      [&](const FrameRecord& frame, const cv::Mat3b& image) {
+        EXPECT_EQ(frame.index, seen);
+        EXPECT_EQ(image.size(), cv::Size(scenario_.camera.width_px, scenario_.camera.height_px));
+        ++seen;
+      });
+  EXPECT_EQ(seen, kFrames);
+  ASSERT_EQ(recording_.frames.size(), std::size_t{kFrames});
+  EXPECT_EQ(recording_.scenario, "crossing");
+  EXPECT_EQ(recording_.objects.size(), simulation_.objects().size());
+  for (int k = 0; k < kFrames; ++k) {
+    const FrameRecord& frame = recording_.frames[static_cast<std::size_t>(k)];
+    EXPECT_EQ(frame.t_ns, k * std::int64_t{100'000'000});
+    EXPECT_EQ(frame.verdicts.size(), frame.corners_px.size());
+    EXPECT_EQ(frame.corner_truth.size(), frame.corners_px.size());
+    EXPECT_EQ(frame.motion.v_C_mps, tracker_.motions()[static_cast<std::size_t>(k)].v_C_mps);
+    EXPECT_EQ(frame.times.value().line_ms, 1.25);
+    EXPECT_GT(frame.times.value().detect_ms, 0);
+  }
+  // The rover drives at 0.5 m/s along the optical axis; the IMU knows it to a few per cent.
+  EXPECT_NEAR(recording_.frames.back().motion.v_C_mps.z(), 0.5, 0.05);
+  EXPECT_NEAR(recording_.frames.back().true_motion.v_C_mps.z(), 0.5, 0.005);
+  EXPECT_FALSE(std::equal(tracker_.images()[0].begin(), tracker_.images()[0].end(),
+                          tracker_.images()[1].begin()))
+      << "the world stood still";
+}
+
+TEST_F(BenchTest, SignaturesAreMadeOnceForThoseWhoWantThemAndForNobodyElse) {
+  Alarmist other;
+  tracker_.want_signatures();
+  Recording of_other = begin_recording(scenario_, simulation_);
+  const FrameSink sink = [](const FrameRecord&, const cv::Mat3b&) {};
+  const Watcher both[] = {{tracker_, recording_, sink}, {other, of_other, sink}};
+  run(scenario_, simulation_, both);
+  for (std::size_t k = 0; k < recording_.frames.size(); ++k) {
+    const FrameRecord &frame = recording_.frames[k], &without = of_other.frames[k];
+    cv::Mat1b grey;
+    cv::cvtColor(tracker_.images()[k], grey, cv::COLOR_BGR2GRAY);
+    ASSERT_FALSE(frame.corners_px.empty());
+    EXPECT_EQ(frame.signatures, describe(grey, frame.corners_px));
+    EXPECT_EQ(tracker_.signatures()[k], frame.signatures);
+    EXPECT_GT(frame.times.value().describe_ms, 0);
+    EXPECT_EQ(without.corners_px, frame.corners_px);
+    EXPECT_TRUE(without.signatures.empty());
+    EXPECT_TRUE(other.signatures()[k].empty());
+    EXPECT_EQ(without.times.value().describe_ms, 0);
+  }
+}
+
+TEST_F(BenchTest, AnAlarmistMissesNothingAndHasThePrecisionOfChance) {
+  run(scenario_, simulation_, tracker_, recording_, [](const FrameRecord&, const cv::Mat3b&) {});
+  const Metrics metrics = score(recording_);
+  EXPECT_EQ(value(metrics, "rebel.recall"), 1);
+  EXPECT_EQ(value(metrics, "rebel.object_recall"), 1);
+  int rebels = 0, fixed = 0;
+  for (const FrameRecord& frame : recording_.frames) {
+    if (frame.index < kSightings) continue;
+    for (const sim::CornerTruth& truth : frame.corner_truth) {
+      rebels += truth.label == sim::Label::rebel;
+      fixed += truth.label == sim::Label::fixed;
+    }
+  }
+  EXPECT_GT(rebels, 0);
+  EXPECT_GT(fixed, 0);
+  EXPECT_DOUBLE_EQ(value(metrics, "rebel.precision").value(),
+                   static_cast<double>(rebels) / (rebels + fixed));
+}
+
+TEST_F(BenchTest, WhatTheSinkThrowsEndsTheRun) {
+  const auto stop_at_2 = [](const FrameRecord& frame, const cv::Mat3b&) {
+    if (frame.index == 2) throw std::runtime_error("enough");
+  };
+  EXPECT_THROW(run(scenario_, simulation_, tracker_, recording_, stop_at_2), std::runtime_error);
+  EXPECT_EQ(recording_.frames.size(), 3u);
+}
+
+TEST(FilterParameters, AreThePresetWithTheScenariosSettingsOnTop) {
+  const auto load = [](std::vector<std::string> sets) {
+    return filter_parameters(
+        scenario::load(LCS_SCENARIOS_DIR "/crossing.yaml", {.sets = std::move(sets), .seed = {}}));
+  };
+  EXPECT_EQ(load({"filter.preset=lab"}).circle.mu_0, preset("lab").circle.mu_0);
+  EXPECT_EQ(load({"filter.preset=lab", "filter.circle.mu_0=17"}).circle.mu_0, 17);
+  EXPECT_THROW(load({"filter.preset=best"}), scenario::Error);
+  EXPECT_THROW(load({"filter.circle.mu_0=wide"}), scenario::Error);
+  // Each in its range, and out of order together.
+  EXPECT_THROW(load({"filter.circle.Tr_c=9", "filter.circle.Tr_m=5"}), scenario::Error);
+}
+
+}  // namespace
+}  // namespace lcs::bench

@@ -1,0 +1,293 @@
+/// \file
+/// `lcs_benchmarks`: how long each part takes, beside what it should be measured against: cv::FAST,
+/// the comparator klt, and a loop that renders and does nothing else.
+#include <benchmark/benchmark.h>
+
+#include <ctime>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "filter/detect/describe.h"
+#include "filter/filter.h"
+#include "scenarios/load.h"
+#include "sim/camera_renderer.h"
+#include "sim/drive.h"
+#include "sim/simulation.h"
+#include "sim/world.h"
+#include "tests/benchmark/page.h"
+#include "tests/benchmark/raw_renderer.h"
+#include "tests/benchmark/stream.h"
+#include "tools/bench/ego_motion_feed.h"
+#include "tools/bench/tracker.h"
+#include "tools/comparators/klt.h"
+
+namespace lcs::bench {
+namespace {
+
+/// Frames before the filter has anything to compare, and edges are as many as they stay.
+constexpr std::size_t kWarmUpFrames = 6;
+
+/// klt needs the pictures themselves, and some seconds a frame for the largest.
+constexpr int kMostForKlt = 2000;
+
+std::string scenario_file(const std::string& scene) {
+  return std::string(LCS_BENCH_SCENARIOS) + "/" + scene + ".yaml";
+}
+
+const Footage& footage(const std::string& scene) {
+  static std::map<std::string, Footage> known;
+  const auto found = known.find(scene);
+  return (found != known.end() ? found : known.emplace(scene, scenario_file(scene)).first)->second;
+}
+
+/// The last one is kept: benchmarks of one stream follow each other.
+const Stream& stream(const std::string& scene, int corners) {
+  static std::pair<std::string, int> key;
+  static std::unique_ptr<Stream> last;
+  if (!last || key != std::pair(scene, corners)) {
+    last.reset();
+    last = std::make_unique<Stream>(footage(scene), corners);
+    key = {scene, corners};
+  }
+  return *last;
+}
+
+template <typename Work>
+double seconds_by(clockid_t clock, Work&& work) {
+  const auto now = [clock] {
+    timespec t{};
+    clock_gettime(clock, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  const double start = now();
+  work();
+  return now() - start;
+}
+
+/// Time that this thread had a core to itself: on a busy machine the wall clock says how busy.
+template <typename Work>
+double cpu_seconds(Work&& work) {
+  return seconds_by(CLOCK_THREAD_CPUTIME_ID, std::forward<Work>(work));
+}
+
+/// For rendering, which the driver does in threads of its own.
+template <typename Work>
+double wall_seconds(Work&& work) {
+  return seconds_by(CLOCK_MONOTONIC, std::forward<Work>(work));
+}
+
+void fast(benchmark::State& state, const std::string& scene, int corners) {
+  const Stream& of = stream(scene, corners);
+  const cv::Mat1b grey = of.grey(kWarmUpFrames);
+  std::vector<cv::KeyPoint> found;
+  const int threshold = footage(scene).scenario.fast_threshold.value();
+  for (auto _ : state) {
+    state.SetIterationTime(cpu_seconds(
+        [&] { cv::FAST(grey, found, threshold, true, cv::FastFeatureDetector::TYPE_9_16); }));
+  }
+  state.counters["corners"] = static_cast<double>(found.size());
+}
+
+void signatures(benchmark::State& state, const std::string& scene, int corners) {
+  const Stream& of = stream(scene, corners);
+  const cv::Mat1b grey = of.grey(kWarmUpFrames);
+  const std::vector<Eigen::Vector2f>& found = of.corners_px(kWarmUpFrames);
+  for (auto _ : state) {
+    state.SetIterationTime(cpu_seconds([&] { benchmark::DoNotOptimize(describe(grey, found)); }));
+  }
+  state.counters["corners"] = static_cast<double>(found.size());
+}
+
+void filter(benchmark::State& state, const std::string& scene, int corners) {
+  const Stream& of = stream(scene, corners);
+  const auto fresh = [&] { return Filter(intrinsics(of.camera()), preset("default")); };
+  Filter under_test = fresh();
+  StageTimes sum;
+  double total_s = 0;
+  std::size_t k = 0;
+  for (auto _ : state) {
+    if (k == of.size()) {
+      under_test = fresh();
+      k = 0;
+    }
+    for (; k < kWarmUpFrames; ++k) under_test.step(of.corners_px(k), of.motion(k));
+    const double s = cpu_seconds([&] {
+      const FrameResult& result = under_test.step(of.corners_px(k), of.motion(k));
+      sum.line_ms += result.times.line_ms;
+      sum.circle_ms += result.times.circle_ms;
+      sum.square_ms += result.times.square_ms;
+    });
+    state.SetIterationTime(s);
+    total_s += s;
+    ++k;
+  }
+  state.counters["corners"] = of.mean_corners();
+  // The filter times its experts by the wall clock: their shares of what the thread's clock says.
+  const double share_ms = 1000 * total_s / static_cast<double>(state.iterations()) /
+                          (sum.line_ms + sum.circle_ms + sum.square_ms);
+  state.counters["line_ms"] = share_ms * sum.line_ms;
+  state.counters["circle_ms"] = share_ms * sum.circle_ms;
+  state.counters["square_ms"] = share_ms * sum.square_ms;
+}
+
+void klt(benchmark::State& state, const std::string& scene, int corners) {
+  const Stream& of = stream(scene, corners);
+  comparators::KltTracker tracker(of.camera());
+  std::vector<cv::Mat3b> images;
+  std::vector<cv::Mat1b> greys;
+  for (std::size_t k = 0; k < of.size(); ++k) {
+    images.push_back(of.image(k));
+    greys.push_back(of.grey(k));
+  }
+  const auto step = [&](std::size_t k) {
+    tracker.step({images[k], greys[k], of.corners_px(k), of.motion(k)});
+  };
+  step(0);
+  std::size_t k = 0;
+  for (auto _ : state) {
+    // Back to the start goes by one long step, which is not timed.
+    if (++k == of.size()) {
+      step(0);
+      k = 1;
+    }
+    state.SetIterationTime(cpu_seconds([&] { step(k); }));
+  }
+  state.counters["corners"] = of.mean_corners();
+}
+
+void ego_motion(benchmark::State& state, const std::string& scene) {
+  const scenario::Scenario scenario =
+      scenario::load(scenario_file(scene), {.sets = {"ego_motion=imu"}, .seed = {}});
+  const sim::Drive drive = sim::drive(scenario);
+  for (auto _ : state) {
+    EgoMotionFeed feed(scenario, drive.calibration);
+    state.SetIterationTime(cpu_seconds([&] {
+      for (const sim::Observation& observation : drive.frames) {
+        benchmark::DoNotOptimize(feed.next(observation));
+      }
+    }));
+  }
+  state.counters["frames"] = static_cast<double>(drive.frames.size());
+}
+
+void generate(benchmark::State& state, const std::string& scene) {
+  const scenario::Scenario scenario = scenario::load(scenario_file(scene));
+  for (auto _ : state) {
+    std::optional<sim::Simulation> simulation;
+    state.SetIterationTime(wall_seconds([&] { simulation.emplace(scenario); }));
+  }
+}
+
+void simulate(benchmark::State& state, const std::string& scene) {
+  const scenario::Scenario scenario = scenario::load(scenario_file(scene));
+  auto simulation = std::make_unique<sim::Simulation>(scenario);
+  for (auto _ : state) {
+    std::optional<sim::Observation> observation;
+    double s = wall_seconds([&] { observation = simulation->next(); });
+    if (!observation) {
+      simulation = std::make_unique<sim::Simulation>(scenario);
+      s = wall_seconds([&] { observation = simulation->next(); });
+    }
+    state.SetIterationTime(s);
+  }
+}
+
+/// The least that a picture takes: no physics, no depth, no truth.
+void render(benchmark::State& state, const std::string& scene) {
+  const scenario::Scenario scenario = scenario::load(scenario_file(scene));
+  sim::World world(scenario);
+  sim::CameraRenderer renderer(world.model(), world.camera_id(), scenario.camera.width_px,
+                               scenario.camera.height_px);
+  cv::Mat3b image;
+  for (auto _ : state) {
+    state.SetIterationTime(wall_seconds([&] {
+      renderer.update();
+      renderer.render_colour(image);
+    }));
+  }
+}
+
+/// Else what other settings cost would be told against something else.
+bool is_of_the_project(const RawRenderer& renderer, sim::World& world, const cv::Size& size_px) {
+  sim::CameraRenderer reference(world.model(), world.camera_id(), size_px.width, size_px.height);
+  cv::Mat3b expected;
+  reference.update();
+  reference.render_colour(expected);
+  cv::Mat3b picture = renderer.picture();
+  cv::GaussianBlur(picture, picture, {}, 0.6);  // the lens
+  return cv::norm(picture, expected, cv::NORM_INF) == 0;
+}
+
+/// A frame's renders, with other settings than the project's.
+void settings(benchmark::State& state, const std::string& scene, const RenderSettings& chosen) {
+  const scenario::Scenario scenario = scenario::load(scenario_file(scene));
+  sim::World world(scenario);
+  const cv::Size size_px(scenario.camera.width_px, scenario.camera.height_px);
+  RawRenderer renderer(world, size_px, chosen);
+  double cores_s = 0;
+  for (auto _ : state) {
+    cores_s += seconds_by(CLOCK_PROCESS_CPUTIME_ID, [&] {
+      state.SetIterationTime(wall_seconds([&] { renderer.render(); }));
+    });
+  }
+  state.counters["cores_ms"] = 1000 * cores_s / static_cast<double>(state.iterations());
+  if (chosen == RenderSettings{} && !is_of_the_project(renderer, world, size_px)) {
+    state.SkipWithError("renders another picture than the project");
+  }
+}
+
+void add(const std::string& name, const std::function<void(benchmark::State&)>& run) {
+  benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond)->UseManualTime();
+}
+
+void add_all() {
+  for (const std::string scene : {"lab", "street"}) {
+    add("render/" + scene, [=](auto& s) { render(s, scene); });
+    add("simulate/" + scene, [=](auto& s) { simulate(s, scene); });
+    add("generate/" + scene, [=](auto& s) { generate(s, scene); });
+    add("ego_motion/" + scene, [=](auto& s) { ego_motion(s, scene); });
+    for (const NamedRenderSettings& named : kRenderSettings) {
+      add("settings/" + scene + "/" + named.name,
+          [=](auto& s) { settings(s, scene, named.settings); });
+    }
+    for (const int n : {100, 200, 700, 2000, 5000, 10000, 20000}) {
+      const std::string of = scene + "/" + std::to_string(n);
+      add("fast/" + of, [=](auto& s) { fast(s, scene, n); });
+      add("describe/" + of, [=](auto& s) { signatures(s, scene, n); });
+      add("filter/" + of, [=](auto& s) { filter(s, scene, n); });
+      if (n <= kMostForKlt) add("klt/" + of, [=](auto& s) { klt(s, scene, n); });
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lcs::bench
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);  // as the filter runs: ratios are of work, not of cores
+  lcs::bench::add_all();
+  benchmark::Initialize(&argc, argv);
+  // What is left is the file of the page.
+  if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
+    std::cerr << "lcs_benchmarks: unknown argument " << argv[1]
+              << "; give the file for the page, and see --help for the options\n";
+    return 2;
+  }
+  try {
+    lcs::bench::PageReporter reporter;
+    benchmark::RunSpecifiedBenchmarks(&reporter);
+    if (argc == 2 && reporter.any()) reporter.write(argv[1]);
+  } catch (const std::exception& error) {
+    std::cerr << "lcs_benchmarks: " << error.what() << '\n';
+    return 2;
+  }
+}

@@ -1,0 +1,349 @@
+#include "tools/recording/detections.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <random>
+
+#include "scenarios/scenario.h"
+#include "tests/tools/files.h"
+#include "tests/tools/recordings.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/scoring/scoring.h"
+
+namespace lcs::bench {
+namespace {
+
+using sim::Label;
+
+/// Six frames with corners at (10, 20), (30, 20), (50, 20), (70.25, 20.75).
+Recording sequence() {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < 6; ++k) {
+    FrameMaker frame(k);
+    frame.corner(Verdict::rebel, Label::fixed, 0, false, {10, 20});
+    frame.corner(Verdict::rebel, Label::rebel, 1, false, {30, 20});
+    frame.corner(Verdict::ignored, Label::rebel, 1, false, {50, 20});
+    frame.corner(Verdict::pending, Label::fixed, 0, false, {70.25, 20.75});
+    frame.object(1, {20, 10, 60, 40}, true).square(4, {0, 0, 9, 9}).rebel_circle({9, 9}, 3);
+    frame.record().layers.normal_edges.resize(3);
+    frame.record().times = FrameTimes{.detect_ms = 1, .filter_ms = 2};
+    frames.push_back(frame);
+  }
+  return recording_of(frames);
+}
+
+class DetectionsTest : public testing::Test {
+ protected:
+  Detections detections(const std::string& text) {
+    std::ofstream(path_) << text;
+    return read_detections(path_, sequence());
+  }
+  std::string error(const std::string& text) {
+    try {
+      detections(text);
+    } catch (const scenario::Error& error) {
+      const std::string message = error.what(), where = path_.string() + ":";
+      EXPECT_TRUE(message.starts_with(where)) << message;
+      return message.substr(where.size());
+    }
+    return "accepted";
+  }
+
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_.path() / "mine.csv";
+};
+
+TEST_F(DetectionsTest, ReplaceAllThatTheSequencesOwnDetectorSaid) {
+  const Detections nothing = detections("");
+  EXPECT_EQ(nothing.recording.detector.name, "mine");
+  EXPECT_FALSE(nothing.recording.detector.layered);
+  ASSERT_EQ(nothing.recording.frames.size(), 6u);
+  for (const FrameRecord& frame : nothing.recording.frames) {
+    EXPECT_EQ(frame.verdicts, std::vector<Verdict>(4, Verdict::normal));
+    EXPECT_TRUE(frame.layers.squares.empty());
+    EXPECT_TRUE(frame.layers.rebel_circles.empty());
+    EXPECT_EQ(frame.layers.dimension(), 0u);
+    EXPECT_FALSE(frame.times);
+  }
+  const Metrics metrics = score(nothing.recording);
+  EXPECT_EQ(value(metrics, "rebel.recall"), 0);
+  for (const char* unknown : {"dimension.mean", "dimension.max", "edges.rematched",
+                              "time.filter_ms_median", "sim.frames_per_second"}) {
+    EXPECT_FALSE(value(metrics, unknown)) << unknown;
+  }
+  EXPECT_EQ(value(metrics, "dimension.corners_mean"), 4) << "of the frames, not of the detector";
+}
+
+TEST_F(DetectionsTest, NameCornersByPlaceOrByIndex) {
+  const Detections said =
+      detections("3,rebel,30,20\n3,pending,10.3,19.7\n3,rebel,3\n5,ignored,0\n");
+  EXPECT_EQ(said.recording.frames[3].verdicts,
+            (std::vector{Verdict::pending, Verdict::rebel, Verdict::normal, Verdict::rebel}));
+  EXPECT_EQ(said.recording.frames[5].verdicts[0], Verdict::ignored);
+  EXPECT_EQ(said.counts.verdicts, 4);
+  EXPECT_EQ(said.counts.corners(), 4);
+}
+
+TEST_F(DetectionsTest, CountVerdictsThatAreOnNoCornerOrOnOneThatHasOne) {
+  // 2 px is within reach, 2.01 is not; of two rows for one corner the nearer holds.
+  const Detections said = detections(
+      "3,rebel,32,20\n3,rebel,52.01,20\n3,rebel,400,300\n"
+      "3,pending,30,20.1\n4,rebel,1\n4,normal,30,20\n");
+  EXPECT_EQ(said.counts.verdicts, 6);
+  EXPECT_EQ(said.counts.without_corner, 2);
+  EXPECT_EQ(said.counts.repeated, 2);
+  EXPECT_EQ(said.counts.corners(), 2);
+  EXPECT_EQ(said.recording.frames[3].verdicts[1], Verdict::pending);
+  EXPECT_EQ(said.recording.frames[4].verdicts[1], Verdict::rebel);
+  EXPECT_EQ(lines_of(said.counts),
+            (std::vector<std::string>{
+                "2 of 6 verdicts are on no corner: there is none within 2 px",
+                "2 of 6 verdicts are on a corner that has one already: the nearest holds"}));
+}
+
+TEST_F(DetectionsTest, OfTwoCornersInReachTakeTheNearerThatIsFree) {
+  Recording close =
+      recording_of({FrameMaker(0)
+                        .corner(Verdict::normal, Label::fixed, 0, false, {10, 10})
+                        .corner(Verdict::normal, Label::fixed, 0, false, {10.5, 10})});
+  const auto verdicts = [&](const char* text) {
+    std::ofstream(path_) << text;
+    return read_detections(path_, close).recording.frames[0].verdicts;
+  };
+  EXPECT_EQ(verdicts("0,rebel,10.3,10\n"), (std::vector{Verdict::normal, Verdict::rebel}));
+  EXPECT_EQ(verdicts("0,rebel,10.3,10\n0,pending,10.3,10\n"),
+            (std::vector{Verdict::pending, Verdict::rebel}));
+  // Whatever the order of rows, the nearest pair is matched first.
+  for (const char* text :
+       {"0,rebel,10.2,10\n0,pending,10.6,10\n", "0,pending,10.6,10\n0,rebel,10.2,10\n"}) {
+    EXPECT_EQ(verdicts(text), (std::vector{Verdict::rebel, Verdict::pending})) << text;
+  }
+  EXPECT_EQ(verdicts("0,rebel,12,10\n0,pending,10.6,10\n"),
+            (std::vector{Verdict::rebel, Verdict::pending}))
+      << "a corner for each, if not its nearest";
+}
+
+TEST_F(DetectionsTest, BoxesArePixelEdgesAsThoseOfTheTruth) {
+  // The truth's box is columns 20 to 59, rows 10 to 39.
+  std::string rows;
+  for (int k = 3; k < 6; ++k) rows += fmt::format("{},box,7,20,10,40,30\n", k);
+  const Metrics metrics = score(detections(rows).recording);
+  EXPECT_EQ(value(metrics, "truth.boxes"), 0) << "with two corners on it, it is not eligible";
+  const Square box = detections(rows).recording.frames[3].layers.squares.at(0);
+  EXPECT_EQ(box.id, 7u);
+  EXPECT_EQ(box.location, Vec2(39.5, 24.5));
+  EXPECT_EQ(box.half_size, Vec2(20, 15));
+  const Square same =
+      detections("3,square,7,39.5,24.5,20,15").recording.frames[3].layers.squares[0];
+  EXPECT_EQ(same.location, box.location);
+  EXPECT_EQ(same.half_size, box.half_size);
+}
+
+TEST_F(DetectionsTest, MasksAreTheBoxesThatHoldThem) {
+  // Of 48 x 96 pixels: the words and boxes (left, top, width, height) are those of pycocotools.
+  const std::pair<const char*, Eigen::Vector4d> masks[] = {
+      {"Zn0n0b00000000000000000000000000000000000000000000000000000000000000000000000000"
+       "0000fe1",
+       {20, 10, 40, 30}},
+      {"dn0>Q17JO001O001O0016I01O001O001O07JO001O001O1O25JO2N1O2N1O2N16KN1O2N1O2N1O25JO2N1O^e1",
+       {20, 10, 40, 30}},
+      {"o52oY4", {3, 0, 2, 48}},
+      {"0P`4", {0, 0, 96, 48}},
+      {"03m_4", {0, 0, 1, 3}},
+      {R"(e]1110;0S40\N0nM0R10\O0\O0P30K0_N0b20jL070h10aM0^O0j00g00gN0l00\O0e20]N)"
+       "0e30QK0:0]40P10iK0b40WK0N0af0",
+       {30, 6, 50, 35}},
+      {"147,2,4459", {3, 3, 1, 2}},  // in numbers: 3 columns of 48, 3 pixels, 2 of the mask
+  };
+  for (const auto& [word, box] : masks) {
+    const Square square =
+        detections(fmt::format("3,mask,7,48,96,{}", word)).recording.frames[3].layers.squares.at(0);
+    EXPECT_EQ(square.id, 7u);
+    EXPECT_EQ(square.location - square.half_size, Vec2(box[0] - 0.5, box[1] - 0.5)) << word;
+    EXPECT_EQ(2 * square.half_size, Vec2(box[2], box[3])) << word;
+  }
+}
+
+TEST_F(DetectionsTest, CirclesCountForFalseObjects) {
+  // One over the mover, one on empty ground, in three frames after the warm-up.
+  std::string rows;
+  for (int k = 3; k < 6; ++k) rows += fmt::format("{0},circle,40,25,5\n{0},circle,200,200,5\n", k);
+  EXPECT_EQ(value(score(detections(rows).recording), "rebel.false_objects_per_100_frames"), 100);
+}
+
+TEST_F(DetectionsTest, WithoutCirclesFalseObjectsAreUnknownAndNotNone) {
+  constexpr const char* kFigures[] = {"rebel.false_objects_per_100_frames", "rebel.circle_recall"};
+  const std::string rebels = "3,rebel,0\n3,rebel,1\n3,rebel,2\n4,box,1,0,0,4,4\n";
+  const Detections silent = detections(rebels);
+  EXPECT_FALSE(silent.recording.detector.circles);
+  for (const char* figure : kFigures)
+    EXPECT_FALSE(value(score(silent.recording), figure)) << figure;
+  // A row without values says that there are none.
+  const Detections none = detections(rebels + "0,circle\n");
+  EXPECT_TRUE(none.recording.detector.circles);
+  EXPECT_EQ(value(score(none.recording), "rebel.false_objects_per_100_frames"), 0);
+}
+
+TEST_F(DetectionsTest, TakeSpacesCommentsEmptyLinesAndAHeader) {
+  const Detections said =
+      detections("# by me\r\nframe,type,x,y\r\n\r\n 3 , rebel , 30 , 20 \r\n\t\n3,rebel,50,20");
+  EXPECT_EQ(said.counts.corners(), 2);
+  EXPECT_EQ(said.recording.frames[3].verdicts[2], Verdict::rebel);
+}
+
+TEST_F(DetectionsTest, EveryBadRowIsToldWithItsLineAndWhatToWriteInstead) {
+  const std::map<std::string, std::string> bad{
+      {"3", "a row begins with FRAME,TYPE; there is one field"},
+      {"three,rebel,1", "the frame is 'three'; give its number"},
+      {",rebel,1", "the frame is ''; give its number"},
+      {"3.0,rebel,1", "the frame is '3.0'; give its number"},
+      {"6,rebel,1", "there is no frame 6: the sequence has 0 to 5; give one of these"},
+      {"-1,rebel,1", "there is no frame -1: the sequence has 0 to 5; give one of these"},
+      {"3,",
+       "there is no type ''; give ignored, pending, normal, rebel, box, mask, square or circle"},
+      {"3,Rebel,1",
+       "there is no type 'Rebel'; give ignored, pending, normal, rebel, box, mask, square or "
+       "circle"},
+      {"3,rebel", "rebel names no corner; give it an INDEX, or X,Y"},
+      {"3,normal,1,2,3", "normal names no corner; give it an INDEX, or X,Y"},
+      {"3,rebel,x,20", "x is 'x'; give a number"},
+      {"3,rebel,10,nan", "y is 'nan'; give a number"},
+      {"3,rebel,inf,20", "x is 'inf'; give a number"},
+      {"3,rebel,1e999,20", "x is '1e999'; give a number"},
+      {"3,rebel,10 px,20", "x is '10 px'; give a number"},
+      {"3,rebel,-1", "the corner is '-1'; give its index from 0 on, or x and y"},
+      {"3,rebel,1.5", "the corner is '1.5'; give its index from 0 on, or x and y"},
+      {"3,rebel,4", "there is no corner 4: frame 3 has 4; count them from 0"},
+      {"3,rebel,0\n3,normal,0", "corner 0 of frame 3 has a verdict already; give one for each"},
+      {"3,box,1,2,3,4", "not all of a box is there; give ID,LEFT,TOP,WIDTH,HEIGHT"},
+      {"3,box,-1,0,0,4,4", "the id is '-1'; give a whole number from 0 on"},
+      {"3,box,a,0,0,4,4", "the id is 'a'; give a whole number from 0 on"},
+      {"3,box,1,0,0,0,4", "width is 0; it must be above 0"},
+      {"3,box,1,0,0,4,-4", "height is -4; it must be above 0"},
+      {"3,box,1,,0,4,4", "left is ''; give a number"},
+      {"3,box,1,0,0,4,4\n3,square,1,9,9,4,4", "frame 3 has a box 1 already; an id is one object's"},
+      {"3,mask,1,48,96", "not all of a mask is there; give ID,HEIGHT,WIDTH,COUNTS"},
+      {"3,mask,1,48,x,0P`4", "the mask's width is 'x'; give that of the picture"},
+      {"3,mask,1,24,48,0Pb0",
+       "the mask is of 48 x 24 pixels, and a corner lies at 50, 20; give one of the picture's "
+       "size"},
+      {"3,mask,1,48,96,0P`", "the mask's counts end within a number; give all of them"},
+      {"3,mask,1,48,96,0P!4",
+       "the mask's counts have '!' where none can be; give COCO's word or its numbers"},
+      {"3,mask,1,48,96,oooooooo4",
+       "the mask's counts have 'o' where none can be; give COCO's word or its numbers"},
+      {"3,mask,1,48,96,0,4608.5", "a count of the mask is '4608.5'; give whole numbers"},
+      {"3,mask,1,48,96,0,9,4598",
+       "the mask's counts do not add up to 48 x 96 pixels; give all of them, of pixels outside "
+       "first"},
+      {"3,mask,1,48,96,9,-9,4608",
+       "the mask's counts do not add up to 48 x 96 pixels; give all of them, of pixels outside "
+       "first"},
+      {"3,mask,1,48,96,P`4", "the mask has no pixel; leave out what is not seen"},
+      {"3,mask,1,48,96,0P`4\n3,box,1,0,0,4,4",
+       "frame 3 has a box 1 already; an id is one object's"},
+      {"3,square,1,2,3,4", "not all of a square is there; give ID,X,Y,HALF_WIDTH,HALF_HEIGHT"},
+      {"3,square,1,2,3,4,0", "half height is 0; it must be above 0"},
+      {"3,circle,1,2", "not all of a circle is there; give X,Y,RADIUS, or nothing"},
+      {"3,circle,1,2,-1", "the radius is -1; it must be 0 or more"},
+      {"3,rebel,1\nframe,type", "the frame is 'frame'; give its number"},
+  };
+  for (const auto& [rows, message] : bad) {
+    const auto line = 2 + std::count(rows.begin(), rows.end(), '\n');
+    EXPECT_EQ(error("2,rebel,0\n" + rows + "\n2,rebel,1\n"), fmt::format("{}: {}", line, message));
+  }
+}
+
+TEST_F(DetectionsTest, AByteOrderMarkIsNotRead) {
+  EXPECT_EQ(detections("\xef\xbb\xbf"
+                       "3,rebel,3\n")
+                .counts.verdicts,
+            1);
+  EXPECT_EQ(detections("\xef\xbb\xbf"
+                       "frame,type,x,y\n3,rebel,3\n")
+                .counts.verdicts,
+            1);
+}
+
+TEST_F(DetectionsTest, AFileThatCannotBeReadIsNamed) {
+  for (const std::filesystem::path& path : {folder_.path() / "none.csv", folder_.path()}) {
+    try {
+      read_detections(path, sequence());
+      ADD_FAILURE() << path;
+    } catch (const scenario::Error& error) {
+      const bool is_folder = path == folder_.path();
+      EXPECT_EQ(error.what(),
+                fmt::format("{}: {}; name a CSV file of detections", path.string(),
+                            is_folder ? "this is a folder" : "there is no such file"));
+    }
+  }
+}
+
+/// Awkward places and sizes, so that a bit lost on the way shows.
+Recording awkward() {
+  std::mt19937_64 random(5);
+  const auto number = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < 12; ++k) {
+    FrameMaker frame(k);
+    for (int i = 0; i < 30; ++i) {
+      const bool moves = i % 3 == 0;
+      frame.corner(static_cast<Verdict>(random() % 4), moves ? Label::rebel : Label::fixed, moves,
+                   random() % 5 == 0, {10.f * static_cast<float>(i), 7.f * static_cast<float>(k)});
+    }
+    frame.object(1, {40, 30, 90, 80}, true);
+    for (Id id = 1; id < 4; ++id) {
+      Square square;
+      square.id = id;
+      square.location = {number(60, 70), number(50, 60)};
+      square.half_size = {number(20, 30), number(20, 30)};
+      frame.record().layers.squares.push_back(square);
+      frame.rebel_circle({number(0, 300), number(0, 100)}, number(0, 40));
+    }
+    frames.push_back(frame);
+  }
+  return recording_of(frames);
+}
+
+TEST_F(DetectionsTest, WrittenAndReadAgainHaveTheSameFiguresToTheLastBit) {
+  const Recording recording = awkward();
+  write_detections(path_, recording);
+  const Detections again = read_detections(path_, recording);
+  EXPECT_EQ(again.counts.without_corner + again.counts.repeated, 0);
+  for (std::size_t k = 0; k < recording.frames.size(); ++k) {
+    EXPECT_EQ(again.recording.frames[k].verdicts, recording.frames[k].verdicts);
+  }
+  const Metrics before = score(recording), after = score(again.recording);
+  EXPECT_GT(value(before, "square.mean_iou").value(), 0.5);
+  EXPECT_GT(value(before, "rebel.false_objects_per_100_frames").value(), 0);
+  for (const auto& [name, figure] : before) {
+    if (name.starts_with("rebel.") || name.starts_with("square.") || name.starts_with("truth.")) {
+      EXPECT_EQ(value(after, name), figure) << name;
+    }
+  }
+}
+
+TEST_F(DetectionsTest, TheDocumentsRowsAreRead) {
+  const std::string document = read(LCS_DETECTIONS_MD);
+  const std::string begin = "```csv\n";
+  const std::size_t from = document.find(begin) + begin.size();
+  const std::string rows = document.substr(from, document.find("```", from) - from);
+  const Detections said = detections(rows);
+  EXPECT_EQ(said.counts.verdicts, 2);
+  ASSERT_EQ(said.recording.frames[0].layers.squares.size(), 1u);
+  const Square& box = said.recording.frames[0].layers.squares[0];
+  EXPECT_EQ(box.location - box.half_size, Vec2(199.5, 179.5));
+  // Its rows follow from its program: the names of the columns, and the order of the fields.
+  for (const char* part : {R"("rebel", x, y, sep=",")", R"("box", 1, 200, 180, 100, 120, sep=",")",
+                           R"(frame["corners"]["x"])", R"(frame["index"])"}) {
+    EXPECT_NE(document.find(part), std::string::npos) << part;
+  }
+}
+
+}  // namespace
+}  // namespace lcs::bench

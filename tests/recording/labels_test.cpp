@@ -1,0 +1,235 @@
+// Boxes of what moves, drawn by people: as MOTChallenge and COCO have them, and what is scored by
+// them.
+#include "tools/recording/labels.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "scenarios/scenario.h"
+#include "tests/tools/recordings.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/recording/recording_io.h"
+#include "tools/scoring/scoring.h"
+
+namespace lcs::bench {
+namespace {
+
+class LabelsFile : public testing::Test {
+ protected:
+  Labels labels(const std::string& text) const {
+    std::ofstream(path_, std::ios::binary) << text;
+    return read_labels(path_);
+  }
+  /// What is wrong with it, behind the folder's name.
+  std::string refusal(const std::string& text) const {
+    try {
+      labels(text);
+    } catch (const scenario::Error& error) {
+      const std::string what = error.what();
+      EXPECT_TRUE(what.starts_with(folder_.path().string())) << what;
+      return what.substr(folder_.path().string().size() + 1);
+    }
+    return "nothing was refused";
+  }
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_.path() / "gt.txt";
+};
+
+void expect_box(const LabelledBox& box, int id, double left, double top, double right,
+                double bottom) {
+  EXPECT_EQ(box.id, id);
+  EXPECT_EQ(box.left, left);
+  EXPECT_EQ(box.top, top);
+  EXPECT_EQ(box.right, right);
+  EXPECT_EQ(box.bottom, bottom);
+}
+
+TEST_F(LabelsFile, MotCountsFramesAndPixelsFromOne) {
+  const Labels all = labels(
+      "\xEF\xBB\xBF"
+      "1,7,1,1,10,20,1,1,1\r\n\n3, 7 ,912.5,484,97,109,0,7,0.5\n3,-1,5,6,7,8\n");
+  EXPECT_EQ(all.pictures(), 2u);
+  ASSERT_NE(all.of(0, ""), nullptr);
+  ASSERT_EQ(all.of(0, "")->size(), 1u);
+  expect_box(all.of(0, "")->front(), 7, 0, 0, 10, 20);
+  EXPECT_FALSE(all.of(0, "")->front().ignored);
+  EXPECT_EQ(all.of(1, "000002.jpg"), nullptr) << "nobody looked at it";
+  ASSERT_NE(all.of(2, "000003.jpg"), nullptr);
+  ASSERT_EQ(all.of(2, "")->size(), 2u);
+  expect_box(all.of(2, "")->at(0), 7, 911.5, 483, 1008.5, 592);
+  EXPECT_TRUE(all.of(2, "")->at(0).ignored);
+  expect_box(all.of(2, "")->at(1), -1, 4, 5, 11, 13);
+  EXPECT_FALSE(all.of(2, "")->at(1).ignored) << "considered, unless it says otherwise";
+}
+
+TEST_F(LabelsFile, CocoNamesPicturesOrNumbersThem) {
+  const Labels all = labels(R"(
+    {"images": [{"id": 5, "file_name": "left/0012.png"}, {"id": 9, "file_name": "0013.png"},
+                {"id": 11, "file_name": "a.mp4", "frame_id": 30}],
+     "annotations": [
+       {"id": 1, "image_id": 5, "bbox": [0, 0.5, 10, 20], "track_id": 4, "iscrowd": 0},
+       {"id": 2, "image_id": 5, "bbox": [-3, 0, 8, 9], "iscrowd": 1},
+       {"id": 3, "image_id": 11, "bbox": [1, 2, 3, 4]}]})");
+  EXPECT_EQ(all.pictures(), 3u);
+  ASSERT_NE(all.of(0, "0012.png"), nullptr);
+  ASSERT_EQ(all.of(0, "0012.png")->size(), 2u);
+  expect_box(all.of(0, "0012.png")->at(0), 4, 0, 0.5, 10, 20.5);
+  expect_box(all.of(0, "0012.png")->at(1), -1, -3, 0, 5, 9);
+  EXPECT_TRUE(all.of(0, "0012.png")->at(1).ignored);
+  ASSERT_NE(all.of(1, "0013.png"), nullptr);
+  EXPECT_TRUE(all.of(1, "0013.png")->empty()) << "looked at, and nothing moves in it";
+  EXPECT_EQ(all.of(1, "0014.png"), nullptr);
+  ASSERT_NE(all.of(30, ""), nullptr);
+  expect_box(all.of(30, "")->front(), -1, 1, 2, 4, 6);
+}
+
+TEST_F(LabelsFile, WhatIsNoneIsRefusedAtItsLine) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"", "gt.txt: is empty; give boxes as gt.txt"},
+      {" \n\n", "gt.txt: is empty"},
+      {"1,1,0,0,5,5\n2,1,0,0,5\n",
+       "gt.txt:2: 5 fields are too few for FRAME,ID,LEFT,TOP,WIDTH,HEIGHT"},
+      {"0,1,0,0,5,5\n", "gt.txt:1: the frame is '0', which is not a whole number from 1"},
+      {"1.5,1,0,0,5,5\n", "the frame is '1.5', which is not a whole number"},
+      {"1,a,0,0,5,5\n", "the id is 'a', which is no number"},
+      {"1,1,nan,0,5,5\n", "the left side is 'nan', which is no number"},
+      {"1,1,0,0,0,5\n", "gt.txt:1: the box has no area"},
+      {"1,1,0,0,5,-5\n", "the box has no area"},
+      {"1,1,1e7,0,5,5\n", "the box is not within a million pixels"},
+      {"1,1,0,0,5,5,x\n", "the seventh field is 'x', which is no number"},
+      {"1,1,0,0,5,5\n1,1,9,9,5,5\n", "gt.txt:2: object 1 has a box in that picture already"},
+      {std::string("1,\0,0,0,5,5\n", 13), "gt.txt:1: the id is "},
+      {"frame,id,left,top,width,height\n", "gt.txt:1: the frame is 'frame', which is no number"},
+      {"{\n\"images\": [}", "gt.txt:2: not JSON at byte"},
+      {"{}", "gt.txt: images is missing; give boxes as"},
+      {R"({"images": [], "annotations": [{"image_id": 3, "bbox": [0, 0, 1, 1]}]})",
+       "annotations[0].image_id is not the id of an image in the list"},
+      {R"({"images": [{"id": 1, "file_name": "a"}, {"id": 1, "file_name": "b"}], "annotations": []})",
+       "images[1].id is not one that no other image has"},
+      {R"({"images": [{"id": 1, "file_name": "x/a"}, {"id": 2, "file_name": "y/a"}], "annotations": []})",
+       "images[1].file_name is not one that no other image has"},
+      {R"({"images": [{"id": 1, "file_name": "a"}], "annotations": [{"image_id": 1, "bbox": [0, 0, 0, 1]}]})",
+       "annotations[0].bbox is not that of a mover: the box has no area"},
+      {R"({"images": [{"id": 1, "file_name": "a"}], "annotations": [{"image_id": 1, "bbox": [0, 0, 1]}]})",
+       "annotations[0].bbox is not a list of 4 numbers"},
+  };
+  for (const auto& [text, expected] : cases) {
+    EXPECT_NE(refusal(text).find(expected), std::string::npos) << refusal(text) << "\n" << text;
+  }
+  EXPECT_THROW(read_labels(folder_.path() / "nowhere.txt"), scenario::Error);
+  EXPECT_THROW(read_labels(folder_.path()), scenario::Error) << "a folder";
+}
+
+LabelledBox labelled(double left, double top, double right, double bottom, bool ignored = false) {
+  return {.id = -1, .left = left, .top = top, .right = right, .bottom = bottom, .ignored = ignored};
+}
+
+/// After the warm-up two labelled frames and one that is not: a box with three rebels of which one
+/// is 3 px outside, one with two, an ignored one with a rebel, and rebels elsewhere.
+Recording labelled_recording() {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < 6; ++k) {
+    FrameMaker frame(k);
+    for (const Eigen::Vector2f& px : std::vector<Eigen::Vector2f>{
+             {110, 110}, {120, 120}, {96.5F, 100}, {210, 110}, {220, 110}, {310, 310}, {400, 20}}) {
+      frame.corner(Verdict::rebel, sim::Label::none, -1, false, px);
+    }
+    frame.corner(Verdict::normal, sim::Label::none, -1, false, {230, 120});
+    frame.corner(Verdict::rebel, sim::Label::none, -1, false, {103.6F + 50, 100});  // 4.1 px off
+    frame.square(1, {100, 100, 150, 140}).square(2, {200, 100, 250, 150});
+    frame.rebel_circle({120, 115}, 10).rebel_circle({400, 20}, 5).rebel_circle({158, 110}, 40);
+    frame.rebel_circle({310, 310}, 2)
+        .rebel_circle({300, 130}, 60);  // ignored; over no corner of a box
+    frames.push_back(frame);
+    frames.back().layers.squares[0].circles = frames.back().layers.squares[0].rebel_circles = 1;
+    frames.back().layers.squares[1].circles = 3;  // stands
+  }
+  const std::vector<LabelledBox> boxes{labelled(100, 100, 150, 150), labelled(200, 100, 250, 150),
+                                       labelled(300, 300, 320, 320, true)};
+  frames[1].labels = boxes;  // of the warm-up
+  frames[3].labels = boxes;
+  frames[5].labels.emplace();  // nothing moves in it
+  Recording recording = recording_of(std::move(frames));
+  recording.truth = Truth::unknown;
+  return recording;
+}
+
+TEST(ScoreLabels, CountsWhatIsOnAndOffThem) {
+  const Metrics metrics = score(labelled_recording());
+  EXPECT_EQ(value(metrics, "labels.frames"), 2);
+  EXPECT_EQ(value(metrics, "labels.boxes"), 2);
+  EXPECT_EQ(value(metrics, "labels.found"), 0.5) << "two corners do not find one";
+  EXPECT_EQ(value(metrics, "labels.boxed_50"), 0.5) << "a square that stands boxes no mover";
+  // of the first frame (400, 20) and (153.6, 100); of the second all eight
+  EXPECT_EQ(value(metrics, "labels.rebels_off_per_frame"), (2 + 8) / 2.0);
+  // of the first frame those at (400, 20) and (300, 130), of the second all five
+  EXPECT_EQ(value(metrics, "labels.circles_off_per_100_frames"), 100 * (2 + 5) / 2.0);
+}
+
+TEST(ScoreLabels, AStrangersBoxMayBeOfAMover) {
+  Recording recording = labelled_recording();
+  for (FrameRecord& frame : recording.frames) {
+    for (Square& square : frame.layers.squares) square.circles = square.rebel_circles = 0;
+  }
+  EXPECT_EQ(value(score(recording), "labels.boxed_50"), 1);
+}
+
+TEST(ScoreLabels, OneSquareBoxesOneMover) {
+  Recording recording = labelled_recording();
+  FrameRecord& frame = recording.frames[3];
+  frame.layers.squares.resize(1);
+  frame.labels = {labelled(100, 100, 150, 138), labelled(100, 100, 150, 140)};
+  EXPECT_EQ(value(score(recording), "labels.boxed_50"), 0.5);
+}
+
+TEST(ScoreLabels, WithoutLabelsAndTruthOnlySizesAndTimesAreKnown) {
+  Recording recording = labelled_recording();
+  for (FrameRecord& frame : recording.frames) frame.labels.reset();
+  for (const auto& [name, figure] : score(recording)) {
+    const bool is_told = name.starts_with("rebel.") || name.starts_with("truth.") ||
+                         name.starts_with("square.") || name.starts_with("labels.");
+    if (is_told) {
+      EXPECT_FALSE(figure) << name;
+    }
+  }
+  EXPECT_EQ(value(score(recording), "dimension.corners_mean"), 9);
+}
+
+TEST(ScoreLabels, WhereNothingMovesEveryRebelIsFalse) {
+  Recording recording = labelled_recording();
+  recording.truth = Truth::nothing_moves;
+  for (FrameRecord& frame : recording.frames) set_corner_truth(recording.truth, frame);
+  const Metrics metrics = score(recording);
+  EXPECT_EQ(value(metrics, "rebel.false_corners_per_frame"), 8);
+  EXPECT_EQ(value(metrics, "rebel.false_objects_per_100_frames"), 500);
+  EXPECT_EQ(value(metrics, "truth.fixed_corners"), 3 * 9);
+  EXPECT_EQ(value(metrics, "rebel.recall"), std::nullopt);
+  EXPECT_EQ(value(metrics, "square.precision_50"), std::nullopt) << "where objects are is unknown";
+  EXPECT_EQ(value(metrics, "truth.objects"), std::nullopt);
+}
+
+TEST(ScoreLabels, ARecordingKeepsThem) {
+  const TemporaryFolder folder;
+  const Recording recording = labelled_recording();
+  RecordingWriter writer(folder.path(), recording);
+  for (const FrameRecord& frame : recording.frames) writer.write(frame);
+  writer.close();
+  const Recording read = read_recording(folder.path());
+  EXPECT_EQ(read.truth, Truth::unknown);
+  EXPECT_FALSE(read.frames[4].labels);
+  ASSERT_TRUE(read.frames[5].labels);
+  EXPECT_TRUE(read.frames[5].labels->empty());
+  ASSERT_EQ(read.frames[3].labels.value().size(), 3u);
+  expect_box(read.frames[3].labels->at(0), -1, 100, 100, 150, 150);
+  EXPECT_TRUE(read.frames[3].labels->at(2).ignored);
+  EXPECT_EQ(score(read), score(recording));
+  EXPECT_TRUE(unspoken(read).frames[3].labels) << "and who asks again has them";
+  EXPECT_EQ(unspoken(read).truth, Truth::unknown);
+}
+
+}  // namespace
+}  // namespace lcs::bench

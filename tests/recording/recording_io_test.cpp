@@ -1,0 +1,424 @@
+#include "tools/recording/recording_io.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "tests/tools/recordings.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/recording/recording_fields.h"
+#include "tools/scoring/scoring.h"
+
+namespace lcs::bench {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Fills every field with a value of its own, awkward numbers among them.
+class Filler {
+ public:
+  void operator()(const char*, double& number) { number = awkward(); }
+  void operator()(const char*, OrInfinite value) { value.number = awkward(); }
+  void operator()(const char*, OrNan value) { value.number = awkward(); }
+  void operator()(const char*, int& number) { number = static_cast<int>(random_()); }
+  void operator()(const char*, Id& number) { number = random_(); }
+  void operator()(const char*, bool& flag) { flag = random_() % 2 == 0; }
+  void operator()(const char*, IgnoreRegion::Shape& shape) {
+    shape = random_() % 2 == 0 ? IgnoreRegion::Shape::circle : IgnoreRegion::Shape::rectangle;
+  }
+  void operator()(const char*, sim::Label& label) {
+    label = static_cast<sim::Label>(random_() % 4);
+  }
+
+  template <class Item>
+  std::vector<Item> items(int count) {
+    std::vector<Item> items(static_cast<std::size_t>(count));
+    for (Item& item : items) fields(item, *this);
+    return items;
+  }
+  double awkward() {
+    switch (random_() % 8) {
+      case 0:
+        return 0.1;
+      case 1:
+        return -0.0;
+      case 2:
+        return std::numeric_limits<double>::denorm_min();
+      case 3:
+        return -std::numeric_limits<double>::max();
+      case 4:
+        return 1e5;
+      default: {
+        const double number = std::bit_cast<double>(random_());
+        return std::isfinite(number) ? number : 1.0 / 3;
+      }
+    }
+  }
+  Signature signature() { return {random_(), random_(), random_(), random_()}; }
+  Eigen::Vector3d vector() { return {awkward(), awkward(), awkward()}; }
+  EgoMotion motion() {
+    EgoMotion motion;
+    motion.dt_s = awkward();
+    for (int row = 0; row < 3; ++row) motion.R_cur_prev.row(row) = vector();
+    motion.v_C_mps = vector();
+    motion.w_C_radps = vector();
+    motion.unseen_turn_rad = std::abs(awkward());
+    motion.velocity_sigma_mps = std::abs(awkward());
+    motion.ground = Ground{.up_C = vector(), .height_m = awkward()};
+    return motion;
+  }
+
+ private:
+  std::mt19937_64 random_{1};
+};
+
+FrameRecord full_frame(Filler& filler, int index) {
+  FrameRecord frame;
+  frame.index = index;
+  frame.t_ns = 9'007'199'254'740'993 + index;  // no double holds it
+  for (int i = 0; i < 6; ++i) {
+    frame.corners_px.emplace_back(static_cast<float>(i) + 0.1f, 1.0f / static_cast<float>(i + 3));
+    frame.verdicts.push_back(static_cast<Verdict>(i % 4));
+    frame.reasons.push_back(static_cast<Reason>((7 * index + i) % kReasons.size()));
+    frame.signatures.push_back(filler.signature());
+  }
+  frame.motion = filler.motion();
+  frame.true_motion = filler.motion();
+  frame.layers.normal_edges = filler.items<Edge>(3);
+  frame.layers.rebel_edges = filler.items<Edge>(2);
+  for (Edge& edge : frame.layers.rebel_edges) edge.rebel = true;
+  frame.layers.normal_circles = filler.items<Circle>(2);
+  frame.layers.rebel_circles = filler.items<Circle>(1);
+  for (Circle& circle : frame.layers.rebel_circles) circle.rebel = true;
+  frame.layers.squares = filler.items<Square>(2);
+  frame.layers.ignored = filler.items<IgnoreRegion>(3);
+  frame.layers.collectors = filler.items<Collector>(2);
+  Chain chain;
+  chain.count = 1;
+  chain.sightings = {Vec2(filler.awkward(), filler.awkward()), Vec2::Zero()};
+  chain.off_field_px = filler.awkward();
+  frame.layers.chains = {chain};
+  frame.corner_truth = filler.items<sim::CornerTruth>(6);
+  frame.corner_truth[0].depth_m = kInfinity;
+  frame.corner_truth[1].motion_px.setConstant(kNan);
+  frame.object_truth = filler.items<sim::ObjectTruth>(2);
+  return frame;
+}
+
+Recording full_recording() {
+  Filler filler;
+  Recording recording = recording_of({});
+  recording.objects = {{1, "box \"quoted\""}, {2, "caf\u00e9\n"}};
+  recording.seed = std::numeric_limits<std::uint64_t>::max();
+  recording.world = {{"ego.speed", "0.5 m/s"}, {"actors.caf\u00e9.\"x\"", ""}};
+  for (int k = 0; k < 5; ++k) recording.frames.push_back(full_frame(filler, k));
+  return recording;
+}
+
+void write(const Recording& recording, const std::filesystem::path& folder) {
+  RecordingWriter writer(folder, recording);
+  for (const FrameRecord& frame : recording.frames) writer.write(frame);
+  writer.close();
+}
+
+/// Of a recording whose truth makes sense, so that all figures are defined.
+Recording scorable() {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < 9; ++k) {
+    FrameMaker frame(k);
+    frame.corners(3 + k % 2, Verdict::rebel, sim::Label::rebel, 1)
+        .corners(2, Verdict::pending, sim::Label::rebel, 1, true)
+        .corners(k % 3, Verdict::rebel, sim::Label::fixed)
+        .object(1, {100, 100, 140, 150}, true, 1.0 / 3 + 0.4)
+        .square(1, {103, 100, 141 + k, 150});
+    frame.record().motion.dt_s = frame.record().true_motion.dt_s = 0.1;
+    frame.record().motion.v_C_mps = {0.1 * k, 0.01, 1.0 / (k + 1)};
+    frames.push_back(frame);
+  }
+  return recording_of(frames);
+}
+
+TEST(RecordingIo, EveryFieldComesBackToTheSameBits) {
+  const Recording recording = full_recording();
+  const TemporaryFolder folder;
+  write(recording, folder.path());
+  const Recording back = read_recording(folder.path());
+
+  EXPECT_EQ(back.scenario, recording.scenario);
+  EXPECT_EQ(back.seed, recording.seed);
+  EXPECT_EQ(back.world, recording.world);
+  ASSERT_EQ(back.objects.size(), recording.objects.size());
+  for (std::size_t i = 0; i < back.objects.size(); ++i) {
+    EXPECT_EQ(back.objects[i].id, recording.objects[i].id);
+    EXPECT_EQ(back.objects[i].name, recording.objects[i].name);
+  }
+  // Every number is written in a form that stands for one double only, so equal lines are equal
+  // bits.
+  ASSERT_EQ(back.frames.size(), recording.frames.size());
+  for (std::size_t k = 0; k < back.frames.size(); ++k) {
+    EXPECT_EQ(layers_line(back.frames[k]), layers_line(recording.frames[k]));
+    EXPECT_EQ(truth_line(back.frames[k]), truth_line(recording.frames[k]));
+    EXPECT_EQ(back.frames[k].corners_px, recording.frames[k].corners_px);
+    EXPECT_EQ(back.frames[k].signatures, recording.frames[k].signatures);
+    EXPECT_EQ(back.frames[k].verdicts, recording.frames[k].verdicts);
+    EXPECT_EQ(back.frames[k].reasons, recording.frames[k].reasons);
+    EXPECT_EQ(back.frames[k].t_ns, recording.frames[k].t_ns);
+    EXPECT_EQ(back.frames[k].motion.R_cur_prev, recording.frames[k].motion.R_cur_prev);
+    EXPECT_EQ(back.frames[k].motion.unseen_turn_rad, recording.frames[k].motion.unseen_turn_rad);
+    EXPECT_EQ(back.frames[k].motion.velocity_sigma_mps,
+              recording.frames[k].motion.velocity_sigma_mps);
+    EXPECT_EQ(back.frames[k].motion.ground->up_C, recording.frames[k].motion.ground->up_C);
+    EXPECT_TRUE(back.frames[k].layers.rebel_edges.front().rebel);
+    EXPECT_TRUE(back.frames[k].layers.rebel_circles.front().rebel);
+    EXPECT_EQ(back.frames[k].corner_truth[0].depth_m, kInfinity);
+    EXPECT_TRUE(std::isnan(back.frames[k].corner_truth[1].motion_px.x()));
+    EXPECT_FALSE(back.frames[k].times);
+  }
+}
+
+TEST(RecordingIo, TheSignOfZeroComesBack) {
+  FrameMaker maker(0);
+  maker.rebel_circle({-0.0, 0.0}, 3);
+  Recording recording = recording_of({maker});
+  const TemporaryFolder folder;
+  write(recording, folder.path());
+  const Vec2 back = read_recording(folder.path()).frames[0].layers.rebel_circles[0].location;
+  EXPECT_TRUE(std::signbit(back.x()));
+  EXPECT_FALSE(std::signbit(back.y()));
+}
+
+TEST(RecordingIo, AStoredRunScoresTheSameToTheBit) {
+  const Recording recording = scorable();
+  const TemporaryFolder folder;
+  write(recording, folder.path());
+  const Metrics before = score(recording);
+  EXPECT_EQ(before, score(read_recording(folder.path())));
+  EXPECT_TRUE(value(before, "rebel.f1"));
+  EXPECT_TRUE(value(before, "square.mean_iou"));
+}
+
+TEST(RecordingIo, LinesAreJsonWithAKeyForEveryLayer) {
+  Filler filler;
+  const auto layers = nlohmann::json::parse(layers_line(full_frame(filler, 4)));
+  EXPECT_EQ(layers.at("index"), 4);
+  EXPECT_EQ(layers.at("corners").at("verdict"),
+            (nlohmann::json{"ignored", "pending", "normal", "rebel", "ignored", "pending"}));
+  EXPECT_EQ(layers.at("normal_edges").at("id").size(), 3u);
+  for (const char* key : {"t_ns", "told_motion", "rebel_edges", "normal_circles", "rebel_circles",
+                          "squares", "ignored", "collectors", "chains"}) {
+    EXPECT_TRUE(layers.contains(key)) << key;
+  }
+}
+
+TEST(RecordingIo, SignaturesAreTheBytesOfTheirMakerInHexadecimalDigits) {
+  FrameMaker maker(0);
+  maker.corners(2, Verdict::normal, sim::Label::fixed);
+  SignatureBytes bytes;
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i + 1);
+  maker.record().signatures = {std::bit_cast<Signature>(bytes), Signature{}};
+  EXPECT_EQ(
+      nlohmann::json::parse(layers_line(maker)).at("signatures"),
+      "0102030405060708090a0b0c0d0e0f101112131415161718191a1b1c1d1e1f20" + std::string(64, '0'));
+}
+
+TEST(RecordingIo, FramesFromBeforeThereWereSignaturesHaveNone) {
+  const TemporaryFolder folder;
+  write(scorable(), folder.path());
+  const Recording back = read_recording(folder.path());
+  ASSERT_FALSE(back.frames[0].corners_px.empty());
+  for (const FrameRecord& frame : back.frames) {
+    EXPECT_TRUE(frame.signatures.empty());
+    EXPECT_FALSE(nlohmann::json::parse(layers_line(frame)).contains("signatures"));
+  }
+}
+
+TEST(RecordingIo, ReasonsThatATrackerDoesNotGiveAreUnknown) {
+  FrameMaker maker(0);
+  maker.corners(2, Verdict::rebel, sim::Label::fixed);
+  const TemporaryFolder folder;
+  write(recording_of({maker}), folder.path());
+  EXPECT_EQ(read_recording(folder.path()).frames[0].reasons,
+            std::vector<Reason>(2, Reason::unknown));
+}
+
+TEST(RecordingIo, ANameThatIsNotUtf8IsStoredWithItsBadBytesReplaced) {
+  Recording recording = recording_of({});
+  recording.scenario = "caf\xe9";
+  const TemporaryFolder folder;
+  write(recording, folder.path());
+  EXPECT_EQ(read_recording(folder.path()).scenario, "caf\xef\xbf\xbd");
+}
+
+TEST(RecordingIo, AnEmptyRunComesBackEmpty) {
+  const TemporaryFolder folder;
+  write(recording_of({}), folder.path());
+  EXPECT_TRUE(read_recording(folder.path()).frames.empty());
+}
+
+TEST(RecordingIo, TheObjectsOfSingleFramesAreThoseOfTheWholeRecording) {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < 5; ++k) {
+    FrameMaker frame(k);
+    for (int i = 0; i <= k; ++i) frame.object(i + 1, {10 * k, i, 10 * k + 20, i + 9}, i % 2 == 0);
+    frames.push_back(frame);
+  }
+  const TemporaryFolder folder;
+  const Recording recording = recording_of(frames);
+  RecordingWriter writer(folder.path(), recording);
+  for (const FrameRecord& frame : recording.frames) writer.write(frame);
+  writer.close();
+  const std::vector<int> wanted{0, 2, 2, 4};
+  const auto objects = read_object_truth(folder.path(), wanted);
+  ASSERT_EQ(objects.size(), wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const auto& expected = frames[static_cast<std::size_t>(wanted[i])].object_truth;
+    ASSERT_EQ(objects[i].size(), expected.size());
+    for (std::size_t o = 0; o < expected.size(); ++o) {
+      EXPECT_EQ(objects[i][o].left, expected[o].left);
+      EXPECT_EQ(objects[i][o].bottom, expected[o].bottom);
+      EXPECT_EQ(objects[i][o].moving, expected[o].moving);
+    }
+  }
+  EXPECT_THROW(read_object_truth(folder.path(), std::vector<int>{5}), std::runtime_error);
+}
+
+TEST(RecordingIo, ALayerThatIsNotFiniteIsRefusedByFrameAndField) {
+  for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    FrameMaker maker(12);
+    maker.rebel_circle({10, bad}, 3);
+    try {
+      layers_line(maker);
+      FAIL() << "accepted " << bad;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_STREQ(error.what(), "frame 12: rebel_circles.y is not a finite number");
+    }
+  }
+}
+
+TEST(RecordingIo, AMotionThatIsInfiniteAndADepthThatIsNanAreRefused) {
+  FrameMaker maker(0);
+  maker.corner(Verdict::normal, sim::Label::fixed);
+  FrameRecord far = maker, deep = maker;
+  far.corner_truth[0].motion_px.x() = kInfinity;
+  deep.corner_truth[0].depth_m = kNan;
+  EXPECT_THROW(truth_line(far), std::invalid_argument);
+  EXPECT_THROW(truth_line(deep), std::invalid_argument);
+}
+
+// ---- What is wrong with a file is told by file and line.
+
+class BrokenRecording : public testing::Test {
+ protected:
+  BrokenRecording() { write(scorable(), folder_.path()); }
+
+  /// Replaces the first `from` in the given line (1-based) of a file.
+  void edit(const char* file, int line, const std::string& from, const std::string& to) {
+    std::ifstream in(folder_.path() / file);
+    std::vector<std::string> lines;
+    for (std::string text; std::getline(in, text);) lines.push_back(text);
+    std::string& text = lines.at(static_cast<std::size_t>(line - 1));
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, from.size(), to);
+    std::ofstream out(folder_.path() / file);
+    for (const std::string& edited : lines) out << edited << '\n';
+  }
+  void drop_last_line(const char* file) {
+    std::ifstream in(folder_.path() / file);
+    std::vector<std::string> lines;
+    for (std::string text; std::getline(in, text);) lines.push_back(text);
+    lines.pop_back();
+    std::ofstream out(folder_.path() / file);
+    for (const std::string& kept : lines) out << kept << '\n';
+  }
+  void expect_error(const std::string& part) {
+    try {
+      read_recording(folder_.path());
+      FAIL() << "was read without an error";
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(BrokenRecording, BadJson) {
+  edit(kLayersFile, 3, "{", "[");
+  expect_error("layers.jsonl:3: not JSON at byte ");
+}
+TEST_F(BrokenRecording, AMissingKey) {
+  edit(kLayersFile, 2, "\"squares\"", "\"sqares\"");
+  expect_error("layers.jsonl:2: has no squares; ");
+}
+TEST_F(BrokenRecording, AnUnknownWord) {
+  edit(kLayersFile, 2, "\"rebel\"", "\"robot\"");
+  expect_error("layers.jsonl:2: corners.verdict[0] is the unknown word 'robot'; ");
+}
+TEST_F(BrokenRecording, ColumnsOfDifferentLength) {
+  edit(kTruthFile, 4, "\"radial\":[false,", "\"radial\":[");
+  expect_error("truth.jsonl:4: corners has columns that differ in length; ");
+}
+TEST_F(BrokenRecording, AFractionWhereAnIntegerBelongs) {
+  edit(kTruthFile, 2, "\"visible_px\":[2000]", "\"visible_px\":[2000.5]");
+  expect_error("truth.jsonl:2: objects.visible_px[0] is not a whole number of its range; ");
+}
+TEST_F(BrokenRecording, FramesThatDoNotPair) {
+  edit(kTruthFile, 5, "\"index\":3", "\"index\":7");
+  expect_error("truth.jsonl:5: ");
+}
+TEST_F(BrokenRecording, AWordWhereANumberBelongs) {
+  edit(kLayersFile, 2, "\"dt_s\":", "\"dt_s\":\"soon\",\"was\":");
+  expect_error("layers.jsonl:2: told_motion.dt_s is not a number; name the folder of a whole run");
+}
+TEST_F(BrokenRecording, ANumberThatNoIntegerHolds) {
+  edit(kTruthFile, 2, "\"visible_px\":[2000]", "\"visible_px\":[4294967296]");
+  expect_error("truth.jsonl:2: objects.visible_px[0] is not a whole number of its range; ");
+}
+TEST_F(BrokenRecording, AHundredThousandNestedLists) {
+  const std::string lists = std::string(100000, '[') + std::string(100000, ']');
+  edit(kLayersFile, 2, "\"index\":", "\"index\":" + lists + ",\"was\":");
+  expect_error("layers.jsonl:2: index is not a whole number");
+}
+TEST_F(BrokenRecording, SignaturesThatAreNotOneForEachCorner) {
+  Recording recording = scorable();
+  for (FrameRecord& frame : recording.frames) frame.signatures.resize(frame.corners_px.size());
+  write(recording, folder_.path());
+  EXPECT_NO_THROW(read_recording(folder_.path()));
+  const std::string wrong =
+      "signatures is not 64 hexadecimal digits for each corner; name the folder of a whole run";
+  edit(kLayersFile, 2, "\"signatures\":\"00", "\"signatures\":\"");  // a byte too few
+  expect_error("layers.jsonl:2: " + wrong);
+  edit(kLayersFile, 2, "\"signatures\":\"", "\"signatures\":\"0000");  // one too many
+  expect_error("layers.jsonl:2: " + wrong);
+  for (const char* digits : {"0x", "-1", "+1", " 1", "g0", "0G"}) {
+    SCOPED_TRACE(digits);
+    write(recording, folder_.path());
+    edit(kLayersFile, 3, "\"signatures\":\"00", std::string("\"signatures\":\"") + digits);
+    expect_error("layers.jsonl:3: " + wrong);
+  }
+}
+TEST_F(BrokenRecording, SignaturesThatAreNoText) {
+  edit(kLayersFile, 2, "\"squares\"", "\"signatures\":[1],\"squares\"");
+  expect_error("layers.jsonl:2: signatures is not a text; name the folder of a whole run");
+}
+TEST_F(BrokenRecording, ATruthThatEndsEarly) {
+  drop_last_line(kTruthFile);
+  expect_error("truth.jsonl:9: ends before the layers do");
+}
+TEST_F(BrokenRecording, LayersThatEndEarly) {
+  drop_last_line(kLayersFile);
+  expect_error("layers.jsonl:8: ends before the truth does");
+}
+TEST_F(BrokenRecording, AMissingFile) {
+  std::filesystem::remove(folder_.path() / kTruthFile);
+  expect_error("truth.jsonl: there is no such file; ");
+}
+
+}  // namespace
+}  // namespace lcs::bench

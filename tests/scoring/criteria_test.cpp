@@ -1,0 +1,60 @@
+#include "tools/scoring/criteria.h"
+
+#include <gtest/gtest.h>
+
+namespace lcs::bench {
+namespace {
+
+scenario::Criterion criterion(const std::string& metric, std::optional<double> min,
+                              std::optional<double> max, bool required = true) {
+  return {metric, min, max, required, {"crossing.yaml", 31}};
+}
+
+const Metrics kMetrics{{"rebel.f1", 0.5}, {"square.recall_50", std::nullopt}};
+
+TEST(Criteria, BoundsAreInclusive) {
+  EXPECT_TRUE(failed_criteria({criterion("rebel.f1", 0.5, 0.5)}, kMetrics).empty());
+  EXPECT_EQ(failed_criteria({criterion("rebel.f1", 0.51, {})}, kMetrics).size(), 1u);
+  EXPECT_EQ(failed_criteria({criterion("rebel.f1", {}, 0.49)}, kMetrics).size(), 1u);
+}
+
+TEST(Criteria, AnUndefinedFigureMeetsNoBound) {
+  const auto failed = failed_criteria({criterion("square.recall_50", 0, {})}, kMetrics);
+  ASSERT_EQ(failed.size(), 1u);
+  EXPECT_EQ(failed[0].message,
+            "crossing.yaml:31: square.recall_50 is undefined, must be at least 0");
+}
+
+TEST(Criteria, AFailureNamesMetricValueBoundsAndLine) {
+  const auto failed = failed_criteria({criterion("rebel.f1", 0.6, 0.9, false)}, kMetrics);
+  ASSERT_EQ(failed.size(), 1u);
+  EXPECT_EQ(failed[0].message,
+            "crossing.yaml:31: rebel.f1 is 0.5, must be at least 0.6 and at most 0.9");
+  EXPECT_FALSE(failed[0].required);
+}
+
+TEST(Criteria, ThoseThatAreMetAreJudgedToo) {
+  const auto judged =
+      judge({criterion("rebel.f1", 0.4, {}), criterion("rebel.f1", 0.6, {})}, kMetrics);
+  ASSERT_EQ(judged.size(), 2u);
+  EXPECT_TRUE(judged[0].met);
+  EXPECT_EQ(judged[0].figure, 0.5);
+  EXPECT_EQ(judged[0].message, "");
+  EXPECT_FALSE(judged[1].met);
+  EXPECT_NE(judged[1].message, "");
+}
+
+TEST(Criteria, AnUnknownMetricIsRefusedAtItsLineWithTheNearestOne) {
+  EXPECT_NO_THROW(require_known_metrics({criterion("rebel.f1", 0.6, {})}));
+  try {
+    require_known_metrics({criterion("rebel.f1", 0.6, {}), criterion("rebel.recal", 0.6, {})});
+    FAIL() << "accepted";
+  } catch (const scenario::Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "crossing.yaml:31: no metric is called 'rebel.recal'; did you mean "
+                 "'rebel.recall'?");
+  }
+}
+
+}  // namespace
+}  // namespace lcs::bench

@@ -1,0 +1,365 @@
+#include "tools/scoring/events.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/tools/recordings.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/files/output_file.h"
+#include "tools/output/event_pictures.h"
+#include "tools/scoring/score_rebels.h"
+
+namespace lcs::bench {
+namespace {
+
+constexpr int kFrames = 20, kCorners = 6;
+const PixelBox kMover{100, 100, 140, 150};
+
+/// A mover with six corners, of which `missed` are missed, and a static wall far from it.
+FrameMaker frame_of(int index, int missed, Reason reason = Reason::normal_edge) {
+  FrameMaker frame(index);
+  frame.object(1, kMover, true);
+  for (int i = 0; i < kCorners; ++i) {
+    const bool is_missed = i < missed;
+    frame.corner(is_missed ? Verdict::normal : Verdict::rebel, sim::Label::rebel, 1, false,
+                 {105.0f + static_cast<float>(5 * i), 120});
+    frame.record().reasons.push_back(is_missed ? reason : Reason::rebel_edge);
+  }
+  for (int i = 0; i < 4; ++i) {
+    frame.corner(Verdict::normal, sim::Label::fixed, 0, false,
+                 {400.0f + static_cast<float>(10 * i), 300});
+    frame.record().reasons.push_back(Reason::normal_edge);
+  }
+  return frame;
+}
+
+/// The wall's corners are called rebels.
+void accuse(FrameMaker& frame, int corners, Eigen::Vector2f shift = {0, 0}) {
+  for (int i = 0; i < corners; ++i) {
+    frame.record().corners_px[kCorners + i] += shift;
+    frame.record().verdicts[kCorners + i] = Verdict::rebel;
+    frame.record().reasons[kCorners + i] = Reason::inherited;
+  }
+}
+
+/// The corners missed in a frame, by its index.
+template <class Missed>
+Recording recording_with(Missed&& missed) {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < kFrames; ++k) frames.push_back(frame_of(k, missed(k)));
+  return recording_of(frames);
+}
+
+int all_until(int last, int k) {
+  return k <= last ? kCorners : 0;
+}
+
+RebelCounts total(const Recording& recording) {
+  RebelCounts sum;
+  for (const RebelCounts& frame : score_frames(recording)) sum += frame;
+  return sum;
+}
+
+TEST(Events, ARunWithoutFaultsHasNone) {
+  EXPECT_TRUE(find_events(recording_with([](int) { return 0; })).empty());
+  EXPECT_TRUE(find_events(recording_of({})).empty());
+}
+
+TEST(Events, AnObjectThatIsNeverFoundIsOneOverAllFramesThatCount) {
+  const Recording recording = recording_with([](int) { return kCorners; });
+  const auto events = find_events(recording);
+  ASSERT_EQ(events.size(), 1u);
+  const Event& event = events[0];
+  EXPECT_EQ(event.kind, EventKind::never_found);
+  EXPECT_EQ(event.object, 1);
+  EXPECT_EQ(event.object_name, "mover");
+  EXPECT_EQ(event.first_frame, kSightings);
+  EXPECT_EQ(event.last_frame, kFrames - 1);
+  EXPECT_EQ(event.corners, total(recording).missed_rebels);
+  EXPECT_EQ(event.of, event.corners);
+  EXPECT_EQ(event.reasons, (decltype(event.reasons){{Reason::normal_edge, event.corners}}));
+}
+
+TEST(Events, AnObjectThatIsFoundAtLastIsLate) {
+  const auto events = find_events(recording_with([](int k) { return all_until(9, k); }));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, EventKind::found_late);
+  EXPECT_EQ(events[0].first_frame, kSightings);
+  EXPECT_EQ(events[0].last_frame, 9);
+}
+
+TEST(Events, AnObjectThatIsMissedLaterIsLost) {
+  const auto events = find_events(recording_with([](int k) { return k >= 8 && k < 12 ? 4 : 0; }));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, EventKind::lost);
+  EXPECT_EQ(events[0].first_frame, 8);
+  EXPECT_EQ(events[0].last_frame, 11);
+  EXPECT_EQ(events[0].corners, 4 * 4);
+  EXPECT_EQ(events[0].of, 4 * kCorners);
+}
+
+TEST(Events, HalfOfTheCornersMissedIsNone) {
+  EXPECT_TRUE(find_events(recording_with([](int) { return kCorners / 2; })).empty());
+}
+
+TEST(Events, FramesOfOneMissMergeOverTwoGoodOnesNotOverThree) {
+  const auto gap = [](int good) {
+    return find_events(recording_with([good](int k) {
+      return (k >= 5 && k < 8) || (k >= 8 + good && k < 11 + good) ? kCorners : 0;
+    }));
+  };
+  ASSERT_EQ(gap(2).size(), 1u);
+  EXPECT_EQ(gap(2)[0].last_frame, 12);
+  EXPECT_EQ(gap(2)[0].of, 8 * kCorners);  // those of the good frames between are counted
+  EXPECT_EQ(gap(3).size(), 2u);
+}
+
+TEST(Events, ReasonsAreCountedMostFrequentFirst) {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < kFrames; ++k) {
+    frames.push_back(frame_of(k, kCorners, k < 8 ? Reason::first_sighting : Reason::normal_edge));
+  }
+  const auto events = find_events(recording_of(frames));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].reasons,
+            (decltype(events[0].reasons){{Reason::normal_edge, 12 * kCorners},
+                                         {Reason::first_sighting, 5 * kCorners}}));
+}
+
+TEST(Events, ATrackerWithoutReasonsHasUnknownOnes) {
+  Recording recording = recording_with([](int) { return kCorners; });
+  for (FrameRecord& frame : recording.frames) frame.reasons.clear();
+  EXPECT_EQ(find_events(recording).at(0).reasons.at(0).first, Reason::unknown);
+}
+
+TEST(Events, FalseRebelsFarFromAnyMoverAreAnAlarmFollowedThroughTheFrames) {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < kFrames; ++k) {
+    FrameMaker frame = frame_of(k, 0);
+    if (k >= 6 && k < 10) accuse(frame, 4, {0, static_cast<float>(3 * k)});
+    frames.push_back(frame);
+  }
+  const auto events = find_events(recording_of(frames));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, EventKind::false_alarm);
+  EXPECT_EQ(events[0].object, 0);
+  EXPECT_EQ(events[0].first_frame, 6);
+  EXPECT_EQ(events[0].last_frame, 9);
+  EXPECT_EQ(events[0].corners, total(recording_of(frames)).false_rebels);
+  EXPECT_EQ(events[0].reasons.at(0).first, Reason::inherited);
+}
+
+TEST(Events, TwoFalseRebelsAreNoAlarm) {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < kFrames; ++k) {
+    FrameMaker frame = frame_of(k, 0);
+    accuse(frame, 2);
+    frames.push_back(frame);
+  }
+  EXPECT_TRUE(find_events(recording_of(frames)).empty());
+}
+
+TEST(Events, FalseRebelsRoundAMoverAreItsHalo) {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < kFrames; ++k) {
+    FrameMaker frame = frame_of(k, 0);
+    accuse(frame, 4, {-290, -180});  // to x from 110 to 140, y = 120: in the mover's box
+    frames.push_back(frame);
+  }
+  const auto events = find_events(recording_of(frames));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, EventKind::halo);
+  EXPECT_EQ(events[0].object, 1);
+  EXPECT_EQ(events[0].corners, 4 * (kFrames - kSightings));
+}
+
+TEST(Events, ARebelCircleWithNothingUnderItIsAnAlarmAndOneOverAMoverIsNone) {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < kFrames; ++k) {
+    FrameMaker frame = frame_of(k, 0);
+    frame.rebel_circle({120, 120}, 30);
+    if (k == 7 || k == 8) frame.rebel_circle({500, 100}, 15);
+    frames.push_back(frame);
+  }
+  const auto events = find_events(recording_of(frames));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, EventKind::false_alarm);
+  EXPECT_EQ(events[0].circles, 2);
+  EXPECT_EQ(events[0].corners, 0);
+  EXPECT_EQ(events[0].first_frame, 7);
+}
+
+TEST(Events, NothingIsFalseDuringTheWarmUp) {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < kFrames; ++k) {
+    FrameMaker frame = frame_of(k, 0);
+    if (k < kSightings) accuse(frame, 4);
+    if (k < kSightings) frame.rebel_circle({500, 100}, 15);
+    frames.push_back(frame);
+  }
+  EXPECT_TRUE(find_events(recording_of(frames)).empty());
+}
+
+TEST(Events, TheCostliestComeFirstAndNoMoreThanAskedFor) {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < kFrames; ++k) {
+    FrameMaker frame = frame_of(k, k >= 5 && k < 8 ? kCorners : 0);
+    if (k >= 10) accuse(frame, 4);
+    frames.push_back(frame);
+  }
+  const auto events = find_events(recording_of(frames));
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].kind, EventKind::false_alarm);
+  EXPECT_EQ(events[0].corners, 40);
+  EXPECT_EQ(events[1].corners, 18);
+  EXPECT_EQ(find_events(recording_of(frames), 1).size(), 1u);
+}
+
+TEST(Events, UpToFiveFramesAreShownFromTheOneBeforeToTheOneAfter) {
+  const auto events = find_events(recording_with([](int k) { return all_until(15, k); }));
+  const std::vector<EventView>& views = events.at(0).views;
+  ASSERT_EQ(views.size(), 5u);
+  EXPECT_EQ(views.front().frame, kSightings - 1);
+  EXPECT_EQ(views.back().frame, 16);
+  for (const EventView& view : views) {
+    EXPECT_EQ(view.centre_px, Vec2(119.5, 124.5));
+    EXPECT_EQ(view.half_size_px, Vec2(19.5, 24.5));
+    EXPECT_NEAR(view.t_s, 0.1 * view.frame, 1e-12);
+  }
+}
+
+// ---- Pictures
+
+cv::Mat3b decoded(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<unsigned char> bytes;
+  unsigned bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes.push_back(static_cast<unsigned char>(bits >> count & 255));
+  }
+  return cv::imdecode(bytes, cv::IMREAD_COLOR);
+}
+
+TEST(EventPictures, ShowTheMissedCornersInTheCutAroundTheObject) {
+  const Recording recording = recording_with([](int) { return kCorners; });
+  for (const int width : {640, 1280}) {
+    // The same places, whatever the size that pictures are kept at.
+    SCOPED_TRACE(width);
+    FramePictures pictures;
+    for (int k = 0; k < kFrames; ++k) {
+      pictures.add(cv::Mat3b(width * 3 / 4, width, cv::Vec3b(128, 128, 128)));
+    }
+    auto events = find_events(recording);
+    paint_events(recording, pictures, events);
+    const EventView& view = events.at(0).views.at(2);
+    const cv::Mat3b picture = decoded(view.jpeg_base64);
+    ASSERT_EQ(picture.size(), cv::Size(kEventPictureWidth_px, kEventPictureHeight_px));
+    // Grey but for the box and the corners: orange is there, magenta and green are not.
+    int orange = 0, magenta = 0, green = 0;
+    for (const cv::Vec3b& px : picture) {
+      orange += px[2] > 150 && px[2] - px[0] > 60 && px[1] > 90;
+      magenta += px[2] > 180 && px[0] > 180 && px[1] < 110;
+      green += px[1] > 180 && px[2] < 110 && px[0] < 110;
+    }
+    EXPECT_GT(orange, 20);
+    EXPECT_EQ(magenta, 0);
+    EXPECT_EQ(green, 0);
+    // The object's centre is the picture's.
+    const cv::Vec3b left_of_box = picture(96, 4);
+    EXPECT_NEAR(left_of_box[0], 128, 8);
+  }
+}
+
+TEST(EventPictures, AreWholeAtTheImagesBorder) {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < kFrames; ++k) {
+    FrameMaker frame(k);
+    frame.object(1, {0, 0, 20, 20}, true);
+    for (int i = 0; i < kCorners; ++i) {
+      frame.corner(Verdict::pending, sim::Label::rebel, 1, false, {static_cast<float>(i), 0});
+    }
+    frames.push_back(frame);
+  }
+  const Recording recording = recording_of(frames);
+  FramePictures pictures;
+  for (int k = 0; k < kFrames; ++k) pictures.add(cv::Mat3b(60, 80, cv::Vec3b(9, 9, 9)));
+  auto events = find_events(recording);
+  paint_events(recording, pictures, events);
+  for (const EventView& view : events.at(0).views) {
+    EXPECT_EQ(decoded(view.jpeg_base64).cols, kEventPictureWidth_px);
+  }
+}
+
+// ---- The file
+
+TEST(EventsFile, ComesBackAsItWas) {
+  Recording recording = recording_with([](int k) { return all_until(9, k); });
+  recording.objects[0].name = "a \"mover\" <b>";
+  auto events = find_events(recording);
+  events.at(0).views.at(0).jpeg_base64 = base64("bytes");
+  const TemporaryFolder folder;
+  const auto file = folder.path() / kEventsFile;
+  write_events(file, events);
+  const auto back = read_events(file);
+  ASSERT_EQ(back.size(), events.size());
+  for (std::size_t i = 0; i < back.size(); ++i) {
+    EXPECT_EQ(back[i].kind, events[i].kind);
+    EXPECT_EQ(back[i].first_frame, events[i].first_frame);
+    EXPECT_EQ(back[i].last_frame, events[i].last_frame);
+    EXPECT_EQ(back[i].object, events[i].object);
+    EXPECT_EQ(back[i].object_name, events[i].object_name);
+    EXPECT_EQ(back[i].corners, events[i].corners);
+    EXPECT_EQ(back[i].of, events[i].of);
+    EXPECT_EQ(back[i].circles, events[i].circles);
+    EXPECT_EQ(back[i].reasons, events[i].reasons);
+    ASSERT_EQ(back[i].views.size(), events[i].views.size());
+    for (std::size_t v = 0; v < back[i].views.size(); ++v) {
+      EXPECT_EQ(back[i].views[v].frame, events[i].views[v].frame);
+      EXPECT_EQ(back[i].views[v].t_s, events[i].views[v].t_s);
+      EXPECT_EQ(back[i].views[v].centre_px, events[i].views[v].centre_px);
+      EXPECT_EQ(back[i].views[v].half_size_px, events[i].views[v].half_size_px);
+      EXPECT_EQ(back[i].views[v].jpeg_base64, events[i].views[v].jpeg_base64);
+    }
+  }
+}
+
+TEST(EventsFile, WhatIsWrongIsToldWithTheFile) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / kEventsFile;
+  const auto expect_error = [&](const std::string& part) {
+    try {
+      read_events(file);
+      FAIL() << "was read without an error";
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  };
+  expect_error("there is no such file");
+  std::ofstream(file) << "{";
+  expect_error(":1: not JSON at byte");
+  std::ofstream(file) << R"({"events": [{"kind": "party"}]})";
+  expect_error("events[0].kind is not a word that is known here: 'party'");
+  std::ofstream(file) << R"({"events": [{"kind": "halo"}]})";
+  expect_error("events[0].first_frame is missing");
+}
+
+TEST(Base64, IsThatOfTheStandard) {  // RFC 4648, section 10
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
+
+}  // namespace
+}  // namespace lcs::bench

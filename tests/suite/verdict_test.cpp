@@ -1,0 +1,136 @@
+#include "tools/suite/verdict.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/tools/suites.h"
+#include "tests/tools/temporary_folder.h"
+#include "tools/scoring/events.h"
+
+namespace lcs::suite {
+namespace {
+
+namespace fs = std::filesystem;
+
+Verdict verdict_against(const SuiteInFolder& after, const SuiteInFolder& before) {
+  const Comparison comparison =
+      compare(before.suite, after.suite, [](std::string_view) { return true; });
+  return verdict_of(after, &before, &comparison);
+}
+
+CriterionResult criterion(bool met, bool required = true) {
+  return {.metric = "rebel.f1",
+          .min = 0.5,
+          .max = {},
+          .value = 0.4,
+          .required = required,
+          .met = met,
+          .message = met ? "" : "rebel.f1 is 0.4, must be at least 0.5"};
+}
+
+TEST(Verdict, CountsScenariosAgainstABaselineAndCriteriaInOneLine) {
+  const auto with = [](double worse, double better) {
+    return suite_with({scenario_with("a", "rebel.f1", {worse, worse}),
+                       scenario_with("b", "rebel.f1", {better, better}),
+                       scenario_with("c", "rebel.f1", {0.5, 0.5})});
+  };
+  const SuiteResult before = with(0.8, 0.2);
+  SuiteResult after = with(0.6, 0.4);
+  EXPECT_EQ(verdict_against({after, {}}, {before, {}}).line,
+            "1 regressed, 1 improved, 1 as before");
+  // Missed with both seeds, it is still one criterion.
+  for (RunResult& run : after.scenarios[2].runs) {
+    run.criteria = {criterion(false), criterion(true), criterion(false, false)};
+    run.outcome = Outcome::failed;
+  }
+  after.scenarios.push_back(scenario_with("d", "rebel.f1", {0.5}));
+  EXPECT_EQ(verdict_against({after, {}}, {before, {}}).line,
+            "1 regressed, 1 improved, 1 as before, 1 not compared, 1 criterion missed, 1 missed "
+            "that is not required");
+}
+
+TEST(Verdict, WithoutABaselineCountsCriteriaAndErrors) {
+  SuiteResult suite = suite_with({scenario_with("a", "rebel.f1", {0.5})});
+  EXPECT_EQ(verdict_of({suite, {}}, nullptr, nullptr).line, "no criteria asked for");
+  suite.scenarios[0].runs[0].criteria = {criterion(true), criterion(true)};
+  suite.scenarios.push_back(scenario_with("b", "rebel.f1", {0.5}));
+  suite.scenarios[1].runs[0] = {};
+  suite.scenarios[1].runs[0].error = "no such scene";
+  const Verdict verdict = verdict_of({suite, {}}, nullptr, nullptr);
+  EXPECT_EQ(verdict.line, "2 criteria met, 0 missed, 1 run ended with an error");
+  ASSERT_EQ(verdict.remarks.size(), 1u);
+  EXPECT_EQ(verdict.remarks[0].standing, Standing::error);
+  EXPECT_EQ(verdict.remarks[0].reasons, std::vector<std::string>{"seed 0: no such scene"});
+}
+
+TEST(Verdict, TheWorstComesFirstWithItsReasons) {
+  const auto with = [](double a, double b, double c) {
+    return suite_with({scenario_with("a", "rebel.f1", {a}), scenario_with("b", "rebel.f1", {b}),
+                       scenario_with("c", "rebel.f1", {c})});
+  };
+  const SuiteResult before = with(0.8, 0.8, 0.8);
+  SuiteResult after = with(0.9, 0.7, 0.3);
+  after.scenarios[1].runs[0].criteria = {criterion(false)};
+  after.scenarios[1].runs[0].outcome = Outcome::failed;
+  EXPECT_EQ(
+      text_of(verdict_against({after, {}}, {before, {}})),
+      "regressed: c\n"
+      "  rebel.f1 0.800 -> 0.300\n"
+      "regressed: b\n"
+      "  rebel.f1 0.800 -> 0.700\n"
+      "  seed 1: rebel.f1 is 0.4, must be at least 0.5\n"
+      "improved: a\n"
+      "  rebel.f1 0.800 -> 0.900\n"
+      "some scenarios have a single seed in common, whose noise is unknown: differences there "
+      "are plain ones\n"
+      "2 regressed, 1 improved, 0 as before, 1 criterion missed\n");
+}
+
+class VerdictOnRules : public testing::Test {
+ protected:
+  /// A suite whose one run has such events, in a folder of that name.
+  SuiteResult suite(const std::string& name, double f1, const std::vector<bench::Event>& events) {
+    SuiteResult made = suite_with({scenario_with("near", "rebel.f1", {f1})});
+    made.scenarios[0].runs[0].folder = "run";
+    fs::create_directories(folder_.path() / name / "run");
+    bench::write_events(folder_.path() / name / "run" / bench::kEventsFile, events);
+    return made;
+  }
+  static bench::Event event(bool missed, std::vector<std::pair<Reason, int>> reasons) {
+    bench::Event event;
+    event.kind = missed ? bench::EventKind::lost : bench::EventKind::false_alarm;
+    event.of = missed ? 100 : 0;
+    event.reasons = std::move(reasons);
+    return event;
+  }
+  const bench::TemporaryFolder folder_;
+};
+
+TEST_F(VerdictOnRules, TheRuleThatTookMostNewRebelsIsNamed) {
+  const SuiteResult before =
+      suite("before", 0.8, {event(true, {{Reason::first_sighting, 50}, {Reason::normal_edge, 2}})});
+  const SuiteResult after =
+      suite("after", 0.6,
+            {event(true, {{Reason::first_sighting, 60}, {Reason::normal_edge, 20}}),
+             event(true, {{Reason::normal_edge, 5}}), event(false, {{Reason::inherited, 9}})});
+  const Verdict verdict =
+      verdict_against({after, folder_.path() / "after"}, {before, folder_.path() / "before"});
+  ASSERT_EQ(verdict.remarks.size(), 1u);
+  EXPECT_EQ(verdict.remarks[0].reasons,
+            (std::vector<std::string>{
+                "rebel.f1 0.800 -> 0.600",
+                "most new misses by normal_edge (taken by a normal edge): 2 -> 25 corners",
+                "most new false rebels by inherited (likely a rebel by those round it): 0 -> "
+                "9 corners"}));
+}
+
+TEST_F(VerdictOnRules, EventsThatAreNotThereOrCannotBeReadExplainNothing) {
+  const SuiteResult before = suite("before", 0.8, {});
+  const SuiteResult after = suite("after", 0.6, {event(true, {{Reason::first_sighting, 60}})});
+  fs::remove_all(folder_.path() / "before");
+  const Verdict verdict =
+      verdict_against({after, folder_.path() / "after"}, {before, folder_.path() / "before"});
+  EXPECT_EQ(verdict.remarks.at(0).reasons.size(), 1u);
+}
+
+}  // namespace
+}  // namespace lcs::suite

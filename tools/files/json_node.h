@@ -1,0 +1,155 @@
+/// \file
+/// JSON files, read so that what is wrong is told by file and place.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "scenarios/input_file.h"
+#include "scenarios/message.h"
+
+namespace lcs::bench {
+
+/// "not JSON at byte 12", behind the line of that byte.
+/// \throws scenario::Error; what follows the ';' is `remedy`.
+template <class Json>
+Json parse_json(const std::string& text, const scenario::Source& where, std::string_view remedy) {
+  try {
+    return Json::parse(text);
+  } catch (const nlohmann::json::parse_error& error) {
+    const std::size_t byte = std::min(error.byte, text.size());
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(byte);
+    const auto lines = static_cast<int>(std::count(text.begin(), end, '\n'));
+    throw scenario::Error({where.file, where.line + lines},
+                          fmt::format("not JSON at byte {}; {}", error.byte, remedy));
+  } catch (const nlohmann::json::exception&) {
+    throw scenario::Error(where, fmt::format("there is a number that is too large; {}", remedy));
+  }
+}
+
+/// A value that knows where in its file it is. What it is asked for and is not is a
+/// `JsonNode::Error`, as "scenarios[0].seed is not a whole number from 0".
+class JsonNode {
+ public:
+  using Json = nlohmann::ordered_json;
+  class Error : public std::runtime_error {
+   public:
+    using std::runtime_error::runtime_error;
+  };
+
+  JsonNode(const Json& json, std::string path) : json_(json), path_(std::move(path)) {}
+
+  JsonNode operator[](const char* key) const {
+    require(json_.is_object(), "an object");
+    const auto found = json_.find(key);
+    const std::string path = path_.empty() ? key : path_ + "." + key;
+    if (found == json_.end()) throw Error(path + " is missing");
+    return {*found, path};
+  }
+
+  bool has(const char* key) const { return json_.is_object() && json_.contains(key); }
+
+  /// Calls `use(node)` for every item.
+  template <class Use>
+  void each(const Use& use) const {
+    require(json_.is_array(), "a list");
+    for (std::size_t i = 0; i < json_.size(); ++i) {
+      use(JsonNode(json_[i], fmt::format("{}[{}]", path_, i)));
+    }
+  }
+  /// Calls `use(key, node)` for every entry, in the order of the file.
+  template <class Use>
+  void each_entry(const Use& use) const {
+    require(json_.is_object(), "an object");
+    for (const auto& [key, value] : json_.items()) {
+      use(key, JsonNode(value, path_.empty() ? key : path_ + "." + key));
+    }
+  }
+
+  bool is_text(std::string_view word) const { return json_.is_string() && json_ == word; }
+
+  std::string text() const {
+    require(json_.is_string(), "a text");
+    return json_.get<std::string>();
+  }
+  bool flag() const {
+    require(json_.is_boolean(), "true or false");
+    return json_.get<bool>();
+  }
+  template <class Integer = std::uint64_t>
+  Integer natural() const {
+    require(json_.is_number_unsigned() && std::in_range<Integer>(json_.get<std::uint64_t>()),
+            "a whole number from 0");
+    return json_.get<Integer>();
+  }
+  std::int64_t whole() const {
+    require(json_.is_number_integer() && (!json_.is_number_unsigned() ||
+                                          std::in_range<std::int64_t>(json_.get<std::uint64_t>())),
+            "a whole number");
+    return json_.get<std::int64_t>();
+  }
+  double number() const {
+    require(json_.is_number(), "a number");
+    return json_.get<double>();
+  }
+  std::optional<double> figure() const {
+    require(json_.is_number() || json_.is_null(), "a number or null");
+    return json_.is_null() ? std::nullopt : std::optional(json_.get<double>());
+  }
+  std::vector<std::string> texts() const {
+    std::vector<std::string> all;
+    each([&](const JsonNode& item) { all.push_back(item.text()); });
+    return all;
+  }
+  template <std::size_t N>
+  std::array<double, N> numbers() const {
+    require(json_.is_array() && json_.size() == N, fmt::format("a list of {} numbers", N));
+    std::array<double, N> all{};
+    for (std::size_t i = 0; i < N; ++i) {
+      all[i] = JsonNode(json_[i], fmt::format("{}[{}]", path_, i)).number();
+    }
+    return all;
+  }
+
+  void require(bool condition, std::string_view what) const {
+    if (condition) return;
+    const std::string_view place = path_.empty() ? "the file" : std::string_view(path_);
+    // A NUL would end the message.
+    throw Error(scenario::printable(fmt::format("{} is not {}", place, what)));
+  }
+
+ private:
+  const Json& json_;
+  std::string path_;
+};
+
+/// What `use(node)` makes of a file's value.
+/// \throws scenario::Error "FILE: what is wrong; what to do", the latter as `kind` has it.
+template <class Use>
+std::invoke_result_t<Use, JsonNode> read_json(const std::filesystem::path& file,
+                                              const scenario::FileKind& kind, const Use& use) {
+  const auto json =
+      parse_json<JsonNode::Json>(scenario::read_file(file, kind), {file.string(), 1}, kind.remedy);
+  try {
+    return use(JsonNode(json, ""));
+  } catch (const JsonNode::Error& error) {
+    throw scenario::Error({file.string(), 0}, fmt::format("{}; {}", error.what(), kind.remedy));
+  }
+}
+
+/// Figures, events or settings: a page of them a run. Parsed, it takes ten times as much.
+inline constexpr std::uint64_t kMostJsonBytes = 256 * scenario::kMebibyte;
+
+}  // namespace lcs::bench

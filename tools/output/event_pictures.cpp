@@ -1,0 +1,121 @@
+#include "tools/output/event_pictures.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "tools/scoring/score_rebels.h"
+
+namespace lcs::bench {
+namespace {
+
+constexpr int kShownQuality = 72;
+/// Least width of what is cut out, px of the kept picture, and what is left about the object.
+constexpr double kLeastWidth_px = 160, kMargin_px = 14, kMarginShare = 0.25;
+
+// BGR; they differ in lightness and, with the marks' shapes, in more than colour.
+const cv::Scalar kFound{90, 230, 60}, kMissed{0, 150, 255}, kFalse{255, 60, 255},
+    kTruth{255, 255, 120}, kShadow{0, 0, 0};
+
+/// A view's place in the kept picture, and from pixels of the image to its own.
+struct Cut {
+  cv::Rect area;
+  double scale = 1;  ///< of the kept picture
+
+  cv::Point at(const Vec2& x) const {
+    const double zoom_x = static_cast<double>(kEventPictureWidth_px) / area.width;
+    const double zoom_y = static_cast<double>(kEventPictureHeight_px) / area.height;
+    return {cvRound(((x.x() + 0.5) * scale - area.x) * zoom_x - 0.5),
+            cvRound(((x.y() + 0.5) * scale - area.y) * zoom_y - 0.5)};
+  }
+};
+
+/// Size in the kept picture of what a view shows.
+cv::Size cut_size(const EventView& view, const cv::Size& kept, double scale) {
+  constexpr double kAspect = static_cast<double>(kEventPictureWidth_px) / kEventPictureHeight_px;
+  const Vec2 wanted =
+      2 * (scale * (1 + kMarginShare) * view.half_size_px + Vec2(kMargin_px, kMargin_px));
+  const double width = std::min({std::max({kLeastWidth_px, wanted.x(), wanted.y() * kAspect}),
+                                 static_cast<double>(kept.width), kept.height * kAspect});
+  return {std::max(1, cvRound(width)),
+          std::max(1, std::min(kept.height, cvRound(width / kAspect)))};
+}
+
+Cut cut_out(const EventView& view, const cv::Size& size, const cv::Size& kept, double scale) {
+  const auto start = [&](double centre, int length, int available) {
+    const double wanted = (centre + 0.5) * scale - 0.5 * length;
+    return cvRound(std::clamp(wanted, 0.0, static_cast<double>(available - length)));
+  };
+  return {{start(view.centre_px.x(), size.width, kept.width),
+           start(view.centre_px.y(), size.height, kept.height), size.width, size.height},
+          scale};
+}
+
+/// Missed: a ring. Found: a dot. False: a cross. Others: a faint point.
+void mark(cv::Mat3b& picture, cv::Point at, CornerOutcome outcome) {
+  constexpr int kReach = 3;
+  const auto cross = [&](const cv::Scalar& colour, int width) {
+    cv::drawMarker(picture, at, colour, cv::MARKER_TILTED_CROSS, 2 * kReach, width, cv::LINE_AA);
+  };
+  switch (outcome) {
+    case CornerOutcome::missed:
+      cv::circle(picture, at, kReach, kMissed, 1, cv::LINE_AA);
+      return;
+    case CornerOutcome::found:
+    case CornerOutcome::found_early:
+      cv::circle(picture, at, kReach, kShadow, cv::FILLED, cv::LINE_AA);
+      cv::circle(picture, at, kReach - 1, kFound, cv::FILLED, cv::LINE_AA);
+      return;
+    case CornerOutcome::false_rebel:
+      cross(kShadow, 3);
+      cross(kFalse, 1);
+      return;
+    default:
+      return;
+  }
+}
+
+cv::Mat3b paint(const FrameRecord& frame, const std::vector<CornerOutcome>& outcomes,
+                const cv::Mat3b& kept, const Cut& cut) {
+  cv::Mat3b picture;
+  cv::resize(kept(cut.area), picture, {kEventPictureWidth_px, kEventPictureHeight_px}, 0, 0,
+             cut.area.width > kEventPictureWidth_px ? cv::INTER_AREA : cv::INTER_CUBIC);
+  for (const sim::ObjectTruth& truth : frame.object_truth) {
+    if (!truth.moving) continue;
+    cv::rectangle(picture, cut.at(Vec2(truth.left, truth.top) - Vec2(0.5, 0.5)),
+                  cut.at(Vec2(truth.right, truth.bottom) - Vec2(0.5, 0.5)), kTruth, 1);
+  }
+  for (const Circle* circle : false_circles(frame)) {
+    const cv::Point rim = cut.at(circle->location + Vec2(circle->radius, 0));
+    const cv::Point centre = cut.at(circle->location);
+    cv::circle(picture, centre, rim.x - centre.x, kFalse, 1, cv::LINE_AA);
+  }
+  for (const CornerOutcome last : {CornerOutcome::found_early, CornerOutcome::found,
+                                   CornerOutcome::false_rebel, CornerOutcome::missed}) {
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      if (outcomes[i] == last) mark(picture, cut.at(frame.corners_px[i].cast<double>()), last);
+    }
+  }
+  return picture;
+}
+
+}  // namespace
+
+void paint_events(const Recording& recording, const FramePictures& pictures,
+                  std::vector<Event>& events) {
+  const auto outcomes = corner_outcomes(recording);
+  for (Event& event : events) {
+    for (EventView& view : event.views) {
+      const auto frame =
+          std::find_if(recording.frames.begin(), recording.frames.end(),
+                       [&](const FrameRecord& record) { return record.index == view.frame; });
+      const auto position = static_cast<std::size_t>(frame - recording.frames.begin());
+      double scale = 1;
+      const cv::Mat3b kept = pictures.at(position, scale);
+      const Cut cut = cut_out(view, cut_size(view, kept.size(), scale), kept.size(), scale);
+      const auto bytes = jpeg(paint(*frame, outcomes[position], kept, cut), kShownQuality);
+      view.jpeg_base64 = base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    }
+  }
+}
+
+}  // namespace lcs::bench

@@ -1,0 +1,83 @@
+#include "tools/output/frame_pictures.h"
+
+#include <algorithm>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "scenarios/input_file.h"
+#include "tools/files/output_file.h"
+
+namespace lcs::bench {
+namespace {
+
+/// A JPEG's first and last marker; between them, as OpenCV writes it, there is neither.
+constexpr std::string_view kJpegStart = "\xff\xd8", kJpegEnd = "\xff\xd9";
+
+constexpr const char* kRecordAgain = "run the scenario with --events again";
+
+constexpr int kKeptWidth_px = 640;
+constexpr int kKeptQuality = 88;
+
+double kept_scale(int image_width_px) {
+  return std::min(1.0, static_cast<double>(kKeptWidth_px) / image_width_px);
+}
+
+}  // namespace
+
+std::vector<unsigned char> jpeg(const cv::Mat3b& image, int quality) {
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, quality})) {
+    throw std::runtime_error("OpenCV cannot write JPEG");
+  }
+  return bytes;
+}
+
+void FramePictures::add(const cv::Mat3b& image) {
+  scale_ = kept_scale(image.cols);
+  cv::Mat3b kept = image;
+  if (scale_ < 1) cv::resize(image, kept, {}, scale_, scale_, cv::INTER_AREA);
+  jpegs_.push_back(jpeg(kept, kKeptQuality));
+}
+
+FramePictures FramePictures::read(const std::filesystem::path& file, int image_width_px) {
+  // 40 kB a picture: of hundreds of thousands of frames.
+  constexpr scenario::FileKind kMotionJpeg{16 * scenario::kGibibyte, kRecordAgain};
+  const std::string bytes = scenario::read_file(file, kMotionJpeg);
+  FramePictures pictures;
+  for (std::size_t start = 0; start < bytes.size();) {
+    const std::size_t end = bytes.find(kJpegEnd, start);
+    if (bytes.compare(start, kJpegStart.size(), kJpegStart) != 0 || end == std::string::npos) {
+      throw scenario::Error({file.string(), 0}, "not a JPEG picture at byte " +
+                                                    std::to_string(start) + "; " + kRecordAgain);
+    }
+    const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(start);
+    const std::size_t length = end + kJpegEnd.size() - start;
+    pictures.jpegs_.emplace_back(first, first + static_cast<std::ptrdiff_t>(length));
+    start += length;
+  }
+  pictures.scale_ = kept_scale(image_width_px);
+  return pictures;
+}
+
+void FramePictures::write(const std::filesystem::path& file) const {
+  OutputFile output(file);
+  for (const auto& bytes : jpegs_) {
+    output.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  }
+  output.close();
+}
+
+cv::Mat3b FramePictures::at(std::size_t position, double& scale) const {
+  scale = scale_;
+  cv::Mat3b picture = cv::imdecode(jpegs_.at(position), cv::IMREAD_COLOR);
+  if (picture.empty()) {
+    throw std::runtime_error("picture " + std::to_string(position) + " of " + kPicturesFile +
+                             " is broken; " + kRecordAgain);
+  }
+  return picture;
+}
+
+}  // namespace lcs::bench

@@ -1,0 +1,56 @@
+#include "tools/output/result.h"
+
+#include "tools/output/event_pictures.h"
+#include "tools/recording/warnings.h"
+#include "tools/scoring/figures_file.h"
+
+namespace lcs::bench {
+
+ResultFiles result_files() {
+  return {.names = {kMetricsFile, kFramesFile, kLayersFile, kTruthFile, kCameraFile, kWarningsFile,
+                    kVideoFile, kEventsFile, kPicturesFile, "report.html"},
+          .sign = kMetricsSign};
+}
+
+Result::Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,
+               const ResultOptions& options)
+    : folder_(target, result_files()),
+      writer_(folder_.staging(), run),
+      painter_(image_px),
+      events_(options.events),
+      kept_(options.kept),
+      add_page_(options.add_page) {
+  if (options.video_frames_per_second) {
+    video_.emplace(folder_.staging() / kVideoFile, painter_.size_px(),
+                   *options.video_frames_per_second);
+  }
+}
+
+void Result::add(const FrameRecord& frame, const cv::Mat3b& image) {
+  writer_.write(frame);
+  if (video_) video_->write(painter_.paint(frame, image));
+  if (events_ && !kept_ && !image.empty()) own_pictures_.add(image);
+}
+
+Metrics Result::finish(const Recording& run) {
+  writer_.close();
+  if (video_) video_->close();
+  Metrics metrics = score(run);
+  write_metrics(folder_.staging() / kMetricsFile, metrics);
+  write_frames(folder_.staging() / kFramesFile, run);
+  if (run.warnings) write_warnings(folder_.staging() / kWarningsFile, warnings_of(run));
+  if (events_) {
+    const FramePictures& pictures = kept_ ? *kept_ : own_pictures_;
+    std::vector<Event> events = find_events(run);
+    if (pictures.size() > 0) {
+      paint_events(run, pictures, events);
+      pictures.write(folder_.staging() / kPicturesFile);
+    }
+    write_events(folder_.staging() / kEventsFile, events);
+  }
+  if (add_page_) add_page_(folder_.staging(), metrics);
+  folder_.commit();
+  return metrics;
+}
+
+}  // namespace lcs::bench

@@ -1,0 +1,63 @@
+/// \file
+/// The files of a run, written frame by frame, whole or absent in the end.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/files/output_folder.h"
+#include "tools/output/frame_painter.h"
+#include "tools/output/frame_pictures.h"
+#include "tools/output/video.h"
+#include "tools/recording/recording_io.h"
+#include "tools/scoring/scoring.h"
+
+namespace lcs::bench {
+
+/// All files that a run's folder may hold.
+ResultFiles result_files();
+
+/// What a result holds beside its figures.
+struct ResultOptions {
+  std::optional<double> video_frames_per_second;  ///< none: no video
+  bool events = false;  ///< where the run went wrong, with pictures, and all pictures
+  /// Of the same frames, as an earlier run kept them; then `events` keeps no others. Without any,
+  /// there are none.
+  const FramePictures* kept = nullptr;
+  /// Writes what else belongs to the result into the folder, where all other files are, before it
+  /// takes its place.
+  std::function<void(const std::filesystem::path& folder, const Metrics& metrics)> add_page = {};
+};
+
+class Result {
+ public:
+  /// \param run whose frames will come.
+  /// \throws OutputError for a target that cannot be written, or holds something else.
+  Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,
+         const ResultOptions& options);
+
+  /// \param image may be empty where there is no video. \throws OutputError
+  void add(const FrameRecord& frame, const cv::Mat3b& image);
+
+  /// Scores the run, writes what depends on all of it, and puts the folder in its place.
+  /// \throws OutputError; then an earlier result is still there.
+  Metrics finish(const Recording& run);
+
+  const std::filesystem::path& target() const { return folder_.target(); }
+
+ private:
+  OutputFolder folder_;
+  RecordingWriter writer_;
+  FramePainter painter_;
+  std::optional<Video> video_;
+  bool events_;
+  const FramePictures* kept_;
+  decltype(ResultOptions::add_page) add_page_;
+  FramePictures own_pictures_;
+};
+
+}  // namespace lcs::bench

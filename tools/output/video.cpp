@@ -1,0 +1,51 @@
+#include "tools/output/video.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+namespace lcs::bench {
+namespace {
+
+/// FFmpeg does not say why a file cannot be written. \throws OutputError where the system does.
+void require_writable(const std::filesystem::path& path) {
+  constexpr std::size_t kSome = 1 << 20;
+  OutputFile probe(path);
+  probe.write(std::string(kSome, '\0'));
+  probe.close();
+}
+
+}  // namespace
+
+Video::Video(const std::filesystem::path& path, cv::Size size_px, double frames_per_second)
+    : path_(path) {
+  // FFmpeg writes to stderr what is reported here anyway. Read once, at its first use.
+  ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
+  for (const auto codec :
+       {cv::VideoWriter::fourcc('a', 'v', 'c', '1'), cv::VideoWriter::fourcc('m', 'p', '4', 'v')}) {
+    if (writer_.open(path.string(), cv::CAP_FFMPEG, codec, frames_per_second, size_px)) return;
+  }
+  require_writable(path);
+  throw OutputError(fmt::format(
+      "OpenCV cannot write {}; install an FFmpeg with H.264 or MPEG-4, or use --no-video",
+      path.string()));
+}
+
+void Video::write(const cv::Mat3b& frame) {
+  writer_.write(frame);
+  ++frames_;
+}
+
+void Video::close() {
+  writer_.release();
+  cv::VideoCapture written(path_.string(), cv::CAP_FFMPEG);
+  if (!written.isOpened() || static_cast<int>(written.get(cv::CAP_PROP_FRAME_COUNT)) != frames_) {
+    require_writable(path_);
+    throw OutputError(fmt::format(
+        "{} did not become whole; make room there, choose another folder with --out, or use "
+        "--no-video",
+        path_.string()));
+  }
+}
+
+}  // namespace lcs::bench

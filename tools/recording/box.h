@@ -1,0 +1,56 @@
+/// \file
+/// Boxes in an image, in the coordinates of corners and squares: whole numbers are centres of
+/// pixels.
+#pragma once
+
+#include "filter/layers.h"
+#include "sim/truth.h"
+#include "tools/recording/labels.h"
+
+namespace lcs::bench {
+
+struct Box {
+  Vec2 min, max;
+  double area() const { return (max - min).prod(); }
+  bool contains(const Vec2& px) const {
+    return (px.array() >= min.array()).all() && (px.array() <= max.array()).all();
+  }
+};
+
+/// \name Pixel edges against pixel centres: the box of pixels l to r-1 reaches from l - 1/2 to
+/// r - 1/2.
+///@{
+inline Box box_of(const sim::ObjectTruth& truth) {
+  return {Vec2(truth.left - 0.5, truth.top - 0.5), Vec2(truth.right - 0.5, truth.bottom - 0.5)};
+}
+inline Box box_of(const LabelledBox& label) {
+  return {Vec2(label.left - 0.5, label.top - 0.5), Vec2(label.right - 0.5, label.bottom - 0.5)};
+}
+/// \param corner left, top; \param size width, height.
+inline Square square_of(Id id, const Vec2& corner, const Vec2& size) {
+  Square square;
+  square.id = id;
+  square.location = corner + 0.5 * size - Vec2(0.5, 0.5);
+  square.half_size = 0.5 * size;
+  return square;
+}
+/// left, top, right, bottom.
+inline Eigen::Vector4d edges_of(const Square& square) {
+  Eigen::Vector4d edges;
+  edges << square.location - square.half_size, square.location + square.half_size;
+  return edges.array() + 0.5;
+}
+///@}
+
+inline Box box_of(const Square& square) {
+  return {square.location - square.half_size, square.location + square.half_size};
+}
+
+inline double intersection_over_union(const Box& a, const Box& b) {
+  const Vec2 overlap = (a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min)).cwiseMax(0.0);
+  const double common = overlap.prod();
+  const double all = a.area() + b.area() - common;
+  return all > 0 ? common / all : 0;
+}
+
+}  // namespace lcs::bench

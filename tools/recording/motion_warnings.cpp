@@ -1,0 +1,213 @@
+#include "tools/recording/motion_warnings.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace lcs::bench {
+namespace {
+
+using Pixel = Eigen::Vector2i;
+
+constexpr std::size_t kFewestCorners = 20;  // that a whole picture is judged by
+constexpr int kSame_px = 1;                 // along x and y, of corners that are the same
+
+Pixel pixel_of(const Eigen::Vector2f& corner) {
+  return {static_cast<int>(std::lround(corner.x())), static_cast<int>(std::lround(corner.y()))};
+}
+
+/// Where the corners of a picture are.
+class Places {
+ public:
+  explicit Places(std::span<const Eigen::Vector2f> corners) {
+    for (const Eigen::Vector2f& corner : corners) size_ = size_.cwiseMax(pixel_of(corner));
+    size_ += Pixel::Ones();
+    has_corner_.assign(static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(size_.y()),
+                       0);
+    for (const Eigen::Vector2f& corner : corners) {
+      for (int dy = -kSame_px; dy <= kSame_px; ++dy) {
+        for (int dx = -kSame_px; dx <= kSame_px; ++dx) {
+          const Pixel near = pixel_of(corner) + Pixel(dx, dy);
+          if (holds(near)) has_corner_[index(near)] = 1;
+        }
+      }
+    }
+  }
+
+  /// Share of pixels, moved by a vector, that are corners; those that leave the picture are not
+  /// counted. 0 where half of them do.
+  double share(std::span<const Pixel> pixels, const Pixel& by) const {
+    std::size_t inside = 0, met = 0;
+    for (const Pixel& pixel : pixels) {
+      const Pixel moved = pixel + by;
+      if (!holds(moved)) continue;
+      ++inside;
+      met += has_corner_[index(moved)];
+    }
+    if (2 * inside <= pixels.size()) return 0;
+    return static_cast<double>(met) / static_cast<double>(inside);
+  }
+
+ private:
+  bool holds(const Pixel& pixel) const {
+    return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < size_.x() && pixel.y() < size_.y();
+  }
+  std::size_t index(const Pixel& pixel) const {
+    return static_cast<std::size_t>(pixel.y()) * static_cast<std::size_t>(size_.x()) +
+           static_cast<std::size_t>(pixel.x());
+  }
+  Pixel size_ = Pixel::Zero();
+  std::vector<std::uint8_t> has_corner_;
+};
+
+/// As many as suffice, spread evenly over the list and so over the picture.
+std::vector<Pixel> some(std::span<const Eigen::Vector2f> corners) {
+  constexpr std::size_t kMost = 100;
+  const std::size_t step = std::max<std::size_t>(1, corners.size() / kMost);
+  std::vector<Pixel> chosen;
+  for (std::size_t i = 0; i < corners.size(); i += step) chosen.push_back(pixel_of(corners[i]));
+  return chosen;
+}
+
+/// Whether nearly all corners are where they were; where corners are so dense that this says
+/// nothing, they are not.
+bool stands(const FrameRecord& before, const FrameRecord& now) {
+  constexpr double kNearlyAll = 0.6, kTimesChance = 2;
+  if (std::min(before.corners_px.size(), now.corners_px.size()) < kFewestCorners) return false;
+  const Places places(now.corners_px);
+  const std::vector<Pixel> corners = some(before.corners_px);
+  const double chance = 0.5 * (places.share(corners, {11, 7}) + places.share(corners, {-9, -13}));
+  const double share = places.share(corners, {0, 0});
+  return share >= kNearlyAll && share >= kTimesChance * chance;
+}
+
+/// Whether most corners have moved by one vector, 3 px or longer.
+bool shifted(const FrameRecord& before, const FrameRecord& now) {
+  constexpr int kReach_px = 48, kLeast_px = 3;
+  constexpr double kMost = 0.5, kTimesOther = 1.6;
+  if (std::min(before.corners_px.size(), now.corners_px.size()) < kFewestCorners) return false;
+  const Places places(now.corners_px);
+  const std::vector<Pixel> corners = some(before.corners_px);
+  double best = 0, sum = 0;
+  int vectors = 0;
+  constexpr int kStep_px = 2 * kSame_px + 1;
+  for (int y = -kReach_px; y <= kReach_px; y += kStep_px) {
+    for (int x = -kReach_px; x <= kReach_px; x += kStep_px) {
+      const double share = places.share(corners, {x, y});
+      sum += share;
+      ++vectors;
+      if (std::hypot(x, y) >= kLeast_px) best = std::max(best, share);
+    }
+  }
+  const double still = places.share(corners, {0, 0});
+  return best >= kMost && best >= kTimesOther * std::max(still, sum / vectors);
+}
+
+/// No turn is told, and no motion to the side, which looks like one where all is far.
+bool goes_straight(const EgoMotion& told) {
+  constexpr double kNoTurn_rad = 5e-4;
+  const double side = told.v_C_mps.head<2>().norm();
+  return told.dt_s > 0 && Eigen::AngleAxisd(told.R_cur_prev).angle() < kNoTurn_rad &&
+         side <= 0.2 * std::abs(told.v_C_mps.z());
+}
+
+double time_of(const FrameRecord& frame) {
+  return 1e-9 * static_cast<double>(frame.t_ns);
+}
+
+MotionWarning runaway_speed(const Recording& recording) {
+  MotionWarning warning{"runaway_speed", 0, ""};
+  for (const FrameRecord& frame : recording.frames) {
+    const double speed_mps = frame.motion.v_C_mps.norm();
+    if (!(speed_mps > kRunawaySpeed_mps)) continue;
+    if (++warning.count > 1) continue;
+    warning.text = fmt::format(
+        "the camera is told to move at {:.0f} m/s at {:.2f} s: give the IMU's biases by a time at "
+        "rest, a start with its speed, or readings in m/s",
+        speed_mps, time_of(frame));
+  }
+  return warning;
+}
+
+MotionWarning turn_not_told(const Recording& recording) {
+  constexpr std::int64_t kFewest = 5;
+  MotionWarning warning{"turn_not_told", 0, ""};
+  std::optional<double> first_s;
+  for (std::size_t k = 1; k < recording.frames.size(); ++k) {
+    const FrameRecord& frame = recording.frames[k];
+    if (!goes_straight(frame.motion) || !shifted(recording.frames[k - 1], frame)) continue;
+    ++warning.count;
+    if (!first_s) first_s = time_of(frame);
+  }
+  if (warning.count < kFewest) return {warning.word, 0, ""};
+  warning.text = fmt::format(
+      "the whole picture turns in {} of {} frames, first at {:.2f} s, and no turn is told: give "
+      "the camera's poses or its IMU",
+      warning.count, recording.frames.size(), *first_s);
+  return warning;
+}
+
+MotionWarning still_camera(const Recording& recording) {
+  constexpr double kStep_m = 1, kNearlyAlways = 0.9;
+  constexpr std::int64_t kFewest = 3;
+  MotionWarning warning{"still_camera", 0, ""};
+  std::int64_t steps = 0;
+  std::optional<double> first_s;
+  double gone_m = 0;
+  for (std::size_t k = 1, from = 0; k < recording.frames.size(); ++k) {
+    const FrameRecord& frame = recording.frames[k];
+    gone_m += frame.motion.v_C_mps.norm() * std::max(0.0, frame.motion.dt_s);
+    if (gone_m < kStep_m) continue;
+    ++steps;
+    if (stands(recording.frames[from], frame)) {
+      ++warning.count;
+      if (!first_s) first_s = time_of(frame);
+    }
+    from = k;
+    gone_m = 0;
+  }
+  const bool is_always =
+      static_cast<double>(warning.count) >= kNearlyAlways * static_cast<double>(steps);
+  if (warning.count < kFewest || !is_always) return {warning.word, 0, ""};
+  warning.text = fmt::format(
+      "the camera is told to move, and its pictures stand still, first at {:.2f} s: give the speed "
+      "of this recording, 0 for a camera that stands",
+      *first_s);
+  return warning;
+}
+
+MotionWarning many_rebels(const Recording& recording) {
+  MotionWarning warning{"many_rebels", 0, ""};
+  std::optional<double> first_s;
+  std::int64_t frames = 0;
+  for (const FrameRecord& frame : recording.frames) {
+    if (frame.index < kSightings || frame.verdicts.size() < kFewestCorners) continue;
+    ++frames;
+    const auto rebels = std::count(frame.verdicts.begin(), frame.verdicts.end(), Verdict::rebel);
+    if (static_cast<double>(rebels) < kManyRebels * static_cast<double>(frame.verdicts.size())) {
+      continue;
+    }
+    ++warning.count;
+    if (!first_s) first_s = time_of(frame);
+  }
+  if (2 * warning.count <= frames) return {warning.word, 0, ""};
+  warning.text = fmt::format(
+      "{:.0f} % and more of the corners are rebels in {} of {} frames, first at {:.2f} s: the "
+      "motion or the focal length that is told is not the camera's",
+      100 * kManyRebels, warning.count, frames, *first_s);
+  return warning;
+}
+
+}  // namespace
+
+std::array<MotionWarning, 4> motion_warnings(const Recording& recording) {
+  return {runaway_speed(recording), turn_not_told(recording), still_camera(recording),
+          many_rebels(recording)};
+}
+
+}  // namespace lcs::bench

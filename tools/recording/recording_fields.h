@@ -1,0 +1,232 @@
+/// \file
+/// The fields of everything that a recording stores, by name: one list for writing and for reading.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "filter/ego_motion.h"
+#include "filter/layers.h"
+#include "filter/reason.h"
+#include "sim/truth.h"
+#include "tools/recording/recording.h"
+
+namespace lcs::bench {
+
+/// \name Words for enumerators, in the order of their declaration.
+///@{
+inline constexpr std::array<const char*, 4> kVerdicts{"ignored", "pending", "normal", "rebel"};
+inline constexpr std::array<const char*, 4> kLabels{"none", "fixed", "indistinct", "rebel"};
+inline constexpr std::array<const char*, 3> kTruths{"all", "nothing_moves", "unknown"};
+inline constexpr std::array<const char*, 3> kShapes{"", "circle", "rectangle"};  // Ty begins at 1
+
+inline constexpr auto kReasonWords = [] {
+  std::array<const char*, kReasons.size()> words{};
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] = kReasons[i].word;
+  return words;
+}();
+
+inline const auto& names_of(Verdict) {
+  return kVerdicts;
+}
+inline const auto& names_of(Reason) {
+  return kReasonWords;
+}
+inline const auto& names_of(sim::Label) {
+  return kLabels;
+}
+inline const auto& names_of(Truth) {
+  return kTruths;
+}
+inline const auto& names_of(IgnoreRegion::Shape) {
+  return kShapes;
+}
+///@}
+
+/// \name Numbers that need not be finite: JSON knows only finite ones, and null stands for the
+/// other.
+///@{
+struct OrInfinite {  ///< +inf, as the depth of the sky
+  double& number;
+};
+struct OrNan {  ///< NaN, as the motion of a point that leaves the camera's front
+  double& number;
+};
+///@}
+
+/// A corner with its verdict and the rule that settled it, as `layers.jsonl` has them.
+struct CornerRow {
+  double x = 0;
+  double y = 0;
+  Verdict verdict = Verdict::pending;
+  Reason reason = Reason::unknown;
+};
+
+/// Of a corner.
+struct Place {
+  double x = 0;
+  double y = 0;
+};
+
+/// A row of alpha, with as many sightings as it has.
+struct ChainRow {
+  std::vector<Vec2> sightings;
+  double off_field_px = 0;
+};
+
+// Each `fields` calls visit(name, member) with a reference to the member, or one of the above, for
+// every stored field, in file order. Binding all members by name makes a new one that is forgotten
+// here fail to compile.
+
+template <class Visit>
+void fields(CornerRow& corner, Visit&& visit) {
+  auto& [x, y, verdict, reason] = corner;
+  visit("x", x);
+  visit("y", y);
+  visit("verdict", verdict);
+  visit("reason", reason);
+}
+
+template <class Visit>
+void fields(Place& place, Visit&& visit) {
+  auto& [x, y] = place;
+  visit("x", x);
+  visit("y", y);
+}
+
+template <class Visit>
+void fields(ChainRow& chain, Visit&& visit) {
+  auto& [sightings, off_field_px] = chain;
+  visit("sightings", sightings);
+  visit("off_field_px", off_field_px);
+}
+
+template <class Visit>
+void fields(Edge& edge, Visit&& visit) {
+  auto& [id, rebel, location, origin, rotated, predicted, speed, depth_ratio, angle, mu, trust, age,
+         depth_ratio_sigma, corner, circle] = edge;
+  visit("id", id);
+  visit("x", location.x());
+  visit("y", location.y());
+  visit("origin_x", origin.x());
+  visit("origin_y", origin.y());
+  visit("rotated_x", rotated.x());
+  visit("rotated_y", rotated.y());
+  visit("predicted_x", predicted.x());
+  visit("predicted_y", predicted.y());
+  visit("speed", speed);
+  visit("depth_ratio", depth_ratio);
+  visit("angle", angle);
+  visit("mu", mu);
+  visit("trust", trust);
+  visit("age", age);
+  visit("depth_ratio_sigma", OrInfinite{depth_ratio_sigma});
+  visit("corner", corner);
+  visit("circle", circle);
+}
+
+template <class Visit>
+void fields(Circle& circle, Visit&& visit) {
+  auto& [id, rebel, location, origin, radius, speed, depth_ratio, angle, trust, age, members,
+         ignoring] = circle;
+  visit("id", id);
+  visit("x", location.x());
+  visit("y", location.y());
+  visit("origin_x", origin.x());
+  visit("origin_y", origin.y());
+  visit("radius", radius);
+  visit("speed", speed);
+  visit("depth_ratio", depth_ratio);
+  visit("angle", angle);
+  visit("trust", trust);
+  visit("age", age);
+  visit("members", members);
+  visit("ignoring", ignoring);
+}
+
+template <class Visit>
+void fields(Square& square, Visit&& visit) {
+  auto& [id, location, half_size, origin, speed, depth_ratio, angle, trust, age, circles,
+         rebel_circles, ignoring] = square;
+  visit("id", id);
+  visit("x", location.x());
+  visit("y", location.y());
+  visit("half_width", half_size.x());
+  visit("half_height", half_size.y());
+  visit("origin_x", origin.x());
+  visit("origin_y", origin.y());
+  visit("speed", speed);
+  visit("depth_ratio", depth_ratio);
+  visit("angle", angle);
+  visit("trust", trust);
+  visit("age", age);
+  visit("circles", circles);
+  visit("rebel_circles", rebel_circles);
+  visit("ignoring", ignoring);
+}
+
+template <class Visit>
+void fields(IgnoreRegion& region, Visit&& visit) {
+  auto& [shape, location, size] = region;
+  visit("shape", shape);
+  visit("x", location.x());
+  visit("y", location.y());
+  visit("size_x", size.x());
+  visit("size_y", size.y());
+}
+
+template <class Visit>
+void fields(Collector& collector, Visit&& visit) {
+  auto& [location, radius, depth_ratio] = collector;
+  visit("x", location.x());
+  visit("y", location.y());
+  visit("radius", radius);
+  visit("depth_ratio", depth_ratio);
+}
+
+template <class Visit>
+void fields(sim::CornerTruth& truth, Visit&& visit) {
+  auto& [label, radial, outline, object, depth_m, motion_px, static_motion_px] = truth;
+  visit("label", label);
+  visit("radial", radial);
+  visit("outline", outline);
+  visit("object", object);
+  visit("depth_m", OrInfinite{depth_m});
+  visit("motion_x", OrNan{motion_px.x()});
+  visit("motion_y", OrNan{motion_px.y()});
+  visit("static_motion_x", OrNan{static_motion_px.x()});
+  visit("static_motion_y", OrNan{static_motion_px.y()});
+}
+
+template <class Visit>
+void fields(sim::ObjectTruth& truth, Visit&& visit) {
+  auto& [object, left, top, right, bottom, visible_px, visible_fraction, moving] = truth;
+  visit("object", object);
+  visit("left", left);
+  visit("top", top);
+  visit("right", right);
+  visit("bottom", bottom);
+  visit("visible_px", visible_px);
+  visit("visible_fraction", visible_fraction);
+  visit("moving", moving);
+}
+
+template <class Visit>
+void fields(LabelledBox& box, Visit&& visit) {
+  auto& [id, left, top, right, bottom, ignored] = box;
+  visit("id", id);
+  visit("left", left);
+  visit("top", top);
+  visit("right", right);
+  visit("bottom", bottom);
+  visit("ignored", ignored);
+}
+
+template <class Visit>
+void fields(sim::Object& object, Visit&& visit) {
+  auto& [id, name] = object;
+  visit("id", id);
+  visit("name", name);
+}
+
+}  // namespace lcs::bench

@@ -1,0 +1,79 @@
+/// \file
+/// A recording on disk, times apart: `layers.jsonl`, what the tracker was given and said, and
+/// `truth.jsonl`, what was true. A JSON object a line, a line a frame; `truth.jsonl` begins with
+/// one line more about the run and its detector. The motion that was told is `told_motion` in the
+/// one, the exact one `true_motion` in the other. Lists of items are stored by column, as {"id":
+/// [1, 2], "x": [3.5, 4]}.
+///
+/// Where the tracker was given signatures, `layers.jsonl` has "signatures": the 32 bytes of each
+/// corner's in the corners' order, as ORB has them, in hexadecimal digits (Python:
+/// `bytes.fromhex(frame["signatures"])`).
+///
+/// Numbers are written in the shortest form that reads back to the same bits, so that scoring a
+/// recording that was stored gives the same figures. JSON knows no infinity: null stands for +inf
+/// (the depth of the sky).
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/files/output_file.h"
+#include "tools/recording/recording.h"
+
+namespace lcs::bench {
+
+inline constexpr const char* kLayersFile = "layers.jsonl";
+inline constexpr const char* kTruthFile = "truth.jsonl";
+inline constexpr const char* kCameraFile = "camera.json";
+
+/// Lines of one frame, without the line end. \throws std::invalid_argument for any other number
+/// that is not finite, naming frame and field.
+std::string layers_line(const FrameRecord& frame);
+std::string truth_line(const FrameRecord& frame);
+
+/// Of a frame what a detector is given beside the picture, as `layers_line` has it.
+/// \param motion what it can use of `frame.motion`; null: nothing.
+std::string given_line(const FrameRecord& frame, const EgoMotion* motion);
+
+/// \name The truth of frames that nobody has watched (`lcs generate`): a line of the objects, then
+/// one a frame, with places and truth of its corners and the truth of its objects.
+///@{
+std::string objects_line(const std::vector<sim::Object>& objects);
+std::string seen_line(const FrameRecord& frame);
+/// \return objects and frames. \throws std::runtime_error naming file and line.
+Recording read_seen(const std::filesystem::path& file);
+///@}
+
+/// {"model": "pinhole", "focal_px": f, "centre_px": [x, y], "width_px": w, "height_px": h}
+std::string camera_json(const Intrinsics& camera);
+
+/// Writes both files into a folder that exists, frame by frame, and `camera.json`: the camera as
+/// detectors are told of it.
+class RecordingWriter {
+ public:
+  /// \param run whose frames are not written here. \throws OutputError
+  RecordingWriter(const std::filesystem::path& folder, const Recording& run);
+
+  /// \throws OutputError; std::invalid_argument as `layers_line`.
+  void write(const FrameRecord& frame);
+  /// \throws OutputError
+  void close();
+
+ private:
+  OutputFile layers_;
+  OutputFile truth_;
+};
+
+/// Reads both files back, and the warnings beside them if there are any. \throws std::runtime_error
+/// naming file and line.
+Recording read_recording(const std::filesystem::path& folder);
+
+/// The truth of objects in single frames, without reading the rest: in milliseconds.
+/// \param frames from 0, in rising order; one may come again.
+/// \throws std::runtime_error naming file and line.
+std::vector<std::vector<sim::ObjectTruth>> read_object_truth(const std::filesystem::path& folder,
+                                                             std::span<const int> frames);
+
+}  // namespace lcs::bench

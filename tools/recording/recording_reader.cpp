@@ -1,0 +1,361 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+#include "scenarios/input_file.h"
+#include "scenarios/message.h"
+#include "tools/files/json_node.h"
+#include "tools/recording/recording_fields.h"
+#include "tools/recording/recording_io.h"
+#include "tools/recording/warnings.h"
+
+namespace lcs::bench {
+namespace {
+
+using Json = nlohmann::json;
+
+/// \throws std::runtime_error, whose message goes behind the place.
+void require(bool condition, const char* what) {
+  if (!condition) throw std::runtime_error(fmt::format("is not {}", what));
+}
+
+/// Calls `use`; what it refuses is told with its place, as ".corners.x[3] is not a number".
+template <class Use>
+void within(const std::string& place, const Use& use) {
+  try {
+    use();
+  } catch (const std::runtime_error& error) {
+    const std::string_view what = error.what();
+    const bool goes_on = what.starts_with('.');
+    throw std::runtime_error(fmt::format("{}{}{}", place, goes_on ? "" : " ", what));
+  }
+}
+
+const Json& member(const Json& json, const char* key) {
+  require(json.is_object(), "an object");
+  const auto found = json.find(key);
+  if (found == json.end()) throw std::runtime_error(fmt::format("has no {}", key));
+  return *found;
+}
+
+void read(const Json& json, bool& flag) {
+  require(json.is_boolean(), "true or false");
+  flag = json.get<bool>();
+}
+void read(const Json& json, std::string& text) {
+  require(json.is_string(), "a text");
+  text = json.get<std::string>();
+}
+void read(const Json& json, double& number) {
+  require(json.is_number(), "a number");
+  number = json.get<double>();
+}
+void read(const Json& json, OrInfinite value) {
+  value.number = std::numeric_limits<double>::infinity();
+  if (!json.is_null()) read(json, value.number);
+}
+void read(const Json& json, OrNan value) {
+  value.number = std::numeric_limits<double>::quiet_NaN();
+  if (!json.is_null()) read(json, value.number);
+}
+template <class Integer>
+requires std::is_integral_v<Integer>
+void read(const Json& json, Integer& number) {
+  const bool is_in_range =
+      json.is_number_unsigned()
+          ? std::in_range<Integer>(json.get<std::uint64_t>())
+          : json.is_number_integer() && std::in_range<Integer>(json.get<std::int64_t>());
+  require(is_in_range, "a whole number of its range");
+  number = json.get<Integer>();
+}
+template <class Enum>
+requires std::is_enum_v<Enum>
+void read(const Json& json, Enum& value) {
+  const auto& names = names_of(value);
+  std::string text;
+  read(json, text);
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end() || text.empty()) {
+    throw std::runtime_error(
+        scenario::printable(fmt::format("is the unknown word '{}'", text)));  // a NUL ends it
+  }
+  value = static_cast<Enum>(found - names.begin());
+}
+
+void read_array(const Json& list, std::span<double> values) {
+  require(list.is_array() && list.size() == values.size(), "a list of as many numbers as belong");
+  for (std::size_t i = 0; i < values.size(); ++i) read(list[i], values[i]);
+}
+
+void read(const Json& list, std::vector<Vec2>& points) {
+  require(list.is_array(), "a list of points");
+  points.resize(list.size());
+  for (std::size_t i = 0; i < points.size(); ++i) read_array(list[i], {points[i].data(), 2});
+}
+
+/// A member of an object.
+template <class... Out>
+void read_member(const Json& json, const char* key, Out&&... out) {
+  const Json& value = member(json, key);
+  within(fmt::format(".{}", key), [&] { read(value, std::forward<Out>(out)...); });
+}
+void read_member_array(const Json& json, const char* key, std::span<double> values) {
+  const Json& value = member(json, key);
+  within(fmt::format(".{}", key), [&] { read_array(value, values); });
+}
+
+template <class Item>
+std::vector<Item> columns_of(const Json& list) {
+  std::vector<const Json*> columns;
+  Item item;
+  fields(item, [&](const char* name, const auto&) {
+    columns.push_back(&member(list, name));
+    within(fmt::format(".{}", name), [&] { require(columns.back()->is_array(), "a list"); });
+  });
+  const std::size_t size = columns.front()->size();
+  for (const Json* column : columns) {
+    if (column->size() != size) throw std::runtime_error("has columns that differ in length");
+  }
+  std::vector<Item> items;
+  items.reserve(size);
+  for (std::size_t row = 0; row < size; ++row) {
+    std::size_t column = 0;
+    fields(item, [&](const char* name, auto&& value) {
+      const Json& cell = (*columns[column++])[row];
+      try {
+        read(cell, value);
+      } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format(".{}[{}] {}", name, row, error.what()));
+      }
+    });
+    items.push_back(item);
+  }
+  return items;
+}
+
+template <class Item>
+std::vector<Item> read_columns(const Json& json, const char* key) {
+  const Json& list = member(json, key);
+  std::vector<Item> items;
+  within(fmt::format(".{}", key), [&] { items = columns_of<Item>(list); });
+  return items;
+}
+
+EgoMotion motion_of(const Json& json) {
+  EgoMotion motion;
+  Eigen::Matrix3d by_rows;
+  read_member(json, "dt_s", motion.dt_s);
+  read_member_array(json, "R_cur_prev", {by_rows.data(), 9});
+  motion.R_cur_prev = by_rows.transpose();
+  read_member_array(json, "v_C_mps", {motion.v_C_mps.data(), 3});
+  read_member_array(json, "w_C_radps", {motion.w_C_radps.data(), 3});
+  const auto read_known = [&](const char* key, double& value) {
+    if (json.contains(key)) read_member(json, key, value);
+  };
+  read_known("unseen_turn_rad", motion.unseen_turn_rad);
+  read_known("velocity_sigma_mps", motion.velocity_sigma_mps);
+  if (json.contains("height_m")) {
+    Ground& ground = motion.ground.emplace();
+    read_member_array(json, "up_C", {ground.up_C.data(), 3});
+    read_member(json, "height_m", ground.height_m);
+  }
+  return motion;
+}
+
+EgoMotion read_motion(const Json& json, const char* key) {
+  const Json& motion = member(json, key);
+  EgoMotion read;
+  within(fmt::format(".{}", key), [&] { read = motion_of(motion); });
+  return read;
+}
+
+std::vector<Signature> signatures_of(const Json& json, std::size_t corners) {
+  std::string digits;
+  read(json, digits);
+  require(digits.size() == corners * 2 * sizeof(Signature),
+          "64 hexadecimal digits for each corner");
+  std::vector<Signature> signatures(corners);
+  const char* next = digits.data();
+  for (Signature& signature : signatures) {
+    SignatureBytes bytes;
+    for (std::uint8_t& byte : bytes) {
+      require(std::from_chars(next, next + 2, byte, 16).ptr == next + 2,
+              "64 hexadecimal digits for each corner");
+      next += 2;
+    }
+    signature = std::bit_cast<Signature>(bytes);
+  }
+  return signatures;
+}
+
+std::vector<Chain> chains_of(const std::vector<ChainRow>& rows) {
+  std::vector<Chain> chains;
+  for (const ChainRow& row : rows) {
+    Chain& chain = chains.emplace_back();
+    if (row.sightings.size() > chain.sightings.size()) {
+      throw std::runtime_error("chains has one with too many sightings");
+    }
+    std::copy(row.sightings.begin(), row.sightings.end(), chain.sightings.begin());
+    chain.off_field_px = row.off_field_px;
+    chain.count = static_cast<int>(row.sightings.size());
+  }
+  return chains;
+}
+
+void read_layers(const Json& json, FrameRecord& frame) {
+  read_member(json, "index", frame.index);
+  read_member(json, "t_ns", frame.t_ns);
+  frame.motion = read_motion(json, "told_motion");
+  for (const CornerRow& corner : read_columns<CornerRow>(json, "corners")) {
+    frame.corners_px.push_back(Vec2(corner.x, corner.y).cast<float>());
+    frame.verdicts.push_back(corner.verdict);
+    frame.reasons.push_back(corner.reason);
+  }
+  if (json.contains("signatures")) {
+    within(".signatures",
+           [&] { frame.signatures = signatures_of(json["signatures"], frame.corners_px.size()); });
+  }
+  Layers& layers = frame.layers;
+  layers.normal_edges = read_columns<Edge>(json, "normal_edges");
+  layers.rebel_edges = read_columns<Edge>(json, "rebel_edges");
+  layers.normal_circles = read_columns<Circle>(json, "normal_circles");
+  layers.rebel_circles = read_columns<Circle>(json, "rebel_circles");
+  layers.squares = read_columns<Square>(json, "squares");
+  layers.ignored = read_columns<IgnoreRegion>(json, "ignored");
+  layers.collectors = read_columns<Collector>(json, "collectors");
+  layers.chains = chains_of(read_columns<ChainRow>(json, "chains"));
+  for (Edge& edge : layers.rebel_edges) edge.rebel = true;
+  for (Circle& circle : layers.rebel_circles) circle.rebel = true;
+}
+
+void read_truth(const Json& json, FrameRecord& frame) {
+  int index = 0;
+  read_member(json, "index", index);
+  if (index != frame.index) throw std::runtime_error("index is not that of the layers");
+  frame.true_motion = read_motion(json, "true_motion");
+  frame.corner_truth = read_columns<sim::CornerTruth>(json, "corners");
+  frame.object_truth = read_columns<sim::ObjectTruth>(json, "objects");
+  if (json.contains("labels")) frame.labels = read_columns<LabelledBox>(json, "labels");
+}
+
+// A hundred kB a frame: of hundreds of thousands of frames.
+constexpr scenario::FileKind kRecordingFile{64 * scenario::kGibibyte,
+                                            "name the folder of a whole run, or run it again"};
+
+/// Hands on one parsed line after the other, and says where it was when something is wrong.
+class LineReader {
+ public:
+  explicit LineReader(const std::filesystem::path& path) : file_(path, kRecordingFile) {}
+  template <class Use>
+  bool next(Use&& use) {
+    if (!file_.next_line(text_)) return false;
+    const Json json = parse_json<Json>(text_, file_.here(), kRecordingFile.remedy);
+    try {
+      use(json);
+    } catch (const std::runtime_error& error) {
+      fail(error.what());
+    }
+    return true;
+  }
+  bool skip() { return file_.next_line(text_); }
+  [[noreturn]] void fail(std::string_view what) const {
+    if (what.starts_with('.')) what.remove_prefix(1);
+    throw scenario::Error(file_.here(), fmt::format("{}; {}", what, kRecordingFile.remedy));
+  }
+
+ private:
+  scenario::InputFile file_;
+  std::string text_;
+};
+
+}  // namespace
+
+Recording read_recording(const std::filesystem::path& folder) {
+  Recording recording;
+  LineReader layers(folder / kLayersFile);
+  LineReader truth(folder / kTruthFile);
+  const bool has_header = truth.next([&](const Json& json) {
+    read_member(json, "scenario", recording.scenario);
+    read_member(json, "seed", recording.seed);
+    read_member(json, "detector", recording.detector.name);
+    read_member(json, "layered", recording.detector.layered);
+    read_member(json, "circles", recording.detector.circles);
+    if (json.contains("world")) {
+      const Json& world = json.at("world");
+      within(".world", [&] {
+        require(world.is_object(), "an object");
+        for (const auto& [key, text] : world.items()) read(text, recording.world[key]);
+      });
+    }
+    if (json.contains("truth")) read_member(json, "truth", recording.truth);
+    recording.objects = read_columns<sim::Object>(json, "objects");
+  });
+  if (!has_header) truth.fail("is empty");
+  recording.warnings = world_warnings(folder);
+
+  while (true) {
+    FrameRecord frame;
+    if (!layers.next([&](const Json& json) { read_layers(json, frame); })) break;
+    if (!truth.next([&](const Json& json) { read_truth(json, frame); })) {
+      truth.fail("ends before the layers do");
+    }
+    recording.frames.push_back(std::move(frame));
+  }
+  if (truth.next([](const Json&) {})) layers.fail("ends before the truth does");
+  return recording;
+}
+
+Recording read_seen(const std::filesystem::path& file) {
+  Recording recording;
+  LineReader lines(file);
+  if (!lines.next([&](const Json& json) {
+        recording.objects = read_columns<sim::Object>(json, "objects");
+      })) {
+    lines.fail("is empty");
+  }
+  while (lines.next([&](const Json& json) {
+    FrameRecord& frame = recording.frames.emplace_back();
+    read_member(json, "index", frame.index);
+    read_member(json, "t_ns", frame.t_ns);
+    for (const Place& place : read_columns<Place>(json, "corners")) {
+      frame.corners_px.push_back(Vec2(place.x, place.y).cast<float>());
+    }
+    frame.corner_truth = read_columns<sim::CornerTruth>(json, "truth");
+    frame.object_truth = read_columns<sim::ObjectTruth>(json, "objects");
+    if (frame.corner_truth.size() != frame.corners_px.size()) {
+      throw std::runtime_error("truth is of another number of corners");
+    }
+  })) {
+  }
+  return recording;
+}
+
+std::vector<std::vector<sim::ObjectTruth>> read_object_truth(const std::filesystem::path& folder,
+                                                             std::span<const int> frames) {
+  LineReader truth(folder / kTruthFile);
+  std::vector<std::vector<sim::ObjectTruth>> objects;
+  int next = -1;  // the header
+  for (const int frame : frames) {
+    if (frame < next) {
+      objects.push_back(objects.back());
+      continue;
+    }
+    while (next < frame && truth.skip()) ++next;
+    const bool is_there = truth.next([&](const Json& json) {
+      objects.push_back(read_columns<sim::ObjectTruth>(json, "objects"));
+    });
+    if (!is_there) truth.fail(fmt::format("ends before frame {}", frame));
+    ++next;
+  }
+  return objects;
+}
+
+}  // namespace lcs::bench

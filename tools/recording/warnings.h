@@ -1,0 +1,45 @@
+/// \file
+/// What should not have been in a run, told with its figures: what the simulation saw
+/// (`sim/warnings.h`), pictures with hardly a corner, and of recordings a motion that cannot be
+/// (`motion_warnings.h`).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/warnings.h"
+#include "tools/recording/recording.h"
+
+namespace lcs::bench {
+
+inline constexpr const char* kWarningsFile = "warnings.json";
+
+/// A frame with fewer corners tells nothing: those round a corner bear its match out.
+inline constexpr int kFewCorners = 10;
+
+struct Warned {
+  std::string word;                   ///< "warnings.WORD" is the metric
+  std::optional<std::int64_t> count;  ///< none: nobody looked, or it is not asked of such a run
+  std::string text;                   ///< the first time, in words, and what to do; empty for none
+};
+
+/// One for each word, in a fixed order.
+std::vector<Warned> warnings_of(const Recording& recording);
+
+/// A line for people for each that happened.
+std::vector<std::string> lines_of(const std::vector<Warned>& warnings);
+
+/// All of them, by word. \throws OutputError
+void write_warnings(const std::filesystem::path& path, const std::vector<Warned>& warnings);
+
+/// What was written there. \throws std::runtime_error naming file and what is wrong with it.
+std::vector<Warned> read_warnings(const std::filesystem::path& path);
+
+/// What of a run's warnings is of its world; none where the run's folder does not say.
+/// \throws as `read_warnings`.
+std::optional<sim::Warnings> world_warnings(const std::filesystem::path& folder);
+
+}  // namespace lcs::bench

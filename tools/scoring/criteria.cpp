@@ -1,0 +1,100 @@
+#include "tools/scoring/criteria.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <optional>
+
+#include "scenarios/spelling.h"
+
+namespace lcs::bench {
+namespace {
+
+std::string place(const scenario::Source& source) {
+  return source.line > 0 ? fmt::format("{}:{}", source.file, source.line) : source.file;
+}
+
+std::string bounds(const scenario::Criterion& criterion) {
+  std::string text;
+  if (criterion.min) text += fmt::format("at least {}", *criterion.min);
+  if (criterion.min && criterion.max) text += " and ";
+  if (criterion.max) text += fmt::format("at most {}", *criterion.max);
+  return text;
+}
+
+bool is_met(const scenario::Criterion& criterion, std::optional<double> figure) {
+  return figure && (!criterion.min || *figure >= *criterion.min) &&
+         (!criterion.max || *figure <= *criterion.max);
+}
+
+}  // namespace
+
+void require_known_metrics(const std::vector<scenario::Criterion>& criteria) {
+  std::vector<std::string> names;
+  for (const auto& [name, figure] : score(Recording{})) names.push_back(name);
+  for (const scenario::Criterion& criterion : criteria) {
+    if (std::find(names.begin(), names.end(), criterion.metric) != names.end()) continue;
+    const std::optional<std::string> near = scenario::nearest(criterion.metric, names);
+    throw scenario::Error(criterion.source,
+                          fmt::format("no metric is called '{}'; {}", criterion.metric,
+                                      near ? fmt::format("did you mean '{}'?", *near)
+                                           : "tools/scoring/SCORING.md names them all"));
+  }
+}
+
+std::vector<scenario::Criterion> asked_of(const std::string& detector, bool is_own,
+                                          const std::vector<scenario::Criterion>& criteria) {
+  std::vector<scenario::Criterion> asked;
+  std::ranges::copy_if(criteria, std::back_inserter(asked), [&](const auto& criterion) {
+    return criterion.detector == detector || (is_own && criterion.detector.empty());
+  });
+  return asked;
+}
+
+std::vector<std::string> not_asked(const std::vector<scenario::Criterion>& criteria,
+                                   const std::set<std::string>& detectors) {
+  std::map<std::string, std::vector<std::string>> places;  // by detector
+  for (const scenario::Criterion& criterion : criteria) {
+    if (!criterion.detector.empty() && !detectors.contains(criterion.detector)) {
+      places[criterion.detector].push_back(place(criterion.source));
+    }
+  }
+  std::vector<std::string> lines;
+  for (const auto& [detector, at] : places) {
+    lines.push_back(fmt::format("not asked: criteria of {} ({}{}); let it watch, by --beside",
+                                detector, at.front(),
+                                at.size() > 1 ? fmt::format(", the first of {}", at.size()) : ""));
+  }
+  return lines;
+}
+
+std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& criteria,
+                                   const Metrics& metrics) {
+  std::vector<JudgedCriterion> judged;
+  for (const scenario::Criterion& criterion : criteria) {
+    JudgedCriterion& one = judged.emplace_back();
+    one.figure = value(metrics, criterion.metric);
+    one.met = is_met(criterion, one.figure);
+    if (one.met) continue;
+    const std::string of = criterion.detector.empty() ? "" : " of " + criterion.detector;
+    one.message = fmt::format(
+        "{}: {}{} is {}, must be {}", place(criterion.source), criterion.metric, of,
+        one.figure ? fmt::format("{:.4g}", *one.figure) : "undefined", bounds(criterion));
+  }
+  return judged;
+}
+
+std::vector<FailedCriterion> failed_criteria(const std::vector<scenario::Criterion>& criteria,
+                                             const Metrics& metrics) {
+  const std::vector<JudgedCriterion> judged = judge(criteria, metrics);
+  std::vector<FailedCriterion> failed;
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    if (!judged[i].met) failed.push_back({criteria[i].required, judged[i].message});
+  }
+  return failed;
+}
+
+}  // namespace lcs::bench

@@ -1,0 +1,50 @@
+/// \file
+/// Whether a run met what its scenario asks for.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scenarios/scenario.h"
+#include "tools/scoring/scoring.h"
+
+namespace lcs::bench {
+
+/// \throws scenario::Error at the line of the first criterion on a metric that does not exist,
+/// naming
+///   the nearest one that does.
+void require_known_metrics(const std::vector<scenario::Criterion>& criteria);
+
+/// Those that ask a detector of a run. \param is_own whether it is the run's own, which those that
+/// name none ask.
+std::vector<scenario::Criterion> asked_of(const std::string& detector, bool is_own,
+                                          const std::vector<scenario::Criterion>& criteria);
+
+/// A line for each detector that criteria ask and that is not among a run's, as "not asked:
+/// criteria of klt (crossing.yaml:31, the first of 2); let it watch, by --beside".
+std::vector<std::string> not_asked(const std::vector<scenario::Criterion>& criteria,
+                                   const std::set<std::string>& detectors);
+
+struct JudgedCriterion {
+  std::optional<double> figure;  ///< none: undefined, which meets no bound
+  bool met = false;
+  std::string message;  ///< of a failure, as "crossing.yaml:31: rebel.f1 is 0.41, must be at least
+                        ///< 0.6"; empty where met
+};
+
+/// All of them, in the scenario's order.
+std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& criteria,
+                                   const Metrics& metrics);
+
+struct FailedCriterion {
+  bool required = true;
+  std::string message;  ///< as `JudgedCriterion::message`
+};
+
+/// Those not met, in the scenario's order.
+std::vector<FailedCriterion> failed_criteria(const std::vector<scenario::Criterion>& criteria,
+                                             const Metrics& metrics);
+
+}  // namespace lcs::bench

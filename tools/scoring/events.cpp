@@ -1,0 +1,364 @@
+#include "tools/scoring/events.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <tuple>
+
+#include "tools/scoring/score_rebels.h"
+
+namespace lcs::bench {
+namespace {
+
+/// Frames that may lie between two of one event in which nothing is wrong.
+constexpr int kGap = 2;
+/// False corners closer than this are one group; fewer than `kCornersToFind` are none.
+constexpr double kGroupReach_px = 40;
+/// How far from its place of before a group is still the same.
+constexpr double kTrackReach_px = 20;
+constexpr int kViews = 5;
+
+constexpr std::array<EventKindText, 5> kKinds{{
+    {"never_found", "never found"},
+    {"found_late", "found late"},
+    {"lost", "lost"},
+    {"false_alarm", "false alarm"},
+    {"halo", "static corners round it called rebels"},
+}};
+
+using Outcomes = std::vector<std::vector<CornerOutcome>>;
+
+/// Pixel centres, ends included.
+struct Box {
+  Vec2 min, max;
+  Vec2 centre() const { return 0.5 * (min + max); }
+  Vec2 half_size() const { return 0.5 * (max - min); }
+};
+
+Box joined(const Box& a, const Box& b) {
+  return {a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
+}
+
+/// Between the nearest points of the two; 0 where they overlap.
+double distance(const Box& a, const Box& b) {
+  return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0).norm();
+}
+
+/// What of an event lies in one frame.
+struct Part {
+  std::vector<std::size_t> corners;  // what it costs
+  int of = 0;
+  int circles = 0;
+  Box box{};
+};
+
+/// By position of the frame in the recording.
+using Parts = std::map<std::size_t, Part>;
+
+std::optional<Box> box_of(const FrameRecord& frame, int object) {
+  for (const sim::ObjectTruth& truth : frame.object_truth) {
+    if (truth.object == object) {
+      return Box{Vec2(truth.left, truth.top), Vec2(truth.right - 1, truth.bottom - 1)};
+    }
+  }
+  return std::nullopt;
+}
+
+Box box_of(const FrameRecord& frame, const std::vector<std::size_t>& corners) {
+  const Vec2 first = frame.corners_px[corners.front()].cast<double>();
+  Box box{first, first};
+  for (const std::size_t i : corners) {
+    const Vec2 x = frame.corners_px[i].cast<double>();
+    box = joined(box, {x, x});
+  }
+  return box;
+}
+
+std::vector<std::pair<Reason, int>> reasons_of(const Recording& recording, const Parts& parts) {
+  std::map<Reason, int> counts;
+  for (const auto& [position, part] : parts) {
+    const FrameRecord& frame = recording.frames[position];
+    for (const std::size_t i : part.corners) {
+      ++counts[frame.reasons.empty() ? Reason::unknown : frame.reasons.at(i)];
+    }
+  }
+  std::vector<std::pair<Reason, int>> sorted(counts.begin(), counts.end());
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  return sorted;
+}
+
+EventView view_of(const FrameRecord& frame, const Box& box) {
+  return {.frame = frame.index,
+          .t_s = static_cast<double>(frame.t_ns) * 1e-9,
+          .centre_px = box.centre(),
+          .half_size_px = box.half_size(),
+          .jpeg_base64 = ""};
+}
+
+/// Frames of the event, evenly, between the one before it and the one after it.
+std::vector<EventView> views_of(const Recording& recording, const Event& event,
+                                const Parts& parts) {
+  std::vector<EventView> all;
+  const auto aside = [&](std::size_t position, const Box& box) {
+    const FrameRecord& frame = recording.frames[position];
+    if (event.object == 0) all.push_back(view_of(frame, box));
+    if (const auto now = box_of(frame, event.object)) all.push_back(view_of(frame, *now));
+  };
+  const auto& [first, first_part] = *parts.begin();
+  const auto& [last, last_part] = *parts.rbegin();
+  if (first > 0) aside(first - 1, first_part.box);
+  for (const auto& [position, part] : parts) {
+    if (part.corners.empty() && part.circles == 0) continue;
+    all.push_back(view_of(recording.frames[position], part.box));
+  }
+  if (last + 1 < recording.frames.size()) aside(last + 1, last_part.box);
+
+  if (all.size() <= kViews) return all;
+  std::vector<EventView> some;
+  for (int i = 0; i < kViews; ++i) {
+    const double at = static_cast<double>(all.size() - 1) * i / (kViews - 1);
+    some.push_back(all[static_cast<std::size_t>(std::lround(at))]);
+  }
+  return some;
+}
+
+Event event_of(const Recording& recording, EventKind kind, int object, const Parts& parts) {
+  Event event;
+  event.kind = kind;
+  event.object = object;
+  for (const sim::Object& named : recording.objects) {
+    if (named.id == object) event.object_name = named.name;
+  }
+  event.first_frame = recording.frames[parts.begin()->first].index;
+  event.last_frame = recording.frames[parts.rbegin()->first].index;
+  for (const auto& [position, part] : parts) {
+    event.corners += static_cast<int>(part.corners.size());
+    event.of += part.of;
+    event.circles += part.circles;
+  }
+  event.reasons = reasons_of(recording, parts);
+  event.views = views_of(recording, event, parts);
+  return event;
+}
+
+/// Cuts where more than `kGap` frames pass without a part that `is_bad`; parts between bad ones
+/// stay.
+template <class IsBad>
+std::vector<Parts> runs_of(const Parts& parts, IsBad&& is_bad) {
+  std::vector<Parts> runs;
+  Parts between;
+  std::optional<std::size_t> last;
+  for (const auto& [position, part] : parts) {
+    if (!is_bad(part)) {
+      between.emplace(position, part);
+      continue;
+    }
+    if (!last || position - *last > kGap + 1) {
+      runs.emplace_back();
+    } else {
+      runs.back().merge(between);
+    }
+    between.clear();
+    runs.back().emplace(position, part);
+    last = position;
+  }
+  return runs;
+}
+
+int corners_of(const Parts& parts) {
+  return std::accumulate(parts.begin(), parts.end(), 0, [](int sum, const auto& entry) {
+    return sum + static_cast<int>(entry.second.corners.size());
+  });
+}
+
+// ---- Missed
+
+/// Rebel corners of an object that recall counts, frame by frame.
+Parts counted_corners(const Recording& recording, const Outcomes& outcomes, int object) {
+  Parts parts;
+  for (std::size_t k = 0; k < recording.frames.size(); ++k) {
+    const FrameRecord& frame = recording.frames[k];
+    Part part;
+    for (std::size_t i = 0; i < outcomes[k].size(); ++i) {
+      if (frame.corner_truth[i].object != object) continue;
+      const bool missed = outcomes[k][i] == CornerOutcome::missed;
+      if (missed) part.corners.push_back(i);
+      part.of += missed || outcomes[k][i] == CornerOutcome::found;
+    }
+    if (part.of == 0) continue;
+    if (const auto box = box_of(frame, object)) {
+      part.box = *box;
+    } else if (!part.corners.empty()) {
+      part.box = box_of(frame, part.corners);
+    }
+    parts.emplace(k, std::move(part));
+  }
+  return parts;
+}
+
+void find_missed(const Recording& recording, const Outcomes& outcomes, std::vector<Event>& events) {
+  for (const ObjectDetection& object : detect_objects(recording)) {
+    const Parts counted = counted_corners(recording, outcomes, object.object);
+    const auto mostly_missed = [](const Part& part) {
+      return 2 * static_cast<int>(part.corners.size()) > part.of;
+    };
+    for (const Parts& run : runs_of(counted, mostly_missed)) {
+      if (corners_of(run) < kCornersToFind) continue;
+      const int first = recording.frames[run.begin()->first].index;
+      const EventKind kind = !object.found_at           ? EventKind::never_found
+                             : *object.found_at > first ? EventKind::found_late
+                                                        : EventKind::lost;
+      events.push_back(event_of(recording, kind, object.object, run));
+    }
+  }
+}
+
+// ---- False
+
+/// The false rebels of a frame that are in no list yet, in groups of those near each other.
+std::vector<std::vector<std::size_t>> groups_of(const FrameRecord& frame,
+                                                std::vector<std::size_t> corners) {
+  std::vector<std::vector<std::size_t>> groups;
+  while (!corners.empty()) {
+    std::vector<std::size_t> group{corners.back()};
+    corners.pop_back();
+    for (std::size_t next = 0; next < group.size(); ++next) {
+      const Eigen::Vector2f x = frame.corners_px[group[next]];
+      const auto near =
+          std::stable_partition(corners.begin(), corners.end(), [&](std::size_t other) {
+            return static_cast<double>((frame.corners_px[other] - x).norm()) > kGroupReach_px;
+          });
+      group.insert(group.end(), near, corners.end());
+      corners.erase(near, corners.end());
+    }
+    std::sort(group.begin(), group.end());
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+/// The moving object whose box is nearest; 0 for none.
+int nearest_mover(const FrameRecord& frame, const Box& box) {
+  int nearest = 0;
+  double least = 0;
+  for (const sim::ObjectTruth& truth : frame.object_truth) {
+    if (!truth.moving) continue;
+    const double d = distance(*box_of(frame, truth.object), box);
+    if (nearest == 0 || d < least) std::tie(nearest, least) = std::tuple(truth.object, d);
+  }
+  return nearest;
+}
+
+/// A false group, followed through the frames.
+struct Track {
+  Parts parts;
+  const Box& box() const { return parts.rbegin()->second.box; }
+};
+
+class FalseGroups {
+ public:
+  explicit FalseGroups(const Recording& recording) : recording_(recording) {}
+
+  void add_frame(std::size_t position, const std::vector<CornerOutcome>& outcomes) {
+    const FrameRecord& frame = recording_.frames[position];
+    std::vector<std::size_t> corners;
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      if (outcomes[i] == CornerOutcome::false_rebel) corners.push_back(i);
+    }
+    for (const Circle* circle : false_circles(frame)) {
+      Part part;
+      part.circles = 1;
+      const Vec2 reach(circle->radius, circle->radius);
+      part.box = {circle->location - reach, circle->location + reach};
+      std::erase_if(corners, [&](std::size_t i) {
+        const Vec2 x = frame.corners_px[i].cast<double>();
+        if ((x - circle->location).norm() > circle->radius) return false;
+        part.corners.push_back(i);
+        return true;
+      });
+      follow(position, std::move(part));
+    }
+    for (std::vector<std::size_t>& group : groups_of(frame, std::move(corners))) {
+      if (group.size() < kCornersToFind) continue;
+      Part part;
+      part.box = box_of(frame, group);
+      part.corners = std::move(group);
+      const Vec2 half = part.box.half_size();
+      if (has_mover_under(frame, part.box.centre(), half.norm())) {
+        Part& halo = halos_[nearest_mover(frame, part.box)][position];
+        halo.corners.insert(halo.corners.end(), part.corners.begin(), part.corners.end());
+      } else {
+        follow(position, std::move(part));
+      }
+    }
+  }
+
+  void finish(std::vector<Event>& events) {
+    for (const Track& track : tracks_) {
+      events.push_back(event_of(recording_, EventKind::false_alarm, 0, track.parts));
+    }
+    for (auto& [object, parts] : halos_) {
+      for (auto& [position, part] : parts) {
+        const FrameRecord& frame = recording_.frames[position];
+        part.box = box_of(frame, part.corners);
+        if (const auto box = box_of(frame, object)) part.box = joined(part.box, *box);
+      }
+      for (const Parts& run : runs_of(parts, [](const Part&) { return true; })) {
+        events.push_back(event_of(recording_, EventKind::halo, object, run));
+      }
+    }
+  }
+
+ private:
+  /// To the nearest track that is still there, or a new one.
+  void follow(std::size_t position, Part part) {
+    Track* nearest = nullptr;
+    for (Track& track : tracks_) {
+      const std::size_t last = track.parts.rbegin()->first;
+      if (position - last > kGap + 1) continue;
+      const double d = distance(track.box(), part.box);
+      if (d > kTrackReach_px) continue;
+      if (!nearest || d < distance(nearest->box(), part.box)) nearest = &track;
+    }
+    if (!nearest) nearest = &tracks_.emplace_back();
+    const auto [entry, is_new] = nearest->parts.try_emplace(position, part);
+    if (is_new) return;
+    Part& before = entry->second;
+    before.corners.insert(before.corners.end(), part.corners.begin(), part.corners.end());
+    before.circles += part.circles;
+    before.box = joined(before.box, part.box);
+  }
+
+  const Recording& recording_;
+  std::vector<Track> tracks_;
+  std::map<int, Parts> halos_;  // by object
+};
+
+}  // namespace
+
+const EventKindText& text_of(EventKind kind) {
+  return kKinds[static_cast<std::size_t>(kind)];
+}
+
+std::vector<Event> find_events(const Recording& recording, std::size_t most) {
+  if (recording.truth == Truth::unknown) return {};  // nobody can say what was wrong
+  const Outcomes outcomes = corner_outcomes(recording);
+  std::vector<Event> events;
+  find_missed(recording, outcomes, events);
+  FalseGroups groups(recording);
+  for (std::size_t k = 0; k < recording.frames.size(); ++k) {
+    if (recording.frames[k].index >= kSightings) groups.add_frame(k, outcomes[k]);
+  }
+  groups.finish(events);
+  const auto cost = [](const Event& event) { return std::tuple(event.corners, event.circles); };
+  std::stable_sort(events.begin(), events.end(),
+                   [&](const Event& a, const Event& b) { return cost(a) > cost(b); });
+  if (events.size() > most) events.resize(most);
+  return events;
+}
+
+}  // namespace lcs::bench

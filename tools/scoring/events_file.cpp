@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "tools/files/json_node.h"
+#include "tools/files/output_file.h"
+#include "tools/scoring/events.h"
+
+namespace lcs::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const EventView& view) {
+  return {{"frame", view.frame},
+          {"t_s", view.t_s},
+          {"x", view.centre_px.x()},
+          {"y", view.centre_px.y()},
+          {"half_width", view.half_size_px.x()},
+          {"half_height", view.half_size_px.y()},
+          {"jpeg_base64", view.jpeg_base64}};
+}
+
+Json json_of(const Event& event) {
+  Json json = {{"kind", text_of(event.kind).word},
+               {"first_frame", event.first_frame},
+               {"last_frame", event.last_frame},
+               {"object", event.object},
+               {"object_name", event.object_name},
+               {"corners", event.corners},
+               {"of", event.of},
+               {"circles", event.circles},
+               {"reasons", Json::object()},
+               {"views", Json::array()}};
+  for (const auto& [reason, corners] : event.reasons) {
+    json["reasons"][lcs::text_of(reason).word] = corners;
+  }
+  for (const EventView& view : event.views) json["views"].push_back(json_of(view));
+  return json;
+}
+
+template <class Enum>
+Enum enumerator_of(const JsonNode& node, const std::string& word, int count) {
+  for (int i = 0; i < count; ++i) {
+    if (text_of(static_cast<Enum>(i)).word == word) return static_cast<Enum>(i);
+  }
+  node.require(false, fmt::format("a word that is known here: '{}'", word));
+  return {};
+}
+
+EventView view_of(const JsonNode& node) {
+  EventView view;
+  view.frame = node["frame"].natural<int>();
+  view.t_s = node["t_s"].number();
+  view.centre_px = {node["x"].number(), node["y"].number()};
+  view.half_size_px = {node["half_width"].number(), node["half_height"].number()};
+  view.jpeg_base64 = node["jpeg_base64"].text();
+  return view;
+}
+
+Event event_of(const JsonNode& node) {
+  Event event;
+  event.kind = enumerator_of<EventKind>(node["kind"], node["kind"].text(),
+                                        static_cast<int>(EventKind::halo) + 1);
+  event.first_frame = node["first_frame"].natural<int>();
+  event.last_frame = node["last_frame"].natural<int>();
+  event.object = node["object"].natural<int>();
+  event.object_name = node["object_name"].text();
+  event.corners = node["corners"].natural<int>();
+  event.of = node["of"].natural<int>();
+  event.circles = node["circles"].natural<int>();
+  node["reasons"].each_entry([&](const std::string& word, const JsonNode& corners) {
+    event.reasons.emplace_back(
+        enumerator_of<Reason>(corners, word, static_cast<int>(kReasons.size())),
+        corners.natural<int>());
+  });
+  node["views"].each([&](const JsonNode& view) { event.views.push_back(view_of(view)); });
+  return event;
+}
+
+}  // namespace
+
+void write_events(const std::filesystem::path& file, const std::vector<Event>& events) {
+  Json list = Json::array();
+  for (const Event& event : events) list.push_back(json_of(event));
+  OutputFile out(file);
+  // A name may hold any bytes; JSON only UTF-8.
+  out.write(Json{{"events", list}}.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
+  out.close();
+}
+
+std::vector<Event> read_events(const std::filesystem::path& file) {
+  constexpr scenario::FileKind kEventsDocument{kMostJsonBytes, "run the scenario again"};
+  return read_json(file, kEventsDocument, [](const JsonNode& node) {
+    std::vector<Event> events;
+    node["events"].each([&](const JsonNode& event) { events.push_back(event_of(event)); });
+    return events;
+  });
+}
+
+std::string base64(std::string_view bytes) {
+  static constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t bits = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      bits = bits << 8 | (j < count ? static_cast<unsigned char>(bytes[i + j]) : 0u);
+    }
+    for (std::size_t j = 0; j < 4; ++j) {
+      text += j <= count ? kDigits[bits >> (18 - 6 * j) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+}  // namespace lcs::bench

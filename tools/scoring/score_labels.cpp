@@ -1,0 +1,105 @@
+#include "tools/scoring/score_labels.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "tools/recording/box.h"
+#include "tools/scoring/score_rebels.h"
+#include "tools/scoring/score_squares.h"
+#include "tools/scoring/scoring.h"
+
+namespace lcs::bench {
+namespace {
+
+constexpr double kMatch = 0.5;
+
+/// A corner at an outline lies as far outside of what it belongs to (FAST's circle), and hands are
+/// no more exact.
+constexpr double kReach_px = 3;
+
+struct Labelled {
+  Box box, reach;
+  bool ignored;
+};
+
+std::vector<Labelled> labelled(const FrameRecord& frame) {
+  std::vector<Labelled> all;
+  for (const LabelledBox& label : *frame.labels) {
+    const Box box = box_of(label);
+    const Vec2 reach = Vec2::Constant(kReach_px);
+    all.push_back({box, {box.min - reach, box.max + reach}, label.ignored});
+  }
+  return all;
+}
+
+bool in_any(const std::vector<Labelled>& labels, const Vec2& px) {
+  return std::any_of(labels.begin(), labels.end(),
+                     [&](const Labelled& label) { return label.reach.contains(px); });
+}
+
+std::vector<Vec2> rebel_corners(const FrameRecord& frame) {
+  std::vector<Vec2> corners;
+  for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
+    if (frame.verdicts[i] == Verdict::rebel) corners.push_back(frame.corners_px[i].cast<double>());
+  }
+  return corners;
+}
+
+bool is_off(const Circle& circle, const FrameRecord& frame, const std::vector<Labelled>& labels) {
+  if (in_any(labels, circle.location)) return false;
+  return std::none_of(frame.corners_px.begin(), frame.corners_px.end(),
+                      [&](const Eigen::Vector2f& corner) {
+                        const Vec2 px = corner.cast<double>();
+                        return (px - circle.location).norm() <= circle.radius && in_any(labels, px);
+                      });
+}
+
+/// A stranger's detector does not say of what its boxes are.
+bool may_move(const Square& square) {
+  return square.rebel_circles > 0 || square.circles == 0;
+}
+
+/// How many boxes have a square of their own; places in the lists settle ties.
+int count_boxed(const FrameRecord& frame, const std::vector<Labelled>& labels) {
+  std::vector<BoxPair> pairs;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i].ignored) continue;
+    for (std::size_t j = 0; j < frame.layers.squares.size(); ++j) {
+      const Square& square = frame.layers.squares[j];
+      const double iou = intersection_over_union(labels[i].box, box_of(square));
+      if (may_move(square) && iou >= kMatch) pairs.push_back({iou, static_cast<int>(i), j});
+    }
+  }
+  return static_cast<int>(one_to_one(std::move(pairs)).size());
+}
+
+}  // namespace
+
+LabelScore score_labels(const Recording& recording) {
+  LabelScore score;
+  for (const FrameRecord& frame : recording.frames) {
+    if (!frame.labels || frame.index < kSightings) continue;
+    ++score.frames;
+    const std::vector<Labelled> labels = labelled(frame);
+    const std::vector<Vec2> rebels = rebel_corners(frame);
+    for (const Labelled& label : labels) {
+      if (label.ignored) continue;
+      ++score.boxes;
+      score.found += std::count_if(rebels.begin(), rebels.end(), [&](const Vec2& px) {
+                       return label.reach.contains(px);
+                     }) >= kCornersToFind;
+    }
+    score.boxed += count_boxed(frame, labels);
+    score.rebels_off += static_cast<int>(std::count_if(
+        rebels.begin(), rebels.end(), [&](const Vec2& px) { return !in_any(labels, px); }));
+    const auto& circles = frame.layers.rebel_circles;
+    score.circles_off +=
+        static_cast<int>(std::count_if(circles.begin(), circles.end(), [&](const Circle& circle) {
+          return is_off(circle, frame, labels);
+        }));
+  }
+  return score;
+}
+
+}  // namespace lcs::bench

@@ -1,0 +1,146 @@
+#include "tools/scoring/score_squares.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "tools/recording/box.h"
+#include "tools/scoring/scoring.h"
+#include "tools/scoring/statistics.h"
+
+namespace lcs::bench {
+namespace {
+
+/// \name What makes a truth box one that a square can be asked to find.
+///@{
+constexpr int kMinArea_px2 = 400;
+constexpr int kMinCorners = 4;
+constexpr double kMinVisibleFraction = 0.5;
+///@}
+
+bool is_eligible(const sim::ObjectTruth& truth, const FrameRecord& frame) {
+  const int area = (truth.right - truth.left) * (truth.bottom - truth.top);
+  const auto corners =
+      std::count_if(frame.corner_truth.begin(), frame.corner_truth.end(),
+                    [&](const sim::CornerTruth& corner) { return corner.object == truth.object; });
+  return area >= kMinArea_px2 && corners >= kMinCorners &&
+         truth.visible_fraction >= kMinVisibleFraction;
+}
+
+/// What squares and objects of one frame have to do with each other, at any threshold.
+struct FrameSquares {
+  std::set<int> eligible;      ///< objects
+  std::vector<BoxPair> pairs;  ///< of eligible objects and squares, one to one, greedy: best first
+  std::vector<BoxPair> best_box;  ///< of each square, among all boxes; object 0 where none overlaps
+};
+
+FrameSquares compare(const FrameRecord& frame) {
+  FrameSquares result;
+  for (const sim::ObjectTruth& truth : frame.object_truth) {
+    if (is_eligible(truth, frame)) result.eligible.insert(truth.object);
+  }
+
+  std::vector<BoxPair> candidates;
+  for (const Square& square : frame.layers.squares) {
+    BoxPair best{0, 0, square.id};
+    for (const sim::ObjectTruth& truth : frame.object_truth) {
+      const double iou = intersection_over_union(box_of(truth), box_of(square));
+      const bool eligible = result.eligible.contains(truth.object);
+      if (iou > 0 && eligible) candidates.push_back({iou, truth.object, square.id});
+      if (iou > best.iou || (iou == best.iou && iou > 0 && eligible)) {
+        best = {iou, truth.object, square.id};
+      }
+    }
+    result.best_box.push_back(best);
+  }
+
+  result.pairs = one_to_one(std::move(candidates));
+  return result;
+}
+
+SquareCounts count(const FrameSquares& frame, double threshold) {
+  SquareCounts counts;
+  counts.boxes = static_cast<int>(frame.eligible.size());
+  std::set<Id> matched;
+  for (const BoxPair& pair : frame.pairs) {
+    if (pair.iou >= threshold) matched.insert(pair.square);
+  }
+  counts.matched = static_cast<int>(matched.size());
+  for (const BoxPair& best : frame.best_box) {
+    const bool on_other_object = best.iou >= threshold && !frame.eligible.contains(best.box);
+    counts.squares += matched.contains(best.square) || !on_other_object;
+  }
+  return counts;
+}
+
+void add(SquareCounts& sum, const SquareCounts& counts) {
+  sum.boxes += counts.boxes;
+  sum.matched += counts.matched;
+  sum.squares += counts.squares;
+}
+
+std::set<int> movers(const Recording& recording) {
+  std::set<int> result;
+  for (const FrameRecord& frame : recording.frames) {
+    for (const sim::ObjectTruth& truth : frame.object_truth) {
+      if (truth.moving) result.insert(truth.object);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs) {
+  std::sort(pairs.begin(), pairs.end(), [](const BoxPair& a, const BoxPair& b) {
+    return std::tuple(-a.iou, a.box, a.square) < std::tuple(-b.iou, b.box, b.square);
+  });
+  std::set<int> taken_boxes;
+  std::set<Id> taken_squares;
+  std::vector<BoxPair> matched;
+  for (const BoxPair& pair : pairs) {
+    if (taken_boxes.contains(pair.box) || taken_squares.contains(pair.square)) continue;
+    taken_boxes.insert(pair.box);
+    taken_squares.insert(pair.square);
+    matched.push_back(pair);
+  }
+  return matched;
+}
+
+std::optional<double> SquareCounts::recall() const {
+  return ratio(matched, boxes);
+}
+std::optional<double> SquareCounts::precision() const {
+  return ratio(matched, squares);
+}
+
+SquareScore score_squares(const Recording& recording) {
+  constexpr double kMiddle = 0.5;
+  SquareScore score;
+  const std::set<int> moving = movers(recording);
+  std::map<int, Id> last_square;  // of each object, where it was last matched
+  for (const FrameRecord& frame : recording.frames) {
+    if (frame.index < kSightings) continue;
+    const FrameSquares squares = compare(frame);
+    add(score.at_30, count(squares, 0.3));
+    add(score.at_50, count(squares, kMiddle));
+    add(score.at_70, count(squares, 0.7));
+    for (const int object : squares.eligible) {
+      ++(moving.contains(object) ? score.movers_50 : score.static_50).boxes;
+    }
+    for (const BoxPair& pair : squares.pairs) {
+      if (pair.iou < kMiddle) continue;
+      const bool mover = moving.contains(pair.box);
+      ++(mover ? score.movers_50 : score.static_50).matched;
+      (mover ? score.movers_iou : score.static_iou).push_back(pair.iou);
+      const auto [last, first_time] = last_square.try_emplace(pair.box, pair.square);
+      score.identity_switches += last->second != pair.square;
+      last->second = pair.square;
+    }
+  }
+  return score;
+}
+
+}  // namespace lcs::bench

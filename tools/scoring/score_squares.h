@@ -1,0 +1,45 @@
+/// \file
+/// How well squares cover the objects that are to be seen.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "tools/recording/recording.h"
+
+namespace lcs::bench {
+
+/// Counts at one threshold of IoU (intersection over union).
+struct SquareCounts {
+  int boxes = 0;    ///< eligible truth boxes
+  int matched = 0;  ///< of these
+  int squares = 0;  ///< right or wrong; those on objects that are not eligible are neither
+
+  std::optional<double> recall() const;
+  std::optional<double> precision() const;
+};
+
+/// A box and a square that overlap.
+struct BoxPair {
+  double iou = 0;
+  int box = 0;  ///< its object, or whatever else tells it from other boxes
+  Id square = 0;
+};
+
+/// Those that belong together: one to one, greedy, best first. Ids settle ties, so that the order
+/// in which pairs come does not matter.
+std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs);
+
+struct SquareScore {
+  SquareCounts at_30, at_50, at_70;
+  /// \name At 0.5, by whether the object moves at any time in the run.
+  ///@{
+  SquareCounts movers_50, static_50;  ///< their `squares` are 0: a wrong square is of neither kind
+  std::vector<double> movers_iou, static_iou;  ///< of matched pairs
+  ///@}
+  int identity_switches = 0;  ///< at 0.5
+};
+
+SquareScore score_squares(const Recording& recording);
+
+}  // namespace lcs::bench

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "scenarios/input_file.h"
+#include "tools/files/csv.h"
+#include "tools/scoring/figures_file.h"
+
+namespace lcs::bench {
+namespace {
+
+struct Column {
+  std::string_view name;
+  double FrameTimes::*time_ms;
+  bool may_lack = false;  ///< as in tables from before there was such a time
+};
+
+constexpr Column kColumns[] = {{"simulate_ms", &FrameTimes::simulate_ms},
+                               {"detect_ms", &FrameTimes::detect_ms},
+                               {"describe_ms", &FrameTimes::describe_ms, true},
+                               {"line_ms", &FrameTimes::line_ms},
+                               {"circle_ms", &FrameTimes::circle_ms},
+                               {"square_ms", &FrameTimes::square_ms},
+                               {"filter_ms", &FrameTimes::filter_ms},
+                               {"process_ms", &FrameTimes::process_ms, true},
+                               {"truth_ms", &FrameTimes::truth_ms}};
+
+/// The number of columns where there is none.
+std::size_t place_of(const std::vector<std::string_view>& header, std::string_view name) {
+  return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+}
+
+std::size_t column_of(const std::vector<std::string_view>& header, std::string_view name) {
+  const std::size_t place = place_of(header, name);
+  if (place == header.size()) throw std::runtime_error(fmt::format("has no column {}", name));
+  return place;
+}
+
+/// None where every time is empty; a stage that the detector does not have is empty, and 0.
+std::optional<FrameTimes> times_in(const std::vector<std::string_view>& header,
+                                   const std::vector<std::string_view>& row) {
+  FrameTimes times;
+  bool any = false;
+  for (const auto& [name, time_ms, may_lack] : kColumns) {
+    if (may_lack && place_of(header, name) == header.size()) continue;
+    const std::string_view text = row[column_of(header, name)];
+    if (text.empty()) continue;
+    const std::optional<double> ms = number_in<double>(text);
+    if (!ms) throw std::runtime_error(fmt::format("{} is '{}', not a number", name, text));
+    times.*time_ms = *ms;
+    any = true;
+  }
+  return any ? std::optional(times) : std::nullopt;
+}
+
+}  // namespace
+
+void read_times(const std::filesystem::path& frames_csv, Recording& recording) {
+  // Some 200 bytes a frame.
+  constexpr scenario::FileKind kFramesTable{
+      scenario::kGibibyte, "run the scenario again, or remove the file to have no times"};
+  scenario::InputFile file(frames_csv, kFramesTable);
+  std::string header_line, line;
+  file.next_line(header_line);
+  const std::vector<std::string_view> header = fields_of(header_line);
+  int number = 1;
+  try {
+    const std::size_t frame_column = column_of(header, "frame");
+    for (FrameRecord& frame : recording.frames) {
+      ++number;
+      if (!file.next_line(line)) {
+        throw std::runtime_error(fmt::format("the row of frame {} is missing", frame.index));
+      }
+      const std::vector<std::string_view> row = fields_of(line);
+      if (row.size() != header.size()) {
+        throw std::runtime_error(
+            fmt::format("has {} fields, the header {}", row.size(), header.size()));
+      }
+      if (number_in<int>(row[frame_column]) != frame.index) {
+        throw std::runtime_error(
+            fmt::format("is of frame '{}', and should be of {}", row[frame_column], frame.index));
+      }
+      frame.times = times_in(header, row);
+    }
+    ++number;
+    if (file.next_line(line)) {
+      throw std::runtime_error("there are more rows than the recording has frames");
+    }
+  } catch (const scenario::Error&) {
+    throw;  // the file itself
+  } catch (const std::runtime_error& error) {
+    throw scenario::Error({frames_csv.string(), number},
+                          fmt::format("{}; {}", error.what(), kFramesTable.remedy));
+  }
+}
+
+}  // namespace lcs::bench
