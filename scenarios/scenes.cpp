@@ -7,6 +7,8 @@
 #include <system_error>
 #include <utility>
 
+#include "scenarios/shipped.h"
+
 namespace lcs::scenario {
 
 namespace fs = std::filesystem;
@@ -55,7 +57,7 @@ const char* name_of(Shape shape) {
 }
 
 fs::path& shipped_scenes() {
-  static fs::path folder = LCS_SCENES_DIR;
+  static fs::path folder = shipped_folder("scenes");
   return folder;
 }
 

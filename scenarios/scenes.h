@@ -16,8 +16,8 @@ namespace lcs::scenario {
 /// The environment's LCS_SCENES, else the folder of those that ship.
 std::filesystem::path scenes_folder();
 
-/// Says where those that ship are, in place of `scenes/` of the source tree: for what is installed
-/// without that. To be called before anything else here.
+/// Says where those that ship are, in place of `shipped_folder`: for a module of another program.
+/// To be called before anything else here.
 void set_shipped_scenes(std::filesystem::path folder);
 
 /// \name Of one's own, or the one that ships with the project ("ego/wheeled.xml"): that of

@@ -1,10 +1,12 @@
 # Sourced by tools/run and tools/test. Brings the machine and build/ up to date:
 #   install_packages PACKAGE...   installs those that are missing, or says how and exits with 2
-#   build_release TARGET...       configures and builds the release preset
+#   build_release TARGET...       configures and builds the release preset, or that of $preset
 # Made for Debian 12, whose packages have the versions that the project is tested with.
 # shellcheck shell=bash
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+
+preset=release  # or ci, in the same folder
 
 # What building and running need. Without --no-install-recommends OpenCV brings a desktop along.
 packages=(
@@ -77,9 +79,10 @@ install_packages() {
 configure_release() {
   local ninja_file=$root/build/build.ninja cache=$root/build/CMakeCache.txt
   if [[ ! -f $ninja_file ]] || ! grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then
-    cmake --preset release --fresh
-  elif [[ $root/CMakePresets.json -nt $ninja_file ]]; then
-    cmake --preset release
+    cmake --preset "$preset" --fresh
+  elif [[ $root/CMakePresets.json -nt $ninja_file ]] ||
+    { [[ $preset == ci ]] && ! grep -qsx 'LCS_WERROR:.*=ON' "$cache"; }; then
+    cmake --preset "$preset"
   fi
 }
 

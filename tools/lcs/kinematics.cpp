@@ -4,6 +4,7 @@
 
 #include "scenarios/load.h"
 #include "scenarios/scenes.h"
+#include "scenarios/shipped.h"
 #include "tools/files/output_folder.h"
 #include "tools/kinematics/answer.h"
 #include "tools/kinematics/study.h"
@@ -68,8 +69,9 @@ CLI::App& add_kinematics_command(CLI::App& app, KinematicsOptions& options) {
 }
 
 ExitCode kinematics(const KinematicsOptions& options) {
-  const std::string file =
-      options.config.empty() ? LCS_SCENARIOS_DIR "/crossing.yaml" : options.config;
+  const std::filesystem::path file = options.config.empty()
+                                         ? scenario::shipped_folder("scenarios") / "crossing.yaml"
+                                         : std::filesystem::path(options.config);
   const kinematics::StudyConfig config = kinematics::configure(
       scenario::load(file, {.sets = options.sets, .seed = {}}),
       options.quick ? kinematics::Effort::quick() : kinematics::Effort::full());

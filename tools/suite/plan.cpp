@@ -10,6 +10,7 @@
 
 #include "scenarios/load.h"
 #include "scenarios/message.h"
+#include "scenarios/shipped.h"
 #include "scenarios/sweep.h"
 #include "tools/scoring/criteria.h"
 #include "tools/suite/pattern.h"
@@ -47,13 +48,13 @@ void add_folder(const fs::path& folder, std::vector<File>& files) {
   }
   std::sort(found.begin(), found.end());
   std::error_code error;
-  const bool is_own = fs::equivalent(folder, LCS_SCENARIOS_DIR, error);
+  const bool is_own = fs::equivalent(folder, scenario::shipped_folder("scenarios"), error);
   for (const fs::path& path : found) files.push_back({path, is_own});
 }
 
 /// Each once, whatever way it was named.
 std::vector<File> files_of(std::vector<fs::path> paths) {
-  if (paths.empty()) paths.push_back(LCS_SCENARIOS_DIR);
+  if (paths.empty()) paths.push_back(scenario::shipped_folder("scenarios"));
   std::vector<File> files;
   for (const fs::path& path : paths) {
     if (fs::is_directory(path)) {
