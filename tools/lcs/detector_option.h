@@ -10,7 +10,7 @@
 
 #include "scenarios/quantities.h"
 #include "tools/comparators/detectors.h"
-#include "tools/lcs/number_option.h"
+#include "tools/lcs/options.h"
 
 namespace lcs::tools {
 

@@ -18,9 +18,8 @@
 #include "tools/files/csv.h"
 #include "tools/files/output_folder.h"
 #include "tools/lcs/interrupt.h"
-#include "tools/lcs/number_option.h"
+#include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
-#include "tools/lcs/set_option.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
 #include "tools/recording/warnings.h"
@@ -175,7 +174,7 @@ CLI::App& add_generate_command(CLI::App& app, GenerateOptions& options) {
   add_integer_option(command, "--seeds", options.seeds,
                      "With --suite: sequences of each scenario; 1 if not given", 1, kMostSeeds)
       ->type_name("N");
-  command.add_flag("--quiet", options.quiet, "Print nothing but what went wrong");
+  add_quiet_option(command, options.quiet);
   command.footer(kHelp);
   return command;
 }

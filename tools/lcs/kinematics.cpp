@@ -10,8 +10,8 @@
 #include "tools/kinematics/study.h"
 #include "tools/kinematics/study_page.h"
 #include "tools/lcs/interrupt.h"
+#include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
-#include "tools/lcs/set_option.h"
 #include "tools/lcs/terminal.h"
 
 namespace lcs::tools {
@@ -59,11 +59,9 @@ CLI::App& add_kinematics_command(CLI::App& app, KinematicsOptions& options) {
           "Scenario file with the camera, rover and IMU; scenarios/crossing.yaml if not given")
       ->type_name("FILE");
   add_set_option(command, options.sets, "Set a value of the scenario, as \"camera.fovy=90 deg\"");
-  command.add_option("--out", options.out, "Folder for the results; out/kinematics if not given")
-      ->type_name("DIR");
+  add_out_option(command, options.out, "out/kinematics");
   command.add_flag("--quick", options.quick, "Fewer frames and seeds: a quarter of the time");
-  command.add_flag("--quiet", options.quiet,
-                   "Print neither progress nor the answer, only what went wrong");
+  add_quiet_option(command, options.quiet);
   command.footer(kHelp);
   return command;
 }

@@ -15,7 +15,7 @@
 #include "sim/simulation.h"
 #include "tools/files/output_folder.h"
 #include "tools/lcs/interrupt.h"
-#include "tools/lcs/number_option.h"
+#include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
 #include "tools/lcs/terminal.h"
 #include "tools/likeness/measure.h"
@@ -158,10 +158,8 @@ CLI::App& add_likeness_command(CLI::App& app, LikenessOptions& options) {
   add_integer_option(command, "--pairs", options.pairs,
                      "Pairs of pictures of each run; 12 if not given", 1, 10'000)
       ->type_name("N");
-  command.add_option("--out", options.out, "Folder for the results; out/likeness if not given")
-      ->type_name("DIR");
-  command.add_flag("--quiet", options.quiet,
-                   "Print neither progress nor the table, only what went wrong");
+  add_out_option(command, options.out, "out/likeness");
+  add_quiet_option(command, options.quiet);
   command.footer(kHelp);
   return command;
 }

@@ -11,8 +11,8 @@
 #include "tools/files/csv.h"
 #include "tools/files/output_file.h"
 #include "tools/lcs/detector_option.h"
+#include "tools/lcs/options.h"
 #include "tools/lcs/run.h"
-#include "tools/lcs/set_option.h"
 #include "tools/lcs/terminal.h"
 #include "tools/replay/recorded.h"
 
@@ -220,19 +220,15 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
           "--preset", options.preset,
           "Parameters of the filter: default, night, hypotheses, or the paper's lab or cars")
       ->type_name("NAME");
-  add_set_option(command, options.sets,
-                 "Set a parameter of the filter, as hypotheses.prior=0.05");
+  add_set_option(command, options.sets, "Set a parameter of the filter, as hypotheses.prior=0.05");
   add_beside_option(command, options.beside);
-  command.add_option("--out", options.out, "Folder for the results; out/<recording> if not given")
-      ->type_name("DIR");
+  add_out_option(command, options.out, "out/<recording>");
   command
       .add_option("--write", options.write,
                   "Write the scenario that the options make to this file, and run nothing")
       ->type_name("FILE");
-  command.add_flag("--no-video", options.no_video, "Write no video.mp4");
-  command.add_flag("--events", options.events, "Write events.json, as lcs run does");
-  command.add_flag("--quiet", options.quiet,
-                   "Print neither progress nor figures, only what went wrong");
+  add_result_options(command, options.no_video, options.events);
+  add_quiet_option(command, options.quiet);
   command.footer(kHelp);
   return command;
 }

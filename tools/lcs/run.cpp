@@ -20,9 +20,8 @@
 #include "tools/comparators/detectors.h"
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/interrupt.h"
-#include "tools/lcs/number_option.h"
+#include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
-#include "tools/lcs/set_option.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
 #include "tools/output/result.h"
@@ -257,8 +256,7 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
   command.add_option("SCENARIO", options.scenario, "The scenario, a YAML file")
       ->required()
       ->type_name("");
-  command.add_option("--out", options.out, "Folder for the results; out/<scenario> if not given")
-      ->type_name("DIR");
+  add_out_option(command, options.out, "out/<scenario>");
   add_seed_option(command, options.seed);
   command.add_option("--frames", options.frames, "Frames to run, instead of the scenario's")
       ->type_name("N");
@@ -279,13 +277,10 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
       ->type_name("FILE")
       ->needs(recorded)
       ->excludes(command.get_option("--detector-command"));
-  command.add_flag("--no-video", options.no_video, "Write no video.mp4");
-  command.add_flag("--events", options.events,
-                   "Write events.json: where rebels were missed or false, why, and pictures of it");
+  add_result_options(command, options.no_video, options.events);
   command.add_flag("--report", options.report,
                    "Write report.html too, a page of the run with its video, and events.json");
-  command.add_flag("--quiet", options.quiet,
-                   "Print neither progress nor figures, only what went wrong");
+  add_quiet_option(command, options.quiet);
   command.footer(kHelp);
   return command;
 }

@@ -6,6 +6,7 @@
 
 #include "scenarios/message.h"
 #include "tools/lcs/interrupt.h"
+#include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
 #include "tools/output/table.h"
 #include "tools/recording/detections.h"
@@ -103,7 +104,7 @@ CLI::App& add_score_command(CLI::App& app, ScoreOptions& options) {
       .add_option("--write-detections", options.write_detections,
                   "Write the verdicts and boxes that are scored to this CSV file")
       ->type_name("FILE");
-  command.add_flag("--quiet", options.quiet, "Print nothing but what went wrong");
+  add_quiet_option(command, options.quiet);
   command.footer(kHelp);
   return command;
 }

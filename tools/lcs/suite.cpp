@@ -19,8 +19,7 @@
 #include "tools/files/output_folder.h"
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/interrupt.h"
-#include "tools/lcs/number_option.h"
-#include "tools/lcs/set_option.h"
+#include "tools/lcs/options.h"
 #include "tools/lcs/suite_progress.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
@@ -260,8 +259,7 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
       ->type_name("NAME")
       ->allow_extra_args(false);
   add_set_option(command, options.sets, "Set a value in every scenario, as \"camera.rate=5 Hz\"");
-  command.add_option("--out", options.out, "Folder for the results; out/suite if not given")
-      ->type_name("DIR");
+  add_out_option(command, options.out, "out/suite");
   CLI::Option* baseline =
       command
           .add_option("--baseline", options.baseline,
@@ -273,8 +271,7 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
       ->needs(baseline);
   command.add_flag("--worst-first", options.worst_first, "Sort the table by F1");
   command.add_flag("--list", options.list, "Only list what would be run");
-  command.add_flag("--quiet", options.quiet,
-                   "Print neither progress nor the table, only what went wrong");
+  add_quiet_option(command, options.quiet);
   command.footer(kHelp);
   return command;
 }

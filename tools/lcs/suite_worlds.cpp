@@ -9,7 +9,7 @@
 
 #include "tools/files/output_file.h"
 #include "tools/lcs/interrupt.h"
-#include "tools/lcs/number_option.h"
+#include "tools/lcs/options.h"
 #include "tools/output/frame_pictures.h"
 #include "tools/recording/recording_io.h"
 #include "tools/report/worlds_page.h"

@@ -9,7 +9,7 @@
 #include "tools/files/output_file.h"
 #include "tools/files/output_folder.h"
 #include "tools/lcs/interrupt.h"
-#include "tools/lcs/number_option.h"
+#include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
 #include "tools/sequence/png.h"
 #include "tools/worlds/sheet.h"
@@ -60,7 +60,7 @@ CLI::App& add_world_command(CLI::App& app, WorldOptions& options) {
       ->type_name("DIR");
   command.add_flag("--sheet", options.sheet,
                    "Write sheet.png too: first, middle and last picture, and the plan from above");
-  command.add_flag("--quiet", options.quiet, "Print nothing but what went wrong");
+  add_quiet_option(command, options.quiet);
   command.footer(kHelp);
   return command;
 }

@@ -1,5 +1,6 @@
 /// \file
-/// Numbers on the command line, read as those of a scenario are: all of the text, in range.
+/// Options that several sub-commands have. Numbers are read as those of a scenario are: all of the
+/// text, in range.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -74,6 +75,44 @@ inline CLI::Option* add_quantities_option(CLI::App& command, const std::string& 
           about)
       ->delimiter(',')
       ->expected(count);
+}
+
+/// Of every option and argument of every sub-command: nothing between quotes is a slip, as of a
+/// variable of a shell that is not set, and not the same as an option that is not given.
+inline void refuse_empty_options(CLI::App& app) {
+  const auto complaint = [](const std::string& text) -> std::string {
+    return text.empty() ? "is given without a value; give one, or leave it out" : "";
+  };
+  for (CLI::App* command : app.get_subcommands({})) {
+    for (CLI::Option* option : command->get_options()) {
+      if (option->get_items_expected_max() > 0) option->check(complaint, "");
+    }
+  }
+}
+
+/// One setting behind each `--set`, so that what follows it is not taken for another.
+inline void add_set_option(CLI::App& command, std::vector<std::string>& sets,
+                           const std::string& about) {
+  command.add_option("--set", sets, about + "; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+/// \param otherwise the folder of the results where none is given.
+inline void add_out_option(CLI::App& command, std::string& out, const std::string& otherwise) {
+  command.add_option("--out", out, "Folder for the results; " + otherwise + " if not given")
+      ->type_name("DIR");
+}
+
+/// What a run leaves beside its figures.
+inline void add_result_options(CLI::App& command, bool& no_video, bool& events) {
+  command.add_flag("--no-video", no_video, "Write no video.mp4");
+  command.add_flag("--events", events,
+                   "Write events.json: where rebels were missed or false, why, and pictures of it");
+}
+
+inline void add_quiet_option(CLI::App& command, bool& quiet) {
+  command.add_flag("--quiet", quiet, "Print nothing but what went wrong");
 }
 
 }  // namespace lcs::tools
