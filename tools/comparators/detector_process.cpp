@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +16,7 @@
 #include <utility>
 
 #include "scenarios/message.h"
+#include "tools/process/child.h"
 
 namespace lcs::comparators {
 namespace {
@@ -30,21 +30,8 @@ constexpr std::size_t kMostAnswer = 64U << 20U;
 constexpr std::size_t kMostStderr = 1U << 16U;
 constexpr std::size_t kMostLines = 8;  // of stderr that are told
 
-constexpr int kCannotStart = 127;  // as a shell has it
-
 [[noreturn]] void fail(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
-}
-
-/// In the child, up to and with exec; does nothing that a forked process may not.
-[[noreturn]] void become(const char* command, int in, int out, int err, pid_t parent) {
-  ::setpgid(0, 0);
-  // However the parent ends, the program does not stay behind.
-  if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || ::getppid() != parent) ::_exit(kCannotStart);
-  const bool is_plugged = ::dup2(in, STDIN_FILENO) >= 0 && ::dup2(out, STDOUT_FILENO) >= 0 &&
-                          ::dup2(err, STDERR_FILENO) >= 0;
-  if (is_plugged) ::execl("/bin/sh", "sh", "-c", command, static_cast<char*>(nullptr));
-  ::_exit(kCannotStart);
 }
 
 /// For a shell, which a single program takes the place of: what ends the shell then ends it.
@@ -120,12 +107,9 @@ DetectorProcess::DetectorProcess(const std::string& command, double timeout_s,
   }
   ::fcntl(in_.get(), F_SETPIPE_SZ, 1 << 20);  // pictures go faster; it is no matter if not
 
-  const pid_t self = ::getpid();
-  const std::string line = for_shell(command);
-  pid_ = ::fork();
-  if (pid_ == 0) become(line.c_str(), its_in.get(), its_out.get(), its_err.get(), self);
-  if (pid_ < 0) fail("fork");
-  ::setpgid(pid_, pid_);  // by whoever of the two comes first
+  const std::array<std::string, 3> shell{"sh", "-c", for_shell(command)};
+  pid_ = process::start_child("/bin/sh", shell, {its_in.get(), its_out.get(), its_err.get()},
+                              {.when_parent_ends = SIGKILL, .own_group = true});
 }
 
 DetectorProcess::~DetectorProcess() {

@@ -1,10 +1,8 @@
 #include "tools/suite/child_process.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,6 +16,8 @@
 #include <system_error>
 #include <thread>
 
+#include "tools/process/child.h"
+
 namespace lcs::suite {
 namespace {
 
@@ -27,26 +27,6 @@ using namespace std::chrono_literals;
 constexpr auto kPollPeriod = 10ms;
 constexpr auto kPatience = 10s;
 constexpr off_t kMostErr = 1 << 16;
-
-constexpr int kCannotStart = 127;  // as a shell has it
-
-int require(int result, const char* what) {
-  if (result < 0) throw std::system_error(errno, std::generic_category(), what);
-  return result;
-}
-
-/// In the child, up to and with exec; does nothing that a forked process may not.
-[[noreturn]] void become(char* const* arguments, int err, pid_t parent) {
-  // However the parent ends, none of its children stays behind.
-  if (::prctl(PR_SET_PDEATHSIG, SIGTERM) != 0 || ::getppid() != parent) ::_exit(kCannotStart);
-  const int in = ::open("/dev/null", O_RDONLY), out = ::open("/dev/null", O_WRONLY);
-  const bool is_plugged = ::dup2(in, STDIN_FILENO) >= 0 && ::dup2(out, STDOUT_FILENO) >= 0 &&
-                          ::dup2(err, STDERR_FILENO) >= 0;
-  if (!is_plugged) ::_exit(kCannotStart);
-  // Not a path that a rebuild may replace meanwhile.
-  ::execv("/proc/self/exe", arguments);
-  ::_exit(kCannotStart);
-}
 
 std::string read_end(int file) {
   struct stat status = {};
@@ -87,18 +67,18 @@ std::vector<std::string> warnings_of(const Exit& exit) {
 }
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
-  std::vector<char*> argv{const_cast<char*>("lcs")};
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-
-  err_ = require(::memfd_create("stderr", MFD_CLOEXEC), "memfd_create");
-  const pid_t self = ::getpid();
-  pid_ = ::fork();
-  if (pid_ == 0) become(argv.data(), err_, self);
-  if (pid_ > 0) return;
-  const int error = errno;
-  ::close(err_);
-  throw std::system_error(error, std::generic_category(), "fork");
+  std::vector<std::string> command{"lcs"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  err_ = ::memfd_create("stderr", MFD_CLOEXEC);
+  if (err_ < 0) throw std::system_error(errno, std::generic_category(), "memfd_create");
+  try {
+    // Not a path that a rebuild may replace meanwhile.
+    pid_ = process::start_child("/proc/self/exe", command, {.err = err_},
+                                {.when_parent_ends = SIGTERM});
+  } catch (const std::system_error&) {
+    ::close(err_);
+    throw;
+  }
 }
 
 ChildProcess::~ChildProcess() {
