@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -48,15 +49,6 @@ void paint_shot(const Shot& shot, cv::Mat3b tile) {
   }
   write_on(inside, fmt::format("frame {}", shot.frame), {6, size.height - 8});
 }
-
-/// The part of a world that a plan shows.
-struct Extent {
-  Vector2d low = Vector2d::Constant(1e9), high = Vector2d::Constant(-1e9);
-  void add(const Vector2d& point) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-};
 
 /// What stands in a world, seen from above.
 std::vector<Box> walls_of(const World& world) {
@@ -124,14 +116,14 @@ cv::Mat3b plan(const World& world) {
   const scenario::Camera& camera = world.scenario.camera;
   const std::vector<Box> walls = walls_of(world);
 
-  Extent all, shown;
+  Eigen::AlignedBox2d all, shown;
   const auto add_box = [&](const Box& box) {
-    for (const auto& [x, y] : kCorners) all.add(point_of(box, x, y, 0).head<2>());
+    for (const auto& [x, y] : kCorners) all.extend(point_of(box, x, y, 0).head<2>());
   };
   for (const Box& wall : walls) add_box(wall);
   for (const Stand& stand : way.frames) {
-    shown.add(stand.at_m);
-    shown.add(stand.at_m + kAhead_m * towards(stand.heading_rad));
+    shown.extend(stand.at_m);
+    shown.extend(stand.at_m + kAhead_m * towards(stand.heading_rad));
   }
   struct Standing {
     Box box;
@@ -145,15 +137,15 @@ cv::Mat3b plan(const World& world) {
     if (const scenario::Actor* actor = actor_of(world, body)) {
       thing.path = path_of(*actor, thing.box, way);
     }
-    for (const Vector2d& point : thing.path) shown.add(point);
+    for (const Vector2d& point : thing.path) shown.extend(point);
   }
-  all.add(shown.low);
-  all.add(shown.high);
-  shown.low = (shown.low - Vector2d::Constant(kAround_m)).cwiseMax(all.low);
-  shown.high = (shown.high + Vector2d::Constant(kAround_m)).cwiseMin(all.high);
+  all.extend(shown);
+  shown.min().array() -= kAround_m;
+  shown.max().array() += kAround_m;
+  shown.clamp(all);
 
   cv::Mat3b tile(kHeight, kWidth, cv::Vec3b(255, 255, 255));
-  const Vector2d middle = (shown.low + shown.high) / 2, size = shown.high - shown.low;
+  const Vector2d middle = shown.center(), size = shown.sizes();
   const double scale = std::min((kWidth - 2 * kMargin_px) / std::max(size.x(), 1.0),
                                 (kHeight - 2 * kMargin_px) / std::max(size.y(), 1.0));
   const auto pixel = [&](const Vector2d& p) {
