@@ -1,6 +1,6 @@
 /// \file
-/// What is true of a frame, and of a corner or an object in it. Definitions: `scoring.md` of the
-/// project's design, restated here.
+/// What is true of a frame, and of a corner or an object in it. What figures are made of it:
+/// `tools/scoring/SCORING.md`.
 #pragma once
 
 #include <Eigen/Core>
