@@ -44,7 +44,7 @@ warn_unless_debian_12() {
   # shellcheck source=/dev/null
   [[ -r /etc/os-release ]] && . /etc/os-release
   [[ $ID == debian && $VERSION_ID == 12 ]] ||
-    say "This is made for Debian 12 and untested on $PRETTY_NAME; trying all the same."
+    say "This is made for Debian 12, and not tested as a whole on $PRETTY_NAME; trying all the same."
 }
 
 install_packages() {

@@ -72,7 +72,7 @@ class WithoutPipeSignal {
 };
 
 /// The beginning of what was said out of turn.
-std::string quoted(const std::string& text) {
+std::string beginning_of(const std::string& text) {
   constexpr std::size_t kMost = 60;
   return fmt::format("'{}'{}", text.substr(0, std::min(text.find('\n'), kMost)),
                      text.size() > kMost ? "..." : "");
@@ -135,7 +135,7 @@ std::string DetectorProcess::ask(std::string_view line, std::span<const unsigned
   if (!answers_.empty()) {
     throw DetectorError(fmt::format(
         "it wrote {} before this was asked; write one line for each frame, and nothing else",
-        quoted(answers_)));
+        beginning_of(answers_)));
   }
   std::string_view picture(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   while (true) {
@@ -181,7 +181,7 @@ void DetectorProcess::finish() {
   if (!answers_.empty()) {
     throw DetectorError(fmt::format(
         "it wrote {} after its last answer; write one line for each frame, and nothing else",
-        quoted(answers_)));
+        beginning_of(answers_)));
   }
   if (!has_ended()) {
     throw DetectorError(with_stderr(fmt::format(
