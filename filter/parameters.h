@@ -56,13 +56,10 @@ struct HypothesisParameters {
   double noise_px = 0.6;  ///< standard deviation of a corner's place on an axis: whole pixels, FAST
   double prior = 0.03;    ///< share of corners that move
   double turnover_ps = 1;       ///< 1/s: how often a corner changes its kind, or a track its corner
-  double wrong_first = 0.15;    ///< share of first matches that are none
-  double wrong = 0.05;          ///< and of later ones
+  double wrong = 0.05;          ///< share of matches that are none
   double ego_share = 0.02;      ///< of the image motion by which the camera's velocity may be wrong
   double acceleration_ps = 1;   ///< 1/s: share of its image velocity by which a mover changes it
-  double max_speed_pxps = 600;  ///< px/s: the fastest that a mover is looked for, the rotation
-                                ///< removed,
-  double reach_px = 60;         ///< px: and the farthest in a frame
+  double max_speed_pxps = 900;  ///< px/s: the fastest that a mover is looked for, rotation removed
   int coast = 3;                ///< frames that a track goes on unseen
   double bits_same = 30;        ///< that differ between two signatures of one place,
   double bits_other = 125;      ///< of two places,
@@ -70,10 +67,9 @@ struct HypothesisParameters {
   int voters = 8;               ///< neighbours that are asked about a match
   double voters_reach_px = 40;  ///< px: and how far they are, at the most
   double voters_share = 0.5;    ///< of them that are found again beside it where it is right
-  double step_share = 0.08;     ///< by which the steps of neighbours may differ
+  double step_share = 0.1;      ///< by which the steps of neighbours may differ
   double coupling = 8;          ///< J: what those round a corner count at the most, log odds
   double coupling_reach_px = 25;  ///< px: where it has fallen to 0.6
-  double first_log_odds = 0.4;    ///< of a corner that no track has, before those round it count
 };
 
 /// Circle expert: edges, alpha, circles.

@@ -15,12 +15,8 @@ namespace {
 constexpr double kClutterReach_px = 40;
 /// Of a corner's pairs so many are asked about.
 constexpr std::size_t kMostPairs = 60;
-/// Share of a track's sightings that may be anywhere within reach.
-constexpr double kAnywhere = 0.1;
 /// Standard deviations of a step beyond which a neighbour does not agree.
 constexpr double kFarStep = 2.5;
-/// ln of the ratio that signatures give at the most.
-constexpr double kMostLikeness = 4;
 
 }  // namespace
 
@@ -31,19 +27,19 @@ Association::Association(const HypothesisParameters& parameters) : parameters_(p
           (std::max<double>(bits, parameters_.bits_same) - mean) / parameters_.bits_spread;
       return z * z;
     };
-    likeness_[bits] = std::min(kMostLikeness, 0.5 * (deviation2(parameters_.bits_other) -
-                                                     deviation2(parameters_.bits_same)));
+    likeness_[bits] =
+        0.5 * (deviation2(parameters_.bits_other) - deviation2(parameters_.bits_same));
   }
 }
 
 double Association::reach_px(double dt_s) const {
-  return std::min(parameters_.reach_px, parameters_.max_speed_pxps * dt_s);
+  return parameters_.max_speed_pxps * dt_s;
 }
 
 void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, double noise2_px2,
                              double dt_s) {
   const double reach = reach_px(dt_s);
-  const double anywhere = 1 / (std::numbers::pi * reach * reach);
+  const double anywhere = 1 / (std::numbers::pi * reach * reach), wrong = parameters_.wrong;
   const bool looks = !chi.signatures.empty();
   places_.clear();
   for (const Track& track : predicted) places_.push_back(track.place_px);
@@ -67,7 +63,7 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
       const double still = track.as_static.density(x, noise2_px2);
       const double moving = track.has_motion() ? track.as_moving.density(x, noise2_px2) : anywhere;
       const double density =
-          (1 - kAnywhere) * ((1 - moves) * still + moves * moving) + kAnywhere * anywhere;
+          (1 - wrong) * ((1 - moves) * still + moves * moving) + wrong * anywhere;
       pairs_.push_back(
           {t, x - track.place_px, likeness, std::log(density / clutter_.back()) + likeness});
     });

@@ -16,9 +16,7 @@ constexpr double kFar = 2;
 /// What the sum of weights must exceed before those round a corner speak with full voice.
 constexpr double kVoice = 0.5;
 /// px: by which two motions of one body may differ, at the least.
-constexpr double kAlike_px = 1;
-/// Share of the longer one by which they may.
-constexpr double kAlikeShare = 0.2;
+constexpr double kAlike_px = 0.5;
 
 }  // namespace
 
@@ -27,7 +25,8 @@ double Coupling::weight(const Node& of, const Node& other, double distance2_px2)
   double exponent = distance2_px2 / (reach * reach);
   if (of.has_motion) {
     const double longer2 = std::max(of.step_px.squaredNorm(), other.step_px.squaredNorm());
-    const double variance = kAlike_px * kAlike_px + kAlikeShare * kAlikeShare * longer2 +
+    const double share = parameters_.step_share;
+    const double variance = kAlike_px * kAlike_px + share * share * longer2 +
                             of.step_variance_px2 + other.step_variance_px2;
     exponent += (of.step_px - other.step_px).squaredNorm() / variance;
   }

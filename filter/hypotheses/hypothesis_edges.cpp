@@ -14,8 +14,6 @@ namespace {
 
 /// Sightings after which a track says what the told motion is off by.
 constexpr int kKnownSightings = 3;
-/// Share of them that are another's.
-constexpr double kWrongWitness = 0.1;
 
 /// A static point's images that are shorter than this share of the noise are one place.
 constexpr double kPlace = 0.3;
@@ -63,7 +61,7 @@ std::optional<MotionFix> HypothesisEdges::fix(const MotionField& told, const Chi
   if (predicted_.empty()) return std::nullopt;
   residuals_.clear();
   const double reach = association_.reach_px(told.dt_s());
-  const double anywhere = kWrongWitness / (kPi * reach * reach);
+  const double anywhere = 1 / (kPi * reach * reach);
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (track_of[c] < 0) continue;
     const Track& track = predicted_[track_of[c]];
@@ -133,8 +131,7 @@ bool HypothesisEdges::see(Track& track, const Vec2& x_px, const MotionField& fie
   }
   const double still = seen.see(x_px, noise2_px2, bounds);
   const double reach = association_.reach_px(field.dt_s());
-  const double wrong = track.has_motion() ? parameters_.wrong : parameters_.wrong_first;
-  const double clutter = wrong / (kPi * reach * reach), right = 1 - wrong;
+  const double right = 1 - parameters_.wrong, clutter = parameters_.wrong / (kPi * reach * reach);
   // What a sighting adds to the log odds: a match may be none, and then it may be anywhere.
   const auto evidence = [&](double moving) {
     return std::log((right * moving + clutter) / (right * still + clutter));
@@ -182,7 +179,7 @@ void HypothesisEdges::couple(const MotionField& field) {
   for (const Track& track : tracks_) {
     if (track.corner < 0) break;
     const bool moves = track.has_motion();
-    nodes_.push_back({track.place_px, moves ? track.log_odds : parameters_.first_log_odds, moves,
+    nodes_.push_back({track.place_px, moves ? track.log_odds : 0, moves,
                       track.as_moving.velocity_pxps * field.dt_s(),
                       track.as_moving.step_variance_px2(field.dt_s())});
   }

@@ -401,9 +401,7 @@ TEST(Association, WhatNeighboursAgreeOnGoesBeforeANearerChanceMatch) {
 TEST(Association, ReachesNoFartherThanTheFastest) {
   HypothesisParameters parameters = kUsual;
   parameters.max_speed_pxps = 600;
-  parameters.reach_px = 60;
   EXPECT_DOUBLE_EQ(Association(parameters).reach_px(0.02), 12);
-  EXPECT_DOUBLE_EQ(Association(parameters).reach_px(1), 60);
   const std::vector<Track> tracks = {track_at({300, 200})};
   const Signature same{};
   Track fast = tracks[0];
