@@ -435,15 +435,15 @@ TEST(Coupling, OfTwoNodesIsTheSumByHand) {
   EXPECT_NEAR(m[0], 24.0973, 1e-3);
   EXPECT_NEAR(m[1], 3.3851, 1e-3);
   EXPECT_EQ(coupling.model_of(1), 0);
-  // 6 px apart in their steps, of which 1 + (0.2 * 6)^2 = 2.44 px^2 is nothing: w = exp(-1/2 (1 +
-  // 36 / 2.44)) = 0.00038, which is left out.
+  // 6 px apart in their steps, of which 0.5^2 + (0.1 * 6)^2 = 0.61 px^2 is nothing: w = exp(-1/2 (1 +
+  // 36 / 0.61)) = 1e-13, which is left out.
   m = coupling.settle(std::vector{node(100, 20), node(125, -1, {6, 0})});
   EXPECT_EQ(m[1], -1);
   EXPECT_EQ(coupling.model_of(1), -1);
-  // 1 px apart in their steps: w = exp(-1/2 (1 + 1 / 1.04)) = 0.37502, and 8 w / (1/2 + w)
-  // = 3.4287.
+  // 1 px apart in their steps: w = exp(-1/2 (1 + 1 / 0.26)) = 0.08864, and 8 w / (1/2 + w)
+  // = 1.2047.
   m = coupling.settle(std::vector{node(100, 20), node(125, -1, {1, 0})});
-  EXPECT_NEAR(m[1], 2.4287, 1e-3);
+  EXPECT_NEAR(m[1], 0.2047, 1e-3);
 }
 
 TEST(Coupling, ADoubtfulNodeAmongSureOnesTakesTheirs) {
