@@ -76,8 +76,11 @@ cv::Mat3b draw_field(const FieldFrame& frame) {
     return panel.with_caption(fmt::format("frame {}: {}  {} corners, motion x{:g}", frame.index,
                                           what, arrows.size(), gain));
   };
+  const cv::Mat3b fixed =
+      draw(frame.fixed, kTrue, "fixed: true (green), predicted by own V (yellow).");
+  if (frame.moving.empty()) return fixed;
   cv::Mat3b both;
-  cv::hconcat(draw(frame.fixed, kTrue, "fixed: true (green), predicted by own V (yellow)."),
+  cv::hconcat(fixed,
               draw(frame.moving, kTrueMoving, "movers: true (red), predicted as fixed (yellow)."),
               both);
   return both;

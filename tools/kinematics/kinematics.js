@@ -47,9 +47,12 @@ const section = (title, text, ...content) => el('section', null, el('h2', null, 
 function answers() {
   const body = el('tbody', null, ...data.statements.map((s, i) => el('tr', null,
     el('td', { class: 'left' }, i > 0 && data.statements[i - 1].topic === s.topic ? '' : s.topic),
-    el('td', { class: 'left' }, s.text))));
+    el('td', { class: 'left' }, s.text),
+    el('td', { class: 'left' }, s.verdict && el('span', { class: 'badge ' + (s.verdict.startsWith('yes') ? 'met' : 'unmet') },
+      s.verdict.split(':')[0]), s.verdict.replace(/^\w+:/, '')))));
   const figures = rows('answer');
-  return section('The answer', '', el('table', null, body),
+  return section('The answer', '', el('table', null,
+    el('thead', null, el('tr', null, ...['', '', 'within ' + data.tolerance_px + ' px?'].map((t) => el('th', { class: 'left' }, t)))), body),
     el('details', null, el('summary', null, 'Each figure beside what theory expects'),
       el('div', { class: 'scroll' }, el('table', null,
         el('thead', null, el('tr', null, ...['figure', 'measured', 'expected', 'unit'].map((t) => el('th', null, t)))),
@@ -61,9 +64,9 @@ const figure = (value) => isNumber(value) ? (value !== 0 && Math.abs(value) < 0.
 
 function field() {
   if (!data.field_png) return null;
-  return section('The field', 'How corners move until the next frame, and how the model says they do: left what is '
-    + 'fixed, each with the V it has learnt; right what moves, predicted as if it stood still. The cross is the focus '
-    + 'of expansion.', el('img', { src: 'data:image/png;base64,' + data.field_png, style: 'width:100%',
+  return section('The field', 'How corners move until the next frame, and how the model says they do: what is '
+    + 'fixed, each with the V it has learnt' + (data.has_movers ? '; right what moves, predicted as if it stood still' : '')
+    + '. The cross is the focus of expansion.', el('img', { src: 'data:image/png;base64,' + data.field_png, style: 'width:100%',
       alt: 'true and predicted motion over a rendered frame' }));
 }
 
@@ -93,7 +96,8 @@ function translation() {
   const byDepth = DEPTHS.map(([key, name, style]) => ({ name, style, where: { depth: key } }));
   const byRotation = ROTATIONS.map(([key, name, style]) => ({ name, style, where: { rotation: key } }));
   return section('Driving', 'Median end-point error, px. The step of the camera in a frame, speed / rate, is a share of '
-    + 'the depth; below, at the nominal speed and while panning by 1 deg, over the distance from the focus of expansion.',
+    + 'the depth; a step that brings points to the reference depth of ' + data.reference_depth_m + ' m '
+    + 'makes it right by chance, and its error dives. Below, at the nominal speed and while panning by 1 deg, over the distance from the focus of expansion.',
     plots(bySource({ points: 'rendered' }, 'rendered corners'),
       ...depths.slice(0, 5).map((m) => bySource({ points: 'geometric', depth_m: m }, 'points at ' + m + ' m')),
       ...['geometric', 'rendered'].flatMap((points) => [
@@ -103,11 +107,11 @@ function translation() {
 
 function focal() {
   const styles = { pan: 's1', tilt: 's2', roll: 's3' };
-  const limits = (points) => curves({ title: 'first order within 1 px, ' + points, table: 'focal_length',
+  const limits = (points) => curves({ title: 'first order within ' + data.tolerance_px + ' px, ' + points, table: 'focal_length',
     where: { points }, x: 'focal_px', xName: 'px of focal length', logX: true,
     series: [...AXES.map((axis) => ({ name: axis, style: styles[axis], y: 'first_order_limit_' + axis + '_deg' })),
       ...AXES.map((axis) => ({ name: 'theory', style: styles[axis], dashed: true, y: 'theory_limit_' + axis + '_deg' }))] });
-  return section('Focal length', 'The largest turn in a frame, deg, at which first order is within 1 px of all points; '
+  return section('Focal length', 'The largest turn in a frame, deg, at which first order is within ' + data.tolerance_px + ' px at all points; '
     + 'and the median error of V, px, at the nominal speed.', plots(limits('geometric'), limits('rendered'),
     ...['geometric', 'rendered'].map((points) => curves({ title: 'V, ' + points, table: 'focal_length', where: { points },
       x: 'focal_px', xName: 'px of focal length', logX: true, logY: true, bottom: 1e-2,
@@ -207,7 +211,7 @@ const heat = () => section('Over the image', 'Error in each part of the image, f
 // ---- The page
 
 document.getElementById('head').append(el('h1', null, 'When does the kinematics model hold?'),
-  el('p', { class: 'quiet' }, data.subject));
+  el('p', { class: 'quiet' }, data.subject), el('p', null, el('b', null, data.bottom_line)));
 document.getElementById('page').append(...[answers(), field(), rotation(), translation(), heat(), focal(), mount(), imu(),
   bumps(), drives(), drift()].filter(Boolean));
 })();

@@ -27,6 +27,7 @@ struct StudyConfig {
   Effort effort;
   double speed_mps =
       0;                ///< nominal: the fastest that the scenario commands at the start of a phase
+  double tolerance_px = 1;  ///< of an end-point error: what the answer is held against
   bool stands = false;  ///< the scenario's rover never moves, so that the speed is a stand-in
   Eigen::Vector3d forward_C = Eigen::Vector3d::UnitZ();  ///< the rover's x in the camera
   sim::Pinhole camera;

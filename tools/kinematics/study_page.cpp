@@ -58,10 +58,14 @@ std::string data_of(const Study& study, const std::vector<Statement>& statements
                {"statements", Json::array()},
                {"tables", Json::object()},
                {"heat", Json::array()},
+               {"bottom_line", bottom_line(study.config, statements)},
+               {"reference_depth_m", study.config.filter.field.reference_depth_m},
+               {"has_movers", !study.field.moving.empty()},
+               {"tolerance_px", study.config.tolerance_px},
                {"rate_hz", study.config.scenario.camera.rate_hz},
                {"field_png", field_png.empty() ? "" : bench::base64(field_png)}};
   for (const Statement& s : statements) {
-    data["statements"].push_back({{"topic", s.topic}, {"text", s.text}});
+    data["statements"].push_back({{"topic", s.topic}, {"text", s.text}, {"verdict", s.verdict}});
   }
   for (const Table& table : all) {
     if (table.name != "heat") data["tables"][table.name] = json_of(table);

@@ -203,10 +203,13 @@ FocalRow focal_row(const StudyConfig& config, const PointSet& points, double fov
   const FieldParameters& field = config.filter.field;
   for (int axis = 0; axis < 3; ++axis) {
     row.limit_deg[axis] =
-        rotation_limit_rad(points, field, RotationModel::first_order, axis, 1) / kDegree;
-    row.theory_deg[axis] = first_order_limit_rad(points.camera, axis, 1) / kDegree;
+        rotation_limit_rad(points, field, RotationModel::first_order, axis, config.tolerance_px) /
+        kDegree;
+    row.theory_deg[axis] =
+        first_order_limit_rad(points.camera, axis, config.tolerance_px) / kDegree;
     row.printed_deg[axis] =
-        rotation_limit_rad(points, field, RotationModel::as_printed, axis, 1) / kDegree;
+        rotation_limit_rad(points, field, RotationModel::as_printed, axis, config.tolerance_px) /
+        kDegree;
   }
   const sim::Pose T_CN{Eigen::Matrix3d::Identity(), config.step_C_m()};
   const Step step = step_to(points.camera, T_CN, config.frame_s(), field);

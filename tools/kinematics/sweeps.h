@@ -81,7 +81,7 @@ struct FocalRow {
   std::string points;
   double fovy_deg = 0;
   double focal_px = 0;
-  double limit_deg[3] = {};        ///< of first order, 1 px, about each axis
+  double limit_deg[3] = {};        ///< of first order, to the tolerance, about each axis
   double theory_deg[3] = {};       ///< the same by `first_order_limit_rad`
   double printed_deg[3] = {};      ///< of the printed rotation
   double reference_median_px = 0;  ///< at the nominal step

@@ -14,6 +14,7 @@ struct KinematicsOptions {
   std::string config;             ///< scenario file; "": the project's `crossing.yaml`
   std::vector<std::string> sets;  ///< "key=value"
   std::string out = "out/kinematics";
+  double tolerance_px = 1;
   bool quick = false;
   bool quiet = false;
 };
