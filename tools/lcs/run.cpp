@@ -24,6 +24,8 @@
 #include "tools/lcs/progress.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
+#include "tools/lcs/view.h"
+#include "tools/output/frame_painter.h"
 #include "tools/output/result.h"
 #include "tools/output/table.h"
 #include "tools/recording/warnings.h"
@@ -42,6 +44,7 @@ constexpr const char* kHelp = R"(Examples:
   lcs run scenarios/crossing.yaml --detector klt --out out/crossing-klt
   lcs run scenarios/crossing.yaml --detector mine --detector-command 'python3 mine.py'
                                      a detector of yours, in any language (tools/comparators/PROTOCOL.md)
+  lcs run scenarios/crossing.yaml --view                 watch it in a window while it runs
   lcs run my_drive.yaml              recorded frames in place of a scene (scenarios/README.md)
   lcs run scenarios/crossing.yaml --beside klt=out/crossing-klt     both on the same frames, made once
   lcs run scenarios/crossing.yaml --set filter.hypotheses.prior=0.05 --recorded out/crossing --no-video
@@ -124,7 +127,7 @@ Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
                 const sim::Pinhole& camera) {
   const auto earlier = std::make_shared<bench::EarlierRun>(options.recorded, scenario, camera);
   const bool is_program = !options.detector.command.empty();
-  const bool with_images = !options.no_video || is_program;
+  const bool with_images = !options.no_video || options.view || is_program;
   if (is_program && !earlier->pictures()) {
     throw std::invalid_argument(
         fmt::format("{} has no pictures to hand to {}; record it with --events", options.recorded,
@@ -132,8 +135,8 @@ Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
   }
   if (with_images && !earlier->pictures()) {
     throw std::invalid_argument(
-        fmt::format("{} has no pictures to make a video of; give --no-video, or record it with "
-                    "--events",
+        fmt::format("{} has no pictures to make a video of; give --no-video without --view, or "
+                    "record it with --events",
                     options.recorded));
   }
   std::vector<std::string> missing;
@@ -280,6 +283,10 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
   add_result_options(command, options.no_video, options.events);
   command.add_flag("--report", options.report,
                    "Write report.html too, a page of the run with its video, and events.json");
+  command.add_flag(
+      "--view", options.view,
+      "Show the four panels in a window while it runs, no faster than the camera: space "
+      "pauses and goes on, . goes on by one frame, q closes the window");
   add_quiet_option(command, options.quiet);
   command.footer(kHelp);
   return command;
@@ -305,6 +312,9 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
     }
     return playback ? played(scenario, *playback) : simulated(scenario);
   }();
+  std::optional<View> view;
+  const bench::FramePainter painter(cv::Size(frames.camera.width_px, frames.camera.height_px));
+  if (options.view) view.emplace(scenario.name, painter.size_px(), scenario.camera.rate_hz);
   for (Watching& one : all) {
     one.tracker = comparators::make(one.wanted, {.camera = frames.camera,
                                                  .scenario = one.scenario,
@@ -345,6 +355,9 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
                           [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
                             check_interrupted();
                             one.result->add(frame, image);
+                            if (&one == &own && view && view->is_open()) {
+                              view->show(painter.paint(frame, image));
+                            }
                             progress.show(frame.index + 1);
                           }});
     }
@@ -371,6 +384,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
     const auto asked = bench::asked_of(all[i].wanted.name, i == 0, scenario.criteria);
     failed |= report_failures(bench::failed_criteria(asked, metrics[i]));
   }
+  if (view) view->hold();
   return failed ? kCriterionFailed : kFine;
 }
 

@@ -27,6 +27,7 @@ struct RunOptions {
   bool no_video = false;
   bool events = false;
   bool report = false;  ///< with the events
+  bool view = false;    ///< in a window, while it goes on
   bool quiet = false;
 };
 

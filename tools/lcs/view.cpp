@@ -1,0 +1,106 @@
+#include "tools/lcs/view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <opencv2/highgui.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "sim/trial.h"
+#include "tools/lcs/interrupt.h"
+
+namespace lcs::tools {
+namespace {
+
+constexpr int kPoll_ms = 50;  // for signals, while nobody presses a key
+constexpr int kEscape = 27;
+
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
+/// OpenCV's window system ends the process where it cannot open a window: it is asked in a child.
+void require_display(const std::string& title) {
+  const bool is_named = is_set("DISPLAY") || is_set("WAYLAND_DISPLAY") || is_set("QT_QPA_PLATFORM");
+  if (is_named && sim::try_in_child([&] { cv::namedWindow(title, cv::WINDOW_NORMAL); }).fine) {
+    return;
+  }
+  throw std::runtime_error(
+      is_named ? "--view: no window can be opened on the display that DISPLAY or WAYLAND_DISPLAY "
+                 "names; correct it, or leave --view out: video.mp4 shows the same"
+               : "--view: there is no display (DISPLAY and WAYLAND_DISPLAY are not set); leave it "
+                 "out: video.mp4 shows the same");
+}
+
+}  // namespace
+
+Player::Player(Keys keys, double frames_per_second)
+    : keys_(std::move(keys)), frame_(std::lround(1000 / frames_per_second)) {}
+
+bool Player::after_frame() {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + frame_;
+  for (;;) {
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
+    const int wait_ms = paused_ ? kPoll_ms : std::clamp(static_cast<int>(left), 1, kPoll_ms);
+    switch (const int key = keys_(wait_ms); key) {
+      case kClosed:
+      case kEscape:
+      case 'q':
+        return false;
+      case ' ':
+        paused_ = !paused_;
+        break;
+      case '.':
+        paused_ = true;
+        return true;  // one frame further
+      default:
+        break;
+    }
+    if (!paused_ && Clock::now() >= end) return true;
+  }
+}
+
+void Player::after_last_frame() {
+  while (keys_(kPoll_ms) == -1) {
+  }
+}
+
+View::View(const std::string& title, cv::Size size_px, double frames_per_second)
+    : title_(title), player_([this](int wait_ms) { return key(wait_ms); }, frames_per_second) {
+  require_display(title_);
+  cv::namedWindow(title_, cv::WINDOW_NORMAL | cv::WINDOW_KEEPRATIO | cv::WINDOW_GUI_NORMAL);
+  cv::resizeWindow(title_, size_px);
+}
+
+View::~View() {
+  if (is_open_) cv::destroyAllWindows();
+}
+
+int View::key(int wait_ms) const {
+  check_interrupted();
+  const int key = cv::waitKey(wait_ms);
+  const bool is_there = cv::getWindowProperty(title_, cv::WND_PROP_VISIBLE) > 0;
+  return is_there ? key : Player::kClosed;
+}
+
+void View::show(const cv::Mat3b& sheet) {
+  if (!is_open_) return;
+  cv::imshow(title_, sheet);
+  is_open_ = player_.after_frame();
+  if (!is_open_) cv::destroyAllWindows();
+}
+
+void View::hold() {
+  if (!is_open_) return;
+  try {
+    player_.after_last_frame();
+  } catch (const Interrupted&) {
+    // the run is whole
+  }
+}
+
+}  // namespace lcs::tools
