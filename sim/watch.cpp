@@ -34,20 +34,6 @@ constexpr double kSteep = 0.5;  // upward part of the normal
 // tenths of a metre deep.
 constexpr double kStride_m = 0.05, kStride_rad = 0.1;
 
-bool is_drawn(const mjModel& m, int geom) {
-  constexpr int kGroups = 3;  // that MuJoCo draws if it is not told otherwise
-  const int material = m.geom_matid[geom];
-  const float alpha = material >= 0 ? m.mat_rgba[4 * material + 3] : m.geom_rgba[4 * geom + 3];
-  return m.geom_group[geom] < kGroups && alpha > 0;
-}
-
-/// Planes that do not face up are walls.
-bool is_floor(const Model& model, int geom) {
-  const int type = model.m().geom_type[geom];
-  return type == mjGEOM_HFIELD ||
-         (type == mjGEOM_PLANE && model.geom_pose(geom).R(2, 2) > kSteep);
-}
-
 bool is_plane(const mjModel& m, int geom) {
   return m.geom_type[geom] == mjGEOM_PLANE;
 }
@@ -89,6 +75,18 @@ std::optional<double> field_m(const Model& model, int geom, const Vector3d& at) 
 }
 
 }  // namespace
+
+bool is_drawn(const mjModel& m, int geom) {
+  constexpr int kGroups = 3;  // that MuJoCo draws if it is not told otherwise
+  const int material = m.geom_matid[geom];
+  const float alpha = material >= 0 ? m.mat_rgba[4 * material + 3] : m.geom_rgba[4 * geom + 3];
+  return m.geom_group[geom] < kGroups && alpha > 0;
+}
+
+bool is_floor(const Model& model, int geom) {
+  const int type = model.m().geom_type[geom];
+  return type == mjGEOM_HFIELD || (type == mjGEOM_PLANE && model.geom_pose(geom).R(2, 2) > kSteep);
+}
 
 Watch::Watch(const Model& model, int rover_body, const std::vector<Named>& objects,
              const std::vector<int>& object_of_geom) {
@@ -212,10 +210,15 @@ std::vector<Watch::Meeting> Watch::meetings(const Model& model) {
   find_meetings(model, [&](const Pair& pair, const Overlap::Place& place) {
     const Solid& a = solids_[pair.first];
     const Solid& b = solids_[pair.second];
-    all.push_back({static_cast<int>(pair.first), b.kind, a.name, b.name, at_place(place.point_m),
-                   place.depth_m});
+    all.push_back({static_cast<int>(pair.first), static_cast<int>(pair.second), b.kind, a.name,
+                   b.name, at_place(place.point_m), place.depth_m});
   });
   return all;
+}
+
+void Watch::pass_over(const Meeting& meeting) {
+  met_.insert(
+      {static_cast<std::size_t>(meeting.traveller), static_cast<std::size_t>(meeting.other)});
 }
 
 bool Watch::has_moved(const Model& model) {

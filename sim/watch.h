@@ -19,6 +19,11 @@
 
 namespace lcs::sim {
 
+/// Whether the camera can see it.
+bool is_drawn(const mjModel& m, int geom);
+/// A plane that faces up, or a height field.
+bool is_floor(const Model& model, int geom);
+
 class Watch {
  public:
   enum class Kind { rover, actor, object, setting };
@@ -37,6 +42,7 @@ class Watch {
   /// Two that are in each other.
   struct Meeting {
     int traveller = 0;  ///< the rover (0), or an actor by the object that it is
+    int other = 0;      ///< among all that can be met
     Kind kind_b = Kind::setting;
     std::string a, b;   ///< as in "actor 'car'"
     std::string where;  ///< as in "(1.20, -0.40) m"
@@ -44,6 +50,8 @@ class Watch {
   };
   /// All that there are now.
   std::vector<Meeting> meetings(const Model& model);
+  /// It is known, and not to be warned of.
+  void pass_over(const Meeting& meeting);
 
   /// To be called after every step; looks closer where something has moved on by a few centimetres.
   void look(const Model& model, std::int64_t t_ns);

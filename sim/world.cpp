@@ -125,9 +125,11 @@ std::int64_t event_time_ns(std::int64_t k, double rate_hz) {
   return std::llround(static_cast<double>(k) * 1e9 / rate_hz);
 }
 
-World::World(const scenario::Scenario& scenario) : World(scenario, compose(scenario)) {}
+World::World(const scenario::Scenario& scenario, WrongStart wrong_start)
+    : World(scenario, compose(scenario), wrong_start) {}
 
-World::World(const scenario::Scenario& scenario, const ComposedScene& composed)
+World::World(const scenario::Scenario& scenario, const ComposedScene& composed,
+             WrongStart wrong_start)
     : scenario_(scenario),
       model_(load(scenario, composed)),
       imu_noise_(scenario.imu.noise, scenario.imu.rate_hz, scenario.seed),
@@ -148,7 +150,7 @@ World::World(const scenario::Scenario& scenario, const ComposedScene& composed)
     rover_->start(model_);
     mj_kinematics(&model_.m(), &model_.d());
     forward();
-    begin_watch(composed);
+    begin_watch(composed, wrong_start);
   });
 }
 
@@ -226,7 +228,7 @@ void World::find_actors(const ComposedScene& composed) {
 
 /// What starts as nothing could stand is refused; but actors may come out of walls, and one that
 /// grazes something is told with the rest.
-void World::begin_watch(const ComposedScene& composed) {
+void World::begin_watch(const ComposedScene& composed, WrongStart wrong_start) {
   const std::vector<std::string>& bodies = composed.actor_bodies;
   const auto actor_of = [&](int object) {
     const std::string& name = objects_[static_cast<std::size_t>(object - 1)].name;
@@ -242,11 +244,14 @@ void World::begin_watch(const ComposedScene& composed) {
     const bool is_inside =
         meeting.kind_b != Watch::Kind::setting && meeting.depth_m > kActorInside_m;
     if (!is_rover && !is_inside) continue;
-    throw scenario::Error(
+    const scenario::Error error(
         is_rover ? scenario::Source{scenario_.file.string(), 0}
                  : scenario_.actors[static_cast<std::size_t>(actor_of(meeting.traveller))].source,
-        fmt::format("{}{} starts inside {}, at {}; move one of them",
-                    is_rover ? "ego.start: " : "", meeting.a, meeting.b, meeting.where));
+        fmt::format("{}{} starts inside {}, at {}; move one of them", is_rover ? "ego.start: " : "",
+                    meeting.a, meeting.b, meeting.where));
+    if (wrong_start == WrongStart::refused) throw error;
+    wrong_at_start_.emplace_back(error.what());
+    watch_->pass_over(meeting);
   }
 }
 
@@ -363,6 +368,34 @@ void World::advance_to(std::int64_t t_ns, std::vector<ImuSample>& imu,
   while (t_ns_ < t_ns) {
     step_to(next_event_ns(t_ns));
     read_sensors(imu, odometry, imu_truth);
+  }
+}
+
+void World::save(const std::string& file, bool as_mjcf) {
+  mjModel& m = model_.m();
+  for (const MovingActor& actor : actors_) {
+    for (int body = 1; body < m.nbody; ++body) {
+      if (m.body_mocapid[body] != actor.mocap) continue;
+      std::copy_n(model_.d().mocap_pos + 3 * actor.mocap, 3, m.body_pos + 3 * body);
+      std::copy_n(model_.d().mocap_quat + 4 * actor.mocap, 4, m.body_quat + 4 * body);
+    }
+  }
+  const Pose T_WB = this->T_WB();
+  const Eigen::Quaterniond q(T_WB.R);
+  Eigen::Map<Eigen::Vector3d>(m.body_pos + 3 * base_) = T_WB.p;
+  Eigen::Map<Eigen::Vector4d>(m.body_quat + 4 * base_) << q.w(), q.x(), q.y(), q.z();
+  const int joint = m.body_jntadr[base_];
+  if (joint >= 0 && m.jnt_type[joint] == mjJNT_FREE) {
+    std::copy_n(model_.d().qpos + m.jnt_qposadr[joint], 7, m.qpos0 + m.jnt_qposadr[joint]);
+  }
+  if (!as_mjcf) {
+    mj_saveModel(&m, file.c_str(), nullptr, 0);
+    if (const std::string warning = take_warning(); !warning.empty()) throw MujocoError(warning);
+    return;
+  }
+  std::array<char, 1000> message{};
+  if (!mj_saveLastXML(file.c_str(), &m, message.data(), static_cast<int>(message.size()))) {
+    throw MujocoError(message.data());
   }
 }
 

@@ -27,12 +27,18 @@ namespace lcs::sim {
 /// Time of event k of something that happens `rate_hz` times a second, from 0.
 std::int64_t event_time_ns(std::int64_t k, double rate_hz);
 
+/// What becomes of a world in which something starts inside of something else.
+enum class WrongStart {
+  refused,  ///< with scenario::Error
+  told,     ///< by `World::wrong_at_start`, for who wants to look at it
+};
+
 class World {
  public:
   /// Stands at t = 0 afterwards.
   /// \throws scenario::Error, also where the rover starts inside of anything, an actor inside of an
   ///   object, or a wheeled rover where nothing holds it; PhysicsError
-  explicit World(const scenario::Scenario& scenario);
+  explicit World(const scenario::Scenario& scenario, WrongStart wrong_start = WrongStart::refused);
 
   /// Moves on to a time, and appends the readings after the last time up to and including this one.
   /// The very first call, with 0, gives those at 0.
@@ -55,6 +61,13 @@ class World {
 
   /// Of all that has been until now, or until the last frame.
   const Warnings& warnings() const { return watch_->warnings(); }
+  /// A line each, as the error would have it.
+  const std::vector<std::string>& wrong_at_start() const { return wrong_at_start_; }
+
+  /// Writes MJCF, with rover and actors where they are now, or MuJoCo's binary. To be called at 0,
+  /// as the model is another one then. Of the model that was made last in this process. \throws
+  /// MujocoError
+  void save(const std::string& file, bool as_mjcf);
 
   Snapshot snapshot() const;
   Pose T_WB() const;
@@ -74,11 +87,11 @@ class World {
     Trigger trigger;
   };
 
-  World(const scenario::Scenario& scenario, const ComposedScene& composed);
+  World(const scenario::Scenario& scenario, const ComposedScene& composed, WrongStart wrong_start);
   void set_options(const ComposedScene& composed);
   void find_objects(const ComposedScene& composed);
   void find_actors(const ComposedScene& composed);
-  void begin_watch(const ComposedScene& composed);
+  void begin_watch(const ComposedScene& composed, WrongStart wrong_start);
   void place(const MovingActor& actor, const PlanarPose& pose);
   void move_actors();
   void forward();
@@ -97,6 +110,7 @@ class World {
   std::vector<int> object_bodies_;
   std::vector<int> object_of_geom_;
   std::unique_ptr<Watch> watch_;
+  std::vector<std::string> wrong_at_start_;
   ImuNoiseModel imu_noise_;
   OdometryNoiseModel odometry_noise_;
   int camera_, base_, imu_site_, accelerometer_, gyro_;

@@ -1,0 +1,104 @@
+#include "tools/lcs/kinematics.h"
+
+#include <fmt/format.h>
+
+#include "scenarios/load.h"
+#include "scenarios/scenes.h"
+#include "scenarios/shipped.h"
+#include "tools/files/output_folder.h"
+#include "tools/kinematics/answer.h"
+#include "tools/kinematics/study.h"
+#include "tools/kinematics/study_page.h"
+#include "tools/lcs/interrupt.h"
+#include "tools/lcs/options.h"
+#include "tools/lcs/progress.h"
+#include "tools/lcs/terminal.h"
+
+namespace lcs::tools {
+namespace {
+
+constexpr const char* kHelp = R"(Examples:
+  lcs kinematics                                    the camera and rover of scenarios/crossing.yaml
+  lcs kinematics --config my_rover.yaml --out out/mine
+  lcs kinematics --set "camera.fovy=90 deg" --set "ego.speed=2 m/s" --set imu.preset=tumvi
+  lcs kinematics --quick                            a quarter of the time, noisier figures
+  lcs kinematics --tolerance 0.5                    is every part of it within half a pixel?
+
+The file is a scenario: of it count camera (size, fovy, rate, mount), speed of the rover, IMU,
+odometry, scene, and the filter's field.* parameters. Three models of the rotation (the paper's as
+printed, first order, homography), each with V by a reference depth, by what the landmark has learnt,
+and by the true depth, are held against the truth: on points of pure geometry, on rendered corners, and
+along drives. tools/kinematics/README.md says how each figure is taken.
+
+--quick takes fewer frames and seeds: 15 frames a drive instead of 40, 5 and 25 seeds of noise instead
+of 20 and 300. What has no noise in it is the same.
+
+Files written to the folder, all or none:
+  answer.txt         what is printed
+  answer.csv         its figures, beside what theory expects
+  kinematics.html    everything to look at, in one page: open it in a browser
+  field.png          predicted and true motion over a rendered frame, what is fixed and what moves
+  rotation.csv, translation.csv, foe_distance.csv, focal_length.csv, mount.csv, drives.csv, imu.csv,
+  bumps.csv, drift.csv, heat.csv
+                     every figure of the page
+
+Exit codes:
+  0  fine
+  2  error: nothing was written, an earlier result is as it was
+  130  interrupted (Ctrl-C): likewise
+)";
+
+constexpr scenario::Quantity kTolerance{scenario::Dimension::pixels, {0, 1000, true}};
+
+}  // namespace
+
+CLI::App& add_kinematics_command(CLI::App& app, KinematicsOptions& options) {
+  CLI::App& command = *app.add_subcommand(
+      "kinematics",
+      "Measure when the motion model holds for a camera and rover, against the truth");
+  command
+      .add_option(
+          "--config", options.config,
+          "Scenario file with the camera, rover and IMU; scenarios/crossing.yaml if not given")
+      ->type_name("FILE");
+  add_set_option(command, options.sets, "Set a value of the scenario, as \"camera.fovy=90 deg\"");
+  add_out_option(command, options.out, "out/kinematics");
+  add_quantity_option(
+      command, "--tolerance", kTolerance, options.tolerance_px,
+      "Error of a prediction that is small enough, for the answer; 1 px if not given")
+      ->type_name("PX");
+  command.add_flag("--quick", options.quick, "Fewer frames and seeds: a quarter of the time");
+  add_quiet_option(command, options.quiet);
+  command.footer(kHelp);
+  return command;
+}
+
+ExitCode kinematics(const KinematicsOptions& options) {
+  const std::filesystem::path file = options.config.empty()
+                                         ? scenario::shipped_folder("scenarios") / "crossing.yaml"
+                                         : std::filesystem::path(options.config);
+  kinematics::StudyConfig config = kinematics::configure(
+      scenario::load(file, {.sets = options.sets, .seed = {}}),
+      options.quick ? kinematics::Effort::quick() : kinematics::Effort::full());
+  config.tolerance_px = options.tolerance_px;
+  warn(scenario::shadowed_files(config.scenario));
+  bench::OutputFolder folder(options.out, kinematics::study_files());
+  const auto study = [&] {
+    Progress progress("kinematics", kinematics::study_pieces(config), options.quiet, "experiments");
+    int done = 0;
+    return kinematics::carry_out(config, [&](int more) {
+      check_interrupted();
+      progress.show(done += more);
+    });
+  }();
+  kinematics::write_study(folder.staging(), study);
+  check_interrupted();
+  folder.commit();
+  if (!options.quiet) {
+    print_out("{}\nresults in {}\n", kinematics::text_of(config, kinematics::answer(study)),
+              folder.target().string());
+  }
+  return kFine;
+}
+
+}  // namespace lcs::tools

@@ -21,6 +21,7 @@
 #include "tools/lcs/kinematics.h"
 #include "tools/lcs/likeness.h"
 #include "tools/lcs/options.h"
+#include "tools/lcs/preview.h"
 #include "tools/lcs/replay.h"
 #include "tools/lcs/run.h"
 #include "tools/lcs/score.h"
@@ -38,6 +39,7 @@ constexpr const char* kHelp =
 through its camera and IMU, and the simulator's truth scores what the filter says.
 
   lcs run scenarios/crossing.yaml     run a scenario; results are in out/crossing
+  lcs preview SCENARIO                look at one before it is run: its plan, what is wrong
   lcs suite                           run all short scenarios, with several seeds each
   lcs compare out/before out/suite    what two suites differ in, beyond noise
   lcs generate SCENARIO               a sequence of pictures and truth that other tools read
@@ -78,6 +80,7 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(kHelp);
   RunOptions run_options;
+  PreviewOptions preview_options;
   ReplayOptions replay_options;
   ScoreOptions score_options;
   SuiteOptions suite_options;
@@ -91,6 +94,7 @@ int run_command_line(int argc, char** argv) {
     std::function<ExitCode()> carry_out;
   } commands[] = {
       {add_run_command(app, run_options), [&] { return run(run_options); }},
+      {add_preview_command(app, preview_options), [&] { return preview(preview_options); }},
       {add_replay_command(app, replay_options), [&] { return replay(replay_options); }},
       {add_score_command(app, score_options), [&] { return score(score_options); }},
       {add_suite_command(app, suite_options), [&] { return suite(suite_options); }},

@@ -1,0 +1,101 @@
+#include "sim/observer.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "sim/drive.h"
+
+namespace lcs::sim {
+namespace {
+
+/// Outlines of each object; index 0, the world, has none.
+std::vector<ConvexParts> outlines(const World& world) {
+  std::vector<ConvexParts> parts(world.objects().size() + 1);
+  const mjModel& m = world.model().m();
+  for (int geom = 0; geom < m.ngeom; ++geom) {
+    const int object = world.object_of_geom(geom);
+    if (object <= 0) continue;
+    // as things stand before the first step; a body is rigid
+    const Pose T_OW = world.model().body_pose(world.body_of(object)).inverse();
+    const Pose T_OG = T_OW * world.model().geom_pose(geom);
+    parts[static_cast<std::size_t>(object)].push_back((T_OG.R * geom_hull(m, geom)).colwise() +
+                                                      T_OG.p);
+  }
+  return parts;
+}
+
+Photographer photographer_of(const scenario::Scenario& s, const Pinhole& camera) {
+  try {
+    return {s.image, camera, s.camera.rate_hz, s.seed};
+  } catch (const std::invalid_argument& error) {
+    throw scenario::Error({s.file.string(), 0}, error.what());
+  }
+}
+
+}  // namespace
+
+Observer::Observer(const scenario::Scenario& scenario, WrongStart wrong_start)
+    : scenario_(scenario),
+      world_(scenario, wrong_start),
+      renderer_(world_.model(), world_.camera_id(), scenario.camera.width_px,
+                scenario.camera.height_px),
+      parts_(outlines(world_)),
+      calibration_(calibrate(world_, scenario.camera)),
+      photographer_(photographer_of(scenario, calibration_.camera)),
+      snapshot_(world_.snapshot()) {
+  world_.advance_to(0, imu_, odometry_, &imu_truth_);
+}
+
+Observation Observer::observe() {
+  Observation o;
+  o.index = next_index_;
+  o.t_ns = event_time_ns(next_index_, scenario_.camera.rate_hz);
+  o.imu = std::move(imu_);
+  o.odometry = std::move(odometry_);
+  o.imu_truth = std::move(imu_truth_);
+  render(o);
+  o.truth.now = std::move(snapshot_);
+  o.truth.v_WC_mps = world_.v_WC_mps();
+  o.truth.w_C_radps = world_.w_C_radps();
+
+  advance();
+  o.truth.next = snapshot_;
+  o.objects = visible_objects(o.truth);
+  return o;
+}
+
+void Observer::advance() {
+  imu_.clear();
+  odometry_.clear();
+  imu_truth_.clear();
+  ++next_index_;
+  world_.advance_to(event_time_ns(next_index_, scenario_.camera.rate_hz), imu_, odometry_,
+                    &imu_truth_);
+  snapshot_ = world_.snapshot();
+}
+
+void Observer::render(Observation& o) {
+  renderer_.update();
+  renderer_.render_colour(o.image);
+  renderer_.render_depth_and_geoms(o.truth.depth_m, geoms_);
+  photographer_.develop(o.image, o.truth.depth_m, o.index);
+  o.truth.object.create(geoms_.size());
+  std::transform(geoms_.begin(), geoms_.end(), o.truth.object.begin(),
+                 [&](int geom) { return geom < 0 ? -1 : world_.object_of_geom(geom); });
+}
+
+std::vector<ObjectTruth> Observer::visible_objects(const FrameTruth& truth) const {
+  std::vector<ObjectTruth> all = modal_boxes(truth.object, static_cast<int>(parts_.size()) - 1);
+  std::erase_if(all, [](const ObjectTruth& o) { return o.visible_px == 0; });
+  const Pose T_CW = truth.now.T_WC.inverse();
+  for (ObjectTruth& o : all) {
+    const auto id = static_cast<std::size_t>(o.object);
+    const double full = silhouette_px(calibration_.camera, T_CW * truth.now.T_WO[id], parts_[id],
+                                      renderer_.near_m());
+    o.visible_fraction = full > 0 ? std::min(1.0, o.visible_px / full) : 0;
+    o.moving = moved(truth.now.T_WO[id], truth.next.T_WO[id]);
+  }
+  return all;
+}
+
+}  // namespace lcs::sim

@@ -1,0 +1,120 @@
+#include "sim/survey.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <set>
+
+#include "sim/observer.h"
+#include "sim/silhouette.h"
+#include "sim/watch.h"
+
+namespace lcs::sim {
+namespace {
+
+std::vector<Footprint> footprints(const World& world) {
+  std::vector<Footprint> all;
+  const Model& model = world.model();
+  const mjModel& m = model.m();
+  for (int geom = 0; geom < m.ngeom; ++geom) {
+    if (!is_drawn(m, geom) || is_floor(model, geom) || m.geom_type[geom] == mjGEOM_PLANE) continue;
+    const Pose T_WG = model.geom_pose(geom);
+    const Eigen::Matrix3Xd points = (T_WG.R * geom_hull(m, geom)).colwise() + T_WG.p;
+    std::vector<cv::Point2f> seen, hull;
+    for (const auto& p : points.colwise()) {
+      seen.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
+    }
+    cv::convexHull(seen, hull);
+    Footprint& print = all.emplace_back();
+    for (const cv::Point2f& p : hull) print.outline_m.emplace_back(p.x, p.y);
+    print.object = world.object_of_geom(geom);
+    print.low_m = points.row(2).minCoeff();
+    print.high_m = points.row(2).maxCoeff();
+  }
+  return all;
+}
+
+/// Whether a point is in a geom: then a ray meets it whichever way it goes. Not of meshes, which
+/// may be rooms.
+bool is_in(const Model& model, int geom, const Eigen::Vector3d& point_W) {
+  const mjModel& m = model.m();
+  constexpr std::array kSolids{mjGEOM_BOX, mjGEOM_SPHERE, mjGEOM_CYLINDER, mjGEOM_CAPSULE,
+                               mjGEOM_ELLIPSOID};
+  if (std::ranges::find(kSolids, m.geom_type[geom]) == kSolids.end()) return false;
+  const mjData& d = model.d();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      const Eigen::Vector3d way = sign * Eigen::Vector3d::Unit(axis);
+      if (mju_rayGeom(d.geom_xpos + 3 * geom, d.geom_xmat + 9 * geom, m.geom_size + 3 * geom,
+                      point_W.data(), way.data(), m.geom_type[geom]) < 0) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// What the camera is in and was not before, a line each.
+void note_inside(const World& world, double t_s, std::set<std::string>& known,
+                 std::vector<std::string>& lines) {
+  const Model& model = world.model();
+  const mjModel& m = model.m();
+  const Eigen::Vector3d eye = model.camera_pose(world.camera_id()).p;
+  for (int geom = 0; geom < m.ngeom; ++geom) {
+    const int object = world.object_of_geom(geom);
+    if (object < 0 || !is_drawn(m, geom) || !is_in(model, geom, eye)) continue;
+    const std::string what =
+        object > 0 ? fmt::format("'{}'", world.objects()[static_cast<std::size_t>(object - 1)].name)
+                   : fmt::format("the setting's geom '{}'", model.name(mjOBJ_GEOM, geom));
+    if (!known.insert(what).second) continue;
+    lines.push_back(
+        fmt::format("the camera is inside {} at {:.2f} s, at ({:.2f}, {:.2f}, {:.2f}) m: move its "
+                    "mount or the rover's way",
+                    what, t_s, eye.x(), eye.y(), eye.z()));
+  }
+}
+
+}  // namespace
+
+Survey survey(const scenario::Scenario& scenario, int looks) {
+  Observer observer(require_scene(scenario), WrongStart::told);
+  const World& world = observer.world();
+  Survey s;
+  s.footprints = footprints(world);
+  s.objects = world.objects();
+  s.wrong_at_start = world.wrong_at_start();
+  for (const scenario::Actor& actor : scenario.actors) {
+    const std::string name = actor.body.value_or(actor.name);
+    s.actors.push_back(std::ranges::find(s.objects, name, &Object::name)->id);
+  }
+  std::set<int> looked_at;
+  for (int i = 0; i < looks; ++i) {
+    looked_at.insert(static_cast<int>(
+        std::lround(i * static_cast<double>(scenario.frames - 1) / std::max(looks - 1, 1))));
+  }
+  std::set<std::string> known;
+  for (int k = 0; k < scenario.frames; ++k) {
+    s.snapshots.push_back(world.snapshot());
+    s.rover_m.emplace_back(world.T_WB().p.head<2>());
+    note_inside(world, 1e-9 * static_cast<double>(event_time_ns(k, scenario.camera.rate_hz)), known,
+                s.inside);
+    if (looked_at.contains(k)) {
+      s.looks.push_back(observer.observe());
+    } else {
+      observer.advance();
+    }
+  }
+  s.warnings = world.warnings();
+  return s;
+}
+
+void save_world(const scenario::Scenario& scenario, const std::filesystem::path& file,
+                WorldFormat format) {
+  World world(require_scene(scenario), WrongStart::told);
+  world.save(file.string(), format == WorldFormat::mjcf);
+}
+
+}  // namespace lcs::sim

@@ -1,0 +1,50 @@
+/// \file
+/// A scenario looked over in a moment: where everything is from above, who goes where, and a few of
+/// its frames, without a run. And its world as a file, for other programs.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scenarios/scenario.h"
+#include "sim/simulation.h"
+
+namespace lcs::sim {
+
+/// A part of a world from above, at the start: a convex outline in W, counter-clockwise, m.
+struct Footprint {
+  std::vector<Eigen::Vector2d> outline_m;
+  int object = 0;    ///< as in FrameTruth::object: 0 is the setting, -1 the rover
+  double low_m = 0;  ///< its lowest and its highest point
+  double high_m = 0;
+};
+
+struct Survey {
+  std::vector<Footprint> footprints;  ///< without floors and what is not drawn
+  std::vector<Object> objects;
+  std::vector<int> actors;                  ///< the object that each actor of the scenario is
+  std::vector<Eigen::Vector2d> rover_m;     ///< in W, in each frame
+  std::vector<Snapshot> snapshots;          ///< of each frame
+  std::vector<Observation> looks;           ///< the frames that were looked at
+  std::vector<std::string> wrong_at_start;  ///< what a run refuses, a line each
+  std::vector<std::string> inside;  ///< a line for each thing that the camera is in, in some frame
+  Warnings warnings;
+};
+
+/// \param looks how many frames to make pictures of, evenly spread from the first to the last.
+/// \throws what a `Simulation` throws, but for what starts inside of something else.
+Survey survey(const scenario::Scenario& scenario, int looks);
+
+enum class WorldFormat {
+  mjcf,
+  mjb,  ///< MuJoCo's binary, which has the drawn textures and the bumps of the ground too
+};
+
+/// The world with rover and actors at the start.
+/// \throws as `survey`; std::runtime_error where the file cannot be written.
+void save_world(const scenario::Scenario& scenario, const std::filesystem::path& file,
+                WorldFormat format);
+
+}  // namespace lcs::sim

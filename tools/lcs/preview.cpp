@@ -1,0 +1,103 @@
+#include "tools/lcs/preview.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "scenarios/load.h"
+#include "sim/survey.h"
+#include "tools/files/output_file.h"
+#include "tools/lcs/interrupt.h"
+#include "tools/lcs/options.h"
+#include "tools/lcs/terminal.h"
+#include "tools/preview/preview.h"
+
+namespace lcs::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kHelp = R"(Examples:
+  lcs preview my_scenario.yaml                          out/preview/my_scenario.html
+  lcs preview my_scenario.yaml --set "ego.speed=1 m/s" --out faster.html
+  lcs preview my_scenario.yaml --mjcf world.xml         for MuJoCo's viewer: simulate world.xml
+
+The page has the plan from above with the ways of the rover and the actors and their times; the first, the
+middle and the last picture with the corners in them; and what is wrong: who starts inside of something, runs
+into something, is never seen or never moves, a camera inside of something, too few corners. The physics are
+done, the filter is not asked. That an actor is never seen, and corners, go by 13 pictures, evenly spread.
+
+--mjcf writes the world with all at their start: MJCF, in which surfaces that this project draws are of one
+colour and bumps of the ground are level; or, to a file called .mjb, MuJoCo's binary, which has them.
+
+Exit codes:
+  0  nothing is wrong
+  1  something is: told on stderr and on the page
+  2  error: nothing was written
+  130  interrupted (Ctrl-C): likewise
+)";
+
+void print_preview(const scenario::Scenario& scenario, const preview::Preview& p,
+                   const fs::path& page) {
+  std::string text =
+      fmt::format("{}: {} frames at {:g} Hz, {:.1f} s\n", scenario.name, scenario.frames,
+                  scenario.camera.rate_hz, scenario.frames / scenario.camera.rate_hz);
+  const auto [least, most] =
+      std::ranges::minmax(p.corners_px, {}, [](const auto& corners) { return corners.size(); });
+  text += fmt::format("  corners  {} to {} a frame\n", least.size(), most.size());
+  for (const preview::Mover& mover : p.movers) {
+    text += fmt::format(
+        "  actor    {}: {}, nearest {:.2f} m at {:.1f} s, in {} of {} pictures\n", mover.name,
+        mover.moves
+            ? fmt::format("moves from {:.1f} to {:.1f} s", mover.moves->from_s, mover.moves->to_s)
+            : "never moves",
+        mover.nearest_m, mover.nearest_s, mover.looks, p.survey.looks.size());
+  }
+  write_out(fmt::format("{}  page     {}\n", text, page.string()));
+}
+
+}  // namespace
+
+CLI::App& add_preview_command(CLI::App& app, PreviewOptions& options) {
+  CLI::App& command = *app.add_subcommand(
+      "preview", "Show a scenario before it is run: its plan, three pictures, what is wrong");
+  command.add_option("SCENARIO", options.scenario, "The scenario, a YAML file")
+      ->required()
+      ->type_name("");
+  command.add_option("--out", options.out, "The page; out/preview/SCENARIO.html if not given")
+      ->type_name("FILE");
+  command
+      .add_option("--mjcf", options.mjcf,
+                  "Write the world too, for MuJoCo's viewer: an .xml, or an .mjb")
+      ->type_name("FILE");
+  add_seed_option(command, options.seed);
+  add_set_option(command, options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
+  command.add_flag("--quiet", options.quiet, "Print only what is wrong");
+  command.footer(kHelp);
+  return command;
+}
+
+ExitCode preview(const PreviewOptions& options) {
+  const scenario::Scenario scenario =
+      scenario::load(options.scenario, {.sets = options.sets, .seed = options.seed});
+  const preview::Preview p = preview::preview(scenario);
+  check_interrupted();
+  if (!options.mjcf.empty()) {
+    const auto format = fs::path(options.mjcf).extension() == ".mjb" ? sim::WorldFormat::mjb
+                                                                     : sim::WorldFormat::mjcf;
+    bench::write_whole(options.mjcf,
+                       [&](const fs::path& beside) { sim::save_world(scenario, beside, format); });
+  }
+  fs::path page = options.out;
+  if (page.empty()) {
+    page = fs::path("out") / "preview" / (scenario.name + ".html");
+    fs::create_directories(page.parent_path());
+  }
+  preview::write_preview(page, scenario, p);
+  if (!options.quiet) print_preview(scenario, p, page);
+  for (const std::string& line : p.wrong) tell(line);
+  return p.wrong.empty() ? kFine : kCriterionFailed;
+}
+
+}  // namespace lcs::tools

@@ -1,0 +1,93 @@
+#include "tools/preview/preview.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <variant>
+
+#include "filter/detect/fast.h"
+#include "tools/recording/warnings.h"
+
+namespace lcs::preview {
+namespace {
+
+constexpr double kStands_m = 1e-4;  // from one frame to the next
+
+Mover mover_of(const scenario::Scenario& scenario, const sim::Survey& survey, std::size_t actor) {
+  Mover mover{.name = scenario.actors[actor].name, .object = survey.actors[actor]};
+  const auto id = static_cast<std::size_t>(mover.object);
+  for (std::size_t k = 0; k < survey.snapshots.size(); ++k) {
+    const Eigen::Vector2d here = survey.snapshots[k].T_WO[id].p.head<2>();
+    const double t_s = static_cast<double>(k) / scenario.camera.rate_hz;
+    const double distance_m = (here - survey.rover_m[k]).norm();
+    if (k == 0 || distance_m < mover.nearest_m) {
+      mover.nearest_m = distance_m;
+      mover.nearest_s = t_s;
+    }
+    if (k > 0 && (here - mover.way_m.back()).norm() > kStands_m) {
+      if (!mover.moves) mover.moves = {t_s - 1 / scenario.camera.rate_hz, t_s};
+      mover.moves->to_s = t_s;
+    }
+    mover.way_m.push_back(here);
+  }
+  for (const sim::Observation& look : survey.looks) {
+    mover.looks += std::ranges::find(look.objects, mover.object, &sim::ObjectTruth::object) !=
+                   look.objects.end();
+  }
+  return mover;
+}
+
+std::vector<std::string> what_is_wrong(const scenario::Scenario& scenario, const Preview& p) {
+  std::vector<std::string> lines = p.survey.wrong_at_start;
+  lines.insert(lines.end(), p.survey.inside.begin(), p.survey.inside.end());
+  for (std::size_t i = 0; i < sim::kWarnings.size(); ++i) {
+    const auto& met = p.survey.warnings.of(static_cast<sim::Warning>(i));
+    if (met.count > 0) lines.push_back(met.first);
+    if (met.count > 1) lines.back() += fmt::format(" (and {} more times)", met.count - 1);
+  }
+  for (std::size_t i = 0; i < p.movers.size(); ++i) {
+    const Mover& mover = p.movers[i];
+    if (mover.looks == 0) {
+      lines.push_back(
+          fmt::format("actor '{}' is in none of the {} pictures that were looked at: change its "
+                      "trajectory, its start, or the rover's way",
+                      mover.name, p.survey.looks.size()));
+    }
+    if (!mover.moves && !std::holds_alternative<scenario::Still>(scenario.actors[i].trajectory)) {
+      lines.push_back(
+          fmt::format("actor '{}' never moves: its start trigger does not fire within {:.1f} s "
+                      "(the rover comes as near as {:.2f} m), or its speed is 0",
+                      mover.name, scenario.frames / scenario.camera.rate_hz, mover.nearest_m));
+    }
+  }
+  const auto has_few = [](const auto& corners) { return corners.size() < bench::kFewCorners; };
+  const auto few = std::ranges::count_if(p.corners_px, has_few);
+  if (2 * few > std::ssize(p.corners_px)) {
+    lines.push_back(
+        fmt::format("fewer than {} corners are in {} of {} pictures: lower corners.threshold, or "
+                    "give the scene more texture or light",
+                    bench::kFewCorners, few, p.corners_px.size()));
+  }
+  return lines;
+}
+
+}  // namespace
+
+Preview preview(const scenario::Scenario& scenario) {
+  Preview p;
+  p.survey = sim::survey(scenario, kLooks);
+  const FastDetector detector(scenario.fast_threshold);
+  for (const sim::Observation& look : p.survey.looks) {
+    cv::Mat1b grey;
+    cv::cvtColor(look.image, grey, cv::COLOR_BGR2GRAY);
+    p.corners_px.push_back(detector.detect(grey));
+  }
+  for (std::size_t i = 0; i < scenario.actors.size(); ++i) {
+    p.movers.push_back(mover_of(scenario, p.survey, i));
+  }
+  p.wrong = what_is_wrong(scenario, p);
+  return p;
+}
+
+}  // namespace lcs::preview

@@ -1,0 +1,360 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
+#include <string_view>
+
+#include "tools/scoring/events.h"
+#include "tools/files/output_file.h"
+#include "tools/preview/preview.h"
+#include "tools/report/page_template.h"
+#include "tools/report/page_writer.h"
+
+namespace lcs::preview {
+namespace {
+
+using Eigen::Vector2d;
+using report::escaped;
+
+constexpr const char* kStyle = R"(
+svg { display: block; width: 100%; height: auto; background: var(--panel); border-radius: 6px; }
+svg text { font-size: 12px; fill: var(--text); stroke: var(--panel); stroke-width: 3px; paint-order: stroke; }
+.plan svg { max-height: 80vh; }
+.plan polyline { fill: none; stroke-width: 2; stroke-linejoin: round; }
+.grid { stroke: var(--line); stroke-width: 0.5; }
+.setting { fill: var(--line); fill-opacity: 0.5; stroke: var(--quiet); stroke-width: 0.5; }
+.thing { fill: var(--mark); stroke: var(--quiet); }
+.view { fill: var(--s1); fill-opacity: 0.12; }
+.pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(360px, 100%), 1fr)); gap: 0.8rem; }
+.pictures text { fill: #fff; stroke: #000; }
+.pictures .corners { stroke: #ffe600; stroke-linecap: round; fill: none; }
+.pictures rect { fill: none; }
+.c0 { stroke: var(--s1); } .c1 { stroke: var(--s2); } .c2 { stroke: var(--s3); } .c3 { stroke: var(--s4); } .c4 { stroke: var(--s5); }
+i.c0, i.c1, i.c2, i.c3, i.c4 { display: inline-block; width: 1.4em; border-top: 3px solid; vertical-align: 0.25em; margin-right: 0.4em; }
+i.c0 { border-color: var(--s1); } i.c1 { border-color: var(--s2); } i.c2 { border-color: var(--s3); } i.c3 { border-color: var(--s4); } i.c4 { border-color: var(--s5); }
+.wrong { border-left: 4px solid var(--bad); background: var(--bad-back); padding: 0.4rem 0.9rem; border-radius: 4px; }
+.fine { border-left: 4px solid var(--good); background: var(--good-back); padding: 0.4rem 0.9rem; border-radius: 4px; }
+.wrong li { margin: 0.2rem 0; }
+)";
+
+/// The rover is of the first colour, and movers share the others.
+int colour_of(std::size_t mover) {
+  return 1 + static_cast<int>(mover % 4);
+}
+
+/// 1, 2 or 5 times a power of ten, and no less than `least`.
+double round_number(double least) {
+  const double power = std::pow(10, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= least) return factor * power;
+  }
+  return 10 * power;
+}
+
+class PreviewText {
+ public:
+  PreviewText(const scenario::Scenario& scenario, const Preview& preview)
+      : scenario_(scenario), preview_(preview), survey_(preview.survey) {}
+
+  std::string html() {
+    add("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+        "<title>{}: preview</title>\n<style>\n{}{}</style>\n</head>\n<body>\n",
+        escaped(scenario_.name), report::kPageCss, kStyle);
+    head();
+    add("<h2>From above</h2>\n");
+    plan();
+    movers();
+    add("<h2>What the camera sees</h2>\n<div class=\"pictures\">\n");
+    const std::size_t last = survey_.looks.size() - 1;
+    for (const std::size_t look : {std::size_t{0}, last / 2, last}) picture(look);
+    add("</div>\n<p class=\"small quiet\">Yellow: corners. Boxes: actors.</p>\n");
+    corners();
+    add("</body>\n</html>\n");
+    return std::move(text_);
+  }
+
+ private:
+  template <class... Args>
+  void add(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+  }
+
+  double time_s(int frame) const { return frame / scenario_.camera.rate_hz; }
+
+  void head() {
+    const scenario::Camera& camera = scenario_.camera;
+    add("<header>\n<h1>{}</h1>\n<p>{}</p>\n<div class=\"facts\"><span><b>{}</b> frames at {:g} Hz, "
+        "<b>{:.1f} s</b></span><span>camera <b>{}x{}</b>, {:.0f} deg high</span><span>scene "
+        "<b>{}</b></span><span>seed {}</span></div>\n",
+        escaped(scenario_.name), escaped(scenario_.purpose), scenario_.frames, camera.rate_hz,
+        time_s(scenario_.frames), camera.width_px, camera.height_px,
+        camera.fovy_rad * 180 / std::numbers::pi, escaped(scenario_.scene.filename().string()),
+        scenario_.seed);
+    if (preview_.wrong.empty()) {
+      add("<p class=\"fine\">Nothing is wrong that can be seen without a run.</p>\n");
+    } else {
+      add("<div class=\"wrong\"><b>What is wrong</b><ul>\n");
+      for (const std::string& line : preview_.wrong) add("<li>{}</li>\n", escaped(line));
+      add("</ul></div>\n");
+    }
+    add("</header>\n");
+  }
+
+  /// What the plan shows of W, m, and how large.
+  struct Window {
+    Vector2d low = Vector2d::Constant(1e9), high = Vector2d::Constant(-1e9);
+    double scale = 1;  ///< px of the drawing for a metre
+
+    void take_in(const Vector2d& p) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    Vector2d at(const Vector2d& p) const {
+      return scale * Vector2d(p.x() - low.x(), high.y() - p.y());
+    }
+  };
+
+  /// All ways, and what is about them.
+  Window window() const {
+    constexpr double kAround_m = 2.5, kWidth_px = 1100, kHeight_px = 640;
+    Window w;
+    for (const Vector2d& p : survey_.rover_m) w.take_in(p);
+    for (const Mover& mover : preview_.movers) {
+      for (const Vector2d& p : mover.way_m) w.take_in(p);
+    }
+    w.low -= Vector2d::Constant(kAround_m);
+    w.high += Vector2d::Constant(kAround_m);
+    const Vector2d size = w.high - w.low;
+    w.scale = std::min(kWidth_px / size.x(), kHeight_px / size.y());
+    return w;
+  }
+
+  void polygon(const Window& w, const std::vector<Vector2d>& points, std::string_view classes,
+               std::string_view more = "", std::string_view title = "") {
+    add("<polygon class=\"{}\" {} points=\"", classes, more);
+    for (const Vector2d& p : points) {
+      const Vector2d at = w.at(p);
+      add("{:.1f},{:.1f} ", at.x(), at.y());
+    }
+    add("\">");
+    if (!title.empty()) add("<title>{}</title>", escaped(title));
+    add("</polygon>\n");
+  }
+
+  void label(const Vector2d& at_px, const std::string& text, std::string_view more = "") {
+    add("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", at_px.x(), at_px.y(), more,
+        escaped(text));
+  }
+
+  void grid(const Window& w, const Vector2d& size_px) {
+    const double step_m = round_number(60 / w.scale);
+    for (int axis = 0; axis < 2; ++axis) {
+      for (double at_m = std::ceil(w.low[axis] / step_m) * step_m; at_m < w.high[axis];
+           at_m += step_m) {
+        const double x = axis == 0 ? w.at({at_m, 0}).x() : w.at({0, at_m}).y();
+        const std::string text = fmt::format("{:g}", std::round(at_m / step_m) * step_m);
+        if (axis == 0) {
+          add("<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"0\" y2=\"{1:.1f}\"/>\n", x,
+              size_px.y());
+          label({x + 2, size_px.y() - 4}, text + (at_m + step_m < w.high[axis] ? "" : " m"));
+        } else {
+          add("<line class=\"grid\" y1=\"{0:.1f}\" y2=\"{0:.1f}\" x1=\"0\" x2=\"{1:.1f}\"/>\n", x,
+              size_px.x());
+          label({2, x - 2}, text);
+        }
+      }
+    }
+  }
+
+  /// A way with its times, and the name where it begins.
+  void way(const Window& w, const std::vector<Vector2d>& points, const std::string& name,
+           int colour) {
+    add("<polyline class=\"c{}\" points=\"", colour);
+    for (const Vector2d& p : points) {
+      const Vector2d at = w.at(p);
+      add("{:.1f},{:.1f} ", at.x(), at.y());
+    }
+    add("\"/>\n");
+    const double step_s = round_number(std::max(time_s(scenario_.frames) / 6, 1e-3));
+    Vector2d last = Vector2d::Constant(-1e9), labelled = last;
+    for (double t_s = 0;; t_s += step_s) {
+      const auto k = static_cast<std::size_t>(std::lround(t_s * scenario_.camera.rate_hz));
+      if (k >= points.size()) break;
+      const Vector2d at = w.at(points[k]);
+      if ((at - last).norm() < 14) continue;  // it stands, or no text has room
+      add("<circle class=\"c{}\" r=\"3\" fill=\"var(--panel)\" stroke-width=\"2\" cx=\"{:.1f}\" "
+          "cy=\"{:.1f}\"/>\n",
+          colour, at.x(), at.y());
+      if (last.x() > -1e8) {
+        if ((at - labelled).norm() > 34) {
+          label(at + Vector2d(6, -6), fmt::format("{:g} s", t_s));
+          labelled = at;
+        }
+      } else {
+        label(at + Vector2d(6, 16), name, "font-weight=\"700\"");
+        labelled = at;
+      }
+      last = at;
+    }
+  }
+
+  /// What the camera sees to 3 m off.
+  void view(const Window& w, const sim::Snapshot& snapshot) {
+    constexpr double kFar_m = 3;
+    const scenario::Camera& camera = scenario_.camera;
+    const double half_x = std::tan(camera.fovy_rad / 2) * camera.width_px / camera.height_px;
+    std::vector<Vector2d> fan{snapshot.T_WC.p.head<2>()};
+    for (const double x : {-half_x, half_x}) {
+      const Eigen::Vector3d ray = snapshot.T_WC.R * Eigen::Vector3d(x, 0, 1).normalized();
+      fan.push_back(fan.front() + kFar_m * ray.head<2>());
+    }
+    polygon(w, fan, "view");
+  }
+
+  void plan() {
+    const Window w = window();
+    const Vector2d size_px = w.scale * (w.high - w.low);
+    add("<div class=\"plan\"><svg viewBox=\"0 0 {:.1f} {:.1f}\" role=\"img\" aria-label=\"plan "
+        "from "
+        "above\">\n",
+        size_px.x(), size_px.y());
+    grid(w, size_px);
+    // Ceilings, lamps and what else hangs well above the camera would hide all the rest.
+    const double above_m = survey_.snapshots.front().T_WC.p.z() + 1;
+    std::vector<const sim::Footprint*> prints;
+    for (const sim::Footprint& print : survey_.footprints) {
+      if (print.low_m < above_m) prints.push_back(&print);
+    }
+    std::ranges::stable_sort(prints, {}, &sim::Footprint::high_m);
+    for (const sim::Footprint* print : prints) {
+      if (print->object < 0) continue;
+      const auto mover = std::ranges::find(preview_.movers, print->object, &Mover::object);
+      const std::string name =
+          print->object == 0 ? ""
+                             : survey_.objects[static_cast<std::size_t>(print->object - 1)].name;
+      if (mover == preview_.movers.end()) {
+        polygon(w, print->outline_m, print->object == 0 ? "setting" : "thing", "", name);
+        continue;
+      }
+      const std::string classes = fmt::format(
+          "thing c{}", colour_of(static_cast<std::size_t>(mover - preview_.movers.begin())));
+      polygon(w, print->outline_m, classes, "stroke-width=\"1.5\"", name + ", at the start");
+      if (mover->moves) {
+        const auto id = static_cast<std::size_t>(print->object);
+        const sim::Pose moved =
+            survey_.snapshots.back().T_WO[id] * survey_.snapshots.front().T_WO[id].inverse();
+        std::vector<Vector2d> outline;
+        for (const Vector2d& p : print->outline_m) {
+          const Eigen::Vector3d at = moved * Eigen::Vector3d(p.x(), p.y(), 0);
+          outline.emplace_back(at.head<2>());
+        }
+        polygon(w, outline, classes, "stroke-dasharray=\"4 3\" fill-opacity=\"0.3\"",
+                name + ", at the end");
+      }
+    }
+    const std::size_t last = survey_.snapshots.size() - 1;
+    for (const std::size_t k : {std::size_t{0}, last / 2, last}) view(w, survey_.snapshots[k]);
+    way(w, survey_.rover_m, "rover", 0);
+    for (std::size_t i = 0; i < preview_.movers.size(); ++i) {
+      way(w, preview_.movers[i].way_m, preview_.movers[i].name, colour_of(i));
+    }
+    add("</svg></div>\n<p class=\"small quiet\">Ways with their times; outlines at the start, and "
+        "dashed at the end; what the camera sees to 3 m off at first, in the middle and at last. "
+        "Grey: what stands (names on pointing). World x is to the right, y up, in m.</p>\n");
+  }
+
+  void movers() {
+    if (preview_.movers.empty()) {
+      add("<p>There are no actors.</p>\n");
+      return;
+    }
+    add("<div "
+        "class=\"scroll\"><table><thead><tr><th>actor</th><th>moves</th><th>from</th><th>to</th>"
+        "<th>nearest to the rover</th><th>in view</th></tr></thead><tbody>\n");
+    for (std::size_t i = 0; i < preview_.movers.size(); ++i) {
+      const Mover& mover = preview_.movers[i];
+      const Vector2d &from = mover.way_m.front(), &to = mover.way_m.back();
+      add("<tr><td><i class=\"c{}\"></i>{}</td><td>{}</td><td>({:.2f}, {:.2f}) m</td><td>({:.2f}, "
+          "{:.2f}) m</td><td>{:.2f} m at {:.1f} s</td><td>{} of {} pictures</td></tr>\n",
+          colour_of(i), escaped(mover.name),
+          mover.moves ? fmt::format("{:.1f} to {:.1f} s", mover.moves->from_s, mover.moves->to_s)
+                      : "never",
+          from.x(), from.y(), to.x(), to.y(), mover.nearest_m, mover.nearest_s, mover.looks,
+          survey_.looks.size());
+    }
+    add("</tbody></table></div>\n");
+  }
+
+  void picture(std::size_t which) {
+    const sim::Observation& look = survey_.looks[which];
+    std::vector<unsigned char> jpeg;
+    cv::imencode(".jpg", look.image, jpeg, {cv::IMWRITE_JPEG_QUALITY, 85});
+    const std::string_view bytes(reinterpret_cast<const char*>(jpeg.data()), jpeg.size());
+    const double line = look.image.cols / 640.0;
+    add("<figure><svg viewBox=\"0 0 {0} {1}\" role=\"img\" aria-label=\"frame {2}\">\n<image "
+        "width=\"{0}\" height=\"{1}\" href=\"data:image/jpeg;base64,{3}\"/>\n<path "
+        "class=\"corners\" stroke-width=\"{4:.1f}\" d=\"",
+        look.image.cols, look.image.rows, look.index, bench::base64(bytes), 2.5 * line);
+    for (const Eigen::Vector2f& p : preview_.corners_px[which]) {
+      add("M{:.0f} {:.0f}h0", p.x() + 0.5, p.y() + 0.5);
+    }
+    add("\"/>\n");
+    for (const sim::ObjectTruth& object : look.objects) {
+      const auto mover = std::ranges::find(preview_.movers, object.object, &Mover::object);
+      if (mover == preview_.movers.end()) continue;
+      const auto place = static_cast<std::size_t>(mover - preview_.movers.begin());
+      add("<rect class=\"c{}\" stroke-width=\"{:.1f}\" x=\"{}\" y=\"{}\" width=\"{}\" "
+          "height=\"{}\"/>\n",
+          colour_of(place), 2 * line, object.left, object.top, object.right - object.left,
+          object.bottom - object.top);
+      label({object.left + 2 * line, std::max(object.top - 4 * line, 14 * line)}, mover->name,
+            fmt::format("style=\"font-size: {:.0f}px\"", 14 * line));
+    }
+    add("</svg><figcaption>frame {}, {:.1f} s: <b>{} corners</b></figcaption></figure>\n",
+        look.index, time_s(look.index), preview_.corners_px[which].size());
+  }
+
+  /// A bar for each look.
+  void corners() {
+    constexpr double kStep = 60, kHeight = 90;
+    std::size_t most = 1;
+    for (const auto& corners : preview_.corners_px) most = std::max(most, corners.size());
+    add("<h3>Corners a frame</h3>\n<figure class=\"plot\"><svg viewBox=\"0 0 {:.0f} {:.0f}\" "
+        "role=\"img\" aria-label=\"corners a frame\">\n",
+        kStep * static_cast<double>(preview_.corners_px.size()), kHeight + 40);
+    for (std::size_t i = 0; i < preview_.corners_px.size(); ++i) {
+      const double x = kStep * static_cast<double>(i);
+      const double high =
+          kHeight * static_cast<double>(preview_.corners_px[i].size()) / static_cast<double>(most);
+      add("<rect x=\"{:.0f}\" y=\"{:.1f}\" width=\"{:.0f}\" height=\"{:.1f}\" "
+          "fill=\"var(--bar)\"/>\n",
+          x + 4, kHeight + 20 - high, kStep - 8, high);
+      label({x + kStep / 2, kHeight + 16 - high}, std::to_string(preview_.corners_px[i].size()),
+            "text-anchor=\"middle\"");
+      label({x + kStep / 2, kHeight + 36}, fmt::format("{:.1f} s", time_s(survey_.looks[i].index)),
+            "text-anchor=\"middle\"");
+    }
+    add("</svg></figure>\n");
+  }
+
+  const scenario::Scenario& scenario_;
+  const Preview& preview_;
+  const sim::Survey& survey_;
+  std::string text_;
+};
+
+}  // namespace
+
+void write_preview(const std::filesystem::path& file, const scenario::Scenario& scenario,
+                   const Preview& preview) {
+  bench::write_whole(file, [&](const std::filesystem::path& beside) {
+    bench::OutputFile out(beside);
+    out.write(PreviewText(scenario, preview).html());
+    out.close();
+  });
+}
+
+}  // namespace lcs::preview
