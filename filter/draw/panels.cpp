@@ -1,5 +1,7 @@
 #include "filter/draw/panels.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -14,6 +16,9 @@ constexpr double kDotRadius = 1.6;  // px on the sheet, as all that follow
 constexpr double kPredictedHalf = 2;
 constexpr double kEdgeHalf = 3;
 constexpr int kLayerLine = 2;
+constexpr double kMarkReach = 4.5;
+constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
+constexpr double kTextSize = 0.42, kNameSize = 0.4, kTitleSize = 0.5;
 
 int even(double length) {
   return std::max(16, 2 * static_cast<int>(std::lround(length / 2)));
@@ -50,14 +55,37 @@ class Pen {
   void box(const Vec2& min, const Vec2& max, const cv::Scalar& colour, int line) {
     outline(place(min), place(max), colour, line);
   }
-  /// Parts the panel from its neighbours, too.
-  void caption(const std::string& text) {
-    constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
-    constexpr double kSize = 0.42;
-    constexpr int kBand = 18;
-    cv::rectangle(panel_, {0, 0, panel_.cols, panel_.rows}, cv::Scalar::all(0), 1);
-    cv::rectangle(panel_, {0, 0, panel_.cols, kBand}, cv::Scalar::all(0), cv::FILLED);
-    cv::putText(panel_, text, {5, kBand - 5}, kFont, kSize, cv::Scalar::all(255), 1, cv::LINE_AA);
+  /// Missed: a ring. False: a cross.
+  void mark(const Vec2& at, Mark mark) {
+    if (mark == Mark::missed) {
+      cv::circle(panel_, fixed(place(at)), fixed(kMarkReach), colour::kMissed, 2, cv::LINE_AA,
+                 kFractionBits);
+    } else if (mark == Mark::wrong) {
+      const Vec2 p = place(at);
+      for (const double side : {-1.0, 1.0}) {
+        cv::line(panel_, fixed(p - kMarkReach * Vec2(1, side)),
+                 fixed(p + kMarkReach * Vec2(1, side)), colour::kFalse, 2, cv::LINE_AA,
+                 kFractionBits);
+      }
+    }
+  }
+  /// Below and to the right of a place of the image.
+  void id_of(const Vec2& at, const std::string& text, const cv::Scalar& colour) {
+    name(at + (Vec2(4, 15).array() / scale_.array()).matrix(), text, colour);
+  }
+  /// Over a place of the image, within the panel.
+  void name(const Vec2& at, const std::string& text, const cv::Scalar& colour) {
+    int below = 0;
+    const cv::Size size = cv::getTextSize(text, kFont, kNameSize, 1, &below);
+    const Vec2 p = place(at);
+    const auto within = [](double x, int most) {
+      return static_cast<int>(std::lround(std::clamp(x, 0.0, std::max(0.0, most * 1.0))));
+    };
+    const cv::Point corner(within(p.x(), panel_.cols - size.width - 2),
+                           within(p.y() - 3, panel_.rows - 3));
+    const cv::Point seen(corner.x, std::max(corner.y, size.height + 1));
+    cv::putText(panel_, text, seen, kFont, kNameSize, cv::Scalar::all(0), 3, cv::LINE_AA);
+    cv::putText(panel_, text, seen, kFont, kNameSize, colour, 1, cv::LINE_AA);
   }
 
  private:
@@ -89,6 +117,13 @@ void draw_truth(Pen& pen, std::span<const TruthBox> truth) {
   }
 }
 
+/// Of what moves; on top of all.
+void name_movers(Pen& pen, std::span<const TruthBox> truth) {
+  for (const TruthBox& box : truth) {
+    if (box.moving && !box.name.empty()) pen.name(box.min_px, box.name, colour::kMovingTruth);
+  }
+}
+
 /// On top of the layers: a region and the layer that made it often coincide. \return how many.
 std::size_t draw_ignored(Pen& pen, const std::vector<IgnoreRegion>& regions,
                          IgnoreRegion::Shape shape) {
@@ -106,11 +141,76 @@ std::size_t draw_ignored(Pen& pen, const std::vector<IgnoreRegion>& regions,
   return drawn;
 }
 
-std::string count(std::size_t number, const char* what) {
-  return "  " + std::to_string(number) + " " + what;
+/// A word of a legend, behind a sample of its colour.
+struct Word {
+  cv::Scalar colour;
+  std::string text;
+  enum class Sample : std::uint8_t { fill, line, ring, cross } sample = Sample::fill;
+};
+using Sample = Word::Sample;
+
+const Word kMissedWord{colour::kMissed, "missed", Sample::ring};
+const Word kFalseWord{colour::kFalse, "false", Sample::cross};
+
+/// What stands above and below a panel.
+struct PanelText {
+  std::string caption;
+  std::vector<Word> legend;
+};
+
+void write(cv::Mat3b& band, const std::string& text, int x, double size = kTextSize) {
+  cv::putText(band, text, {x, (band.rows + 9) / 2}, kFont, size, cv::Scalar::all(255), 1,
+              cv::LINE_AA);
 }
 
-void draw_corners(Pen& pen, const PanelContent& content) {
+int width_of(const std::string& text, double size) {
+  int below = 0;
+  return cv::getTextSize(text, kFont, size, 1, &below).width;
+}
+
+void write_legend(cv::Mat3b& band, const std::vector<Word>& words) {
+  constexpr int kSample = 10, kGap = 5, kApart = 12;
+  double size = kTextSize;
+  const auto length = [&] {
+    int sum = kGap;
+    for (const Word& word : words) sum += kSample + kGap + width_of(word.text, size) + kApart;
+    return sum;
+  };
+  while (length() > band.cols && size > 0.25) size -= 0.02;
+  int x = kGap;
+  for (const Word& word : words) {
+    const cv::Point middle(x + kSample / 2, band.rows / 2);
+    switch (word.sample) {
+      case Sample::fill:
+        cv::rectangle(band, middle - cv::Point(4, 4), middle + cv::Point(4, 4), word.colour,
+                      cv::FILLED);
+        break;
+      case Sample::line:
+        cv::rectangle(band, middle - cv::Point(4, 4), middle + cv::Point(4, 4), word.colour, 1);
+        break;
+      case Sample::ring:
+        cv::circle(band, middle, 4, word.colour, 2, cv::LINE_AA);
+        break;
+      case Sample::cross:
+        cv::drawMarker(band, middle, word.colour, cv::MARKER_TILTED_CROSS, 8, 2, cv::LINE_AA);
+        break;
+    }
+    x += kSample + kGap;
+    write(band, word.text, x, size);
+    x += width_of(word.text, size) + kApart;
+  }
+}
+
+/// ", 3 missed, 2 false" of marks; empty where the truth is not known.
+std::string tally(std::span<const Mark> marks, bool with_missed) {
+  if (marks.empty()) return "";
+  const auto number = [&](Mark mark) { return std::count(marks.begin(), marks.end(), mark); };
+  return fmt::format(": {} found, {}{} false", number(Mark::found),
+                     with_missed ? fmt::format("{} missed, ", number(Mark::missed)) : "",
+                     number(Mark::wrong));
+}
+
+PanelText draw_corners(Pen& pen, const PanelContent& content) {
   for (const Collector& collector : content.layers.collectors) {
     pen.circle(collector.location, collector.radius, colour::kCollector, 1);
   }
@@ -121,11 +221,15 @@ void draw_corners(Pen& pen, const PanelContent& content) {
     pen.dot(content.corners_px[i].cast<double>(),
             skipped ? colour::kIgnoredCorner : colour::kCorner);
   }
-  pen.caption(content.caption + count(content.corners_px.size() - ignored, "corners") +
-              count(ignored, "ignored") + count(content.layers.collectors.size(), "lambda"));
+  return {
+      fmt::format("{} corners, {} ignored, {} collectors (lambda)",
+                  content.corners_px.size() - ignored, ignored, content.layers.collectors.size()),
+      {{colour::kCorner, "corner"},
+       {colour::kIgnoredCorner, "ignored"},
+       {colour::kCollector, "collector lambda: where a circle looks for corners", Sample::line}}};
 }
 
-void draw_edges(Pen& pen, const PanelContent& content) {
+PanelText draw_edges(Pen& pen, const PanelContent& content) {
   const Layers& layers = content.layers;
   for (const auto* edges : {&layers.normal_edges, &layers.rebel_edges}) {
     for (const Edge& edge : *edges) {
@@ -138,31 +242,77 @@ void draw_edges(Pen& pen, const PanelContent& content) {
   for (const Edge& edge : layers.rebel_edges) {
     pen.small_square(edge.location, kEdgeHalf, colour::kRebel);
   }
-  pen.caption(content.caption + count(layers.normal_edges.size(), "normal edges") +
-              count(layers.rebel_edges.size(), "rebel"));
+  for (std::size_t i = 0; i < content.corner_marks.size(); ++i) {
+    pen.mark(content.corners_px[i].cast<double>(), content.corner_marks[i]);
+  }
+  PanelText text{fmt::format("{} normal edges, {} rebels{}", layers.normal_edges.size(),
+                             layers.rebel_edges.size(), tally(content.corner_marks, true)),
+                 {{colour::kNormalEdge, "normal", Sample::line},
+                  {colour::kRebel, "rebel: moves by itself", Sample::line},
+                  {colour::kPredicted, "predicted", Sample::line}}};
+  if (!content.corner_marks.empty()) {
+    text.legend.insert(text.legend.end(), {kMissedWord, kFalseWord});
+  }
+  return text;
 }
 
-void draw_circles(Pen& pen, const PanelContent& content) {
+PanelText draw_circles(Pen& pen, const PanelContent& content) {
   const Layers& layers = content.layers;
   for (const Circle& circle : layers.normal_circles) {
     pen.circle(circle.location, circle.radius, colour::kNormalCircle, kLayerLine);
   }
-  for (const Circle& circle : layers.rebel_circles) {
+  for (std::size_t i = 0; i < layers.rebel_circles.size(); ++i) {
+    const Circle& circle = layers.rebel_circles[i];
     pen.circle(circle.location, circle.radius, colour::kRebel, kLayerLine);
+    if (!content.rebel_circle_marks.empty()) {
+      pen.mark(circle.location, content.rebel_circle_marks[i]);
+    }
   }
   const std::size_t ignored = draw_ignored(pen, layers.ignored, IgnoreRegion::Shape::circle);
-  pen.caption(content.caption + count(layers.normal_circles.size(), "normal circles") +
-              count(layers.rebel_circles.size(), "rebel") + count(ignored, "psi"));
+  PanelText text{
+      fmt::format("{} normal circles, {} rebel{}", layers.normal_circles.size(),
+                  layers.rebel_circles.size(), tally(content.rebel_circle_marks, false)),
+      {{colour::kNormalCircle, "normal: edges of like motion", Sample::line},
+       {colour::kRebel, "rebel", Sample::line},
+       {colour::kIgnoreRegion, fmt::format("psi: {} not looked at", ignored), Sample::line}}};
+  if (!content.rebel_circle_marks.empty()) {
+    text.legend.push_back({colour::kFalse, "false: nothing moves there", Sample::cross});
+  }
+  return text;
 }
 
-void draw_squares(Pen& pen, const PanelContent& content) {
+PanelText draw_squares(Pen& pen, const PanelContent& content) {
   const Layers& layers = content.layers;
+  for (const TruthBox& box : content.truth) {
+    if (box.missed) pen.box(box.min_px, box.max_px, colour::kMissed, kLayerLine);
+  }
   for (const Square& square : layers.squares) {
     pen.box(square.location - square.half_size, square.location + square.half_size, colour::kSquare,
             kLayerLine);
   }
   const std::size_t ignored = draw_ignored(pen, layers.ignored, IgnoreRegion::Shape::rectangle);
-  pen.caption(content.caption + count(layers.squares.size(), "squares") + count(ignored, "psi"));
+  for (std::size_t i = 0; i < layers.squares.size(); ++i) {
+    const Square& square = layers.squares[i];
+    if (!content.square_marks.empty()) pen.mark(square.location, content.square_marks[i]);
+    pen.id_of(square.location - square.half_size, fmt::format("#{}", square.id), colour::kSquare);
+  }
+  std::size_t missed = 0;
+  for (const TruthBox& box : content.truth) {
+    missed += box.missed;
+    if (box.missed && !box.moving) {
+      pen.name({box.min_px.x(), box.max_px.y()}, box.name, colour::kMissed);
+    }
+  }
+  PanelText text{
+      fmt::format("{} squares{}", layers.squares.size(), tally(content.square_marks, false)),
+      {{colour::kSquare, "square: an object, #id", Sample::line},
+       {colour::kIgnoreRegion, fmt::format("psi: {} not looked at", ignored), Sample::line}}};
+  if (!content.square_marks.empty()) {
+    text.caption += fmt::format(", {} objects missed", missed);
+    text.legend.insert(text.legend.end(),
+                       {{colour::kMissed, "object missed", Sample::line}, kFalseWord});
+  }
+  return text;
 }
 
 }  // namespace
@@ -178,7 +328,9 @@ PanelSheet::PanelSheet(cv::Size image_px, int panel_px) : image_(image_px) {
 cv::Rect PanelSheet::area(Panel panel) const {
   const bool right = panel == Panel::edges || panel == Panel::squares;
   const bool below = panel == Panel::circles || panel == Panel::squares;
-  return {right ? panel_.width : 0, below ? panel_.height : 0, panel_.width, panel_.height};
+  const int high = kCaption_px + panel_.height + kLegend_px;
+  return {right ? panel_.width : 0, kTitle_px + (below ? high : 0) + kCaption_px, panel_.width,
+          panel_.height};
 }
 
 Vec2 PanelSheet::at(Panel panel, const Vec2& image_point) const {
@@ -193,17 +345,39 @@ cv::Mat3b PanelSheet::draw(const PanelContent& content) const {
   if (content.verdicts.size() != content.corners_px.size()) {
     throw std::invalid_argument("a verdict is needed for each corner to draw");
   }
+  const auto is_paired = [](std::span<const Mark> marks, std::size_t size) {
+    return marks.empty() || marks.size() == size;
+  };
+  if (!is_paired(content.corner_marks, content.corners_px.size()) ||
+      !is_paired(content.rebel_circle_marks, content.layers.rebel_circles.size()) ||
+      !is_paired(content.square_marks, content.layers.squares.size())) {
+    throw std::invalid_argument("marks are for each corner, rebel circle or square, or for none");
+  }
   cv::Mat3b background;
   cv::resize(content.image, background, panel_, 0, 0, cv::INTER_AREA);
   background *= kDim;
 
-  cv::Mat3b sheet(size_px());
+  cv::Mat3b sheet(size_px(), cv::Vec3b(0, 0, 0));
+  cv::Mat3b title = sheet(cv::Rect(0, 0, sheet.cols, kTitle_px));
+  write(title, content.caption, 5, kTitleSize);
+  cv::Mat3b truth_legend =
+      title(cv::Rect(sheet.cols / 2, 0, sheet.cols - sheet.cols / 2, kTitle_px));
+  write_legend(truth_legend, {{colour::kMovingTruth, "truth: moves", Sample::line},
+                              {colour::kStaticTruth, "truth: stands", Sample::line}});
   const auto panel = [&](Panel which, auto draw_layers) {
-    cv::Mat3b target = sheet(area(which));
+    const cv::Rect at = area(which);
+    cv::Mat3b target = sheet(at);
     background.copyTo(target);
     Pen pen(target, image_);
     draw_truth(pen, content.truth);
-    draw_layers(pen, content);
+    const PanelText text = draw_layers(pen, content);
+    name_movers(pen, content.truth);
+    cv::rectangle(sheet, at, cv::Scalar::all(0), 1);
+    cv::Mat3b caption = sheet(cv::Rect(at.x, at.y - kCaption_px, at.width, kCaption_px));
+    caption = cv::Vec3b(60, 60, 60);
+    write(caption, text.caption, 5);
+    cv::Mat3b legend = sheet(cv::Rect(at.x, at.y + at.height, at.width, kLegend_px));
+    write_legend(legend, text.legend);
   };
   panel(Panel::corners, draw_corners);
   panel(Panel::edges, draw_edges);

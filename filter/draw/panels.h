@@ -2,10 +2,14 @@
 /// The paper's four panels: what each expert made of a frame, drawn over the dimmed image.
 ///
 ///     corners: chi, ignored, lambda    | edges: predicted, normal, rebel
-///     circles: normal, rebel, psi      | squares: S, psi
+///     circles: normal, rebel, psi      | squares: S with their ids, psi
+///
+/// Each panel says in words what it shows: counts above the image, a legend below it. Where the
+/// truth is known, what was found, missed and false is marked, and objects have their names.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <span>
 #include <string>
@@ -28,6 +32,8 @@ inline const cv::Scalar kSquare{255, 0, 255};         ///< S: magenta
 inline const cv::Scalar kIgnoreRegion{0, 230, 255};   ///< psi: yellow
 inline const cv::Scalar kMovingTruth{220, 220, 0};    ///< cyan
 inline const cv::Scalar kStaticTruth{150, 150, 150};  ///< grey
+inline const cv::Scalar kMissed{0, 150, 255};         ///< orange rings and boxes
+inline const cv::Scalar kFalse{255, 60, 255};         ///< violet crosses
 }  // namespace colour
 ///@}
 
@@ -36,7 +42,12 @@ struct TruthBox {
   Vec2 min_px = Vec2::Zero();
   Vec2 max_px = Vec2::Zero();
   bool moving = false;
+  std::string name = {};  ///< written over it; "" for none
+  bool missed = false;    ///< a square should be there and is not
 };
+
+/// What the truth says of a corner, a circle or a square that the filter spoke of.
+enum class Mark : std::uint8_t { none, found, missed, wrong };
 
 struct PanelContent {
   const cv::Mat3b& image;  ///< BGR
@@ -44,8 +55,13 @@ struct PanelContent {
   std::span<const Verdict> verdicts;  ///< of each corner
   const Layers& layers;
   std::span<const TruthBox> truth;
-  std::string
-      caption;  ///< of the frame, as "frame 12  1.20 s"; printed in every panel before its counts
+  std::string caption;  ///< of the frame, as "frame 12  1.20 s"; printed over all panels
+  /// \name Of each corner, rebel circle and square; empty where the truth is not known.
+  ///@{
+  std::span<const Mark> corner_marks = {};
+  std::span<const Mark> rebel_circle_marks = {};
+  std::span<const Mark> square_marks = {};
+  ///@}
 };
 
 enum class Panel { corners, edges, circles, squares };
@@ -60,17 +76,21 @@ class PanelSheet {
   /// \throws std::invalid_argument unless all sizes are at least 16.
   explicit PanelSheet(cv::Size image_px, int panel_px = 640);
 
-  cv::Size size_px() const { return {2 * panel_.width, 2 * panel_.height}; }
+  /// Of the image in a panel, and of the bands over all of it, over each panel and below it.
+  static constexpr int kTitle_px = 28, kCaption_px = 22, kLegend_px = 20;
+  cv::Size size_px() const {
+    return {2 * panel_.width, kTitle_px + 2 * (kCaption_px + panel_.height + kLegend_px)};
+  }
 
   /// Place on the sheet of a pixel of the image, in the given panel.
   Vec2 at(Panel panel, const Vec2& image_point) const;
 
-  /// \throws std::invalid_argument for an image of another size, or verdicts that do not pair with
-  ///   the corners.
+  /// \throws std::invalid_argument for an image of another size, or verdicts or marks that do not
+  ///   pair with what they are of.
   cv::Mat3b draw(const PanelContent& content) const;
 
  private:
-  cv::Rect area(Panel panel) const;
+  cv::Rect area(Panel panel) const;  ///< of the image in it
 
   cv::Size image_;
   cv::Size panel_;

@@ -8,6 +8,10 @@
 namespace lcs {
 namespace {
 
+/// Of captions and legends.
+constexpr int kBands_px =
+    PanelSheet::kTitle_px + 2 * (PanelSheet::kCaption_px + PanelSheet::kLegend_px);
+
 /// A frame with an empty filter, to be filled.
 struct Scene {
   cv::Mat3b image = cv::Mat3b(480, 640, {80, 80, 80});
@@ -15,6 +19,7 @@ struct Scene {
   std::vector<Verdict> verdicts;
   Layers layers;
   std::vector<TruthBox> truth;
+  std::vector<Mark> corner_marks = {}, circle_marks = {}, square_marks = {};
 
   cv::Mat3b draw(const PanelSheet& sheet) const {
     return sheet.draw({.image = image,
@@ -22,7 +27,10 @@ struct Scene {
                        .verdicts = verdicts,
                        .layers = layers,
                        .truth = truth,
-                       .caption = "frame 1"});
+                       .caption = "frame 1",
+                       .corner_marks = corner_marks,
+                       .rebel_circle_marks = circle_marks,
+                       .square_marks = square_marks});
   }
 };
 
@@ -77,14 +85,14 @@ Circle circle_at(Vec2 location, double radius) {
 }
 
 TEST(PanelSheet, IsTwoByTwoPanelsOfEvenSizeWhateverTheCamera) {
-  EXPECT_EQ(PanelSheet({640, 480}).size_px(), cv::Size(1280, 960));
-  EXPECT_EQ(PanelSheet({1280, 960}).size_px(), cv::Size(1280, 960));
-  EXPECT_EQ(PanelSheet({320, 240}).size_px(), cv::Size(1280, 960));
+  EXPECT_EQ(PanelSheet({640, 480}).size_px(), cv::Size(1280, 1072));
+  EXPECT_EQ(PanelSheet({1280, 960}).size_px(), cv::Size(1280, 1072));
+  EXPECT_EQ(PanelSheet({320, 240}).size_px(), cv::Size(1280, 1072));
   for (const cv::Size camera : {cv::Size(641, 479), cv::Size(333, 777), cv::Size(2000, 20)}) {
     const cv::Size sheet = PanelSheet(camera).size_px();
     EXPECT_EQ(sheet.width % 4, 0);  // each panel even, and two of them
     EXPECT_EQ(sheet.height % 4, 0);
-    EXPECT_LE(std::max(sheet.width, sheet.height), 1280);
+    EXPECT_LE(std::max(sheet.width, sheet.height - kBands_px), 1280);
   }
 }
 
@@ -102,15 +110,20 @@ TEST(PanelSheet, RefusesAnotherImageAndCornersWithoutVerdicts) {
   Scene unpaired;
   unpaired.corners = {{10, 10}};
   EXPECT_THROW(unpaired.draw(sheet), std::invalid_argument);
+  Scene marked;
+  marked.square_marks = {Mark::wrong};
+  EXPECT_THROW(marked.draw(sheet), std::invalid_argument);
 }
 
 TEST(PanelSheet, PutsAPixelOfTheImageAtTheSamePlaceOfEveryPanel) {
   const PanelSheet sheet({1280, 960});
   // Half the size: the image's corner, half a pixel off its first pixel's centre, stays put.
-  EXPECT_TRUE(sheet.at(Panel::corners, {-0.5, -0.5}).isApprox(Vec2(-0.5, -0.5)));
-  EXPECT_TRUE(sheet.at(Panel::edges, {-0.5, -0.5}).isApprox(Vec2(639.5, -0.5)));
-  EXPECT_TRUE(sheet.at(Panel::circles, {99.5, 199.5}).isApprox(Vec2(49.5, 480 + 99.5)));
-  EXPECT_TRUE(sheet.at(Panel::squares, {1279.5, 959.5}).isApprox(Vec2(1279.5, 959.5)));
+  constexpr int kTop = PanelSheet::kTitle_px + PanelSheet::kCaption_px;
+  constexpr int kBelow = kTop + 480 + PanelSheet::kLegend_px + PanelSheet::kCaption_px;
+  EXPECT_TRUE(sheet.at(Panel::corners, {-0.5, -0.5}).isApprox(Vec2(-0.5, kTop - 0.5)));
+  EXPECT_TRUE(sheet.at(Panel::edges, {-0.5, -0.5}).isApprox(Vec2(639.5, kTop - 0.5)));
+  EXPECT_TRUE(sheet.at(Panel::circles, {99.5, 199.5}).isApprox(Vec2(49.5, kBelow + 99.5)));
+  EXPECT_TRUE(sheet.at(Panel::squares, {1279.5, 959.5}).isApprox(Vec2(1279.5, kBelow + 479.5)));
 }
 
 class Panels : public testing::TestWithParam<cv::Size> {
@@ -224,9 +237,51 @@ TEST_P(Panels, LayersFarOutsideTheImageLeaveNoTrace) {
   scene_.layers.squares = {square};
   scene_.layers.collectors = {{.location = {kFar, kFar}, .radius = 10}};
   const cv::Mat3b drawn = scene_.draw(sheet_);
-  // Below the captions, which count them.
-  const cv::Rect below(0, 30, bare.cols, bare.rows / 2 - 30);
-  EXPECT_EQ(cv::norm(bare(below), drawn(below), cv::NORM_INF), 0);
+  // In the images; the captions count them.
+  for (const Panel panel : kAllPanels) {
+    const Vec2 corner = sheet_.at(panel, {-0.5, -0.5});
+    const cv::Rect image(static_cast<int>(corner.x() + 1), static_cast<int>(corner.y() + 1),
+                         bare.cols / 2 - 1, (bare.rows - kBands_px) / 2 - 1);
+    if (panel == Panel::squares)
+      continue;  // the id of one that is not to be seen stands at its edge
+    EXPECT_EQ(cv::norm(bare(image), drawn(image), cv::NORM_INF), 0);
+  }
+}
+
+TEST_P(Panels, WhatIsMissedAndFalseIsMarked) {
+  scene_.corners = {{100, 100}, {200, 100}, {300, 100}};
+  scene_.verdicts = {Verdict::rebel, Verdict::normal, Verdict::rebel};
+  scene_.corner_marks = {Mark::found, Mark::missed, Mark::wrong};
+  scene_.layers.rebel_circles = {circle_at({100, 100}, 40), circle_at({300, 100}, 40)};
+  scene_.circle_marks = {Mark::found, Mark::wrong};
+  Square square;
+  square.location = {300, 150};
+  square.half_size = {30, 60};
+  scene_.layers.squares = {square};
+  scene_.square_marks = {Mark::wrong};
+  scene_.truth = {{{80, 120}, {120, 220}, false, "crate", true}};
+  const cv::Mat3b drawn = scene_.draw(sheet_);
+  const double ring = 4.5 * GetParam().width / 640;
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::edges, {200 + ring, 100}, colour::kMissed));
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::edges, {300, 100}, colour::kFalse));
+  EXPECT_TRUE(is_bare(drawn, sheet_, Panel::edges, {100, 100}));
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::circles, {300, 100}, colour::kFalse));
+  EXPECT_TRUE(is_bare(drawn, sheet_, Panel::circles, {100, 100}));
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::squares, {300, 150}, colour::kFalse));
+  EXPECT_TRUE(shows(drawn, sheet_, Panel::squares, {120, 150}, colour::kMissed));
+  EXPECT_FALSE(shows(drawn, sheet_, Panel::circles, {120, 150}, colour::kMissed));
+}
+
+TEST_P(Panels, MoversHaveTheirNamesInEveryPanel) {
+  scene_.truth = {{{80, 80}, {120, 160}, true}};
+  const cv::Mat3b nameless = scene_.draw(sheet_);
+  scene_.truth.front().name = "walker";
+  const cv::Mat3b drawn = scene_.draw(sheet_);
+  for (const Panel panel : kAllPanels) {
+    const Vec2 box = sheet_.at(panel, {80, 80});
+    const cv::Rect above(static_cast<int>(box.x()), static_cast<int>(box.y()) - 14, 45, 12);
+    EXPECT_GT(cv::norm(nameless(above), drawn(above), cv::NORM_INF), 64);
+  }
 }
 
 TEST_P(Panels, NoPanelPaintsOverAnother) {

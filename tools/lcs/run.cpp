@@ -313,7 +313,8 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
     return playback ? played(scenario, *playback) : simulated(scenario);
   }();
   std::optional<View> view;
-  const bench::FramePainter painter(cv::Size(frames.camera.width_px, frames.camera.height_px));
+  const bench::FramePainter painter(cv::Size(frames.camera.width_px, frames.camera.height_px),
+                                    frames.recording);
   if (options.view) view.emplace(scenario.name, painter.size_px(), scenario.camera.rate_hz);
   for (Watching& one : all) {
     one.tracker = comparators::make(one.wanted, {.camera = frames.camera,

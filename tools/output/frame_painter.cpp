@@ -2,16 +2,66 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
+#include "tools/scoring/score_rebels.h"
+#include "tools/scoring/score_squares.h"
+
 namespace lcs::bench {
+namespace {
+
+std::vector<Mark> corner_marks(const FrameRecord& frame) {
+  std::vector<Mark> marks;
+  for (std::size_t i = 0; i < frame.corner_truth.size(); ++i) {
+    const sim::Label label = frame.corner_truth[i].label;
+    const bool said_rebel = frame.verdicts[i] == Verdict::rebel;
+    marks.push_back(label == sim::Label::rebel ? (said_rebel ? Mark::found : Mark::missed)
+                    : label == sim::Label::fixed && said_rebel ? Mark::wrong
+                                                               : Mark::none);
+  }
+  return marks;
+}
+
+std::vector<Mark> circle_marks(const FrameRecord& frame) {
+  const std::vector<const Circle*> wrong = false_circles(frame);
+  std::vector<Mark> marks;
+  for (const Circle& circle : frame.layers.rebel_circles) {
+    marks.push_back(std::ranges::find(wrong, &circle) != wrong.end() ? Mark::wrong : Mark::found);
+  }
+  return marks;
+}
+
+std::vector<Mark> square_marks(const FrameRecord& frame, const SquareOutcomes& outcomes) {
+  std::vector<Mark> marks;
+  for (const Square& square : frame.layers.squares) {
+    const bool right =
+        std::ranges::find(outcomes.right, square.id, &BoxPair::square) != outcomes.right.end();
+    const bool wrong = std::ranges::find(outcomes.wrong, square.id) != outcomes.wrong.end();
+    marks.push_back(right ? Mark::found : wrong ? Mark::wrong : Mark::none);
+  }
+  return marks;
+}
+
+}  // namespace
+
+FramePainter::FramePainter(cv::Size image_px, const Recording& run)
+    : sheet_(image_px), scenario_(run.scenario), is_truth_known_(run.truth == Truth::all) {
+  for (const sim::Object& object : run.objects) names_[object.id] = object.name;
+}
 
 cv::Mat3b FramePainter::paint(const FrameRecord& frame, const cv::Mat3b& image) const {
+  SquareOutcomes outcomes;
+  if (is_truth_known_) outcomes = square_outcomes(frame);
   // Pixel edges against pixel centres: the box of pixels l to r-1 has its outermost centres there.
   std::vector<TruthBox> truth;
   for (const sim::ObjectTruth& object : frame.object_truth) {
-    truth.push_back(
-        {Vec2(object.left, object.top), Vec2(object.right - 1, object.bottom - 1), object.moving});
+    const auto name = names_.find(object.object);
+    const bool found =
+        std::ranges::find(outcomes.right, object.object, &BoxPair::box) != outcomes.right.end();
+    truth.push_back({Vec2(object.left, object.top), Vec2(object.right - 1, object.bottom - 1),
+                     object.moving, name == names_.end() ? "" : name->second,
+                     outcomes.eligible.contains(object.object) && !found});
   }
   if (frame.labels) {
     for (const LabelledBox& label : *frame.labels) {
@@ -19,13 +69,20 @@ cv::Mat3b FramePainter::paint(const FrameRecord& frame, const cv::Mat3b& image) 
           {Vec2(label.left, label.top), Vec2(label.right - 1, label.bottom - 1), !label.ignored});
     }
   }
-  return sheet_.draw({.image = image,
-                      .corners_px = frame.corners_px,
-                      .verdicts = frame.verdicts,
-                      .layers = frame.layers,
-                      .truth = truth,
-                      .caption = fmt::format("frame {}  {:.2f} s", frame.index,
-                                             static_cast<double>(frame.t_ns) * 1e-9)});
+  PanelContent content{.image = image,
+                       .corners_px = frame.corners_px,
+                       .verdicts = frame.verdicts,
+                       .layers = frame.layers,
+                       .truth = truth,
+                       .caption = fmt::format("{}  frame {}  {:.2f} s", scenario_, frame.index,
+                                              static_cast<double>(frame.t_ns) * 1e-9)};
+  std::vector<Mark> corners, circles, squares;
+  if (is_truth_known_) {
+    content.corner_marks = corners = corner_marks(frame);
+    content.rebel_circle_marks = circles = circle_marks(frame);
+    content.square_marks = squares = square_marks(frame, outcomes);
+  }
+  return sheet_.draw(content);
 }
 
 }  // namespace lcs::bench

@@ -1,8 +1,12 @@
 /// \file
-/// Pictures of a run: each frame's four panels, with the truth's boxes beneath the layers.
+/// Pictures of a run: each frame's four panels, with the truth's boxes beneath the layers, and what
+/// was found, missed and false in that frame, each by itself: other than for recall, a rebel counts
+/// as missed from its first frame on.
 #pragma once
 
+#include <map>
 #include <opencv2/core.hpp>
+#include <string>
 
 #include "filter/draw/panels.h"
 #include "tools/recording/recording.h"
@@ -11,8 +15,9 @@ namespace lcs::bench {
 
 class FramePainter {
  public:
-  /// \param image_px size of the camera's image.
-  explicit FramePainter(cv::Size image_px) : sheet_(image_px) {}
+  /// \param image_px size of the camera's image. \param run whose frames it is: its name, its
+  /// objects, and what is known of them.
+  FramePainter(cv::Size image_px, const Recording& run);
 
   cv::Size size_px() const { return sheet_.size_px(); }
 
@@ -21,6 +26,9 @@ class FramePainter {
 
  private:
   PanelSheet sheet_;
+  std::string scenario_;
+  bool is_truth_known_;
+  std::map<int, std::string> names_;  ///< by object
 };
 
 }  // namespace lcs::bench

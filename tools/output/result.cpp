@@ -16,7 +16,7 @@ Result::Result(const std::filesystem::path& target, const Recording& run, cv::Si
                const ResultOptions& options)
     : folder_(target, result_files()),
       writer_(folder_.staging(), run),
-      painter_(image_px),
+      painter_(image_px, run),
       events_(options.events),
       kept_(options.kept),
       add_page_(options.add_page) {

@@ -38,10 +38,7 @@ struct FrameSquares {
 
 FrameSquares compare(const FrameRecord& frame) {
   FrameSquares result;
-  for (const sim::ObjectTruth& truth : frame.object_truth) {
-    if (is_eligible(truth, frame)) result.eligible.insert(truth.object);
-  }
-
+  result.eligible = eligible_objects(frame);
   std::vector<BoxPair> candidates;
   for (const Square& square : frame.layers.squares) {
     BoxPair best{0, 0, square.id};
@@ -93,6 +90,30 @@ std::set<int> movers(const Recording& recording) {
 
 }  // namespace
 
+std::set<int> eligible_objects(const FrameRecord& frame) {
+  std::set<int> objects;
+  for (const sim::ObjectTruth& truth : frame.object_truth) {
+    if (is_eligible(truth, frame)) objects.insert(truth.object);
+  }
+  return objects;
+}
+
+SquareOutcomes square_outcomes(const FrameRecord& frame) {
+  const FrameSquares squares = compare(frame);
+  SquareOutcomes outcomes{squares.eligible, {}, {}};
+  std::set<Id> right;
+  for (const BoxPair& pair : squares.pairs) {
+    if (pair.iou < kRightIou) continue;
+    outcomes.right.push_back(pair);
+    right.insert(pair.square);
+  }
+  for (const BoxPair& best : squares.best_box) {
+    const bool is_on_other = best.iou >= kRightIou && !squares.eligible.contains(best.box);
+    if (!right.contains(best.square) && !is_on_other) outcomes.wrong.push_back(best.square);
+  }
+  return outcomes;
+}
+
 std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs) {
   std::sort(pairs.begin(), pairs.end(), [](const BoxPair& a, const BoxPair& b) {
     return std::tuple(-a.iou, a.box, a.square) < std::tuple(-b.iou, b.box, b.square);
@@ -117,7 +138,6 @@ std::optional<double> SquareCounts::precision() const {
 }
 
 SquareScore score_squares(const Recording& recording) {
-  constexpr double kMiddle = 0.5;
   SquareScore score;
   const std::set<int> moving = movers(recording);
   std::map<int, Id> last_square;  // of each object, where it was last matched
@@ -125,13 +145,13 @@ SquareScore score_squares(const Recording& recording) {
     if (frame.index < kSightings) continue;
     const FrameSquares squares = compare(frame);
     add(score.at_30, count(squares, 0.3));
-    add(score.at_50, count(squares, kMiddle));
+    add(score.at_50, count(squares, kRightIou));
     add(score.at_70, count(squares, 0.7));
     for (const int object : squares.eligible) {
       ++(moving.contains(object) ? score.movers_50 : score.static_50).boxes;
     }
     for (const BoxPair& pair : squares.pairs) {
-      if (pair.iou < kMiddle) continue;
+      if (pair.iou < kRightIou) continue;
       const bool mover = moving.contains(pair.box);
       ++(mover ? score.movers_50 : score.static_50).matched;
       (mover ? score.movers_iou : score.static_iou).push_back(pair.iou);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "tools/recording/recording.h"
@@ -29,6 +30,21 @@ struct BoxPair {
 /// Those that belong together: one to one, greedy, best first. Ids settle ties, so that the order
 /// in which pairs come does not matter.
 std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs);
+
+/// \name At this IoU a square is right; objects that a square can be asked to find.
+///@{
+inline constexpr double kRightIou = 0.5;
+/// Of a frame, by number: large enough, with corners, and enough of them visible.
+std::set<int> eligible_objects(const FrameRecord& frame);
+///@}
+
+/// What the squares of a frame have to do with its objects.
+struct SquareOutcomes {
+  std::set<int> eligible;
+  std::vector<BoxPair> right;  ///< pairs at `kRightIou` or over
+  std::vector<Id> wrong;       ///< squares; those that are neither are on no eligible object
+};
+SquareOutcomes square_outcomes(const FrameRecord& frame);
 
 struct SquareScore {
   SquareCounts at_30, at_50, at_70;
