@@ -77,16 +77,27 @@ class Report : public testing::Test {
   fs::path run_folder(const std::string& name, const std::vector<bench::Event>& events) {
     const fs::path relative = fs::path("runs") / name;
     fs::create_directories(folder_.path() / relative);
-    bench::write_events(folder_.path() / relative / bench::kEventsFile, events);
+    bench::write_events(folder_.path() / relative / bench::kEventsFile, events,
+                        bench::sums_of(events));
     return relative;
   }
   /// The baseline's runs are in "before".
   suite::SuiteInFolder in_folder(const SuiteResult& suite) const { return {suite, folder_.path()}; }
+  /// Hands `use` the verdict, and what the suite was compared with.
+  template <class Use>
+  auto judged(const SuiteResult& suite, const SuiteResult* baseline, const Use& use) const {
+    if (!baseline) return use(suite::verdict_of(in_folder(suite), nullptr, nullptr), nullptr);
+    const suite::SuiteInFolder before{*baseline, folder_.path() / "before"};
+    const suite::Comparison comparison =
+        suite::compare(*baseline, suite, [](std::string_view) { return true; });
+    const Against against{before, comparison};
+    return use(suite::verdict_of(in_folder(suite), &before, &comparison), &against);
+  }
   std::string data_text(const SuiteResult& suite, const SuiteResult* baseline,
                         std::size_t budget) const {
-    if (!baseline) return report_data(in_folder(suite), nullptr, budget);
-    const suite::SuiteInFolder before{*baseline, folder_.path() / "before"};
-    return report_data(in_folder(suite), &before, budget);
+    return judged(suite, baseline, [&](const suite::Verdict& verdict, const Against* against) {
+      return report_data(in_folder(suite), verdict, against, budget);
+    });
   }
   json data(const SuiteResult& suite, const SuiteResult* baseline = nullptr,
             std::size_t budget = kPictureBudget) {
@@ -94,12 +105,9 @@ class Report : public testing::Test {
   }
   std::string page(const SuiteResult& suite, const SuiteResult* baseline = nullptr) {
     const fs::path file = folder_.path() / kReportFile;
-    if (baseline) {
-      const suite::SuiteInFolder before{*baseline, folder_.path() / "before"};
-      write_report(file, in_folder(suite), &before);
-    } else {
-      write_report(file, in_folder(suite), nullptr);
-    }
+    judged(suite, baseline, [&](const suite::Verdict& verdict, const Against* against) {
+      write_report(file, in_folder(suite), verdict, against);
+    });
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
   }
@@ -320,7 +328,7 @@ TEST_F(Report, SetsTheBaselinesCurvesBesideAndTellsNewEventsFromThoseThatAreGone
     RunResult run = run_with(1, 0.8);
     run.folder = "runs/one";
     fs::create_directories(folder / run.folder);
-    bench::write_events(folder / run.folder / bench::kEventsFile, events);
+    bench::write_events(folder / run.folder / bench::kEventsFile, events, bench::sums_of(events));
     bench::Recording recording;
     recording.frames.resize(2);
     bench::write_frames(folder / run.folder / bench::kFramesFile, recording);
@@ -352,6 +360,25 @@ TEST_F(Report, SetsTheBaselinesCurvesBesideAndTellsNewEventsFromThoseThatAreGone
   EXPECT_EQ(told.at("events").size(), 3u);
 }
 
+TEST_F(Report, EventsOfSquaresSayTheirFramesAndHowFarCornersCame) {
+  bench::Event event;
+  event.kind = bench::EventKind::square_split;
+  event.object_name = "box";
+  event.corners = 12;
+  event.frames = 7;
+  event.of_frames = 9;
+  event.steps = {{bench::SquareStep::no_circle, 12}};
+  RunResult run = run_with(1, 0.8);
+  run.folder = run_folder("one", {event});
+  const json told = data(suite_of({scenario_with("one", {run})}))["scenarios"][0]["runs"][0];
+  const json& shown = told.at("events").at(0);
+  EXPECT_EQ(shown.at("of_squares"), true);
+  EXPECT_EQ(shown.at("frames"), 7);
+  EXPECT_EQ(shown.at("of_frames"), 9);
+  EXPECT_EQ(shown.at("reasons").at(0).at("meaning"),
+            bench::text_of(bench::SquareStep::no_circle).meaning);
+}
+
 TEST_F(Report, OfARunHasItsVideoWithin) {
   RunResult run = run_with(1, 0.8);
   run.folder = ".";
@@ -362,6 +389,11 @@ TEST_F(Report, OfARunHasItsVideoWithin) {
   EXPECT_EQ(all.at("video"), "ZmlsbQ==");
   EXPECT_EQ(all.at("is_run"), true);
   EXPECT_EQ(all.at("verdict"), "1 criterion met, 0 missed");
+  // One that is too large for a page is named.
+  fs::resize_file(folder_.path() / bench::kVideoFile, kVideoBudget + 1'000'000);
+  const json large = json::parse(run_report_data(in_folder(suite)));
+  EXPECT_FALSE(large.contains("video"));
+  EXPECT_EQ(large.at("video_left_out_mb"), 65);
 }
 
 TEST_F(Report, ABrokenFileOfARunIsNamed) {
@@ -435,7 +467,7 @@ TEST_F(Report, ReplacesAnOlderPageAndLeavesNothingBeside) {
 
 TEST_F(Report, APlaceThatCannotBeWrittenIsAnError) {
   EXPECT_THROW(
-      write_report(folder_.path() / "missing" / kReportFile, in_folder(suite_of({})), nullptr),
+      write_report(folder_.path() / "missing" / kReportFile, in_folder(suite_of({})), {}, nullptr),
       bench::OutputError);
 }
 

@@ -307,7 +307,7 @@ TEST(EventsFile, ComesBackAsItWas) {
   events.at(0).views.at(0).jpeg_base64 = base64("bytes");
   const TemporaryFolder folder;
   const auto file = folder.path() / kEventsFile;
-  write_events(file, events);
+  write_events(file, events, sums_of(events));
   const auto back = read_events(file);
   ASSERT_EQ(back.size(), events.size());
   for (std::size_t i = 0; i < back.size(); ++i) {
@@ -359,6 +359,110 @@ TEST(Base64, IsThatOfTheStandard) {  // RFC 4648, section 10
   EXPECT_EQ(base64("foo"), "Zm9v");
   EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
   EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
+
+// ---- Squares
+
+constexpr PixelBox kCrate{300, 100, 380, 180}, kBeside{390, 100, 470, 180};
+
+/// Frames with two crates and what `squares` puts on them.
+template <class Squares>
+std::vector<Event> square_events(Squares&& squares) {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < kFrames; ++k) {
+    FrameMaker frame(k);
+    for (const auto& [id, box] : {std::pair(1, kCrate), std::pair(2, kBeside)}) {
+      frame.object(id, box, false);
+      for (int i = 0; i < 4; ++i) {
+        frame.corner(Verdict::normal, sim::Label::fixed, id, false,
+                     {static_cast<float>(box.left + 10 * i), 120});
+      }
+    }
+    squares(frame, k);
+    frames.push_back(frame);
+  }
+  return find_square_events(recording_of(frames));
+}
+
+TEST(SquareEvents, ObjectsWithTheirSquaresHaveNone) {
+  EXPECT_TRUE(square_events([](FrameMaker& frame, int) {
+                frame.square(1, kCrate).square(2, kBeside);
+              }).empty());
+}
+
+TEST(SquareEvents, SayWhatIsWrongInHowManyFrames) {
+  const struct {
+    EventKind kind;
+    std::vector<PixelBox> squares;  // on the first crate, and on the second if they reach there
+    std::size_t events;
+  } cases[] = {
+      {EventKind::square_missed, {kBeside}, 1},
+      {EventKind::square_split, {kBeside, {300, 100, 338, 180}, {342, 100, 380, 180}}, 1},
+      {EventKind::square_split, {kBeside, kCrate, {310, 110, 330, 170}}, 1},
+      {EventKind::square_merged, {{270, 70, 500, 210}}, 2},
+      {EventKind::square_size, {kBeside, {330, 130, 420, 220}}, 1},
+  };
+  for (const auto& each : cases) {
+    const auto events = square_events([&](FrameMaker& frame, int k) {
+      if (k < 5 || k >= 15) {
+        frame.square(90, kCrate).square(91, kBeside);
+        return;
+      }
+      for (std::size_t i = 0; i < each.squares.size(); ++i) frame.square(i + 1, each.squares[i]);
+    });
+    SCOPED_TRACE(text_of(each.kind).word);
+    ASSERT_EQ(events.size(), each.events);
+    EXPECT_EQ(events[0].kind, each.kind);
+    EXPECT_EQ(events[0].object_name, "mover");  // as the first object of these recordings is called
+    EXPECT_EQ(events[0].frames, 10);
+    EXPECT_EQ(events[0].of_frames, 10);
+    EXPECT_EQ(events[0].first_frame, 5);
+    EXPECT_EQ(events[0].last_frame, 14);
+  }
+}
+
+TEST(SquareEvents, OneOnNoObjectIsFollowedByItsId) {
+  const auto events = square_events([](FrameMaker& frame, int k) {
+    frame.square(1, kCrate).square(2, kBeside);
+    if (k >= 8 && k < 12) frame.square(7, {20, 300, 80, 360});
+  });
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, EventKind::square_false);
+  EXPECT_EQ(events[0].frames, 4);
+  EXPECT_EQ(events[0].of_frames, 0);
+}
+
+TEST(SquareEvents, TellHowFarTheObjectsCornersCame) {
+  const auto events = square_events([](FrameMaker& frame, int) {
+    frame.square(2, kBeside);
+    Layers& layers = frame.record().layers;
+    Circle circle;
+    circle.location = {340, 140};  // in no square
+    layers.normal_circles = {circle};
+    for (const int corner : {0, 1, 2}) {  // of the four of the first crate
+      Edge edge;
+      edge.corner = corner;
+      edge.circle = corner == 0 ? -1 : 0;
+      layers.normal_edges.push_back(edge);
+    }
+  });
+  ASSERT_EQ(events.size(), 1u);
+  constexpr int kFramesScored = kFrames - 3;
+  const std::vector<std::pair<SquareStep, int>> steps{{SquareStep::no_square, 2 * kFramesScored},
+                                                      {SquareStep::no_edge, kFramesScored},
+                                                      {SquareStep::no_circle, kFramesScored}};
+  EXPECT_EQ(events[0].steps, steps);
+
+  const TemporaryFolder folder;
+  write_events(folder.path() / kEventsFile, events, sums_of(events));
+  const auto read = read_events(folder.path() / kEventsFile);
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].kind, EventKind::square_missed);
+  EXPECT_EQ(read[0].steps, steps);
+  EXPECT_EQ(read[0].frames, events[0].frames);
+  EXPECT_EQ(read[0].of_frames, events[0].of_frames);
+  EXPECT_EQ(read_event_sums(folder.path() / kEventsFile).squares,
+            (std::map<EventKind, int>{{EventKind::square_missed, kFramesScored}}));
 }
 
 }  // namespace

@@ -92,7 +92,8 @@ class VerdictOnRules : public testing::Test {
     SuiteResult made = suite_with({scenario_with("near", "rebel.f1", {f1})});
     made.scenarios[0].runs[0].folder = "run";
     fs::create_directories(folder_.path() / name / "run");
-    bench::write_events(folder_.path() / name / "run" / bench::kEventsFile, events);
+    bench::write_events(folder_.path() / name / "run" / bench::kEventsFile, events,
+                        bench::sums_of(events));
     return made;
   }
   static bench::Event event(bool missed, std::vector<std::pair<Reason, int>> reasons) {
@@ -108,10 +109,13 @@ class VerdictOnRules : public testing::Test {
 TEST_F(VerdictOnRules, TheRuleThatTookMostNewRebelsIsNamed) {
   const SuiteResult before =
       suite("before", 0.8, {event(true, {{Reason::first_sighting, 50}, {Reason::normal_edge, 2}})});
-  const SuiteResult after =
-      suite("after", 0.6,
-            {event(true, {{Reason::first_sighting, 60}, {Reason::normal_edge, 20}}),
-             event(true, {{Reason::normal_edge, 5}}), event(false, {{Reason::inherited, 9}})});
+  bench::Event split;
+  split.kind = bench::EventKind::square_split;
+  split.frames = 40;
+  const SuiteResult after = suite(
+      "after", 0.6,
+      {event(true, {{Reason::first_sighting, 60}, {Reason::normal_edge, 20}}),
+       event(true, {{Reason::normal_edge, 5}}), event(false, {{Reason::inherited, 9}}), split});
   const Verdict verdict =
       verdict_against({after, folder_.path() / "after"}, {before, folder_.path() / "before"});
   ASSERT_EQ(verdict.remarks.size(), 1u);
@@ -120,7 +124,8 @@ TEST_F(VerdictOnRules, TheRuleThatTookMostNewRebelsIsNamed) {
                 "rebel.f1 0.800 -> 0.600",
                 "most new misses by normal_edge (taken by a normal edge): 2 -> 25 corners",
                 "most new false rebels by inherited (likely a rebel by those round it): 0 -> "
-                "9 corners"}));
+                "9 corners",
+                "most new wrong squares by square_split (several squares on it): 0 -> 40 frames"}));
 }
 
 TEST_F(VerdictOnRules, EventsThatAreNotThereOrCannotBeReadExplainNothing) {

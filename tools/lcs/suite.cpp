@@ -370,7 +370,10 @@ ExitCode suite(const SuiteOptions& options) {
   const suite::SuiteInFolder* beside = before ? &*before : nullptr;
   const suite::Verdict verdict =
       suite::verdict_of(made, beside, comparison ? &*comparison : nullptr);
-  report::write_report(folder.staging() / report::kReportFile, made, beside);
+  std::optional<report::Against> against;
+  if (before) against.emplace(report::Against{*before, *comparison});
+  report::write_report(folder.staging() / report::kReportFile, made, verdict,
+                       against ? &*against : nullptr);
   if (of_worlds) write_worlds(folder.staging(), options.worlds, plan, result, others);
   folder.commit();
 

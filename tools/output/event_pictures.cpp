@@ -75,14 +75,24 @@ void mark(cv::Mat3b& picture, cv::Point at, CornerOutcome outcome) {
 }
 
 cv::Mat3b paint(const FrameRecord& frame, const std::vector<CornerOutcome>& outcomes,
-                const cv::Mat3b& kept, const Cut& cut) {
+                const cv::Mat3b& kept, const Cut& cut, const Event& event) {
   cv::Mat3b picture;
   cv::resize(kept(cut.area), picture, {kEventPictureWidth_px, kEventPictureHeight_px}, 0, 0,
              cut.area.width > kEventPictureWidth_px ? cv::INTER_AREA : cv::INTER_CUBIC);
+  const bool of_squares = is_of_squares(event.kind);
   for (const sim::ObjectTruth& truth : frame.object_truth) {
-    if (!truth.moving) continue;
+    const bool is_meant = of_squares && truth.object == event.object;
+    if (!truth.moving && !of_squares) continue;
     cv::rectangle(picture, cut.at(Vec2(truth.left, truth.top) - Vec2(0.5, 0.5)),
-                  cut.at(Vec2(truth.right, truth.bottom) - Vec2(0.5, 0.5)), kTruth, 1);
+                  cut.at(Vec2(truth.right, truth.bottom) - Vec2(0.5, 0.5)),
+                  is_meant ? kMissed : kTruth, 1);
+  }
+  if (of_squares) {
+    for (const Square& square : frame.layers.squares) {
+      cv::rectangle(picture, cut.at(square.location - square.half_size),
+                    cut.at(square.location + square.half_size), kFalse, 1);
+    }
+    return picture;
   }
   for (const Circle* circle : false_circles(frame)) {
     const cv::Point rim = cut.at(circle->location + Vec2(circle->radius, 0));
@@ -112,7 +122,7 @@ void paint_events(const Recording& recording, const FramePictures& pictures,
       double scale = 1;
       const cv::Mat3b kept = pictures.at(position, scale);
       const Cut cut = cut_out(view, cut_size(view, kept.size(), scale), kept.size(), scale);
-      const auto bytes = jpeg(paint(*frame, outcomes[position], kept, cut), kShownQuality);
+      const auto bytes = jpeg(paint(*frame, outcomes[position], kept, cut, event), kShownQuality);
       view.jpeg_base64 = base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
   }

@@ -1,5 +1,8 @@
 #include "tools/output/result.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "tools/output/event_pictures.h"
 #include "tools/recording/warnings.h"
 #include "tools/scoring/figures_file.h"
@@ -41,12 +44,20 @@ Metrics Result::finish(const Recording& run) {
   if (run.warnings) write_warnings(folder_.staging() / kWarningsFile, warnings_of(run));
   if (events_) {
     const FramePictures& pictures = kept_ ? *kept_ : own_pictures_;
-    std::vector<Event> events = find_events(run);
+    EventSums sums;
+    std::vector<Event> events;
+    const auto keep_worst = [&](std::vector<Event> found) {
+      sums.add(sums_of(found));
+      if (found.size() > kMostEvents) found.resize(kMostEvents);
+      std::ranges::move(found, std::back_inserter(events));
+    };
+    keep_worst(find_events(run, kAllEvents));
+    keep_worst(find_square_events(run, kAllEvents));
     if (pictures.size() > 0) {
       paint_events(run, pictures, events);
       pictures.write(folder_.staging() / kPicturesFile);
     }
-    write_events(folder_.staging() / kEventsFile, events);
+    write_events(folder_.staging() / kEventsFile, events, sums);
   }
   if (add_page_) add_page_(folder_.staging(), metrics);
   folder_.commit();

@@ -208,7 +208,7 @@ function framePlots(run, onPoint) {
   const f = run.frames;
   // Times have gaps nowhere; the events know frames, which the rows are.
   const time = (frame) => f.t_s[Math.min(Math.max(frame, 0), f.t_s.length - 1)];
-  const bands = (run.events || []).map((event) => ({ from: time(event.first), to: time(event.last),
+  const bands = (run.events || []).filter((event) => !event.of_squares).map((event) => ({ from: time(event.first), to: time(event.last),
     kind: event.of > 0 ? 'miss' : 'false' }));
   const common = { x: f.t_s, xName: 's', sync: 'run' + ++plotted, onPoint };
   const was = run.before && run.before.frames;
@@ -230,6 +230,10 @@ function framePlots(run, onPoint) {
 /** The plots, and the run's video where it has one: pointing at a plot shows that frame. */
 function overTime(run) {
   if (!run.frames || run.frames.t_s.length === 0) return el('p', { class: 'nothing' }, 'The run left no frames.csv.');
+  if (data.video_left_out_mb) {
+    return el('div', null, el('p', { class: 'nothing' }, 'The video has ' + data.video_left_out_mb
+      + ' MB, too much for a page: it is in video.mp4 beside it.'), framePlots(run));
+  }
   if (!data.video) return framePlots(run);
   const times = run.frames.t_s, last = times.length - 1;
   const readout = el('div', { class: 'readout' }, 'Point at a plot to see its frame; ← and → go to the next.');
@@ -266,7 +270,8 @@ function overTime(run) {
 function headline(event) {
   const frames = event.first === event.last ? 'frame ' + event.first : 'frames ' + event.first + ' to ' + event.last;
   const circles = event.circles === 0 ? '' : (event.corners ? ', ' : '') + event.circles + ' circle' + (event.circles > 1 ? 's' : '');
-  const cost = event.of > 0 ? event.corners + ' of ' + event.of + ' corners missed'
+  const cost = event.of_squares ? event.frames + (event.of_frames ? ' of ' + event.of_frames : '') + ' frames'
+    : event.of > 0 ? event.corners + ' of ' + event.of + ' corners missed'
     : (event.corners ? event.corners + ' false corners' : '') + circles;
   return (event.object ? event.object + ': ' : '') + event.meaning + ', ' + frames + ': ' + cost;
 }
@@ -301,6 +306,7 @@ function eventList(run) {
   return el('div', null,
     el('div', { class: 'marks' }, mark('m1', '○', 'missed (orange ring)'), mark('m2', '●', 'found (green dot)'),
       mark('m3', '×', 'false (magenta cross or circle)'), mark('m4', '□', 'where a mover really is (thin box)')),
+    el('p', { class: 'small quiet' }, 'Of squares: magenta boxes are squares, thin ones objects, the orange one is the object that is meant.'),
     ...run.events.map((event) => el('article', { class: 'event' },
       el('h4', null, event.is_new ? el('span', { class: 'badge new', title: 'not among the worst of the baseline' }, 'new') : null,
         (event.is_new ? ' ' : '') + headline(event)),

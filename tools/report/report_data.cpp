@@ -167,6 +167,10 @@ Json event_json(const bench::Event& event) {
                        {"meaning", text_of(reason).meaning},
                        {"corners", corners}});
   }
+  for (const auto& [step, corners] : event.steps) {
+    reasons.push_back(
+        {{"word", text_of(step).word}, {"meaning", text_of(step).meaning}, {"corners", corners}});
+  }
   Json views = Json::array();
   for (const bench::EventView& view : event.views) {
     views.push_back({{"frame", view.frame}, {"t_s", view.t_s}, {"jpeg", view.jpeg_base64}});
@@ -179,6 +183,9 @@ Json event_json(const bench::Event& event) {
           {"corners", event.corners},
           {"of", event.of},
           {"circles", event.circles},
+          {"of_squares", is_of_squares(event.kind)},
+          {"frames", event.frames},
+          {"of_frames", event.of_frames},
           {"reasons", reasons},
           {"views", views}};
 }
@@ -196,11 +203,12 @@ Events events_in(const fs::path& folder) {
   return fs::exists(file) ? Events(bench::read_events(file)) : std::nullopt;
 }
 
-/// Whether two events may be the same one: both missed or both false, on the same object, in frames
-/// that overlap.
+/// Whether two events may be the same one: both missed or both false, of rebels or squares, on the
+/// same object, in frames that overlap.
 bool are_alike(const bench::Event& a, const bench::Event& b) {
-  return (a.of > 0) == (b.of > 0) && a.object_name == b.object_name &&
-         a.first_frame <= b.last_frame && b.first_frame <= a.last_frame;
+  return is_of_squares(a.kind) == is_of_squares(b.kind) && (a.of > 0) == (b.of > 0) &&
+         a.object_name == b.object_name && a.first_frame <= b.last_frame &&
+         b.first_frame <= a.last_frame;
 }
 
 bool has_like(const std::vector<bench::Event>& events, const bench::Event& event) {
@@ -261,7 +269,8 @@ Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
   return json;
 }
 
-/// Takes pictures away until the rest fits: first those of the least costly events of later seeds.
+/// Takes pictures away until the rest fits: first those of the least costly events of later seeds,
+/// of rebels and of squares in turns.
 void keep_to_budget(Json& scenarios, std::size_t budget) {
   struct Strip {
     std::size_t turn;  // of its event in its run, and of the run in its scenario
@@ -271,7 +280,11 @@ void keep_to_budget(Json& scenarios, std::size_t budget) {
   for (Json& scenario : scenarios) {
     for (std::size_t r = 0; r < scenario["runs"].size(); ++r) {
       Json& events = scenario["runs"][r]["events"];
-      for (std::size_t e = 0; e < events.size(); ++e) strips.push_back({e + 2 * r, &events[e]});
+      std::array<std::size_t, 2> rank{};  // within those of rebels, and of squares
+      for (Json& event : events) {
+        const std::size_t kind = event["of_squares"].get<bool>() ? 1 : 0;
+        strips.push_back({2 * rank[kind]++ + kind + 4 * r, &event});
+      }
     }
   }
   std::stable_sort(strips.begin(), strips.end(),
@@ -321,14 +334,10 @@ Json remarks_of(const suite::Verdict& verdict) {
 }
 
 /// All but pictures are there whatever the budget is.
-Json data_of(const SuiteInFolder& suite, const SuiteInFolder* baseline, std::size_t budget) {
-  std::optional<suite::Comparison> comparison;
-  if (baseline) {
-    comparison =
-        suite::compare(baseline->suite, suite.suite, [](std::string_view) { return true; });
-  }
-  const suite::Verdict verdict =
-      suite::verdict_of(suite, baseline, comparison ? &*comparison : nullptr);
+Json data_of(const SuiteInFolder& suite, const suite::Verdict& verdict, const Against* against,
+             std::size_t budget) {
+  const SuiteInFolder* baseline = against ? &against->baseline : nullptr;
+  const suite::Comparison* comparison = against ? &against->comparison : nullptr;
   const DifferenceOf of_groups = comparison ? by_name(comparison->groups) : DifferenceOf{};
   const DifferenceOf of_scenarios = comparison ? by_name(comparison->differences) : DifferenceOf{};
   Json data = {{"verdict", verdict.line},
@@ -364,16 +373,18 @@ std::string text_of(const Json& data) {
 
 }  // namespace
 
-std::string report_data(const SuiteInFolder& suite, const SuiteInFolder* baseline,
-                        std::size_t picture_budget) {
-  return text_of(data_of(suite, baseline, picture_budget));
+std::string report_data(const SuiteInFolder& suite, const suite::Verdict& verdict,
+                        const Against* against, std::size_t picture_budget) {
+  return text_of(data_of(suite, verdict, against, picture_budget));
 }
 
 std::string run_report_data(const SuiteInFolder& suite) {
-  Json data = data_of(suite, nullptr, kPictureBudget);
+  Json data = data_of(suite, suite::verdict_of(suite, nullptr, nullptr), nullptr, kPictureBudget);
   data["is_run"] = true;
   const fs::path video = suite.folder / bench::kVideoFile;
-  if (fs::exists(video) && fs::file_size(video) <= kVideoBudget) {
+  if (fs::exists(video) && fs::file_size(video) > kVideoBudget) {
+    data["video_left_out_mb"] = fs::file_size(video) / 1'000'000;
+  } else if (fs::exists(video)) {
     std::ifstream stream(video, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
     data["video"] = bench::base64(bytes);

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "tools/suite/verdict.h"
+#include "tools/report/report_page.h"
 
 namespace lcs::report {
 
@@ -15,8 +15,8 @@ inline constexpr std::size_t kPictureBudget = 6'000'000;
 inline constexpr std::uintmax_t kVideoBudget = 64'000'000;
 
 /// Text of a JSON object. \throws std::runtime_error as `write_report`.
-std::string report_data(const suite::SuiteInFolder& suite, const suite::SuiteInFolder* baseline,
-                        std::size_t picture_budget = kPictureBudget);
+std::string report_data(const suite::SuiteInFolder& suite, const suite::Verdict& verdict,
+                        const Against* against, std::size_t picture_budget = kPictureBudget);
 
 /// Likewise of a single run, with its video where its folder has one.
 std::string run_report_data(const suite::SuiteInFolder& suite);

@@ -10,9 +10,9 @@
 namespace lcs::report {
 
 void write_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite,
-                  const suite::SuiteInFolder* baseline) {
+                  const suite::Verdict& verdict, const Against* against) {
   const std::string title = "lcs suite: " + suite.suite.detector;
-  const std::string data = report_data(suite, baseline);
+  const std::string data = report_data(suite, verdict, against);
   write_page(file,
              {.title = title, .data = data, .script = kReportJs, .where_else = suite::kSuiteFile});
 }

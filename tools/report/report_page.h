@@ -8,21 +8,28 @@
 
 #include <filesystem>
 
+#include "tools/suite/comparison.h"
 #include "tools/suite/verdict.h"
 
 namespace lcs::report {
 
 inline constexpr const char* kReportFile = "report.html";
 
+/// What a suite was compared with, and what came of it.
+struct Against {
+  const suite::SuiteInFolder& baseline;
+  const suite::Comparison& comparison;
+};
+
 /// Written beside its place, then renamed: the file appears whole or not at all. Of each run
 /// frames.csv and events.json are shown where they are there.
-/// \param baseline may be null.
+/// \param against null without a baseline.
 /// \throws bench::OutputError; std::runtime_error for a frames.csv or events.json of the suite that
 ///   cannot be read, naming it. What is wrong with one of the baseline is told on the page.
 void write_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite,
-                  const suite::SuiteInFolder* baseline);
+                  const suite::Verdict& verdict, const Against* against);
 
-/// Of the one run that `suite` has.
+/// Of the one run that `suite` has; a video that is larger than `kVideoBudget` is named instead.
 /// \throws likewise.
 void write_run_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite);
 

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <tuple>
 
+#include "tools/recording/box.h"
 #include "tools/scoring/score_rebels.h"
+#include "tools/scoring/score_squares.h"
 
 namespace lcs::bench {
 namespace {
@@ -21,22 +25,41 @@ constexpr double kGroupReach_px = 40;
 constexpr double kTrackReach_px = 20;
 constexpr int kViews = 5;
 
-constexpr std::array<EventKindText, 5> kKinds{{
+/// A square that shares less with an object has nothing to do with it.
+constexpr double kLeastIou = 0.1;
+/// Of a square or an object: it is in the other.
+constexpr double kMostOfIt = 0.5;
+/// Frames of an event of squares, at least.
+constexpr int kLeastFrames = 3;
+
+constexpr std::array<EventKindText, 10> kKinds{{
     {"never_found", "never found"},
     {"found_late", "found late"},
     {"lost", "lost"},
     {"false_alarm", "false alarm"},
     {"halo", "static corners round it called rebels"},
+    {"square_missed", "no square on it"},
+    {"square_split", "several squares on it"},
+    {"square_merged", "in one square with others"},
+    {"square_size", "its square is of another size or place"},
+    {"square_false", "a square on no object"},
+}};
+
+constexpr std::array<EventKindText, 4> kSteps{{
+    {"no_edge", "corners that no edge took"},
+    {"no_circle", "edges in no circle: too few of like motion beside them"},
+    {"no_square", "edges whose circle is in no square"},
+    {"in_square", "edges in a square"},
 }};
 
 using Outcomes = std::vector<std::vector<CornerOutcome>>;
 
-/// Pixel centres, ends included.
-struct Box {
-  Vec2 min, max;
-  Vec2 centre() const { return 0.5 * (min + max); }
-  Vec2 half_size() const { return 0.5 * (max - min); }
-};
+Vec2 centre_of(const Box& box) {
+  return 0.5 * (box.min + box.max);
+}
+Vec2 half_size_of(const Box& box) {
+  return 0.5 * (box.max - box.min);
+}
 
 Box joined(const Box& a, const Box& b) {
   return {a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
@@ -53,12 +76,14 @@ struct Part {
   int of = 0;
   int circles = 0;
   Box box{};
+  bool is_of_squares = false;  // and wrong
 };
 
 /// By position of the frame in the recording.
 using Parts = std::map<std::size_t, Part>;
 
-std::optional<Box> box_of(const FrameRecord& frame, int object) {
+/// Pixel centres, ends included.
+std::optional<Box> box_in(const FrameRecord& frame, int object) {
   for (const sim::ObjectTruth& truth : frame.object_truth) {
     if (truth.object == object) {
       return Box{Vec2(truth.left, truth.top), Vec2(truth.right - 1, truth.bottom - 1)};
@@ -67,7 +92,7 @@ std::optional<Box> box_of(const FrameRecord& frame, int object) {
   return std::nullopt;
 }
 
-Box box_of(const FrameRecord& frame, const std::vector<std::size_t>& corners) {
+Box box_round(const FrameRecord& frame, const std::vector<std::size_t>& corners) {
   const Vec2 first = frame.corners_px[corners.front()].cast<double>();
   Box box{first, first};
   for (const std::size_t i : corners) {
@@ -94,8 +119,8 @@ std::vector<std::pair<Reason, int>> reasons_of(const Recording& recording, const
 EventView view_of(const FrameRecord& frame, const Box& box) {
   return {.frame = frame.index,
           .t_s = static_cast<double>(frame.t_ns) * 1e-9,
-          .centre_px = box.centre(),
-          .half_size_px = box.half_size(),
+          .centre_px = centre_of(box),
+          .half_size_px = half_size_of(box),
           .jpeg_base64 = ""};
 }
 
@@ -106,13 +131,13 @@ std::vector<EventView> views_of(const Recording& recording, const Event& event,
   const auto aside = [&](std::size_t position, const Box& box) {
     const FrameRecord& frame = recording.frames[position];
     if (event.object == 0) all.push_back(view_of(frame, box));
-    if (const auto now = box_of(frame, event.object)) all.push_back(view_of(frame, *now));
+    if (const auto now = box_in(frame, event.object)) all.push_back(view_of(frame, *now));
   };
   const auto& [first, first_part] = *parts.begin();
   const auto& [last, last_part] = *parts.rbegin();
   if (first > 0) aside(first - 1, first_part.box);
   for (const auto& [position, part] : parts) {
-    if (part.corners.empty() && part.circles == 0) continue;
+    if (part.corners.empty() && part.circles == 0 && !part.is_of_squares) continue;
     all.push_back(view_of(recording.frames[position], part.box));
   }
   if (last + 1 < recording.frames.size()) aside(last + 1, last_part.box);
@@ -190,10 +215,10 @@ Parts counted_corners(const Recording& recording, const Outcomes& outcomes, int 
       part.of += missed || outcomes[k][i] == CornerOutcome::found;
     }
     if (part.of == 0) continue;
-    if (const auto box = box_of(frame, object)) {
+    if (const auto box = box_in(frame, object)) {
       part.box = *box;
     } else if (!part.corners.empty()) {
-      part.box = box_of(frame, part.corners);
+      part.box = box_round(frame, part.corners);
     }
     parts.emplace(k, std::move(part));
   }
@@ -247,7 +272,7 @@ int nearest_mover(const FrameRecord& frame, const Box& box) {
   double least = 0;
   for (const sim::ObjectTruth& truth : frame.object_truth) {
     if (!truth.moving) continue;
-    const double d = distance(*box_of(frame, truth.object), box);
+    const double d = distance(*box_in(frame, truth.object), box);
     if (nearest == 0 || d < least) std::tie(nearest, least) = std::tuple(truth.object, d);
   }
   return nearest;
@@ -285,10 +310,10 @@ class FalseGroups {
     for (std::vector<std::size_t>& group : groups_of(frame, std::move(corners))) {
       if (group.size() < kCornersToFind) continue;
       Part part;
-      part.box = box_of(frame, group);
+      part.box = box_round(frame, group);
       part.corners = std::move(group);
-      const Vec2 half = part.box.half_size();
-      if (has_mover_under(frame, part.box.centre(), half.norm())) {
+      const Vec2 half = half_size_of(part.box);
+      if (has_mover_under(frame, centre_of(part.box), half.norm())) {
         Part& halo = halos_[nearest_mover(frame, part.box)][position];
         halo.corners.insert(halo.corners.end(), part.corners.begin(), part.corners.end());
       } else {
@@ -304,8 +329,8 @@ class FalseGroups {
     for (auto& [object, parts] : halos_) {
       for (auto& [position, part] : parts) {
         const FrameRecord& frame = recording_.frames[position];
-        part.box = box_of(frame, part.corners);
-        if (const auto box = box_of(frame, object)) part.box = joined(part.box, *box);
+        part.box = box_round(frame, part.corners);
+        if (const auto box = box_in(frame, object)) part.box = joined(part.box, *box);
       }
       for (const Parts& run : runs_of(parts, [](const Part&) { return true; })) {
         events.push_back(event_of(recording_, EventKind::halo, object, run));
@@ -338,10 +363,198 @@ class FalseGroups {
   std::map<int, Parts> halos_;  // by object
 };
 
+// ---- Squares
+
+double common_px2(const Box& a, const Box& b) {
+  return (a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min)).cwiseMax(0.0).prod();
+}
+
+/// Why an object that a square should be on has none.
+EventKind cause_of(const FrameRecord& frame, const std::set<int>& eligible,
+                   const sim::ObjectTruth& object) {
+  const Box own = box_of(object);
+  int pieces = 0;
+  double best_iou = 0;
+  bool is_merged = false;
+  for (const Square& square : frame.layers.squares) {
+    const Box box = box_of(square);
+    const double common = common_px2(own, box);
+    best_iou = std::max(best_iou, intersection_over_union(own, box));
+    pieces += common > kMostOfIt * box.area();
+    if (common <= kMostOfIt * own.area()) continue;
+    is_merged |= std::ranges::any_of(frame.object_truth, [&](const sim::ObjectTruth& other) {
+      return other.object != object.object && eligible.contains(other.object) &&
+             common_px2(box_of(other), box) > kMostOfIt * box_of(other).area();
+    });
+  }
+  return pieces > 1             ? EventKind::square_split
+         : is_merged            ? EventKind::square_merged
+         : best_iou < kLeastIou ? EventKind::square_missed
+                                : EventKind::square_size;
+}
+
+std::map<SquareStep, int> steps_of(const FrameRecord& frame, int object) {
+  std::map<SquareStep, int> steps;
+  std::map<int, const Edge*> edges;  // by corner
+  for (const auto* kind : {&frame.layers.normal_edges, &frame.layers.rebel_edges}) {
+    for (const Edge& edge : *kind) edges[edge.corner] = &edge;
+  }
+  const auto step = [&](std::size_t corner) {
+    const auto found = edges.find(static_cast<int>(corner));
+    if (found == edges.end()) return SquareStep::no_edge;
+    const Edge& edge = *found->second;
+    const auto& circles = edge.rebel ? frame.layers.rebel_circles : frame.layers.normal_circles;
+    if (edge.circle < 0 || edge.circle >= std::ssize(circles)) return SquareStep::no_circle;
+    const Vec2 centre = circles[static_cast<std::size_t>(edge.circle)].location;
+    const bool is_in = std::ranges::any_of(frame.layers.squares, [&](const Square& square) {
+      return box_of(square).contains(centre);
+    });
+    return is_in ? SquareStep::in_square : SquareStep::no_square;
+  };
+  for (std::size_t i = 0; i < frame.corner_truth.size(); ++i) {
+    if (frame.corner_truth[i].object == object) ++steps[step(i)];
+  }
+  return steps;
+}
+
+class SquareEvents {
+ public:
+  explicit SquareEvents(const Recording& recording) : recording_(recording) {}
+
+  void add_frame(std::size_t position) {
+    const FrameRecord& frame = recording_.frames[position];
+    const SquareOutcomes outcomes = square_outcomes(frame);
+    std::set<Id> wrong(outcomes.wrong.begin(), outcomes.wrong.end());
+    for (const sim::ObjectTruth& object : frame.object_truth) {
+      if (!outcomes.eligible.contains(object.object)) continue;
+      const bool found =
+          std::ranges::find(outcomes.right, object.object, &BoxPair::box) != outcomes.right.end();
+      // one that is found may have further squares, which are false
+      const bool is_doubled =
+          found && std::ranges::any_of(frame.layers.squares, [&](auto& square) {
+            return wrong.contains(square.id) &&
+                   common_px2(box_of(square), box_of(object)) > kMostOfIt * box_of(square).area();
+          });
+      Part part;
+      part.of = 1;
+      part.box = *box_in(frame, object.object);
+      part.is_of_squares = !found || is_doubled;
+      if (part.is_of_squares) {
+        causes_[{object.object, position}] =
+            is_doubled ? EventKind::square_split : cause_of(frame, outcomes.eligible, object);
+      }
+      objects_[object.object].emplace(position, part);
+    }
+    for (const Square& square : frame.layers.squares) {
+      const bool touches = std::ranges::any_of(frame.object_truth, [&](const auto& object) {
+        return intersection_over_union(box_of(object), box_of(square)) >= kLeastIou ||
+               common_px2(box_of(object), box_of(square)) > kMostOfIt * box_of(square).area();
+      });
+      if (touches || !wrong.contains(square.id)) continue;
+      Part part;
+      part.box = box_of(square);
+      part.is_of_squares = true;
+      for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
+        if (part.box.contains(frame.corners_px[i].cast<double>())) part.corners.push_back(i);
+      }
+      false_[square.id].emplace(position, part);
+    }
+  }
+
+  std::vector<Event> events() const {
+    std::vector<Event> all;
+    const auto is_wrong = [](const Part& part) { return part.is_of_squares; };
+    for (const auto& [object, parts] : objects_) {
+      for (const Parts& run : runs_of(parts, is_wrong)) add_missed(object, run, all);
+    }
+    for (const auto& [square, parts] : false_) {
+      for (const Parts& run : runs_of(parts, is_wrong)) {
+        if (std::ssize(run) < kLeastFrames) continue;
+        Event event = event_of(recording_, EventKind::square_false, 0, run);
+        event.frames = static_cast<int>(run.size());
+        all.push_back(std::move(event));
+      }
+    }
+    return all;
+  }
+
+ private:
+  void add_missed(int object, const Parts& run, std::vector<Event>& all) const {
+    std::map<EventKind, int> kinds;
+    std::map<SquareStep, int> steps;
+    int frames = 0;
+    for (const auto& [position, part] : run) {
+      if (!part.is_of_squares) continue;
+      ++frames;
+      ++kinds[causes_.at({object, position})];
+      if (!recording_.detector.layered) continue;
+      for (const auto& [step, corners] : steps_of(recording_.frames[position], object)) {
+        steps[step] += corners;
+      }
+    }
+    if (frames < kLeastFrames) return;
+    const auto most =
+        std::ranges::max_element(kinds, {}, [](const auto& kind) { return kind.second; });
+    Event event = event_of(recording_, most->first, object, run);
+    event.of = 0;  // corners that recall counts
+    event.frames = frames;
+    event.of_frames = static_cast<int>(run.size());
+    event.reasons.clear();
+    event.steps.assign(steps.begin(), steps.end());
+    std::ranges::stable_sort(event.steps, std::greater(), &std::pair<SquareStep, int>::second);
+    for (const auto& [step, corners] : event.steps) event.corners += corners;
+    all.push_back(std::move(event));
+  }
+
+  const Recording& recording_;
+  std::map<int, Parts> objects_;  // frames in which a square should be there
+  std::map<std::pair<int, std::size_t>, EventKind> causes_;
+  std::map<Id, Parts> false_;
+};
+
 }  // namespace
 
 const EventKindText& text_of(EventKind kind) {
   return kKinds[static_cast<std::size_t>(kind)];
+}
+
+const EventKindText& text_of(SquareStep step) {
+  return kSteps[static_cast<std::size_t>(step)];
+}
+
+EventSums sums_of(const std::vector<Event>& events) {
+  EventSums sums;
+  for (const Event& event : events) {
+    if (is_of_squares(event.kind)) {
+      sums.squares[event.kind] += event.frames;
+      continue;
+    }
+    for (const auto& [reason, corners] : event.reasons) {
+      (event.of > 0 ? sums.missed : sums.false_ones)[reason] += corners;
+    }
+  }
+  return sums;
+}
+
+void EventSums::add(const EventSums& other) {
+  const auto add = [](auto& to, const auto& from) {
+    for (const auto& [cause, count] : from) to[cause] += count;
+  };
+  add(missed, other.missed);
+  add(false_ones, other.false_ones);
+  add(squares, other.squares);
+}
+
+std::vector<Event> find_square_events(const Recording& recording, std::size_t most) {
+  if (recording.truth != Truth::all) return {};  // of objects nothing is known
+  SquareEvents squares(recording);
+  for (std::size_t k = 0; k < recording.frames.size(); ++k) {
+    if (recording.frames[k].index >= kSightings) squares.add_frame(k);
+  }
+  std::vector<Event> events = squares.events();
+  std::ranges::stable_sort(events, std::greater(), &Event::frames);
+  if (events.size() > most) events.resize(most);
+  return events;
 }
 
 std::vector<Event> find_events(const Recording& recording, std::size_t most) {

@@ -1,11 +1,14 @@
 /// \file
-/// Where a run went wrong, worst first: rebels that were missed, and static corners that were
-/// called rebels, merged over neighbouring frames. What is missed and what is false is for
-/// `score_rebels.h` to say; here it is only gathered, with the reasons that the tracker gave.
+/// Where a run went wrong, worst first: rebels that were missed, static corners that were called
+/// rebels, objects without their square, squares without an object, merged over neighbouring
+/// frames. What is missed and what is false is for `score_rebels.h` and `score_squares.h` to say;
+/// here it is only gathered, with the reasons that the tracker gave.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,11 +21,27 @@ namespace lcs::bench {
 inline constexpr const char* kEventsFile = "events.json";
 
 enum class EventKind : std::uint8_t {
-  never_found,  ///< missed, an object that is never found
-  found_late,   ///< missed before it is found
-  lost,         ///< missed after it was found
-  false_alarm,  ///< false rebels with no mover under them
-  halo,         ///< false rebels round a mover
+  never_found,    ///< missed, an object that is never found
+  found_late,     ///< missed before it is found
+  lost,           ///< missed after it was found
+  false_alarm,    ///< false rebels with no mover under them
+  halo,           ///< false rebels round a mover
+  square_missed,  ///< an object that no square touches to speak of
+  square_split,   ///< several squares on one object
+  square_merged,  ///< one square over several objects
+  square_size,    ///< an object whose square is too large, too small or aside
+  square_false,   ///< a square on no object
+};
+constexpr bool is_of_squares(EventKind kind) {
+  return kind >= EventKind::square_missed;
+}
+
+/// How far a corner of an object came on the way into a square.
+enum class SquareStep : std::uint8_t {
+  no_edge,    ///< no edge took it
+  no_circle,  ///< its edge is in no circle
+  no_square,  ///< its circle's centre is in no square
+  in_square,  ///< it is in one
 };
 
 struct EventKindText {
@@ -30,6 +49,7 @@ struct EventKindText {
   const char* meaning;  ///< for people
 };
 const EventKindText& text_of(EventKind kind);
+const EventKindText& text_of(SquareStep step);
 
 /// A frame to be looked at, and where.
 struct EventView {
@@ -50,17 +70,43 @@ struct Event {
   int circles = 0;  ///< rebel circles with no mover under them
   std::vector<std::pair<Reason, int>> reasons;  ///< of these corners, most frequent first
   std::vector<EventView> views;                 ///< up to five, in order
+  /// \name Of squares, where `corners` is of all that the steps count, or that lie in a false one.
+  ///@{
+  int frames = 0;  ///< what it costs: frames in which it is so
+  int of_frames =
+      0;  ///< frames meanwhile in which a square should have been there; 0 for false ones
+  std::vector<std::pair<SquareStep, int>> steps;  ///< of an object's corners, most frequent first
+  ///@}
 };
+
+/// How many are worth pictures; and for who wants every one.
+inline constexpr std::size_t kMostEvents = 5, kAllEvents = std::numeric_limits<std::size_t>::max();
 
 /// At most `most` events, those with the most corners first.
 /// \throws std::invalid_argument as `score`.
-std::vector<Event> find_events(const Recording& recording, std::size_t most = 5);
+std::vector<Event> find_events(const Recording& recording, std::size_t most = kMostEvents);
 
-/// \throws OutputError
-void write_events(const std::filesystem::path& file, const std::vector<Event>& events);
+/// Those of squares, with the most frames first; of a detector that has no edges without steps.
+/// \throws std::invalid_argument as `score`.
+std::vector<Event> find_square_events(const Recording& recording, std::size_t most = kMostEvents);
+
+/// What all events of a run cost, by what did it.
+struct EventSums {
+  std::map<Reason, int> missed, false_ones;  ///< corners, of events of rebels
+  std::map<EventKind, int> squares;          ///< frames
+
+  void add(const EventSums& other);
+};
+EventSums sums_of(const std::vector<Event>& events);
+
+/// \param sums of all events of the run, of which these may be the worst. \throws OutputError
+void write_events(const std::filesystem::path& file, const std::vector<Event>& events,
+                  const EventSums& sums);
 
 /// \throws std::runtime_error naming the file and what is wrong with it.
 std::vector<Event> read_events(const std::filesystem::path& file);
+/// Of an earlier version's file those of the events that are in it. \throws as `read_events`.
+EventSums read_event_sums(const std::filesystem::path& file);
 
 std::string base64(std::string_view bytes);
 

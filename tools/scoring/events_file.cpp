@@ -11,6 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr scenario::FileKind kEventsDocument{kMostJsonBytes, "run the scenario again"};
+
 Json json_of(const EventView& view) {
   return {{"frame", view.frame},
           {"t_s", view.t_s},
@@ -30,11 +32,15 @@ Json json_of(const Event& event) {
                {"corners", event.corners},
                {"of", event.of},
                {"circles", event.circles},
+               {"frames", event.frames},
+               {"of_frames", event.of_frames},
                {"reasons", Json::object()},
+               {"steps", Json::object()},
                {"views", Json::array()}};
   for (const auto& [reason, corners] : event.reasons) {
     json["reasons"][lcs::text_of(reason).word] = corners;
   }
+  for (const auto& [step, corners] : event.steps) json["steps"][text_of(step).word] = corners;
   for (const EventView& view : event.views) json["views"].push_back(json_of(view));
   return json;
 }
@@ -61,7 +67,7 @@ EventView view_of(const JsonNode& node) {
 Event event_of(const JsonNode& node) {
   Event event;
   event.kind = enumerator_of<EventKind>(node["kind"], node["kind"].text(),
-                                        static_cast<int>(EventKind::halo) + 1);
+                                        static_cast<int>(EventKind::square_false) + 1);
   event.first_frame = node["first_frame"].natural<int>();
   event.last_frame = node["last_frame"].natural<int>();
   event.object = node["object"].natural<int>();
@@ -74,27 +80,68 @@ Event event_of(const JsonNode& node) {
         enumerator_of<Reason>(corners, word, static_cast<int>(kReasons.size())),
         corners.natural<int>());
   });
+  if (node.has("steps")) {  // an earlier version's are of rebels alone
+    event.frames = node["frames"].natural<int>();
+    event.of_frames = node["of_frames"].natural<int>();
+    node["steps"].each_entry([&](const std::string& word, const JsonNode& corners) {
+      event.steps.emplace_back(
+          enumerator_of<SquareStep>(corners, word, static_cast<int>(SquareStep::in_square) + 1),
+          corners.natural<int>());
+    });
+  }
   node["views"].each([&](const JsonNode& view) { event.views.push_back(view_of(view)); });
   return event;
 }
 
 }  // namespace
 
-void write_events(const std::filesystem::path& file, const std::vector<Event>& events) {
+void write_events(const std::filesystem::path& file, const std::vector<Event>& events,
+                  const EventSums& sums) {
+  const auto by_word = [](const auto& counts) {
+    Json json = Json::object();
+    for (const auto& [cause, count] : counts) json[text_of(cause).word] = count;
+    return json;
+  };
   Json list = Json::array();
   for (const Event& event : events) list.push_back(json_of(event));
   OutputFile out(file);
   // A name may hold any bytes; JSON only UTF-8.
-  out.write(Json{{"events", list}}.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
+  const Json all{{"events", list},
+                 {"sums",
+                  {{"missed", by_word(sums.missed)},
+                   {"false", by_word(sums.false_ones)},
+                   {"squares", by_word(sums.squares)}}}};
+  out.write(all.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
   out.close();
 }
 
 std::vector<Event> read_events(const std::filesystem::path& file) {
-  constexpr scenario::FileKind kEventsDocument{kMostJsonBytes, "run the scenario again"};
   return read_json(file, kEventsDocument, [](const JsonNode& node) {
     std::vector<Event> events;
     node["events"].each([&](const JsonNode& event) { events.push_back(event_of(event)); });
     return events;
+  });
+}
+
+EventSums read_event_sums(const std::filesystem::path& file) {
+  return read_json(file, kEventsDocument, [](const JsonNode& node) {
+    if (!node.has("sums")) {
+      std::vector<Event> events;
+      node["events"].each([&](const JsonNode& event) { events.push_back(event_of(event)); });
+      return sums_of(events);
+    }
+    EventSums sums;
+    const auto read = [&](const char* key, auto& counts, auto last) {
+      node["sums"][key].each_entry([&](const std::string& word, const JsonNode& count) {
+        counts[enumerator_of<decltype(last)>(count, word, static_cast<int>(last) + 1)] =
+            count.natural<int>();
+      });
+    };
+    constexpr auto kLastReason = static_cast<Reason>(kReasons.size() - 1);
+    read("missed", sums.missed, kLastReason);
+    read("false", sums.false_ones, kLastReason);
+    read("squares", sums.squares, EventKind::square_false);
+    return sums;
   });
 }
 

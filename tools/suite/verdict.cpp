@@ -28,35 +28,24 @@ constexpr std::array<const char*, 4> kStandings{"error", "regressed", "failed", 
 
 // ---- Rules
 
-/// Corners that each rule took, of the events of some runs.
-struct RuleCounts {
-  std::map<Reason, int> missed, false_ones;
-
-  void add(const std::vector<bench::Event>& events) {
-    for (const bench::Event& event : events) {
-      for (const auto& [reason, corners] : event.reasons) {
-        (event.of > 0 ? missed : false_ones)[reason] += corners;
-      }
-    }
-  }
-};
-
 /// None where the run left no events, or none that can be read: they only explain.
-std::optional<std::vector<bench::Event>> events_of(const SuiteInFolder& suite,
-                                                   const RunResult& run) {
+std::optional<bench::EventSums> events_of(const SuiteInFolder& suite, const RunResult& run) {
   const fs::path file = suite.folder / run.folder / bench::kEventsFile;
   if (run.folder.empty() || !fs::exists(file)) return std::nullopt;
   try {
-    return bench::read_events(file);
+    return bench::read_event_sums(file);
   } catch (const std::exception&) {
     return std::nullopt;
   }
 }
 
-void add_rule(const std::map<Reason, int>& after, const std::map<Reason, int>& before,
-              bool has_before, const char* what, std::vector<std::string>& reasons) {
-  std::optional<Reason> worst;
-  const auto was = [&](Reason reason) {
+/// \param unit that is counted. \param Cause has a `text_of` with word and meaning.
+template <class Cause>
+void add_rule(const std::map<Cause, int>& after, const std::map<Cause, int>& before,
+              bool has_before, const char* what, const char* unit,
+              std::vector<std::string>& reasons) {
+  std::optional<Cause> worst;
+  const auto was = [&](Cause reason) {
     const auto found = before.find(reason);
     return found == before.end() ? 0 : found->second;
   };
@@ -68,17 +57,17 @@ void add_rule(const std::map<Reason, int>& after, const std::map<Reason, int>& b
     worst = reason;
   }
   if (!worst) return;
-  const ReasonText& text = lcs::text_of(*worst);
-  reasons.push_back(has_before ? fmt::format("most new {} by {} ({}): {} -> {} corners", what,
-                                             text.word, text.meaning, was(*worst), after.at(*worst))
-                               : fmt::format("most {} by {} ({}): {} corners", what, text.word,
-                                             text.meaning, after.at(*worst)));
+  const auto& text = text_of(*worst);
+  reasons.push_back(has_before ? fmt::format("most new {} by {} ({}): {} -> {} {}", what, text.word,
+                                             text.meaning, was(*worst), after.at(*worst), unit)
+                               : fmt::format("most {} by {} ({}): {} {}", what, text.word,
+                                             text.meaning, after.at(*worst), unit));
 }
 
 /// Of runs that both have, where there is a baseline.
 void add_rules(const SuiteInFolder& after, const SuiteInFolder* before,
                const ScenarioResult& scenario, std::vector<std::string>& reasons) {
-  RuleCounts now, then;
+  bench::EventSums now, then;
   const ScenarioResult* other = before ? find(before->suite, scenario.name) : nullptr;
   bool has_before = false;
   for (const RunResult& run : scenario.runs) {
@@ -90,8 +79,9 @@ void add_rules(const SuiteInFolder& after, const SuiteInFolder* before,
     if (former) then.add(*former);
     has_before |= former.has_value();
   }
-  add_rule(now.missed, then.missed, has_before, "misses", reasons);
-  add_rule(now.false_ones, then.false_ones, has_before, "false rebels", reasons);
+  add_rule(now.missed, then.missed, has_before, "misses", "corners", reasons);
+  add_rule(now.false_ones, then.false_ones, has_before, "false rebels", "corners", reasons);
+  add_rule(now.squares, then.squares, has_before, "wrong squares", "frames", reasons);
 }
 
 // ---- Criteria

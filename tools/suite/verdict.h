@@ -35,7 +35,7 @@ struct Verdict {
 };
 
 /// Which figures changed by how much, which criteria are missed, and the rule that took most of the
-/// rebels that are missed or false, or that are so since the baseline: by the events of both where
+/// rebels that are missed or false, or that are so since the baseline: by all events of both where
 /// their runs have them.
 /// \param comparison of the two; both null without a baseline.
 Verdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
