@@ -79,7 +79,8 @@ void note_inside(const World& world, double t_s, std::set<std::string>& known,
 
 }  // namespace
 
-Survey survey(const scenario::Scenario& scenario, int looks) {
+Survey survey(const scenario::Scenario& scenario, int looks,
+              const std::function<void(int)>& on_frame) {
   Observer observer(require_scene(scenario), WrongStart::told);
   const World& world = observer.world();
   Survey s;
@@ -106,6 +107,7 @@ Survey survey(const scenario::Scenario& scenario, int looks) {
     } else {
       observer.advance();
     }
+    if (on_frame) on_frame(k + 1);
   }
   s.warnings = world.warnings();
   return s;

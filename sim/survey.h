@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,10 @@ struct Survey {
 };
 
 /// \param looks how many frames to make pictures of, evenly spread from the first to the last.
+/// \param on_frame called after each frame with how many are done; what it throws ends the survey.
 /// \throws what a `Simulation` throws, but for what starts inside of something else.
-Survey survey(const scenario::Scenario& scenario, int looks);
+Survey survey(const scenario::Scenario& scenario, int looks,
+              const std::function<void(int)>& on_frame = {});
 
 enum class WorldFormat {
   mjcf,

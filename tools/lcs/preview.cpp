@@ -10,6 +10,7 @@
 #include "tools/files/output_file.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
+#include "tools/lcs/progress.h"
 #include "tools/lcs/terminal.h"
 #include "tools/preview/preview.h"
 
@@ -26,7 +27,8 @@ constexpr const char* kHelp = R"(Examples:
 The page has the plan from above with the ways of the rover and the actors and their times; the first, the
 middle and the last picture with the corners in them; and what is wrong: who starts inside of something, runs
 into something, is never seen or never moves, a camera inside of something, too few corners. The physics are
-done, the filter is not asked. That an actor is never seen, and corners, go by 13 pictures, evenly spread.
+done, the filter is not asked: a drive of some seconds takes about two, one of half a minute ten. That an actor is
+never seen, and corners, go by 13 pictures, evenly spread.
 
 --mjcf writes the world with all at their start: MJCF, in which surfaces that this project draws are of one
 colour and bumps of the ground are level; or, to a file called .mjb, MuJoCo's binary, which has them.
@@ -81,8 +83,13 @@ CLI::App& add_preview_command(CLI::App& app, PreviewOptions& options) {
 ExitCode preview(const PreviewOptions& options) {
   const scenario::Scenario scenario =
       scenario::load(options.scenario, {.sets = options.sets, .seed = options.seed});
-  const preview::Preview p = preview::preview(scenario);
-  check_interrupted();
+  const preview::Preview p = [&] {
+    Progress progress(scenario.name, scenario.frames, options.quiet);
+    return preview::preview(scenario, [&](int done) {
+      check_interrupted();
+      progress.show(done);
+    });
+  }();
   if (!options.mjcf.empty()) {
     const auto format = fs::path(options.mjcf).extension() == ".mjb" ? sim::WorldFormat::mjb
                                                                      : sim::WorldFormat::mjcf;

@@ -74,9 +74,9 @@ std::vector<std::string> what_is_wrong(const scenario::Scenario& scenario, const
 
 }  // namespace
 
-Preview preview(const scenario::Scenario& scenario) {
+Preview preview(const scenario::Scenario& scenario, const std::function<void(int)>& on_frame) {
   Preview p;
-  p.survey = sim::survey(scenario, kLooks);
+  p.survey = sim::survey(scenario, kLooks, on_frame);
   const FastDetector detector(scenario.fast_threshold);
   for (const sim::Observation& look : p.survey.looks) {
     cv::Mat1b grey;

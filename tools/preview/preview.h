@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,8 +39,8 @@ struct Preview {
   std::vector<std::string> wrong;  ///< a line each, with what to do; what a run refuses is first
 };
 
-/// \throws as `sim::survey`.
-Preview preview(const scenario::Scenario& scenario);
+/// \param on_frame as of `sim::survey`. \throws as `sim::survey`.
+Preview preview(const scenario::Scenario& scenario, const std::function<void(int)>& on_frame = {});
 
 /// One HTML file with its pictures inside, whole or not at all. \throws bench::OutputError
 void write_preview(const std::filesystem::path& file, const scenario::Scenario& scenario,
