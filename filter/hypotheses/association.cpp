@@ -68,10 +68,14 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
           {t, x - track.place_px, likeness, std::log(density / clutter_.back()) + likeness});
     });
     const auto begin = pairs_.begin() + static_cast<std::ptrdiff_t>(first_.back());
-    std::sort(begin, pairs_.end(), [](const Pair& a, const Pair& b) {
+    const auto heavier = [](const Pair& a, const Pair& b) {
       return a.weight > b.weight || (a.weight == b.weight && a.track < b.track);
-    });
-    pairs_.resize(std::min(pairs_.size(), first_.back() + kMostPairs));
+    };
+    if (pairs_.size() > first_.back() + kMostPairs) {
+      std::nth_element(begin, begin + kMostPairs, pairs_.end(), heavier);
+      pairs_.resize(first_.back() + kMostPairs);
+    }
+    std::sort(begin, pairs_.end(), heavier);
     first_.push_back(pairs_.size());
   }
 }
