@@ -93,6 +93,12 @@ Event event_of(const JsonNode& node) {
   return event;
 }
 
+std::vector<Event> events_in(const JsonNode& document) {
+  std::vector<Event> events;
+  document["events"].each([&](const JsonNode& event) { events.push_back(event_of(event)); });
+  return events;
+}
+
 }  // namespace
 
 void write_events(const std::filesystem::path& file, const std::vector<Event>& events,
@@ -116,20 +122,12 @@ void write_events(const std::filesystem::path& file, const std::vector<Event>& e
 }
 
 std::vector<Event> read_events(const std::filesystem::path& file) {
-  return read_json(file, kEventsDocument, [](const JsonNode& node) {
-    std::vector<Event> events;
-    node["events"].each([&](const JsonNode& event) { events.push_back(event_of(event)); });
-    return events;
-  });
+  return read_json(file, kEventsDocument, events_in);
 }
 
 EventSums read_event_sums(const std::filesystem::path& file) {
   return read_json(file, kEventsDocument, [](const JsonNode& node) {
-    if (!node.has("sums")) {
-      std::vector<Event> events;
-      node["events"].each([&](const JsonNode& event) { events.push_back(event_of(event)); });
-      return sums_of(events);
-    }
+    if (!node.has("sums")) return sums_of(events_in(node));
     EventSums sums;
     const auto read = [&](const char* key, auto& counts, auto last) {
       node["sums"][key].each_entry([&](const std::string& word, const JsonNode& count) {
