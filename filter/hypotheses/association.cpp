@@ -36,10 +36,15 @@ double Association::reach_px(double dt_s) const {
   return parameters_.max_speed_pxps * dt_s;
 }
 
+double Association::reach_area_px2(double dt_s) const {
+  const double reach = reach_px(dt_s);
+  return std::numbers::pi * reach * reach;
+}
+
 void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, double noise2_px2,
                              double dt_s) {
   const double reach = reach_px(dt_s);
-  const double anywhere = 1 / (std::numbers::pi * reach * reach), wrong = parameters_.wrong;
+  const double anywhere = 1 / reach_area_px2(dt_s), wrong = parameters_.wrong;
   const bool looks = !chi.signatures.empty();
   places_.clear();
   for (const Track& track : predicted) places_.push_back(track.place_px);

@@ -30,6 +30,8 @@ class Association {
 
   /// px: how far a corner may be from where the rotation alone puts it.
   double reach_px(double dt_s) const;
+  /// px^2: of the circle about it.
+  double reach_area_px2(double dt_s) const;
 
  private:
   /// A corner may be a sighting of a track.

@@ -60,8 +60,7 @@ std::optional<MotionFix> HypothesisEdges::fix(const MotionField& told, const Chi
                                               const std::vector<int>& track_of) {
   if (predicted_.empty()) return std::nullopt;
   residuals_.clear();
-  const double reach = association_.reach_px(told.dt_s());
-  const double anywhere = 1 / (kPi * reach * reach);
+  const double anywhere = 1 / association_.reach_area_px2(told.dt_s());
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (track_of[c] < 0) continue;
     const Track& track = predicted_[track_of[c]];
@@ -130,8 +129,8 @@ bool HypothesisEdges::see(Track& track, const Vec2& x_px, const MotionField& fie
     noise2_px2 += std::pow(parameters_.ego_share * (x_px - track.place_px).norm(), 2);
   }
   const double still = seen.see(x_px, noise2_px2, bounds);
-  const double reach = association_.reach_px(field.dt_s());
-  const double right = 1 - parameters_.wrong, clutter = parameters_.wrong / (kPi * reach * reach);
+  const double right = 1 - parameters_.wrong;
+  const double clutter = parameters_.wrong / association_.reach_area_px2(field.dt_s());
   // What a sighting adds to the log odds: a match may be none, and then it may be anywhere.
   const auto evidence = [&](double moving) {
     return std::log((right * moving + clutter) / (right * still + clutter));
