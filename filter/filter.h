@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "filter/camera.h"
 #include "filter/diagnostics.h"
-#include "filter/ego_motion.h"
+#include "filter/ego_motion/ego_motion.h"
+#include "filter/kinematics/camera.h"
 #include "filter/layers.h"
 #include "filter/parameters.h"
 #include "filter/reason.h"

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "filter/camera.h"
+#include "filter/kinematics/camera.h"
 
 namespace lcs {
 

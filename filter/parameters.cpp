@@ -10,7 +10,7 @@
 #include <utility>
 #include <variant>
 
-#include "filter/geometry.h"
+#include "filter/kinematics/geometry.h"
 
 namespace lcs {
 namespace {

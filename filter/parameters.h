@@ -50,7 +50,7 @@ struct LineParameters {
   int max_corners = 20000;
 };
 
-/// Two hypotheses a corner (`filter/hypotheses/`), which stand in for xi and alpha; where each
+/// Two hypotheses a corner (`filter/edges/`), which stand in for xi and alpha; where each
 /// comes from is in filter/RULES.md.
 struct HypothesisParameters {
   double noise_px = 0.6;  ///< standard deviation of a corner's place on an axis: whole pixels, FAST

@@ -6,7 +6,7 @@
 #include <opencv2/features2d.hpp>
 #include <stdexcept>
 
-#include "filter/pixels.h"
+#include "filter/kinematics/pixels.h"
 
 namespace lcs {
 namespace {

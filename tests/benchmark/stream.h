@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "filter/camera.h"
-#include "filter/ego_motion.h"
+#include "filter/ego_motion/ego_motion.h"
+#include "filter/kinematics/camera.h"
 #include "scenarios/scenario.h"
 #include "sim/pose.h"
 

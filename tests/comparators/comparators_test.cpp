@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "filter/detect/fast.h"
-#include "filter/geometry.h"
+#include "filter/kinematics/geometry.h"
 #include "scenarios/load.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/ego_motion_feed.h"

@@ -5,10 +5,10 @@
 
 #include <optional>
 
-#include "filter/geometry.h"
-#include "filter/motion_field.h"
-#include "filter/square.h"
-#include "filter/tangent.h"
+#include "filter/kinematics/geometry.h"
+#include "filter/kinematics/motion_field.h"
+#include "filter/paper/tangent.h"
+#include "filter/squares/square.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

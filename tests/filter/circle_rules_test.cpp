@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "filter/circle.h"
-#include "filter/geometry.h"
+#include "filter/circles/circle.h"
+#include "filter/kinematics/geometry.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

@@ -1,8 +1,8 @@
-#include "filter/circle.h"
+#include "filter/circles/circle.h"
 
 #include <gtest/gtest.h>
 
-#include "filter/geometry.h"
+#include "filter/kinematics/geometry.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

@@ -3,11 +3,12 @@
 
 #include <map>
 
-#include "filter/circle.h"
+#include "filter/circles/circle.h"
 #include "filter/filter.h"
-#include "filter/geometry.h"
-#include "filter/line.h"
-#include "filter/square.h"
+#include "filter/kinematics/geometry.h"
+#include "filter/line/line.h"
+#include "filter/paper/corner_grouping.h"
+#include "filter/squares/square.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

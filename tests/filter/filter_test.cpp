@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "filter/geometry.h"
+#include "filter/kinematics/geometry.h"
 #include "tests/filter/presets.h"
 #include "tests/filter/same_result.h"
 #include "tests/filter/world.h"

@@ -8,13 +8,13 @@
 #include <set>
 #include <utility>
 
+#include "filter/edges/association.h"
+#include "filter/edges/coupling.h"
+#include "filter/edges/motion_fix.h"
+#include "filter/edges/own_motion.h"
+#include "filter/edges/static_point.h"
 #include "filter/filter.h"
-#include "filter/geometry.h"
-#include "filter/hypotheses/association.h"
-#include "filter/hypotheses/coupling.h"
-#include "filter/hypotheses/motion_fix.h"
-#include "filter/hypotheses/own_motion.h"
-#include "filter/hypotheses/static_point.h"
+#include "filter/kinematics/geometry.h"
 #include "tests/filter/same_result.h"
 #include "tests/filter/world.h"
 
@@ -435,8 +435,8 @@ TEST(Coupling, OfTwoNodesIsTheSumByHand) {
   EXPECT_NEAR(m[0], 24.0973, 1e-3);
   EXPECT_NEAR(m[1], 3.3851, 1e-3);
   EXPECT_EQ(coupling.model_of(1), 0);
-  // 6 px apart in their steps, of which 0.5^2 + (0.1 * 6)^2 = 0.61 px^2 is nothing: w = exp(-1/2 (1 +
-  // 36 / 0.61)) = 1e-13, which is left out.
+  // 6 px apart in their steps, of which 0.5^2 + (0.1 * 6)^2 = 0.61 px^2 is nothing: w = exp(-1/2 (1
+  // + 36 / 0.61)) = 1e-13, which is left out.
   m = coupling.settle(std::vector{node(100, 20), node(125, -1, {6, 0})});
   EXPECT_EQ(m[1], -1);
   EXPECT_EQ(coupling.model_of(1), -1);

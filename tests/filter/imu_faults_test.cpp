@@ -7,8 +7,8 @@
 #include <functional>
 #include <limits>
 
-#include "filter/ego_motion.h"
-#include "filter/intake.h"
+#include "filter/ego_motion/ego_motion.h"
+#include "filter/ego_motion/intake.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

@@ -1,10 +1,10 @@
 /// What the camera's own motion does to everything that is stored from frame to frame.
 #include <gtest/gtest.h>
 
-#include "filter/circle.h"
-#include "filter/geometry.h"
-#include "filter/paper_edges.h"
-#include "filter/square.h"
+#include "filter/circles/circle.h"
+#include "filter/kinematics/geometry.h"
+#include "filter/paper/paper_edges.h"
+#include "filter/squares/square.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

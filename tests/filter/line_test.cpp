@@ -1,4 +1,5 @@
-#include "filter/line.h"
+#include "filter/line/line.h"
+#include "filter/paper/corner_grouping.h"
 
 #include <gtest/gtest.h>
 

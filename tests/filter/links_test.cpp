@@ -1,4 +1,4 @@
-#include "filter/links.h"
+#include "filter/squares/links.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "filter/geometry.h"
+#include "filter/kinematics/geometry.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

@@ -1,8 +1,8 @@
-#include "filter/motion_field.h"
+#include "filter/kinematics/motion_field.h"
 
 #include <gtest/gtest.h>
 
-#include "filter/geometry.h"
+#include "filter/kinematics/geometry.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

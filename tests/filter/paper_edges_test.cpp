@@ -1,9 +1,9 @@
-#include "filter/paper_edges.h"
+#include "filter/paper/paper_edges.h"
 
 #include <gtest/gtest.h>
 
 #include "filter/filter.h"
-#include "filter/geometry.h"
+#include "filter/kinematics/geometry.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

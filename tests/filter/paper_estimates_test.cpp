@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "filter/geometry.h"
-#include "filter/paper_edges.h"
+#include "filter/kinematics/geometry.h"
+#include "filter/paper/paper_edges.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

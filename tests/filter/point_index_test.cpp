@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
-#include "filter/couples.h"
-#include "filter/depth_groups.h"
-#include "filter/point_grid.h"
+#include "filter/matching/couples.h"
+#include "filter/matching/point_grid.h"
+#include "filter/squares/depth_groups.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <tuple>
 
-#include "filter/geometry.h"
-#include "filter/square.h"
+#include "filter/kinematics/geometry.h"
+#include "filter/squares/square.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

@@ -1,8 +1,8 @@
-#include "filter/square.h"
+#include "filter/squares/square.h"
 
 #include <gtest/gtest.h>
 
-#include "filter/geometry.h"
+#include "filter/kinematics/geometry.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

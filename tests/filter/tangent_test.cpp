@@ -1,8 +1,8 @@
-#include "filter/tangent.h"
+#include "filter/paper/tangent.h"
 
 #include <gtest/gtest.h>
 
-#include "filter/geometry.h"
+#include "filter/kinematics/geometry.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

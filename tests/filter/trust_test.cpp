@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "filter/camera.h"
+#include "filter/kinematics/camera.h"
 
 namespace lcs {
 namespace {

@@ -1,6 +1,6 @@
 /// A turn that no gyro saw: found from the corners of what stands still, and left where they do not
 /// tell it.
-#include "filter/unseen_turn.h"
+#include "filter/ego_motion/unseen_turn.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "filter/filter.h"
-#include "filter/rotation.h"
+#include "filter/kinematics/rotation.h"
 #include "tests/filter/world.h"
 
 namespace lcs {

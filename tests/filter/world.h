@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "filter/camera.h"
-#include "filter/ego_motion.h"
+#include "filter/ego_motion/ego_motion.h"
+#include "filter/kinematics/camera.h"
 #include "filter/signature.h"
 
 namespace lcs::testing {

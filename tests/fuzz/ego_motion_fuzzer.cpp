@@ -1,8 +1,8 @@
 // The estimator of ego-motion, fed arbitrary readings at arbitrary times, and the filter behind it.
 #include <array>
 
-#include "filter/geometry.h"
-#include "filter/intake.h"
+#include "filter/ego_motion/intake.h"
+#include "filter/kinematics/geometry.h"
 #include "tests/filter/invariants.h"
 #include "tests/filter/world.h"
 #include "tests/fuzz/input.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "filter/geometry.h"
+#include "filter/kinematics/geometry.h"
 #include "tests/filter/invariants.h"
 #include "tests/filter/world.h"
 #include "tests/fuzz/input.h"

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "filter/camera.h"
+#include "filter/kinematics/camera.h"
 #include "tools/comparators/lookback.h"
 
 namespace lcs::comparators {

@@ -4,7 +4,7 @@
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "filter/pixels.h"
+#include "filter/kinematics/pixels.h"
 
 namespace lcs::comparators {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "filter/geometry.h"
+#include "filter/kinematics/geometry.h"
 
 namespace lcs::comparators {
 

@@ -4,7 +4,7 @@
 /// known and the corner lies below the horizon, where its ray meets the ground.
 #pragma once
 
-#include "filter/motion_field.h"
+#include "filter/kinematics/motion_field.h"
 #include "tools/comparators/rebel_groups.h"
 
 namespace lcs::comparators {

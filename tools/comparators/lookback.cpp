@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "filter/rotation.h"
+#include "filter/kinematics/rotation.h"
 
 namespace lcs::comparators {
 

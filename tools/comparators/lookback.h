@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "filter/ego_motion.h"
-#include "filter/intake.h"
+#include "filter/ego_motion/ego_motion.h"
+#include "filter/ego_motion/intake.h"
 
 namespace lcs::comparators {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "filter/intake.h"
+#include "filter/ego_motion/intake.h"
 #include "tools/bench/tracker.h"
 #include "tools/comparators/detector_process.h"
 #include "tools/recording/frame_detections.h"

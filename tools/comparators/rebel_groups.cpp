@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "filter/geometry.h"
+#include "filter/kinematics/geometry.h"
 
 namespace lcs::comparators {
 namespace {

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "filter/disjoint_sets.h"
 #include "filter/filter.h"
-#include "filter/point_grid.h"
+#include "filter/matching/disjoint_sets.h"
+#include "filter/matching/point_grid.h"
 
 namespace lcs::comparators {
 

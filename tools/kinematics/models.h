@@ -1,9 +1,9 @@
 /// \file
 /// The nine models that are held against the truth: three for the rotation, each with three kinds
-/// of knowledge of a landmark's depth. All of them are the filter's own (`filter/motion_field.h`).
+/// of knowledge of a landmark's depth. All of them are the filter's own (`filter/kinematics/motion_field.h`).
 ///
 /// A landmark is a static point, seen in frame k-1 and again in frame k. Pixels and frames are
-/// those of `filter/camera.h`.
+/// those of `filter/kinematics/camera.h`.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "filter/motion_field.h"
+#include "filter/kinematics/motion_field.h"
 
 namespace lcs::kinematics {
 

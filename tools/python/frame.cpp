@@ -9,7 +9,7 @@
 #include <opencv2/core/utility.hpp>
 #include <utility>
 
-#include "filter/intake.h"
+#include "filter/ego_motion/intake.h"
 #include "tools/python/arrays.h"
 #include "tools/recording/box.h"
 #include "tools/recording/warnings.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "filter/camera.h"
+#include "filter/kinematics/camera.h"
 #include "scenarios/scenario.h"
 #include "sim/pose.h"
 

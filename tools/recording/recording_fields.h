@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "filter/ego_motion.h"
+#include "filter/ego_motion/ego_motion.h"
 #include "filter/layers.h"
 #include "filter/reason.h"
 #include "sim/truth.h"

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "filter/imu_watch.h"
+#include "filter/ego_motion/imu_watch.h"
 #include "tools/files/csv.h"
 #include "tools/replay/navigation.h"
 #include "tools/replay/times.h"

@@ -1,0 +1,71 @@
+/// \file
+/// Which corner is a sighting of which track, one to one.
+///
+/// A pair is weighed by how likely it is against clutter: the density of the track's prediction
+/// over that of corners there, times the ratio by which signatures that differ so much are more
+/// often of one place than of two. Its neighbours count besides, each by the same ratio at the same
+/// step: where many agree on a step a chance match is unlikely, and where corners are all alike a
+/// hit says little.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "filter/edges/track.h"
+#include "filter/line/line.h"
+#include "filter/matching/point_grid.h"
+#include "filter/parameters.h"
+
+namespace lcs {
+
+class Association {
+ public:
+  explicit Association(const HypothesisParameters& parameters);
+
+  /// \param predicted tracks, in this frame's pixels.
+  /// \return for each corner of chi the track that it is a sighting of, -1: of none.
+  const std::vector<int>& match(const Chi& chi, std::span<const Track> predicted, double noise2_px2,
+                                double dt_s);
+
+  /// px: how far a corner may be from where the rotation alone puts it.
+  double reach_px(double dt_s) const;
+  /// px^2: of the circle about it.
+  double reach_area_px2(double dt_s) const;
+
+ private:
+  /// A corner may be a sighting of a track.
+  struct Pair {
+    int track;
+    Vec2 step_px;      // from the track's last place, the rotation removed
+    double signature;  // ln of the ratio that signatures give
+    double weight;     // ln of the ratio of all
+  };
+
+  void find_pairs(const Chi& chi, std::span<const Track> predicted, double noise2_px2, double dt_s);
+  double ask_neighbours(const Pair& pair, double noise2_px2) const;
+  std::span<const Pair> pairs_of(std::size_t corner) const {
+    return std::span(pairs_).subspan(first_[corner], first_[corner + 1] - first_[corner]);
+  }
+
+  HypothesisParameters parameters_;
+  std::array<double, 257> likeness_;  // by the number of bits that differ
+
+  // Of the current frame; kept for their memory.
+  PointGrid tracks_, corners_;
+  std::vector<Vec2> places_;
+  std::vector<Pair> pairs_;  // by corner, most likely first
+  std::vector<std::size_t> first_;
+  std::vector<double> clutter_;  // corners of the last frame about each, 1/px^2
+  std::vector<Neighbour> near_;
+  std::vector<double> voices_;  // what each of them counts
+  struct Match {
+    double weight;
+    int corner, track;
+  };
+  std::vector<Match> matches_;
+  std::vector<char> taken_;
+  std::vector<int> track_of_;
+};
+
+}  // namespace lcs

@@ -1,0 +1,82 @@
+#include "filter/edges/coupling.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "filter/matching/refill.h"
+
+namespace lcs {
+namespace {
+
+constexpr int kIterations = 6;
+/// Ties that are weaker than e^(-kMostExponent / 2), a hundredth, are left out.
+constexpr double kMostExponent = 9.2;
+/// Of the distance at which a tie has fallen to 0.6, where none is looked for.
+constexpr double kFar = 2;
+/// What the sum of weights must exceed before those round a corner speak with full voice.
+constexpr double kVoice = 0.5;
+/// px: by which two motions of one body may differ, at the least.
+constexpr double kAlike_px = 0.5;
+
+}  // namespace
+
+double Coupling::weight(const Node& of, const Node& other, double distance2_px2) const {
+  const double reach = parameters_.coupling_reach_px * (of.has_motion ? 1 : 0.64);
+  double exponent = distance2_px2 / (reach * reach);
+  if (of.has_motion) {
+    const double longer2 = std::max(of.step_px.squaredNorm(), other.step_px.squaredNorm());
+    const double share = parameters_.step_share;
+    const double variance = kAlike_px * kAlike_px + share * share * longer2 + of.step_variance_px2 +
+                            other.step_variance_px2;
+    exponent += (of.step_px - other.step_px).squaredNorm() / variance;
+  }
+  return exponent < kMostExponent ? std::exp(-0.5 * exponent) : 0;
+}
+
+const std::vector<double>& Coupling::settle(std::span<const Node> nodes) {
+  places_.clear();
+  beliefs_.clear();
+  for (const Node& node : nodes) {
+    places_.push_back(node.place_px);
+    beliefs_.push_back(node.log_odds);
+  }
+  grid_.build(places_, parameters_.coupling_reach_px);
+  ties_.clear();
+  first_.assign(1, 0);
+  refill(sums_, nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    grid_.visit_within(places_[i], kFar * parameters_.coupling_reach_px, [&](int j, double apart2) {
+      if (j == static_cast<int>(i) || !nodes[j].has_motion) return;
+      const double w = weight(nodes[i], nodes[j], apart2);
+      if (w == 0) return;
+      ties_.push_back({j, w});
+      sums_[i] += w;
+    });
+    first_.push_back(ties_.size());
+  }
+  refill(tanh_, nodes.size());
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) tanh_[i] = std::tanh(0.5 * beliefs_[i]);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      double sum = 0;
+      for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) {
+        sum += ties_[k].weight * tanh_[ties_[k].other];
+      }
+      beliefs_[i] = nodes[i].log_odds + parameters_.coupling * sum / (kVoice + sums_[i]);
+    }
+  }
+  return beliefs_;
+}
+
+int Coupling::model_of(std::size_t node) const {
+  int model = -1;
+  double most = 0;
+  for (std::size_t k = first_[node]; k < first_[node + 1]; ++k) {
+    if (beliefs_[ties_[k].other] <= 0 || ties_[k].weight <= most) continue;
+    most = ties_[k].weight;
+    model = ties_[k].other;
+  }
+  return model;
+}
+
+}  // namespace lcs

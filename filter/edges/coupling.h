@@ -1,0 +1,54 @@
+/// \file
+/// What is round a corner counts for it: log odds that are coupled as in a mean field,
+///
+///   m_i = L_i + J sum_j w_ij tanh(m_j / 2) / (kappa + sum_j w_ij),
+///
+/// where w falls with the distance in the image and, between two whose motion is known, with how
+/// unlike their motions are. Corners without a motion take from those round them and give nothing.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "filter/kinematics/camera.h"
+#include "filter/matching/point_grid.h"
+#include "filter/parameters.h"
+
+namespace lcs {
+
+class Coupling {
+ public:
+  explicit Coupling(const HypothesisParameters& parameters) : parameters_(parameters) {}
+
+  struct Node {
+    Vec2 place_px;
+    double log_odds;
+    bool has_motion;
+    Vec2 step_px;              ///< of a frame, rotation removed
+    double step_variance_px2;  ///< on one axis
+  };
+
+  /// \return m of each.
+  const std::vector<double>& settle(std::span<const Node> nodes);
+
+  /// Of the nodes last settled: the one that counts most for it among those that are taken to move;
+  /// -1: none.
+  int model_of(std::size_t node) const;
+
+ private:
+  double weight(const Node& of, const Node& other, double distance2_px2) const;
+
+  HypothesisParameters parameters_;
+  PointGrid grid_;
+  std::vector<Vec2> places_;
+  struct Tie {
+    int other;
+    double weight;
+  };
+  std::vector<Tie> ties_;  // by node
+  std::vector<std::size_t> first_;
+  std::vector<double> sums_;
+  std::vector<double> tanh_, beliefs_;
+};
+
+}  // namespace lcs

@@ -1,0 +1,36 @@
+/// \file
+/// Normal densities in the plane, 1/px^2, and the normal distribution.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+#include "filter/kinematics/camera.h"
+
+namespace lcs {
+
+inline double gauss(const Vec2& residual, double variance) {
+  return std::exp(-0.5 * residual.squaredNorm() / variance) / (2 * std::numbers::pi * variance);
+}
+
+inline double gauss(const Vec2& residual, const Eigen::Matrix2d& covariance) {
+  return std::exp(-0.5 * residual.dot(covariance.inverse() * residual)) /
+         (2 * std::numbers::pi * std::sqrt(covariance.determinant()));
+}
+
+/// Chance that a standard normal variable is below z.
+inline double below(double z) {
+  return 0.5 * std::erfc(-z / std::numbers::sqrt2);
+}
+
+/// ln(p / (1 - p)), and back.
+inline double log_odds(double chance) {
+  return std::log(chance / (1 - chance));
+}
+inline double chance(double log_odds) {
+  return 1 / (1 + std::exp(-log_odds));
+}
+
+}  // namespace lcs

@@ -1,0 +1,286 @@
+#include "filter/edges/hypothesis_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "filter/edges/gauss.h"
+#include "filter/kinematics/geometry.h"
+#include "filter/kinematics/pixels.h"
+#include "filter/matching/refill.h"
+
+namespace lcs {
+namespace {
+
+/// Sightings after which a track says what the told motion is off by.
+constexpr int kKnownSightings = 3;
+
+/// A static point's images that are shorter than this share of the noise are one place.
+constexpr double kPlace = 0.3;
+
+/// How far behind a rebel its origin is kept, in steps, so that beta is its direction of now.
+constexpr double kOriginSteps = 5;
+
+/// Depth is known where its variance is this share of what the bounds alone say.
+constexpr double kKnownDepth = 0.25;
+
+}  // namespace
+
+HypothesisEdges::HypothesisEdges(const Intrinsics& camera, const CircleParameters& parameters)
+    : EdgeExpert(camera, parameters.trust),
+      parameters_(parameters.hypotheses),
+      noise2_px2_(parameters_.noise_px * parameters_.noise_px),
+      association_(parameters_),
+      coupling_(parameters_),
+      velocity_error_(parameters_.ego_share) {}
+
+void HypothesisEdges::predict(Layers&, const MotionField& told) {
+  velocity_error_.advance(told);
+  predict_tracks(velocity_error_.without(told));
+}
+
+void HypothesisEdges::predict_tracks(const MotionField& field) {
+  predicted_.clear();
+  for (const Track& track : tracks_) {
+    Track& next = predicted_.emplace_back(track);
+    next.place_px = field.rotated(track.place_px);
+    if (!track.has_motion()) {
+      next.as_static = StaticPoint::seen_once(next.place_px, camera_, field, noise2_px2_);
+    } else {
+      next.as_static = track.as_static.predicted(camera_, field, parameters_.ego_share);
+      next.as_moving = track.as_moving.predicted(field, parameters_.acceleration_ps);
+    }
+    next.corner = -1;
+    ++next.age;
+  }
+}
+
+/// What the told motion is off by, as the tracks show it that are likely to stand.
+std::optional<MotionFix> HypothesisEdges::fix(const MotionField& told, const Chi& chi,
+                                              const std::vector<int>& track_of) {
+  if (predicted_.empty()) return std::nullopt;
+  residuals_.clear();
+  const double anywhere = 1 / association_.reach_area_px2(told.dt_s());
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    if (track_of[c] < 0) continue;
+    const Track& track = predicted_[track_of[c]];
+    if (track.sightings < kKnownSightings) continue;
+    const Vec2& x = chi.locations[c];
+    const StaticPoint& point = track.as_static;
+    const Vec2 by_depth = depth_bounds(told, point.place_px).half_pm() *
+                          parallax_px_m(camera_, told.displacement_C_m(), point.place_px);
+    const double moves = chance(track.belief);
+    residuals_.push_back({point.place_px, x - point.place_px,
+                          point.spread(noise2_px2_) + by_depth * by_depth.transpose(),
+                          point.inverse_depth_pm, point.covariance(2, 2), 1 - moves,
+                          moves * track.as_moving.density(x, noise2_px2_) + anywhere});
+  }
+  return motion_fix(camera_, told, residuals_, velocity_error_.covariance(told));
+}
+
+Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner) {
+  Track track;
+  track.id = next_id();
+  track.place_px = chi.locations[corner];
+  if (!chi.signatures.empty()) track.signature = chi.signatures[corner];
+  track.sightings = 1;
+  track.corner = static_cast<int>(corner);
+  return track;
+}
+
+/// Log odds a frame on: a corner may have changed its kind, or its track may have jumped.
+double HypothesisEdges::faded(double log_odds, double dt_s) const {
+  const double turnover = turnover_in(dt_s);
+  return lcs::log_odds(chance(log_odds) * (1 - turnover) + parameters_.prior * turnover);
+}
+
+double HypothesisEdges::turnover_in(double dt_s) const {
+  return std::min(0.5, parameters_.turnover_ps * dt_s);
+}
+
+/// Density of a second sighting of what moves. A static point may have come along a
+/// segment l of the image, all depths alike; a mover may have come by as much from any of it, at
+/// speeds of which each order of magnitude is as likely:
+///   p(x | moves) = [atan((l - a) / s) + atan(a / s)] / (pi l s ln(1 + R^2 / 2 sigma^2)),
+/// a along the segment and b across, s^2 = b^2 + 2 sigma^2, R the reach.
+double HypothesisEdges::first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds,
+                                   const MotionField& field) const {
+  const Vec2 parallax = parallax_px_m(camera_, field.displacement_C_m(), track.place_px);
+  const double length = parallax.norm();
+  const Vec2 along = length > 1e-9 ? Vec2(parallax / length) : Vec2::UnitX();
+  const Vec2 step = x_px - track.place_px;
+  const double segment = (bounds.most_pm - bounds.least_pm) * length;
+  const double a = step.dot(along) - bounds.least_pm * length, b = cross(along, step);
+  const double s2 = b * b + 2 * noise2_px2_, s = std::sqrt(s2);
+  const double reach = association_.reach_px(field.dt_s());
+  const double orders = std::log(1 + reach * reach / (2 * noise2_px2_));
+  return segment > kPlace * s
+             ? (std::atan((segment - a) / s) + std::atan(a / s)) / (segment * kPi * orders * s)
+             : 1 / (kPi * orders * (s2 + (a - segment / 2) * (a - segment / 2)));
+}
+
+/// Takes a sighting in. \return false where neither hypothesis has a place for it, so that it is
+/// none: nothing is changed then.
+bool HypothesisEdges::see(Track& track, const Vec2& x_px, const MotionField& field) const {
+  const DepthBounds bounds = depth_bounds(field, x_px);
+  StaticPoint seen = track.as_static;
+  double noise2_px2 = noise2_px2_;
+  if (!track.has_motion()) {
+    noise2_px2 += std::pow(parameters_.ego_share * (x_px - track.place_px).norm(), 2);
+  }
+  const double still = seen.see(x_px, noise2_px2, bounds);
+  const double right = 1 - parameters_.wrong;
+  const double clutter = parameters_.wrong / association_.reach_area_px2(field.dt_s());
+  // What a sighting adds to the log odds: a match may be none, and then it may be anywhere.
+  const auto evidence = [&](double moving) {
+    return std::log((right * moving + clutter) / (right * still + clutter));
+  };
+  if (!track.has_motion()) {
+    track.log_odds =
+        lcs::log_odds(parameters_.prior) + evidence(first_step(track, x_px, bounds, field));
+    track.as_moving = OwnMotion::first(track.place_px, x_px, noise2_px2_, field.dt_s());
+  } else {
+    const double moving = track.as_moving.density(x_px, noise2_px2_);
+    if (right * std::max(still, moving) < clutter) return false;
+    track.log_odds = faded(track.log_odds, field.dt_s()) + evidence(moving);
+    track.as_moving.see(x_px, noise2_px2_);
+  }
+  const double turnover = turnover_in(field.dt_s());
+  const double most = lcs::log_odds((1 - turnover) / (1 - turnover + turnover * parameters_.prior));
+  track.log_odds = std::clamp(track.log_odds, -most, most);
+  track.as_static = seen;
+  track.place_px = x_px;
+  track.unseen = 0;
+  ++track.sightings;
+  return true;
+}
+
+/// Tracks without a corner go on as they are likelier to, for some frames, and where nobody looks
+/// for as long as that is so.
+void HypothesisEdges::coast(const std::vector<IgnoreRegion>& psi, const MotionField& field) {
+  const Pixels picture{camera_.width_px, camera_.height_px};
+  for (Track& track : predicted_) {
+    if (track.corner >= 0 || !track.has_motion()) continue;
+    const auto expected_px = [&] {
+      return track.belief > 0 ? track.as_moving.place_px : track.as_static.place_px;
+    };
+    if (!inside_any(psi, expected_px())) {
+      if (track.unseen++ >= parameters_.coast) continue;
+      track.belief = track.log_odds = faded(track.belief, field.dt_s());
+    }
+    track.place_px = expected_px();
+    if (picture.contain(track.place_px)) tracks_.push_back(track);
+  }
+}
+
+void HypothesisEdges::couple(const MotionField& field) {
+  nodes_.clear();
+  for (const Track& track : tracks_) {
+    if (track.corner < 0) break;
+    const bool moves = track.has_motion();
+    nodes_.push_back({track.place_px, moves ? track.log_odds : 0, moves,
+                      track.as_moving.velocity_pxps * field.dt_s(),
+                      track.as_moving.step_variance_px2(field.dt_s())});
+  }
+  const std::vector<double>& beliefs = coupling_.settle(nodes_);
+  for (std::size_t c = 0; c < beliefs.size(); ++c) tracks_[c].belief = beliefs[c];
+}
+
+/// The paper's edge of a track.
+Edge HypothesisEdges::edge_of(const Track& track, const MotionField& field) const {
+  Edge edge;
+  edge.id = track.id;
+  edge.rebel = track.belief > 0;
+  edge.location = track.place_px;
+  edge.predicted = edge.rebel ? track.as_moving.place_px : track.as_static.place_px;
+  edge.depth_ratio = track.as_static.inverse_depth_pm * field.reference_depth_m();
+  edge.age = track.age;
+  edge.corner = track.corner;
+  // How sure it is, from 0 to 1, of the ranks that there are.
+  const double sure = std::abs(std::tanh(0.5 * track.belief));
+  const double ranks = trust_.maximum - trust_.critical;
+  edge.trust = trust_.critical + static_cast<int>(std::lround(sure * ranks)) - track.unseen;
+  if (edge.rebel) {
+    const Vec2& velocity_pxps = track.as_moving.velocity_pxps;
+    edge.speed = velocity_pxps.norm();
+    if (edge.speed > 0) edge.angle = angle_of(velocity_pxps);
+    edge.origin = edge.location - kOriginSteps * field.dt_s() * velocity_pxps;
+    return edge;
+  }
+  move_as_static(edge, field);
+  const double half = depth_bounds(field, edge.location).half_pm();
+  const double variance = track.as_static.covariance(2, 2);
+  if (variance < kKnownDepth * half * half) {
+    edge.depth_ratio_sigma = std::sqrt(variance) * field.reference_depth_m();
+  }
+  return edge;
+}
+
+void HypothesisEdges::decide(Layers& layers, const Chi& chi, const MotionField& field,
+                             std::vector<Verdict>& verdicts) {
+  layers.normal_edges.clear();
+  layers.rebel_edges.clear();
+  layers.chains.clear();
+  followers_.clear();
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    const Track& track = tracks_[t];
+    // Who has no motion is a rebel by one that has: where nobody knows, nobody is called.
+    const int model = track.has_motion() ? -1 : coupling_.model_of(t);
+    const bool rebel = track.belief > 0 && (track.has_motion() || model >= 0);
+    if (track.corner >= 0) {
+      const int source = chi.sources[track.corner];
+      if (rebel) {
+        verdicts[source] = Verdict::rebel;
+        reasons_[t] = track.has_motion() ? Reason::rebel_edge : Reason::inherited;
+      } else if (track.has_motion()) {
+        verdicts[source] = Verdict::normal;
+        reasons_[t] = Reason::normal_edge;
+      } else {
+        reasons_[t] = Reason::first_sighting;
+      }
+    }
+    if (!track.has_motion()) {
+      if (rebel) followers_.push_back({track.place_px, tracks_[model].id});
+      continue;
+    }
+    Edge edge = edge_of(track, field);
+    if (edge.corner >= 0) edge.corner = chi.sources[edge.corner];
+    (rebel ? layers.rebel_edges : layers.normal_edges).push_back(edge);
+  }
+  for (std::vector<Edge>* edges : {&layers.normal_edges, &layers.rebel_edges}) {
+    bury(*edges);
+    std::sort(edges->begin(), edges->end(),
+              [](const Edge& a, const Edge& b) { return a.id < b.id; });
+  }
+}
+
+void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& told,
+                             std::vector<Verdict>& verdicts) {
+  refill(reasons_, chi.size(), Reason::unknown);
+  if (!(told.dt_s() > 0)) predicted_.clear();
+  const std::vector<int>& track_of = association_.match(chi, predicted_, noise2_px2_, told.dt_s());
+  MotionField field = velocity_error_.without(told);
+  if (const std::optional<MotionFix> off = fix(field, chi, track_of)) {
+    velocity_error_.see(*off, field);
+    field = field.corrected(off->turn_rad, off->velocity_mps);
+    predict_tracks(field);
+  }
+  tracks_.clear();
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    if (track_of[c] >= 0) {
+      Track& track = predicted_[track_of[c]];
+      track.corner = static_cast<int>(c);
+      if (see(track, chi.locations[c], field)) {
+        if (!chi.signatures.empty()) track.signature = chi.signatures[c];
+        tracks_.push_back(track);
+        continue;
+      }
+    }
+    tracks_.push_back(first_seen(chi, c));
+  }
+  if (field.dt_s() > 0) coast(layers.ignored, field);
+  couple(field);
+  decide(layers, chi, field, verdicts);
+}
+
+}  // namespace lcs

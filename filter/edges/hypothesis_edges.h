@@ -1,0 +1,62 @@
+/// \file
+/// Edges told by two hypotheses, as filter/RULES.md derives: each corner that is tracked is a
+/// static point, or a point that moves by itself, and carries the log odds of the second.
+///
+/// 1. Tracks are predicted under both, and corners matched to them (`Association`).
+/// 2. Each sighting adds ln p(x | moves) / p(x | stands) to the track's log odds.
+/// 3. What is round a corner counts besides (`Coupling`); corners that no track has live by it.
+/// 4. A track that is likelier to move is a rebel edge, any other a normal one; its trust follows
+///    from how sure that is.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "filter/edges/association.h"
+#include "filter/edges/coupling.h"
+#include "filter/edges/edge_expert.h"
+#include "filter/edges/motion_fix.h"
+#include "filter/edges/track.h"
+
+namespace lcs {
+
+class HypothesisEdges : public EdgeExpert {
+ public:
+  HypothesisEdges(const Intrinsics& camera, const CircleParameters& parameters);
+
+  void predict(Layers& layers, const MotionField& field) override;
+  void update(Layers& layers, const Chi& chi, const MotionField& field,
+              std::vector<Verdict>& verdicts) override;
+  void forget() override {
+    tracks_.clear();
+    velocity_error_.forget();
+  }
+
+ private:
+  void predict_tracks(const MotionField& field);
+  std::optional<MotionFix> fix(const MotionField& told, const Chi& chi,
+                               const std::vector<int>& track_of);
+  Track first_seen(const Chi& chi, std::size_t corner);
+  bool see(Track& track, const Vec2& x_px, const MotionField& field) const;
+  double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds,
+                    const MotionField& field) const;
+  double faded(double log_odds, double dt_s) const;
+  double turnover_in(double dt_s) const;
+  void coast(const std::vector<IgnoreRegion>& psi, const MotionField& field);
+  void couple(const MotionField& field);
+  void decide(Layers& layers, const Chi& chi, const MotionField& field,
+              std::vector<Verdict>& verdicts);
+  Edge edge_of(const Track& track, const MotionField& field) const;
+
+  HypothesisParameters parameters_;
+  double noise2_px2_;
+  Association association_;
+  Coupling coupling_;
+  VelocityError velocity_error_;
+  std::vector<Track> tracks_;     // of the last frame; those of its corners first, by chi
+  std::vector<Track> predicted_;  // the same, in this frame
+  std::vector<Residual> residuals_;
+  std::vector<Coupling::Node> nodes_;
+};
+
+}  // namespace lcs

@@ -1,0 +1,107 @@
+#include "filter/edges/motion_fix.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "filter/edges/gauss.h"
+
+namespace lcs {
+namespace {
+
+constexpr std::size_t kLeastResiduals = 20;
+constexpr int kIterations = 4;
+/// Standard deviations of what is told, on an axis, before anything is seen: of the turn within a
+/// frame, and of the velocity of a camera that stands.
+constexpr double kTurn_rad = 1e-3;
+constexpr double kStill_mps = 0.003;
+/// What a residual counts for: those of one body are off together.
+constexpr double kOwnVoice = 0.05;
+/// s: for which an error lasts.
+constexpr double kMemory_s = 3;
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// px per rad and m/s: the image motion by a small turn and a change of velocity, first order.
+Eigen::Matrix<double, 2, 6> jacobian(const Intrinsics& camera, const Residual& residual,
+                                     double dt_s) {
+  const Vec2 h = (residual.place_px - camera.centre_px) / camera.focal_px;
+  Eigen::Matrix<double, 2, 6> J;
+  J.leftCols<3>() << h.x() * h.y(), -(1 + h.x() * h.x()), h.y(), 1 + h.y() * h.y(), -h.x() * h.y(),
+      -h.x();
+  J.rightCols<3>() << -1, 0, h.x(), 0, -1, h.y();
+  J.rightCols<3>() *= residual.inverse_depth_pm * dt_s;
+  return camera.focal_px * J;
+}
+
+}  // namespace
+
+/// Normal equations, each residual weighed by the chance that it is of a static point, given what
+/// is left of it and how well the fix is known by then.
+std::optional<MotionFix> motion_fix(const Intrinsics& camera, const MotionField& told,
+                                    std::span<const Residual> residuals,
+                                    const Eigen::Matrix3d& velocity_covariance) {
+  if (residuals.size() < kLeastResiduals) return std::nullopt;
+  const double dt = told.dt_s();
+  const double velocity_variance = velocity_covariance.trace() / 3;
+  Matrix6 covariance = Matrix6::Zero();
+  covariance.topLeftCorner<3, 3>().diagonal().setConstant(kTurn_rad * kTurn_rad);
+  covariance.bottomRightCorner<3, 3>() = velocity_covariance;
+  const Matrix6 prior = covariance.inverse();
+  Vector6 fix = Vector6::Zero();
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    Matrix6 information = prior;
+    Vector6 pull = Vector6::Zero();
+    for (const Residual& residual : residuals) {
+      const Eigen::Matrix<double, 2, 6> J = jacobian(camera, residual, dt);
+      // How far a change of velocity moves a point is as uncertain as its depth.
+      Eigen::Matrix2d S = residual.covariance_px2;
+      S.diagonal().array() += camera.focal_px * camera.focal_px * dt * dt * velocity_variance *
+                              residual.inverse_depth_variance_pm2;
+      const Vec2 left = residual.off_px - J * fix;
+      const double stands = residual.stands * gauss(left, S + J * covariance * J.transpose());
+      const Eigen::Matrix<double, 6, 2> weighed =
+          kOwnVoice * stands / (stands + residual.otherwise_ppx2) * J.transpose() * S.inverse();
+      information += weighed * J;
+      pull += weighed * residual.off_px;
+    }
+    covariance = information.inverse();
+    fix = covariance * pull;
+  }
+  return MotionFix{fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>()};
+}
+
+void VelocityError::advance(const MotionField& told) {
+  const double sigma = told.velocity_sigma_mps();
+  // What is left of the last frame's error; its variance is what is told all the while.
+  const double kept = told_sigma_mps_ > 0 ? std::exp(-told.dt_s() / kMemory_s) *
+                                                std::min(1.0, sigma / told_sigma_mps_)
+                                          : 0;
+  const double fresh2 = sigma * sigma - kept * kept * told_sigma_mps_ * told_sigma_mps_;
+  const Eigen::Matrix3d F = kept * told.R_cur_prev();
+  lasting_mps_ = F * lasting_mps_;
+  lasting_covariance_ = F * lasting_covariance_ * F.transpose();
+  lasting_covariance_.diagonal().array() += fresh2;
+  told_sigma_mps_ = sigma;
+}
+
+MotionField VelocityError::without(const MotionField& told) const {
+  return told.corrected(Eigen::Vector3d::Zero(), lasting_mps_);
+}
+
+Eigen::Matrix3d VelocityError::covariance(const MotionField& field) const {
+  const double drift = ego_share_ * field.displacement_C_m().norm() / field.dt_s();
+  Eigen::Matrix3d both = lasting_covariance_;
+  both.diagonal().array() += kStill_mps * kStill_mps + drift * drift;
+  return both;
+}
+
+void VelocityError::see(const MotionFix& fix, const MotionField& field) {
+  const Eigen::Matrix3d both = covariance(field);
+  const Eigen::Matrix3d share = lasting_covariance_ * both.inverse();
+  lasting_mps_ += share * fix.velocity_mps;
+  lasting_covariance_ -= share * (both - fix.velocity_covariance) * share.transpose();
+}
+
+}  // namespace lcs

@@ -1,0 +1,68 @@
+/// \file
+/// What the told motion is off by, from tracks that are likely to stand: each says how far its
+/// corner is from where it was expected. Where the camera travels a depth explains any distance
+/// along the parallax, so that only what is across it speaks: a depth that was learnt under a wrong
+/// motion would bear that motion out.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+
+#include "filter/kinematics/camera.h"
+#include "filter/kinematics/motion_field.h"
+
+namespace lcs {
+
+/// How far a corner is from where its track was expected if it stands.
+struct Residual {
+  Vec2 place_px, off_px;
+  Eigen::Matrix2d covariance_px2;  ///< of the latter, whatever its depth
+  double inverse_depth_pm = 0, inverse_depth_variance_pm2 = 0;
+  double stands = 1;  ///< chance of it
+  double otherwise_ppx2 =
+      0;  ///< density of the corner there if it does not, times the chance of it
+};
+
+/// To be added to a motion, in the camera frame of k.
+struct MotionFix {
+  Eigen::Vector3d turn_rad, velocity_mps;
+  Eigen::Matrix3d velocity_covariance;  ///< of what is left of the latter, (m/s)^2
+};
+
+/// \param velocity_covariance of what is wrong with the told velocity before anything is seen.
+/// \return none where too few tell.
+std::optional<MotionFix> motion_fix(const Intrinsics& camera, const MotionField& told,
+                                    std::span<const Residual> residuals,
+                                    const Eigen::Matrix3d& velocity_covariance);
+
+/// What is wrong with the told velocity: an error that lasts, as large as the estimator says
+/// (`EgoMotion::velocity_sigma_mps`), and one of each frame by itself.
+class VelocityError {
+ public:
+  /// \param ego_share of its speed by which the camera's velocity may be wrong in a frame.
+  explicit VelocityError(double ego_share) : ego_share_(ego_share) {}
+
+  /// To the next frame.
+  void advance(const MotionField& told);
+
+  /// The told field without the error that lasts, as far as that is known.
+  MotionField without(const MotionField& told) const;
+
+  /// (m/s)^2: of what is wrong with the velocity of that field.
+  Eigen::Matrix3d covariance(const MotionField& field) const;
+
+  /// Takes in what that field is off by.
+  void see(const MotionFix& fix, const MotionField& field);
+
+  void forget() { *this = VelocityError(ego_share_); }
+
+ private:
+  double ego_share_;
+  // Of the error that lasts, in the camera frame of k.
+  Eigen::Vector3d lasting_mps_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d lasting_covariance_ = Eigen::Matrix3d::Zero();
+  double told_sigma_mps_ = 0;  // in the last frame
+};
+
+}  // namespace lcs

@@ -1,0 +1,124 @@
+#include "filter/edges/static_point.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "filter/edges/gauss.h"
+
+namespace lcs {
+namespace {
+
+/// What the camera passes within a frame is taken to come this much nearer, and no more.
+constexpr double kMostApproach = 0.2;
+
+/// Of the height above the ground that is told, by which it may be wrong.
+constexpr double kWrongHeight = 0.1;
+/// Standard deviations of the ground beyond which nothing static is.
+constexpr double kFarBelow = 2;
+
+/// Chance of a normal variable between the bounds; never 0, as it is divided by.
+double mass(double mean, double variance, const DepthBounds& bounds) {
+  const double sigma = std::sqrt(variance);
+  // Infinity is a bound as the ground is, and sharp.
+  const double least = std::max(
+      -mean / sigma, (bounds.ground_pm - mean) / std::hypot(sigma, bounds.ground_sigma_pm));
+  return std::max(1e-12, below((bounds.most_pm - mean) / sigma) - below(least));
+}
+
+/// 1/z_min.
+double nearest_pm(const MotionField& field) {
+  return field.max_ratio() / field.reference_depth_m();
+}
+
+/// What a velocity that is wrong by a share does to an image motion: by as much along it, and by
+/// half of that across.
+Eigen::Matrix2d wrong_flow(const Vec2& flow_px, double ego_share) {
+  return ego_share * ego_share *
+         (0.75 * flow_px * flow_px.transpose() +
+          0.25 * flow_px.squaredNorm() * Eigen::Matrix2d::Identity());
+}
+
+}  // namespace
+
+Vec2 parallax_px_m(const Intrinsics& camera, const Eigen::Vector3d& displacement_C_m,
+                   const Vec2& rotated_px) {
+  return (rotated_px - camera.centre_px) * displacement_C_m.z() -
+         camera.focal_px * displacement_C_m.head<2>();
+}
+
+DepthBounds depth_bounds(const MotionField& field, const Vec2& x_px) {
+  DepthBounds bounds;
+  bounds.most_pm = nearest_pm(field);
+  const auto ground = field.ground_ratio(x_px);
+  if (!ground || *ground <= 0) return bounds;
+  bounds.ground_pm = *ground / field.reference_depth_m();
+  bounds.ground_sigma_pm =
+      std::hypot(field.ground_slack() / field.reference_depth_m(), kWrongHeight * bounds.ground_pm);
+  bounds.least_pm =
+      std::clamp(bounds.ground_pm - kFarBelow * bounds.ground_sigma_pm, 0.0, 0.95 * bounds.most_pm);
+  return bounds;
+}
+
+StaticPoint StaticPoint::seen_once(const Vec2& rotated_px, const Intrinsics& camera,
+                                   const MotionField& field, double noise2_px2) {
+  const DepthBounds bounds = depth_bounds(field, rotated_px);
+  const double half = bounds.half_pm();
+  const Vec2 parallax = parallax_px_m(camera, field.displacement_C_m(), rotated_px);
+  StaticPoint point;
+  point.inverse_depth_pm = bounds.least_pm + half;
+  point.place_px = rotated_px + point.inverse_depth_pm * parallax;
+  Eigen::Vector3d by_depth;
+  by_depth << parallax, 1;
+  point.covariance = half * half * by_depth * by_depth.transpose();
+  point.covariance.topLeftCorner<2, 2>() += noise2_px2 * Eigen::Matrix2d::Identity();
+  return point;
+}
+
+StaticPoint StaticPoint::predicted(const Intrinsics& camera, const MotionField& field,
+                                   double ego_share) const {
+  const Eigen::Vector3d d = field.displacement_C_m();
+  const Vec2 shift = camera.focal_px * d.head<2>();
+  const Vec2 rotated = field.rotated(place_px);
+  const Vec2 h = rotated - camera.centre_px;
+  const double nearing = std::max(kMostApproach, 1 - inverse_depth_pm * d.z());
+  StaticPoint next;
+  next.place_px = camera.centre_px + (h - inverse_depth_pm * shift) / nearing;
+  next.inverse_depth_pm = std::min(inverse_depth_pm / nearing, nearest_pm(field));
+  Eigen::Matrix3d F = Eigen::Matrix3d::Identity() / nearing;
+  F.topRightCorner<2, 1>() = (h * d.z() - shift) / (nearing * nearing);
+  F(2, 2) /= nearing;
+  next.covariance = F * covariance * F.transpose();
+  next.covariance.topLeftCorner<2, 2>() += wrong_flow(next.place_px - rotated, ego_share);
+  return next;
+}
+
+Eigen::Matrix2d StaticPoint::spread(double noise2_px2) const {
+  return covariance.topLeftCorner<2, 2>() + noise2_px2 * Eigen::Matrix2d::Identity();
+}
+
+double StaticPoint::density(const Vec2& x_px, double noise2_px2) const {
+  return gauss(x_px - place_px, spread(noise2_px2));
+}
+
+double StaticPoint::see(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds) {
+  const Eigen::Matrix2d S = spread(noise2_px2);
+  const Vec2 residual = x_px - place_px;
+  const double before = mass(inverse_depth_pm, covariance(2, 2), bounds);
+  const Eigen::Matrix<double, 3, 2> gain = covariance.leftCols<2>() * S.inverse();
+  const Eigen::Vector3d change = gain * residual;
+  place_px += change.head<2>();
+  inverse_depth_pm += change.z();
+  // Joseph's form, which stays positive however well a place is known.
+  Eigen::Matrix3d kept = Eigen::Matrix3d::Identity();
+  kept.leftCols<2>() -= gain;
+  covariance = kept * covariance * kept.transpose() + noise2_px2 * gain * gain.transpose();
+  const double after = mass(inverse_depth_pm, covariance(2, 2), bounds);
+  // Out of bounds, the likeliest point within them.
+  const double bounded = std::clamp(inverse_depth_pm, bounds.least_pm, bounds.most_pm);
+  place_px += covariance.col(2).head<2>() / covariance(2, 2) * (bounded - inverse_depth_pm);
+  inverse_depth_pm = bounded;
+  return gauss(residual, S) * std::min(1.0, after / std::max(1e-6, before));
+}
+
+}  // namespace lcs

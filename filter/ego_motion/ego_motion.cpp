@@ -1,0 +1,302 @@
+#include "filter/ego_motion/ego_motion.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "filter/ego_motion/intake.h"
+#include "filter/kinematics/rotation.h"
+
+namespace lcs {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// Blocks of the error state.
+constexpr int kAttitude = 0, kVelocity = 3, kGyroBias = 6, kAccelBias = 9;
+
+// What the given start may be off by.
+constexpr double kStartAttitude_rad = 1e-3, kStartVelocity_mps = 1e-2;
+
+// The IMU is silent once it is overdue by as many of its periods. What it then does not see: turns
+// of 0.2 rad/s and accelerations of 2 m/s^2 that last for some tenths of a second.
+constexpr int kSilentPeriods = 4;
+constexpr double kUnseenTurn = 0.1;          // rad/s/sqrt(Hz), about the vertical
+constexpr double kUnseenAcceleration = 1.0;  // m/s^2/sqrt(Hz)
+
+// Beyond what sensors measure.
+constexpr double kMostRate_radps = 100, kMostForce_mps2 = 2000;
+
+// Variances above this say that nothing is known; more of them would run into infinity.
+constexpr double kMostVariance = 1e12;
+
+/// Signed; times of different clocks may be farther apart than their difference can tell.
+double seconds_from(std::int64_t from_ns, std::int64_t to_ns) {
+  return (static_cast<double>(to_ns) - static_cast<double>(from_ns)) * 1e-9;
+}
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(std::string("the estimator of ego-motion needs ") + what);
+}
+
+void check(const Mounting& mounting, const EgoMotionNoise& noise,
+           const EgoMotionEstimator::Start& start) {
+  for (const Matrix3d* R : {&mounting.R_BC, &mounting.R_BS, &start.R_WB}) {
+    require(R->allFinite() && is_rotation(*R), "rotations");
+  }
+  require(mounting.p_BC_m.allFinite() && mounting.p_BS_m.allFinite(), "lever arms that are finite");
+  require(
+      start.v_WB_mps.allFinite() && std::isfinite(start.gravity_mps2) && start.gravity_mps2 >= 0,
+      "a velocity and a gravity to start from");
+  for (const double deviation :
+       {noise.gyro_density, noise.gyro_walk, noise.accel_density, noise.accel_walk,
+        noise.odometry_mps, noise.gyro_turn_on_bias, noise.accel_turn_on_bias}) {
+    require(std::isfinite(deviation) && deviation >= 0, "noise that is finite and not negative");
+  }
+  require(noise.odometry_mps > 0, "odometry with noise");
+}
+
+}  // namespace
+
+EgoMotionEstimator::EgoMotionEstimator(const Mounting& mounting, const EgoMotionNoise& noise,
+                                       const Start& start)
+    : mounting_(mounting),
+      noise_(noise),
+      gravity_W_(0, 0, -start.gravity_mps2),
+      t_ns_(start.t_ns),
+      R_WS_(start.R_WB * mounting.R_BS),
+      v_WS_(start.v_WB_mps),
+      watch_({.gravity_mps2 = start.gravity_mps2,
+              .noisy = noise.gyro_density > 0 && noise.accel_density > 0}) {
+  check(mounting, noise, start);
+  reset_covariance();
+}
+
+void EgoMotionEstimator::reset_covariance() {
+  covariance_.setZero();
+  const auto block = [&](int first, double deviation) {
+    covariance_.diagonal().segment<3>(first).setConstant(deviation * deviation);
+  };
+  block(kAttitude, kStartAttitude_rad);
+  block(kVelocity, kStartVelocity_mps);
+  block(kGyroBias, noise_.gyro_turn_on_bias);
+  block(kAccelBias, noise_.accel_turn_on_bias);
+}
+
+bool EgoMotionEstimator::far_ahead(std::int64_t t_ns) const {
+  return seconds_from(t_ns_, t_ns) > kLongestStep_s;
+}
+
+std::optional<Fault> EgoMotionEstimator::fault_of(std::int64_t t_ns, const Vector3d& gyro_radps,
+                                                  const Vector3d& accel_mps2) const {
+  if (!gyro_radps.allFinite() || !accel_mps2.allFinite()) return Fault::imu_not_finite;
+  if (!(gyro_radps.norm() <= kMostRate_radps && accel_mps2.norm() <= kMostForce_mps2)) {
+    return Fault::imu_too_large;
+  }
+  if (t_ns < t_ns_) return Fault::imu_out_of_order;
+  if (far_ahead(t_ns)) return Fault::imu_jump;
+  return std::nullopt;
+}
+
+/// Of readings that were integrated before they were known to be in g.
+void EgoMotionEstimator::scale_past(double scale) {
+  v_WS_ += (scale - 1) * dv_in_g_W_;
+  last_->accel *= scale;
+}
+
+void EgoMotionEstimator::add_imu(std::int64_t t_ns, const Vector3d& gyro_radps,
+                                 const Vector3d& accel_mps2) {
+  if (const std::optional<Fault> fault = fault_of(t_ns, gyro_radps, accel_mps2)) {
+    diagnostics_.add(*fault);
+    return;
+  }
+  const bool was_like_g = watch_.in_g() > 0;
+  const ImuWatch::Finding finding = watch_.look(gyro_radps, accel_mps2, diagnostics_);
+  const Reading reading{t_ns, gyro_radps, finding.accel_scale * accel_mps2};
+  if (!last_) {
+    // The start gives the velocity of the rover's origin; the IMU sits on a lever.
+    v_WS_ += R_WS_ * gyro_radps.cross(mounting_.R_BS.transpose() * mounting_.p_BS_m);
+    last_ = reading;
+    heard_ns_ = t_ns;
+  }
+  if (finding.begins_in_g) scale_past(finding.accel_scale);
+  // Over the interval that ends with this reading both rates are taken to change linearly.
+  last_->gyro = 0.5 * (last_->gyro + reading.gyro);
+  last_->accel = 0.5 * (last_->accel + reading.accel);
+  if (watch_.in_g() == 0 || watch_.in_g() == ImuWatch::kInG) {
+    dv_in_g_W_.setZero();
+  } else {  // the reading before the first of them is in m/s^2
+    const Vector3d in_g = was_like_g ? last_->accel : Vector3d(0.5 * reading.accel);
+    dv_in_g_W_ += R_WS_ * in_g * seconds_from(t_ns_, t_ns);
+  }
+  measure_period(t_ns - last_->t_ns);
+  propagate_to(t_ns);
+  last_ = reading;
+  if (finding.believed) heard_ns_ = t_ns;
+}
+
+/// Once a gap, whether it ends or not.
+void EgoMotionEstimator::note_gap(std::int64_t silent_ns) {
+  if (in_gap_ || period_ns_ == 0 || silent_ns <= kSilentPeriods * period_ns_) return;
+  in_gap_ = true;
+  diagnostics_.add(Fault::imu_gap);
+}
+
+/// The shortest time that two intervals in a row had, so that one wrong time does not spoil it.
+void EgoMotionEstimator::measure_period(std::int64_t since_ns) {
+  if (since_ns <= 0) return;
+  note_gap(since_ns);
+  in_gap_ = false;
+  if (interval_ns_ > 0) {
+    const std::int64_t longer_ns = std::max(since_ns, interval_ns_);
+    period_ns_ = period_ns_ == 0 ? longer_ns : std::min(period_ns_, longer_ns);
+  }
+  interval_ns_ = since_ns;
+}
+
+void EgoMotionEstimator::propagate_to(std::int64_t t_ns) {
+  const double dt = static_cast<double>(t_ns - t_ns_) * 1e-9;
+  if (dt <= 0 || !last_) return;
+  const Vector3d rotation = (last_->gyro - gyro_bias_) * dt;
+  const Vector3d specific_force = last_->accel - accel_bias_;
+  const Matrix3d R_mid = R_WS_ * exponential(0.5 * rotation);
+  const Vector3d a_W = R_mid * specific_force + gravity_W_;
+  const Matrix3d R_old = R_WS_;
+  const Vector3d v_old = v_WS_;
+
+  R_WS_ = R_WS_ * exponential(rotation);
+  v_WS_ += a_W * dt;
+  const Vector3d lever_S = mounting_.R_BS.transpose() * (mounting_.p_BC_m - mounting_.p_BS_m);
+  displacement_W_ += 0.5 * (v_old + v_WS_) * dt + (R_WS_ - R_old) * lever_S;
+  t_ns_ = t_ns;
+
+  Matrix12 F = Matrix12::Identity();
+  F.block<3, 3>(kAttitude, kGyroBias) = -R_mid * dt;
+  F.block<3, 3>(kVelocity, kAttitude) = -skew(R_mid * specific_force) * dt;
+  F.block<3, 3>(kVelocity, kAccelBias) = -R_mid * dt;
+  covariance_ = F * covariance_ * F.transpose();
+  const auto add_noise = [&](int first, double density) {
+    covariance_.diagonal().segment<3>(first).array() += density * density * dt;
+  };
+  add_noise(kAttitude, noise_.gyro_density);
+  add_noise(kVelocity, noise_.accel_density);
+  add_noise(kGyroBias, noise_.gyro_walk);
+  add_noise(kAccelBias, noise_.accel_walk);
+  if (period_ns_ > 0 && t_ns - heard_ns_ > kSilentPeriods * period_ns_) {
+    const double turn = kUnseenTurn * kUnseenTurn * dt;
+    covariance_(kAttitude + 2, kAttitude + 2) += turn;
+    unseen_turn_rad2_ += turn;
+    add_noise(kVelocity, kUnseenAcceleration);
+  }
+  if (!(covariance_.diagonal().array() < kMostVariance).all()) reset_covariance();
+}
+
+void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocity_B_mps) {
+  if (!(velocity_B_mps.norm() <= kMostSpeed_mps)) {
+    diagnostics_.add(Fault::odometry_unusable);
+    return;
+  }
+  if (t_ns < t_ns_ || far_ahead(t_ns) || !last_) {
+    diagnostics_.add(Fault::odometry_out_of_order);
+    return;
+  }
+  propagate_to(t_ns);
+  const Vector3d lever_S = mounting_.R_BS.transpose() * -mounting_.p_BS_m;
+  const Vector3d rate_S = last_->gyro - gyro_bias_;
+  const Matrix3d R_BW = mounting_.R_BS * R_WS_.transpose();
+  const Vector3d expected_B = R_BW * v_WS_ + mounting_.R_BS * rate_S.cross(lever_S);
+
+  Eigen::Matrix<double, 3, 12> H = Eigen::Matrix<double, 3, 12>::Zero();
+  H.block<3, 3>(0, kAttitude) = R_BW * skew(v_WS_);
+  H.block<3, 3>(0, kVelocity) = R_BW;
+  H.block<3, 3>(0, kGyroBias) = mounting_.R_BS * skew(lever_S);
+  const Matrix3d S = H * covariance_ * H.transpose() +
+                     Matrix3d::Identity() * (noise_.odometry_mps * noise_.odometry_mps);
+  const Eigen::Matrix<double, 12, 3> gain = covariance_ * H.transpose() * S.inverse();
+  const Eigen::Matrix<double, 12, 1> error = gain * (velocity_B_mps - expected_B);
+
+  // The whole history turns with the attitude: a correction is not a motion of this frame.
+  const Matrix3d correction = exponential(error.segment<3>(kAttitude));
+  R_WS_ = correction * R_WS_;
+  displacement_W_ = correction * displacement_W_;
+  if (last_frame_) last_frame_->R_WC = correction * last_frame_->R_WC;
+  v_WS_ += error.segment<3>(kVelocity);
+  gyro_bias_ += error.segment<3>(kGyroBias);
+  accel_bias_ += error.segment<3>(kAccelBias);
+  // Joseph form: stays symmetric and positive.
+  const Matrix12 I_KH = Matrix12::Identity() - gain * H;
+  covariance_ = (I_KH * covariance_ * I_KH.transpose() +
+                 gain * gain.transpose() * (noise_.odometry_mps * noise_.odometry_mps))
+                    .eval();
+}
+
+std::optional<Ground> EgoMotionEstimator::ground() const {
+  if (!mounting_.on_ground) return std::nullopt;
+  const Matrix3d R_WB = R_WS_ * mounting_.R_BS.transpose();
+  const double height_m = (R_WB * mounting_.p_BC_m).z();
+  if (!(height_m > 0)) return std::nullopt;
+  return Ground{.up_C = (R_WB * mounting_.R_BC).row(2), .height_m = height_m};
+}
+
+Matrix3d EgoMotionEstimator::R_WC() const {
+  return R_WS_ * mounting_.R_BS.transpose() * mounting_.R_BC;
+}
+
+void EgoMotionEstimator::set_clock(std::int64_t t_ns) {
+  t_ns_ = heard_ns_ = t_ns;
+  if (last_) last_->t_ns = t_ns;
+}
+
+/// What is told with the next frame counts from here.
+void EgoMotionEstimator::begin_interval(std::int64_t t_ns) {
+  last_frame_ = Frame{t_ns, R_WC()};
+  displacement_W_.setZero();
+  unseen_turn_rad2_ = 0;
+}
+
+/// Nothing is known of the motion since the last frame; a second such frame that agrees with the
+/// first shows that it is the clock that was set.
+EgoMotion EgoMotionEstimator::frame_out_of_time(std::int64_t t_ns) {
+  EgoMotion motion;
+  motion.dt_s = seconds_from(last_frame_->t_ns, t_ns);
+  const bool agrees = wrong_frame_ns_ && t_ns > *wrong_frame_ns_ &&
+                      seconds_from(*wrong_frame_ns_, t_ns) <= kLongestStep_s;
+  wrong_frame_ns_ = t_ns;
+  if (agrees) {
+    diagnostics_.add(Fault::clock_set);
+    set_clock(t_ns);
+    begin_interval(t_ns);
+    wrong_frame_ns_.reset();
+  }
+  return motion;
+}
+
+EgoMotion EgoMotionEstimator::frame(std::int64_t t_ns) {
+  if (last_frame_ &&
+      (t_ns < last_frame_->t_ns || seconds_from(last_frame_->t_ns, t_ns) > kLongestStep_s)) {
+    return frame_out_of_time(t_ns);
+  }
+  wrong_frame_ns_.reset();
+  // The first frame sets the clock if it is not that of the start.
+  if (!last_frame_ && std::abs(seconds_from(t_ns_, t_ns)) > kLongestStep_s) set_clock(t_ns);
+  if (last_) note_gap(t_ns - last_->t_ns);
+  propagate_to(t_ns);
+  const Matrix3d R_WC_now = R_WC();
+  EgoMotion motion;
+  motion.ground = ground();
+  motion.velocity_sigma_mps = std::sqrt(covariance_.block<3, 3>(kVelocity, kVelocity).trace() / 3);
+  if (last_frame_ && t_ns > last_frame_->t_ns) {
+    motion.dt_s = static_cast<double>(t_ns - last_frame_->t_ns) * 1e-9;
+    motion.R_cur_prev = R_WC_now.transpose() * last_frame_->R_WC;
+    motion.v_C_mps = R_WC_now.transpose() * displacement_W_ / motion.dt_s;
+    motion.w_C_radps = -logarithm(motion.R_cur_prev) / motion.dt_s;
+    motion.unseen_turn_rad = std::sqrt(unseen_turn_rad2_);
+  }
+  begin_interval(t_ns);
+  return motion;
+}
+
+}  // namespace lcs

@@ -1,0 +1,161 @@
+/// \file
+/// How the camera moved between two frames, and the strapdown integration that finds it from an
+/// IMU.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+
+#include "filter/diagnostics.h"
+#include "filter/ego_motion/imu_watch.h"
+
+namespace lcs {
+
+/// Between two frames; of what was known a longer time ago nothing is of use.
+inline constexpr double kLongestStep_s = 60;
+
+/// Nothing that drives is faster: larger numbers are those of something broken.
+inline constexpr double kMostSpeed_mps = 1000;
+
+/// The plane that the rover stands on, seen from the camera of frame k.
+struct Ground {
+  Eigen::Vector3d up_C = -Eigen::Vector3d::UnitY();  ///< its unit normal, against gravity
+  double height_m = 0;                               ///< of the camera above it, > 0
+};
+
+/// Motion of the camera from frame k-1 to frame k.
+struct EgoMotion {
+  double dt_s = 0;  ///< t_f; 0 in the first frame
+  /// Takes camera coordinates of frame k-1 to those of frame k (rotation part).
+  Eigen::Matrix3d R_cur_prev = Eigen::Matrix3d::Identity();
+  /// Mean velocity of the camera over the interval, in the camera frame of k.
+  Eigen::Vector3d v_C_mps = Eigen::Vector3d::Zero();
+  /// Mean body rate of the camera over the interval, in the camera frame: R_cur_prev = exp(-[w]
+  /// dt).
+  Eigen::Vector3d w_C_radps = Eigen::Vector3d::Zero();
+  /// Standard deviation of what is wrong with the rotation because the gyro was not heard, about
+  /// any axis; 0 where it was.
+  double unseen_turn_rad = 0;
+  /// Standard deviation of what is wrong with the velocity, along any axis, by the estimator's own
+  /// account: it grows while the IMU is integrated without odometry. 0 where nobody tells.
+  double velocity_sigma_mps = 0;
+  /// At frame k; none where nobody knows how the camera is mounted.
+  std::optional<Ground> ground;
+};
+
+/// Rotations (only) of the sensors, and their lever arms, in the rover's frame B.
+struct Mounting {
+  Eigen::Matrix3d R_BC = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d p_BC_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d R_BS = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d p_BS_m = Eigen::Vector3d::Zero();
+  bool on_ground = false;  ///< the origin of B stays on the ground
+};
+
+/// Noise that the estimator expects; used only to weigh odometry against the IMU.
+struct EgoMotionNoise {
+  double gyro_density = 1.7e-4;   ///< rad/s/sqrt(Hz)
+  double gyro_walk = 2.0e-5;      ///< rad/s^2/sqrt(Hz)
+  double accel_density = 2.0e-3;  ///< m/s^2/sqrt(Hz)
+  double accel_walk = 3.0e-3;     ///< m/s^3/sqrt(Hz)
+  double odometry_mps = 0.02;     ///< standard deviation of one odometry velocity, per axis
+  /// \name Standard deviation of what each bias may be at the start, per axis.
+  ///@{
+  double gyro_turn_on_bias = 1e-5;   ///< rad/s
+  double accel_turn_on_bias = 1e-3;  ///< m/s^2
+  ///@}
+};
+
+/// Strapdown integration of gyro and accelerometer from a known start, in the world frame W (z up,
+/// gravity along -z), with an error-state Kalman filter on (attitude, velocity, gyro bias,
+/// accelerometer bias) that takes wheel odometry where there is some. Without odometry it is plain
+/// dead reckoning. Where the IMU falls silent its last reading is held, and odometry is believed
+/// more; likewise where it is frozen or saturated.
+///
+/// Bad readings never throw: they are left out and named. The frames are the clock: one that is
+/// older than the last, or far ahead, has no motion and changes nothing; with a second one that
+/// agrees with it the clock was set, and goes on from there.
+class EgoMotionEstimator {
+ public:
+  struct Start {
+    std::int64_t t_ns = 0;
+    Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d v_WB_mps = Eigen::Vector3d::Zero();
+    double gravity_mps2 = 9.81;
+  };
+
+  /// \throws std::invalid_argument for values that are not finite or negative, and for rotations
+  /// that are none.
+  EgoMotionEstimator(const Mounting& mounting, const EgoMotionNoise& noise, const Start& start);
+
+  /// A reading of the IMU in its frame S. Times do not decrease.
+  void add_imu(std::int64_t t_ns, const Eigen::Vector3d& gyro_radps,
+               const Eigen::Vector3d& accel_mps2);
+
+  /// Velocity of the rover's origin, in B, from its wheels. Integrates up to `t_ns` first.
+  void add_odometry(std::int64_t t_ns, const Eigen::Vector3d& velocity_B_mps);
+
+  /// Integrates up to a frame's time, and returns the motion since the last frame. Of a frame whose
+  /// time is wrong only the time since the last one is told, negative or above `kLongestStep_s`.
+  EgoMotion frame(std::int64_t t_ns);
+
+  /// The ground at the time integrated to: level, through the origin of B. None where that is not
+  /// on the ground, or the camera is not above it.
+  std::optional<Ground> ground() const;
+
+  const Eigen::Matrix3d& R_WS() const { return R_WS_; }
+  const Eigen::Vector3d& v_WS_mps() const { return v_WS_; }
+  /// What was wrong with the readings so far.
+  const Diagnostics& diagnostics() const { return diagnostics_; }
+
+ private:
+  using Matrix12 = Eigen::Matrix<double, 12, 12>;
+  void measure_period(std::int64_t since_ns);
+  void note_gap(std::int64_t silent_ns);
+  void propagate_to(std::int64_t t_ns);
+  bool far_ahead(std::int64_t t_ns) const;
+  EgoMotion frame_out_of_time(std::int64_t t_ns);
+  void set_clock(std::int64_t t_ns);
+  void begin_interval(std::int64_t t_ns);
+  Eigen::Matrix3d R_WC() const;
+  void reset_covariance();
+  std::optional<Fault> fault_of(std::int64_t t_ns, const Eigen::Vector3d& gyro_radps,
+                                const Eigen::Vector3d& accel_mps2) const;
+  void scale_past(double scale);
+
+  Mounting mounting_;
+  EgoMotionNoise noise_;
+  Eigen::Vector3d gravity_W_;
+  std::int64_t t_ns_;
+  Eigen::Matrix3d R_WS_;
+  Eigen::Vector3d v_WS_;
+  Eigen::Vector3d gyro_bias_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d accel_bias_ = Eigen::Vector3d::Zero();
+  Matrix12 covariance_ = Matrix12::Zero();  ///< of (attitude in W, velocity in W, biases)
+  struct Reading {
+    std::int64_t t_ns;
+    Eigen::Vector3d gyro, accel;
+  };
+  std::optional<Reading> last_;   ///< newest reading
+  std::int64_t heard_ns_ = 0;     ///< time of the newest reading that is believed
+  std::int64_t interval_ns_ = 0;  ///< time between the last two readings
+  bool in_gap_ = false;           ///< and it is counted
+  std::int64_t period_ns_ = 0;    ///< shortest that two intervals in a row had so far
+  Diagnostics diagnostics_;
+  ImuWatch watch_;
+  Eigen::Vector3d dv_in_g_W_ = Eigen::Vector3d::Zero();  ///< integrated while they may be in g
+  std::optional<std::int64_t> wrong_frame_ns_;  ///< of the last frame, where its time was wrong
+
+  struct Frame {
+    std::int64_t t_ns;
+    Eigen::Matrix3d R_WC;
+  };
+  std::optional<Frame> last_frame_;
+  double unseen_turn_rad2_ = 0;  ///< since the last frame, its variance
+  Eigen::Vector3d displacement_W_ =
+      Eigen::Vector3d::Zero();  ///< of the camera, since the last frame
+};
+
+}  // namespace lcs

@@ -1,0 +1,25 @@
+/// \file
+/// What the filter takes of the ego-motion that it is told: all of it, all but the ground, or
+/// nothing.
+#pragma once
+
+#include <optional>
+
+#include "filter/diagnostics.h"
+#include "filter/ego_motion/ego_motion.h"
+
+namespace lcs {
+
+class Intake {
+ public:
+  /// \return the motion; none where it cannot be used, which is told by the diagnostics.
+  std::optional<EgoMotion> take(const EgoMotion& told, Diagnostics& diagnostics);
+
+ private:
+  bool is_first_ = true;  ///< nothing came before that time could have passed since
+};
+
+/// Whether a matrix is a rotation, but for what a few decimals leave.
+bool is_rotation(const Eigen::Matrix3d& R);
+
+}  // namespace lcs

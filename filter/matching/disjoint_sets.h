@@ -1,0 +1,70 @@
+/// \file
+/// Union-find: which of n things are connected, by pairs that are.
+#pragma once
+
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "filter/matching/refill.h"
+
+namespace lcs {
+
+class DisjointSets {
+ public:
+  /// n sets of one thing each.
+  void reset(std::size_t n) {
+    refill(parent_, n);
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+
+  /// The thing that stands for the set of this one.
+  int root(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+  bool are_joined(int i, int j) { return root(i) == root(j); }
+
+  /// Both sets become one, whose root is that of `into`.
+  void join(int into, int other) { parent_[root(other)] = root(into); }
+
+  std::size_t size() const { return parent_.size(); }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// The members of disjoint sets, in memory that is kept from frame to frame.
+class SetMembers {
+ public:
+  /// \param accept(i) whether a thing is listed.
+  template <typename Accept>
+  void collect(DisjointSets& sets, Accept&& accept) {
+    refill(first_, sets.size() + 2);
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      if (accept(i)) ++first_[sets.root(static_cast<int>(i)) + 2];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    refill(members_, first_.back());
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      if (accept(i)) members_[first_[sets.root(static_cast<int>(i)) + 1]++] = static_cast<int>(i);
+    }
+  }
+
+  /// Calls `visit(members)` for each set that has some, by its root; members rise.
+  template <typename Visit>
+  void visit(Visit&& visit) {
+    for (std::size_t root = 0; root + 2 < first_.size(); ++root) {
+      const std::span<int> members(members_.data() + first_[root], first_[root + 1] - first_[root]);
+      if (!members.empty()) visit(members);
+    }
+  }
+
+ private:
+  std::vector<std::size_t> first_;  // of each root in members_, and the end
+  std::vector<int> members_;
+};
+
+}  // namespace lcs

@@ -1,0 +1,227 @@
+/// \file
+/// Neighbours of a point among many: a uniform grid that is rebuilt each frame into the same
+/// memory.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "filter/kinematics/camera.h"
+#include "filter/matching/refill.h"
+
+namespace lcs {
+
+/// A point found near another. Nearest first, and of equally near ones the lower index: by hand, as
+/// wherever much is put in order by a double, for the standard pair and tuple compare twice.
+struct Neighbour {
+  double distance2;  ///< px^2
+  int index;
+  bool operator<(const Neighbour& other) const {
+    return distance2 < other.distance2 || (distance2 == other.distance2 && index < other.index);
+  }
+};
+
+/// Points are finite; they are referred to by their index.
+class PointGrid {
+ public:
+  /// \param cell_px about the radius that will be asked for; cells are a pixel at the least.
+  void build(std::span<const Vec2> points, double cell_px) {
+    low_ = Vec2::Zero();
+    Vec2 high = Vec2::Zero();
+    if (!points.empty()) {
+      low_ = high = points.front();
+      for (const Vec2& x : points) {
+        low_ = low_.cwiseMin(x);
+        high = high.cwiseMax(x);
+      }
+    }
+    // Cells grow rather than their number when points lie far apart.
+    cell_px_ = std::max({cell_px, 1.0, (high - low_).maxCoeff() / kMaxSide});
+    columns_ = 1 + static_cast<int>((high.x() - low_.x()) / cell_px_);
+    rows_ = 1 + static_cast<int>((high.y() - low_.y()) / cell_px_);
+
+    // Counting sort of the points into their cells: first_[c + 1] runs from the start of cell c to
+    // its end, which is where the next one starts.
+    refill(first_, static_cast<std::size_t>(columns_) * rows_ + 2);
+    refill(cell_of_, points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      cell_of_[i] = cell(column(points[i].x()), row(points[i].y()));
+      ++first_[cell_of_[i] + 2];
+    }
+    for (std::size_t c = 2; c < first_.size(); ++c) first_[c] += first_[c - 1];
+    refill(placed_, points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      placed_[first_[cell_of_[i] + 1]++] = {points[i], static_cast<int>(i)};
+    }
+  }
+
+  /// Calls `visit(index, squared distance)` for each point within `radius_px` of x.
+  template <typename Visit>
+  void visit_within(const Vec2& x, double radius_px, Visit&& visit) const {
+    const int c0 = column(x.x() - radius_px), c1 = column(x.x() + radius_px);
+    const int r0 = row(x.y() - radius_px), r1 = row(x.y() + radius_px);
+    for (int r = r0; r <= r1; ++r)
+      visit_near(first_[cell(c0, r)], first_[cell(c1, r) + 1], x, radius_px * radius_px, visit);
+  }
+
+  /// Calls `visit(i, j, squared distance)` once for each two points of which j lies within
+  /// `radius_px(i)` of i, the one that comes first in the grid: where radii differ, what matters
+  /// must lie within both.
+  template <typename Radius, typename Visit>
+  void visit_pairs(Radius&& radius_px, Visit&& visit) const {
+    visit_pairs_about([&](const Placed& here) { return radius_px(here.index); }, visit);
+  }
+
+  /// The same, but where points lie close no farther than about `crowd` of them reach, so that the
+  /// time stays in proportion to their number.
+  template <typename Radius, typename Visit>
+  void visit_crowd_pairs(double crowd, Radius&& radius_px, Visit&& visit) const {
+    visit_pairs_about(
+        [&](const Placed& here) {
+          return std::min(radius_px(here.index), crowd_radius(here.location, crowd));
+        },
+        visit);
+  }
+
+  /// Points of some cells, and how much of the plane these take, px^2.
+  struct Crowd {
+    double count, area_px2;
+  };
+
+  /// Of the cells that the square reaches into which lies `radius_px` about x to each side. Takes
+  /// the time of a few look-ups, however many points lie there.
+  Crowd crowd(const Vec2& x, double radius_px) const {
+    const int c0 = column(x.x() - radius_px), c1 = column(x.x() + radius_px);
+    const int r0 = row(x.y() - radius_px), r1 = row(x.y() + radius_px);
+    std::size_t count = 0;
+    for (int r = r0; r <= r1; ++r) count += first_[cell(c1, r) + 1] - first_[cell(c0, r)];
+    return {static_cast<double>(count), (c1 - c0 + 1) * (r1 - r0 + 1) * cell_px_ * cell_px_};
+  }
+
+  /// px: within which `count` points would lie if those of the cells round x were spread evenly.
+  /// Who looks no farther is done in a time that does not grow with how close points lie.
+  double crowd_radius(const Vec2& x, double count) const {
+    return 3 * cell_px_ * std::sqrt(count / (std::numbers::pi * crowd(x, cell_px_).count));
+  }
+
+  /// The `count` points nearest to x within `radius_px` that `accept(index)` takes, in order. Looks
+  /// at rings of cells about x, and so at a few points only where they lie close.
+  template <typename Accept>
+  void nearest(const Vec2& x, double radius_px, std::size_t count, Accept&& accept,
+               std::vector<Neighbour>& found) const {
+    found.clear();
+    if (count == 0) return;
+    const int c = column(x.x()), r = row(x.y());
+    const int rings = std::max(std::max(c, columns_ - 1 - c), std::max(r, rows_ - 1 - r));
+    const auto rank = [&](int row, int from, int to) {
+      if (row < 0 || row >= rows_ || from >= columns_ || to < 0) return;
+      rank_cells(cell(std::max(from, 0), row), cell(std::min(to, columns_ - 1), row), x,
+                 radius_px * radius_px, count, accept, found);
+    };
+    // Nothing is settled before the cells next to that of x are seen.
+    for (int v = r - 1; v <= r + 1; ++v) rank(v, c - 1, c + 1);
+    for (int ring = 2; ring <= rings; ++ring) {
+      // All that lies nearer than this has been seen, a hair less for the rounding of cells.
+      const double seen_px = (ring - 1) * cell_px_ * (1 - 1e-9);
+      if (seen_px > radius_px) return;
+      if (found.size() == count && found.back().distance2 < seen_px * seen_px) return;
+      rank(r - ring, c - ring, c + ring);
+      for (int v = r - ring + 1; v < r + ring; ++v) {
+        rank(v, c - ring, c - ring);
+        rank(v, c + ring, c + ring);
+      }
+      rank(r + ring, c - ring, c + ring);
+    }
+  }
+
+ private:
+  struct Placed {
+    Vec2 location;
+    int index;
+  };
+
+  static constexpr double kMaxSide = 512;
+
+  int column(double x) const { return clamped((x - low_.x()) / cell_px_, columns_); }
+  int row(double y) const { return clamped((y - low_.y()) / cell_px_, rows_); }
+  static int clamped(double cells, int count) {
+    return static_cast<int>(std::clamp(cells, 0.0, static_cast<double>(count - 1)));
+  }
+
+  /// `visit_pairs` with the radius of a placed point.
+  template <typename Radius, typename Visit>
+  void visit_pairs_about(Radius&& radius_px, Visit&& visit) const {
+    for (int r = 0; r < rows_; ++r) {
+      for (std::size_t i = first_[cell(0, r)]; i < first_[cell(columns_ - 1, r) + 1]; ++i) {
+        const Placed& here = placed_[i];
+        const Vec2& x = here.location;
+        const double radius = radius_px(here);
+        const auto visit_from = [&](std::size_t first, std::size_t last) {
+          visit_near(first, last, x, radius * radius,
+                     [&](int j, double distance2) { visit(here.index, j, distance2); });
+        };
+        const int left = column(x.x() - radius), right = column(x.x() + radius);
+        const int bottom = row(x.y() + radius);
+        visit_from(i + 1, first_[cell(right, r) + 1]);
+        for (int below = r + 1; below <= bottom; ++below)
+          visit_from(first_[cell(left, below)], first_[cell(right, below) + 1]);
+      }
+    }
+  }
+
+  /// Visits those of some points placed one after the other that are near x. They are told from the
+  /// others in portions and without a branch, which would often be guessed wrong.
+  template <typename Visit>
+  void visit_near(std::size_t first, std::size_t last, const Vec2& x, double radius2,
+                  Visit&& visit) const {
+    std::array<Neighbour, 32> near;
+    while (first < last) {
+      const std::size_t end = std::min(last, first + near.size());
+      std::size_t count = 0;
+      for (; first < end; ++first) {
+        const double distance2 = (placed_[first].location - x).squaredNorm();
+        near[count] = {distance2, placed_[first].index};
+        count += distance2 <= radius2;
+      }
+      for (std::size_t i = 0; i < count; ++i) visit(near[i].index, near[i].distance2);
+    }
+  }
+
+  /// Puts the points of some cells of a row into their places among those found.
+  template <typename Accept>
+  void rank_cells(std::size_t first, std::size_t last, const Vec2& x, double farthest2,
+                  std::size_t count, Accept&& accept, std::vector<Neighbour>& found) const {
+    if (found.size() == count) farthest2 = found.back().distance2;
+    for (std::size_t k = first_[first]; k < first_[last + 1]; ++k) {
+      const Neighbour here{(placed_[k].location - x).squaredNorm(), placed_[k].index};
+      if (here.distance2 > farthest2 || !accept(here.index)) continue;
+      if (found.size() < count) {
+        found.push_back(here);
+      } else if (!(here < found.back())) {
+        continue;
+      }
+      std::size_t place = found.size() - 1;
+      for (; place > 0 && here < found[place - 1]; --place) found[place] = found[place - 1];
+      found[place] = here;
+      if (found.size() == count) farthest2 = found.back().distance2;
+    }
+  }
+
+  std::size_t cell(int c, int r) const {
+    return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(c);
+  }
+
+  std::vector<Placed> placed_;            // cell by cell, in each by index
+  std::vector<std::size_t> first_{0, 0};  // of each cell in placed_, and the end
+  std::vector<std::size_t> cell_of_;
+  Vec2 low_ = Vec2::Zero();
+  double cell_px_ = 1;
+  int columns_ = 1, rows_ = 1;
+};
+
+}  // namespace lcs

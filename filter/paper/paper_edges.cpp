@@ -1,0 +1,370 @@
+#include "filter/paper/paper_edges.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "filter/kinematics/geometry.h"
+#include "filter/matching/refill.h"
+
+namespace lcs {
+namespace {
+
+/// Below this displacement of the reference point a frame says nothing about an edge's depth.
+constexpr double kLeastDisplacement_px = 0.2;
+
+}  // namespace
+
+PaperEdges::PaperEdges(const Intrinsics& camera, const CircleParameters& parameters)
+    : EdgeExpert(camera, parameters.trust), parameters_(parameters) {}
+
+void PaperEdges::assign_one_to_one(std::size_t edges, std::size_t corners) {
+  refill(match_of_edge_, edges, -1);
+  refill(match_of_corner_, corners, -1);
+  order_.visit(
+      pairs_,
+      [&](const Couple& pair) {
+        return match_of_edge_[pair.a] >= 0 || match_of_corner_[pair.b] >= 0;
+      },
+      [&](const Couple& pair) {
+        match_of_edge_[pair.a] = pair.b;
+        match_of_corner_[pair.b] = pair.a;
+      });
+}
+
+void PaperEdges::coast(Edge& edge, const std::vector<IgnoreRegion>& psi) const {
+  edge.corner = -1;
+  edge.location = edge.predicted;
+  if (!inside_any(psi, edge.predicted)) --edge.trust;
+}
+
+Edge PaperEdges::make_normal(const Vec2& x, double depth_ratio, double mu,
+                             const MotionField& field) {
+  Edge edge;
+  edge.id = next_id();
+  edge.location = edge.rotated = edge.predicted = x;
+  edge.depth_ratio = depth_ratio;
+  move_as_static(edge, field);
+  edge.mu = mu;
+  edge.trust = trust_.initial_normal();
+  return edge;
+}
+
+void PaperEdges::predict(Layers& layers, const MotionField& field) {
+  for (Edge& edge : layers.normal_edges) {
+    edge.rotated = field.rotated(edge.location);
+    // V~ = (V + V_v) / 2; a camera that stands still teaches nothing.
+    if (field.moving()) edge.depth_ratio = 0.5 * (edge.depth_ratio + 1);
+    edge.predicted = field.translated(edge.rotated, edge.depth_ratio);
+    edge.origin = field.origin(edge.predicted);
+    edge.speed = edge.depth_ratio * field.reference_speed(edge.rotated);
+    const Vec2 along = field.direction(edge.predicted);
+    if (!along.isZero()) edge.angle = angle_of(along);
+  }
+  for (Edge& edge : layers.rebel_edges) {
+    edge.rotated = field.rotated(edge.location);
+    edge.origin = field.rotated(edge.origin);
+    const Vec2 path = edge.rotated - edge.origin;
+    if (!path.isZero()) edge.angle = angle_of(path);
+    edge.predicted = edge.rotated + edge.speed * field.dt_s() * unit_vector(edge.angle);
+  }
+  for (Chain& chain : layers.chains) {
+    for (int i = 0; i < chain.count; ++i) chain.sightings[i] = field.rotated(chain.sightings[i]);
+  }
+}
+
+bool PaperEdges::in_span(const Edge& edge, const Vec2& x, const MotionField& field) const {
+  if (field.direction(edge.rotated).isZero()) {
+    return (x - edge.predicted).norm() <= parameters_.corner_noise;
+  }
+  // Seen from O_I the corridor widens with the distance; past half a diagonal (an FOE outside the
+  // image) it would let everything in.
+  const Vec2 axis = (edge.predicted - edge.origin).normalized();
+  const Vec2 ray = x - edge.origin;
+  const double reach = std::min(ray.norm(), 0.5 * std::hypot(camera_.width_px, camera_.height_px));
+  return ray.dot(axis) >= -parameters_.corner_noise &&
+         std::abs(cross(axis, ray)) <=
+             reach * std::sin(parameters_.delta_v) + parameters_.corner_noise;
+}
+
+bool PaperEdges::plausible_speed(const Edge& edge, const Vec2& x, const MotionField& field) const {
+  const double advance = (x - edge.rotated).dot(field.direction(edge.rotated));
+  const double fastest = field.max_ratio() * field.reference_speed(edge.rotated) * field.dt_s();
+  return advance >= -parameters_.corner_noise && advance <= fastest + parameters_.corner_noise;
+}
+
+Xi PaperEdges::classify(const Edge& edge, const Vec2& x, const MotionField& field) const {
+  if (!in_span(edge, x, field)) return Xi::five;
+  if (!plausible_speed(edge, x, field)) return Xi::four;
+  const Vec2 residual = x - edge.predicted;
+  if (residual.norm() > edge.mu) return Xi::one;
+  const double ahead = residual.dot(field.direction(edge.rotated));
+  return ahead >= -parameters_.corner_noise ? Xi::two : Xi::three;
+}
+
+double PaperEdges::rebel_reach(const Edge& edge, const MotionField& field) const {
+  return std::max(2 * parameters_.corner_noise,
+                  parameters_.rebel_reach * edge.speed * field.dt_s());
+}
+
+/// zeta_r: near the prediction, and in its direction (delta_v and the deviation mu_r) from its
+/// origin.
+bool PaperEdges::matches_rebel(const Edge& edge, const Vec2& x, const MotionField& field) const {
+  if ((x - edge.predicted).norm() > rebel_reach(edge, field)) return false;
+  const Vec2 ray = x - edge.origin;
+  const double span = std::min(parameters_.delta_v + edge.mu, kPi / 2);
+  return std::abs(cross(unit_vector(edge.angle), ray)) <=
+         std::max(2 * parameters_.corner_noise, ray.norm() * std::sin(span));
+}
+
+/// Of all that turned a corner away, the one that came nearest to taking it.
+void PaperEdges::came_to(int corner, Reason reason) {
+  reasons_[corner] = std::max(reasons_[corner], reason);
+}
+
+void PaperEdges::assign(const Layers& layers, const Chi& chi, const MotionField& field) {
+  const int normals = static_cast<int>(layers.normal_edges.size());
+  const int rebels = static_cast<int>(layers.rebel_edges.size());
+  const auto cost = [&](const Edge& edge, double distance2) {
+    return std::sqrt(distance2) - parameters_.trust_bonus * (edge.trust - trust_.critical);
+  };
+  pairs_.clear();
+  reasons_.assign(chi.size(), Reason::alpha_first);
+  for (int i = 0; i < normals; ++i) {
+    const Edge& edge = layers.normal_edges[i];
+    corner_grid_.visit_within(edge.predicted, edge.mu, [&](int corner, double distance2) {
+      const Xi xi = classify(edge, chi.locations[corner], field);
+      const double base = cost(edge, distance2);
+      if (xi == Xi::two) pairs_.push_back({base, i, corner});
+      if (xi == Xi::three) pairs_.push_back({base + parameters_.corner_noise, i, corner});
+      came_to(corner, xi == Xi::five   ? Reason::xi_5
+                      : xi == Xi::four ? Reason::xi_4
+                                       : Reason::outbid);
+    });
+  }
+  for (int i = 0; i < rebels; ++i) {
+    const Edge& edge = layers.rebel_edges[i];
+    const double reach = rebel_reach(edge, field);
+    corner_grid_.visit_within(edge.predicted, reach, [&](int corner, double distance2) {
+      if (!matches_rebel(edge, chi.locations[corner], field)) return;
+      pairs_.push_back({cost(edge, distance2), normals + i, corner});
+      came_to(corner, Reason::outbid);
+    });
+  }
+  assign_one_to_one(layers.normal_edges.size() + layers.rebel_edges.size(), chi.size());
+}
+
+/// Cor of the group's x and y, 1 - rho^2: small when the corners that the landmark was matched
+/// among lie on a line. 1 for fewer than three, which have no correlation to speak of.
+double PaperEdges::spread(const Edge& edge, const Chi& chi) const {
+  double n = 0, xx = 0, yy = 0, xy = 0;
+  Vec2 sum = Vec2::Zero();
+  corner_grid_.visit_within(edge.predicted, edge.mu, [&](int other, double) {
+    if (chi.groups[other] != chi.groups[edge.corner]) return;
+    const Vec2 d = chi.locations[other] - edge.predicted;
+    n += 1;
+    sum += d;
+    xx += d.x() * d.x();
+    yy += d.y() * d.y();
+    xy += d.x() * d.y();
+  });
+  if (n < 3) return 1;
+  const double product = (xx - sum.x() * sum.x() / n) * (yy - sum.y() * sum.y() / n);
+  const double covariance = xy - sum.x() * sum.y() / n;
+  return product > 0 ? std::clamp(1 - covariance * covariance / product, 0.0, 1.0) : 0.0;
+}
+
+void PaperEdges::update_normal(Edge& edge, const Vec2& x, const Chi& chi,
+                               const MotionField& field) {
+  const Xi xi = classify(edge, x, field);
+  const double reference_step = field.reference_speed(edge.rotated) * field.dt_s();
+  // mu^ = ( |V_v - V~| t_f / Cor + mu ) / 2, with a length in place of the printed speed.
+  const double off_reference = std::abs(1 - edge.depth_ratio) * reference_step;
+  edge.mu = std::clamp(0.5 * (off_reference / std::max(spread(edge, chi), 1e-3) + edge.mu),
+                       parameters_.mu_min, parameters_.mu_max);
+  // V^ = |V~ +- residual / t_f|, signed along the direction of motion.
+  if (reference_step > kLeastDisplacement_px) {
+    const double residual = (x - edge.predicted).dot(field.direction(edge.rotated));
+    edge.depth_ratio =
+        std::min(std::abs(edge.depth_ratio + residual / reference_step), 2 * field.max_ratio());
+  }
+  edge.location = estimate(edge.trust, trust_, edge.predicted, x);
+  edge.speed = edge.depth_ratio * field.reference_speed(edge.location);
+  const Vec2 along = field.direction(edge.location);
+  if (!along.isZero()) edge.angle = angle_of(along);
+  edge.trust = xi == Xi::two ? trust_.raised(edge.trust) : edge.trust - 1;
+  reasons_[edge.corner] = xi == Xi::two ? Reason::xi_2 : Reason::xi_3;
+}
+
+void PaperEdges::update_rebel(Edge& edge, const Vec2& x, const MotionField& field) {
+  if (field.dt_s() > 0) {
+    const double residual = (x - edge.predicted).dot(unit_vector(edge.angle));
+    edge.speed = std::abs(edge.speed + residual / field.dt_s());
+  }
+  edge.location = estimate(edge.trust, trust_, edge.predicted, x);
+  // mu^_r = |beta~ - beta^|, beta~ seen from the origin to the corner itself.
+  edge.mu = std::min(angle_between(angle_of(x - edge.origin), edge.angle), kPi / 4);
+  const Vec2 path = edge.location - edge.origin;
+  if (!path.isZero()) edge.angle = angle_of(path);
+  edge.trust = trust_.raised(edge.trust);
+  reasons_[edge.corner] = Reason::rebel_edge;
+}
+
+/// What becomes of the corners that no edge took. By xi_1 a corner belongs to the layer of a normal
+/// edge that lost its own; all others may be rebels, and start normal edges of their own meanwhile.
+void PaperEdges::classify_rest(const Layers& layers, const Chi& chi, const MotionField& field) {
+  to_alpha_.assign(chi.size(), 0);
+  to_normal_.assign(chi.size(), 0);
+  predictions_.clear();
+  for (const Edge& edge : layers.normal_edges) predictions_.push_back(edge.predicted);
+  edge_grid_.build(predictions_, parameters_.mu_0);
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    if (match_of_corner_[c] >= 0) continue;
+    bool further = false;
+    edge_grid_.visit_within(chi.locations[c], parameters_.mu_0, [&](int e, double) {
+      further = further || (match_of_edge_[e] < 0 &&
+                            classify(layers.normal_edges[e], chi.locations[c], field) == Xi::one);
+    });
+    to_normal_[c] = 1;
+    to_alpha_[c] = !further;
+    if (further) reasons_[c] = Reason::xi_1;
+  }
+}
+
+/// By how much a step between two sightings (rotation removed) leaves the images that a static
+/// point at any plausible depth may take, px.
+double PaperEdges::off_field(const Vec2& from, const Vec2& to, const MotionField& field) const {
+  return distance_to_segment(to, from, field.translated(from, field.max_ratio()));
+}
+
+/// The initial values of a rebel edge, from its three sightings.
+Edge PaperEdges::make_rebel(const Chain& chain, const Vec2& x, const MotionField& field) {
+  const Vec2& first = chain.sightings[0];
+  const Vec2& second = chain.sightings[1];
+  Edge edge;
+  edge.id = next_id();
+  edge.rebel = true;
+  edge.location = edge.predicted = x;
+  edge.rotated = second;
+  edge.origin = first;
+  edge.speed = (x - second).norm() / field.dt_s();
+  edge.angle = angle_of(x - first);
+  edge.mu = angle_between(edge.angle, angle_of(second - first));
+  edge.trust = trust_.initial_rebel();
+  return edge;
+}
+
+/// Rows of two sightings find their third, near the line through them and off the field, and become
+/// rebel edges: one row for a corner, and one for a sighting that rows share.
+void PaperEdges::complete_chains(Layers& layers, const Chi& chi, const MotionField& field) {
+  pairs_.clear();
+  for (std::size_t i = 0; i < layers.chains.size(); ++i) {
+    const Chain& chain = layers.chains[i];
+    if (chain.count != 2) continue;
+    const Vec2 step = chain.sightings[1] - chain.sightings[0];
+    const double reach =
+        std::max(2 * parameters_.corner_noise, parameters_.alpha_stretch * step.norm());
+    corner_grid_.visit_within(chain.sightings[1] + step, reach, [&](int corner, double distance2) {
+      if (!to_alpha_[corner]) return;
+      const Vec2& x = chi.locations[corner];
+      const Vec2 path = x - chain.sightings[0];
+      const double bend = angle_between(angle_of(path), angle_of(step));
+      const double deviation = path.norm() * std::sin(std::min(bend, kPi / 2));
+      came_to(corner, Reason::alpha_bend);
+      if (bend > parameters_.alpha_deviation && deviation > parameters_.corner_noise) return;
+      came_to(corner, Reason::alpha_on_field);
+      const double off = chain.off_field_px + off_field(chain.sightings[1], x, field);
+      if (off < 2 * parameters_.corner_noise) return;
+      came_to(corner, Reason::alpha_taken);
+      pairs_.push_back({distance2, static_cast<int>(i), corner});
+    });
+  }
+  std::sort(pairs_.begin(), pairs_.end());
+  std::vector<Vec2> used;
+  for (const auto& [distance2, row, corner] : pairs_) {
+    const Chain& chain = layers.chains[row];
+    if (!to_alpha_[corner] ||
+        std::find(used.begin(), used.end(), chain.sightings[1]) != used.end()) {
+      continue;
+    }
+    used.push_back(chain.sightings[1]);
+    layers.rebel_edges.push_back(make_rebel(chain, chi.locations[corner], field));
+    layers.rebel_edges.back().corner = corner;
+    to_alpha_[corner] = to_normal_[corner] = 0;
+    reasons_[corner] = Reason::alpha_third;
+  }
+}
+
+/// Rows of one sighting branch into rows of two, and what is left starts rows of one. A row that
+/// found no continuation is gone: it lives three frames at the most.
+void PaperEdges::branch_chains(const Layers& layers, const Chi& chi, const MotionField& field) {
+  grown_.clear();
+  for (const Chain& chain : layers.chains) {
+    if (chain.count != 1) continue;
+    corner_grid_.nearest(
+        chain.sightings[0], parameters_.alpha_reach, std::size_t(parameters_.alpha_branches),
+        [&](int corner) { return to_alpha_[corner] != 0; }, near_);
+    for (const Neighbour& branch : near_) {
+      came_to(branch.index, Reason::alpha_second);
+      Chain longer = chain;
+      longer.sightings[1] = chi.locations[branch.index];
+      longer.count = 2;
+      longer.off_field_px = off_field(longer.sightings[0], longer.sightings[1], field);
+      grown_.push_back(longer);
+    }
+  }
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    if (!to_alpha_[c]) continue;
+    grown_.push_back({.sightings = {chi.locations[c], chi.locations[c]}, .count = 1});
+  }
+}
+
+void PaperEdges::update(Layers& layers, const Chi& chi, const MotionField& field,
+                        std::vector<Verdict>& verdicts) {
+  corner_grid_.build(chi.locations, parameters_.mu_max);
+  assign(layers, chi, field);
+
+  const std::size_t normals = layers.normal_edges.size();
+  for (std::size_t i = 0; i < normals; ++i) {
+    Edge& edge = layers.normal_edges[i];
+    ++edge.age;
+    edge.corner = match_of_edge_[i];
+    if (edge.corner >= 0) update_normal(edge, chi.locations[edge.corner], chi, field);
+  }
+  for (std::size_t i = 0; i < layers.rebel_edges.size(); ++i) {
+    Edge& edge = layers.rebel_edges[i];
+    ++edge.age;
+    edge.corner = match_of_edge_[normals + i];
+    if (edge.corner >= 0) update_rebel(edge, chi.locations[edge.corner], field);
+  }
+  classify_rest(layers, chi, field);
+  // Sightings at one and the same time are no chain.
+  if (field.dt_s() > 0) complete_chains(layers, chi, field);
+  if (field.dt_s() > 0 || layers.chains.empty()) {
+    branch_chains(layers, chi, field);
+    layers.chains.swap(grown_);
+  } else {
+    for (std::size_t c = 0; c < chi.size(); ++c) {
+      if (to_alpha_[c]) reasons_[c] = Reason::no_time;
+    }
+  }
+
+  for (auto* edges : {&layers.normal_edges, &layers.rebel_edges}) {
+    for (Edge& edge : *edges) {
+      if (edge.corner < 0) {
+        coast(edge, layers.ignored);
+        continue;
+      }
+      edge.corner = chi.sources[edge.corner];
+      verdicts[edge.corner] = edge.rebel ? Verdict::rebel : Verdict::normal;
+    }
+    bury(*edges);
+  }
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    if (!to_normal_[c]) continue;
+    // V(0) = V_v.
+    layers.normal_edges.push_back(make_normal(chi.locations[c], 1, parameters_.mu_0, field));
+    layers.normal_edges.back().corner = chi.sources[c];
+  }
+}
+
+}  // namespace lcs

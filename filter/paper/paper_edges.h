@@ -1,0 +1,80 @@
+/// \file
+/// The paper's edges: corners are matched to the predicted edges, classified (xi_1 to xi_5,
+/// zeta_r), and what is left goes to alpha or becomes a new normal edge.
+#pragma once
+
+#include <vector>
+
+#include "filter/edges/edge_expert.h"
+#include "filter/matching/couples.h"
+#include "filter/matching/point_grid.h"
+
+namespace lcs {
+
+/// How a corner stands to a predicted normal edge: inside the span delta_v about its predicted
+/// motion, at a speed that a static point may have, inside its radius mu, and at the prediction or
+/// short of it. The paper's five cases overlap as printed; asked in this order, every corner is one
+/// of them.
+enum class Xi {
+  one,    ///< in the span, plausible, outside mu: a further normal edge of the layer
+  two,    ///< in the span, plausible, inside mu, at the prediction or beyond: a match that raises
+          ///< trust
+  three,  ///< the same, but short of the prediction: a match that costs trust
+  four,   ///< in the span, but against the field or too fast for it: to alpha
+  five,   ///< outside the span: to alpha
+};
+
+class PaperEdges : public EdgeExpert {
+ public:
+  PaperEdges(const Intrinsics& camera, const CircleParameters& parameters);
+
+  void predict(Layers& layers, const MotionField& field) override;
+  void update(Layers& layers, const Chi& chi, const MotionField& field,
+              std::vector<Verdict>& verdicts) override;
+
+  /// The case of corner `x` with regard to a predicted normal edge.
+  Xi classify(const Edge& edge, const Vec2& x, const MotionField& field) const;
+
+ private:
+  bool in_span(const Edge& edge, const Vec2& x, const MotionField& field) const;
+  bool plausible_speed(const Edge& edge, const Vec2& x, const MotionField& field) const;
+  double rebel_reach(const Edge& edge, const MotionField& field) const;
+  bool matches_rebel(const Edge& edge, const Vec2& x, const MotionField& field) const;
+  void assign(const Layers& layers, const Chi& chi, const MotionField& field);
+  void came_to(int corner, Reason reason);
+  void update_normal(Edge& edge, const Vec2& x, const Chi& chi, const MotionField& field);
+  void update_rebel(Edge& edge, const Vec2& x, const MotionField& field);
+  double spread(const Edge& edge, const Chi& chi) const;
+  void classify_rest(const Layers& layers, const Chi& chi, const MotionField& field);
+  void complete_chains(Layers& layers, const Chi& chi, const MotionField& field);
+  void branch_chains(const Layers& layers, const Chi& chi, const MotionField& field);
+  double off_field(const Vec2& from, const Vec2& to, const MotionField& field) const;
+  Edge make_rebel(const Chain& chain, const Vec2& x, const MotionField& field);
+
+  /// Takes pairs_ cheapest first, each edge and each corner once, into the two lists of matches.
+  void assign_one_to_one(std::size_t edges, std::size_t corners);
+
+  /// An edge without a corner follows its prediction. It loses trust for that, unless it lies in a
+  /// region that was not looked at.
+  void coast(Edge& edge, const std::vector<IgnoreRegion>& psi) const;
+
+  /// A normal edge at a corner, with V = depth_ratio * V_v.
+  Edge make_normal(const Vec2& x, double depth_ratio, double mu, const MotionField& field);
+
+  CircleParameters parameters_;
+
+  // Of the current frame; kept for their memory.
+  PointGrid corner_grid_;
+  /// Edges and corners inside their gates, and how badly these fit. Edges are counted normal ones
+  /// first; corners as in chi.
+  std::vector<Couple> pairs_;
+  CheapestFirst order_;
+  std::vector<int> match_of_edge_, match_of_corner_;  // -1: none
+  PointGrid edge_grid_;
+  std::vector<Vec2> predictions_;
+  std::vector<char> to_alpha_, to_normal_;  // what becomes of the unmatched corners
+  std::vector<Chain> grown_;
+  std::vector<Neighbour> near_;
+};
+
+}  // namespace lcs
