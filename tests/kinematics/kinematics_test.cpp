@@ -14,7 +14,7 @@
 #include "tools/bench/tracker.h"
 #include "tools/kinematics/answer.h"
 #include "tools/kinematics/imu_study.h"
-#include "tools/kinematics/parallel.h"
+#include "tools/process/parallel.h"
 #include "tools/kinematics/sweeps.h"
 #include "tools/kinematics/theory.h"
 
@@ -283,7 +283,7 @@ TEST(KinematicsNoise, ItsRowsAreTheSameInEveryRun) {
 TEST(KinematicsParallel, DoesEveryPieceOnceAndTellsOfAll) {
   std::array<std::atomic<int>, 100> done{};
   int told = 0;
-  for_each_parallel(
+  process::for_each_parallel(
       100, [&](int i) { ++done[static_cast<std::size_t>(i)]; }, [&](int more) { told += more; });
   for (const auto& count : done) EXPECT_EQ(count, 1);
   EXPECT_EQ(told, 100);
@@ -291,16 +291,16 @@ TEST(KinematicsParallel, DoesEveryPieceOnceAndTellsOfAll) {
 
 TEST(KinematicsParallel, WhatAPieceOrTheListenerThrowsComesBack) {
   const auto nothing = [](int) {};
-  EXPECT_THROW(for_each_parallel(
+  EXPECT_THROW(process::for_each_parallel(
                    50,
                    [](int i) {
                      if (i == 17) throw std::runtime_error("17");
                    },
                    nothing),
                std::runtime_error);
-  EXPECT_THROW(for_each_parallel(50, nothing, [](int) { throw std::logic_error("enough"); }),
+  EXPECT_THROW(process::for_each_parallel(50, nothing, [](int) { throw std::logic_error("enough"); }),
                std::logic_error);
-  for_each_parallel(0, nothing, nothing);  // nothing to do is no error
+  process::for_each_parallel(0, nothing, nothing);  // nothing to do is no error
 }
 
 // ---- Bits of the configuration

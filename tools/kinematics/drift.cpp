@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tools/bench/ego_motion_feed.h"
-#include "tools/kinematics/parallel.h"
+#include "tools/process/parallel.h"
 #include "tools/kinematics/theory.h"
 
 namespace lcs::kinematics {
@@ -71,7 +71,7 @@ std::vector<DriftRow> drift_rows(const StudyConfig& config, const Tick& tick) {
     for (const bool odometry : {false, true}) {
       const scenario::Scenario scenario = with_imu(config, imu.noise, odometry);
       std::vector<std::vector<Squares>> of_seed(static_cast<std::size_t>(seeds));
-      for_each_parallel(
+      process::for_each_parallel(
           seeds,
           [&](int i) {
             scenario::Scenario s = scenario;

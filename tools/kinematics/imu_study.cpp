@@ -8,7 +8,7 @@
 
 #include "scenarios/imu_presets.h"
 #include "tools/bench/ego_motion_feed.h"
-#include "tools/kinematics/parallel.h"
+#include "tools/process/parallel.h"
 #include "tools/kinematics/theory.h"
 #include "tools/scoring/statistics.h"
 
@@ -145,7 +145,7 @@ std::vector<ImuRow> imu_rows(const StudyConfig& config, const Tick& tick) {
       for (const bool odometry : {false, true}) {
         const scenario::Scenario scenario = with_imu(config, imu.noise, odometry);
         std::vector<Errors> of_seed(static_cast<std::size_t>(seeds));
-        for_each_parallel(
+        process::for_each_parallel(
             seeds,
             [&](int i) {
               scenario::Scenario s = scenario;

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-namespace lcs::kinematics {
+namespace lcs::process {
 
 /// Calls `work(i)` for each i in [0, count), from several threads, and `tick` after each piece of
 /// the calling thread with the number of pieces since the last call. What either throws ends all,
@@ -13,4 +13,4 @@ namespace lcs::kinematics {
 void for_each_parallel(int count, const std::function<void(int)>& work,
                        const std::function<void(int)>& tick);
 
-}  // namespace lcs::kinematics
+}  // namespace lcs::process

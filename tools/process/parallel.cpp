@@ -1,4 +1,4 @@
-#include "tools/kinematics/parallel.h"
+#include "tools/process/parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace lcs::kinematics {
+namespace lcs::process {
 
 void for_each_parallel(int count, const std::function<void(int)>& work,
                        const std::function<void(int)>& tick) {
@@ -42,4 +42,4 @@ void for_each_parallel(int count, const std::function<void(int)>& work,
   if (told < count) tick(count - told);
 }
 
-}  // namespace lcs::kinematics
+}  // namespace lcs::process
