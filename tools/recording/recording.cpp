@@ -13,6 +13,7 @@ Recording unspoken(const Recording& recording) {
   unspoken.scenario = recording.scenario;
   unspoken.seed = recording.seed;
   unspoken.world = recording.world;
+  unspoken.camera = recording.camera;
   unspoken.truth = recording.truth;
   unspoken.objects = recording.objects;
   unspoken.warnings = recording.warnings;
