@@ -10,7 +10,6 @@
 #include "filter/circles/circle.h"
 #include "filter/edges/edge_expert.h"
 #include "filter/ego_motion/intake.h"
-#include "filter/ego_motion/unseen_turn.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/kinematics/pixels.h"
 #include "filter/line/line.h"
@@ -53,7 +52,6 @@ struct Filter::Impl {
   Impl(const Intrinsics& c, const Parameters& p)
       : camera(checked(c)),
         parameters(checked(p)),
-        turn(camera, parameters.field, parameters.circle.trust),
         line(camera, static_cast<std::size_t>(parameters.line.max_corners)),
         edges(make_edge_expert(camera, parameters.circle)),
         circles(camera, parameters.circle),
@@ -61,7 +59,6 @@ struct Filter::Impl {
 
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,
                           std::span<const Signature> signatures, const EgoMotion& told);
-  MotionField field_of(const EgoMotion& told, std::span<const Eigen::Vector2f> corners_px);
   void start_anew();
   void turn_away(std::span<const Eigen::Vector2f> corners_px);
   void hand_out_reasons();
@@ -70,7 +67,6 @@ struct Filter::Impl {
   Parameters parameters;
   Intake intake;
   Diagnostics diagnostics;
-  UnseenTurn turn;
   LineExpert line;
   CornerGrouping grouping;  // the paper's rule alone
   std::unique_ptr<EdgeExpert> edges;
@@ -78,7 +74,6 @@ struct Filter::Impl {
   SquareExpert squares;
   FrameResult result;  // of the last frame, and of the one before while a step is made
   Chi chi;
-  std::vector<Vec2> seen;  // corners, for the turn
 };
 
 const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_px,
@@ -91,7 +86,9 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
     return std::chrono::duration<double, std::milli>(start - from).count();
   };
 
-  const MotionField field = field_of(told, corners_px);
+  const std::optional<EgoMotion> motion = intake.take(told, diagnostics);
+  if (!motion) start_anew();
+  const MotionField field(camera, motion.value_or(EgoMotion{}), parameters.field);
   edges->predict(layers, field);
   circles.predict(layers, field);
   squares.predict(layers, field);
@@ -116,23 +113,6 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
   if (parameters.line.ignore) squares.update_ignorance(layers);  // transition IV
   result.times.square_ms = lap_ms();
   return result;
-}
-
-/// The motion as told, and what the gyro did not see of it as the corners show.
-MotionField Filter::Impl::field_of(const EgoMotion& told,
-                                   std::span<const Eigen::Vector2f> corners_px) {
-  const std::optional<EgoMotion> usable = intake.take(told, diagnostics);
-  if (!usable) start_anew();
-  EgoMotion motion = usable.value_or(EgoMotion{});
-  if (usable && parameters.field.unseen_turn && motion.unseen_turn_rad > 0) {
-    seen.clear();
-    for (const Eigen::Vector2f& x : corners_px) {
-      if (std::ssize(seen) == parameters.line.max_corners) break;
-      if (x.allFinite()) seen.push_back(x.cast<double>());
-    }
-    motion = turn.seen(motion, result.layers.normal_edges, seen);
-  }
-  return {camera, motion, parameters.field};
 }
 
 /// Forgets all but the ids.

@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "filter/kinematics/geometry.h"
+#include "filter/learnt.h"
 
 namespace lcs {
 namespace {
@@ -30,11 +31,6 @@ using Field = T& (*)(Parameters&);
 /// The rules that ask for a parameter, each by the choice that names it; none: it is always asked
 /// for.
 using AskedBy = std::vector<Rule>;
-const AskedBy kPaper{{"circle.edge_rule", "paper"}};
-const AskedBy kHypotheses{{"circle.edge_rule", "hypotheses"}};
-const AskedBy kCouples{{"square.layer_rule", "couples"}};
-const AskedBy kLinks{{"square.layer_rule", "links"}};
-const AskedBy kGrounded{kHypotheses.front(), kLinks.front()};
 
 struct Entry {
   std::string key;
@@ -56,6 +52,11 @@ struct Entry {
   }
 
 const std::vector<Entry>& entries() {
+  static const AskedBy kPaper{{"circle.edge_rule", "paper"}};
+  static const AskedBy kHypotheses{{"circle.edge_rule", "hypotheses"}};
+  static const AskedBy kCouples{{"square.layer_rule", "couples"}};
+  static const AskedBy kLinks{{"square.layer_rule", "links"}};
+  static const AskedBy kGrounded{kHypotheses.front(), kLinks.front()};
   static const std::vector<Entry> table = {
       {"field.rotation", "", "", 0, 0,
        LCS_CHOICE(RotationModel, field.rotation, "first_order", "homography", "as_printed")},
@@ -66,7 +67,6 @@ const std::vector<Entry>& entries() {
       {"field.ground_tilt", "", "deg", 0, 90, LCS_FIELD(double, field.ground_tilt_rad),
        kHypotheses},
       {"field.still_speed", "", "m/s", 0, 10, LCS_FIELD(double, field.still_speed_mps)},
-      {"field.unseen_turn", "", "", 0, 0, LCS_FIELD(bool, field.unseen_turn)},
       {"line.ignore", "psi", "", 0, 0, LCS_FIELD(bool, line.ignore)},
       {"line.max_corners", "", "", 1, 10000000, LCS_FIELD(int, line.max_corners)},
       {"circle.Tr_c", "Tr^c_c", "", 0, 1000, LCS_FIELD(int, circle.trust.critical)},
@@ -96,20 +96,18 @@ const std::vector<Entry>& entries() {
        kHypotheses},
       {"hypotheses.ego_share", "", "", 0, 10, LCS_FIELD(double, circle.hypotheses.ego_share),
        kHypotheses},
+      {"hypotheses.voice", "", "", 0.0001, 1, LCS_FIELD(double, circle.hypotheses.voice),
+       kHypotheses},
       {"hypotheses.acceleration", "", "1/s", 0.001, 1000,
        LCS_FIELD(double, circle.hypotheses.acceleration_ps), kHypotheses},
       {"hypotheses.max_speed", "", "px/s", 1, 100000,
        LCS_FIELD(double, circle.hypotheses.max_speed_pxps), kHypotheses},
       {"hypotheses.coast", "", "", 0, 100, LCS_FIELD(int, circle.hypotheses.coast), kHypotheses},
-      {"hypotheses.bits_same", "", "", 0, 256, LCS_FIELD(double, circle.hypotheses.bits_same),
+      {"hypotheses.bits_even", "", "", 0, 256, LCS_FIELD(double, circle.hypotheses.bits_even),
        kHypotheses},
-      {"hypotheses.bits_other", "", "", 0, 256, LCS_FIELD(double, circle.hypotheses.bits_other),
-       kHypotheses},
-      {"hypotheses.bits_spread", "", "", 1, 256, LCS_FIELD(double, circle.hypotheses.bits_spread),
+      {"hypotheses.bits_weight", "", "", 0, 100, LCS_FIELD(double, circle.hypotheses.bits_weight),
        kHypotheses},
       {"hypotheses.voters", "", "", 0, 1000, LCS_FIELD(int, circle.hypotheses.voters), kHypotheses},
-      {"hypotheses.voters_reach", "", "px", 1, 1000,
-       LCS_FIELD(double, circle.hypotheses.voters_reach_px), kHypotheses},
       {"hypotheses.voters_share", "", "", 0, 0.999,
        LCS_FIELD(double, circle.hypotheses.voters_share), kHypotheses},
       {"hypotheses.step_share", "", "", 0, 10, LCS_FIELD(double, circle.hypotheses.step_share),
@@ -291,6 +289,11 @@ void set_entry(Parameters& parameters, const Entry& entry, std::string_view valu
   }
 }
 
+bool is_learnt(std::string_view key) {
+  return std::any_of(kLearnt.begin(), kLearnt.end(),
+                     [&](const auto& learnt) { return learnt.first == key; });
+}
+
 void check_ranks(const TrustRanks& ranks, const std::string& expert) {
   if (ranks.critical <= ranks.standard && ranks.standard <= ranks.maximum) return;
   throw std::invalid_argument("the ranks of trust of '" + expert +
@@ -314,7 +317,6 @@ void set_degrees(CircleParameters& circle, SquareParameters& square) {
 Parameters lab() {
   Parameters p;
   set_degrees(p.circle, p.square);
-  p.field.unseen_turn = false;
   p.circle.edge_rule = EdgeRule::paper;
   p.circle.rebel_coast = 1;
   p.square.layer_rule = LayerRule::couples;
@@ -343,7 +345,7 @@ Parameters project_default() {
   p.square.trust = {3, 3, 6};
   p.square.epsilon_beta_s = 60 * kDegree;
   p.line.ignore = false;
-  p.field.nearest_depth_m = 0.4;
+  for (const auto& [key, value] : kLearnt) set_entry(p, find(key), value);
   return p;
 }
 
@@ -407,7 +409,8 @@ std::optional<Idle> idle(const Parameters& parameters, std::string_view key) {
 std::vector<ParameterInfo> describe(const Parameters& parameters) {
   std::vector<ParameterInfo> infos;
   for (const Entry& entry : entries()) {
-    ParameterInfo info{entry.key, value_text(parameters, entry), entry.unit, "", entry.symbol};
+    ParameterInfo info{entry.key,    value_text(parameters, entry), entry.unit, "",
+                       entry.symbol, is_learnt(entry.key)};
     if (std::holds_alternative<Field<bool>>(entry.field)) {
       info.range = "true, false";
     } else if (const auto* choice = std::get_if<Choice>(&entry.field)) {

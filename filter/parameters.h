@@ -40,7 +40,6 @@ struct FieldParameters {
   bool ground = true;              ///< no static point is below the ground, where that is known
   double ground_tilt_rad = 0.015;  ///< by which the ground may fall away from its plane
   double still_speed_mps = 0.005;  ///< slower than this the camera stands still: there is no field
-  bool unseen_turn = true;         ///< a turn that the gyro did not see is taken from the corners
 };
 
 /// Line expert.
@@ -58,18 +57,18 @@ struct HypothesisParameters {
   double turnover_ps = 1;       ///< 1/s: how often a corner changes its kind, or a track its corner
   double wrong = 0.05;          ///< share of matches that are none
   double ego_share = 0.02;      ///< of the image motion by which the camera's velocity may be wrong
+  double voice = 0.05;          ///< what a miss counts in the fit of the told motion
   double acceleration_ps = 1;   ///< 1/s: share of its image velocity by which a mover changes it
   double max_speed_pxps = 900;  ///< px/s: the fastest that a mover is looked for, rotation removed
   int coast = 3;                ///< frames that a track goes on unseen
-  double bits_same = 30;        ///< that differ between two signatures of one place,
-  double bits_other = 125;      ///< of two places,
-  double bits_spread = 25;      ///< and by how much either varies
-  int voters = 8;               ///< neighbours that are asked about a match
-  double voters_reach_px = 40;  ///< px: and how far they are, at the most
-  double voters_share = 0.5;    ///< of them that are found again beside it where it is right
-  double step_share = 0.1;      ///< by which the steps of neighbours may differ
-  double coupling = 8;          ///< J: what those round a corner count at the most, log odds
-  double coupling_reach_px = 25;  ///< px: where it has fallen to 0.6
+  /// That differ where two signatures are as often of one place as of two; of more no pair is made.
+  double bits_even = 77.5;
+  double bits_weight = 0.152;     ///< what each bit less counts, log odds
+  int voters = 8;                 ///< neighbours that are asked about a match
+  double voters_share = 0.5;      ///< of them that are found again beside it where it is right
+  double step_share = 0.1;        ///< by which the steps of neighbours may differ
+  double coupling = 8;            ///< J: what those round a corner count at the most, log odds
+  double coupling_reach_px = 25;  ///< px: where it has fallen to 0.6, and what voters count, too
 };
 
 /// Circle expert: edges, alpha, circles.
@@ -180,6 +179,7 @@ std::optional<Idle> idle(const Parameters& parameters, std::string_view key);
 /// One line a parameter: key, value, unit, range, symbol. For `--help` and manifests.
 struct ParameterInfo {
   std::string key, value, unit, range, symbol;
+  bool learnt = false;  ///< the preset `default` has it from worlds of `train` (`learnt.h`)
 };
 std::vector<ParameterInfo> describe(const Parameters& parameters);
 

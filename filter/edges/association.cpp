@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "filter/edges/gauss.h"
@@ -11,24 +10,18 @@
 namespace lcs {
 namespace {
 
-/// px: within which corners are counted for their density.
-constexpr double kClutterReach_px = 40;
 /// Of a corner's pairs so many are asked about.
 constexpr std::size_t kMostPairs = 60;
-/// Standard deviations of a step beyond which a neighbour does not agree.
-constexpr double kFarStep = 2.5;
+/// Standard deviations of their distance beyond which no neighbour is asked.
+constexpr double kFar = 3;
+/// ln: of less than this nothing is left.
+constexpr double kNone = -20;
 
 }  // namespace
 
 Association::Association(const HypothesisParameters& parameters) : parameters_(parameters) {
   for (int bits = 0; bits <= 256; ++bits) {
-    const auto deviation2 = [&](double mean) {
-      const double z =
-          (std::max<double>(bits, parameters_.bits_same) - mean) / parameters_.bits_spread;
-      return z * z;
-    };
-    likeness_[bits] =
-        0.5 * (deviation2(parameters_.bits_other) - deviation2(parameters_.bits_same));
+    likeness_[bits] = (parameters_.bits_even - bits) * parameters_.bits_weight;
   }
 }
 
@@ -45,9 +38,14 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
                              double dt_s) {
   const double reach = reach_px(dt_s);
   const double anywhere = 1 / reach_area_px2(dt_s), wrong = parameters_.wrong;
+  const double near = parameters_.coupling_reach_px;
   const bool looks = !chi.signatures.empty();
   places_.clear();
-  for (const Track& track : predicted) places_.push_back(track.place_px);
+  signatures_.clear();
+  for (const Track& track : predicted) {
+    places_.push_back(track.place_px);
+    signatures_.push_back(track.signature);
+  }
   tracks_.build(places_, std::max(20.0, reach / 2));
   pairs_.clear();
   // As many as there may ever be of so many corners, so that no later frame asks for more.
@@ -57,12 +55,12 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
   for (std::size_t c = 0; c < chi.size(); ++c) {
     const Vec2& x = chi.locations[c];
     int round = 1;
-    tracks_.visit_within(x, kClutterReach_px, [&](int, double) { ++round; });
-    clutter_.push_back(round / (std::numbers::pi * kClutterReach_px * kClutterReach_px));
+    tracks_.visit_within(x, near, [&](int, double) { ++round; });
+    clutter_.push_back(round / (std::numbers::pi * near * near));
     tracks_.visit_within(x, reach, [&](int t, double) {
-      const Track& track = predicted[t];
-      const double likeness = looks ? likeness_[distance(chi.signatures[c], track.signature)] : 0.0;
+      const double likeness = looks ? likeness_[distance(chi.signatures[c], signatures_[t])] : 0.0;
       if (likeness < 0) return;
+      const Track& track = predicted[t];
       const double moves =
           std::clamp(chance(track.belief), parameters_.prior, 1 - parameters_.prior);
       const double still = track.as_static.density(x, noise2_px2);
@@ -72,16 +70,24 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
       pairs_.push_back(
           {t, x - track.place_px, likeness, std::log(density / clutter_.back()) + likeness});
     });
-    const auto begin = pairs_.begin() + static_cast<std::ptrdiff_t>(first_.back());
-    const auto heavier = [](const Pair& a, const Pair& b) {
-      return a.weight > b.weight || (a.weight == b.weight && a.track < b.track);
-    };
     if (pairs_.size() > first_.back() + kMostPairs) {
-      std::nth_element(begin, begin + kMostPairs, pairs_.end(), heavier);
+      const auto begin = pairs_.begin() + static_cast<std::ptrdiff_t>(first_.back());
+      std::nth_element(begin, begin + kMostPairs, pairs_.end(), [](const Pair& a, const Pair& b) {
+        return a.weight > b.weight || (a.weight == b.weight && a.track < b.track);
+      });
       pairs_.resize(first_.back() + kMostPairs);
     }
-    std::sort(begin, pairs_.end(), heavier);
     first_.push_back(pairs_.size());
+  }
+  const auto count = static_cast<Eigen::Index>(pairs_.size());
+  if (step_x_.size() < count) {
+    for (Eigen::ArrayXf* list : {&step_x_, &step_y_, &likeness_of_})
+      list->resize(count + count / 2);
+  }
+  for (Eigen::Index p = 0; p < count; ++p) {
+    step_x_[p] = static_cast<float>(pairs_[p].step_px.x());
+    step_y_[p] = static_cast<float>(pairs_[p].step_px.y());
+    likeness_of_[p] = static_cast<float>(pairs_[p].signature);
   }
 }
 
@@ -90,17 +96,20 @@ double Association::ask_neighbours(const Pair& pair, double noise2_px2) const {
   const double unlike = parameters_.step_share * parameters_.step_share;
   const double variance = 4 * noise2_px2 + unlike * pair.step_px.squaredNorm();
   const double share = parameters_.voters_share, none_agrees = std::log(1 - share);
+  const auto x = static_cast<float>(pair.step_px.x()), y = static_cast<float>(pair.step_px.y());
+  const auto per_px2 = static_cast<float>(-0.5 / variance);
   double sum = 0;
   for (std::size_t k = 0; k < near_.size(); ++k) {
     const int other = near_[k].index;
-    constexpr double kNone = -std::numeric_limits<double>::infinity();
-    double best = kNone;  // ln
-    for (const Pair& theirs : pairs_of(other)) {
-      const double apart2 = (theirs.step_px - pair.step_px).squaredNorm();
-      if (apart2 > kFarStep * kFarStep * variance) continue;
-      best = std::max(best, -0.5 * apart2 / variance + theirs.signature);
-    }
-    if (best == kNone) {  // as for most
+    const auto first = static_cast<Eigen::Index>(first_[other]);
+    const auto count = static_cast<Eigen::Index>(first_[other + 1]) - first;
+    const double best =  // ln
+        count == 0 ? kNone
+                   : (per_px2 * ((step_x_.segment(first, count) - x).square() +
+                                 (step_y_.segment(first, count) - y).square()) +
+                      likeness_of_.segment(first, count))
+                         .maxCoeff();
+    if (best < kNone) {  // as for most
       sum += voices_[k] * none_agrees;
       continue;
     }
@@ -115,23 +124,25 @@ const std::vector<int>& Association::match(const Chi& chi, std::span<const Track
   refill(track_of_, chi.size(), -1);
   if (predicted.empty() || chi.size() == 0) return track_of_;
   find_pairs(chi, predicted, noise2_px2, dt_s);
-  corners_.build(chi.locations, parameters_.voters_reach_px / 2);
-  const double half_reach = 0.5 * parameters_.voters_reach_px;
+  const double near = parameters_.coupling_reach_px;
+  corners_.build(chi.locations, near);
   matches_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
-    const auto pairs = pairs_of(c);
+    const std::span pairs(pairs_.data() + first_[c], first_[c + 1] - first_[c]);
     if (pairs.empty()) continue;
     corners_.nearest(
-        chi.locations[c], parameters_.voters_reach_px, static_cast<std::size_t>(parameters_.voters),
+        chi.locations[c], kFar * near, static_cast<std::size_t>(parameters_.voters),
         [&](int other) { return other != static_cast<int>(c); }, near_);
     voices_.clear();
     for (const Neighbour& other : near_) {
-      voices_.push_back(std::exp(-0.5 * other.distance2 / (half_reach * half_reach)));
+      voices_.push_back(std::exp(-0.5 * other.distance2 / (near * near)));
     }
     Match best{0, static_cast<int>(c), -1};
     for (const Pair& pair : pairs) {
       const double weight = pair.weight + ask_neighbours(pair, noise2_px2);
-      if (weight > best.weight) best = {weight, best.corner, pair.track};
+      if (weight > best.weight || (weight == best.weight && pair.track < best.track)) {
+        best = {weight, best.corner, pair.track};
+      }
     }
     if (best.track >= 0) matches_.push_back(best);
   }

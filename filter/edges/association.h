@@ -8,6 +8,7 @@
 /// hit says little.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <span>
 #include <vector>
@@ -44,9 +45,6 @@ class Association {
 
   void find_pairs(const Chi& chi, std::span<const Track> predicted, double noise2_px2, double dt_s);
   double ask_neighbours(const Pair& pair, double noise2_px2) const;
-  std::span<const Pair> pairs_of(std::size_t corner) const {
-    return std::span(pairs_).subspan(first_[corner], first_[corner + 1] - first_[corner]);
-  }
 
   HypothesisParameters parameters_;
   std::array<double, 257> likeness_;  // by the number of bits that differ
@@ -54,9 +52,11 @@ class Association {
   // Of the current frame; kept for their memory.
   PointGrid tracks_, corners_;
   std::vector<Vec2> places_;
-  std::vector<Pair> pairs_;  // by corner, most likely first
-  std::vector<std::size_t> first_;
-  std::vector<double> clutter_;  // corners of the last frame about each, 1/px^2
+  std::vector<Signature> signatures_;             // of the tracks
+  std::vector<Pair> pairs_;                       // by corner
+  std::vector<std::size_t> first_;                // of each corner's
+  Eigen::ArrayXf step_x_, step_y_, likeness_of_;  // of the pairs, to be looked through at once
+  std::vector<double> clutter_;                   // corners of the last frame about each, 1/px^2
   std::vector<Neighbour> near_;
   std::vector<double> voices_;  // what each of them counts
   struct Match {

@@ -9,14 +9,8 @@ namespace lcs {
 namespace {
 
 constexpr int kIterations = 6;
-/// Ties that are weaker than e^(-kMostExponent / 2), a hundredth, are left out.
-constexpr double kMostExponent = 9.2;
-/// Of the distance at which a tie has fallen to 0.6, where none is looked for.
-constexpr double kFar = 2;
-/// What the sum of weights must exceed before those round a corner speak with full voice.
-constexpr double kVoice = 0.5;
-/// px: by which two motions of one body may differ, at the least.
-constexpr double kAlike_px = 0.5;
+/// Standard deviations beyond which no tie is looked for: a hundredth is left there.
+constexpr double kFar = 3;
 
 }  // namespace
 
@@ -26,11 +20,11 @@ double Coupling::weight(const Node& of, const Node& other, double distance2_px2)
   if (of.has_motion) {
     const double longer2 = std::max(of.step_px.squaredNorm(), other.step_px.squaredNorm());
     const double share = parameters_.step_share;
-    const double variance = kAlike_px * kAlike_px + share * share * longer2 + of.step_variance_px2 +
-                            other.step_variance_px2;
+    const double variance = parameters_.noise_px * parameters_.noise_px + share * share * longer2 +
+                            of.step_variance_px2 + other.step_variance_px2;
     exponent += (of.step_px - other.step_px).squaredNorm() / variance;
   }
-  return exponent < kMostExponent ? std::exp(-0.5 * exponent) : 0;
+  return exponent < kFar * kFar ? std::exp(-0.5 * exponent) : 0;
 }
 
 const std::vector<double>& Coupling::settle(std::span<const Node> nodes) {
@@ -62,7 +56,8 @@ const std::vector<double>& Coupling::settle(std::span<const Node> nodes) {
       for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) {
         sum += ties_[k].weight * tanh_[ties_[k].other];
       }
-      beliefs_[i] = nodes[i].log_odds + parameters_.coupling * sum / (kVoice + sums_[i]);
+      beliefs_[i] = nodes[i].log_odds;
+      if (sums_[i] > 0) beliefs_[i] += parameters_.coupling * sum / sums_[i];
     }
   }
   return beliefs_;

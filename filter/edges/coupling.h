@@ -1,7 +1,7 @@
 /// \file
 /// What is round a corner counts for it: log odds that are coupled as in a mean field,
 ///
-///   m_i = L_i + J sum_j w_ij tanh(m_j / 2) / (kappa + sum_j w_ij),
+///   m_i = L_i + J sum_j w_ij tanh(m_j / 2) / sum_j w_ij,
 ///
 /// where w falls with the distance in the image and, between two whose motion is known, with how
 /// unlike their motions are. Corners without a motion take from those round them and give nothing.

@@ -12,12 +12,6 @@
 namespace lcs {
 namespace {
 
-/// Sightings after which a track says what the told motion is off by.
-constexpr int kKnownSightings = 3;
-
-/// A static point's images that are shorter than this share of the noise are one place.
-constexpr double kPlace = 0.3;
-
 /// How far behind a rebel its origin is kept, in steps, so that beta is its direction of now.
 constexpr double kOriginSteps = 5;
 
@@ -44,8 +38,11 @@ void HypothesisEdges::predict_tracks(const MotionField& field) {
   for (const Track& track : tracks_) {
     Track& next = predicted_.emplace_back(track);
     next.place_px = field.rotated(track.place_px);
+    next.since_s += field.dt_s();
+    next.displacement_C_m = field.R_cur_prev() * track.displacement_C_m + field.displacement_C_m();
     if (!track.has_motion()) {
-      next.as_static = StaticPoint::seen_once(next.place_px, camera_, field, noise2_px2_);
+      next.as_static =
+          StaticPoint::seen_once(next.place_px, camera_, field, next.displacement_C_m, noise2_px2_);
     } else {
       next.as_static = track.as_static.predicted(camera_, field, parameters_.ego_share);
       next.as_moving = track.as_moving.predicted(field, parameters_.acceleration_ps);
@@ -56,15 +53,14 @@ void HypothesisEdges::predict_tracks(const MotionField& field) {
 }
 
 /// What the told motion is off by, as the tracks show it that are likely to stand.
-std::optional<MotionFix> HypothesisEdges::fix(const MotionField& told, const Chi& chi,
-                                              const std::vector<int>& track_of) {
-  if (predicted_.empty()) return std::nullopt;
+MotionFix HypothesisEdges::fix(const MotionField& told, const Chi& chi,
+                               const std::vector<int>& track_of) {
   residuals_.clear();
   const double anywhere = 1 / association_.reach_area_px2(told.dt_s());
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (track_of[c] < 0) continue;
     const Track& track = predicted_[track_of[c]];
-    if (track.sightings < kKnownSightings) continue;
+    if (!track.has_motion()) continue;
     const Vec2& x = chi.locations[c];
     const StaticPoint& point = track.as_static;
     const Vec2 by_depth = depth_bounds(told, point.place_px).half_pm() *
@@ -75,7 +71,7 @@ std::optional<MotionFix> HypothesisEdges::fix(const MotionField& told, const Chi
                           point.inverse_depth_pm, point.covariance(2, 2), 1 - moves,
                           moves * track.as_moving.density(x, noise2_px2_) + anywhere});
   }
-  return motion_fix(camera_, told, residuals_, velocity_error_.covariance(told));
+  return motion_fix(camera_, told, residuals_, velocity_error_.covariance(told), parameters_.voice);
 }
 
 Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner) {
@@ -103,18 +99,18 @@ double HypothesisEdges::turnover_in(double dt_s) const {
 /// speeds of which each order of magnitude is as likely:
 ///   p(x | moves) = [atan((l - a) / s) + atan(a / s)] / (pi l s ln(1 + R^2 / 2 sigma^2)),
 /// a along the segment and b across, s^2 = b^2 + 2 sigma^2, R the reach.
-double HypothesisEdges::first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds,
-                                   const MotionField& field) const {
-  const Vec2 parallax = parallax_px_m(camera_, field.displacement_C_m(), track.place_px);
+double HypothesisEdges::first_step(const Track& track, const Vec2& x_px,
+                                   const DepthBounds& bounds) const {
+  const Vec2 parallax = parallax_px_m(camera_, track.displacement_C_m, track.place_px);
   const double length = parallax.norm();
   const Vec2 along = length > 1e-9 ? Vec2(parallax / length) : Vec2::UnitX();
   const Vec2 step = x_px - track.place_px;
   const double segment = (bounds.most_pm - bounds.least_pm) * length;
   const double a = step.dot(along) - bounds.least_pm * length, b = cross(along, step);
   const double s2 = b * b + 2 * noise2_px2_, s = std::sqrt(s2);
-  const double reach = association_.reach_px(field.dt_s());
+  const double reach = association_.reach_px(track.since_s);
   const double orders = std::log(1 + reach * reach / (2 * noise2_px2_));
-  return segment > kPlace * s
+  return segment > 1e-6 * s
              ? (std::atan((segment - a) / s) + std::atan(a / s)) / (segment * kPi * orders * s)
              : 1 / (kPi * orders * (s2 + (a - segment / 2) * (a - segment / 2)));
 }
@@ -136,9 +132,8 @@ bool HypothesisEdges::see(Track& track, const Vec2& x_px, const MotionField& fie
     return std::log((right * moving + clutter) / (right * still + clutter));
   };
   if (!track.has_motion()) {
-    track.log_odds =
-        lcs::log_odds(parameters_.prior) + evidence(first_step(track, x_px, bounds, field));
-    track.as_moving = OwnMotion::first(track.place_px, x_px, noise2_px2_, field.dt_s());
+    track.log_odds = lcs::log_odds(parameters_.prior) + evidence(first_step(track, x_px, bounds));
+    track.as_moving = OwnMotion::first(track.place_px, x_px, noise2_px2_, track.since_s);
   } else {
     const double moving = track.as_moving.density(x_px, noise2_px2_);
     if (right * std::max(still, moving) < clutter) return false;
@@ -151,6 +146,8 @@ bool HypothesisEdges::see(Track& track, const Vec2& x_px, const MotionField& fie
   track.as_static = seen;
   track.place_px = x_px;
   track.unseen = 0;
+  track.since_s = 0;
+  track.displacement_C_m.setZero();
   ++track.sightings;
   return true;
 }
@@ -160,13 +157,14 @@ bool HypothesisEdges::see(Track& track, const Vec2& x_px, const MotionField& fie
 void HypothesisEdges::coast(const std::vector<IgnoreRegion>& psi, const MotionField& field) {
   const Pixels picture{camera_.width_px, camera_.height_px};
   for (Track& track : predicted_) {
-    if (track.corner >= 0 || !track.has_motion()) continue;
+    if (track.corner >= 0) continue;
     const auto expected_px = [&] {
+      if (!track.has_motion()) return track.place_px;
       return track.belief > 0 ? track.as_moving.place_px : track.as_static.place_px;
     };
     if (!inside_any(psi, expected_px())) {
       if (track.unseen++ >= parameters_.coast) continue;
-      track.belief = track.log_odds = faded(track.belief, field.dt_s());
+      if (track.has_motion()) track.belief = track.log_odds = faded(track.belief, field.dt_s());
     }
     track.place_px = expected_px();
     if (picture.contain(track.place_px)) tracks_.push_back(track);
@@ -224,6 +222,7 @@ void HypothesisEdges::decide(Layers& layers, const Chi& chi, const MotionField& 
   followers_.clear();
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const Track& track = tracks_[t];
+    if (track.corner < 0 && !track.has_motion()) continue;
     // Who has no motion is a rebel by one that has: where nobody knows, nobody is called.
     const int model = track.has_motion() ? -1 : coupling_.model_of(t);
     const bool rebel = track.belief > 0 && (track.has_motion() || model >= 0);
@@ -260,9 +259,10 @@ void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& 
   if (!(told.dt_s() > 0)) predicted_.clear();
   const std::vector<int>& track_of = association_.match(chi, predicted_, noise2_px2_, told.dt_s());
   MotionField field = velocity_error_.without(told);
-  if (const std::optional<MotionFix> off = fix(field, chi, track_of)) {
-    velocity_error_.see(*off, field);
-    field = field.corrected(off->turn_rad, off->velocity_mps);
+  if (!predicted_.empty()) {
+    const MotionFix off = fix(field, chi, track_of);
+    velocity_error_.see(off, field);
+    field = field.corrected(off.turn_rad, off.velocity_mps);
     predict_tracks(field);
   }
   tracks_.clear();

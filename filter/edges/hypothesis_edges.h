@@ -9,7 +9,6 @@
 ///    from how sure that is.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "filter/edges/association.h"
@@ -34,12 +33,10 @@ class HypothesisEdges : public EdgeExpert {
 
  private:
   void predict_tracks(const MotionField& field);
-  std::optional<MotionFix> fix(const MotionField& told, const Chi& chi,
-                               const std::vector<int>& track_of);
+  MotionFix fix(const MotionField& told, const Chi& chi, const std::vector<int>& track_of);
   Track first_seen(const Chi& chi, std::size_t corner);
   bool see(Track& track, const Vec2& x_px, const MotionField& field) const;
-  double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds,
-                    const MotionField& field) const;
+  double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds) const;
   double faded(double log_odds, double dt_s) const;
   double turnover_in(double dt_s) const;
   void coast(const std::vector<IgnoreRegion>& psi, const MotionField& field);

@@ -9,16 +9,11 @@
 namespace lcs {
 namespace {
 
-constexpr std::size_t kLeastResiduals = 20;
 constexpr int kIterations = 4;
-/// Standard deviations of what is told, on an axis, before anything is seen: of the turn within a
-/// frame, and of the velocity of a camera that stands.
+/// Standard deviation of the turn that is told of a frame, on an axis, before anything is seen.
 constexpr double kTurn_rad = 1e-3;
-constexpr double kStill_mps = 0.003;
-/// What a residual counts for: those of one body are off together.
-constexpr double kOwnVoice = 0.05;
-/// s: for which an error lasts.
-constexpr double kMemory_s = 3;
+/// m/s: keeps the velocity's positive where none is told.
+constexpr double kLeastSigma_mps = 1e-4;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -39,14 +34,14 @@ Eigen::Matrix<double, 2, 6> jacobian(const Intrinsics& camera, const Residual& r
 
 /// Normal equations, each residual weighed by the chance that it is of a static point, given what
 /// is left of it and how well the fix is known by then.
-std::optional<MotionFix> motion_fix(const Intrinsics& camera, const MotionField& told,
-                                    std::span<const Residual> residuals,
-                                    const Eigen::Matrix3d& velocity_covariance) {
-  if (residuals.size() < kLeastResiduals) return std::nullopt;
+MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
+                     std::span<const Residual> residuals,
+                     const Eigen::Matrix3d& velocity_covariance, double voice) {
   const double dt = told.dt_s();
+  const double turn = std::hypot(kTurn_rad, told.unseen_turn_rad());
   const double velocity_variance = velocity_covariance.trace() / 3;
   Matrix6 covariance = Matrix6::Zero();
-  covariance.topLeftCorner<3, 3>().diagonal().setConstant(kTurn_rad * kTurn_rad);
+  covariance.topLeftCorner<3, 3>().diagonal().setConstant(turn * turn);
   covariance.bottomRightCorner<3, 3>() = velocity_covariance;
   const Matrix6 prior = covariance.inverse();
   Vector6 fix = Vector6::Zero();
@@ -62,22 +57,20 @@ std::optional<MotionFix> motion_fix(const Intrinsics& camera, const MotionField&
       const Vec2 left = residual.off_px - J * fix;
       const double stands = residual.stands * gauss(left, S + J * covariance * J.transpose());
       const Eigen::Matrix<double, 6, 2> weighed =
-          kOwnVoice * stands / (stands + residual.otherwise_ppx2) * J.transpose() * S.inverse();
+          voice * stands / (stands + residual.otherwise_ppx2) * J.transpose() * S.inverse();
       information += weighed * J;
       pull += weighed * residual.off_px;
     }
     covariance = information.inverse();
     fix = covariance * pull;
   }
-  return MotionFix{fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>()};
+  return {fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>()};
 }
 
 void VelocityError::advance(const MotionField& told) {
   const double sigma = told.velocity_sigma_mps();
   // What is left of the last frame's error; its variance is what is told all the while.
-  const double kept = told_sigma_mps_ > 0 ? std::exp(-told.dt_s() / kMemory_s) *
-                                                std::min(1.0, sigma / told_sigma_mps_)
-                                          : 0;
+  const double kept = told_sigma_mps_ > 0 ? std::min(1.0, sigma / told_sigma_mps_) : 0;
   const double fresh2 = sigma * sigma - kept * kept * told_sigma_mps_ * told_sigma_mps_;
   const Eigen::Matrix3d F = kept * told.R_cur_prev();
   lasting_mps_ = F * lasting_mps_;
@@ -93,7 +86,7 @@ MotionField VelocityError::without(const MotionField& told) const {
 Eigen::Matrix3d VelocityError::covariance(const MotionField& field) const {
   const double drift = ego_share_ * field.displacement_C_m().norm() / field.dt_s();
   Eigen::Matrix3d both = lasting_covariance_;
-  both.diagonal().array() += kStill_mps * kStill_mps + drift * drift;
+  both.diagonal().array() += kLeastSigma_mps * kLeastSigma_mps + drift * drift;
   return both;
 }
 

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <span>
 
 #include "filter/kinematics/camera.h"
@@ -31,10 +30,10 @@ struct MotionFix {
 };
 
 /// \param velocity_covariance of what is wrong with the told velocity before anything is seen.
-/// \return none where too few tell.
-std::optional<MotionFix> motion_fix(const Intrinsics& camera, const MotionField& told,
-                                    std::span<const Residual> residuals,
-                                    const Eigen::Matrix3d& velocity_covariance);
+/// \param voice what a residual counts for: those of one body are off together.
+MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
+                     std::span<const Residual> residuals,
+                     const Eigen::Matrix3d& velocity_covariance, double voice);
 
 /// What is wrong with the told velocity: an error that lasts, as large as the estimator says
 /// (`EgoMotion::velocity_sigma_mps`), and one of each frame by itself.

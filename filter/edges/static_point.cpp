@@ -13,9 +13,9 @@ namespace {
 constexpr double kMostApproach = 0.2;
 
 /// Of the height above the ground that is told, by which it may be wrong.
-constexpr double kWrongHeight = 0.1;
+constexpr double kWrongHeight = 0.15;
 /// Standard deviations of the ground beyond which nothing static is.
-constexpr double kFarBelow = 2;
+constexpr double kFarBelow = 3;
 
 /// Chance of a normal variable between the bounds; never 0, as it is divided by.
 double mass(double mean, double variance, const DepthBounds& bounds) {
@@ -61,10 +61,11 @@ DepthBounds depth_bounds(const MotionField& field, const Vec2& x_px) {
 }
 
 StaticPoint StaticPoint::seen_once(const Vec2& rotated_px, const Intrinsics& camera,
-                                   const MotionField& field, double noise2_px2) {
+                                   const MotionField& field,
+                                   const Eigen::Vector3d& displacement_C_m, double noise2_px2) {
   const DepthBounds bounds = depth_bounds(field, rotated_px);
   const double half = bounds.half_pm();
-  const Vec2 parallax = parallax_px_m(camera, field.displacement_C_m(), rotated_px);
+  const Vec2 parallax = parallax_px_m(camera, displacement_C_m, rotated_px);
   StaticPoint point;
   point.inverse_depth_pm = bounds.least_pm + half;
   point.place_px = rotated_px + point.inverse_depth_pm * parallax;

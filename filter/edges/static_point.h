@@ -43,8 +43,10 @@ struct StaticPoint {
   ///   x = x_r + w (d_z (x_r - c) - f d_xy),
   /// however far the camera has come. What the velocity may be wrong by is left out, as it grows
   /// with how far the point will have moved.
+  /// \param displacement_C_m of the camera since the sighting.
   static StaticPoint seen_once(const Vec2& rotated_px, const Intrinsics& camera,
-                               const MotionField& field, double noise2_px2);
+                               const MotionField& field, const Eigen::Vector3d& displacement_C_m,
+                               double noise2_px2);
 
   /// One frame on.
   /// \param ego_share of the image motion by which the camera's velocity may be wrong.

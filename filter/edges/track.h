@@ -17,6 +17,9 @@ struct Track {
   StaticPoint as_static;  ///< of a track seen once in predictions alone
   OwnMotion as_moving;    ///< from the second sighting on
   int sightings = 0;
+  /// Since the last sighting: time, and the camera's displacement in its present frame.
+  double since_s = 0;
+  Eigen::Vector3d displacement_C_m = Eigen::Vector3d::Zero();
   int age = 0;          ///< frames since the first
   int unseen = 0;       ///< frames since the last
   int corner = -1;      ///< that it has in this frame, -1: none

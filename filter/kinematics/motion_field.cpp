@@ -32,6 +32,7 @@ MotionField::MotionField(const Intrinsics& camera, const EgoMotion& motion,
       focal_px_(camera.focal_px),
       dt_s_(motion.dt_s),
       velocity_sigma_mps_(motion.velocity_sigma_mps),
+      unseen_turn_rad_(motion.unseen_turn_rad),
       R_cur_prev_(motion.R_cur_prev),
       homography_(rotation_homography(camera, motion.R_cur_prev)),
       w_dt_(motion.w_C_radps * motion.dt_s),
@@ -55,6 +56,7 @@ MotionField MotionField::corrected(const Eigen::Vector3d& turn_rad,
   motion.v_C_mps = v_C_mps_ + velocity_mps;
   motion.ground = ground_;
   motion.velocity_sigma_mps = velocity_sigma_mps_;
+  motion.unseen_turn_rad = unseen_turn_rad_;
   return MotionField({.focal_px = focal_px_, .centre_px = centre_px_}, motion, parameters_);
 }
 

@@ -34,6 +34,7 @@ class MotionField {
   double dt_s() const { return dt_s_; }
   /// As told (`EgoMotion`).
   double velocity_sigma_mps() const { return velocity_sigma_mps_; }
+  double unseen_turn_rad() const { return unseen_turn_rad_; }
 
   /// Where a location of frame k-1 lies after the rotation alone: what every stored location is
   /// moved by first.
@@ -132,7 +133,7 @@ class MotionField {
 
   Vec2 centre_px_;
   double focal_px_;
-  double dt_s_, velocity_sigma_mps_;
+  double dt_s_, velocity_sigma_mps_, unseen_turn_rad_;
   Eigen::Matrix3d R_cur_prev_;
   Eigen::Matrix3d homography_;  // K dR K^-1
   Eigen::Vector3d w_dt_;        // rotation over the interval, rad

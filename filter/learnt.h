@@ -1,0 +1,29 @@
+/// Written by `lcs tune`, and not by hand: what the preset `default` has learnt from worlds of
+/// `train`.
+#pragma once
+
+#include <array>
+#include <utility>
+
+namespace lcs {
+
+/// Keys and values as `set` takes them.
+inline constexpr std::array<std::pair<const char*, const char*>, 15> kLearnt{{
+    {"hypotheses.noise", "0.6"},
+    {"hypotheses.prior", "0.03"},
+    {"hypotheses.turnover", "1"},
+    {"hypotheses.wrong", "0.05"},
+    {"hypotheses.ego_share", "0.02"},
+    {"hypotheses.voice", "0.05"},
+    {"hypotheses.acceleration", "1"},
+    {"hypotheses.bits_even", "77.5"},
+    {"hypotheses.bits_weight", "0.152"},
+    {"hypotheses.voters_share", "0.5"},
+    {"hypotheses.step_share", "0.1"},
+    {"hypotheses.coupling", "8"},
+    {"hypotheses.coupling_reach", "30"},
+    {"field.nearest_depth", "0.4"},
+    {"circle.min_width", "1.5"},
+}};
+
+}  // namespace lcs
