@@ -52,6 +52,10 @@ void OutputFile::write(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail(errno);
 }
 
+void OutputFile::flush() {
+  if (std::fflush(file_.get()) != 0) fail(errno);
+}
+
 void OutputFile::close() {
   if (std::fclose(file_.release()) != 0) fail(errno);
 }

@@ -36,6 +36,9 @@ class OutputFile {
 
   /// \throws OutputError, as when the disk is full.
   void write(std::string_view text);
+  /// Hands what was written so far to the system, so that it is there whatever becomes of this
+  /// process. \throws OutputError
+  void flush();
   /// Writes out what is still buffered. \throws OutputError
   void close();
 

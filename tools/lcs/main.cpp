@@ -27,6 +27,7 @@
 #include "tools/lcs/score.h"
 #include "tools/lcs/suite.h"
 #include "tools/lcs/terminal.h"
+#include "tools/lcs/tune.h"
 #include "tools/lcs/version.h"
 #include "tools/lcs/world.h"
 
@@ -47,6 +48,7 @@ through its camera and IMU, and the simulator's truth scores what the filter say
   lcs score DIR --detections FILE     someone else's detector, by a run's truth
   lcs world FAMILY                    a scenario and its scene, drawn from a seed
   lcs likeness                        worlds' corners beside those of real recordings
+  lcs tune out/train                  the filter's numbers, learnt from recorded worlds
   lcs kinematics                      when the motion model holds, for your camera and rover
   lcs run --help                      all about a command
 )";
@@ -89,6 +91,7 @@ int run_command_line(int argc, char** argv) {
   KinematicsOptions kinematics_options;
   WorldOptions world_options;
   LikenessOptions likeness_options;
+  TuneOptions tune_options;
   const struct {
     const CLI::App& command;
     std::function<ExitCode()> carry_out;
@@ -104,6 +107,7 @@ int run_command_line(int argc, char** argv) {
        [&] { return kinematics(kinematics_options); }},
       {add_world_command(app, world_options), [&] { return world(world_options); }},
       {add_likeness_command(app, likeness_options), [&] { return likeness(likeness_options); }},
+      {add_tune_command(app, tune_options), [&] { return tune(tune_options); }},
   };
   refuse_empty_options(app);
   try {

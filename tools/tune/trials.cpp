@@ -1,0 +1,88 @@
+#include "tools/tune/trials.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "filter/filter.h"
+#include "tools/process/parallel.h"
+#include "tools/recording/recording_io.h"
+#include "tools/scoring/scoring.h"
+#include "tools/suite/suite_result.h"
+#include "tools/worlds/worlds.h"
+
+namespace lcs::tune {
+namespace {
+
+/// The run as a new filter sees it.
+bench::Recording asked(const bench::Recording& seen, const Parameters& parameters) {
+  Filter filter(seen.camera.value(), parameters);
+  bench::Recording said = seen;
+  for (bench::FrameRecord& frame : said.frames) {
+    const FrameResult& result = filter.step(frame.corners_px, frame.signatures, frame.motion);
+    frame.verdicts = result.verdicts;
+    // Edges and squares have no say in these figures.
+    frame.layers.rebel_circles = result.layers.rebel_circles;
+  }
+  return said;
+}
+
+}  // namespace
+
+Trials::Trials(const std::filesystem::path& suite) {
+  const worlds::Split& test = worlds::split("test");
+  for (const suite::ScenarioResult& scenario : suite::read_suite(suite).scenarios) {
+    const bool is_for_stating =
+        std::find(scenario.groups.begin(), scenario.groups.end(), "test") != scenario.groups.end();
+    for (const suite::RunResult& run : scenario.runs) {
+      const std::filesystem::path folder = suite / run.folder;
+      const auto refuse = [&](const std::string& why) {
+        throw std::runtime_error(fmt::format("{} {}", folder.string(), why));
+      };
+      bench::Recording recording = bench::unspoken(bench::read_recording(folder));
+      if (is_for_stating || (scenario.drawn && recording.seed >= test.first_seed &&
+                             recording.seed <= test.last_seed)) {
+        refuse("is of the split test, by which nothing is chosen; name a suite of train");
+      }
+      if (recording.truth == bench::Truth::unknown) refuse("has no truth to learn from");
+      if (!recording.camera) refuse("does not say what camera it was; run it again");
+      runs_.push_back(std::move(recording));
+    }
+  }
+  // The longest first, so that all cores end together.
+  std::stable_sort(runs_.begin(), runs_.end(), [](const auto& a, const auto& b) {
+    const auto corners = [](const bench::Recording& run) {
+      std::size_t sum = 0;
+      for (const bench::FrameRecord& frame : run.frames) sum += frame.corners_px.size();
+      return sum;
+    };
+    return corners(a) > corners(b);
+  });
+}
+
+Worth Trials::worth(const Parameters& parameters) const {
+  std::vector<bench::Metrics> figures(runs_.size());
+  process::for_each_parallel(
+      static_cast<int>(runs_.size()),
+      [&](int i) { figures[i] = bench::score(asked(runs_[i], parameters)); }, [](int) {});
+  Worth worth;
+  double moving = 0;
+  for (const bench::Metrics& run : figures) {
+    const double off = bench::value(run, "rebel.false_objects_per_100_frames").value_or(0) / 100;
+    worth.false_capped += std::min(1.0, off) / static_cast<double>(figures.size());
+    if (const auto f1 = bench::value(run, "rebel.f1")) {
+      worth.f1 += *f1;
+      worth.false_moving += off;
+      ++moving;
+    } else {
+      worth.false_static += off;
+    }
+  }
+  const double still = static_cast<double>(figures.size()) - moving;
+  if (moving > 0) worth.f1 /= moving, worth.false_moving /= moving;
+  if (still > 0) worth.false_static /= still;
+  return worth;
+}
+
+}  // namespace lcs::tune

@@ -1,0 +1,44 @@
+/// \file
+/// What a set of the filter's parameters is worth on recorded runs: frames as they were seen, asked
+/// of a new filter, and scored as every run is.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "filter/parameters.h"
+#include "tools/recording/recording.h"
+
+namespace lcs::tune {
+
+/// Means over the runs, each counted once.
+struct Worth {
+  double f1 = 0;            ///< over the runs in which something moves
+  double false_moving = 0;  ///< false objects in a frame: of these,
+  double false_static = 0;  ///< and of those in which nothing moves
+  /// Of the two alike, no run counting for more than one a frame.
+  double false_capped = 0;
+
+  /// What `lcs tune` makes the most of: F1, less a tenth of a false object a frame.
+  double objective() const { return f1 - 0.1 * false_capped; }
+};
+
+class Trials {
+ public:
+  /// Reads the runs of a suite (`lcs suite`).
+  /// \throws std::runtime_error naming the folder: no suite, a run without truth or signatures, or
+  ///   one of the split `test`, by which nothing is chosen.
+  explicit Trials(const std::filesystem::path& suite);
+
+  /// On all cores; the same on any number of them.
+  Worth worth(const Parameters& parameters) const;
+
+  const std::vector<bench::Recording>& runs() const { return runs_; }
+
+ private:
+  std::vector<bench::Recording> runs_;
+};
+
+}  // namespace lcs::tune
