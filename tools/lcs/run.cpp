@@ -25,7 +25,6 @@
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
 #include "tools/lcs/view.h"
-#include "tools/output/frame_painter.h"
 #include "tools/output/result.h"
 #include "tools/output/table.h"
 #include "tools/recording/warnings.h"
@@ -313,9 +312,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
     return playback ? played(scenario, *playback) : simulated(scenario);
   }();
   std::optional<View> view;
-  const bench::FramePainter painter(cv::Size(frames.camera.width_px, frames.camera.height_px),
-                                    frames.recording);
-  if (options.view) view.emplace(scenario.name, painter.size_px(), scenario.camera.rate_hz);
+  if (options.view) view.emplace(scenario.name, scenario.camera.rate_hz);
   for (Watching& one : all) {
     one.tracker = comparators::make(one.wanted, {.camera = frames.camera,
                                                  .scenario = one.scenario,
@@ -330,6 +327,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
     bench::ResultOptions what;
     if (&one == &own) {
       if (!options.no_video) what.video_frames_per_second = scenario.camera.rate_hz;
+      if (view) what.show = [&](const cv::Mat3b& sheet) { return view->show(sheet); };
       what.events = options.events || options.report;
       if (options.report) {
         what.add_page = [&](const std::filesystem::path& folder, const bench::Metrics& figures) {
@@ -356,9 +354,6 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
                           [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
                             check_interrupted();
                             one.result->add(frame, image);
-                            if (&one == &own && view && view->is_open()) {
-                              view->show(painter.paint(frame, image));
-                            }
                             progress.show(frame.index + 1);
                           }});
     }
