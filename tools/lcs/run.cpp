@@ -90,14 +90,15 @@ void print_result(const scenario::Scenario& scenario, const std::string& detecto
   print_out("{}  files    {}\n", bench::table(metrics), folder.string());
 }
 
-sim::Pinhole camera_of(const scenario::Scenario& scenario) {
+Intrinsics camera_of(const scenario::Scenario& scenario) {
   const scenario::Camera& camera = scenario.camera;
-  return sim::Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad);
+  return bench::intrinsics(
+      sim::Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad));
 }
 
 /// What the detector watches, and where it comes from.
 struct Frames {
-  sim::Pinhole camera;
+  Intrinsics camera;
   bench::Recording recording;                 ///< without frames yet
   const bench::Recording* earlier = nullptr;  ///< with the frames of an earlier run
   const bench::FramePictures* pictures = nullptr;
@@ -107,7 +108,7 @@ struct Frames {
 
 Frames simulated(const scenario::Scenario& scenario) {
   const auto simulation = std::make_shared<sim::Simulation>(scenario);
-  return {.camera = simulation->calibration().camera,
+  return {.camera = bench::intrinsics(simulation->calibration().camera),
           .recording = bench::begin_recording(scenario, *simulation),
           .run = [&scenario, simulation](std::span<const bench::Watcher> watchers) {
             return bench::run(scenario, *simulation, watchers);
@@ -115,7 +116,7 @@ Frames simulated(const scenario::Scenario& scenario) {
 }
 
 Frames played(const scenario::Scenario& scenario, replay::Playback& playback) {
-  return {.camera = playback.camera(),
+  return {.camera = bench::intrinsics(playback.camera()),
           .recording = playback.begin(),
           .run = [&scenario, &playback](std::span<const bench::Watcher> watchers) {
             return bench::run(playback, FastDetector(scenario.fast_threshold), watchers);
@@ -123,7 +124,7 @@ Frames played(const scenario::Scenario& scenario, replay::Playback& playback) {
 }
 
 Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
-                const sim::Pinhole& camera) {
+                const Intrinsics& camera) {
   const auto earlier = std::make_shared<bench::EarlierRun>(options.recorded, scenario, camera);
   const bool is_program = !options.detector.command.empty();
   const bool with_images = !options.no_video || options.view || is_program;
@@ -307,7 +308,8 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   bench::require_known_metrics(scenario.criteria);
   const Frames frames = [&] {
     if (!options.recorded.empty()) {
-      return recorded(options, scenario, playback ? playback->camera() : camera_of(scenario));
+      return recorded(options, scenario,
+                      playback ? bench::intrinsics(playback->camera()) : camera_of(scenario));
     }
     return playback ? played(scenario, *playback) : simulated(scenario);
   }();
@@ -321,7 +323,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
     one.recording = frames.recording;
     one.recording.detector = {one.wanted.name, one.wanted.detector.layered,
                               one.tracker->gives_circles()};
-    one.recording.camera = bench::intrinsics(frames.camera);
+    one.recording.camera = frames.camera;
   }
   for (Watching& one : all) {
     bench::ResultOptions what;
