@@ -1,5 +1,5 @@
 /// \file
-/// MuJoCo, from Debian's 2.2.2 to 3.x: the one place that includes it, and that knows what changed
+/// MuJoCo, from Debian's 2.2.2 to 4.x: the one place that includes it, and that knows what changed
 /// in between. Nothing outside `sim/` includes this.
 #pragma once
 
