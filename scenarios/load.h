@@ -20,8 +20,7 @@ struct LoadOptions {
 
 /// Reads, checks and converts a scenario.
 /// \throws Error naming file, line, what is wrong and what to do (unknown keys with the nearest
-/// known
-///   one, wrong units and types, values out of range or not finite, missing files).
+///   known one, wrong units and types, values out of range or not finite, missing files).
 Scenario load(const std::filesystem::path& file, const LoadOptions& options = {});
 
 /// Likewise of a document that was not read from a file. \param file that it might be: its stem is

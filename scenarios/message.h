@@ -8,15 +8,15 @@
 
 namespace lcs::scenario {
 
-/// As it is where it is UTF-8 that shows; what it is not, control characters (but for tabs and line
-/// ends) and what turns the direction of writing is escaped, as \x1b.
+/// The text with all escaped (as \x1b) that does not print: what is not UTF-8, control characters
+/// other than tabs and line ends, and those that change the direction of writing.
 std::string printable(std::string_view text);
 
-/// `printable` text in one line; of more than 1000 bytes the beginning and the end, where the
-/// remedy is.
+/// `printable` text in one line. Of more than 1000 bytes the middle is left out, as messages end
+/// with what to do.
 std::string one_line(std::string_view text);
 
-/// What an exception says, as one line; for what a library throws, what is wrong and what to do.
+/// What an exception says, in one line; of too little memory and of files also what to do.
 std::string message_of(const std::exception& error);
 
 }  // namespace lcs::scenario

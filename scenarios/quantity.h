@@ -30,8 +30,7 @@ double to_si(double in_base_unit, Dimension dimension);
 
 /// The SI value of a text such as "0.5 m/s" or "0.5". "7 cm" and "0.07 m" give the same bits.
 /// \throws std::invalid_argument "what is wrong; what to do" for what is not a finite number in a
-/// unit
-///   of this dimension.
+///   unit of this dimension.
 double parse_quantity(std::string_view text, Dimension dimension);
 
 /// A double in as few digits as bring it back, for messages.

@@ -48,8 +48,8 @@ struct EgoPhase {
   double at_s = 0;
   double speed_mps = 0;          ///< at the start of the phase, >= 0
   double acceleration_mps2 = 0;  ///< along the direction of travel; speed stops at 0
-  double direction_rad =
-      0;  ///< of travel from the heading, ccw: pi/2 is to the left, pi is reverse
+  /// Of travel, from the heading, ccw: pi/2 is to the left, pi is reverse.
+  double direction_rad = 0;
   double yaw_rate_radps = 0;  ///< ccw
 };
 

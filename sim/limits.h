@@ -12,7 +12,7 @@ namespace lcs::sim {
 /// \throws scenario::Error at the element that asks for too much, with the limit and its reason.
 void check_limits(xml::Element& root);
 
-/// \name Of the scene's size, half of its diagonal: the clipping planes are given in lengths of it.
+/// \name Bounds on a scene's size (half of its diagonal), which MuJoCo scales clipping planes by.
 ///@{
 inline constexpr double kLeastExtent_m = 1e-3;
 inline constexpr double kMostExtent_m = 1e6;

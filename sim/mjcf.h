@@ -11,22 +11,22 @@
 
 namespace lcs::sim::mjcf {
 
-/// As far as they are numbers; empty where there is no such attribute.
+/// The numbers that an attribute's text begins with; none where it is empty.
 std::vector<double> numbers(const std::string& text);
 void set_numbers(xml::Element& e, const char* key, const std::vector<double>& values);
 
-/// The attribute of an element, or what the class gives it that it is of: its own, else the
-/// `childclass` of the nearest body about it. "" where nothing says.
+/// An attribute of an element, or else what the element's class says: its own class, or the
+/// `childclass` of the nearest body that it lies in. "" where nothing says.
 std::string effective(const xml::Element& e, const char* key);
 
-/// Of an element in what it is in, as its `quat` says: `make_standalone` has made all others one.
+/// Rotation of an element against its parent, by its `quat`. Call `make_standalone` first, which
+/// turns all other ways to write a rotation into that one.
 Eigen::Matrix3d rotation(const xml::Element& e);
 
-/// Makes a document mean the same in every other, and simpler: each section is there once,
-/// rotations are quaternions, what it has no class for is of a class of its own (which begins with
-/// MuJoCo's defaults), assets that are called by their files say so, and the ranges of its joints
-/// are in the unit of angles that the other one has. \param into the document that is to take it
-/// in.
+/// Rewrites a document so that it means the same when it is merged into another one: each section
+/// is there once, rotations are quaternions, elements without a class get one with MuJoCo's
+/// defaults, assets that are known by their files get names, and joint ranges are in the other
+/// document's unit of angles. \param into the document that it is to be merged into.
 void make_standalone(xml::Element& root, const xml::Element& into);
 
 }  // namespace lcs::sim::mjcf

@@ -1,10 +1,11 @@
 /// \file
-/// MuJoCo, from Debian's 2.2.2 to 3.x: the one place that includes it, and that knows what changed
+/// MuJoCo, from Debian's 2.2.2 to 4.x: the one place that includes it, and that knows what changed
 /// in between. Nothing outside `sim/` includes this.
 #pragma once
 
 #include <mujoco/mujoco.h>
 
+#include <array>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -53,6 +54,24 @@ inline double ray(const mjModel& m, const mjData& d, const double from[3],
 #endif
   geom = hit[0];
   return distance;
+}
+
+/// Calls `found(distance, point, normal)` for each contact that MuJoCo's function for their types
+/// finds between two geoms. What it writes (mjContact, later mjPreContact), and whether the data is
+/// const, is taken from its own type.
+template <typename Data, typename Contact, typename Found>
+void collide(int (*function)(const mjModel*, Data*, Contact*, int, int, mjtNum), const mjModel& m,
+             const mjData& d, int geom_a, int geom_b, const Found& found) {
+  if (!function) return;
+  std::array<Contact, mjMAXCONPAIR> contacts;
+  const int count = function(&m, const_cast<mjData*>(&d), contacts.data(), geom_a, geom_b, 0);
+  for (const Contact* c = contacts.data(); c != contacts.data() + count; ++c) {
+    if constexpr (requires { c->normal; }) {
+      found(c->dist, c->pos, c->normal);
+    } else {
+      found(c->dist, c->pos, c->frame);
+    }
+  }
 }
 
 }  // namespace lcs::sim::mj

@@ -120,18 +120,14 @@ double Overlap::width_m(const Model& model, int geom_a, int geom_b, const Vector
 Overlap::Place Overlap::of(const Model& model, int geom_a, int geom_b, double least_depth_m) {
   const mjModel& m = model.m();
   if (m.geom_type[geom_a] > m.geom_type[geom_b]) std::swap(geom_a, geom_b);
-  const mjfCollision collide = mjCOLLISIONFUNC[m.geom_type[geom_a]][m.geom_type[geom_b]];
-  if (!collide) return {};
-  std::array<mjContact, mjMAXCONPAIR> contacts;
-  const int count = collide(&m, &model.d(), contacts.data(), geom_a, geom_b, 0);
   Place place;
   Vector3d normal = Vector3d::Zero();
-  for (int i = 0; i < count; ++i) {
-    const mjContact& contact = contacts[static_cast<std::size_t>(i)];
-    if (-contact.dist <= place.depth_m) continue;
-    place = {-contact.dist, Eigen::Map<const Vector3d>(contact.pos)};
-    normal = Eigen::Map<const Vector3d>(contact.frame);
-  }
+  mj::collide(mjCOLLISIONFUNC[m.geom_type[geom_a]][m.geom_type[geom_b]], m, model.d(), geom_a,
+              geom_b, [&](double distance, const double* at, const double* along) {
+                if (-distance <= place.depth_m) return;
+                place = {-distance, Eigen::Map<const Vector3d>(at)};
+                normal = Eigen::Map<const Vector3d>(along);
+              });
   if (place.depth_m <= least_depth_m) return {};
   // What is found for round geoms and hulls is neither always the shortest way out nor one at all.
   place.depth_m = width_m(model, geom_a, geom_b, normal);

@@ -34,9 +34,8 @@ struct ComposedScene {
 };
 
 /// \throws scenario::Error for files that are missing or no MJCF, actors on bodies that the scene
-/// lacks
-///   or that another actor has, names used twice, sizes that a shape cannot have, and for what goes
-///   beyond the limits (`sim/limits.h`).
+///   lacks or that another actor has, names used twice, sizes that a shape cannot have, and for
+///   what goes beyond the limits (`sim/limits.h`).
 ComposedScene compose(const scenario::Scenario& scenario);
 
 }  // namespace lcs::sim

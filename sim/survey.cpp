@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <set>
@@ -37,24 +36,25 @@ std::vector<Footprint> footprints(const World& world) {
   return all;
 }
 
-/// Whether a point is in a geom: then a ray meets it whichever way it goes. Not of meshes, which
-/// may be rooms.
+/// Whether a point is in a geom. Not of meshes, which may be rooms.
 bool is_in(const Model& model, int geom, const Eigen::Vector3d& point_W) {
   const mjModel& m = model.m();
-  constexpr std::array kSolids{mjGEOM_BOX, mjGEOM_SPHERE, mjGEOM_CYLINDER, mjGEOM_CAPSULE,
-                               mjGEOM_ELLIPSOID};
-  if (std::ranges::find(kSolids, m.geom_type[geom]) == kSolids.end()) return false;
-  const mjData& d = model.d();
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double sign : {-1.0, 1.0}) {
-      const Eigen::Vector3d way = sign * Eigen::Vector3d::Unit(axis);
-      if (mju_rayGeom(d.geom_xpos + 3 * geom, d.geom_xmat + 9 * geom, m.geom_size + 3 * geom,
-                      point_W.data(), way.data(), m.geom_type[geom]) < 0) {
-        return false;
-      }
-    }
+  const Eigen::Vector3d p = model.geom_pose(geom).inverse() * point_W;
+  const Eigen::Map<const Eigen::Vector3d> size(m.geom_size + 3 * geom);
+  switch (m.geom_type[geom]) {
+    case mjGEOM_BOX:
+      return (p.array().abs() < size.array()).all();
+    case mjGEOM_SPHERE:
+      return p.norm() < size[0];
+    case mjGEOM_ELLIPSOID:
+      return p.cwiseQuotient(size).norm() < 1;
+    case mjGEOM_CYLINDER:
+      return p.head<2>().norm() < size[0] && std::abs(p.z()) < size[1];
+    case mjGEOM_CAPSULE:
+      return (p - Eigen::Vector3d(0, 0, std::clamp(p.z(), -size[1], size[1]))).norm() < size[0];
+    default:
+      return false;
   }
-  return true;
 }
 
 /// What the camera is in and was not before, a line each.

@@ -41,11 +41,11 @@ struct FrameTruth {
 };
 
 enum class Label {
-  none,        ///< the sky or the rover: no landmark, left out of every count
-  fixed,       ///< its body does not move between k and k+1 ("static")
-  indistinct,  ///< its body moves, but the image of the corner by less than 1 px against a static
-               ///< one
-  rebel,       ///< its body moves, and |u - u_s| >= 1 px
+  none,   ///< the sky or the rover: no landmark, left out of every count
+  fixed,  ///< its body does not move between k and k+1 ("static")
+  /// Its body moves, but the corner's image by less than 1 px against that of a static point.
+  indistinct,
+  rebel,  ///< its body moves, and |u - u_s| >= 1 px
 };
 
 /// Whether a body is elsewhere at k+1: by more than 0.01 mm or 0.01 mrad, which is far below what

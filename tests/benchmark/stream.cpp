@@ -7,6 +7,7 @@
 #include "scenarios/load.h"
 #include "sim/simulation.h"
 #include "tools/bench/ego_motion_feed.h"
+#include "tools/bench/tracker.h"
 
 namespace lcs::bench {
 namespace {
@@ -19,7 +20,7 @@ cv::Mat1b grey_of(const cv::Mat3b& image) {
 
 /// A window of the size of the camera's picture on endless tiles of another one.
 template <typename Pixel>
-cv::Mat_<Pixel> tiled(const cv::Mat_<Pixel>& tile, const sim::Pinhole& camera) {
+cv::Mat_<Pixel> tiled(const cv::Mat_<Pixel>& tile, const Intrinsics& camera) {
   cv::Mat_<Pixel> window(camera.height_px, camera.width_px);
   for (int v = 0; v < window.rows; v += tile.rows) {
     for (int u = 0; u < window.cols; u += tile.cols) {
@@ -35,7 +36,7 @@ cv::Mat_<Pixel> tiled(const cv::Mat_<Pixel>& tile, const sim::Pinhole& camera) {
 
 Footage::Footage(const std::string& scenario_file) : scenario(scenario::load(scenario_file)) {
   sim::Simulation simulation(scenario);
-  camera = simulation.calibration().camera;
+  camera = bench::intrinsics(simulation.calibration().camera);
   EgoMotionFeed feed(scenario, simulation.calibration());
   const FastDetector detector(scenario.fast_threshold);
   double corners = 0;

@@ -16,7 +16,6 @@
 #include "filter/ego_motion/ego_motion.h"
 #include "filter/kinematics/camera.h"
 #include "scenarios/scenario.h"
-#include "sim/pose.h"
 
 namespace lcs::bench {
 
@@ -25,7 +24,7 @@ struct Footage {
   explicit Footage(const std::string& scenario_file);
 
   scenario::Scenario scenario;
-  sim::Pinhole camera;
+  Intrinsics camera;
   std::vector<cv::Mat3b> images;   ///< BGR
   std::vector<EgoMotion> motions;  ///< since the frame before
   double corners_per_px = 0;       ///< mean
@@ -37,7 +36,7 @@ class Stream {
   Stream(const Footage& footage, int corners);
 
   std::size_t size() const { return corners_px_.size(); }
-  const sim::Pinhole& camera() const { return camera_; }
+  const Intrinsics& camera() const { return camera_; }
   const std::vector<Eigen::Vector2f>& corners_px(std::size_t frame) const {
     return corners_px_[frame];
   }
@@ -50,7 +49,7 @@ class Stream {
 
  private:
   const Footage* footage_;
-  sim::Pinhole camera_;
+  Intrinsics camera_;
   std::vector<std::vector<Eigen::Vector2f>> corners_px_;
 };
 

@@ -28,7 +28,8 @@ Recording run(std::string_view name, const char* file, std::vector<std::string> 
   const scenario::Scenario scenario = scenario::load(std::string(LCS_SCENARIOS_DIR "/") + file,
                                                      {.sets = std::move(sets), .seed = {}});
   sim::Simulation simulation(scenario);
-  const auto tracker = detector(name).make(simulation.calibration().camera, scenario);
+  const auto tracker =
+      detector(name).make(bench::intrinsics(simulation.calibration().camera), scenario);
   Recording recording = bench::begin_recording(scenario, simulation);
   bench::run(scenario, simulation, *tracker, recording,
              [](const bench::FrameRecord&, const cv::Mat3b&) {});
@@ -109,6 +110,7 @@ TEST_P(EachDetector, SaysTheSameToTheLastBitInTwoRuns) {
 
 constexpr int kWidth = 320, kHeight = 240;
 const sim::Pinhole kCamera = sim::Pinhole::from_fovy(kWidth, kHeight, kPi / 3);
+const Intrinsics kIntrinsics = bench::intrinsics(kCamera);
 
 EgoMotion motion(const Eigen::Vector3d& v_C_mps, const Eigen::Vector3d& w_C_radps) {
   EgoMotion motion;
@@ -123,7 +125,7 @@ EgoMotion motion(const Eigen::Vector3d& v_C_mps, const Eigen::Vector3d& w_C_radp
 }
 
 MotionField field_of(const EgoMotion& motion) {
-  return exact_field(bench::intrinsics(kCamera), motion);
+  return exact_field(kIntrinsics, motion);
 }
 
 class EgoMotions : public testing::TestWithParam<EgoMotion> {};
@@ -264,8 +266,8 @@ void paste_mover(cv::Mat1b& seen, cv::Point shift, cv::Point2d slid = {}) {
 class TrackerTest : public testing::TestWithParam<const char*> {
  protected:
   std::unique_ptr<bench::Tracker> make() const {
-    if (GetParam() == std::string("klt")) return std::make_unique<KltTracker>(kCamera);
-    if (GetParam() == std::string("dis")) return std::make_unique<DisTracker>(kCamera);
+    if (GetParam() == std::string("klt")) return std::make_unique<KltTracker>(kIntrinsics);
+    if (GetParam() == std::string("dis")) return std::make_unique<DisTracker>(kIntrinsics);
     return std::make_unique<HomographyTracker>();
   }
   static std::vector<Eigen::Vector2f> corners_of(const cv::Mat1b& grey) {
@@ -485,7 +487,7 @@ TEST(Dis, SaysTheSameHoweverManyThreadsThereAre) {
   std::vector<std::string> lines;
   for (const int count : {1, 2, 5}) {
     cv::setNumThreads(count);
-    DisTracker tracker(kCamera);
+    DisTracker tracker(kIntrinsics);
     tracker.step({cv::Mat3b(), before, {}, {}});
     bench::FrameRecord frame;
     frame.corners_px = corners;
@@ -501,7 +503,8 @@ TEST(Dis, SaysTheSameHoweverManyThreadsThereAre) {
 
 TEST(Dis, TakesTheSmallestPictures) {
   for (const cv::Size size : {cv::Size(16, 16), cv::Size(16, 320), cv::Size(40, 24)}) {
-    DisTracker tracker(sim::Pinhole::from_fovy(size.width, size.height, kPi / 3));
+    DisTracker tracker(
+        bench::intrinsics(sim::Pinhole::from_fovy(size.width, size.height, kPi / 3)));
     const cv::Mat1b seen = texture()(cv::Rect({0, 0}, size)).clone();
     const std::vector<Eigen::Vector2f> corners{{8, 8}, {4, 10}};
     tracker.step({cv::Mat3b(), seen, corners, {}});
@@ -538,7 +541,7 @@ TEST(Trackers, RefuseParametersOutOfTheirRange) {
   EXPECT_THROW(RebelGroups({.least_corners = 0}), std::invalid_argument);
   DisParameters dis;
   dis.baseline_s = std::nan("");
-  EXPECT_THROW(DisTracker(kCamera, dis), std::invalid_argument);
+  EXPECT_THROW(DisTracker(kIntrinsics, dis), std::invalid_argument);
   HomographyParameters homography;
   homography.least_corners = 3;
   EXPECT_THROW(HomographyTracker{homography}, std::invalid_argument);

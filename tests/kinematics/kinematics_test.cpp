@@ -23,7 +23,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::array kDepths_m = {1.0, 3.0, 10.0};
 
 sim::Pinhole vga() {

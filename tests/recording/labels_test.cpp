@@ -227,8 +227,8 @@ TEST(ScoreLabels, ARecordingKeepsThem) {
   expect_box(read.frames[3].labels->at(0), -1, 100, 100, 150, 150);
   EXPECT_TRUE(read.frames[3].labels->at(2).ignored);
   EXPECT_EQ(score(read), score(recording));
-  EXPECT_TRUE(unspoken(read).frames[3].labels) << "and who asks again has them";
-  EXPECT_EQ(unspoken(read).truth, Truth::unknown);
+  EXPECT_TRUE(without_detections(read).frames[3].labels) << "and who asks again has them";
+  EXPECT_EQ(without_detections(read).truth, Truth::unknown);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ bench::Event event_with(int corners, std::size_t picture_bytes) {
   event.object = 1;
   event.object_name = "box";
   event.corners = corners;
-  event.of = 2 * corners;
+  event.counted_corners = 2 * corners;
   event.reasons = {{Reason::normal_edge, corners}};
   event.views.resize(1);
   event.views[0].jpeg_base64 = std::string(picture_bytes, 'A');
@@ -338,7 +338,7 @@ TEST_F(Report, SetsTheBaselinesCurvesBesideAndTellsNewEventsFromThoseThatAreGone
   bench::Event later = kept, other = kept, as_false = kept;
   later.first_frame = later.last_frame = 30;
   other.object_name = "car";
-  as_false.of = 0;
+  as_false.counted_corners = 0;
   const SuiteResult before =
       suite_of({scenario_with("one", {run_in(folder_.path() / "before", {kept, other})})});
   const SuiteResult now =

@@ -78,7 +78,7 @@ TEST(Events, AnObjectThatIsNeverFoundIsOneOverAllFramesThatCount) {
   EXPECT_EQ(event.first_frame, kSightings);
   EXPECT_EQ(event.last_frame, kFrames - 1);
   EXPECT_EQ(event.corners, total(recording).missed_rebels);
-  EXPECT_EQ(event.of, event.corners);
+  EXPECT_EQ(event.counted_corners, event.corners);
   EXPECT_EQ(event.reasons, (decltype(event.reasons){{Reason::normal_edge, event.corners}}));
 }
 
@@ -97,7 +97,7 @@ TEST(Events, AnObjectThatIsMissedLaterIsLost) {
   EXPECT_EQ(events[0].first_frame, 8);
   EXPECT_EQ(events[0].last_frame, 11);
   EXPECT_EQ(events[0].corners, 4 * 4);
-  EXPECT_EQ(events[0].of, 4 * kCorners);
+  EXPECT_EQ(events[0].counted_corners, 4 * kCorners);
 }
 
 TEST(Events, HalfOfTheCornersMissedIsNone) {
@@ -112,7 +112,7 @@ TEST(Events, FramesOfOneMissMergeOverTwoGoodOnesNotOverThree) {
   };
   ASSERT_EQ(gap(2).size(), 1u);
   EXPECT_EQ(gap(2)[0].last_frame, 12);
-  EXPECT_EQ(gap(2)[0].of, 8 * kCorners);  // those of the good frames between are counted
+  EXPECT_EQ(gap(2)[0].counted_corners, 8 * kCorners) << "those of the good frames between too";
   EXPECT_EQ(gap(3).size(), 2u);
 }
 
@@ -317,7 +317,7 @@ TEST(EventsFile, ComesBackAsItWas) {
     EXPECT_EQ(back[i].object, events[i].object);
     EXPECT_EQ(back[i].object_name, events[i].object_name);
     EXPECT_EQ(back[i].corners, events[i].corners);
-    EXPECT_EQ(back[i].of, events[i].of);
+    EXPECT_EQ(back[i].counted_corners, events[i].counted_corners);
     EXPECT_EQ(back[i].circles, events[i].circles);
     EXPECT_EQ(back[i].reasons, events[i].reasons);
     ASSERT_EQ(back[i].views.size(), events[i].views.size());

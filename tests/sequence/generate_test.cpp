@@ -24,9 +24,9 @@
 #include "tools/files/csv.h"
 #include "tools/recording/recording_io.h"
 #include "tools/sequence/manifest.h"
-#include "tools/sequence/motion_field.h"
 #include "tools/sequence/sha256.h"
 #include "tools/sequence/text_file.h"
+#include "tools/sequence/true_flow.h"
 #include "tools/sequence/writer.h"
 
 namespace lcs::sequence {
@@ -161,8 +161,8 @@ TEST_F(Generated, ReadingsAndPosesAreThoseOfTheSimulationToTheLastBit) {
 
 TEST_F(Generated, FlowReadByOpenCvIsTheMotionOfThePixels) {
   for (std::size_t k = 0; k + 1 < frames_.size(); ++k) {
-    const MotionField motion = motion_field(camera_, frames_[k].truth, frames_[k + 1].truth.depth_m,
-                                            frames_[k + 1].truth.object);
+    const TrueFlow motion = true_flow(camera_, frames_[k].truth, frames_[k + 1].truth.depth_m,
+                                      frames_[k + 1].truth.object);
     const auto check = [&](const std::string& kind, const cv::Mat2f& truth, const cv::Mat1b& seen) {
       const cv::Mat flo =
           cv::readOpticalFlow(folder() / kind / "middlebury" / fmt::format("{:06}.flo", k));

@@ -10,7 +10,7 @@
 #include "scenarios/load.h"
 #include "sim/simulation.h"
 #include "tools/sequence/flow_code.h"
-#include "tools/sequence/motion_field.h"
+#include "tools/sequence/true_flow.h"
 
 namespace lcs::sequence {
 namespace {
@@ -27,8 +27,8 @@ class SelfCheck : public testing::Test {
     objects_ = static_cast<int>(simulation.objects().size());
   }
 
-  MotionField field() const {
-    return motion_field(calibration_.camera, now_.truth, next_.truth.depth_m, next_.truth.object);
+  TrueFlow field() const {
+    return true_flow(calibration_.camera, now_.truth, next_.truth.depth_m, next_.truth.object);
   }
   Agreement check(const cv::Mat2f& motion, const cv::Mat1b& seen) const {
     return check_flow(calibration_.camera, now_, next_, motion, seen);
@@ -54,19 +54,19 @@ class SelfCheck : public testing::Test {
 };
 
 TEST_F(SelfCheck, TheFlowOfRealFramesLeadsThereAndBackOnMostOfThePicture) {
-  const MotionField motion = field();
+  const TrueFlow motion = field();
   const Agreement agreement = check(motion.full_px, motion.seen);
   EXPECT_GT(agreement.compared, 8000) << "of 19200 places";
   EXPECT_LT(agreement.worst, 0.02) << "the quantum of the format is 0.0156 px";
 }
 
 TEST_F(SelfCheck, FlowThatLeavesMovingObjectsOutIsFound) {
-  const MotionField motion = field();
+  const TrueFlow motion = field();
   EXPECT_THROW(check(motion.ego_px, motion.seen), TruthError);
 }
 
 TEST_F(SelfCheck, FlowWithAxesOrSignsInterchangedIsFound) {
-  MotionField motion = field();
+  TrueFlow motion = field();
   cv::Mat2f turned = motion.full_px.clone();
   for (cv::Vec2f& u : turned) std::swap(u[0], u[1]);
   EXPECT_THROW(check(turned, motion.seen), TruthError);
@@ -76,7 +76,7 @@ TEST_F(SelfCheck, FlowWithAxesOrSignsInterchangedIsFound) {
 
 TEST_F(SelfCheck, DepthThatIsOffByHalfAPerCentIsFound) {
   now_.truth.depth_m *= 1.005;
-  const MotionField motion = field();
+  const TrueFlow motion = field();
   EXPECT_THROW(check(motion.full_px, motion.seen), TruthError);
 }
 
@@ -89,13 +89,13 @@ TEST_F(SelfCheck, DepthAlongTheRayInsteadOfTheAxisIsFound) {
       }
     }
   }
-  const MotionField motion = field();
+  const TrueFlow motion = field();
   EXPECT_THROW(check(motion.full_px, motion.seen), TruthError);
 }
 
 TEST_F(SelfCheck, APoseThatIsAMillimetreOrAMilliradianOffIsFound) {
   const sim::Pose right = next_.truth.now.T_WC;
-  const MotionField motion = field();
+  const TrueFlow motion = field();
   next_.truth.now.T_WC.p.y() += 1e-3;
   EXPECT_THROW(check(motion.full_px, motion.seen), TruthError);
   next_.truth.now.T_WC = right;

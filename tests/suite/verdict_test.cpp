@@ -99,7 +99,7 @@ class VerdictOnRules : public testing::Test {
   static bench::Event event(bool missed, std::vector<std::pair<Reason, int>> reasons) {
     bench::Event event;
     event.kind = missed ? bench::EventKind::lost : bench::EventKind::false_alarm;
-    event.of = missed ? 100 : 0;
+    event.counted_corners = missed ? 100 : 0;
     event.reasons = std::move(reasons);
     return event;
   }

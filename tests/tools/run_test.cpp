@@ -239,7 +239,7 @@ TEST_F(Run, EventsAreWrittenWithPicturesAndChangeNothingElse) {
     for (const EventView& view : event.views) {
       EXPECT_EQ(view.jpeg_base64.rfind("/9j/", 0), 0u);  // how every JPEG begins
     }
-    missed += event.of > 0 ? event.corners : 0;
+    missed += event.counted_corners > 0 ? event.corners : 0;
   }
   const nlohmann::json told = metrics("told");
   const double all_missed =

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 #include <tuple>
@@ -29,7 +28,6 @@ namespace lcs::worlds {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kWorlds = 60;
 
 /// The first worlds of `train`, drawn once for all tests.

@@ -30,9 +30,9 @@ class FrameSource {
   /// \param image set to what the camera saw, BGR. \return false after the last one.
   virtual bool next(FrameRecord& frame, cv::Mat3b& image) = 0;
 
-  /// From the camera that took the picture to the one that trackers are told of: its corners, those
-  /// that nobody is to judge left out, and the picture itself.
-  /// \return whether the picture is another one now.
+  /// Undistorts corners and picture: from the camera that took it to the pinhole that trackers are
+  /// told of. Corners that are not to be judged are left out.
+  /// \return whether the picture was changed.
   virtual bool straighten(std::vector<Eigen::Vector2f>&, cv::Mat3b&) const { return false; }
 
   /// What is true of the frame's corners and objects, so far as it is known.
@@ -63,7 +63,7 @@ class SimulatedFrames : public FrameSource {
   std::optional<sim::Observation> observation_;  ///< the last one
 };
 
-/// A frame before anyone speaks.
+/// A frame before a detector has seen it.
 struct SeenFrame {
   FrameRecord record;  ///< without verdicts and layers
   cv::Mat3b image;     ///< BGR
@@ -75,8 +75,8 @@ struct SeenFrame {
 std::optional<SeenFrame> see(FrameSource& source, const FastDetector& detector,
                              bool are_signatures_wanted);
 
-/// Gives a frame what a tracker says of it. \param step_ms that the tracker took, which is the time
-///   of the frame that `step_time` names; none if that is null.
+/// Stores in a frame what a tracker says of it.
+/// \param step_ms that the tracker took, for the time that `step_time` names; null: for none.
 void note(const FrameResult& said, double FrameTimes::*step_time, double step_ms,
           FrameRecord& frame);
 
@@ -89,14 +89,14 @@ Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulat
 /// \param grey,image may be empty for a tracker that does not look at them.
 void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame);
 
-/// One of those who watch a run.
+/// A tracker that watches a run, and where what it says goes.
 struct Watcher {
   Tracker& tracker;
   Recording& recording;  ///< is given every frame before the sink sees it, and the warnings last
   FrameSink sink;
 };
 
-/// Goes through all frames. Who watches beside others gets the same frames as alone.
+/// Goes through all frames. Each watcher gets the same frames as it would alone.
 /// \return for each watcher, what was wrong with the sensors' readings and with what its tracker
 /// was told. \throws what the source, trackers and sinks throw.
 std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,

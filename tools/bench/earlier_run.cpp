@@ -54,13 +54,13 @@ void require_same(const fs::path& folder, const Recording& recorded,
 }  // namespace
 
 EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenario,
-                       const sim::Pinhole& camera)
+                       const Intrinsics& camera)
     : camera_(camera) {
   if (!fs::exists(folder / kLayersFile)) {
     throw std::runtime_error(
         fmt::format("there is no run in {}; name a folder that lcs run has left", folder.string()));
   }
-  recorded_ = unspoken(read_recording(folder));
+  recorded_ = without_detections(read_recording(folder));
   require_same(folder, recorded_, scenario);
   const fs::path pictures = folder / kPicturesFile;
   if (!fs::exists(pictures)) return;

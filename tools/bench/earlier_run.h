@@ -19,12 +19,12 @@ class EarlierRun {
   /// \throws std::runtime_error naming the folder: it has no run, a broken one, or one of another
   ///   scenario, of another seed, or of the scenario as it was before its world changed.
   EarlierRun(const std::filesystem::path& folder, const scenario::Scenario& scenario,
-             const sim::Pinhole& camera);
+             const Intrinsics& camera);
 
   /// Of each frame, where the run kept them; else null.
   const FramePictures* pictures() const { return pictures_ ? &*pictures_ : nullptr; }
 
-  /// What there was to see and what was true, and what nobody has said anything of.
+  /// What there was to see and what was true, without verdicts.
   const Recording& recording() const { return recorded_; }
 
   /// Whether there is a corner without a signature, as where a comparator was alone in the run: the
@@ -45,8 +45,8 @@ class EarlierRun {
  private:
   cv::Mat3b image(std::size_t position) const;
 
-  Recording recorded_;  // unspoken
-  sim::Pinhole camera_;
+  Recording recorded_;  // without detections
+  Intrinsics camera_;
   std::optional<FramePictures> pictures_;
 };
 

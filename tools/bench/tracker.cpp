@@ -15,8 +15,8 @@ Intrinsics intrinsics(const sim::Pinhole& camera) {
           .height_px = camera.height_px};
 }
 
-LcsTracker::LcsTracker(const sim::Pinhole& camera, const Parameters& parameters)
-    : filter_(intrinsics(camera), parameters) {}
+LcsTracker::LcsTracker(const Intrinsics& camera, const Parameters& parameters)
+    : filter_(camera, parameters) {}
 
 const FrameResult& LcsTracker::step(const TrackerInput& input) {
   if (input.signatures.empty()) return filter_.step(input.corners_px, input.motion);

@@ -33,8 +33,7 @@ class Tracker {
   virtual ~Tracker() = default;
 
   /// \return a verdict for each corner, in the order given, the layers if there are any, and the
-  /// times
-  ///   of stages. Valid until the next step.
+  ///   times of stages. Valid until the next step.
   virtual const FrameResult& step(const TrackerInput& input) = 0;
 
   /// Whether signatures are to be made for it, which takes longer than to find the corners.
@@ -43,7 +42,7 @@ class Tracker {
   /// Which of a frame's times a step takes; null where it takes none, as what it says was read.
   virtual double FrameTimes::*step_time() const { return &FrameTimes::filter_ms; }
 
-  /// As `Speaker::circles`. Known from the start.
+  /// As `DetectorInfo::circles`. Known from the start.
   virtual bool gives_circles() const { return true; }
 
   /// To be called after the last frame. \throws for what was wrong with it until then.
@@ -56,14 +55,15 @@ class Tracker {
   virtual std::vector<std::string> told() const { return {}; }
 };
 
-/// The camera as trackers on the filter's geometry take it.
+/// The simulator's camera, which knows nothing of the filter, as the filter and all trackers take
+/// it: the one place where one becomes the other.
 Intrinsics intrinsics(const sim::Pinhole& camera);
 
 /// The LCS filter. It sees corners, their signatures if there are any, and ego-motion, never the
 /// image.
 class LcsTracker : public Tracker {
  public:
-  LcsTracker(const sim::Pinhole& camera, const Parameters& parameters);
+  LcsTracker(const Intrinsics& camera, const Parameters& parameters);
   const FrameResult& step(const TrackerInput& input) override;
   bool wants_signatures() const override { return true; }
   Diagnostics diagnostics() const override { return filter_.diagnostics(); }

@@ -18,19 +18,19 @@ namespace {
 
 using Made = std::unique_ptr<bench::Tracker>;
 
-Made make_lcs(const sim::Pinhole& camera, const scenario::Scenario& scenario) {
+Made make_lcs(const Intrinsics& camera, const scenario::Scenario& scenario) {
   return std::make_unique<bench::LcsTracker>(camera, bench::filter_parameters(scenario));
 }
 
-Made make_klt(const sim::Pinhole& camera, const scenario::Scenario&) {
+Made make_klt(const Intrinsics& camera, const scenario::Scenario&) {
   return std::make_unique<KltTracker>(camera);
 }
 
-Made make_homography(const sim::Pinhole&, const scenario::Scenario&) {
+Made make_homography(const Intrinsics&, const scenario::Scenario&) {
   return std::make_unique<HomographyTracker>();
 }
 
-Made make_dis(const sim::Pinhole& camera, const scenario::Scenario&) {
+Made make_dis(const Intrinsics& camera, const scenario::Scenario&) {
   return std::make_unique<DisTracker>(camera);
 }
 
@@ -135,7 +135,7 @@ std::unique_ptr<bench::Tracker> make(const Wanted& wanted, const Occasion& occas
                             .seed = scenario.seed,
                             .frames = frames,
                             .rate_hz = scenario.camera.rate_hz,
-                            .camera = bench::intrinsics(occasion.camera),
+                            .camera = occasion.camera,
                             .compressed = occasion.recorded != nullptr};
   return std::make_unique<ProgramTracker>(wanted.name, *wanted.program, announced,
                                           occasion.on_wait);

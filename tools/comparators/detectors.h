@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
-#include "sim/pose.h"
 #include "tools/bench/tracker.h"
 #include "tools/comparators/program.h"
 
@@ -21,11 +20,11 @@ namespace lcs::comparators {
 struct Detector {
   std::string_view name;
   std::string_view purpose;    ///< one line for people
-  bool layered = false;        ///< as in `bench::Speaker`
+  bool layered = false;        ///< as in `bench::DetectorInfo`
   bool sees_pictures = false;  ///< beside corners and motion
-  /// \throws scenario::Error for parameters that the detector does not take. Null for what is none
-  /// of this program's.
-  std::unique_ptr<bench::Tracker> (*make)(const sim::Pinhole& camera,
+  /// Null for a detector that is not part of this program. \throws scenario::Error for parameters
+  /// that the detector does not take.
+  std::unique_ptr<bench::Tracker> (*make)(const Intrinsics& camera,
                                           const scenario::Scenario& scenario);
 };
 
@@ -40,25 +39,23 @@ const Detector& detector(std::string_view name);
 struct Wanted {
   std::string name;  ///< as it was asked for
   const Detector& detector;
-  std::string preset;                          ///< in place of all that a scenario says of the
-                                               ///< filter; "" for none
+  std::string preset;  ///< replaces all settings of the filter in a scenario; "": none
   std::optional<Program> program = {};         ///< to be run
   std::filesystem::path detections_file = {};  ///< to be read
 };
 
 /// \throws std::invalid_argument for an unknown detector or preset, naming those that there are,
-/// and
-///   for a preset of what has none.
+///   and for a preset of what has none.
 Wanted wanted(const std::string& name);
 
-/// Somebody's own. \param name "": that of the program, or of the file.
+/// A detector of the user's. \param name "": taken from the program or the file.
 /// \throws std::invalid_argument for a name that is taken, or no name of a folder.
 Wanted wanted_program(const std::string& name, const Program& program);
 Wanted wanted_file(const std::string& name, const std::filesystem::path& detections_file);
 
 /// What a detector is made for.
 struct Occasion {
-  const sim::Pinhole& camera;
+  const Intrinsics& camera;
   const scenario::Scenario& scenario;
   const bench::Recording* recorded = nullptr;  ///< the frames that will come, where they are known
   std::function<void()> on_wait = {};          ///< as `DetectorProcess` has it
@@ -67,12 +64,12 @@ struct Occasion {
 /// \throws scenario::Error, DetectorError, std::runtime_error.
 std::unique_ptr<bench::Tracker> make(const Wanted& wanted, const Occasion& occasion);
 
-/// Gives a scenario the preset that is wanted, if any, alone: a yardstick does not move with what
-/// is measured. \return a line for each setting that has no effect: with a preset each `--set`,
-/// else as `bench::idle_settings` has it. \throws as that one.
+/// Replaces a scenario's settings of the filter by the preset that is wanted, if any: what others
+/// are compared with must not change with them. \return a line for each setting that has no effect:
+/// with a preset each `--set`, else as `bench::idle_settings` has it. \throws as that one.
 std::vector<std::string> apply_preset(const Wanted& wanted, scenario::Scenario& scenario);
 
-/// For frames of an earlier run, of which there are corners and no pictures as they were.
+/// For frames of an earlier run, which kept its corners, but its pictures compressed at best.
 /// \throws std::invalid_argument for a detector that looks at pictures; not for a program, which is
 ///   told that they are compressed.
 void require_corners_suffice(const Wanted& wanted);

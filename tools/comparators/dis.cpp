@@ -8,8 +8,8 @@
 
 namespace lcs::comparators {
 
-DisTracker::DisTracker(const sim::Pinhole& camera, const DisParameters& parameters)
-    : camera_(bench::intrinsics(camera)),
+DisTracker::DisTracker(const Intrinsics& camera, const DisParameters& parameters)
+    : camera_(camera),
       parameters_(parameters),
       pictures_(parameters.baseline_s),
       flow_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)),

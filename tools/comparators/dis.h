@@ -24,7 +24,7 @@ struct DisParameters {
 class DisTracker : public bench::Tracker {
  public:
   /// \throws std::invalid_argument for a parameter out of its range.
-  explicit DisTracker(const sim::Pinhole& camera, const DisParameters& parameters = {});
+  explicit DisTracker(const Intrinsics& camera, const DisParameters& parameters = {});
   const FrameResult& step(const bench::TrackerInput& input) override;
   Diagnostics diagnostics() const override { return pictures_.diagnostics(); }
 

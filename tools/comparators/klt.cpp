@@ -2,8 +2,8 @@
 
 namespace lcs::comparators {
 
-KltTracker::KltTracker(const sim::Pinhole& camera, const KltParameters& parameters)
-    : camera_(bench::intrinsics(camera)),
+KltTracker::KltTracker(const Intrinsics& camera, const KltParameters& parameters)
+    : camera_(camera),
       parameters_(parameters),
       flow_(parameters.flow),
       groups_(parameters.groups) {}

@@ -23,7 +23,7 @@ struct KltParameters {
 class KltTracker : public bench::Tracker {
  public:
   /// \throws std::invalid_argument for a parameter out of its range.
-  explicit KltTracker(const sim::Pinhole& camera, const KltParameters& parameters = {});
+  explicit KltTracker(const Intrinsics& camera, const KltParameters& parameters = {});
   const FrameResult& step(const bench::TrackerInput& input) override;
   Diagnostics diagnostics() const override { return flow_.diagnostics(); }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 #include "tools/kinematics/theory.h"
@@ -13,7 +12,6 @@
 namespace lcs::kinematics {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNothing_px = 1e-6;  // less is rounding
 constexpr double kLargest_deg = 10;   // of the sweep of rotations

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "tools/kinematics/sweeps.h"
 
@@ -13,7 +12,6 @@ namespace lcs::kinematics {
 namespace {
 
 constexpr int kColumns = 32;
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kFirstOrder_deg = 5, kPrinted_deg = 1, kMount_deg = 1;
 
 int rows_of(const sim::Pinhole& camera) {

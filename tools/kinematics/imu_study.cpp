@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "scenarios/imu_presets.h"
 #include "tools/bench/ego_motion_feed.h"
@@ -15,7 +14,6 @@
 namespace lcs::kinematics {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::array kRates_hz = {1.0, 3.0, 10.0, 30.0};
 constexpr std::array kDepths_m = {2.0, 4.0, 8.0};
 constexpr std::array kRoughness_m = {0.0, 1e-3, 2.5e-3, 5e-3, 10e-3};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "filter/detect/fast.h"
@@ -14,7 +13,6 @@
 namespace lcs::kinematics {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kStillFrames = 5;
 constexpr double kBumps_m = 2.5e-3;  // where the scenario's ground has none of its own
 

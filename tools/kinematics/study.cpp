@@ -1,13 +1,11 @@
 #include "tools/kinematics/study.h"
 
 #include <array>
-#include <numbers>
 #include <utility>
 
 namespace lcs::kinematics {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::array kDepths_m = {1.0, 2.0, 4.0, 8.0, 16.0};
 constexpr std::array kLenses_deg = {20.0, 30.0, 45.0, 60.0, 75.0, 90.0, 110.0};
 constexpr int kSweeps = 4;

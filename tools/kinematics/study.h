@@ -38,8 +38,7 @@ int study_pieces(const StudyConfig& config);
 
 /// Deterministic: the same configuration gives the same bits, with any number of cores.
 /// \param tick called from this thread with the number of pieces done since; what it throws ends
-/// the
-///   study.
+///   the study.
 /// \throws scenario::Error, sim::PhysicsError, std::runtime_error
 Study carry_out(const StudyConfig& config, const Tick& tick);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "tools/kinematics/theory.h"
 #include "tools/scoring/statistics.h"
@@ -11,7 +10,6 @@
 namespace lcs::kinematics {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::array kAngles_deg = {0.0, 0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 2.5,
                                     3.0, 4.0, 5.0,  6.0, 7.0, 8.0, 9.0, 10.0};
 constexpr std::array kSpeeds_mps = {0.03, 0.1, 0.3, 1.0, 3.0, 10.0};

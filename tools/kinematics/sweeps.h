@@ -31,8 +31,7 @@ std::vector<RotationRow> sweep_rotation(const StudyConfig& config,
 /// where no point is left.
 inline constexpr double kLargestTurn_rad = 0.5;
 /// \param told_sign -1: the rate is told with the other sign, as for a model that is suspected to
-/// mean
-///   other axes.
+///   mean other axes.
 double rotation_limit_rad(const PointSet& points, const FieldParameters& field,
                           RotationModel rotation, int axis, double bound_px, double told_sign = 1);
 

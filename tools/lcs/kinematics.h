@@ -23,8 +23,7 @@ struct KinematicsOptions {
 CLI::App& add_kinematics_command(CLI::App& app, KinematicsOptions& options);
 
 /// \throws scenario::Error, bench::OutputError, sim::PhysicsError, Interrupted, std::exception;
-/// then
-///   there is no new output, and an earlier one is as it was.
+///   then there is no new output, and an earlier one is as it was.
 ExitCode kinematics(const KinematicsOptions& options);
 
 }  // namespace lcs::tools

@@ -60,23 +60,6 @@ CLI::Option* add_quantity_option(CLI::App& command, const std::string& name,
       about);
 }
 
-/// As many such numbers, with commas between them.
-inline CLI::Option* add_quantities_option(CLI::App& command, const std::string& name,
-                                          const scenario::Quantity& quantity, int count,
-                                          std::vector<double>& out, const std::string& about) {
-  return command
-      .add_option_function<std::vector<std::string>>(
-          name,
-          [=, &out](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) {
-              out.push_back(scenario::as_quantity(option_value(name, text), "a number", quantity));
-            }
-          },
-          about)
-      ->delimiter(',')
-      ->expected(count);
-}
-
 /// Of every option and argument of every sub-command: nothing between quotes is a slip, as of a
 /// variable of a shell that is not set, and not the same as an option that is not given.
 inline void refuse_empty_options(CLI::App& app) {

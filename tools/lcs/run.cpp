@@ -25,7 +25,6 @@
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
 #include "tools/lcs/view.h"
-#include "tools/output/frame_painter.h"
 #include "tools/output/result.h"
 #include "tools/output/table.h"
 #include "tools/recording/warnings.h"
@@ -91,14 +90,15 @@ void print_result(const scenario::Scenario& scenario, const std::string& detecto
   print_out("{}  files    {}\n", bench::table(metrics), folder.string());
 }
 
-sim::Pinhole camera_of(const scenario::Scenario& scenario) {
+Intrinsics camera_of(const scenario::Scenario& scenario) {
   const scenario::Camera& camera = scenario.camera;
-  return sim::Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad);
+  return bench::intrinsics(
+      sim::Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad));
 }
 
 /// What the detector watches, and where it comes from.
 struct Frames {
-  sim::Pinhole camera;
+  Intrinsics camera;
   bench::Recording recording;                 ///< without frames yet
   const bench::Recording* earlier = nullptr;  ///< with the frames of an earlier run
   const bench::FramePictures* pictures = nullptr;
@@ -108,7 +108,7 @@ struct Frames {
 
 Frames simulated(const scenario::Scenario& scenario) {
   const auto simulation = std::make_shared<sim::Simulation>(scenario);
-  return {.camera = simulation->calibration().camera,
+  return {.camera = bench::intrinsics(simulation->calibration().camera),
           .recording = bench::begin_recording(scenario, *simulation),
           .run = [&scenario, simulation](std::span<const bench::Watcher> watchers) {
             return bench::run(scenario, *simulation, watchers);
@@ -116,7 +116,7 @@ Frames simulated(const scenario::Scenario& scenario) {
 }
 
 Frames played(const scenario::Scenario& scenario, replay::Playback& playback) {
-  return {.camera = playback.camera(),
+  return {.camera = bench::intrinsics(playback.camera()),
           .recording = playback.begin(),
           .run = [&scenario, &playback](std::span<const bench::Watcher> watchers) {
             return bench::run(playback, FastDetector(scenario.fast_threshold), watchers);
@@ -124,7 +124,7 @@ Frames played(const scenario::Scenario& scenario, replay::Playback& playback) {
 }
 
 Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
-                const sim::Pinhole& camera) {
+                const Intrinsics& camera) {
   const auto earlier = std::make_shared<bench::EarlierRun>(options.recorded, scenario, camera);
   const bool is_program = !options.detector.command.empty();
   const bool with_images = !options.no_video || options.view || is_program;
@@ -308,14 +308,13 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   bench::require_known_metrics(scenario.criteria);
   const Frames frames = [&] {
     if (!options.recorded.empty()) {
-      return recorded(options, scenario, playback ? playback->camera() : camera_of(scenario));
+      return recorded(options, scenario,
+                      playback ? bench::intrinsics(playback->camera()) : camera_of(scenario));
     }
     return playback ? played(scenario, *playback) : simulated(scenario);
   }();
   std::optional<View> view;
-  const bench::FramePainter painter(cv::Size(frames.camera.width_px, frames.camera.height_px),
-                                    frames.recording);
-  if (options.view) view.emplace(scenario.name, painter.size_px(), scenario.camera.rate_hz);
+  if (options.view) view.emplace(scenario.name, scenario.camera.rate_hz);
   for (Watching& one : all) {
     one.tracker = comparators::make(one.wanted, {.camera = frames.camera,
                                                  .scenario = one.scenario,
@@ -324,12 +323,13 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
     one.recording = frames.recording;
     one.recording.detector = {one.wanted.name, one.wanted.detector.layered,
                               one.tracker->gives_circles()};
-    one.recording.camera = bench::intrinsics(frames.camera);
+    one.recording.camera = frames.camera;
   }
   for (Watching& one : all) {
     bench::ResultOptions what;
     if (&one == &own) {
       if (!options.no_video) what.video_frames_per_second = scenario.camera.rate_hz;
+      if (view) what.show = [&](const cv::Mat3b& sheet) { return view->show(sheet); };
       what.events = options.events || options.report;
       if (options.report) {
         what.add_page = [&](const std::filesystem::path& folder, const bench::Metrics& figures) {
@@ -356,9 +356,6 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
                           [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
                             check_interrupted();
                             one.result->add(frame, image);
-                            if (&one == &own && view && view->is_open()) {
-                              view->show(painter.paint(frame, image));
-                            }
                             progress.show(frame.index + 1);
                           }});
     }

@@ -39,8 +39,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario);
 CLI::App& add_run_command(CLI::App& app, RunOptions& options);
 
 /// \throws scenario::Error, bench::OutputError, sim::PhysicsError, Interrupted, std::exception;
-/// then
-///   there is no new output, and an earlier one is as it was.
+///   then there is no new output, and an earlier one is as it was.
 ExitCode run(const RunOptions& options);
 
 }  // namespace lcs::tools

@@ -38,8 +38,7 @@ std::string told_of_worlds(const WorldsOptions& options, const suite::SuiteResul
 /// Leaves worlds.html and worlds/ in the folder of a suite, with pictures that its runs have left.
 /// \param plan of which `result` came, in the same order.
 /// \throws bench::OutputError, Interrupted; std::runtime_error for what a run has left and cannot
-/// be
-///   read.
+///   be read.
 void write_worlds(const std::filesystem::path& folder, const WorldsOptions& options,
                   const std::vector<suite::PlannedScenario>& plan, const suite::SuiteResult& result,
                   std::span<const suite::SuiteResult> others);

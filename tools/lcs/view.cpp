@@ -69,11 +69,10 @@ void Player::after_last_frame() {
   }
 }
 
-View::View(const std::string& title, cv::Size size_px, double frames_per_second)
+View::View(const std::string& title, double frames_per_second)
     : title_(title), player_([this](int wait_ms) { return key(wait_ms); }, frames_per_second) {
   require_display(title_);
   cv::namedWindow(title_, cv::WINDOW_NORMAL | cv::WINDOW_KEEPRATIO | cv::WINDOW_GUI_NORMAL);
-  cv::resizeWindow(title_, size_px);
 }
 
 View::~View() {
@@ -87,11 +86,12 @@ int View::key(int wait_ms) const {
   return is_there ? key : Player::kClosed;
 }
 
-void View::show(const cv::Mat3b& sheet) {
-  if (!is_open_) return;
+bool View::show(const cv::Mat3b& sheet) {
+  if (!std::exchange(has_size_, true)) cv::resizeWindow(title_, sheet.size());
   cv::imshow(title_, sheet);
   is_open_ = player_.after_frame();
   if (!is_open_) cv::destroyAllWindows();
+  return is_open_;
 }
 
 void View::hold() {

@@ -37,14 +37,13 @@ class Player {
 class View {
  public:
   /// \throws std::runtime_error where there is no display, with what to do.
-  View(const std::string& title, cv::Size size_px, double frames_per_second);
+  View(const std::string& title, double frames_per_second);
   ~View();
   View(const View&) = delete;
   View& operator=(const View&) = delete;
 
-  bool is_open() const { return is_open_; }
-  /// \param sheet of the size given, BGR.
-  void show(const cv::Mat3b& sheet);
+  /// \param sheet BGR. \return whether the window is still open.
+  bool show(const cv::Mat3b& sheet);
   /// Keeps the last frame until a key, or a signal, ends it.
   void hold();
 
@@ -54,6 +53,7 @@ class View {
   std::string title_;
   Player player_;
   bool is_open_ = true;
+  bool has_size_ = false;  ///< of the first sheet
 };
 
 }  // namespace lcs::tools

@@ -20,6 +20,7 @@ Result::Result(const std::filesystem::path& target, const Recording& run, cv::Si
     : folder_(target, result_files()),
       writer_(folder_.staging(), run),
       painter_(image_px, run),
+      show_(options.show),
       events_(options.events),
       kept_(options.kept),
       add_page_(options.add_page) {
@@ -31,7 +32,11 @@ Result::Result(const std::filesystem::path& target, const Recording& run, cv::Si
 
 void Result::add(const FrameRecord& frame, const cv::Mat3b& image) {
   writer_.write(frame);
-  if (video_) video_->write(painter_.paint(frame, image));
+  if (video_ || show_) {
+    const cv::Mat3b sheet = painter_.paint(frame, image);
+    if (video_) video_->write(sheet);
+    if (show_ && !show_(sheet)) show_ = {};
+  }
   if (events_ && !kept_ && !image.empty()) own_pictures_.add(image);
 }
 

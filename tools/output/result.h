@@ -28,6 +28,8 @@ struct ResultOptions {
   /// Of the same frames, as an earlier run kept them; then `events` keeps no others. Without any,
   /// there are none.
   const FramePictures* kept = nullptr;
+  /// Takes each frame as the video has it, until it returns false.
+  std::function<bool(const cv::Mat3b& sheet)> show = {};
   /// Writes what else belongs to the result into the folder, where all other files are, before it
   /// takes its place.
   std::function<void(const std::filesystem::path& folder, const Metrics& metrics)> add_page = {};
@@ -40,7 +42,7 @@ class Result {
   Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,
          const ResultOptions& options);
 
-  /// \param image may be empty where there is no video. \throws OutputError
+  /// \param image may be empty where no video is made and nothing shown. \throws OutputError
   void add(const FrameRecord& frame, const cv::Mat3b& image);
 
   /// Scores the run, writes what depends on all of it, and puts the folder in its place.
@@ -54,6 +56,7 @@ class Result {
   RecordingWriter writer_;
   FramePainter painter_;
   std::optional<Video> video_;
+  decltype(ResultOptions::show) show_;
   bool events_;
   const FramePictures* kept_;
   decltype(ResultOptions::add_page) add_page_;

@@ -1,16 +1,14 @@
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <string_view>
 
-#include "tools/scoring/events.h"
-#include "tools/files/output_file.h"
 #include "tools/preview/preview.h"
-#include "tools/report/page_template.h"
 #include "tools/report/page_writer.h"
+#include "tools/scoring/events.h"
 
 namespace lcs::preview {
 namespace {
@@ -53,16 +51,13 @@ double round_number(double least) {
   return 10 * power;
 }
 
-class PreviewText {
+class PreviewPage : public report::TextPage {
  public:
-  PreviewText(const scenario::Scenario& scenario, const Preview& preview)
-      : scenario_(scenario), preview_(preview), survey_(preview.survey) {}
-
-  std::string html() {
-    add("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-        "<title>{}: preview</title>\n<style>\n{}{}</style>\n</head>\n<body>\n",
-        escaped(scenario_.name), report::kPageCss, kStyle);
+  PreviewPage(const scenario::Scenario& scenario, const Preview& preview)
+      : TextPage(scenario.name + ": preview", kStyle),
+        scenario_(scenario),
+        preview_(preview),
+        survey_(preview.survey) {
     head();
     add("<h2>From above</h2>\n");
     plan();
@@ -72,16 +67,9 @@ class PreviewText {
     for (const std::size_t look : {std::size_t{0}, last / 2, last}) picture(look);
     add("</div>\n<p class=\"small quiet\">Yellow: corners. Boxes: actors.</p>\n");
     corners();
-    add("</body>\n</html>\n");
-    return std::move(text_);
   }
 
  private:
-  template <class... Args>
-  void add(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
-  }
-
   double time_s(int frame) const { return frame / scenario_.camera.rate_hz; }
 
   void head() {
@@ -105,15 +93,11 @@ class PreviewText {
 
   /// What the plan shows of W, m, and how large.
   struct Window {
-    Vector2d low = Vector2d::Constant(1e9), high = Vector2d::Constant(-1e9);
+    Eigen::AlignedBox2d box = {};
     double scale = 1;  ///< px of the drawing for a metre
 
-    void take_in(const Vector2d& p) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
     Vector2d at(const Vector2d& p) const {
-      return scale * Vector2d(p.x() - low.x(), high.y() - p.y());
+      return scale * Vector2d(p.x() - box.min().x(), box.max().y() - p.y());
     }
   };
 
@@ -121,13 +105,13 @@ class PreviewText {
   Window window() const {
     constexpr double kAround_m = 2.5, kWidth_px = 1100, kHeight_px = 640;
     Window w;
-    for (const Vector2d& p : survey_.rover_m) w.take_in(p);
+    for (const Vector2d& p : survey_.rover_m) w.box.extend(p);
     for (const Mover& mover : preview_.movers) {
-      for (const Vector2d& p : mover.way_m) w.take_in(p);
+      for (const Vector2d& p : mover.way_m) w.box.extend(p);
     }
-    w.low -= Vector2d::Constant(kAround_m);
-    w.high += Vector2d::Constant(kAround_m);
-    const Vector2d size = w.high - w.low;
+    w.box.min().array() -= kAround_m;
+    w.box.max().array() += kAround_m;
+    const Vector2d size = w.box.sizes();
     w.scale = std::min(kWidth_px / size.x(), kHeight_px / size.y());
     return w;
   }
@@ -152,14 +136,14 @@ class PreviewText {
   void grid(const Window& w, const Vector2d& size_px) {
     const double step_m = round_number(60 / w.scale);
     for (int axis = 0; axis < 2; ++axis) {
-      for (double at_m = std::ceil(w.low[axis] / step_m) * step_m; at_m < w.high[axis];
+      for (double at_m = std::ceil(w.box.min()[axis] / step_m) * step_m; at_m < w.box.max()[axis];
            at_m += step_m) {
         const double x = axis == 0 ? w.at({at_m, 0}).x() : w.at({0, at_m}).y();
         const std::string text = fmt::format("{:g}", std::round(at_m / step_m) * step_m);
         if (axis == 0) {
           add("<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"0\" y2=\"{1:.1f}\"/>\n", x,
               size_px.y());
-          label({x + 2, size_px.y() - 4}, text + (at_m + step_m < w.high[axis] ? "" : " m"));
+          label({x + 2, size_px.y() - 4}, text + (at_m + step_m < w.box.max()[axis] ? "" : " m"));
         } else {
           add("<line class=\"grid\" y1=\"{0:.1f}\" y2=\"{0:.1f}\" x1=\"0\" x2=\"{1:.1f}\"/>\n", x,
               size_px.x());
@@ -216,7 +200,7 @@ class PreviewText {
 
   void plan() {
     const Window w = window();
-    const Vector2d size_px = w.scale * (w.high - w.low);
+    const Vector2d size_px = w.scale * w.box.sizes();
     add("<div class=\"plan\"><svg viewBox=\"0 0 {:.1f} {:.1f}\" role=\"img\" aria-label=\"plan "
         "from "
         "above\">\n",
@@ -343,18 +327,13 @@ class PreviewText {
   const scenario::Scenario& scenario_;
   const Preview& preview_;
   const sim::Survey& survey_;
-  std::string text_;
 };
 
 }  // namespace
 
 void write_preview(const std::filesystem::path& file, const scenario::Scenario& scenario,
                    const Preview& preview) {
-  bench::write_whole(file, [&](const std::filesystem::path& beside) {
-    bench::OutputFile out(beside);
-    out.write(PreviewText(scenario, preview).html());
-    out.close();
-  });
+  PreviewPage(scenario, preview).write(file);
 }
 
 }  // namespace lcs::preview

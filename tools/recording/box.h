@@ -3,19 +3,15 @@
 /// pixels.
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "filter/layers.h"
 #include "sim/truth.h"
 #include "tools/recording/labels.h"
 
 namespace lcs::bench {
 
-struct Box {
-  Vec2 min, max;
-  double area() const { return (max - min).prod(); }
-  bool contains(const Vec2& px) const {
-    return (px.array() >= min.array()).all() && (px.array() <= max.array()).all();
-  }
-};
+using Box = Eigen::AlignedBox2d;
 
 /// \name Pixel edges against pixel centres: the box of pixels l to r-1 reaches from l - 1/2 to
 /// r - 1/2.
@@ -46,10 +42,14 @@ inline Box box_of(const Square& square) {
   return {square.location - square.half_size, square.location + square.half_size};
 }
 
+/// Area of what lies in both.
+inline double common_px2(const Box& a, const Box& b) {
+  return a.intersection(b).sizes().cwiseMax(0).prod();
+}
+
 inline double intersection_over_union(const Box& a, const Box& b) {
-  const Vec2 overlap = (a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min)).cwiseMax(0.0);
-  const double common = overlap.prod();
-  const double all = a.area() + b.area() - common;
+  const double common = common_px2(a, b);
+  const double all = a.volume() + b.volume() - common;
   return all > 0 ? common / all : 0;
 }
 

@@ -67,7 +67,7 @@ Detections read_detections(const std::filesystem::path& csv, const Recording& se
                                                 "name a CSV file of detections"};
   scenario::InputFile file(csv, kDetectionsTable);
   Detections detections;
-  detections.recording = unspoken(sequence);
+  detections.recording = without_detections(sequence);
   detections.recording.detector = {.name = csv.stem().string(), .layered = false};
   RowReader reader(detections.recording);
   std::string line;

@@ -1,6 +1,6 @@
 /// \file
-/// What a recording's motion and verdicts show of it that cannot be: the motion that was told is
-/// not the camera's, or the verdicts are no use. Of corners, verdicts and told motion alone.
+/// Signs that the told motion is not the camera's, or that the verdicts are of no use, found in
+/// corners, verdicts and told motion alone.
 #pragma once
 
 #include <array>
@@ -23,15 +23,13 @@ inline constexpr double kRunawaySpeed_mps = 70;
 /// Most of what is seen does not move by itself.
 inline constexpr double kManyRebels = 0.3;
 
-/// Of these, in this order:
+/// The four warnings, in this order:
 ///
 /// * runaway_speed: told velocities above `kRunawaySpeed_mps`;
 /// * turn_not_told: frames in which most corners have moved by one and the same vector, 3 px long
-/// at
-///   least, and nobody told of a turn, nor of a motion to the side; if they are five or more;
+///   at least, and nobody told of a turn, nor of a motion to the side; if they are five or more;
 /// * still_camera: times that the camera should have gone on by 1 m, and nearly all corners are
-/// where
-///   they were; if it is so nine times in ten, and three times at least;
+///   where they were; if it is so nine times in ten, and three times at least;
 /// * many_rebels: frames with so many rebels among the corners; if they are more than half.
 std::array<MotionWarning, 4> motion_warnings(const Recording& recording);
 

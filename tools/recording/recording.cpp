@@ -8,18 +8,18 @@ void set_corner_truth(Truth truth, FrameRecord& frame) {
   frame.corner_truth.assign(frame.corners_px.size(), of_each);
 }
 
-Recording unspoken(const Recording& recording) {
-  Recording unspoken;
-  unspoken.scenario = recording.scenario;
-  unspoken.seed = recording.seed;
-  unspoken.world = recording.world;
-  unspoken.camera = recording.camera;
-  unspoken.truth = recording.truth;
-  unspoken.objects = recording.objects;
-  unspoken.warnings = recording.warnings;
-  unspoken.frames.reserve(recording.frames.size());
+Recording without_detections(const Recording& recording) {
+  Recording bare;
+  bare.scenario = recording.scenario;
+  bare.seed = recording.seed;
+  bare.world = recording.world;
+  bare.camera = recording.camera;
+  bare.truth = recording.truth;
+  bare.objects = recording.objects;
+  bare.warnings = recording.warnings;
+  bare.frames.reserve(recording.frames.size());
   for (const FrameRecord& given : recording.frames) {
-    FrameRecord& frame = unspoken.frames.emplace_back();
+    FrameRecord& frame = bare.frames.emplace_back();
     frame.index = given.index;
     frame.t_ns = given.t_ns;
     frame.corners_px = given.corners_px;
@@ -30,7 +30,7 @@ Recording unspoken(const Recording& recording) {
     frame.object_truth = given.object_truth;
     frame.labels = given.labels;
   }
-  return unspoken;
+  return bare;
 }
 
 }  // namespace lcs::bench

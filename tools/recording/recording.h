@@ -63,8 +63,8 @@ enum class Truth : std::uint8_t {
   unknown,        ///< nothing but `FrameRecord::labels`, where there are some
 };
 
-/// Who said what a recording holds of each corner.
-struct Speaker {
+/// The detector whose verdicts a recording holds.
+struct DetectorInfo {
   std::string name = "lcs";
   /// Its stages and layers are the filter's: the layers are all that it remembers of former frames,
   /// so that their size is a figure. False for a comparator or a stranger's detector, which give
@@ -81,7 +81,7 @@ struct Recording {
   /// `scenario::Scenario::world`, by which it is known whether the scenario is still the same;
   /// empty where there is none.
   std::map<std::string, std::string> world;
-  Speaker detector;
+  DetectorInfo detector;
   std::optional<Intrinsics> camera = {};  ///< as detectors are told of it
   Truth truth = Truth::all;
   std::vector<sim::Object> objects;
@@ -94,8 +94,7 @@ struct Recording {
 /// \param frame with its corners. \param truth not `all`.
 void set_corner_truth(Truth truth, FrameRecord& frame);
 
-/// The run before anyone spoke: what there was to see and what was true, without a detector's
-/// verdicts, layers and times.
-Recording unspoken(const Recording& recording);
+/// What there was to see and what was true, without a detector's verdicts, layers and times.
+Recording without_detections(const Recording& recording);
 
 }  // namespace lcs::bench

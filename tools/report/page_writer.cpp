@@ -1,9 +1,5 @@
 #include "tools/report/page_writer.h"
 
-#include <fmt/format.h>
-
-#include <string>
-
 #include "tools/files/output_file.h"
 #include "tools/report/page_template.h"
 
@@ -48,6 +44,14 @@ std::string html_of(const Page& page) {
   return html;
 }
 
+void write_html(const std::filesystem::path& file, const std::string& html) {
+  bench::write_whole(file, [&](const std::filesystem::path& beside) {
+    bench::OutputFile out(beside);
+    out.write(html);
+    out.close();
+  });
+}
+
 }  // namespace
 
 std::string escaped(std::string_view text) {
@@ -74,11 +78,18 @@ std::string escaped(std::string_view text) {
 }
 
 void write_page(const std::filesystem::path& file, const Page& page) {
-  bench::write_whole(file, [&](const std::filesystem::path& beside) {
-    bench::OutputFile out(beside);
-    out.write(html_of(page));
-    out.close();
-  });
+  write_html(file, html_of(page));
+}
+
+TextPage::TextPage(std::string_view title, std::string_view style) {
+  add("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+      "<title>{}</title>\n<style>\n{}{}</style>\n</head>\n<body>\n",
+      escaped(title), kPageCss, style);
+}
+
+void TextPage::write(const std::filesystem::path& file) const {
+  write_html(file, html_ + "</body>\n</html>\n");
 }
 
 }  // namespace lcs::report

@@ -181,7 +181,7 @@ Json event_json(const bench::Event& event) {
           {"last", event.last_frame},
           {"object", event.object_name},
           {"corners", event.corners},
-          {"of", event.of},
+          {"of", event.counted_corners},
           {"circles", event.circles},
           {"of_squares", is_of_squares(event.kind)},
           {"frames", event.frames},
@@ -206,9 +206,9 @@ Events events_in(const fs::path& folder) {
 /// Whether two events may be the same one: both missed or both false, of rebels or squares, on the
 /// same object, in frames that overlap.
 bool are_alike(const bench::Event& a, const bench::Event& b) {
-  return is_of_squares(a.kind) == is_of_squares(b.kind) && (a.of > 0) == (b.of > 0) &&
-         a.object_name == b.object_name && a.first_frame <= b.last_frame &&
-         b.first_frame <= a.last_frame;
+  return is_of_squares(a.kind) == is_of_squares(b.kind) &&
+         (a.counted_corners > 0) == (b.counted_corners > 0) && a.object_name == b.object_name &&
+         a.first_frame <= b.last_frame && b.first_frame <= a.last_frame;
 }
 
 bool has_like(const std::vector<bench::Event>& events, const bench::Event& event) {

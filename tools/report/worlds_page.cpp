@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "tools/files/output_file.h"
-#include "tools/report/page_template.h"
 #include "tools/report/page_writer.h"
 #include "tools/report/report_page.h"
 #include "tools/scoring/statistics.h"
@@ -76,10 +73,11 @@ std::string cell(const std::vector<double>& figures, int decimals) {
   return text + "</td>";
 }
 
-class PageText {
+class WorldsPage : public TextPage {
  public:
-  PageText(const fs::path& folder, const SuiteResult& suite, std::span<const SuiteResult> others)
-      : folder_(folder), suite_(suite), detectors_{&suite} {
+  WorldsPage(const fs::path& folder, const std::string& about, const SuiteResult& suite,
+             std::span<const SuiteResult> others)
+      : TextPage("lcs: worlds", kStyle), folder_(folder), suite_(suite), detectors_{&suite} {
     for (const SuiteResult& other : others) detectors_.push_back(&other);
     for (const ScenarioResult& scenario : suite.scenarios) {
       const std::string family = family_of(scenario);
@@ -89,13 +87,6 @@ class PageText {
           .second.push_back(&scenario);
       all_.push_back(&scenario);
     }
-  }
-
-  std::string html(const std::string& about) {
-    add("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-        "<title>lcs: worlds</title>\n<style>\n{}{}</style>\n</head>\n<body>\n",
-        kPageCss, kStyle);
     head(about);
     for (const auto& [family, worlds] : families_) {
       add("<section id=\"{0}\">\n<h2>{0}</h2>\n<p class=\"facts\"><span>{1} {2}</span>",
@@ -106,16 +97,9 @@ class PageText {
       for (const ScenarioResult* world : worlds) article(*world);
       add("</section>\n");
     }
-    add("</body>\n</html>\n");
-    return std::move(text_);
   }
 
  private:
-  template <class... Args>
-  void add(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
-  }
-
   static std::string family_of(const ScenarioResult& scenario) {
     return scenario.drawn && !scenario.drawn->family.empty() ? scenario.drawn->family : "others";
   }
@@ -216,7 +200,6 @@ class PageText {
   std::vector<const SuiteResult*> detectors_;
   std::vector<std::pair<std::string, Worlds>> families_;
   Worlds all_;
-  std::string text_;
 };
 
 }  // namespace
@@ -227,9 +210,7 @@ fs::path sheet_path(const ScenarioResult& scenario) {
 
 void write_worlds_page(const fs::path& suite_folder, const std::string& about,
                        const SuiteResult& suite, std::span<const SuiteResult> others) {
-  bench::OutputFile file(suite_folder / kWorldsFile);
-  file.write(PageText(suite_folder, suite, others).html(about));
-  file.close();
+  WorldsPage(suite_folder, about, suite, others).write(suite_folder / kWorldsFile);
 }
 
 }  // namespace lcs::report

@@ -13,8 +13,7 @@
 namespace lcs::bench {
 
 /// \throws scenario::Error at the line of the first criterion on a metric that does not exist,
-/// naming
-///   the nearest one that does.
+///   naming the nearest one that does.
 void require_known_metrics(const std::vector<scenario::Criterion>& criteria);
 
 /// Those that ask a detector of a run. \param is_own whether it is the run's own, which those that

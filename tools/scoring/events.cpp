@@ -54,28 +54,12 @@ constexpr std::array<EventKindText, 4> kSteps{{
 
 using Outcomes = std::vector<std::vector<CornerOutcome>>;
 
-Vec2 centre_of(const Box& box) {
-  return 0.5 * (box.min + box.max);
-}
-Vec2 half_size_of(const Box& box) {
-  return 0.5 * (box.max - box.min);
-}
-
-Box joined(const Box& a, const Box& b) {
-  return {a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
-}
-
-/// Between the nearest points of the two; 0 where they overlap.
-double distance(const Box& a, const Box& b) {
-  return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0).norm();
-}
-
 /// What of an event lies in one frame.
 struct Part {
   std::vector<std::size_t> corners;  // what it costs
-  int of = 0;
+  int counted_corners = 0;
   int circles = 0;
-  Box box{};
+  Box box;
   bool is_of_squares = false;  // and wrong
 };
 
@@ -93,12 +77,8 @@ std::optional<Box> box_in(const FrameRecord& frame, int object) {
 }
 
 Box box_round(const FrameRecord& frame, const std::vector<std::size_t>& corners) {
-  const Vec2 first = frame.corners_px[corners.front()].cast<double>();
-  Box box{first, first};
-  for (const std::size_t i : corners) {
-    const Vec2 x = frame.corners_px[i].cast<double>();
-    box = joined(box, {x, x});
-  }
+  Box box;
+  for (const std::size_t i : corners) box.extend(frame.corners_px[i].cast<double>());
   return box;
 }
 
@@ -119,8 +99,8 @@ std::vector<std::pair<Reason, int>> reasons_of(const Recording& recording, const
 EventView view_of(const FrameRecord& frame, const Box& box) {
   return {.frame = frame.index,
           .t_s = static_cast<double>(frame.t_ns) * 1e-9,
-          .centre_px = centre_of(box),
-          .half_size_px = half_size_of(box),
+          .centre_px = box.center(),
+          .half_size_px = 0.5 * box.sizes(),
           .jpeg_base64 = ""};
 }
 
@@ -162,7 +142,7 @@ Event event_of(const Recording& recording, EventKind kind, int object, const Par
   event.last_frame = recording.frames[parts.rbegin()->first].index;
   for (const auto& [position, part] : parts) {
     event.corners += static_cast<int>(part.corners.size());
-    event.of += part.of;
+    event.counted_corners += part.counted_corners;
     event.circles += part.circles;
   }
   event.reasons = reasons_of(recording, parts);
@@ -212,9 +192,9 @@ Parts counted_corners(const Recording& recording, const Outcomes& outcomes, int 
       if (frame.corner_truth[i].object != object) continue;
       const bool missed = outcomes[k][i] == CornerOutcome::missed;
       if (missed) part.corners.push_back(i);
-      part.of += missed || outcomes[k][i] == CornerOutcome::found;
+      part.counted_corners += missed || outcomes[k][i] == CornerOutcome::found;
     }
-    if (part.of == 0) continue;
+    if (part.counted_corners == 0) continue;
     if (const auto box = box_in(frame, object)) {
       part.box = *box;
     } else if (!part.corners.empty()) {
@@ -229,7 +209,7 @@ void find_missed(const Recording& recording, const Outcomes& outcomes, std::vect
   for (const ObjectDetection& object : detect_objects(recording)) {
     const Parts counted = counted_corners(recording, outcomes, object.object);
     const auto mostly_missed = [](const Part& part) {
-      return 2 * static_cast<int>(part.corners.size()) > part.of;
+      return 2 * static_cast<int>(part.corners.size()) > part.counted_corners;
     };
     for (const Parts& run : runs_of(counted, mostly_missed)) {
       if (corners_of(run) < kCornersToFind) continue;
@@ -272,7 +252,7 @@ int nearest_mover(const FrameRecord& frame, const Box& box) {
   double least = 0;
   for (const sim::ObjectTruth& truth : frame.object_truth) {
     if (!truth.moving) continue;
-    const double d = distance(*box_in(frame, truth.object), box);
+    const double d = box_in(frame, truth.object)->exteriorDistance(box);
     if (nearest == 0 || d < least) std::tie(nearest, least) = std::tuple(truth.object, d);
   }
   return nearest;
@@ -312,8 +292,8 @@ class FalseGroups {
       Part part;
       part.box = box_round(frame, group);
       part.corners = std::move(group);
-      const Vec2 half = half_size_of(part.box);
-      if (has_mover_under(frame, centre_of(part.box), half.norm())) {
+      const Vec2 half = 0.5 * part.box.sizes();
+      if (has_mover_under(frame, part.box.center(), half.norm())) {
         Part& halo = halos_[nearest_mover(frame, part.box)][position];
         halo.corners.insert(halo.corners.end(), part.corners.begin(), part.corners.end());
       } else {
@@ -330,7 +310,7 @@ class FalseGroups {
       for (auto& [position, part] : parts) {
         const FrameRecord& frame = recording_.frames[position];
         part.box = box_round(frame, part.corners);
-        if (const auto box = box_in(frame, object)) part.box = joined(part.box, *box);
+        if (const auto box = box_in(frame, object)) part.box.extend(*box);
       }
       for (const Parts& run : runs_of(parts, [](const Part&) { return true; })) {
         events.push_back(event_of(recording_, EventKind::halo, object, run));
@@ -345,9 +325,9 @@ class FalseGroups {
     for (Track& track : tracks_) {
       const std::size_t last = track.parts.rbegin()->first;
       if (position - last > kGap + 1) continue;
-      const double d = distance(track.box(), part.box);
+      const double d = track.box().exteriorDistance(part.box);
       if (d > kTrackReach_px) continue;
-      if (!nearest || d < distance(nearest->box(), part.box)) nearest = &track;
+      if (!nearest || d < nearest->box().exteriorDistance(part.box)) nearest = &track;
     }
     if (!nearest) nearest = &tracks_.emplace_back();
     const auto [entry, is_new] = nearest->parts.try_emplace(position, part);
@@ -355,7 +335,7 @@ class FalseGroups {
     Part& before = entry->second;
     before.corners.insert(before.corners.end(), part.corners.begin(), part.corners.end());
     before.circles += part.circles;
-    before.box = joined(before.box, part.box);
+    before.box.extend(part.box);
   }
 
   const Recording& recording_;
@@ -364,10 +344,6 @@ class FalseGroups {
 };
 
 // ---- Squares
-
-double common_px2(const Box& a, const Box& b) {
-  return (a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min)).cwiseMax(0.0).prod();
-}
 
 /// Why an object that a square should be on has none.
 EventKind cause_of(const FrameRecord& frame, const std::set<int>& eligible,
@@ -380,11 +356,11 @@ EventKind cause_of(const FrameRecord& frame, const std::set<int>& eligible,
     const Box box = box_of(square);
     const double common = common_px2(own, box);
     best_iou = std::max(best_iou, intersection_over_union(own, box));
-    pieces += common > kMostOfIt * box.area();
-    if (common <= kMostOfIt * own.area()) continue;
+    pieces += common > kMostOfIt * box.volume();
+    if (common <= kMostOfIt * own.volume()) continue;
     is_merged |= std::ranges::any_of(frame.object_truth, [&](const sim::ObjectTruth& other) {
       return other.object != object.object && eligible.contains(other.object) &&
-             common_px2(box_of(other), box) > kMostOfIt * box_of(other).area();
+             common_px2(box_of(other), box) > kMostOfIt * box_of(other).volume();
     });
   }
   return pieces > 1             ? EventKind::square_split
@@ -433,10 +409,10 @@ class SquareEvents {
       const bool is_doubled =
           found && std::ranges::any_of(frame.layers.squares, [&](auto& square) {
             return wrong.contains(square.id) &&
-                   common_px2(box_of(square), box_of(object)) > kMostOfIt * box_of(square).area();
+                   common_px2(box_of(square), box_of(object)) > kMostOfIt * box_of(square).volume();
           });
       Part part;
-      part.of = 1;
+      part.counted_corners = 1;
       part.box = *box_in(frame, object.object);
       part.is_of_squares = !found || is_doubled;
       if (part.is_of_squares) {
@@ -448,7 +424,7 @@ class SquareEvents {
     for (const Square& square : frame.layers.squares) {
       const bool touches = std::ranges::any_of(frame.object_truth, [&](const auto& object) {
         return intersection_over_union(box_of(object), box_of(square)) >= kLeastIou ||
-               common_px2(box_of(object), box_of(square)) > kMostOfIt * box_of(square).area();
+               common_px2(box_of(object), box_of(square)) > kMostOfIt * box_of(square).volume();
       });
       if (touches || !wrong.contains(square.id)) continue;
       Part part;
@@ -496,7 +472,7 @@ class SquareEvents {
     const auto most =
         std::ranges::max_element(kinds, {}, [](const auto& kind) { return kind.second; });
     Event event = event_of(recording_, most->first, object, run);
-    event.of = 0;  // corners that recall counts
+    event.counted_corners = 0;  // corners that recall counts
     event.frames = frames;
     event.of_frames = static_cast<int>(run.size());
     event.reasons.clear();
@@ -530,7 +506,7 @@ EventSums sums_of(const std::vector<Event>& events) {
       continue;
     }
     for (const auto& [reason, corners] : event.reasons) {
-      (event.of > 0 ? sums.missed : sums.false_ones)[reason] += corners;
+      (event.counted_corners > 0 ? sums.missed : sums.false_ones)[reason] += corners;
     }
   }
   return sums;

@@ -66,15 +66,16 @@ struct Event {
   int object = 0;                       ///< missed, or with a halo; 0: none
   std::string object_name;
   int corners = 0;  ///< what it costs: corners missed, or false
-  int of = 0;       ///< corners that recall counts on the object in these frames; 0 for false ones
+  /// Corners that recall counts on the object in these frames; 0 for false ones.
+  int counted_corners = 0;
   int circles = 0;  ///< rebel circles with no mover under them
   std::vector<std::pair<Reason, int>> reasons;  ///< of these corners, most frequent first
   std::vector<EventView> views;                 ///< up to five, in order
   /// \name Of squares, where `corners` is of all that the steps count, or that lie in a false one.
   ///@{
   int frames = 0;  ///< what it costs: frames in which it is so
-  int of_frames =
-      0;  ///< frames meanwhile in which a square should have been there; 0 for false ones
+  /// Frames meanwhile in which a square should have been there; 0 for false ones.
+  int of_frames = 0;
   std::vector<std::pair<SquareStep, int>> steps;  ///< of an object's corners, most frequent first
   ///@}
 };

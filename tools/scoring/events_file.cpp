@@ -30,7 +30,7 @@ Json json_of(const Event& event) {
                {"object", event.object},
                {"object_name", event.object_name},
                {"corners", event.corners},
-               {"of", event.of},
+               {"of", event.counted_corners},
                {"circles", event.circles},
                {"frames", event.frames},
                {"of_frames", event.of_frames},
@@ -73,7 +73,7 @@ Event event_of(const JsonNode& node) {
   event.object = node["object"].natural<int>();
   event.object_name = node["object_name"].text();
   event.corners = node["corners"].natural<int>();
-  event.of = node["of"].natural<int>();
+  event.counted_corners = node["of"].natural<int>();
   event.circles = node["circles"].natural<int>();
   node["reasons"].each_entry([&](const std::string& word, const JsonNode& corners) {
     event.reasons.emplace_back(

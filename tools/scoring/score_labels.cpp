@@ -28,7 +28,7 @@ std::vector<Labelled> labelled(const FrameRecord& frame) {
   for (const LabelledBox& label : *frame.labels) {
     const Box box = box_of(label);
     const Vec2 reach = Vec2::Constant(kReach_px);
-    all.push_back({box, {box.min - reach, box.max + reach}, label.ignored});
+    all.push_back({box, {box.min() - reach, box.max() + reach}, label.ignored});
   }
   return all;
 }

@@ -25,8 +25,8 @@ std::optional<double> value(const Metrics& metrics, const std::string& name);
 struct RebelCounts {
   int true_rebels = 0;   ///< TP: verdict and label rebel
   int false_rebels = 0;  ///< FP: verdict rebel, label fixed
-  int found_rebels =
-      0;  ///< those of the TP that recall counts (N frames after their object's first)
+  /// Those of the TP that recall counts (N frames after their object's first).
+  int found_rebels = 0;
   int missed_rebels = 0;  ///< FN: label rebel and counted by recall, any other verdict
 
   std::optional<double> precision() const;

@@ -10,13 +10,13 @@
 
 #include "sim/simulation.h"
 #include "tools/sequence/manifest.h"
-#include "tools/sequence/motion_field.h"
 #include "tools/sequence/objects.h"
 #include "tools/sequence/readme.h"
 #include "tools/sequence/replay_settings.h"
 #include "tools/sequence/self_check.h"
 #include "tools/sequence/sha256.h"
 #include "tools/sequence/text_file.h"
+#include "tools/sequence/true_flow.h"
 #include "tools/sequence/writers.h"
 
 namespace lcs::sequence {
@@ -48,10 +48,10 @@ class FrameMaker {
     check_times(info_.scenario, now);
     checks["imu_share_of_tolerance"].add(
         check_imu(info_.scenario.imu, info_.calibration.gravity_mps2, now));
-    std::optional<MotionField> motion;
+    std::optional<TrueFlow> motion;
     if (has_flow_ && next != nullptr) {
-      motion = motion_field(info_.calibration.camera, now.truth, next->truth.depth_m,
-                            next->truth.object);
+      motion =
+          true_flow(info_.calibration.camera, now.truth, next->truth.depth_m, next->truth.object);
       checks["flow_px"].add(
           check_flow(info_.calibration.camera, now, *next, motion->full_px, motion->seen));
     }

@@ -11,7 +11,7 @@
 #include "scenarios/scenario.h"
 #include "sim/simulation.h"
 #include "tools/sequence/frame_output.h"
-#include "tools/sequence/motion_field.h"
+#include "tools/sequence/true_flow.h"
 
 namespace lcs::sequence {
 
@@ -30,8 +30,7 @@ struct SequenceInfo {
 struct FrameView {
   const sim::Observation& now;
   const cv::Mat1b& mask;  ///< of objects, `object_mask`
-  const MotionField* motion =
-      nullptr;  ///< to the next frame; none where nobody asked, or it is last
+  const TrueFlow* motion = nullptr;  ///< to the next frame; none where nobody asked, or it is last
 };
 
 class Writer {

@@ -40,7 +40,7 @@ Trials::Trials(const std::filesystem::path& suite) {
       const auto refuse = [&](const std::string& why) {
         throw std::runtime_error(fmt::format("{} {}", folder.string(), why));
       };
-      bench::Recording recording = bench::unspoken(bench::read_recording(folder));
+      bench::Recording recording = bench::without_detections(bench::read_recording(folder));
       if (is_for_stating || (scenario.drawn && recording.seed >= test.first_seed &&
                              recording.seed <= test.last_seed)) {
         refuse("is of the split test, by which nothing is chosen; name a suite of train");

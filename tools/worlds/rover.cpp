@@ -15,7 +15,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using scenario::EgoPhase;
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kStep_s = 0.005;
 
 /// To decimals that a file has, so that what is planned is what is simulated.

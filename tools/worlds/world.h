@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <numbers>
 #include <opencv2/core.hpp>
 #include <set>
 #include <string>
@@ -13,6 +14,8 @@
 #include "tools/worlds/meshes.h"
 
 namespace lcs::worlds {
+
+inline constexpr double kDegree = std::numbers::pi / 180;
 
 struct Texture {
   std::string name;  ///< of its file, without .png

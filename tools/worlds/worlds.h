@@ -45,8 +45,7 @@ bool is_static(const Choice& choice);
 
 /// \param pictures files to take a part of the surfaces from; may be empty.
 /// \throws std::invalid_argument for an unknown family, std::runtime_error for a picture that
-/// cannot
-///   be read.
+///   cannot be read.
 World draw_world(const Choice& choice, const std::vector<std::string>& pictures = {});
 
 /// "room_7".

@@ -5,7 +5,6 @@
 #include <array>
 #include <charconv>
 #include <filesystem>
-#include <numbers>
 
 #include "scenarios/input_file.h"
 #include "tools/files/output_file.h"
@@ -18,7 +17,6 @@ namespace lcs::worlds {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// How a scenario file begins, between which its family, attempts and features stand.
 constexpr std::string_view kWritten = "# Written by `lcs world ", kAgain = "# Drawn again ",

@@ -1,4 +1,4 @@
-#include "tools/sequence/motion_field.h"
+#include "tools/sequence/true_flow.h"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ struct PanelBeforeWall {
     const double moved_px = camera.focal_px * (panel_m - ego_m) / kPanel_m;
     draw(static_cast<int>(std::lround(moved_px)), next_depth, next_object);
   }
-  MotionField field() const { return motion_field(camera, truth, next_depth, next_object); }
+  TrueFlow field() const { return true_flow(camera, truth, next_depth, next_object); }
 
  private:
   static void draw(int shift, cv::Mat1f& depth, cv::Mat1i& object) {
@@ -46,9 +46,9 @@ struct PanelBeforeWall {
   }
 };
 
-TEST(MotionField, OfAPanelBeforeAWallIsWhatThePinholeSays) {
+TEST(TrueFlow, OfAPanelBeforeAWallIsWhatThePinholeSays) {
   const PanelBeforeWall scene(0.1, 0.3);
-  const MotionField field = scene.field();
+  const TrueFlow field = scene.field();
   // f t / z, by hand: the panel moves with 0.3 - 0.1 m at 2 m, the rest with -0.1 m.
   EXPECT_NEAR(field.full_px(40, 50)[0], 100 * 0.2 / 2, 1e-5);
   EXPECT_NEAR(field.ego_px(40, 50)[0], -100 * 0.1 / 2, 1e-5);
@@ -57,21 +57,21 @@ TEST(MotionField, OfAPanelBeforeAWallIsWhatThePinholeSays) {
   EXPECT_NEAR(field.full_px(40, 50)[1], 0, 1e-5);
 }
 
-TEST(MotionField, MarksWhatIsHiddenInTheNextFrameAndWhatLeavesThePicture) {
+TEST(TrueFlow, MarksWhatIsHiddenInTheNextFrameAndWhatLeavesThePicture) {
   const PanelBeforeWall scene(0, 0.2);  // the panel moves by 10 px, the wall not at all
-  const MotionField field = scene.field();
+  const TrueFlow field = scene.field();
   EXPECT_EQ(field.seen(40, 50), 1) << "the panel itself";
   EXPECT_EQ(field.seen(40, 20), 1) << "wall far from it";
   EXPECT_EQ(field.seen(40, 65), 0) << "wall that the panel moves in front of";
   EXPECT_EQ(field.seen(40, 75), 1) << "wall beyond it";
   EXPECT_EQ(field.ego_seen(40, 50), 1);
 
-  const MotionField leaving = PanelBeforeWall(1, 1).field();  // all moves left: the wall by 25 px
+  const TrueFlow leaving = PanelBeforeWall(1, 1).field();  // all moves left: the wall by 25 px
   EXPECT_EQ(leaving.seen(40, 10), 0);
   EXPECT_NEAR(leaving.full_px(40, 10)[0], -25, 1e-4) << "its motion is known all the same";
 }
 
-TEST(MotionField, OfTheSkyIsTheRotationAloneAndOfTheRoverThereIsNone) {
+TEST(TrueFlow, OfTheSkyIsTheRotationAloneAndOfTheRoverThereIsNone) {
   PanelBeforeWall scene(0.5, 0);
   const double turn = 0.02;  // about the camera's y: to the right
   scene.truth.next.T_WC.R << std::cos(turn), 0, std::sin(turn), 0, 1, 0, -std::sin(turn), 0,
@@ -83,7 +83,7 @@ TEST(MotionField, OfTheSkyIsTheRotationAloneAndOfTheRoverThereIsNone) {
     object->rowRange(0, 10) = -1;
     object->rowRange(70, 80) = -1;  // the rover, at a depth of its own
   }
-  const MotionField field = scene.field();
+  const TrueFlow field = scene.field();
   const double angle = std::atan2(50 - 49.5, 100);
   EXPECT_NEAR(field.full_px(5, 50)[0], 100 * std::tan(angle - turn) + 49.5 - 50, 1e-3);
   EXPECT_EQ(field.seen(5, 50), 1);
@@ -92,24 +92,23 @@ TEST(MotionField, OfTheSkyIsTheRotationAloneAndOfTheRoverThereIsNone) {
   EXPECT_EQ(field.seen(75, 50), 0);
 }
 
-TEST(MotionField, OfPointsBehindTheNextCameraIsUndefined) {
+TEST(TrueFlow, OfPointsBehindTheNextCameraIsUndefined) {
   PanelBeforeWall scene(0, 0);
   scene.truth.next.T_WC.p.z() = 3;  // past the panel
-  const MotionField field = scene.field();
+  const TrueFlow field = scene.field();
   EXPECT_TRUE(std::isnan(field.full_px(40, 50)[0]));
   EXPECT_EQ(field.seen(40, 50), 0);
   EXPECT_FALSE(std::isnan(field.full_px(40, 20)[0]));
 }
 
-TEST(MotionField, OfRenderedFramesIsTheTruthOfCornersThere) {
+TEST(TrueFlow, OfRenderedFramesIsTheTruthOfCornersThere) {
   // The truth of corners is other code, over other algebra, with a test against exact rays.
   const scenario::Scenario scenario = scenario::load(LCS_SCENARIOS_DIR "/crossing.yaml");
   sim::Simulation simulation(scenario);
   for (int k = 0; k < 20; ++k) simulation.skip();  // until both movers are in view
   const std::optional<sim::Observation> now = simulation.next(), next = simulation.next();
   const sim::Pinhole& camera = simulation.calibration().camera;
-  const MotionField field =
-      motion_field(camera, now->truth, next->truth.depth_m, next->truth.object);
+  const TrueFlow field = true_flow(camera, now->truth, next->truth.depth_m, next->truth.object);
   std::vector<Eigen::Vector2f> places;
   for (int y = 1; y < camera.height_px - 1; y += 3) {
     for (int x = 1; x < camera.width_px - 1; x += 3) {

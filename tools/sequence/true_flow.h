@@ -12,7 +12,7 @@ namespace lcs::sequence {
 /// All in pixels, forward. NaN where no motion is defined: on the rover itself, which the camera
 /// carries along, and for points that are in or behind the camera's plane at k+1. The sky is
 /// infinitely far: it moves by the rotation alone.
-struct MotionField {
+struct TrueFlow {
   cv::Mat2f full_px;  ///< of the point carried by its body
   cv::Mat2f ego_px;   ///< of the same point held fixed in the world: the camera's own part
   /// 1 where the point is seen in frame k+1: within the image, and not hidden by something nearer.
@@ -23,7 +23,7 @@ struct MotionField {
 };
 
 /// \param next_depth_m,next_object of frame k+1, as `sim::FrameTruth` has them.
-MotionField motion_field(const sim::Pinhole& camera, const sim::FrameTruth& truth,
-                         const cv::Mat1f& next_depth_m, const cv::Mat1i& next_object);
+TrueFlow true_flow(const sim::Pinhole& camera, const sim::FrameTruth& truth,
+                   const cv::Mat1f& next_depth_m, const cv::Mat1i& next_object);
 
 }  // namespace lcs::sequence

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Usage: run.sh SOURCE WORK CMAKE
+# Usage: run.sh SOURCE WORK CMAKE MAJOR WHEEL
 #
-# Downloads the newest wheel of MuJoCo 3 (it has the headers and the library), builds SOURCE against
-# it in WORK, and runs a few frames. Exits with 77, skipped, when the download is not possible here.
+# Downloads the newest WHEEL of MuJoCo MAJOR (it has the headers and the library), builds SOURCE
+# against it in WORK, and runs a few frames. Exits with 77, skipped, when the download is not
+# possible here.
 set -euo pipefail
-source=$1 work=$2 cmake=$3
+source=$1 work=$2 cmake=$3 major=$4 wheel=$5
 frames=5
 
 skip() {
@@ -24,14 +25,14 @@ download() {
   mkdir -p "$work/wheel"
   local log=$work/pip.log
   if ! python3 -m pip download --disable-pip-version-check --no-deps --only-binary :all: \
-    --retries 1 --timeout 30 --dest "$work/wheel" 'mujoco>=3,<4' >"$log" 2>&1; then
+    --retries 1 --timeout 30 --dest "$work/wheel" "$wheel" >"$log" 2>&1; then
     cat "$log"
     if grep -qE 'Retrying|Max retries|Connection|timed out|ProxyError|name resolution' "$log"; then
-      skip "the Python package registry is not reachable, so there is no MuJoCo 3 to build against"
+      skip "the Python package registry is not reachable, so there is no MuJoCo $major to build against"
     fi
-    fail "pip found no wheel of MuJoCo 3 for this machine"
+    fail "pip found no wheel of MuJoCo $major for this machine"
   fi
-  python3 -m zipfile --extract "$work"/wheel/mujoco-*.whl "$work/unpacked"
+  python3 -m zipfile --extract "$work"/wheel/mujoco*.whl "$work/unpacked"
   mv "$work/unpacked/mujoco" "$work/mujoco"
   rm -rf "$work/unpacked"
 }
@@ -44,7 +45,7 @@ build() {
 
 run() {
   "$work/build/lcs" --version | tee "$work/version.txt"
-  grep -qE 'MuJoCo +3\.' "$work/version.txt" || fail "the program does not run on MuJoCo 3"
+  grep -qE "MuJoCo +$major\." "$work/version.txt" || fail "the program does not run on MuJoCo $major"
   rm -rf "$work/out"
   "$work/build/lcs" run "$source/scenarios/crossing.yaml" --set frames="$frames" --out "$work/out"
   local file

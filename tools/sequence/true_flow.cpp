@@ -1,4 +1,4 @@
-#include "tools/sequence/motion_field.h"
+#include "tools/sequence/true_flow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,12 +70,12 @@ struct NextView {
 
 }  // namespace
 
-MotionField motion_field(const sim::Pinhole& camera, const sim::FrameTruth& truth,
-                         const cv::Mat1f& next_depth_m, const cv::Mat1i& next_object) {
+TrueFlow true_flow(const sim::Pinhole& camera, const sim::FrameTruth& truth,
+                   const cv::Mat1f& next_depth_m, const cv::Mat1i& next_object) {
   const std::vector<Carrier> carriers = carriers_of(truth);
   const NextView next{next_depth_m, next_object};
   const cv::Size size = truth.depth_m.size();
-  MotionField field{cv::Mat2f(size), cv::Mat2f(size), cv::Mat1b(size), cv::Mat1b(size)};
+  TrueFlow field{cv::Mat2f(size), cv::Mat2f(size), cv::Mat1b(size), cv::Mat1b(size)};
   const double f = camera.focal_px, cx = camera.centre_px.x(), cy = camera.centre_px.y();
 
   // Along a row the ray turned by a body's rotation grows by the same amount from pixel to pixel.
