@@ -13,7 +13,7 @@ packages=(
   g++ cmake ninja-build pkg-config
   libmujoco-dev libosmesa6-dev libopencv-dev libeigen3-dev
   libyaml-cpp-dev libtinyxml2-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev
-  libdeflate-dev libssl-dev
+  libdeflate-dev libnlopt-cxx-dev libssl-dev
   pybind11-dev python3-dev python3-numpy
 )
 

@@ -9,13 +9,15 @@ namespace lcs {
 namespace {
 
 constexpr int kIterations = 6;
+/// Of the reach, of a corner without a motion, whose neighbours may be another body's.
+constexpr double kAlone = 0.64;
 /// Standard deviations beyond which no tie is looked for: a hundredth is left there.
 constexpr double kFar = 3;
 
 }  // namespace
 
 double Coupling::weight(const Node& of, const Node& other, double distance2_px2) const {
-  const double reach = parameters_.coupling_reach_px * (of.has_motion ? 1 : 0.64);
+  const double reach = parameters_.coupling_reach_px * (of.has_motion ? 1 : kAlone);
   double exponent = distance2_px2 / (reach * reach);
   if (of.has_motion) {
     const double longer2 = std::max(of.step_px.squaredNorm(), other.step_px.squaredNorm());

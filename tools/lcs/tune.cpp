@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <ctime>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 
 #include "tools/files/output_file.h"
@@ -125,22 +127,24 @@ ExitCode tune(const TuneOptions& options) {
   const std::string subject = fmt::format("{}, seed {}, {}", about(options.suite, trials),
                                           options.seed, fmt::join(options.sets, " "));
   tune::Found found;
-  {
+  try {
     Progress progress("tune", options.evaluations, options.quiet, "evaluations");
     found = tune::search(
         start, search_options,
-        [&](const Parameters& parameters) {
-          check_interrupted();
-          return trials.worth(parameters);
-        },
+        [&](const Parameters& parameters) { return trials.worth(parameters, check_interrupted); },
         out / tune::kJournalFile, subject, [&](int done) { progress.show(done); });
+  } catch (const Interrupted&) {
+    tell(fmt::format("lcs: interrupted; what was tried is in {}, and the same command goes on",
+                     (out / tune::kJournalFile).string()));
+    return kInterrupted;
   }
   std::vector<tune::Stated> stated{
       {about(options.suite, trials), found.worth_before, found.worth_after}};
   if (others) {
     Parameters best = start;
     for (const tune::Setting& setting : found.after) set(best, setting.key, setting.value);
-    stated.push_back({about(options.validate, *others), others->worth(start), others->worth(best)});
+    stated.push_back({about(options.validate, *others), others->worth(start, check_interrupted),
+                      others->worth(best, check_interrupted)});
   }
   check_interrupted();
   const tune::Circumstances circumstances{

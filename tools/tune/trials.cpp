@@ -61,11 +61,11 @@ Trials::Trials(const std::filesystem::path& suite) {
   });
 }
 
-Worth Trials::worth(const Parameters& parameters) const {
+Worth Trials::worth(const Parameters& parameters, const std::function<void()>& tick) const {
   std::vector<bench::Metrics> figures(runs_.size());
   process::for_each_parallel(
       static_cast<int>(runs_.size()),
-      [&](int i) { figures[i] = bench::score(asked(runs_[i], parameters)); }, [](int) {});
+      [&](int i) { figures[i] = bench::score(asked(runs_[i], parameters)); }, [&](int) { tick(); });
   Worth worth;
   double moving = 0;
   for (const bench::Metrics& run : figures) {

@@ -4,8 +4,7 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
+#include <functional>
 #include <vector>
 
 #include "filter/parameters.h"
@@ -33,7 +32,9 @@ class Trials {
   explicit Trials(const std::filesystem::path& suite);
 
   /// On all cores; the same on any number of them.
-  Worth worth(const Parameters& parameters) const;
+  /// \param tick called between two runs; what it throws ends the work.
+  Worth worth(
+      const Parameters& parameters, const std::function<void()>& tick = [] {}) const;
 
   const std::vector<bench::Recording>& runs() const { return runs_; }
 

@@ -1,0 +1,101 @@
+/// The numbers of the default filter are counted, and RULES.md says of each where it comes from.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "filter/learnt.h"
+#include "filter/parameters.h"
+
+namespace lcs {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kFilter = LCS_FILTER_SOURCE_DIR;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file);
+  EXPECT_TRUE(stream) << file;
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// Keys of parameters that are numbers and that `default` asks for.
+std::set<std::string> keys() {
+  std::set<std::string> keys;
+  const Parameters parameters = preset("default");
+  for (const ParameterInfo& info : describe(parameters)) {
+    const bool is_number = info.range.find(" to ") != std::string::npos;
+    if (is_number && !idle(parameters, info.key)) keys.insert(info.key);
+  }
+  return keys;
+}
+
+/// "edges/coupling.cpp kFar": constants of the rooms that `default` runs, but for the estimator of
+/// ego-motion, which is not the filter's model but a sensor's.
+std::set<std::string> constants() {
+  const std::regex constant(
+      R"(constexpr (?:double|int|float|std::size_t) ((?:k\w+ = [-\d.e]+(?:, )?)+))");
+  const std::regex name(R"((k\w+) = )");
+  std::set<std::string> found;
+  for (const auto& entry : fs::recursive_directory_iterator(kFilter)) {
+    const fs::path file = entry.path().lexically_relative(kFilter);
+    const std::string room = file.begin()->string();
+    if (!entry.is_regular_file() || file.extension() == ".md" || room == "paper" ||
+        room == "detect" || room == "draw" || room == "ego_motion") {
+      continue;
+    }
+    const std::string text = text_of(entry.path());
+    for (std::sregex_iterator c(text.begin(), text.end(), constant), end; c != end; ++c) {
+      const std::string names = (*c)[1];
+      for (std::sregex_iterator n(names.begin(), names.end(), name); n != end; ++n) {
+        found.insert(file.string() + " " + std::string((*n)[1]));
+      }
+    }
+  }
+  return found;
+}
+
+/// Fewer is better: whoever takes one away lowers the bound.
+TEST(Numbers, AreNoMoreThanTheyWere) {
+  EXPECT_LE(keys().size(), 57u);
+  EXPECT_LE(constants().size(), 25u);
+  EXPECT_GE(constants().size(), 20u) << "are they still found?";
+}
+
+TEST(Numbers, HaveASourceEach) {
+  const std::string rules = text_of(kFilter / "RULES.md");
+  const std::string table = rules.substr(rules.find("## The numbers"));
+  for (const std::string& key : keys()) {
+    EXPECT_NE(table.find('`' + key + '`'), std::string::npos) << key;
+  }
+  for (const std::string& constant : constants()) {
+    const std::string name = constant.substr(constant.find(' ') + 1);
+    EXPECT_NE(table.find('`' + name + '`'), std::string::npos) << constant;
+  }
+}
+
+TEST(Numbers, ThatAreLearntAreThoseOfTheDefault) {
+  const std::set<std::string> asked = keys();
+  const Parameters parameters = preset("default");
+  for (const auto& [key, value] : kLearnt) {
+    EXPECT_TRUE(asked.contains(key)) << key;
+    Parameters set_again = parameters;
+    ASSERT_NO_THROW(set(set_again, key, value));
+    const auto value_in = [&](const Parameters& p) {
+      const auto all = describe(p);
+      return std::find_if(all.begin(), all.end(), [&](const auto& info) { return info.key == key; })
+          ->value;
+    };
+    EXPECT_EQ(value_in(set_again), value_in(parameters)) << key;
+  }
+}
+
+}  // namespace
+}  // namespace lcs
