@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Usage: run.sh SUITE MIRROR SOURCE WORK [TEST-OPTION]...
+# Usage: run.sh SUITE SOURCE WORK [TEST-OPTION]...
 #
-# Installs another system, a SUITE of Debian's or Ubuntu's, into WORK/SUITE, copies SOURCE into it and
-# has tools/test build and test it there: run.sh trixie http://deb.debian.org/debian . /tmp/systems
+# Installs another system, a SUITE of Debian's, into WORK/SUITE, from where debootstrap has it by itself, copies SOURCE
+# into it and has tools/test build and test it there: run.sh trixie . /tmp/systems
 # What is there stays for the next time. Exits with 77, skipped, where that cannot be done here.
 set -euo pipefail
-suite=$1 mirror=$2 source=$3 root=$4/$1
-shift 4
+suite=$1 source=$2 root=$3/$1
+shift 3
 
 skip() {
   printf 'SKIPPED: %s\n' "$*"
@@ -20,12 +20,9 @@ unshare --mount true 2>/dev/null || skip "this machine allows no mounts"
 if [[ ! -f $root/.whole ]]; then
   rm -rf "$root"
   mkdir -p "$root"
-  from=(main)
-  [[ $mirror != */ubuntu ]] || from=(main,universe /usr/share/debootstrap/scripts/gutsy)
-  debootstrap --variant=minbase --include=ca-certificates --components="${from[0]}" \
-    "$suite" "$root" "$mirror" "${from[@]:1}" >"$root.log" 2>&1 || {
+  debootstrap --variant=minbase --include=ca-certificates "$suite" "$root" >"$root.log" 2>&1 || {
     cat "$root.log"
-    grep -q 'Failed getting release file' "$root.log" && skip "$mirror is not reachable"
+    grep -q 'Failed getting release file' "$root.log" && skip "the packages of $suite are not reachable"
     exit 1
   }
   touch "$root/.whole"
@@ -39,4 +36,4 @@ tar -C "$source" --exclude='./build*' --exclude=./out --exclude=./.git -c . | ta
 unshare --mount --pid --fork bash -euc '
   mount --rbind /dev "$0/dev"
   mount -t proc proc "$0/proc"
-  exec chroot "$0" env -i HOME=/root PATH="$PATH" LANG=C.UTF-8 /lcs/tools/test "$@"' "$root" "$@"
+  exec chroot "$0" env -i HOME=/tmp PATH="$PATH" LANG=C.UTF-8 /lcs/tools/test "$@"' "$root" "$@"
