@@ -32,6 +32,10 @@ class Filler {
   void operator()(const char*, IgnoreRegion::Shape& shape) {
     shape = random_() % 2 == 0 ? IgnoreRegion::Shape::circle : IgnoreRegion::Shape::rectangle;
   }
+  void operator()(const char*, Form<Outline> outline) {
+    outline.value.count = static_cast<int>(random_() % 4);
+    for (Vec2& vertex : outline.value.vertices()) vertex = {awkward(), awkward()};
+  }
   void operator()(const char*, sim::Label& label) {
     label = static_cast<sim::Label>(random_() % 4);
   }

@@ -54,6 +54,12 @@ struct OrNan {  ///< NaN, as the motion of a point that leaves the camera's fron
 };
 ///@}
 
+/// What has a form, and is no number: left out of tables of numbers. Older files lack it.
+template <class T>
+struct Form {
+  T& value;
+};
+
 /// A corner with its verdict and the rule that settled it, as `layers.jsonl` has them.
 struct CornerRow {
   double x = 0;
@@ -147,7 +153,7 @@ void fields(Circle& circle, Visit&& visit) {
 template <class Visit>
 void fields(Square& square, Visit&& visit) {
   auto& [id, location, half_size, origin, speed, depth_ratio, angle, trust, age, circles,
-         rebel_circles, ignoring] = square;
+         rebel_circles, ignoring, outline] = square;
   visit("id", id);
   visit("x", location.x());
   visit("y", location.y());
@@ -163,6 +169,7 @@ void fields(Square& square, Visit&& visit) {
   visit("circles", circles);
   visit("rebel_circles", rebel_circles);
   visit("ignoring", ignoring);
+  visit("outline", Form{outline});
 }
 
 template <class Visit>

@@ -101,6 +101,22 @@ void read(const Json& list, std::vector<Vec2>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) read_array(list[i], {points[i].data(), 2});
 }
 
+void read(const Json& list, Form<Outline> outline) {
+  std::vector<Vec2> points;
+  read(list, points);
+  if (std::ssize(points) > Outline::kMost) {
+    throw std::runtime_error(fmt::format("has over {} points", Outline::kMost));
+  }
+  outline.value.count = static_cast<int>(points.size());
+  std::copy(points.begin(), points.end(), outline.value.places.begin());
+}
+
+/// Of a field, where a file has no column of it.
+template <class Value>
+constexpr bool kMayLack = false;
+template <class Value>
+constexpr bool kMayLack<Form<Value>> = true;
+
 /// A member of an object.
 template <class... Out>
 void read_member(const Json& json, const char* key, Out&&... out) {
@@ -116,20 +132,28 @@ template <class Item>
 std::vector<Item> columns_of(const Json& list) {
   std::vector<const Json*> columns;
   Item item;
-  fields(item, [&](const char* name, const auto&) {
+  fields(item, [&]<class Value>(const char* name, const Value&) {
+    if (kMayLack<Value> && list.is_object() && !list.contains(name)) {
+      columns.push_back(nullptr);
+      return;
+    }
     columns.push_back(&member(list, name));
     within(fmt::format(".{}", name), [&] { require(columns.back()->is_array(), "a list"); });
   });
   const std::size_t size = columns.front()->size();
   for (const Json* column : columns) {
-    if (column->size() != size) throw std::runtime_error("has columns that differ in length");
+    if (column != nullptr && column->size() != size) {
+      throw std::runtime_error("has columns that differ in length");
+    }
   }
   std::vector<Item> items;
   items.reserve(size);
   for (std::size_t row = 0; row < size; ++row) {
     std::size_t column = 0;
     fields(item, [&](const char* name, auto&& value) {
-      const Json& cell = (*columns[column++])[row];
+      const Json* const of_all = columns[column++];
+      if (of_all == nullptr) return;
+      const Json& cell = (*of_all)[row];
       try {
         read(cell, value);
       } catch (const std::runtime_error& error) {

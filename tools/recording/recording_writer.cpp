@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "tools/recording/recording_fields.h"
 #include "tools/recording/recording_io.h"
@@ -72,7 +73,7 @@ void append(std::string& out, Enum value) {
   out += '"';
 }
 
-void append(std::string& out, const std::vector<Vec2>& points) {
+void append(std::string& out, std::span<const Vec2> points) {
   out += '[';
   for (const Vec2& point : points) {
     out += out.back() == '[' ? "[" : ",[";
@@ -82,6 +83,13 @@ void append(std::string& out, const std::vector<Vec2>& points) {
     out += ']';
   }
   out += ']';
+}
+
+void append(std::string& out, const std::vector<Vec2>& points) {
+  append(out, std::span<const Vec2>(points));
+}
+void append(std::string& out, Form<Outline> outline) {
+  append(out, std::as_const(outline.value).vertices());
 }
 
 void append_key(std::string& out, std::string_view key) {
