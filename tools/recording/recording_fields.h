@@ -74,6 +74,13 @@ struct Place {
   double y = 0;
 };
 
+/// What a square covers, within a box of pixel edges.
+struct MaskRow {
+  Id square = 0;
+  int left = 0, top = 0, right = 0, bottom = 0;
+  sim::Runs mask;
+};
+
 /// A row of alpha, with as many sightings as it has.
 struct ChainRow {
   std::vector<Vec2> sightings;
@@ -207,7 +214,7 @@ void fields(sim::CornerTruth& truth, Visit&& visit) {
 
 template <class Visit>
 void fields(sim::ObjectTruth& truth, Visit&& visit) {
-  auto& [object, left, top, right, bottom, visible_px, visible_fraction, moving] = truth;
+  auto& [object, left, top, right, bottom, visible_px, visible_fraction, moving, mask] = truth;
   visit("object", object);
   visit("left", left);
   visit("top", top);
@@ -216,6 +223,18 @@ void fields(sim::ObjectTruth& truth, Visit&& visit) {
   visit("visible_px", visible_px);
   visit("visible_fraction", visible_fraction);
   visit("moving", moving);
+  visit("mask", Form{mask});
+}
+
+template <class Visit>
+void fields(MaskRow& row, Visit&& visit) {
+  auto& [square, left, top, right, bottom, mask] = row;
+  visit("square", square);
+  visit("left", left);
+  visit("top", top);
+  visit("right", right);
+  visit("bottom", bottom);
+  visit("mask", Form{mask});
 }
 
 template <class Visit>
