@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "filter/kinematics/camera.h"
@@ -56,6 +57,22 @@ struct Circle {
   bool ignoring = false;  ///< reached Tr_m: makes a region of psi in the next frame
 };
 
+/// A convex polygon. With room for all vertices that it may have, so that none is asked for in a
+/// frame.
+struct Outline {
+  static constexpr int kMost = 32;
+
+  Outline() { places.fill(Vec2::Zero()); }
+  std::span<Vec2> vertices() { return {places.data(), static_cast<std::size_t>(count)}; }
+  std::span<const Vec2> vertices() const {
+    return {places.data(), static_cast<std::size_t>(count)};
+  }
+
+  /// px: clockwise as the picture is seen, from the leftmost on; none is on a line between others.
+  std::array<Vec2, kMost> places;
+  int count = 0;  ///< of `places`, the first ones
+};
+
 /// An object (or a layer of objects at one depth): S, an axis-aligned rectangle.
 struct Square {
   Id id = 0;
@@ -70,6 +87,9 @@ struct Square {
   int circles = 0;        ///< grouped into it in this frame; 0 while it coasts
   int rebel_circles = 0;  ///< of these
   bool ignoring = false;  ///< reached Tr_m: makes a region of psi in the next frame
+  /// The convex hull of its edges and of what follows them, as wide and high as the square, which
+  /// it moves and grows with where these are not seen. Empty for squares that are made of circles.
+  Outline outline;
 };
 
 /// Ignorance region psi: corners inside are not looked at in the next frame.

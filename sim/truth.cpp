@@ -174,6 +174,11 @@ std::vector<ObjectTruth> modal_boxes(const cv::Mat1i& object, int count) {
       ++box.visible_px;
     }
   }
+  cv::Mat1i columns;
+  cv::transpose(object, columns);
+  for (ObjectTruth& box : boxes) {
+    if (box.visible_px > 0) box.mask = runs_of(columns, mask_of(box).box, box.object);
+  }
   return boxes;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/mask.h"
 #include "sim/pose.h"
 
 namespace lcs::sim {
@@ -75,7 +76,7 @@ std::vector<CornerTruth> label_corners(const Pinhole& camera, const FrameTruth& 
                                        std::span<const Eigen::Vector2f> corners_px,
                                        double min_depth_m);
 
-/// An object's modal (visible) box and how much of it is seen.
+/// An object's modal (visible) box and mask, and how much of it is seen.
 struct ObjectTruth {
   int object = 0;
   /// Pixel edges: [left, right) x [top, bottom), so that the area is (right-left) * (bottom-top).
@@ -85,9 +86,17 @@ struct ObjectTruth {
   /// camera, as its silhouette has no bounds then.
   double visible_fraction = 0;
   bool moving = false;  ///< its pose at k+1 differs from that at k
+  Runs mask;            ///< its pixels within the box; empty where they are not known
 };
 
-/// Boxes and pixel counts of objects 1..count in an image of ids; the rest of each is left open.
+/// Of what is seen of an object. \return without runs where they are not known.
+inline Mask mask_of(const ObjectTruth& truth) {
+  return {cv::Rect(cv::Point(truth.left, truth.top), cv::Point(truth.right, truth.bottom)),
+          truth.mask};
+}
+
+/// Boxes, masks and pixel counts of objects 1..count in an image of ids; the rest of each is left
+/// open.
 std::vector<ObjectTruth> modal_boxes(const cv::Mat1i& object, int count);
 
 }  // namespace lcs::sim

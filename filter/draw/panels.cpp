@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <vector>
 
 namespace lcs {
 namespace {
@@ -54,6 +55,11 @@ class Pen {
   }
   void box(const Vec2& min, const Vec2& max, const cv::Scalar& colour, int line) {
     outline(place(min), place(max), colour, line);
+  }
+  void polygon(std::span<const Vec2> corners, const cv::Scalar& colour) {
+    std::vector<cv::Point> points;
+    for (const Vec2& corner : corners) points.push_back(fixed(place(corner)));
+    cv::polylines(panel_, points, true, colour, 1, cv::LINE_AA, kFractionBits);
   }
   /// Missed: a ring. False: a cross.
   void mark(const Vec2& at, Mark mark) {
@@ -290,6 +296,9 @@ PanelText draw_squares(Pen& pen, const PanelContent& content) {
     pen.box(square.location - square.half_size, square.location + square.half_size, colour::kSquare,
             kLayerLine);
   }
+  for (const Square& square : layers.squares) {
+    if (square.outline.count > 1) pen.polygon(square.outline.vertices(), colour::kOutline);
+  }
   const std::size_t ignored = draw_ignored(pen, layers.ignored, IgnoreRegion::Shape::rectangle);
   for (std::size_t i = 0; i < layers.squares.size(); ++i) {
     const Square& square = layers.squares[i];
@@ -306,6 +315,7 @@ PanelText draw_squares(Pen& pen, const PanelContent& content) {
   PanelText text{
       fmt::format("{} squares{}", layers.squares.size(), tally(content.square_marks, false)),
       {{colour::kSquare, "square: an object, #id", Sample::line},
+       {colour::kOutline, "outline of its edges", Sample::line},
        {colour::kIgnoreRegion, fmt::format("psi: {} not looked at", ignored), Sample::line}}};
   if (!content.square_marks.empty()) {
     text.caption += fmt::format(", {} objects missed", missed);

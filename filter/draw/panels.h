@@ -2,7 +2,7 @@
 /// The paper's four panels: what each expert made of a frame, drawn over the dimmed image.
 ///
 ///     corners: chi, ignored, lambda    | edges: predicted, normal, rebel
-///     circles: normal, rebel, psi      | squares: S with their ids, psi
+///     circles: normal, rebel, psi      | squares: S with their ids and outlines, psi
 ///
 /// Each panel says in words what it shows: counts above the image, a legend below it. Where the
 /// truth is known, what was found, missed and false is marked, and objects have their names.
@@ -29,6 +29,7 @@ inline const cv::Scalar kNormalEdge{255, 110, 30};    ///< E_n: small blue squar
 inline const cv::Scalar kRebel{40, 40, 255};          ///< E_r and C_r: red
 inline const cv::Scalar kNormalCircle{60, 220, 60};   ///< C_n: green
 inline const cv::Scalar kSquare{255, 0, 255};         ///< S: magenta
+inline const cv::Scalar kOutline{255, 255, 255};      ///< of its edges: thin white
 inline const cv::Scalar kIgnoreRegion{0, 230, 255};   ///< psi: yellow
 inline const cv::Scalar kMovingTruth{220, 220, 0};    ///< cyan
 inline const cv::Scalar kStaticTruth{150, 150, 150};  ///< grey

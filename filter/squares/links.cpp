@@ -36,6 +36,7 @@ void LinkLayering::gather(const std::vector<Edge>& edges, double upward, const M
   nodes_.clear();
   depths_.clear();
   points_.clear();
+  companions_.clear();
   for (const Edge& edge : edges) {
     if (edge.corner < 0) continue;
     Node node;
@@ -48,7 +49,6 @@ void LinkLayering::gather(const std::vector<Edge>& edges, double upward, const M
       depths_.push_back(
           {w, std::max(kDepthFloor * w, edge.depth_ratio_sigma / field.reference_depth_m())});
     }
-    node.low = node.high = edge.location;
     nodes_.push_back(node);
     points_.push_back(upright(edge.location));
   }
@@ -57,15 +57,19 @@ void LinkLayering::gather(const std::vector<Edge>& edges, double upward, const M
 
 /// What follows a rebel tells nothing of its motion, but how far its body reaches.
 void LinkLayering::take_in(std::span<const Follower> followers) {
+  if (companions_.capacity() < followers.size()) {
+    companions_.reserve(followers.size() + followers.size() / 2);
+  }
   for (const Follower& follower : followers) {
     // Ids rise in the lists of edges.
     const auto node =
         std::lower_bound(nodes_.begin(), nodes_.end(), follower.edge,
                          [](const Node& before, Id id) { return before.edge->id < id; });
     if (node == nodes_.end() || node->edge->id != follower.edge) continue;
-    node->low = node->low.cwiseMin(follower.location);
-    node->high = node->high.cwiseMax(follower.location);
+    companions_.push_back({static_cast<int>(node - nodes_.begin()), follower.location});
   }
+  std::sort(companions_.begin(), companions_.end(),
+            [](const Companion& a, const Companion& b) { return a.node < b.node; });
 }
 
 double LinkLayering::reach(double w) const {
@@ -127,14 +131,18 @@ bool LinkLayering::reaches_too_high(std::span<const int> group, double w,
 void LinkLayering::make_square(std::span<const int> group, const MotionField& field) {
   const double n = static_cast<double>(group.size());
   Square square;
-  Vec2 low = nodes_[group.front()].low, high = nodes_[group.front()].high;
+  hull_.clear();
   Vec2 velocity = Vec2::Zero(), origin = Vec2::Zero();
   double ratio = 0, speed = 0, weights = 0;
   const bool rebel = nodes_[group.front()].edge->rebel;
   for (const int i : group) {
     const Edge& edge = *nodes_[i].edge;
-    low = low.cwiseMin(nodes_[i].low);
-    high = high.cwiseMax(nodes_[i].high);
+    hull_.add(edge.location);
+    auto companion = std::lower_bound(companions_.begin(), companions_.end(), i,
+                                      [](const Companion& c, int node) { return c.node < node; });
+    for (; companion != companions_.end() && companion->node == i; ++companion) {
+      hull_.add(companion->location);
+    }
     const double weight = rebel ? 1 : 1 / (depths_[i].sigma * depths_[i].sigma);
     ratio += weight * (rebel ? edge.depth_ratio : depths_[i].w * field.reference_depth_m());
     weights += weight;
@@ -142,6 +150,7 @@ void LinkLayering::make_square(std::span<const int> group, const MotionField& fi
     if (rebel) velocity += nodes_[i].velocity_pxps / n;
     origin += edge.origin / n;
   }
+  const auto [low, high] = hull_.box();
   const Vec2 size = high - low;
   if (size.prod() < parameters_.min_area) return;
   const double w = ratio / weights / field.reference_depth_m();
@@ -149,6 +158,7 @@ void LinkLayering::make_square(std::span<const int> group, const MotionField& fi
   if (!rebel && (size.maxCoeff() > largest_px || reaches_too_high(group, w, field))) return;
   square.location = 0.5 * (low + high);
   square.half_size = 0.5 * size;
+  square.outline = hull_.outline();
   square.origin = origin;
   square.depth_ratio = ratio / weights;
   square.speed = rebel ? velocity.norm() : speed;

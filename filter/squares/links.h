@@ -21,6 +21,7 @@
 #include "filter/matching/disjoint_sets.h"
 #include "filter/matching/point_grid.h"
 #include "filter/parameters.h"
+#include "filter/squares/convex_hull.h"
 #include "filter/squares/depth_groups.h"
 
 namespace lcs {
@@ -39,7 +40,11 @@ class LinkLayering {
   struct Node {
     Vec2 velocity_pxps = Vec2::Zero();  // rebels
     const Edge* edge = nullptr;
-    Vec2 low, high;  // px: of the edge and what follows it
+  };
+  /// What follows a node.
+  struct Companion {
+    int node;
+    Vec2 location;
   };
   /// Of a normal edge. Apart from the rest, for they are compared in great numbers.
   struct Depth {
@@ -66,8 +71,10 @@ class LinkLayering {
 
   // Of the current frame; kept for their memory.
   std::vector<Node> nodes_;
-  std::vector<Depth> depths_;  // of nodes, where these are normal
-  std::vector<Vec2> points_;   // of nodes, as `UprightMetric` has them
+  std::vector<Depth> depths_;          // of nodes, where these are normal
+  std::vector<Vec2> points_;           // of nodes, as `UprightMetric` has them
+  std::vector<Companion> companions_;  // in the order of their nodes
+  ConvexHull hull_;
   PointGrid grid_;
   DepthGroups by_depth_;
   DisjointSets by_velocity_;

@@ -8,6 +8,7 @@
 #include "filter/line/line.h"
 #include "filter/matching/refill.h"
 #include "filter/paper/tangent.h"
+#include "filter/squares/convex_hull.h"
 
 namespace lcs {
 namespace {
@@ -21,14 +22,15 @@ double side_overlap(double a, double half_a, double b, double half_b) {
 void carry_on(Square& square, const MotionField& field) {
   square.angle = field.turned(square.angle, square.location, square.origin);
   square.origin = field.rotated(square.origin);
-  square.location =
+  const Vec2 location =
       field.rotated(square.location) + square.speed * field.dt_s() * unit_vector(square.angle);
+  place(square, location, square.half_size);
 }
 
 /// A static square moves away from the focus of expansion, and grows about it.
 void expand(Square& square, const MotionField& field) {
   const Vec2 rotated = field.rotated(square.location);
-  square.location = rotated;
+  place(square, rotated, square.half_size);
   square.origin = field.origin(rotated);
   if (!field.moving()) return;
   square.depth_ratio = field.advanced_ratio(square.depth_ratio);
@@ -41,8 +43,7 @@ void expand(Square& square, const MotionField& field) {
   const Extent extent{rotated, square.half_size};
   const Extent next = predict_by_tangents(extent, square.origin, travelled)
                           .value_or(predict_by_homothety(extent, square.origin, travelled));
-  square.location = next.location;
-  square.half_size = next.half_size;
+  place(square, next.location, next.half_size);
   square.angle = angle_of(field.direction(square.location));
 }
 
@@ -113,8 +114,12 @@ void SquareExpert::match(Layers& layers) {
     const int trust = mean.rebel_circles > 0 && parameters_.layer_rule == LayerRule::links
                           ? ranks.critical
                           : square.trust;
-    square.location = estimate(trust, ranks, square.location, mean.location);
-    square.half_size = estimate(trust, ranks, square.half_size, mean.half_size);
+    const Vec2 location = estimate(trust, ranks, square.location, mean.location);
+    const Vec2 half_size = estimate(trust, ranks, square.half_size, mean.half_size);
+    square.location = mean.location;
+    square.half_size = mean.half_size;
+    square.outline = mean.outline;
+    place(square, location, half_size);
     square.speed = mean.speed;
     square.depth_ratio = mean.depth_ratio;
     square.angle = mean.angle;

@@ -213,6 +213,33 @@ TEST_P(Panels, SquaresAreMagentaAndRectangularIgnoranceYellow) {
   EXPECT_TRUE(is_bare(drawn, sheet_, Panel::circles, {280, 150}));
 }
 
+TEST_P(Panels, OutlinesOfSquaresAreThinAndWhite) {
+  Square square;
+  square.location = {120, 120};
+  square.half_size = {60, 60};
+  square.outline.count = 4;
+  square.outline.places[0] = {60, 120};
+  square.outline.places[1] = {120, 60};
+  square.outline.places[2] = {180, 120};
+  square.outline.places[3] = {120, 180};
+  scene_.layers.squares = {square};
+  const cv::Mat3b drawn = scene_.draw(sheet_);
+  const cv::Mat3b without = [&] {
+    scene_.layers.squares[0].outline = {};
+    return scene_.draw(sheet_);
+  }();
+  const auto at = [&](const cv::Mat3b& sheet, const Vec2& place) {
+    const Vec2 on = sheet_.at(Panel::squares, place);
+    return sheet(cv::Point(cvRound(on.x()), cvRound(on.y())));
+  };
+  for (const Vec2& on : {Vec2(90, 90), Vec2(150, 90), Vec2(150, 150), Vec2(90, 150)}) {
+    EXPECT_GT(at(drawn, on)[1], at(without, on)[1] + 60) << "lighter than the picture";
+  }
+  for (const Vec2& off : {Vec2(80, 80), Vec2(100, 100), Vec2(140, 140)}) {
+    EXPECT_EQ(at(drawn, off), at(without, off));
+  }
+}
+
 TEST_P(Panels, TruthIsInEveryPanelCyanWhereItMovesAndBeneathTheLayers) {
   scene_.truth = {{{80, 80}, {120, 160}, true}, {{200, 80}, {240, 160}, false}};
   Square square;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -27,6 +28,19 @@ using testing::Scene;
 using testing::sparse_world;
 using testing::steady_motion;
 using testing::World;
+
+/// From the rim of an outline; of an empty one 0.
+double distance_from(const Outline& outline, const Vec2& point) {
+  const auto vertices = outline.vertices();
+  double nearest = vertices.empty() ? 0 : std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Vec2 &a = vertices[i], side = vertices[(i + 1) % vertices.size()] - a;
+    const double share =
+        std::clamp((point - a).dot(side) / std::max(side.squaredNorm(), 1e-12), 0.0, 1.0);
+    nearest = std::min(nearest, (point - a - share * side).norm());
+  }
+  return nearest;
+}
 
 struct FilterWith : testing::OfEachPreset {};
 INSTANTIATE_TEST_SUITE_P(Presets, FilterWith, testing::each_preset(), testing::name_of_preset);
@@ -52,6 +66,8 @@ TEST_P(FilterWith, OrderOfTheCornersMakesNoDifference) {
     ASSERT_EQ(a.layers.squares.size(), b.layers.squares.size());
     for (std::size_t i = 0; i < a.layers.squares.size(); ++i) {
       EXPECT_EQ(a.layers.squares[i].location, b.layers.squares[i].location);
+      EXPECT_TRUE(std::ranges::equal(a.layers.squares[i].outline.vertices(),
+                                     b.layers.squares[i].outline.vertices()));
     }
   }
 }
@@ -119,6 +135,16 @@ void expect_equivariant(const Parameters& parameters, const Intrinsics& other_ca
     expect_same_points(a.layers.normal_circles, b.layers.normal_circles, "normal circles");
     expect_same_points(a.layers.rebel_circles, b.layers.rebel_circles, "rebel circles");
     expect_same_points(a.layers.squares, b.layers.squares, "squares");
+    // Vertices that are nearly on a line may be one's alone.
+    for (const Square& square : a.layers.squares) {
+      const bool found =
+          std::any_of(b.layers.squares.begin(), b.layers.squares.end(), [&](const Square& other) {
+            return std::ranges::all_of(square.outline.vertices(), [&](const Vec2& vertex) {
+              return distance_from(other.outline, pixel(vertex)) < 1e-6;
+            });
+          });
+      EXPECT_TRUE(found) << "outlines, frame " << k;
+    }
   }
 }
 

@@ -33,6 +33,26 @@ inline bool is_finite(const Square& s) {
          finite({s.speed, s.depth_ratio, s.angle}) && s.half_size.minCoeff() >= 0;
 }
 
+/// As wide and high as its square, and convex, but for rounding.
+inline bool is_outline(const Square& square) {
+  const auto vertices = square.outline.vertices();
+  if (vertices.empty()) return true;
+  const double rounding = 1e-9 * (1 + square.location.norm() + square.half_size.norm());
+  Vec2 low = vertices[0], high = low;
+  bool turns = true;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Vec2 &a = vertices[i], &b = vertices[(i + 1) % vertices.size()],
+               &c = vertices[(i + 2) % vertices.size()];
+    if (!a.allFinite()) return false;
+    low = low.cwiseMin(a);
+    high = high.cwiseMax(a);
+    const Vec2 ab = b - a, bc = c - b;
+    turns &= ab.x() * bc.y() - ab.y() * bc.x() >= -rounding * (ab.norm() + bc.norm());
+  }
+  return turns && (0.5 * (low + high) - square.location).norm() <= rounding &&
+         (0.5 * (high - low) - square.half_size).norm() <= rounding;
+}
+
 /// The first thing that is wrong with what the filter said of `corners` corners, if any.
 inline std::optional<std::string> violation(const FrameResult& result, std::size_t corners,
                                             const Intrinsics& camera,
@@ -74,6 +94,7 @@ inline std::optional<std::string> violation(const FrameResult& result, std::size
   }
   for (const Square& square : layers.squares) {
     expect(is_finite(square), "a square is not finite");
+    expect(is_outline(square), "an outline is not convex, or not as large as its square");
     expect(inside(square.location), "a square is outside of the picture");
     expect(trusted(square.trust, parameters.square.trust), "a square's trust is out of ranks");
   }

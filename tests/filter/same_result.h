@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 
 #include "filter/filter.h"
@@ -30,6 +31,11 @@ inline void expect_same(const FrameResult& a, const FrameResult& b, std::size_t 
   expect_same_items(a.layers.normal_circles, b.layers.normal_circles);
   expect_same_items(a.layers.rebel_circles, b.layers.rebel_circles);
   expect_same_items(a.layers.squares, b.layers.squares);
+  for (std::size_t i = 0; i < a.layers.squares.size(); ++i) {
+    EXPECT_TRUE(std::ranges::equal(a.layers.squares[i].outline.vertices(),
+                                   b.layers.squares[i].outline.vertices()))
+        << "frame " << frame;
+  }
   EXPECT_EQ(a.layers.chains.size(), b.layers.chains.size());
 }
 

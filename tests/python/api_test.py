@@ -441,6 +441,31 @@ class Scores(unittest.TestCase):
         for name in ("rebel.f1", "square.recall_70", "square.precision_70", "square.mean_iou"):
             self.assertEqual(metrics[name], 1, name)
         self.assertEqual(metrics["square.identity_switches"], 0)
+        self.assertLess(metrics["square.mask_mean_iou"], 1)  # of boxes
+
+    def test_masks_of_the_truth_score_best_and_bad_ones_are_refused(self):
+        def said():
+            for frame in self.frames:
+                ids = frame.truth.objects["object"].tolist()
+                yield frame, lcs.Detections(
+                    masks=[frame.truth.object_ids == object_id for object_id in ids], ids=ids
+                )
+
+        metrics = lcs.score(said())
+        for name in ("recall_50", "mask_recall_50", "mask_precision_50", "mask_mean_iou"):
+            self.assertEqual(metrics["square." + name], 1, name)
+        whole = np.ones((1, 4, 6), bool)
+        for error, arguments in [
+            (ValueError, {"masks": whole}),
+            (ValueError, {"masks": whole, "ids": [1, 2]}),
+            (ValueError, {"masks": whole, "ids": [1], "boxes": [[0, 0, 1, 1]]}),
+            (ValueError, {"masks": ~whole, "ids": [1]}),
+            (ValueError, {"masks": whole[0], "ids": [1]}),
+            (TypeError, {"masks": [[[0.5]]], "ids": [1]}),
+        ]:
+            with self.assertRaises(error, msg=str(arguments)):
+                lcs.Detections(**arguments)
+        lcs.Detections(masks=[], ids=[])
 
     def test_nothing_said_finds_nothing(self):
         metrics = lcs.score((frame, lcs.Detections()) for frame in self.frames)

@@ -22,6 +22,23 @@ def lines_of(path):
         return [json.loads(line) for line in file]
 
 
+def decoded(word, shape):
+    """COCO's word of a mask, as pycocotools decodes it."""
+    runs, number, shift = [], 0, 0
+    for letter in word:
+        bits = ord(letter) - 48
+        number |= (bits & 31) << shift
+        shift += 5
+        if bits & 32:
+            continue
+        if bits & 16:
+            number -= 1 << shift
+        runs.append(number + (runs[-2] if len(runs) > 2 else 0))
+        number = shift = 0
+    inside = np.arange(len(runs)) % 2 == 1
+    return np.repeat(inside, runs).reshape(shape, order="F")
+
+
 def is_of_times(name):
     return name.startswith("time.") or name == "sim.frames_per_second"
 
@@ -79,6 +96,8 @@ class SameBits(unittest.TestCase):
         ]:
             self.assert_columns(items[~items["rebel"]], line[normal], f"{what}, {normal}")
             self.assert_columns(items[items["rebel"]], line[rebel], f"{what}, {rebel}")
+        outlines = line["squares"].pop("outline")
+        self.assertEqual([outline.tolist() for outline in result.outlines], outlines, what)
         self.assert_columns(result.squares, line["squares"], f"{what}, squares")
         self.assert_columns(result.collectors, line["collectors"], f"{what}, collectors")
 
@@ -86,7 +105,12 @@ class SameBits(unittest.TestCase):
         what = f"truth of frame {frame.index}"
         self.assert_motion(frame.truth.motion, line["true_motion"], what)
         self.assert_columns(frame.truth.corners, line["corners"], what)
+        words = line["objects"].pop("mask")
         self.assert_columns(frame.truth.objects, line["objects"], what)
+        for row, word in zip(frame.truth.objects, words):
+            ids = frame.truth.object_ids
+            mask = ids[row["top"] : row["bottom"], row["left"] : row["right"]] == row["object"]
+            self.assertEqual(decoded(word, mask.shape).tolist(), mask.tolist(), what)
 
     def assert_same(self, scenario_file):
         out = self.run_program(scenario_file)
@@ -151,6 +175,36 @@ class SameBits(unittest.TestCase):
         self.assertGreater(metrics["rebel.recall"], 0)
         self.assertIsNone(metrics["time.filter_ms_median"])
         self.assertIsNone(metrics["dimension.mean"])
+
+    def test_of_a_detector_that_gives_masks(self):
+        """By the arrays, and by a file with runs down the columns of the whole picture."""
+        scenario_file = lcs.SCENARIOS / "suite" / "crossing_near.yaml"
+        out = self.run_program(scenario_file)
+        detections = out.parent / "masks.csv"
+        with open(detections, "w", newline="") as file:
+            table = csv.writer(file)
+
+            def said():
+                for frame in lcs.simulate(lcs.Scenario(scenario_file, set=SETTINGS, seed=SEED)):
+                    ids = frame.truth.objects["object"].tolist()
+                    masks = np.array([frame.truth.object_ids == object_id for object_id in ids])
+                    masks[:, :, ::4] = False  # every fourth column is not seen
+                    seen = masks.any(axis=(1, 2))
+                    masks, ids = masks[seen], np.array(ids)[seen]
+                    for object_id, mask in zip(ids, masks):
+                        pixels = mask.ravel(order="F")
+                        ends = np.flatnonzero(np.diff(pixels, prepend=False)).tolist()
+                        runs = np.diff([0, *ends, pixels.size])
+                        table.writerow([frame.index, "mask", object_id, *mask.shape, *runs])
+                    yield frame, lcs.Detections(masks=masks, ids=ids)
+
+            metrics = lcs.score(said())
+        figures = out.parent / "masks.json"
+        self.program("score", out, "--detections", detections, "--quiet", "--out", figures)
+        self.assertEqual(metrics, json.loads(figures.read_text()))
+        self.assertEqual(metrics["square.mask_recall_50"], 1)
+        self.assertAlmostEqual(metrics["square.mask_mean_iou"], 0.75, delta=0.05)
+        self.assertGreater(metrics["square.mean_iou"], 0.9)
 
     def test_of_two_that_take_turns(self):
         """Worlds that are open at once do not disturb each other."""

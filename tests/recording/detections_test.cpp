@@ -6,11 +6,14 @@
 #include <fstream>
 #include <map>
 #include <random>
+#include <string_view>
 
 #include "scenarios/scenario.h"
 #include "tests/tools/files.h"
 #include "tests/tools/recordings.h"
 #include "tests/tools/temporary_folder.h"
+#include "tools/recording/box.h"
+#include "tools/recording/coco_mask.h"
 #include "tools/scoring/scoring.h"
 
 namespace lcs::bench {
@@ -140,6 +143,12 @@ TEST_F(DetectionsTest, BoxesArePixelEdgesAsThoseOfTheTruth) {
       detections("3,square,7,39.5,24.5,20,15").recording.frames[3].layers.squares[0];
   EXPECT_EQ(same.location, box.location);
   EXPECT_EQ(same.half_size, box.half_size);
+  EXPECT_EQ(same.outline.count, 0);
+  const Square outlined = detections("3,square,7,39.5,24.5,20,15,20,10,59,10.5,30,39")
+                              .recording.frames[3]
+                              .layers.squares[0];
+  ASSERT_EQ(outlined.outline.count, 3);
+  EXPECT_EQ(outlined.outline.places[1], Vec2(59, 10.5));
 }
 
 TEST_F(DetectionsTest, MasksAreTheBoxesThatHoldThem) {
@@ -164,6 +173,13 @@ TEST_F(DetectionsTest, MasksAreTheBoxesThatHoldThem) {
     EXPECT_EQ(square.id, 7u);
     EXPECT_EQ(square.location - square.half_size, Vec2(box[0] - 0.5, box[1] - 0.5)) << word;
     EXPECT_EQ(2 * square.half_size, Vec2(box[2], box[3])) << word;
+    const SquareMasks said =
+        detections(fmt::format("3,mask,7,48,96,{}", word)).recording.frames[3].masks;
+    ASSERT_EQ(said.size(), 1u);
+    // The word again: what is left of it in its box is all of it.
+    if (std::string_view(word).find(',') == std::string_view::npos) {
+      EXPECT_EQ(packed_runs(sim::runs_in(cv::Rect(0, 0, 96, 48), said.at(7))), word);
+    }
   }
 }
 
@@ -245,7 +261,13 @@ TEST_F(DetectionsTest, EveryBadRowIsToldWithItsLineAndWhatToWriteInstead) {
       {"3,mask,1,48,96,P`4", "the mask has no pixel; leave out what is not seen"},
       {"3,mask,1,48,96,0P`4\n3,box,1,0,0,4,4",
        "frame 3 has a box 1 already; an id is one object's"},
-      {"3,square,1,2,3,4", "not all of a square is there; give ID,X,Y,HALF_WIDTH,HALF_HEIGHT"},
+      {"3,square,1,2,3,4,5,6",
+       "not all of a square is there; give ID,X,Y,HALF_WIDTH,HALF_HEIGHT[,X,Y,...], the latter of "
+       "its outline"},
+      {"3,square,1,2,3,4,5,6,seven", "y of the outline is 'seven'; give a number"},
+      {"3,square,1,2,3,4",
+       "not all of a square is there; give ID,X,Y,HALF_WIDTH,HALF_HEIGHT[,X,Y,...], the latter of "
+       "its outline"},
       {"3,square,1,2,3,4,0", "half height is 0; it must be above 0"},
       {"3,circle,1,2", "not all of a circle is there; give X,Y,RADIUS, or nothing"},
       {"3,circle,1,2,-1", "the radius is -1; it must be 0 or more"},
@@ -296,12 +318,20 @@ Recording awkward() {
       frame.corner(static_cast<Verdict>(random() % 4), moves ? Label::rebel : Label::fixed, moves,
                    random() % 5 == 0, {10.f * static_cast<float>(i), 7.f * static_cast<float>(k)});
     }
-    frame.object(1, {40, 30, 90, 80}, true);
+    frame.object(1, {40, 30, 90, 80}, true).full();
     for (Id id = 1; id < 4; ++id) {
       Square square;
       square.id = id;
       square.location = {number(60, 70), number(50, 60)};
       square.half_size = {number(20, 30), number(20, 30)};
+      for (int i = 0; i < 3 && k % 2 == 1; ++i) {
+        square.outline.places[static_cast<std::size_t>(square.outline.count++)] = {number(40, 90),
+                                                                                   number(30, 80)};
+      }
+      if (k % 3 == 2 && id == 1) {
+        frame.record().masks[id] = {cv::Rect(45, 35, 50, 40), {7, 1500, 3, 490}};
+        square = square_of(frame.record().masks[id], id);
+      }
       frame.record().layers.squares.push_back(square);
       frame.rebel_circle({number(0, 300), number(0, 100)}, number(0, 40));
     }
@@ -320,6 +350,7 @@ TEST_F(DetectionsTest, WrittenAndReadAgainHaveTheSameFiguresToTheLastBit) {
   }
   const Metrics before = score(recording), after = score(again.recording);
   EXPECT_GT(value(before, "square.mean_iou").value(), 0.5);
+  EXPECT_GT(value(before, "square.mask_mean_iou").value(), 0.2);
   EXPECT_GT(value(before, "rebel.false_objects_per_100_frames").value(), 0);
   for (const auto& [name, figure] : before) {
     if (name.starts_with("rebel.") || name.starts_with("square.") || name.starts_with("truth.")) {

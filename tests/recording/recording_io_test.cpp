@@ -8,9 +8,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <tuple>
 
 #include "tests/tools/recordings.h"
 #include "tests/tools/temporary_folder.h"
+#include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_fields.h"
 #include "tools/scoring/scoring.h"
 
@@ -32,6 +34,11 @@ class Filler {
   void operator()(const char*, IgnoreRegion::Shape& shape) {
     shape = random_() % 2 == 0 ? IgnoreRegion::Shape::circle : IgnoreRegion::Shape::rectangle;
   }
+  void operator()(const char*, Form<Outline> outline) {
+    outline.value.count = static_cast<int>(random_() % 4);
+    for (Vec2& vertex : outline.value.vertices()) vertex = {awkward(), awkward()};
+  }
+  void operator()(const char*, Form<sim::Runs>) {}  // none, for the box is any
   void operator()(const char*, sim::Label& label) {
     label = static_cast<sim::Label>(random_() % 4);
   }
@@ -247,6 +254,77 @@ TEST(RecordingIo, ReasonsThatATrackerDoesNotGiveAreUnknown) {
             std::vector<Reason>(2, Reason::unknown));
 }
 
+/// Of an object that is wider below, and of a square.
+FrameRecord masked() {
+  FrameMaker frame(0);
+  frame.object(1, {5, 3, 8, 5}, true).square(4, {5, 3, 7, 5}).square(9, {0, 0, 4, 4});
+  frame.record().object_truth[0].mask = {1, 4, 1};
+  frame.record().masks[4] = {cv::Rect(5, 3, 2, 2), {0, 1, 2, 1}};
+  return frame;
+}
+
+TEST(RecordingIo, MasksComeBackAndAreWordsOfCoco) {
+  const Recording recording = recording_of({masked()});
+  const TemporaryFolder folder;
+  write(recording, folder.path());
+  const FrameRecord back = read_recording(folder.path()).frames[0];
+  EXPECT_EQ(back.object_truth[0].mask, recording.frames[0].object_truth[0].mask);
+  ASSERT_EQ(back.masks.size(), 1u);
+  EXPECT_EQ(back.masks.at(4).box, cv::Rect(5, 3, 2, 2));
+  EXPECT_EQ(back.masks.at(4).runs, (sim::Runs{0, 1, 2, 1}));
+  // By pycocotools' encode.
+  EXPECT_EQ(nlohmann::json::parse(truth_line(back)).at("objects").at("mask"),
+            nlohmann::json{"141"});
+  EXPECT_EQ(nlohmann::json::parse(layers_line(back)).at("masks"),
+            nlohmann::json::parse(R"({"square":[4],"left":[5],"top":[3],"right":[7],"bottom":[5],)"
+                                  R"("mask":["0120"]})"));
+  EXPECT_FALSE(nlohmann::json::parse(layers_line(full_recording().frames[0])).contains("masks"));
+}
+
+TEST(RecordingIo, LongMasksArePackedAsTheyAreUnpacked) {
+  std::mt19937 random(5);
+  for (int i = 0; i < 200; ++i) {
+    sim::Runs runs;
+    for (int k = 0; k < 1 + i % 40; ++k) {
+      runs.push_back(static_cast<std::uint32_t>(random() >> (random() % 31)));
+    }
+    const std::vector<std::int64_t> back = unpacked_runs(packed_runs(runs));
+    EXPECT_EQ(sim::Runs(back.begin(), back.end()), runs);
+  }
+}
+
+/// Their figures by masks are unknown, all others as they were.
+TEST(RecordingIo, RecordingsFromBeforeThereWereOutlinesAndMasksAreRead) {
+  std::vector<FrameRecord> frames = scorable().frames;
+  for (FrameRecord& frame : frames) {
+    frame.object_truth[0].mask = {0, static_cast<std::uint32_t>(frame.object_truth[0].visible_px)};
+  }
+  const Metrics now = score(recording_of(frames));
+  EXPECT_TRUE(value(now, "square.mask_mean_iou"));
+  const TemporaryFolder folder;
+  write(recording_of(frames), folder.path());
+  for (const auto& [file, list, key] :
+       {std::tuple(kLayersFile, "squares", "outline"), std::tuple(kTruthFile, "objects", "mask")}) {
+    std::ifstream in(folder.path() / file);
+    std::string older;
+    for (std::string line; std::getline(in, line);) {
+      nlohmann::json json = nlohmann::json::parse(line);
+      if (json.contains("index")) EXPECT_EQ(json[list].erase(key), 1u);
+      older += json.dump() + '\n';
+    }
+    in.close();
+    std::ofstream(folder.path() / file) << older;
+  }
+  const Metrics then = score(read_recording(folder.path()));
+  for (const auto& [name, figure] : now) {
+    if (name.starts_with("square.mask_")) {
+      EXPECT_FALSE(value(then, name)) << name;
+    } else {
+      EXPECT_EQ(value(then, name), figure) << name;
+    }
+  }
+}
+
 TEST(RecordingIo, ANameThatIsNotUtf8IsStoredWithItsBadBytesReplaced) {
   Recording recording = recording_of({});
   recording.scenario = "caf\xe9";
@@ -406,6 +484,25 @@ TEST_F(BrokenRecording, SignaturesThatAreNotOneForEachCorner) {
 TEST_F(BrokenRecording, SignaturesThatAreNoText) {
   edit(kLayersFile, 2, "\"squares\"", "\"signatures\":[1],\"squares\"");
   expect_error("layers.jsonl:2: signatures is not a text; name the folder of a whole run");
+}
+TEST_F(BrokenRecording, MasksThatAreNoneOrNotAsLargeAsTheirBox) {
+  edit(kTruthFile, 2, "\"mask\":[\"\"]", "\"mask\":[\"0\"]");
+  expect_error("truth.jsonl:2: objects.mask[0] is not as large as its box; ");
+  edit(kTruthFile, 2, "\"mask\":[\"0\"]", "\"mask\":[\"0 1\"]");
+  expect_error("truth.jsonl:2: objects.mask[0] is not the word of a mask; ");
+  edit(kTruthFile, 2, "\"mask\":[\"0 1\"]", "\"mask\":[7]");
+  expect_error("truth.jsonl:2: objects.mask[0] is not a text; ");
+  write(scorable(), folder_.path());
+  edit(kLayersFile, 3, "\"squares\"",
+       R"("masks":{"square":[1],"left":[0],"top":[0],"right":[2],"bottom":[0],"mask":[""]},)"
+       R"("squares")");
+  expect_error("layers.jsonl:3: masks.mask[0] is not as large as its box; ");
+}
+TEST_F(BrokenRecording, AnOutlineOfMorePointsThanThereIsRoomFor) {
+  std::string points = "[0,0]";
+  for (int i = 0; i < Outline::kMost; ++i) points += ",[0,1]";
+  edit(kLayersFile, 2, "\"outline\":[[]]", "\"outline\":[[" + points + "]]");
+  expect_error("layers.jsonl:2: squares.outline[0] has over 32 points; ");
 }
 TEST_F(BrokenRecording, ATruthThatEndsEarly) {
   drop_last_line(kTruthFile);

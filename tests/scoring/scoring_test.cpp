@@ -607,6 +607,54 @@ TEST(Squares, MoversAndStaticObjectsAreScoredApartByWhatTheyDoInTheWholeRun) {
   EXPECT_DOUBLE_EQ(get(metrics, "square.mean_iou_static"), 32.0 / 48);
 }
 
+/// Two truths that fill their boxes; one square covers its own but for a corner, the other, whose
+/// box is as good, leaves out more than half.
+TEST(Squares, ByMasksAreJudgedByThePixelsOfTheirOutlines) {
+  const auto outlined = [](FrameMaker& frame, std::initializer_list<Vec2> vertices) {
+    Outline& outline = frame.record().layers.squares.back().outline;
+    outline.count = static_cast<int>(vertices.size());
+    std::copy(vertices.begin(), vertices.end(), outline.places.begin());
+  };
+  const auto fill = [&](FrameMaker& frame) {
+    frame.corners(4, Verdict::normal, Label::fixed, 1)
+        .corners(4, Verdict::normal, Label::fixed, 2)
+        .object(1, {100, 100, 140, 140}, true)
+        .full()
+        .object(2, {300, 100, 340, 140}, false)
+        .full()
+        .square(1, {100, 100, 140, 140});
+    outlined(frame, {{100, 100}, {139, 100}, {139, 139}, {119, 139}, {100, 120}});
+    frame.square(2, {300, 100, 340, 140});
+    outlined(frame, {{300, 100}, {320, 100}, {339, 139}});
+  };
+  const Metrics metrics = score_one(fill);
+  EXPECT_DOUBLE_EQ(get(metrics, "square.recall_70"), 1);
+  // 19 + .. + 1 pixels are cut off.
+  EXPECT_DOUBLE_EQ(get(metrics, "square.mask_mean_iou_movers"), 1 - 190 / 1600.0);
+  EXPECT_LT(get(metrics, "square.mask_mean_iou_static"), 0.5);
+  EXPECT_DOUBLE_EQ(get(metrics, "square.mask_mean_iou"),
+                   0.5 * (get(metrics, "square.mask_mean_iou_movers") +
+                          get(metrics, "square.mask_mean_iou_static")));
+  EXPECT_DOUBLE_EQ(get(metrics, "square.mask_recall_50"), 0.5);
+  EXPECT_DOUBLE_EQ(get(metrics, "square.mask_precision_50"), 0.5);
+  // A detector's own mask goes before; of one object's truth unknown nothing is.
+  const Metrics by_mask = score_one([&](FrameMaker& frame) {
+    fill(frame);
+    frame.record().masks[2] = {cv::Rect(300, 100, 40, 40), {0, 1200, 400}};
+  });
+  EXPECT_DOUBLE_EQ(get(by_mask, "square.mask_mean_iou_static"), 0.75);
+  EXPECT_DOUBLE_EQ(get(by_mask, "square.mask_recall_50"), 1);
+  const Metrics unknown = score_one([&](FrameMaker& frame) {
+    fill(frame);
+    frame.record().object_truth[1].mask.clear();
+  });
+  for (const char* name : {"square.mask_recall_50", "square.mask_precision_50",
+                           "square.mask_mean_iou", "square.mask_mean_iou_movers"}) {
+    EXPECT_TRUE(is_undefined(unknown, name)) << name;
+  }
+  EXPECT_DOUBLE_EQ(get(unknown, "square.recall_70"), 1);
+}
+
 TEST(Squares, AnIdentitySwitchIsAnotherSquareOnTheSameObjectAlsoAfterAGap) {
   // Ids on object 2: 1 1 - 1 5 5 - 8 from frame 3 on.
   const std::vector<int> ids{1, 1, 0, 1, 5, 5, 0, 8};

@@ -176,8 +176,11 @@ TEST_F(OwnDetector, HasATimeOfItsOwnKindAndFiguresThatItCannotHaveAreNull) {
 TEST_F(OwnDetector, MayGiveMasksAsCocosToolsHaveThem) {
   const CommandResult command = lcs(run_arguments("masks"));
   ASSERT_EQ(command.exit_code, 0) << command.err;
-  const auto squares = bench::read_recording(folder_.path() / "out").frames.at(2).layers.squares;
+  const bench::FrameRecord frame = bench::read_recording(folder_.path() / "out").frames.at(2);
+  const auto& squares = frame.layers.squares;
   ASSERT_EQ(squares.size(), 2U);
+  ASSERT_EQ(frame.masks.size(), 2U);
+  EXPECT_EQ(frame.masks.at(squares[1].id).runs, (sim::Runs{0, 240}));
   EXPECT_EQ(bench::edges_of(squares[0]), Eigen::Vector4d(5, 45, 7, 66)) << "as pycocotools has it";
   EXPECT_EQ(bench::edges_of(squares[1]), Eigen::Vector4d(0, 0, 1, 240));
 }

@@ -50,6 +50,12 @@ class FrameMaker {
     frame_.object_truth.push_back(truth);
     return *this;
   }
+  /// What is seen of the last object: all pixels of its box.
+  FrameMaker& full() {
+    sim::ObjectTruth& truth = frame_.object_truth.back();
+    truth.mask = {0, static_cast<std::uint32_t>(truth.visible_px)};
+    return *this;
+  }
   /// A square that covers exactly these pixels.
   FrameMaker& square(Id id, PixelBox box) {
     Square square;

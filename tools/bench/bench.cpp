@@ -84,6 +84,7 @@ void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameR
         {image, grey, frame.corners_px, frame.motion, frame.signatures, frame.index, frame.t_ns});
   });
   note(said, tracker.step_time(), step_ms, frame);
+  frame.masks = tracker.masks();
 }
 
 std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,

@@ -22,7 +22,7 @@ struct TrackerInput {
   const cv::Mat3b& image;  ///< BGR
   const cv::Mat1b& grey;   ///< the same: what the corners were found in
   std::span<const Eigen::Vector2f> corners_px;
-  const EgoMotion& motion;  ///< since the last frame
+  const EgoMotion& motion;                     ///< since the last frame
   std::span<const Signature> signatures = {};  ///< of each corner; none where none are known
   int index = 0;                               ///< of the frame
   std::int64_t t_ns = 0;                       ///< its time
@@ -38,6 +38,12 @@ class Tracker {
 
   /// Whether signatures are to be made for it, which takes longer than to find the corners.
   virtual bool wants_signatures() const { return false; }
+
+  /// What the squares of the last step cover, of a tracker that says so pixel by pixel.
+  virtual const SquareMasks& masks() const {
+    static const SquareMasks kNone;
+    return kNone;
+  }
 
   /// Which of a frame's times a step takes; null where it takes none, as what it says was read.
   virtual double FrameTimes::*step_time() const { return &FrameTimes::filter_ms; }

@@ -149,6 +149,7 @@ const FrameResult& ProgramTracker::step(const bench::TrackerInput& input) {
   });
   result_.verdicts = std::move(frame.verdicts);
   result_.layers = std::move(frame.layers);
+  masks_ = std::move(frame.masks);
   return result_;
 }
 

@@ -44,6 +44,7 @@ class ProgramTracker : public bench::Tracker {
   const FrameResult& step(const bench::TrackerInput& input) override;
   double bench::FrameTimes::*step_time() const override { return &bench::FrameTimes::process_ms; }
   bool gives_circles() const override { return gives_circles_; }
+  const bench::SquareMasks& masks() const override { return masks_; }
   void finish() override;
   Diagnostics diagnostics() const override { return diagnostics_; }
   std::vector<std::string> told() const override;
@@ -59,6 +60,7 @@ class ProgramTracker : public bench::Tracker {
   Diagnostics diagnostics_;
   bench::VerdictCounts counts_;
   FrameResult result_;
+  bench::SquareMasks masks_;
 };
 
 }  // namespace lcs::comparators

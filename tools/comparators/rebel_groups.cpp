@@ -89,12 +89,12 @@ void RebelGroups::link(std::span<const CornerMotion> motions) {
 void RebelGroups::add_group(const std::vector<int>& members, std::span<const CornerMotion> motions,
                             double dt_s) {
   Layers& layers = result_.layers;
-  Vec2 low = points_[members.front()], high = low, step = Vec2::Zero();
+  Vec2 step = Vec2::Zero();
+  hull_.clear();
   for (const int i : members) {
     const int corner = corner_of_[i];
     result_.verdicts[corner] = Verdict::rebel;
-    low = low.cwiseMin(points_[i]);
-    high = high.cwiseMax(points_[i]);
+    hull_.add(points_[i]);
     step += motions[corner].step_px / static_cast<double>(members.size());
     Edge edge = edge_of(next_edge_++, corner, points_[i], motions[corner], dt_s);
     edge.rebel = true;
@@ -102,6 +102,7 @@ void RebelGroups::add_group(const std::vector<int>& members, std::span<const Cor
     layers.rebel_edges.push_back(edge);
   }
 
+  const auto [low, high] = hull_.box();
   Circle circle;
   circle.id = next_circle_++;
   circle.rebel = true;
@@ -119,6 +120,7 @@ void RebelGroups::add_group(const std::vector<int>& members, std::span<const Cor
   Square square;
   square.location = circle.location;
   square.half_size = 0.5 * (high - low);
+  square.outline = hull_.outline();
   square.origin = circle.origin;
   square.angle = circle.angle;
   square.speed = circle.speed;

@@ -10,6 +10,7 @@
 #include "filter/filter.h"
 #include "filter/matching/disjoint_sets.h"
 #include "filter/matching/point_grid.h"
+#include "filter/squares/convex_hull.h"
 
 namespace lcs::comparators {
 
@@ -63,6 +64,7 @@ class RebelGroups {
   DisjointSets sets_;           ///< of points that move alike
   std::vector<std::vector<int>> members_;
   PointGrid grid_;
+  ConvexHull hull_;
   FrameResult result_;
 };
 

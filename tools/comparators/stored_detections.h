@@ -22,16 +22,19 @@ class StoredDetections : public bench::Tracker {
     bench::FrameRecord& frame = said_.recording.frames.at(next_++);
     result_.verdicts = std::move(frame.verdicts);
     result_.layers = std::move(frame.layers);
+    masks_ = std::move(frame.masks);
     return result_;
   }
   double bench::FrameTimes::*step_time() const override { return nullptr; }
   bool gives_circles() const override { return said_.recording.detector.circles; }
+  const bench::SquareMasks& masks() const override { return masks_; }
   std::vector<std::string> told() const override { return bench::lines_of(said_.counts); }
 
  private:
   bench::Detections said_;
   std::size_t next_ = 0;
   FrameResult result_;
+  bench::SquareMasks masks_;
 };
 
 }  // namespace lcs::comparators

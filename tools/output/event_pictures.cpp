@@ -14,7 +14,7 @@ constexpr double kLeastWidth_px = 160, kMargin_px = 14, kMarginShare = 0.25;
 
 // BGR; they differ in lightness and, with the marks' shapes, in more than colour.
 const cv::Scalar kFound{90, 230, 60}, kMissed{0, 150, 255}, kFalse{255, 60, 255},
-    kTruth{255, 255, 120}, kShadow{0, 0, 0};
+    kTruth{255, 255, 120}, kShadow{0, 0, 0}, kOutline{255, 255, 255};
 
 /// A view's place in the kept picture, and from pixels of the image to its own.
 struct Cut {
@@ -91,6 +91,11 @@ cv::Mat3b paint(const FrameRecord& frame, const std::vector<CornerOutcome>& outc
     for (const Square& square : frame.layers.squares) {
       cv::rectangle(picture, cut.at(square.location - square.half_size),
                     cut.at(square.location + square.half_size), kFalse, 1);
+      std::vector<cv::Point> outline;
+      for (const Vec2& vertex : square.outline.vertices()) outline.push_back(cut.at(vertex));
+      if (!outline.empty()) {
+        cv::polylines(picture, outline, true, kOutline, 1, cv::LINE_AA);
+      }
     }
     return picture;
   }

@@ -52,10 +52,10 @@ std::string table(const Metrics& metrics) {
                    count(objects), number(get("rebel.latency_frames_median"), 1, 0),
                    number(get("rebel.false_objects_per_100_frames"), 1, 0)));
   line("squares",
-       fmt::format("precision {}   recall {} (movers {}, static {})   mean IoU {}",
+       fmt::format("precision {}   recall {} (movers {}, static {})   mean IoU {} (masks {})",
                    share(get("square.precision_50")), share(get("square.recall_50")),
                    share(get("square.recall_50_movers")), share(get("square.recall_50_static")),
-                   share(get("square.mean_iou"))));
+                   share(get("square.mean_iou")), share(get("square.mask_mean_iou"))));
   if (const Figure labelled = get("labels.frames")) {
     line("labels",
          fmt::format("found {} and boxed {} of {} in {} frames   off them {} rebels a frame, {} "

@@ -63,7 +63,13 @@ py::array copy(const Eigen::MatrixBase<Derived>& matrix) {
   return read_only(array);
 }
 
-/// What NumPy has for a field of `bench::fields`.
+/// Not so are outlines and masks.
+template <class Member>
+constexpr bool kIsNumber = !requires(Member & member) {
+  member.value;
+};
+
+/// What NumPy has for a field of `bench::fields` that is a number.
 template <class Member>
 auto number_of(const Member& member) {
   if constexpr (requires { member.number; }) {
@@ -115,7 +121,9 @@ py::array rows(std::vector<Item> items) {
   RowFormat format;
   Item any{};
   all_fields(any, [&](const char* name, const auto& member) {
-    format.add<decltype(number_of(member))>(name);
+    if constexpr (kIsNumber<std::remove_cvref_t<decltype(member)>>) {
+      format.add<decltype(number_of(member))>(name);
+    }
   });
   py::array array(format.dtype(), static_cast<py::ssize_t>(items.size()));
   auto* const data = static_cast<std::byte*>(array.mutable_data());
@@ -123,10 +131,12 @@ py::array rows(std::vector<Item> items) {
   for (std::size_t i = 0; i < items.size(); ++i) {
     std::size_t place = 0;
     all_fields(items[i], [&](const char*, const auto& member) {
-      const auto number = number_of(member);
-      RowFormat::place_after<decltype(number)>(place);
-      std::memcpy(data + i * row_size + place, &number, sizeof number);
-      place += sizeof number;
+      if constexpr (kIsNumber<std::remove_cvref_t<decltype(member)>>) {
+        const auto number = number_of(member);
+        RowFormat::place_after<decltype(number)>(place);
+        std::memcpy(data + i * row_size + place, &number, sizeof number);
+        place += sizeof number;
+      }
     });
   }
   return read_only(std::move(array));

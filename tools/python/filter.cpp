@@ -85,6 +85,21 @@ py::array boxes(const Result& result) {
   return read_only(array);
 }
 
+py::list outlines(const Result& result) {
+  py::list all;
+  for (const Square& square : result.said.layers.squares) {
+    const auto vertices = square.outline.vertices();
+    py::array_t<double> array({std::ssize(vertices), py::ssize_t{2}});
+    double* to = array.mutable_data();
+    for (const Vec2& vertex : vertices) {
+      *to++ = vertex.x();
+      *to++ = vertex.y();
+    }
+    all.append(read_only(array));
+  }
+  return all;
+}
+
 void bind_result(py::module_& module) {
   py::class_<Result, std::shared_ptr<Result>>(module, "Result",
                                               "What the filter says of a frame. Structured arrays "
@@ -118,6 +133,10 @@ void bind_result(py::module_& module) {
           "rebel_circles, ...")
       .def_property_readonly("boxes", &boxes,
                              "M x 4 float64: left, top, right, bottom of the squares, pixel edges.")
+      .def_property_readonly("outlines", &outlines,
+                             "Of each square K x 2 float64: x, y of the convex hull of its edges, "
+                             "clockwise as the\n"
+                             "picture is seen; none of the presets lab and cars.")
       .def_property_readonly(
           "ignored", [](const Result& r) { return rows(r.said.layers.ignored); },
           "Regions psi whose corners were not looked at: shape (1 circle, 2 rectangle), x, y, "

@@ -25,6 +25,7 @@ namespace {
 struct Detections {
   std::optional<std::vector<bool>> rebels;  ///< of each corner; none: of no corner
   std::vector<Square> squares;
+  bench::SquareMasks masks;
   std::vector<Circle> circles;
 };
 
@@ -38,18 +39,20 @@ Eigen::Matrix<double, Columns, 1> row_of(const Numbers& table, py::ssize_t i, co
   return row;
 }
 
-std::vector<Id> ids_of(const py::object& ids, py::ssize_t boxes) {
-  if (ids.is_none() && boxes == 0) return {};
+/// \param what boxes or masks.
+std::vector<Id> ids_of(const py::object& ids, py::ssize_t count, const char* what) {
+  if (ids.is_none() && count == 0) return {};
   if (ids.is_none()) {
     throw py::value_error(
-        "boxes have no ids, by which they are followed from frame to frame; give ids, or "
-        "ids=range(len(boxes)) where nothing is followed");
+        fmt::format("{0} have no ids, by which they are followed from frame to frame; give ids, or "
+                    "ids=range(len({0})) where nothing is followed",
+                    what));
   }
   const py::object list = py::isinstance<py::array>(ids) ? ids : py::object(py::list(ids));
   const py::array array = array_of(list, "ids", "a whole number for each box", "iu");
-  if (array.ndim() != 1 || array.size() != boxes) {
+  if (array.ndim() != 1 || array.size() != count) {
     throw py::value_error(
-        fmt::format("there are {} ids and {} boxes; give one for each", array.size(), boxes));
+        fmt::format("there are {} ids and {} {}; give one for each", array.size(), count, what));
   }
   std::vector<Id> numbers;
   std::set<Id> met;
@@ -73,7 +76,7 @@ std::vector<Square> squares_of(const py::object& boxes, const py::object& ids) {
           ? Numbers(std::vector<py::ssize_t>{0, 4})
           : table_of(boxes, "boxes", "M x 4 numbers, left, top, right, bottom in pixels", 4);
   std::vector<Square> squares;
-  const std::vector<Id> numbers = ids_of(ids, table.shape(0));
+  const std::vector<Id> numbers = ids_of(ids, table.shape(0), "boxes");
   for (py::ssize_t i = 0; i < table.shape(0); ++i) {
     const Eigen::Vector4d edges = row_of<4>(table, i, "boxes");
     const Vec2 size = edges.tail<2>() - edges.head<2>();
@@ -87,6 +90,30 @@ std::vector<Square> squares_of(const py::object& boxes, const py::object& ids) {
         bench::square_of(numbers[static_cast<std::size_t>(i)], edges.head<2>(), size));
   }
   return squares;
+}
+
+/// Masks in place of boxes, which are those round them.
+void add_masks(const py::object& masks, const py::object& ids, Detections& detections) {
+  const py::object list = py::isinstance<py::array>(masks) ? masks : py::object(py::list(masks));
+  constexpr const char* kExpected = "M x H x W bool, which pixels each covers";
+  const py::array array = array_of(list, "masks", kExpected, "b");
+  if (array.size() == 0) return;
+  if (array.ndim() != 3) {
+    throw py::value_error(fmt::format("masks has {} dimensions; give {}", array.ndim(), kExpected));
+  }
+  const auto pixels = py::array_t<bool, py::array::c_style | py::array::forcecast>(array);
+  const std::vector<Id> numbers = ids_of(ids, pixels.shape(0), "masks");
+  for (py::ssize_t i = 0; i < pixels.shape(0); ++i) {
+    cv::Mat1b picture(static_cast<int>(pixels.shape(1)), static_cast<int>(pixels.shape(2)));
+    std::copy_n(pixels.data(i, 0, 0), picture.total(), picture.begin());
+    sim::Mask mask = sim::mask_of(picture);
+    if (mask.box.empty()) {
+      throw py::value_error(fmt::format("mask {} has no pixel; leave out what is not seen", i));
+    }
+    const Id id = numbers[static_cast<std::size_t>(i)];
+    detections.squares.push_back(bench::square_of(mask, id));
+    detections.masks[id] = std::move(mask);
+  }
 }
 
 std::vector<Circle> circles_of(const py::object& circles) {
@@ -109,10 +136,17 @@ std::vector<Circle> circles_of(const py::object& circles) {
 }
 
 Detections detections_of(const py::object& rebels, const py::object& boxes, const py::object& ids,
-                         const py::object& circles) {
+                         const py::object& circles, const py::object& masks) {
   Detections detections;
   if (!rebels.is_none()) detections.rebels = flags_of(rebels, "rebels");
-  detections.squares = squares_of(boxes, ids);
+  if (!masks.is_none() && !boxes.is_none()) {
+    throw py::value_error("there are boxes and masks; give masks alone, whose boxes are known");
+  }
+  if (masks.is_none()) {
+    detections.squares = squares_of(boxes, ids);
+  } else {
+    add_masks(masks, ids, detections);
+  }
   detections.circles = circles_of(circles);
   return detections;
 }
@@ -122,7 +156,8 @@ class Scorer {
   void add(const Frame& frame, const py::object& said) {
     const bool is_filter = py::isinstance<Result>(said);
     if (!is_filter && !py::isinstance<Detections>(said)) {
-      return add(frame, py::cast(detections_of(said, py::none(), py::none(), py::none())));
+      return add(frame,
+                 py::cast(detections_of(said, py::none(), py::none(), py::none(), py::none())));
     }
     require_next(frame, is_filter);
     bench::FrameRecord record = frame.seen.record;
@@ -141,6 +176,7 @@ class Scorer {
                        [](bool rebel) { return rebel ? Verdict::rebel : Verdict::normal; });
       }
       record.layers.squares = detections.squares;
+      record.masks = detections.masks;
       record.layers.rebel_circles = detections.circles;
     }
     if (!run_) {
@@ -201,11 +237,12 @@ void bind_scorer(py::module_& module) {
       .def(
           py::init(&detections_of), py::arg("rebels") = py::none(), py::kw_only(),
           py::arg("boxes") = py::none(), py::arg("ids") = py::none(),
-          py::arg("circles") = py::none(),
+          py::arg("circles") = py::none(), py::arg("masks") = py::none(),
           "rebels: N bool, which of the frame's corners move by themselves; none where not given.\n"
           "boxes: M x 4, left, top, right, bottom, pixel edges: a box over columns l to r-1 has "
           "left l and right\n"
           "r. ids: M whole numbers from 0 on, which stay with their objects from frame to frame.\n"
+          "masks: in place of boxes, M x H x W bool: the pixels that each covers.\n"
           "circles: K x 3, x, y, radius in pixels: groups of rebels, by which false objects are "
           "counted.\n"
           "Raises TypeError or ValueError for what is none of these.");

@@ -30,6 +30,10 @@ inline Square square_of(Id id, const Vec2& corner, const Vec2& size) {
   square.half_size = 0.5 * size;
   return square;
 }
+/// Round a mask.
+inline Square square_of(const sim::Mask& mask, Id id) {
+  return square_of(id, Vec2(mask.box.x, mask.box.y), Vec2(mask.box.width, mask.box.height));
+}
 /// left, top, right, bottom.
 inline Eigen::Vector4d edges_of(const Square& square) {
   Eigen::Vector4d edges;

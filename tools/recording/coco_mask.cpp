@@ -8,6 +8,22 @@
 
 namespace lcs::bench {
 
+std::string packed_runs(const sim::Runs& runs) {
+  std::string word;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    std::int64_t number = runs[i];
+    if (i > 2) number -= runs[i - 2];
+    for (bool more = true; more;) {
+      int bits = static_cast<int>(number & 31);
+      number >>= 5;
+      more = number != ((bits & 16) != 0 ? -1 : 0);
+      if (more) bits |= 32;
+      word += static_cast<char>('0' + bits);
+    }
+  }
+  return word;
+}
+
 /// Of each number five bits a letter, from '0' on, the lowest first; 32 says that more come, and 16
 /// in the last one that it is below 0. From the fourth on it is the difference to the last but one.
 std::vector<std::int64_t> unpacked_runs(std::string_view word) {
@@ -34,41 +50,6 @@ std::vector<std::int64_t> unpacked_runs(std::string_view word) {
     throw std::invalid_argument("the mask's counts end within a number; give all of them");
   }
   return runs;
-}
-
-cv::Rect box_of_runs(const std::vector<std::int64_t>& runs, const cv::Size& size_px) {
-  const std::int64_t height = size_px.height, all = height * size_px.width;
-  cv::Rect box;
-  std::int64_t begin = 0;
-  bool is_inside = false;
-  for (const std::int64_t run : runs) {
-    const std::int64_t end = begin + run;
-    if (run < 0 || run > all - begin) {
-      begin = -1;
-      break;
-    }
-    if (is_inside && run > 0) {
-      const auto left = static_cast<int>(begin / height),
-                 right = static_cast<int>((end - 1) / height);
-      const auto top = static_cast<int>(begin % height),
-                 last = static_cast<int>((end - 1) % height);
-      const bool is_one_column = left == right;
-      box |= is_one_column ? cv::Rect(left, top, 1, last - top + 1)
-                           : cv::Rect(left, 0, right - left + 1, size_px.height);
-    }
-    begin = end;
-    is_inside = !is_inside;
-  }
-  if (begin != all) {
-    throw std::invalid_argument(fmt::format(
-        "the mask's counts do not add up to {} x {} pixels; give all of them, of pixels outside "
-        "first",
-        size_px.height, size_px.width));
-  }
-  if (box.empty()) {
-    throw std::invalid_argument("the mask has no pixel; leave out what is not seen");
-  }
-  return box;
 }
 
 }  // namespace lcs::bench

@@ -1,21 +1,19 @@
 /// \file
-/// Masks as COCO has them: lengths of runs down the columns from the left, of pixels outside and
-/// inside in turns.
+/// The runs of a mask (`sim/mask.h`) in one word, as pycocotools writes them.
 #pragma once
 
 #include <cstdint>
-#include <opencv2/core.hpp>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "sim/mask.h"
+
 namespace lcs::bench {
 
-/// The lengths in one word, as pycocotools writes them. \throws std::invalid_argument
-std::vector<std::int64_t> unpacked_runs(std::string_view word);
+std::string packed_runs(const sim::Runs& runs);
 
-/// What holds the mask.
-/// \throws std::invalid_argument for runs that do not add up to the picture, and for a mask without
-///   a pixel.
-cv::Rect box_of_runs(const std::vector<std::int64_t>& runs, const cv::Size& size_px);
+/// As the word has them, whatever they are. \throws std::invalid_argument
+std::vector<std::int64_t> unpacked_runs(std::string_view word);
 
 }  // namespace lcs::bench

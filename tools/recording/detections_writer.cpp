@@ -1,12 +1,24 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
+#include "tools/recording/coco_mask.h"
 #include "tools/recording/detections.h"
 #include "tools/recording/recording_fields.h"
 
 namespace lcs::bench {
 namespace {
+
+/// Of a picture that holds a mask and all corners: the file does not say how large it was.
+cv::Size size_for(const sim::Mask& mask, const FrameRecord& frame) {
+  cv::Size size(mask.box.x + mask.box.width, mask.box.y + mask.box.height);
+  for (const Eigen::Vector2f& corner : frame.corners_px) {
+    size.width = std::max(size.width, static_cast<int>(corner.x()) + 1);
+    size.height = std::max(size.height, static_cast<int>(corner.y()) + 1);
+  }
+  return size;
+}
 
 std::string rows_of(const FrameRecord& frame) {
   std::string rows;
@@ -16,8 +28,19 @@ std::string rows_of(const FrameRecord& frame) {
     rows += fmt::format("{},{},{}\n", k, kVerdicts[static_cast<std::size_t>(frame.verdicts[i])], i);
   }
   for (const Square& square : frame.layers.squares) {
-    rows += fmt::format("{},square,{},{},{},{},{}\n", k, square.id, square.location.x(),
+    if (const auto mask = frame.masks.find(square.id); mask != frame.masks.end()) {
+      const cv::Size size = size_for(mask->second, frame);
+      const sim::Runs runs = sim::runs_in({{}, size}, mask->second);
+      rows += fmt::format("{},mask,{},{},{},{}\n", k, square.id, size.height, size.width,
+                          packed_runs(runs));
+      continue;
+    }
+    rows += fmt::format("{},square,{},{},{},{},{}", k, square.id, square.location.x(),
                         square.location.y(), square.half_size.x(), square.half_size.y());
+    for (const Vec2& vertex : square.outline.vertices()) {
+      rows += fmt::format(",{},{}", vertex.x(), vertex.y());
+    }
+    rows += '\n';
   }
   for (const Circle& circle : frame.layers.rebel_circles) {
     rows += fmt::format("{},circle,{},{},{}\n", k, circle.location.x(), circle.location.y(),

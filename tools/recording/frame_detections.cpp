@@ -45,7 +45,7 @@ Id id_in(std::string_view text) {
 }
 
 /// Numbers, or one word that holds all of them.
-std::vector<std::int64_t> runs_in(std::span<const std::string_view> counts) {
+std::vector<std::int64_t> counts_in(std::span<const std::string_view> counts) {
   if (counts.size() == 1) return unpacked_runs(counts[0]);
   std::vector<std::int64_t> runs;
   for (const std::string_view text : counts) {
@@ -154,18 +154,31 @@ void FrameDetections::add_mask(std::span<const std::string_view> values) {
         "size",
         size_px.width, size_px.height, corner.x(), corner.y());
   }
-  const cv::Rect box = box_of_runs(runs_in(values.subspan(3)), size_px);
-  put(square_of(id_in(values[0]), Vec2(box.x, box.y), Vec2(box.width, box.height)));
+  const Id id = id_in(values[0]);
+  sim::Mask mask = sim::mask_of(counts_in(values.subspan(3)), size_px);
+  put(square_of(mask, id));
+  frame_->masks[id] = std::move(mask);
 }
 
 void FrameDetections::add_square(std::span<const std::string_view> values) {
-  if (values.size() != 5) {
-    refuse("not all of a square is there; give ID,X,Y,HALF_WIDTH,HALF_HEIGHT");
+  if (values.size() < 5 || values.size() % 2 != 1) {
+    refuse(
+        "not all of a square is there; give ID,X,Y,HALF_WIDTH,HALF_HEIGHT[,X,Y,...], the latter "
+        "of its outline");
   }
   Square square;
   square.id = id_in(values[0]);
   square.location = {number(values[1], "x"), number(values[2], "y")};
   square.half_size = {above_zero(values[3], "half width"), above_zero(values[4], "half height")};
+  Outline& outline = square.outline;
+  outline.count = static_cast<int>(values.size() - 5) / 2;
+  if (outline.count > Outline::kMost) {
+    refuse("the outline has {} points; give {} at the most", outline.count, Outline::kMost);
+  }
+  for (std::size_t i = 5; Vec2 & vertex : outline.vertices()) {
+    vertex.x() = number(values[i++], "x of the outline");
+    vertex.y() = number(values[i++], "y of the outline");
+  }
   put(square);
 }
 

@@ -16,6 +16,7 @@
 #include "filter/layers.h"
 #include "filter/reason.h"
 #include "filter/signature.h"
+#include "sim/mask.h"
 #include "sim/truth.h"
 #include "sim/warnings.h"
 #include "tools/recording/labels.h"
@@ -39,6 +40,9 @@ struct FrameTimes {
   double truth_ms = 0;    ///< labelling of the corners
 };
 
+/// What squares cover, pixel by pixel, by their ids: of a detector that says so.
+using SquareMasks = std::map<Id, sim::Mask>;
+
 struct FrameRecord {
   int index = 0;
   std::int64_t t_ns = 0;
@@ -47,6 +51,7 @@ struct FrameRecord {
   std::vector<Verdict> verdicts;            ///< of each corner
   std::vector<Reason> reasons;              ///< of each verdict; empty where none are given
   Layers layers;
+  SquareMasks masks;
   EgoMotion motion;                            ///< since the last frame, as the tracker was told
   EgoMotion true_motion;                       ///< likewise, from the exact poses
   std::vector<sim::CornerTruth> corner_truth;  ///< of each corner

@@ -54,6 +54,12 @@ struct OrNan {  ///< NaN, as the motion of a point that leaves the camera's fron
 };
 ///@}
 
+/// What has a form, and is no number: left out of tables of numbers. Older files lack it.
+template <class T>
+struct Form {
+  T& value;
+};
+
 /// A corner with its verdict and the rule that settled it, as `layers.jsonl` has them.
 struct CornerRow {
   double x = 0;
@@ -66,6 +72,13 @@ struct CornerRow {
 struct Place {
   double x = 0;
   double y = 0;
+};
+
+/// What a square covers, within a box of pixel edges.
+struct MaskRow {
+  Id square = 0;
+  int left = 0, top = 0, right = 0, bottom = 0;
+  sim::Runs mask;
 };
 
 /// A row of alpha, with as many sightings as it has.
@@ -147,7 +160,7 @@ void fields(Circle& circle, Visit&& visit) {
 template <class Visit>
 void fields(Square& square, Visit&& visit) {
   auto& [id, location, half_size, origin, speed, depth_ratio, angle, trust, age, circles,
-         rebel_circles, ignoring] = square;
+         rebel_circles, ignoring, outline] = square;
   visit("id", id);
   visit("x", location.x());
   visit("y", location.y());
@@ -163,6 +176,7 @@ void fields(Square& square, Visit&& visit) {
   visit("circles", circles);
   visit("rebel_circles", rebel_circles);
   visit("ignoring", ignoring);
+  visit("outline", Form{outline});
 }
 
 template <class Visit>
@@ -200,7 +214,7 @@ void fields(sim::CornerTruth& truth, Visit&& visit) {
 
 template <class Visit>
 void fields(sim::ObjectTruth& truth, Visit&& visit) {
-  auto& [object, left, top, right, bottom, visible_px, visible_fraction, moving] = truth;
+  auto& [object, left, top, right, bottom, visible_px, visible_fraction, moving, mask] = truth;
   visit("object", object);
   visit("left", left);
   visit("top", top);
@@ -209,6 +223,18 @@ void fields(sim::ObjectTruth& truth, Visit&& visit) {
   visit("visible_px", visible_px);
   visit("visible_fraction", visible_fraction);
   visit("moving", moving);
+  visit("mask", Form{mask});
+}
+
+template <class Visit>
+void fields(MaskRow& row, Visit&& visit) {
+  auto& [square, left, top, right, bottom, mask] = row;
+  visit("square", square);
+  visit("left", left);
+  visit("top", top);
+  visit("right", right);
+  visit("bottom", bottom);
+  visit("mask", Form{mask});
 }
 
 template <class Visit>

@@ -9,6 +9,10 @@
 /// corner's in the corners' order, as ORB has them, in hexadecimal digits (Python:
 /// `bytes.fromhex(frame["signatures"])`).
 ///
+/// The mask of an object or a square is COCO's word of the pixels in its box: pycocotools' `decode`
+/// of {"size": [bottom - top, right - left], "counts": word} gives them. `layers.jsonl` has "masks"
+/// where a detector gave some.
+///
 /// Numbers are written in the shortest form that reads back to the same bits, so that scoring a
 /// recording that was stored gives the same figures. JSON knows no infinity: null stands for +inf
 /// (the depth of the sky).

@@ -13,6 +13,7 @@
 #include "scenarios/input_file.h"
 #include "scenarios/message.h"
 #include "tools/files/json_node.h"
+#include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_fields.h"
 #include "tools/recording/recording_io.h"
 #include "tools/recording/warnings.h"
@@ -21,6 +22,9 @@ namespace lcs::bench {
 namespace {
 
 using Json = nlohmann::json;
+
+/// Of a picture; nothing is as large, and nothing overflows below it.
+constexpr int kLongest_px = 1 << 20;
 
 /// \throws std::runtime_error, whose message goes behind the place.
 void require(bool condition, const char* what) {
@@ -101,6 +105,37 @@ void read(const Json& list, std::vector<Vec2>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) read_array(list[i], {points[i].data(), 2});
 }
 
+void read(const Json& list, Form<Outline> outline) {
+  std::vector<Vec2> points;
+  read(list, points);
+  if (std::ssize(points) > Outline::kMost) {
+    throw std::runtime_error(fmt::format("has over {} points", Outline::kMost));
+  }
+  outline.value.count = static_cast<int>(points.size());
+  std::copy(points.begin(), points.end(), outline.value.places.begin());
+}
+
+/// COCO's word; whether the runs make up their box is for `require_mask`.
+void read(const Json& json, Form<sim::Runs> runs) {
+  std::string word;
+  read(json, word);
+  runs.value.clear();
+  try {
+    for (const std::int64_t run : unpacked_runs(word)) {
+      if (!std::in_range<std::uint32_t>(run)) throw std::invalid_argument("");
+      runs.value.push_back(static_cast<std::uint32_t>(run));
+    }
+  } catch (const std::invalid_argument&) {
+    throw std::runtime_error("is not the word of a mask");
+  }
+}
+
+/// Of a field, where a file has no column of it.
+template <class Value>
+constexpr bool kMayLack = false;
+template <class Value>
+constexpr bool kMayLack<Form<Value>> = true;
+
 /// A member of an object.
 template <class... Out>
 void read_member(const Json& json, const char* key, Out&&... out) {
@@ -116,20 +151,28 @@ template <class Item>
 std::vector<Item> columns_of(const Json& list) {
   std::vector<const Json*> columns;
   Item item;
-  fields(item, [&](const char* name, const auto&) {
+  fields(item, [&]<class Value>(const char* name, const Value&) {
+    if (kMayLack<Value> && list.is_object() && !list.contains(name)) {
+      columns.push_back(nullptr);
+      return;
+    }
     columns.push_back(&member(list, name));
     within(fmt::format(".{}", name), [&] { require(columns.back()->is_array(), "a list"); });
   });
   const std::size_t size = columns.front()->size();
   for (const Json* column : columns) {
-    if (column->size() != size) throw std::runtime_error("has columns that differ in length");
+    if (column != nullptr && column->size() != size) {
+      throw std::runtime_error("has columns that differ in length");
+    }
   }
   std::vector<Item> items;
   items.reserve(size);
   for (std::size_t row = 0; row < size; ++row) {
     std::size_t column = 0;
     fields(item, [&](const char* name, auto&& value) {
-      const Json& cell = (*columns[column++])[row];
+      const Json* const of_all = columns[column++];
+      if (of_all == nullptr) return;
+      const Json& cell = (*of_all)[row];
       try {
         read(cell, value);
       } catch (const std::runtime_error& error) {
@@ -147,6 +190,29 @@ std::vector<Item> read_columns(const Json& json, const char* key) {
   std::vector<Item> items;
   within(fmt::format(".{}", key), [&] { items = columns_of<Item>(list); });
   return items;
+}
+
+/// The runs of a mask add up to its box.
+template <class Item>
+std::vector<Item> read_masks(const Json& json, const char* key, bool may_lack) {
+  std::vector<Item> items = read_columns<Item>(json, key);
+  for (const Item& item : items) {
+    if (item.mask.empty() && may_lack) continue;
+    const std::int64_t width = std::int64_t{item.right} - item.left,
+                       height = std::int64_t{item.bottom} - item.top;
+    std::int64_t sum = 0;
+    for (const std::uint32_t run : item.mask) sum += run;
+    if (width < 1 || height < 1 || width > kLongest_px || height > kLongest_px ||
+        sum != width * height) {
+      throw std::runtime_error(
+          fmt::format(".{}.mask[{}] is not as large as its box", key, &item - items.data()));
+    }
+  }
+  return items;
+}
+
+std::vector<sim::ObjectTruth> read_objects(const Json& json) {
+  return read_masks<sim::ObjectTruth>(json, "objects", true);
 }
 
 EgoMotion motion_of(const Json& json) {
@@ -232,6 +298,13 @@ void read_layers(const Json& json, FrameRecord& frame) {
   layers.ignored = read_columns<IgnoreRegion>(json, "ignored");
   layers.collectors = read_columns<Collector>(json, "collectors");
   layers.chains = chains_of(read_columns<ChainRow>(json, "chains"));
+  if (json.contains("masks")) {
+    for (MaskRow& row : read_masks<MaskRow>(json, "masks", false)) {
+      frame.masks[row.square] = {
+          cv::Rect(cv::Point(row.left, row.top), cv::Point(row.right, row.bottom)),
+          std::move(row.mask)};
+    }
+  }
   for (Edge& edge : layers.rebel_edges) edge.rebel = true;
   for (Circle& circle : layers.rebel_circles) circle.rebel = true;
 }
@@ -242,7 +315,7 @@ void read_truth(const Json& json, FrameRecord& frame) {
   if (index != frame.index) throw std::runtime_error("index is not that of the layers");
   frame.true_motion = read_motion(json, "true_motion");
   frame.corner_truth = read_columns<sim::CornerTruth>(json, "corners");
-  frame.object_truth = read_columns<sim::ObjectTruth>(json, "objects");
+  frame.object_truth = read_objects(json);
   if (json.contains("labels")) frame.labels = read_columns<LabelledBox>(json, "labels");
 }
 
@@ -338,7 +411,7 @@ Recording read_seen(const std::filesystem::path& file) {
       frame.corners_px.push_back(Vec2(place.x, place.y).cast<float>());
     }
     frame.corner_truth = read_columns<sim::CornerTruth>(json, "truth");
-    frame.object_truth = read_columns<sim::ObjectTruth>(json, "objects");
+    frame.object_truth = read_objects(json);
     if (frame.corner_truth.size() != frame.corners_px.size()) {
       throw std::runtime_error("truth is of another number of corners");
     }
@@ -358,9 +431,8 @@ std::vector<std::vector<sim::ObjectTruth>> read_object_truth(const std::filesyst
       continue;
     }
     while (next < frame && truth.skip()) ++next;
-    const bool is_there = truth.next([&](const Json& json) {
-      objects.push_back(read_columns<sim::ObjectTruth>(json, "objects"));
-    });
+    const bool is_there =
+        truth.next([&](const Json& json) { objects.push_back(read_objects(json)); });
     if (!is_there) truth.fail(fmt::format("ends before frame {}", frame));
     ++next;
   }

@@ -8,7 +8,9 @@
 #include <stdexcept>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
+#include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_fields.h"
 #include "tools/recording/recording_io.h"
 
@@ -72,7 +74,7 @@ void append(std::string& out, Enum value) {
   out += '"';
 }
 
-void append(std::string& out, const std::vector<Vec2>& points) {
+void append(std::string& out, std::span<const Vec2> points) {
   out += '[';
   for (const Vec2& point : points) {
     out += out.back() == '[' ? "[" : ",[";
@@ -82,6 +84,17 @@ void append(std::string& out, const std::vector<Vec2>& points) {
     out += ']';
   }
   out += ']';
+}
+
+void append(std::string& out, const std::vector<Vec2>& points) {
+  append(out, std::span<const Vec2>(points));
+}
+void append(std::string& out, Form<Outline> outline) {
+  append(out, std::as_const(outline.value).vertices());
+}
+
+void append(std::string& out, Form<sim::Runs> runs) {
+  append(out, packed_runs(runs.value));
 }
 
 void append_key(std::string& out, std::string_view key) {
@@ -203,6 +216,15 @@ std::vector<ChainRow> chain_rows(const std::vector<Chain>& chains) {
   return rows;
 }
 
+std::vector<MaskRow> mask_rows(const SquareMasks& masks) {
+  std::vector<MaskRow> rows;
+  for (const auto& [square, mask] : masks) {
+    const cv::Rect& box = mask.box;
+    rows.push_back({square, box.x, box.y, box.x + box.width, box.y + box.height, mask.runs});
+  }
+  return rows;
+}
+
 template <class Content>
 std::string line(const FrameRecord& frame, Content&& append_content) {
   try {
@@ -270,6 +292,7 @@ std::string layers_line(const FrameRecord& frame) {
     append_columns(out, "ignored", layers.ignored);
     append_columns(out, "collectors", layers.collectors);
     append_columns(out, "chains", chain_rows(layers.chains));
+    if (!frame.masks.empty()) append_columns(out, "masks", mask_rows(frame.masks));
   });
 }
 

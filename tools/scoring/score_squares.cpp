@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tools/recording/box.h"
+#include "tools/scoring/region.h"
 #include "tools/scoring/scoring.h"
 #include "tools/scoring/statistics.h"
 
@@ -36,14 +37,16 @@ struct FrameSquares {
   std::vector<BoxPair> best_box;  ///< of each square, among all boxes; object 0 where none overlaps
 };
 
-FrameSquares compare(const FrameRecord& frame) {
+/// \param iou of a truth and a square.
+template <typename Overlap>
+FrameSquares compare(const FrameRecord& frame, Overlap&& iou_of) {
   FrameSquares result;
   result.eligible = eligible_objects(frame);
   std::vector<BoxPair> candidates;
   for (const Square& square : frame.layers.squares) {
     BoxPair best{0, 0, square.id};
     for (const sim::ObjectTruth& truth : frame.object_truth) {
-      const double iou = intersection_over_union(box_of(truth), box_of(square));
+      const double iou = iou_of(truth, square);
       const bool eligible = result.eligible.contains(truth.object);
       if (iou > 0 && eligible) candidates.push_back({iou, truth.object, square.id});
       if (iou > best.iou || (iou == best.iou && iou > 0 && eligible)) {
@@ -56,6 +59,32 @@ FrameSquares compare(const FrameRecord& frame) {
   result.pairs = one_to_one(std::move(candidates));
   return result;
 }
+
+FrameSquares compare_boxes(const FrameRecord& frame) {
+  return compare(frame, [](const sim::ObjectTruth& truth, const Square& square) {
+    return intersection_over_union(box_of(truth), box_of(square));
+  });
+}
+
+/// The pixels that the objects and squares of a frame cover.
+class FrameRegions {
+ public:
+  explicit FrameRegions(const FrameRecord& frame) {
+    for (const sim::ObjectTruth& truth : frame.object_truth) {
+      objects_[truth.object] = region_of(sim::mask_of(truth));
+    }
+    for (const Square& square : frame.layers.squares) {
+      squares_[square.id] = region_of(square, frame.masks);
+    }
+  }
+  double iou(int object, Id square) const {
+    return intersection_over_union(objects_.at(object), squares_.at(square));
+  }
+
+ private:
+  std::map<int, Region> objects_;
+  std::map<Id, Region> squares_;
+};
 
 SquareCounts count(const FrameSquares& frame, double threshold) {
   SquareCounts counts;
@@ -88,6 +117,29 @@ std::set<int> movers(const Recording& recording) {
   return result;
 }
 
+bool are_masks_known(const Recording& recording) {
+  return std::ranges::all_of(recording.frames, [](const FrameRecord& frame) {
+    return std::ranges::none_of(frame.object_truth,
+                                [](const sim::ObjectTruth& truth) { return truth.mask.empty(); });
+  });
+}
+
+/// \param pairs by their boxes.
+void add_masks(const FrameRecord& frame, const std::vector<BoxPair>& pairs,
+               const std::set<int>& moving, SquareScore::Masks& masks) {
+  const FrameRegions regions(frame);
+  const FrameSquares squares =
+      compare(frame, [&](const sim::ObjectTruth& truth, const Square& square) {
+        return regions.iou(truth.object, square.id);
+      });
+  add(masks.at_50, count(squares, kRightIou));
+  for (const BoxPair& pair : pairs) {
+    if (pair.iou < kRightIou) continue;
+    (moving.contains(pair.box) ? masks.movers_iou : masks.static_iou)
+        .push_back(regions.iou(pair.box, pair.square));
+  }
+}
+
 }  // namespace
 
 std::set<int> eligible_objects(const FrameRecord& frame) {
@@ -99,7 +151,7 @@ std::set<int> eligible_objects(const FrameRecord& frame) {
 }
 
 SquareOutcomes square_outcomes(const FrameRecord& frame) {
-  const FrameSquares squares = compare(frame);
+  const FrameSquares squares = compare_boxes(frame);
   SquareOutcomes outcomes{squares.eligible, {}, {}};
   std::set<Id> right;
   for (const BoxPair& pair : squares.pairs) {
@@ -141,9 +193,10 @@ SquareScore score_squares(const Recording& recording) {
   SquareScore score;
   const std::set<int> moving = movers(recording);
   std::map<int, Id> last_square;  // of each object, where it was last matched
+  if (are_masks_known(recording)) score.masks.emplace();
   for (const FrameRecord& frame : recording.frames) {
     if (frame.index < kSightings) continue;
-    const FrameSquares squares = compare(frame);
+    const FrameSquares squares = compare_boxes(frame);
     add(score.at_30, count(squares, 0.3));
     add(score.at_50, count(squares, kRightIou));
     add(score.at_70, count(squares, 0.7));
@@ -159,6 +212,7 @@ SquareScore score_squares(const Recording& recording) {
       score.identity_switches += last->second != pair.square;
       last->second = pair.square;
     }
+    if (score.masks) add_masks(frame, squares.pairs, moving, *score.masks);
   }
   return score;
 }

@@ -54,6 +54,13 @@ struct SquareScore {
   std::vector<double> movers_iou, static_iou;  ///< of matched pairs
   ///@}
   int identity_switches = 0;  ///< at 0.5
+  /// By the pixels that squares and objects cover, in place of their boxes.
+  struct Masks {
+    SquareCounts at_50;
+    /// Of the pairs whose boxes match at 0.5.
+    std::vector<double> movers_iou, static_iou;
+  };
+  std::optional<Masks> masks;  ///< none unless the masks of all objects are known
 };
 
 SquareScore score_squares(const Recording& recording);

@@ -78,6 +78,14 @@ void add_squares(Metrics& metrics, const Recording& recording) {
   metrics.emplace_back(
       "square.identity_switches",
       squares.at_50.boxes > 0 ? std::optional<double>(squares.identity_switches) : std::nullopt);
+  const SquareScore::Masks masks = squares.masks.value_or(SquareScore::Masks{});
+  all_iou = masks.movers_iou;
+  all_iou.insert(all_iou.end(), masks.static_iou.begin(), masks.static_iou.end());
+  metrics.emplace_back("square.mask_recall_50", masks.at_50.recall());
+  metrics.emplace_back("square.mask_precision_50", masks.at_50.precision());
+  metrics.emplace_back("square.mask_mean_iou", mean(all_iou));
+  metrics.emplace_back("square.mask_mean_iou_movers", mean(masks.movers_iou));
+  metrics.emplace_back("square.mask_mean_iou_static", mean(masks.static_iou));
   metrics.emplace_back("truth.boxes", squares.at_50.boxes);
 
   std::set<int> seen;

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/sequence/objects.h"
-#include "tools/sequence/run_lengths.h"
 #include "tools/sequence/writers.h"
 
 namespace lcs::sequence {
@@ -22,7 +21,7 @@ class CocoWriter : public Writer {
         fmt::format(R"({{"id":{},"file_name":"{}","width":{},"height":{}}})", image,
                     picture_path(frame.now.t_ns), camera.width_px, camera.height_px);
     const int count = static_cast<int>(info_.objects.size());
-    const auto runs = run_lengths(frame.mask, count);
+    const cv::Rect picture(0, 0, camera.width_px, camera.height_px);
     std::string& rows = output.rows["coco_annotations"];
     for (const sim::ObjectTruth& object : frame.now.objects) {
       const auto id = static_cast<std::size_t>(object.object);
@@ -32,7 +31,8 @@ class CocoWriter : public Writer {
           rows.empty() ? "" : ",\n", frame.now.index * count + object.object, image,
           kind_of(info_.scenario, info_.objects.at(id - 1)).coco, object.left, object.top,
           object.right - object.left, object.bottom - object.top, object.visible_px, object.object,
-          camera.height_px, camera.width_px, fmt::join(runs.at(id), ","));
+          camera.height_px, camera.width_px,
+          fmt::join(sim::runs_in(picture, sim::mask_of(object)), ","));
     }
   }
 
@@ -56,35 +56,6 @@ class CocoWriter : public Writer {
 };
 
 }  // namespace
-
-std::vector<std::vector<std::uint32_t>> run_lengths(const cv::Mat1b& mask, int count) {
-  struct Runs {
-    std::vector<std::uint32_t> lengths;
-    std::uint32_t end = 0;  ///< of the last one
-  };
-  std::vector<Runs> all(static_cast<std::size_t>(count) + 1);
-  cv::Mat1b columns;
-  cv::transpose(mask, columns);
-  const auto total = static_cast<std::uint32_t>(columns.total());
-  const unsigned char* const pixels = columns[0];
-  for (std::uint32_t begin = 0; begin < total;) {
-    std::uint32_t end = begin + 1;
-    while (end < total && pixels[end] == pixels[begin]) ++end;
-    if (pixels[begin] <= count) {
-      Runs& runs = all[pixels[begin]];
-      runs.lengths.push_back(begin - runs.end);
-      runs.lengths.push_back(end - begin);
-      runs.end = end;
-    }
-    begin = end;
-  }
-  std::vector<std::vector<std::uint32_t>> lengths;
-  for (Runs& runs : all) {
-    if (runs.end < total) runs.lengths.push_back(total - runs.end);
-    lengths.push_back(std::move(runs.lengths));
-  }
-  return lengths;
-}
 
 std::unique_ptr<Writer> make_coco_writer(const SequenceInfo& info) {
   return std::make_unique<CocoWriter>(info);

@@ -72,7 +72,7 @@ Landmarks (`--formats landmarks`):
   still, and its label: `fixed`; `rebel`: its object moves, and the two motions differ by 1 px or more;
   `indistinct`: its object moves, and they do not; `none`: no landmark. `radial` is 1 for a rebel that
   moves as a static point at another depth would, to within 1 px. Empty where it is not defined.
-* `truth.jsonl`: the same and the boxes of objects in the form of a run's own file, a JSON object a line: what
+* `truth.jsonl`: the same and the boxes and masks of objects in the form of a run's own file, a JSON object a line: what
   `lcs replay` scores detectors by.
 )";
 

@@ -130,7 +130,7 @@ void check_masks(int frame, const cv::Mat1b& mask, std::span<const sim::ObjectTr
     sim::ObjectTruth& seen = in_mask.at(static_cast<std::size_t>(object.object - 1));
     const bool agree = seen.left == object.left && seen.top == object.top &&
                        seen.right == object.right && seen.bottom == object.bottom &&
-                       seen.visible_px == object.visible_px;
+                       seen.visible_px == object.visible_px && seen.mask == object.mask;
     if (!agree) {
       disagree(frame,
                "the box of object {} is [{}, {}) x [{}, {}), that of its mask [{}, {}) x [{}, {})",

@@ -54,6 +54,11 @@ const std::vector<MetricTraits>& metric_traits() {
       higher_share("square.mean_iou_movers"),
       higher_share("square.mean_iou_static"),
       lower("square.identity_switches", 0.9),  // counts whole ones
+      higher_share("square.mask_recall_50"),
+      higher_share("square.mask_precision_50"),
+      higher_share("square.mask_mean_iou"),
+      higher_share("square.mask_mean_iou_movers"),
+      higher_share("square.mask_mean_iou_static"),
       neutral("truth.boxes"),
       neutral("truth.objects"),
       neutral("labels.frames"),

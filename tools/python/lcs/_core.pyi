@@ -223,6 +223,8 @@ class Result:
     @property
     def boxes(self) -> NDArray[np.float64]: ...
     @property
+    def outlines(self) -> list[NDArray[np.float64]]: ...
+    @property
     def ignored(self) -> _Rows: ...
     @property
     def collectors(self) -> _Rows: ...
@@ -250,6 +252,7 @@ class Detections:
         boxes: Optional[ArrayLike] = None,
         ids: Optional[Iterable[int]] = None,
         circles: Optional[ArrayLike] = None,
+        masks: Optional[ArrayLike] = None,
     ) -> None: ...
 
 @final

@@ -1,0 +1,84 @@
+#include "filter/squares/convex_hull.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+namespace lcs {
+namespace {
+
+/// Whether the way a, b, c turns clockwise, as the picture is seen.
+bool turns(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const Vec2 ab = b - a, bc = c - b;
+  return ab.x() * bc.y() - ab.y() * bc.x() > 0;
+}
+
+}  // namespace
+
+ConvexHull::Box ConvexHull::box() const {
+  Box box{points_.front(), points_.front()};
+  for (const Vec2& point : points_) {
+    box.low = box.low.cwiseMin(point);
+    box.high = box.high.cwiseMax(point);
+  }
+  return box;
+}
+
+/// From the leftmost point along the upper side to the rightmost, and back along the lower one.
+void ConvexHull::make_chain() {
+  std::sort(points_.begin(), points_.end(), [](const Vec2& a, const Vec2& b) {
+    return std::tuple(a.x(), a.y()) < std::tuple(b.x(), b.y());
+  });
+  points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
+  chain_.clear();
+  if (chain_.capacity() < points_.size() + 1) chain_.reserve(points_.capacity() + 1);
+  const auto add = [&](const Vec2& point, std::size_t first) {
+    while (chain_.size() >= first + 2 && !turns(chain_[chain_.size() - 2], chain_.back(), point)) {
+      chain_.pop_back();
+    }
+    chain_.push_back(point);
+  };
+  for (const Vec2& point : points_) add(point, 0);
+  if (points_.size() < 2) return;
+  const std::size_t rightmost = chain_.size() - 1;
+  for (auto point = points_.rbegin() + 1; point != points_.rend(); ++point) add(*point, rightmost);
+  chain_.pop_back();  // the first again
+}
+
+Outline ConvexHull::outline() {
+  make_chain();
+  Outline outline;
+  if (std::ssize(chain_) <= Outline::kMost) {
+    std::copy(chain_.begin(), chain_.end(), outline.places.begin());
+    outline.count = static_cast<int>(chain_.size());
+    return outline;
+  }
+  // Going round both, the farthest vertex of one direction is the last one's or comes behind it.
+  for (int k = 0; k < Outline::kMost; ++k) {
+    const double angle = std::numbers::pi * (2.0 * k / Outline::kMost - 1);
+    const Vec2 direction(std::cos(angle), std::sin(angle));
+    const Vec2& farthest = *std::max_element(
+        chain_.begin(), chain_.end(),
+        [&](const Vec2& a, const Vec2& b) { return a.dot(direction) < b.dot(direction); });
+    const auto is_last = [&](int i) {
+      return outline.places[static_cast<std::size_t>(i)] == farthest;
+    };
+    if (outline.count > 0 && (is_last(outline.count - 1) || is_last(0))) continue;
+    outline.places[static_cast<std::size_t>(outline.count++)] = farthest;
+  }
+  return outline;
+}
+
+void place(Square& square, const Vec2& location, const Vec2& half_size) {
+  const Vec2 stretch = (square.half_size.array() > 0)
+                           .select(half_size.array() / square.half_size.array(), 1.0)
+                           .matrix();
+  for (Vec2& vertex : square.outline.vertices()) {
+    vertex = location + (vertex - square.location).cwiseProduct(stretch);
+  }
+  square.location = location;
+  square.half_size = half_size;
+}
+
+}  // namespace lcs

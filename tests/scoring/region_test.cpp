@@ -1,0 +1,130 @@
+#include "tools/scoring/region.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "filter/squares/convex_hull.h"
+#include "tests/tools/recordings.h"
+
+namespace lcs::bench {
+namespace {
+
+constexpr int kSide = 40;
+
+/// Pixel by pixel.
+struct Oracle {
+  cv::Mat1b pixels = cv::Mat1b(kSide, kSide, uchar{0});
+
+  template <typename Inside>
+  explicit Oracle(Inside&& inside) {
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) pixels(y, x) = inside(Vec2(x, y)) ? 1 : 0;
+    }
+  }
+};
+
+double iou(const Oracle& a, const Oracle& b) {
+  const int all = cv::countNonZero(a.pixels | b.pixels);
+  return all > 0 ? static_cast<double>(cv::countNonZero(a.pixels & b.pixels)) / all : 0;
+}
+
+bool is_in(const Outline& outline, const Vec2& x) {
+  const auto v = outline.vertices();
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const Vec2 side = v[(i + 1) % v.size()] - v[i], to = x - v[i];
+    if (side.x() * to.y() - side.y() * to.x() < -1e-6) return false;
+  }
+  return true;
+}
+
+class Regions : public testing::Test {
+ protected:
+  double number(double least, double most) {
+    return std::uniform_real_distribution<>(least, most)(random_);
+  }
+  /// Half of them of whole pixels, as corners are.
+  Outline outline(int points) {
+    const bool whole = random_() % 2 == 0;
+    ConvexHull hull;
+    for (int i = 0; i < points; ++i) {
+      const Vec2 point(number(2, kSide - 3), number(2, kSide - 3));
+      hull.add(whole ? Vec2(point.array().round()) : point);
+    }
+    return hull.outline();
+  }
+  cv::Mat1b picture() {
+    cv::Mat1b picture(kSide, kSide, uchar{0});
+    for (int i = 0; i < 6; ++i) {
+      const cv::Point corner(static_cast<int>(number(0, 30)), static_cast<int>(number(0, 30)));
+      picture(cv::Rect(corner, cv::Size(1 + i, 9 - i))) = i == 3 ? 0 : 255;
+    }
+    return picture;
+  }
+
+  std::mt19937 random_{1};
+};
+
+TEST_F(Regions, OfOutlinesBoxesAndMasksOverlapAsPixelByPixel) {
+  for (int i = 0; i < 400; ++i) {
+    const Outline one = outline(3 + i % 12), other = outline(3 + i % 5);
+    const cv::Mat1b picture = this->picture();
+    const Box box{{number(0, 15), number(0, 15)}, {number(15, 39), number(15, 39)}};
+    const Oracle of_one([&](const Vec2& x) { return is_in(one, x); });
+    const Oracle of_other([&](const Vec2& x) { return is_in(other, x); });
+    const Oracle of_box([&](const Vec2& x) { return box.contains(x); });
+    const Oracle of_mask([&](const Vec2& x) {
+      return picture(static_cast<int>(x.y()), static_cast<int>(x.x())) != 0;
+    });
+    if (one.count < 3 || other.count < 3) continue;
+    const Region a = region_of(one), b = region_of(other), c = region_of(box),
+                 d = region_of(sim::mask_of(picture));
+    EXPECT_EQ(a.pixels, cv::countNonZero(of_one.pixels));
+    EXPECT_EQ(c.pixels, cv::countNonZero(of_box.pixels));
+    EXPECT_EQ(d.pixels, cv::countNonZero(of_mask.pixels));
+    EXPECT_EQ(intersection_over_union(a, b), iou(of_one, of_other));
+    EXPECT_EQ(intersection_over_union(a, c), iou(of_one, of_box));
+    EXPECT_EQ(intersection_over_union(d, a), iou(of_mask, of_one));
+    EXPECT_EQ(intersection_over_union(d, c), iou(of_mask, of_box));
+    EXPECT_EQ(intersection_over_union(a, d), intersection_over_union(d, a));
+    EXPECT_EQ(intersection_over_union(d, d), d.pixels > 0 ? 1 : 0);
+  }
+}
+
+/// Corners sit on an object's outermost pixels, whose centres are the rim of the outline.
+TEST_F(Regions, AnOutlineThroughTheCornersOfABoxOfPixelsCoversAllOfThem) {
+  ConvexHull hull;
+  for (const Vec2& corner : {Vec2(10, 20), Vec2(19, 20), Vec2(19, 24), Vec2(10, 24)}) {
+    hull.add(corner + Vec2(1e-9, -1e-9));
+  }
+  EXPECT_EQ(region_of(hull.outline()).pixels, 50);
+}
+
+TEST_F(Regions, AreNoneOfNothingAndBoundedHoweverFarTheyReach) {
+  EXPECT_EQ(region_of(Outline{}).pixels, 0);
+  EXPECT_EQ(intersection_over_union(Region{}, Region{}), 0);
+  const Region far = region_of(Box{{-1e300, -1e300}, {1e300, 1e300}});
+  EXPECT_EQ(far.pixels, 65537LL * 65537);
+  EXPECT_EQ(region_of(Box{{1e6, 0}, {1e7, 10}}).stretches.size(), 1u);
+  Outline wide;
+  wide.count = 3;
+  wide.places[1] = {1e300, -1e300};
+  wide.places[2] = {1e200, 1e300};
+  EXPECT_LT(region_of(wide).stretches.size(), 70000u);
+}
+
+TEST_F(Regions, OfASquareAreItsMaskElseItsOutlineElseItsBox) {
+  FrameMaker maker(0);
+  Square square = maker.square(3, {10, 10, 20, 20}).record().layers.squares[0];
+  EXPECT_EQ(region_of(square, {}).pixels, 100);
+  ConvexHull hull;
+  for (const Vec2& corner : {Vec2(10, 10), Vec2(19, 10), Vec2(10, 19)}) hull.add(corner);
+  square.outline = hull.outline();
+  EXPECT_EQ(region_of(square, {}).pixels, 55);
+  const SquareMasks masks{{3, {cv::Rect(10, 10, 2, 3), {0, 4, 1, 1}}}};
+  EXPECT_EQ(region_of(square, masks).pixels, 5);
+}
+
+}  // namespace
+}  // namespace lcs::bench
