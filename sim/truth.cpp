@@ -160,7 +160,7 @@ std::vector<ObjectTruth> modal_boxes(const cv::Mat1i& object, int count) {
   std::vector<ObjectTruth> boxes(static_cast<std::size_t>(count));
   for (int id = 1; id <= count; ++id) {
     boxes[static_cast<std::size_t>(id - 1)] = {
-        .object = id, .left = object.cols, .top = object.rows};
+        .object = id, .left = object.cols, .top = object.rows, .mask = {}};
   }
   for (int y = 0; y < object.rows; ++y) {
     const int* row = object[y];

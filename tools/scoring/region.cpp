@@ -71,8 +71,8 @@ Region region_of(const Outline& outline) {
 
 Region region_of(const Box& box) {
   Region region;
-  for (int column = first_pixel(box.min.x()); column <= last_pixel(box.max.x()); ++column) {
-    add(region, {column, first_pixel(box.min.y()), last_pixel(box.max.y()) + 1});
+  for (int column = first_pixel(box.min().x()); column <= last_pixel(box.max().x()); ++column) {
+    add(region, {column, first_pixel(box.min().y()), last_pixel(box.max().y()) + 1});
   }
   return region;
 }
