@@ -165,6 +165,7 @@ std::vector<std::string> other_values(const ParameterInfo& info) {
 
 /// Those in use that this drive does not bring to bear.
 const std::map<std::string, std::string> kNotOnThisDrive{
+    {"circle.epsilon_v_r", "of rebels as fast as these, half of the speed is more"},
     {"square.mix_kinds", "the paper's rule finds no rebels here that move as normal circles do"},
 };
 
