@@ -119,7 +119,9 @@ TEST(ConvexHull, IsMirroredAndTurnedWithThePicture) {
       for (const Vec2& vertex : list_of(hull_of(points))) expected.push_back(move(vertex));
       const Outline outline = hull_of(moved);
       EXPECT_EQ(by_place(list_of(outline)), by_place(expected));
-      if (outline.count >= 3) EXPECT_TRUE(is_convex(outline));
+      if (outline.count >= 3) {
+        EXPECT_TRUE(is_convex(outline));
+      }
     }
   }
 }

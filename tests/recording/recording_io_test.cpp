@@ -309,7 +309,9 @@ TEST(RecordingIo, RecordingsFromBeforeThereWereOutlinesAndMasksAreRead) {
     std::string older;
     for (std::string line; std::getline(in, line);) {
       nlohmann::json json = nlohmann::json::parse(line);
-      if (json.contains("index")) EXPECT_EQ(json[list].erase(key), 1u);
+      if (json.contains("index")) {
+        EXPECT_EQ(json[list].erase(key), 1u);
+      }
       older += json.dump() + '\n';
     }
     in.close();

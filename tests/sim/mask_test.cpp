@@ -30,7 +30,7 @@ cv::Mat1b drawn(const Mask& mask, const cv::Size& size) {
   return picture;
 }
 
-bool are_same(const cv::Mat1b& a, const cv::Mat1b& b) {
+bool are_same(const cv::Mat& a, const cv::Mat& b) {
   return cv::countNonZero(a != b) == 0;
 }
 
