@@ -13,9 +13,9 @@ namespace {
 constexpr double kMostApproach = 0.2;
 
 /// Of the height above the ground that is told, by which it may be wrong.
-constexpr double kWrongHeight = 0.15;
+constexpr double kWrongHeight = 0.1;
 /// Standard deviations of the ground beyond which nothing static is.
-constexpr double kFarBelow = 3;
+constexpr double kFarBelow = 2;
 
 /// Chance of a normal variable between the bounds; never 0, as it is divided by.
 double mass(double mean, double variance, const DepthBounds& bounds) {
