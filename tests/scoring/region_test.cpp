@@ -70,7 +70,8 @@ TEST_F(Regions, OfOutlinesBoxesAndMasksOverlapAsPixelByPixel) {
   for (int i = 0; i < 400; ++i) {
     const Outline one = outline(3 + i % 12), other = outline(3 + i % 5);
     const cv::Mat1b picture = this->picture();
-    const Box box{{number(0, 15), number(0, 15)}, {number(15, 39), number(15, 39)}};
+    const Vec2 low{number(0, 15), number(0, 15)}, high{number(15, 39), number(15, 39)};
+    const Box box{low, high};
     const Oracle of_one([&](const Vec2& x) { return is_in(one, x); });
     const Oracle of_other([&](const Vec2& x) { return is_in(other, x); });
     const Oracle of_box([&](const Vec2& x) { return box.contains(x); });
@@ -104,9 +105,9 @@ TEST_F(Regions, AnOutlineThroughTheCornersOfABoxOfPixelsCoversAllOfThem) {
 TEST_F(Regions, AreNoneOfNothingAndBoundedHoweverFarTheyReach) {
   EXPECT_EQ(region_of(Outline{}).pixels, 0);
   EXPECT_EQ(intersection_over_union(Region{}, Region{}), 0);
-  const Region far = region_of(Box{{-1e300, -1e300}, {1e300, 1e300}});
+  const Region far = region_of(Box{Vec2(-1e300, -1e300), Vec2(1e300, 1e300)});
   EXPECT_EQ(far.pixels, 65537LL * 65537);
-  EXPECT_EQ(region_of(Box{{1e6, 0}, {1e7, 10}}).stretches.size(), 1u);
+  EXPECT_EQ(region_of(Box{Vec2(1e6, 0), Vec2(1e7, 10)}).stretches.size(), 1u);
   Outline wide;
   wide.count = 3;
   wide.places[1] = {1e300, -1e300};
