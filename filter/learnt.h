@@ -1,5 +1,8 @@
 /// Written by `lcs tune`, and not by hand: what the preset `default` has learnt from worlds of
 /// `train`.
+///
+/// 2026-11-24, lcs 0.1.0 (767f5f2, changed since), 1 evaluations; objective 0.6131 -> 0.6131:
+///   lcs tune out/train --validate out/validate --evaluations 1 --seed 1
 #pragma once
 
 #include <array>
@@ -9,6 +12,7 @@ namespace lcs {
 
 /// Keys and values as `set` takes them.
 inline constexpr std::array<std::pair<const char*, const char*>, 15> kLearnt{{
+    {"field.nearest_depth", "0.4"},
     {"hypotheses.noise", "0.6"},
     {"hypotheses.prior", "0.03"},
     {"hypotheses.turnover", "1"},
@@ -22,7 +26,6 @@ inline constexpr std::array<std::pair<const char*, const char*>, 15> kLearnt{{
     {"hypotheses.step_share", "0.1"},
     {"hypotheses.coupling", "8"},
     {"hypotheses.coupling_reach", "30"},
-    {"field.nearest_depth", "0.4"},
     {"circle.min_width", "1.5"},
 }};
 
