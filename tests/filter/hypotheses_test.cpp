@@ -1,4 +1,4 @@
-/// Edges told by two hypotheses: each room of `filter/hypotheses/` alone, then the rule as a whole.
+/// Edges told by two hypotheses: each part of `filter/edges/` alone, then the rule as a whole.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenarios/reader.h"
@@ -79,6 +81,17 @@ inline void add_set_option(CLI::App& command, std::vector<std::string>& sets,
   command.add_option("--set", sets, about + "; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+/// Key and value of a setting of the filter, as `--set` has it where it is not a scenario's.
+/// \throws std::invalid_argument
+inline std::pair<std::string, std::string> key_and_value(const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos) {
+    throw std::invalid_argument("--set takes KEY=VALUE, as hypotheses.prior=0.05, not '" + setting +
+                                "'");
+  }
+  return {setting.substr(0, equals), setting.substr(equals + 1)};
 }
 
 /// \param otherwise the folder of the results where none is given.

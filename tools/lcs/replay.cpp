@@ -130,12 +130,8 @@ Value filter_of(const ReplayOptions& options) {
     put(filter, "preset", scalar("--preset " + options.preset, options.preset));
   }
   for (const std::string& setting : options.sets) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos) {
-      throw std::invalid_argument(
-          fmt::format("--set takes KEY=VALUE, as hypotheses.prior=0.05, not '{}'", setting));
-    }
-    put(filter, setting.substr(0, equals), scalar("--set " + setting, setting.substr(equals + 1)));
+    const auto [key, value] = key_and_value(setting);
+    put(filter, key, scalar("--set " + setting, value));
   }
   return filter;
 }

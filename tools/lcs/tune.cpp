@@ -8,7 +8,6 @@
 #include <ctime>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 
 #include "tools/files/output_file.h"
 #include "tools/lcs/interrupt.h"
@@ -94,7 +93,8 @@ CLI::App& add_tune_command(CLI::App& app, TuneOptions& options) {
   command.add_option("--keys", options.keys, "Only these parameters; all learnt ones if not given")
       ->delimiter(',')
       ->type_name("KEY,...");
-  add_set_option(command, options.sets, "Set a parameter of the filter before, as prior=0.05");
+  add_set_option(command, options.sets,
+                 "Set a parameter of the filter before, as hypotheses.prior=0.05");
   add_integer_option(command, "--evaluations", options.evaluations,
                      "Sets of numbers that are tried; 300 if not given", 1, 1000000)
       ->type_name("N");
@@ -109,11 +109,8 @@ CLI::App& add_tune_command(CLI::App& app, TuneOptions& options) {
 ExitCode tune(const TuneOptions& options) {
   Parameters start = preset("default");
   for (const std::string& setting : options.sets) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos) {
-      throw std::invalid_argument(fmt::format("--set takes KEY=VALUE, not '{}'", setting));
-    }
-    set(start, setting.substr(0, equals), setting.substr(equals + 1));
+    const auto [key, value] = key_and_value(setting);
+    set(start, key, value);
   }
   validate(start);
   const tune::Trials trials(options.suite);
