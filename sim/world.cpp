@@ -113,6 +113,16 @@ std::string body_of_dof(const Model& model, const std::string& warning) {
   return "";
 }
 
+/// Whether anything that moves by the physics can touch anything.
+bool has_contacts(const mjModel& m) {
+  if (m.npair > 0) return true;
+  for (int geom = 0; geom < m.ngeom; ++geom) {
+    const bool touches = m.geom_contype[geom] != 0 || m.geom_conaffinity[geom] != 0;
+    if (touches && m.body_weldid[m.geom_bodyid[geom]] != 0) return true;
+  }
+  return false;
+}
+
 bool in_gap(const std::vector<scenario::TimeSpan>& gaps, std::int64_t t_ns) {
   return std::any_of(gaps.begin(), gaps.end(), [&](const scenario::TimeSpan& gap) {
     return t_ns >= std::llround(gap.from_s * 1e9) && t_ns < std::llround(gap.to_s * 1e9);
@@ -161,6 +171,7 @@ void World::set_options(const ComposedScene& composed) {
   option.integrator = mjINT_EULER;
   option.disableflags &=
       ~(mjDSBL_SENSOR | mjDSBL_ACTUATION | mjDSBL_CLAMPCTRL | mjDSBL_FILTERPARENT);
+  if (!has_contacts(model_.m())) option.disableflags |= mjDSBL_CONTACT;  // half of the time
   const mjtNum* g = option.gravity;
   const bool upright = g[0] == 0 && g[1] == 0 && g[2] <= 0;
   if (!upright) {
@@ -388,6 +399,7 @@ void World::save(const std::string& file, bool as_mjcf) {
   if (joint >= 0 && m.jnt_type[joint] == mjJNT_FREE) {
     std::copy_n(model_.d().qpos + m.jnt_qposadr[joint], 7, m.qpos0 + m.jnt_qposadr[joint]);
   }
+  if (!has_contacts(m)) m.opt.disableflags &= ~mjDSBL_CONTACT;  // for what is added to it
   if (!as_mjcf) {
     mj_saveModel(&m, file.c_str(), nullptr, 0);
     if (const std::string warning = take_warning(); !warning.empty()) throw MujocoError(warning);

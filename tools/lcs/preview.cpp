@@ -27,8 +27,8 @@ constexpr const char* kHelp = R"(Examples:
 The page has the plan from above with the ways of the rover and the actors and their times; the first, the
 middle and the last picture with the corners in them; and what is wrong: who starts inside of something, runs
 into something, is never seen or never moves, a camera inside of something, too few corners. The physics are
-done, the filter is not asked: a drive of some seconds takes about two, one of half a minute ten. That an actor is
-never seen, and corners, go by 13 pictures, evenly spread.
+done, the filter is not asked: that takes a second or two, three for a drive of a minute. That an actor is never
+seen, and corners, go by 13 pictures, evenly spread.
 
 --mjcf writes the world with all at their start: MJCF, in which surfaces that this project draws are of one
 colour and bumps of the ground are level; or, to a file called .mjb, MuJoCo's binary, which has them.
