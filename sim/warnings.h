@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace lcs::sim {
 
@@ -37,17 +38,23 @@ constexpr const WarningText& text_of(Warning warning) {
   return kWarnings[static_cast<std::size_t>(warning)];
 }
 
-/// How often each happened, and the first time in words: what, when, where, and what to do.
+/// How often each happened, and the first times in words: what, when, where, and what to do.
 class Warnings {
  public:
   struct Met {
     std::int64_t count = 0;
     std::string first;
+    std::vector<std::string> next;  ///< up to `kMostNext`, without what to do
   };
+  static constexpr std::size_t kMostNext = 9;
 
   void add(Warning warning, const std::string& what) {
     Met& met = of(warning);
-    if (met.count++ == 0) met.first = what + ": " + text_of(warning).remedy;
+    if (met.count++ == 0) {
+      met.first = what + ": " + text_of(warning).remedy;
+    } else if (met.next.size() < kMostNext) {
+      met.next.push_back(what);
+    }
   }
 
   Met& of(Warning warning) { return met_[static_cast<std::size_t>(warning)]; }

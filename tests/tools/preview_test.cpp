@@ -74,6 +74,12 @@ TEST_F(PreviewCommand, TellsWhatIsWrongWithItsLine) {
             std::string::npos)
       << inside;
   EXPECT_EQ(inside.find("passes through"), std::string::npos) << "told once: " << inside;
+  const std::string twice =
+      wrong({"actors.walker.trajectory.line="
+             "{from: [2.6 m, 2.7 m], heading: -26.6 deg, speed: 4 m/s}"});
+  EXPECT_NE(twice.find("'walker' passes through object 'crate'"), std::string::npos) << twice;
+  EXPECT_NE(twice.find("'walker' passes through the setting's geom 'pillar'"), std::string::npos)
+      << twice;
   const std::string behind = wrong({"actors.walker.trajectory.line.from=[-3 m, 0 m]"});
   EXPECT_NE(behind.find("'walker' is in none of the 13 pictures"), std::string::npos) << behind;
   const std::string waits = wrong({"actors.walker.start.time=1 min"});
@@ -118,6 +124,7 @@ TEST_F(PreviewCommand, TheWorldThatItWritesLoadsAgainAndStandsAsAtTheStart) {
   const Eigen::Vector3d camera = model.camera_pose(model.id(mjOBJ_CAMERA, "ego/camera")).p;
   EXPECT_NEAR((camera - Eigen::Vector3d(1.2, 0, 0.45)).norm(), 0, 1e-6);
   EXPECT_TRUE(model.has(mjOBJ_BODY, "crate"));
+  EXPECT_FALSE(model.m().opt.disableflags & mjDSBL_CONTACT) << "what is added to it can stand";
 
   sim::save_world(load(), folder_.path() / "world.mjb", sim::WorldFormat::mjb);
   const std::unique_ptr<mjModel, sim::ModelDeleter> binary(

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <variant>
 
@@ -44,7 +46,9 @@ std::vector<std::string> what_is_wrong(const scenario::Scenario& scenario, const
   for (std::size_t i = 0; i < sim::kWarnings.size(); ++i) {
     const auto& met = p.survey.warnings.of(static_cast<sim::Warning>(i));
     if (met.count > 0) lines.push_back(met.first);
-    if (met.count > 1) lines.back() += fmt::format(" (and {} more times)", met.count - 1);
+    lines.insert(lines.end(), met.next.begin(), met.next.end());
+    const std::int64_t more = met.count - 1 - std::ssize(met.next);
+    if (more > 0) lines.back() += fmt::format(" (and {} more times)", more);
   }
   for (std::size_t i = 0; i < p.movers.size(); ++i) {
     const Mover& mover = p.movers[i];

@@ -96,7 +96,7 @@ std::optional<sim::Warnings> world_warnings(const std::filesystem::path& folder)
   for (const Warned& warned : read_warnings(path)) {
     for (std::size_t i = 0; i < sim::kWarnings.size(); ++i) {
       if (warned.word == sim::kWarnings[i].word) {
-        warnings.of(static_cast<sim::Warning>(i)) = {*warned.count, warned.text};
+        warnings.of(static_cast<sim::Warning>(i)) = {*warned.count, warned.text, {}};
       }
     }
   }
