@@ -2,9 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
+#include <ranges>
 #include <string_view>
+#include <vector>
 
 #include "tools/preview/preview.h"
 #include "tools/report/page_writer.h"
@@ -32,6 +35,7 @@ svg text { font-size: 12px; fill: var(--text); stroke: var(--panel); stroke-widt
 .c0 { stroke: var(--s1); } .c1 { stroke: var(--s2); } .c2 { stroke: var(--s3); } .c3 { stroke: var(--s4); } .c4 { stroke: var(--s5); }
 i.c0, i.c1, i.c2, i.c3, i.c4 { display: inline-block; width: 1.4em; border-top: 3px solid; vertical-align: 0.25em; margin-right: 0.4em; }
 i.c0 { border-color: var(--s1); } i.c1 { border-color: var(--s2); } i.c2 { border-color: var(--s3); } i.c3 { border-color: var(--s4); } i.c4 { border-color: var(--s5); }
+.wrong, .fine { margin: 0.8rem 0; }
 .wrong { border-left: 4px solid var(--bad); background: var(--bad-back); padding: 0.4rem 0.9rem; border-radius: 4px; }
 .fine { border-left: 4px solid var(--good); background: var(--good-back); padding: 0.4rem 0.9rem; border-radius: 4px; }
 .wrong li { margin: 0.2rem 0; }
@@ -133,6 +137,50 @@ class PreviewPage : public report::TextPage {
         escaped(text));
   }
 
+  /// Where the texts of a drawing are, so that none lies on another or is cut.
+  struct Labels {
+    Eigen::AlignedBox2d room;  ///< the drawing
+    std::vector<Eigen::AlignedBox2d> taken = {};
+
+    /// Takes the place if it is free. \param width_px of a letter.
+    bool take(const Vector2d& at, const std::string& text, double height, double width_px) {
+      const Eigen::AlignedBox2d box(
+          at - Vector2d(0, height),
+          at + Vector2d(width_px * static_cast<double>(text.size()), 0.25 * height));
+      const auto meets = [&](const auto& other) { return other.intersects(box); };
+      if (!room.contains(box) || std::ranges::any_of(taken, meets)) return false;
+      taken.push_back(box);
+      return true;
+    }
+  };
+
+  /// At the first of the sides of a box where there is room; nowhere if there is none. Names try
+  /// all of them, what is not bold the first two.
+  void label_beside(Labels& labels, const Eigen::AlignedBox2d& box, const std::string& text,
+                    double height, bool bold) {
+    const double letter = (bold ? 0.66 : 0.58) * height, gap = 0.4 * height;
+    const double left = box.min().x() - letter * static_cast<double>(text.size()) - gap;
+    const double right = box.max().x() + gap;
+    const double above = box.min().y() - gap, below = box.max().y() + gap + 0.75 * height;
+    // beside a point, as ways lead on above and below it
+    const double start = box.sizes().x() > height ? box.min().x() : right;
+    const std::array<Vector2d, 8> sides{{{start, above},
+                                         {start, below},
+                                         {right, above},
+                                         {right, below},
+                                         {left, above},
+                                         {left, below},
+                                         {right, above - 1.3 * height},
+                                         {right, below + 1.3 * height}}};
+    for (const Vector2d& at : sides | std::views::take(bold ? 8 : 2)) {
+      if (!labels.take(at, text, height, letter)) continue;
+      label(
+          at, text,
+          fmt::format("style=\"font-size: {:.0f}px; font-weight: {}\"", height, bold ? 700 : 400));
+      return;
+    }
+  }
+
   void grid(const Window& w, const Vector2d& size_px) {
     const double step_m = round_number(60 / w.scale);
     for (int axis = 0; axis < 2; ++axis) {
@@ -153,35 +201,55 @@ class PreviewPage : public report::TextPage {
     }
   }
 
-  /// A way with its times, and the name where it begins.
-  void way(const Window& w, const std::vector<Vector2d>& points, const std::string& name,
-           int colour) {
+  /// Where a way's times are, no closer than texts have room.
+  struct Mark {
+    Vector2d at;
+    double t_s = 0;
+  };
+  std::vector<Mark> marks_of(const Window& w, const std::vector<Vector2d>& points) const {
+    const double step_s = round_number(std::max(time_s(scenario_.frames) / 6, 1e-3));
+    std::vector<Mark> marks;
+    for (int i = 0;; ++i) {
+      const double t_s = i * step_s;
+      const auto k = static_cast<std::size_t>(std::lround(t_s * scenario_.camera.rate_hz));
+      if (k >= points.size()) return marks;
+      const Vector2d at = w.at(points[k]);
+      if (marks.empty() || (at - marks.back().at).norm() >= 14) marks.push_back({at, t_s});
+    }
+  }
+
+  void way(const Window& w, const std::vector<Vector2d>& points, int colour) {
     add("<polyline class=\"c{}\" points=\"", colour);
     for (const Vector2d& p : points) {
       const Vector2d at = w.at(p);
       add("{:.1f},{:.1f} ", at.x(), at.y());
     }
     add("\"/>\n");
-    const double step_s = round_number(std::max(time_s(scenario_.frames) / 6, 1e-3));
-    Vector2d last = Vector2d::Constant(-1e9), labelled = last;
-    for (double t_s = 0;; t_s += step_s) {
-      const auto k = static_cast<std::size_t>(std::lround(t_s * scenario_.camera.rate_hz));
-      if (k >= points.size()) break;
-      const Vector2d at = w.at(points[k]);
-      if ((at - last).norm() < 14) continue;  // it stands, or no text has room
+    for (const Mark& mark : marks_of(w, points)) {
       add("<circle class=\"c{}\" r=\"3\" fill=\"var(--panel)\" stroke-width=\"2\" cx=\"{:.1f}\" "
           "cy=\"{:.1f}\"/>\n",
-          colour, at.x(), at.y());
-      if (last.x() > -1e8) {
-        if ((at - labelled).norm() > 34) {
-          label(at + Vector2d(6, -6), fmt::format("{:g} s", t_s));
-          labelled = at;
-        }
-      } else {
-        label(at + Vector2d(6, 16), name, "font-weight=\"700\"");
-        labelled = at;
+          colour, mark.at.x(), mark.at.y());
+    }
+  }
+
+  /// Who it is where each way begins, then the times that still have room.
+  void name_ways(const Window& w, const Vector2d& size_px) {
+    constexpr double kText_px = 12;
+    Labels labels{{Vector2d::Zero(), size_px}};
+    const auto name = [&](const Vector2d& at, const std::string& text, bool bold) {
+      const Vector2d reach = Vector2d::Constant(4);
+      label_beside(labels, {at - reach, at + reach}, text, kText_px, bold);
+    };
+    std::vector<const std::vector<Vector2d>*> ways{&survey_.rover_m};
+    name(w.at(survey_.rover_m.front()), "rover", true);
+    for (const Mover& mover : preview_.movers) {
+      name(w.at(mover.way_m.front()), mover.name, true);
+      ways.push_back(&mover.way_m);
+    }
+    for (const auto* points : ways) {
+      for (const Mark& mark : marks_of(w, *points)) {
+        if (mark.t_s > 0) name(mark.at, fmt::format("{:g} s", mark.t_s), false);
       }
-      last = at;
     }
   }
 
@@ -241,10 +309,11 @@ class PreviewPage : public report::TextPage {
     }
     const std::size_t last = survey_.snapshots.size() - 1;
     for (const std::size_t k : {std::size_t{0}, last / 2, last}) view(w, survey_.snapshots[k]);
-    way(w, survey_.rover_m, "rover", 0);
+    way(w, survey_.rover_m, 0);
     for (std::size_t i = 0; i < preview_.movers.size(); ++i) {
-      way(w, preview_.movers[i].way_m, preview_.movers[i].name, colour_of(i));
+      way(w, preview_.movers[i].way_m, colour_of(i));
     }
+    name_ways(w, size_px);
     add("</svg></div>\n<p class=\"small quiet\">Ways with their times; outlines at the start, and "
         "dashed at the end; what the camera sees to 3 m off at first, in the middle and at last. "
         "Grey: what stands (names on pointing). World x is to the right, y up, in m.</p>\n");
@@ -286,6 +355,7 @@ class PreviewPage : public report::TextPage {
       add("M{:.0f} {:.0f}h0", p.x() + 0.5, p.y() + 0.5);
     }
     add("\"/>\n");
+    Labels labels{{Vector2d::Zero(), Vector2d(look.image.cols, look.image.rows)}};
     for (const sim::ObjectTruth& object : look.objects) {
       const auto mover = std::ranges::find(preview_.movers, object.object, &Mover::object);
       if (mover == preview_.movers.end()) continue;
@@ -294,8 +364,9 @@ class PreviewPage : public report::TextPage {
           "height=\"{}\"/>\n",
           colour_of(place), 2 * line, object.left, object.top, object.right - object.left,
           object.bottom - object.top);
-      label({object.left + 2 * line, std::max(object.top - 4 * line, 14 * line)}, mover->name,
-            fmt::format("style=\"font-size: {:.0f}px\"", 14 * line));
+      label_beside(labels,
+                   {Vector2d(object.left, object.top), Vector2d(object.right, object.bottom)},
+                   mover->name, 14 * line, true);
     }
     add("</svg><figcaption>frame {}, {:.1f} s: <b>{} corners</b></figcaption></figure>\n",
         look.index, time_s(look.index), preview_.corners_px[which].size());
