@@ -34,6 +34,7 @@ void write_out(const std::string& text) {
 }
 
 void write_err(const std::string& text) {
+  std::fflush(stdout);  // in a file that both go to, what came first stands first
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
