@@ -43,9 +43,14 @@ TEST(Verdict, CountsScenariosAgainstABaselineAndCriteriaInOneLine) {
     run.outcome = Outcome::failed;
   }
   after.scenarios.push_back(scenario_with("d", "rebel.f1", {0.5}));
-  EXPECT_EQ(verdict_against({after, {}}, {before, {}}).line,
+  const Verdict verdict = verdict_against({after, {}}, {before, {}});
+  EXPECT_EQ(verdict.line,
             "1 regressed, 1 improved, 1 as before, 1 not compared, 1 criterion missed, 1 missed "
             "that is not required");
+  ASSERT_EQ(verdict.remarks.size(), 3u);
+  EXPECT_EQ(
+      verdict.remarks[1].reasons,
+      std::vector<std::string>{"seed 1: rebel.f1 is 0.4, must be at least 0.5 (2 seeds miss it)"});
 }
 
 TEST(Verdict, WithoutABaselineCountsCriteriaAndErrors) {
@@ -80,8 +85,8 @@ TEST(Verdict, TheWorstComesFirstWithItsReasons) {
       "  seed 1: rebel.f1 is 0.4, must be at least 0.5\n"
       "improved: a\n"
       "  rebel.f1 0.800 -> 0.900\n"
-      "some scenarios have a single seed in common, whose noise is unknown: differences there "
-      "are plain ones\n"
+      "some figures are of a single seed that both have, whose noise is unknown: their "
+      "differences are plain ones\n"
       "2 regressed, 1 improved, 0 as before, 1 criterion missed\n");
 }
 

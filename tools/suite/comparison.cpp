@@ -239,8 +239,8 @@ int Comparison::count(Change verdict) const {
 }
 
 std::string Comparison::note() const {
-  return single_seeds ? "some scenarios have a single seed in common, whose noise is unknown: "
-                        "differences there are plain ones"
+  return single_seeds ? "some figures are of a single seed that both have, whose noise is unknown: "
+                        "their differences are plain ones"
                       : "";
 }
 

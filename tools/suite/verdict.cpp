@@ -181,16 +181,24 @@ void add_changes(const Comparison& comparison, const std::string& scenario, Chan
   }
 }
 
+/// One that several seeds miss is told once, of the first.
 void add_missed_criteria(const ScenarioResult& scenario, Weighed& to) {
-  int missed = 0;
+  std::map<std::size_t, std::vector<const RunResult*>> missed;  // by the criterion's place
+  int count = 0;
   for (const RunResult& run : scenario.runs) {
-    for (const CriterionResult& criterion : run.criteria) {
-      if (criterion.met || !criterion.required) continue;
-      ++missed;
-      to.remark.reasons.push_back(fmt::format("seed {}: {}", run.seed, criterion.message));
+    for (std::size_t i = 0; i < run.criteria.size(); ++i) {
+      if (run.criteria[i].met || !run.criteria[i].required) continue;
+      missed[i].push_back(&run);
+      ++count;
     }
   }
-  to.weight = std::max<double>(to.weight, missed);
+  for (const auto& [i, runs] : missed) {
+    std::string reason =
+        fmt::format("seed {}: {}", runs.front()->seed, runs.front()->criteria[i].message);
+    if (runs.size() > 1) reason += fmt::format(" ({} seeds miss it)", runs.size());
+    to.remark.reasons.push_back(std::move(reason));
+  }
+  to.weight = std::max<double>(to.weight, count);
 }
 
 std::optional<Weighed> weighed(const SuiteInFolder& after, const SuiteInFolder* before,
