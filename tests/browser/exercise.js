@@ -25,6 +25,7 @@
     };
 
     if (data.is_run) {
+      expect('the figures are in a row', document.querySelectorAll('#figures tbody td').length > 8);
       await plotsAreDrawn(document, 'the run');
       const video = document.querySelector('video');
       await until(() => video.readyState > 0);
@@ -107,8 +108,11 @@
       const section = document.querySelector(row.querySelector('a').getAttribute('href'));
       expect(row.dataset.scenario + ' opens', section.open);
       await until(() => section.querySelector('.body'));
-      for (const button of section.querySelectorAll('.tabs button')) {
+      for (const [i, button] of section.querySelectorAll('.tabs button').entries()) {
         button.click();
+        const families = new Set(row.scenario.runs[i].events.map((event) => event.family));
+        expect(row.dataset.scenario + ' has its events by family',
+          section.querySelectorAll('.body section').length === families.size);
         await plotsAreDrawn(section, row.dataset.scenario);
         expect(row.dataset.scenario + ' has the baseline beside', data.baseline === null ||
           [...section.querySelectorAll('.u-legend th')].some((label) => label.textContent === 'before'));
@@ -122,6 +126,8 @@
       }
     }
     expect('there are pictures', pictures >= 3);
+    expect('false objects are events where there are some', data.scenarios.every((s) => s.runs.every((run) =>
+      run.events.some((event) => event.family === 'circles') === run.metrics['rebel.false_objects_per_100_frames'] > 0)));
     expect('reasons are told', document.querySelectorAll('.reason').length > 0);
   } catch (error) {
     if (error) faults.push(String(error.stack || error));

@@ -372,7 +372,7 @@ TEST_F(Report, EventsOfSquaresSayTheirFramesAndHowFarCornersCame) {
   run.folder = run_folder("one", {event});
   const json told = data(suite_of({scenario_with("one", {run})}))["scenarios"][0]["runs"][0];
   const json& shown = told.at("events").at(0);
-  EXPECT_EQ(shown.at("of_squares"), true);
+  EXPECT_EQ(shown.at("family"), "squares");
   EXPECT_EQ(shown.at("frames"), 7);
   EXPECT_EQ(shown.at("of_frames"), 9);
   EXPECT_EQ(shown.at("reasons").at(0).at("meaning"),

@@ -175,7 +175,7 @@ TEST(Events, FalseRebelsRoundAMoverAreItsHalo) {
   EXPECT_EQ(events[0].corners, 4 * (kFrames - kSightings));
 }
 
-TEST(Events, ARebelCircleWithNothingUnderItIsAnAlarmAndOneOverAMoverIsNone) {
+TEST(Events, ARebelCircleWithNothingUnderItIsAFalseObjectAndOneOverAMoverIsNone) {
   std::vector<FrameRecord> frames;
   for (int k = 0; k < kFrames; ++k) {
     FrameMaker frame = frame_of(k, 0);
@@ -185,10 +185,27 @@ TEST(Events, ARebelCircleWithNothingUnderItIsAnAlarmAndOneOverAMoverIsNone) {
   }
   const auto events = find_events(recording_of(frames));
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].kind, EventKind::false_alarm);
+  EXPECT_EQ(events[0].kind, EventKind::circle_false);
   EXPECT_EQ(events[0].circles, 2);
   EXPECT_EQ(events[0].corners, 0);
   EXPECT_EQ(events[0].first_frame, 7);
+}
+
+TEST(Events, FalseObjectsAreKeptHoweverManyCornersAreMissedOrFalse) {
+  std::vector<FrameRecord> frames;
+  for (int k = 0; k < kFrames; ++k) {
+    FrameMaker frame = frame_of(k, k < 12 ? kCorners : 0);
+    if (k >= 15) accuse(frame, 4);
+    frame.rebel_circle({500, 100}, 15);
+    if (k < 10) frame.rebel_circle({400, 300}, 15);  // over one corner of the wall
+    frames.push_back(frame);
+  }
+  const auto events = find_events(recording_of(frames), 1);
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(family_of(events[0].kind), EventFamily::rebels);
+  EXPECT_EQ(events[1].kind, EventKind::circle_false);
+  EXPECT_EQ(events[1].circles, kFrames - kSightings) << "that which is seen longer";
+  EXPECT_EQ(find_events(recording_of(frames)).size(), 4u);
 }
 
 TEST(Events, NothingIsFalseDuringTheWarmUp) {

@@ -232,7 +232,7 @@ TEST_F(Run, EventsAreWrittenWithPicturesAndChangeNothingElse) {
     for (const auto& [reason, corners] : event.reasons) explained += corners;
     for (const auto& [step, corners] : event.steps) explained += corners;
     EXPECT_EQ(explained, event.corners);
-    EXPECT_EQ(event.frames > 0, is_of_squares(event.kind));
+    EXPECT_EQ(event.frames > 0, family_of(event.kind) == EventFamily::squares);
     // before, in and after it; at an end of the run one of them is not there
     const bool is_at_an_end = event.first_frame == 0 || event.last_frame == 15;
     EXPECT_GE(event.views.size(), is_at_an_end ? 2u : 3u);

@@ -79,7 +79,7 @@ cv::Mat3b paint(const FrameRecord& frame, const std::vector<CornerOutcome>& outc
   cv::Mat3b picture;
   cv::resize(kept(cut.area), picture, {kEventPictureWidth_px, kEventPictureHeight_px}, 0, 0,
              cut.area.width > kEventPictureWidth_px ? cv::INTER_AREA : cv::INTER_CUBIC);
-  const bool of_squares = is_of_squares(event.kind);
+  const bool of_squares = family_of(event.kind) == EventFamily::squares;
   for (const sim::ObjectTruth& truth : frame.object_truth) {
     const bool is_meant = of_squares && truth.object == event.object;
     if (!truth.moving && !of_squares) continue;

@@ -49,15 +49,10 @@ Metrics Result::finish(const Recording& run) {
   if (run.warnings) write_warnings(folder_.staging() / kWarningsFile, warnings_of(run));
   if (events_) {
     const FramePictures& pictures = kept_ ? *kept_ : own_pictures_;
-    EventSums sums;
-    std::vector<Event> events;
-    const auto keep_worst = [&](std::vector<Event> found) {
-      sums.add(sums_of(found));
-      if (found.size() > kMostEvents) found.resize(kMostEvents);
-      std::ranges::move(found, std::back_inserter(events));
-    };
-    keep_worst(find_events(run, kAllEvents));
-    keep_worst(find_square_events(run, kAllEvents));
+    std::vector<Event> events = find_events(run, kAllEvents);
+    std::ranges::move(find_square_events(run, kAllEvents), std::back_inserter(events));
+    const EventSums sums = sums_of(events);
+    keep_worst(events, kMostEvents);
     if (pictures.size() > 0) {
       paint_events(run, pictures, events);
       pictures.write(folder_.staging() / kPicturesFile);

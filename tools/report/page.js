@@ -54,9 +54,13 @@ const COLUMNS = [
   ['rebel.false_objects_per_100_frames', 'False /100', 'rebel circles without a mover under them, per 100 frames'],
   ['square.recall_50', 'Square recall', 'at an intersection over union of 0.5'],
   ['square.precision_50', 'Square prec.', 'at an intersection over union of 0.5'],
+  ['square.mask_mean_iou', 'Mask IoU', 'of outlines and the objects\' masks, pixel by pixel: mean of the squares that are right'],
   ['size_share', 'Size', 'all layers, as a share of a store of the last five frames\' corners'],
   ['time.filter_over_fast', 'Time', 'of the detector\'s step, over that of FAST'],
 ];
+
+/** Those that some scenario has: what was recorded has no times. */
+const SHOWN_COLUMNS = COLUMNS.filter(([name]) => data.scenarios.some((scenario) => scenario.figures[name]));
 
 /** The verdict first; what it is of beneath it. */
 function head() {
@@ -91,15 +95,16 @@ function remarkOf(remark) {
 function worst() {
   const bad = data.remarks.filter((r) => r.standing !== 'improved').map(remarkOf);
   const good = data.remarks.filter((r) => r.standing === 'improved').map(remarkOf);
+  const side = (content) => el('div', { class: 'side' }, ...content);
   const folded = (title, content) => content.length === 0 ? null
-    : el('details', null, el('summary', null, title), ...content);
-  return el('section', { id: 'worst' }, bad.length ? el('h2', null, 'Worst first') : null, ...bad.slice(0, SHOWN),
+    : el('details', null, el('summary', null, title), side(content));
+  return el('section', { id: 'worst' }, bad.length ? el('h2', null, 'Worst first') : null, side(bad.slice(0, SHOWN)),
     folded((bad.length - SHOWN) + ' more', bad.slice(SHOWN)), folded(good.length + ' improved', good),
     folded('Not compared', data.not_compared.map((what) => el('p', { class: 'small' }, what))));
 }
 
 function headerRow(first, sorting) {
-  return el('thead', null, el('tr', null, ...[[null, first, ''], ...COLUMNS].map(([name, label, title]) =>
+  return el('thead', null, el('tr', null, ...[[null, first, ''], ...SHOWN_COLUMNS].map(([name, label, title]) =>
     el('th', { scope: 'col', title: title || null, 'data-metric': name },
       sorting ? el('button', { type: 'button', onclick: (e) => sorting(e.currentTarget.parentNode) }, label)
         : label))));
@@ -112,7 +117,13 @@ function groupTable() {
     el('div', { class: 'scroll' }, el('table', { id: 'groups' }, headerRow('Group'),
       el('tbody', null, ...data.groups.map((group) => el('tr', null,
         el('td', null, group.name + ' ', el('span', { class: 'quiet small' }, String(group.scenarios))),
-        ...COLUMNS.map(([name]) => figureCell(name, group.figures[name]))))))));
+        ...SHOWN_COLUMNS.map(([name]) => figureCell(name, group.figures[name]))))))));
+}
+
+/** Of a single run. */
+function runTable() {
+  return el('div', { class: 'scroll' }, el('table', { id: 'figures' }, headerRow(''), el('tbody', null, el('tr', null,
+    el('td'), ...SHOWN_COLUMNS.map(([name]) => figureCell(name, data.scenarios[0].figures[name]))))));
 }
 
 // ---- The table of scenarios
@@ -132,7 +143,7 @@ function link(scenario) {
 function scenarioRow(scenario) {
   const row = el('tr', { 'data-scenario': scenario.name },
     el('td', null, link(scenario), scenario.outcome === 'passed' ? null : el('span', null, ' ', badge(scenario.outcome))),
-    ...COLUMNS.map(([name]) => figureCell(name, scenario.figures[name])));
+    ...SHOWN_COLUMNS.map(([name]) => figureCell(name, scenario.figures[name])));
   row.scenario = scenario;
   return row;
 }
@@ -208,7 +219,7 @@ function framePlots(run, onPoint) {
   const f = run.frames;
   // Times have gaps nowhere; the events know frames, which the rows are.
   const time = (frame) => f.t_s[Math.min(Math.max(frame, 0), f.t_s.length - 1)];
-  const bands = (run.events || []).filter((event) => !event.of_squares).map((event) => ({ from: time(event.first), to: time(event.last),
+  const bands = (run.events || []).filter((event) => event.family !== 'squares').map((event) => ({ from: time(event.first), to: time(event.last),
     kind: event.of > 0 ? 'miss' : 'false' }));
   const common = { x: f.t_s, xName: 's', sync: 'run' + ++plotted, onPoint };
   const was = run.before && run.before.frames;
@@ -269,10 +280,10 @@ function overTime(run) {
 
 function headline(event) {
   const frames = event.first === event.last ? 'frame ' + event.first : 'frames ' + event.first + ' to ' + event.last;
-  const circles = event.circles === 0 ? '' : (event.corners ? ', ' : '') + event.circles + ' circle' + (event.circles > 1 ? 's' : '');
-  const cost = event.of_squares ? event.frames + (event.of_frames ? ' of ' + event.of_frames : '') + ' frames'
+  const cost = event.family === 'squares' ? event.frames + (event.of_frames ? ' of ' + event.of_frames : '') + ' frames'
     : event.of > 0 ? event.corners + ' of ' + event.of + ' corners missed'
-    : (event.corners ? event.corners + ' false corners' : '') + circles;
+    : (event.circles ? event.circles + ' circle' + (event.circles > 1 ? 's' : '') + (event.corners ? ' with ' : '') : '')
+      + (event.corners || !event.circles ? event.corners + ' false corners' : '');
   return (event.object ? event.object + ': ' : '') + event.meaning + ', ' + frames + ': ' + cost;
 }
 
@@ -289,13 +300,19 @@ function reasonBars(event) {
 function strip(event) {
   const pictures = event.views.filter((view) => view.jpeg !== '');
   if (pictures.length === 0) {
-    return event.left_out ? el('p', { class: 'nothing small' }, 'Pictures are left out to keep the page small; events.json has them.') : null;
+    return event.left_out ? el('p', { class: 'nothing small' }, 'Pictures are left out to keep the page small; the command above shows them with --report.') : null;
   }
   return el('div', { class: 'strip' }, ...pictures.map((view) => el('figure', null,
     el('img', { src: 'data:image/jpeg;base64,' + view.jpeg, width: 256, height: 192,
       alt: 'frame ' + view.frame + ' around: ' + headline(event) }),
     el('figcaption', null, 'frame ' + view.frame + ' · ' + view.t_s.toFixed(2) + ' s'))));
 }
+
+const FAMILIES = {
+  rebels: ['Rebels', null],
+  circles: ['Circles with no mover under them', 'Rebel circles, in magenta; the rules are those of the false corners in them.'],
+  squares: ['Squares', 'Magenta boxes are squares, white their outlines; thin ones objects, the orange one is the object that is meant.'],
+};
 
 function eventList(run) {
   if (!run.events) return el('p', { class: 'nothing' }, 'The run left no events.json.');
@@ -305,12 +322,14 @@ function eventList(run) {
   const mark = (style, sign, text) => el('span', null, el('i', { class: style, 'aria-hidden': 'true' }, sign), text);
   return el('div', null,
     el('div', { class: 'marks' }, mark('m1', '○', 'missed (orange ring)'), mark('m2', '●', 'found (green dot)'),
-      mark('m3', '×', 'false (magenta cross or circle)'), mark('m4', '□', 'where a mover really is (thin box)')),
-    el('p', { class: 'small quiet' }, 'Of squares: magenta boxes are squares, thin ones objects, the orange one is the object that is meant.'),
-    ...run.events.map((event) => el('article', { class: 'event' },
-      el('h4', null, event.is_new ? el('span', { class: 'badge new', title: 'not among the worst of the baseline' }, 'new') : null,
-        (event.is_new ? ' ' : '') + headline(event)),
-      strip(event), reasonBars(event))), gone);
+      mark('m3', '×', 'false (magenta cross)'), mark('m4', '□', 'where a mover really is (thin box)')),
+    ...Object.entries(FAMILIES).map(([family, [title, note]]) => {
+      const events = run.events.filter((event) => event.family === family);
+      return events.length === 0 ? null : el('section', null, el('h4', null, title),
+        note && el('p', { class: 'small quiet' }, note), ...events.map((event) => el('article', { class: 'event' },
+          el('h5', null, event.is_new ? el('span', { class: 'badge new', title: 'not among the worst of the baseline' }, 'new') : null,
+            (event.is_new ? ' ' : '') + headline(event)), strip(event), reasonBars(event))));
+    }), gone);
 }
 
 // ---- A scenario
@@ -468,7 +487,7 @@ function sweepSection() {
 // ---- The page
 
 head();
-document.getElementById('page').append(...(data.is_run ? [worst(), scenarioBody(data.scenarios[0])] : [
+document.getElementById('page').append(...(data.is_run ? [worst(), runTable(), scenarioBody(data.scenarios[0])] : [
   worst(), groupTable(), scenarioTable(), sweepSection(),
   el('section', null, el('h2', null, 'Each scenario'), ...data.scenarios.map(scenarioSection)),
 ]).filter(Boolean), foot());

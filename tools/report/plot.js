@@ -63,11 +63,15 @@ function plot({ title, x, xName, series, top, bands = [], logX, logY, bottom, sy
     values: (_, ticks) => ticks.map((v) => v === null ? '' : tickText(v)), ...more });
   const drawBands = ({ ctx, bbox, valToPos }) => {
     ctx.save();
-    ctx.globalAlpha = 0.13;
-    for (const band of bands) {
-      const from = valToPos(band.from, 'x', true), to = valToPos(band.to, 'x', true);
-      ctx.fillStyle = colour(BANDS[band.kind].style);
-      ctx.fillRect(from - 1, bbox.top, to - from + 2, bbox.height);
+    ctx.globalAlpha = 0.2;
+    for (const [kind, { style }] of Object.entries(BANDS)) {
+      ctx.fillStyle = colour(style);
+      ctx.beginPath();  // one for all, so that bands that overlap are no darker
+      for (const band of bands.filter((b) => b.kind === kind)) {
+        const from = valToPos(band.from, 'x', true), to = valToPos(band.to, 'x', true);
+        ctx.rect(from - 1, bbox.top, to - from + 2, bbox.height);
+      }
+      ctx.fill();
     }
     ctx.restore();
   };

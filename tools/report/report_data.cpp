@@ -34,6 +34,7 @@ using suite::SuiteInFolder;
 using suite::SuiteResult;
 
 constexpr std::array<const char*, 3> kOutcomes{"passed", "failed", "error"};
+constexpr std::array<const char*, 3> kFamilies{"rebels", "circles", "squares"};
 constexpr std::array<const char*, 4> kChanges{"improved", "regressed", "moved", "none"};
 
 /// Columns of frames.csv that are plotted.
@@ -183,7 +184,7 @@ Json event_json(const bench::Event& event) {
           {"corners", event.corners},
           {"of", event.counted_corners},
           {"circles", event.circles},
-          {"of_squares", is_of_squares(event.kind)},
+          {"family", kFamilies[static_cast<std::size_t>(family_of(event.kind))]},
           {"frames", event.frames},
           {"of_frames", event.of_frames},
           {"reasons", reasons},
@@ -203,10 +204,10 @@ Events events_in(const fs::path& folder) {
   return fs::exists(file) ? Events(bench::read_events(file)) : std::nullopt;
 }
 
-/// Whether two events may be the same one: both missed or both false, of rebels or squares, on the
+/// Whether two events may be the same one: both missed or both false, of the same family, on the
 /// same object, in frames that overlap.
 bool are_alike(const bench::Event& a, const bench::Event& b) {
-  return is_of_squares(a.kind) == is_of_squares(b.kind) &&
+  return family_of(a.kind) == family_of(b.kind) &&
          (a.counted_corners > 0) == (b.counted_corners > 0) && a.object_name == b.object_name &&
          a.first_frame <= b.last_frame && b.first_frame <= a.last_frame;
 }
@@ -270,7 +271,7 @@ Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
 }
 
 /// Takes pictures away until the rest fits: first those of the least costly events of later seeds,
-/// of rebels and of squares in turns.
+/// of rebels, of circles and of squares in turns.
 void keep_to_budget(Json& scenarios, std::size_t budget) {
   struct Strip {
     std::size_t turn;  // of its event in its run, and of the run in its scenario
@@ -280,10 +281,9 @@ void keep_to_budget(Json& scenarios, std::size_t budget) {
   for (Json& scenario : scenarios) {
     for (std::size_t r = 0; r < scenario["runs"].size(); ++r) {
       Json& events = scenario["runs"][r]["events"];
-      std::array<std::size_t, 2> rank{};  // within those of rebels, and of squares
+      std::map<std::string, std::size_t> rank;  // within its family
       for (Json& event : events) {
-        const std::size_t kind = event["of_squares"].get<bool>() ? 1 : 0;
-        strips.push_back({2 * rank[kind]++ + kind + 4 * r, &event});
+        strips.push_back({rank[event["family"]]++ + 2 * r, &event});
       }
     }
   }

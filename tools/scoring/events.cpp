@@ -32,12 +32,13 @@ constexpr double kMostOfIt = 0.5;
 /// Frames of an event of squares, at least.
 constexpr int kLeastFrames = 3;
 
-constexpr std::array<EventKindText, 10> kKinds{{
+constexpr std::array<EventKindText, 11> kKinds{{
     {"never_found", "never found"},
     {"found_late", "found late"},
     {"lost", "lost"},
     {"false_alarm", "false alarm"},
     {"halo", "static corners round it called rebels"},
+    {"circle_false", "a false object"},
     {"square_missed", "no square on it"},
     {"square_split", "several squares on it"},
     {"square_merged", "in one square with others"},
@@ -304,7 +305,9 @@ class FalseGroups {
 
   void finish(std::vector<Event>& events) {
     for (const Track& track : tracks_) {
-      events.push_back(event_of(recording_, EventKind::false_alarm, 0, track.parts));
+      Event event = event_of(recording_, EventKind::false_alarm, 0, track.parts);
+      if (event.circles > 0) event.kind = EventKind::circle_false;
+      events.push_back(std::move(event));
     }
     for (auto& [object, parts] : halos_) {
       for (auto& [position, part] : parts) {
@@ -501,7 +504,7 @@ const EventKindText& text_of(SquareStep step) {
 EventSums sums_of(const std::vector<Event>& events) {
   EventSums sums;
   for (const Event& event : events) {
-    if (is_of_squares(event.kind)) {
+    if (family_of(event.kind) == EventFamily::squares) {
       sums.squares[event.kind] += event.frames;
       continue;
     }
@@ -529,7 +532,7 @@ std::vector<Event> find_square_events(const Recording& recording, std::size_t mo
   }
   std::vector<Event> events = squares.events();
   std::ranges::stable_sort(events, std::greater(), &Event::frames);
-  if (events.size() > most) events.resize(most);
+  keep_worst(events, most);
   return events;
 }
 
@@ -543,11 +546,17 @@ std::vector<Event> find_events(const Recording& recording, std::size_t most) {
     if (recording.frames[k].index >= kSightings) groups.add_frame(k, outcomes[k]);
   }
   groups.finish(events);
-  const auto cost = [](const Event& event) { return std::tuple(event.corners, event.circles); };
-  std::stable_sort(events.begin(), events.end(),
-                   [&](const Event& a, const Event& b) { return cost(a) > cost(b); });
-  if (events.size() > most) events.resize(most);
+  const auto rank = [](const Event& event) {  // rebels have no circles
+    return std::tuple(family_of(event.kind), -event.circles, -event.corners);
+  };
+  std::ranges::stable_sort(events, {}, rank);
+  keep_worst(events, most);
   return events;
+}
+
+void keep_worst(std::vector<Event>& events, std::size_t most) {
+  std::map<EventFamily, std::size_t> kept;
+  std::erase_if(events, [&](const Event& event) { return kept[family_of(event.kind)]++ >= most; });
 }
 
 }  // namespace lcs::bench

@@ -1,8 +1,9 @@
 /// \file
 /// Where a run went wrong, worst first: rebels that were missed, static corners that were called
-/// rebels, objects without their square, squares without an object, merged over neighbouring
-/// frames. What is missed and what is false is for `score_rebels.h` and `score_squares.h` to say;
-/// here it is only gathered, with the reasons that the tracker gave.
+/// rebels, circles with no mover under them, objects without their square, squares without an
+/// object, merged over neighbouring frames. What is missed and what is false is for
+/// `score_rebels.h` and `score_squares.h` to say; here it is only gathered, with the reasons that
+/// the tracker gave.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +27,19 @@ enum class EventKind : std::uint8_t {
   lost,           ///< missed after it was found
   false_alarm,    ///< false rebels with no mover under them
   halo,           ///< false rebels round a mover
+  circle_false,   ///< a rebel circle with no mover under it: a false object
   square_missed,  ///< an object that no square touches to speak of
   square_split,   ///< several squares on one object
   square_merged,  ///< one square over several objects
   square_size,    ///< an object whose square is too large, too small or aside
   square_false,   ///< a square on no object
 };
-constexpr bool is_of_squares(EventKind kind) {
-  return kind >= EventKind::square_missed;
+/// What it is that went wrong; the worst are kept of each.
+enum class EventFamily : std::uint8_t { rebels, circles, squares };
+constexpr EventFamily family_of(EventKind kind) {
+  return kind < EventKind::circle_false    ? EventFamily::rebels
+         : kind == EventKind::circle_false ? EventFamily::circles
+                                           : EventFamily::squares;
 }
 
 /// How far a corner of an object came on the way into a square.
@@ -68,7 +74,7 @@ struct Event {
   int corners = 0;  ///< what it costs: corners missed, or false
   /// Corners that recall counts on the object in these frames; 0 for false ones.
   int counted_corners = 0;
-  int circles = 0;  ///< rebel circles with no mover under them
+  int circles = 0;  ///< with no mover under them; what one of circles costs
   std::vector<std::pair<Reason, int>> reasons;  ///< of these corners, most frequent first
   std::vector<EventView> views;                 ///< up to five, in order
   /// \name Of squares, where `corners` is of all that the steps count, or that lie in a false one.
@@ -80,16 +86,19 @@ struct Event {
   ///@}
 };
 
-/// How many are worth pictures; and for who wants every one.
+/// How many of a family are worth pictures; and for who wants every one.
 inline constexpr std::size_t kMostEvents = 5, kAllEvents = std::numeric_limits<std::size_t>::max();
 
-/// At most `most` events, those with the most corners first.
-/// \throws std::invalid_argument as `score`.
+/// Those of rebels, with the most corners first, then those of circles, with the most circles
+/// first; at most `most` of each. \throws std::invalid_argument as `score`.
 std::vector<Event> find_events(const Recording& recording, std::size_t most = kMostEvents);
 
 /// Those of squares, with the most frames first; of a detector that has no edges without steps.
 /// \throws std::invalid_argument as `score`.
 std::vector<Event> find_square_events(const Recording& recording, std::size_t most = kMostEvents);
+
+/// Those of each family that come first. \param events as they are found.
+void keep_worst(std::vector<Event>& events, std::size_t most);
 
 /// What all events of a run cost, by what did it.
 struct EventSums {
