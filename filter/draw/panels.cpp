@@ -79,7 +79,7 @@ class Pen {
   void id_of(const Vec2& at, const std::string& text, const cv::Scalar& colour) {
     name(at + (Vec2(4, 15).array() / scale_.array()).matrix(), text, colour);
   }
-  /// Over a place of the image, within the panel.
+  /// Over a place of the image, within the panel; a line or two higher or lower where one is.
   void name(const Vec2& at, const std::string& text, const cv::Scalar& colour) {
     int below = 0;
     const cv::Size size = cv::getTextSize(text, kFont, kNameSize, 1, &below);
@@ -89,7 +89,17 @@ class Pen {
     };
     const cv::Point corner(within(p.x(), panel_.cols - size.width - 2),
                            within(p.y() - 3, panel_.rows - 3));
-    const cv::Point seen(corner.x, std::max(corner.y, size.height + 1));
+    cv::Point seen(corner.x, std::max(corner.y, size.height + 1));
+    const int line = size.height + below;
+    for (const int lines : {0, -1, 1, -2, 2}) {
+      const cv::Rect box(seen.x, seen.y + lines * line - size.height, size.width, line);
+      const auto meets = [&](const cv::Rect& other) { return (other & box).area() > 0; };
+      if (box.y < 0 || box.y + box.height > panel_.rows) continue;
+      if (std::any_of(names_.begin(), names_.end(), meets)) continue;
+      seen.y += lines * line;
+      break;
+    }
+    names_.emplace_back(seen.x, seen.y - size.height, size.width, line);
     cv::putText(panel_, text, seen, kFont, kNameSize, cv::Scalar::all(0), 3, cv::LINE_AA);
     cv::putText(panel_, text, seen, kFont, kNameSize, colour, 1, cv::LINE_AA);
   }
@@ -115,6 +125,7 @@ class Pen {
 
   cv::Mat3b panel_;
   Vec2 scale_;
+  std::vector<cv::Rect> names_;  // where some are
 };
 
 void draw_truth(Pen& pen, std::span<const TruthBox> truth) {

@@ -311,6 +311,20 @@ TEST_P(Panels, MoversHaveTheirNamesInEveryPanel) {
   }
 }
 
+TEST_P(Panels, NamesDoNotLieOnEachOther) {
+  scene_.truth = {{{80, 80}, {120, 160}, true, "walker"}};
+  const cv::Mat3b alone = scene_.draw(sheet_);
+  scene_.truth.push_back(scene_.truth.front());
+  const cv::Mat3b both = scene_.draw(sheet_);
+  for (const Panel panel : kAllPanels) {
+    const Vec2 box = sheet_.at(panel, {80, 80});
+    cv::Rect name(static_cast<int>(box.x()), static_cast<int>(box.y()) - 10, 45, 8);
+    EXPECT_EQ(cv::norm(alone(name), both(name), cv::NORM_INF), 0);
+    name.y -= 12;
+    EXPECT_GT(cv::norm(alone(name), both(name), cv::NORM_INF), 64) << "a line higher";
+  }
+}
+
 TEST_P(Panels, NoPanelPaintsOverAnother) {
   scene_.layers.collectors = {{.location = {0, 0}, .radius = 90}};
   const double right = GetParam().width - 1;
