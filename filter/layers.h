@@ -88,7 +88,7 @@ struct Square {
   int rebel_circles = 0;  ///< of these
   bool ignoring = false;  ///< reached Tr_m: makes a region of psi in the next frame
   /// The convex hull of its edges and of what follows them, as wide and high as the square, which
-  /// it moves and grows with where these are not seen. Empty for squares that are made of circles.
+  /// it moves and grows with where these are not seen. Empty for the paper's.
   Outline outline;
 };
 

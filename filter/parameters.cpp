@@ -55,15 +55,14 @@ const std::vector<Entry>& entries() {
   static const AskedBy kPaper{{"circle.edge_rule", "paper"}};
   static const AskedBy kHypotheses{{"circle.edge_rule", "hypotheses"}};
   static const AskedBy kCouples{{"square.layer_rule", "couples"}};
-  static const AskedBy kLinks{{"square.layer_rule", "links"}};
-  static const AskedBy kGrounded{kHypotheses.front(), kLinks.front()};
+  static const AskedBy kBodies{{"square.layer_rule", "circles"}};
   static const std::vector<Entry> table = {
       {"field.rotation", "", "", 0, 0,
        LCS_CHOICE(RotationModel, field.rotation, "first_order", "homography", "as_printed")},
       {"field.reference_depth", "Z_ref", "m", 1e-3, 1e4,
        LCS_FIELD(double, field.reference_depth_m)},
       {"field.nearest_depth", "z_min", "m", 1e-3, 1e4, LCS_FIELD(double, field.nearest_depth_m)},
-      {"field.ground", "", "", 0, 0, LCS_FIELD(bool, field.ground), kGrounded},
+      {"field.ground", "", "", 0, 0, LCS_FIELD(bool, field.ground), kHypotheses},
       {"field.ground_tilt", "", "deg", 0, 90, LCS_FIELD(double, field.ground_tilt_rad),
        kHypotheses},
       {"field.still_speed", "", "m/s", 0, 10, LCS_FIELD(double, field.still_speed_mps)},
@@ -78,7 +77,7 @@ const std::vector<Entry>& entries() {
       {"circle.mu_0", "mu_0", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_0), kPaper},
       {"circle.mu_min", "", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_min), kPaper},
       {"circle.mu_max", "", "px", 0.1, 1000, LCS_FIELD(double, circle.mu_max), kPaper},
-      {"circle.corner_noise", "", "px", 0, 100, LCS_FIELD(double, circle.corner_noise)},
+      {"circle.corner_noise", "", "px", 0, 100, LCS_FIELD(double, circle.corner_noise), kPaper},
       {"circle.trust_bonus", "", "px", 0, 100, LCS_FIELD(double, circle.trust_bonus), kPaper},
       {"circle.alpha_reach", "", "px", 0, 1000, LCS_FIELD(double, circle.alpha_reach), kPaper},
       {"circle.alpha_deviation", "mu_r", "deg", 0, 180, LCS_FIELD(double, circle.alpha_deviation),
@@ -117,43 +116,29 @@ const std::vector<Entry>& entries() {
       {"hypotheses.coupling_reach", "", "px", 1, 1000,
        LCS_FIELD(double, circle.hypotheses.coupling_reach_px), kHypotheses},
       {"circle.epsilon_beta_n", "eps_beta,n", "deg", 0, 180,
-       LCS_FIELD(double, circle.epsilon_beta_n)},
+       LCS_FIELD(double, circle.epsilon_beta_n), kPaper},
       {"circle.epsilon_beta_r", "eps_beta,r", "deg", 0, 180,
-       LCS_FIELD(double, circle.epsilon_beta_r)},
-      {"circle.epsilon_v_n", "eps_v,n", "V_v", 0, 1000, LCS_FIELD(double, circle.epsilon_v_n)},
-      {"circle.epsilon_v_r", "eps_v,r", "V_v", 0, 1000, LCS_FIELD(double, circle.epsilon_v_r)},
-      {"circle.epsilon_v", "eps_v", "V_v", 0, 1000, LCS_FIELD(double, circle.epsilon_v)},
-      {"circle.rho_c", "rho_c", "%", 0, 100, LCS_FIELD(double, circle.rho_c)},
-      {"circle.reach_n", "", "px", 0.1, 10000, LCS_FIELD(double, circle.reach_n)},
-      {"circle.reach_r", "", "px", 0.1, 10000, LCS_FIELD(double, circle.reach_r)},
+       LCS_FIELD(double, circle.epsilon_beta_r), kPaper},
+      {"circle.epsilon_v_n", "eps_v,n", "V_v", 0, 1000, LCS_FIELD(double, circle.epsilon_v_n),
+       kPaper},
+      {"circle.epsilon_v_r", "eps_v,r", "V_v", 0, 1000, LCS_FIELD(double, circle.epsilon_v_r),
+       kPaper},
+      {"circle.epsilon_v", "eps_v", "V_v", 0, 1000, LCS_FIELD(double, circle.epsilon_v), kPaper},
+      {"circle.rho_c", "rho_c", "%", 0, 100, LCS_FIELD(double, circle.rho_c), kPaper},
+      {"circle.reach_n", "", "px", 0.1, 10000, LCS_FIELD(double, circle.reach_n), kPaper},
+      {"circle.reach_r", "", "px", 0.1, 10000, LCS_FIELD(double, circle.reach_r), kPaper},
       {"circle.min_members", "", "", 1, 1000, LCS_FIELD(int, circle.min_members)},
-      {"circle.min_width", "", "px", 0, 1000, LCS_FIELD(double, circle.min_width)},
-      {"circle.rebel_coast", "", "", 1, 1000, LCS_FIELD(int, circle.rebel_coast)},
-      {"square.Tr_c", "Tr^s_c", "", 0, 1000, LCS_FIELD(int, square.trust.critical)},
-      {"square.Tr_s", "Tr^s_s", "", 0, 1000, LCS_FIELD(int, square.trust.standard)},
-      {"square.Tr_m", "Tr^s_m", "", 0, 1000, LCS_FIELD(int, square.trust.maximum)},
+      {"circle.gap", "", "m", 0.001, 1000, LCS_FIELD(double, circle.gap_m), kHypotheses},
+      {"circle.upward", "", "", 0.01, 100, LCS_FIELD(double, circle.upward), kHypotheses},
+      {"circle.roughness", "", "", 0, 10, LCS_FIELD(double, circle.roughness), kHypotheses},
+      {"circle.min_width", "", "px", 0, 1000, LCS_FIELD(double, circle.min_width), kHypotheses},
+      {"square.Tr_c", "Tr^s_c", "", 0, 1000, LCS_FIELD(int, square.trust.critical), kCouples},
+      {"square.Tr_s", "Tr^s_s", "", 0, 1000, LCS_FIELD(int, square.trust.standard), kCouples},
+      {"square.Tr_m", "Tr^s_m", "", 0, 1000, LCS_FIELD(int, square.trust.maximum), kCouples},
       {"square.layer_rule", "", "", 0, 0,
-       LCS_CHOICE(LayerRule, square.layer_rule, "couples", "links")},
-      {"link.reach", "", "deg", 0.001, 90, LCS_FIELD(double, square.link.reach_rad), kLinks},
-      {"link.reach_m", "", "m", 0, 1000, LCS_FIELD(double, square.link.reach_m), kLinks},
-      {"link.upward", "", "", 0.01, 100, LCS_FIELD(double, square.link.upward), kLinks},
-      {"link.depth_share", "", "", 0.0001, 10, LCS_FIELD(double, square.link.depth_share), kLinks},
-      {"link.depth_error", "", "", 0, 100, LCS_FIELD(double, square.link.depth_error), kLinks},
-      {"link.mean_share", "", "", 0, 10, LCS_FIELD(double, square.link.mean_share), kLinks},
-      {"link.mean_spread", "", "m", 0, 100, LCS_FIELD(double, square.link.mean_spread), kLinks},
-      {"link.rebel_reach", "", "deg", 0.001, 90, LCS_FIELD(double, square.link.rebel_reach_rad),
-       kLinks},
-      {"link.rebel_upward", "", "", 0.01, 100, LCS_FIELD(double, square.link.rebel_upward), kLinks},
-      {"link.rebel_speed_share", "", "", 0, 10, LCS_FIELD(double, square.link.rebel_speed_share),
-       kLinks},
-      {"link.rebel_speed_px", "", "px", 0, 1000, LCS_FIELD(double, square.link.rebel_speed_px),
-       kLinks},
-      {"link.followers", "", "", 0, 0, LCS_FIELD(bool, square.link.followers), kLinks},
-      {"link.min_edges", "", "", 1, 1000, LCS_FIELD(int, square.link.min_edges), kLinks},
-      {"link.min_rebels", "", "", 1, 1000, LCS_FIELD(int, square.link.min_rebels), kLinks},
-      {"link.min_area", "", "px^2", 0, 1000000000.0, LCS_FIELD(double, square.link.min_area),
-       kLinks},
-      {"link.max_size", "", "m", 0, 10000, LCS_FIELD(double, square.link.max_size), kLinks},
+       LCS_CHOICE(LayerRule, square.layer_rule, "couples", "circles")},
+      {"square.max_size", "", "m", 0, 10000, LCS_FIELD(double, square.max_size), kBodies},
+      {"square.min_area", "", "px^2", 0, 1000000000.0, LCS_FIELD(double, square.min_area), kBodies},
       {"square.delta_beta_1", "delta_beta,1", "deg", 0, 180, LCS_FIELD(double, square.delta_beta_1),
        kCouples},
       {"square.delta_beta_2", "delta_beta,2", "deg", 0, 180, LCS_FIELD(double, square.delta_beta_2),
@@ -165,10 +150,11 @@ const std::vector<Entry>& entries() {
       {"square.epsilon_beta", "eps_beta", "deg", 0, 180, LCS_FIELD(double, square.epsilon_beta),
        kCouples},
       {"square.epsilon_beta_s", "eps_beta,s", "deg", 0, 180,
-       LCS_FIELD(double, square.epsilon_beta_s)},
+       LCS_FIELD(double, square.epsilon_beta_s), kCouples},
       {"square.epsilon_v", "eps_v", "V_v", 0, 1000, LCS_FIELD(double, square.epsilon_v), kCouples},
-      {"square.epsilon_v_s", "eps_v,s", "V_v", 0, 1000, LCS_FIELD(double, square.epsilon_v_s)},
-      {"square.rho_c", "rho_c", "%", 0, 100, LCS_FIELD(double, square.rho_c)},
+      {"square.epsilon_v_s", "eps_v,s", "V_v", 0, 1000, LCS_FIELD(double, square.epsilon_v_s),
+       kCouples},
+      {"square.rho_c", "rho_c", "%", 0, 100, LCS_FIELD(double, square.rho_c), kCouples},
       {"square.d_t", "d_t", "diagonals", 0, 10, LCS_FIELD(double, square.d_t), kCouples},
       {"square.mix_kinds", "", "", 0, 0, LCS_FIELD(bool, square.mix_kinds), kCouples},
   };
@@ -318,7 +304,6 @@ Parameters lab() {
   Parameters p;
   set_degrees(p.circle, p.square);
   p.circle.edge_rule = EdgeRule::paper;
-  p.circle.rebel_coast = 1;
   p.square.layer_rule = LayerRule::couples;
   return p;
 }
@@ -335,15 +320,9 @@ Parameters project_default() {
   Parameters p;
   set_degrees(p.circle, p.square);
   p.circle.trust = {2, 3, 7};
-  // What makes an object of rebels makes a circle of them.
-  p.circle.min_members = p.square.link.min_rebels;
+  p.circle.min_members = 5;
   // An outline's crossings, and the stairs that a slanting line is drawn in, slide along it.
   p.circle.min_width = 1.5;
-  p.circle.reach_n = 100;
-  p.circle.reach_r = 60;
-  // A square is made again in each frame: one that the next frame does not bear out is gone.
-  p.square.trust = {3, 3, 6};
-  p.square.epsilon_beta_s = 60 * kDegree;
   p.line.ignore = false;
   for (const auto& [key, value] : kLearnt) set_entry(p, find(key), value);
   return p;

@@ -26,10 +26,10 @@ enum class EdgeRule {
   hypotheses,  ///< each corner is a static point or moves by itself, weighed at each sighting
 };
 
-/// How circles or edges become squares.
+/// How circles become squares.
 enum class LayerRule {
   couples,  ///< the paper's: the furthest couple of like circles, and what lies inside it
-  links,    ///< edges near each other at one depth, or of one motion
+  circles,  ///< each circle that is a body's
 };
 
 /// Kinematics.
@@ -98,36 +98,17 @@ struct CircleParameters {
   double reach_r = 50;        ///< px: and of a rebel one
   int min_members = 3;        ///< edges that make a new circle
   double min_width = 0;       ///< px: deviation across their line of rebels that make one
-  int rebel_coast = 4;  ///< trust that a rebel circle loses in a frame without its edges; paper: 1
-};
-
-/// The links rule of the Square expert: neighbours are linked when they lie near each other, and at
-/// one depth, and linked groups merge, best link first, while their means agree.
-struct LinkParameters {
-  double reach_rad = 0.061;        ///< how far apart neighbours are seen, at the most
-  double reach_m = 0.4;            ///< m: or as far apart as this, if that is farther
-  double upward = 0.45;            ///< what a distance upwards counts beside one along the horizon
-  double depth_share = 0.08;       ///< by which the inverse depths of neighbours may differ,
-  double depth_error = 0.5;        ///< beside as much of the standard deviation of their difference
-  double mean_share = 0.03;        ///< by which the mean inverse depths of two groups may differ
-  double mean_spread = 0.1;        ///< m: the same, growing with the inverse depth squared
-  double rebel_reach_rad = 0.192;  ///< how far apart rebels are seen, at the most
-  double rebel_upward = 0.25;      ///< as `upward`: limbs swing, and few corners are on them
-  double rebel_speed_share = 0.4;  ///< by which their velocities may differ
-  double rebel_speed_px = 3;       ///< px a frame, or tenth of a second: this in any case
-  bool followers = true;           ///< what follows a rebel (`Follower`) is in its box
-  int min_edges = 9;               ///< that make a square
-  int min_rebels = 5;
-  double min_area = 250;  ///< px^2
-  double max_size = 5;  ///< m: what is larger, by the depth of its edges, is background, and so is
-                        ///< what reaches higher above the ground, where that is known
+  double gap_m = 0.2;         ///< m: between the edges of one body, about
+  double upward = 0.45;       ///< what a distance upwards counts beside one along the horizon
+  double roughness = 0.06;    ///< share by which a body's depths and velocities are off a plane
 };
 
 /// Square expert.
 struct SquareParameters {
   TrustRanks trust{3, 5, 7};  ///< Tr^s
-  LayerRule layer_rule = LayerRule::links;
-  LinkParameters link;
+  LayerRule layer_rule = LayerRule::circles;
+  double max_size = 5;    ///< m: what is larger, by its depth, is no object but the setting
+  double min_area = 250;  ///< px^2: of an object's box
   double delta_beta_1 = 0;    ///< delta_beta,1, 90 deg: between the circles of a corner (case 1)
   double delta_beta_2 = 0;    ///< delta_beta,2, 0 deg: between aligned circles (case 2)
   double epsilon_beta_1 = 0;  ///< eps_beta,1, 15 deg

@@ -3,24 +3,17 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <tuple>
 
+#include "filter/circles/mean_circle.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/line/line.h"
 #include "filter/matching/refill.h"
 
 namespace lcs {
-namespace {
-
-bool within(double angle_rad, double about_rad, double epsilon_rad) {
-  return angle_between(angle_rad, about_rad) <= epsilon_rad;
-}
-
-}  // namespace
 
 CircleExpert::CircleExpert(const Intrinsics& camera, const CircleParameters& parameters)
-    : camera_(camera), parameters_(parameters) {}
+    : parameters_(parameters), paper_(camera, parameters), groups_(camera, parameters) {}
 
 void CircleExpert::predict(Layers& layers, const MotionField& field) const {
   for (Circle& circle : layers.normal_circles) {
@@ -53,230 +46,118 @@ void CircleExpert::feed_back(const Layers& layers, std::vector<IgnoreRegion>& ps
   }
 }
 
-/// Like direction, like depth (normal) or like speed (rebel).
-bool CircleExpert::alike(const Edge& a, const Edge& b, const MotionField& field) const {
-  if (a.rebel) {
-    const double tolerance = parameters_.epsilon_v_r * field.reference_speed(a.location);
-    return within(a.angle, b.angle, parameters_.epsilon_beta_r) &&
-           std::abs(a.speed - b.speed) <= std::max(tolerance, 0.5 * std::max(a.speed, b.speed));
-  }
-  return std::abs(a.depth_ratio - b.depth_ratio) <= parameters_.epsilon_v_n &&
-         (!field.moving() || within(a.angle, b.angle, parameters_.epsilon_beta_n));
-}
-
-CircleExpert::Group CircleExpert::mean_circle(const std::vector<Edge>& edges, std::size_t first,
-                                              std::size_t count, const MotionField& field) const {
-  Group group;
-  group.first = first;
-  group.count = count;
-  Circle& mean = group.mean;
-  AngleMean angle;
-  mean.depth_ratio = mean.speed = 0;
-  for (std::size_t i = first; i < first + count; ++i) {
-    const Edge& edge = edges[grouped_[i]];
-    mean.location += edge.location;
-    mean.origin += edge.origin;
-    mean.speed += edge.speed;
-    mean.depth_ratio += edge.depth_ratio;
-    // The deviation mu_r that the paper adds to beta of a rebel is unsigned here, and so widens the
-    // gate (zeta_r) instead of turning the mean.
-    angle.add(edge.angle);
-  }
-  const double n = static_cast<double>(count);
-  mean.rebel = edges[grouped_[first]].rebel;
-  mean.location /= n;
-  mean.origin /= n;
-  mean.speed /= n;
-  mean.depth_ratio /= n;
-  mean.angle = angle.value();
-  if (mean.rebel) {
-    const double reference = field.reference_speed(mean.location);
-    mean.depth_ratio = reference > 0 ? std::min(mean.speed / reference, 2 * field.max_ratio()) : 0;
-  }
-  for (std::size_t i = first; i < first + count; ++i) {
-    mean.radius = std::max(mean.radius, (edges[grouped_[i]].location - mean.location).norm());
-  }
-  mean.radius += parameters_.corner_noise;
-  mean.members = static_cast<int>(count);
-  return group;
-}
-
-/// Whether the members grouped from `first` on lie along a line.
-bool CircleExpert::is_line(std::size_t first) const {
-  const auto members = std::span(grouped_).subspan(first);
+/// Whether a group lies along a line.
+bool CircleExpert::is_line(const std::vector<Edge>& edges, std::span<const int> group) const {
   Vec2 mean = Vec2::Zero();
-  for (const std::size_t i : members) mean += free_[i]->location;
-  mean /= static_cast<double>(members.size());
+  for (const int i : group) mean += edges[i].location;
+  mean /= static_cast<double>(group.size());
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
-  for (const std::size_t i : members) {
-    const Vec2 off = free_[i]->location - mean;
+  for (const int i : group) {
+    const Vec2 off = edges[i].location - mean;
     scatter += off * off.transpose();
   }
   // Across the line their deviation is the root of the lesser eigenvalue, t - sqrt(t^2 - det).
   const double t = 0.5 * scatter.trace();
   const double least = t - std::sqrt(std::max(0.0, t * t - scatter.determinant()));
-  return least <
-         parameters_.min_width * parameters_.min_width * static_cast<double>(members.size());
+  return least < parameters_.min_width * parameters_.min_width * static_cast<double>(group.size());
 }
 
-/// The groups C_m: each starts from the most trusted edge that is still free, of those the oldest,
-/// and takes the edges near it that are like it.
-void CircleExpert::group(const std::vector<Edge>& edges, const MotionField& field) {
-  free_.clear();
-  points_.clear();
-  seeds_.clear();
-  for (const Edge& edge : edges) {
-    if (edge.trust < parameters_.trust.standard) continue;
-    seeds_.push_back({edge.trust, edge.age, free_.size()});
-    free_.push_back(&edge);
-    points_.push_back(edge.location);
+/// Which group goes on as which circle: most edges in common first. Of each group, -1: none.
+void CircleExpert::match(const std::vector<Edge>& edges, const std::vector<Circle>& circles,
+                         const std::vector<Member>& before) {
+  shares_.clear();
+  make_room(shares_, edges.size());
+  for (std::size_t g = 0; g < found_.size(); ++g) {
+    for (const int i : groups_.edges(found_[g])) {
+      const auto was = std::lower_bound(before.begin(), before.end(), edges[i].id,
+                                        [](const Member& m, Id id) { return m.edge < id; });
+      if (was == before.end() || was->edge != edges[i].id) continue;
+      shares_.push_back({1, was->circle, g});
+    }
   }
-  const bool rebels = !edges.empty() && edges.front().rebel;
-  const double reach = rebels ? parameters_.reach_r : parameters_.reach_n;
-  grid_.build(points_, reach);
-  std::sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) {
-    return std::tuple(-a.trust, -a.age, a.index) < std::tuple(-b.trust, -b.age, b.index);
+  const auto place = [](const Share& s) { return std::tuple(s.circle, s.group); };
+  std::sort(shares_.begin(), shares_.end(),
+            [&](const Share& a, const Share& b) { return place(a) < place(b); });
+  std::size_t last = 0;
+  for (std::size_t s = 1; s < shares_.size(); ++s) {
+    if (place(shares_[s]) == place(shares_[last])) {
+      ++shares_[last].edges;
+    } else {
+      shares_[++last] = shares_[s];
+    }
+  }
+  if (!shares_.empty()) shares_.resize(last + 1);
+  std::sort(shares_.begin(), shares_.end(), [](const Share& a, const Share& b) {
+    return std::tuple(-a.edges, a.circle, a.group) < std::tuple(-b.edges, b.circle, b.group);
   });
-  grouped_.clear();
-  groups_.clear();
-  for (const Seed& seed : seeds_) {
-    if (!free_[seed.index]) continue;
-    const Edge& edge = *free_[seed.index];
-    const std::size_t first = grouped_.size();
-    grid_.visit_within(edge.location, reach, [&](int other, double) {
-      if (free_[other] && alike(edge, *free_[other], field)) grouped_.push_back(other);
-    });
-    std::sort(grouped_.begin() + static_cast<std::ptrdiff_t>(first), grouped_.end());
-    const std::size_t count = grouped_.size() - first;
-    if (static_cast<int>(count) < parameters_.min_members ||
-        (rebels && parameters_.min_width > 0 && is_line(first))) {
-      grouped_.resize(first);
-      continue;
-    }
-    for (std::size_t i = first; i < grouped_.size(); ++i) {
-      const Edge*& member = free_[grouped_[i]];
-      grouped_[i] = static_cast<std::size_t>(member - edges.data());
-      member = nullptr;
-    }
-    groups_.push_back(mean_circle(edges, first, count, field));
+  refill(circle_of_group_, found_.size(), -1);
+  refill(group_of_circle_, circles.size(), -1);
+  for (const Share& share : shares_) {
+    if (circle_of_group_[share.group] >= 0 || group_of_circle_[share.circle] >= 0) continue;
+    circle_of_group_[share.group] = share.circle;
+    group_of_circle_[share.circle] = static_cast<int>(share.group);
   }
 }
 
-/// Per[ |L_e - L~_c| < R_c ]: share of the group's edges inside the predicted circle, %.
-double CircleExpert::overlap(const Circle& circle, const Group& group,
-                             const std::vector<Edge>& edges) const {
-  int inside = 0;
-  for (std::size_t i = group.first; i < group.first + group.count; ++i) {
-    inside += (edges[grouped_[i]].location - circle.location).norm() < circle.radius;
-  }
-  return 100.0 * inside / static_cast<double>(group.count);
-}
-
-void CircleExpert::estimate_circle(Circle& circle, const Circle& mean, bool aligned) const {
+/// Groups the edges of one kind anew. A circle is where its edges are, and without any it is gone,
+/// unless nobody looked.
+void CircleExpert::regroup(std::vector<Edge>& edges, std::vector<Circle>& circles,
+                           std::vector<Member>& members, const Layers& layers,
+                           const MotionField& field) {
   const TrustRanks& ranks = parameters_.trust;
-  circle.location = estimate(circle.trust, ranks, circle.location, mean.location);
-  circle.radius = estimate(circle.trust, ranks, circle.radius, mean.radius);
-  circle.angle = wrap_angle(
-      circle.angle + estimate(circle.trust, ranks, 0.0, wrap_angle(mean.angle - circle.angle)));
-  if (circle.rebel) circle.angle = mean.angle;
-  circle.origin = mean.origin;
-  circle.speed = mean.speed;
-  circle.depth_ratio = mean.depth_ratio;
-  circle.members = mean.members;
-  circle.trust = aligned ? ranks.raised(circle.trust) : circle.trust - 1;
-}
+  found_.clear();
+  make_room(found_, edges.size());
+  for (const MotionGroups::Group& group : groups_.group(edges, field)) {
+    if (group.ground || group.count < static_cast<std::size_t>(parameters_.min_members)) continue;
+    const auto of_group = groups_.edges(group);
+    if (edges[of_group.front()].rebel && is_line(edges, of_group)) continue;
+    found_.push_back(group);
+  }
+  match(edges, circles, members);
 
-void CircleExpert::match(std::vector<Edge>& edges, std::vector<Circle>& circles,
-                         const Layers& layers, const MotionField& field) {
-  group(edges, field);
   for (Edge& edge : edges) edge.circle = -1;
-
-  pairs_.clear();
+  next_.clear();
+  make_room(next_, circles.size() + found_.size());
+  const auto add = [&](std::size_t g, Id id, int trust, int age) {
+    const auto of_group = groups_.edges(found_[g]);
+    for (const int i : of_group) edges[i].circle = static_cast<int>(next_.size());
+    Circle circle = mean_circle(edges, of_group, field);
+    circle.id = id;
+    circle.trust = trust;
+    circle.age = age;
+    next_.push_back(circle);
+  };
   for (std::size_t c = 0; c < circles.size(); ++c) {
-    const Circle& circle = circles[c];
-    const double epsilon_beta =
-        circle.rebel ? parameters_.epsilon_beta_r : parameters_.epsilon_beta_n;
-    for (std::size_t g = 0; g < groups_.size(); ++g) {
-      const Circle& mean = groups_[g].mean;
-      const double distance = (mean.location - circle.location).norm();
-      if (distance > circle.radius + mean.radius) continue;
-      const double share = overlap(circle, groups_[g], edges);
-      if (share < parameters_.rho_c) continue;
-      const double tolerance =
-          circle.rebel ? std::max(parameters_.epsilon_v_r * field.reference_speed(mean.location),
-                                  0.5 * std::max(circle.speed, mean.speed))
-                       : 0;
-      const bool speeds =
-          circle.rebel ? std::abs(circle.speed - mean.speed) <= tolerance
-                       : std::abs(circle.depth_ratio - mean.depth_ratio) <= parameters_.epsilon_v;
-      if (!speeds) continue;
-      const bool aligned =
-          (!circle.rebel && !field.moving()) || within(circle.angle, mean.angle, epsilon_beta);
-      pairs_.push_back({share, distance, c, g, aligned});
+    Circle& circle = circles[c];
+    if (const int g = group_of_circle_[c]; g >= 0) {
+      add(static_cast<std::size_t>(g), circle.id, ranks.raised(circle.trust), circle.age + 1);
+    } else if (inside_any(layers.ignored, circle.location)) {
+      circle.members = 0;
+      ++circle.age;
+      next_.push_back(circle);
     }
   }
-  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
-    return std::tuple(!a.aligned, -a.overlap, a.distance, a.circle, a.group) <
-           std::tuple(!b.aligned, -b.overlap, b.distance, b.circle, b.group);
-  });
-  // As long as there could be groups, whose number is steady only when the edges' has long been.
-  refill(circle_of_group_, edges.size(), -1);
-  refill(matched_, circles.size());
-  for (const Pair& pair : pairs_) {
-    if (matched_[pair.circle] || circle_of_group_[pair.group] >= 0) continue;
-    matched_[pair.circle] = 1;
-    circle_of_group_[pair.group] = static_cast<int>(pair.circle);
-    Circle& circle = circles[pair.circle];
-    ++circle.age;
-    // Edges that coast in psi carry their circle along, but prove nothing.
-    const bool unseen = inside_any(layers.ignored, circle.location);
-    const int trust = circle.trust;
-    estimate_circle(circle, groups_[pair.group].mean, pair.aligned);
-    if (unseen) circle.trust = trust;
-  }
-  for (std::size_t c = 0; c < circles.size(); ++c) {
-    if (matched_[c]) continue;
-    ++circles[c].age;
-    circles[c].members = 0;
-    // A region that was not looked at had no chance to show its edges.
-    if (inside_any(layers.ignored, circles[c].location)) continue;
-    circles[c].trust -= circles[c].rebel ? parameters_.rebel_coast : 1;
-  }
-  const std::size_t most = circles.size() + groups_.size();
-  if (circles.capacity() < most) circles.reserve(2 * most);
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
+  for (std::size_t g = 0; g < found_.size(); ++g) {
     if (circle_of_group_[g] >= 0) continue;
-    Circle circle = groups_[g].mean;
-    circle.id = next_id_++;
-    circle.trust =
-        circle.rebel ? parameters_.trust.initial_rebel() : parameters_.trust.initial_normal();
-    circle_of_group_[g] = static_cast<int>(circles.size());
-    circles.push_back(circle);
+    const bool rebel = edges[groups_.edges(found_[g]).front()].rebel;
+    add(g, next_id_++, rebel ? ranks.initial_rebel() : ranks.initial_normal(), 0);
   }
-
-  // Deletion shifts the indices that edges keep.
-  refill(kept_, circles.size(), -1);
-  std::size_t kept = 0;
-  for (std::size_t c = 0; c < circles.size(); ++c) {
-    const Vec2& x = circles[c].location;
-    const bool outside =
-        x.x() < 0 || x.y() < 0 || x.x() > camera_.width_px || x.y() > camera_.height_px;
-    if (!parameters_.trust.alive(circles[c].trust) || outside) continue;
-    kept_[c] = static_cast<int>(kept);
-    circles[kept++] = circles[c];
-  }
-  circles.resize(kept);
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const Group& group = groups_[g];
-    for (std::size_t i = group.first; i < group.first + group.count; ++i) {
-      edges[grouped_[i]].circle = kept_[static_cast<std::size_t>(circle_of_group_[g])];
-    }
+  copy_over(next_, circles);
+  members.clear();
+  make_room(members, edges.size());
+  for (const Edge& edge : edges) {
+    if (edge.circle >= 0) members.push_back({edge.id, edge.circle});
   }
 }
 
 void CircleExpert::update(Layers& layers, const MotionField& field) {
-  match(layers.normal_edges, layers.normal_circles, layers, field);
-  match(layers.rebel_edges, layers.rebel_circles, layers, field);
+  if (parameters_.edge_rule == EdgeRule::paper) {
+    paper_.update(layers.normal_edges, layers.normal_circles, layers, field);
+    paper_.update(layers.rebel_edges, layers.rebel_circles, layers, field);
+  } else {
+    regroup(layers.normal_edges, layers.normal_circles, normal_members_, layers, field);
+    regroup(layers.rebel_edges, layers.rebel_circles, rebel_members_, layers, field);
+  }
 }
 
 void CircleExpert::update_ignorance(Layers& layers) const {

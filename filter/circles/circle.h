@@ -1,13 +1,16 @@
 /// \file
-/// Circle expert, second part: edges of like motion become circles, which are matched to the
-/// predicted ones ("Normal Edge Circling", "Rebel Edge Circling").
+/// Circle expert, second part: edges of like motion become circles, which go on from frame to
+/// frame. By default a circle is one group of `MotionGroups`, known again by its edges; the paper's
+/// are `PaperCircles`.
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "filter/circles/motion_groups.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/layers.h"
-#include "filter/matching/point_grid.h"
+#include "filter/paper/paper_circles.h"
 #include "filter/parameters.h"
 
 namespace lcs {
@@ -32,50 +35,35 @@ class CircleExpert {
   void update_ignorance(Layers& layers) const;
 
  private:
-  /// Mean circle of a group of edges, C_m.
-  struct Group {
-    Circle mean;
-    std::size_t first = 0, count = 0;  // of its edges in grouped_
+  /// An edge of a circle, which is given by its index.
+  struct Member {
+    Id edge;
+    int circle;
   };
 
-  /// An edge that a group may start from.
-  struct Seed {
-    int trust, age;
-    std::size_t index;  // of free_
+  /// How many edges a group has of a circle of the frame before.
+  struct Share {
+    int edges, circle;
+    std::size_t group;
   };
 
-  /// A predicted circle and a group that may be it.
-  struct Pair {
-    double overlap, distance;
-    std::size_t circle, group;
-    bool aligned;
-  };
+  bool is_line(const std::vector<Edge>& edges, std::span<const int> group) const;
+  void match(const std::vector<Edge>& edges, const std::vector<Circle>& circles,
+             const std::vector<Member>& before);
+  void regroup(std::vector<Edge>& edges, std::vector<Circle>& circles, std::vector<Member>& members,
+               const Layers& layers, const MotionField& field);
 
-  bool alike(const Edge& a, const Edge& b, const MotionField& field) const;
-  bool is_line(std::size_t first) const;
-  void group(const std::vector<Edge>& edges, const MotionField& field);
-  Group mean_circle(const std::vector<Edge>& edges, std::size_t first, std::size_t count,
-                    const MotionField& field) const;
-  void match(std::vector<Edge>& edges, std::vector<Circle>& circles, const Layers& layers,
-             const MotionField& field);
-  double overlap(const Circle& circle, const Group& group, const std::vector<Edge>& edges) const;
-  void estimate_circle(Circle& circle, const Circle& mean, bool aligned) const;
-
-  Intrinsics camera_;
   CircleParameters parameters_;
+  PaperCircles paper_;
+  MotionGroups groups_;
   Id next_id_ = 1;
+  std::vector<Member> normal_members_, rebel_members_;  // of the last frame, by their edges
 
   // Of the current frame; kept for their memory.
-  PointGrid grid_;
-  std::vector<const Edge*> free_;  // trusted, null: in a group
-  std::vector<Vec2> points_;       // of them
-  std::vector<Seed> seeds_;
-  std::vector<std::size_t> grouped_;
-  std::vector<Group> groups_;
-  std::vector<Pair> pairs_;
-  std::vector<int> circle_of_group_;
-  std::vector<char> matched_;  // circles
-  std::vector<int> kept_;      // index of each circle after deletion, -1: deleted
+  std::vector<MotionGroups::Group> found_;
+  std::vector<Share> shares_;
+  std::vector<int> circle_of_group_, group_of_circle_;
+  std::vector<Circle> next_;
 };
 
 }  // namespace lcs

@@ -15,8 +15,8 @@ namespace {
 /// How far behind a rebel its origin is kept, in steps, so that beta is its direction of now.
 constexpr double kOriginSteps = 5;
 
-/// Depth is known where its variance is this share of what the bounds alone say.
-constexpr double kKnownDepth = 0.25;
+/// Depth is known where its standard deviation is less than this share of it.
+constexpr double kKnownDepth = 0.2;
 
 }  // namespace
 
@@ -206,10 +206,9 @@ Edge HypothesisEdges::edge_of(const Track& track, const MotionField& field) cons
     return edge;
   }
   move_as_static(edge, field);
-  const double half = depth_bounds(field, edge.location).half_pm();
-  const double variance = track.as_static.covariance(2, 2);
-  if (variance < kKnownDepth * half * half) {
-    edge.depth_ratio_sigma = std::sqrt(variance) * field.reference_depth_m();
+  const double sigma_pm = std::sqrt(track.as_static.covariance(2, 2));
+  if (sigma_pm < kKnownDepth * track.as_static.inverse_depth_pm) {
+    edge.depth_ratio_sigma = sigma_pm * field.reference_depth_m();
   }
   return edge;
 }

@@ -9,17 +9,23 @@
 
 namespace lcs {
 
+/// Room for `size` items.
+template <typename T>
+void make_room(std::vector<T>& list, std::size_t size) {
+  if (list.capacity() < size) list.reserve(size + size / 2);
+}
+
 /// Leaves `size` items, each of them `value`.
 template <typename T>
 void refill(std::vector<T>& list, std::size_t size, const T& value = {}) {
-  if (list.capacity() < size) list.reserve(size + size / 2);
+  make_room(list, size);
   list.assign(size, value);
 }
 
 /// Leaves a copy of `from`.
 template <typename T>
 void copy_over(const std::vector<T>& from, std::vector<T>& list) {
-  if (list.capacity() < from.size()) list.reserve(from.size() + from.size() / 2);
+  make_room(list, from.size());
   list = from;
 }
 

@@ -2,20 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "filter/kinematics/geometry.h"
-#include "filter/line/line.h"
 #include "filter/matching/refill.h"
 #include "filter/paper/tangent.h"
-#include "filter/squares/convex_hull.h"
 
 namespace lcs {
 namespace {
-
-double side_overlap(double a, double half_a, double b, double half_b) {
-  return std::max(0.0, std::min(a + half_a, b + half_b) - std::max(a - half_a, b - half_b));
-}
 
 /// A square with rebels is carried by its own motion; how its size changes is not known before the
 /// circles say so.
@@ -49,21 +42,8 @@ void expand(Square& square, const MotionField& field) {
 
 }  // namespace
 
-double overlap_percent(const Square& a, const Square& b) {
-  const double smaller =
-      4 * std::min(a.half_size.x() * a.half_size.y(), b.half_size.x() * b.half_size.y());
-  if (!(smaller > 0)) return 0;
-  const double common =
-      side_overlap(a.location.x(), a.half_size.x(), b.location.x(), b.half_size.x()) *
-      side_overlap(a.location.y(), a.half_size.y(), b.location.y(), b.half_size.y());
-  return std::min(100.0, 100 * common / smaller);
-}
-
 SquareExpert::SquareExpert(const Intrinsics& camera, const SquareParameters& parameters)
-    : camera_(camera),
-      parameters_(parameters),
-      couples_(camera, parameters),
-      links_(camera, parameters.link) {}
+    : camera_(camera), parameters_(parameters), paper_(camera, parameters) {}
 
 void SquareExpert::predict(Layers& layers, const MotionField& field) const {
   for (Square& square : layers.squares) {
@@ -83,84 +63,90 @@ void SquareExpert::feed_back(const Layers& layers, std::vector<IgnoreRegion>& ps
   }
 }
 
-void SquareExpert::match(Layers& layers) {
-  pairs_.clear();
-  for (std::size_t s = 0; s < layers.squares.size(); ++s) {
-    const Square& square = layers.squares[s];
-    for (std::size_t m = 0; m < means_.size(); ++m) {
-      const double rho_s = overlap_percent(square, means_[m]);
-      if (rho_s <= parameters_.rho_c) continue;
-      if (std::abs(square.depth_ratio - means_[m].depth_ratio) > parameters_.epsilon_v_s) continue;
-      const bool aligned =
-          angle_between(square.angle, means_[m].angle) <= parameters_.epsilon_beta_s;
-      pairs_.push_back({rho_s, (square.location - means_[m].location).norm(), s, m, aligned});
+/// Where the edges of circles are, and what follows them, circle by circle.
+void SquareExpert::gather(const std::vector<Edge>& edges, std::span<const Follower> followers) {
+  places_.clear();
+  make_room(places_, edges.size() + followers.size());
+  for (const Edge& edge : edges) {
+    if (edge.circle >= 0) places_.push_back({edge.circle, edge.location});
+  }
+  for (const Follower& follower : followers) {
+    // Ids rise in the lists of edges.
+    const auto edge = std::lower_bound(edges.begin(), edges.end(), follower.edge,
+                                       [](const Edge& before, Id id) { return before.id < id; });
+    if (edge == edges.end() || edge->id != follower.edge || edge->circle < 0) continue;
+    places_.push_back({edge->circle, follower.location});
+  }
+  std::sort(places_.begin(), places_.end(),
+            [](const Place& a, const Place& b) { return a.circle < b.circle; });
+}
+
+/// Whether a circle is an object's, of the size that its box in `square` has.
+bool SquareExpert::is_object(const Circle& circle, const Square& square,
+                             const MotionField& field) const {
+  const Vec2 size = 2 * square.half_size;
+  if (size.prod() < parameters_.min_area) return false;
+  const double w = circle.depth_ratio / field.reference_depth_m();
+  return circle.rebel || size.maxCoeff() <= parameters_.max_size * camera_.focal_px * w;
+}
+
+/// The squares of circles of one kind.
+void SquareExpert::box(const std::vector<Circle>& circles, const std::vector<Square>& before,
+                       const MotionField& field) {
+  auto place = places_.begin();
+  for (std::size_t c = 0; c < circles.size(); ++c) {
+    const Circle& circle = circles[c];
+    if (circle.members == 0) {  // nobody looks, and its square goes on as it was expected to
+      const auto was = std::find_if(before.begin(), before.end(),
+                                    [&](const Square& square) { return square.id == circle.id; });
+      if (was == before.end()) continue;
+      squares_.push_back(*was);
+      squares_.back().circles = squares_.back().rebel_circles = 0;
+      squares_.back().age = circle.age;
+      squares_.back().ignoring = circle.ignoring;
+      continue;
     }
+    hull_.clear();
+    for (; place != places_.end() && place->circle == static_cast<int>(c); ++place) {
+      hull_.add(place->location);
+    }
+    const auto [low, high] = hull_.box();
+    Square square;
+    square.location = 0.5 * (low + high);
+    square.half_size = 0.5 * (high - low);
+    if (!is_object(circle, square, field)) continue;
+    square.outline = hull_.outline();
+    square.origin = circle.origin;
+    square.speed = circle.speed;
+    square.depth_ratio = circle.depth_ratio;
+    square.angle = circle.angle;
+    square.circles = 1;
+    square.rebel_circles = circle.rebel;
+    square.id = circle.id;
+    square.trust = circle.trust;
+    square.age = circle.age;
+    square.ignoring = circle.ignoring;
+    squares_.push_back(square);
   }
-  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
-    return std::tuple(!a.aligned, a.distance, -a.overlap, a.square, a.mean) <
-           std::tuple(!b.aligned, b.distance, -b.overlap, b.square, b.mean);
-  });
-  refill(matched_, layers.squares.size());
-  refill(mean_used_, means_.size());
-  const TrustRanks& ranks = parameters_.trust;
-  for (const Pair& pair : pairs_) {
-    if (matched_[pair.square] || mean_used_[pair.mean]) continue;
-    matched_[pair.square] = mean_used_[pair.mean] = 1;
-    Square& square = layers.squares[pair.square];
-    const Square& mean = means_[pair.mean];
-    // Circles that coast in psi carry their square along, but prove nothing.
-    const bool unseen = inside_any(layers.ignored, square.location);
-    // What comes near grows faster than it is predicted to: rebels are where they are seen.
-    const int trust = mean.rebel_circles > 0 && parameters_.layer_rule == LayerRule::links
-                          ? ranks.critical
-                          : square.trust;
-    const Vec2 location = estimate(trust, ranks, square.location, mean.location);
-    const Vec2 half_size = estimate(trust, ranks, square.half_size, mean.half_size);
-    square.location = mean.location;
-    square.half_size = mean.half_size;
-    square.outline = mean.outline;
-    place(square, location, half_size);
-    square.speed = mean.speed;
-    square.depth_ratio = mean.depth_ratio;
-    square.angle = mean.angle;
-    square.origin = mean.origin;
-    square.circles = mean.circles;
-    square.rebel_circles = mean.rebel_circles;
-    ++square.age;
-    if (!unseen) square.trust = pair.aligned ? ranks.raised(square.trust) : square.trust - 1;
-  }
-  for (std::size_t s = 0; s < layers.squares.size(); ++s) {
-    if (matched_[s]) continue;
-    Square& square = layers.squares[s];
-    ++square.age;
-    square.circles = 0;
-    if (!inside_any(layers.ignored, square.location)) --square.trust;
-  }
-  for (std::size_t m = 0; m < means_.size(); ++m) {
-    if (mean_used_[m]) continue;
-    Square square = means_[m];
-    square.id = next_id_++;
-    square.trust = ranks.initial_square();
-    layers.squares.push_back(square);
-  }
-  std::erase_if(layers.squares, [&](const Square& square) {
-    const Vec2& x = square.location;
-    return !ranks.alive(square.trust) || x.x() < 0 || x.y() < 0 || x.x() > camera_.width_px ||
-           x.y() > camera_.height_px;
-  });
 }
 
 void SquareExpert::update(Layers& layers, const MotionField& field,
                           std::span<const Follower> followers) {
   if (parameters_.layer_rule == LayerRule::couples) {
-    copy_over(couples_.layer(layers, field), means_);
-  } else {
-    copy_over(links_.layer(layers, field, followers), means_);
+    paper_.update(layers, field);
+    return;
   }
-  match(layers);
+  squares_.clear();
+  make_room(squares_, layers.normal_circles.size() + layers.rebel_circles.size());
+  gather(layers.normal_edges, {});
+  box(layers.normal_circles, layers.squares, field);
+  gather(layers.rebel_edges, followers);
+  box(layers.rebel_circles, layers.squares, field);
+  copy_over(squares_, layers.squares);
 }
 
 void SquareExpert::update_ignorance(Layers& layers) const {
+  if (parameters_.layer_rule == LayerRule::circles) return;  // a square is ignored with its circle
   for (Square& square : layers.squares) {
     square.ignoring = square.trust >= parameters_.trust.maximum && square.rebel_circles == 0;
     if (square.ignoring) square.trust = parameters_.trust.after_ignoring();

@@ -1,6 +1,6 @@
 /// \file
-/// Square expert: circles that belong together become rectangles, which are matched to the
-/// predicted ones ("Geometric Layering", "Mean Square", "Square Estimation").
+/// Square expert: circles that are objects become rectangles. By default each circle that is a
+/// body's is one, and goes on as it does; the paper's are `PaperSquares`.
 #pragma once
 
 #include <span>
@@ -8,15 +8,11 @@
 
 #include "filter/kinematics/motion_field.h"
 #include "filter/layers.h"
-#include "filter/paper/couple_layering.h"
+#include "filter/paper/paper_squares.h"
 #include "filter/parameters.h"
-#include "filter/squares/links.h"
+#include "filter/squares/convex_hull.h"
 
 namespace lcs {
-
-/// Overlap rho_s of two rectangles: the common area in % of the smaller one. Symmetric; 0 for
-/// disjoint ones, 100 where one contains the other, 0 where one has no area.
-double overlap_percent(const Square& a, const Square& b);
 
 class SquareExpert {
  public:
@@ -36,25 +32,25 @@ class SquareExpert {
   void update_ignorance(Layers& layers) const;
 
  private:
-  /// A predicted square and a mean one that may be it.
-  struct Pair {
-    double overlap, distance;
-    std::size_t square, mean;
-    bool aligned;
+  /// Of an edge of a circle, which is given by its index.
+  struct Place {
+    int circle;
+    Vec2 location;
   };
 
-  void match(Layers& layers);
+  void gather(const std::vector<Edge>& edges, std::span<const Follower> followers);
+  void box(const std::vector<Circle>& circles, const std::vector<Square>& before,
+           const MotionField& field);
+  bool is_object(const Circle& circle, const Square& square, const MotionField& field) const;
 
   Intrinsics camera_;
   SquareParameters parameters_;
-  Id next_id_ = 1;
+  PaperSquares paper_;
 
   // Of the current frame; kept for their memory.
-  std::vector<Square> means_;  // S_m
-  std::vector<Pair> pairs_;
-  std::vector<char> matched_, mean_used_;  // squares, means
-  CoupleLayering couples_;
-  LinkLayering links_;
+  std::vector<Place> places_;
+  ConvexHull hull_;
+  std::vector<Square> squares_;
 };
 
 }  // namespace lcs

@@ -7,6 +7,7 @@
 
 #include "filter/kinematics/geometry.h"
 #include "filter/kinematics/motion_field.h"
+#include "filter/paper/paper_squares.h"
 #include "filter/paper/tangent.h"
 #include "filter/squares/square.h"
 #include "tests/filter/world.h"

@@ -215,8 +215,8 @@ TEST(Idle, IsToldWithTheRulesAndThePresetsThatAskForIt) {
   set(mixed, "circle.edge_rule", "paper");
   EXPECT_FALSE(idle(mixed, "circle.mu_0"));
   EXPECT_TRUE(idle(mixed, "hypotheses.prior"));
-  EXPECT_FALSE(idle(mixed, "link.reach"));
-  EXPECT_FALSE(idle(mixed, "field.ground"));
+  EXPECT_FALSE(idle(mixed, "square.max_size"));
+  EXPECT_TRUE(idle(mixed, "field.ground"));
   EXPECT_THROW(idle(mixed, "circle.mu0"), std::invalid_argument);
 }
 

@@ -96,7 +96,9 @@ inline std::optional<std::string> violation(const FrameResult& result, std::size
     expect(is_finite(square), "a square is not finite");
     expect(is_outline(square), "an outline is not convex, or not as large as its square");
     expect(inside(square.location), "a square is outside of the picture");
-    expect(trusted(square.trust, parameters.square.trust), "a square's trust is out of ranks");
+    const bool of_circle = parameters.square.layer_rule == LayerRule::circles;
+    expect(trusted(square.trust, of_circle ? parameters.circle.trust : parameters.square.trust),
+           "a square's trust is out of ranks");
   }
   for (const IgnoreRegion& region : layers.ignored) {
     expect(region.location.allFinite() && region.size.allFinite(), "psi is not finite");

@@ -7,7 +7,6 @@
 
 #include "filter/matching/couples.h"
 #include "filter/matching/point_grid.h"
-#include "filter/squares/depth_groups.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
@@ -191,21 +190,15 @@ TEST(PointGrid, KnowsHowFarSoManyReach) {
   EXPECT_GT(grid.crowd_radius({10, 10}, 40), 500);
 }
 
-TEST(DepthGroups, LookAtNoMoreHoweverCloseThingsLie) {
+TEST(PointGrid, LooksAtNoMorePairsHoweverClosePointsLie) {
   constexpr double kCrowd = 64;
   PointGrid grid;
-  DepthGroups groups;
   for (const double apart : {2.0, 4.0, 8.0}) {
     const std::vector<Vec2> points = even_points(apart);
     grid.build(points, 24);
-    groups.reset(points.size());
     std::size_t looks = 0;
-    groups.link_near(
-        grid, kCrowd, [](int) { return 200.0; },
-        [&](int, int, double) {
-          ++looks;
-          return 1.0;
-        });
+    grid.visit_crowd_pairs(
+        kCrowd, [](int) { return 200.0; }, [&](int, int, double) { ++looks; });
     EXPECT_LT(looks, kCrowd * static_cast<double>(points.size())) << apart;
     EXPECT_GT(looks, kCrowd / 4 * static_cast<double>(points.size())) << apart;
   }

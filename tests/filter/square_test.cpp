@@ -1,4 +1,5 @@
 #include "filter/squares/square.h"
+#include "filter/paper/paper_squares.h"
 
 #include <gtest/gtest.h>
 

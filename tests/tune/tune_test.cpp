@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using bench::TemporaryFolder;
 
-const std::vector<std::string> kKeys{"hypotheses.prior", "hypotheses.coupling", "link.min_edges"};
+const std::vector<std::string> kKeys{"hypotheses.prior", "hypotheses.coupling",
+                                     "circle.min_members"};
 
 double number(const Parameters& parameters, const std::string& key) {
   for (const ParameterInfo& info : describe(parameters)) {

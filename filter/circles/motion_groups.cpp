@@ -1,0 +1,135 @@
+#include "filter/circles/motion_groups.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "filter/kinematics/geometry.h"
+#include "filter/matching/refill.h"
+
+namespace lcs {
+namespace {
+
+/// Edges that are looked at round each, about.
+constexpr double kCrowd = 48;
+/// Of the grid.
+constexpr double kCell_px = 24;
+/// Reaches beyond which nothing is looked for.
+constexpr double kFar = 3;
+/// Log odds that what lies at one place is of one body.
+constexpr double kNear = 2;
+
+}  // namespace
+
+MotionGroups::MotionGroups(const Intrinsics& camera, const CircleParameters& parameters)
+    : camera_(camera), parameters_(parameters) {}
+
+void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& field) {
+  const auto along_horizon = field.along_horizon();
+  const auto upright =
+      along_horizon ? UprightMetric{*along_horizon, parameters_.upward} : UprightMetric{};
+  of_edge_.clear();
+  sums_.clear();
+  reach_px_.clear();
+  points_.clear();
+  make_room(of_edge_, edges.size());
+  make_room(sums_, edges.size());
+  make_room(reach_px_, edges.size());
+  make_room(points_, edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Edge& edge = edges[i];
+    if (edge.corner < 0 || (!edge.rebel && !std::isfinite(edge.depth_ratio_sigma))) continue;
+    const Vec2 h = (edge.location - camera_.centre_px) / camera_.focal_px;
+    Vec2 value;
+    double sigma = 0;
+    if (edge.rebel) {
+      value = edge.velocity() * field.dt_s();
+      sigma = 2 * parameters_.hypotheses.noise_px;
+      reach_px_.push_back(parameters_.hypotheses.coupling_reach_px);
+    } else {
+      value = {edge.depth_ratio / field.reference_depth_m(), 0};
+      sigma = edge.depth_ratio_sigma / field.reference_depth_m();
+      reach_px_.push_back(parameters_.gap_m * value.x() * camera_.focal_px);
+    }
+    sums_.emplace_back(h, value, std::hypot(sigma, parameters_.roughness * value.norm()));
+    of_edge_.push_back(static_cast<int>(i));
+    points_.push_back(upright(edge.location));
+  }
+  rebel_ = !edges.empty() && edges.front().rebel;
+  ground_known_ = !rebel_ && field.ground().has_value();
+  if (!ground_known_) return;
+  const Ground& ground = *field.ground();
+  ground_.mean.col(0) << -ground.up_C.z(), -ground.up_C.x(), -ground.up_C.y();
+  ground_.mean.col(0) /= ground.height_m;
+  ground_.level_sigma = ground_.slope_sigma =
+      std::max(1e-6, field.ground_slack() / field.reference_depth_m());
+}
+
+void MotionGroups::link() {
+  grid_.build(points_, kCell_px);
+  links_.clear();
+  // Each pair is looked at once.
+  make_room(links_, static_cast<std::size_t>(kCrowd / 2 * static_cast<double>(points_.size())));
+  grid_.visit_crowd_pairs(
+      kCrowd, [&](int i) { return kFar * reach_px_[i]; },
+      [&](int i, int j, double apart2_px2) {
+        const double reach_px = std::min(reach_px_[i], reach_px_[j]);
+        const double apart2 = apart2_px2 / (reach_px * reach_px);
+        if (apart2 < kFar * kFar) {
+          links_.emplace_back(0.5 * apart2, std::min(i, j), std::max(i, j));
+        }
+      });
+}
+
+/// Of what is measured to be a body's. Its values are about as large as `scale`, and so are its
+/// slopes: a plane at 45 degrees to the picture has those.
+double MotionGroups::body_evidence(const PlaneSums& sums, double scale) const {
+  return sums.evidence({PlaneCoefficients::Zero(), scale, scale}, rebel_ ? 2 : 1);
+}
+
+double MotionGroups::ground_evidence(const PlaneSums& sums) const {
+  return sums.evidence(ground_, 1);
+}
+
+double MotionGroups::evidence(const PlaneSums& sums, double scale) const {
+  const double body = body_evidence(sums, scale);
+  return ground_known_ ? std::max(body, ground_evidence(sums)) : body;
+}
+
+void MotionGroups::merge() {
+  sets_.reset(points_.size());
+  order_.visit(
+      links_, [&](const Couple& link) { return sets_.are_joined(link.a, link.b); },
+      [&](const Couple& link) {
+        const int a = sets_.root(link.a), b = sets_.root(link.b);
+        PlaneSums both = sums_[a];
+        both += sums_[b];
+        const double scale = both.magnitude();
+        const double gain = evidence(both, scale) - evidence(sums_[a], scale) -
+                            evidence(sums_[b], scale) + kNear - link.cost;
+        if (!(gain > 0)) return;
+        sets_.join(a, b);
+        sums_[a] = both;
+      });
+}
+
+const std::vector<MotionGroups::Group>& MotionGroups::group(const std::vector<Edge>& edges,
+                                                            const MotionField& field) {
+  gather(edges, field);
+  link();
+  merge();
+  grouped_.clear();
+  groups_.clear();
+  make_room(grouped_, points_.size());
+  make_room(groups_, points_.size());
+  members_.collect(sets_, [](std::size_t) { return true; });
+  members_.visit([&](std::span<const int> members) {
+    const PlaneSums& sums = sums_[sets_.root(members.front())];
+    const bool ground =
+        ground_known_ && ground_evidence(sums) > body_evidence(sums, sums.magnitude());
+    groups_.push_back({grouped_.size(), members.size(), ground});
+    for (const int node : members) grouped_.push_back(of_edge_[node]);
+  });
+  return groups_;
+}
+
+}  // namespace lcs

@@ -1,0 +1,192 @@
+#include "filter/paper/paper_circles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "filter/circles/mean_circle.h"
+#include "filter/kinematics/geometry.h"
+#include "filter/line/line.h"
+#include "filter/matching/refill.h"
+
+namespace lcs {
+namespace {
+
+bool within(double angle_rad, double about_rad, double epsilon_rad) {
+  return angle_between(angle_rad, about_rad) <= epsilon_rad;
+}
+
+}  // namespace
+
+PaperCircles::PaperCircles(const Intrinsics& camera, const CircleParameters& parameters)
+    : camera_(camera), parameters_(parameters) {}
+
+/// Like direction, like depth (normal) or like speed (rebel).
+bool PaperCircles::alike(const Edge& a, const Edge& b, const MotionField& field) const {
+  if (a.rebel) {
+    const double tolerance = parameters_.epsilon_v_r * field.reference_speed(a.location);
+    return within(a.angle, b.angle, parameters_.epsilon_beta_r) &&
+           std::abs(a.speed - b.speed) <= std::max(tolerance, 0.5 * std::max(a.speed, b.speed));
+  }
+  return std::abs(a.depth_ratio - b.depth_ratio) <= parameters_.epsilon_v_n &&
+         (!field.moving() || within(a.angle, b.angle, parameters_.epsilon_beta_n));
+}
+
+/// The groups C_m: each starts from the most trusted edge that is still free, of those the oldest,
+/// and takes the edges near it that are like it.
+void PaperCircles::group(const std::vector<Edge>& edges, const MotionField& field) {
+  free_.clear();
+  points_.clear();
+  seeds_.clear();
+  for (const Edge& edge : edges) {
+    if (edge.trust < parameters_.trust.standard) continue;
+    seeds_.push_back({edge.trust, edge.age, free_.size()});
+    free_.push_back(&edge);
+    points_.push_back(edge.location);
+  }
+  const bool rebels = !edges.empty() && edges.front().rebel;
+  const double reach = rebels ? parameters_.reach_r : parameters_.reach_n;
+  grid_.build(points_, reach);
+  std::sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) {
+    return std::tuple(-a.trust, -a.age, a.index) < std::tuple(-b.trust, -b.age, b.index);
+  });
+  grouped_.clear();
+  groups_.clear();
+  for (const Seed& seed : seeds_) {
+    if (!free_[seed.index]) continue;
+    const Edge& edge = *free_[seed.index];
+    const std::size_t first = grouped_.size();
+    grid_.visit_within(edge.location, reach, [&](int other, double) {
+      if (free_[other] && alike(edge, *free_[other], field)) grouped_.push_back(other);
+    });
+    std::sort(grouped_.begin() + static_cast<std::ptrdiff_t>(first), grouped_.end());
+    const std::size_t count = grouped_.size() - first;
+    if (static_cast<int>(count) < parameters_.min_members) {
+      grouped_.resize(first);
+      continue;
+    }
+    for (std::size_t i = first; i < grouped_.size(); ++i) {
+      const Edge*& member = free_[grouped_[i]];
+      grouped_[i] = static_cast<int>(member - edges.data());
+      member = nullptr;
+    }
+    Group group{{}, first, count};
+    group.mean = mean_circle(edges, members(group), field);
+    group.mean.radius += parameters_.corner_noise;
+    groups_.push_back(group);
+  }
+}
+
+/// Per[ |L_e - L~_c| < R_c ]: share of the group's edges inside the predicted circle, %.
+double PaperCircles::overlap(const Circle& circle, const Group& group,
+                             const std::vector<Edge>& edges) const {
+  int inside = 0;
+  for (const int i : members(group)) {
+    inside += (edges[i].location - circle.location).norm() < circle.radius;
+  }
+  return 100.0 * inside / static_cast<double>(group.count);
+}
+
+void PaperCircles::estimate_circle(Circle& circle, const Circle& mean, bool aligned) const {
+  const TrustRanks& ranks = parameters_.trust;
+  circle.location = estimate(circle.trust, ranks, circle.location, mean.location);
+  circle.radius = estimate(circle.trust, ranks, circle.radius, mean.radius);
+  circle.angle = wrap_angle(
+      circle.angle + estimate(circle.trust, ranks, 0.0, wrap_angle(mean.angle - circle.angle)));
+  if (circle.rebel) circle.angle = mean.angle;
+  circle.origin = mean.origin;
+  circle.speed = mean.speed;
+  circle.depth_ratio = mean.depth_ratio;
+  circle.members = mean.members;
+  circle.trust = aligned ? ranks.raised(circle.trust) : circle.trust - 1;
+}
+
+void PaperCircles::update(std::vector<Edge>& edges, std::vector<Circle>& circles,
+                          const Layers& layers, const MotionField& field) {
+  group(edges, field);
+  for (Edge& edge : edges) edge.circle = -1;
+
+  pairs_.clear();
+  for (std::size_t c = 0; c < circles.size(); ++c) {
+    const Circle& circle = circles[c];
+    const double epsilon_beta =
+        circle.rebel ? parameters_.epsilon_beta_r : parameters_.epsilon_beta_n;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      const Circle& mean = groups_[g].mean;
+      const double distance = (mean.location - circle.location).norm();
+      if (distance > circle.radius + mean.radius) continue;
+      const double share = overlap(circle, groups_[g], edges);
+      if (share < parameters_.rho_c) continue;
+      const double tolerance =
+          circle.rebel ? std::max(parameters_.epsilon_v_r * field.reference_speed(mean.location),
+                                  0.5 * std::max(circle.speed, mean.speed))
+                       : 0;
+      const bool speeds =
+          circle.rebel ? std::abs(circle.speed - mean.speed) <= tolerance
+                       : std::abs(circle.depth_ratio - mean.depth_ratio) <= parameters_.epsilon_v;
+      if (!speeds) continue;
+      const bool aligned =
+          (!circle.rebel && !field.moving()) || within(circle.angle, mean.angle, epsilon_beta);
+      pairs_.push_back({share, distance, c, g, aligned});
+    }
+  }
+  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
+    return std::tuple(!a.aligned, -a.overlap, a.distance, a.circle, a.group) <
+           std::tuple(!b.aligned, -b.overlap, b.distance, b.circle, b.group);
+  });
+  // As long as there could be groups, whose number is steady only when the edges' has long been.
+  refill(circle_of_group_, edges.size(), -1);
+  refill(matched_, circles.size());
+  for (const Pair& pair : pairs_) {
+    if (matched_[pair.circle] || circle_of_group_[pair.group] >= 0) continue;
+    matched_[pair.circle] = 1;
+    circle_of_group_[pair.group] = static_cast<int>(pair.circle);
+    Circle& circle = circles[pair.circle];
+    ++circle.age;
+    // Edges that coast in psi carry their circle along, but prove nothing.
+    const bool unseen = inside_any(layers.ignored, circle.location);
+    const int trust = circle.trust;
+    estimate_circle(circle, groups_[pair.group].mean, pair.aligned);
+    if (unseen) circle.trust = trust;
+  }
+  for (std::size_t c = 0; c < circles.size(); ++c) {
+    if (matched_[c]) continue;
+    ++circles[c].age;
+    circles[c].members = 0;
+    // A region that was not looked at had no chance to show its edges.
+    if (inside_any(layers.ignored, circles[c].location)) continue;
+    --circles[c].trust;
+  }
+  const std::size_t most = circles.size() + groups_.size();
+  if (circles.capacity() < most) circles.reserve(2 * most);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (circle_of_group_[g] >= 0) continue;
+    Circle circle = groups_[g].mean;
+    circle.id = next_id_++;
+    circle.trust =
+        circle.rebel ? parameters_.trust.initial_rebel() : parameters_.trust.initial_normal();
+    circle_of_group_[g] = static_cast<int>(circles.size());
+    circles.push_back(circle);
+  }
+
+  // Deletion shifts the indices that edges keep.
+  refill(kept_, circles.size(), -1);
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < circles.size(); ++c) {
+    const Vec2& x = circles[c].location;
+    const bool outside =
+        x.x() < 0 || x.y() < 0 || x.x() > camera_.width_px || x.y() > camera_.height_px;
+    if (!parameters_.trust.alive(circles[c].trust) || outside) continue;
+    kept_[c] = static_cast<int>(kept);
+    circles[kept++] = circles[c];
+  }
+  circles.resize(kept);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Group& group = groups_[g];
+    for (const int i : members(group)) {
+      edges[i].circle = kept_[static_cast<std::size_t>(circle_of_group_[g])];
+    }
+  }
+}
+
+}  // namespace lcs

@@ -1,0 +1,93 @@
+#include "filter/paper/paper_squares.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "filter/kinematics/geometry.h"
+#include "filter/line/line.h"
+#include "filter/matching/refill.h"
+
+namespace lcs {
+namespace {
+
+double side_overlap(double a, double half_a, double b, double half_b) {
+  return std::max(0.0, std::min(a + half_a, b + half_b) - std::max(a - half_a, b - half_b));
+}
+
+}  // namespace
+
+double overlap_percent(const Square& a, const Square& b) {
+  const double smaller =
+      4 * std::min(a.half_size.x() * a.half_size.y(), b.half_size.x() * b.half_size.y());
+  if (!(smaller > 0)) return 0;
+  const double common =
+      side_overlap(a.location.x(), a.half_size.x(), b.location.x(), b.half_size.x()) *
+      side_overlap(a.location.y(), a.half_size.y(), b.location.y(), b.half_size.y());
+  return std::min(100.0, 100 * common / smaller);
+}
+
+PaperSquares::PaperSquares(const Intrinsics& camera, const SquareParameters& parameters)
+    : camera_(camera), parameters_(parameters), couples_(camera, parameters) {}
+
+void PaperSquares::update(Layers& layers, const MotionField& field) {
+  copy_over(couples_.layer(layers, field), means_);
+  pairs_.clear();
+  for (std::size_t s = 0; s < layers.squares.size(); ++s) {
+    const Square& square = layers.squares[s];
+    for (std::size_t m = 0; m < means_.size(); ++m) {
+      const double rho_s = overlap_percent(square, means_[m]);
+      if (rho_s <= parameters_.rho_c) continue;
+      if (std::abs(square.depth_ratio - means_[m].depth_ratio) > parameters_.epsilon_v_s) continue;
+      const bool aligned =
+          angle_between(square.angle, means_[m].angle) <= parameters_.epsilon_beta_s;
+      pairs_.push_back({rho_s, (square.location - means_[m].location).norm(), s, m, aligned});
+    }
+  }
+  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
+    return std::tuple(!a.aligned, a.distance, -a.overlap, a.square, a.mean) <
+           std::tuple(!b.aligned, b.distance, -b.overlap, b.square, b.mean);
+  });
+  refill(matched_, layers.squares.size());
+  refill(mean_used_, means_.size());
+  const TrustRanks& ranks = parameters_.trust;
+  for (const Pair& pair : pairs_) {
+    if (matched_[pair.square] || mean_used_[pair.mean]) continue;
+    matched_[pair.square] = mean_used_[pair.mean] = 1;
+    Square& square = layers.squares[pair.square];
+    const Square& mean = means_[pair.mean];
+    // Circles that coast in psi carry their square along, but prove nothing.
+    const bool unseen = inside_any(layers.ignored, square.location);
+    square.location = estimate(square.trust, ranks, square.location, mean.location);
+    square.half_size = estimate(square.trust, ranks, square.half_size, mean.half_size);
+    square.speed = mean.speed;
+    square.depth_ratio = mean.depth_ratio;
+    square.angle = mean.angle;
+    square.origin = mean.origin;
+    square.circles = mean.circles;
+    square.rebel_circles = mean.rebel_circles;
+    ++square.age;
+    if (!unseen) square.trust = pair.aligned ? ranks.raised(square.trust) : square.trust - 1;
+  }
+  for (std::size_t s = 0; s < layers.squares.size(); ++s) {
+    if (matched_[s]) continue;
+    Square& square = layers.squares[s];
+    ++square.age;
+    square.circles = 0;
+    if (!inside_any(layers.ignored, square.location)) --square.trust;
+  }
+  for (std::size_t m = 0; m < means_.size(); ++m) {
+    if (mean_used_[m]) continue;
+    Square square = means_[m];
+    square.id = next_id_++;
+    square.trust = ranks.initial_square();
+    layers.squares.push_back(square);
+  }
+  std::erase_if(layers.squares, [&](const Square& square) {
+    const Vec2& x = square.location;
+    return !ranks.alive(square.trust) || x.x() < 0 || x.y() < 0 || x.x() > camera_.width_px ||
+           x.y() > camera_.height_px;
+  });
+}
+
+}  // namespace lcs
