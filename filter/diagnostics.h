@@ -1,6 +1,6 @@
 /// \file
-/// What was wrong with the data that came in, counted. Nothing throws on data in flight: a bad
-/// sample is left out or bridged, and named here.
+/// Counts of what was wrong with the input. Bad data never throw: the filter drops or bridges a bad
+/// sample, and counts it here.
 #pragma once
 
 #include <array>
@@ -41,10 +41,10 @@ enum class Fault : std::uint8_t {
 
 struct FaultText {
   const char* word;
-  const char* meaning;  ///< for people, to stand behind a number of them
+  const char* meaning;  ///< for people, printed after the number of them
 };
 
-/// By the order of `Fault`.
+/// In the order of `Fault`.
 inline constexpr std::array<FaultText, 22> kFaults{{
     {"corner_not_finite", "corners are at no number: left out"},
     {"corner_outside", "corners are outside of the picture: left out"},
@@ -84,7 +84,7 @@ class Diagnostics {
     counts_[static_cast<std::size_t>(fault)] += count;
   }
 
-  /// For what is told elsewhere.
+  /// For a fault that is reported elsewhere.
   void forget(Fault fault) { counts_[static_cast<std::size_t>(fault)] = 0; }
 
   std::int64_t count(Fault fault) const { return counts_[static_cast<std::size_t>(fault)]; }

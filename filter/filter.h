@@ -1,6 +1,6 @@
 /// \file
-/// The LCS filter: a frame's corners and the ego-motion in, layers and a verdict for each corner
-/// out.
+/// The LCS filter: takes the corners of a frame and the ego-motion, gives layers and a verdict for
+/// each corner.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ struct StageTimes {
   double square_ms = 0;
 };
 
-/// What `Filter::step` has to say of a frame.
+/// What `Filter::step` finds in one frame.
 struct FrameResult {
   Layers layers;
   std::vector<Verdict> verdicts;  ///< one for each corner, in the caller's order
@@ -36,12 +36,12 @@ struct FrameResult {
 /// Deterministic: the same corners, signatures and motions give the same bits, in whatever order
 /// the corners of a frame come.
 ///
-/// Bad data never throw and leave no trace: corners that are none are left out; where the time or
-/// the motion since the last frame is unknown, the filter starts anew, and from that frame on gives
-/// what a new filter gives, but for the ids: rebels again at the third sighting, two frames later.
+/// Bad data never throw and have no lasting effect. Invalid corners are dropped. Where the time or
+/// the motion since the last frame is unknown, the filter starts anew: from that frame on it gives
+/// what a new filter gives, but for the ids, so that rebels come again one or two frames later.
 class Filter {
  public:
-  /// \throws std::invalid_argument for parameters out of range, or a camera that is none.
+  /// \throws std::invalid_argument for parameters out of range, or an invalid camera.
   Filter(const Intrinsics& camera, const Parameters& parameters);
   ~Filter();
   Filter(Filter&&) noexcept;
@@ -52,10 +52,10 @@ class Filter {
   /// \return the filter's own storage: valid until the next step.
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& motion);
 
-  /// Likewise, and what each corner looks like.
+  /// The same, with what each corner looks like.
   /// \param signatures one for each corner, in their order.
-  /// \throws std::invalid_argument for fewer or more of them than corners; the frame then is as if
-  ///   it had not been given.
+  /// \throws std::invalid_argument for fewer or more of them than corners; the filter then stays as
+  ///   it was before the call.
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,
                           std::span<const Signature> signatures, const EgoMotion& motion);
 

@@ -27,7 +27,7 @@ struct Edge {
   Vec2 rotated = Vec2::Zero();    ///< L of the frame before, moved by the rotation alone, px
   Vec2 predicted = Vec2::Zero();  ///< L~, px: where this frame's corner was expected
   double speed = 0;               ///< V, px/s, along beta; never negative
-  double depth_ratio = 1;         ///< V / V_v = Z_ref / Z, what landmarks of one depth share
+  double depth_ratio = 1;         ///< V / V_v = Z_ref / Z, equal for landmarks of one depth
   double angle = 0;               ///< beta, of the direction of motion seen from O
   double mu = 0;                  ///< normal: radius of detection, px; rebel: deviation angle, rad
   int trust = 0;                  ///< Tr
@@ -57,8 +57,8 @@ struct Circle {
   bool ignoring = false;  ///< reached Tr_m: makes a region of psi in the next frame
 };
 
-/// A convex polygon. With room for all vertices that it may have, so that none is asked for in a
-/// frame.
+/// A convex polygon of at most `kMost` vertices, which it holds in place, so that a frame allocates
+/// no memory.
 struct Outline {
   static constexpr int kMost = 32;
 
@@ -68,7 +68,7 @@ struct Outline {
     return {places.data(), static_cast<std::size_t>(count)};
   }
 
-  /// px: clockwise as the picture is seen, from the leftmost on; none is on a line between others.
+  /// px: clockwise as seen in the picture, beginning with the leftmost; no three lie on one line.
   std::array<Vec2, kMost> places;
   int count = 0;  ///< of `places`, the first ones
 };
@@ -87,8 +87,8 @@ struct Square {
   int circles = 0;        ///< grouped into it in this frame; 0 while it coasts
   int rebel_circles = 0;  ///< of these
   bool ignoring = false;  ///< reached Tr_m: makes a region of psi in the next frame
-  /// The convex hull of its edges and of what follows them, as wide and high as the square, which
-  /// it moves and grows with where these are not seen. Empty for the paper's.
+  /// The convex hull of its edges and of their followers, as wide and high as the square. While
+  /// these are not seen, it moves and grows with the square. Empty for the paper's.
   Outline outline;
 };
 
@@ -110,8 +110,8 @@ struct Collector {
 /// A row of alpha: a corner's sightings on the way to becoming a rebel edge.
 struct Chain {
   std::array<Vec2, 2> sightings;  ///< oldest first, in this frame's pixels (rotation removed)
-  int count = 0;                  ///< 1 or 2: with the third it becomes a rebel edge, or nothing
-  double off_field_px = 0;        ///< how far its steps so far leave what a static point may do
+  int count = 0;                  ///< 1 or 2: the third makes it a rebel edge, or ends it
+  double off_field_px = 0;        ///< by how much its steps exceed those of any static point
 };
 
 struct Layers {
@@ -131,8 +131,8 @@ struct Layers {
   }
 };
 
-/// A corner that takes after a rebel edge near it, whose verdict it has, but is none of its own:
-/// part of the body, whose motion is not known.
+/// A corner that has the verdict of a rebel edge near it, and is no edge of its own: it lies on the
+/// same body, but how it moves is not yet known.
 struct Follower {
   Vec2 location;  ///< px
   Id edge;        ///< that it follows

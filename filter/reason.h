@@ -1,10 +1,10 @@
 /// \file
-/// Which rule settled a corner: for every verdict the branch that it came from, so that a rebel
-/// that was missed, or a false one, can be traced to its cause.
+/// The rule that decided a corner's verdict, so that a missed or false rebel can be traced to its
+/// cause.
 ///
-/// A corner passes several tests in a row; the reason is the last one that decided. Where several
-/// edges or rows turned a corner away, the one that came nearest to taking it counts: the reasons
-/// of the paper's rule are declared in that order.
+/// A corner passes several tests in a row; the reason is the one that decided. Where several edges
+/// or rows of alpha rejected a corner, the one that came nearest to accepting it counts; the
+/// reasons of the paper's rule are declared in that order.
 #pragma once
 
 #include <array>
@@ -48,10 +48,10 @@ enum class Reason : std::uint8_t {
 
 struct ReasonText {
   const char* word;     ///< in files
-  const char* meaning;  ///< for people, to stand behind a share of corners
+  const char* meaning;  ///< for people, printed after a share of corners
 };
 
-/// By the order of `Reason`. For each, the verdicts that it may come with.
+/// In the order of `Reason`. Behind each, the verdict that it comes with.
 inline constexpr std::array<ReasonText, 22> kReasons{{
     {"unknown", "no reason given"},
     {"not_finite", "its place is not a number"},                                         // pending

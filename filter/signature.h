@@ -1,6 +1,6 @@
 /// \file
-/// What a corner looks like, in 256 bits, of which few differ between two pictures of one place:
-/// so that corners can be told apart by more than where they are, and no picture is kept.
+/// A corner's descriptor: 256 bits, few of which differ between two pictures of the same place. It
+/// tells corners apart by their looks, without a picture being kept.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace lcs {
 
-/// Who made them knows what the bits mean (`filter/detect/describe.h`); to the filter it is their
-/// number that differs.
+/// What the bits mean is up to who makes them (`filter/detect/describe.h`); the filter only counts
+/// how many differ.
 using Signature = std::array<std::uint64_t, 4>;
-/// The same in memory, to make and to store them by std::bit_cast.
+/// The same bits as bytes: std::bit_cast takes one to the other, to make and to store them.
 using SignatureBytes = std::array<std::uint8_t, sizeof(Signature)>;
 
 /// How many bits differ: 0 to 256.

@@ -20,7 +20,7 @@ struct PlanarPose {
 /// \param home the pose that the scene gives the body, for what the trajectory leaves open.
 PlanarPose pose_on(const scenario::Trajectory& trajectory, const PlanarPose& home, double seconds);
 
-/// Fires once, at the first moment asked about at which all of its conditions hold.
+/// Fires once: at the first call of `update` at which all of its conditions hold.
 class Trigger {
  public:
   explicit Trigger(const scenario::StartTrigger& conditions) : conditions_(conditions) {}

@@ -11,8 +11,8 @@
 namespace lcs::sim {
 
 /// Pixels are top row first. Shadows and reflections are never drawn, and the headlight is ambient
-/// only: what is not painted on a surface moves otherwise than the surface, and a corner on it
-/// would belie the truth.
+/// only: such things do not move with the surface on which they are seen, so that the truth would
+/// be wrong for a corner on them.
 class CameraRenderer {
  public:
   /// Writes the camera's needs (buffer size, clipping planes, lights) into the model first.

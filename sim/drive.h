@@ -1,6 +1,6 @@
 /// \file
-/// A scenario's motion and its sensors' readings without any picture: for what needs the rover, its
-/// IMU and the truth of its poses, but no camera. Needs no GL.
+/// The motion and the sensor readings of a scenario without pictures, for uses that need the rover,
+/// its IMU and its true poses, but no camera. Needs no GL.
 #pragma once
 
 #include <vector>
@@ -14,15 +14,15 @@ class World;
 
 struct Drive {
   Calibration calibration;
-  /// As `Simulation` gives them, bit by bit, but for images, depths, objects and the truth of each
-  /// reading, which are empty.
+  /// The same bits as `Simulation` gives, but without images, depths, objects and the truth of the
+  /// readings.
   std::vector<Observation> frames;
 };
 
 /// \throws scenario::Error, PhysicsError
 Drive drive(const scenario::Scenario& scenario);
 
-/// Of a world at t = 0.
+/// The calibration of a world at t = 0.
 Calibration calibrate(const World& world, const scenario::Camera& camera);
 
 }  // namespace lcs::sim

@@ -1,6 +1,5 @@
 /// \file
-/// What a rover's or actor's file must have, whoever wrote it; `scenes/README.md` tells it to
-/// people.
+/// Checks that the file of a rover or an actor has what it must have; `scenes/README.md` lists it.
 #pragma once
 
 #include "sim/xml.h"
@@ -14,7 +13,7 @@ void check_actor(xml::Element& root);
 void check_rover(xml::Element& root);
 ///@}
 
-/// Of a rover that has kept the contract: it has wheels to be driven by, else it is holonomic.
+/// Whether a rover that passed the check drives on wheels; otherwise it is holonomic.
 bool is_wheeled(xml::Element& root);
 
 }  // namespace lcs::sim

@@ -1,10 +1,10 @@
 /// \file
 /// Rough ground: a height field over the scene's floor, for wheels to shake on.
 ///
-/// The heights are a sum of plane waves of random direction and phase, and lengths between the
-/// scenario's wavelength and three times it: 0 to 4 standard deviations above the floor, 2 in the
-/// mean and level with it at the edges. The holonomic rover, which has no contacts, drives through
-/// it.
+/// The heights are a sum of plane waves with random directions and phases, and lengths of one to
+/// three times the scenario's wavelength. They lie 0 to 4 standard deviations above the floor, 2 on
+/// average, and fall to the floor at the edges. The holonomic rover, which has no contacts, drives
+/// through it.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace lcs::sim {
 
-/// Adds the field, level as yet, to a scene; it looks like the scene's first plane.
+/// Adds the field, still flat, to a scene; it looks like the scene's first plane.
 /// \param source of the ground's numbers.
 void add_ground(xml::Element& scene, const scenario::Ground& ground,
                 const Eigen::Vector2d& ego_start_m, const scenario::Source& source);
@@ -24,8 +24,8 @@ void add_ground(xml::Element& scene, const scenario::Ground& ground,
 /// Raises the bumps in a model of that scene.
 void raise_ground(Model& model, const scenario::Ground& ground, std::uint64_t scenario_seed);
 
-/// Which of the numbers to change where wheels touch more of the ground at once than MuJoCo has
-/// room for: bumps that are short and high beside a wheel.
+/// Advice on which number to change where wheels have more contacts with the ground than MuJoCo has
+/// room for, as bumps that are short and high for a wheel make them.
 std::string less_contact(const scenario::Ground& ground);
 
 }  // namespace lcs::sim

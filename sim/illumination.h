@@ -11,9 +11,9 @@
 ///
 ///     L = E exp(-beta d) * reflectance + (1 - exp(-beta d)) * airlight
 ///
-/// The lamps sit at the camera, as a beam from anywhere else casts shadows, which move otherwise
-/// than the surfaces that they lie on and belie the truth; surfaces are lit alike however they are
-/// turned.
+/// The lamps sit at the camera: a beam from elsewhere would cast shadows, which do not move with
+/// the surfaces on which they lie, so that the truth would be wrong there. `light` falls alike on
+/// surfaces of every direction.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -30,9 +30,9 @@ class Illumination {
   /// \param picture in linear light; \param depth_m along the optical axis, +inf in the sky.
   void light(cv::Mat3f& picture, const cv::Mat1f& depth_m) const;
 
-  /// Of the lamps on what faces them `distance_m` away at a pixel, in daylights.
+  /// Light of the lamps on a surface that faces them, `distance_m` away at a pixel, in daylights.
   float lamps(int x, int y, float distance_m) const;
-  /// Of what lights the whole scene, in daylights.
+  /// The light on the whole scene, in daylights.
   float ambient() const { return ambient_; }
 
  private:

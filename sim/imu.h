@@ -1,5 +1,5 @@
 /// \file
-/// What the rover's inertial and wheel sensors say. Times are nanoseconds since the start of the
+/// Readings of the rover's inertial and wheel sensors. Times are nanoseconds since the start of the
 /// run: sample i of a sensor is at i / rate.
 #pragma once
 
@@ -17,7 +17,7 @@ struct ImuSample {
   Eigen::Vector3d accel_mps2 = Eigen::Vector3d::Zero();
 };
 
-/// What is true of the IMU at the time of a reading, one that falls into a gap included.
+/// The truth at the time of an IMU reading, also of one that is lost in a gap.
 struct ImuTruth {
   std::int64_t t_ns = 0;
   Pose T_WS;
@@ -26,7 +26,7 @@ struct ImuTruth {
   Eigen::Vector3d accel_bias_mps2 = Eigen::Vector3d::Zero();  ///< likewise
 };
 
-/// Velocity of the rover's frame B, in B, as its wheels tell it.
+/// Velocity of the rover's frame B, in B, as its wheels measure it.
 struct OdometrySample {
   std::int64_t t_ns = 0;
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();

@@ -8,8 +8,7 @@
 ///
 /// with sigma the noise density, sigma_b the random walk and beta the turn-on bias of
 /// `scenario::ImuNoise`. White noise, walk and turn-on bias of each sensor have a random stream
-/// each, so that a change to one of the figures leaves the numbers drawn for the others as they
-/// were.
+/// each, so that changing one figure leaves the numbers drawn for the others as they were.
 ///
 /// Wheel odometry: a scale drawn once a run, and white noise in x and y of B.
 #pragma once
@@ -72,7 +71,7 @@ class OdometryNoiseModel {
   OdometryNoiseModel(const scenario::Odometry& odometry, std::uint64_t seed,
                      std::string_view name = "odometry0");
 
-  /// Wheels on the ground tell x and y of B; their z is 0.
+  /// Wheels measure x and y of B; z is 0.
   OdometrySample corrupt(const OdometrySample& truth);
 
   double scale() const { return scale_; }

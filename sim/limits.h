@@ -1,7 +1,7 @@
 /// \file
-/// What a scene may ask of MuJoCo: sizes that it allocates, indices that it follows and numbers
-/// that it divides by without a look at them. Beyond these it crashes, overflows, or takes the
-/// machine's memory.
+/// Limits on the numbers of a scene that MuJoCo uses unchecked: sizes that it allocates, indices
+/// that it follows, numbers that it divides by. Beyond them it crashes, overflows, or takes all
+/// memory.
 #pragma once
 
 #include "sim/xml.h"

@@ -1,6 +1,6 @@
 /// \file
-/// Which pixels something covers, as COCO has it: lengths of runs down the columns from the left,
-/// of pixels outside and inside in turns, that add up to all pixels.
+/// The pixels that something covers, in COCO's run-length encoding: column by column from the left,
+/// the lengths of runs of pixels, outside and inside in turn. They add up to all pixels.
 #pragma once
 
 #include <algorithm>
@@ -18,15 +18,15 @@ struct Mask {
   Runs runs;     ///< of the pixels of the box
 };
 
-/// The pixels of a box that have a number.
+/// Runs of the pixels in a box that hold a number.
 /// \param columns an image, transposed: its rows are columns. \param box in the image.
 Runs runs_of(const cv::Mat1i& columns, const cv::Rect& box, int number);
 
-/// \name A mask in the least box.
+/// \name A mask in the smallest box that holds it.
 ///@{
-/// The pixels that are not 0; where there are none, nothing.
+/// Of the pixels that are not 0; empty where there are none.
 Mask mask_of(const cv::Mat1b& picture);
-/// By the runs of a whole picture.
+/// Of the runs of a whole picture.
 /// \throws std::invalid_argument for runs that do not add up to the picture, and for a mask without
 ///   a pixel.
 Mask mask_of(std::span<const std::int64_t> runs, const cv::Size& size_px);

@@ -19,7 +19,7 @@ class MujocoError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Thrown where MuJoCo does not survive a document, or does not come to an end.
+/// Thrown where MuJoCo crashes on a document, or does not end.
 class MujocoCrash : public MujocoError {
  public:
   using MujocoError::MujocoError;
@@ -42,9 +42,9 @@ struct DataDeleter {
 /// Model and data, always together. Movable; the addresses of `m()` and `d()` do not change.
 class Model {
  public:
-  /// Loads it in a child process first (sim/trial.h), and here when the child did so unharmed. That
-  /// takes 40 ms of processor time for crossing.yaml, as much as the load itself, of 1.8 s of
-  /// `lcs run scenarios/crossing.yaml --quiet --no-video`.
+  /// Loads the document in a child process first (sim/trial.h), and here only if the child
+  /// survives. The child takes 40 ms of processor time for crossing.yaml, as much as the load
+  /// itself, out of 1.8 s for `lcs run scenarios/crossing.yaml --quiet --no-video`.
   /// \param mjcf a whole document; files that it names must be absolute paths.
   /// \throws MujocoError with MuJoCo's own message; MujocoCrash in plain words.
   explicit Model(const std::string& mjcf);

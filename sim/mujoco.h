@@ -42,8 +42,8 @@ inline int texture_channels([[maybe_unused]] const mjModel& m, [[maybe_unused]] 
 #endif
 }
 
-/// Distance along `direction` (in its lengths) to the nearest visible geom, and that geom; -1 if
-/// none.
+/// Distance along `direction`, in units of its length, to the nearest visible geom, and that geom;
+/// -1 if there is none.
 inline double ray(const mjModel& m, const mjData& d, const double from[3],
                   const double direction[3], int exclude_body, int& geom) {
   int hit[1] = {-1};

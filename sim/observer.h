@@ -1,5 +1,5 @@
 /// \file
-/// A world with its camera: what `Simulation` hands out, for who needs the world too.
+/// A world with its camera: gives the same observations as `Simulation`, and access to the world.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace lcs::sim {
 
-/// Stays where it was made: it holds the GL context.
+/// Cannot be moved, and is used from the thread that made it: it holds the GL context.
 class Observer {
  public:
   /// \throws as `Simulation`.
@@ -28,7 +28,8 @@ class Observer {
 
   /// The next frame, whatever the scenario's number of them. \throws PhysicsError
   Observation observe();
-  /// On to the time of the frame after the next, with the readings until then. \throws PhysicsError
+  /// Skips the next frame: moves on to the time of the one after it, and keeps the readings until
+  /// then. \throws PhysicsError
   void advance();
 
  private:

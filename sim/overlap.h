@@ -1,5 +1,5 @@
 /// \file
-/// How deep two geoms of a model lie in each other, whether or not they have contacts.
+/// How deep two geoms of a model overlap, whether or not they have contacts.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,17 +17,17 @@ class Overlap {
     Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< of W, in both
   };
 
-  /// Of two geoms that are no planes and no height fields. A mesh is its surface and what that
-  /// encloses, not its hull: one may stand under a table and in a room. Depths of round geoms, and
-  /// of meshes, may be too large by some per cent, never too small; apart is apart.
-  /// \param least_depth_m less is taken for apart.
+  /// Of two geoms, neither of them a plane or a height field. A mesh is its surface and what that
+  /// encloses, not its hull, so that things may stand under a table or in a room. Depths of round
+  /// geoms and of meshes may be too large by some per cent, never too small; geoms that are apart
+  /// have none.
+  /// \param least_depth_m smaller depths count as apart.
   Place of(const Model& model, int geom_a, int geom_b, double least_depth_m);
 
-  /// Whether a geom lies on both sides of a plane, at least so deep on either, and within its
-  /// sides.
+  /// Whether a geom crosses a plane within its borders, at least so deep on either side.
   Place across(const Model& model, int plane, int geom, double least_depth_m);
 
-  /// Points whose hull is the geom, in the geom's frame; kept.
+  /// Points whose hull is the geom, in the geom's frame; computed once.
   const Eigen::Matrix3Xd& hull(const Model& model, int geom);
 
  private:

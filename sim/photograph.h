@@ -1,7 +1,7 @@
 /// \file
-/// What a camera makes of a rendered picture: light and air, rain, blur and the sensor, in the
-/// order in which light meets them, and the compression of what arrives. The section `image` of a scenario. Truth is not touched: a
-/// corner on a drop counts as what lies behind it.
+/// Turns a rendered picture into the camera's, as the section `image` of a scenario says: light and
+/// air, rain, blur and the sensor, in the order in which light meets them, then compression. The
+/// truth stays as it is: a corner on a raindrop counts as what lies behind the drop.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ class Photographer {
   Photographer(const scenario::Image& image, const Pinhole& camera, double rate_hz,
                std::uint64_t scenario_seed);
 
-  /// Turns the rendered picture of frame `k` into the camera's. The same for the same arguments, in
-  /// whatever order; quick in that of time.
+  /// Turns the rendered picture of frame `k` into the camera's. The result depends on the arguments
+  /// alone; frames in order of time are quickest.
   void develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k);
 
  private:

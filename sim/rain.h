@@ -2,15 +2,15 @@
 /// Rain: streaks of drops that fall before the camera, and drops that lie on the window before its
 /// lens.
 ///
-/// Falling drops: as many to a volume and of the sizes that Marshall & Palmer (1948) give for the
-/// rate of rain, above 1 mm and within 3 m (the rest is too thin to show), at the fall speed of
-/// Atlas et al. (1973). A drop covers a pixel for diameter / speed of the exposure, and so adds
-/// that share of its own brightness (Garg & Nayar, "Vision and rain", IJCV 2007); it is blurred by
-/// an aperture of 2 mm that is focused far away. New ones in each frame.
+/// Falling drops: their number and sizes follow Marshall & Palmer (1948) for the rate of rain,
+/// above 1 mm and within 3 m (the rest is too thin to show), their fall speed Atlas et al. (1973).
+/// A drop covers a pixel for diameter / speed of the exposure, and so adds that share of its own
+/// brightness (Garg & Nayar, "Vision and rain", IJCV 2007); it is blurred by an aperture of 2 mm
+/// that is focused far away. Each frame draws new drops.
 ///
 /// Drops on the window, 8 cm before the lens: they stay where they landed until they run off, and
-/// others land elsewhere. Each shows the scene upside down, wide and blurred, as a ball of water
-/// does, within a soft edge, out of focus too.
+/// others land elsewhere. Each shows the scene upside down, at a wide angle and blurred, as a ball
+/// of water does, within a soft edge.
 #pragma once
 
 #include <cstdint>
@@ -42,11 +42,11 @@ class Rain {
   void add_streaks(cv::Mat3f& picture, const cv::Mat1f& depth_m, const Illumination& light,
                    int k) const;
 
-  /// Those that lie on the window at a time; a function of seed and time alone, quick where times
-  /// increase.
+  /// The drops on the window at a time. They depend on seed and time alone; increasing times are
+  /// quickest.
   std::vector<LensDrop> lens_drops(double t_s);
 
-  /// What the camera sees through the window at a time.
+  /// Draws the drops of a time over what the camera sees.
   void look_through_drops(cv::Mat3f& picture, double t_s);
 
  private:

@@ -1,5 +1,5 @@
 /// \file
-/// Random numbers that are the same bits on every machine, in streams that do not touch each other.
+/// Random numbers with the same bits on every machine, in independent streams.
 ///
 /// A stream is named: it depends on the scenario's seed and its own name alone, so that a sensor
 /// added to a run leaves the numbers of all others as they were. The generator is Philox4x32-10
@@ -20,7 +20,7 @@ namespace lcs::sim {
 std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
                                         std::array<std::uint32_t, 2> key);
 
-/// A sequence of random numbers that starts at its first wherever it is made anew.
+/// A sequence of random numbers: a new one with the same seed and name gives the same numbers.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view name);

@@ -1,5 +1,6 @@
 /// \file
-/// What MuJoCo says of a document, in one line that names the user's own file, line and element.
+/// Turns what MuJoCo says of a document into one line that names the user's own file, line and
+/// element.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +10,14 @@
 
 namespace lcs::sim {
 
-/// \param said by MuJoCo, in some lines, with lines of the composed document in it.
-/// \param file the scene's, for what has no line.
+/// \param said MuJoCo's message, which may have several lines and name lines of the composed
+///   document.
+/// \param file the scene's, named where no line is known.
 scenario::Error refusal(const std::string& said, const xml::Printed& scene,
                         const std::filesystem::path& file);
 
 /// What MuJoCo says, in one line with what to do: "what; what to do".
-/// \param more to add to the what, as " (body 'ball')".
+/// \param more appended to "what", as " (body 'ball')".
 std::string in_one_line(const std::string& said, const std::string& more = "");
 
 }  // namespace lcs::sim

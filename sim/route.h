@@ -1,5 +1,5 @@
 /// \file
-/// How a rover moves that is given places and times in place of commands.
+/// The motion of a rover that is given places and times instead of commands.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,16 +10,17 @@
 
 namespace lcs::sim {
 
-/// Straight and uniform from each waypoint to the next, as something with mass can follow it: both
-/// the velocity and the heading change in a time round each waypoint, half of it before, half
+/// Straight and uniform from each waypoint to the next, with limited accelerations: round each
+/// waypoint velocity and heading take some time to change, half of it before the waypoint and half
 /// behind.
 ///
 /// A change of velocity by dv takes |dv| / 5 m/s^2 (`SmoothCommand` has the limits), so that a bend
 /// is rounded by |dv|^2 / 40 m/s^2: 12 mm for a right angle at 0.5 m/s. The rover looks where it
-/// goes. It turns at up to 60 deg/s, and so looks aside of its way round a sharp bend; while it
-/// stands between two waypoints of one place, it turns on the spot. Where the waypoints leave less
-/// time than that (half of the shorter leg on either side), all of it is taken and the limits are
-/// exceeded. It is under way at 0 if the first waypoint is at 0, and stands behind the last one.
+/// goes, but turns at no more than 60 deg/s, and so looks aside for a while in a sharp bend;
+/// between two waypoints at one place it turns on the spot. Where the waypoints leave less time
+/// than the limits ask for (half of the shorter leg on either side), the change takes all of that
+/// time and exceeds the limits. If the first waypoint is at time 0, the rover is already moving at
+/// 0; after the last one it stands.
 class Route {
  public:
   static constexpr double kMaxYawRate_radps = std::numbers::pi / 3;

@@ -18,13 +18,13 @@ struct PlanarVelocity {
   double yaw_rate_radps = 0;  ///< ccw
 };
 
-/// What the phases command at a time: the last one that has begun, with its speed grown by its
-/// acceleration and never below 0.
+/// The velocity that the phases command at a time: that of the last one that has begun, with its
+/// speed changed by its acceleration and never below 0.
 PlanarVelocity commanded_velocity(const std::vector<scenario::EgoPhase>& phases, std::int64_t t_ns);
 
-/// The command as something with mass can follow it: where a phase begins at another velocity, the
-/// change is spread over as long as these limits make it take. A jump within one reading of the IMU
-/// could not be integrated from its readings.
+/// The command with limited accelerations: where a phase begins at another velocity, the change
+/// takes as long as the limits ask for. Integrating the IMU's readings would miss a jump between
+/// two of them.
 class SmoothCommand {
  public:
   static constexpr double kMaxAcceleration_mps2 = 5;
@@ -38,7 +38,7 @@ class SmoothCommand {
 
  private:
   std::vector<scenario::EgoPhase> phases_;
-  double max_acceleration_mps2_;  ///< what a phase asks for by name is always granted
+  double max_acceleration_mps2_;  ///< raised to what a phase asks for
   PlanarVelocity now_;
   std::int64_t t_ns_ = 0;
 };

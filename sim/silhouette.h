@@ -1,5 +1,5 @@
 /// \file
-/// How many pixels a body would cover if nothing stood before it and the image had no border.
+/// How many pixels a body would cover if nothing hid it and the image had no border.
 #pragma once
 
 #include <Eigen/Core>

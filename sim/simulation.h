@@ -63,15 +63,15 @@ class Simulation {
   const Calibration& calibration() const;
   const std::vector<Object>& objects() const;
 
-  /// Of all that has been until now, or until the last frame.
+  /// Those until now, or until the last frame.
   const Warnings& warnings() const;
 
   /// The next frame, or nothing after the scenario's last one.
   /// \throws PhysicsError
   std::optional<Observation> next();
 
-  /// Lets the next frame pass without a picture of it, which takes a hundredth of the time; those
-  /// after it are as they would have been. \throws PhysicsError
+  /// Skips the next frame without rendering it, in a hundredth of the time; the frames after it are
+  /// the same as if it had been taken. \throws PhysicsError
   void skip();
 
  private:

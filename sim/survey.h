@@ -1,6 +1,6 @@
 /// \file
-/// A scenario looked over in a moment: where everything is from above, who goes where, and a few of
-/// its frames, without a run. And its world as a file, for other programs.
+/// An overview of a scenario without a run: a plan from above, the ways of rover and actors, and a
+/// few of its frames. And its world as a file, for other programs.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,9 +28,9 @@ struct Survey {
   std::vector<int> actors;                  ///< the object that each actor of the scenario is
   std::vector<Eigen::Vector2d> rover_m;     ///< in W, in each frame
   std::vector<Snapshot> snapshots;          ///< of each frame
-  std::vector<Observation> looks;           ///< the frames that were looked at
+  std::vector<Observation> looks;           ///< the frames that were rendered
   std::vector<std::string> wrong_at_start;  ///< what a run refuses, a line each
-  std::vector<std::string> inside;  ///< a line for each thing that the camera is in, in some frame
+  std::vector<std::string> inside;          ///< a line for each thing that the camera gets into
   Warnings warnings;
 };
 
@@ -42,7 +42,7 @@ Survey survey(const scenario::Scenario& scenario, int looks,
 
 enum class WorldFormat {
   mjcf,
-  mjb,  ///< MuJoCo's binary, which has the drawn textures and the bumps of the ground too
+  mjb,  ///< MuJoCo's binary, which also holds the painted textures and the bumps of the ground
 };
 
 /// The world with rover and actors at the start.

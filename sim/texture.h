@@ -19,8 +19,9 @@ const std::vector<std::string>& texture_styles();
 
 bool is_texture_style(std::string_view name);
 
-/// A texture of the scene with this in its name is painted after loading, as in
-/// "procedural:windows:2": the style, and anything that tells it from others of its style.
+/// A texture of the scene with this in its name is painted after loading. As in
+/// "procedural:windows:2", the style follows, and then anything that tells it from others of its
+/// style.
 inline constexpr std::string_view kProceduralPrefix = "procedural:";
 
 /// The style named in a texture's name, behind whatever prefix; empty if it is not procedural.

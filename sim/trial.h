@@ -1,6 +1,5 @@
 /// \file
-/// Lets a child process try what a library may crash on, so that a crash does not take the program
-/// along.
+/// Tries in a child process what may crash a library, so that the program survives the crash.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +16,8 @@ struct Trial {
   std::string crash;
 };
 
-/// What a try may take at most. Scenes at the ends of the limits of `sim/limits.h` load in a tenth
-/// of that; the second time is for machines that do other things, too.
+/// What a try may take at most. Scenes at the limits of `sim/limits.h` load in a tenth of that; the
+/// wall time leaves room for busy machines.
 struct TrialBounds {
   unsigned processor_s = 10;
   unsigned wall_s = 30;
@@ -30,7 +29,7 @@ struct TrialBounds {
 ///
 /// The child has only the calling thread: `action` must wait for no lock that another thread may
 /// hold, and use no GL.
-/// \throws std::system_error if there is no child to be had.
+/// \throws std::system_error if no child can be started.
 Trial try_in_child(const std::function<void()>& action, const TrialBounds& bounds = {});
 
 }  // namespace lcs::sim

@@ -1,6 +1,6 @@
 /// \file
-/// What is true of a frame, and of a corner or an object in it. What figures are made of it:
-/// `tools/scoring/SCORING.md`.
+/// The truth of a frame, and of the corners and objects in it. `tools/scoring/SCORING.md` says
+/// which figures are computed from it.
 #pragma once
 
 #include <Eigen/Core>
@@ -44,7 +44,7 @@ struct FrameTruth {
 enum class Label {
   none,   ///< the sky or the rover: no landmark, left out of every count
   fixed,  ///< its body does not move between k and k+1 ("static")
-  /// Its body moves, but the corner's image by less than 1 px against that of a static point.
+  /// Its body moves, but its image by less than 1 px relative to that of a static point.
   indistinct,
   rebel,  ///< its body moves, and |u - u_s| >= 1 px
 };
@@ -58,11 +58,12 @@ bool moved(const Pose& now, const Pose& next);
 struct CornerTruth {
   Label label = Label::none;
   /// A rebel whose u lies within 1 px of the static segment: the images at k+1 of the same corner
-  /// as a fixed point at every depth from `min_depth_m` to infinity. No two-frame test can tell it.
+  /// as a fixed point at every depth from `min_depth_m` to infinity. Two frames cannot tell it from
+  /// a static point.
   bool radial = false;
-  /// A fixed corner beside the silhouette of a body that moves, which lies within FAST's circle
-  /// about the corner (3 px): it is seen where that body's outline crosses what is behind, and
-  /// moves as the outline does.
+  /// A fixed corner with the silhouette of a moving body within FAST's circle around it (3 px):
+  /// what FAST sees is the crossing of that body's outline with the background, which moves with
+  /// the outline.
   bool outline = false;
   int object = -1;     ///< as in FrameTruth::object
   double depth_m = 0;  ///< of the nearest surface in the 3x3 pixels round the corner
@@ -89,14 +90,14 @@ struct ObjectTruth {
   Runs mask;            ///< its pixels within the box; empty where they are not known
 };
 
-/// Of what is seen of an object. \return without runs where they are not known.
+/// The mask of what is seen of an object; without runs where they are not known.
 inline Mask mask_of(const ObjectTruth& truth) {
   return {cv::Rect(cv::Point(truth.left, truth.top), cv::Point(truth.right, truth.bottom)),
           truth.mask};
 }
 
-/// Boxes, masks and pixel counts of objects 1..count in an image of ids; the rest of each is left
-/// open.
+/// Boxes, masks and pixel counts of objects 1..count in an image of ids; their other members are
+/// not set.
 std::vector<ObjectTruth> modal_boxes(const cv::Mat1i& object, int count);
 
 }  // namespace lcs::sim

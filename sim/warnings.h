@@ -1,6 +1,6 @@
 /// \file
-/// What should not be in a world and yet happened in a run, counted: the figures of such a run are
-/// right, and seldom what was meant.
+/// Counts of what hints at a mistake in a scenario, as a rover that tips over. The figures of such
+/// a run are right, but seldom those that its author wanted.
 #pragma once
 
 #include <array>
@@ -21,10 +21,10 @@ enum class Warning : std::uint8_t {
 
 struct WarningText {
   const char* word;    ///< as in "warnings.WORD" of metrics.json
-  const char* remedy;  ///< to stand behind what happened
+  const char* remedy;  ///< what to do, printed after what happened
 };
 
-/// By the order of `Warning`.
+/// In the order of `Warning`.
 inline constexpr std::array<WarningText, 5> kWarnings{{
     {"rover_below_ground", "give what it drives on contacts, or change its start or its path"},
     {"rover_tipped", "make it slower, or the ground smoother"},

@@ -1,9 +1,9 @@
 /// \file
-/// Looks on while a world goes by, and notes what should not be: who runs through whom, who falls,
-/// who tips over. Changes nothing of it.
+/// Watches a world while it runs, without changing it, and counts what should not happen: bodies
+/// that pass through each other, fall, or tip over.
 ///
 /// The holonomic rover and the actors have no contacts, so overlaps are looked for in the geoms
-/// that are drawn. Floors (planes that face up, height fields) are what stands on them may touch.
+/// that are drawn. What stands on a floor (a plane that faces up, a height field) may touch it.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,7 +39,7 @@ class Watch {
   Watch(const Model& model, int rover_body, const std::vector<Named>& objects,
         const std::vector<int>& object_of_geom);
 
-  /// Two that are in each other.
+  /// Two that overlap.
   struct Meeting {
     int traveller = 0;  ///< the rover (0), or an actor by the object that it is
     int other = 0;      ///< among all that can be met
@@ -48,18 +48,19 @@ class Watch {
     std::string where;  ///< as in "(1.20, -0.40) m"
     double depth_m = 0;
   };
-  /// All that there are now.
+  /// All that overlap now.
   std::vector<Meeting> meetings(const Model& model);
-  /// It is known, and not to be warned of.
+  /// From now on this overlap is expected: no warning is given of it.
   void pass_over(const Meeting& meeting);
 
-  /// To be called after every step; looks closer where something has moved on by a few centimetres.
+  /// To be called after every step; checks all overlaps again when something has moved by a few
+  /// centimetres.
   void look(const Model& model, std::int64_t t_ns);
 
   const Warnings& warnings() const { return warnings_; }
 
  private:
-  /// What is met as one: the rover, an object, a geom of the setting.
+  /// What overlaps are counted of: the rover, an object, a geom of the setting.
   struct Solid {
     Kind kind = Kind::setting;
     std::string name;

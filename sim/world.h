@@ -3,8 +3,8 @@
 /// of IMU and odometry. Needs no GL.
 ///
 /// Events (frames, readings, phases of the ego) fall on exact times k / rate; the steps between two
-/// of them are equal and at most 2 ms long. What is read at an event belongs to its very time:
-/// forward quantities are computed anew there.
+/// of them are equal and at most 2 ms long. Readings at an event are of exactly that time: MuJoCo's
+/// derived quantities are computed anew there.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -30,7 +30,7 @@ std::int64_t event_time_ns(std::int64_t k, double rate_hz);
 /// What becomes of a world in which something starts inside of something else.
 enum class WrongStart {
   refused,  ///< with scenario::Error
-  told,     ///< by `World::wrong_at_start`, for who wants to look at it
+  told,     ///< by `World::wrong_at_start`, as a preview needs it
 };
 
 class World {
@@ -59,13 +59,13 @@ class World {
   /// What FrameTruth::object says of a geom.
   int object_of_geom(int geom) const { return object_of_geom_[static_cast<std::size_t>(geom)]; }
 
-  /// Of all that has been until now, or until the last frame.
+  /// Those until now, or until the last frame.
   const Warnings& warnings() const { return watch_->warnings(); }
-  /// A line each, as the error would have it.
+  /// What starts inside of what: a line each, worded as in the error.
   const std::vector<std::string>& wrong_at_start() const { return wrong_at_start_; }
 
-  /// Writes MJCF, with rover and actors where they are now, or MuJoCo's binary. To be called at 0,
-  /// as the model is another one then. Of the model that was made last in this process. \throws
+  /// Writes MJCF, with rover and actors where they are now, or MuJoCo's binary. To be called at t =
+  /// 0; it changes the model, which must be the one that was made last in this process. \throws
   /// MujocoError
   void save(const std::string& file, bool as_mjcf);
 

@@ -20,16 +20,16 @@ using Document = std::unique_ptr<tinyxml2::XMLDocument>;
 using Element = tinyxml2::XMLElement;
 
 /// Reads an MJCF file with its `<include>`s in place, and every file that it names as an absolute
-/// path (so `meshdir` and `texturedir` are done with). \param where is to blame where the file
-/// itself cannot be opened. Each element knows from then on where it was written, and takes that
-/// along wherever it is copied. \throws scenario::Error with the MJCF file and line: XML that does
-/// not parse, a missing file.
+/// path (so `meshdir` and `texturedir` are done with). \param where is named in the error if the
+/// file itself cannot be opened. Each element then knows where it was written, and so do its
+/// copies.
+/// \throws scenario::Error with the MJCF file and line: XML that does not parse, a missing file.
 Document load(const std::filesystem::path& file, const scenario::Source& where);
 
 /// Puts `prefix` before every name in a document, and before every use of one.
 void prefix_names(Element& root, const std::string& prefix);
 
-/// Takes all elements of a kind away, wherever they are below the root.
+/// Removes all elements of a kind, wherever they are below the root.
 void remove_all(Element& root, const char* kind);
 
 /// Appends copies of all children.

@@ -3,7 +3,8 @@
 /// efficient alternative to SIFT or SURF", ICCV 2011) without its turn and its scales, that is 256
 /// comparisons of brightness in the blurred 31x31 pixels round a corner.
 ///
-/// Upright, for a rover's camera hardly rolls, and what turns with the corner tells less.
+/// Upright, as a rover's camera hardly rolls, and a descriptor that turns with the corner
+/// distinguishes less.
 #pragma once
 
 #include <Eigen/Core>

@@ -47,7 +47,7 @@ struct TruthBox {
   bool missed = false;    ///< a square should be there and is not
 };
 
-/// What the truth says of a corner, a circle or a square that the filter spoke of.
+/// How a corner, a circle or a square compares with the truth.
 enum class Mark : std::uint8_t { none, found, missed, wrong };
 
 struct PanelContent {

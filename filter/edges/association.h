@@ -1,11 +1,11 @@
 /// \file
 /// Which corner is a sighting of which track, one to one.
 ///
-/// A pair is weighed by how likely it is against clutter: the density of the track's prediction
-/// over that of corners there, times the ratio by which signatures that differ so much are more
-/// often of one place than of two. Its neighbours count besides, each by the same ratio at the same
-/// step: where many agree on a step a chance match is unlikely, and where corners are all alike a
-/// hit says little.
+/// A pair is weighed by its likelihood ratio against clutter: the density of the track's prediction
+/// over the density of corners there, times how much more often signatures that differ so much are
+/// of one place than of two. Its neighbours vote, each by the same ratio for the same step: many
+/// that agree on a step make a chance match unlikely, while a hit among corners that look alike
+/// says little.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,10 +1,11 @@
 /// \file
-/// What is round a corner counts for it: log odds that are coupled as in a mean field,
+/// Lets neighbouring corners support each other: their log odds are coupled as in a mean field,
 ///
 ///   m_i = L_i + J sum_j w_ij tanh(m_j / 2) / sum_j w_ij,
 ///
 /// where w falls with the distance in the image and, between two whose motion is known, with how
-/// unlike their motions are. Corners without a motion take from those round them and give nothing.
+/// unlike their motions are. Corners without a known motion are influenced by those round them, but
+/// do not influence them.
 #pragma once
 
 #include <span>
@@ -31,8 +32,8 @@ class Coupling {
   /// \return m of each.
   const std::vector<double>& settle(std::span<const Node> nodes);
 
-  /// Of the nodes last settled: the one that counts most for it among those that are taken to move;
-  /// -1: none.
+  /// Of the nodes last settled, the neighbour with the most influence on this one among those that
+  /// are taken to move; -1: none.
   int model_of(std::size_t node) const;
 
  private:

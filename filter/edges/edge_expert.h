@@ -3,9 +3,9 @@
 /// are rebels. Two rules for it stand side by side; what they share is here.
 ///
 /// Both predict normal edges by the motion field and rebels by their own motion, assign corners to
-/// edges one to one, and give trust. They differ in how a rebel is told: `PaperEdges` by single
-/// corners that line up over three frames (alpha), `HypothesisEdges` by how much likelier each
-/// sighting is of what moves.
+/// edges one to one, and give trust. They differ in how they recognise a rebel: `PaperEdges` by
+/// single corners that line up over three frames (alpha), `HypothesisEdges` by how much likelier
+/// each sighting is for a mover than for a static point.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ class EdgeExpert {
  public:
   virtual ~EdgeExpert() = default;
 
-  /// Moves edges, and what else is remembered, to where this frame should show them.
+  /// Moves edges, and what else is remembered, to where they should be in this frame.
   virtual void predict(Layers& layers, const MotionField& field) = 0;
 
   /// Matches, estimates, updates trust, deletes, and makes new edges.
@@ -31,13 +31,13 @@ class EdgeExpert {
   virtual void update(Layers& layers, const Chi& chi, const MotionField& field,
                       std::vector<Verdict>& verdicts) = 0;
 
-  /// Forgets what it remembers of former frames beside the layers.
+  /// Forgets all that it keeps of former frames, but for the layers.
   virtual void forget() {}
 
-  /// Corners of the last chi that are rebels by an edge near them alone.
+  /// Corners of the last chi that are rebels only because of an edge near them.
   const std::vector<Follower>& followers() const { return followers_; }
 
-  /// What settled each corner of the last chi.
+  /// The reason for the verdict on each corner of the last chi.
   const std::vector<Reason>& reasons() const { return reasons_; }
 
  protected:

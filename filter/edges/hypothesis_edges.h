@@ -1,11 +1,11 @@
 /// \file
-/// Edges told by two hypotheses, as filter/RULES.md derives: each corner that is tracked is a
-/// static point, or a point that moves by itself, and carries the log odds of the second.
+/// Edges by two hypotheses, as filter/RULES.md derives them: each tracked corner is a static point
+/// or a point that moves by itself, and carries the log odds of the latter.
 ///
-/// 1. Tracks are predicted under both, and corners matched to them (`Association`).
-/// 2. Each sighting adds ln p(x | moves) / p(x | stands) to the track's log odds.
-/// 3. What is round a corner counts besides (`Coupling`); corners that no track has live by it.
-/// 4. A track that is likelier to move is a rebel edge, any other a normal one; its trust follows
+/// 1. Tracks are predicted under both, and corners matched to them (`Association`). 2. Each
+/// sighting adds ln p(x | moves) / p(x | stands) to the track's log odds. 3. Neighbouring corners
+/// count, too (`Coupling`); for corners without a track they alone do. 4. A track that is likelier
+/// to move is a rebel edge, any other a normal one; its trust follows
 ///    from how sure that is.
 #pragma once
 

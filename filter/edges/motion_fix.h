@@ -1,8 +1,8 @@
 /// \file
-/// What the told motion is off by, from tracks that are likely to stand: each says how far its
-/// corner is from where it was expected. Where the camera travels a depth explains any distance
-/// along the parallax, so that only what is across it speaks: a depth that was learnt under a wrong
-/// motion would bear that motion out.
+/// Estimates the error of the told motion from tracks that are likely to be static, by how far each
+/// corner is from where it was expected. While the camera travels, only the part across the
+/// parallax is used: any distance along it can be explained by another depth, and a depth that was
+/// learnt under a wrong motion would confirm that motion.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,7 +35,7 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
                      std::span<const Residual> residuals,
                      const Eigen::Matrix3d& velocity_covariance, double voice);
 
-/// What is wrong with the told velocity: an error that lasts, as large as the estimator says
+/// The error of the told velocity: one that lasts, as large as the estimator says
 /// (`EgoMotion::velocity_sigma_mps`), and one of each frame by itself.
 class VelocityError {
  public:
@@ -45,13 +45,13 @@ class VelocityError {
   /// To the next frame.
   void advance(const MotionField& told);
 
-  /// The told field without the error that lasts, as far as that is known.
+  /// The told field, corrected by the lasting error as far as that is known.
   MotionField without(const MotionField& told) const;
 
-  /// (m/s)^2: of what is wrong with the velocity of that field.
+  /// (m/s)^2: covariance of the error that is left in that field's velocity.
   Eigen::Matrix3d covariance(const MotionField& field) const;
 
-  /// Takes in what that field is off by.
+  /// Updates the estimate by the error of that field.
   void see(const MotionFix& fix, const MotionField& field);
 
   void forget() { *this = VelocityError(ego_share_); }

@@ -1,6 +1,6 @@
 /// \file
 /// A corner as a point that moves by itself: where it is seen and how fast it goes in the image,
-/// the camera's rotation removed. Both axes alike, so that one covariance does for both.
+/// the camera's rotation removed. Both axes are alike and share one covariance.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ struct OwnMotion {
   /// \param acceleration 1/s: share of the velocity by which it may change in a second.
   OwnMotion predicted(const MotionField& field, double acceleration) const;
 
-  /// Of a predicted motion: takes the sighting in.
+  /// Updates a predicted motion by the sighting.
   void see(const Vec2& x_px, double noise2_px2);
 
   /// Density of a sighting at `x_px` of a predicted motion, 1/px^2.

@@ -1,5 +1,5 @@
 /// \file
-/// A corner as a static point: where it is seen and how near it is, with what is not known of both.
+/// A corner as a static point: its place in the image and its inverse depth, with their covariance.
 /// The state (x, y, w), w = 1/Z, goes from frame to frame as the camera's motion says,
 ///
 ///   x' = c + (x_r - c - f w d_xy) / (1 - w d_z),   w' = w / (1 - w d_z),
@@ -52,7 +52,7 @@ struct StaticPoint {
   /// \param ego_share of the image motion by which the camera's velocity may be wrong.
   StaticPoint predicted(const Intrinsics& camera, const MotionField& field, double ego_share) const;
 
-  /// Of a predicted point: takes the sighting in.
+  /// Updates a predicted point by the sighting.
   /// \return the density of a sighting just there, 1/px^2.
   double see(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds);
 

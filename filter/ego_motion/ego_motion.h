@@ -35,13 +35,13 @@ struct EgoMotion {
   /// Mean body rate of the camera over the interval, in the camera frame: R_cur_prev = exp(-[w]
   /// dt).
   Eigen::Vector3d w_C_radps = Eigen::Vector3d::Zero();
-  /// Standard deviation of what is wrong with the rotation because the gyro was not heard, about
-  /// any axis; 0 where it was.
+  /// Standard deviation of the rotation's error, about any axis, because readings of the gyro are
+  /// missing; 0 where none are.
   double unseen_turn_rad = 0;
-  /// Standard deviation of what is wrong with the velocity, along any axis, by the estimator's own
-  /// account: it grows while the IMU is integrated without odometry. 0 where nobody tells.
+  /// Standard deviation of the velocity's error, along any axis, as the estimator has it: it grows
+  /// while the IMU is integrated without odometry. 0 where it is not known.
   double velocity_sigma_mps = 0;
-  /// At frame k; none where nobody knows how the camera is mounted.
+  /// At frame k; none where the camera's mounting is not known.
   std::optional<Ground> ground;
 };
 

@@ -1,6 +1,6 @@
 /// \file
-/// Signs of an IMU that is out of order, told from its readings alone: it repeats itself, it is at
-/// the end of its range, its accelerometer counts in g.
+/// Finds a faulty IMU by its readings alone: it repeats itself, is at the end of its range, or its
+/// accelerometer counts in g.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 /// \file
-/// What the filter takes of the ego-motion that it is told: all of it, all but the ground, or
+/// Checks the ego-motion that the filter is told, and accepts all of it, all but the ground, or
 /// nothing.
 #pragma once
 
@@ -12,7 +12,7 @@ namespace lcs {
 
 class Intake {
  public:
-  /// \return the motion; none where it cannot be used, which is told by the diagnostics.
+  /// \return the motion; none where it cannot be used, which the diagnostics count.
   std::optional<EgoMotion> take(const EgoMotion& told, Diagnostics& diagnostics);
 
  private:

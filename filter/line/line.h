@@ -1,5 +1,5 @@
 /// \file
-/// Line expert: leaves out what is no corner of this picture, and removes the corners inside psi.
+/// Line expert: removes invalid corners and those inside psi.
 #pragma once
 
 #include <Eigen/Core>

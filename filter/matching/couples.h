@@ -1,6 +1,6 @@
 /// \file
-/// Pairs that compete: of two groups that may be one, of an edge and a corner. The cheapest is
-/// settled first, and mostly settles many others with it.
+/// Pairs that compete, as two groups that may be merged, or an edge and a corner. Taking the
+/// cheapest first mostly rules out many others.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,8 @@
 namespace lcs {
 
 /// Two things, by their indices, and what it costs to bring them together. Cheapest first, and of
-/// equal ones by a and b: by hand, for the standard pair and tuple compare doubles twice.
+/// equal ones by a and b: written by hand, as the comparisons of std::pair and std::tuple compare
+/// doubles twice.
 struct Couple {
   Couple(double what_it_costs, int one, int other)
       : cost(static_cast<float>(what_it_costs)), a(one), b(other) {}
@@ -33,8 +34,8 @@ struct Couple {
 class CheapestFirst {
  public:
   /// Calls `settle(couple)` for each in order, but for those of which `is_settled(couple)` says
-  /// that they cannot matter any more, nor ever will. They are asked before they are put in order,
-  /// in portions by rising cost, so that most need never be. Costs are finite.
+  /// that they cannot matter any more. It sorts portions of rising cost, and asks `is_settled`
+  /// first, so that most couples are never sorted. Costs are finite.
   template <typename IsSettled, typename Settle>
   void visit(std::span<const Couple> couples, IsSettled&& is_settled, Settle&& settle) {
     portion(couples);
@@ -53,7 +54,7 @@ class CheapestFirst {
   }
 
  private:
-  /// As many as are put in order without much ado.
+  /// So many are sorted at once.
   static constexpr std::size_t kPerPortion = 8;
 
   /// Counting sort into portions of equal width.

@@ -1,5 +1,5 @@
 /// \file
-/// Union-find: which of n things are connected, by pairs that are.
+/// Union-find: which of n things are connected, given connected pairs.
 #pragma once
 
 #include <cstddef>

@@ -15,8 +15,8 @@
 
 namespace lcs {
 
-/// A point found near another. Nearest first, and of equally near ones the lower index: by hand, as
-/// wherever much is put in order by a double, for the standard pair and tuple compare twice.
+/// A point found near another. Nearest first, and of equally near ones the lower index: written by
+/// hand, as the comparisons of std::pair and std::tuple compare doubles twice.
 struct Neighbour {
   double distance2;  ///< px^2
   int index;
@@ -102,8 +102,8 @@ class PointGrid {
     return {static_cast<double>(count), (c1 - c0 + 1) * (r1 - r0 + 1) * cell_px_ * cell_px_};
   }
 
-  /// px: within which `count` points would lie if those of the cells round x were spread evenly.
-  /// Who looks no farther is done in a time that does not grow with how close points lie.
+  /// px: within which `count` points would lie if those of the cells round x were spread evenly. A
+  /// search within this radius takes a time that does not grow with the density of points.
   double crowd_radius(const Vec2& x, double count) const {
     return 3 * cell_px_ * std::sqrt(count / (std::numbers::pi * crowd(x, cell_px_).count));
   }
@@ -173,8 +173,8 @@ class PointGrid {
     }
   }
 
-  /// Visits those of some points placed one after the other that are near x. They are told from the
-  /// others in portions and without a branch, which would often be guessed wrong.
+  /// Visits those of some points placed one after the other that are near x. It sorts them out in
+  /// portions and without a branch, which would often be mispredicted.
   template <typename Visit>
   void visit_near(std::size_t first, std::size_t last, const Vec2& x, double radius2,
                   Visit&& visit) const {
@@ -191,7 +191,7 @@ class PointGrid {
     }
   }
 
-  /// Puts the points of some cells of a row into their places among those found.
+  /// Inserts the points of some cells of a row into those found.
   template <typename Accept>
   void rank_cells(std::size_t first, std::size_t last, const Vec2& x, double farthest2,
                   std::size_t count, Accept&& accept, std::vector<Neighbour>& found) const {

@@ -1,7 +1,7 @@
 /// \file
-/// Lists that are filled anew each frame, in the same memory: where it does not do, half as much
-/// again is taken, so that it is asked for a few times in the beginning and not with every frame
-/// that is busier than any before.
+/// Lists that are filled anew each frame in the same memory. Where that is too small it grows by
+/// half, so that a few frames in the beginning allocate, and not every frame that is busier than
+/// all before.
 #pragma once
 
 #include <cstddef>

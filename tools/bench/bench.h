@@ -26,7 +26,7 @@ class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// The next frame: its number, time and motions. What it took is added to its times.
+  /// The next frame: its number, time and motions. What this took is added to the frame's times.
   /// \param image set to what the camera saw, BGR. \return false after the last one.
   virtual bool next(FrameRecord& frame, cv::Mat3b& image) = 0;
 
@@ -35,7 +35,7 @@ class FrameSource {
   /// \return whether the picture was changed.
   virtual bool straighten(std::vector<Eigen::Vector2f>&, cv::Mat3b&) const { return false; }
 
-  /// What is true of the frame's corners and objects, so far as it is known.
+  /// Adds the truth of the frame's corners and objects, so far as it is known.
   virtual void label(FrameRecord& frame) = 0;
 
   virtual std::optional<sim::Warnings> warnings() const { return std::nullopt; }
@@ -53,7 +53,7 @@ class SimulatedFrames : public FrameSource {
   std::optional<sim::Warnings> warnings() const override { return simulation_.warnings(); }
   Diagnostics diagnostics() const override { return ego_motion_.estimator().diagnostics(); }
 
-  /// All that there is of the last frame.
+  /// The whole observation of the last frame.
   const std::optional<sim::Observation>& observation() const { return observation_; }
 
  private:
@@ -76,23 +76,24 @@ std::optional<SeenFrame> see(FrameSource& source, const FastDetector& detector,
                              bool are_signatures_wanted);
 
 /// Stores in a frame what a tracker says of it.
-/// \param step_ms that the tracker took, for the time that `step_time` names; null: for none.
+/// \param step_ms that the tracker took: stored as the time that `step_time` points to, unless that
+///   is null.
 void note(const FrameResult& said, double FrameTimes::*step_time, double step_ms,
           FrameRecord& frame);
 
 /// A recording of the scenario without frames yet.
 Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulation& simulation);
 
-/// Asks a tracker about corners that are known.
-/// \param frame whose corners, motion, and signatures if any, are known; gets verdicts, layers, and
-///   the times of that.
+/// Runs a tracker on a frame whose corners are known.
+/// \param frame with corners, motion, and signatures if there are any; gets verdicts, layers and
+///   times.
 /// \param grey,image may be empty for a tracker that does not look at them.
 void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame);
 
-/// A tracker that watches a run, and where what it says goes.
+/// A tracker that takes part in a run, and where its results go.
 struct Watcher {
   Tracker& tracker;
-  Recording& recording;  ///< is given every frame before the sink sees it, and the warnings last
+  Recording& recording;  ///< gets every frame before the sink does, and in the end the warnings
   FrameSink sink;
 };
 
@@ -106,7 +107,7 @@ std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
 /// \return,\throws as above, and sim::PhysicsError.
 std::vector<Diagnostics> run(const scenario::Scenario& scenario, sim::Simulation& simulation,
                              std::span<const Watcher> watchers);
-/// Of one alone.
+/// The same for one tracker.
 Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracker& tracker,
                 Recording& recording, const FrameSink& sink);
 

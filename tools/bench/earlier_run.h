@@ -1,7 +1,7 @@
 /// \file
-/// An earlier run of a scenario in place of a simulation: the same corners, signatures, motions and
-/// truth, so that a detector that looks at no pictures says what it would say in a run of its own,
-/// in a fraction of the time.
+/// An earlier run of a scenario, which takes the place of a simulation: it has the same corners,
+/// signatures, motions and truth. A detector that needs no pictures finds the same as in a run of
+/// its own, in a fraction of the time.
 #pragma once
 
 #include <filesystem>
@@ -21,22 +21,22 @@ class EarlierRun {
   EarlierRun(const std::filesystem::path& folder, const scenario::Scenario& scenario,
              const Intrinsics& camera);
 
-  /// Of each frame, where the run kept them; else null.
+  /// The pictures of all frames, if the run kept them; else null.
   const FramePictures* pictures() const { return pictures_ ? &*pictures_ : nullptr; }
 
-  /// What there was to see and what was true, without verdicts.
+  /// Corners, signatures, motions and truth, without verdicts.
   const Recording& recording() const { return recorded_; }
 
-  /// Whether there is a corner without a signature, as where a comparator was alone in the run: the
-  /// filter then is given places alone, and may say something else than in a run of its own.
+  /// Whether there is a corner without a signature, as when the run had only a comparator: the
+  /// filter then has less to go by than in a run of its own, and may decide otherwise.
   bool lacks_signatures() const;
 
   /// A recording of the scenario without frames yet.
   Recording begin() const;
 
   /// Goes through all frames, as `bench::run` does.
-  /// \param with_images whether tracker and sink get pictures, in colour alone and as they
-  ///   are after their compression, which takes `pictures()`; else they are empty.
+  /// \param with_images whether tracker and sink get pictures, which needs `pictures()`: in colour
+  ///   alone, and with the losses of their compression. Else they are empty.
   /// \return what was wrong with what the tracker was told.
   /// \throws what the tracker and the sink throw.
   Diagnostics run(Tracker& tracker, Recording& recording, bool with_images,

@@ -19,13 +19,13 @@ class EgoMotionFeed {
   EgoMotionFeed(const scenario::Scenario& scenario, const sim::Calibration& calibration);
 
   struct Motions {
-    EgoMotion told;   ///< by the source that the scenario names
-    EgoMotion exact;  ///< of the poses
+    EgoMotion told;   ///< from the source that the scenario names
+    EgoMotion exact;  ///< from the poses
   };
   /// To be called with every observation, in order.
   Motions next(const sim::Observation& observation);
 
-  /// What tells motions where the source is the IMU.
+  /// What estimates the motions where the source is the IMU.
   const EgoMotionEstimator& estimator() const { return estimator_; }
 
  private:

@@ -1,6 +1,6 @@
 /// \file
-/// What is under test: something that says of each corner of a frame whether it moves by itself.
-/// The LCS filter is one, a comparator another; the bench treats all alike.
+/// What is under test: a tracker, which says of each corner of a frame whether it moves by itself.
+/// The LCS filter is one, each comparator another; the bench treats all alike.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,30 +39,30 @@ class Tracker {
   /// Whether signatures are to be made for it, which takes longer than to find the corners.
   virtual bool wants_signatures() const { return false; }
 
-  /// What the squares of the last step cover, of a tracker that says so pixel by pixel.
+  /// The pixels that each square of the last step covers, from a tracker that finds them.
   virtual const SquareMasks& masks() const {
     static const SquareMasks kNone;
     return kNone;
   }
 
-  /// Which of a frame's times a step takes; null where it takes none, as what it says was read.
+  /// Which of a frame's times the time of a step is; null for verdicts that are only read from a
+  /// file.
   virtual double FrameTimes::*step_time() const { return &FrameTimes::filter_ms; }
 
   /// As `DetectorInfo::circles`. Known from the start.
   virtual bool gives_circles() const { return true; }
 
-  /// To be called after the last frame. \throws for what was wrong with it until then.
+  /// To be called after the last frame. \throws for what had gone wrong until then.
   virtual void finish() {}
 
-  /// What was wrong with what it was told so far, if it looks.
+  /// What was wrong with its input so far, if it checks that.
   virtual Diagnostics diagnostics() const { return {}; }
 
-  /// What else there is to tell of it after the last frame: a line for people each.
+  /// Remarks for people after the last frame, a line each.
   virtual std::vector<std::string> told() const { return {}; }
 };
 
-/// The simulator's camera, which knows nothing of the filter, as the filter and all trackers take
-/// it: the one place where one becomes the other.
+/// The simulator's camera in the form that the filter and all trackers take.
 Intrinsics intrinsics(const sim::Pinhole& camera);
 
 /// The LCS filter. It sees corners, their signatures if there are any, and ego-motion, never the
@@ -82,8 +82,8 @@ class LcsTracker : public Tracker {
 /// \throws scenario::Error at the line of a preset, key or value that the filter does not take.
 Parameters filter_parameters(const scenario::Scenario& scenario);
 
-/// A line for each of the scenario's settings of the filter that changes nothing, as it is of a
-/// rule that is not in use. \throws as `filter_parameters`.
+/// A line for each of the scenario's settings of the filter that has no effect, because the rule
+/// that reads it is not in use. \throws as `filter_parameters`.
 std::vector<std::string> idle_settings(const scenario::Scenario& scenario);
 
 }  // namespace lcs::bench

@@ -13,13 +13,13 @@
 
 namespace lcs::bench {
 
-/// What is wrong with where results go, and what to do about it.
+/// Results cannot be written: says why, and what to do about it.
 class OutputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What to do where writing failed with such an error.
+/// What to do about an error of writing.
 std::string remedy(const std::error_code& error);
 
 /// The first bytes of a plain file; "" for anything else.
@@ -27,8 +27,7 @@ std::string beginning(const std::filesystem::path& file, std::size_t bytes);
 /// Whether a plain file has `sign` near its beginning.
 bool has_sign(const std::filesystem::path& file, std::string_view sign);
 
-/// Created (or emptied) on construction. Whoever has not called `close` does not know whether all
-/// of it arrived.
+/// Created (or emptied) on construction. Only `close` tells whether all of it was written.
 class OutputFile {
  public:
   /// \throws OutputError
@@ -36,8 +35,8 @@ class OutputFile {
 
   /// \throws OutputError, as when the disk is full.
   void write(std::string_view text);
-  /// Hands what was written so far to the system, so that it is there whatever becomes of this
-  /// process. \throws OutputError
+  /// Hands what was written so far to the system, so that it is there even if this process is
+  /// killed. \throws OutputError
   void flush();
   /// Writes out what is still buffered. \throws OutputError
   void close();
@@ -54,11 +53,11 @@ class OutputFile {
 
 /// Ends the names of files that `write_whole` has not finished: "metrics.json.1234.partial".
 inline constexpr const char* kUnfinished = ".partial";
-/// What such a file is going to be called.
+/// The name that such a file gets when it is finished.
 std::filesystem::path finished_name(const std::filesystem::path& unfinished);
 
-/// Writes a file that appears whole or not at all: `write` is given a path beside it to write to.
-/// What is there and no plain file, as a pipe or /dev/stdout, is written to as it is.
+/// Writes a file that appears whole or not at all: `write` is given a path beside it to write to. A
+/// pipe, /dev/stdout, or whatever else is there and no plain file, is written to directly.
 /// \param sign that an earlier file must have, unless it is empty, in order to be replaced.
 /// \throws OutputError, and what `write` throws; then an earlier file is as it was.
 void write_whole(const std::filesystem::path& path,

@@ -11,7 +11,8 @@
 
 namespace lcs::bench {
 
-/// Says of a folder that its process lives: however that ends, the lock ends with it.
+/// A lock that says that the process working in a folder is alive: it ends with the process,
+/// however that ends.
 class FolderLock {
  public:
   /// Does not wait for another process that holds it.
@@ -38,10 +39,9 @@ struct ResultFiles {
   std::string sign;
 };
 
-/// Takes away what processes left beside `target` that were killed on the way to it: folders that
-/// hold the marker which such a process wrote there first. Nothing but `files` is taken out of
-/// them, and what cannot be taken away stays. An earlier result that was on its way out is put back
-/// where there is none.
+/// Removes the staging folders that killed processes left beside `target`, which are known by their
+/// marker. Removes nothing but `files` from them, and leaves what cannot be removed. Where there is
+/// no result, but an earlier one that was being replaced, puts that back.
 void remove_abandoned(const std::filesystem::path& target, const ResultFiles& files);
 
 /// Results are written into a staging folder beside the target, which takes the target's place in
@@ -49,8 +49,8 @@ void remove_abandoned(const std::filesystem::path& target, const ResultFiles& fi
 /// whatever moment the process is killed, the target is the earlier result or the new one.
 class OutputFolder {
  public:
-  /// Makes the staging folder, and the folders above it where they are missing. Takes away those of
-  /// processes that were killed.
+  /// Makes the staging folder, and the folders above it where they are missing. Removes those that
+  /// killed processes left.
   /// \param files that a result may consist of. A target that holds anything else, or lacks the
   ///   first of them, or has one without the sign, is not an earlier result.
   /// \throws OutputError for a target that cannot be written, holds something else, or is the

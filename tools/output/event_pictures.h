@@ -1,6 +1,5 @@
 /// \file
-/// Pictures of events: cut out round what went wrong, with every corner marked by what it counts
-/// as.
+/// Pictures of events: a crop round what went wrong, with every corner marked by how it counts.
 #pragma once
 
 #include <vector>

@@ -1,7 +1,7 @@
 /// \file
 /// Pictures of a run: each frame's four panels, with the truth's boxes beneath the layers, and what
-/// was found, missed and false in that frame, each by itself: other than for recall, a rebel counts
-/// as missed from its first frame on.
+/// was found, missed and false in that frame alone: unlike for recall, a rebel counts as missed
+/// from its first frame on.
 #pragma once
 
 #include <map>
@@ -15,8 +15,8 @@ namespace lcs::bench {
 
 class FramePainter {
  public:
-  /// \param image_px size of the camera's image. \param run whose frames it is: its name, its
-  /// objects, and what is known of them.
+  /// \param image_px size of the camera's image. \param run that the frames are of: gives the names
+  ///   of scenario and objects, and what is known of them.
   FramePainter(cv::Size image_px, const Recording& run);
 
   cv::Size size_px() const { return sheet_.size_px(); }

@@ -13,8 +13,8 @@ std::vector<unsigned char> jpeg(const cv::Mat3b& image, int quality);
 
 inline constexpr const char* kPicturesFile = "pictures.mjpeg";
 
-/// The images of a run, compressed, until the events are known at its end. Images wider than 640 px
-/// are kept at that width: some 40 kB a frame.
+/// The images of a run, kept compressed until its events are known at its end. Images wider than
+/// 640 px are kept at that width: some 40 kB a frame.
 class FramePictures {
  public:
   /// Reads back what `write` wrote. \param image_width_px of the run's images.
@@ -26,7 +26,7 @@ class FramePictures {
   /// \param image of the next frame of the recording, BGR.
   void add(const cv::Mat3b& image);
 
-  /// \param scale set to pixels of the picture for one of the image.
+  /// \param scale set to the picture's pixels for each pixel of the image.
   /// \throws std::runtime_error for bytes that are no picture.
   cv::Mat3b at(std::size_t position, double& scale) const;
   std::size_t size() const { return jpegs_.size(); }

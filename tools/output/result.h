@@ -25,13 +25,11 @@ ResultFiles result_files();
 struct ResultOptions {
   std::optional<double> video_frames_per_second;  ///< none: no video
   bool events = false;  ///< where the run went wrong, with pictures, and all pictures
-  /// Of the same frames, as an earlier run kept them; then `events` keeps no others. Without any,
-  /// there are none.
+  /// Pictures of the same frames from an earlier run, so that `events` needs to keep none.
   const FramePictures* kept = nullptr;
-  /// Takes each frame as the video has it, until it returns false.
+  /// Called with each frame of the video, until it returns false.
   std::function<bool(const cv::Mat3b& sheet)> show = {};
-  /// Writes what else belongs to the result into the folder, where all other files are, before it
-  /// takes its place.
+  /// Writes further files into the folder, when all others are in it and before it takes its place.
   std::function<void(const std::filesystem::path& folder, const Metrics& metrics)> add_page = {};
 };
 

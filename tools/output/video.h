@@ -22,8 +22,8 @@ class Video {
   /// \param frame of the size given.
   void write(const cv::Mat3b& frame);
 
-  /// \throws OutputError when the file that came of it is not whole, as when the disk is full:
-  ///   OpenCV itself never says so.
+  /// \throws OutputError when the file is not complete, as when the disk is full: OpenCV itself
+  ///   never says so.
   void close();
 
  private:

@@ -30,7 +30,7 @@ inline Square square_of(Id id, const Vec2& corner, const Vec2& size) {
   square.half_size = 0.5 * size;
   return square;
 }
-/// Round a mask.
+/// The box round a mask.
 inline Square square_of(const sim::Mask& mask, Id id) {
   return square_of(id, Vec2(mask.box.x, mask.box.y), Vec2(mask.box.width, mask.box.height));
 }
@@ -46,7 +46,7 @@ inline Box box_of(const Square& square) {
   return {square.location - square.half_size, square.location + square.half_size};
 }
 
-/// Area of what lies in both.
+/// Area of the intersection.
 inline double common_px2(const Box& a, const Box& b) {
   return a.intersection(b).sizes().cwiseMax(0).prod();
 }

@@ -1,5 +1,5 @@
 /// \file
-/// The runs of a mask (`sim/mask.h`) in one word, as pycocotools writes them.
+/// The runs of a mask (`sim/mask.h`) packed into one word, as pycocotools writes them.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,8 @@ namespace lcs::bench {
 
 std::string packed_runs(const sim::Runs& runs);
 
-/// As the word has them, whatever they are. \throws std::invalid_argument
+/// The numbers in the word, unchecked: they may be negative or not add up. \throws
+/// std::invalid_argument
 std::vector<std::int64_t> unpacked_runs(std::string_view word);
 
 }  // namespace lcs::bench

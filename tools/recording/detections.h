@@ -1,6 +1,6 @@
 /// \file
-/// Someone else's detector: what it says of the corners of a sequence, and the boxes that it finds,
-/// in a CSV file. The format is described in `tools/recording/DETECTIONS.md`.
+/// The verdicts of any detector on the corners of a sequence, and the boxes that it finds, in a CSV
+/// file. `tools/recording/DETECTIONS.md` describes the format.
 #pragma once
 
 #include <filesystem>
@@ -23,8 +23,8 @@ Detections read_detections(const std::filesystem::path& csv, const Recording& se
 
 inline constexpr const char* kDetectionsHeader = "frame,type";
 
-/// Writes what a recording says in the same format, so that reading it gives the same figures of
-/// rebels and squares to the last bit. \throws OutputError
+/// Writes a recording's verdicts and boxes in the same format. Read again, they give the same
+/// figures of rebels and squares to the last bit. \throws OutputError
 void write_detections(const std::filesystem::path& csv, const Recording& recording);
 
 }  // namespace lcs::bench

@@ -1,6 +1,6 @@
 /// \file
-/// What a detector says of one frame, in the words of `tools/recording/DETECTIONS.md`, whether they
-/// come from a file or from a program that is asked.
+/// What a detector finds in one frame, in the format of `tools/recording/DETECTIONS.md`, whether it
+/// comes from a file or from a running program.
 #pragma once
 
 #include <cstddef>
@@ -14,36 +14,37 @@
 
 namespace lcs::bench {
 
-/// A verdict that gives a place is one on a corner no farther off. Other detectors of corners than
-/// FAST put the same corner up to so far from it (SCORING.md).
+/// A verdict by place counts for a corner within this distance. Other corner detectors place the
+/// same corner up to so far from where FAST does (SCORING.md).
 inline constexpr double kCornerReach_px = 2;
 
-/// Verdicts, and those by place that name no corner, and so were left out.
+/// How many verdicts there were, and how many of those by place were left out, as they belong to no
+/// corner.
 struct VerdictCounts {
   int verdicts = 0;
   int without_corner = 0;  ///< no corner within reach
-  int repeated = 0;        ///< only corners that another verdict names
+  int repeated = 0;        ///< only corners that have a verdict already
   int corners() const { return verdicts - without_corner - repeated; }
   VerdictCounts& operator+=(const VerdictCounts& other);
 };
 
-/// In words, a line for each kind that was left out.
+/// A line for people for each kind that was left out.
 std::vector<std::string> lines_of(const VerdictCounts& counts);
 
 class FrameDetections {
  public:
-  /// \param frame with its corners, which all get the verdict `normal`; nothing else was said of
-  /// it.
+  /// \param frame with its corners, which all get the verdict `normal`, and nothing else.
   explicit FrameDetections(FrameRecord& frame);
 
   /// \param type a verdict, "box", "mask", "square" or "circle". \param values its fields, as text.
   /// \throws std::invalid_argument saying what to give instead.
   void add(std::string_view type, std::span<const std::string_view> values);
 
-  /// Takes verdicts by place to corners, one to one, nearest pair first. To be called once, last.
+  /// Assigns the verdicts by place to corners, one to one, nearest pair first. To be called once,
+  /// last.
   VerdictCounts finish();
 
-  /// Whether "circle" was said, be it of none.
+  /// Whether "circle" came up, even for a frame without circles.
   bool gives_circles() const { return gives_circles_; }
 
  private:

@@ -1,6 +1,6 @@
 /// \file
-/// What people labelled in the pictures of a recording: boxes round all that moves, in all of its
-/// pictures or in some. By MOTChallenge's `gt.txt` or a COCO file.
+/// Boxes that people drew round all that moves, in all pictures of a recording or in some. Read
+/// from MOTChallenge's `gt.txt` or a COCO file.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,11 @@
 namespace lcs::bench {
 
 struct LabelledBox {
-  int id = -1;  ///< of the object, the same in all pictures; -1: not said
+  int id = -1;  ///< of the object, the same in all pictures; -1: not given
   /// Pixel edges, as those of `sim::ObjectTruth`: a box of one pixel at (0, 0) is 0, 0, 1, 1.
   double left = 0, top = 0, right = 0, bottom = 0;
-  /// What is in it is neither right nor wrong: a crowd, a reflection, what may move or not.
+  /// What is found in it counts neither as right nor as wrong: a crowd, a reflection, what may or
+  /// may not move.
   bool ignored = false;
 };
 
@@ -34,7 +35,7 @@ class Labels {
 
   std::size_t pictures() const { return by_number_.size() + by_name_.size(); }
 
-  /// \name The boxes of a picture, which is labelled from then on. @{
+  /// \name The boxes of a picture, which counts as labelled from then on. @{
   Boxes& at(int number) { return by_number_[number]; }
   Boxes& at(const std::string& name) { return by_name_[name]; }
   ///@}

@@ -1,7 +1,7 @@
 /// \file
-/// The recording of a run: what the filter said and what was true, frame by frame. Scores are
-/// computed from it alone, so that a live run, a stored one and a stranger's detector go through
-/// the same door.
+/// The recording of a run: what the detector found and what was true, frame by frame. Scores are
+/// computed from it alone, in the same way for a live run, a stored one, and any other detector's
+/// output.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,7 +27,7 @@ namespace lcs::bench {
 inline constexpr int kSightings = 3;
 
 /// Wall times of one frame. The only part of a recording that differs between two runs. 0 for what
-/// was not done, as where corners are those of an earlier run.
+/// was not done, as when the corners are those of an earlier run.
 struct FrameTimes {
   double simulate_ms = 0;  ///< physics and rendering
   double detect_ms = 0;    ///< `cv::FAST` on this frame: the yardstick
@@ -36,11 +36,11 @@ struct FrameTimes {
   double circle_ms = 0;
   double square_ms = 0;
   double filter_ms = 0;   ///< whole step
-  double process_ms = 0;  ///< likewise of a detector that is a process: what it is handed included
+  double process_ms = 0;  ///< likewise of a detector that is a process, the transfer to it included
   double truth_ms = 0;    ///< labelling of the corners
 };
 
-/// What squares cover, pixel by pixel, by their ids: of a detector that says so.
+/// The pixels that squares cover, by the squares' ids, from a detector that finds them.
 using SquareMasks = std::map<Id, sim::Mask>;
 
 struct FrameRecord {
@@ -56,50 +56,50 @@ struct FrameRecord {
   EgoMotion true_motion;                       ///< likewise, from the exact poses
   std::vector<sim::CornerTruth> corner_truth;  ///< of each corner
   std::vector<sim::ObjectTruth> object_truth;
-  /// Of a frame that somebody labelled: all that moves in it.
+  /// All that moves in the frame, if somebody labelled it.
   std::optional<std::vector<LabelledBox>> labels;
   std::optional<FrameTimes> times;  ///< none in a recording that was stored
 };
 
-/// What is known of corners and objects, by which they can be scored.
+/// How much of the truth is known, and so what can be scored.
 enum class Truth : std::uint8_t {
-  all,            ///< of every corner and object: it was simulated
-  nothing_moves,  ///< that every corner is fixed; of objects nothing
-  unknown,        ///< nothing but `FrameRecord::labels`, where there are some
+  all,            ///< that of every corner and object, as in a simulation
+  nothing_moves,  ///< every corner is fixed; nothing is known of objects
+  unknown,        ///< nothing but `FrameRecord::labels`, if there are any
 };
 
 /// The detector whose verdicts a recording holds.
 struct DetectorInfo {
   std::string name = "lcs";
-  /// Its stages and layers are the filter's: the layers are all that it remembers of former frames,
-  /// so that their size is a figure. False for a comparator or a stranger's detector, which give
-  /// boxes and no more.
+  /// It is the filter: the layers are all that it keeps of former frames, so that their size is a
+  /// figure. False for comparators and other detectors, whose layers only carry their results.
   bool layered = true;
-  /// It groups rebels to circles, by which false objects are counted. False for a stranger's
-  /// detector that has not said so.
+  /// It groups rebels into circles, from which false objects are counted. False for a detector that
+  /// has not given any.
   bool circles = true;
 };
 
 struct Recording {
   std::string scenario;
   std::uint64_t seed = 0;
-  /// `scenario::Scenario::world`, by which it is known whether the scenario is still the same;
-  /// empty where there is none.
+  /// `scenario::Scenario::world`, to tell whether the scenario's world has changed since; empty
+  /// where there is none.
   std::map<std::string, std::string> world;
   DetectorInfo detector;
   std::optional<Intrinsics> camera = {};  ///< as detectors are told of it
   Truth truth = Truth::all;
   std::vector<sim::Object> objects;
   std::vector<FrameRecord> frames;  ///< by index
-  /// Of the world, until after the last frame; none where nobody looked.
+  /// Of the world, from the whole run; none where there was no simulation to watch.
   std::optional<sim::Warnings> warnings = {};
 };
 
-/// Says of each corner of a frame what is known of it if no simulation does.
+/// Sets the truth of a frame's corners from what is known without a simulation.
 /// \param frame with its corners. \param truth not `all`.
 void set_corner_truth(Truth truth, FrameRecord& frame);
 
-/// What there was to see and what was true, without a detector's verdicts, layers and times.
+/// The recording without the detector's verdicts, layers and times: what there was to see, and the
+/// truth.
 Recording without_detections(const Recording& recording);
 
 }  // namespace lcs::bench

@@ -54,7 +54,7 @@ struct OrNan {  ///< NaN, as the motion of a point that leaves the camera's fron
 };
 ///@}
 
-/// What has a form, and is no number: left out of tables of numbers. Older files lack it.
+/// A shape (an outline, a mask), which tables of numbers leave out. Older files lack it.
 template <class T>
 struct Form {
   T& value;
@@ -68,7 +68,7 @@ struct CornerRow {
   Reason reason = Reason::unknown;
 };
 
-/// Of a corner.
+/// A corner's place.
 struct Place {
   double x = 0;
   double y = 0;

@@ -1,12 +1,12 @@
 /// \file
-/// A recording on disk, times apart: `layers.jsonl`, what the tracker was given and said, and
-/// `truth.jsonl`, what was true. A JSON object a line, a line a frame; `truth.jsonl` begins with
-/// one line more about the run and its detector. The motion that was told is `told_motion` in the
-/// one, the exact one `true_motion` in the other. Lists of items are stored by column, as {"id":
-/// [1, 2], "x": [3.5, 4]}.
+/// A recording on disk, without its times: `layers.jsonl` holds what the tracker was given and what
+/// it found, `truth.jsonl` the truth. Each frame is a JSON object on a line of its own;
+/// `truth.jsonl` begins with a further line about the run and its detector. `told_motion` in the
+/// first file is the motion that the tracker was told, `true_motion` in the second the exact one.
+/// Lists of items are stored by column, as {"id": [1, 2], "x": [3.5, 4]}.
 ///
-/// Where the tracker was given signatures, `layers.jsonl` has "signatures": the 32 bytes of each
-/// corner's in the corners' order, as ORB has them, in hexadecimal digits (Python:
+/// Where the tracker was given signatures, `layers.jsonl` has "signatures": 32 bytes for each
+/// corner, in the order of the corners, as ORB has them, in hexadecimal digits (Python:
 /// `bytes.fromhex(frame["signatures"])`).
 ///
 /// The mask of an object or a square is COCO's word of the pixels in its box: pycocotools' `decode`
@@ -37,12 +37,12 @@ inline constexpr const char* kCameraFile = "camera.json";
 std::string layers_line(const FrameRecord& frame);
 std::string truth_line(const FrameRecord& frame);
 
-/// Of a frame what a detector is given beside the picture, as `layers_line` has it.
+/// What a detector is given of a frame beside the picture, in the format of `layers_line`.
 /// \param motion what it can use of `frame.motion`; null: nothing.
 std::string given_line(const FrameRecord& frame, const EgoMotion* motion);
 
-/// \name The truth of frames that nobody has watched (`lcs generate`): a line of the objects, then
-/// one a frame, with places and truth of its corners and the truth of its objects.
+/// \name The truth of frames that no detector has seen (`lcs generate`): a line of the objects,
+/// then one a frame, with places and truth of its corners and the truth of its objects.
 ///@{
 std::string objects_line(const std::vector<sim::Object>& objects);
 std::string seen_line(const FrameRecord& frame);

@@ -1,7 +1,6 @@
 /// \file
-/// What should not have been in a run, told with its figures: what the simulation saw
-/// (`sim/warnings.h`), pictures with hardly a corner, and of recordings a motion that cannot be
-/// (`motion_warnings.h`).
+/// Warnings that come with the figures of a run: those of the simulation (`sim/warnings.h`),
+/// pictures with hardly a corner, and in recordings an implausible motion (`motion_warnings.h`).
 #pragma once
 
 #include <cstdint>
@@ -17,12 +16,12 @@ namespace lcs::bench {
 
 inline constexpr const char* kWarningsFile = "warnings.json";
 
-/// A frame with fewer corners tells nothing: those round a corner bear its match out.
+/// Fewer corners in a frame are too few: a match needs other corners round it to support it.
 inline constexpr int kFewCorners = 10;
 
 struct Warned {
   std::string word;                   ///< "warnings.WORD" is the metric
-  std::optional<std::int64_t> count;  ///< none: nobody looked, or it is not asked of such a run
+  std::optional<std::int64_t> count;  ///< none: not checked in this run
   std::string text;                   ///< the first time, in words, and what to do; empty for none
 };
 
@@ -38,7 +37,7 @@ void write_warnings(const std::filesystem::path& path, const std::vector<Warned>
 /// What was written there. \throws std::runtime_error naming file and what is wrong with it.
 std::vector<Warned> read_warnings(const std::filesystem::path& path);
 
-/// What of a run's warnings is of its world; none where the run's folder does not say.
+/// Those of a run's warnings that the simulation gave; none where the run's folder has none.
 /// \throws as `read_warnings`.
 std::optional<sim::Warnings> world_warnings(const std::filesystem::path& folder);
 

@@ -16,13 +16,13 @@ namespace lcs::bench {
 ///   naming the nearest one that does.
 void require_known_metrics(const std::vector<scenario::Criterion>& criteria);
 
-/// Those that ask a detector of a run. \param is_own whether it is the run's own, which those that
-/// name none ask.
+/// The criteria that apply to a detector of a run. \param is_own whether it is the run's own
+/// detector, to which those apply that name none.
 std::vector<scenario::Criterion> asked_of(const std::string& detector, bool is_own,
                                           const std::vector<scenario::Criterion>& criteria);
 
-/// A line for each detector that criteria ask and that is not among a run's, as "not asked:
-/// criteria of klt (crossing.yaml:31, the first of 2); let it watch, by --beside".
+/// A line for each detector that criteria name and the run does not have, as "not asked: criteria
+/// of klt (crossing.yaml:31, the first of 2); let it watch, by --beside".
 std::vector<std::string> not_asked(const std::vector<scenario::Criterion>& criteria,
                                    const std::set<std::string>& detectors);
 

@@ -11,7 +11,7 @@
 namespace lcs::bench {
 
 inline constexpr const char* kMetricsFile = "metrics.json";
-inline constexpr const char* kMetricsSign = "\"rebel.f1\"";  ///< in no other program's file
+inline constexpr const char* kMetricsSign = "\"rebel.f1\"";  ///< no other program's file has it
 inline constexpr const char* kFramesFile = "frames.csv";
 
 /// Flat JSON, null for what is undefined. \throws OutputError
@@ -26,7 +26,7 @@ Metrics read_metrics(const std::filesystem::path& path);
 /// reads back to the same bits. \throws OutputError; std::invalid_argument as `score`.
 void write_frames(const std::filesystem::path& path, const Recording& recording);
 
-/// Gives a recording that was stored the times of its frames again, from its `frames.csv`.
+/// Restores the times of a stored recording's frames from its `frames.csv`.
 /// \throws std::runtime_error naming file, line and what is wrong there.
 void read_times(const std::filesystem::path& frames_csv, Recording& recording);
 

@@ -1,5 +1,5 @@
 /// \file
-/// The pixels that an object or a square covers, and how much two of these have in common.
+/// The pixels that an object or a square covers, and how much two such regions overlap.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct Stretch {
   int column = 0, top = 0, bottom = 0;
 };
 
-/// By column, and by row within one; stretches do not touch.
+/// Ordered by column, and by row within a column; stretches do not touch.
 struct Region {
   std::vector<Stretch> stretches;
   std::int64_t pixels = 0;
@@ -25,8 +25,8 @@ struct Region {
 Region region_of(const sim::Mask& mask);
 
 /// Pixels whose centre is within or on the rim, to a millionth of a pixel. Of a polygon that is not
-/// convex each column is covered from its uppermost point to its lowest. What is farther out than
-/// any picture is left out.
+/// convex each column is covered from its uppermost point to its lowest. Pixels farther out than
+/// any picture reaches are left out.
 ///@{
 Region region_of(const Outline& outline);
 Region region_of(const Box& box);

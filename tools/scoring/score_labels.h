@@ -1,5 +1,5 @@
 /// \file
-/// What a detector made of the frames that somebody labelled.
+/// Scores a detector in the frames that somebody labelled.
 #pragma once
 
 #include "tools/recording/recording.h"
@@ -10,7 +10,7 @@ namespace lcs::bench {
 struct LabelScore {
   int frames = 0;
   int boxes = 0;        ///< that are not ignored
-  int found = 0;        ///< of these, with as many rebel corners in them as find an object
+  int found = 0;        ///< of these, with rebel corners enough in them (`kCornersToFind`)
   int boxed = 0;        ///< of these, matched by a square that moves, at an IoU of 0.5
   int rebels_off = 0;   ///< rebel corners in no box
   int circles_off = 0;  ///< rebel circles with no box under them

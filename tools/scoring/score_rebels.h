@@ -14,15 +14,15 @@ namespace lcs::bench {
 /// At least this many rebel corners on an object count as having found it.
 inline constexpr int kCornersToFind = 3;
 
-/// What a corner counts as, by its label and its verdict.
+/// How a corner counts, by its label and its verdict.
 enum class CornerOutcome : std::uint8_t {
   uncounted,     ///< of the warm-up, or neither fixed nor rebel in truth
   fixed,         ///< and not called a rebel
   false_rebel,   ///< FP: fixed, but called a rebel
   found,         ///< TP
-  found_early,   ///< TP that recall does not count: its object has just become distinct
+  found_early,   ///< TP too soon after its object's first (`kSightings`): recall leaves it out
   missed,        ///< FN
-  missed_early,  ///< no FN, for the same cause
+  missed_early,  ///< missed as soon: recall leaves it out, too
 };
 
 /// Of each corner of each frame, in order.
@@ -65,7 +65,7 @@ struct RebelObjectScore {
   std::vector<double> latencies;  ///< frames from the first distinct one, of each that was found
   int false_circles = 0;          ///< as `false_circles`
   int frames = 0;                 ///< in which false circles were looked for
-  int seen = 0;     ///< moving objects with as many rebel corners as find one, over these frames
+  int seen = 0;     ///< moving objects with `kCornersToFind` rebel corners, over these frames
   int circled = 0;  ///< of these, with the centre of a rebel circle in their box
 };
 

@@ -1,5 +1,5 @@
 /// \file
-/// How well squares cover the objects that are to be seen.
+/// How well squares cover the visible objects.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace lcs::bench {
 struct SquareCounts {
   int boxes = 0;    ///< eligible truth boxes
   int matched = 0;  ///< of these
-  int squares = 0;  ///< right or wrong; those on objects that are not eligible are neither
+  int squares = 0;  ///< right or wrong; those on objects that are not eligible count as neither
 
   std::optional<double> recall() const;
   std::optional<double> precision() const;
@@ -23,22 +23,22 @@ struct SquareCounts {
 /// A box and a square that overlap.
 struct BoxPair {
   double iou = 0;
-  int box = 0;  ///< its object, or whatever else tells it from other boxes
+  int box = 0;  ///< its object, or any other number that tells it from other boxes
   Id square = 0;
 };
 
-/// Those that belong together: one to one, greedy, best first. Ids settle ties, so that the order
+/// Matches boxes and squares one to one, greedily, best first. Ids settle ties, so that the order
 /// in which pairs come does not matter.
 std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs);
 
-/// \name At this IoU a square is right; objects that a square can be asked to find.
+/// \name When a square is right, and which objects squares should find.
 ///@{
 inline constexpr double kRightIou = 0.5;
 /// Of a frame, by number: large enough, with corners, and enough of them visible.
 std::set<int> eligible_objects(const FrameRecord& frame);
 ///@}
 
-/// What the squares of a frame have to do with its objects.
+/// Which squares of a frame are right, and which wrong.
 struct SquareOutcomes {
   std::set<int> eligible;
   std::vector<BoxPair> right;  ///< pairs at `kRightIou` or over

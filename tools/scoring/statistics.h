@@ -1,5 +1,5 @@
 /// \file
-/// Means, quantiles and ratios that are undefined, not 0, where there is nothing to take them of.
+/// Means, quantiles and ratios. Without any values they are undefined, not 0.
 #pragma once
 
 #include <algorithm>
