@@ -10,18 +10,13 @@
 namespace lcs {
 namespace {
 
-using Eigen::Vector3d;
+using testing::ahead;
+using testing::kDegree;
 using testing::Random;
-using testing::steady_motion;
 using testing::vga;
 
-constexpr double kDegree = kPi / 180;
 const CircleParameters kLab = preset("lab").circle;
 const TrustRanks kRanks = kLab.trust;
-
-MotionField ahead() {
-  return {vga(), steady_motion({0, 0, 0.5}, Vector3d::Zero(), 0.1), FieldParameters{}};
-}
 
 Edge normal(const Vec2& at, double depth_ratio = 1) {
   Edge edge;

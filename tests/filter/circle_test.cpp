@@ -9,12 +9,8 @@ namespace lcs {
 namespace {
 
 using Eigen::Vector3d;
-using testing::steady_motion;
+using testing::ahead;
 using testing::vga;
-
-MotionField ahead() {
-  return {vga(), steady_motion({0, 0, 0.5}, Vector3d::Zero(), 0.1), FieldParameters{}};
-}
 
 Edge normal(const Vec2& at, double depth_ratio = 1) {
   Edge edge;

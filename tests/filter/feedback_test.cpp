@@ -15,14 +15,11 @@ namespace lcs {
 namespace {
 
 using Eigen::Vector3d;
+using testing::ahead;
 using testing::Random;
 using testing::steady_motion;
 using testing::vga;
 using testing::World;
-
-MotionField ahead() {
-  return {vga(), steady_motion({0, 0, 0.5}, Vector3d::Zero(), 0.1), FieldParameters{}};
-}
 
 Circle circle(const Vec2& at, int trust, bool ignoring = false) {
   Circle c;

@@ -37,6 +37,20 @@ std::vector<Verdict> step(PaperEdges& experts, Layers& layers, const std::vector
   return verdicts;
 }
 
+/// The field of a camera that moves to the left.
+MotionField to_the_right() {
+  return {vga(), steady_motion({-0.5, 0, 0}, Vector3d::Zero(), 0.1), FieldParameters{}};
+}
+
+/// A trusted normal edge.
+Edge edge_with_radius(double mu) {
+  Edge edge;
+  edge.location = {300, 240};
+  edge.mu = mu;
+  edge.trust = 4;
+  return edge;
+}
+
 /// A random normal edge under a random motion of the camera, and the frame that comes.
 struct NormalEstimates : ::testing::Test {
   struct Case {
@@ -161,13 +175,9 @@ TEST_F(NormalEstimates, AtTheCriticalTrustOneMissDeletesAndNothingIsDividedByZer
 
 /// Cor = 1 - rho^2 of the corners of the landmark's group inside its radius.
 TEST_F(NormalEstimates, CorWidensTheRadiusWhereTheGroupLiesOnALine) {
-  const MotionField field(vga(), steady_motion({-0.5, 0, 0}, Vector3d::Zero(), 0.1),
-                          FieldParameters{});  // flows to the right
-  Edge edge;
-  edge.location = {300, 240};
+  const MotionField field = to_the_right();
+  Edge edge = edge_with_radius(20);
   edge.depth_ratio = 1.4;
-  edge.mu = 20;
-  edge.trust = 4;
   const double step_px = field.reference_speed(edge.location) * 0.1;
   const Vec2 predicted = edge.location + Vec2(1.2 * step_px, 0);
   const auto radius = [&](const std::vector<Vec2>& offsets, int others_group) {
@@ -226,8 +236,7 @@ TEST(PaperVelocity, SettlesBesideTheTrueOneTheMoreSoTheMoreTrusted) {
 
 /// Frames that the edges of one corner lived, which goes right at a steady `ratio` of V_v.
 std::vector<int> lives(double ratio) {
-  const MotionField field(vga(), steady_motion({-0.5, 0, 0}, Vector3d::Zero(), 0.1),
-                          FieldParameters{});
+  const MotionField field = to_the_right();
   const double step_px = field.reference_speed({300, 240}) * 0.1;  // 7 px
   PaperEdges experts(vga(), kLab);
   Layers layers;
@@ -284,12 +293,8 @@ TEST(NormalEdge, StartsAtTheVehiclesSpeedFromTheFocusWithMu0) {
 /// xi_1: the corner becomes a further normal edge and no candidate, while the edge it lies ahead of
 /// loses trust.
 TEST(Xi, OneMakesAFurtherNormalEdgeAndNoCandidate) {
-  const MotionField field(vga(), steady_motion({-0.5, 0, 0}, Vector3d::Zero(), 0.1),
-                          FieldParameters{});
-  Edge edge;
-  edge.location = {300, 240};
-  edge.mu = 4;
-  edge.trust = 4;
+  const MotionField field = to_the_right();
+  const Edge edge = edge_with_radius(4);
   Layers layers;
   layers.normal_edges = {edge};
   PaperEdges experts(vga(), kLab);
@@ -303,12 +308,8 @@ TEST(Xi, OneMakesAFurtherNormalEdgeAndNoCandidate) {
 
 /// xi_4 and xi_5: the corner goes to alpha.
 TEST(Xi, FourAndFiveGoToAlpha) {
-  const MotionField field(vga(), steady_motion({-0.5, 0, 0}, Vector3d::Zero(), 0.1),
-                          FieldParameters{});
-  Edge edge;
-  edge.location = {300, 240};
-  edge.mu = 20;
-  edge.trust = 4;
+  const MotionField field = to_the_right();
+  const Edge edge = edge_with_radius(20);
   const Vec2 predicted = field.translated(edge.location, 1);
   const Vec2 against = edge.location - Vec2(5, 0);  // inside mu: 12 px short of the prediction
   ASSERT_LT((against - predicted).norm(), edge.mu);
@@ -326,12 +327,8 @@ TEST(Xi, FourAndFiveGoToAlpha) {
 
 /// Only an edge that lost its own corner has a layer to extend.
 TEST(Xi, OneOfAnEdgeWithACornerOfItsOwnIsACandidate) {
-  const MotionField field(vga(), steady_motion({-0.5, 0, 0}, Vector3d::Zero(), 0.1),
-                          FieldParameters{});
-  Edge edge;
-  edge.location = {300, 240};
-  edge.mu = 4;
-  edge.trust = 4;
+  const MotionField field = to_the_right();
+  const Edge edge = edge_with_radius(4);
   Layers layers;
   layers.normal_edges = {edge};
   PaperEdges experts(vga(), kLab);
@@ -343,8 +340,7 @@ TEST(Xi, OneOfAnEdgeWithACornerOfItsOwnIsACandidate) {
 
 /// With the focus far off, the span would widen to the whole image.
 TEST(Xi, TheSpanWidensUpToHalfADiagonal) {
-  const MotionField field(vga(), steady_motion({-0.5, 0, 0}, Vector3d::Zero(), 0.1),
-                          FieldParameters{});
+  const MotionField field = to_the_right();
   Layers layers;
   layers.normal_edges.resize(1);
   layers.normal_edges[0].location = {300, 240};
@@ -364,8 +360,7 @@ TEST(Xi, TheSpanWidensUpToHalfADiagonal) {
 
 /// Two edges predicted on either side of one corner, on the line of the flow.
 struct Competing : ::testing::Test {
-  const MotionField field{vga(), steady_motion({-0.5, 0, 0}, Vector3d::Zero(), 0.1),
-                          FieldParameters{}};
+  const MotionField field = to_the_right();
   /// Whether the edge predicted at `first` from the corner gets it, or the one at `second`.
   bool first_wins(const Vec2& first, int first_trust, const Vec2& second, int second_trust) {
     const Vec2 corner(400, 240), back = field.translated(corner, 1) - corner;
@@ -496,8 +491,7 @@ Chain row(const Vec2& a, const Vec2& b) {
 }
 
 TEST(Alpha, WhatAStaticPointOfAnyPlausibleDepthMayDoIsNoRebel) {
-  const MotionField field(vga(), steady_motion({-0.5, 0, 0}, Vector3d::Zero(), 0.1),
-                          FieldParameters{});
+  const MotionField field = to_the_right();
   const double step_px = field.reference_speed({300, 240}) * 0.1;
   const Vec2 a(300, 240);
   const auto found = [&](const Vec2& motion) {

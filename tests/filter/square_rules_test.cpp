@@ -12,18 +12,13 @@
 namespace lcs {
 namespace {
 
-using Eigen::Vector3d;
+using testing::ahead;
+using testing::kDegree;
 using testing::Random;
-using testing::steady_motion;
 using testing::vga;
 
-constexpr double kDegree = kPi / 180;
 const SquareParameters kLab = preset("lab").square;
 const TrustRanks kRanks = kLab.trust;
-
-MotionField ahead() {
-  return {vga(), steady_motion({0, 0, 0.5}, Vector3d::Zero(), 0.1), FieldParameters{}};
-}
 
 Circle circle(const Vec2& at, double radius, double depth_ratio = 1) {
   Circle c;

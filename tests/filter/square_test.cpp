@@ -10,6 +10,7 @@ namespace lcs {
 namespace {
 
 using Eigen::Vector3d;
+using testing::ahead;
 using testing::Random;
 using testing::steady_motion;
 using testing::vga;
@@ -31,10 +32,6 @@ Circle circle(const Vec2& at, double radius, double depth_ratio) {
   c.members = 5;
   c.trust = 4;
   return c;
-}
-
-MotionField ahead() {
-  return {vga(), steady_motion({0, 0, 0.5}, Vector3d::Zero(), 0.1), FieldParameters{}};
 }
 
 TEST(Overlap, IsSymmetricAndWithinItsBounds) {

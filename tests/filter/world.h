@@ -11,9 +11,13 @@
 
 #include "filter/ego_motion/ego_motion.h"
 #include "filter/kinematics/camera.h"
+#include "filter/kinematics/geometry.h"
+#include "filter/kinematics/motion_field.h"
 #include "filter/signature.h"
 
 namespace lcs::testing {
+
+inline constexpr double kDegree = kPi / 180;
 
 /// Small repeatable generator (splitmix64): the same numbers with every standard library.
 class Random {
@@ -54,6 +58,13 @@ inline EgoMotion steady_motion(const Eigen::Vector3d& v_C, const Eigen::Vector3d
   motion.w_C_radps = w_C;
   motion.R_cur_prev = rotation(-w_C * dt_s);
   return motion;
+}
+
+/// The motion field of a camera that moves ahead along its axis at 0.5 m/s, at 10 Hz.
+inline MotionField ahead(const std::optional<Ground>& ground = {}) {
+  EgoMotion motion = steady_motion({0, 0, 0.5}, Eigen::Vector3d::Zero(), 0.1);
+  motion.ground = ground;
+  return {vga(), motion, FieldParameters{}};
 }
 
 inline Vec2 project(const Intrinsics& camera, const Eigen::Vector3d& x_C) {
