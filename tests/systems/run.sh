@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Usage: run.sh SUITE SOURCE WORK [TEST-OPTION]...
 #
-# Installs another system, a SUITE of Debian's, into WORK/SUITE, from where debootstrap has it by itself, copies SOURCE
-# into it and has tools/test build and test it there: run.sh trixie . /tmp/systems
+# Installs another system into WORK/SUITE, copies SOURCE into it and has tools/test build and test it
+# there: run.sh trixie . /tmp/systems. SUITE is one of Debian's, or noble, which is Ubuntu 24.04.
 # What is there stays for the next time. Exits with 77, skipped, where that cannot be done here.
 set -euo pipefail
 suite=$1 source=$2 root=$3/$1
@@ -17,10 +17,17 @@ skip() {
 command -v debootstrap >/dev/null || skip "debootstrap is missing (Debian: debootstrap)"
 unshare --mount true 2>/dev/null || skip "this machine allows no mounts"
 
+options=(--variant=minbase --include=ca-certificates) from=()
+if [[ $suite == noble ]]; then
+  # debootstrap has one script for all of Ubuntu's releases, under the name of an old one.
+  options+=(--components=main,universe)
+  from=(http://archive.ubuntu.com/ubuntu gutsy)
+fi
+
 if [[ ! -f $root/.whole ]]; then
   rm -rf "$root"
   mkdir -p "$root"
-  debootstrap --variant=minbase --include=ca-certificates "$suite" "$root" >"$root.log" 2>&1 || {
+  debootstrap "${options[@]}" "$suite" "$root" "${from[@]}" >"$root.log" 2>&1 || {
     cat "$root.log"
     grep -q 'Failed getting release file' "$root.log" && skip "the packages of $suite are not reachable"
     exit 1
