@@ -1,7 +1,7 @@
 # Sourced by tools/run and tools/test. Brings the machine and build/ up to date:
 #   install_packages PACKAGE...   installs those that are missing, or says how and exits with 2
 #   build_release TARGET...       configures and builds the release preset, or that of $preset
-# Made for Debian 12, whose packages have the versions that the project is tested with.
+# Made for Debian 12, and tested on Debian 13 as well (tests/systems).
 # shellcheck shell=bash
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
@@ -39,17 +39,17 @@ find_root() {
   fi
 }
 
-warn_unless_debian_12() {
+warn_unless_tested() {
   local ID='' VERSION_ID='' PRETTY_NAME='this system'
   # shellcheck source=/dev/null
   [[ -r /etc/os-release ]] && . /etc/os-release
-  [[ $ID == debian && $VERSION_ID == 12 ]] ||
+  [[ $ID == debian && $VERSION_ID == 1[23] ]] ||
     say "This is made for Debian 12, and not tested as a whole on $PRETTY_NAME; trying all the same."
 }
 
 install_packages() {
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-    warn_unless_debian_12
+    warn_unless_tested
     say "There is no apt-get here; these have to be installed by other means: $*"
     return
   fi
@@ -57,7 +57,7 @@ install_packages() {
   mapfile -t missing < <(missing_packages "$@")
   [[ ${#missing[@]} -gt 0 ]] || return 0
 
-  warn_unless_debian_12
+  warn_unless_tested
   local as_root install="apt-get install -y --no-install-recommends ${missing[*]}"
   if ! find_root; then
     say "Packages are missing, and there is neither root nor sudo without a password here. As root:"
