@@ -320,7 +320,7 @@ Parameters project_default() {
   Parameters p;
   set_degrees(p.circle, p.square);
   p.circle.trust = {2, 3, 7};
-  p.circle.min_members = 5;
+  p.circle.min_members = 7;
   // An outline's crossings, and the stairs that a slanting line is drawn in, slide along it.
   p.circle.min_width = 1.5;
   p.line.ignore = false;

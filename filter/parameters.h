@@ -100,15 +100,15 @@ struct CircleParameters {
   double min_width = 0;       ///< px: deviation across their line of rebels that make one
   double gap_m = 0.2;         ///< m: between the edges of one body, about
   double upward = 0.45;       ///< what a distance upwards counts beside one along the horizon
-  double roughness = 0.06;    ///< share by which a body's depths and velocities are off a plane
+  double roughness = 0.05;    ///< share by which a body's depths and velocities are off a plane
 };
 
 /// Square expert.
 struct SquareParameters {
   TrustRanks trust{3, 5, 7};  ///< Tr^s
   LayerRule layer_rule = LayerRule::circles;
-  double max_size = 5;    ///< m: what is larger, by its depth, is no object but the setting
-  double min_area = 250;  ///< px^2: of an object's box
+  double max_size = 5;        ///< m: what is larger, by its depth, is no object but the setting
+  double min_area = 250;      ///< px^2: of an object's box
   double delta_beta_1 = 0;    ///< delta_beta,1, 90 deg: between the circles of a corner (case 1)
   double delta_beta_2 = 0;    ///< delta_beta,2, 0 deg: between aligned circles (case 2)
   double epsilon_beta_1 = 0;  ///< eps_beta,1, 15 deg

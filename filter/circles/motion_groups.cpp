@@ -10,13 +10,15 @@ namespace lcs {
 namespace {
 
 /// Edges that are looked at round each, about.
-constexpr double kCrowd = 48;
+constexpr double kCrowd = 100;
 /// Of the grid.
 constexpr double kCell_px = 24;
 /// Reaches beyond which nothing is looked for.
 constexpr double kFar = 3;
 /// Log odds that what lies at one place is of one body.
 constexpr double kNear = 2;
+/// How much inverse depth changes over a body, as the tangent of its slant to the picture.
+constexpr double kSlant = 0.2;
 
 }  // namespace
 
@@ -80,10 +82,11 @@ void MotionGroups::link() {
       });
 }
 
-/// Of what is measured to be a body's. Its values are about as large as `scale`, and so are its
-/// slopes: a plane at 45 degrees to the picture has those.
+/// Of what is measured to be a body's, with values about as large as `scale`. Velocities may change
+/// by as much over its picture, as where it comes near.
 double MotionGroups::body_evidence(const PlaneSums& sums, double scale) const {
-  return sums.evidence({PlaneCoefficients::Zero(), scale, scale}, rebel_ ? 2 : 1);
+  const double slope = (rebel_ ? 1 : kSlant) * scale;
+  return sums.evidence({PlaneCoefficients::Zero(), scale, slope}, rebel_ ? 2 : 1);
 }
 
 double MotionGroups::ground_evidence(const PlaneSums& sums) const {

@@ -275,6 +275,7 @@ TEST_P(FilterWith, OneCornerNeverFeedsTwoLandmarks) {
 TEST_P(FilterWith, LandmarksInsidePsiLoseNoTrust) {
   Parameters p = parameters();
   p.line.ignore = true;
+  p.circle.min_members = 3;  // as the scene is sparse
   Scene scene(9);
   const auto frames = record(scene, 25);
   Filter filter(scene.world.camera, p);
@@ -304,6 +305,7 @@ TEST_P(FilterWith, LandmarksInsidePsiLoseNoTrust) {
 TEST_P(FilterWith, IgnoredCornersAreThoseInsidePsi) {
   Parameters p = parameters();
   p.line.ignore = true;
+  p.circle.min_members = 3;  // as the scene is sparse
   Scene scene(10);
   const auto frames = record(scene, 20);
   Filter filter(scene.world.camera, p);

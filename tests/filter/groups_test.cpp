@@ -228,8 +228,8 @@ TEST(Groups, ARebelSquareReachesAsFarAsWhatFollowsItsEdges) {
 TEST(Groups, FewEdgesThinGroupsAndUnseenRebelsMakeNoSquare) {
   Layers layers;
   add_patch(layers, {100, 100}, {200, 100}, 3);  // on a line
-  add_patch(layers, {300, 300}, {320, 310}, 3);
-  layers.normal_edges.resize(layers.normal_edges.size() - 2);  // four, one less than it takes
+  add_patch(layers, {300, 300}, {330, 310}, 3);
+  layers.normal_edges.resize(layers.normal_edges.size() - 2);  // six, one less than it takes
   add_rebels(layers, {300, 100}, {340, 140}, {80, 0});
   for (Edge& edge : layers.rebel_edges) edge.corner = -1;
   EXPECT_TRUE(squares_of(layers).empty());
