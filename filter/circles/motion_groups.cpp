@@ -10,7 +10,7 @@ namespace lcs {
 namespace {
 
 /// Edges that are looked at round each, about.
-constexpr double kCrowd = 100;
+constexpr double kCrowd = 76;
 /// Of the grid.
 constexpr double kCell_px = 24;
 /// Reaches beyond which nothing is looked for.
@@ -33,10 +33,12 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
   sums_.clear();
   reach_px_.clear();
   points_.clear();
-  make_room(of_edge_, edges.size());
-  make_room(sums_, edges.size());
-  make_room(reach_px_, edges.size());
-  make_room(points_, edges.size());
+  const auto seen = static_cast<std::size_t>(
+      std::ranges::count_if(edges, [](const Edge& edge) { return edge.corner >= 0; }));
+  make_room(of_edge_, seen);
+  make_room(sums_, seen);
+  make_room(reach_px_, seen);
+  make_room(points_, seen);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const Edge& edge = edges[i];
     if (edge.corner < 0 || (!edge.rebel && !std::isfinite(edge.depth_ratio_sigma))) continue;
@@ -71,7 +73,7 @@ void MotionGroups::link() {
   links_.clear();
   // Each pair is looked at once.
   make_room(links_, static_cast<std::size_t>(kCrowd / 2 * static_cast<double>(points_.size())));
-  grid_.visit_crowd_pairs(
+  grid_.visit_pairs(
       kCrowd, [&](int i) { return kFar * reach_px_[i]; },
       [&](int i, int j, double apart2_px2) {
         const double reach_px = std::min(reach_px_[i], reach_px_[j]);
@@ -124,7 +126,7 @@ const std::vector<MotionGroups::Group>& MotionGroups::group(const std::vector<Ed
   groups_.clear();
   make_room(grouped_, points_.size());
   make_room(groups_, points_.size());
-  members_.collect(sets_, [](std::size_t) { return true; });
+  members_.collect(sets_);
   members_.visit([&](std::span<const int> members) {
     const PlaneSums& sums = sums_[sets_.root(members.front())];
     const bool ground =

@@ -39,21 +39,17 @@ class DisjointSets {
 /// The members of disjoint sets, in memory that is kept from frame to frame.
 class SetMembers {
  public:
-  /// \param accept(i) whether a thing is listed.
-  template <typename Accept>
-  void collect(DisjointSets& sets, Accept&& accept) {
+  void collect(DisjointSets& sets) {
     refill(first_, sets.size() + 2);
-    for (std::size_t i = 0; i < sets.size(); ++i) {
-      if (accept(i)) ++first_[sets.root(static_cast<int>(i)) + 2];
-    }
+    for (std::size_t i = 0; i < sets.size(); ++i) ++first_[sets.root(static_cast<int>(i)) + 2];
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     refill(members_, first_.back());
     for (std::size_t i = 0; i < sets.size(); ++i) {
-      if (accept(i)) members_[first_[sets.root(static_cast<int>(i)) + 1]++] = static_cast<int>(i);
+      members_[first_[sets.root(static_cast<int>(i)) + 1]++] = static_cast<int>(i);
     }
   }
 
-  /// Calls `visit(members)` for each set that has some, by its root; members rise.
+  /// Calls `visit(members)` for each set, by its root; members rise.
   template <typename Visit>
   void visit(Visit&& visit) {
     for (std::size_t root = 0; root + 2 < first_.size(); ++root) {

@@ -70,21 +70,26 @@ class PointGrid {
 
   /// Calls `visit(i, j, squared distance)` once for each two points of which j lies within
   /// `radius_px(i)` of i, the one that comes first in the grid: where radii differ, what matters
-  /// must lie within both.
+  /// must lie within both. Where points lie close it looks no farther than about `crowd` of them
+  /// reach, so that the time stays in proportion to their number.
   template <typename Radius, typename Visit>
-  void visit_pairs(Radius&& radius_px, Visit&& visit) const {
-    visit_pairs_about([&](const Placed& here) { return radius_px(here.index); }, visit);
-  }
-
-  /// The same, but where points lie close no farther than about `crowd` of them reach, so that the
-  /// time stays in proportion to their number.
-  template <typename Radius, typename Visit>
-  void visit_crowd_pairs(double crowd, Radius&& radius_px, Visit&& visit) const {
-    visit_pairs_about(
-        [&](const Placed& here) {
-          return std::min(radius_px(here.index), crowd_radius(here.location, crowd));
-        },
-        visit);
+  void visit_pairs(double crowd, Radius&& radius_px, Visit&& visit) const {
+    for (int r = 0; r < rows_; ++r) {
+      for (std::size_t i = first_[cell(0, r)]; i < first_[cell(columns_ - 1, r) + 1]; ++i) {
+        const Placed& here = placed_[i];
+        const Vec2& x = here.location;
+        const double radius = std::min<double>(radius_px(here.index), crowd_radius(x, crowd));
+        const auto visit_from = [&](std::size_t first, std::size_t last) {
+          visit_near(first, last, x, radius * radius,
+                     [&](int j, double distance2) { visit(here.index, j, distance2); });
+        };
+        const int left = column(x.x() - radius), right = column(x.x() + radius);
+        const int bottom = row(x.y() + radius);
+        visit_from(i + 1, first_[cell(right, r) + 1]);
+        for (int below = r + 1; below <= bottom; ++below)
+          visit_from(first_[cell(left, below)], first_[cell(right, below) + 1]);
+      }
+    }
   }
 
   /// Points of some cells, and how much of the plane these take, px^2.
@@ -150,27 +155,6 @@ class PointGrid {
   int row(double y) const { return clamped((y - low_.y()) / cell_px_, rows_); }
   static int clamped(double cells, int count) {
     return static_cast<int>(std::clamp(cells, 0.0, static_cast<double>(count - 1)));
-  }
-
-  /// `visit_pairs` with the radius of a placed point.
-  template <typename Radius, typename Visit>
-  void visit_pairs_about(Radius&& radius_px, Visit&& visit) const {
-    for (int r = 0; r < rows_; ++r) {
-      for (std::size_t i = first_[cell(0, r)]; i < first_[cell(columns_ - 1, r) + 1]; ++i) {
-        const Placed& here = placed_[i];
-        const Vec2& x = here.location;
-        const double radius = radius_px(here);
-        const auto visit_from = [&](std::size_t first, std::size_t last) {
-          visit_near(first, last, x, radius * radius,
-                     [&](int j, double distance2) { visit(here.index, j, distance2); });
-        };
-        const int left = column(x.x() - radius), right = column(x.x() + radius);
-        const int bottom = row(x.y() + radius);
-        visit_from(i + 1, first_[cell(right, r) + 1]);
-        for (int below = r + 1; below <= bottom; ++below)
-          visit_from(first_[cell(left, below)], first_[cell(right, below) + 1]);
-      }
-    }
   }
 
   /// Visits those of some points placed one after the other that are near x. It sorts them out in

@@ -142,7 +142,7 @@ TEST(Memory, IsBoundedByTheMostCornersAndHowCloseTheyLie) {
   EXPECT_LT(peak_bytes(vga(), "300", 300), 300 * 9500);
   // Ten times as close each has more about it; those that are not
   // looked at cost what is said of each, and their place in the queue.
-  EXPECT_LT(peak_bytes(vga(), "300", 3000), 300 * 12000 + 2700 * 120);
+  EXPECT_LT(peak_bytes(vga(), "300", 3000), 300 * 12500 + 2700 * 120);
 }
 
 }  // namespace

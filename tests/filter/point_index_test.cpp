@@ -115,7 +115,7 @@ TEST(PointGrid, VisitsEachPairWithinTheRadiusOfItsFirstOnce) {
     const auto radius = [](int i) { return 20.0 + i % 50; };
     grid.build(points, cell);
     std::map<std::pair<int, int>, int> visits;
-    grid.visit_pairs(radius, [&](int i, int j, double distance2) {
+    grid.visit_pairs(1e6, radius, [&](int i, int j, double distance2) {
       EXPECT_EQ(distance2, (points[i] - points[j]).squaredNorm());
       EXPECT_LE(std::sqrt(distance2), radius(i));
       ++visits[std::minmax(i, j)];
@@ -135,7 +135,8 @@ TEST(PointGrid, VisitsEachPairWithinTheRadiusOfItsFirstOnce) {
     }
   }
   grid.build({}, 20);
-  grid.visit_pairs([](int) { return 100; }, [](int, int, double) { FAIL(); });
+  grid.visit_pairs(
+      1e6, [](int) { return 100; }, [](int, int, double) { FAIL(); });
 }
 
 /// Points spread evenly, as far apart as on a chequered floor.
@@ -197,7 +198,7 @@ TEST(PointGrid, LooksAtNoMorePairsHoweverClosePointsLie) {
     const std::vector<Vec2> points = even_points(apart);
     grid.build(points, 24);
     std::size_t looks = 0;
-    grid.visit_crowd_pairs(
+    grid.visit_pairs(
         kCrowd, [](int) { return 200.0; }, [&](int, int, double) { ++looks; });
     EXPECT_LT(looks, kCrowd * static_cast<double>(points.size())) << apart;
     EXPECT_GT(looks, kCrowd / 4 * static_cast<double>(points.size())) << apart;
