@@ -205,7 +205,7 @@ TEST_F(Run, EgoMotionIsExactOnlyWhereTheScenarioSaysSo) {
 
 TEST_F(Run, AFilterSettingReachesTheFilter) {
   ASSERT_EQ(run(brief({"--out", "a"})).exit_code, 0);
-  ASSERT_EQ(run(brief({"--out", "b", "--set", "filter.circle.min_members=6"})).exit_code, 0);
+  ASSERT_EQ(run(brief({"--out", "b", "--set", "filter.hypotheses.noise=2"})).exit_code, 0);
   EXPECT_FALSE(read(folder_.path() / "a" / kLayersFile) ==
                read(folder_.path() / "b" / kLayersFile));
 }
