@@ -22,16 +22,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Of pictures: what the filter holds for every pixel must fit into memory.
-constexpr int kLongestSide_px = 16384;
-
 const Intrinsics& checked(const Intrinsics& camera) {
-  const auto is_size = [](int pixels) { return pixels > 0 && pixels <= kLongestSide_px; };
   if (!(camera.focal_px > 0) || !std::isfinite(camera.focal_px) || !camera.centre_px.allFinite() ||
-      !is_size(camera.width_px) || !is_size(camera.height_px)) {
+      camera.width_px < 1 || camera.height_px < 1) {
     throw std::invalid_argument(
-        "the filter needs a camera with a focal length, a principal point, and 1 to " +
-        std::to_string(kLongestSide_px) + " pixels a side");
+        "the filter needs a camera with a focal length, a principal point, and pixels on each side");
   }
   return camera;
 }

@@ -11,15 +11,13 @@
 namespace lcs {
 
 /// Keys and values as `set` takes them.
-inline constexpr std::array<std::pair<const char*, const char*>, 15> kLearnt{{
+inline constexpr std::array<std::pair<const char*, const char*>, 13> kLearnt{{
     {"field.nearest_depth", "0.4"},
     {"hypotheses.noise", "0.6"},
     {"hypotheses.prior", "0.03"},
     {"hypotheses.turnover", "1"},
     {"hypotheses.wrong", "0.05"},
     {"hypotheses.ego_share", "0.02"},
-    {"hypotheses.voice", "0.05"},
-    {"hypotheses.acceleration", "1"},
     {"hypotheses.bits_even", "77.5"},
     {"hypotheses.bits_weight", "0.152"},
     {"hypotheses.voters_share", "0.5"},

@@ -54,11 +54,11 @@ struct LineParameters {
 struct HypothesisParameters {
   double noise_px = 0.6;  ///< standard deviation of a corner's place on an axis: whole pixels, FAST
   double prior = 0.03;    ///< share of corners that move
-  double turnover_ps = 1;       ///< 1/s: how often a corner changes its kind, or a track its corner
+  /// 1/s: how often a corner changes its kind, a track its corner, or a mover its image velocity by
+  /// as much as that is.
+  double turnover_ps = 1;
   double wrong = 0.05;          ///< share of matches that are none
   double ego_share = 0.02;      ///< of the image motion by which the camera's velocity may be wrong
-  double voice = 0.05;          ///< what a miss counts in the fit of the told motion
-  double acceleration_ps = 1;   ///< 1/s: share of its image velocity by which a mover changes it
   double max_speed_pxps = 900;  ///< px/s: the fastest that a mover is looked for, rotation removed
   int coast = 3;                ///< frames that a track goes on unseen
   /// That differ where two signatures are as often of one place as of two; of more no pair is made.

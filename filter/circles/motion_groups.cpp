@@ -3,21 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "filter/edges/gauss.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/matching/refill.h"
 
 namespace lcs {
 namespace {
 
-/// Edges that are looked at round each, about.
-constexpr double kCrowd = 76;
-/// Of the grid.
-constexpr double kCell_px = 24;
-/// Reaches beyond which nothing is looked for.
-constexpr double kFar = 3;
 /// Log odds that what lies at one place is of one body.
 constexpr double kNear = 2;
-/// How much inverse depth changes over a body, as the tangent of its slant to the picture.
+/// How much inverse depth changes over a body, as the tangent of its slant to the picture. A depth
+/// that is known worse than to such a share says nothing of a body.
 constexpr double kSlant = 0.2;
 
 }  // namespace
@@ -26,9 +22,8 @@ MotionGroups::MotionGroups(const Intrinsics& camera, const CircleParameters& par
     : camera_(camera), parameters_(parameters) {}
 
 void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& field) {
-  const auto along_horizon = field.along_horizon();
-  const auto upright =
-      along_horizon ? UprightMetric{*along_horizon, parameters_.upward} : UprightMetric{};
+  const Vec2 up = field.ground() ? Vec2(field.ground()->up_C.head<2>()) : Vec2::Zero();
+  const UprightMetric upright(up, parameters_.upward);
   of_edge_.clear();
   sums_.clear();
   reach_px_.clear();
@@ -41,7 +36,8 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
   make_room(points_, seen);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const Edge& edge = edges[i];
-    if (edge.corner < 0 || (!edge.rebel && !std::isfinite(edge.depth_ratio_sigma))) continue;
+    if (edge.corner < 0 || (!edge.rebel && !(edge.depth_ratio_sigma < kSlant * edge.depth_ratio)))
+      continue;
     const Vec2 h = (edge.location - camera_.centre_px) / camera_.focal_px;
     Vec2 value;
     double sigma = 0;
@@ -69,10 +65,10 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
 }
 
 void MotionGroups::link() {
-  grid_.build(points_, kCell_px);
+  grid_.build(points_, parameters_.hypotheses.coupling_reach_px);
   links_.clear();
   // Each pair is looked at once.
-  make_room(links_, static_cast<std::size_t>(kCrowd / 2 * static_cast<double>(points_.size())));
+  make_room(links_, kCrowd / 2 * points_.size());
   grid_.visit_pairs(
       kCrowd, [&](int i) { return kFar * reach_px_[i]; },
       [&](int i, int j, double apart2_px2) {

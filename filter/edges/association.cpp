@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "filter/edges/gauss.h"
@@ -10,12 +11,8 @@
 namespace lcs {
 namespace {
 
-/// Of a corner's pairs so many are asked about.
-constexpr std::size_t kMostPairs = 60;
-/// Standard deviations of their distance beyond which no neighbour is asked.
-constexpr double kFar = 3;
-/// ln: of less than this nothing is left.
-constexpr double kNone = -20;
+/// ln: what is less is lost in rounding.
+const double kNone = std::log(std::numeric_limits<float>::epsilon());
 
 }  // namespace
 
@@ -34,6 +31,12 @@ double Association::reach_area_px2(double dt_s) const {
   return std::numbers::pi * reach * reach;
 }
 
+/// Density of tracks about a corner.
+double Association::clutter_ppx2(std::size_t corner) const {
+  const double near = parameters_.coupling_reach_px;
+  return crowd_[corner] / (std::numbers::pi * near * near);
+}
+
 void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, double noise2_px2,
                              double dt_s) {
   const double reach = reach_px(dt_s);
@@ -49,14 +52,15 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
   tracks_.build(places_, std::max(20.0, reach / 2));
   pairs_.clear();
   // As many as there may ever be of so many corners, so that no later frame asks for more.
-  pairs_.reserve(chi.size() * kMostPairs + predicted.size());
+  pairs_.reserve(chi.size() * kCrowd + predicted.size());
   first_.assign(1, 0);
-  clutter_.clear();
+  crowd_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     const Vec2& x = chi.locations[c];
     int round = 1;
     tracks_.visit_within(x, near, [&](int, double) { ++round; });
-    clutter_.push_back(round / (std::numbers::pi * near * near));
+    crowd_.push_back(round);
+    const double clutter = clutter_ppx2(c);
     tracks_.visit_within(x, reach, [&](int t, double) {
       const double likeness = looks ? likeness_[distance(chi.signatures[c], signatures_[t])] : 0.0;
       if (likeness < 0) return;
@@ -67,15 +71,14 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
       const double moving = track.has_motion() ? track.as_moving.density(x, noise2_px2) : anywhere;
       const double density =
           (1 - wrong) * ((1 - moves) * still + moves * moving) + wrong * anywhere;
-      pairs_.push_back(
-          {t, x - track.place_px, likeness, std::log(density / clutter_.back()) + likeness});
+      pairs_.push_back({t, x - track.place_px, likeness, std::log(density / clutter) + likeness});
     });
-    if (pairs_.size() > first_.back() + kMostPairs) {
+    if (pairs_.size() > first_.back() + kCrowd) {
       const auto begin = pairs_.begin() + static_cast<std::ptrdiff_t>(first_.back());
-      std::nth_element(begin, begin + kMostPairs, pairs_.end(), [](const Pair& a, const Pair& b) {
+      std::nth_element(begin, begin + kCrowd, pairs_.end(), [](const Pair& a, const Pair& b) {
         return a.weight > b.weight || (a.weight == b.weight && a.track < b.track);
       });
-      pairs_.resize(first_.back() + kMostPairs);
+      pairs_.resize(first_.back() + kCrowd);
     }
     first_.push_back(pairs_.size());
   }
@@ -113,7 +116,8 @@ double Association::ask_neighbours(const Pair& pair, double noise2_px2) const {
       sum += voices_[k] * none_agrees;
       continue;
     }
-    const double agrees = std::exp(best) / (2 * std::numbers::pi * variance * clutter_[other]);
+    const double agrees = std::exp(best) / (2 * std::numbers::pi * variance *
+                                            clutter_ppx2(static_cast<std::size_t>(other)));
     sum += voices_[k] * std::log(1 - share + share * agrees);
   }
   return sum;

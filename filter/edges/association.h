@@ -29,6 +29,8 @@ class Association {
   const std::vector<int>& match(const Chi& chi, std::span<const Track> predicted, double noise2_px2,
                                 double dt_s);
 
+  /// Of the last match: tracks within the reach of the coupling about a corner, and itself.
+  int crowd(std::size_t corner) const { return crowd_[corner]; }
   /// px: how far a corner may be from where the rotation alone puts it.
   double reach_px(double dt_s) const;
   /// px^2: of the circle about it.
@@ -44,6 +46,7 @@ class Association {
   };
 
   void find_pairs(const Chi& chi, std::span<const Track> predicted, double noise2_px2, double dt_s);
+  double clutter_ppx2(std::size_t corner) const;
   double ask_neighbours(const Pair& pair, double noise2_px2) const;
 
   HypothesisParameters parameters_;
@@ -56,7 +59,7 @@ class Association {
   std::vector<Pair> pairs_;                       // by corner
   std::vector<std::size_t> first_;                // of each corner's
   Eigen::ArrayXf step_x_, step_y_, likeness_of_;  // of the pairs, to be looked through at once
-  std::vector<double> clutter_;                   // corners of the last frame about each, 1/px^2
+  std::vector<int> crowd_;                        // of each corner
   std::vector<Neighbour> near_;
   std::vector<double> voices_;  // what each of them counts
   struct Match {

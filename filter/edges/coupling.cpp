@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "filter/edges/gauss.h"
 #include "filter/matching/refill.h"
 
 namespace lcs {
 namespace {
 
-constexpr int kIterations = 6;
 /// Of the reach, of a corner without a motion, whose neighbours may be another body's.
 constexpr double kAlone = 0.64;
-/// Standard deviations beyond which no tie is looked for: a hundredth is left there.
-constexpr double kFar = 3;
 
 }  // namespace
 

@@ -11,6 +11,12 @@
 
 namespace lcs {
 
+/// Standard deviations beyond which nothing is looked for: a hundredth is left there.
+inline constexpr double kFar = 3;
+
+/// Rounds after which what is solved by turns is taken to be settled.
+inline constexpr int kIterations = 5;
+
 inline double gauss(const Vec2& residual, double variance) {
   return std::exp(-0.5 * residual.squaredNorm() / variance) / (2 * std::numbers::pi * variance);
 }

@@ -10,16 +10,6 @@
 #include "filter/matching/refill.h"
 
 namespace lcs {
-namespace {
-
-/// How far behind a rebel its origin is kept, in steps, so that beta is its direction of now.
-constexpr double kOriginSteps = 5;
-
-/// Depth is known where its standard deviation is less than this share of it.
-constexpr double kKnownDepth = 0.2;
-
-}  // namespace
-
 HypothesisEdges::HypothesisEdges(const Intrinsics& camera, const CircleParameters& parameters)
     : EdgeExpert(camera, parameters.trust),
       parameters_(parameters.hypotheses),
@@ -45,7 +35,7 @@ void HypothesisEdges::predict_tracks(const MotionField& field) {
           StaticPoint::seen_once(next.place_px, camera_, field, next.displacement_C_m, noise2_px2_);
     } else {
       next.as_static = track.as_static.predicted(camera_, field, parameters_.ego_share);
-      next.as_moving = track.as_moving.predicted(field, parameters_.acceleration_ps);
+      next.as_moving = track.as_moving.predicted(field, parameters_.turnover_ps);
     }
     next.corner = -1;
     ++next.age;
@@ -68,10 +58,11 @@ MotionFix HypothesisEdges::fix(const MotionField& told, const Chi& chi,
     const double moves = chance(track.belief);
     residuals_.push_back({point.place_px, x - point.place_px,
                           point.spread(noise2_px2_) + by_depth * by_depth.transpose(),
-                          point.inverse_depth_pm, point.covariance(2, 2), 1 - moves,
+                          point.inverse_depth_pm, point.covariance(2, 2),
+                          1.0 / association_.crowd(c), 1 - moves,
                           moves * track.as_moving.density(x, noise2_px2_) + anywhere});
   }
-  return motion_fix(camera_, told, residuals_, velocity_error_.covariance(told), parameters_.voice);
+  return motion_fix(camera_, told, residuals_, velocity_error_.covariance(told));
 }
 
 Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner) {
@@ -202,14 +193,11 @@ Edge HypothesisEdges::edge_of(const Track& track, const MotionField& field) cons
     const Vec2& velocity_pxps = track.as_moving.velocity_pxps;
     edge.speed = velocity_pxps.norm();
     if (edge.speed > 0) edge.angle = angle_of(velocity_pxps);
-    edge.origin = edge.location - kOriginSteps * field.dt_s() * velocity_pxps;
+    edge.origin = edge.location - field.dt_s() * velocity_pxps;  // so that beta is of now
     return edge;
   }
   move_as_static(edge, field);
-  const double sigma_pm = std::sqrt(track.as_static.covariance(2, 2));
-  if (sigma_pm < kKnownDepth * track.as_static.inverse_depth_pm) {
-    edge.depth_ratio_sigma = sigma_pm * field.reference_depth_m();
-  }
+  edge.depth_ratio_sigma = std::sqrt(track.as_static.covariance(2, 2)) * field.reference_depth_m();
   return edge;
 }
 

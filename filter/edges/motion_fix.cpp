@@ -1,5 +1,6 @@
 #include "filter/edges/motion_fix.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -9,11 +10,8 @@
 namespace lcs {
 namespace {
 
-constexpr int kIterations = 4;
 /// Standard deviation of the turn that is told of a frame, on an axis, before anything is seen.
 constexpr double kTurn_rad = 1e-3;
-/// m/s: keeps the velocity's positive where none is told.
-constexpr double kLeastSigma_mps = 1e-4;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -36,17 +34,17 @@ Eigen::Matrix<double, 2, 6> jacobian(const Intrinsics& camera, const Residual& r
 /// is left of it and how well the fix is known by then.
 MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
                      std::span<const Residual> residuals,
-                     const Eigen::Matrix3d& velocity_covariance, double voice) {
+                     const Eigen::Matrix3d& velocity_covariance) {
   const double dt = told.dt_s();
   const double turn = std::hypot(kTurn_rad, told.unseen_turn_rad());
   const double velocity_variance = velocity_covariance.trace() / 3;
-  Matrix6 covariance = Matrix6::Zero();
-  covariance.topLeftCorner<3, 3>().diagonal().setConstant(turn * turn);
-  covariance.bottomRightCorner<3, 3>() = velocity_covariance;
-  const Matrix6 prior = covariance.inverse();
+  Matrix6 prior = Matrix6::Zero();  // not inverted, as it is 0 where nothing can be wrong
+  prior.topLeftCorner<3, 3>().diagonal().setConstant(turn * turn);
+  prior.bottomRightCorner<3, 3>() = velocity_covariance;
+  Matrix6 covariance = prior;
   Vector6 fix = Vector6::Zero();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    Matrix6 information = prior;
+    Matrix6 information = Matrix6::Zero();
     Vector6 pull = Vector6::Zero();
     for (const Residual& residual : residuals) {
       const Eigen::Matrix<double, 2, 6> J = jacobian(camera, residual, dt);
@@ -56,12 +54,13 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
                               residual.inverse_depth_variance_pm2;
       const Vec2 left = residual.off_px - J * fix;
       const double stands = residual.stands * gauss(left, S + J * covariance * J.transpose());
-      const Eigen::Matrix<double, 6, 2> weighed =
-          voice * stands / (stands + residual.otherwise_ppx2) * J.transpose() * S.inverse();
+      const Eigen::Matrix<double, 6, 2> weighed = residual.voice * stands /
+                                                  (stands + residual.otherwise_ppx2) *
+                                                  J.transpose() * S.inverse();
       information += weighed * J;
       pull += weighed * residual.off_px;
     }
-    covariance = information.inverse();
+    covariance = (Matrix6::Identity() + prior * information).inverse() * prior;
     fix = covariance * pull;
   }
   return {fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>()};
@@ -86,13 +85,13 @@ MotionField VelocityError::without(const MotionField& told) const {
 Eigen::Matrix3d VelocityError::covariance(const MotionField& field) const {
   const double drift = ego_share_ * field.displacement_C_m().norm() / field.dt_s();
   Eigen::Matrix3d both = lasting_covariance_;
-  both.diagonal().array() += kLeastSigma_mps * kLeastSigma_mps + drift * drift;
+  both.diagonal().array() += drift * drift;
   return both;
 }
 
 void VelocityError::see(const MotionFix& fix, const MotionField& field) {
   const Eigen::Matrix3d both = covariance(field);
-  const Eigen::Matrix3d share = lasting_covariance_ * both.inverse();
+  const Eigen::Matrix3d share = both.ldlt().solve(lasting_covariance_).transpose();
   lasting_mps_ += share * fix.velocity_mps;
   lasting_covariance_ -= share * (both - fix.velocity_covariance) * share.transpose();
 }

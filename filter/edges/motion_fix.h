@@ -18,7 +18,8 @@ struct Residual {
   Vec2 place_px, off_px;
   Eigen::Matrix2d covariance_px2;  ///< of the latter, whatever its depth
   double inverse_depth_pm = 0, inverse_depth_variance_pm2 = 0;
-  double stands = 1;  ///< chance of it
+  double voice = 1;   ///< what it counts for: those of one body are off together
+  double stands = 1;  ///< chance that the point is static
   double otherwise_ppx2 =
       0;  ///< density of the corner there if it does not, times the chance of it
 };
@@ -30,10 +31,9 @@ struct MotionFix {
 };
 
 /// \param velocity_covariance of what is wrong with the told velocity before anything is seen.
-/// \param voice what a residual counts for: those of one body are off together.
 MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
                      std::span<const Residual> residuals,
-                     const Eigen::Matrix3d& velocity_covariance, double voice);
+                     const Eigen::Matrix3d& velocity_covariance);
 
 /// The error of the told velocity: one that lasts, as large as the estimator says
 /// (`EgoMotion::velocity_sigma_mps`), and one of each frame by itself.

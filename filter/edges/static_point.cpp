@@ -9,13 +9,8 @@
 namespace lcs {
 namespace {
 
-/// What the camera passes within a frame is taken to come this much nearer, and no more.
-constexpr double kMostApproach = 0.2;
-
 /// Of the height above the ground that is told, by which it may be wrong.
 constexpr double kWrongHeight = 0.1;
-/// Standard deviations of the ground beyond which nothing static is.
-constexpr double kFarBelow = 2;
 
 /// Chance of a normal variable between the bounds; never 0, as it is divided by.
 double mass(double mean, double variance, const DepthBounds& bounds) {
@@ -56,7 +51,7 @@ DepthBounds depth_bounds(const MotionField& field, const Vec2& x_px) {
   bounds.ground_sigma_pm =
       std::hypot(field.ground_slack() / field.reference_depth_m(), kWrongHeight * bounds.ground_pm);
   bounds.least_pm =
-      std::clamp(bounds.ground_pm - kFarBelow * bounds.ground_sigma_pm, 0.0, 0.95 * bounds.most_pm);
+      std::clamp(bounds.ground_pm - kFar * bounds.ground_sigma_pm, 0.0, 0.95 * bounds.most_pm);
   return bounds;
 }
 
@@ -82,10 +77,12 @@ StaticPoint StaticPoint::predicted(const Intrinsics& camera, const MotionField& 
   const Vec2 shift = camera.focal_px * d.head<2>();
   const Vec2 rotated = field.rotated(place_px);
   const Vec2 h = rotated - camera.centre_px;
-  const double nearing = std::max(kMostApproach, 1 - inverse_depth_pm * d.z());
+  // What the camera passes within a frame comes as near as anything may be.
+  const double nearing =
+      std::max(inverse_depth_pm / nearest_pm(field), 1 - inverse_depth_pm * d.z());
   StaticPoint next;
   next.place_px = camera.centre_px + (h - inverse_depth_pm * shift) / nearing;
-  next.inverse_depth_pm = std::min(inverse_depth_pm / nearing, nearest_pm(field));
+  next.inverse_depth_pm = inverse_depth_pm / nearing;
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity() / nearing;
   F.topRightCorner<2, 1>() = (h * d.z() - shift) / (nearing * nearing);
   F(2, 2) /= nearing;

@@ -38,13 +38,20 @@ inline double cross(const Vec2& a, const Vec2& b) {
 }
 
 /// Where distances upwards count less: bodies are taller than the gaps between them are wide.
-struct UprightMetric {
-  Vec2 along_horizon = Vec2::UnitX();
-  double upward = 1;  ///< what a distance upwards counts beside one along the horizon
+class UprightMetric {
+ public:
+  /// \param up what the picture shows of a unit vector upwards; null where that is not known, or
+  ///   the camera looks straight down, so that distances are as they are.
+  /// \param upward what a distance upwards counts beside one along the horizon.
+  UprightMetric(const Vec2& up, double upward)
+      : up_(up.isZero() ? Vec2(Vec2::UnitY()) : up.normalized()),
+        upward_(std::sqrt(1 - (1 - upward * upward) * up.squaredNorm())) {}
   /// To coordinates along the horizon and across it, in which distances are plain.
-  Vec2 operator()(const Vec2& x) const {
-    return {along_horizon.dot(x), upward * cross(along_horizon, x)};
-  }
+  Vec2 operator()(const Vec2& x) const { return {cross(up_, x), upward_ * up_.dot(x)}; }
+
+ private:
+  Vec2 up_;
+  double upward_;
 };
 
 /// Circular mean, gathered one angle at a time. Opposite angles cancel: the mean of none is 0.

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 #include "filter/kinematics/geometry.h"
 
@@ -11,12 +12,6 @@ namespace {
 
 /// Farther from the principal point than this many focal lengths, the FOE is at infinity.
 constexpr double kFarFoe = 100;
-
-/// Of a unit vector upwards, what must be seen in the image so that the horizon has a direction.
-constexpr double kLeastUpright = 0.5;
-
-/// Of places; a homography may bring what is farther than any picture back into one.
-constexpr double kFarthest_px = 1e9;
 
 }  // namespace
 
@@ -61,10 +56,11 @@ MotionField MotionField::corrected(const Eigen::Vector3d& turn_rad,
 }
 
 /// What is turned behind the camera has no image, and the first-order models have one for it that
-/// grows without bounds: both stay where they are, out of sight, and will go.
+/// grows without bounds: both stay where they are, out of sight, and will go. No picture has more
+/// pixels than an int tells.
 Vec2 MotionField::rotated(const Vec2& x_px) const {
   const Vec2 x = rotated_unbounded(x_px);
-  return x.cwiseAbs().maxCoeff() < kFarthest_px ? x : x_px;
+  return x.cwiseAbs().maxCoeff() < std::numeric_limits<int>::max() ? x : x_px;
 }
 
 Vec2 MotionField::rotated_unbounded(const Vec2& x_px) const {
@@ -121,13 +117,6 @@ Vec2 MotionField::earlier(const Vec2& x_px, double depth_ratio,
   // In reverse a near point may have been behind the camera: it was nowhere in the image.
   if (h.z() < 1e-3) return Vec2::Constant(-1e6);
   return centre_px_ + focal_px_ * h.head<2>() / h.z();
-}
-
-std::optional<Vec2> MotionField::along_horizon() const {
-  if (!ground_) return std::nullopt;
-  const Vec2 up = ground_->up_C.head<2>();
-  if (up.norm() < kLeastUpright) return std::nullopt;
-  return Vec2(-up.y(), up.x()).normalized();
 }
 
 std::optional<double> MotionField::ground_ratio(const Vec2& x_px) const {

@@ -101,11 +101,6 @@ class MotionField {
                    : 0;
   }
 
-  /// Unit vector along the horizon in the image, to the right where the camera is upright; none
-  /// where the ground is not known, or the camera looks so steeply that the horizon has no
-  /// direction.
-  std::optional<Vec2> along_horizon() const;
-
   /// What the ground is known by; none where it is not.
   const std::optional<Ground>& ground() const { return ground_; }
 

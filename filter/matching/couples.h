@@ -54,13 +54,10 @@ class CheapestFirst {
   }
 
  private:
-  /// So many are sorted at once.
-  static constexpr std::size_t kPerPortion = 8;
-
-  /// Counting sort into portions of equal width.
+  /// Counting sort into portions of equal width, as many as there are couples.
   void portion(std::span<const Couple> couples) {
     refill(portions_, couples.size());
-    refill(ends_, 1 + couples.size() / kPerPortion);
+    refill(ends_, 1 + couples.size());
     if (couples.empty()) return;
     float low = couples.front().cost, high = low;
     for (const Couple& couple : couples) {
@@ -74,13 +71,13 @@ class CheapestFirst {
     };
     for (const Couple& couple : couples) ++ends_[portion_of(couple)];
     // To where each starts, and by what is put there to where it ends.
-    std::exclusive_scan(ends_.begin(), ends_.end(), ends_.begin(), std::size_t{0});
+    std::exclusive_scan(ends_.begin(), ends_.end(), ends_.begin(), std::uint32_t{0});
     std::uint32_t index = 0;
     for (const Couple& couple : couples) portions_[ends_[portion_of(couple)]++] = index++;
   }
 
   std::vector<std::uint32_t> portions_;  // indices of couples
-  std::vector<std::size_t> ends_;        // of each portion
+  std::vector<std::uint32_t> ends_;      // of each portion
 };
 
 }  // namespace lcs

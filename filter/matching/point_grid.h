@@ -15,6 +15,10 @@
 
 namespace lcs {
 
+/// Of the points round one, about as many are looked at, so that the time that a frame takes stays
+/// in proportion to its points.
+inline constexpr std::size_t kCrowd = 60;
+
 /// A point found near another. Nearest first, and of equally near ones the lower index: written by
 /// hand, as the comparisons of std::pair and std::tuple compare doubles twice.
 struct Neighbour {
@@ -71,7 +75,7 @@ class PointGrid {
   /// Calls `visit(i, j, squared distance)` once for each two points of which j lies within
   /// `radius_px(i)` of i, the one that comes first in the grid: where radii differ, what matters
   /// must lie within both. Where points lie close it looks no farther than about `crowd` of them
-  /// reach, so that the time stays in proportion to their number.
+  /// reach.
   template <typename Radius, typename Visit>
   void visit_pairs(double crowd, Radius&& radius_px, Visit&& visit) const {
     for (int r = 0; r < rows_; ++r) {

@@ -10,6 +10,7 @@
 
 #include "filter/edges/association.h"
 #include "filter/edges/coupling.h"
+#include "filter/edges/gauss.h"
 #include "filter/edges/motion_fix.h"
 #include "filter/edges/own_motion.h"
 #include "filter/edges/static_point.h"
@@ -168,7 +169,7 @@ TEST(StaticPoint, IsNotNearerThanItMayBeNorBehindTheGround) {
   // It may fall away by 0.015 rad, and the height be wrong by a tenth.
   const double sigma = std::hypot(0.015 / 0.8, 0.1 * ground);
   EXPECT_NEAR(bounds.ground_sigma_pm, sigma, 1e-12);
-  EXPECT_NEAR(bounds.least_pm, ground - 2 * sigma, 1e-12);
+  EXPECT_NEAR(bounds.least_pm, ground - kFar * sigma, 1e-12);
   const auto share = [&](double inverse_depth_pm) {
     StaticPoint point =
         StaticPoint::seen_once(px, vga(), field, field.displacement_C_m(), kNoise2_px2);
@@ -261,7 +262,7 @@ TEST(OwnMotion, FollowsAVelocityUnderARotationAndGrowsSurer) {
   OwnMotion motion = OwnMotion::first(field.rotated(places[0]), places[1], kNoise2_px2, kDt_s);
   double variance = motion.covariance(1, 1);
   for (std::size_t k = 2; k < places.size(); ++k) {
-    motion = motion.predicted(field, kUsual.acceleration_ps);
+    motion = motion.predicted(field, kUsual.turnover_ps);
     EXPECT_LT((motion.place_px - places[k]).norm(), 1e-9);
     const double there = motion.density(places[k], kNoise2_px2);
     EXPECT_GT(there, motion.density(places[k] + Vec2(1, 0), kNoise2_px2));
@@ -510,7 +511,7 @@ struct Misled {
       residuals.push_back(
           {expected, x - expected + random.vector(0.3).head<2>(),
            kNoise2_px2 * Eigen::Matrix2d::Identity() + by_depth * by_depth.transpose(),
-           ratio / told.reference_depth_m(), 1e-4, 0.97, 1e-6});
+           ratio / told.reference_depth_m(), 1e-4, 0.05, 0.97, 1e-6});
     }
   }
 
@@ -540,11 +541,11 @@ TEST(MotionFix, FindsWhatTheToldMotionIsOffByAmongWrongMatches) {
       misled.residuals[i].off_px = 30 * random.vector(1).head<2>();
     }
     const double before = misled.worst_across(misled.told);
-    const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong, 0.05);
+    const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
     const double after = misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps));
     EXPECT_GT(before, 0.6);
     // The worst of 200 places. A turn and a velocity aside look alike where depths are, and each
-    // residual speaks with a twentieth of its voice, so that what is told holds the fix back.
+    // residual counts as one of twenty of a body, so that what is told holds the fix back.
     EXPECT_LT(after, before / 2);
   }
 }
@@ -556,7 +557,7 @@ TEST(MotionFix, TakesNothingFromWhatADepthExplains) {
   for (Residual& residual : misled.residuals) {
     residual.off_px += 3 * misled.told.direction(residual.place_px);
   }
-  const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong, 0.05);
+  const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
   EXPECT_LT(fix.turn_rad.norm(), 2e-4);
   EXPECT_LT(misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps)), 0.3);
 }
@@ -569,7 +570,7 @@ TEST(MotionFix, TakesLittleFromWhatIsKnownToMove) {
     misled.residuals[i].stands = 0.01;
     misled.residuals[i].otherwise_ppx2 = 0.2;
   }
-  const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong, 0.05);
+  const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
   EXPECT_LT(misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps)), 0.3);
 }
 
@@ -579,7 +580,7 @@ TEST(MotionFix, SaysNothingWhereNobodyTellsAndMoreTheMoreTell) {
   double turn = 0;
   for (const int residuals : {0, 20, 200}) {
     const Misled misled({1e-3, 0, 0}, Vector3d::Zero(), residuals, random);
-    const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong, 0.05);
+    const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
     if (residuals == 0) {
       EXPECT_EQ(fix.turn_rad.norm(), 0);
       EXPECT_TRUE(fix.velocity_covariance.isApprox(kWrong));

@@ -295,7 +295,6 @@ TEST(BadDataOfAnyKind, ACameraThatIsNoneIsRefused) {
   refuses([](Intrinsics& c) { c.centre_px.y() = kInf; });
   refuses([](Intrinsics& c) { c.width_px = -640; });
   refuses([](Intrinsics& c) { c.height_px = 0; });
-  refuses([](Intrinsics& c) { c.width_px = std::numeric_limits<int>::max(); });
 }
 
 /// The ends of each range, and each word, of what is not refused beside the other parameters.
