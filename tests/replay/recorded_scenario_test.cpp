@@ -17,6 +17,7 @@
 #include "scenarios/load.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
+#include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/playback.h"
@@ -95,12 +96,7 @@ class RecordedScenario : public testing::Test {
     return Playback(scenario::load(scenario_file(recording, more)));
   }
   std::string refusal(const std::string& recording) const {
-    try {
-      playback(recording);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "nothing was refused";
+    return bench::refusal_of<std::runtime_error>([&] { playback(recording); });
   }
   std::string poses(bool tum, int count = kFrames) const {
     std::string text;

@@ -11,6 +11,7 @@
 #include "sim/gl_context.h"
 #include "sim/world.h"
 #include "tests/sim/support.h"
+#include "tests/tools/refusal.h"
 
 namespace {
 
@@ -46,17 +47,12 @@ class GlFailure : public testing::Test {
   ~GlFailure() override { fails_to_create = fails_to_make_current = false; }
   /// What starting GL says.
   static std::string refusal() {
-    try {
-      GlContext();
-    } catch (const std::runtime_error& e) {
-      return e.what();
-    }
-    return "nothing";
+    return bench::refusal_of<std::runtime_error>([] { GlContext(); });
   }
 };
 
 TEST_F(GlFailure, AtTheStartNamesTheCallAndTheRemedy) {
-  EXPECT_EQ(refusal(), "nothing");
+  EXPECT_EQ(refusal(), "nothing was refused");
   fails_to_make_current = true;
   EXPECT_NE(refusal().find("OSMesaMakeCurrent"), std::string::npos);
   fails_to_create = true;
