@@ -174,9 +174,7 @@ void write_scenario(Value document, const fs::path& file) {
   for (scenario::Entry& entry : document.entries) {
     if (entry.key == "recording") make_absolute(entry.value);
   }
-  bench::OutputFile output(file);
-  output.write(scenario::yaml_text(document) + "\n");
-  output.close();
+  bench::write_file(file, scenario::yaml_text(document) + "\n");
 }
 
 }  // namespace

@@ -81,10 +81,7 @@ void write_metrics(const std::filesystem::path& path, const Metrics& metrics) {
     if (text.back() != '{') text += ',';
     text += fmt::format("\n  \"{}\": {}", name, figure ? fmt::format("{}", *figure) : "null");
   }
-  text += "\n}\n";
-  OutputFile file(path);
-  file.write(text);
-  file.close();
+  write_file(path, text + "\n}\n");
 }
 
 Metrics read_metrics(const std::filesystem::path& path) {
