@@ -22,10 +22,6 @@ namespace fs = std::filesystem;
 
 const ResultFiles kFiles{{"metrics.json", "video.mp4"}, "by lcs: "};
 
-void write(const fs::path& path, const std::string& text) {
-  std::ofstream(path) << text;
-}
-
 class OutputFolderTest : public testing::Test {
  protected:
   /// A finished result.

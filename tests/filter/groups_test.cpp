@@ -7,7 +7,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 #include "filter/circles/circle.h"
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
@@ -29,15 +28,11 @@ namespace {
 namespace fs = std::filesystem;
 using bench::CommandResult;
 using bench::run_lcs;
+using bench::write;
 using Eigen::Vector3d;
 
 constexpr int kFrames = 4;
 constexpr double kDt_s = 0.1, kSpeed_mps = 2, kYawRate_radps = 0.2;
-
-void write(const fs::path& file, const std::string& text) {
-  fs::create_directories(file.parent_path());
-  std::ofstream(file, std::ios::binary) << text;
-}
 
 /// What a camera sees that goes on by 4 px a frame.
 cv::Mat3b view(int frame) {

@@ -8,7 +8,6 @@
 #include "tests/tools/recordings.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/files/output_file.h"
 #include "tools/output/event_pictures.h"
 #include "tools/scoring/score_rebels.h"
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
