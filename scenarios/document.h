@@ -48,7 +48,7 @@ std::string_view kind_name(Value::Kind kind);
 /// \throws Error when the file cannot be read, is not UTF-8, or is not one YAML document.
 Value parse_file(const std::filesystem::path& file);
 
-/// As `parse_file`, of what the file might hold.
+/// Parses a text as `parse_file` does a file. \param file for messages.
 Value parse_document(const std::string& text, const std::filesystem::path& file);
 
 /// Any value, with the lines counted from `where.line`.
@@ -56,7 +56,7 @@ Value parse_text(const std::string& text, const Source& where);
 
 /// YAML that reads back as a value, in one line.
 std::string line_of(const Value& value);
-/// Likewise of a map, with a line for each key of it and of the maps in it.
+/// YAML of a map that reads back as it, with a line for each key of it and of the maps in it.
 std::string yaml_text(const Value& root);
 
 /// What is written in the tree, by the paths that `apply_set` takes: {"ego.start.0", "-4 m"}. Empty

@@ -15,7 +15,7 @@ namespace lcs::scenario {
 /// "adis16448", "tumvi", "esim", and "ideal", which has no noise.
 std::vector<std::string> imu_preset_names();
 
-/// None for a name that is not one of them.
+/// The noise of a preset; none for a name that no preset has.
 std::optional<ImuNoise> imu_preset(std::string_view name);
 
 }  // namespace lcs::scenario

@@ -23,8 +23,8 @@ struct LoadOptions {
 ///   known one, wrong units and types, values out of range or not finite, missing files).
 Scenario load(const std::filesystem::path& file, const LoadOptions& options = {});
 
-/// Likewise of a document that was not read from a file. \param file that it might be: its stem is
-/// the name, and paths begin at its folder.
+/// Checks and converts a document that was not read from a file. \param file gives the scenario its
+/// name (the stem) and the folder that relative paths begin at; it need not exist.
 Scenario load(Value root, const std::filesystem::path& file, const LoadOptions& options = {});
 
 }  // namespace lcs::scenario

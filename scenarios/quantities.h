@@ -21,7 +21,7 @@ inline constexpr Quantity kFocal{Dimension::pixels, {1, 1e6}};
 inline constexpr Quantity kInPicture{Dimension::pixels, {-100000, 100000}};
 inline constexpr Quantity kCoefficient{Dimension::number, {-1000, 1000}};
 inline constexpr Quantity kAngularRate{Dimension::angular_rate, {-720, 720}};
-/// Of the camera: ten seconds of physics between two pictures take long enough.
+/// Of the camera. At the lowest rate ten seconds of physics are computed between two pictures.
 inline constexpr Quantity kCameraRate{Dimension::frequency, {0.1, 1000}};
 inline constexpr Quantity kSensorRate{Dimension::frequency, {0, 10000, true}};
 inline constexpr Quantity kNoiseDensity{Dimension::number, {0, 1000}};

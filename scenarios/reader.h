@@ -45,7 +45,7 @@ struct Quantity {
 double as_quantity(const Value& value, const std::string& path, const Quantity& quantity);
 std::int64_t as_integer(const Value& value, const std::string& path, std::int64_t low,
                         std::int64_t high);
-/// Of corners, in grey levels; none for "auto".
+/// The threshold of FAST in grey levels; none for "auto".
 std::optional<int> as_threshold(const Value& value, const std::string& path);
 std::uint64_t as_seed(const Value& value, const std::string& path);
 const std::string& as_text(const Value& value, const std::string& path);

@@ -48,7 +48,7 @@ struct EgoPhase {
   double at_s = 0;
   double speed_mps = 0;          ///< at the start of the phase, >= 0
   double acceleration_mps2 = 0;  ///< along the direction of travel; speed stops at 0
-  /// Of travel, from the heading, ccw: pi/2 is to the left, pi is reverse.
+  /// Where it drives to, relative to its heading, ccw: pi/2 is to the left, pi is reverse.
   double direction_rad = 0;
   double yaw_rate_radps = 0;  ///< ccw
 };
@@ -66,8 +66,9 @@ struct Ego {
   Eigen::Vector2d start_m = Eigen::Vector2d::Zero();
   double heading_rad = 0;
   std::vector<EgoPhase> phases;  ///< at least one; the first is at 0, times increase
-  /// In place of all phases: at least two, times increase from 0 or later, and they lead somewhere.
-  /// `sim/route.h` has what comes between them. `start_m` is the first; they give the heading too.
+  /// Take the place of all phases. There are at least two, not all at one place, and their times
+  /// increase from 0 or later. The rover starts at the first one and heads where it goes;
+  /// `sim/route.h` says how it drives from one to the next.
   std::vector<Waypoint> waypoints;
 };
 
@@ -292,8 +293,8 @@ struct Scenario {
   std::filesystem::path file;
   std::string purpose;                          ///< one line
   std::vector<std::string> groups = {"short"};  ///< that it belongs to, at least one
-  /// In place of `scene` and all that is made of it: `ego`, `camera`, `imu`, `odometry`, `image`,
-  /// `ground` and `actors`, which then are as they are by default.
+  /// Takes the place of `scene`, `ego`, `camera`, `imu`, `odometry`, `image`, `ground` and
+  /// `actors`, which then keep their defaults.
   std::optional<Recorded> recording;
   std::filesystem::path scene;  ///< the MJCF file, which exists
   Source scene_source;
@@ -304,7 +305,7 @@ struct Scenario {
   Imu imu;
   Odometry odometry;
   EgoMotionSource ego_motion = EgoMotionSource::imu;
-  /// Of corners, grey levels, 1 to 254; none: as each picture shows (`corners.threshold: auto`).
+  /// Threshold of FAST, 1 to 254 grey levels; none: chosen in each picture (`threshold: auto`).
   std::optional<int> fast_threshold = kFastThreshold;
   double truth_min_depth_m = 0.5;  ///< nearest depth of the static segment (`radial`)
   Image image;

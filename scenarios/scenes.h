@@ -1,6 +1,6 @@
 /// \file
-/// Where scenes, rovers and actors are found: those that ship with the project, by their names, and
-/// one's own, by the paths of their files.
+/// Finds scenes, rovers and actors. A name stands for one that ships with the project, a path for a
+/// file of one's own.
 #pragma once
 
 #include <filesystem>
@@ -13,43 +13,43 @@
 
 namespace lcs::scenario {
 
-/// The environment's LCS_SCENES, else the folder of those that ship.
+/// The folder in the environment's LCS_SCENES, or else that of the scenes that ship.
 std::filesystem::path scenes_folder();
 
-/// Says where those that ship are, in place of `shipped_folder`: for a module of another program.
-/// To be called before anything else here.
+/// Sets the folder of the scenes that ship with the project, where `shipped_folder` cannot find it:
+/// in a module that another program loads. Call it before all other functions here.
 void set_shipped_scenes(std::filesystem::path folder);
 
-/// \name Of one's own, or the one that ships with the project ("ego/wheeled.xml"): that of
-/// `scenes_folder()` if it has one, else that of those that ship, so that a user's folder need not
-/// hold them all.
+/// \name The file of a rover or an actor: the scenario's own, if it names one. Else a file such as
+/// "ego/wheeled.xml" is looked for in `scenes_folder()` first and then in the folder that ships, so
+/// that a user's folder need not hold all of them.
 ///@{
 std::filesystem::path rover_file(const Ego& ego);
 std::filesystem::path actor_file(const Actor& actor);  ///< of an actor with a shape
 ///@}
 
-/// Which file is used where both the environment's LCS_SCENES and those that ship have one of a
-/// name that the scenario uses: a line for people each.
+/// A line for people for each name in the scenario that both LCS_SCENES and the folder that ships
+/// have a file of, saying which one is used.
 std::vector<std::string> shadowed_files(const Scenario& scenario);
 
-/// The file of a scene that is given by name, or by a path ending in ".xml".
-/// \param folder that such a path starts from.
-/// \throws Error saying where it was looked for, and what is there.
+/// The file of a scene that is given by name, or by a path that ends in ".xml".
+/// \param folder a relative path starts there.
+/// \throws Error that says where the scene was looked for and which scenes are there.
 std::filesystem::path find_scene(const Value& value, const std::filesystem::path& folder);
 
-/// The file that a value names. \param folder that its path starts from.
-/// \param missing what a message says before the path, as "there is no picture ".
+/// The file that a value names. \param folder a relative path starts there.
+/// \param missing begins the message, as "there is no picture ".
 /// \throws Error where there is no such file.
 std::filesystem::path file_beside(const Value& value, const std::filesystem::path& folder,
                                   const std::string& missing);
 
-/// What to do about a file that is not there. \param folder that its path starts from.
+/// What a message advises about a missing file. \param folder a relative path starts there.
 std::string path_remedy(const std::filesystem::path& folder);
 
-/// What else than a word may be given for a rover's drive and an actor's shape.
+/// What messages call the alternative to the known words for a rover's drive or an actor's shape.
 inline constexpr const char* kOwnFile = "the path of an .xml file";
 
-/// The file under a key whose value ends in ".xml"; none for any other value.
+/// The file that a key names, if its value ends in ".xml"; none for any other value.
 /// \throws Error as `file_beside`.
 std::optional<std::filesystem::path> own_file(Reader& reader, const char* key,
                                               const std::filesystem::path& folder);

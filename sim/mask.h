@@ -24,9 +24,9 @@ Runs runs_of(const cv::Mat1i& columns, const cv::Rect& box, int number);
 
 /// \name A mask in the smallest box that holds it.
 ///@{
-/// Of the pixels that are not 0; empty where there are none.
+/// The mask of the pixels that are not 0; empty where there are none.
 Mask mask_of(const cv::Mat1b& picture);
-/// Of the runs of a whole picture.
+/// The mask that runs over a whole picture describe.
 /// \throws std::invalid_argument for runs that do not add up to the picture, and for a mask without
 ///   a pixel.
 Mask mask_of(std::span<const std::int64_t> runs, const cv::Size& size_px);

@@ -1,7 +1,6 @@
 #include "sim/mjcf.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
 #include <cctype>
@@ -9,6 +8,8 @@
 #include <numbers>
 #include <sstream>
 #include <string_view>
+
+#include "sim/rotation.h"
 
 namespace lcs::sim::mjcf {
 namespace {
@@ -89,7 +90,7 @@ void rotate_by_quat(Element& e, double unit_rad, const std::string& sequence) {
   });
   replace("xyaxes", 6, from_axes);
   replace("zaxis", 3, [](Values v) {
-    return Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d(v[0], v[1], v[2]));
+    return least_rotation(Vector3d::UnitZ(), {v[0], v[1], v[2]});
   });
 }
 
@@ -181,7 +182,11 @@ std::vector<double> numbers(const std::string& text) {
 }
 
 void set_numbers(Element& e, const char* key, const std::vector<double>& values) {
-  e.SetAttribute(key, fmt::format("{:.17g}", fmt::join(values, " ")).c_str());
+  std::string text;  // not by fmt::join, of which GCC 13 warns within fmt 9
+  for (const double value : values) {
+    text += fmt::format("{}{:.17g}", text.empty() ? "" : " ", value);
+  }
+  e.SetAttribute(key, text.c_str());
 }
 
 std::string effective(const Element& e, const char* key) {

@@ -17,10 +17,10 @@ class Overlap {
     Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< of W, in both
   };
 
-  /// Of two geoms, neither of them a plane or a height field. A mesh is its surface and what that
-  /// encloses, not its hull, so that things may stand under a table or in a room. Depths of round
-  /// geoms and of meshes may be too large by some per cent, never too small; geoms that are apart
-  /// have none.
+  /// Where two geoms overlap, neither of which may be a plane or a height field. A mesh is its
+  /// surface and what that encloses, not its hull, so that things may stand under a table or in a
+  /// room. Depths of round geoms and of meshes may be too large by some per cent, never too small;
+  /// geoms that are apart have none.
   /// \param least_depth_m smaller depths count as apart.
   Place of(const Model& model, int geom_a, int geom_b, double least_depth_m);
 

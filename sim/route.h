@@ -36,12 +36,12 @@ class Route {
   Motion at(double t_s) const;
 
  private:
-  /// From one velocity to another, evenly.
+  /// An even change from one velocity to another.
   struct Change {
     double from_s, to_s;
     Eigen::Vector2d before_mps, after_mps;
   };
-  /// By an angle, with a rate that grows from 0 and falls to 0 again.
+  /// A turn by an angle, at a rate that grows from 0 and falls to 0 again.
   struct Turn {
     double from_s, to_s, by_rad;
   };

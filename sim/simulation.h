@@ -63,7 +63,7 @@ class Simulation {
   const Calibration& calibration() const;
   const std::vector<Object>& objects() const;
 
-  /// Those until now, or until the last frame.
+  /// The warnings until now, or until the last frame.
   const Warnings& warnings() const;
 
   /// The next frame, or nothing after the scenario's last one.

@@ -83,8 +83,8 @@ struct ObjectTruth {
   /// Pixel edges: [left, right) x [top, bottom), so that the area is (right-left) * (bottom-top).
   int left = 0, top = 0, right = 0, bottom = 0;
   int visible_px = 0;  ///< pixels of the mask
-  /// Of the full silhouette, parts outside the image included; 0 where the body reaches behind the
-  /// camera, as its silhouette has no bounds then.
+  /// How much of the full silhouette is visible, which includes what lies outside the image; 0
+  /// where the body reaches behind the camera, as its silhouette has no bounds then.
   double visible_fraction = 0;
   bool moving = false;  ///< its pose at k+1 differs from that at k
   Runs mask;            ///< its pixels within the box; empty where they are not known

@@ -59,7 +59,7 @@ class World {
   /// What FrameTruth::object says of a geom.
   int object_of_geom(int geom) const { return object_of_geom_[static_cast<std::size_t>(geom)]; }
 
-  /// Those until now, or until the last frame.
+  /// The warnings until now, or until the last frame.
   const Warnings& warnings() const { return watch_->warnings(); }
   /// What starts inside of what: a line each, worded as in the error.
   const std::vector<std::string>& wrong_at_start() const { return wrong_at_start_; }

@@ -72,7 +72,7 @@ class Printed {
     std::string section;  ///< the kind of what it is in, or ""
   };
   const std::string& text() const { return text_; }
-  /// Of the element on a line of the text; nullptr where there is none.
+  /// Where the element on a line of the text comes from; nullptr where there is none.
   const Origin* at_line(int line) const;
   /// The first with that name of that kind, or of any if `kind` is empty; nullptr if there is none.
   const Origin* named(std::string_view kind, std::string_view name) const;

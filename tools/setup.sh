@@ -1,7 +1,7 @@
 # Sourced by tools/run and tools/test. Brings the machine and build/ up to date:
 #   install_packages PACKAGE...   installs those that are missing, or says how and exits with 2
 #   build_release TARGET...       configures and builds the release preset, or that of $preset
-# Made for Debian 12, and tested on Debian 13 as well (tests/systems).
+# Made for Debian 12, and tested on Debian 13 and Ubuntu 24.04 as well (tests/systems).
 # shellcheck shell=bash
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
@@ -43,7 +43,7 @@ warn_unless_tested() {
   local ID='' VERSION_ID='' PRETTY_NAME='this system'
   # shellcheck source=/dev/null
   [[ -r /etc/os-release ]] && . /etc/os-release
-  [[ $ID == debian && $VERSION_ID == 1[23] ]] ||
+  [[ $ID$VERSION_ID == debian1[23] || $ID$VERSION_ID == ubuntu24.04 ]] ||
     say "This is made for Debian 12, and not tested as a whole on $PRETTY_NAME; trying all the same."
 }
 

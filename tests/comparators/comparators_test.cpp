@@ -9,6 +9,7 @@
 #include "filter/detect/fast.h"
 #include "filter/kinematics/geometry.h"
 #include "scenarios/load.h"
+#include "tests/tools/refusal.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/ego_motion_feed.h"
 #include "tools/comparators/detectors.h"
@@ -38,12 +39,8 @@ Recording run(std::string_view name, const char* file, std::vector<std::string> 
 
 TEST(Detectors, AreKnownByNameAndOthersAreRefusedWithTheListOfThem) {
   for (const Detector& each : detectors()) EXPECT_EQ(&detector(each.name), &each);
-  try {
-    detector("yolo");
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "no detector is called 'yolo'; there are lcs, klt, homography, dis");
-  }
+  EXPECT_EQ(bench::refusal_of<std::invalid_argument>([] { detector("yolo"); }),
+            "no detector is called 'yolo'; there are lcs, klt, homography, dis");
 }
 
 TEST(Wanted, IsADetectorOrTheFilterWithAPresetOfItsOwn) {
@@ -58,12 +55,8 @@ TEST(Wanted, IsADetectorOrTheFilterWithAPresetOfItsOwn) {
         {"lcs:", "the filter has no preset ''"},
         {"klt:lab", "klt has no presets, which are the filter's; give klt alone, or lcs:lab"},
         {"yolo:lab", "no detector is called 'yolo'"}}) {
-    try {
-      wanted(name);
-      ADD_FAILURE() << name;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
-    }
+    const std::string what = bench::refusal_of<std::invalid_argument>([&] { wanted(name); });
+    EXPECT_NE(what.find(said), std::string::npos) << name << ": " << what;
   }
 }
 

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "tests/tools/files.h"
+#include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 
 namespace lcs::bench {
@@ -20,10 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const ResultFiles kFiles{{"metrics.json", "video.mp4"}, "by lcs: "};
-
-void write(const fs::path& path, const std::string& text) {
-  std::ofstream(path) << text;
-}
 
 class OutputFolderTest : public testing::Test {
  protected:
@@ -34,12 +31,7 @@ class OutputFolderTest : public testing::Test {
     folder.commit();
   }
   static std::string refusal(const fs::path& target) {
-    try {
-      const OutputFolder folder(target, kFiles);
-    } catch (const OutputError& error) {
-      return error.what();
-    }
-    return "";
+    return refusal_of<OutputError>([&] { OutputFolder(target, kFiles); });
   }
   TemporaryFolder temporary_;
   fs::path top_ = fs::canonical(temporary_.path());
@@ -290,12 +282,7 @@ class NestedOutputFolder : public OutputFolderTest {
     folder.commit();
   }
   std::string refusal() const {
-    try {
-      const OutputFolder folder(target_, kNested);
-    } catch (const OutputError& error) {
-      return error.what();
-    }
-    return "";
+    return refusal_of<OutputError>([&] { OutputFolder(target_, kNested); });
   }
   const fs::path target_ = top_ / "suite";
 };

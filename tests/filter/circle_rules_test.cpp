@@ -5,38 +5,20 @@
 
 #include "filter/circles/circle.h"
 #include "filter/kinematics/geometry.h"
-#include "tests/filter/world.h"
+#include "tests/filter/items.h"
 
 namespace lcs {
 namespace {
 
 using testing::ahead;
 using testing::kDegree;
+using testing::normal;
 using testing::Random;
+using testing::rebel;
 using testing::vga;
 
 const CircleParameters kLab = preset("lab").circle;
 const TrustRanks kRanks = kLab.trust;
-
-Edge normal(const Vec2& at, double depth_ratio = 1) {
-  Edge edge;
-  edge.location = at;
-  edge.origin = vga().centre_px;
-  edge.depth_ratio = depth_ratio;
-  edge.speed = depth_ratio * ahead().reference_speed(at);
-  edge.angle = angle_of(at - edge.origin);
-  edge.trust = 4;
-  return edge;
-}
-
-Edge rebel(const Vec2& at, double angle, double speed) {
-  Edge edge = normal(at);
-  edge.rebel = true;
-  edge.angle = angle;
-  edge.speed = speed;
-  edge.origin = at - 50 * unit_vector(angle);
-  return edge;
-}
 
 std::vector<Circle> circles_of(std::vector<Edge> edges) {
   Layers layers;

@@ -3,32 +3,16 @@
 #include <gtest/gtest.h>
 
 #include "filter/kinematics/geometry.h"
-#include "tests/filter/world.h"
+#include "tests/filter/items.h"
 
 namespace lcs {
 namespace {
 
 using Eigen::Vector3d;
 using testing::ahead;
+using testing::normal;
+using testing::rebel;
 using testing::vga;
-
-Edge normal(const Vec2& at, double depth_ratio = 1) {
-  Edge edge;
-  edge.location = at;
-  edge.origin = vga().centre_px;
-  edge.depth_ratio = depth_ratio;
-  edge.angle = angle_of(at - edge.origin);
-  edge.trust = 4;
-  return edge;
-}
-
-Edge rebel(const Vec2& at, double angle, double speed) {
-  Edge edge = normal(at);
-  edge.rebel = true;
-  edge.angle = angle;
-  edge.speed = speed;
-  return edge;
-}
 
 struct Circling : ::testing::Test {
   CircleExpert expert{vga(), preset("lab").circle};

@@ -8,16 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/tools/files.h"
+
 namespace {
 
 const std::filesystem::path kFilter = LCS_FILTER_SOURCE_DIR;
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// Names of all tests of this program, without the instantiation and parameter of those that have
 /// any.
@@ -78,7 +73,7 @@ TEST(Equations, EveryRowNamesCodeAndTestsThatExist) {
     EXPECT_FALSE(code.empty());
     for (const std::string& word : code) {
       if (word.find(".cpp") != std::string::npos || word.find(".h") != std::string::npos) {
-        source = text_of(kFilter / word);
+        source = lcs::bench::read(kFilter / word);
         EXPECT_FALSE(source.empty()) << word;
       } else {
         EXPECT_NE(source.find(word), std::string::npos) << word;

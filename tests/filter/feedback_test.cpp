@@ -9,7 +9,7 @@
 #include "filter/line/line.h"
 #include "filter/paper/corner_grouping.h"
 #include "filter/squares/square.h"
-#include "tests/filter/world.h"
+#include "tests/filter/items.h"
 
 namespace lcs {
 namespace {
@@ -22,12 +22,7 @@ using testing::vga;
 using testing::World;
 
 Circle circle(const Vec2& at, int trust, bool ignoring = false) {
-  Circle c;
-  c.location = at;
-  c.origin = vga().centre_px;
-  c.angle = angle_of(at - c.origin);
-  c.radius = 20;
-  c.members = 5;
+  Circle c = testing::circle(at, 20);
   c.trust = trust;
   c.ignoring = ignoring;
   return c;

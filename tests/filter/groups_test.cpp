@@ -7,7 +7,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 #include "filter/circles/circle.h"
 
@@ -19,14 +18,9 @@ namespace lcs {
 namespace {
 
 using Eigen::Vector3d;
+using testing::ahead;
 using testing::steady_motion;
 using testing::vga;
-
-MotionField ahead(const std::optional<Ground>& ground = {}) {
-  EgoMotion motion = steady_motion({0, 0, 0.5}, Vector3d::Zero(), 0.1);
-  motion.ground = ground;
-  return {vga(), motion, FieldParameters{}};
-}
 
 /// A grid of normal edges, `depth_m` away and known to about 1 %.
 void add_patch(Layers& layers, const Vec2& low, const Vec2& high, double depth_m,

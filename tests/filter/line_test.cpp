@@ -14,8 +14,6 @@ namespace {
 
 using testing::Random;
 
-const Vec2 kCentre = testing::vga().centre_px;
-
 IgnoreRegion disc(const Vec2& at, double radius) {
   return {IgnoreRegion::Shape::circle, at, {radius, radius}};
 }

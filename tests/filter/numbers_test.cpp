@@ -3,28 +3,19 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 
 #include "filter/learnt.h"
 #include "filter/parameters.h"
+#include "tests/tools/files.h"
 
 namespace lcs {
 namespace {
 
 namespace fs = std::filesystem;
 const fs::path kFilter = LCS_FILTER_SOURCE_DIR;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file);
-  EXPECT_TRUE(stream) << file;
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 /// Keys of parameters that are numbers and that `default` asks for.
 std::set<std::string> keys() {
@@ -51,7 +42,7 @@ std::set<std::string> constants() {
         room == "detect" || room == "draw" || room == "ego_motion") {
       continue;
     }
-    const std::string text = text_of(entry.path());
+    const std::string text = bench::read(entry.path());
     for (std::sregex_iterator c(text.begin(), text.end(), constant), end; c != end; ++c) {
       const std::string names = (*c)[1];
       for (std::sregex_iterator n(names.begin(), names.end(), name); n != end; ++n) {
@@ -70,7 +61,7 @@ TEST(Numbers, AreNoMoreThanTheyWere) {
 }
 
 TEST(Numbers, HaveASourceEach) {
-  const std::string rules = text_of(kFilter / "RULES.md");
+  const std::string rules = bench::read(kFilter / "RULES.md");
   const std::string table = rules.substr(rules.find("## The numbers"));
   for (const std::string& key : keys()) {
     EXPECT_NE(table.find('`' + key + '`'), std::string::npos) << key;

@@ -7,20 +7,16 @@
 #include <set>
 #include <stdexcept>
 
+#include "tests/tools/refusal.h"
+
 namespace lcs {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// The message of the std::invalid_argument that `action` throws.
 template <typename Action>
 std::string refusal(Action action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "nothing was refused";
+  return bench::refusal_of<std::invalid_argument>(action);
 }
 
 TEST(Parameters, LabCarriesTheTableOfThePaper) {

@@ -7,12 +7,13 @@
 
 #include "filter/kinematics/geometry.h"
 #include "filter/squares/square.h"
-#include "tests/filter/world.h"
+#include "tests/filter/items.h"
 
 namespace lcs {
 namespace {
 
 using testing::ahead;
+using testing::circle;
 using testing::kDegree;
 using testing::Random;
 using testing::vga;
@@ -20,26 +21,8 @@ using testing::vga;
 const SquareParameters kLab = preset("lab").square;
 const TrustRanks kRanks = kLab.trust;
 
-Circle circle(const Vec2& at, double radius, double depth_ratio = 1) {
-  Circle c;
-  c.location = at;
-  c.origin = vga().centre_px;
-  c.radius = radius;
-  c.depth_ratio = depth_ratio;
-  c.speed = depth_ratio * ahead().reference_speed(at);
-  c.angle = angle_of(at - c.origin);
-  c.members = 5;
-  c.trust = 4;
-  return c;
-}
-
 Circle rebel(const Vec2& at, double radius, double angle, double speed) {
-  Circle c = circle(at, radius);
-  c.rebel = true;
-  c.angle = angle;
-  c.speed = speed;
-  c.origin = at - 50 * unit_vector(angle);
-  return c;
+  return testing::moved(circle(at, radius), angle, speed);
 }
 
 std::vector<Square> squares_of(std::vector<Circle> circles,

@@ -4,13 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "filter/kinematics/geometry.h"
-#include "tests/filter/world.h"
+#include "tests/filter/items.h"
 
 namespace lcs {
 namespace {
 
 using Eigen::Vector3d;
 using testing::ahead;
+using testing::circle;
 using testing::Random;
 using testing::steady_motion;
 using testing::vga;
@@ -20,18 +21,6 @@ Square square(const Vec2& at, const Vec2& half) {
   s.location = at;
   s.half_size = half;
   return s;
-}
-
-Circle circle(const Vec2& at, double radius, double depth_ratio) {
-  Circle c;
-  c.location = at;
-  c.origin = vga().centre_px;
-  c.radius = radius;
-  c.depth_ratio = depth_ratio;
-  c.angle = angle_of(at - c.origin);
-  c.members = 5;
-  c.trust = 4;
-  return c;
 }
 
 TEST(Overlap, IsSymmetricAndWithinItsBounds) {

@@ -11,6 +11,7 @@
 #include "scenarios/scenario.h"
 #include "tests/tools/files.h"
 #include "tests/tools/recordings.h"
+#include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/box.h"
 #include "tools/recording/coco_mask.h"
@@ -45,14 +46,10 @@ class DetectionsTest : public testing::Test {
     return read_detections(path_, sequence());
   }
   std::string error(const std::string& text) {
-    try {
-      detections(text);
-    } catch (const scenario::Error& error) {
-      const std::string message = error.what(), where = path_.string() + ":";
-      EXPECT_TRUE(message.starts_with(where)) << message;
-      return message.substr(where.size());
-    }
-    return "accepted";
+    const std::string message = refusal_of<scenario::Error>([&] { detections(text); });
+    const std::string where = path_.string() + ":";
+    EXPECT_TRUE(message.starts_with(where)) << message;
+    return message.substr(std::min(where.size(), message.size()));
   }
 
   const TemporaryFolder folder_;
@@ -292,15 +289,10 @@ TEST_F(DetectionsTest, AByteOrderMarkIsNotRead) {
 
 TEST_F(DetectionsTest, AFileThatCannotBeReadIsNamed) {
   for (const std::filesystem::path& path : {folder_.path() / "none.csv", folder_.path()}) {
-    try {
-      read_detections(path, sequence());
-      ADD_FAILURE() << path;
-    } catch (const scenario::Error& error) {
-      const bool is_folder = path == folder_.path();
-      EXPECT_EQ(error.what(),
-                fmt::format("{}: {}; name a CSV file of detections", path.string(),
-                            is_folder ? "this is a folder" : "there is no such file"));
-    }
+    const bool is_folder = path == folder_.path();
+    EXPECT_EQ(refusal_of<scenario::Error>([&] { read_detections(path, sequence()); }),
+              fmt::format("{}: {}; name a CSV file of detections", path.string(),
+                          is_folder ? "this is a folder" : "there is no such file"));
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "scenarios/scenario.h"
 #include "tests/tools/recordings.h"
+#include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/scoring.h"
@@ -26,14 +27,9 @@ class LabelsFile : public testing::Test {
   }
   /// What is wrong with it, behind the folder's name.
   std::string refusal(const std::string& text) const {
-    try {
-      labels(text);
-    } catch (const scenario::Error& error) {
-      const std::string what = error.what();
-      EXPECT_TRUE(what.starts_with(folder_.path().string())) << what;
-      return what.substr(folder_.path().string().size() + 1);
-    }
-    return "nothing was refused";
+    const std::string what = refusal_of<scenario::Error>([&] { labels(text); });
+    EXPECT_TRUE(what.starts_with(folder_.path().string())) << what;
+    return what.substr(std::min(folder_.path().string().size() + 1, what.size()));
   }
   const TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_.path() / "gt.txt";

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "tests/tools/recordings.h"
+#include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_fields.h"
@@ -350,9 +351,7 @@ TEST(RecordingIo, TheObjectsOfSingleFramesAreThoseOfTheWholeRecording) {
   }
   const TemporaryFolder folder;
   const Recording recording = recording_of(frames);
-  RecordingWriter writer(folder.path(), recording);
-  for (const FrameRecord& frame : recording.frames) writer.write(frame);
-  writer.close();
+  write(recording, folder.path());
   const std::vector<int> wanted{0, 2, 2, 4};
   const auto objects = read_object_truth(folder.path(), wanted);
   ASSERT_EQ(objects.size(), wanted.size());
@@ -372,12 +371,9 @@ TEST(RecordingIo, ALayerThatIsNotFiniteIsRefusedByFrameAndField) {
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
     FrameMaker maker(12);
     maker.rebel_circle({10, bad}, 3);
-    try {
-      layers_line(maker);
-      FAIL() << "accepted " << bad;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_STREQ(error.what(), "frame 12: rebel_circles.y is not a finite number");
-    }
+    EXPECT_EQ(refusal_of<std::invalid_argument>([&] { layers_line(maker); }),
+              "frame 12: rebel_circles.y is not a finite number")
+        << bad;
   }
 }
 
@@ -399,31 +395,29 @@ class BrokenRecording : public testing::Test {
 
   /// Replaces the first `from` in the given line (1-based) of a file.
   void edit(const char* file, int line, const std::string& from, const std::string& to) {
-    std::ifstream in(folder_.path() / file);
-    std::vector<std::string> lines;
-    for (std::string text; std::getline(in, text);) lines.push_back(text);
-    std::string& text = lines.at(static_cast<std::size_t>(line - 1));
-    const std::size_t at = text.find(from);
-    ASSERT_NE(at, std::string::npos);
-    text.replace(at, from.size(), to);
-    std::ofstream out(folder_.path() / file);
-    for (const std::string& edited : lines) out << edited << '\n';
+    change(file, [&](std::vector<std::string>& lines) {
+      std::string& text = lines.at(static_cast<std::size_t>(line - 1));
+      const std::size_t at = text.find(from);
+      ASSERT_NE(at, std::string::npos);
+      text.replace(at, from.size(), to);
+    });
   }
   void drop_last_line(const char* file) {
+    change(file, [](std::vector<std::string>& lines) { lines.pop_back(); });
+  }
+  void expect_error(const std::string& part) {
+    const std::string what =
+        refusal_of<std::runtime_error>([&] { read_recording(folder_.path()); });
+    EXPECT_NE(what.find(part), std::string::npos) << what;
+  }
+  template <class Change>
+  void change(const char* file, const Change& how) {
     std::ifstream in(folder_.path() / file);
     std::vector<std::string> lines;
     for (std::string text; std::getline(in, text);) lines.push_back(text);
-    lines.pop_back();
+    how(lines);
     std::ofstream out(folder_.path() / file);
-    for (const std::string& kept : lines) out << kept << '\n';
-  }
-  void expect_error(const std::string& part) {
-    try {
-      read_recording(folder_.path());
-      FAIL() << "was read without an error";
-    } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-    }
+    for (const std::string& line : lines) out << line << '\n';
   }
   TemporaryFolder folder_;
 };

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
@@ -17,6 +16,7 @@
 #include "scenarios/load.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
+#include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/playback.h"
@@ -28,15 +28,11 @@ namespace {
 namespace fs = std::filesystem;
 using bench::CommandResult;
 using bench::run_lcs;
+using bench::write;
 using Eigen::Vector3d;
 
 constexpr int kFrames = 4;
 constexpr double kDt_s = 0.1, kSpeed_mps = 2, kYawRate_radps = 0.2;
-
-void write(const fs::path& file, const std::string& text) {
-  fs::create_directories(file.parent_path());
-  std::ofstream(file, std::ios::binary) << text;
-}
 
 /// What a camera sees that goes on by 4 px a frame.
 cv::Mat3b view(int frame) {
@@ -95,12 +91,7 @@ class RecordedScenario : public testing::Test {
     return Playback(scenario::load(scenario_file(recording, more)));
   }
   std::string refusal(const std::string& recording) const {
-    try {
-      playback(recording);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "nothing was refused";
+    return bench::refusal_of<std::runtime_error>([&] { playback(recording); });
   }
   std::string poses(bool tum, int count = kFrames) const {
     std::string text;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/output_file.h"
 #include "tools/output/video.h"
@@ -402,13 +403,9 @@ TEST_F(Report, ABrokenFileOfARunIsNamed) {
   const fs::path frames = folder_.path() / run.folder / bench::kFramesFile;
   const auto expect_error = [&](const std::string& text, const std::string& part) {
     std::ofstream(frames) << text;
-    try {
-      data(suite_of({scenario_with("one", {run})}));
-      FAIL() << "was read without an error";
-    } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find(frames.string() + part), std::string::npos)
-          << error.what();
-    }
+    const std::string what = bench::refusal_of<std::runtime_error>(
+        [&] { data(suite_of({scenario_with("one", {run})})); });
+    EXPECT_NE(what.find(frames.string() + part), std::string::npos) << what;
   };
   expect_error("frame,t_s\n", ":1: has no column");
   expect_error(

@@ -6,6 +6,7 @@
 
 #include "scenarios/spelling.h"
 #include "tests/scenarios/scenario_file.h"
+#include "tests/tools/refusal.h"
 
 namespace lcs::scenario {
 namespace {
@@ -68,7 +69,8 @@ INSTANTIATE_TEST_SUITE_P(
         added("NoValue", "seed:\n", "4: seed has no value; give one or remove the key"),
         added("NoSection", "odometry:\n", "4: odometry has no value; give one or remove the key"),
         whole("NoScene", "frames: 3\nego: {}\n",
-              "test.yaml:1: the scenario needs 'scene' or 'recording'; add it (scenarios/README.md shows how)"),
+              "test.yaml:1: the scenario needs 'scene' or 'recording'; add it (scenarios/README.md "
+              "shows how)"),
         whole("NoEgo", "scene: room.xml\nframes: 3\n",
               "test.yaml:1: the scenario needs 'ego'; add it (scenarios/README.md shows how)"),
         whole("NoLength", "scene: room.xml\nego: {}\n",
@@ -341,13 +343,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Refused, WhenTheFileIsMissingAFolderOrHuge) {
   const ScenarioFolder folder;
-  const auto message = [](const std::filesystem::path& file) -> std::string {
-    try {
-      load(file);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "nothing was refused";
+  const auto message = [](const std::filesystem::path& file) {
+    return bench::refusal_of<Error>([&] { load(file); });
   };
   const std::filesystem::path missing = folder.path() / "missing.yaml";
   EXPECT_EQ(message(missing),

@@ -9,11 +9,11 @@
 #include <unistd.h>
 
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <vector>
 
 #include "tests/scenarios/scenario_file.h"
+#include "tests/tools/refusal.h"
 
 namespace lcs::scenario {
 namespace {
@@ -21,12 +21,7 @@ namespace {
 constexpr FileKind kKind{kMebibyte, "give a table"};
 
 std::string refusal(const std::filesystem::path& file) {
-  try {
-    read_file(file, kKind);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "nothing was refused";
+  return bench::refusal_of<Error>([&] { read_file(file, kKind); });
 }
 
 std::vector<std::string> lines_of(const std::filesystem::path& file) {
@@ -44,8 +39,9 @@ TEST(InputFile, WhatMayNeverEndIsRefusedBeforeItIsRead) {
   const std::filesystem::path pipe = folder.path() / "pipe", socket = folder.path() / "socket";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);  // nobody will ever write to it
   EXPECT_EQ(refusal(pipe),
-            pipe.string() + ": this is a pipe, which may never end; write what comes out of it to "
-                            "a file first");
+            pipe.string() +
+                ": this is a pipe, which may never end; write what comes out of it to "
+                "a file first");
   EXPECT_EQ(refusal("/dev/zero"), "/dev/zero: this is a device; give a table");
   EXPECT_EQ(refusal(folder.path()), folder.path().string() + ": this is a folder; give a table");
   sockaddr_un address = {};
@@ -79,12 +75,10 @@ TEST(InputFile, WhatIsMissingOrTooLargeIsTold) {
 }
 
 TEST(InputFile, TheLineThatNamesItIsBlamed) {
-  try {
-    InputFile("/dev/zero", kKind, {"scene.xml", 7});
-    ADD_FAILURE() << "nothing was refused";
-  } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "scene.xml:7: '/dev/zero': this is a device; give a table");
-  }
+  EXPECT_EQ(bench::refusal_of<Error>([] {
+              InputFile("/dev/zero", kKind, {"scene.xml", 7});
+            }),
+            "scene.xml:7: '/dev/zero': this is a device; give a table");
 }
 
 TEST(InputFile, HasItsLinesWhateverEndsTheLastOneAndWithoutAByteOrderMark) {

@@ -6,18 +6,15 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/tools/refusal.h"
+
 namespace lcs::scenario {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
 std::string refusal(std::string_view text, Dimension dimension) {
-  try {
-    parse_quantity(text, dimension);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "nothing was refused";
+  return bench::refusal_of<std::invalid_argument>([&] { parse_quantity(text, dimension); });
 }
 
 TEST(Quantity, ANumberWithoutUnitIsInTheBaseUnit) {

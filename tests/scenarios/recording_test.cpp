@@ -6,6 +6,7 @@
 
 #include "scenarios/scenes.h"
 #include "tests/scenarios/scenario_file.h"
+#include "tests/tools/refusal.h"
 
 namespace lcs::scenario {
 namespace {
@@ -23,12 +24,7 @@ class RecordingKeys : public testing::Test {
     return load(folder_.write("test.yaml", keys), options);
   }
   std::string refused(const std::string& keys) const {
-    try {
-      loaded(keys);
-    } catch (const Error& error) {
-      return without_folder(error.what(), folder_);
-    }
-    return "nothing was refused";
+    return without_folder(bench::refusal_of<Error>([&] { loaded(keys); }), folder_);
   }
   const ScenarioFolder folder_;
 };

@@ -7,37 +7,22 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <system_error>
 
 #include "scenarios/load.h"
+#include "tests/tools/refusal.h"
+#include "tests/tools/temporary_folder.h"
 
 namespace lcs::scenario {
 
 /// A folder with a scene in it, and room for scenario files.
-class ScenarioFolder {
+class ScenarioFolder : public bench::TemporaryFolder {
  public:
-  ScenarioFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "lcs-scenarios-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("cannot make a folder for the test");
-    path_ = name;
-    write("room.xml", "<mujoco/>");
-  }
-  ~ScenarioFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScenarioFolder(const ScenarioFolder&) = delete;
-  ScenarioFolder& operator=(const ScenarioFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
+  ScenarioFolder() { write("room.xml", "<mujoco/>"); }
 
   std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path_ / name, std::ios::binary) << bytes;
-    return path_ / name;
+    std::ofstream(path() / name, std::ios::binary) << bytes;
+    return path() / name;
   }
-
- private:
-  std::filesystem::path path_;
 };
 
 /// The smallest scenario there is; tests put lines after it, which begin at line 4.
@@ -59,12 +44,8 @@ inline std::string without_folder(std::string message, const ScenarioFolder& fol
 /// The message that a text is refused with, without the folder's name.
 inline std::string refusal(const std::string& text, const LoadOptions& options = {}) {
   const ScenarioFolder folder;
-  try {
-    load(folder.write("test.yaml", text), options);
-  } catch (const Error& error) {
-    return without_folder(error.what(), folder);
-  }
-  return "nothing was refused";
+  const auto file = folder.write("test.yaml", text);
+  return without_folder(bench::refusal_of<Error>([&] { load(file, options); }), folder);
 }
 
 }  // namespace lcs::scenario

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scenarios/scenario_file.h"
+#include "tests/tools/refusal.h"
 
 namespace lcs::scenario {
 namespace {
@@ -17,12 +18,8 @@ std::vector<SweepPoint> points_of(const std::string& lines) {
 /// The message that a sweep is refused with, without the folder's name. Its lines begin at 4.
 std::string sweep_refusal(const std::string& lines) {
   const ScenarioFolder folder;
-  try {
-    sweep_points(folder.write("test.yaml", smallest + lines));
-  } catch (const Error& error) {
-    return without_folder(error.what(), folder);
-  }
-  return "nothing was refused";
+  const auto file = folder.write("test.yaml", smallest + lines);
+  return without_folder(bench::refusal_of<Error>([&] { sweep_points(file); }), folder);
 }
 
 TEST(Groups, AreShortUnlessTheFileSays) {

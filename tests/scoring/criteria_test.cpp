@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/tools/refusal.h"
+
 namespace lcs::bench {
 namespace {
 
@@ -46,14 +48,10 @@ TEST(Criteria, ThoseThatAreMetAreJudgedToo) {
 
 TEST(Criteria, AnUnknownMetricIsRefusedAtItsLineWithTheNearestOne) {
   EXPECT_NO_THROW(require_known_metrics({criterion("rebel.f1", 0.6, {})}));
-  try {
-    require_known_metrics({criterion("rebel.f1", 0.6, {}), criterion("rebel.recal", 0.6, {})});
-    FAIL() << "accepted";
-  } catch (const scenario::Error& error) {
-    EXPECT_STREQ(error.what(),
-                 "crossing.yaml:31: no metric is called 'rebel.recal'; did you mean "
-                 "'rebel.recall'?");
-  }
+  const std::vector<scenario::Criterion> criteria{criterion("rebel.f1", 0.6, {}),
+                                                  criterion("rebel.recal", 0.6, {})};
+  EXPECT_EQ(refusal_of<scenario::Error>([&] { require_known_metrics(criteria); }),
+            "crossing.yaml:31: no metric is called 'rebel.recal'; did you mean 'rebel.recall'?");
 }
 
 }  // namespace

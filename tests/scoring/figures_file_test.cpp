@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "tests/tools/recordings.h"
+#include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/output/table.h"
 #include "tools/recording/warnings.h"
@@ -172,13 +173,9 @@ TEST(FramesCsv, ThatDoesNotFitTheRecordingIsRefusedAtItsLine) {
   };
   for (const auto& [text, message] : wrong) {
     std::ofstream(path) << text;
-    try {
-      read_times(path, recording);
-      ADD_FAILURE() << message;
-    } catch (const std::runtime_error& error) {
-      EXPECT_EQ(error.what(), path.string() + message +
-                                  "; run the scenario again, or remove the file to have no times");
-    }
+    EXPECT_EQ(
+        refusal_of<std::runtime_error>([&] { read_times(path, recording); }),
+        path.string() + message + "; run the scenario again, or remove the file to have no times");
   }
   EXPECT_THROW(read_times(folder.path() / "none.csv", recording), std::runtime_error);
 }
@@ -237,14 +234,7 @@ TEST(MetricsJson, ComesBackToTheLastBit) {
 TEST(MetricsJson, ThatIsMissingOrDamagedIsNamed) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / kMetricsFile;
-  const auto refusal = [&]() -> std::string {
-    try {
-      read_metrics(path);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
-  };
+  const auto refusal = [&] { return refusal_of<std::runtime_error>([&] { read_metrics(path); }); };
   EXPECT_NE(refusal().find(path.string()), std::string::npos) << "missing";
   for (const char* text : {"", "{\"rebel.f1\": 0.5", "{\"rebel.f1\": \"much\"}"}) {
     std::ofstream(path) << text;
@@ -267,13 +257,10 @@ TEST(Table, IsAFewLinesThatFitATerminalAndShowsADashForWhatIsUndefined) {
 
 TEST(Reports, AFileThatCannotBeWrittenIsNamedWithTheReason) {
   const std::filesystem::path nowhere = "/no/such/folder/metrics.json";
-  try {
-    write_metrics(nowhere, score(Recording{}));
-    FAIL() << "wrote " << nowhere;
-  } catch (const OutputError& error) {
-    EXPECT_NE(std::string(error.what()).find(nowhere.string()), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos) << error.what();
-  }
+  const std::string what =
+      refusal_of<OutputError>([&] { write_metrics(nowhere, score(Recording{})); });
+  EXPECT_NE(what.find(nowhere.string()), std::string::npos) << what;
+  EXPECT_NE(what.find("No such file"), std::string::npos) << what;
 }
 
 TEST(Reports, AFullDiskIsNoticed) {

@@ -11,6 +11,7 @@
 #include "sim/gl_context.h"
 #include "sim/world.h"
 #include "tests/sim/support.h"
+#include "tests/tools/refusal.h"
 
 namespace {
 
@@ -46,17 +47,12 @@ class GlFailure : public testing::Test {
   ~GlFailure() override { fails_to_create = fails_to_make_current = false; }
   /// What starting GL says.
   static std::string refusal() {
-    try {
-      GlContext();
-    } catch (const std::runtime_error& e) {
-      return e.what();
-    }
-    return "nothing";
+    return bench::refusal_of<std::runtime_error>([] { GlContext(); });
   }
 };
 
 TEST_F(GlFailure, AtTheStartNamesTheCallAndTheRemedy) {
-  EXPECT_EQ(refusal(), "nothing");
+  EXPECT_EQ(refusal(), "nothing was refused");
   fails_to_make_current = true;
   EXPECT_NE(refusal().find("OSMesaMakeCurrent"), std::string::npos);
   fails_to_create = true;
@@ -80,7 +76,7 @@ TEST_F(GlFailure, ADriverThatMesaLacksIsNamedInsteadOfACrash) {
   };
   EXPECT_EXIT(with_driver("nonsense"), testing::ExitedWithCode(0),
               "GALLIUM_DRIVER=nonsense .*; unset it, or set it to llvmpipe or softpipe");
-  EXPECT_EXIT(with_driver("softpipe"), testing::ExitedWithCode(0), "^nothing$");
+  EXPECT_EXIT(with_driver("softpipe"), testing::ExitedWithCode(0), "^nothing was refused$");
 }
 
 // Of two renderers the one that is not current has to become so, to draw and to let go.

@@ -208,6 +208,7 @@ TEST_F(OwnActor, MeansTheSameInASceneOfOtherAnglesAndDefaults) {
                       "<geom size='.1' pos='0 0 .2'/><geom type='box' size='.1 .2 .3' pos='0 0 .5' "
                       "axisangle='1 1 0 70'/><geom type='box' size='.1 .2 .3' pos='0 0 .5' "
                       "zaxis='1 2 3'/><geom type='box' size='.1 .2 .3' pos='0 0 .5' "
+                      "zaxis='0 0 -1'/><geom type='box' size='.1 .2 .3' pos='0 0 .5' "
                       "xyaxes='1 1 0 -1 1 .5'/>"});
   const auto load = [&](const std::string& mjcf) {
     auto s = scenario_in_mjcf(mjcf, 0.5, 1);

@@ -1,9 +1,13 @@
 #include "tests/sim/support.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <fstream>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "sim/world.h"
 
 namespace lcs::sim::test {
 
@@ -65,6 +69,15 @@ std::vector<Eigen::Vector2f> fast_corners(const cv::Mat3b& image, int threshold)
   std::vector<Eigen::Vector2f> corners;
   for (const cv::KeyPoint& k : found) corners.emplace_back(k.pt.x, k.pt.y);
   return corners;
+}
+
+std::string physics_error(const scenario::Scenario& scenario, std::int64_t until_ns) {
+  return bench::refusal_of<PhysicsError>([&] {
+    World world(scenario);
+    std::vector<ImuSample> imu;
+    std::vector<OdometrySample> odometry;
+    world.advance_to(until_ns, imu, odometry);
+  });
 }
 
 double median(std::vector<double> values) {

@@ -11,6 +11,7 @@
 
 #include "scenarios/scenario.h"
 #include "sim/simulation.h"
+#include "tests/tools/refusal.h"
 
 namespace lcs::sim::test {
 
@@ -33,26 +34,14 @@ scenario::Actor line_actor(const std::string& name, scenario::Shape shape,
 /// Corners as the detector finds them: FAST-9 with non-maximum suppression.
 std::vector<Eigen::Vector2f> fast_corners(const cv::Mat3b& image, int threshold = 20);
 
-/// What `action` throws as a scenario::Error; fails the test if it throws anything else or nothing.
 template <typename Action>
-std::string scenario_error(Action action);
+std::string scenario_error(const Action& action) {
+  return bench::refusal_of<scenario::Error>(action);
+}
+
+/// The PhysicsError of a drive that takes so long.
+std::string physics_error(const scenario::Scenario& scenario, std::int64_t until_ns);
 
 double median(std::vector<double> values);
 
 }  // namespace lcs::sim::test
-
-#include <gtest/gtest.h>
-
-template <typename Action>
-std::string lcs::sim::test::scenario_error(Action action) {
-  try {
-    action();
-  } catch (const scenario::Error& e) {
-    return e.what();
-  } catch (const std::exception& e) {
-    ADD_FAILURE() << "not a scenario::Error: " << e.what();
-    return "";
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return "";
-}

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/tools/refusal.h"
+
 namespace lcs::suite {
 namespace {
 
@@ -13,12 +15,7 @@ bool fits(const std::string& pattern, std::string_view name) {
 }
 
 std::string refusal(const std::string& pattern) {
-  try {
-    Pattern(pattern, "--filter", "cross.*far");
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "nothing was refused";
+  return bench::refusal_of<std::runtime_error>([&] { fits(pattern, ""); });
 }
 
 TEST(Pattern, IsARegularExpressionForAPartOfAName) {

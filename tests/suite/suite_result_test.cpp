@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "tests/tools/refusal.h"
 #include "tests/tools/suites.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/output_file.h"
@@ -50,12 +51,7 @@ class SuiteFile : public testing::Test {
     return Json::parse(input);
   }
   std::string refusal() {
-    try {
-      read_suite(file_);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
+    return bench::refusal_of<std::runtime_error>([&] { read_suite(file_); });
   }
   const bench::TemporaryFolder folder_;
   const std::filesystem::path file_ = folder_.path() / kSuiteFile;

@@ -1,5 +1,5 @@
 /// \file
-/// What a command left behind.
+/// Files that a test writes, and what a command left behind.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,6 +18,12 @@ inline std::string read(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   EXPECT_TRUE(file) << path;
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Makes the folders above it, too, where they are missing.
+inline void write(const std::filesystem::path& path, const std::string& bytes) {
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary) << bytes;
 }
 
 /// Names of what lies in a folder.

@@ -16,8 +16,8 @@ inline constexpr double kStatic_px = 0.85;
 /// z_min, and the ground with its slack.
 MotionField exact_field(const Intrinsics& camera, const EgoMotion& motion);
 
-/// Its rotation alone, and back: `exact_field` of it takes locations of this frame to where they
-/// lie in the earlier one.
+/// The rotation of a motion alone, turned round: its `exact_field` takes a location in this frame
+/// to where it lies in the earlier one.
 EgoMotion turned_back(const EgoMotion& motion);
 
 /// Distance from where a corner was (rotation removed) to where a static point could have been.

@@ -58,7 +58,7 @@ class Lookback {
   /// What `begin` gave room for last.
   const Picture& now() const { return frames_.front().picture; }
 
-  /// Of those before, the one whose age is nearest to the baseline; null in the first frame.
+  /// The earlier picture whose age is nearest to the baseline; null in the first frame.
   const Picture* earlier() const { return compared_ > 0 ? &frames_[compared_].picture : nullptr; }
 
   /// The camera's motion since then; none in the first frame.

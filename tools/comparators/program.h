@@ -15,7 +15,7 @@
 
 namespace lcs::comparators {
 
-/// Of what is written and read; another number is another form.
+/// Version of the protocol; a program that greets with another one is refused.
 inline constexpr int kProtocol = 1;
 
 struct Program {

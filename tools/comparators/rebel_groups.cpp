@@ -6,17 +6,10 @@
 #include <tuple>
 
 #include "filter/kinematics/geometry.h"
+#include "tools/recording/box.h"
 
 namespace lcs::comparators {
 namespace {
-
-double intersection_over_union(const Square& a, const Square& b) {
-  const Vec2 low = (a.location - a.half_size).cwiseMax(b.location - b.half_size);
-  const Vec2 high = (a.location + a.half_size).cwiseMin(b.location + b.half_size);
-  const double common = (high - low).cwiseMax(0.0).prod();
-  const double all = 4 * (a.half_size.prod() + b.half_size.prod()) - common;
-  return all > 0 ? common / all : 0;
-}
 
 Edge edge_of(Id id, int corner, const Vec2& location, const CornerMotion& motion, double dt_s) {
   Edge edge;
@@ -137,7 +130,8 @@ void RebelGroups::name_squares() {
   std::vector<Pair> pairs;
   for (std::size_t a = 0; a < squares.size(); ++a) {
     for (std::size_t b = 0; b < last_squares_.size(); ++b) {
-      const double overlap = intersection_over_union(squares[a], last_squares_[b]);
+      const double overlap = bench::intersection_over_union(bench::box_of(squares[a]),
+                                                            bench::box_of(last_squares_[b]));
       if (overlap >= parameters_.same_overlap) pairs.push_back({overlap, a, b});
     }
   }

@@ -66,6 +66,12 @@ void OutputFile::fail(int error) const {
       fmt::format("cannot write {}: {}; {}", path_.string(), code.message(), remedy(code)));
 }
 
+void write_file(const std::filesystem::path& path, std::string_view bytes) {
+  OutputFile file(path);
+  file.write(bytes);
+  file.close();
+}
+
 std::filesystem::path finished_name(const std::filesystem::path& unfinished) {
   return unfinished.parent_path() / unfinished.stem().stem();
 }
@@ -101,6 +107,11 @@ void write_whole(const std::filesystem::path& path,
     fs::remove(beside, error);
     throw;
   }
+}
+
+void write_whole(const std::filesystem::path& path, std::string_view bytes, std::string_view sign) {
+  write_whole(
+      path, [&](const std::filesystem::path& beside) { write_file(beside, bytes); }, sign);
 }
 
 }  // namespace lcs::bench

@@ -51,6 +51,9 @@ class OutputFile {
   std::unique_ptr<std::FILE, Closer> file_;
 };
 
+/// A whole file at once. \throws OutputError
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+
 /// Ends the names of files that `write_whole` has not finished: "metrics.json.1234.partial".
 inline constexpr const char* kUnfinished = ".partial";
 /// The name that such a file gets when it is finished.
@@ -62,6 +65,9 @@ std::filesystem::path finished_name(const std::filesystem::path& unfinished);
 /// \throws OutputError, and what `write` throws; then an earlier file is as it was.
 void write_whole(const std::filesystem::path& path,
                  const std::function<void(const std::filesystem::path&)>& write,
+                 std::string_view sign = "");
+/// The same of these bytes.
+void write_whole(const std::filesystem::path& path, std::string_view bytes,
                  std::string_view sign = "");
 
 }  // namespace lcs::bench

@@ -241,9 +241,7 @@ void OutputFolder::make_staging() {
     if (fs::create_directory(own_, error)) lock_.emplace(own_);
     if (error) fail("create", own_, error);
   }
-  OutputFile marker(own_ / kMarker);
-  marker.write(marker_text(own_.filename().string()));
-  marker.close();
+  write_file(own_ / kMarker, marker_text(own_.filename().string()));
   staging_ = own_ / kIn;
   fs::create_directory(staging_, error);
   if (error) fail("create", staging_, error);

@@ -43,7 +43,7 @@ struct BumpRow {
   std::string rotation;  ///< the model's name, or "none": no rotation is taken out
   std::string told;      ///< "truth" or "imu"
   ErrorSummary error;    ///< with the true depth
-  /// Of "none" the turns to first order, of first order what is missing at second; NaN for others.
+  /// For "none" the first order of the turns, for first order the second; NaN for others.
   double expected_rms_px = 0;
 };
 std::vector<BumpRow> bump_rows(const StudyConfig& config, const Tick& tick);

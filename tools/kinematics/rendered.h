@@ -20,7 +20,7 @@ struct DriveRow {
   std::string told;   ///< by whom the motion is: "truth", or "imu" as configured
   Model model;
   ErrorSummary error;
-  /// Of the reference depth and the true motion: V_v t_f |Z_ref / Z - 1|; NaN for others.
+  /// For the reference depth and the true motion V_v t_f |Z_ref / Z - 1|; NaN for others.
   double expected_median_px = 0;
 };
 

@@ -36,7 +36,7 @@ struct StudyConfig {
   sim::Pinhole camera;
 
   double frame_s() const { return 1 / scenario.camera.rate_hz; }
-  /// Of the camera in a frame, straight on.
+  /// How far the camera goes in a frame, straight on.
   Eigen::Vector3d step_C_m() const { return speed_mps * frame_s() * forward_C; }
 };
 

@@ -17,12 +17,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-void write_text(const std::filesystem::path& path, std::string_view text) {
-  bench::OutputFile file(path);
-  file.write(text);
-  file.close();
-}
-
 std::string png_of(const cv::Mat3b& image) {
   std::vector<unsigned char> bytes;
   cv::imencode(".png", image, bytes);
@@ -93,12 +87,12 @@ bench::ResultFiles study_files() {
 void write_study(const std::filesystem::path& folder, const Study& study) {
   const std::vector<Statement> statements = answer(study);
   const std::vector<Table> all = tables(study, statements);
-  write_text(folder / kAnswerFile, text_of(study.config, statements));
-  for (const Table& table : all) write_text(folder / (table.name + ".csv"), csv_of(table));
+  bench::write_file(folder / kAnswerFile, text_of(study.config, statements));
+  for (const Table& table : all) bench::write_file(folder / (table.name + ".csv"), csv_of(table));
   std::string field_png;
   if (!study.field.image.empty()) {
     field_png = png_of(draw_field(study.field));
-    write_text(folder / kFieldFile, field_png);
+    bench::write_file(folder / kFieldFile, field_png);
   }
   const std::string title = "lcs kinematics: " + study.config.scenario.name;
   report::write_page(folder / kPageFile, {.title = title,

@@ -18,7 +18,7 @@ struct Table {
   std::vector<std::vector<Cell>> rows;
 };
 
-/// Their names, in the order in which they are told of; the first one is the answer's figures.
+/// The names of the tables in the order of the report; the first one holds the answer's figures.
 inline constexpr std::array kTables{"answer",       "rotation", "translation", "foe_distance",
                                     "focal_length", "mount",    "drives",      "imu",
                                     "bumps",        "drift",    "heat"};

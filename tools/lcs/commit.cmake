@@ -3,7 +3,9 @@ cmake_policy(VERSION 3.25)
 set(commit unknown)
 find_program(git git)
 if(git)
-  execute_process(COMMAND ${git} -C ${SOURCE} describe --always "--dirty=, changed since" --exclude=*
+  # In a container the sources may belong to another user, which git refuses unless it is told.
+  execute_process(COMMAND ${git} -c safe.directory=* -C ${SOURCE}
+      describe --always "--dirty=, changed since" --exclude=*
     OUTPUT_VARIABLE described OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE result)
   if(result EQUAL 0)
     set(commit ${described})

@@ -62,8 +62,8 @@ CLI::Option* add_quantity_option(CLI::App& command, const std::string& name,
       about);
 }
 
-/// Of every option and argument of every sub-command: nothing between quotes is a slip, as of a
-/// variable of a shell that is not set, and not the same as an option that is not given.
+/// Makes every sub-command refuse an empty value of an option or argument. It is a slip, such as a
+/// shell variable that is not set, and does not mean the same as an option that is not given.
 inline void refuse_empty_options(CLI::App& app) {
   const auto complaint = [](const std::string& text) -> std::string {
     return text.empty() ? "is given without a value; give one, or leave it out" : "";

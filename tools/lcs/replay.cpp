@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <stdexcept>
 
 #include "scenarios/document.h"
 #include "scenarios/load.h"
@@ -174,9 +173,7 @@ void write_scenario(Value document, const fs::path& file) {
   for (scenario::Entry& entry : document.entries) {
     if (entry.key == "recording") make_absolute(entry.value);
   }
-  bench::OutputFile output(file);
-  output.write(scenario::yaml_text(document) + "\n");
-  output.close();
+  bench::write_file(file, scenario::yaml_text(document) + "\n");
 }
 
 }  // namespace

@@ -356,9 +356,8 @@ ExitCode suite(const SuiteOptions& options) {
   suite::write_suite(folder.staging() / suite::kSuiteFile, result);
   suite::write_junit(folder.staging() / suite::kJunitFile, result, others);
   if (!others.empty()) {
-    bench::OutputFile standing(folder.staging() / suite::kStandingFile);
-    standing.write(suite::standing_table(result, others));
-    standing.close();
+    bench::write_file(folder.staging() / suite::kStandingFile,
+                      suite::standing_table(result, others));
   }
   const suite::SuiteInFolder made{result, folder.staging()};
   std::optional<suite::SuiteInFolder> before;

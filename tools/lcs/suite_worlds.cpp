@@ -51,9 +51,8 @@ void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
     const fs::path plan = scenario.file.parent_path() / worlds::kPlanFile;
     const cv::Mat3b above = cv::imread(plan.string(), cv::IMREAD_COLOR);
     const auto bytes = bench::jpeg(worlds::contact_sheet(*shots, above, kColumns), kQuality);
-    bench::OutputFile file(folder / report::sheet_path(scenario));
-    file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    file.close();
+    bench::write_file(folder / report::sheet_path(scenario),
+                      {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     return;
   }
 }

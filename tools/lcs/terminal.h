@@ -22,7 +22,7 @@ void write_err(const std::string& text);
 
 /// To standard error: one line that a terminal shows as it is, whatever is quoted in it.
 void tell(std::string_view message);
-/// Likewise, what is no error but seldom meant, a line each.
+/// Prints warnings to standard error, a line each.
 void warn(const std::vector<std::string>& lines);
 
 template <class... Args>

@@ -149,14 +149,7 @@ ExitCode tune(const TuneOptions& options) {
       command_of(options)};
   const std::string record = tune::record_text(found, stated, circumstances);
   const auto write = [&](const char* name, const std::string& text, const char* sign) {
-    bench::write_whole(
-        out / name,
-        [&](const fs::path& path) {
-          bench::OutputFile file(path);
-          file.write(text);
-          file.close();
-        },
-        sign);
+    bench::write_whole(out / name, text, sign);
   };
   write(tune::kPresetFile, tune::preset_text(found, circumstances), tune::kPresetSign);
   write(tune::kRecordFile, record, tune::kRecordSign);

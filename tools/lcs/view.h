@@ -24,7 +24,7 @@ class Player {
   /// \return false where nobody wants to see more.
   bool after_frame();
 
-  /// Behind the last frame: comes back at any key.
+  /// To be called after the last frame: comes back at any key.
   void after_last_frame();
 
  private:

@@ -83,9 +83,8 @@ ExitCode world(const WorldOptions& options) {
     const auto scenario = folder.staging() / (worlds::name_of(drawn) + ".yaml");
     const cv::Mat3b sheet =
         worlds::contact_sheet(worlds::simulated_shots(scenario), worlds::plan(drawn), 2);
-    bench::OutputFile file(folder.staging() / worlds::kSheetFile);
-    file.write(sequence::encode_png(sheet, sequence::PngFilter::sub));
-    file.close();
+    bench::write_file(folder.staging() / worlds::kSheetFile,
+                      sequence::encode_png(sheet, sequence::PngFilter::sub));
   }
   check_interrupted();
   folder.commit();

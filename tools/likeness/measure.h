@@ -37,7 +37,7 @@ struct MeasureText {
 };
 const std::array<MeasureText, kMeasures>& measures();
 
-/// Of one pair; none where there is too little to take it of.
+/// The measures of one pair of frames; none where there are too few corners for it.
 class Values {
  public:
   std::optional<double>& operator[](Measure m) { return all_[static_cast<std::size_t>(m)]; }

@@ -125,7 +125,6 @@ bench::ResultFiles likeness_files() {
 }
 
 void write_likeness(const std::filesystem::path& folder, const std::vector<Row>& rows) {
-  bench::OutputFile table(folder / kTable);
   std::string text = kHead;
   for (const MeasureText& measure : measures()) text += fmt::format(",{}", measure.name);
   for (const Row& row : rows) {
@@ -135,8 +134,7 @@ void write_likeness(const std::filesystem::path& folder, const std::vector<Row>&
       text += value ? fmt::format(",{:.6g}", *value) : ",";
     }
   }
-  table.write(text + "\n");
-  table.close();
+  bench::write_file(folder / kTable, text + "\n");
   report::write_page(folder / kPage, {.title = "lcs likeness",
                                       .data = data_of(groups_of(rows)),
                                       .script = kLikenessJs,

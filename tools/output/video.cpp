@@ -10,9 +10,7 @@ namespace {
 /// FFmpeg does not say why a file cannot be written. \throws OutputError where the system does.
 void require_writable(const std::filesystem::path& path) {
   constexpr std::size_t kSome = 1 << 20;
-  OutputFile probe(path);
-  probe.write(std::string(kSome, '\0'));
-  probe.close();
+  write_file(path, std::string(kSome, '\0'));
 }
 
 }  // namespace

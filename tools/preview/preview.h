@@ -15,7 +15,7 @@
 
 namespace lcs::preview {
 
-/// Of the frames that are looked at; the first, the middle one and the last are among them.
+/// How many frames are looked at; the first, the middle one and the last are among them.
 inline constexpr int kLooks = 13;
 
 /// An actor, as far as its way tells.

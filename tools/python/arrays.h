@@ -51,7 +51,7 @@ py::array view(const cv::Mat_<Number>& picture, py::handle owner) {
                           reinterpret_cast<const Number*>(picture.data), owner));
 }
 
-/// Of any size, row by row.
+/// Copies a matrix of any size, row by row.
 template <class Derived>
 py::array copy(const Eigen::MatrixBase<Derived>& matrix) {
   using Scalar = typename Derived::Scalar;
@@ -108,7 +108,7 @@ class RowFormat {
   std::size_t size_ = 0;
 };
 
-/// As `bench::fields`; of what is of two kinds also which, which the files tell by their lists.
+/// Visits what `bench::fields` does, and `rebel`, which files tell by two lists instead.
 template <class Item, class Visit>
 void all_fields(Item& item, const Visit& visit) {
   if constexpr (requires { item.rebel; }) visit("rebel", item.rebel);

@@ -21,15 +21,15 @@ struct LabelledBox {
   bool ignored = false;
 };
 
-/// Of the pictures of one recording. A picture without labels was not looked at; one that was, and
-/// in which nothing moves, has no box.
+/// The labels of one recording's pictures. A picture without labels was not looked at; one in which
+/// nothing moves has labels without a box.
 class Labels {
  public:
   using Boxes = std::vector<LabelledBox>;
 
-  /// Of a picture.
-  /// \param number of it in the recording, from 0.
-  /// \param name of its file, without folders; "" for one that has none.
+  /// The boxes of a picture.
+  /// \param number its place in the recording, from 0.
+  /// \param name its file's, without folders; "" for one that has none.
   /// \return null where it was not labelled.
   const Boxes* of(int number, const std::string& name) const;
 

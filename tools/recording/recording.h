@@ -90,7 +90,7 @@ struct Recording {
   Truth truth = Truth::all;
   std::vector<sim::Object> objects;
   std::vector<FrameRecord> frames;  ///< by index
-  /// Of the world, from the whole run; none where there was no simulation to watch.
+  /// The simulation's warnings in the whole run; none where nothing was simulated.
   std::optional<sim::Warnings> warnings = {};
 };
 

@@ -350,10 +350,7 @@ std::string camera_json(const Intrinsics& camera) {
 RecordingWriter::RecordingWriter(const std::filesystem::path& folder, const Recording& run)
     : layers_(folder / kLayersFile), truth_(folder / kTruthFile) {
   truth_.write(header_line(run) + '\n');
-  if (!run.camera) return;
-  OutputFile camera(folder / kCameraFile);
-  camera.write(camera_json(*run.camera) + '\n');
-  camera.close();
+  if (run.camera) write_file(folder / kCameraFile, camera_json(*run.camera) + '\n');
 }
 
 void RecordingWriter::write(const FrameRecord& frame) {

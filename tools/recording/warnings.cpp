@@ -67,10 +67,8 @@ void write_warnings(const std::filesystem::path& path, const std::vector<Warned>
   for (const Warned& warned : warnings) {
     if (warned.count) json[warned.word] = {{"count", *warned.count}, {"first", warned.text}};
   }
-  OutputFile file(path);
   // A body may be called by any bytes; JSON is UTF-8.
-  file.write(json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
-  file.close();
+  write_file(path, json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
 }
 
 std::vector<Warned> read_warnings(const std::filesystem::path& path) {

@@ -37,7 +37,7 @@ void write_warnings(const std::filesystem::path& path, const std::vector<Warned>
 /// What was written there. \throws std::runtime_error naming file and what is wrong with it.
 std::vector<Warned> read_warnings(const std::filesystem::path& path);
 
-/// Those of a run's warnings that the simulation gave; none where the run's folder has none.
+/// The warnings that the simulation gave in a run; none where the run's folder has no such file.
 /// \throws as `read_warnings`.
 std::optional<sim::Warnings> world_warnings(const std::filesystem::path& folder);
 

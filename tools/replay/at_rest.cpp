@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/rotation.h"
+
 namespace lcs::replay {
 namespace {
 
@@ -98,7 +100,7 @@ Rest rest_of(std::span<const sim::ImuSample> readings, double gravity_mps2) {
   if (all.accel.norm() > 0) {
     const Vector3d up = all.accel.normalized();
     rest.accel_bias_mps2 = all.accel - gravity_mps2 * up;
-    rest.R_WS = Eigen::Quaterniond::FromTwoVectors(up, Vector3d::UnitZ()).toRotationMatrix();
+    rest.R_WS = sim::least_rotation(up, Vector3d::UnitZ()).toRotationMatrix();
   }
   return rest;
 }

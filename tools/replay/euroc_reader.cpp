@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "sim/rotation.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/at_rest.h"
 #include "tools/replay/recorded.h"
@@ -98,8 +99,7 @@ Start start_at_rest(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns,
             fmt::format("{} readings", count));
   Start start;
   start.t_ns = t_ns;
-  start.T_WS.R =
-      Eigen::Quaterniond::FromTwoVectors(up, Vector3d::UnitZ()).normalized().toRotationMatrix();
+  start.T_WS.R = sim::least_rotation(up, Vector3d::UnitZ()).normalized().toRotationMatrix();
   start.gyro_bias_radps = turning / count;
   return start;
 }

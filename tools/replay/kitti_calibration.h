@@ -23,11 +23,11 @@ class KittiCalibration {
   const std::vector<double>& numbers(const std::string& name, std::size_t count) const;
   /// \throws scenario::Error, too, for what is no rotation.
   Eigen::Matrix3d rotation(const std::string& name) const;
-  /// Of lines R and T.
+  /// The transform in the lines R and T.
   sim::Pose pose() const;
-  /// Of a projection of pictures that are straight, [K | K t].
+  /// K of the projection [K | K t] of rectified pictures.
   Lens lens(const std::string& name) const;
-  /// Its t: takes points of the frame that cameras are rectified to, to the camera.
+  /// t of that projection: takes points from the common rectified frame to the camera.
   sim::Pose beside(const std::string& name) const;
   ///@}
 

@@ -65,8 +65,8 @@ struct Recorded {
     unsaid.fast_threshold.reset();
     return unsaid;
   }();
-  /// Of corners and objects, where it is known. The time of each of its frames is the name of the
-  /// picture that it is of.
+  /// The truth of corners and objects, where it is known. Each of its frames belongs to the picture
+  /// that is named by its time.
   std::optional<bench::Recording> truth;
   std::unique_ptr<MotionSource> motion;  ///< null: the layout does not say how the camera moved
   std::vector<std::string> lacks;  ///< what nobody can know but the user, and the keys that say it

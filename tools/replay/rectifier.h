@@ -24,10 +24,10 @@ class Rectifier {
   /// A lens without distortion and with square pixels, which leaves all as it is, bit by bit.
   bool is_pinhole() const { return map_x_.empty(); }
 
-  /// Those that the pinhole does not see, or that the lens has no straight ray for, are left out.
+  /// Leaves out corners that the pinhole does not see, or that the lens has no straight ray for.
   void rectify(std::vector<Eigen::Vector2f>& corners_px) const;
   void rectify(cv::Mat3b& picture) const;
-  /// Of a box by pixel edges, the box round what it becomes.
+  /// Replaces a box, given by pixel edges, by the box round its rectified outline.
   void rectify(double& left, double& top, double& right, double& bottom) const;
 
  private:

@@ -44,14 +44,6 @@ std::string html_of(const Page& page) {
   return html;
 }
 
-void write_html(const std::filesystem::path& file, const std::string& html) {
-  bench::write_whole(file, [&](const std::filesystem::path& beside) {
-    bench::OutputFile out(beside);
-    out.write(html);
-    out.close();
-  });
-}
-
 }  // namespace
 
 std::string escaped(std::string_view text) {
@@ -78,7 +70,7 @@ std::string escaped(std::string_view text) {
 }
 
 void write_page(const std::filesystem::path& file, const Page& page) {
-  write_html(file, html_of(page));
+  bench::write_whole(file, html_of(page));
 }
 
 TextPage::TextPage(std::string_view title, std::string_view style) {
@@ -89,7 +81,7 @@ TextPage::TextPage(std::string_view title, std::string_view style) {
 }
 
 void TextPage::write(const std::filesystem::path& file) const {
-  write_html(file, html_ + "</body>\n</html>\n");
+  bench::write_whole(file, html_ + "</body>\n</html>\n");
 }
 
 }  // namespace lcs::report

@@ -18,7 +18,7 @@ inline constexpr std::uintmax_t kVideoBudget = 64'000'000;
 std::string report_data(const suite::SuiteInFolder& suite, const suite::Verdict& verdict,
                         const Against* against, std::size_t picture_budget = kPictureBudget);
 
-/// Likewise of a single run, with its video where its folder has one.
+/// The JSON object of a single run, with its video where its folder has one.
 std::string run_report_data(const suite::SuiteInFolder& suite);
 
 }  // namespace lcs::report

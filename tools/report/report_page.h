@@ -29,7 +29,7 @@ struct Against {
 void write_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite,
                   const suite::Verdict& verdict, const Against* against);
 
-/// Of the one run that `suite` has; a video that is larger than `kVideoBudget` is named instead.
+/// Writes the page of the one run in `suite`. A video larger than `kVideoBudget` is only named.
 /// \throws likewise.
 void write_run_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite);
 

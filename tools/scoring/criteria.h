@@ -42,7 +42,7 @@ struct FailedCriterion {
   std::string message;  ///< as `JudgedCriterion::message`
 };
 
-/// Those not met, in the scenario's order.
+/// The criteria that are not met, in the scenario's order.
 std::vector<FailedCriterion> failed_criteria(const std::vector<scenario::Criterion>& criteria,
                                              const Metrics& metrics);
 

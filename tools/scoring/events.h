@@ -89,15 +89,16 @@ struct Event {
 /// How many of a family are worth pictures; and for who wants every one.
 inline constexpr std::size_t kMostEvents = 5, kAllEvents = std::numeric_limits<std::size_t>::max();
 
-/// Those of rebels, with the most corners first, then those of circles, with the most circles
+/// The events of rebels, with the most corners first, then those of circles, with the most circles
 /// first; at most `most` of each. \throws std::invalid_argument as `score`.
 std::vector<Event> find_events(const Recording& recording, std::size_t most = kMostEvents);
 
-/// Those of squares, with the most frames first; of a detector that has no edges without steps.
+/// The events of squares, with the most frames first; without steps from a detector that has no
+/// edges.
 /// \throws std::invalid_argument as `score`.
 std::vector<Event> find_square_events(const Recording& recording, std::size_t most = kMostEvents);
 
-/// Those of each family that come first. \param events as they are found.
+/// Keeps the first `most` events of each family. \param events in the order of `find_events`.
 void keep_worst(std::vector<Event>& events, std::size_t most);
 
 /// What all events of a run cost, by what did it.
@@ -115,7 +116,8 @@ void write_events(const std::filesystem::path& file, const std::vector<Event>& e
 
 /// \throws std::runtime_error naming the file and what is wrong with it.
 std::vector<Event> read_events(const std::filesystem::path& file);
-/// Of an earlier version's file those of the events that are in it. \throws as `read_events`.
+/// The sums in a file of events; from a file of an earlier version, which has none, those of the
+/// events in it. \throws as `read_events`.
 EventSums read_event_sums(const std::filesystem::path& file);
 
 std::string base64(std::string_view bytes);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
@@ -110,15 +109,13 @@ void write_events(const std::filesystem::path& file, const std::vector<Event>& e
   };
   Json list = Json::array();
   for (const Event& event : events) list.push_back(json_of(event));
-  OutputFile out(file);
   // A name may hold any bytes; JSON only UTF-8.
   const Json all{{"events", list},
                  {"sums",
                   {{"missed", by_word(sums.missed)},
                    {"false", by_word(sums.false_ones)},
                    {"squares", by_word(sums.squares)}}}};
-  out.write(all.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
-  out.close();
+  write_file(file, all.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 std::vector<Event> read_events(const std::filesystem::path& file) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -81,10 +80,7 @@ void write_metrics(const std::filesystem::path& path, const Metrics& metrics) {
     if (text.back() != '{') text += ',';
     text += fmt::format("\n  \"{}\": {}", name, figure ? fmt::format("{}", *figure) : "null");
   }
-  text += "\n}\n";
-  OutputFile file(path);
-  file.write(text);
-  file.close();
+  write_file(path, text + "\n}\n");
 }
 
 Metrics read_metrics(const std::filesystem::path& path) {

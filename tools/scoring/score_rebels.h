@@ -25,7 +25,7 @@ enum class CornerOutcome : std::uint8_t {
   missed_early,  ///< missed as soon: recall leaves it out, too
 };
 
-/// Of each corner of each frame, in order.
+/// The outcome of each corner of each frame, in order.
 std::vector<std::vector<CornerOutcome>> corner_outcomes(const Recording& recording);
 
 /// When an object could be told from the static world, and when it was.
@@ -36,7 +36,7 @@ struct ObjectDetection {
   std::optional<int> found_at;  ///< first frame from k0 on with enough rebel corners on it
 };
 
-/// Of each object that is distinct in any frame, by number.
+/// The detection of each object that is distinct in any frame, by number.
 std::vector<ObjectDetection> detect_objects(const Recording& recording);
 
 /// Whether a disc has a moving object under it: its centre lies in the box of one, or a corner of

@@ -34,7 +34,7 @@ std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs);
 /// \name When a square is right, and which objects squares should find.
 ///@{
 inline constexpr double kRightIou = 0.5;
-/// Of a frame, by number: large enough, with corners, and enough of them visible.
+/// Numbers of a frame's objects that count: large enough, with corners, and visible enough.
 std::set<int> eligible_objects(const FrameRecord& frame);
 ///@}
 
@@ -54,10 +54,10 @@ struct SquareScore {
   std::vector<double> movers_iou, static_iou;  ///< of matched pairs
   ///@}
   int identity_switches = 0;  ///< at 0.5
-  /// By the pixels that squares and objects cover, in place of their boxes.
+  /// The same, with the pixels that squares and objects cover in place of their boxes.
   struct Masks {
     SquareCounts at_50;
-    /// Of the pairs whose boxes match at 0.5.
+    /// IoU of the pairs whose boxes match at 0.5.
     std::vector<double> movers_iou, static_iou;
   };
   std::optional<Masks> masks;  ///< none unless the masks of all objects are known

@@ -25,7 +25,7 @@ std::optional<double> value(const Metrics& metrics, const std::string& name);
 struct RebelCounts {
   int true_rebels = 0;   ///< TP: verdict and label rebel
   int false_rebels = 0;  ///< FP: verdict rebel, label fixed
-  /// Those of the TP that recall counts (N frames after their object's first).
+  /// The TP that recall counts: from N frames after the first of their object.
   int found_rebels = 0;
   int missed_rebels = 0;  ///< FN: label rebel and counted by recall, any other verdict
 

@@ -1,7 +1,8 @@
 // EuRoC ASL: pictures, IMU and truth under mav0/. The body is the IMU, as in EuRoC's own sequences:
 // T_BS of imu0 and of the truth is the identity.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include <span>
 
 #include "tools/sequence/png.h"
 #include "tools/sequence/pose_text.h"
@@ -24,8 +25,17 @@ constexpr const char* kPoseHeader =
 constexpr const char* kOdometryHeader =
     "#timestamp [ns],v_RB_B_x [m s^-1],v_RB_B_y [m s^-1],v_RB_B_z [m s^-1]\n";
 
+/// One by one: of `fmt::join` over numbers GCC 13 warns within fmt 9, as in sim/mjcf.cpp.
+std::string numbers(std::span<const double> values, const char* separator) {
+  std::string text;
+  for (const double value : values) {
+    text += fmt::format("{}{}", text.empty() ? "" : separator, value);
+  }
+  return text;
+}
+
 std::string numbers(const Eigen::Vector3d& v) {
-  return fmt::format("{},{},{}", v.x(), v.y(), v.z());
+  return numbers({v.data(), 3}, ",");
 }
 
 /// The common beginning of each sensor.yaml.
@@ -33,7 +43,7 @@ std::string sensor_yaml(const char* type, const std::string& comment, const sim:
   return fmt::format(
       "sensor_type: {}\ncomment: {}\n\n# Sensor extrinsics wrt. the body frame: T_BS takes the "
       "sensor's coordinates to the body's.\nT_BS:\n  cols: 4\n  rows: 4\n  data: [{}]\n",
-      type, comment, fmt::join(matrix_of(T_BS), ", "));
+      type, comment, numbers(matrix_of(T_BS), ", "));
 }
 
 class EurocWriter : public Writer {
@@ -61,7 +71,7 @@ class EurocWriter : public Writer {
     }
     const std::array<double, 16> T_WC = matrix_of(o.truth.now.T_WC);
     output.rows["camera_pose"] =
-        fmt::format("{},{}\n", kEpoch_ns + o.t_ns, fmt::join(T_WC.begin(), T_WC.begin() + 12, ","));
+        fmt::format("{},{}\n", kEpoch_ns + o.t_ns, numbers(std::span(T_WC).first(12), ","));
   }
 
   std::vector<Document> documents() const override {

@@ -30,7 +30,7 @@ inline cv::Vec3w kitti_code(const cv::Vec2f& motion_px, bool is_valid) {
   return {static_cast<std::uint16_t>(u + 0.5), static_cast<std::uint16_t>(v + 0.5), 1};
 }
 
-/// Of each pixel.
+/// The motion of each pixel as KITTI encodes it.
 cv::Mat3w kitti_flow(const cv::Mat2f& motion_px, const cv::Mat1b& valid);
 
 /// The bytes of a .flo file.

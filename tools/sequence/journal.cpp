@@ -163,9 +163,7 @@ void Journal::write(const fs::path& within, std::string_view bytes) const {
       folder_ / kJournal / fmt::format("{}{}", ::getpid(), bench::kUnfinished);
   std::error_code error;
   try {
-    bench::OutputFile file(unfinished);
-    file.write(bytes);
-    file.close();
+    bench::write_file(unfinished, bytes);
     fs::create_directories((folder_ / within).parent_path());
     fs::rename(unfinished, folder_ / within);
   } catch (const fs::filesystem_error& failure) {

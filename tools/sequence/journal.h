@@ -25,7 +25,7 @@ struct FileRecord {
   std::string sha256;
 };
 
-/// By what was compared, as "flow_px".
+/// Agreements by the name of what was compared, as "flow_px".
 using Agreements = std::map<std::string, Agreement>;
 
 struct FrameRecordEntry {

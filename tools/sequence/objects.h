@@ -10,10 +10,9 @@
 
 namespace lcs::sequence {
 
-/// \name Of a mask, as DAVIS has them: 1..253 are objects.
+/// \name Pixels of a mask, as DAVIS has them: 0 is the fixed setting and the sky, 1..253 objects.
 ///@{
-inline constexpr unsigned char kBackground = 0;  ///< the fixed setting, and the sky
-inline constexpr unsigned char kVoid = 254;      ///< the rover itself: to be left out of any count
+inline constexpr unsigned char kVoid = 254;  ///< the rover itself: to be left out of any count
 inline constexpr int kMostObjects = 253;
 ///@}
 

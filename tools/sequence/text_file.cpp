@@ -19,11 +19,7 @@ std::string read_file(const fs::path& path) {
 void write_file(const fs::path& path, std::string_view bytes) {
   std::error_code error;
   fs::create_directories(path.parent_path(), error);  // what fails here fails again in a moment
-  bench::write_whole(path, [&](const fs::path& beside) {
-    bench::OutputFile file(beside);
-    file.write(bytes);
-    file.close();
-  });
+  bench::write_whole(path, bytes);
 }
 
 }  // namespace lcs::sequence

@@ -8,10 +8,10 @@
 
 namespace lcs::sequence {
 
-/// Of a generated sequence. \throws scenario::Error
+/// The bytes of a file of a generated sequence. \throws scenario::Error
 std::string read_file(const std::filesystem::path& path);
 
-/// Appears whole or not at all; the folders above it are made where they are missing.
+/// Writes a file that appears whole or not at all, and makes folders above it that are missing.
 /// \throws bench::OutputError
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 

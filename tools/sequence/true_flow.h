@@ -17,8 +17,8 @@ struct TrueFlow {
   cv::Mat2f ego_px;   ///< of the same point held fixed in the world: the camera's own part
   /// 1 where the point is seen in frame k+1: within the image, and not hidden by something nearer.
   cv::Mat1b seen;
-  /// Likewise for `ego_px`; on a moving body only whether it is within the image, as the world in
-  /// which the body would have stood still was never rendered.
+  /// 1 where the point held fixed is seen in frame k+1. On a moving body it says only whether the
+  /// point is within the image, as the world in which the body stands still was never rendered.
   cv::Mat1b ego_seen;
 };
 

@@ -10,12 +10,12 @@
 namespace lcs::suite {
 
 /// F1 of rebel corners (mean over seeds), a row a scenario that has it by every detector, and their
-/// means over each group and over all. Then a line for each other detector: in how many scenarios the
-/// suite's is ahead of it, where it is least so, and how long its step takes beside the other's (mean
-/// over scenarios of the ratio of medians).
-/// Of worlds the means have their 95 % interval, and two blocks more follow: by how much the suite's
-/// detector is ahead of each other, paired by world, and false objects where nothing moves and over
-/// all.
+/// means over each group and over all. Then a line for each other detector: in how many scenarios
+/// the suite's is ahead of it, where it is least so, and how long its step takes beside the other's
+/// (mean over scenarios of the ratio of medians).
+/// Over worlds, the means have their 95 % interval, and two more blocks follow: by how much the
+/// suite's detector is ahead of each other one, paired by world; and the false objects where
+/// nothing moves, and in all worlds.
 std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> others);
 
 inline constexpr const char* kStandingFile = "standing.md";

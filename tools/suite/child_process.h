@@ -38,7 +38,7 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// None while it runs.
+  /// How it ended; none while it runs.
   std::optional<Exit> poll();
   /// Asks it to end, as Ctrl-C would.
   void ask_to_end() const;

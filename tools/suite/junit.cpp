@@ -144,9 +144,7 @@ void write_junit(const std::filesystem::path& file, const SuiteResult& suite,
 
   tinyxml2::XMLPrinter printer;
   document.Print(&printer);
-  bench::OutputFile output(file);
-  output.write(printer.CStr());
-  output.close();
+  bench::write_file(file, printer.CStr());
 }
 
 }  // namespace lcs::suite

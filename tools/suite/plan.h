@@ -36,8 +36,8 @@ struct PlannedScenario {
   std::vector<std::uint64_t> seeds;  ///< one, 0, for an error
 };
 
-/// By file, then in the order of the sweep. A scenario that is broken is part of the plan, whatever
-/// its group.
+/// The scenarios to run, by file and then in the order of the sweep. A scenario that is broken is
+/// part of the plan, whatever its group.
 /// \throws std::runtime_error for paths that are not there or hold no scenario, a filter that is no
 ///   regular expression, two scenarios of one name, and when nothing is left.
 std::vector<PlannedScenario> plan(const PlanOptions& options);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <stdexcept>
 #include <string_view>
 
 #include "tools/files/json_node.h"
@@ -170,10 +169,8 @@ void write_suite(const std::filesystem::path& file, const SuiteResult& suite) {
   const Json json{{"format", kFormat},          {"detector", suite.detector},
                   {"sets", suite.sets},         {"version", suite.version},
                   {"recorded", suite.recorded}, {"scenarios", scenarios}};
-  bench::OutputFile output(file);
   // What a child wrote to stderr need not be UTF-8; JSON is.
-  output.write(json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
-  output.close();
+  bench::write_file(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& path) {

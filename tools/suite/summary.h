@@ -13,7 +13,7 @@
 
 namespace lcs::suite {
 
-/// Null where there is none.
+/// The scenario or run that is asked for; null where there is none.
 const ScenarioResult* find(const SuiteResult& suite, const std::string& name);
 const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed);
 
@@ -26,18 +26,18 @@ struct Spread {
   int count = 0;    ///< seeds that have the figure, >= 1
 };
 
-/// None where no seed has the figure.
+/// The spread of a figure over the seeds; none where no seed has it.
 std::optional<Spread> over_seeds(const ScenarioResult& scenario, std::string_view name);
 
-/// The mean of that, by the scenario's name; none where the suite has no such scenario either.
+/// The mean over the seeds; none where no seed has the figure, or no scenario the name.
 std::optional<double> mean_over_seeds(const SuiteResult& suite, const std::string& scenario,
                                       std::string_view name);
 
-/// Of each of a group's scenarios that has the figure its mean over seeds.
+/// The means over seeds of all scenarios of a group that have the figure.
 std::vector<double> figures_of_group(const SuiteResult& suite, const std::string& group,
                                      std::string_view name);
 
-/// Their mean, where there is any.
+/// The mean of `figures_of_group`; none where that is empty.
 std::optional<double> over_group(const SuiteResult& suite, const std::string& group,
                                  std::string_view name);
 

@@ -21,7 +21,7 @@ struct Stated {
   Worth before, after;
 };
 
-/// Of where it was done.
+/// When, by which program and by which command it was done.
 struct Circumstances {
   std::string date, program, command;
 };

@@ -17,7 +17,7 @@ struct Worth {
   double f1 = 0;            ///< over the runs in which something moves
   double false_moving = 0;  ///< false objects in a frame: of these,
   double false_static = 0;  ///< and of those in which nothing moves
-  /// Of the two alike, no run counting for more than one a frame.
+  /// The same over all runs, where no run counts for more than one a frame.
   double false_capped = 0;
 
   /// What `lcs tune` makes the most of: F1, less a tenth of a false object a frame.

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "sim/rotation.h"
+
 namespace lcs::worlds {
 namespace {
 
@@ -184,7 +186,7 @@ Part Kit::bar(const Bar& bar) const {
   part.shape = Part::Shape::capsule;
   part.size_m = {rounded(bar.radius_m), along.norm() / 2, 0};
   part.position_m = (bar.from_m + bar.to_m) / 2;
-  part.rotation = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), along);
+  part.rotation = sim::least_rotation(Vector3d::UnitZ(), along);
   part.material = bar.material;
   return part;
 }
@@ -287,7 +289,7 @@ Eigen::Quaterniond Kit::attitude(const Box& box) const {
            (2 * kStep_m);
   };
   const Vector3d up(-slope(Vector2d::UnitX()), -slope(Vector2d::UnitY()), 1);
-  return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up) * turn;
+  return sim::least_rotation(Vector3d::UnitZ(), up) * turn;
 }
 
 void Kit::stand(const std::string& kind, const Parts& parts, const Vector2d& at_m,

@@ -45,9 +45,9 @@ class Kit {
   int plain();  ///< of a drawn colour
   /// One of the styles; a world has only so many pictures, and then uses them again.
   int surface(const std::vector<Style>& styles);
-  /// Likewise for floors, walls and what is tiled with it: always a picture of its own.
+  /// A surface for floors and walls, which are tiled with it: always a picture of its own.
   int wide_surface(const std::vector<Style>& styles);
-  /// As a thing has it: a surface or, by `plainness`, none.
+  /// For a thing: a surface or, in a share of `plainness`, a plain colour.
   int paint(const std::vector<Style>& styles);
   int paint();  ///< of any style
   ///@}
@@ -122,7 +122,7 @@ class Kit {
     double heading_rad;
     double gap_m = 0.05;
   };
-  /// Where nothing is, `gap_m` about it. \return whether it was free.
+  /// Puts an object where nothing is within `gap_m`. \return whether the place was free.
   bool try_stand(const Standing& standing);
   struct Fixture {
     Parts parts;
@@ -130,7 +130,7 @@ class Kit {
     double heading_rad;
     bool in_the_way = true;
   };
-  /// Likewise as a part of the setting, whatever is there.
+  /// Puts a part of the setting, whatever is there.
   void fix(const Fixture& fixture);
   /// A wall as a part of the setting, from one point to another, on the left of the line.
   void wall(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m, double height_m,

@@ -32,8 +32,8 @@ std::array<int, 3> frames_shown(int frames);
 /// What moves has boxes in magenta, what stands in green.
 cv::Mat3b contact_sheet(const Shots& shots, const cv::Mat3b& plan, int columns);
 
-/// By a simulation. \param scenario the file of a world, of three frames or more. \throws what a
-/// simulation throws.
+/// The shots of a simulation. \param scenario the file of a world, of three frames or more.
+/// \throws what a simulation throws.
 Shots simulated_shots(const std::filesystem::path& scenario);
 
 }  // namespace lcs::worlds

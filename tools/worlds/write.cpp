@@ -22,12 +22,6 @@ using Eigen::Vector3d;
 constexpr std::string_view kWritten = "# Written by `lcs world ", kAgain = "# Drawn again ",
                            kTimes = " times.", kHas = "# It has: ";
 
-void write_file(const std::filesystem::path& path, std::string_view text) {
-  bench::OutputFile file(path);
-  file.write(text);
-  file.close();
-}
-
 /// With decimals enough for a tenth of a millimetre, and none to spare.
 std::string number(double value) {
   std::string text = fmt::format("{:.4f}", value);
@@ -245,15 +239,15 @@ void write_world(const World& world, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder / "textures");
   std::filesystem::create_directories(folder / "meshes");
   for (const Texture& texture : world.textures) {
-    write_file(folder / "textures" / (texture.name + ".png"),
-               sequence::encode_png(texture.picture, sequence::PngFilter::up));
+    bench::write_file(folder / "textures" / (texture.name + ".png"),
+                      sequence::encode_png(texture.picture, sequence::PngFilter::up));
   }
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {
-    write_file(folder / "meshes" / fmt::format("mesh_{}.obj", i), obj_text(world.meshes[i]));
+    bench::write_file(folder / "meshes" / fmt::format("mesh_{}.obj", i), obj_text(world.meshes[i]));
   }
-  write_file(folder / kPlanFile, sequence::encode_png(plan(world), sequence::PngFilter::up));
-  write_file(folder / "scene.xml", scene_text(world));
-  write_file(folder / (name_of(world) + ".yaml"), scenario_text(world));
+  bench::write_file(folder / kPlanFile, sequence::encode_png(plan(world), sequence::PngFilter::up));
+  bench::write_file(folder / "scene.xml", scene_text(world));
+  bench::write_file(folder / (name_of(world) + ".yaml"), scenario_text(world));
 }
 
 Origin origin_of(const std::filesystem::path& scenario) {

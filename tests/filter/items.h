@@ -1,0 +1,48 @@
+/// \file
+/// Trusted edges and circles as the field `ahead` moves them.
+#pragma once
+
+#include "filter/kinematics/geometry.h"
+#include "tests/filter/world.h"
+
+namespace lcs::testing {
+
+/// What is static at `at`. \param depth_ratio of the reference depth to its depth.
+template <class Item>
+Item item(const Vec2& at, double depth_ratio) {
+  Item item;
+  item.location = at;
+  item.origin = vga().centre_px;
+  item.depth_ratio = depth_ratio;
+  item.speed = depth_ratio * ahead().reference_speed(at);
+  item.angle = angle_of(at - item.origin);
+  item.trust = 4;
+  return item;
+}
+
+inline Edge normal(const Vec2& at, double depth_ratio = 1) {
+  return item<Edge>(at, depth_ratio);
+}
+
+inline Circle circle(const Vec2& at, double radius, double depth_ratio = 1) {
+  Circle circle = item<Circle>(at, depth_ratio);
+  circle.radius = radius;
+  circle.members = 5;
+  return circle;
+}
+
+/// An edge or a circle that moves by itself, from where it was first seen 50 px away.
+template <class Item>
+Item moved(Item item, double angle, double speed) {
+  item.rebel = true;
+  item.angle = angle;
+  item.speed = speed;
+  item.origin = item.location - 50 * unit_vector(angle);
+  return item;
+}
+
+inline Edge rebel(const Vec2& at, double angle, double speed) {
+  return moved(normal(at), angle, speed);
+}
+
+}  // namespace lcs::testing

@@ -1,0 +1,21 @@
+/// \file
+/// What something is refused with.
+#pragma once
+
+#include <exception>
+#include <string>
+
+namespace lcs::bench {
+
+/// The message of the `Error` that `action` throws.
+template <class Error = std::exception, class Action>
+std::string refusal_of(const Action& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+}  // namespace lcs::bench
