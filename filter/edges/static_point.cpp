@@ -11,6 +11,8 @@ namespace {
 
 /// Of the height above the ground that is told, by which it may be wrong.
 constexpr double kWrongHeight = 0.1;
+/// Standard deviations of the ground beyond which nothing static is.
+constexpr double kFarBelow = 2;
 
 /// Chance of a normal variable between the bounds; never 0, as it is divided by.
 double mass(double mean, double variance, const DepthBounds& bounds) {
@@ -51,7 +53,7 @@ DepthBounds depth_bounds(const MotionField& field, const Vec2& x_px) {
   bounds.ground_sigma_pm =
       std::hypot(field.ground_slack() / field.reference_depth_m(), kWrongHeight * bounds.ground_pm);
   bounds.least_pm =
-      std::clamp(bounds.ground_pm - kFar * bounds.ground_sigma_pm, 0.0, 0.95 * bounds.most_pm);
+      std::clamp(bounds.ground_pm - kFarBelow * bounds.ground_sigma_pm, 0.0, 0.95 * bounds.most_pm);
   return bounds;
 }
 

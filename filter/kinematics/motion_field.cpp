@@ -10,8 +10,8 @@
 namespace lcs {
 namespace {
 
-/// Farther from the principal point than this many focal lengths, the FOE is at infinity.
-constexpr double kFarFoe = 100;
+/// No picture has more pixels than an int tells: what is farther is at infinity.
+const double kInfinity_px = std::numeric_limits<int>::max();
 
 }  // namespace
 
@@ -35,7 +35,7 @@ MotionField::MotionField(const Intrinsics& camera, const EgoMotion& motion,
       parameters_(parameters),
       ground_(parameters.ground ? motion.ground : std::nullopt),
       moving_(motion.dt_s > 0 && motion.v_C_mps.norm() > parameters.still_speed_mps) {
-  if (moving_ && std::abs(v_C_mps_.z()) * kFarFoe > v_C_mps_.head<2>().norm()) {
+  if (moving_ && std::abs(v_C_mps_.z()) * kInfinity_px > focal_px_ * v_C_mps_.head<2>().norm()) {
     foe_ = centre_px_ + focal_px_ * v_C_mps_.head<2>() / v_C_mps_.z();
   }
 }
@@ -56,11 +56,10 @@ MotionField MotionField::corrected(const Eigen::Vector3d& turn_rad,
 }
 
 /// What is turned behind the camera has no image, and the first-order models have one for it that
-/// grows without bounds: both stay where they are, out of sight, and will go. No picture has more
-/// pixels than an int tells.
+/// grows without bounds: both stay where they are, out of sight, and will go.
 Vec2 MotionField::rotated(const Vec2& x_px) const {
   const Vec2 x = rotated_unbounded(x_px);
-  return x.cwiseAbs().maxCoeff() < std::numeric_limits<int>::max() ? x : x_px;
+  return x.cwiseAbs().maxCoeff() < kInfinity_px ? x : x_px;
 }
 
 Vec2 MotionField::rotated_unbounded(const Vec2& x_px) const {
@@ -150,7 +149,7 @@ double MotionField::advanced_ratio(double depth_ratio) const {
 Vec2 MotionField::origin(const Vec2& x_px) const {
   if (foe_) return *foe_;
   if (!moving_) return centre_px_;
-  return x_px - direction(x_px) * (kFarFoe * focal_px_);
+  return x_px - direction(x_px) * kInfinity_px;
 }
 
 }  // namespace lcs

@@ -10,7 +10,6 @@
 
 #include "filter/edges/association.h"
 #include "filter/edges/coupling.h"
-#include "filter/edges/gauss.h"
 #include "filter/edges/motion_fix.h"
 #include "filter/edges/own_motion.h"
 #include "filter/edges/static_point.h"
@@ -169,7 +168,7 @@ TEST(StaticPoint, IsNotNearerThanItMayBeNorBehindTheGround) {
   // It may fall away by 0.015 rad, and the height be wrong by a tenth.
   const double sigma = std::hypot(0.015 / 0.8, 0.1 * ground);
   EXPECT_NEAR(bounds.ground_sigma_pm, sigma, 1e-12);
-  EXPECT_NEAR(bounds.least_pm, ground - kFar * sigma, 1e-12);
+  EXPECT_NEAR(bounds.least_pm, ground - 2 * sigma, 1e-12);
   const auto share = [&](double inverse_depth_pm) {
     StaticPoint point =
         StaticPoint::seen_once(px, vga(), field, field.displacement_C_m(), kNoise2_px2);
