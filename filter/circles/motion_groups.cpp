@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "filter/edges/gauss.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/matching/refill.h"
 

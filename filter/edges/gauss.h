@@ -1,5 +1,6 @@
 /// \file
-/// Normal densities in the plane, 1/px^2, and the normal distribution.
+/// Normal densities in the plane, 1/px^2, the normal distribution, and how long what rests on them
+/// is iterated.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,9 +11,6 @@
 #include "filter/kinematics/camera.h"
 
 namespace lcs {
-
-/// Standard deviations beyond which nothing is looked for: a hundredth is left there.
-inline constexpr double kFar = 3;
 
 /// Rounds after which what is solved by turns is taken to be settled.
 inline constexpr int kIterations = 5;

@@ -19,6 +19,9 @@ namespace lcs {
 /// in proportion to its points.
 inline constexpr std::size_t kCrowd = 60;
 
+/// Standard deviations beyond which nothing is looked for: a hundredth is left there.
+inline constexpr double kFar = 3;
+
 /// A point found near another. Nearest first, and of equally near ones the lower index: written by
 /// hand, as the comparisons of std::pair and std::tuple compare doubles twice.
 struct Neighbour {
