@@ -35,7 +35,7 @@ constexpr const char* kHelp = R"(Examples:
 The frames of the suite's runs are asked of the filter again and again, each time with other numbers,
 on all cores. What counts is the mean F1 of rebels over the runs in which something moves, less a
 tenth of the mean number of false objects in a frame, of which no run counts for more than one. NLopt's
-Sbplx looks for the most of it, between a quarter of the present values and four times these. Runs of
+BOBYQA looks for the most of it, between a quarter of the present values and four times these. Runs of
 the split test are refused: nothing is chosen by them.
 
 Each evaluation is kept at once. A search that was interrupted, or is to go on with more evaluations,

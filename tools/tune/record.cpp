@@ -30,7 +30,7 @@ std::string record_text(const Found& found, const std::vector<Stated>& stated,
                         const Circumstances& circumstances) {
   std::string text = fmt::format(
       "{}\n\n"
-      "{}, lcs {}, {} evaluations by NLopt's Sbplx:\n\n"
+      "{}, lcs {}, {} evaluations by NLopt's BOBYQA:\n\n"
       "    {}\n\n"
       "It makes the most of the mean F1 of rebels over the runs in which something moves, less a "
       "tenth of the mean number\nof false objects in a frame over all runs, of which no run counts "

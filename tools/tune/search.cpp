@@ -179,26 +179,26 @@ Found search(const Parameters& start, const SearchOptions& options, const Judge&
   }
   if (options.evaluations <= found.evaluations || axes.empty()) return found;
 
-  nlopt::opt sbplx(nlopt::LN_SBPLX, static_cast<unsigned>(axes.size()));
-  sbplx.set_lower_bounds(low);
-  sbplx.set_upper_bounds(high);
-  sbplx.set_initial_step(kFirstStep);
-  sbplx.set_maxeval(options.evaluations - found.evaluations);
+  nlopt::opt bobyqa(nlopt::LN_BOBYQA, static_cast<unsigned>(axes.size()));
+  bobyqa.set_lower_bounds(low);
+  bobyqa.set_upper_bounds(high);
+  bobyqa.set_initial_step(kFirstStep);
+  bobyqa.set_maxeval(options.evaluations - found.evaluations);
   std::function<double(const std::vector<double>&)> objective = [&](const auto& at) {
     try {
       return worth_at(at);
     } catch (...) {  // not through a library in C
       problem = std::current_exception();
-      sbplx.force_stop();
+      bobyqa.force_stop();
       return 0.0;
     }
   };
-  sbplx.set_max_objective([](const std::vector<double>& at, std::vector<double>&,
+  bobyqa.set_max_objective([](const std::vector<double>& at, std::vector<double>&,
                              void* data) { return (*static_cast<decltype(objective)*>(data))(at); },
                           &objective);
   try {
     double best = 0;
-    sbplx.optimize(z, best);
+    bobyqa.optimize(z, best);
   } catch (const nlopt::forced_stop&) {
   } catch (const nlopt::roundoff_limited&) {  // as close as it comes
   }

@@ -1,7 +1,7 @@
 /// \file
-/// The search for the filter's learnt numbers: NLopt's Sbplx (Rowan, "Functional Stability Analysis
-/// of Numerical Algorithms", 1990), which needs no gradients and puts up with steps, on the
-/// logarithm of each.
+/// The search for the filter's learnt numbers: NLopt's BOBYQA (Powell, "The BOBYQA Algorithm for
+/// Bound Constrained Optimization without Derivatives", 2009) on the logarithm of each. It fits a
+/// quadratic to what it has seen, for which twice as many evaluations do as there are numbers.
 #pragma once
 
 #include <cstdint>
