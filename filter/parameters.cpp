@@ -10,13 +10,11 @@
 #include <utility>
 #include <variant>
 
-#include "filter/kinematics/geometry.h"
 #include "filter/learnt.h"
+#include "filter/paper/presets.h"
 
 namespace lcs {
 namespace {
-
-constexpr double kDegree = kPi / 180;
 
 /// A value that is one of a few words.
 struct Choice {
@@ -282,39 +280,8 @@ void check_ranks(const TrustRanks& ranks, const std::string& expert) {
                               "' must be Tr_c <= Tr_s <= Tr_m");
 }
 
-void set_degrees(CircleParameters& circle, SquareParameters& square) {
-  circle.delta_v = 9 * kDegree;
-  circle.alpha_deviation = 20 * kDegree;
-  circle.epsilon_beta_n = 20 * kDegree;
-  circle.epsilon_beta_r = 50 * kDegree;
-  square.delta_beta_1 = 90 * kDegree;
-  square.delta_beta_2 = 0;
-  square.epsilon_beta_1 = 15 * kDegree;
-  square.epsilon_beta_2 = 35 * kDegree;
-  square.epsilon_beta = 20 * kDegree;
-  square.epsilon_beta_s = 20 * kDegree;
-}
-
-/// Table 1. Its rules are the printed ones.
-Parameters lab() {
-  Parameters p;
-  set_degrees(p.circle, p.square);
-  p.circle.edge_rule = EdgeRule::paper;
-  p.square.layer_rule = LayerRule::couples;
-  return p;
-}
-
-/// Section 5.2: the ranks of trust are re-tuned, the rest has "minor changes" that are not printed.
-Parameters cars() {
-  Parameters p = lab();
-  p.circle.trust = {1, 4, 7};
-  p.square.trust = {2, 5, 8};
-  return p;
-}
-
 Parameters project_default() {
   Parameters p;
-  set_degrees(p.circle, p.square);
   p.circle.trust = {2, 3, 7};
   p.circle.min_members = 7;
   // An outline's crossings, and the stairs that a slanting line is drawn in, slide along it.
@@ -332,8 +299,8 @@ std::vector<std::string> preset_names() {
 
 Parameters preset(std::string_view name) {
   if (name == "default") return project_default();
-  if (name == "lab") return lab();
-  if (name == "cars") return cars();
+  if (name == "lab") return lab_preset();
+  if (name == "cars") return cars_preset();
   throw std::invalid_argument("the filter has no preset '" + std::string(name) + "'; there are " +
                               joined(preset_names()));
 }

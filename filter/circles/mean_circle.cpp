@@ -9,7 +9,7 @@ namespace lcs {
 Circle mean_circle(const std::vector<Edge>& edges, std::span<const int> group,
                    const MotionField& field) {
   Circle mean;
-  AngleMean angle;
+  Vec2 direction = Vec2::Zero();
   mean.depth_ratio = mean.speed = 0;
   for (const int i : group) {
     const Edge& edge = edges[i];
@@ -19,7 +19,7 @@ Circle mean_circle(const std::vector<Edge>& edges, std::span<const int> group,
     mean.depth_ratio += edge.depth_ratio;
     // The deviation mu_r that the paper adds to beta of a rebel is unsigned here, and so widens the
     // gate (zeta_r) instead of turning the mean.
-    angle.add(edge.angle);
+    direction += unit_vector(edge.angle);
   }
   const double n = static_cast<double>(group.size());
   mean.rebel = edges[group.front()].rebel;
@@ -27,7 +27,7 @@ Circle mean_circle(const std::vector<Edge>& edges, std::span<const int> group,
   mean.origin /= n;
   mean.speed /= n;
   mean.depth_ratio /= n;
-  mean.angle = angle.value();
+  mean.angle = angle_of(direction);
   if (mean.rebel) {
     const double reference = field.reference_speed(mean.location);
     mean.depth_ratio = reference > 0 ? std::min(mean.speed / reference, 2 * field.max_ratio()) : 0;

@@ -2,15 +2,15 @@
 
 #include "filter/edges/hypothesis_edges.h"
 #include "filter/kinematics/geometry.h"
+#include "filter/kinematics/pixels.h"
 #include "filter/paper/paper_edges.h"
 
 namespace lcs {
 
 void EdgeExpert::bury(std::vector<Edge>& edges) const {
+  const Pixels picture{camera_.width_px, camera_.height_px};
   std::erase_if(edges, [&](const Edge& edge) {
-    return !trust_.alive(edge.trust) || edge.location.x() < -0.5 || edge.location.y() < -0.5 ||
-           edge.location.x() > camera_.width_px - 0.5 ||
-           edge.location.y() > camera_.height_px - 0.5;
+    return !trust_.alive(edge.trust) || !picture.contain(edge.location);
   });
 }
 

@@ -11,6 +11,7 @@
 namespace lcs {
 
 inline constexpr double kPi = std::numbers::pi;
+inline constexpr double kDegree = kPi / 180;
 
 /// To (-pi, pi].
 inline double wrap_angle(double angle_rad) {
@@ -52,16 +53,6 @@ class UprightMetric {
  private:
   Vec2 up_;
   double upward_;
-};
-
-/// Circular mean, gathered one angle at a time. Opposite angles cancel: the mean of none is 0.
-class AngleMean {
- public:
-  void add(double angle_rad, double weight = 1) { sum_ += weight * unit_vector(angle_rad); }
-  double value() const { return angle_of(sum_); }
-
- private:
-  Vec2 sum_ = Vec2::Zero();
 };
 
 /// Distance of `x` from the segment a-b.

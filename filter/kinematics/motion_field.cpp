@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "filter/kinematics/geometry.h"
+#include "filter/paper/rotation_models.h"
 
 namespace lcs {
 namespace {
@@ -65,28 +66,14 @@ Vec2 MotionField::rotated(const Vec2& x_px) const {
 Vec2 MotionField::rotated_unbounded(const Vec2& x_px) const {
   switch (parameters_.rotation) {
     case RotationModel::first_order:
-      return x_px + first_order(x_px - centre_px_);
+      return x_px + first_order_rotation(x_px - centre_px_, w_dt_, focal_px_);
     case RotationModel::as_printed:
-      return x_px + as_printed(x_px - centre_px_);
+      return x_px + printed_rotation(x_px - centre_px_, w_dt_, focal_px_);
     case RotationModel::homography:
       break;
   }
   const Eigen::Vector3d h = homography_ * x_px.homogeneous();
   return h.z() > 1e-6 ? Vec2(h.hnormalized()) : x_px;
-}
-
-Vec2 MotionField::first_order(const Vec2& x) const {
-  const double f = focal_px_;
-  const Eigen::Vector3d& w = w_dt_;
-  return {x.x() * x.y() / f * w.x() - (f + x.x() * x.x() / f) * w.y() + x.y() * w.z(),
-          (f + x.y() * x.y() / f) * w.x() - x.x() * x.y() / f * w.y() - x.x() * w.z()};
-}
-
-Vec2 MotionField::as_printed(const Vec2& x) const {
-  const double f = focal_px_;
-  const Eigen::Vector3d& w = w_dt_;
-  return {f * w.y() + x.y() * w.z() + (x.x() * x.y() * w.x() - x.x() * x.x() * w.y()) / f,
-          f * w.x() + x.x() * w.z() + (x.x() * x.y() * w.y() - x.y() * x.y() * w.y()) / f};
 }
 
 double MotionField::turned(double angle_rad, const Vec2& location_px, const Vec2& origin_px) const {
@@ -123,22 +110,6 @@ std::optional<double> MotionField::ground_ratio(const Vec2& x_px) const {
   Eigen::Vector3d ray;
   ray << (x_px - centre_px_) / focal_px_, 1;
   return -parameters_.reference_depth_m * ground_->up_C.dot(ray) / ground_->height_m;
-}
-
-double MotionField::least_ratio(const Vec2& x_px) const {
-  if (!ground_) return 0;
-  return std::clamp(*ground_ratio(x_px) - ground_slack(), 0.0, max_ratio());
-}
-
-double MotionField::ratio_from(const Vec2& x_px, const Vec2& earlier_px,
-                               const Eigen::Vector3d& displacement_C_m) const {
-  // earlier = (x + w K d) / (1 + w d_z)  =>  w (K d_xy + (c - earlier) d_z) = earlier - x
-  const Vec2 parallax =
-      focal_px_ * displacement_C_m.head<2>() + (centre_px_ - earlier_px) * displacement_C_m.z();
-  const double length2 = parallax.squaredNorm();
-  if (length2 < 1e-12) return 0;
-  const double w = (earlier_px - x_px).dot(parallax) / length2;
-  return std::clamp(w * parameters_.reference_depth_m, 0.0, max_ratio());
 }
 
 double MotionField::advanced_ratio(double depth_ratio) const {

@@ -65,11 +65,6 @@ class MotionField {
   /// moved by `displacement_C_m`, given Z_ref / Z now.
   Vec2 earlier(const Vec2& x_px, double depth_ratio, const Eigen::Vector3d& displacement_C_m) const;
 
-  /// Z_ref / Z now of the static point that would have been nearest to `earlier_px`, within
-  /// [0, max_ratio()]. 0 where the displacement shows no parallax.
-  double ratio_from(const Vec2& x_px, const Vec2& earlier_px,
-                    const Eigen::Vector3d& displacement_C_m) const;
-
   /// Takes camera coordinates of frame k-1 to those of frame k.
   const Eigen::Matrix3d& R_cur_prev() const { return R_cur_prev_; }
 
@@ -90,10 +85,6 @@ class MotionField {
   /// Z_ref / Z of the ground seen at a place: the least that a static point may have there.
   /// Negative above the horizon; none where the ground is not known.
   std::optional<double> ground_ratio(const Vec2& x_px) const;
-
-  /// Least Z_ref / Z of a static point at a place: that of the ground, if it fell away from its
-  /// plane by `ground_tilt_rad`; 0 above the horizon, and where the ground is not known.
-  double least_ratio(const Vec2& x_px) const;
 
   /// Z_ref / Z by which the ground may differ from its plane.
   double ground_slack() const {
@@ -117,11 +108,6 @@ class MotionField {
 
  private:
   Vec2 rotated_unbounded(const Vec2& x_px) const;
-
-  /// Displacement by the rotation, px, of a point `x` from the principal point: the field above
-  /// integrated once, and the paper's first equation as it is printed.
-  Vec2 first_order(const Vec2& x) const;
-  Vec2 as_printed(const Vec2& x) const;
 
   /// g(x), m/s * px: the flow times the depth.
   Vec2 flow(const Vec2& x_px) const;

@@ -99,25 +99,14 @@ class PointGrid {
     }
   }
 
-  /// Points of some cells, and how much of the plane these take, px^2.
-  struct Crowd {
-    double count, area_px2;
-  };
-
-  /// Of the cells that the square reaches into which lies `radius_px` about x to each side. Takes
-  /// the time of a few look-ups, however many points lie there.
-  Crowd crowd(const Vec2& x, double radius_px) const {
-    const int c0 = column(x.x() - radius_px), c1 = column(x.x() + radius_px);
-    const int r0 = row(x.y() - radius_px), r1 = row(x.y() + radius_px);
-    std::size_t count = 0;
-    for (int r = r0; r <= r1; ++r) count += first_[cell(c1, r) + 1] - first_[cell(c0, r)];
-    return {static_cast<double>(count), (c1 - c0 + 1) * (r1 - r0 + 1) * cell_px_ * cell_px_};
-  }
-
   /// px: within which `count` points would lie if those of the cells round x were spread evenly. A
   /// search within this radius takes a time that does not grow with the density of points.
   double crowd_radius(const Vec2& x, double count) const {
-    return 3 * cell_px_ * std::sqrt(count / (std::numbers::pi * crowd(x, cell_px_).count));
+    const int c0 = column(x.x() - cell_px_), c1 = column(x.x() + cell_px_);
+    const int r0 = row(x.y() - cell_px_), r1 = row(x.y() + cell_px_);
+    std::size_t there = 0;
+    for (int r = r0; r <= r1; ++r) there += first_[cell(c1, r) + 1] - first_[cell(c0, r)];
+    return 3 * cell_px_ * std::sqrt(count / (std::numbers::pi * static_cast<double>(there)));
   }
 
   /// The `count` points nearest to x within `radius_px` that `accept(index)` takes, in order. Looks

@@ -8,6 +8,7 @@
 #include "filter/kinematics/geometry.h"
 #include "filter/line/line.h"
 #include "filter/matching/refill.h"
+#include "filter/paper/estimate.h"
 
 namespace lcs {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "filter/kinematics/geometry.h"
 #include "filter/matching/refill.h"
+#include "filter/paper/estimate.h"
 
 namespace lcs {
 namespace {

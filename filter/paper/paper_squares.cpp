@@ -7,12 +7,45 @@
 #include "filter/kinematics/geometry.h"
 #include "filter/line/line.h"
 #include "filter/matching/refill.h"
+#include "filter/paper/estimate.h"
+#include "filter/paper/tangent.h"
+#include "filter/squares/convex_hull.h"
 
 namespace lcs {
 namespace {
 
 double side_overlap(double a, double half_a, double b, double half_b) {
   return std::max(0.0, std::min(a + half_a, b + half_b) - std::max(a - half_a, b - half_b));
+}
+
+/// A square with rebels is carried by its own motion; how its size changes is not known before the
+/// circles say so.
+void carry_on(Square& square, const MotionField& field) {
+  square.angle = field.turned(square.angle, square.location, square.origin);
+  square.origin = field.rotated(square.origin);
+  const Vec2 location =
+      field.rotated(square.location) + square.speed * field.dt_s() * unit_vector(square.angle);
+  place(square, location, square.half_size);
+}
+
+/// A static square moves away from the focus of expansion, and grows about it.
+void expand(Square& square, const MotionField& field) {
+  const Vec2 rotated = field.rotated(square.location);
+  place(square, rotated, square.half_size);
+  square.origin = field.origin(rotated);
+  if (!field.moving()) return;
+  square.depth_ratio = field.advanced_ratio(square.depth_ratio);
+  square.speed = square.depth_ratio * field.reference_speed(rotated);
+  const Vec2 outwards = rotated - square.origin;
+  const double distance = outwards.norm();
+  if (distance <= 0) return;
+  const Vec2 moved = field.translated(rotated, square.depth_ratio);
+  const double travelled = (moved - rotated).dot(outwards) / distance;  // Delta r
+  const Extent extent{rotated, square.half_size};
+  const Extent next = predict_by_tangents(extent, square.origin, travelled)
+                          .value_or(predict_by_homothety(extent, square.origin, travelled));
+  place(square, next.location, next.half_size);
+  square.angle = angle_of(field.direction(square.location));
 }
 
 }  // namespace
@@ -29,6 +62,16 @@ double overlap_percent(const Square& a, const Square& b) {
 
 PaperSquares::PaperSquares(const Intrinsics& camera, const SquareParameters& parameters)
     : camera_(camera), parameters_(parameters), couples_(camera, parameters) {}
+
+void PaperSquares::predict(Layers& layers, const MotionField& field) const {
+  for (Square& square : layers.squares) {
+    if (square.rebel_circles > 0) {
+      carry_on(square, field);
+    } else {
+      expand(square, field);
+    }
+  }
+}
 
 void PaperSquares::update(Layers& layers, const MotionField& field) {
   copy_over(couples_.layer(layers, field), means_);
@@ -88,6 +131,13 @@ void PaperSquares::update(Layers& layers, const MotionField& field) {
     return !ranks.alive(square.trust) || x.x() < 0 || x.y() < 0 || x.x() > camera_.width_px ||
            x.y() > camera_.height_px;
   });
+}
+
+void PaperSquares::update_ignorance(Layers& layers) const {
+  for (Square& square : layers.squares) {
+    square.ignoring = square.trust >= parameters_.trust.maximum && square.rebel_circles == 0;
+    if (square.ignoring) square.trust = parameters_.trust.after_ignoring();
+  }
 }
 
 }  // namespace lcs

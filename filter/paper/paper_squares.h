@@ -20,8 +20,14 @@ class PaperSquares {
  public:
   PaperSquares(const Intrinsics& camera, const SquareParameters& parameters);
 
+  /// Moves the squares to where this frame should show them.
+  void predict(Layers& layers, const MotionField& field) const;
+
   /// Layers the circles and matches, estimates, makes and deletes squares.
   void update(Layers& layers, const MotionField& field);
+
+  /// Transition IV: squares that reached Tr_m will be ignored in the next frame.
+  void update_ignorance(Layers& layers) const;
 
  private:
   /// A predicted square and a mean one that may be it.

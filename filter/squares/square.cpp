@@ -1,58 +1,16 @@
 #include "filter/squares/square.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "filter/kinematics/geometry.h"
 #include "filter/matching/refill.h"
-#include "filter/paper/tangent.h"
 
 namespace lcs {
-namespace {
-
-/// A square with rebels is carried by its own motion; how its size changes is not known before the
-/// circles say so.
-void carry_on(Square& square, const MotionField& field) {
-  square.angle = field.turned(square.angle, square.location, square.origin);
-  square.origin = field.rotated(square.origin);
-  const Vec2 location =
-      field.rotated(square.location) + square.speed * field.dt_s() * unit_vector(square.angle);
-  place(square, location, square.half_size);
-}
-
-/// A static square moves away from the focus of expansion, and grows about it.
-void expand(Square& square, const MotionField& field) {
-  const Vec2 rotated = field.rotated(square.location);
-  place(square, rotated, square.half_size);
-  square.origin = field.origin(rotated);
-  if (!field.moving()) return;
-  square.depth_ratio = field.advanced_ratio(square.depth_ratio);
-  square.speed = square.depth_ratio * field.reference_speed(rotated);
-  const Vec2 outwards = rotated - square.origin;
-  const double distance = outwards.norm();
-  if (distance <= 0) return;
-  const Vec2 moved = field.translated(rotated, square.depth_ratio);
-  const double travelled = (moved - rotated).dot(outwards) / distance;  // Delta r
-  const Extent extent{rotated, square.half_size};
-  const Extent next = predict_by_tangents(extent, square.origin, travelled)
-                          .value_or(predict_by_homothety(extent, square.origin, travelled));
-  place(square, next.location, next.half_size);
-  square.angle = angle_of(field.direction(square.location));
-}
-
-}  // namespace
 
 SquareExpert::SquareExpert(const Intrinsics& camera, const SquareParameters& parameters)
     : camera_(camera), parameters_(parameters), paper_(camera, parameters) {}
 
 void SquareExpert::predict(Layers& layers, const MotionField& field) const {
-  for (Square& square : layers.squares) {
-    if (square.rebel_circles > 0) {
-      carry_on(square, field);
-    } else {
-      expand(square, field);
-    }
-  }
+  if (parameters_.layer_rule == LayerRule::couples) paper_.predict(layers, field);
 }
 
 void SquareExpert::feed_back(const Layers& layers, std::vector<IgnoreRegion>& psi) const {
@@ -96,14 +54,15 @@ void SquareExpert::box(const std::vector<Circle>& circles, const std::vector<Squ
   auto place = places_.begin();
   for (std::size_t c = 0; c < circles.size(); ++c) {
     const Circle& circle = circles[c];
-    if (circle.members == 0) {  // nobody looks, and its square goes on as it was expected to
+    if (circle.members == 0) {  // nobody looks, and its square goes with it
       const auto was = std::find_if(before.begin(), before.end(),
                                     [&](const Square& square) { return square.id == circle.id; });
       if (was == before.end()) continue;
-      squares_.push_back(*was);
-      squares_.back().circles = squares_.back().rebel_circles = 0;
-      squares_.back().age = circle.age;
-      squares_.back().ignoring = circle.ignoring;
+      Square& square = squares_.emplace_back(*was);
+      lcs::place(square, circle.location, square.half_size);
+      square.circles = square.rebel_circles = 0;
+      square.age = circle.age;
+      square.ignoring = circle.ignoring;
       continue;
     }
     hull_.clear();
@@ -146,11 +105,8 @@ void SquareExpert::update(Layers& layers, const MotionField& field,
 }
 
 void SquareExpert::update_ignorance(Layers& layers) const {
-  if (parameters_.layer_rule == LayerRule::circles) return;  // a square is ignored with its circle
-  for (Square& square : layers.squares) {
-    square.ignoring = square.trust >= parameters_.trust.maximum && square.rebel_circles == 0;
-    if (square.ignoring) square.trust = parameters_.trust.after_ignoring();
-  }
+  // By circles, a square is ignored with its circle.
+  if (parameters_.layer_rule == LayerRule::couples) paper_.update_ignorance(layers);
 }
 
 }  // namespace lcs

@@ -11,7 +11,6 @@ namespace lcs {
 namespace {
 
 using testing::ahead;
-using testing::kDegree;
 using testing::normal;
 using testing::Random;
 using testing::rebel;

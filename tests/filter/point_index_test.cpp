@@ -148,34 +148,6 @@ std::vector<Vec2> even_points(double apart_px) {
   return points;
 }
 
-TEST(PointGrid, CountsACrowdByWholeCells) {
-  Random random(8);
-  PointGrid grid;
-  for (const double cell : {5.0, 16.0, 40.0}) {
-    const std::vector<Vec2> points = random_points(random, 400);
-    grid.build(points, cell);
-    const auto within = [&](const Vec2& x, double radius) {
-      return static_cast<double>(std::count_if(points.begin(), points.end(), [&](const Vec2& p) {
-        return (p - x).cwiseAbs().maxCoeff() <= radius;
-      }));
-    };
-    for (int i = 0; i < 50; ++i) {
-      const Vec2 x(random.uniform(100, 550),
-                   random.uniform(100, 350));  // so that no border is near
-      const double radius = random.uniform(0, 100);
-      const PointGrid::Crowd crowd = grid.crowd(x, radius);
-      EXPECT_GE(crowd.count, within(x, radius));
-      EXPECT_LE(crowd.count, within(x, radius + cell));
-      EXPECT_GE(crowd.area_px2, 4 * radius * radius);
-      EXPECT_LE(crowd.area_px2, 4 * (radius + cell) * (radius + cell));
-    }
-    // Where there are no cells there is nothing to count, and no room either.
-    const PointGrid::Crowd all = grid.crowd({0, 0}, 5000);
-    EXPECT_EQ(all.count, 400);
-    EXPECT_NEAR(all.area_px2, 750 * 550, 40 * cell * (750 + 550) / 16);
-  }
-}
-
 TEST(PointGrid, KnowsHowFarSoManyReach) {
   PointGrid grid;
   for (const double apart : {3.0, 8.0, 20.0}) {

@@ -14,7 +14,6 @@ namespace {
 
 using testing::ahead;
 using testing::circle;
-using testing::kDegree;
 using testing::Random;
 using testing::vga;
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "filter/kinematics/camera.h"
+#include "filter/paper/estimate.h"
 
 namespace lcs {
 namespace {

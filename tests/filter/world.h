@@ -17,8 +17,6 @@
 
 namespace lcs::testing {
 
-inline constexpr double kDegree = kPi / 180;
-
 /// Small repeatable generator (splitmix64): the same numbers with every standard library.
 class Random {
  public:

@@ -14,9 +14,9 @@
 #include "tools/bench/tracker.h"
 #include "tools/kinematics/answer.h"
 #include "tools/kinematics/imu_study.h"
-#include "tools/process/parallel.h"
 #include "tools/kinematics/sweeps.h"
 #include "tools/kinematics/theory.h"
+#include "tools/process/parallel.h"
 
 namespace lcs::kinematics {
 namespace {
@@ -194,6 +194,21 @@ TEST(KinematicsModels, WhatIsLearntIsGoodForAFractionOfAPixel) {
 // ---- Rendered points
 
 /// Two ways to the same truth: the simulator's label of a corner, and the pinhole on its depth.
+TEST(KinematicsPoints, TheDepthOfTwoSightingsIsFound) {
+  const FieldParameters parameters;
+  const Step step = step_to(vga(), {}, 0.1, parameters);
+  const MotionField field(step.camera, step.motion, parameters);
+  for (const Vector3d& moved_m :
+       {Vector3d(0, 0, 0.2), Vector3d(0.1, -0.2, 0), Vector3d(0.1, 0, -0.2)}) {
+    for (const Site& site : geometric_points(vga(), kDepths_m).sites) {
+      const Vec2 before = vga().project(vga().back_project(site.px, site.depth_m) + moved_m);
+      if ((before - site.px).norm() < 1e-6) continue;  // on the focus of expansion
+      EXPECT_NEAR(ratio_from(vga(), field, site.px, before, moved_m),
+                  parameters.reference_depth_m / site.depth_m, 1e-6);
+    }
+  }
+}
+
 TEST(KinematicsPoints, TheSimulatorAndThePinholeAgreeOnRenderedCorners) {
   const StudyConfig config = config_with();
   const PointSet points = rendered_with_lens(config, config.scenario.camera.fovy_rad);
@@ -297,8 +312,9 @@ TEST(KinematicsParallel, WhatAPieceOrTheListenerThrowsComesBack) {
                    },
                    nothing),
                std::runtime_error);
-  EXPECT_THROW(process::for_each_parallel(50, nothing, [](int) { throw std::logic_error("enough"); }),
-               std::logic_error);
+  EXPECT_THROW(
+      process::for_each_parallel(50, nothing, [](int) { throw std::logic_error("enough"); }),
+      std::logic_error);
   process::for_each_parallel(0, nothing, nothing);  // nothing to do is no error
 }
 

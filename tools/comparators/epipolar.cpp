@@ -24,7 +24,9 @@ double epipolar_distance(const MotionField& field, const Vec2& now_px, const Vec
   // The nearest depth holds in both frames: in reverse, a point was nearer in the earlier one.
   const double nearest_ratio = 1 / (1 / field.max_ratio() + std::max(0.0, -displacement_C_m.z()) /
                                                                 field.reference_depth_m());
-  const double farthest_ratio = std::min(field.least_ratio(now_px), nearest_ratio);
+  // Nothing is below the ground, if that fell away from its plane by its tilt.
+  const double ground_ratio = field.ground_ratio(now_px).value_or(0) - field.ground_slack();
+  const double farthest_ratio = std::clamp(ground_ratio, 0.0, nearest_ratio);
   return distance_to_segment(before_px, field.earlier(now_px, farthest_ratio, displacement_C_m),
                              field.earlier(now_px, nearest_ratio, displacement_C_m));
 }

@@ -33,13 +33,24 @@ double learnt_ratio(const sim::Pinhole& camera, const MotionField& field, const 
     if (first_C.z() < kNearest_m) continue;
     const Vec2 first = camera.project(first_C);
     if (in_image(camera, first)) {
-      return field.ratio_from(whole(site.px), whole(first), travelled_C);
+      return ratio_from(camera, field, whole(site.px), whole(first), travelled_C);
     }
   }
   return 1;
 }
 
 }  // namespace
+
+double ratio_from(const sim::Pinhole& camera, const MotionField& field, const Vec2& now_px,
+                  const Vec2& before_px, const Eigen::Vector3d& displacement_C_m) {
+  // before = (now + w K d) / (1 + w d_z)  =>  w (K d_xy + (c - before) d_z) = before - now
+  const Vec2 parallax = camera.focal_px * displacement_C_m.head<2>() +
+                        (camera.centre_px - before_px) * displacement_C_m.z();
+  const double length2 = parallax.squaredNorm();
+  if (length2 < 1e-12) return 0;
+  const double w = (before_px - now_px).dot(parallax) / length2;
+  return std::clamp(w * field.reference_depth_m(), 0.0, field.max_ratio());
+}
 
 PointSet geometric_points(const sim::Pinhole& camera, std::span<const double> depths_m, int columns,
                           int rows) {

@@ -42,6 +42,11 @@ PointSet rendered_points(const sim::Pinhole& camera, sim::FrameTruth truth,
 /// Sightings before the step that a landmark has learnt from, if it was in the image for as long.
 inline constexpr int kLearningSteps = 5;
 
+/// Z_ref / Z now of the static point seen at `now_px` that would have been nearest to `before_px`
+/// before the camera moved by `displacement_C_m`, not turning. 0 where that shows no parallax.
+double ratio_from(const sim::Pinhole& camera, const MotionField& field, const Vec2& now_px,
+                  const Vec2& before_px, const Eigen::Vector3d& displacement_C_m);
+
 /// The points that are in the image before and after a motion.
 ///
 /// What each has learnt is its depth by the parallax of up to `kLearningSteps` steps before: the

@@ -1,0 +1,25 @@
+/// \file
+/// Displacement of a point of the image by a small rotation of the camera, to first order.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "filter/kinematics/camera.h"
+
+namespace lcs {
+
+/// px: the motion field of a rotation, integrated once.
+/// \param x px, from the principal point. \param w rad, about the camera's axes.
+/// \param f focal length, px.
+inline Vec2 first_order_rotation(const Vec2& x, const Eigen::Vector3d& w, double f) {
+  return {x.x() * x.y() / f * w.x() - (f + x.x() * x.x() / f) * w.y() + x.y() * w.z(),
+          (f + x.y() * x.y() / f) * w.x() - x.x() * x.y() / f * w.y() - x.x() * w.z()};
+}
+
+/// The same by the paper's first equation as it is printed.
+inline Vec2 printed_rotation(const Vec2& x, const Eigen::Vector3d& w, double f) {
+  return {f * w.y() + x.y() * w.z() + (x.x() * x.y() * w.x() - x.x() * x.x() * w.y()) / f,
+          f * w.x() + x.x() * w.z() + (x.x() * x.y() * w.y() - x.y() * x.y() * w.y()) / f};
+}
+
+}  // namespace lcs
