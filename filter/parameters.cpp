@@ -282,6 +282,7 @@ void check_ranks(const TrustRanks& ranks, const std::string& expert) {
 
 Parameters project_default() {
   Parameters p;
+  p.field.nearest_depth_m = 0.4;
   p.circle.trust = {2, 3, 7};
   p.circle.min_members = 7;
   // An outline's crossings, and the stairs that a slanting line is drawn in, slide along it.

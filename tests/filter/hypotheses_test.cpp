@@ -432,6 +432,7 @@ TEST(Coupling, ANodeAloneKeepsWhatItKnows) {
 TEST(Coupling, OfTwoNodesIsTheSumByHand) {
   HypothesisParameters parameters = kUsual;
   parameters.coupling = 8;
+  parameters.step_share = 0.1;
   parameters.coupling_reach_px = 25;
   // Alone with each other, either counts J at the most, however far: the first is sure, so that the
   // second has -1 + 8; and the first 20 + 8 tanh(7 / 2).

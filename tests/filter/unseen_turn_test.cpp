@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "filter/filter.h"
@@ -18,8 +19,8 @@ using testing::World;
 constexpr double kSigma_rad = 0.03;
 
 /// Rebels among 150 static corners, in the worst of four frames in which the turn is not told.
-int most_false_rebels(double pan_radps, double unseen_turn_rad) {
-  Scene scene(5);
+int most_false_rebels(std::uint64_t seed, double pan_radps, double unseen_turn_rad) {
+  Scene scene(seed);
   Filter filter(scene.world.camera, preset("default"));
   int most = 0;
   for (int k = 0; k < 16; ++k) {
@@ -52,9 +53,13 @@ int most_false_rebels(double pan_radps, double unseen_turn_rad) {
 /// At the centre of the picture 5 px a frame, and 20.
 TEST(UnseenTurn, DoesNotMakeTheWorldARebelWhereItIsToldThatThereMayBeOne) {
   for (const double pan_radps : {0.12, 0.48}) {
-    const int told = most_false_rebels(pan_radps, kSigma_rad);
-    EXPECT_LE(told, 10) << pan_radps;
-    EXPECT_GT(most_false_rebels(pan_radps, 0), 2 * told + 5) << pan_radps;
+    double told = 0, untold = 0;  // means over scenes, which differ by as much as 8 to 37
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      told += most_false_rebels(seed, pan_radps, kSigma_rad) / 8.0;
+      untold += most_false_rebels(seed, pan_radps, 0) / 8.0;
+    }
+    EXPECT_LE(told, 25) << pan_radps;
+    EXPECT_GT(untold, 2 * told) << pan_radps;
   }
 }
 
