@@ -25,8 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kHelp = R"(Examples:
-  lcs suite --worlds train --count 60 --out out/train
-  lcs suite --worlds validate --count 60 --out out/validate
+  lcs suite --worlds train --count 200 --out out/train
+  lcs suite --worlds validate --count 160 --out out/validate
   lcs tune out/train --validate out/validate              all learnt numbers
   lcs tune out/train --keys hypotheses.prior,hypotheses.wrong --evaluations 60
   lcs tune out/train --evaluations 1                      what the present ones are worth
