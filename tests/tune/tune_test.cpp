@@ -1,5 +1,6 @@
 /// The filter's numbers are learnt by a search that finds what is better, goes on where it was, and
 /// never looks at what figures are stated on.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "filter/learnt.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
@@ -151,7 +153,16 @@ TEST_F(TuneCommand, StatesTheSuitesFiguresAndWritesAPresetThatItsRecordExplains)
                            "after", "hypotheses.prior"}) {
     EXPECT_NE(record.find(part), std::string::npos) << part;
   }
-  EXPECT_NE(bench::read(out() / "learnt.h").find("{\"hypotheses.prior\", \""), std::string::npos);
+  const std::string preset_text = bench::read(out() / "learnt.h");
+  for (const auto& [key, value] : kLearnt) {
+    EXPECT_NE(preset_text.find(std::string("{\"") + key + "\", \""), std::string::npos)
+        << key << " is learnt, whether it was searched for or not";
+  }
+  EXPECT_NE(
+      preset_text.find("{\"hypotheses.coupling\", \"" +
+                       fmt::format("{}", number(preset("default"), "hypotheses.coupling")) + "\"}"),
+      std::string::npos)
+      << "what was left alone keeps its value";
 
   const auto more = tune({"--keys", "hypotheses.prior", "--evaluations", "6"});
   EXPECT_EQ(more.exit_code, 0) << "the same search goes on: " << more.err;

@@ -70,6 +70,17 @@ std::vector<std::string> learnt_keys() {
   return keys;
 }
 
+/// Learnt parameters that the search left alone keep their values.
+tune::Found with_other_learnt(tune::Found found, const Parameters& start) {
+  for (const ParameterInfo& info : describe(start)) {
+    const auto is_it = [&](const tune::Setting& setting) { return setting.key == info.key; };
+    if (info.learnt && std::ranges::none_of(found.after, is_it)) {
+      found.after.push_back({info.key, info.value});
+    }
+  }
+  return found;
+}
+
 std::string command_of(const TuneOptions& options) {
   std::string command = fmt::format("lcs tune {}", options.suite);
   if (!options.validate.empty()) command += fmt::format(" --validate {}", options.validate);
@@ -151,7 +162,8 @@ ExitCode tune(const TuneOptions& options) {
   const auto write = [&](const char* name, const std::string& text, const char* sign) {
     bench::write_whole(out / name, text, sign);
   };
-  write(tune::kPresetFile, tune::preset_text(found, circumstances), tune::kPresetSign);
+  write(tune::kPresetFile, tune::preset_text(with_other_learnt(found, start), circumstances),
+        tune::kPresetSign);
   write(tune::kRecordFile, record, tune::kRecordSign);
   if (!options.quiet) print_out("{}\nresults in {}\n", record, out.string());
   return kFine;
