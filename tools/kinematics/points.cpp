@@ -1,6 +1,7 @@
 #include "tools/kinematics/points.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>

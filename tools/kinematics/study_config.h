@@ -4,15 +4,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <numbers>
 
+#include "filter/kinematics/geometry.h"
 #include "filter/parameters.h"
 #include "scenarios/scenario.h"
 #include "sim/drive.h"
 
 namespace lcs::kinematics {
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// How much is done of what costs time; nothing else depends on it.
 struct Effort {
@@ -31,7 +29,7 @@ struct StudyConfig {
   /// Nominal: the fastest that the scenario commands at the start of a phase.
   double speed_mps = 0;
   double tolerance_px = 1;  ///< of an end-point error: what the answer is held against
-  bool stands = false;  ///< the scenario's rover never moves, so that the speed is a stand-in
+  bool stands = false;      ///< the scenario's rover never moves, so that the speed is a stand-in
   Eigen::Vector3d forward_C = Eigen::Vector3d::UnitZ();  ///< the rover's x in the camera
   sim::Pinhole camera;
 
