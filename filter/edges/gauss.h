@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -37,20 +36,5 @@ inline double log_odds(double chance) {
 inline double chance(double log_odds) {
   return 1 / (1 + std::exp(-log_odds));
 }
-
-/// What is so with the chance `prior` at first, and in each frame anew with the chance `turnover`.
-struct Fading {
-  double prior, turnover;
-
-  /// Log odds a frame on.
-  double faded(double odds) const {
-    return log_odds(chance(odds) * (1 - turnover) + prior * turnover);
-  }
-  /// Log odds that are no surer than they can be of what may have changed within the frame.
-  double bounded(double odds) const {
-    const double most = std::log((1 - turnover) / (turnover * prior));
-    return std::clamp(odds, -most, most);
-  }
-};
 
 }  // namespace lcs

@@ -16,11 +16,11 @@ HypothesisEdges::HypothesisEdges(const Intrinsics& camera, const CircleParameter
       noise2_px2_(parameters_.noise_px * parameters_.noise_px),
       association_(parameters_),
       coupling_(parameters_),
-      motion_error_(parameters_.ego_share, parameters_.prior) {}
+      velocity_error_(parameters_.ego_share) {}
 
 void HypothesisEdges::predict(Layers&, const MotionField& told) {
-  motion_error_.advance(told);
-  predict_tracks(motion_error_.without(told));
+  velocity_error_.advance(told);
+  predict_tracks(velocity_error_.without(told));
 }
 
 void HypothesisEdges::predict_tracks(const MotionField& field) {
@@ -42,38 +42,27 @@ void HypothesisEdges::predict_tracks(const MotionField& field) {
   }
 }
 
-/// The field without what it is off by, as the tracks show it that are likely to stand. What was
-/// learnt of them before the wheels slipped or gripped was learnt under a wrong motion: they begin
-/// anew.
-MotionField HypothesisEdges::fixed(const MotionField& field, const Chi& chi,
-                                   const std::vector<int>& track_of) {
+/// What the told motion is off by, as the tracks show it that are likely to stand.
+MotionFix HypothesisEdges::fix(const MotionField& told, const Chi& chi,
+                               const std::vector<int>& track_of) {
   residuals_.clear();
-  const double anywhere = 1 / association_.reach_area_px2(field.dt_s());
+  const double anywhere = 1 / association_.reach_area_px2(told.dt_s());
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (track_of[c] < 0) continue;
     const Track& track = predicted_[track_of[c]];
     if (!track.has_motion()) continue;
     const Vec2& x = chi.locations[c];
     const StaticPoint& point = track.as_static;
-    const Vec2 by_depth = depth_bounds(field, point.place_px).half_pm() *
-                          parallax_px_m(camera_, field.displacement_C_m(), point.place_px);
+    const Vec2 by_depth = depth_bounds(told, point.place_px).half_pm() *
+                          parallax_px_m(camera_, told.displacement_C_m(), point.place_px);
     const double moves = chance(track.belief);
-    const double moving = track.as_moving.density(x, noise2_px2_);
     residuals_.push_back({point.place_px, x - point.place_px,
                           point.spread(noise2_px2_) + by_depth * by_depth.transpose(),
                           point.inverse_depth_pm, point.covariance(2, 2),
-                          1.0 / association_.crowd(c), 1 - moves, moves * moving + anywhere,
-                          moving + parameters_.wrong * anywhere});
+                          1.0 / association_.crowd(c), 1 - moves,
+                          moves * track.as_moving.density(x, noise2_px2_) + anywhere});
   }
-  const bool slipped = motion_error_.slips();
-  const MotionFix off = motion_error_.fix(camera_, field, residuals_, fading(field.dt_s()));
-  if (motion_error_.slips() != slipped) {
-    for (Track& track : tracks_) {
-      track.sightings = 1;
-      track.log_odds = track.belief = 0;
-    }
-  }
-  return field.corrected(off.turn_rad, off.velocity_mps);
+  return motion_fix(camera_, told, residuals_, velocity_error_.covariance(told));
 }
 
 Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner) {
@@ -86,9 +75,14 @@ Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner) {
   return track;
 }
 
-/// A corner may have changed its kind, or its track may have jumped.
-Fading HypothesisEdges::fading(double dt_s) const {
-  return {parameters_.prior, std::min(0.5, parameters_.turnover_ps * dt_s)};
+/// Log odds a frame on: a corner may have changed its kind, or its track may have jumped.
+double HypothesisEdges::faded(double log_odds, double dt_s) const {
+  const double turnover = turnover_in(dt_s);
+  return lcs::log_odds(chance(log_odds) * (1 - turnover) + parameters_.prior * turnover);
+}
+
+double HypothesisEdges::turnover_in(double dt_s) const {
+  return std::min(0.5, parameters_.turnover_ps * dt_s);
 }
 
 /// Density of a second sighting of what moves. A static point may have come along a
@@ -122,7 +116,6 @@ bool HypothesisEdges::see(Track& track, const Vec2& x_px, const MotionField& fie
     noise2_px2 += std::pow(parameters_.ego_share * (x_px - track.place_px).norm(), 2);
   }
   const double still = seen.see(x_px, noise2_px2, bounds);
-  const Fading fading = this->fading(field.dt_s());
   const double right = 1 - parameters_.wrong;
   const double clutter = parameters_.wrong / association_.reach_area_px2(field.dt_s());
   // What a sighting adds to the log odds: a match may be none, and then it may be anywhere.
@@ -135,10 +128,12 @@ bool HypothesisEdges::see(Track& track, const Vec2& x_px, const MotionField& fie
   } else {
     const double moving = track.as_moving.density(x_px, noise2_px2_);
     if (right * std::max(still, moving) < clutter) return false;
-    track.log_odds = fading.faded(track.log_odds) + evidence(moving);
+    track.log_odds = faded(track.log_odds, field.dt_s()) + evidence(moving);
     track.as_moving.see(x_px, noise2_px2_);
   }
-  track.log_odds = fading.bounded(track.log_odds);
+  const double turnover = turnover_in(field.dt_s());
+  const double most = lcs::log_odds((1 - turnover) / (1 - turnover + turnover * parameters_.prior));
+  track.log_odds = std::clamp(track.log_odds, -most, most);
   track.as_static = seen;
   track.place_px = x_px;
   track.unseen = 0;
@@ -160,8 +155,7 @@ void HypothesisEdges::coast(const std::vector<IgnoreRegion>& psi, const MotionFi
     };
     if (!inside_any(psi, expected_px())) {
       if (track.unseen++ >= parameters_.coast) continue;
-      if (track.has_motion())
-        track.belief = track.log_odds = fading(field.dt_s()).faded(track.belief);
+      if (track.has_motion()) track.belief = track.log_odds = faded(track.belief, field.dt_s());
     }
     track.place_px = expected_px();
     if (picture.contain(track.place_px)) tracks_.push_back(track);
@@ -251,9 +245,11 @@ void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& 
   refill(reasons_, chi.size(), Reason::unknown);
   if (!(told.dt_s() > 0)) predicted_.clear();
   const std::vector<int>& track_of = association_.match(chi, predicted_, noise2_px2_, told.dt_s());
-  MotionField field = motion_error_.without(told);
+  MotionField field = velocity_error_.without(told);
   if (!predicted_.empty()) {
-    field = fixed(field, chi, track_of);
+    const MotionFix off = fix(field, chi, track_of);
+    velocity_error_.see(off, field);
+    field = field.corrected(off.turn_rad, off.velocity_mps);
     predict_tracks(field);
   }
   tracks_.clear();

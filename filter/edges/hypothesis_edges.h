@@ -28,16 +28,17 @@ class HypothesisEdges : public EdgeExpert {
               std::vector<Verdict>& verdicts) override;
   void forget() override {
     tracks_.clear();
-    motion_error_ = {parameters_.ego_share, parameters_.prior};
+    velocity_error_.forget();
   }
 
  private:
   void predict_tracks(const MotionField& field);
-  MotionField fixed(const MotionField& field, const Chi& chi, const std::vector<int>& track_of);
+  MotionFix fix(const MotionField& told, const Chi& chi, const std::vector<int>& track_of);
   Track first_seen(const Chi& chi, std::size_t corner);
   bool see(Track& track, const Vec2& x_px, const MotionField& field) const;
   double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds) const;
-  Fading fading(double dt_s) const;
+  double faded(double log_odds, double dt_s) const;
+  double turnover_in(double dt_s) const;
   void coast(const std::vector<IgnoreRegion>& psi, const MotionField& field);
   void couple(const MotionField& field);
   void decide(Layers& layers, const Chi& chi, const MotionField& field,
@@ -48,7 +49,7 @@ class HypothesisEdges : public EdgeExpert {
   double noise2_px2_;
   Association association_;
   Coupling coupling_;
-  MotionError motion_error_;
+  VelocityError velocity_error_;
   std::vector<Track> tracks_;     // of the last frame; those of its corners first, by chi
   std::vector<Track> predicted_;  // the same, in this frame
   std::vector<Residual> residuals_;
