@@ -67,7 +67,8 @@ inline constexpr std::array<FaultText, 22> kFaults{{
      "readings of the IMU stay at the end of its range: odometry is believed more"},
     {"imu_frozen", "readings of the IMU repeat the one before to the bit: taken for silence"},
     {"imu_in_g", "readings of the accelerometer are in g, not m/s^2: taken times gravity"},
-    {"odometry_unusable", "readings of the odometry are no numbers or over 1000 m/s: left out"},
+    {"odometry_unusable",
+     "readings of the odometry are no numbers, over 1000 m/s or over 100 rad/s: left out"},
     {"odometry_out_of_order", "readings of the odometry are before what is known: left out"},
     {"clock_set", "times the clock was set anew: two frames in a row agreed on it"},
 }};

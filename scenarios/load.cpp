@@ -101,6 +101,7 @@ Odometry read_odometry(Reader reader) {
   odometry.enabled = true;
   reader.read("rate", kSensorRate, odometry.rate_hz);
   reader.read("noise", kSpeed, odometry.noise_mps);
+  reader.read("yaw_noise", kYawNoise, odometry.yaw_noise_radps);
   reader.read("scale_error", kRatio, odometry.scale_error);
   reader.finish();
   return odometry;

@@ -35,6 +35,7 @@ inline constexpr Quantity kExposure{Dimension::time, {0, 10, true}};
 inline constexpr Quantity kGain{Dimension::number, {0, 1000, true}};
 inline constexpr Quantity kElectrons{Dimension::number, {0, 1000000}};
 inline constexpr Quantity kFullWell{Dimension::number, {0, 1000000, true}};
+inline constexpr Quantity kYawNoise{Dimension::angular_rate, {0, 720}};
 inline constexpr Quantity kTurnOnRate{Dimension::angular_rate, {0, 720}};
 inline constexpr Quantity kTurnOnAcceleration{Dimension::acceleration, {0, 100}};
 inline constexpr Quantity kRoughness{Dimension::length, {0, 1, true}};

@@ -119,12 +119,13 @@ struct Imu {
   std::vector<TimeSpan> gaps;  ///< without readings, in order; each from above 0
 };
 
-/// Wheel odometry: velocity of B in B, at its own rate.
+/// Wheel odometry: velocity of B in B, and yaw rate, at its own rate.
 struct Odometry {
   bool enabled = false;
   double rate_hz = 50;
-  double noise_mps = 0.01;     ///< white, per sample and axis
-  double scale_error = 0.005;  ///< standard deviation of a scale drawn once a run
+  double noise_mps = 0.01;        ///< white, per sample and axis
+  double yaw_noise_radps = 0.05;  ///< white, per sample of the yaw rate: wheels 0.4 m apart
+  double scale_error = 0.005;     ///< standard deviation of a scale drawn once a run
 };
 
 enum class EgoMotionSource {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 
 #include "sim/pose.h"
 
@@ -26,10 +27,12 @@ struct ImuTruth {
   Eigen::Vector3d accel_bias_mps2 = Eigen::Vector3d::Zero();  ///< likewise
 };
 
-/// Velocity of the rover's frame B, in B, as its wheels measure it.
+/// Velocity of the rover's frame B, in B, as its wheels measure it, slip and all.
 struct OdometrySample {
   std::int64_t t_ns = 0;
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
+  /// ccw, by the difference of the wheels, where they tell it.
+  std::optional<double> yaw_rate_radps = std::nullopt;
 };
 
 }  // namespace lcs::sim

@@ -59,7 +59,9 @@ ImuSample ImuNoiseModel::corrupt(const ImuSample& truth) {
 OdometryNoiseModel::OdometryNoiseModel(const scenario::Odometry& odometry, std::uint64_t seed,
                                        std::string_view name)
     : noise_mps_(not_negative(odometry.noise_mps, "the odometry's noise")),
+      yaw_noise_radps_(not_negative(odometry.yaw_noise_radps, "the odometry's noise of yaw")),
       white_(seed, stream_name(name, "white")),
+      yaw_white_(seed, stream_name(name, "yaw white")),
       scale_(1 + not_negative(odometry.scale_error, "the odometry's scale error") *
                      RandomStream(seed, stream_name(name, "scale")).normal()) {}
 
@@ -67,6 +69,9 @@ OdometrySample OdometryNoiseModel::corrupt(const OdometrySample& truth) {
   OdometrySample sample{truth.t_ns, Eigen::Vector3d::Zero()};
   for (int axis : {0, 1}) {
     sample.velocity_mps[axis] = scale_ * truth.velocity_mps[axis] + noise_mps_ * white_.normal();
+  }
+  if (truth.yaw_rate_radps) {
+    sample.yaw_rate_radps = scale_ * *truth.yaw_rate_radps + yaw_noise_radps_ * yaw_white_.normal();
   }
   return sample;
 }

@@ -10,7 +10,7 @@
 /// `scenario::ImuNoise`. White noise, walk and turn-on bias of each sensor have a random stream
 /// each, so that changing one figure leaves the numbers drawn for the others as they were.
 ///
-/// Wheel odometry: a scale drawn once a run, and white noise in x and y of B.
+/// Wheel odometry: a scale drawn once a run, and white noise in x and y of B and in the yaw rate.
 #pragma once
 
 #include <Eigen/Core>
@@ -71,14 +71,16 @@ class OdometryNoiseModel {
   OdometryNoiseModel(const scenario::Odometry& odometry, std::uint64_t seed,
                      std::string_view name = "odometry0");
 
-  /// Wheels measure x and y of B; z is 0.
+  /// Wheels measure x and y of B, and yaw; z is 0.
   OdometrySample corrupt(const OdometrySample& truth);
 
   double scale() const { return scale_; }
 
  private:
   double noise_mps_;
+  double yaw_noise_radps_;
   RandomStream white_;
+  RandomStream yaw_white_;
   double scale_;
 };
 

@@ -56,12 +56,11 @@ class HolonomicRover : public Rover {
     for (std::size_t i = 0; i < 3; ++i) model.d().ctrl[actuators_[i]] = velocity[i];
   }
 
-  Eigen::Vector3d odometry(const Model& model) const override {
+  PlanarVelocity odometry(const Model& model) const override {
     const mjData& d = model.d();
     const Eigen::Rotation2Dd R_BW(-d.qpos[joints_[2].qpos]);
     const Eigen::Vector2d v_W(d.qvel[joints_[0].qvel], d.qvel[joints_[1].qvel]);
-    const Eigen::Vector2d v_B = R_BW * v_W;
-    return {v_B.x(), v_B.y(), 0};
+    return {R_BW * v_W, d.qvel[joints_[2].qvel]};
   }
 
  private:
@@ -128,10 +127,10 @@ class WheeledRover : public Rover {
     for (std::size_t i = 0; i < 2; ++i) model.d().ctrl[actuators_[i]] = wheels[i];
   }
 
-  Eigen::Vector3d odometry(const Model& model) const override {
+  PlanarVelocity odometry(const Model& model) const override {
     const double left = model.d().qvel[joints_[0].qvel];
     const double right = model.d().qvel[joints_[1].qvel];
-    return {radius_m_ * (left + right) / 2, 0, 0};
+    return {{radius_m_ * (left + right) / 2, 0}, radius_m_ * (right - left) / track_m_};
   }
 
  private:

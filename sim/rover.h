@@ -53,8 +53,8 @@ class Rover {
   virtual void start(Model& model) = 0;
   /// Sets the controls for the next step.
   virtual void command(Model& model, std::int64_t t_ns) = 0;
-  /// Velocity of B in B as the wheels tell it, without noise.
-  virtual Eigen::Vector3d odometry(const Model& model) const = 0;
+  /// Velocity of B as the wheels tell it, without noise.
+  virtual PlanarVelocity odometry(const Model& model) const = 0;
 };
 
 /// Wheeled where the rover has an actuator `left`, else holonomic.

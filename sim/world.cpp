@@ -369,7 +369,9 @@ void World::read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample
   if (scenario_.odometry.enabled &&
       event_time_ns(odometry_count_, scenario_.odometry.rate_hz) == t_ns_) {
     ++odometry_count_;
-    odometry.push_back(odometry_noise_.corrupt({t_ns_, rover_->odometry(model_)}));
+    const PlanarVelocity v = rover_->odometry(model_);
+    odometry.push_back(odometry_noise_.corrupt(
+        {t_ns_, {v.linear_mps.x(), v.linear_mps.y(), 0}, v.yaw_rate_radps}));
   }
 }
 

@@ -27,6 +27,11 @@ constexpr int kSilentPeriods = 4;
 constexpr double kUnseenTurn = 0.1;          // rad/s/sqrt(Hz), about the vertical
 constexpr double kUnseenAcceleration = 1.0;  // m/s^2/sqrt(Hz)
 
+// How often wheels begin or cease to slip, and the variance of what they then tell, in those of
+// wheels that grip. By F1 on 44 yards of `train`, 0.658; at a third of the rate or twice the
+// variance 0.655.
+constexpr double kSlipRate_ps = 1, kSlipVariance = 2;
+
 // Beyond what sensors measure.
 constexpr double kMostRate_radps = 100, kMostForce_mps2 = 2000;
 
@@ -51,12 +56,12 @@ void check(const Mounting& mounting, const EgoMotionNoise& noise,
   require(
       start.v_WB_mps.allFinite() && std::isfinite(start.gravity_mps2) && start.gravity_mps2 >= 0,
       "a velocity and a gravity to start from");
-  for (const double deviation :
-       {noise.gyro_density, noise.gyro_walk, noise.accel_density, noise.accel_walk,
-        noise.odometry_mps, noise.gyro_turn_on_bias, noise.accel_turn_on_bias}) {
+  for (const double deviation : {noise.gyro_density, noise.gyro_walk, noise.accel_density,
+                                 noise.accel_walk, noise.odometry_mps, noise.odometry_radps,
+                                 noise.gyro_turn_on_bias, noise.accel_turn_on_bias}) {
     require(std::isfinite(deviation) && deviation >= 0, "noise that is finite and not negative");
   }
-  require(noise.odometry_mps > 0, "odometry with noise");
+  require(noise.odometry_mps > 0 && noise.odometry_radps > 0, "odometry with noise");
 }
 
 }  // namespace
@@ -69,6 +74,7 @@ EgoMotionEstimator::EgoMotionEstimator(const Mounting& mounting, const EgoMotion
       t_ns_(start.t_ns),
       R_WS_(start.R_WB * mounting.R_BS),
       v_WS_(start.v_WB_mps),
+      odometry_ns_(start.t_ns),
       watch_({.gravity_mps2 = start.gravity_mps2,
               .noisy = noise.gyro_density > 0 && noise.accel_density > 0}) {
   check(mounting, noise, start);
@@ -194,8 +200,20 @@ void EgoMotionEstimator::propagate_to(std::int64_t t_ns) {
   if (!(covariance_.diagonal().array() < kMostVariance).all()) reset_covariance();
 }
 
-void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocity_B_mps) {
-  if (!(velocity_B_mps.norm() <= kMostSpeed_mps)) {
+/// Of a reading whose values are off by `miss2` squared standard deviations, if the wheels grip.
+double EgoMotionEstimator::slip_after(double since_s, double miss2, int values) const {
+  const double turned = std::clamp(kSlipRate_ps * since_s, 0.0, 0.5);
+  const double before = slip_ * (1 - turned) + (1 - slip_) * turned;
+  // ln of the ratio of two normal densities, one of k times the variance of the other
+  const double evidence =
+      0.5 * (miss2 * (1 - 1 / kSlipVariance) - values * std::log(kSlipVariance));
+  return before / (before + (1 - before) * std::exp(-evidence));
+}
+
+void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocity_B_mps,
+                                      std::optional<double> yaw_rate_radps) {
+  if (!(velocity_B_mps.norm() <= kMostSpeed_mps) ||
+      (yaw_rate_radps && !(std::abs(*yaw_rate_radps) <= kMostRate_radps))) {
     diagnostics_.add(Fault::odometry_unusable);
     return;
   }
@@ -213,10 +231,26 @@ void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocit
   H.block<3, 3>(0, kAttitude) = R_BW * skew(v_WS_);
   H.block<3, 3>(0, kVelocity) = R_BW;
   H.block<3, 3>(0, kGyroBias) = mounting_.R_BS * skew(lever_S);
-  const Matrix3d S = H * covariance_ * H.transpose() +
-                     Matrix3d::Identity() * (noise_.odometry_mps * noise_.odometry_mps);
+  const double noise2 = noise_.odometry_mps * noise_.odometry_mps;
+  const Matrix3d S = H * covariance_ * H.transpose() + Matrix3d::Identity() * noise2;
+  const Vector3d miss = velocity_B_mps - expected_B;
   const Eigen::Matrix<double, 12, 3> gain = covariance_ * H.transpose() * S.inverse();
-  const Eigen::Matrix<double, 12, 1> error = gain * (velocity_B_mps - expected_B);
+  const Eigen::Matrix<double, 12, 1> whole = gain * miss;
+
+  if (yaw_rate_radps) {
+    const Eigen::RowVector3d up_S = mounting_.R_BS.row(2);
+    const double turn = *yaw_rate_radps - up_S * rate_S;
+    const double variance =
+        noise_.odometry_radps * noise_.odometry_radps +
+        (up_S * covariance_.block<3, 3>(kGyroBias, kGyroBias) * up_S.transpose()).value();
+    slip_ = slip_after(seconds_from(odometry_ns_, t_ns),
+                       miss.dot(S.inverse() * miss) + turn * turn / variance, 4);
+  } else {
+    slip_ = 0;
+  }
+  odometry_ns_ = t_ns;
+  const double grip = 1 - slip_;
+  const Eigen::Matrix<double, 12, 1> error = grip * whole;
 
   // The whole history turns with the attitude: a correction is not a motion of this frame.
   const Matrix3d correction = exponential(error.segment<3>(kAttitude));
@@ -226,10 +260,10 @@ void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocit
   v_WS_ += error.segment<3>(kVelocity);
   gyro_bias_ += error.segment<3>(kGyroBias);
   accel_bias_ += error.segment<3>(kAccelBias);
-  // Joseph form: stays symmetric and positive.
+  // Joseph form: stays symmetric and positive. Of the two states the mixture.
   const Matrix12 I_KH = Matrix12::Identity() - gain * H;
-  covariance_ = (I_KH * covariance_ * I_KH.transpose() +
-                 gain * gain.transpose() * (noise_.odometry_mps * noise_.odometry_mps))
+  covariance_ = (grip * (I_KH * covariance_ * I_KH.transpose() + gain * gain.transpose() * noise2) +
+                 slip_ * covariance_ + grip * slip_ * whole * whole.transpose())
                     .eval();
 }
 
@@ -246,7 +280,7 @@ Matrix3d EgoMotionEstimator::R_WC() const {
 }
 
 void EgoMotionEstimator::set_clock(std::int64_t t_ns) {
-  t_ns_ = heard_ns_ = t_ns;
+  t_ns_ = heard_ns_ = odometry_ns_ = t_ns;
   if (last_) last_->t_ns = t_ns;
 }
 

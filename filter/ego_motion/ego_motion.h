@@ -61,6 +61,7 @@ struct EgoMotionNoise {
   double accel_density = 2.0e-3;  ///< m/s^2/sqrt(Hz)
   double accel_walk = 3.0e-3;     ///< m/s^3/sqrt(Hz)
   double odometry_mps = 0.02;     ///< standard deviation of one odometry velocity, per axis
+  double odometry_radps = 0.05;   ///< and of one yaw rate by the wheels
   /// \name Standard deviation of what each bias may be at the start, per axis.
   ///@{
   double gyro_turn_on_bias = 1e-5;   ///< rad/s
@@ -73,6 +74,11 @@ struct EgoMotionNoise {
 /// accelerometer bias) that takes wheel odometry where there is some. Without odometry it is plain
 /// dead reckoning. Where the IMU falls silent its last reading is held, and odometry is believed
 /// more; likewise where it is frozen or saturated.
+///
+/// Wheels that slip tell a velocity that is not the rover's. Where odometry has a yaw rate too,
+/// each reading is weighed by the chance that they grip: two states, as they were a while ago, and
+/// as the velocity and the gyro bear them out (a probabilistic data association with a Markov
+/// chain).
 ///
 /// Bad readings never throw: they are left out and named. The frames are the clock: one that is
 /// older than the last, or far ahead, has no motion and changes nothing; with a second one that
@@ -94,8 +100,10 @@ class EgoMotionEstimator {
   void add_imu(std::int64_t t_ns, const Eigen::Vector3d& gyro_radps,
                const Eigen::Vector3d& accel_mps2);
 
-  /// Velocity of the rover's origin, in B, from its wheels. Integrates up to `t_ns` first.
-  void add_odometry(std::int64_t t_ns, const Eigen::Vector3d& velocity_B_mps);
+  /// Velocity of the rover's origin, in B, from its wheels, and the yaw rate (ccw) by which these
+  /// differ, where they tell it. Integrates up to `t_ns` first.
+  void add_odometry(std::int64_t t_ns, const Eigen::Vector3d& velocity_B_mps,
+                    std::optional<double> yaw_rate_radps = std::nullopt);
 
   /// Integrates up to a frame's time, and returns the motion since the last frame. Of a frame whose
   /// time is wrong only the time since the last one is told, negative or above `kLongestStep_s`.
@@ -107,6 +115,8 @@ class EgoMotionEstimator {
 
   const Eigen::Matrix3d& R_WS() const { return R_WS_; }
   const Eigen::Vector3d& v_WS_mps() const { return v_WS_; }
+  /// Chance that the wheels slipped at the last odometry; 0 where that had no yaw rate.
+  double chance_of_slip() const { return slip_; }
   /// What was wrong with the readings so far.
   const Diagnostics& diagnostics() const { return diagnostics_; }
 
@@ -121,6 +131,7 @@ class EgoMotionEstimator {
   void begin_interval(std::int64_t t_ns);
   Eigen::Matrix3d R_WC() const;
   void reset_covariance();
+  double slip_after(double since_s, double miss2, int values) const;
   std::optional<Fault> fault_of(std::int64_t t_ns, const Eigen::Vector3d& gyro_radps,
                                 const Eigen::Vector3d& accel_mps2) const;
   void scale_past(double scale);
@@ -134,6 +145,8 @@ class EgoMotionEstimator {
   Eigen::Vector3d gyro_bias_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d accel_bias_ = Eigen::Vector3d::Zero();
   Matrix12 covariance_ = Matrix12::Zero();  ///< of (attitude in W, velocity in W, biases)
+  double slip_ = 0;
+  std::int64_t odometry_ns_;  ///< time of the last one
   struct Reading {
     std::int64_t t_ns;
     Eigen::Vector3d gyro, accel;

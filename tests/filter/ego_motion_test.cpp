@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include "tests/filter/world.h"
 
@@ -132,22 +134,78 @@ TEST(EgoMotion, OdometryHoldsTheDriftOfABiasedImu) {
                   [](double t) { return Vector3d(0.03 * t, 0, 0); }};
   const Mounting m = mounting();
   const Vector3d gyro_bias(1e-3, -1e-3, 5e-4), accel_bias(0.02, -0.03, 0.01);
-  double error[2], told_sigma[2];
-  for (const bool odometry : {false, true}) {
+  enum { alone, with_velocity, with_yaw_rate, kWays };
+  double error[kWays], told_sigma[kWays];
+  for (int way = alone; way < kWays; ++way) {
     EgoMotionEstimator estimator = start(path, m);
     for (std::int64_t t_ns = 0; t_ns <= 30'000'000'000; t_ns += kImuStep_ns) {
       const double t = static_cast<double>(t_ns) * 1e-9;
       estimator.add_imu(t_ns, rate_S(path, m, t) + gyro_bias, force_S(path, m, t) + accel_bias);
-      if (odometry && t_ns % 20'000'000 == 0) estimator.add_odometry(t_ns, {0.03, 0, 0});
+      if (way == alone || t_ns % 20'000'000 != 0) continue;
+      estimator.add_odometry(t_ns, {0.03, 0, 0},
+                             way == with_yaw_rate ? std::optional(0.0) : std::nullopt);
     }
-    error[odometry] = (estimator.v_WS_mps() - Vector3d(0.03, 0, 0)).norm();
-    told_sigma[odometry] = estimator.frame(30'000'000'000).velocity_sigma_mps;
+    error[way] = (estimator.v_WS_mps() - Vector3d(0.03, 0, 0)).norm();
+    told_sigma[way] = estimator.frame(30'000'000'000).velocity_sigma_mps;
   }
-  EXPECT_GT(error[0], 0.5);   // 30 s of these biases
-  EXPECT_LT(error[1], 0.01);  // a third of the speed, from 2 cm/s of odometry noise assumed
+  EXPECT_GT(error[alone], 0.5);  // 30 s of these biases
   // It says so; more than ten times of what it expects of an IMU is wrong with this one.
-  EXPECT_GT(told_sigma[0], 0.2);
-  EXPECT_LT(told_sigma[1], 0.01);
+  EXPECT_GT(told_sigma[alone], 0.2);
+  for (const int way : {with_velocity, with_yaw_rate}) {
+    EXPECT_LT(error[way], 0.01);  // a third of the speed, from 2 cm/s of odometry noise assumed
+    EXPECT_LT(told_sigma[way], 0.01);
+  }
+}
+
+/// From 2 to 5 s one wheel has no grip: the rover turns away, by up to 0.3 rad/s, and slides, by up
+/// to 0.15 m/s, while its wheels tell that it goes straight ahead at 0.3 m/s as before.
+Path sliding() {
+  const auto bump = [](double t) {
+    const double s = std::clamp((t - 2) / 3, 0.0, 1.0);
+    return std::pow(s * (1 - s), 4);
+  };
+  return {[=](double t) {
+            return rotation({0, 0, 60 * bump(t)});
+          },
+          [=](double t) { return Vector3d(0.3 * t, 30 * bump(t), 0); }};
+}
+
+struct Slide {
+  double worst_mps = 0;                    ///< error of the velocity
+  double slips_slid = 0, slips_after = 0;  ///< mean chance that the wheels slip
+};
+
+Slide slide(bool tells_yaw_rate) {
+  const Path path = sliding();
+  const Mounting m = mounting();
+  Random random(3);
+  const auto noise = [&](double sigma) { return sigma * std::sqrt(3) * random.uniform(-1, 1); };
+  EgoMotionEstimator estimator = start(path, m);
+  Slide slide;
+  for (std::int64_t t_ns = 0; t_ns <= 8'000'000'000; t_ns += kImuStep_ns) {
+    const double t = static_cast<double>(t_ns) * 1e-9;
+    estimator.add_imu(t_ns, rate_S(path, m, t), force_S(path, m, t));
+    if (t_ns % 20'000'000 != 0) continue;
+    const Vector3d wheels(0.3 + noise(0.02), noise(0.02), 0);
+    const double yaw_rate = noise(0.05);
+    estimator.add_odometry(t_ns, wheels, tells_yaw_rate ? std::optional(yaw_rate) : std::nullopt);
+    const Vector3d truth =
+        derivative([&](double s) -> Vector3d { return path.p_WB(s) + path.R_WB(s) * m.p_BS_m; }, t);
+    slide.worst_mps = std::max(slide.worst_mps, (estimator.v_WS_mps() - truth).norm());
+    if (t > 2.75 && t < 4.25) slide.slips_slid += estimator.chance_of_slip() / 75;
+    if (t > 6) slide.slips_after += estimator.chance_of_slip() / 100;
+  }
+  return slide;
+}
+
+TEST(EgoMotion, WheelsThatSlipAreNotBelieved) {
+  // Who is not told the yaw rate follows the wheels, and is off by all of the slide and more, as
+  // what the IMU says against them is taken for its bias.
+  EXPECT_GT(slide(false).worst_mps, 0.15);
+  const Slide told = slide(true);
+  EXPECT_LT(told.worst_mps, 0.06);  // until the slip is seen, and by what it then does to the tilt
+  EXPECT_GT(told.slips_slid, 0.95);
+  EXPECT_LT(told.slips_after, 0.1);
 }
 
 TEST(EgoMotion, ACorrectionIsNoMotionOfTheFrame) {

@@ -136,6 +136,7 @@ class Frames(unittest.TestCase):
         self.assertEqual(frame.imu["accel"].shape, (20, 3))
         np.testing.assert_allclose(frame.imu["accel"].mean(axis=0), [0, 0, 9.81], atol=0.1)
         np.testing.assert_allclose(frame.odometry["velocity"].mean(axis=0), [0.5, 0, 0], atol=0.05)
+        np.testing.assert_allclose(frame.odometry["yaw_rate"].mean(), 0, atol=0.1)
         self.assertEqual(len(truth.corners), n)
         np.testing.assert_array_equal(truth.corners["label"], truth.labels)
 

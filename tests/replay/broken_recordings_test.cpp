@@ -13,6 +13,7 @@
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/recorded.h"
+#include "tools/replay/sensor_csv.h"
 
 namespace lcs::replay {
 namespace {
@@ -200,6 +201,26 @@ TEST_F(BrokenRecording, OdometryWithoutAReadingIsToldWhereItIsNotNeeded) {
   EXPECT_NE(result.err.find("1 tables of odometry hold no reading and are not used"),
             std::string::npos)
       << result.err;
+}
+
+TEST_F(BrokenRecording, YawRatesByTheWheelsAreThoseOfRowsThatHaveThem) {
+  const fs::path file = home_.path() / "wheels.csv";
+  const auto yaw_rates = [&](const std::string& text) {
+    write(file, text);
+    Tally tally;
+    std::vector<std::optional<double>> all;
+    for (const sim::OdometrySample& sample : read_odometry_csv(file, tally)) {
+      all.push_back(sample.yaw_rate_radps);
+    }
+    return all;
+  };
+  using Rates = std::vector<std::optional<double>>;
+  const std::string rows = "1,0.5,0,0,0.2\n2,0.5,0,0\n3,0.5,0,0,left\n";
+  const Rates first = {0.2, std::nullopt, std::nullopt}, none(3);
+  EXPECT_EQ(yaw_rates(rows), first);
+  EXPECT_EQ(yaw_rates("#timestamp [ns],v_RB_B_x,v_RB_B_y,v_RB_B_z,w_RB_B_z [rad s^-1]\n" + rows),
+            first);
+  EXPECT_EQ(yaw_rates("#timestamp [ns],v_RB_B_x,v_RB_B_y,v_RB_B_z,mode\n" + rows), none);
 }
 
 TEST_F(BrokenRecording, EscapeCodesOfDataAreNotForTheTerminal) {

@@ -170,6 +170,8 @@ INSTANTIATE_TEST_SUITE_P(
               "4: corners.threshold is '0'; give a whole number from 1 to 254 or auto"),
         added("DepthZero", "truth: {min_depth: 0 m}\n",
               "4: truth.min_depth is '0 m'; it must be above 0 and at most 10000 m"),
+        added("YawNoiseBelowZero", "odometry: {yaw_noise: -1 rad/s}\n",
+              "4: odometry.yaw_noise is '-1 rad/s'; it must be at least 0 and at most 720 deg/s"),
         added("ScaleErrorAboveOne", "odometry: {scale_error: 5}\n",
               "4: odometry.scale_error is '5'; it must be at least 0 and at most 1"),
         added("NotANumber", "camera: {rate: .nan}\n",

@@ -86,7 +86,7 @@ camera:
   position: [0.1 m, 0.2 m, 0.3 m]
   rotation: [1 deg, 2 deg, 3 deg]
 imu: {preset: tumvi, rate: 1 kHz, gyroscope_random_walk: 1e-5}
-odometry: {rate: 20 Hz, noise: 2 cm/s, scale_error: 0.01}
+odometry: {rate: 20 Hz, noise: 2 cm/s, yaw_noise: 0.1 rad/s, scale_error: 0.01}
 ego_motion: truth
 corners: {threshold: 30}
 truth: {min_depth: 30 cm}
@@ -114,6 +114,7 @@ truth: {min_depth: 30 cm}
   EXPECT_TRUE(s.odometry.enabled);
   EXPECT_EQ(s.odometry.rate_hz, 20);
   EXPECT_EQ(s.odometry.noise_mps, 0.02);
+  EXPECT_EQ(s.odometry.yaw_noise_radps, 0.1);
   EXPECT_EQ(s.odometry.scale_error, 0.01);
   EXPECT_EQ(s.ego_motion, EgoMotionSource::truth);
   EXPECT_EQ(s.fast_threshold, 30);
@@ -135,6 +136,7 @@ TEST(Load, OdometryWithoutKeysHasItsDefaults) {
   EXPECT_TRUE(s.odometry.enabled);
   EXPECT_EQ(s.odometry.rate_hz, 50);
   EXPECT_EQ(s.odometry.noise_mps, 0.01);
+  EXPECT_EQ(s.odometry.yaw_noise_radps, 0.05);
   EXPECT_EQ(s.odometry.scale_error, 0.005);
 }
 

@@ -220,6 +220,7 @@ TEST(ImuNoise, RefusesWhatNoSensorHas) {
   noise.accelerometer_noise_density = nan;
   EXPECT_THROW(ImuNoiseModel(noise, 200, 1), std::invalid_argument);
   EXPECT_THROW(OdometryNoiseModel({.noise_mps = -1}, 1), std::invalid_argument);
+  EXPECT_THROW(OdometryNoiseModel({.yaw_noise_radps = nan}, 1), std::invalid_argument);
   EXPECT_THROW(OdometryNoiseModel({.scale_error = nan}, 1), std::invalid_argument);
 }
 
@@ -250,9 +251,24 @@ TEST(OdometryNoise, WhiteNoiseIsInXAndYAndHeightIsNotTold) {
     const OdometrySample sample = model.corrupt({i, {0.5, -0.1, 0.02}});
     EXPECT_EQ(sample.t_ns, i);
     EXPECT_EQ(sample.velocity_mps.z(), 0);
+    EXPECT_FALSE(sample.yaw_rate_radps);
     sum2 += (sample.velocity_mps.head<2>() - Eigen::Vector2d(0.5, -0.1)).cwiseAbs2();
   }
   for (const int axis : {0, 1}) EXPECT_NEAR(std::sqrt(sum2[axis] / n) / 0.01, 1, 0.02);
+}
+
+TEST(OdometryNoise, OfTheYawRateIsItsOwn) {
+  const scenario::Odometry odometry{
+      .enabled = true, .noise_mps = 0.01, .yaw_noise_radps = 0.05, .scale_error = 0};
+  OdometryNoiseModel with(odometry, 1), without(odometry, 1);
+  const int n = 100'000;
+  double sum2 = 0;
+  for (int i = 0; i < n; ++i) {
+    const OdometrySample sample = with.corrupt({i, {0.5, -0.1, 0}, 0.3});
+    sum2 += std::pow(sample.yaw_rate_radps.value() - 0.3, 2);
+    EXPECT_EQ(sample.velocity_mps, without.corrupt({i, {0.5, -0.1, 0}}).velocity_mps);
+  }
+  EXPECT_NEAR(std::sqrt(sum2 / n) / 0.05, 1, 0.02);
 }
 
 TEST(ImuNoise, TheTurnOnBiasIsDrawnOnceAndHasTheDeviationAskedFor) {

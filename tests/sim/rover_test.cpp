@@ -19,6 +19,9 @@ using test::scenario_in_mjcf;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
+constexpr scenario::Odometry kExactWheels{
+    .enabled = true, .noise_mps = 0, .yaw_noise_radps = 0, .scale_error = 0};
+
 void advance(World& world, std::int64_t t_ns) {
   std::vector<ImuSample> imu;
   std::vector<OdometrySample> odometry;
@@ -94,7 +97,7 @@ TEST(HolonomicRover, OdometryIsTheVelocityOfBInB) {
   auto s = scenario_in_mjcf(floor_with(""), 0.5, 1);
   s.ego.heading_rad = 1.0;
   s.ego.phases = {{.speed_mps = 0.5, .direction_rad = pi / 2, .yaw_rate_radps = 0.2}};
-  s.odometry = {.enabled = true, .rate_hz = 50, .noise_mps = 0, .scale_error = 0};
+  s.odometry = kExactWheels;
   World world(s);
   std::vector<ImuSample> imu;
   std::vector<OdometrySample> odometry;
@@ -104,11 +107,13 @@ TEST(HolonomicRover, OdometryIsTheVelocityOfBInB) {
   EXPECT_NEAR((odometry.back().velocity_mps - world.T_WB().R.transpose() * world.v_WB_mps()).norm(),
               0, 1e-9);
   EXPECT_NEAR((odometry.back().velocity_mps - Vector3d(0, 0.5, 0)).norm(), 0, 1e-3);
+  EXPECT_NEAR(odometry.back().yaw_rate_radps.value(), 0.2, 1e-3);
 }
 
 struct WheeledRun {
   double speed_mps, yaw_rate_radps;
   Vector3d odometry_mps;
+  double odometry_radps;
 };
 
 /// Mean over the last two of four seconds.
@@ -117,11 +122,11 @@ WheeledRun drive(double speed_mps, double direction_rad, double yaw_rate_radps) 
   s.ego.drive = scenario::Drive::wheeled;
   s.ego.phases = {
       {.speed_mps = speed_mps, .direction_rad = direction_rad, .yaw_rate_radps = yaw_rate_radps}};
-  s.odometry = {.enabled = true, .rate_hz = 50, .noise_mps = 0, .scale_error = 0};
+  s.odometry = kExactWheels;
   World world(s);
   std::vector<ImuSample> imu;
   std::vector<OdometrySample> odometry;
-  WheeledRun run{0, 0, Vector3d::Zero()};
+  WheeledRun run{0, 0, Vector3d::Zero(), 0};
   constexpr int kSamples = 100;
   for (int k = 1; k <= 2 * kSamples; ++k) {
     world.advance_to(k * kSecond / 50, imu, odometry);
@@ -130,6 +135,7 @@ WheeledRun drive(double speed_mps, double direction_rad, double yaw_rate_radps) 
     run.speed_mps += v_B.x() / kSamples;
     run.yaw_rate_radps += (world.snapshot().T_WC.R * world.w_C_radps()).z() / kSamples;
     run.odometry_mps += odometry.back().velocity_mps / kSamples;
+    run.odometry_radps += odometry.back().yaw_rate_radps.value() / kSamples;
   }
   return run;
 }
@@ -147,6 +153,7 @@ TEST(WheeledRover, ReachesNineteenTwentiethsOfTheIdealTurnRate) {
   for (const double rate : {0.2, -0.5, 1.0}) {
     const WheeledRun run = drive(0.3, 0, rate);
     EXPECT_NEAR(run.yaw_rate_radps, rate, 0.05 * std::abs(rate));
+    EXPECT_NEAR(run.odometry_radps, run.yaw_rate_radps, 0.02 * std::abs(rate)) << "by its wheels";
     EXPECT_NEAR(run.speed_mps, 0.3, 0.05 * 0.3);
   }
 }

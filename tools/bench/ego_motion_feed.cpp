@@ -7,7 +7,7 @@ namespace lcs::bench {
 namespace {
 
 /// Odometry without any noise would leave the estimator's gain undefined.
-constexpr double kLeastOdometryNoise_mps = 1e-3;
+constexpr double kLeastOdometryNoise_mps = 1e-3, kLeastYawNoise_radps = 1e-3;
 
 Mounting mounting_of(const sim::Calibration& calibration) {
   return {.R_BC = calibration.T_BC.R,
@@ -24,6 +24,7 @@ EgoMotionNoise noise_of(const scenario::Scenario& scenario) {
           .accel_density = imu.accelerometer_noise_density,
           .accel_walk = imu.accelerometer_random_walk,
           .odometry_mps = std::max(scenario.odometry.noise_mps, kLeastOdometryNoise_mps),
+          .odometry_radps = std::max(scenario.odometry.yaw_noise_radps, kLeastYawNoise_radps),
           .gyro_turn_on_bias =
               std::max(imu.gyroscope_turn_on_bias_radps, EgoMotionNoise{}.gyro_turn_on_bias),
           .accel_turn_on_bias =
@@ -82,7 +83,7 @@ EgoMotion EgoMotionFeed::estimated(const sim::Observation& observation) {
   auto odometry = observation.odometry.begin();
   const auto add_odometry_before = [&](std::int64_t t_ns) {
     for (; odometry != observation.odometry.end() && odometry->t_ns < t_ns; ++odometry) {
-      estimator_.add_odometry(odometry->t_ns, odometry->velocity_mps);
+      estimator_.add_odometry(odometry->t_ns, odometry->velocity_mps, odometry->yaw_rate_radps);
     }
   };
   for (const sim::ImuSample& sample : observation.imu) {

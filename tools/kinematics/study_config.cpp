@@ -45,7 +45,7 @@ scenario::Scenario straight_drive(const StudyConfig& config, double duration_s, 
   s.imu.noise = {};
   s.imu.gaps.clear();
   s.odometry.enabled = true;
-  s.odometry.noise_mps = s.odometry.scale_error = 0;
+  s.odometry.noise_mps = s.odometry.yaw_noise_radps = s.odometry.scale_error = 0;
   s.ego_motion = scenario::EgoMotionSource::imu;
   s.image = {};
   s.image.noise.reset();

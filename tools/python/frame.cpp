@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 #include <unistd.h>
 
+#include <limits>
 #include <map>
 #include <mutex>
 #include <opencv2/core/utility.hpp>
@@ -197,28 +198,28 @@ double seconds(std::int64_t t_ns) {
   return static_cast<double>(t_ns) * 1e-9;
 }
 
-/// A structured array of times and vectors. \param names of the vectors.
-/// \param put called with an item and where its vectors go.
+/// A structured array of times, vectors and numbers. \param fields names, and how many numbers each
+/// has. \param put called with an item and where its values go.
 template <class Sample, class Put>
-py::array readings(const std::vector<Sample>& samples, const std::vector<const char*>& names,
-                   const Put& put) {
+py::array readings(const std::vector<Sample>& samples,
+                   const std::vector<std::pair<const char*, int>>& fields, const Put& put) {
   py::list columns, formats, offsets;
   columns.append("t");
   formats.append("f8");
   offsets.append(0);
   std::size_t size = sizeof(double);
-  for (const char* name : names) {
+  for (const auto& [name, numbers] : fields) {
     columns.append(name);
-    formats.append("3f8");
+    formats.append(numbers == 1 ? "f8" : fmt::format("{}f8", numbers));
     offsets.append(size);
-    size += 3 * sizeof(double);
+    size += numbers * sizeof(double);
   }
   py::array array(py::dtype(columns, formats, offsets, static_cast<py::ssize_t>(size)),
                   std::ssize(samples));
-  auto* number = static_cast<double*>(array.mutable_data());
+  auto* to = static_cast<double*>(array.mutable_data());
   for (const Sample& sample : samples) {
-    *number++ = seconds(sample.t_ns);
-    number = put(sample, number);
+    *to++ = seconds(sample.t_ns);
+    to = put(sample, to);
   }
   return read_only(array);
 }
@@ -230,17 +231,21 @@ double* put(const Eigen::Vector3d& vector, double* to) {
 
 py::array imu(const Frame& frame) {
   const auto& samples = frame.observation ? frame.observation->imu : std::vector<sim::ImuSample>{};
-  return readings(samples, {"gyro", "accel"}, [](const sim::ImuSample& sample, double* to) {
-    return put(sample.accel_mps2, put(sample.gyro_radps, to));
-  });
+  return readings(samples, {{"gyro", 3}, {"accel", 3}},
+                  [](const sim::ImuSample& sample, double* to) {
+                    return put(sample.accel_mps2, put(sample.gyro_radps, to));
+                  });
 }
 
 py::array odometry(const Frame& frame) {
   const auto& samples =
       frame.observation ? frame.observation->odometry : std::vector<sim::OdometrySample>{};
-  return readings(samples, {"velocity"}, [](const sim::OdometrySample& sample, double* to) {
-    return put(sample.velocity_mps, to);
-  });
+  return readings(samples, {{"velocity", 3}, {"yaw_rate", 1}},
+                  [](const sim::OdometrySample& sample, double* to) {
+                    to = put(sample.velocity_mps, to);
+                    *to = sample.yaw_rate_radps.value_or(std::numeric_limits<double>::quiet_NaN());
+                    return to + 1;
+                  });
 }
 
 void bind_seen(py::module_& module) {
@@ -276,7 +281,8 @@ void bind_seen(py::module_& module) {
           "IMU's frame; none of a recorded frame.")
       .def_property_readonly(
           "odometry", &odometry,
-          "Likewise, fields t (s), velocity (3, m/s, of the rover in its frame: x forward, z up).")
+          "Likewise, fields t (s), velocity (3, m/s, of the rover in its frame: x forward, z up),\n"
+          "yaw_rate (rad/s, by the wheels; nan where they do not tell it).")
       .def_property_readonly(
           "truth", [](std::shared_ptr<const Frame> f) { return Truth{std::move(f)}; },
           "What no detector is to be told.")

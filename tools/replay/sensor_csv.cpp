@@ -28,11 +28,17 @@ struct NumberRow {
 };
 
 /// \param names of columns, for tables with a header; without one they follow the time in order.
+/// \param last of one more, in rows that have it.
 std::vector<NumberRow> read_numbers(const std::filesystem::path& file,
-                                    std::span<const char* const> names, Tally& tally) {
+                                    std::span<const char* const> names, Tally& tally,
+                                    std::optional<std::string_view> last = std::nullopt) {
   const TextTable table = read_table(file, ',');
   std::vector<std::size_t> columns;
   for (const char* name : names) columns.push_back(table.column(name, columns.size() + 1));
+  if (last && !table.header.empty() &&
+      !std::count(table.header.begin(), table.header.end(), *last)) {
+    last.reset();
+  }
   std::vector<NumberRow> rows;
   for (const TextTable::Row& row : table.rows) {
     const auto text = [&](std::size_t column) -> std::string_view {
@@ -45,7 +51,14 @@ std::vector<NumberRow> read_numbers(const std::filesystem::path& file,
         read.numbers.push_back(*number);
       }
     }
-    if (t_ns && read.numbers.size() == columns.size()) {
+    const bool whole = t_ns && read.numbers.size() == columns.size();
+    if (last) {
+      if (const auto number =
+              bench::number_in<double>(text(table.column(*last, columns.size() + 1)))) {
+        read.numbers.push_back(*number);
+      }
+    }
+    if (whole) {
       rows.push_back(std::move(read));
     } else {
       tally.add("rows cannot be read and are left out", table.at(row));
@@ -115,8 +128,9 @@ std::vector<sim::OdometrySample> read_odometry_csv(const std::filesystem::path& 
                                                    Tally& tally) {
   static constexpr std::array<const char*, 3> kNames{"v_RB_B_x", "v_RB_B_y", "v_RB_B_z"};
   std::vector<sim::OdometrySample> samples;
-  for (const NumberRow& row : read_numbers(file, kNames, tally)) {
+  for (const NumberRow& row : read_numbers(file, kNames, tally, "w_RB_B_z")) {
     samples.push_back({row.t_ns, vector_at(row, 0)});
+    if (row.numbers.size() > kNames.size()) samples.back().yaw_rate_radps = row.numbers.back();
   }
   return samples;
 }

@@ -17,6 +17,7 @@ namespace lcs::replay {
 /// \throws std::runtime_error if the file cannot be read, or holds no reading.
 std::vector<sim::ImuSample> read_imu_csv(const std::filesystem::path& file, Tally& tally);
 
+/// Yaw rates are those of a fifth column, where there is one.
 std::vector<sim::OdometrySample> read_odometry_csv(const std::filesystem::path& file, Tally& tally);
 
 /// Exact poses of the camera, as `lcs generate` writes them.

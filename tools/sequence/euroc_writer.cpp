@@ -23,7 +23,8 @@ constexpr const char* kPoseHeader =
     "#timestamp [ns],R_00,R_01,R_02,p_x [m],R_10,R_11,R_12,p_y "
     "[m],R_20,R_21,R_22,p_z [m]\n";
 constexpr const char* kOdometryHeader =
-    "#timestamp [ns],v_RB_B_x [m s^-1],v_RB_B_y [m s^-1],v_RB_B_z [m s^-1]\n";
+    "#timestamp [ns],v_RB_B_x [m s^-1],v_RB_B_y [m s^-1],v_RB_B_z [m s^-1],w_RB_B_z [rad "
+    "s^-1]\n";
 
 /// One by one: of `fmt::join` over numbers GCC 13 warns within fmt 9, as in sim/mjcf.cpp.
 std::string numbers(std::span<const double> values, const char* separator) {
@@ -67,7 +68,8 @@ class EurocWriter : public Writer {
     }
     std::string& odometry = output.rows["odometry"];
     for (const sim::OdometrySample& sample : o.odometry) {
-      odometry += fmt::format("{},{}\n", kEpoch_ns + sample.t_ns, numbers(sample.velocity_mps));
+      odometry += fmt::format("{},{},{}\n", kEpoch_ns + sample.t_ns, numbers(sample.velocity_mps),
+                              sample.yaw_rate_radps.value());
     }
     const std::array<double, 16> T_WC = matrix_of(o.truth.now.T_WC);
     output.rows["camera_pose"] =
@@ -127,12 +129,14 @@ class EurocWriter : public Writer {
     const scenario::Odometry& odometry = info_.scenario.odometry;
     return sensor_yaml("odometry",
                        "velocity of the rover's origin, in the rover's frame (x ahead, y left, z "
-                       "up), by its wheels",
+                       "up), and its yaw rate, by its wheels",
                        info_.calibration.T_BS.inverse()) +
            fmt::format(
                "rate_hz: {}\nnoise_mps: {}     # white, standard deviation of a reading\n"
+               "yaw_noise_radps: {}  # likewise\n"
                "scale_error: {}  # standard deviation of a scale drawn once\n",
-               odometry.rate_hz, odometry.noise_mps, odometry.scale_error);
+               odometry.rate_hz, odometry.noise_mps, odometry.yaw_noise_radps,
+               odometry.scale_error);
   }
 
   SequenceInfo info_;

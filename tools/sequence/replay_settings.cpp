@@ -109,6 +109,9 @@ void read_scenario(const Node& node, const std::string& file, scenario::Scenario
   }
   scenario.odometry.enabled = node["odometry"].flag();
   scenario.odometry.noise_mps = not_negative_in(node["odometry_noise_mps"]);
+  if (node.has("odometry_yaw_noise_radps")) {  // sequences of before had no yaw rate
+    scenario.odometry.yaw_noise_radps = not_negative_in(node["odometry_yaw_noise_radps"]);
+  }
   scenario.fast_threshold = threshold_in(node["fast_threshold"]);
   scenario.filter_preset = node["filter_preset"].text();
   scenario.filter_preset_source = {file, 0};
@@ -147,6 +150,7 @@ std::string settings_text(const scenario::Scenario& scenario, const sim::Calibra
       {"imu_noise", noise},
       {"odometry", scenario.odometry.enabled},
       {"odometry_noise_mps", scenario.odometry.noise_mps},
+      {"odometry_yaw_noise_radps", scenario.odometry.yaw_noise_radps},
       {"fast_threshold",
        scenario.fast_threshold ? Json(*scenario.fast_threshold) : Json(kFromPicture)},
       {"filter_preset", scenario.filter_preset},
