@@ -31,6 +31,8 @@ constexpr double kUnseenAcceleration = 1.0;  // m/s^2/sqrt(Hz)
 // wheels that grip. By F1 on 44 yards of `train`, 0.658; at a third of the rate or twice the
 // variance 0.655.
 constexpr double kSlipRate_ps = 1, kSlipVariance = 2;
+// A slip is older than it shows: by as much, to twice that, is what is then gone back to.
+constexpr double kHiddenSlip_s = 0.5;
 
 // Beyond what sensors measure.
 constexpr double kMostRate_radps = 100, kMostForce_mps2 = 2000;
@@ -72,19 +74,21 @@ EgoMotionEstimator::EgoMotionEstimator(const Mounting& mounting, const EgoMotion
       noise_(noise),
       gravity_W_(0, 0, -start.gravity_mps2),
       t_ns_(start.t_ns),
-      R_WS_(start.R_WB * mounting.R_BS),
-      v_WS_(start.v_WB_mps),
+      kept_ns_(start.t_ns),
       odometry_ns_(start.t_ns),
       watch_({.gravity_mps2 = start.gravity_mps2,
               .noisy = noise.gyro_density > 0 && noise.accel_density > 0}) {
   check(mounting, noise, start);
-  reset_covariance();
+  now_.R_WS = start.R_WB * mounting.R_BS;
+  now_.v_WS = start.v_WB_mps;
+  reset_covariance(now_);
+  recent_ = older_ = now_;
 }
 
-void EgoMotionEstimator::reset_covariance() {
-  covariance_.setZero();
+void EgoMotionEstimator::reset_covariance(State& state) const {
+  state.covariance.setZero();
   const auto block = [&](int first, double deviation) {
-    covariance_.diagonal().segment<3>(first).setConstant(deviation * deviation);
+    state.covariance.diagonal().segment<3>(first).setConstant(deviation * deviation);
   };
   block(kAttitude, kStartAttitude_rad);
   block(kVelocity, kStartVelocity_mps);
@@ -109,7 +113,7 @@ std::optional<Fault> EgoMotionEstimator::fault_of(std::int64_t t_ns, const Vecto
 
 /// Of readings that were integrated before they were known to be in g.
 void EgoMotionEstimator::scale_past(double scale) {
-  v_WS_ += (scale - 1) * dv_in_g_W_;
+  for (State* state : {&now_, &recent_, &older_}) state->v_WS += (scale - 1) * dv_in_g_W_;
   last_->accel *= scale;
 }
 
@@ -124,7 +128,8 @@ void EgoMotionEstimator::add_imu(std::int64_t t_ns, const Vector3d& gyro_radps,
   const Reading reading{t_ns, gyro_radps, finding.accel_scale * accel_mps2};
   if (!last_) {
     // The start gives the velocity of the rover's origin; the IMU sits on a lever.
-    v_WS_ += R_WS_ * gyro_radps.cross(mounting_.R_BS.transpose() * mounting_.p_BS_m);
+    now_.v_WS += now_.R_WS * gyro_radps.cross(mounting_.R_BS.transpose() * mounting_.p_BS_m);
+    recent_ = older_ = now_;
     last_ = reading;
     heard_ns_ = t_ns;
   }
@@ -136,7 +141,7 @@ void EgoMotionEstimator::add_imu(std::int64_t t_ns, const Vector3d& gyro_radps,
     dv_in_g_W_.setZero();
   } else {  // the reading before the first of them is in m/s^2
     const Vector3d in_g = was_like_g ? last_->accel : Vector3d(0.5 * reading.accel);
-    dv_in_g_W_ += R_WS_ * in_g * seconds_from(t_ns_, t_ns);
+    dv_in_g_W_ += now_.R_WS * in_g * seconds_from(t_ns_, t_ns);
   }
   measure_period(t_ns - last_->t_ns);
   propagate_to(t_ns);
@@ -166,38 +171,42 @@ void EgoMotionEstimator::measure_period(std::int64_t since_ns) {
 void EgoMotionEstimator::propagate_to(std::int64_t t_ns) {
   const double dt = static_cast<double>(t_ns - t_ns_) * 1e-9;
   if (dt <= 0 || !last_) return;
-  const Vector3d rotation = (last_->gyro - gyro_bias_) * dt;
-  const Vector3d specific_force = last_->accel - accel_bias_;
-  const Matrix3d R_mid = R_WS_ * exponential(0.5 * rotation);
-  const Vector3d a_W = R_mid * specific_force + gravity_W_;
-  const Matrix3d R_old = R_WS_;
-  const Vector3d v_old = v_WS_;
-
-  R_WS_ = R_WS_ * exponential(rotation);
-  v_WS_ += a_W * dt;
-  const Vector3d lever_S = mounting_.R_BS.transpose() * (mounting_.p_BC_m - mounting_.p_BS_m);
-  displacement_W_ += 0.5 * (v_old + v_WS_) * dt + (R_WS_ - R_old) * lever_S;
   t_ns_ = t_ns;
+  const bool silent = period_ns_ > 0 && t_ns - heard_ns_ > kSilentPeriods * period_ns_;
+  if (silent) unseen_turn_rad2_ += kUnseenTurn * kUnseenTurn * dt;
+  for (State* state : {&now_, &recent_, &older_}) propagate(*state, dt, silent);
+}
+
+void EgoMotionEstimator::propagate(State& state, double dt, bool silent) const {
+  const Vector3d rotation = (last_->gyro - state.gyro_bias) * dt;
+  const Vector3d specific_force = last_->accel - state.accel_bias;
+  const Matrix3d R_mid = state.R_WS * exponential(0.5 * rotation);
+  const Vector3d a_W = R_mid * specific_force + gravity_W_;
+  const Matrix3d R_old = state.R_WS;
+  const Vector3d v_old = state.v_WS;
+
+  state.R_WS = state.R_WS * exponential(rotation);
+  state.v_WS += a_W * dt;
+  const Vector3d lever_S = mounting_.R_BS.transpose() * (mounting_.p_BC_m - mounting_.p_BS_m);
+  state.displacement_W += 0.5 * (v_old + state.v_WS) * dt + (state.R_WS - R_old) * lever_S;
 
   Matrix12 F = Matrix12::Identity();
   F.block<3, 3>(kAttitude, kGyroBias) = -R_mid * dt;
   F.block<3, 3>(kVelocity, kAttitude) = -skew(R_mid * specific_force) * dt;
   F.block<3, 3>(kVelocity, kAccelBias) = -R_mid * dt;
-  covariance_ = F * covariance_ * F.transpose();
+  state.covariance = F * state.covariance * F.transpose();
   const auto add_noise = [&](int first, double density) {
-    covariance_.diagonal().segment<3>(first).array() += density * density * dt;
+    state.covariance.diagonal().segment<3>(first).array() += density * density * dt;
   };
   add_noise(kAttitude, noise_.gyro_density);
   add_noise(kVelocity, noise_.accel_density);
   add_noise(kGyroBias, noise_.gyro_walk);
   add_noise(kAccelBias, noise_.accel_walk);
-  if (period_ns_ > 0 && t_ns - heard_ns_ > kSilentPeriods * period_ns_) {
-    const double turn = kUnseenTurn * kUnseenTurn * dt;
-    covariance_(kAttitude + 2, kAttitude + 2) += turn;
-    unseen_turn_rad2_ += turn;
+  if (silent) {
+    state.covariance(kAttitude + 2, kAttitude + 2) += kUnseenTurn * kUnseenTurn * dt;
     add_noise(kVelocity, kUnseenAcceleration);
   }
-  if (!(covariance_.diagonal().array() < kMostVariance).all()) reset_covariance();
+  if (!(state.covariance.diagonal().array() < kMostVariance).all()) reset_covariance(state);
 }
 
 /// Of a reading whose values are off by `miss2` squared standard deviations, if the wheels grip.
@@ -223,26 +232,27 @@ void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocit
   }
   propagate_to(t_ns);
   const Vector3d lever_S = mounting_.R_BS.transpose() * -mounting_.p_BS_m;
-  const Vector3d rate_S = last_->gyro - gyro_bias_;
-  const Matrix3d R_BW = mounting_.R_BS * R_WS_.transpose();
-  const Vector3d expected_B = R_BW * v_WS_ + mounting_.R_BS * rate_S.cross(lever_S);
+  const Vector3d rate_S = last_->gyro - now_.gyro_bias;
+  const Matrix3d R_BW = mounting_.R_BS * now_.R_WS.transpose();
+  const Vector3d expected_B = R_BW * now_.v_WS + mounting_.R_BS * rate_S.cross(lever_S);
 
   Eigen::Matrix<double, 3, 12> H = Eigen::Matrix<double, 3, 12>::Zero();
-  H.block<3, 3>(0, kAttitude) = R_BW * skew(v_WS_);
+  H.block<3, 3>(0, kAttitude) = R_BW * skew(now_.v_WS);
   H.block<3, 3>(0, kVelocity) = R_BW;
   H.block<3, 3>(0, kGyroBias) = mounting_.R_BS * skew(lever_S);
   const double noise2 = noise_.odometry_mps * noise_.odometry_mps;
-  const Matrix3d S = H * covariance_ * H.transpose() + Matrix3d::Identity() * noise2;
+  const Matrix3d S = H * now_.covariance * H.transpose() + Matrix3d::Identity() * noise2;
   const Vector3d miss = velocity_B_mps - expected_B;
-  const Eigen::Matrix<double, 12, 3> gain = covariance_ * H.transpose() * S.inverse();
+  const Eigen::Matrix<double, 12, 3> gain = now_.covariance * H.transpose() * S.inverse();
   const Eigen::Matrix<double, 12, 1> whole = gain * miss;
 
+  const bool slipped = slips();
   if (yaw_rate_radps) {
     const Eigen::RowVector3d up_S = mounting_.R_BS.row(2);
     const double turn = *yaw_rate_radps - up_S * rate_S;
     const double variance =
         noise_.odometry_radps * noise_.odometry_radps +
-        (up_S * covariance_.block<3, 3>(kGyroBias, kGyroBias) * up_S.transpose()).value();
+        (up_S * now_.covariance.block<3, 3>(kGyroBias, kGyroBias) * up_S.transpose()).value();
     slip_ = slip_after(seconds_from(odometry_ns_, t_ns),
                        miss.dot(S.inverse() * miss) + turn * turn / variance, 4);
   } else {
@@ -254,40 +264,57 @@ void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocit
 
   // The whole history turns with the attitude: a correction is not a motion of this frame.
   const Matrix3d correction = exponential(error.segment<3>(kAttitude));
-  R_WS_ = correction * R_WS_;
-  displacement_W_ = correction * displacement_W_;
-  if (last_frame_) last_frame_->R_WC = correction * last_frame_->R_WC;
-  v_WS_ += error.segment<3>(kVelocity);
-  gyro_bias_ += error.segment<3>(kGyroBias);
-  accel_bias_ += error.segment<3>(kAccelBias);
+  now_.R_WS = correction * now_.R_WS;
+  now_.displacement_W = correction * now_.displacement_W;
+  now_.R_WC_before = correction * now_.R_WC_before;
+  now_.v_WS += error.segment<3>(kVelocity);
+  now_.gyro_bias += error.segment<3>(kGyroBias);
+  now_.accel_bias += error.segment<3>(kAccelBias);
   // Joseph form: stays symmetric and positive. Of the two states the mixture.
   const Matrix12 I_KH = Matrix12::Identity() - gain * H;
-  covariance_ = (grip * (I_KH * covariance_ * I_KH.transpose() + gain * gain.transpose() * noise2) +
-                 slip_ * covariance_ + grip * slip_ * whole * whole.transpose())
-                    .eval();
+  now_.covariance =
+      (grip * (I_KH * now_.covariance * I_KH.transpose() + gain * gain.transpose() * noise2) +
+       slip_ * now_.covariance + grip * slip_ * whole * whole.transpose())
+          .eval();
+  go_back_if(slipped);
+}
+
+/// What odometry of a slip nobody had seen yet made of the state was wrong, and the attitude and
+/// the biases stay so: back to a state that heard the IMU alone since before.
+void EgoMotionEstimator::go_back_if(bool slipped) {
+  if (slips()) {
+    if (!slipped) now_ = older_;
+  } else if (seconds_from(kept_ns_, t_ns_) >= kHiddenSlip_s) {
+    older_ = recent_;
+    recent_ = now_;
+    kept_ns_ = t_ns_;
+  }
 }
 
 std::optional<Ground> EgoMotionEstimator::ground() const {
   if (!mounting_.on_ground) return std::nullopt;
-  const Matrix3d R_WB = R_WS_ * mounting_.R_BS.transpose();
+  const Matrix3d R_WB = now_.R_WS * mounting_.R_BS.transpose();
   const double height_m = (R_WB * mounting_.p_BC_m).z();
   if (!(height_m > 0)) return std::nullopt;
   return Ground{.up_C = (R_WB * mounting_.R_BC).row(2), .height_m = height_m};
 }
 
-Matrix3d EgoMotionEstimator::R_WC() const {
-  return R_WS_ * mounting_.R_BS.transpose() * mounting_.R_BC;
+Matrix3d EgoMotionEstimator::R_WC(const State& state) const {
+  return state.R_WS * mounting_.R_BS.transpose() * mounting_.R_BC;
 }
 
 void EgoMotionEstimator::set_clock(std::int64_t t_ns) {
-  t_ns_ = heard_ns_ = odometry_ns_ = t_ns;
+  t_ns_ = heard_ns_ = odometry_ns_ = kept_ns_ = t_ns;
   if (last_) last_->t_ns = t_ns;
 }
 
 /// What is told with the next frame counts from here.
 void EgoMotionEstimator::begin_interval(std::int64_t t_ns) {
-  last_frame_ = Frame{t_ns, R_WC()};
-  displacement_W_.setZero();
+  last_frame_ns_ = t_ns;
+  for (State* state : {&now_, &recent_, &older_}) {
+    state->R_WC_before = R_WC(*state);
+    state->displacement_W.setZero();
+  }
   unseen_turn_rad2_ = 0;
 }
 
@@ -295,7 +322,7 @@ void EgoMotionEstimator::begin_interval(std::int64_t t_ns) {
 /// first shows that it is the clock that was set.
 EgoMotion EgoMotionEstimator::frame_out_of_time(std::int64_t t_ns) {
   EgoMotion motion;
-  motion.dt_s = seconds_from(last_frame_->t_ns, t_ns);
+  motion.dt_s = seconds_from(*last_frame_ns_, t_ns);
   const bool agrees = wrong_frame_ns_ && t_ns > *wrong_frame_ns_ &&
                       seconds_from(*wrong_frame_ns_, t_ns) <= kLongestStep_s;
   wrong_frame_ns_ = t_ns;
@@ -309,23 +336,24 @@ EgoMotion EgoMotionEstimator::frame_out_of_time(std::int64_t t_ns) {
 }
 
 EgoMotion EgoMotionEstimator::frame(std::int64_t t_ns) {
-  if (last_frame_ &&
-      (t_ns < last_frame_->t_ns || seconds_from(last_frame_->t_ns, t_ns) > kLongestStep_s)) {
+  if (last_frame_ns_ &&
+      (t_ns < *last_frame_ns_ || seconds_from(*last_frame_ns_, t_ns) > kLongestStep_s)) {
     return frame_out_of_time(t_ns);
   }
   wrong_frame_ns_.reset();
   // The first frame sets the clock if it is not that of the start.
-  if (!last_frame_ && std::abs(seconds_from(t_ns_, t_ns)) > kLongestStep_s) set_clock(t_ns);
+  if (!last_frame_ns_ && std::abs(seconds_from(t_ns_, t_ns)) > kLongestStep_s) set_clock(t_ns);
   if (last_) note_gap(t_ns - last_->t_ns);
   propagate_to(t_ns);
-  const Matrix3d R_WC_now = R_WC();
+  const Matrix3d R_WC_now = R_WC(now_);
   EgoMotion motion;
   motion.ground = ground();
-  motion.velocity_sigma_mps = std::sqrt(covariance_.block<3, 3>(kVelocity, kVelocity).trace() / 3);
-  if (last_frame_ && t_ns > last_frame_->t_ns) {
-    motion.dt_s = static_cast<double>(t_ns - last_frame_->t_ns) * 1e-9;
-    motion.R_cur_prev = R_WC_now.transpose() * last_frame_->R_WC;
-    motion.v_C_mps = R_WC_now.transpose() * displacement_W_ / motion.dt_s;
+  motion.velocity_sigma_mps =
+      std::sqrt(now_.covariance.block<3, 3>(kVelocity, kVelocity).trace() / 3);
+  if (last_frame_ns_ && t_ns > *last_frame_ns_) {
+    motion.dt_s = static_cast<double>(t_ns - *last_frame_ns_) * 1e-9;
+    motion.R_cur_prev = R_WC_now.transpose() * now_.R_WC_before;
+    motion.v_C_mps = R_WC_now.transpose() * now_.displacement_W / motion.dt_s;
     motion.w_C_radps = -logarithm(motion.R_cur_prev) / motion.dt_s;
     motion.unseen_turn_rad = std::sqrt(unseen_turn_rad2_);
   }

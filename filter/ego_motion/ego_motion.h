@@ -113,8 +113,8 @@ class EgoMotionEstimator {
   /// on the ground, or the camera is not above it.
   std::optional<Ground> ground() const;
 
-  const Eigen::Matrix3d& R_WS() const { return R_WS_; }
-  const Eigen::Vector3d& v_WS_mps() const { return v_WS_; }
+  const Eigen::Matrix3d& R_WS() const { return now_.R_WS; }
+  const Eigen::Vector3d& v_WS_mps() const { return now_.v_WS; }
   /// Chance that the wheels slipped at the last odometry; 0 where that had no yaw rate.
   double chance_of_slip() const { return slip_; }
   /// What was wrong with the readings so far.
@@ -122,16 +122,28 @@ class EgoMotionEstimator {
 
  private:
   using Matrix12 = Eigen::Matrix<double, 12, 12>;
+  struct State {
+    Eigen::Matrix3d R_WS;
+    Eigen::Vector3d v_WS;
+    Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();
+    Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();
+    Matrix12 covariance = Matrix12::Zero();  ///< of (attitude in W, velocity in W, biases)
+    Eigen::Matrix3d R_WC_before = Eigen::Matrix3d::Identity();  ///< at the last frame
+    Eigen::Vector3d displacement_W = Eigen::Vector3d::Zero();   ///< of the camera, since then
+  };
   void measure_period(std::int64_t since_ns);
   void note_gap(std::int64_t silent_ns);
   void propagate_to(std::int64_t t_ns);
+  void propagate(State& state, double dt, bool silent) const;
   bool far_ahead(std::int64_t t_ns) const;
   EgoMotion frame_out_of_time(std::int64_t t_ns);
   void set_clock(std::int64_t t_ns);
   void begin_interval(std::int64_t t_ns);
-  Eigen::Matrix3d R_WC() const;
-  void reset_covariance();
+  Eigen::Matrix3d R_WC(const State& state) const;
+  void reset_covariance(State& state) const;
   double slip_after(double since_s, double miss2, int values) const;
+  bool slips() const { return slip_ > 0.5; }
+  void go_back_if(bool slipped);
   std::optional<Fault> fault_of(std::int64_t t_ns, const Eigen::Vector3d& gyro_radps,
                                 const Eigen::Vector3d& accel_mps2) const;
   void scale_past(double scale);
@@ -140,11 +152,9 @@ class EgoMotionEstimator {
   EgoMotionNoise noise_;
   Eigen::Vector3d gravity_W_;
   std::int64_t t_ns_;
-  Eigen::Matrix3d R_WS_;
-  Eigen::Vector3d v_WS_;
-  Eigen::Vector3d gyro_bias_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d accel_bias_ = Eigen::Vector3d::Zero();
-  Matrix12 covariance_ = Matrix12::Zero();  ///< of (attitude in W, velocity in W, biases)
+  State now_;
+  State recent_, older_;  ///< what they were at `kept_ns_` and before, and by the IMU alone since
+  std::int64_t kept_ns_;
   double slip_ = 0;
   std::int64_t odometry_ns_;  ///< time of the last one
   struct Reading {
@@ -161,14 +171,8 @@ class EgoMotionEstimator {
   Eigen::Vector3d dv_in_g_W_ = Eigen::Vector3d::Zero();  ///< integrated while they may be in g
   std::optional<std::int64_t> wrong_frame_ns_;  ///< of the last frame, where its time was wrong
 
-  struct Frame {
-    std::int64_t t_ns;
-    Eigen::Matrix3d R_WC;
-  };
-  std::optional<Frame> last_frame_;
+  std::optional<std::int64_t> last_frame_ns_;
   double unseen_turn_rad2_ = 0;  ///< since the last frame, its variance
-  Eigen::Vector3d displacement_W_ =
-      Eigen::Vector3d::Zero();  ///< of the camera, since the last frame
 };
 
 }  // namespace lcs
