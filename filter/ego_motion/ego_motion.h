@@ -76,9 +76,11 @@ struct EgoMotionNoise {
 /// more; likewise where it is frozen or saturated.
 ///
 /// Wheels that slip tell a velocity that is not the rover's. Where odometry has a yaw rate too,
-/// each reading is weighed by the chance that they grip: two states, as they were a while ago, and
-/// as the velocity and the gyro bear them out (a probabilistic data association with a Markov
-/// chain).
+/// each reading counts by the chance that they grip, as the readings before had it, and as the gyro
+/// and the velocity bear this one out (probabilistic data association, of a Markov chain of two
+/// states). Once a slip shows, the estimator goes back to a state that it had half a second to one
+/// before, brought to now by the IMU alone. Slips in which yaw agrees, as those of both wheels
+/// alike, show later, or not.
 ///
 /// Bad readings never throw: they are left out and named. The frames are the clock: one that is
 /// older than the last, or far ahead, has no motion and changes nothing; with a second one that

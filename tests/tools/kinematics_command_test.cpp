@@ -135,8 +135,9 @@ TEST_F(Kinematics, EveryFigureOfTheAnswerIsBorneOut) {
   answer.expect("bumps.first_order.rms", 0.1);
   EXPECT_LT(answer.take("bumps.homography.rms").value, 1e-10);
   EXPECT_GT(answer.take("bumps.turn.p95").value, 1) << "deg: the ground is rough";
-  // What the IMU's 200 readings a second lose of the shaking: less than a tenth of what it was.
-  EXPECT_LT(answer.take("bumps.imu.rms").value, 0.9);
+  // What the IMU's 200 readings a second lose of the shaking (0.7 px), and the velocity where the
+  // wheels slip on the bumps and are not believed: less than an eighth of what it was.
+  EXPECT_LT(answer.take("bumps.imu.rms").value, 9.4 / 8);
 
   for (const std::string imu : {"adis16448", "tumvi", "esim"}) {
     const std::string of = "drift." + imu + ".";

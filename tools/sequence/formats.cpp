@@ -17,7 +17,7 @@ EuRoC ASL (`--formats euroc`); the body is the IMU:
   attitude `R_WS` as a quaternion w x y z, velocity of S in W, bias of gyro and accelerometer in S.
 * `mav0/cam0/sensor.yaml`: intrinsics, and `T_BS`, here the pose of the camera in S.
 * `mav0/cam0/pose.csv`: exact pose of the camera in W at each frame, as a 3x4 matrix row by row.
-* `mav0/odometry0/`: where the rover has it, velocity of B in B, by its wheels.
+* `mav0/odometry0/`: where the rover has it, velocity of B in B and yaw rate, by its wheels.
 )";
 constexpr std::string_view kTum = R"(
 TUM (`--formats tum`), a pose a line, `t_s x y z qx qy qz qw`, exact:
