@@ -31,7 +31,7 @@ constexpr double kUnseenAcceleration = 1.0;  // m/s^2/sqrt(Hz)
 // wheels that grip. Chosen by F1 on 44 yards of `train`, which a third of the rate or twice the
 // variance changed by .003.
 constexpr double kSlipRate_ps = 1, kSlipVariance = 2;
-// A slip is older than it shows: by as much, to twice that, is what is then gone back to.
+// Once a slip shows, the estimator goes back by this, to twice this.
 constexpr double kHiddenSlip_s = 0.5;
 
 // Beyond what sensors measure.
@@ -47,6 +47,18 @@ double seconds_from(std::int64_t from_ns, std::int64_t to_ns) {
 
 void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(std::string("the estimator of ego-motion needs ") + what);
+}
+
+/// Chance that the wheels slip, from that of `since_s` before, by a reading that is off by `miss2`
+/// squared standard deviations of wheels that grip.
+double slip_after(double slip, double since_s, double miss2) {
+  constexpr int kValues = 4;  // velocity and yaw rate
+  const double turned = std::clamp(kSlipRate_ps * since_s, 0.0, 0.5);
+  const double before = slip * (1 - turned) + (1 - slip) * turned;
+  // ln of the ratio of two normal densities, one of k times the variance of the other
+  const double evidence =
+      0.5 * (miss2 * (1 - 1 / kSlipVariance) - kValues * std::log(kSlipVariance));
+  return before / (before + (1 - before) * std::exp(-evidence));
 }
 
 void check(const Mounting& mounting, const EgoMotionNoise& noise,
@@ -82,7 +94,6 @@ EgoMotionEstimator::EgoMotionEstimator(const Mounting& mounting, const EgoMotion
   now_.R_WS = start.R_WB * mounting.R_BS;
   now_.v_WS = start.v_WB_mps;
   reset_covariance(now_);
-  recent_ = older_ = now_;
 }
 
 void EgoMotionEstimator::reset_covariance(State& state) const {
@@ -113,7 +124,9 @@ std::optional<Fault> EgoMotionEstimator::fault_of(std::int64_t t_ns, const Vecto
 
 /// Of readings that were integrated before they were known to be in g.
 void EgoMotionEstimator::scale_past(double scale) {
-  for (State* state : {&now_, &recent_, &older_}) state->v_WS += (scale - 1) * dv_in_g_W_;
+  const Vector3d missed = (scale - 1) * dv_in_g_W_;
+  now_.v_WS += missed;
+  for (State& state : kept_) state.v_WS += missed;
   last_->accel *= scale;
 }
 
@@ -129,7 +142,6 @@ void EgoMotionEstimator::add_imu(std::int64_t t_ns, const Vector3d& gyro_radps,
   if (!last_) {
     // The start gives the velocity of the rover's origin; the IMU sits on a lever.
     now_.v_WS += now_.R_WS * gyro_radps.cross(mounting_.R_BS.transpose() * mounting_.p_BS_m);
-    recent_ = older_ = now_;
     last_ = reading;
     heard_ns_ = t_ns;
   }
@@ -174,7 +186,8 @@ void EgoMotionEstimator::propagate_to(std::int64_t t_ns) {
   t_ns_ = t_ns;
   const bool silent = period_ns_ > 0 && t_ns - heard_ns_ > kSilentPeriods * period_ns_;
   if (silent) unseen_turn_rad2_ += kUnseenTurn * kUnseenTurn * dt;
-  for (State* state : {&now_, &recent_, &older_}) propagate(*state, dt, silent);
+  propagate(now_, dt, silent);
+  for (State& state : kept_) propagate(state, dt, silent);
 }
 
 void EgoMotionEstimator::propagate(State& state, double dt, bool silent) const {
@@ -209,16 +222,6 @@ void EgoMotionEstimator::propagate(State& state, double dt, bool silent) const {
   if (!(state.covariance.diagonal().array() < kMostVariance).all()) reset_covariance(state);
 }
 
-/// Of a reading whose values are off by `miss2` squared standard deviations, if the wheels grip.
-double EgoMotionEstimator::slip_after(double since_s, double miss2, int values) const {
-  const double turned = std::clamp(kSlipRate_ps * since_s, 0.0, 0.5);
-  const double before = slip_ * (1 - turned) + (1 - slip_) * turned;
-  // ln of the ratio of two normal densities, one of k times the variance of the other
-  const double evidence =
-      0.5 * (miss2 * (1 - 1 / kSlipVariance) - values * std::log(kSlipVariance));
-  return before / (before + (1 - before) * std::exp(-evidence));
-}
-
 void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocity_B_mps,
                                       std::optional<double> yaw_rate_radps) {
   if (!(velocity_B_mps.norm() <= kMostSpeed_mps) ||
@@ -248,13 +251,14 @@ void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocit
 
   const bool slipped = slips();
   if (yaw_rate_radps) {
+    if (kept_.empty()) kept_ = {now_, now_};
     const Eigen::RowVector3d up_S = mounting_.R_BS.row(2);
     const double turn = *yaw_rate_radps - up_S * rate_S;
     const double variance =
         noise_.odometry_radps * noise_.odometry_radps +
         (up_S * now_.covariance.block<3, 3>(kGyroBias, kGyroBias) * up_S.transpose()).value();
-    slip_ = slip_after(seconds_from(odometry_ns_, t_ns),
-                       miss.dot(S.inverse() * miss) + turn * turn / variance, 4);
+    slip_ = slip_after(slip_, seconds_from(odometry_ns_, t_ns),
+                       miss.dot(S.inverse() * miss) + turn * turn / variance);
   } else {
     slip_ = 0;
   }
@@ -282,11 +286,11 @@ void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocit
 /// What odometry of a slip nobody had seen yet made of the state was wrong, and the attitude and
 /// the biases stay so: back to a state that heard the IMU alone since before.
 void EgoMotionEstimator::go_back_if(bool slipped) {
+  if (kept_.empty()) return;
   if (slips()) {
-    if (!slipped) now_ = older_;
+    if (!slipped) now_ = kept_.front();
   } else if (seconds_from(kept_ns_, t_ns_) >= kHiddenSlip_s) {
-    older_ = recent_;
-    recent_ = now_;
+    kept_ = {kept_.back(), now_};
     kept_ns_ = t_ns_;
   }
 }
@@ -311,10 +315,12 @@ void EgoMotionEstimator::set_clock(std::int64_t t_ns) {
 /// What is told with the next frame counts from here.
 void EgoMotionEstimator::begin_interval(std::int64_t t_ns) {
   last_frame_ns_ = t_ns;
-  for (State* state : {&now_, &recent_, &older_}) {
-    state->R_WC_before = R_WC(*state);
-    state->displacement_W.setZero();
-  }
+  const auto begin = [&](State& state) {
+    state.R_WC_before = R_WC(state);
+    state.displacement_W.setZero();
+  };
+  begin(now_);
+  for (State& state : kept_) begin(state);
   unseen_turn_rad2_ = 0;
 }
 

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "filter/diagnostics.h"
 #include "filter/ego_motion/imu_watch.h"
@@ -143,7 +144,6 @@ class EgoMotionEstimator {
   void begin_interval(std::int64_t t_ns);
   Eigen::Matrix3d R_WC(const State& state) const;
   void reset_covariance(State& state) const;
-  double slip_after(double since_s, double miss2, int values) const;
   bool slips() const { return slip_ > 0.5; }
   void go_back_if(bool slipped);
   std::optional<Fault> fault_of(std::int64_t t_ns, const Eigen::Vector3d& gyro_radps,
@@ -155,7 +155,9 @@ class EgoMotionEstimator {
   Eigen::Vector3d gravity_W_;
   std::int64_t t_ns_;
   State now_;
-  State recent_, older_;  ///< what they were at `kept_ns_` and before, and by the IMU alone since
+  /// It as it was half a second before `kept_ns_` and at that time, by the IMU alone since; none
+  /// where odometry tells no yaw rate.
+  std::vector<State> kept_;
   std::int64_t kept_ns_;
   double slip_ = 0;
   std::int64_t odometry_ns_;  ///< time of the last one

@@ -198,8 +198,9 @@ double seconds(std::int64_t t_ns) {
   return static_cast<double>(t_ns) * 1e-9;
 }
 
-/// A structured array of times, vectors and numbers. \param fields names, and how many numbers each
-/// has. \param put called with an item and where its values go.
+/// A structured array of times, vectors and numbers.
+/// \param fields names, and how many numbers each has.
+/// \param put called with an item and where its values go.
 template <class Sample, class Put>
 py::array readings(const std::vector<Sample>& samples,
                    const std::vector<std::pair<const char*, int>>& fields, const Put& put) {

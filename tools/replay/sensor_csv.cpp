@@ -35,9 +35,10 @@ std::vector<NumberRow> read_numbers(const std::filesystem::path& file,
   const TextTable table = read_table(file, ',');
   std::vector<std::size_t> columns;
   for (const char* name : names) columns.push_back(table.column(name, columns.size() + 1));
-  if (last && !table.header.empty() &&
-      !std::count(table.header.begin(), table.header.end(), *last)) {
-    last.reset();
+  std::optional<std::size_t> last_column;
+  if (last && (table.header.empty() ||
+               std::find(table.header.begin(), table.header.end(), *last) != table.header.end())) {
+    last_column = table.column(*last, columns.size() + 1);
   }
   std::vector<NumberRow> rows;
   for (const TextTable::Row& row : table.rows) {
@@ -46,18 +47,14 @@ std::vector<NumberRow> read_numbers(const std::filesystem::path& file,
     };
     const auto t_ns = time_in(text(0), 1);
     NumberRow read{t_ns.value_or(0), {}};
-    for (const std::size_t column : columns) {
+    const auto take = [&](std::size_t column) {
       if (const auto number = bench::number_in<double>(text(column))) {
         read.numbers.push_back(*number);
       }
-    }
+    };
+    for (const std::size_t column : columns) take(column);
     const bool whole = t_ns && read.numbers.size() == columns.size();
-    if (last) {
-      if (const auto number =
-              bench::number_in<double>(text(table.column(*last, columns.size() + 1)))) {
-        read.numbers.push_back(*number);
-      }
-    }
+    if (last_column) take(*last_column);
     if (whole) {
       rows.push_back(std::move(read));
     } else {

@@ -23,8 +23,8 @@ constexpr const char* kPoseHeader =
     "#timestamp [ns],R_00,R_01,R_02,p_x [m],R_10,R_11,R_12,p_y "
     "[m],R_20,R_21,R_22,p_z [m]\n";
 constexpr const char* kOdometryHeader =
-    "#timestamp [ns],v_RB_B_x [m s^-1],v_RB_B_y [m s^-1],v_RB_B_z [m s^-1],w_RB_B_z [rad "
-    "s^-1]\n";
+    "#timestamp [ns],v_RB_B_x [m s^-1],v_RB_B_y [m s^-1],v_RB_B_z [m s^-1],"
+    "w_RB_B_z [rad s^-1]\n";
 
 /// One by one: of `fmt::join` over numbers GCC 13 warns within fmt 9, as in sim/mjcf.cpp.
 std::string numbers(std::span<const double> values, const char* separator) {
