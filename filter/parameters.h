@@ -4,12 +4,13 @@
 /// Angles are radians in the structs and degrees in text.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "filter/kinematics/geometry.h"
+#include "filter/paper/parameters.h"
 #include "filter/trust.h"
 
 namespace lcs {
@@ -55,10 +56,13 @@ struct LineParameters {
 struct HypothesisParameters {
   double noise_px = 0.6;  ///< standard deviation of a corner's place on an axis: whole pixels, FAST
   double prior = 0.03;    ///< share of corners that move
+  /// Log odds by which a corner that is new is a mover's: FAST finds those again less often.
+  double newcomer = 1;
   /// 1/s: how often a corner changes its kind, a track its corner, or a mover its image velocity by
   /// as much as that is.
   double turnover_ps = 1;
-  double wrong = 0.05;          ///< share of matches that are none
+  /// The share of it in a frame.
+  double turnover(double dt_s) const { return std::min(0.5, turnover_ps * dt_s); }
   double ego_share = 0.02;      ///< of the image motion by which the camera's velocity may be wrong
   double max_speed_pxps = 900;  ///< px/s: the fastest that a mover is looked for, rotation removed
   int coast = 3;                ///< frames that a track goes on unseen
@@ -73,30 +77,10 @@ struct HypothesisParameters {
 };
 
 /// Circle expert: edges, alpha, circles.
-struct CircleParameters {
+struct CircleParameters : PaperCircleParameters {
   TrustRanks trust{2, 3, 5};  ///< Tr^c
   EdgeRule edge_rule = EdgeRule::hypotheses;
   HypothesisParameters hypotheses;
-  double delta_v = 9 * kDegree;  ///< delta_v: half angle of the error span, seen from O_I
-  double mu_0 = 25;              ///< mu_0, px: radius of detection of a new normal edge
-  double mu_min = 3;             ///< px: bounds on mu, which the paper leaves open
-  double mu_max = 25;            ///< px
-  double corner_noise = 1.5;     ///< px: how far a corner may lie off for no reason
-  double trust_bonus = 0.25;     ///< px of distance that a step of trust is worth in assignment
-  double alpha_reach = 50;       ///< px: between two sightings in alpha
-  double alpha_deviation = 20 * kDegree;  ///< mu_r: bend of the line through three sightings
-  double alpha_stretch = 0.35;  ///< share by which the second step may differ from the first
-  int alpha_branches = 4;       ///< rows that one sighting may branch into
-  double rebel_reach = 0.35;    ///< share of the predicted displacement by which a rebel may err
-
-  double epsilon_beta_n = 20 * kDegree;  ///< eps_beta,n
-  double epsilon_beta_r = 50 * kDegree;  ///< eps_beta,r
-  double epsilon_v_n = 0.4;              ///< eps_v,n, 40 % of V_v
-  double epsilon_v_r = 1.0;              ///< eps_v,r, 100 % of V_v
-  double epsilon_v = 0.7;                ///< eps_v, of V_v, between a predicted circle and a group
-  double rho_c = 40;                     ///< rho_c, %: overlap of a group with the predicted circle
-  double reach_n = 50;      ///< px: how far apart the edges of one normal circle may lie
-  double reach_r = 50;      ///< px: and of a rebel one
   int min_members = 3;      ///< edges that make a new circle
   double min_width = 0;     ///< px: deviation across their line of rebels that make one
   double gap_m = 0.2;       ///< m: between the edges of one body, about
@@ -105,22 +89,11 @@ struct CircleParameters {
 };
 
 /// Square expert.
-struct SquareParameters {
+struct SquareParameters : PaperSquareParameters {
   TrustRanks trust{3, 5, 7};  ///< Tr^s
   LayerRule layer_rule = LayerRule::circles;
   double max_size = 5;    ///< m: what is larger, by its depth, is no object but the setting
   double min_area = 250;  ///< px^2: of an object's box
-  double delta_beta_1 = 90 * kDegree;    ///< delta_beta,1: between the circles of a corner (case 1)
-  double delta_beta_2 = 0;               ///< delta_beta,2: between aligned circles (case 2)
-  double epsilon_beta_1 = 15 * kDegree;  ///< eps_beta,1
-  double epsilon_beta_2 = 35 * kDegree;  ///< eps_beta,2
-  double epsilon_beta = 20 * kDegree;    ///< eps_beta: of minor circles
-  double epsilon_beta_s = 20 * kDegree;  ///< eps_beta,s: between predicted and mean square
-  double epsilon_v = 0.7;                ///< eps_v, of V_v: between circles
-  double epsilon_v_s = 0.7;              ///< eps_v,s, of V_v: between predicted and mean square
-  double rho_c = 40;                     ///< rho_c, %: least overlap
-  double d_t = 1.0;                      ///< start of d_t, as a share of the image's diagonal
-  bool mix_kinds = true;                 ///< normal and rebel circles may form one square
 };
 
 struct Parameters {

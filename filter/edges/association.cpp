@@ -40,7 +40,7 @@ double Association::clutter_ppx2(std::size_t corner) const {
 void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, double noise2_px2,
                              double dt_s) {
   const double reach = reach_px(dt_s);
-  const double anywhere = 1 / reach_area_px2(dt_s), wrong = parameters_.wrong;
+  const double anywhere = 1 / reach_area_px2(dt_s), wrong = parameters_.turnover(dt_s);
   const double near = parameters_.coupling_reach_px;
   const bool looks = !chi.signatures.empty();
   places_.clear();
@@ -126,6 +126,7 @@ double Association::ask_neighbours(const Pair& pair, double noise2_px2) const {
 const std::vector<int>& Association::match(const Chi& chi, std::span<const Track> predicted,
                                            double noise2_px2, double dt_s) {
   refill(track_of_, chi.size(), -1);
+  refill(chance_ppx2_, chi.size());
   if (predicted.empty() || chi.size() == 0) return track_of_;
   find_pairs(chi, predicted, noise2_px2, dt_s);
   const double near = parameters_.coupling_reach_px;
@@ -141,11 +142,11 @@ const std::vector<int>& Association::match(const Chi& chi, std::span<const Track
     for (const Neighbour& other : near_) {
       voices_.push_back(std::exp(-0.5 * other.distance2 / (near * near)));
     }
-    Match best{0, static_cast<int>(c), -1};
+    Match best{0, static_cast<int>(c), -1, 0};
     for (const Pair& pair : pairs) {
       const double weight = pair.weight + ask_neighbours(pair, noise2_px2);
       if (weight > best.weight || (weight == best.weight && pair.track < best.track)) {
-        best = {weight, best.corner, pair.track};
+        best = {weight, best.corner, pair.track, pair.signature};
       }
     }
     if (best.track >= 0) matches_.push_back(best);
@@ -158,6 +159,9 @@ const std::vector<int>& Association::match(const Chi& chi, std::span<const Track
     if (taken_[match.track]) continue;
     taken_[match.track] = 1;
     track_of_[match.corner] = match.track;
+    if (chi.signatures.empty()) continue;
+    chance_ppx2_[match.corner] =
+        clutter_ppx2(static_cast<std::size_t>(match.corner)) * std::exp(-match.signature);
   }
   return track_of_;
 }

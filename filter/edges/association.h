@@ -31,6 +31,9 @@ class Association {
 
   /// Of the last match: tracks within the reach of the coupling about a corner, and itself.
   int crowd(std::size_t corner) const { return crowd_[corner]; }
+  /// Of the last match: how densely pairs that are none but look as good lie about a corner that
+  /// has a track, by the tracks there and its signature; 0 without signatures.
+  double chance_ppx2(std::size_t corner) const { return chance_ppx2_[corner]; }
   /// px: how far a corner may be from where the rotation alone puts it.
   double reach_px(double dt_s) const;
   /// px^2: of the circle about it.
@@ -65,10 +68,12 @@ class Association {
   struct Match {
     double weight;
     int corner, track;
+    double signature;
   };
   std::vector<Match> matches_;
   std::vector<char> taken_;
   std::vector<int> track_of_;
+  std::vector<double> chance_ppx2_;  // of each corner
 };
 
 }  // namespace lcs

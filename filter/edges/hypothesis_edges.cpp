@@ -77,12 +77,8 @@ Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner) {
 
 /// Log odds a frame on: a corner may have changed its kind, or its track may have jumped.
 double HypothesisEdges::faded(double log_odds, double dt_s) const {
-  const double turnover = turnover_in(dt_s);
+  const double turnover = parameters_.turnover(dt_s);
   return lcs::log_odds(chance(log_odds) * (1 - turnover) + parameters_.prior * turnover);
-}
-
-double HypothesisEdges::turnover_in(double dt_s) const {
-  return std::min(0.5, parameters_.turnover_ps * dt_s);
 }
 
 /// Density of a second sighting of what moves. A static point may have come along a
@@ -106,9 +102,11 @@ double HypothesisEdges::first_step(const Track& track, const Vec2& x_px,
              : 1 / (kPi * orders * (s2 + (a - segment / 2) * (a - segment / 2)));
 }
 
-/// Takes a sighting in. \return false where neither hypothesis has a place for it, so that it is
-/// none: nothing is changed then.
-bool HypothesisEdges::see(Track& track, const Vec2& x_px, const MotionField& field) const {
+/// Takes a sighting in. \param chance_ppx2 `Association::chance_ppx2`.
+/// \return false where neither hypothesis has a place for it, so that it is none: nothing is
+/// changed then.
+bool HypothesisEdges::see(Track& track, const Vec2& x_px, double chance_ppx2,
+                          const MotionField& field) const {
   const DepthBounds bounds = depth_bounds(field, x_px);
   StaticPoint seen = track.as_static;
   double noise2_px2 = noise2_px2_;
@@ -116,22 +114,25 @@ bool HypothesisEdges::see(Track& track, const Vec2& x_px, const MotionField& fie
     noise2_px2 += std::pow(parameters_.ego_share * (x_px - track.place_px).norm(), 2);
   }
   const double still = seen.see(x_px, noise2_px2, bounds);
-  const double right = 1 - parameters_.wrong;
-  const double clutter = parameters_.wrong / association_.reach_area_px2(field.dt_s());
-  // What a sighting adds to the log odds: a match may be none, and then it may be anywhere.
+  const double turnover = parameters_.turnover(field.dt_s());
+  const double right = 1 - turnover;
+  const double anywhere = turnover / association_.reach_area_px2(field.dt_s());
+  // What a sighting adds to the log odds: a match may be none, and then it may be anywhere, and is
+  // likelier where many would look as good.
   const auto evidence = [&](double moving) {
-    return std::log((right * moving + clutter) / (right * still + clutter));
+    const double none = anywhere + chance_ppx2;
+    return std::log((right * moving + none) / (right * still + none));
   };
   if (!track.has_motion()) {
-    track.log_odds = lcs::log_odds(parameters_.prior) + evidence(first_step(track, x_px, bounds));
+    track.log_odds = lcs::log_odds(parameters_.prior) + parameters_.newcomer +
+                     evidence(first_step(track, x_px, bounds));
     track.as_moving = OwnMotion::first(track.place_px, x_px, noise2_px2_, track.since_s);
   } else {
     const double moving = track.as_moving.density(x_px, noise2_px2_);
-    if (right * std::max(still, moving) < clutter) return false;
+    if (right * std::max(still, moving) < anywhere) return false;
     track.log_odds = faded(track.log_odds, field.dt_s()) + evidence(moving);
     track.as_moving.see(x_px, noise2_px2_);
   }
-  const double turnover = turnover_in(field.dt_s());
   const double most = lcs::log_odds((1 - turnover) / (1 - turnover + turnover * parameters_.prior));
   track.log_odds = std::clamp(track.log_odds, -most, most);
   track.as_static = seen;
@@ -167,7 +168,7 @@ void HypothesisEdges::couple(const MotionField& field) {
   for (const Track& track : tracks_) {
     if (track.corner < 0) break;
     const bool moves = track.has_motion();
-    nodes_.push_back({track.place_px, moves ? track.log_odds : 0, moves,
+    nodes_.push_back({track.place_px, moves ? track.log_odds : parameters_.newcomer, moves,
                       track.as_moving.velocity_pxps * field.dt_s(),
                       track.as_moving.step_variance_px2(field.dt_s())});
   }
@@ -257,7 +258,7 @@ void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& 
     if (track_of[c] >= 0) {
       Track& track = predicted_[track_of[c]];
       track.corner = static_cast<int>(c);
-      if (see(track, chi.locations[c], field)) {
+      if (see(track, chi.locations[c], association_.chance_ppx2(c), field)) {
         if (!chi.signatures.empty()) track.signature = chi.signatures[c];
         tracks_.push_back(track);
         continue;

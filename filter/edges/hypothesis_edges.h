@@ -35,10 +35,9 @@ class HypothesisEdges : public EdgeExpert {
   void predict_tracks(const MotionField& field);
   MotionFix fix(const MotionField& told, const Chi& chi, const std::vector<int>& track_of);
   Track first_seen(const Chi& chi, std::size_t corner);
-  bool see(Track& track, const Vec2& x_px, const MotionField& field) const;
+  bool see(Track& track, const Vec2& x_px, double chance_ppx2, const MotionField& field) const;
   double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds) const;
   double faded(double log_odds, double dt_s) const;
-  double turnover_in(double dt_s) const;
   void coast(const std::vector<IgnoreRegion>& psi, const MotionField& field);
   void couple(const MotionField& field);
   void decide(Layers& layers, const Chi& chi, const MotionField& field,

@@ -393,10 +393,11 @@ TEST(Association, WhatNeighboursAgreeOnGoesBeforeANearerChanceMatch) {
     corners.push_back(x + Vec2(22, 5));
   }
   corners.push_back(group[0] + Vec2(1, 1));  // a chance match of the first
-  const auto asked = match(kUsual, chi_of(corners), tracks);
+  HypothesisParameters parameters = kUsual;
+  parameters.step_share = 0.1;  // they move as one
+  const auto asked = match(parameters, chi_of(corners), tracks);
   for (int c = 0; c < 9; ++c) EXPECT_EQ(asked[c], c);
   EXPECT_EQ(asked[9], -1);
-  HypothesisParameters parameters = kUsual;
   parameters.voters = 0;
   const auto alone = match(parameters, chi_of(corners), tracks);
   EXPECT_NE(alone[0], 0);

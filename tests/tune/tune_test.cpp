@@ -166,9 +166,35 @@ TEST_F(TuneCommand, StatesTheSuitesFiguresAndWritesAPresetThatItsRecordExplains)
 
   const auto more = tune({"--keys", "hypotheses.prior", "--evaluations", "6"});
   EXPECT_EQ(more.exit_code, 0) << "the same search goes on: " << more.err;
-  const auto other = tune({"--keys", "hypotheses.wrong", "--evaluations", "6"});
+  const auto other = tune({"--keys", "hypotheses.turnover", "--evaluations", "6"});
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_NE(other.err.find("evaluations.csv is of another search"), std::string::npos) << other.err;
+}
+
+TEST_F(TuneCommand, CountsTheFalseCornersOfRecordingsInWhichNothingMoves) {
+  // What moves in the scenario is said to stand, so that there are some.
+  const fs::path frames = folder_.path() / "frames", recorded = folder_.path() / "recorded";
+  const auto drawn = bench::run_lcs({"generate", LCS_SCENARIOS_DIR "/crossing.yaml", "--set",
+                                     "frames=16", "--out", frames.string(), "--quiet"},
+                                    {folder_.path()});
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  fs::create_directory(recorded);
+  std::ofstream(recorded / "still.yaml")
+      << "recording: {path: " << frames.string() << ", nothing_moves: true}\n";
+  const fs::path asked = folder_.path() / "asked";
+  const auto made = bench::run_lcs({"suite", recorded.string(), "--out", asked.string(), "--quiet"},
+                                   {folder_.path()});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const auto off = bench::value(suite::read_suite(asked).scenarios.front().runs.front().metrics,
+                                "rebel.false_corners_per_frame");
+  ASSERT_GT(off.value(), 1);
+
+  const auto alone = Trials({suite().string()}).worth(preset("default"));
+  const auto both = Trials({suite().string(), asked.string()}).worth(preset("default"));
+  EXPECT_DOUBLE_EQ(both.f1, alone.f1);
+  EXPECT_DOUBLE_EQ(both.false_capped, alone.false_capped);
+  EXPECT_DOUBLE_EQ(both.false_corners, off.value());
+  EXPECT_NEAR(alone.objective() - both.objective(), 0.01 * off.value(), 1e-12);
 }
 
 TEST_F(TuneCommand, RefusesTheSplitTest) {

@@ -28,15 +28,17 @@ constexpr const char* kHelp = R"(Examples:
   lcs suite --worlds train --count 200 --out out/train
   lcs suite --worlds validate --count 160 --out out/validate
   lcs tune out/train --validate out/validate              all learnt numbers
-  lcs tune out/train --keys hypotheses.prior,hypotheses.wrong --evaluations 60
+  lcs suite my_recordings --out out/recorded; lcs tune out/train out/recorded
+  lcs tune out/train --keys hypotheses.prior,hypotheses.newcomer --evaluations 60
   lcs tune out/train --evaluations 1                      what the present ones are worth
   lcs tune out/train --evaluations 1 --set hypotheses.prior=0.05
 
 The frames of the suite's runs are asked of the filter again and again, each time with other numbers,
-on all cores. What counts is the mean F1 of rebels over the runs in which something moves, less a
-tenth of the mean number of false objects in a frame, of which no run counts for more than one. NLopt's
-BOBYQA looks for the most of it, between a quarter of the present values and four times these. Runs of
-the split test are refused: nothing is chosen by them.
+on all cores. What counts is the mean F1 of rebels over the worlds in which something moves, less a
+tenth of the mean number of false objects in a frame, of which no world counts for more than one, and
+less a hundredth of the false corners in a frame of recordings in which nothing moves. NLopt's BOBYQA
+looks for the most of it, between a quarter of the present values and four times these. Runs of the
+split test are refused: nothing is chosen by them.
 
 Each evaluation is kept at once. A search that was interrupted, or is to go on with more evaluations,
 goes on where it was by the same command; the same command gives the same numbers.
@@ -44,7 +46,7 @@ goes on where it was by the same command; the same command gives the same number
 Files in the folder:
   evaluations.csv    every set that was tried, with its figures
   learnt.h           the best of them, for filter/learnt.h: the preset default takes them from there
-  record.md          both suites before and after, the numbers, the command, the program
+  record.md          the suites before and after, the numbers, the command, the program
 
 Exit codes:
   0  fine
@@ -53,13 +55,13 @@ Exit codes:
 )";
 
 /// "60 runs, corridor_1 to yard_10".
-std::string about(const std::string& name, const tune::Trials& trials) {
+std::string about(const std::vector<std::string>& names, const tune::Trials& trials) {
   std::string first = trials.runs().front().scenario, last = first;
   for (const bench::Recording& run : trials.runs()) {
     first = std::min(first, run.scenario);
     last = std::max(last, run.scenario);
   }
-  return fmt::format("{}, {} runs, {} to {}", name, trials.runs().size(), first, last);
+  return fmt::format("{}, {} runs, {} to {}", fmt::join(names, " "), trials.runs().size(), first, last);
 }
 
 std::vector<std::string> learnt_keys() {
@@ -82,8 +84,10 @@ tune::Found with_other_learnt(tune::Found found, const Parameters& start) {
 }
 
 std::string command_of(const TuneOptions& options) {
-  std::string command = fmt::format("lcs tune {}", options.suite);
-  if (!options.validate.empty()) command += fmt::format(" --validate {}", options.validate);
+  std::string command = fmt::format("lcs tune {}", fmt::join(options.suites, " "));
+  if (!options.validate.empty()) {
+    command += fmt::format(" --validate {}", fmt::join(options.validate, ","));
+  }
   if (!options.keys.empty()) command += fmt::format(" --keys {}", fmt::join(options.keys, ","));
   for (const std::string& setting : options.sets) command += fmt::format(" --set {}", setting);
   return command + fmt::format(" --evaluations {} --seed {}", options.evaluations, options.seed);
@@ -93,14 +97,17 @@ std::string command_of(const TuneOptions& options) {
 
 CLI::App& add_tune_command(CLI::App& app, TuneOptions& options) {
   CLI::App& command =
-      *app.add_subcommand("tune", "Learn the filter's numbers from recorded runs of worlds");
-  command.add_option("--suite,SUITE", options.suite, "Folder of a suite of worlds of train")
+      *app.add_subcommand("tune", "Learn the filter's numbers from recorded runs");
+  command
+      .add_option("--suite,SUITE", options.suites,
+                  "Folders of suites of train: worlds, and recordings in which nothing moves")
       ->required()
       ->type_name("");
   command
       .add_option("--validate", options.validate,
-                  "Folder of another suite, on which before and after are stated")
-      ->type_name("SUITE");
+                  "Folders of other suites, on which before and after are stated")
+      ->delimiter(',')
+      ->type_name("SUITE,...");
   command.add_option("--keys", options.keys, "Only these parameters; all learnt ones if not given")
       ->delimiter(',')
       ->type_name("KEY,...");
@@ -124,7 +131,7 @@ ExitCode tune(const TuneOptions& options) {
     set(start, key, value);
   }
   validate(start);
-  const tune::Trials trials(options.suite);
+  const tune::Trials trials(options.suites);
   std::optional<tune::Trials> others;
   if (!options.validate.empty()) others.emplace(options.validate);
 
@@ -132,7 +139,7 @@ ExitCode tune(const TuneOptions& options) {
   fs::create_directories(out);
   const tune::SearchOptions search_options{options.keys.empty() ? learnt_keys() : options.keys,
                                            options.evaluations, options.seed};
-  const std::string subject = fmt::format("{}, seed {}, {}", about(options.suite, trials),
+  const std::string subject = fmt::format("{}, seed {}, {}", about(options.suites, trials),
                                           options.seed, fmt::join(options.sets, " "));
   tune::Found found;
   try {
@@ -147,7 +154,7 @@ ExitCode tune(const TuneOptions& options) {
     return kInterrupted;
   }
   std::vector<tune::Stated> stated{
-      {about(options.suite, trials), found.worth_before, found.worth_after}};
+      {about(options.suites, trials), found.worth_before, found.worth_after}};
   if (others) {
     Parameters best = start;
     for (const tune::Setting& setting : found.after) set(best, setting.key, setting.value);

@@ -1,5 +1,5 @@
 /// \file
-/// `lcs tune`: the filter's learnt numbers, from recorded runs of worlds of `train`.
+/// `lcs tune`: the filter's learnt numbers, from recorded runs of `train`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,8 +12,8 @@
 namespace lcs::tools {
 
 struct TuneOptions {
-  std::string suite;
-  std::string validate;  ///< likewise; empty: none
+  std::vector<std::string> suites;
+  std::vector<std::string> validate;  ///< likewise
   std::vector<std::string> keys;
   std::vector<std::string> sets;
   int evaluations = 300;

@@ -6,8 +6,8 @@ namespace lcs::tune {
 
 std::string preset_text(const Found& found, const Circumstances& circumstances) {
   std::string text = fmt::format(
-      "{}, and not by hand: what the preset `default` has learnt from worlds of\n"
-      "/// `train`.\n"
+      "{}, and not by hand: what the preset `default` has learnt from worlds and\n"
+      "/// recordings of `train`.\n"
       "///\n"
       "/// {}, lcs {}, {} evaluations; objective {:.4f} -> {:.4f}:\n"
       "///   {}\n"
@@ -32,18 +32,20 @@ std::string record_text(const Found& found, const std::vector<Stated>& stated,
       "{}\n\n"
       "{}, lcs {}, {} evaluations by NLopt's BOBYQA:\n\n"
       "    {}\n\n"
-      "It makes the most of the mean F1 of rebels over the runs in which something moves, less a "
-      "tenth of the mean number\nof false objects in a frame over all runs, of which no run counts "
-      "for more than one.\n\n"
-      "| | objective | F1 | false objects in 100 frames, something moves | nothing moves |\n"
-      "|---|---|---|---|---|\n",
+      "It makes the most of the mean F1 of rebels over the worlds in which something moves, less a "
+      "tenth of the mean number\nof false objects in a frame over all of them, of which none counts "
+      "for more than one, and less a hundredth of the\nfalse corners in a frame of recordings in "
+      "which nothing moves.\n\n"
+      "| | objective | F1 | false objects in 100 frames, something moves | nothing moves | false "
+      "corners, recordings |\n"
+      "|---|---|---|---|---|---|\n",
       kRecordSign, circumstances.date, circumstances.program, found.evaluations,
       circumstances.command);
   for (const Stated& one : stated) {
     for (const auto& [when, worth] : {std::pair("before", one.before), {"after", one.after}}) {
-      text += fmt::format("| {}, {} | {:.4f} | {:.4f} | {:.1f} | {:.1f} |\n", one.suite, when,
+      text += fmt::format("| {}, {} | {:.4f} | {:.4f} | {:.1f} | {:.1f} | {:.1f} |\n", one.suite, when,
                           worth.objective(), worth.f1, 100 * worth.false_moving,
-                          100 * worth.false_static);
+                          100 * worth.false_static, worth.false_corners);
     }
   }
   text += "\n| parameter | before | after |\n|---|---|---|\n";

@@ -73,7 +73,7 @@ class Journal {
   Journal(const std::filesystem::path& path, const std::string& subject,
           const std::vector<std::string>& keys)
       : path_(path),
-        head_(fmt::format("# lcs tune: {}\n{},f1,false_moving,false_static,false_capped\n", subject,
+        head_(fmt::format("# lcs tune: {}\n{},f1,false_moving,false_static,false_capped,false_corners\n", subject,
                           fmt::join(keys, ","))) {
     std::ifstream file(path);
     std::stringstream all;
@@ -91,13 +91,14 @@ class Journal {
       std::vector<std::string> cells;
       std::stringstream cell_stream(line);
       for (std::string cell; std::getline(cell_stream, cell, ',');) cells.push_back(cell);
-      if (cells.size() != keys.size() + 4) {
+      if (cells.size() != keys.size() + 5) {
         throw std::runtime_error(
             fmt::format("{} has a line of another search: {}; take it away", path.string(), line));
       }
       const std::string* figures = &cells[keys.size()];
       known_[fmt::format("{}", fmt::join(cells.begin(), cells.begin() + keys.size(), ","))] = {
-          number(figures[0]), number(figures[1]), number(figures[2]), number(figures[3])};
+          number(figures[0]), number(figures[1]), number(figures[2]), number(figures[3]),
+          number(figures[4])};
     }
     file_.emplace(path);
     file_->write(text);
@@ -110,8 +111,8 @@ class Journal {
   }
   void add(const std::string& values, const Worth& worth) {
     known_[values] = worth;
-    file_->write(fmt::format("{},{},{},{},{}\n", values, worth.f1, worth.false_moving,
-                             worth.false_static, worth.false_capped));
+    file_->write(fmt::format("{},{},{},{},{},{}\n", values, worth.f1, worth.false_moving,
+                             worth.false_static, worth.false_capped, worth.false_corners));
     file_->flush();
   }
 

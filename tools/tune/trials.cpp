@@ -30,7 +30,20 @@ bench::Recording asked(const bench::Recording& seen, const Parameters& parameter
 
 }  // namespace
 
-Trials::Trials(const std::filesystem::path& suite) {
+Trials::Trials(const std::vector<std::string>& suites) {
+  for (const std::string& suite : suites) read(suite);
+  // The longest first, so that all cores end together.
+  std::stable_sort(runs_.begin(), runs_.end(), [](const auto& a, const auto& b) {
+    const auto corners = [](const bench::Recording& run) {
+      std::size_t sum = 0;
+      for (const bench::FrameRecord& frame : run.frames) sum += frame.corners_px.size();
+      return sum;
+    };
+    return corners(a) > corners(b);
+  });
+}
+
+void Trials::read(const std::filesystem::path& suite) {
   const worlds::Split& test = worlds::split("test");
   for (const suite::ScenarioResult& scenario : suite::read_suite(suite).scenarios) {
     const bool is_for_stating =
@@ -50,15 +63,6 @@ Trials::Trials(const std::filesystem::path& suite) {
       runs_.push_back(std::move(recording));
     }
   }
-  // The longest first, so that all cores end together.
-  std::stable_sort(runs_.begin(), runs_.end(), [](const auto& a, const auto& b) {
-    const auto corners = [](const bench::Recording& run) {
-      std::size_t sum = 0;
-      for (const bench::FrameRecord& frame : run.frames) sum += frame.corners_px.size();
-      return sum;
-    };
-    return corners(a) > corners(b);
-  });
 }
 
 Worth Trials::worth(const Parameters& parameters, const std::function<void()>& tick) const {
@@ -67,21 +71,29 @@ Worth Trials::worth(const Parameters& parameters, const std::function<void()>& t
       static_cast<int>(runs_.size()),
       [&](int i) { figures[i] = bench::score(asked(runs_[i], parameters)); }, [&](int) { tick(); });
   Worth worth;
-  double moving = 0;
-  for (const bench::Metrics& run : figures) {
-    const double off = bench::value(run, "rebel.false_objects_per_100_frames").value_or(0) / 100;
-    worth.false_capped += std::min(1.0, off) / static_cast<double>(figures.size());
-    if (const auto f1 = bench::value(run, "rebel.f1")) {
+  double moving = 0, still = 0, recorded = 0;
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const auto figure = [&](const char* name) { return bench::value(figures[i], name); };
+    if (runs_[i].truth == bench::Truth::nothing_moves) {
+      worth.false_corners += figure("rebel.false_corners_per_frame").value_or(0);
+      ++recorded;
+      continue;
+    }
+    const double off = figure("rebel.false_objects_per_100_frames").value_or(0) / 100;
+    worth.false_capped += std::min(1.0, off);
+    if (const auto f1 = figure("rebel.f1")) {
       worth.f1 += *f1;
       worth.false_moving += off;
       ++moving;
     } else {
       worth.false_static += off;
+      ++still;
     }
   }
-  const double still = static_cast<double>(figures.size()) - moving;
   if (moving > 0) worth.f1 /= moving, worth.false_moving /= moving;
   if (still > 0) worth.false_static /= still;
+  if (moving + still > 0) worth.false_capped /= moving + still;
+  if (recorded > 0) worth.false_corners /= recorded;
   return worth;
 }
 
