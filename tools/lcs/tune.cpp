@@ -61,7 +61,8 @@ std::string about(const std::vector<std::string>& names, const tune::Trials& tri
     first = std::min(first, run.scenario);
     last = std::max(last, run.scenario);
   }
-  return fmt::format("{}, {} runs, {} to {}", fmt::join(names, " "), trials.runs().size(), first, last);
+  return fmt::format("{}, {} runs, {} to {}", fmt::join(names, " "), trials.runs().size(), first,
+                     last);
 }
 
 std::vector<std::string> learnt_keys() {
@@ -96,8 +97,7 @@ std::string command_of(const TuneOptions& options) {
 }  // namespace
 
 CLI::App& add_tune_command(CLI::App& app, TuneOptions& options) {
-  CLI::App& command =
-      *app.add_subcommand("tune", "Learn the filter's numbers from recorded runs");
+  CLI::App& command = *app.add_subcommand("tune", "Learn the filter's numbers from recorded runs");
   command
       .add_option("--suite,SUITE", options.suites,
                   "Folders of suites of train: worlds, and recordings in which nothing moves")

@@ -33,7 +33,8 @@ std::string record_text(const Found& found, const std::vector<Stated>& stated,
       "{}, lcs {}, {} evaluations by NLopt's BOBYQA:\n\n"
       "    {}\n\n"
       "It makes the most of the mean F1 of rebels over the worlds in which something moves, less a "
-      "tenth of the mean number\nof false objects in a frame over all of them, of which none counts "
+      "tenth of the mean number\nof false objects in a frame over all of them, of which none "
+      "counts "
       "for more than one, and less a hundredth of the\nfalse corners in a frame of recordings in "
       "which nothing moves.\n\n"
       "| | objective | F1 | false objects in 100 frames, something moves | nothing moves | false "
@@ -43,8 +44,8 @@ std::string record_text(const Found& found, const std::vector<Stated>& stated,
       circumstances.command);
   for (const Stated& one : stated) {
     for (const auto& [when, worth] : {std::pair("before", one.before), {"after", one.after}}) {
-      text += fmt::format("| {}, {} | {:.4f} | {:.4f} | {:.1f} | {:.1f} | {:.1f} |\n", one.suite, when,
-                          worth.objective(), worth.f1, 100 * worth.false_moving,
+      text += fmt::format("| {}, {} | {:.4f} | {:.4f} | {:.1f} | {:.1f} | {:.1f} |\n", one.suite,
+                          when, worth.objective(), worth.f1, 100 * worth.false_moving,
                           100 * worth.false_static, worth.false_corners);
     }
   }

@@ -73,8 +73,9 @@ class Journal {
   Journal(const std::filesystem::path& path, const std::string& subject,
           const std::vector<std::string>& keys)
       : path_(path),
-        head_(fmt::format("# lcs tune: {}\n{},f1,false_moving,false_static,false_capped,false_corners\n", subject,
-                          fmt::join(keys, ","))) {
+        head_(fmt::format(
+            "# lcs tune: {}\n{},f1,false_moving,false_static,false_capped,false_corners\n", subject,
+            fmt::join(keys, ","))) {
     std::ifstream file(path);
     std::stringstream all;
     all << file.rdbuf();
@@ -194,9 +195,11 @@ Found search(const Parameters& start, const SearchOptions& options, const Judge&
       return 0.0;
     }
   };
-  bobyqa.set_max_objective([](const std::vector<double>& at, std::vector<double>&,
-                             void* data) { return (*static_cast<decltype(objective)*>(data))(at); },
-                          &objective);
+  bobyqa.set_max_objective(
+      [](const std::vector<double>& at, std::vector<double>&, void* data) {
+        return (*static_cast<decltype(objective)*>(data))(at);
+      },
+      &objective);
   try {
     double best = 0;
     bobyqa.optimize(z, best);
