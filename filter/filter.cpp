@@ -11,7 +11,6 @@
 #include "filter/edges/edge_expert.h"
 #include "filter/ego_motion/intake.h"
 #include "filter/kinematics/motion_field.h"
-#include "filter/kinematics/pixels.h"
 #include "filter/line/line.h"
 #include "filter/matching/refill.h"
 #include "filter/paper/corner_grouping.h"

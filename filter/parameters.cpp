@@ -8,54 +8,18 @@
 #include <sstream>
 #include <stdexcept>
 #include <utility>
-#include <variant>
 
 #include "filter/learnt.h"
 #include "filter/paper/presets.h"
+#include "filter/parameter_table.h"
 
 namespace lcs {
 namespace {
 
-/// A value that is one of a few words.
-struct Choice {
-  int (*get)(const Parameters&);
-  void (*put)(Parameters&, int);
-  std::vector<std::string> words;
-};
-
-template <typename T>
-using Field = T& (*)(Parameters&);
-
-/// The rules that ask for a parameter, each by the choice that names it; none: it is always asked
-/// for.
-using AskedBy = std::vector<Rule>;
-
-struct Entry {
-  std::string key;
-  std::string symbol;
-  std::string unit;  // "deg" fields are radians in the struct
-  double min = 0, max = 0;
-  std::variant<Field<double>, Field<int>, Field<bool>, Choice> field;
-  AskedBy asked_by = {};
-};
-
-// A captureless lambda that names the member: the table below reads as a list of fields.
-#define LCS_FIELD(type, member) Field<type>([](Parameters& p) -> type& { return p.member; })
-#define LCS_REAL(member) LCS_FIELD(double, member)
-#define LCS_CHOICE(type, member, ...)                                                             \
-  Choice {                                                                                        \
-    [](const Parameters& p) { return static_cast<int>(p.member); },                               \
-        [](Parameters& p, int i) { p.member = static_cast<type>(i); }, std::vector<std::string> { \
-      __VA_ARGS__                                                                                 \
-    }                                                                                             \
-  }
-
-const std::vector<Entry>& entries() {
-  static const AskedBy kPaper{{"circle.edge_rule", "paper"}};
-  static const AskedBy kHypotheses{{"circle.edge_rule", "hypotheses"}};
-  static const AskedBy kCouples{{"square.layer_rule", "couples"}};
-  static const AskedBy kBodies{{"square.layer_rule", "circles"}};
-  static const std::vector<Entry> table = {
+std::vector<Entry> own_entries() {
+  const AskedBy kHypotheses{{"circle.edge_rule", "hypotheses"}};
+  const AskedBy kBodies{{"square.layer_rule", "circles"}};
+  return {
       {"field.rotation", "", "", 0, 0,
        LCS_CHOICE(RotationModel, field.rotation, "first_order", "homography", "as_printed")},
       {"field.reference_depth", "Z_ref", "m", 1e-3, 1e4, LCS_REAL(field.reference_depth_m)},
@@ -68,19 +32,8 @@ const std::vector<Entry>& entries() {
       {"circle.Tr_c", "Tr^c_c", "", 0, 1000, LCS_FIELD(int, circle.trust.critical)},
       {"circle.Tr_s", "Tr^c_s", "", 0, 1000, LCS_FIELD(int, circle.trust.standard)},
       {"circle.Tr_m", "Tr^c_m", "", 0, 1000, LCS_FIELD(int, circle.trust.maximum)},
-      {"circle.delta_v", "delta_v", "deg", 0, 90, LCS_REAL(circle.delta_v), kPaper},
       {"circle.edge_rule", "", "", 0, 0,
        LCS_CHOICE(EdgeRule, circle.edge_rule, "paper", "hypotheses")},
-      {"circle.mu_0", "mu_0", "px", 0.1, 1000, LCS_REAL(circle.mu_0), kPaper},
-      {"circle.mu_min", "", "px", 0.1, 1000, LCS_REAL(circle.mu_min), kPaper},
-      {"circle.mu_max", "", "px", 0.1, 1000, LCS_REAL(circle.mu_max), kPaper},
-      {"circle.corner_noise", "", "px", 0, 100, LCS_REAL(circle.corner_noise), kPaper},
-      {"circle.trust_bonus", "", "px", 0, 100, LCS_REAL(circle.trust_bonus), kPaper},
-      {"circle.alpha_reach", "", "px", 0, 1000, LCS_REAL(circle.alpha_reach), kPaper},
-      {"circle.alpha_deviation", "mu_r", "deg", 0, 180, LCS_REAL(circle.alpha_deviation), kPaper},
-      {"circle.alpha_stretch", "", "", 0, 10, LCS_REAL(circle.alpha_stretch), kPaper},
-      {"circle.alpha_branches", "", "", 1, 100, LCS_FIELD(int, circle.alpha_branches), kPaper},
-      {"circle.rebel_reach", "", "", 0, 10, LCS_REAL(circle.rebel_reach), kPaper},
       {"hypotheses.noise", "", "px", 0.01, 100, LCS_REAL(circle.hypotheses.noise_px), kHypotheses},
       {"hypotheses.prior", "", "", 1e-06, 0.5, LCS_REAL(circle.hypotheses.prior), kHypotheses},
       {"hypotheses.newcomer", "", "", 0, 10, LCS_REAL(circle.hypotheses.newcomer), kHypotheses},
@@ -100,51 +53,27 @@ const std::vector<Entry>& entries() {
       {"hypotheses.coupling", "", "", 0, 1000, LCS_REAL(circle.hypotheses.coupling), kHypotheses},
       {"hypotheses.coupling_reach", "", "px", 1, 1000,
        LCS_REAL(circle.hypotheses.coupling_reach_px), kHypotheses},
-      {"circle.epsilon_beta_n", "eps_beta,n", "deg", 0, 180, LCS_REAL(circle.epsilon_beta_n),
-       kPaper},
-      {"circle.epsilon_beta_r", "eps_beta,r", "deg", 0, 180, LCS_REAL(circle.epsilon_beta_r),
-       kPaper},
-      {"circle.epsilon_v_n", "eps_v,n", "V_v", 0, 1000, LCS_REAL(circle.epsilon_v_n), kPaper},
-      {"circle.epsilon_v_r", "eps_v,r", "V_v", 0, 1000, LCS_REAL(circle.epsilon_v_r), kPaper},
-      {"circle.epsilon_v", "eps_v", "V_v", 0, 1000, LCS_REAL(circle.epsilon_v), kPaper},
-      {"circle.rho_c", "rho_c", "%", 0, 100, LCS_REAL(circle.rho_c), kPaper},
-      {"circle.reach_n", "", "px", 0.1, 10000, LCS_REAL(circle.reach_n), kPaper},
-      {"circle.reach_r", "", "px", 0.1, 10000, LCS_REAL(circle.reach_r), kPaper},
       {"circle.min_members", "", "", 1, 1000, LCS_FIELD(int, circle.min_members)},
       {"circle.gap", "", "m", 0.001, 1000, LCS_REAL(circle.gap_m), kHypotheses},
       {"circle.upward", "", "", 0.01, 100, LCS_REAL(circle.upward), kHypotheses},
       {"circle.roughness", "", "", 0, 10, LCS_REAL(circle.roughness), kHypotheses},
       {"circle.min_width", "", "px", 0, 1000, LCS_REAL(circle.min_width), kHypotheses},
-      {"square.Tr_c", "Tr^s_c", "", 0, 1000, LCS_FIELD(int, square.trust.critical), kCouples},
-      {"square.Tr_s", "Tr^s_s", "", 0, 1000, LCS_FIELD(int, square.trust.standard), kCouples},
-      {"square.Tr_m", "Tr^s_m", "", 0, 1000, LCS_FIELD(int, square.trust.maximum), kCouples},
       {"square.layer_rule", "", "", 0, 0,
        LCS_CHOICE(LayerRule, square.layer_rule, "couples", "circles")},
       {"square.max_size", "", "m", 0, 10000, LCS_REAL(square.max_size), kBodies},
       {"square.min_area", "", "px^2", 0, 1000000000.0, LCS_REAL(square.min_area), kBodies},
-      {"square.delta_beta_1", "delta_beta,1", "deg", 0, 180, LCS_REAL(square.delta_beta_1),
-       kCouples},
-      {"square.delta_beta_2", "delta_beta,2", "deg", 0, 180, LCS_REAL(square.delta_beta_2),
-       kCouples},
-      {"square.epsilon_beta_1", "eps_beta,1", "deg", 0, 180, LCS_REAL(square.epsilon_beta_1),
-       kCouples},
-      {"square.epsilon_beta_2", "eps_beta,2", "deg", 0, 180, LCS_REAL(square.epsilon_beta_2),
-       kCouples},
-      {"square.epsilon_beta", "eps_beta", "deg", 0, 180, LCS_REAL(square.epsilon_beta), kCouples},
-      {"square.epsilon_beta_s", "eps_beta,s", "deg", 0, 180, LCS_REAL(square.epsilon_beta_s),
-       kCouples},
-      {"square.epsilon_v", "eps_v", "V_v", 0, 1000, LCS_REAL(square.epsilon_v), kCouples},
-      {"square.epsilon_v_s", "eps_v,s", "V_v", 0, 1000, LCS_REAL(square.epsilon_v_s), kCouples},
-      {"square.rho_c", "rho_c", "%", 0, 100, LCS_REAL(square.rho_c), kCouples},
-      {"square.d_t", "d_t", "diagonals", 0, 10, LCS_REAL(square.d_t), kCouples},
-      {"square.mix_kinds", "", "", 0, 0, LCS_FIELD(bool, square.mix_kinds), kCouples},
   };
-  return table;
 }
 
-#undef LCS_REAL
-#undef LCS_FIELD
-#undef LCS_CHOICE
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> table = [] {
+    std::vector<Entry> all = own_entries();
+    const std::vector<Entry> of_paper = paper_entries();
+    all.insert(all.end(), of_paper.begin(), of_paper.end());
+    return all;
+  }();
+  return table;
+}
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);

@@ -6,7 +6,7 @@
 #include <opencv2/features2d.hpp>
 #include <stdexcept>
 
-#include "filter/kinematics/pixels.h"
+#include "filter/kinematics/camera.h"
 
 namespace lcs {
 namespace {

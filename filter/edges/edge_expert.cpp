@@ -2,7 +2,6 @@
 
 #include "filter/edges/hypothesis_edges.h"
 #include "filter/kinematics/geometry.h"
-#include "filter/kinematics/pixels.h"
 #include "filter/paper/paper_edges.h"
 
 namespace lcs {

@@ -6,7 +6,6 @@
 
 #include "filter/edges/gauss.h"
 #include "filter/kinematics/geometry.h"
-#include "filter/kinematics/pixels.h"
 #include "filter/matching/refill.h"
 
 namespace lcs {

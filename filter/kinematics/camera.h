@@ -1,5 +1,5 @@
 /// \file
-/// The camera as the filter sees it: a pinhole with square pixels and no distortion.
+/// The camera as the filter sees it: a pinhole with square pixels and no distortion; and its image.
 ///
 /// Conventions of the whole filter: pixels with x right, y down, (0, 0) at the centre of the
 /// top-left pixel; camera frame C with x right, y down, z forward; angles in radians, wrapped to
@@ -17,6 +17,17 @@ struct Intrinsics {
   Vec2 centre_px = Vec2::Zero();  ///< principal point c (the paper's O_I while v is along z)
   int width_px = 0;
   int height_px = 0;
+};
+
+/// Of an image.
+struct Pixels {
+  int width_px;
+  int height_px;
+
+  /// Whether a location falls on one of them.
+  bool contain(const Vec2& x) const {
+    return x.x() > -0.5 && x.y() > -0.5 && x.x() < width_px - 0.5 && x.y() < height_px - 0.5;
+  }
 };
 
 }  // namespace lcs

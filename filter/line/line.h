@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "filter/kinematics/pixels.h"
 #include "filter/layers.h"
 #include "filter/signature.h"
 

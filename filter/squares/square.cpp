@@ -5,6 +5,16 @@
 #include "filter/matching/refill.h"
 
 namespace lcs {
+namespace {
+
+/// By how much a body is larger than what its corners span: of numbers drawn evenly from an
+/// interval the range is, in the mean, (count - 1) / (count + 1) of it.
+double beyond(std::ptrdiff_t count) {
+  return static_cast<double>(count + 1) /
+         static_cast<double>(std::max<std::ptrdiff_t>(count - 1, 1));
+}
+
+}  // namespace
 
 SquareExpert::SquareExpert(const Intrinsics& camera, const SquareParameters& parameters)
     : camera_(camera), parameters_(parameters), paper_(camera, parameters) {}
@@ -66,6 +76,7 @@ void SquareExpert::box(const std::vector<Circle>& circles, const std::vector<Squ
       continue;
     }
     hull_.clear();
+    const auto first = place;
     for (; place != places_.end() && place->circle == static_cast<int>(c); ++place) {
       hull_.add(place->location);
     }
@@ -73,8 +84,9 @@ void SquareExpert::box(const std::vector<Circle>& circles, const std::vector<Squ
     Square square;
     square.location = 0.5 * (low + high);
     square.half_size = 0.5 * (high - low);
-    if (!is_object(circle, square, field)) continue;
     square.outline = hull_.outline();
+    lcs::place(square, square.location, beyond(place - first) * square.half_size);
+    if (!is_object(circle, square, field)) continue;
     square.origin = circle.origin;
     square.speed = circle.speed;
     square.depth_ratio = circle.depth_ratio;

@@ -4,7 +4,6 @@
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "filter/kinematics/pixels.h"
 
 namespace lcs::comparators {
 
