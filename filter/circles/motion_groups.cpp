@@ -97,19 +97,19 @@ double MotionGroups::evidence(const PlaneSums& sums, double scale) const {
 
 void MotionGroups::merge() {
   sets_.reset(points_.size());
-  order_.visit(
-      links_, [&](const Couple& link) { return sets_.are_joined(link.a, link.b); },
-      [&](const Couple& link) {
-        const int a = sets_.root(link.a), b = sets_.root(link.b);
-        PlaneSums both = sums_[a];
-        both += sums_[b];
-        const double scale = both.magnitude();
-        const double gain = evidence(both, scale) - evidence(sums_[a], scale) -
-                            evidence(sums_[b], scale) + kNear - link.cost;
-        if (!(gain > 0)) return;
-        sets_.join(a, b);
-        sums_[a] = both;
-      });
+  std::sort(links_.begin(), links_.end());
+  for (const Couple& link : links_) {
+    if (sets_.are_joined(link.a, link.b)) continue;
+    const int a = sets_.root(link.a), b = sets_.root(link.b);
+    PlaneSums both = sums_[a];
+    both += sums_[b];
+    const double scale = both.magnitude();
+    const double gain = evidence(both, scale) - evidence(sums_[a], scale) -
+                        evidence(sums_[b], scale) + kNear - link.cost;
+    if (!(gain > 0)) continue;
+    sets_.join(a, b);
+    sums_[a] = both;
+  }
 }
 
 const std::vector<MotionGroups::Group>& MotionGroups::group(const std::vector<Edge>& edges,

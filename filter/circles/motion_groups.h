@@ -56,7 +56,6 @@ class MotionGroups {
   std::vector<Vec2> points_;      // of each node, as `UprightMetric` has them
   PointGrid grid_;
   std::vector<Couple> links_;
-  CheapestFirst order_;
   DisjointSets sets_;
   SetMembers members_;
   std::vector<int> grouped_;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "filter/edges/edge_expert.h"
-#include "filter/matching/couples.h"
 #include "filter/matching/point_grid.h"
+#include "filter/paper/cheapest_first.h"
 
 namespace lcs {
 

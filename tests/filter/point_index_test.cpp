@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "filter/matching/couples.h"
 #include "filter/matching/point_grid.h"
+#include "filter/paper/cheapest_first.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
