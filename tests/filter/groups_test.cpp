@@ -105,13 +105,19 @@ TEST(PlaneEvidence, IsTheDensityOfAllMeasurements) {
   EXPECT_NEAR(sums.evidence(one, 2) - sums.evidence(other, 2), density(one) - density(other), 1e-9);
 }
 
+/// What a square spans whose corners span `half_size`: as much more as `count` of them leave out.
+Vec2 spanned(const Vec2& half_size, std::size_t count) {
+  const auto n = static_cast<double>(count);
+  return half_size * (n + 1) / (n - 1);
+}
+
 TEST(Groups, APatchAtOneDepthIsOneSquareRoundIt) {
   Layers layers;
   add_patch(layers, {100, 100}, {160, 140}, 3);
   const auto squares = squares_of(layers);
   ASSERT_EQ(squares.size(), 1u);
   EXPECT_TRUE(squares[0].location.isApprox(Vec2(130, 120)));
-  EXPECT_TRUE(squares[0].half_size.isApprox(Vec2(30, 20)));
+  EXPECT_TRUE(squares[0].half_size.isApprox(spanned({30, 20}, layers.normal_edges.size())));
   EXPECT_NEAR(squares[0].depth_ratio, 1.0, 1e-9);
 }
 
@@ -207,6 +213,7 @@ TEST(Groups, ARebelSquareReachesAsFarAsWhatFollowsItsEdges) {
   add_rebels(layers, {400, 100}, {440, 140}, {80, 0});
   layers.rebel_edges.front().corner = -1;  // id 1
   const Id last = layers.rebel_edges.back().id;
+  const std::size_t each = layers.rebel_edges.size() / 2;
   // Of the second body, of an edge that is not seen, of one that is not there any more.
   const std::vector<Follower> followers = {
       {{430, 190}, last}, {{470, 120}, last - 3}, {{50, 50}, 1}, {{600, 400}, last + 1}};
@@ -214,9 +221,9 @@ TEST(Groups, ARebelSquareReachesAsFarAsWhatFollowsItsEdges) {
   const std::vector<Square>& squares = layers.squares;
   ASSERT_EQ(squares.size(), 2u);
   EXPECT_TRUE(squares[0].location.isApprox(Vec2(120, 120)));
-  EXPECT_TRUE(squares[0].half_size.isApprox(Vec2(20, 20)));
+  EXPECT_TRUE(squares[0].half_size.isApprox(spanned({20, 20}, each - 1)));
   EXPECT_TRUE(squares[1].location.isApprox(Vec2(435, 145)));
-  EXPECT_TRUE(squares[1].half_size.isApprox(Vec2(35, 45)));
+  EXPECT_TRUE(squares[1].half_size.isApprox(spanned({35, 45}, each + 2)));
 }
 
 TEST(Groups, FewEdgesThinGroupsAndUnseenRebelsMakeNoSquare) {
@@ -233,9 +240,10 @@ TEST(Groups, FewEdgesThinGroupsAndUnseenRebelsMakeNoSquare) {
 TEST(Groups, AnObjectIsOneBeforeADenseBackground) {
   Layers layers;
   add_patch(layers, {203, 203}, {283, 283}, 2, 20);
+  const Vec2 half_size = spanned({40, 40}, layers.normal_edges.size());
   add_patch(layers, {180, 180}, {320, 320}, 4, 7);
-  const auto is_object = [](const Square& square) {
-    return square.location.isApprox(Vec2(243, 243)) && square.half_size.isApprox(Vec2(40, 40));
+  const auto is_object = [&](const Square& square) {
+    return square.location.isApprox(Vec2(243, 243)) && square.half_size.isApprox(half_size);
   };
   EXPECT_EQ(std::ranges::count_if(squares_of(layers), is_object), 1);
 }
