@@ -45,6 +45,7 @@ struct Entry {
     }                                                                                             \
   }
 
+/// Of the parameters that only the paper's rules ask for.
 std::vector<Entry> paper_entries();
 
 }  // namespace lcs

@@ -49,10 +49,10 @@ void SquareExpert::gather(const std::vector<Edge>& edges, std::span<const Follow
             [](const Place& a, const Place& b) { return a.circle < b.circle; });
 }
 
-/// Whether a circle is an object's, of the size that its box in `square` has.
-bool SquareExpert::is_object(const Circle& circle, const Square& square,
+/// Whether a circle is an object's whose box is as large.
+bool SquareExpert::is_object(const Circle& circle, const Vec2& half_size,
                              const MotionField& field) const {
-  const Vec2 size = 2 * square.half_size;
+  const Vec2 size = 2 * half_size;
   if (size.prod() < parameters_.min_area) return false;
   const double w = circle.depth_ratio / field.reference_depth_m();
   return circle.rebel || size.maxCoeff() <= parameters_.max_size * camera_.focal_px * w;
@@ -84,9 +84,10 @@ void SquareExpert::box(const std::vector<Circle>& circles, const std::vector<Squ
     Square square;
     square.location = 0.5 * (low + high);
     square.half_size = 0.5 * (high - low);
+    const Vec2 half_size = beyond(place - first) * square.half_size;
+    if (!is_object(circle, half_size, field)) continue;
     square.outline = hull_.outline();
-    lcs::place(square, square.location, beyond(place - first) * square.half_size);
-    if (!is_object(circle, square, field)) continue;
+    lcs::place(square, square.location, half_size);
     square.origin = circle.origin;
     square.speed = circle.speed;
     square.depth_ratio = circle.depth_ratio;

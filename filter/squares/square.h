@@ -41,7 +41,7 @@ class SquareExpert {
   void gather(const std::vector<Edge>& edges, std::span<const Follower> followers);
   void box(const std::vector<Circle>& circles, const std::vector<Square>& before,
            const MotionField& field);
-  bool is_object(const Circle& circle, const Square& square, const MotionField& field) const;
+  bool is_object(const Circle& circle, const Vec2& half_size, const MotionField& field) const;
 
   Intrinsics camera_;
   SquareParameters parameters_;

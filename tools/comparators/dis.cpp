@@ -4,7 +4,6 @@
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 
-
 namespace lcs::comparators {
 
 DisTracker::DisTracker(const Intrinsics& camera, const DisParameters& parameters)

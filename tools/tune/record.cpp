@@ -34,9 +34,8 @@ std::string record_text(const Found& found, const std::vector<Stated>& stated,
       "    {}\n\n"
       "It makes the most of the mean F1 of rebels over the worlds in which something moves, less a "
       "tenth of the mean number\nof false objects in a frame over all of them, of which none "
-      "counts "
-      "for more than one, and less a hundredth of the\nfalse corners in a frame of recordings in "
-      "which nothing moves.\n\n"
+      "counts for more than one, and less a hundredth of the\nfalse corners in a frame of "
+      "recordings in which nothing moves.\n\n"
       "| | objective | F1 | false objects in 100 frames, something moves | nothing moves | false "
       "corners, recordings |\n"
       "|---|---|---|---|---|---|\n",
