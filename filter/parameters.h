@@ -54,8 +54,10 @@ struct LineParameters {
 /// Two hypotheses a corner (`filter/edges/`), which stand in for xi and alpha; where each
 /// comes from is in filter/RULES.md.
 struct HypothesisParameters {
-  double noise_px = 0.6;  ///< standard deviation of a corner's place on an axis: whole pixels, FAST
-  double prior = 0.03;    ///< share of corners that move
+  /// The least standard deviation of a corner's place on an axis: whole pixels, and FAST. How
+  /// much it is above that is estimated.
+  double noise_px = 0.6;
+  double prior = 0.03;  ///< share of corners that move
   /// Log odds by which a corner that is new is a mover's: FAST finds those again less often.
   double newcomer = 1;
   /// 1/s: how often a corner changes its kind, a track its corner, or a mover its image velocity by

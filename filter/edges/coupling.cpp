@@ -14,20 +14,21 @@ constexpr double kAlone = 0.64;
 
 }  // namespace
 
-double Coupling::weight(const Node& of, const Node& other, double distance2_px2) const {
+double Coupling::weight(const Node& of, const Node& other, double distance2_px2,
+                        double noise2_px2) const {
   const double reach = parameters_.coupling_reach_px * (of.has_motion ? 1 : kAlone);
   double exponent = distance2_px2 / (reach * reach);
   if (of.has_motion) {
     const double longer2 = std::max(of.step_px.squaredNorm(), other.step_px.squaredNorm());
     const double share = parameters_.step_share;
-    const double variance = parameters_.noise_px * parameters_.noise_px + share * share * longer2 +
-                            of.step_variance_px2 + other.step_variance_px2;
+    const double variance =
+        noise2_px2 + share * share * longer2 + of.step_variance_px2 + other.step_variance_px2;
     exponent += (of.step_px - other.step_px).squaredNorm() / variance;
   }
   return exponent < kFar * kFar ? std::exp(-0.5 * exponent) : 0;
 }
 
-const std::vector<double>& Coupling::settle(std::span<const Node> nodes) {
+const std::vector<double>& Coupling::settle(std::span<const Node> nodes, double noise2_px2) {
   places_.clear();
   beliefs_.clear();
   for (const Node& node : nodes) {
@@ -41,7 +42,7 @@ const std::vector<double>& Coupling::settle(std::span<const Node> nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     grid_.visit_within(places_[i], kFar * parameters_.coupling_reach_px, [&](int j, double apart2) {
       if (j == static_cast<int>(i) || !nodes[j].has_motion) return;
-      const double w = weight(nodes[i], nodes[j], apart2);
+      const double w = weight(nodes[i], nodes[j], apart2, noise2_px2);
       if (w == 0) return;
       ties_.push_back({j, w});
       sums_[i] += w;

@@ -29,15 +29,15 @@ class Coupling {
     double step_variance_px2;  ///< on one axis
   };
 
-  /// \return m of each.
-  const std::vector<double>& settle(std::span<const Node> nodes);
+  /// \param noise2_px2 variance of a corner's place on an axis. \return m of each.
+  const std::vector<double>& settle(std::span<const Node> nodes, double noise2_px2);
 
   /// Of the nodes last settled, the neighbour with the most influence on this one among those that
   /// are taken to move; -1: none.
   int model_of(std::size_t node) const;
 
  private:
-  double weight(const Node& of, const Node& other, double distance2_px2) const;
+  double weight(const Node& of, const Node& other, double distance2_px2, double noise2_px2) const;
 
   HypothesisParameters parameters_;
   PointGrid grid_;

@@ -12,10 +12,18 @@ namespace lcs {
 HypothesisEdges::HypothesisEdges(const Intrinsics& camera, const CircleParameters& parameters)
     : EdgeExpert(camera, parameters.trust),
       parameters_(parameters.hypotheses),
-      noise2_px2_(parameters_.noise_px * parameters_.noise_px),
       association_(parameters_),
       coupling_(parameters_),
       velocity_error_(parameters_.ego_share) {}
+
+/// The noise of this frame's corners, by what stood in those before; not less than the parameter.
+void HypothesisEdges::estimate_noise(double dt_s) {
+  const double least2 = parameters_.noise_px * parameters_.noise_px, n = parameters_.voters;
+  const double kept = dt_s > 0 ? 1 - parameters_.turnover(dt_s) : 0;
+  noise2_px2_ = std::max(least2, (n * least2 + kept * noise_sum_px2_) / (n + kept * noise_weight_));
+  noise_sum_px2_ *= kept;
+  noise_weight_ *= kept;
+}
 
 void HypothesisEdges::predict(Layers&, const MotionField& told) {
   velocity_error_.advance(told);
@@ -105,35 +113,39 @@ double HypothesisEdges::first_step(const Track& track, const Vec2& x_px,
 /// \return false where neither hypothesis has a place for it, so that it is none: nothing is
 /// changed then.
 bool HypothesisEdges::see(Track& track, const Vec2& x_px, double chance_ppx2,
-                          const MotionField& field) const {
+                          const MotionField& field) {
   const DepthBounds bounds = depth_bounds(field, x_px);
+  const double turnover = parameters_.turnover(field.dt_s()), right = 1 - turnover;
+  const double anywhere = turnover / association_.reach_area_px2(field.dt_s());
   StaticPoint seen = track.as_static;
-  double noise2_px2 = noise2_px2_;
+  double noise2_px2 = noise2_px2_, moving = 0, before = 0;
   if (!track.has_motion()) {
     noise2_px2 += std::pow(parameters_.ego_share * (x_px - track.place_px).norm(), 2);
+    moving = first_step(track, x_px, bounds);
+    before = lcs::log_odds(parameters_.prior) + parameters_.newcomer;
+  } else {
+    moving = track.as_moving.density(x_px, noise2_px2_);
+    before = faded(track.log_odds, field.dt_s());
   }
   const double still = seen.see(x_px, noise2_px2, bounds);
-  const double turnover = parameters_.turnover(field.dt_s());
-  const double right = 1 - turnover;
-  const double anywhere = turnover / association_.reach_area_px2(field.dt_s());
-  // What a sighting adds to the log odds: a match may be none, and then it may be anywhere, and is
-  // likelier where many would look as good.
-  const auto evidence = [&](double moving) {
-    const double none = anywhere + chance_ppx2;
-    return std::log((right * moving + none) / (right * still + none));
-  };
+  if (track.has_motion() && right * std::max(still, moving) < anywhere) return false;
+  // A match may be none: then it may be anywhere, and is likelier where many would look as good.
+  const double none = anywhere + chance_ppx2;
+  const double evidence = std::log((right * moving + none) / (right * still + none));
+  const double most = lcs::log_odds((1 - turnover) / (1 - turnover + turnover * parameters_.prior));
+  track.log_odds = std::clamp(before + evidence, -most, most);
+  // A step of EM: what is left, and what is not known of the place, is noise where the match is
+  // right.
+  const double stands = (1 - chance(before + evidence)) * right * still / (right * still + none);
+  noise_sum_px2_ +=
+      stands / 2 *
+      ((x_px - seen.place_px).squaredNorm() + seen.covariance.topLeftCorner<2, 2>().trace());
+  noise_weight_ += stands;
   if (!track.has_motion()) {
-    track.log_odds = lcs::log_odds(parameters_.prior) + parameters_.newcomer +
-                     evidence(first_step(track, x_px, bounds));
     track.as_moving = OwnMotion::first(track.place_px, x_px, noise2_px2_, track.since_s);
   } else {
-    const double moving = track.as_moving.density(x_px, noise2_px2_);
-    if (right * std::max(still, moving) < anywhere) return false;
-    track.log_odds = faded(track.log_odds, field.dt_s()) + evidence(moving);
     track.as_moving.see(x_px, noise2_px2_);
   }
-  const double most = lcs::log_odds((1 - turnover) / (1 - turnover + turnover * parameters_.prior));
-  track.log_odds = std::clamp(track.log_odds, -most, most);
   track.as_static = seen;
   track.place_px = x_px;
   track.unseen = 0;
@@ -171,7 +183,7 @@ void HypothesisEdges::couple(const MotionField& field) {
                       track.as_moving.velocity_pxps * field.dt_s(),
                       track.as_moving.step_variance_px2(field.dt_s())});
   }
-  const std::vector<double>& beliefs = coupling_.settle(nodes_);
+  const std::vector<double>& beliefs = coupling_.settle(nodes_, noise2_px2_);
   for (std::size_t c = 0; c < beliefs.size(); ++c) tracks_[c].belief = beliefs[c];
 }
 
@@ -244,6 +256,7 @@ void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& 
                              std::vector<Verdict>& verdicts) {
   refill(reasons_, chi.size(), Reason::unknown);
   if (!(told.dt_s() > 0)) predicted_.clear();
+  estimate_noise(told.dt_s());
   const std::vector<int>& track_of = association_.match(chi, predicted_, noise2_px2_, told.dt_s());
   MotionField field = velocity_error_.without(told);
   if (!predicted_.empty()) {

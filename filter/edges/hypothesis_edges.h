@@ -29,13 +29,15 @@ class HypothesisEdges : public EdgeExpert {
   void forget() override {
     tracks_.clear();
     velocity_error_.forget();
+    noise_sum_px2_ = noise_weight_ = 0;
   }
 
  private:
+  void estimate_noise(double dt_s);
   void predict_tracks(const MotionField& field);
   MotionFix fix(const MotionField& told, const Chi& chi, const std::vector<int>& track_of);
   Track first_seen(const Chi& chi, std::size_t corner);
-  bool see(Track& track, const Vec2& x_px, double chance_ppx2, const MotionField& field) const;
+  bool see(Track& track, const Vec2& x_px, double chance_ppx2, const MotionField& field);
   double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds) const;
   double faded(double log_odds, double dt_s) const;
   void coast(const std::vector<IgnoreRegion>& psi, const MotionField& field);
@@ -45,7 +47,8 @@ class HypothesisEdges : public EdgeExpert {
   Edge edge_of(const Track& track, const MotionField& field) const;
 
   HypothesisParameters parameters_;
-  double noise2_px2_;
+  double noise2_px2_ = 0;                        // of this frame's corners, by the frames before
+  double noise_sum_px2_ = 0, noise_weight_ = 0;  // seen in these: its sum, and that of the weights
   Association association_;
   Coupling coupling_;
   VelocityError velocity_error_;

@@ -426,7 +426,7 @@ Coupling::Node node(double x, double log_odds, const Vec2& step = Vec2::Zero()) 
 
 TEST(Coupling, ANodeAloneKeepsWhatItKnows) {
   const std::vector<Coupling::Node> nodes = {node(100, 1.5), node(300, -4), node(500, 0.2)};
-  const std::vector<double> m = Coupling(kUsual).settle(nodes);
+  const std::vector<double> m = Coupling(kUsual).settle(nodes, kNoise2_px2);
   for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_EQ(m[i], nodes[i].log_odds);
 }
 
@@ -438,18 +438,19 @@ TEST(Coupling, OfTwoNodesIsTheSumByHand) {
   // Alone with each other, either counts J at the most, however far: the first is sure, so that the
   // second has -1 + 8; and the first 20 + 8 tanh(7 / 2).
   Coupling coupling(parameters);
-  std::vector<double> m = coupling.settle(std::vector{node(100, 20), node(125, -1)});
+  std::vector<double> m = coupling.settle(std::vector{node(100, 20), node(125, -1)}, kNoise2_px2);
   EXPECT_NEAR(m[0], 27.9854, 1e-3);
   EXPECT_NEAR(m[1], 7, 1e-3);
   EXPECT_EQ(coupling.model_of(1), 0);
   // 6 px apart in their steps, of which 0.6^2 + (0.1 * 6)^2 = 0.72 px^2 is nothing: more than three
   // standard deviations, so that there is no tie.
-  m = coupling.settle(std::vector{node(100, 20), node(125, -1, {6, 0})});
+  m = coupling.settle(std::vector{node(100, 20), node(125, -1, {6, 0})}, kNoise2_px2);
   EXPECT_EQ(m[1], -1);
   EXPECT_EQ(coupling.model_of(1), -1);
   // Between one that is sure to move, w = exp(-1/2) = 0.6065, and one as sure to stand whose step
   // is 1 px off, w = exp(-1/2 (1 + 1 / 0.37)) = 0.1570: -1 + 8 (0.6065 - 0.1570) / 0.7636.
-  m = coupling.settle(std::vector{node(100, 20), node(125, -1), node(150, -20, {1, 0})});
+  m = coupling.settle(std::vector{node(100, 20), node(125, -1), node(150, -20, {1, 0})},
+                      kNoise2_px2);
   EXPECT_NEAR(m[1], 3.7096, 1e-3);
 }
 
@@ -458,7 +459,7 @@ TEST(Coupling, ADoubtfulNodeAmongSureOnesTakesTheirs) {
     std::vector<Coupling::Node> nodes = {node(300, theirs > 0 ? -1 : 1, {10, 0})};
     for (const double aside : {-20, -12, 9, 17})
       nodes.push_back(node(300 + aside, theirs, {10.3, 0}));
-    const std::vector<double> m = Coupling(kUsual).settle(nodes);
+    const std::vector<double> m = Coupling(kUsual).settle(nodes, kNoise2_px2);
     EXPECT_GT(m[0] * theirs, 0);
     EXPECT_GT(std::abs(m[0]), 4);
   }
@@ -467,7 +468,7 @@ TEST(Coupling, ADoubtfulNodeAmongSureOnesTakesTheirs) {
 TEST(Coupling, ASureNodeAmongAnotherMotionKeepsItsOwn) {
   std::vector<Coupling::Node> nodes = {node(300, 5, {10, 0})};
   for (const double aside : {-20, -12, 9, 17}) nodes.push_back(node(300 + aside, -6));
-  const std::vector<double> m = Coupling(kUsual).settle(nodes);
+  const std::vector<double> m = Coupling(kUsual).settle(nodes, kNoise2_px2);
   EXPECT_NEAR(m[0], 5, 0.05);
   for (std::size_t i = 1; i < m.size(); ++i) EXPECT_LT(m[i], -6);
 }
@@ -476,19 +477,19 @@ TEST(Coupling, ANodeWithoutMotionTakesAndGivesNothing) {
   Coupling::Node fresh = node(300, 0.4);
   fresh.has_motion = false;
   std::vector<Coupling::Node> nodes = {node(290, -1), node(312, -1.5)};
-  const std::vector<double> without = Coupling(kUsual).settle(nodes);
+  const std::vector<double> without = Coupling(kUsual).settle(nodes, kNoise2_px2);
   fresh.log_odds = 30;
   nodes.push_back(fresh);
   Coupling coupling(kUsual);
-  EXPECT_EQ(coupling.settle(nodes)[0], without[0]);
-  EXPECT_EQ(coupling.settle(nodes)[1], without[1]);
+  EXPECT_EQ(coupling.settle(nodes, kNoise2_px2)[0], without[0]);
+  EXPECT_EQ(coupling.settle(nodes, kNoise2_px2)[1], without[1]);
   nodes[2].log_odds = 0.4;
-  EXPECT_LT(coupling.settle(nodes)[2], -1) << "it is told by those round it";
+  EXPECT_LT(coupling.settle(nodes, kNoise2_px2)[2], -1) << "it is told by those round it";
   EXPECT_EQ(coupling.model_of(2), -1);
   // Whatever their steps are, for it has none: the nearest of those that move is its model.
   for (Coupling::Node& other : nodes) other.log_odds = other.has_motion ? 5 : 0.4;
   nodes[0].step_px = {10, 0};
-  EXPECT_GT(coupling.settle(nodes)[2], 2);
+  EXPECT_GT(coupling.settle(nodes, kNoise2_px2)[2], 2);
   EXPECT_EQ(coupling.model_of(2), 0);
 }
 
@@ -688,6 +689,28 @@ TEST(HypothesisEdges, CornersThatJitterBeforeAStandingCameraStand) {
       const FrameResult& result = filter.step(rounded(corners), k == 0 ? EgoMotion{} : motion);
       EXPECT_EQ(rebels(result), 0) << "every " << spacing << " px, frame " << k;
     }
+  }
+}
+
+/// As another detector's may be, or another camera's: at first 0.6 px are taken for noise.
+TEST(HypothesisEdges, CornersOfAnyExactnessStandBeforeACameraThatDrives) {
+  for (const double half_px : {0.0, 1.0, 2.0, 4.0}) {
+    World world = sparse_world(8, 40);
+    const EgoMotion motion = steady_motion({0.1, 0, 0.3}, {0, 0.02, 0}, kDt_s);
+    Random random(1);
+    Filter filter(world.camera, preset("default"));
+    std::size_t called = 0, seen = 0;
+    for (std::size_t k = 0; k < 40; ++k) {
+      Corners corners = world.corners();
+      for (Vector2f& x : corners) x += random.vector(half_px).head<2>().cast<float>();
+      const FrameResult& result =
+          filter.step(corners, world.signatures(k), k == 0 ? EgoMotion{} : motion);
+      world.advance(motion);
+      if (k < 10) continue;
+      called += static_cast<std::size_t>(rebels(result));
+      seen += corners.size();
+    }
+    EXPECT_LE(100 * called, seen) << half_px << " px: " << called << " of " << seen;
   }
 }
 
