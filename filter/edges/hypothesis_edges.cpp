@@ -20,9 +20,11 @@ HypothesisEdges::HypothesisEdges(const Intrinsics& camera, const CircleParameter
 void HypothesisEdges::estimate_noise(double dt_s) {
   const double least2 = parameters_.noise_px * parameters_.noise_px, n = parameters_.voters;
   const double kept = dt_s > 0 ? 1 - parameters_.turnover(dt_s) : 0;
-  noise2_px2_ = std::max(least2, (n * least2 + kept * noise_sum_px2_) / (n + kept * noise_weight_));
   noise_sum_px2_ *= kept;
   noise_weight_ *= kept;
+  const double weight = n + noise_weight_;
+  noise2_px2_ = least2;
+  if (weight > 0) noise2_px2_ = std::max(least2, (n * least2 + noise_sum_px2_) / weight);
 }
 
 void HypothesisEdges::predict(Layers&, const MotionField& told) {
