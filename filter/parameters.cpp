@@ -47,8 +47,6 @@ std::vector<Entry> own_entries() {
       {"hypotheses.bits_weight", "", "", 0, 100, LCS_REAL(circle.hypotheses.bits_weight),
        kHypotheses},
       {"hypotheses.voters", "", "", 0, 1000, LCS_FIELD(int, circle.hypotheses.voters), kHypotheses},
-      {"hypotheses.voters_share", "", "", 0, 0.999, LCS_REAL(circle.hypotheses.voters_share),
-       kHypotheses},
       {"hypotheses.step_share", "", "", 0, 10, LCS_REAL(circle.hypotheses.step_share), kHypotheses},
       {"hypotheses.coupling", "", "", 0, 1000, LCS_REAL(circle.hypotheses.coupling), kHypotheses},
       {"hypotheses.coupling_reach", "", "px", 1, 1000,

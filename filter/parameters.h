@@ -72,7 +72,6 @@ struct HypothesisParameters {
   double bits_even = 77.5;
   double bits_weight = 0.152;     ///< what each bit less counts, log odds
   int voters = 8;                 ///< neighbours that are asked about a match
-  double voters_share = 0.5;      ///< of them that are found again beside it where it is right
   double step_share = 0.1;        ///< by which the steps of neighbours may differ
   double coupling = 8;            ///< J: what those round a corner count at the most, log odds
   double coupling_reach_px = 25;  ///< px: where it has fallen to 0.6, and what voters count, too
@@ -84,7 +83,7 @@ struct CircleParameters : PaperCircleParameters {
   EdgeRule edge_rule = EdgeRule::hypotheses;
   HypothesisParameters hypotheses;
   int min_members = 3;      ///< edges that make a new circle
-  double min_width = 0;     ///< px: deviation across their line of rebels that make one
+  double min_width = 0;     ///< px: deviation across their line of edges that make one
   double gap_m = 0.2;       ///< m: between the edges of one body, about
   double upward = 0.45;     ///< what a distance upwards counts beside one along the horizon
   double roughness = 0.05;  ///< share by which a body's depths and velocities are off a plane

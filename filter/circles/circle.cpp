@@ -110,7 +110,7 @@ void CircleExpert::regroup(std::vector<Edge>& edges, std::vector<Circle>& circle
   for (const MotionGroups::Group& group : groups_.group(edges, field)) {
     if (group.ground || group.count < static_cast<std::size_t>(parameters_.min_members)) continue;
     const auto of_group = groups_.edges(group);
-    if (edges[of_group.front()].rebel && is_line(edges, of_group)) continue;
+    if (is_line(edges, of_group)) continue;
     found_.push_back(group);
   }
   match(edges, circles, members);

@@ -94,11 +94,11 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
   }
 }
 
-/// ln of the ratio by which those in near_ bear a pair out.
+/// ln of the ratio by which those in near_ bear a pair out. Each is found again, or not, at even
+/// odds.
 double Association::ask_neighbours(const Pair& pair, double noise2_px2) const {
   const double unlike = parameters_.step_share * parameters_.step_share;
   const double variance = 4 * noise2_px2 + unlike * pair.step_px.squaredNorm();
-  const double share = parameters_.voters_share, none_agrees = std::log(1 - share);
   const auto x = static_cast<float>(pair.step_px.x()), y = static_cast<float>(pair.step_px.y());
   const auto per_px2 = static_cast<float>(-0.5 / variance);
   double sum = 0;
@@ -113,12 +113,12 @@ double Association::ask_neighbours(const Pair& pair, double noise2_px2) const {
                       likeness_of_.segment(first, count))
                          .maxCoeff();
     if (best < kNone) {  // as for most
-      sum += voices_[k] * none_agrees;
+      sum -= voices_[k] * std::numbers::ln2;
       continue;
     }
     const double agrees = std::exp(best) / (2 * std::numbers::pi * variance *
                                             clutter_ppx2(static_cast<std::size_t>(other)));
-    sum += voices_[k] * std::log(1 - share + share * agrees);
+    sum += voices_[k] * std::log(0.5 * (1 + agrees));
   }
   return sum;
 }
