@@ -59,7 +59,6 @@ std::vector<Entry> own_entries() {
       {"square.layer_rule", "", "", 0, 0,
        LCS_CHOICE(LayerRule, square.layer_rule, "couples", "circles")},
       {"square.max_size", "", "m", 0, 10000, LCS_REAL(square.max_size), kBodies},
-      {"square.min_area", "", "px^2", 0, 1000000000.0, LCS_REAL(square.min_area), kBodies},
   };
 }
 

@@ -93,8 +93,7 @@ struct CircleParameters : PaperCircleParameters {
 struct SquareParameters : PaperSquareParameters {
   TrustRanks trust{3, 5, 7};  ///< Tr^s
   LayerRule layer_rule = LayerRule::circles;
-  double max_size = 5;    ///< m: what is larger, by its depth, is no object but the setting
-  double min_area = 250;  ///< px^2: of an object's box
+  double max_size = 5;  ///< m: what is larger, by its depth, is no object but the setting
 };
 
 struct Parameters {

@@ -52,10 +52,8 @@ void SquareExpert::gather(const std::vector<Edge>& edges, std::span<const Follow
 /// Whether a circle is an object's whose box is as large.
 bool SquareExpert::is_object(const Circle& circle, const Vec2& half_size,
                              const MotionField& field) const {
-  const Vec2 size = 2 * half_size;
-  if (size.prod() < parameters_.min_area) return false;
   const double w = circle.depth_ratio / field.reference_depth_m();
-  return circle.rebel || size.maxCoeff() <= parameters_.max_size * camera_.focal_px * w;
+  return circle.rebel || 2 * half_size.maxCoeff() <= parameters_.max_size * camera_.focal_px * w;
 }
 
 /// The squares of circles of one kind.
