@@ -295,6 +295,38 @@ TEST(RebelCorners, FixedOnesAtOutlinesAreLeftOutOfTheClearFiguresAlone) {
   EXPECT_DOUBLE_EQ(get(metrics, "truth.fixed_corners"), 4);
 }
 
+TEST(RebelCorners, EachKindOfErrorCostsWhatRightVerdictsOnItWouldGain) {
+  // Of 8 rebels half are found; 3 calls are false: precision 4/7, recall 4/8, F1 8/15.
+  const auto maker = [](bool with_reasons) {
+    return [=](FrameMaker& frame) {
+      frame.corners(4, Verdict::rebel, Label::rebel, 1)
+          .corners(2, Verdict::normal, Label::rebel, 1, true)
+          .corners(1, Verdict::pending, Label::rebel, 1)
+          .corners(1, Verdict::normal, Label::rebel, 1)
+          .corners(3, Verdict::rebel, Label::fixed);
+      auto& record = frame.record();
+      record.corner_truth[8].outline = true;
+      if (!with_reasons) return;
+      record.reasons.assign(11, Reason::normal_edge);
+      record.reasons[6] = Reason::first_sighting;
+      record.reasons[8] = record.reasons[9] = Reason::inherited;
+    };
+  };
+  const Metrics metrics = score(frames(4, maker(true)));
+  const double f1 = 8.0 / 15;
+  EXPECT_DOUBLE_EQ(get(metrics, "rebel.f1"), f1);
+  EXPECT_NEAR(get(metrics, "rebel.f1_lost_outline"), 8.0 / 14 - f1, 1e-12);
+  EXPECT_NEAR(get(metrics, "rebel.f1_lost_radial"), 12.0 / 17 - f1, 1e-12);
+  // One that is missed, and of the two that are inherited the one that is at no outline.
+  EXPECT_NEAR(get(metrics, "rebel.f1_lost_first_seen"), 10.0 / 15 - f1, 1e-12);
+  EXPECT_NEAR(get(metrics, "rebel.f1_lost_tracked"), 10.0 / 15 - f1, 1e-12);
+
+  const Metrics untold = score(frames(4, maker(false)));
+  EXPECT_NEAR(get(untold, "rebel.f1_lost_radial"), 12.0 / 17 - f1, 1e-12);
+  EXPECT_FALSE(value(untold, "rebel.f1_lost_first_seen"));
+  EXPECT_FALSE(value(untold, "rebel.f1_lost_tracked"));
+}
+
 TEST(RebelCorners, WithoutRebelsInTheTruthRecallIsUndefinedAndFalseOnesStillShow) {
   const Metrics metrics = score(frames(8, [](FrameMaker& frame) {
     frame.corners(2, Verdict::rebel, Label::fixed).corners(8, Verdict::normal, Label::fixed);

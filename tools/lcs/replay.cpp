@@ -209,9 +209,8 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
       ->type_name("N|auto");
   add_detector_option(command, options.detector, kPresetDetector);
   command
-      .add_option(
-          "--preset", options.preset,
-          "Parameters of the filter: default, night, hypotheses, or the paper's lab or cars")
+      .add_option("--preset", options.preset,
+                  "Parameters of the filter: default, or the paper's lab or cars")
       ->type_name("NAME");
   add_set_option(command, options.sets, "Set a parameter of the filter, as hypotheses.prior=0.05");
   add_beside_option(command, options.beside);

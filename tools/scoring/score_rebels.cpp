@@ -48,6 +48,29 @@ RebelCounts counts(CornerOutcome outcome) {
   return counts;
 }
 
+/// Had the verdict been right.
+CornerOutcome corrected(CornerOutcome outcome) {
+  switch (outcome) {
+    case CornerOutcome::false_rebel:
+      return CornerOutcome::fixed;
+    case CornerOutcome::missed:
+      return CornerOutcome::found;
+    case CornerOutcome::missed_early:
+      return CornerOutcome::found_early;
+    default:
+      return outcome;
+  }
+}
+
+Difficulty difficulty(const FrameRecord& frame, std::size_t corner) {
+  const sim::CornerTruth& truth = frame.corner_truth[corner];
+  if (truth.outline) return Difficulty::outline;
+  if (truth.label == sim::Label::rebel && truth.radial) return Difficulty::radial;
+  const Reason reason = frame.reasons.empty() ? Reason::unknown : frame.reasons[corner];
+  const bool first = reason == Reason::first_sighting || reason == Reason::inherited;
+  return first ? Difficulty::first_seen : Difficulty::tracked;
+}
+
 /// Corners on an object whose verdict is rebel.
 int rebels_on(const FrameRecord& frame, int object) {
   int rebels = 0;
@@ -81,6 +104,7 @@ RebelCornerScore& RebelCornerScore::operator+=(const RebelCornerScore& other) {
   clear += other.clear;
   radial += other.radial;
   fixed_corners += other.fixed_corners;
+  for (std::size_t d = 0; d < without.size(); ++d) without[d] += other.without[d];
   return *this;
 }
 
@@ -114,6 +138,10 @@ std::vector<RebelCornerScore> score_rebel_corners(const Recording& recording) {
       const bool is_radial = truth.label == sim::Label::rebel && truth.radial;
       (is_radial ? score.radial : score.distinct) += of_corner;
       if (!truth.outline) score.clear += of_corner;
+      const auto hard = static_cast<std::size_t>(difficulty(frame, i));
+      for (std::size_t d = 0; d < score.without.size(); ++d) {
+        score.without[d] += d == hard ? counts(corrected(outcomes[i])) : of_corner;
+      }
       score.fixed_corners +=
           outcomes[i] == CornerOutcome::fixed || outcomes[i] == CornerOutcome::false_rebel;
     }

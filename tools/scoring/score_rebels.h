@@ -2,6 +2,7 @@
 /// How well rebels were told from the static world: corner by corner, and object by object.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -46,12 +47,22 @@ bool has_mover_under(const FrameRecord& frame, const Vec2& centre_px, double rad
 /// Rebel circles with no moving object under them.
 std::vector<const Circle*> false_circles(const FrameRecord& frame);
 
+/// What made a verdict hard; each corner is of one kind, the first that holds.
+enum class Difficulty : std::uint8_t {
+  outline,     ///< fixed, at the outline of what moves
+  radial,      ///< a rebel that moves as a fixed corner may
+  first_seen,  ///< seen for the first time, so that only what is round it tells
+  tracked,     ///< any other
+};
+
 struct RebelCornerScore {
   RebelCounts overall;
   RebelCounts distinct;   ///< radial corners left out
   RebelCounts clear;      ///< fixed corners at the outlines of what moves left out
   RebelCounts radial;     ///< radial corners alone (they have no false rebels)
   int fixed_corners = 0;  ///< after the warm-up
+  /// Overall, had all verdicts on corners of one `Difficulty` been right.
+  std::array<RebelCounts, 4> without;
 
   RebelCornerScore& operator+=(const RebelCornerScore& other);
 };

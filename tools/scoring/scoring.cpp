@@ -39,6 +39,21 @@ void add_rebels(Metrics& metrics, const Recording& recording) {
   metrics.emplace_back("rebel.precision_clear", corners.clear.precision());
   metrics.emplace_back("rebel.f1_clear", corners.clear.f1());
   metrics.emplace_back("rebel.recall_radial", corners.radial.recall());
+  const auto lost = [&](Difficulty difficulty) -> std::optional<double> {
+    const std::optional<double> without =
+        corners.without[static_cast<std::size_t>(difficulty)].f1();
+    const std::optional<double> f1 = corners.overall.f1();
+    return without && f1 ? std::optional(*without - *f1) : std::nullopt;
+  };
+  const bool tells_first = std::ranges::any_of(recording.frames, [](const FrameRecord& frame) {
+    return std::ranges::count(frame.reasons, Reason::first_sighting) > 0;
+  });
+  metrics.emplace_back("rebel.f1_lost_outline", lost(Difficulty::outline));
+  metrics.emplace_back("rebel.f1_lost_radial", lost(Difficulty::radial));
+  metrics.emplace_back("rebel.f1_lost_first_seen",
+                       tells_first ? lost(Difficulty::first_seen) : std::nullopt);
+  metrics.emplace_back("rebel.f1_lost_tracked",
+                       tells_first ? lost(Difficulty::tracked) : std::nullopt);
   metrics.emplace_back("rebel.false_corners_per_frame",
                        ratio(corners.overall.false_rebels, objects.frames));
   metrics.emplace_back("rebel.object_recall", ratio(objects.found, objects.objects));

@@ -33,6 +33,10 @@ const std::vector<MetricTraits>& metric_traits() {
       higher_share("rebel.precision_clear"),
       higher_share("rebel.f1_clear"),
       higher_share("rebel.recall_radial"),
+      lower("rebel.f1_lost_outline", kShare),
+      lower("rebel.f1_lost_radial", kShare),
+      lower("rebel.f1_lost_first_seen", kShare),
+      lower("rebel.f1_lost_tracked", kShare),
       lower("rebel.false_corners_per_frame", 0.1),
       higher_share("rebel.object_recall"),
       lower("rebel.latency_frames_median", 0.4),  // of an even number of objects it has halves
