@@ -7,24 +7,15 @@
 #include "filter/matching/refill.h"
 
 namespace lcs {
-namespace {
-
-/// Of the reach, of a corner without a motion, whose neighbours may be another body's.
-constexpr double kAlone = 0.64;
-
-}  // namespace
 
 double Coupling::weight(const Node& of, const Node& other, double distance2_px2,
                         double noise2_px2) const {
-  const double reach = parameters_.coupling_reach_px * (of.has_motion ? 1 : kAlone);
-  double exponent = distance2_px2 / (reach * reach);
-  if (of.has_motion) {
-    const double longer2 = std::max(of.step_px.squaredNorm(), other.step_px.squaredNorm());
-    const double share = parameters_.step_share;
-    const double variance =
-        noise2_px2 + share * share * longer2 + of.step_variance_px2 + other.step_variance_px2;
-    exponent += (of.step_px - other.step_px).squaredNorm() / variance;
-  }
+  const double reach = parameters_.coupling_reach_px, share = parameters_.step_share;
+  const double longer2 = std::max(of.step_px.squaredNorm(), other.step_px.squaredNorm());
+  const double variance =
+      noise2_px2 + share * share * longer2 + of.step_variance_px2 + other.step_variance_px2;
+  const double exponent =
+      distance2_px2 / (reach * reach) + (of.step_px - other.step_px).squaredNorm() / variance;
   return exponent < kFar * kFar ? std::exp(-0.5 * exponent) : 0;
 }
 
@@ -41,7 +32,7 @@ const std::vector<double>& Coupling::settle(std::span<const Node> nodes, double 
   refill(sums_, nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     grid_.visit_within(places_[i], kFar * parameters_.coupling_reach_px, [&](int j, double apart2) {
-      if (j == static_cast<int>(i) || !nodes[j].has_motion) return;
+      if (j == static_cast<int>(i)) return;
       const double w = weight(nodes[i], nodes[j], apart2, noise2_px2);
       if (w == 0) return;
       ties_.push_back({j, w});
@@ -64,15 +55,16 @@ const std::vector<double>& Coupling::settle(std::span<const Node> nodes, double 
   return beliefs_;
 }
 
-int Coupling::model_of(std::size_t node) const {
-  int model = -1;
-  double most = 0;
-  for (std::size_t k = first_[node]; k < first_[node + 1]; ++k) {
-    if (beliefs_[ties_[k].other] <= 0 || ties_[k].weight <= most) continue;
-    most = ties_[k].weight;
-    model = ties_[k].other;
-  }
-  return model;
+int Coupling::nearest(const Vec2& place_px) {
+  const auto any = [](int) { return true; };
+  grid_.nearest(place_px, parameters_.coupling_reach_px, 1, any, near_);
+  if (near_.empty()) return -1;
+  const Neighbour first = near_.front();
+  int nearest = first.index;
+  grid_.visit_within(place_px, std::sqrt(first.distance2) + 1, [&](int j, double distance2) {
+    if (distance2 == first.distance2 && beliefs_[j] > beliefs_[nearest]) nearest = j;
+  });
+  return nearest;
 }
 
 }  // namespace lcs

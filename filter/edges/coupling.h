@@ -3,9 +3,7 @@
 ///
 ///   m_i = L_i + J sum_j w_ij tanh(m_j / 2) / sum_j w_ij,
 ///
-/// where w falls with the distance in the image and, between two whose motion is known, with how
-/// unlike their motions are. Corners without a known motion are influenced by those round them, but
-/// do not influence them.
+/// where w falls with the distance in the image and with how unlike their motions are.
 #pragma once
 
 #include <span>
@@ -24,7 +22,6 @@ class Coupling {
   struct Node {
     Vec2 place_px;
     double log_odds;
-    bool has_motion;
     Vec2 step_px;              ///< of a frame, rotation removed
     double step_variance_px2;  ///< on one axis
   };
@@ -32,9 +29,9 @@ class Coupling {
   /// \param noise2_px2 variance of a corner's place on an axis. \return m of each.
   const std::vector<double>& settle(std::span<const Node> nodes, double noise2_px2);
 
-  /// Of the nodes last settled, the neighbour with the most influence on this one among those that
-  /// are taken to move; -1: none.
-  int model_of(std::size_t node) const;
+  /// Of the nodes last settled the nearest to a place, within their reach; of equally near ones the
+  /// likeliest to move. -1: none.
+  int nearest(const Vec2& place_px);
 
  private:
   double weight(const Node& of, const Node& other, double distance2_px2, double noise2_px2) const;
@@ -50,6 +47,7 @@ class Coupling {
   std::vector<std::size_t> first_;
   std::vector<double> sums_;
   std::vector<double> tanh_, beliefs_;
+  std::vector<Neighbour> near_;
 };
 
 }  // namespace lcs

@@ -176,17 +176,27 @@ void HypothesisEdges::coast(const std::vector<IgnoreRegion>& psi, const MotionFi
   }
 }
 
+/// Beliefs of what is seen. A corner seen for the first time is what the edge nearest to it is;
+/// where none is near nobody knows, and it is not called.
 void HypothesisEdges::couple(const MotionField& field) {
   nodes_.clear();
-  for (const Track& track : tracks_) {
-    if (track.corner < 0) break;
-    const bool moves = track.has_motion();
-    nodes_.push_back({track.place_px, moves ? track.log_odds : parameters_.newcomer, moves,
-                      track.as_moving.velocity_pxps * field.dt_s(),
+  edges_.clear();
+  for (Track& track : tracks_) {
+    if (track.corner < 0 || !track.has_motion()) continue;
+    edges_.push_back(&track);
+    nodes_.push_back({track.place_px, track.log_odds, track.as_moving.velocity_pxps * field.dt_s(),
                       track.as_moving.step_variance_px2(field.dt_s())});
   }
   const std::vector<double>& beliefs = coupling_.settle(nodes_, noise2_px2_);
-  for (std::size_t c = 0; c < beliefs.size(); ++c) tracks_[c].belief = beliefs[c];
+  for (std::size_t e = 0; e < edges_.size(); ++e) edges_[e]->belief = beliefs[e];
+  followers_.clear();
+  for (Track& track : tracks_) {
+    if (track.corner < 0 || track.has_motion()) continue;
+    const int nearest = coupling_.nearest(track.place_px);
+    if (nearest < 0) continue;
+    track.belief = beliefs[nearest];
+    if (track.belief > 0) followers_.push_back({track.place_px, edges_[nearest]->id});
+  }
 }
 
 /// The paper's edge of a track.
@@ -220,13 +230,10 @@ void HypothesisEdges::decide(Layers& layers, const Chi& chi, const MotionField& 
   layers.normal_edges.clear();
   layers.rebel_edges.clear();
   layers.chains.clear();
-  followers_.clear();
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const Track& track = tracks_[t];
     if (track.corner < 0 && !track.has_motion()) continue;
-    // Who has no motion is a rebel by one that has: where nobody knows, nobody is called.
-    const int model = track.has_motion() ? -1 : coupling_.model_of(t);
-    const bool rebel = track.belief > 0 && (track.has_motion() || model >= 0);
+    const bool rebel = track.belief > 0;
     if (track.corner >= 0) {
       const int source = chi.sources[track.corner];
       if (rebel) {
@@ -239,10 +246,7 @@ void HypothesisEdges::decide(Layers& layers, const Chi& chi, const MotionField& 
         reasons_[t] = Reason::first_sighting;
       }
     }
-    if (!track.has_motion()) {
-      if (rebel) followers_.push_back({track.place_px, tracks_[model].id});
-      continue;
-    }
+    if (!track.has_motion()) continue;
     Edge edge = edge_of(track, field);
     if (edge.corner >= 0) edge.corner = chi.sources[edge.corner];
     (rebel ? layers.rebel_edges : layers.normal_edges).push_back(edge);

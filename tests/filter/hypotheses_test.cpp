@@ -421,7 +421,7 @@ TEST(Association, ReachesNoFartherThanTheFastest) {
 // ---- Coupling
 
 Coupling::Node node(double x, double log_odds, const Vec2& step = Vec2::Zero()) {
-  return {{x, 240}, log_odds, true, step, 0};
+  return {{x, 240}, log_odds, step, 0};
 }
 
 TEST(Coupling, ANodeAloneKeepsWhatItKnows) {
@@ -441,12 +441,10 @@ TEST(Coupling, OfTwoNodesIsTheSumByHand) {
   std::vector<double> m = coupling.settle(std::vector{node(100, 20), node(125, -1)}, kNoise2_px2);
   EXPECT_NEAR(m[0], 27.9854, 1e-3);
   EXPECT_NEAR(m[1], 7, 1e-3);
-  EXPECT_EQ(coupling.model_of(1), 0);
   // 6 px apart in their steps, of which 0.6^2 + (0.1 * 6)^2 = 0.72 px^2 is nothing: more than three
   // standard deviations, so that there is no tie.
   m = coupling.settle(std::vector{node(100, 20), node(125, -1, {6, 0})}, kNoise2_px2);
   EXPECT_EQ(m[1], -1);
-  EXPECT_EQ(coupling.model_of(1), -1);
   // Between one that is sure to move, w = exp(-1/2) = 0.6065, and one as sure to stand whose step
   // is 1 px off, w = exp(-1/2 (1 + 1 / 0.37)) = 0.1570: -1 + 8 (0.6065 - 0.1570) / 0.7636.
   m = coupling.settle(std::vector{node(100, 20), node(125, -1), node(150, -20, {1, 0})},
@@ -473,24 +471,18 @@ TEST(Coupling, ASureNodeAmongAnotherMotionKeepsItsOwn) {
   for (std::size_t i = 1; i < m.size(); ++i) EXPECT_LT(m[i], -6);
 }
 
-TEST(Coupling, ANodeWithoutMotionTakesAndGivesNothing) {
-  Coupling::Node fresh = node(300, 0.4);
-  fresh.has_motion = false;
-  std::vector<Coupling::Node> nodes = {node(290, -1), node(312, -1.5)};
-  const std::vector<double> without = Coupling(kUsual).settle(nodes, kNoise2_px2);
-  fresh.log_odds = 30;
-  nodes.push_back(fresh);
+TEST(Coupling, TheNearestNodeIsWithinReachAndOfEquallyNearOnesTheLikelierToMove) {
   Coupling coupling(kUsual);
-  EXPECT_EQ(coupling.settle(nodes, kNoise2_px2)[0], without[0]);
-  EXPECT_EQ(coupling.settle(nodes, kNoise2_px2)[1], without[1]);
-  nodes[2].log_odds = 0.4;
-  EXPECT_LT(coupling.settle(nodes, kNoise2_px2)[2], -1) << "it is told by those round it";
-  EXPECT_EQ(coupling.model_of(2), -1);
-  // Whatever their steps are, for it has none: the nearest of those that move is its model.
-  for (Coupling::Node& other : nodes) other.log_odds = other.has_motion ? 5 : 0.4;
-  nodes[0].step_px = {10, 0};
-  EXPECT_GT(coupling.settle(nodes, kNoise2_px2)[2], 2);
-  EXPECT_EQ(coupling.model_of(2), 0);
+  EXPECT_EQ(coupling.nearest({300, 240}), -1) << "nothing was settled yet";
+  for (const double sign : {1.0, -1.0}) {
+    coupling.settle(std::vector{node(300, 20 * sign), node(320, -20 * sign), node(700, 5)},
+                    kNoise2_px2);
+    EXPECT_EQ(coupling.nearest({309, 240}), 0);
+    EXPECT_EQ(coupling.nearest({311, 250}), 1);
+    EXPECT_EQ(coupling.nearest({310, 235}), sign > 0 ? 0 : 1);
+    EXPECT_EQ(coupling.nearest({700, 240 + kUsual.coupling_reach_px - 1}), 2);
+    EXPECT_EQ(coupling.nearest({700, 240 + kUsual.coupling_reach_px + 1}), -1);
+  }
 }
 
 // ---- What the told motion is off by
@@ -762,6 +754,32 @@ TEST(HypothesisEdges, ACornerThatNobodyKnowsIsNotCalled) {
     const FrameResult& result = filter.step(corners, k == 0 ? EgoMotion{} : motion);
     EXPECT_EQ(result.verdicts[0], Verdict::pending);
     EXPECT_EQ(result.reasons[0], Reason::first_sighting);
+  }
+}
+
+TEST(HypothesisEdges, ACornerSeenOnceIsWhatTheNearestEdgeIs) {
+  // Five cross by 8 px a frame before a standing camera, towards five that stand.
+  const Corners moving = {{200, 200}, {209, 197}, {204, 211}, {219, 206}, {213, 217}};
+  const Corners standing = {{269, 206}, {278, 199}, {284, 210}, {275, 217}, {290, 204}};
+  const Vector2f by_a_mover(255, 206), by_what_stands(265, 206), halfway(260, 206),
+      by_none(500, 400);
+  const EgoMotion motion = steady_motion({0, 0, 0}, Vector3d::Zero(), kDt_s);
+  for (const bool movers_first : {true, false}) {
+    SCOPED_TRACE(movers_first ? "movers first" : "movers last");
+    Filter filter(vga(), preset("default"));
+    FrameResult result;
+    for (int k = 0; k < 5; ++k) {
+      Corners movers = moving, corners = standing;
+      for (Vector2f& x : movers) x.x() += static_cast<float>(8 * k);
+      corners.insert(movers_first ? corners.begin() : corners.end(), movers.begin(), movers.end());
+      if (k == 4) corners.insert(corners.end(), {by_a_mover, by_what_stands, halfway, by_none});
+      result = filter.step(corners, k == 0 ? EgoMotion{} : motion);
+    }
+    const std::vector<Reason> reasons(result.reasons.end() - 4, result.reasons.end());
+    EXPECT_EQ(reasons[0], Reason::inherited);
+    EXPECT_EQ(reasons[1], Reason::first_sighting);
+    EXPECT_EQ(reasons[2], Reason::inherited) << "of equally near ones the mover";
+    EXPECT_EQ(reasons[3], Reason::first_sighting);
   }
 }
 
