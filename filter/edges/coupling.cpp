@@ -55,14 +55,14 @@ const std::vector<double>& Coupling::settle(std::span<const Node> nodes, double 
   return beliefs_;
 }
 
-int Coupling::nearest(const Vec2& place_px) {
-  const auto any = [](int) { return true; };
-  grid_.nearest(place_px, parameters_.coupling_reach_px, 1, any, near_);
-  if (near_.empty()) return -1;
-  const Neighbour first = near_.front();
-  int nearest = first.index;
-  grid_.visit_within(place_px, std::sqrt(first.distance2) + 1, [&](int j, double distance2) {
-    if (distance2 == first.distance2 && beliefs_[j] > beliefs_[nearest]) nearest = j;
+int Coupling::nearest(const Vec2& place_px) const {
+  int nearest = -1;
+  double least2 = 0;
+  grid_.visit_within(place_px, parameters_.coupling_reach_px, [&](int j, double apart2) {
+    if (nearest < 0 || apart2 < least2 || (apart2 == least2 && beliefs_[j] > beliefs_[nearest])) {
+      nearest = j;
+      least2 = apart2;
+    }
   });
   return nearest;
 }

@@ -31,7 +31,7 @@ class Coupling {
 
   /// Of the nodes last settled the nearest to a place, within their reach; of equally near ones the
   /// likeliest to move. -1: none.
-  int nearest(const Vec2& place_px);
+  int nearest(const Vec2& place_px) const;
 
  private:
   double weight(const Node& of, const Node& other, double distance2_px2, double noise2_px2) const;
@@ -47,7 +47,6 @@ class Coupling {
   std::vector<std::size_t> first_;
   std::vector<double> sums_;
   std::vector<double> tanh_, beliefs_;
-  std::vector<Neighbour> near_;
 };
 
 }  // namespace lcs
