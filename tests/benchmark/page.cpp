@@ -1,4 +1,4 @@
-#include "tests/benchmarkmark/page.h"
+#include "tests/benchmark/page.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "sim/simulation.h"
-#include "tests/benchmarkmark/raw_renderer.h"
+#include "tests/benchmark/raw_renderer.h"
 #include "tools/files/output_file.h"
 
 namespace lcs::bench {
@@ -60,7 +60,7 @@ std::string machine() {
   return fmt::format(
       "<p>{}, {} cores, load at the start{}. MuJoCo {}, {}{}, OpenCV {} on one thread. The "
       "filter's parameters are the default ones; the scenarios are "
-      "<code>tests/benchmarkmark/lab.yaml</code> and "
+      "<code>tests/benchmark/lab.yaml</code> and "
       "<code>street.yaml</code>.</p>\n",
       processor(), cpu.num_cpus, load, versions.mujoco, versions.gl_renderer,
       threads ? fmt::format(" with LP_NUM_THREADS={}", threads) : "", cv::getVersionString());
