@@ -19,7 +19,7 @@ inline constexpr std::array<std::pair<const char*, const char*>, 8> kLearnt{{
     {"hypotheses.bits_weight", "0.23"},
     {"hypotheses.step_share", "0.212"},
     {"hypotheses.coupling", "8.72"},
-    {"hypotheses.coupling_reach", "29.6"},
+    {"hypotheses.neighbour_reach", "29.6"},
 }};
 
 }  // namespace lcs

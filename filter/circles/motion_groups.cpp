@@ -43,7 +43,7 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
     if (edge.rebel) {
       value = edge.velocity() * field.dt_s();
       sigma = 2 * parameters_.hypotheses.noise_px;
-      reach_px_.push_back(parameters_.hypotheses.coupling_reach_px);
+      reach_px_.push_back(parameters_.hypotheses.neighbour_reach_px);
     } else {
       value = {edge.depth_ratio / field.reference_depth_m(), 0};
       sigma = edge.depth_ratio_sigma / field.reference_depth_m();
@@ -64,7 +64,7 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
 }
 
 void MotionGroups::link() {
-  grid_.build(points_, parameters_.hypotheses.coupling_reach_px);
+  grid_.build(points_, parameters_.hypotheses.neighbour_reach_px);
   links_.clear();
   // Each pair is looked at once.
   make_room(links_, kCrowd / 2 * points_.size());

@@ -21,20 +21,22 @@ PlaneSums& PlaneSums::operator+=(const PlaneSums& other) {
 }
 
 double PlaneSums::evidence(const PlanePrior& prior, int values) const {
-  // About the middle of the places, for there a level is expected; and less what is expected.
-  Eigen::Matrix3d centred = Eigen::Matrix3d::Identity();
-  centred.block<2, 1>(1, 0) = -squares_.block<2, 1>(1, 0) / squares_(0, 0);
-  const Eigen::Matrix3d S = centred * squares_ * centred.transpose();
+  // About the middle of the places, for there a level is expected; and less what is expected. There
+  // the level and the slopes have no part of each other.
+  const double count = squares_(0, 0);
+  const Vec2 middle = squares_.block<2, 1>(1, 0) / count;
   const PlaneCoefficients left = products_ - squares_ * prior.mean;
-  const PlaneCoefficients T = centred * left;
   const double left2 = values2_ - (prior.mean.array() * (products_ + left).array()).sum();
-  const Eigen::Vector3d P(1 / (prior.level_sigma * prior.level_sigma),
-                          1 / (prior.slope_sigma * prior.slope_sigma),
-                          1 / (prior.slope_sigma * prior.slope_sigma));
-  Eigen::Matrix3d A = S;
-  A.diagonal() += P;
-  const double explained = (T.array() * (A.inverse() * T).array()).sum();
-  return -0.5 * (left2 - explained) - 0.5 * values * std::log(A.determinant() / P.prod());
+  const Eigen::Matrix2d T = left.bottomRows<2>() - middle * left.row(0);
+  const double level_P = 1 / (prior.level_sigma * prior.level_sigma);
+  const double slope_P = 1 / (prior.slope_sigma * prior.slope_sigma);
+  Eigen::Matrix2d A = squares_.bottomRightCorner<2, 2>() - count * middle * middle.transpose();
+  A.diagonal().array() += slope_P;
+  const double level_A = count + level_P;
+  const double explained =
+      left.row(0).squaredNorm() / level_A + (T.array() * (A.inverse() * T).array()).sum();
+  return -0.5 * (left2 - explained) -
+         0.5 * values * std::log(level_A * A.determinant() / (level_P * slope_P * slope_P));
 }
 
 }  // namespace lcs

@@ -14,6 +14,12 @@ namespace {
 /// ln: what is less is lost in rounding.
 const double kNone = std::log(std::numeric_limits<float>::epsilon());
 
+/// ln(1 + e^x).
+double softplus(double x) {
+  if (x < kNone) return 0;
+  return x > -kNone ? x : std::log1p(std::exp(x));
+}
+
 }  // namespace
 
 Association::Association(const HypothesisParameters& parameters) : parameters_(parameters) {
@@ -33,15 +39,57 @@ double Association::reach_area_px2(double dt_s) const {
 
 /// Density of tracks about a corner.
 double Association::clutter_ppx2(std::size_t corner) const {
-  const double near = parameters_.coupling_reach_px;
+  const double near = parameters_.neighbour_reach_px;
   return crowd_[corner] / (std::numbers::pi * near * near);
 }
 
-void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, double noise2_px2,
-                             double dt_s) {
-  const double reach = reach_px(dt_s);
+void Association::Share::set(const Vec2& at_px, const Eigen::Matrix2d& covariance, double share) {
+  place_px = at_px;
+  precision = covariance.inverse();
+  ln_most = std::log(share / (2 * std::numbers::pi * std::sqrt(covariance.determinant())));
+}
+
+/// Where this frame may show each track: as a point that stands or moves in the shares of the
+/// belief, or anywhere within reach.
+void Association::expect(std::span<const Track> predicted, double noise2_px2, double dt_s) {
   const double anywhere = 1 / reach_area_px2(dt_s), wrong = parameters_.turnover(dt_s);
-  const double near = parameters_.coupling_reach_px;
+  expected_.clear();
+  for (const Track& track : predicted) {
+    const double moves =
+        std::clamp(chance(track.belief), parameters_.prior, 1 - parameters_.prior);
+    Expected& next = expected_.emplace_back();
+    next.track_px = track.place_px;
+    next.anywhere_ppx2 = wrong * anywhere;
+    next.still.set(track.as_static.place_px, track.as_static.spread(noise2_px2),
+                   (1 - wrong) * (1 - moves));
+    if (track.has_motion()) {
+      next.moving.set(track.as_moving.place_px, 
+                      (track.as_moving.covariance(0, 0) + noise2_px2) * Eigen::Matrix2d::Identity(),
+                      (1 - wrong) * moves);
+    } else {
+      next.anywhere_ppx2 += (1 - wrong) * moves * anywhere;
+    }
+    next.ln_anywhere = std::log(next.anywhere_ppx2);
+  }
+}
+
+/// Keeps a pair of the corner whose pairs come last, if it is among its likeliest.
+void Association::offer(const Pair& pair) {
+  if (pairs_.size() < first_.back() + kCrowd) {
+    pairs_.push_back(pair);
+  } else if (pair < pairs_.back()) {
+    pairs_.back() = pair;
+  } else {
+    return;
+  }
+  std::size_t i = pairs_.size() - 1;
+  for (; i > first_.back() && pair < pairs_[i - 1]; --i) pairs_[i] = pairs_[i - 1];
+  pairs_[i] = pair;
+}
+
+void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, double dt_s) {
+  const double reach = reach_px(dt_s);
+  const double near = parameters_.neighbour_reach_px;
   const bool looks = !chi.signatures.empty();
   places_.clear();
   signatures_.clear();
@@ -52,75 +100,76 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
   tracks_.build(places_, std::max(20.0, reach / 2));
   pairs_.clear();
   // As many as there may ever be of so many corners, so that no later frame asks for more.
-  pairs_.reserve(chi.size() * kCrowd + predicted.size());
+  pairs_.reserve(chi.size() * kCrowd);
+  const auto most = static_cast<Eigen::Index>(chi.size() * kCrowd);
+  if (step_x_.size() < most) {
+    for (Eigen::ArrayXf* list : {&step_x_, &step_y_, &likeness_of_}) list->resize(most);
+  }
   first_.assign(1, 0);
   crowd_.clear();
+  ln_clutter_.clear();
+  ln_likest_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     const Vec2& x = chi.locations[c];
     int round = 1;
-    tracks_.visit_within(x, near, [&](int, double) { ++round; });
-    crowd_.push_back(round);
-    const double clutter = clutter_ppx2(c);
-    tracks_.visit_within(x, reach, [&](int t, double) {
+    tracks_.visit_within(x, std::max(near, reach), [&](int t, double apart2) {
+      round += apart2 <= near * near;
+      if (apart2 > reach * reach) return;
       const double likeness = looks ? likeness_[distance(chi.signatures[c], signatures_[t])] : 0.0;
       if (likeness < 0) return;
-      const Track& track = predicted[t];
-      const double moves =
-          std::clamp(chance(track.belief), parameters_.prior, 1 - parameters_.prior);
-      const double still = track.as_static.density(x, noise2_px2);
-      const double moving = track.has_motion() ? track.as_moving.density(x, noise2_px2) : anywhere;
-      const double density =
-          (1 - wrong) * ((1 - moves) * still + moves * moving) + wrong * anywhere;
-      pairs_.push_back({t, x - track.place_px, likeness, std::log(density / clutter) + likeness});
+      const Expected& track = expected_[t];
+      const double still = track.still.ln(x), moving = track.moving.ln(x);
+      // Far from both it is worth what it is anywhere.
+      const double ln_density = std::max(still, moving) < kNone + track.ln_anywhere
+                                    ? track.ln_anywhere
+                                    : std::log(std::exp(still) + std::exp(moving) +
+                                               track.anywhere_ppx2);
+      offer({ln_density + likeness, t, static_cast<float>(likeness)});
     });
-    if (pairs_.size() > first_.back() + kCrowd) {
-      const auto begin = pairs_.begin() + static_cast<std::ptrdiff_t>(first_.back());
-      std::nth_element(begin, begin + kCrowd, pairs_.end(), [](const Pair& a, const Pair& b) {
-        return a.weight > b.weight || (a.weight == b.weight && a.track < b.track);
-      });
-      pairs_.resize(first_.back() + kCrowd);
+    crowd_.push_back(round);
+    const double ln_clutter = ln_clutter_.emplace_back(std::log(clutter_ppx2(c)));
+    ln_likest_.push_back(kNone);
+    for (std::size_t p = first_.back(); p < pairs_.size(); ++p) {
+      Pair& pair = pairs_[p];
+      pair.weight -= ln_clutter;
+      const Vec2 step = x - expected_[pair.track].track_px;
+      step_x_[p] = static_cast<float>(step.x());
+      step_y_[p] = static_cast<float>(step.y());
+      likeness_of_[p] = pair.likeness;
+      ln_likest_.back() = std::max<double>(ln_likest_.back(), pair.likeness - ln_clutter);
     }
     first_.push_back(pairs_.size());
   }
-  const auto count = static_cast<Eigen::Index>(pairs_.size());
-  if (step_x_.size() < count) {
-    for (Eigen::ArrayXf* list : {&step_x_, &step_y_, &likeness_of_})
-      list->resize(count + count / 2);
-  }
-  for (Eigen::Index p = 0; p < count; ++p) {
-    step_x_[p] = static_cast<float>(pairs_[p].step_px.x());
-    step_y_[p] = static_cast<float>(pairs_[p].step_px.y());
-    likeness_of_[p] = static_cast<float>(pairs_[p].signature);
-  }
 }
 
-/// ln of the ratio by which those in near_ bear a pair out. Each is found again, or not, at even
-/// odds.
-double Association::ask_neighbours(const Pair& pair, double noise2_px2) const {
+/// Weight of a pair with what those in near_ say of it: ln of the ratio by which each bears it out,
+/// being found again, or not, at even odds.
+/// \return less than `least` where it is known to come to less.
+double Association::asked(std::size_t pair, double noise2_px2, double least) const {
+  const float x = step_x_[pair], y = step_y_[pair];
   const double unlike = parameters_.step_share * parameters_.step_share;
-  const double variance = 4 * noise2_px2 + unlike * pair.step_px.squaredNorm();
-  const auto x = static_cast<float>(pair.step_px.x()), y = static_cast<float>(pair.step_px.y());
+  const double variance = 4 * noise2_px2 + unlike * (x * x + y * y);
+  const double ln_spread = std::log(2 * std::numbers::pi * variance);
   const auto per_px2 = static_cast<float>(-0.5 / variance);
-  double sum = 0;
-  for (std::size_t k = 0; k < near_.size(); ++k) {
-    const int other = near_[k].index;
-    const auto first = static_cast<Eigen::Index>(first_[other]);
-    const auto count = static_cast<Eigen::Index>(first_[other + 1]) - first;
-    const double best =  // ln
-        count == 0 ? kNone
-                   : (per_px2 * ((step_x_.segment(first, count) - x).square() +
-                                 (step_y_.segment(first, count) - y).square()) +
-                      likeness_of_.segment(first, count))
-                         .maxCoeff();
-    if (best < kNone) {  // as for most
-      sum -= voices_[k] * std::numbers::ln2;
-      continue;
+  double most = 0;  // that those who are still to be asked may add
+  for (const Voice& voice : voices_)
+    most += voice.weight * std::max(0.0, ln_likest_[voice.corner] - ln_spread);
+  double weight = pairs_[pair].weight;
+  for (const Voice& voice : voices_) {
+    if (weight + most < least) break;
+    most -= voice.weight * std::max(0.0, ln_likest_[voice.corner] - ln_spread);
+    const std::size_t first = first_[voice.corner], count = first_[voice.corner + 1] - first;
+    double agrees = kNone;  // ln
+    if (count > 0) {
+      agrees = (per_px2 * ((step_x_.segment(first, count) - x).square() +
+                           (step_y_.segment(first, count) - y).square()) +
+                likeness_of_.segment(first, count))
+                   .maxCoeff() -
+               ln_spread - ln_clutter_[voice.corner];
     }
-    const double agrees = std::exp(best) / (2 * std::numbers::pi * variance *
-                                            clutter_ppx2(static_cast<std::size_t>(other)));
-    sum += voices_[k] * std::log(0.5 * (1 + agrees));
+    weight += voice.weight * (softplus(agrees) - std::numbers::ln2);
   }
-  return sum;
+  return weight;
 }
 
 const std::vector<int>& Association::match(const Chi& chi, std::span<const Track> predicted,
@@ -128,25 +177,26 @@ const std::vector<int>& Association::match(const Chi& chi, std::span<const Track
   refill(track_of_, chi.size(), -1);
   refill(chance_ppx2_, chi.size());
   if (predicted.empty() || chi.size() == 0) return track_of_;
-  find_pairs(chi, predicted, noise2_px2, dt_s);
-  const double near = parameters_.coupling_reach_px;
+  expect(predicted, noise2_px2, dt_s);
+  find_pairs(chi, predicted, dt_s);
+  const double near = parameters_.neighbour_reach_px;
   corners_.build(chi.locations, near);
   matches_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
-    const std::span pairs(pairs_.data() + first_[c], first_[c + 1] - first_[c]);
-    if (pairs.empty()) continue;
+    if (first_[c] == first_[c + 1]) continue;
     corners_.nearest(
         chi.locations[c], kFar * near, static_cast<std::size_t>(parameters_.voters),
         [&](int other) { return other != static_cast<int>(c); }, near_);
     voices_.clear();
     for (const Neighbour& other : near_) {
-      voices_.push_back(std::exp(-0.5 * other.distance2 / (near * near)));
+      voices_.push_back({static_cast<std::size_t>(other.index),
+                         std::exp(-0.5 * other.distance2 / (near * near))});
     }
     Match best{0, static_cast<int>(c), -1, 0};
-    for (const Pair& pair : pairs) {
-      const double weight = pair.weight + ask_neighbours(pair, noise2_px2);
-      if (weight > best.weight || (weight == best.weight && pair.track < best.track)) {
-        best = {weight, best.corner, pair.track, pair.signature};
+    for (std::size_t p = first_[c]; p < first_[c + 1]; ++p) {
+      const double weight = asked(p, noise2_px2, best.weight);
+      if (weight > best.weight || (weight == best.weight && pairs_[p].track < best.track)) {
+        best = {weight, best.corner, pairs_[p].track, likeness_of_[p]};
       }
     }
     if (best.track >= 0) matches_.push_back(best);

@@ -40,17 +40,47 @@ class Association {
   double reach_area_px2(double dt_s) const;
 
  private:
-  /// A corner may be a sighting of a track.
+  /// A corner may be a sighting of a track. The likeliest first.
   struct Pair {
+    double weight;  // ln of the ratio of all but the neighbours
     int track;
-    Vec2 step_px;      // from the track's last place, the rotation removed
-    double signature;  // ln of the ratio that signatures give
-    double weight;     // ln of the ratio of all
+    float likeness;  // ln of the ratio that signatures give
+    bool operator<(const Pair& other) const {
+      return weight > other.weight || (weight == other.weight && track < other.track);
+    }
   };
 
-  void find_pairs(const Chi& chi, std::span<const Track> predicted, double noise2_px2, double dt_s);
+  /// A neighbour that is asked, and what it counts.
+  struct Voice {
+    std::size_t corner;
+    double weight;
+  };
+
+  /// ln of a normal density times a share, of the form that takes least time at each place.
+  struct Share {
+    Vec2 place_px = Vec2::Zero();
+    Eigen::Matrix2d precision = Eigen::Matrix2d::Zero();
+    double ln_most = -1e300;
+
+    void set(const Vec2& at_px, const Eigen::Matrix2d& covariance, double share);
+    double ln(const Vec2& x_px) const {
+      const Vec2 off = x_px - place_px;
+      return ln_most - 0.5 * off.dot(precision * off);
+    }
+  };
+
+  /// Where a frame may show a track.
+  struct Expected {
+    Vec2 track_px;
+    Share still, moving;
+    double anywhere_ppx2, ln_anywhere;
+  };
+
+  void expect(std::span<const Track> predicted, double noise2_px2, double dt_s);
+  void find_pairs(const Chi& chi, std::span<const Track> predicted, double dt_s);
+  void offer(const Pair& pair);
   double clutter_ppx2(std::size_t corner) const;
-  double ask_neighbours(const Pair& pair, double noise2_px2) const;
+  double asked(std::size_t pair, double noise2_px2, double least) const;
 
   HypothesisParameters parameters_;
   std::array<double, 257> likeness_;  // by the number of bits that differ
@@ -59,12 +89,15 @@ class Association {
   PointGrid tracks_, corners_;
   std::vector<Vec2> places_;
   std::vector<Signature> signatures_;             // of the tracks
+  std::vector<Expected> expected_;                // of the tracks
   std::vector<Pair> pairs_;                       // by corner
   std::vector<std::size_t> first_;                // of each corner's
   Eigen::ArrayXf step_x_, step_y_, likeness_of_;  // of the pairs, to be looked through at once
   std::vector<int> crowd_;                        // of each corner
+  std::vector<double> ln_clutter_;                // of the density of tracks, of each corner
+  std::vector<double> ln_likest_;                 // of its pairs, over that
   std::vector<Neighbour> near_;
-  std::vector<double> voices_;  // what each of them counts
+  std::vector<Voice> voices_;  // nearest first
   struct Match {
     double weight;
     int corner, track;

@@ -2,20 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "filter/edges/gauss.h"
 #include "filter/matching/refill.h"
 
 namespace lcs {
+namespace {
 
-double Coupling::weight(const Node& of, const Node& other, double distance2_px2,
+constexpr double kInfinity_px = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+/// How much two nodes have to say to each other, the one's reach as far as the other's.
+double Coupling::weight(int i, int j, std::span<const Node> nodes, double distance2_px2,
                         double noise2_px2) const {
-  const double reach = parameters_.coupling_reach_px, share = parameters_.step_share;
-  const double longer2 = std::max(of.step_px.squaredNorm(), other.step_px.squaredNorm());
+  const Node &a = nodes[i], &b = nodes[j];
+  const double share = parameters_.step_share;
+  const double longer2 = std::max(a.step_px.squaredNorm(), b.step_px.squaredNorm());
   const double variance =
-      noise2_px2 + share * share * longer2 + of.step_variance_px2 + other.step_variance_px2;
-  const double exponent =
-      distance2_px2 / (reach * reach) + (of.step_px - other.step_px).squaredNorm() / variance;
+      noise2_px2 + share * share * longer2 + a.step_variance_px2 + b.step_variance_px2;
+  const double exponent = distance2_px2 / (reach_px_[i] * reach_px_[j]) +
+                          (a.step_px - b.step_px).squaredNorm() / variance;
   return exponent < kFar * kFar ? std::exp(-0.5 * exponent) : 0;
 }
 
@@ -26,45 +34,74 @@ const std::vector<double>& Coupling::settle(std::span<const Node> nodes, double 
     places_.push_back(node.place_px);
     beliefs_.push_back(node.log_odds);
   }
-  grid_.build(places_, parameters_.coupling_reach_px);
+  grid_.build(places_, parameters_.neighbour_reach_px);
+  find_reaches();
   ties_.clear();
-  first_.assign(1, 0);
   refill(sums_, nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    grid_.visit_within(places_[i], kFar * parameters_.coupling_reach_px, [&](int j, double apart2) {
-      if (j == static_cast<int>(i)) return;
-      const double w = weight(nodes[i], nodes[j], apart2, noise2_px2);
-      if (w == 0) return;
-      ties_.push_back({j, w});
-      sums_[i] += w;
-    });
-    first_.push_back(ties_.size());
-  }
+  grid_.visit_pairs(
+      kInfinity_px, [&](int i) { return kFar * reach_px_[i]; },
+      [&](int i, int j, double apart2) {
+        if (!nodes[i].tells || !nodes[j].tells) return;
+        if (apart2 > kFar * kFar * reach_px_[j] * reach_px_[j]) return;
+        const double w = weight(i, j, nodes, apart2, noise2_px2);
+        if (w == 0) return;
+        ties_.push_back({i, j, w});
+        sums_[i] += w;
+        sums_[j] += w;
+      });
   refill(tanh_, nodes.size());
+  refill(pulls_, nodes.size());
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     for (std::size_t i = 0; i < nodes.size(); ++i) tanh_[i] = std::tanh(0.5 * beliefs_[i]);
+    std::fill(pulls_.begin(), pulls_.end(), 0.0);
+    for (const Tie& tie : ties_) {
+      pulls_[tie.a] += tie.weight * tanh_[tie.b];
+      pulls_[tie.b] += tie.weight * tanh_[tie.a];
+    }
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      double sum = 0;
-      for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) {
-        sum += ties_[k].weight * tanh_[ties_[k].other];
-      }
       beliefs_[i] = nodes[i].log_odds;
-      if (sums_[i] > 0) beliefs_[i] += parameters_.coupling * sum / sums_[i];
+      if (sums_[i] > 0) beliefs_[i] += parameters_.coupling * pulls_[i] / sums_[i];
     }
   }
+  follow(nodes);
   return beliefs_;
 }
 
-int Coupling::nearest(const Vec2& place_px) const {
-  int nearest = -1;
-  double least2 = 0;
-  grid_.visit_within(place_px, parameters_.coupling_reach_px, [&](int j, double apart2) {
-    if (nearest < 0 || apart2 < least2 || (apart2 == least2 && beliefs_[j] > beliefs_[nearest])) {
-      nearest = j;
+/// How far the nearest `neighbours` and `voters` lie from each node.
+void Coupling::find_reaches() {
+  const auto neighbours = static_cast<std::size_t>(parameters_.neighbours);
+  const auto voters = static_cast<std::size_t>(parameters_.voters);
+  reach_px_.clear();
+  near_px2_.clear();
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    grid_.nearest(
+        places_[i], kInfinity_px, std::max(neighbours, voters),
+        [&](int other) { return other != static_cast<int>(i); }, found_);
+    const auto farthest2 = [&](std::size_t count) {
+      count = std::min(count, found_.size());
+      return count > 0 ? found_[count - 1].distance2 : 0;
+    };
+    reach_px_.push_back(std::sqrt(farthest2(neighbours)));
+    near_px2_.push_back(farthest2(voters));
+  }
+}
+
+/// Who tells nothing of itself is what the nearest is that does and is near; of equally near ones
+/// the likeliest to move.
+void Coupling::follow(std::span<const Node> nodes) {
+  refill(followed_, nodes.size(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].tells) continue;
+    int& followed = followed_[i];
+    double least2 = near_px2_[i];
+    grid_.visit_within(places_[i], std::sqrt(least2), [&](int j, double apart2) {
+      if (!nodes[j].tells || apart2 > near_px2_[j] || apart2 > least2) return;
+      if (followed >= 0 && apart2 == least2 && beliefs_[j] <= beliefs_[followed]) return;
       least2 = apart2;
-    }
-  });
-  return nearest;
+      followed = j;
+    });
+    if (followed >= 0) beliefs_[i] = beliefs_[followed];
+  }
 }
 
 }  // namespace lcs

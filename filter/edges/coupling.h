@@ -3,7 +3,9 @@
 ///
 ///   m_i = L_i + J sum_j w_ij tanh(m_j / 2) / sum_j w_ij,
 ///
-/// where w falls with the distance in the image and with how unlike their motions are.
+/// where w falls with how unlike their motions are and with the distance in the image, in units of
+/// r, within which the nearest `neighbours` corners lie: exp(-d^2 / 2 r_i r_j). So it is the same for
+/// any density of corners (Zelnik-Manor, Perona: Self-tuning spectral clustering, 2004).
 #pragma once
 
 #include <span>
@@ -24,29 +26,36 @@ class Coupling {
     double log_odds;
     Vec2 step_px;              ///< of a frame, rotation removed
     double step_variance_px2;  ///< on one axis
+    bool tells = true;         ///< false: seen once, so that the last three are not known
   };
 
-  /// \param noise2_px2 variance of a corner's place on an axis. \return m of each.
+  /// \param noise2_px2 variance of a corner's place on an axis.
+  /// \return m of each. A node that tells nothing has the m of the nearest that does, where each is
+  /// among the other's nearest `voters`; of equally near ones the largest. Else its own log odds.
   const std::vector<double>& settle(std::span<const Node> nodes, double noise2_px2);
 
-  /// Of the nodes last settled the nearest to a place, within their reach; of equally near ones the
-  /// likeliest to move. -1: none.
-  int nearest(const Vec2& place_px) const;
+  /// Of the nodes last settled the one that one has its m from. -1: none.
+  int followed(std::size_t node) const { return followed_[node]; }
 
  private:
-  double weight(const Node& of, const Node& other, double distance2_px2, double noise2_px2) const;
+  void find_reaches();
+  void follow(std::span<const Node> nodes);
+  double weight(int i, int j, std::span<const Node> nodes, double distance2_px2,
+                double noise2_px2) const;
 
   HypothesisParameters parameters_;
   PointGrid grid_;
   std::vector<Vec2> places_;
+  std::vector<Neighbour> found_;
+  std::vector<double> reach_px_, near_px2_;  // of each node
   struct Tie {
-    int other;
+    int a, b;
     double weight;
   };
-  std::vector<Tie> ties_;  // by node
-  std::vector<std::size_t> first_;
-  std::vector<double> sums_;
+  std::vector<Tie> ties_;
+  std::vector<double> sums_, pulls_;  // of each node: weights, and what they pull it by
   std::vector<double> tanh_, beliefs_;
+  std::vector<int> followed_;  // by each node
 };
 
 }  // namespace lcs

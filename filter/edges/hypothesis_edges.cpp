@@ -180,22 +180,21 @@ void HypothesisEdges::coast(const std::vector<IgnoreRegion>& psi, const MotionFi
 /// where none is near nobody knows, and it is not called.
 void HypothesisEdges::couple(const MotionField& field) {
   nodes_.clear();
-  edges_.clear();
+  seen_.clear();
+  const double dt = field.dt_s();
   for (Track& track : tracks_) {
-    if (track.corner < 0 || !track.has_motion()) continue;
-    edges_.push_back(&track);
-    nodes_.push_back({track.place_px, track.log_odds, track.as_moving.velocity_pxps * field.dt_s(),
-                      track.as_moving.step_variance_px2(field.dt_s())});
+    if (track.corner < 0) continue;
+    seen_.push_back(&track);
+    nodes_.push_back({track.place_px, track.log_odds, track.as_moving.velocity_pxps * dt,
+                      track.as_moving.step_variance_px2(dt), track.has_motion()});
   }
   const std::vector<double>& beliefs = coupling_.settle(nodes_, noise2_px2_);
-  for (std::size_t e = 0; e < edges_.size(); ++e) edges_[e]->belief = beliefs[e];
   followers_.clear();
-  for (Track& track : tracks_) {
-    if (track.corner < 0 || track.has_motion()) continue;
-    const int nearest = coupling_.nearest(track.place_px);
-    if (nearest < 0) continue;
-    track.belief = beliefs[nearest];
-    if (track.belief > 0) followers_.push_back({track.place_px, edges_[nearest]->id});
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    seen_[i]->belief = beliefs[i];
+    const int followed = coupling_.followed(i);
+    if (followed >= 0 && beliefs[i] > 0)
+      followers_.push_back({seen_[i]->place_px, seen_[followed]->id});
   }
 }
 

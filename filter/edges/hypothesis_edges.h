@@ -56,7 +56,7 @@ class HypothesisEdges : public EdgeExpert {
   std::vector<Track> predicted_;  // the same, in this frame
   std::vector<Residual> residuals_;
   std::vector<Coupling::Node> nodes_;
-  std::vector<Track*> edges_;  // of each node
+  std::vector<Track*> seen_;  // of each node
 };
 
 }  // namespace lcs

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "filter/detect/describe.h"
 #include "filter/detect/fast.h"
 #include "scenarios/load.h"
 #include "sim/simulation.h"
@@ -57,7 +58,9 @@ Stream::Stream(const Footage& footage, int corners) : footage_(&footage), camera
   camera_.centre_px = {0.5 * (camera_.width_px - 1), 0.5 * (camera_.height_px - 1)};
   const FastDetector detector(footage.scenario.fast_threshold);
   for (std::size_t k = 0; k < footage.images.size(); ++k) {
-    corners_px_.push_back(detector.detect(grey(k)));
+    const cv::Mat1b picture = grey(k);
+    corners_px_.push_back(detector.detect(picture));
+    signatures_.push_back(describe(picture, corners_px_.back()));
   }
 }
 

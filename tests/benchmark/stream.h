@@ -15,6 +15,7 @@
 
 #include "filter/ego_motion/ego_motion.h"
 #include "filter/kinematics/camera.h"
+#include "filter/signature.h"
 #include "scenarios/scenario.h"
 
 namespace lcs::bench {
@@ -40,6 +41,7 @@ class Stream {
   const std::vector<Eigen::Vector2f>& corners_px(std::size_t frame) const {
     return corners_px_[frame];
   }
+  const std::vector<Signature>& signatures(std::size_t frame) const { return signatures_[frame]; }
   const EgoMotion& motion(std::size_t frame) const { return footage_->motions[frame]; }
   double mean_corners() const;
 
@@ -51,6 +53,7 @@ class Stream {
   const Footage* footage_;
   Intrinsics camera_;
   std::vector<std::vector<Eigen::Vector2f>> corners_px_;
+  std::vector<std::vector<Signature>> signatures_;
 };
 
 }  // namespace lcs::bench

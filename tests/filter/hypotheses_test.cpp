@@ -424,17 +424,21 @@ Coupling::Node node(double x, double log_odds, const Vec2& step = Vec2::Zero()) 
   return {{x, 240}, log_odds, step, 0};
 }
 
-TEST(Coupling, ANodeAloneKeepsWhatItKnows) {
-  const std::vector<Coupling::Node> nodes = {node(100, 1.5), node(300, -4), node(500, 0.2)};
-  const std::vector<double> m = Coupling(kUsual).settle(nodes, kNoise2_px2);
+TEST(Coupling, ANodeThatNoneMovesLikeKeepsWhatItKnows) {
+  const std::vector<Coupling::Node> nodes = {node(100, 1.5), node(300, -4, {20, 0}),
+                                             node(500, 0.2, {-20, 0})};
+  Coupling coupling(kUsual);
+  std::vector<double> m = coupling.settle(nodes, kNoise2_px2);
   for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_EQ(m[i], nodes[i].log_odds);
+  m = coupling.settle(std::span(nodes).first(1), kNoise2_px2);
+  EXPECT_EQ(m[0], nodes[0].log_odds);
 }
 
 TEST(Coupling, OfTwoNodesIsTheSumByHand) {
   HypothesisParameters parameters = kUsual;
   parameters.coupling = 8;
   parameters.step_share = 0.1;
-  parameters.coupling_reach_px = 25;
+  parameters.neighbour_reach_px = 25;
   // Alone with each other, either counts J at the most, however far: the first is sure, so that the
   // second has -1 + 8; and the first 20 + 8 tanh(7 / 2).
   Coupling coupling(parameters);
@@ -471,18 +475,48 @@ TEST(Coupling, ASureNodeAmongAnotherMotionKeepsItsOwn) {
   for (std::size_t i = 1; i < m.size(); ++i) EXPECT_LT(m[i], -6);
 }
 
-TEST(Coupling, TheNearestNodeIsWithinReachAndOfEquallyNearOnesTheLikelierToMove) {
-  Coupling coupling(kUsual);
-  EXPECT_EQ(coupling.nearest({300, 240}), -1) << "nothing was settled yet";
-  for (const double sign : {1.0, -1.0}) {
-    coupling.settle(std::vector{node(300, 20 * sign), node(320, -20 * sign), node(700, 5)},
-                    kNoise2_px2);
-    EXPECT_EQ(coupling.nearest({309, 240}), 0);
-    EXPECT_EQ(coupling.nearest({311, 250}), 1);
-    EXPECT_EQ(coupling.nearest({310, 235}), sign > 0 ? 0 : 1);
-    EXPECT_EQ(coupling.nearest({700, 240 + kUsual.coupling_reach_px - 1}), 2);
-    EXPECT_EQ(coupling.nearest({700, 240 + kUsual.coupling_reach_px + 1}), -1);
+/// Nearer or farther, as densely as the corners lie: all is in units of that.
+TEST(Coupling, IsTheSameForAnyDensityOfCorners) {
+  Random random(7);
+  std::vector<Coupling::Node> nodes, dense;
+  for (int i = 0; i < 60; ++i) {
+    nodes.push_back({{random.uniform(0, 639), random.uniform(0, 479)},
+                     random.uniform(-5, 5),
+                     {random.uniform(-1, 1), 0},
+                     0,
+                     i % 5 > 0});
+    dense.push_back(nodes.back());
+    dense.back().place_px /= 8;
   }
+  Coupling coupling(kUsual);
+  const std::vector<double> m = coupling.settle(nodes, kNoise2_px2);
+  const std::vector<double> m_dense = coupling.settle(dense, kNoise2_px2);
+  for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_NEAR(m_dense[i], m[i], 1e-9) << i;
+}
+
+TEST(Coupling, WhoTellsNothingIsWhatTheNearestIsThatDoesOfEquallyNearOnesTheLikelierToMove) {
+  Coupling coupling(kUsual);
+  const auto silent = [](double x, double y) {
+    return Coupling::Node{{x, y}, 0, Vec2::Zero(), 0, false};
+  };
+  for (const double sign : {1.0, -1.0}) {
+    const std::vector<double> m = coupling.settle(
+        std::vector{node(300, 20 * sign, {9, 0}), node(320, -20 * sign), silent(309, 240),
+                    silent(311, 250), silent(310, 235)},
+        kNoise2_px2);
+    EXPECT_EQ(coupling.followed(0), -1) << "it knows by itself";
+    EXPECT_EQ(coupling.followed(2), 0);
+    EXPECT_EQ(coupling.followed(3), 1);
+    EXPECT_EQ(coupling.followed(4), sign > 0 ? 0 : 1);
+    for (const std::size_t i : {2, 3, 4}) EXPECT_EQ(m[i], m[coupling.followed(i)]);
+  }
+  // Many that are new and one that is none of the nearest to those farthest from it: nobody knows.
+  std::vector<Coupling::Node> nodes = {node(0, 20)};
+  for (int i = 1; i <= 2 * kUsual.voters; ++i) nodes.push_back(silent(10 * i, 240));
+  const std::vector<double> m = coupling.settle(nodes, kNoise2_px2);
+  EXPECT_EQ(coupling.followed(1), 0);
+  EXPECT_EQ(coupling.followed(nodes.size() - 1), -1);
+  EXPECT_EQ(m.back(), 0);
 }
 
 // ---- What the told motion is off by
@@ -736,7 +770,7 @@ TEST(HypothesisEdges, APatchThatCrossesIsCalledAndTheBackgroundIsNot) {
           const bool apart = std::all_of(corners.begin() + static_cast<std::ptrdiff_t>(patch),
                                          corners.end(), [&](const Vector2f& x) {
                                            return (x - corners[i]).norm() >
-                                                  static_cast<float>(2 * kUsual.coupling_reach_px);
+                                                  static_cast<float>(2 * kUsual.neighbour_reach_px);
                                          });
           EXPECT_FALSE(apart && result.verdicts[i] == Verdict::rebel) << corners[i].transpose();
         }

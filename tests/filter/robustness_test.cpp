@@ -332,7 +332,7 @@ TEST_P(BadData, TheFilterWorksAtBothEndsOfEveryRange) {
 TEST(BadDataOfAnyKind, ParametersThatAreNoNumbersAreRefused) {
   for (const double value : {kNan, kInf, -kInf, 1e300}) {
     Parameters parameters = preset("default");
-    parameters.circle.hypotheses.coupling_reach_px = value;
+    parameters.circle.hypotheses.neighbour_reach_px = value;
     EXPECT_THROW(Filter(testing::vga(), parameters), std::invalid_argument);
     parameters = preset("default");
     parameters.field.reference_depth_m = value;
