@@ -151,13 +151,15 @@ double Association::asked(std::size_t pair, double noise2_px2, double least) con
   const double variance = 4 * noise2_px2 + unlike * (x * x + y * y);
   const double ln_spread = std::log(2 * std::numbers::pi * variance);
   const auto per_px2 = static_cast<float>(-0.5 / variance);
+  const auto at_most = [&](const Voice& voice) {
+    return voice.weight * std::max(0.0, ln_likest_[voice.corner] - ln_spread);
+  };
   double most = 0;  // that those who are still to be asked may add
-  for (const Voice& voice : voices_)
-    most += voice.weight * std::max(0.0, ln_likest_[voice.corner] - ln_spread);
+  for (const Voice& voice : voices_) most += at_most(voice);
   double weight = pairs_[pair].weight;
   for (const Voice& voice : voices_) {
     if (weight + most < least) break;
-    most -= voice.weight * std::max(0.0, ln_likest_[voice.corner] - ln_spread);
+    most -= at_most(voice);
     const std::size_t first = first_[voice.corner], count = first_[voice.corner + 1] - first;
     double agrees = kNone;  // ln
     if (count > 0) {

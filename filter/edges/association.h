@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -29,7 +30,7 @@ class Association {
   const std::vector<int>& match(const Chi& chi, std::span<const Track> predicted, double noise2_px2,
                                 double dt_s);
 
-  /// Of the last match: tracks within the reach of the coupling about a corner, and itself.
+  /// Of the last match: tracks within `neighbour_reach` of a corner, and itself.
   int crowd(std::size_t corner) const { return crowd_[corner]; }
   /// Of the last match: how densely pairs that are none but look as good lie about a corner that
   /// has a track, by the tracks there and its signature; 0 without signatures.
@@ -56,11 +57,11 @@ class Association {
     double weight;
   };
 
-  /// ln of a normal density times a share, of the form that takes least time at each place.
+  /// A normal density times a share; 0 if not set.
   struct Share {
     Vec2 place_px = Vec2::Zero();
     Eigen::Matrix2d precision = Eigen::Matrix2d::Zero();
-    double ln_most = -1e300;
+    double ln_most = -std::numeric_limits<double>::infinity();
 
     void set(const Vec2& at_px, const Eigen::Matrix2d& covariance, double share);
     double ln(const Vec2& x_px) const {

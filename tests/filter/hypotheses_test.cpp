@@ -6,10 +6,12 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "filter/edges/association.h"
 #include "filter/edges/coupling.h"
+#include "filter/edges/gauss.h"
 #include "filter/edges/motion_fix.h"
 #include "filter/edges/own_motion.h"
 #include "filter/edges/static_point.h"
@@ -350,6 +352,85 @@ TEST(Association, IsOneToOne) {
       EXPECT_TRUE(taken.insert(track).second) << "track " << track << " has two corners";
     }
     EXPECT_GT(matched, 130) << "of the 155 that are seen again";
+  }
+}
+
+/// RULES.md, step 4, word by word: each pair with the votes of all neighbours.
+std::vector<int> matched_by_formula(const HypothesisParameters& parameters, const Chi& chi,
+                                    const std::vector<Track>& tracks) {
+  const double reach = parameters.max_speed_pxps * kDt_s, near = parameters.neighbour_reach_px;
+  const double t = parameters.turnover(kDt_s), anywhere = 1 / (kPi * reach * reach);
+  const auto likeness = [&](std::size_t c, const Track& track) {
+    return chi.signatures.empty()
+               ? 0
+               : parameters.bits_weight *
+                     (parameters.bits_even - distance(chi.signatures[c], track.signature));
+  };
+  const auto is_pair = [&](std::size_t c, const Track& track) {
+    return (chi.locations[c] - track.place_px).norm() <= reach && likeness(c, track) >= 0;
+  };
+  const auto clutter = [&](std::size_t c) {
+    const auto about = std::ranges::count_if(tracks, [&](const Track& track) {
+      return (chi.locations[c] - track.place_px).norm() <= near;
+    });
+    return static_cast<double>(1 + about) / (kPi * near * near);
+  };
+  std::vector<std::tuple<double, int, int>> best;  // of each corner: -weight, corner, track
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    std::vector<std::pair<double, std::size_t>> others;
+    for (std::size_t o = 0; o < chi.size(); ++o) {
+      const double apart = (chi.locations[c] - chi.locations[o]).norm();
+      if (o != c && apart <= 3 * near) others.emplace_back(apart, o);
+    }
+    std::ranges::sort(others);
+    if (others.size() > static_cast<std::size_t>(parameters.voters))
+      others.resize(static_cast<std::size_t>(parameters.voters));
+    best.emplace_back(0, static_cast<int>(c), -1);
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+      if (!is_pair(c, tracks[i])) continue;
+      const Vec2& x = chi.locations[c];
+      const double P = std::max(chance(tracks[i].belief), parameters.prior);
+      const double p = (1 - t) * ((1 - P) * tracks[i].as_static.density(x, kNoise2_px2) +
+                                  P * anywhere) +
+                       t * anywhere;
+      double weight = std::log(p / clutter(c)) + likeness(c, tracks[i]);
+      const Vec2 step = x - tracks[i].place_px;
+      const double variance =
+          4 * kNoise2_px2 + std::pow(parameters.step_share, 2) * step.squaredNorm();
+      for (const auto& [apart, o] : others) {
+        double agrees = 0;
+        for (const Track& theirs : tracks) {
+          if (!is_pair(o, theirs)) continue;
+          const Vec2 off = chi.locations[o] - theirs.place_px - step;
+          agrees = std::max(agrees, gauss(off, variance) * std::exp(likeness(o, theirs)));
+        }
+        weight += std::exp(-0.5 * apart * apart / (near * near)) *
+                  std::log(0.5 * (1 + agrees / clutter(o)));
+      }
+      best.back() = std::min(best.back(), {-weight, static_cast<int>(c), static_cast<int>(i)});
+    }
+  }
+  std::ranges::sort(best);
+  std::vector<int> track_of(chi.size(), -1);
+  std::set<int> taken;
+  for (const auto& [less, corner, track] : best) {
+    if (less < 0 && taken.insert(track).second) track_of[static_cast<std::size_t>(corner)] = track;
+  }
+  return track_of;
+}
+
+TEST(Association, IsThatOfTheFormulaThoughItStopsAsking) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Crowd crowd(seed);
+    EXPECT_EQ(match(kUsual, chi_of(crowd.corners), crowd.tracks),
+              matched_by_formula(kUsual, chi_of(crowd.corners), crowd.tracks));
+    std::vector<Signature> seen;
+    for (std::size_t i = 0; i < crowd.corners.size(); ++i)
+      seen.push_back(with_bits(static_cast<int>(7 * i % 90)));
+    for (std::size_t i = 0; i < crowd.tracks.size(); ++i)
+      crowd.tracks[i].signature = with_bits(static_cast<int>(11 * i % 120));
+    EXPECT_EQ(match(kUsual, chi_of(crowd.corners, seen), crowd.tracks),
+              matched_by_formula(kUsual, chi_of(crowd.corners, seen), crowd.tracks));
   }
 }
 
