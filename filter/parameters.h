@@ -70,12 +70,12 @@ struct HypothesisParameters {
   int coast = 3;                ///< frames that a track goes on unseen
   /// That differ where two signatures are as often of one place as of two; of more no pair is made.
   double bits_even = 77.5;
-  double bits_weight = 0.152;     ///< what each bit less counts, log odds
-  int voters = 8;                 ///< neighbours that are asked about a match
-  double step_share = 0.1;        ///< by which the steps of neighbours may differ
+  double bits_weight = 0.152;      ///< what each bit less counts, log odds
+  int voters = 8;                  ///< neighbours that are asked about a match
+  double step_share = 0.1;         ///< by which the steps of neighbours may differ
   double neighbour_reach_px = 25;  ///< px: where what a voter counts has fallen to 0.6
-  double coupling = 8;            ///< J: what those round a corner count at the most, log odds
-  int neighbours = 16;            ///< corners at whose distance that has fallen to 0.6
+  double coupling = 8;             ///< J: what those round a corner count at the most, log odds
+  int neighbours = 16;             ///< corners at whose distance that has fallen to 0.6
 };
 
 /// Circle expert: edges, alpha, circles.

@@ -55,15 +55,14 @@ void Association::expect(std::span<const Track> predicted, double noise2_px2, do
   const double anywhere = 1 / reach_area_px2(dt_s), wrong = parameters_.turnover(dt_s);
   expected_.clear();
   for (const Track& track : predicted) {
-    const double moves =
-        std::clamp(chance(track.belief), parameters_.prior, 1 - parameters_.prior);
+    const double moves = std::clamp(chance(track.belief), parameters_.prior, 1 - parameters_.prior);
     Expected& next = expected_.emplace_back();
     next.track_px = track.place_px;
     next.anywhere_ppx2 = wrong * anywhere;
     next.still.set(track.as_static.place_px, track.as_static.spread(noise2_px2),
                    (1 - wrong) * (1 - moves));
     if (track.has_motion()) {
-      next.moving.set(track.as_moving.place_px, 
+      next.moving.set(track.as_moving.place_px,
                       (track.as_moving.covariance(0, 0) + noise2_px2) * Eigen::Matrix2d::Identity(),
                       (1 - wrong) * moves);
     } else {
@@ -120,10 +119,10 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
       const Expected& track = expected_[t];
       const double still = track.still.ln(x), moving = track.moving.ln(x);
       // Far from both it is worth what it is anywhere.
-      const double ln_density = std::max(still, moving) < kNone + track.ln_anywhere
-                                    ? track.ln_anywhere
-                                    : std::log(std::exp(still) + std::exp(moving) +
-                                               track.anywhere_ppx2);
+      const double ln_density =
+          std::max(still, moving) < kNone + track.ln_anywhere
+              ? track.ln_anywhere
+              : std::log(std::exp(still) + std::exp(moving) + track.anywhere_ppx2);
       offer({ln_density + likeness, t, static_cast<float>(likeness)});
     });
     crowd_.push_back(round);

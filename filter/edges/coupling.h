@@ -4,8 +4,8 @@
 ///   m_i = L_i + J sum_j w_ij tanh(m_j / 2) / sum_j w_ij,
 ///
 /// where w falls with how unlike their motions are and with the distance in the image, in units of
-/// r, within which the nearest `neighbours` corners lie: exp(-d^2 / 2 r_i r_j). So it is the same for
-/// any density of corners (Zelnik-Manor, Perona: Self-tuning spectral clustering, 2004).
+/// r, within which the nearest `neighbours` corners lie: exp(-d^2 / 2 r_i r_j). So it is the same
+/// for any density of corners (Zelnik-Manor, Perona: Self-tuning spectral clustering, 2004).
 #pragma once
 
 #include <span>

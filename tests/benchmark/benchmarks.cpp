@@ -123,8 +123,7 @@ void filter(benchmark::State& state, const std::string& scene, int corners) {
       under_test.step(of.corners_px(k), of.signatures(k), of.motion(k));
     }
     const double s = cpu_seconds([&] {
-      const FrameResult& result =
-          under_test.step(of.corners_px(k), of.signatures(k), of.motion(k));
+      const FrameResult& result = under_test.step(of.corners_px(k), of.signatures(k), of.motion(k));
       sum.line_ms += result.times.line_ms;
       sum.circle_ms += result.times.circle_ms;
       sum.square_ms += result.times.square_ms;

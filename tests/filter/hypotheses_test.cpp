@@ -390,9 +390,9 @@ std::vector<int> matched_by_formula(const HypothesisParameters& parameters, cons
       if (!is_pair(c, tracks[i])) continue;
       const Vec2& x = chi.locations[c];
       const double P = std::max(chance(tracks[i].belief), parameters.prior);
-      const double p = (1 - t) * ((1 - P) * tracks[i].as_static.density(x, kNoise2_px2) +
-                                  P * anywhere) +
-                       t * anywhere;
+      const double p =
+          (1 - t) * ((1 - P) * tracks[i].as_static.density(x, kNoise2_px2) + P * anywhere) +
+          t * anywhere;
       double weight = std::log(p / clutter(c)) + likeness(c, tracks[i]);
       const Vec2 step = x - tracks[i].place_px;
       const double variance =
@@ -581,10 +581,10 @@ TEST(Coupling, WhoTellsNothingIsWhatTheNearestIsThatDoesOfEquallyNearOnesTheLike
     return Coupling::Node{{x, y}, 0, Vec2::Zero(), 0, false};
   };
   for (const double sign : {1.0, -1.0}) {
-    const std::vector<double> m = coupling.settle(
-        std::vector{node(300, 20 * sign, {9, 0}), node(320, -20 * sign), silent(309, 240),
-                    silent(311, 250), silent(310, 235)},
-        kNoise2_px2);
+    const std::vector<double> m =
+        coupling.settle(std::vector{node(300, 20 * sign, {9, 0}), node(320, -20 * sign),
+                                    silent(309, 240), silent(311, 250), silent(310, 235)},
+                        kNoise2_px2);
     EXPECT_EQ(coupling.followed(0), -1) << "it knows by itself";
     EXPECT_EQ(coupling.followed(2), 0);
     EXPECT_EQ(coupling.followed(3), 1);
