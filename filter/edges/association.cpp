@@ -141,7 +141,7 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
   }
 }
 
-/// Weight of a pair with what those in near_ say of it: ln of the ratio by which each bears it out,
+/// Weight of a pair with what the voices say of it: ln of the ratio by which each bears it out,
 /// being found again, or not, at even odds.
 /// \return less than `least` where it is known to come to less.
 double Association::asked(std::size_t pair, double noise2_px2, double least) const {

@@ -50,10 +50,9 @@ const std::vector<double>& Coupling::settle(std::span<const Node> nodes, double 
         sums_[j] += w;
       });
   refill(tanh_, nodes.size());
-  refill(pulls_, nodes.size());
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     for (std::size_t i = 0; i < nodes.size(); ++i) tanh_[i] = std::tanh(0.5 * beliefs_[i]);
-    std::fill(pulls_.begin(), pulls_.end(), 0.0);
+    refill(pulls_, nodes.size());
     for (const Tie& tie : ties_) {
       pulls_[tie.a] += tie.weight * tanh_[tie.b];
       pulls_[tie.b] += tie.weight * tanh_[tie.a];
