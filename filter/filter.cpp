@@ -103,7 +103,7 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
   if (parameters.line.ignore) circles.update_ignorance(layers);  // transition II
   result.times.circle_ms = lap_ms();
 
-  squares.update(layers, field, edges->followers());             // transition III
+  squares.update(layers, field);                                 // transition III
   if (parameters.line.ignore) squares.update_ignorance(layers);  // transition IV
   result.times.square_ms = lap_ms();
   return result;

@@ -87,8 +87,8 @@ struct Square {
   int circles = 0;        ///< grouped into it in this frame; 0 while it coasts
   int rebel_circles = 0;  ///< of these
   bool ignoring = false;  ///< reached Tr_m: makes a region of psi in the next frame
-  /// The convex hull of its edges and of their followers, as wide and high as the square. While
-  /// these are not seen, it moves and grows with the square. Empty for the paper's.
+  /// The convex hull of its edges, as wide and high as the square. While these are not seen, it
+  /// moves and grows with the square. Empty for the paper's.
   Outline outline;
 };
 
@@ -129,13 +129,6 @@ struct Layers {
     return normal_edges.size() + rebel_edges.size() + normal_circles.size() + rebel_circles.size() +
            squares.size();
   }
-};
-
-/// A corner that has the verdict of a rebel edge near it, and is no edge of its own: it lies on the
-/// same body, but how it moves is not yet known.
-struct Follower {
-  Vec2 location;  ///< px
-  Id edge;        ///< that it follows
 };
 
 /// What became of a corner.

@@ -4,8 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numeric>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -46,9 +44,8 @@ std::vector<Entry> own_entries() {
       {"hypotheses.bits_even", "", "", 0, 256, LCS_REAL(circle.hypotheses.bits_even), kHypotheses},
       {"hypotheses.bits_weight", "", "", 0, 100, LCS_REAL(circle.hypotheses.bits_weight),
        kHypotheses},
-      {"hypotheses.voters", "", "", 0, 1000, LCS_FIELD(int, circle.hypotheses.voters), kHypotheses},
       {"hypotheses.step_share", "", "", 0, 10, LCS_REAL(circle.hypotheses.step_share), kHypotheses},
-      {"hypotheses.neighbours", "", "", 1, 1000, LCS_FIELD(int, circle.hypotheses.neighbours),
+      {"hypotheses.neighbours", "", "", 0, 1000, LCS_FIELD(int, circle.hypotheses.neighbours),
        kHypotheses},
       {"hypotheses.coupling", "", "", 0, 1000, LCS_REAL(circle.hypotheses.coupling), kHypotheses},
       {"hypotheses.neighbour_reach", "", "px", 1, 1000,
@@ -74,32 +71,12 @@ const std::vector<Entry>& entries() {
   return table;
 }
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t above = row[j + 1];
-      row[j + 1] = std::min({above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row.back();
-}
-
 const Entry& find(std::string_view key) {
   const auto& all = entries();
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const Entry& e) { return e.key == key; });
   if (found != all.end()) return *found;
-  const auto nearest =
-      std::min_element(all.begin(), all.end(), [&](const Entry& a, const Entry& b) {
-        return edit_distance(a.key, key) < edit_distance(b.key, key);
-      });
-  throw std::invalid_argument("the filter has no parameter '" + std::string(key) +
-                              "'; the nearest is '" + nearest->key + "'");
+  throw std::invalid_argument("the filter has no parameter '" + std::string(key) + "'");
 }
 
 std::string number(double value) {

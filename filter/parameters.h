@@ -71,11 +71,10 @@ struct HypothesisParameters {
   /// That differ where two signatures are as often of one place as of two; of more no pair is made.
   double bits_even = 77.5;
   double bits_weight = 0.152;      ///< what each bit less counts, log odds
-  int voters = 8;                  ///< neighbours that are asked about a match
   double step_share = 0.1;         ///< by which the steps of neighbours may differ
   double neighbour_reach_px = 25;  ///< px: where what a voter counts has fallen to 0.6
   double coupling = 8;             ///< J: what those round a corner count at the most, log odds
-  int neighbours = 16;             ///< corners at whose distance that has fallen to 0.6
+  int neighbours = 8;              ///< nearest corners, which are asked and have a say
 };
 
 /// Circle expert: edges, alpha, circles.
@@ -110,9 +109,7 @@ Parameters preset(std::string_view name);
 std::vector<std::string> preset_names();
 
 /// Sets one parameter from text, as in set(p, "circle.mu_0", "25").
-/// \throws std::invalid_argument: unknown key (with the nearest known one), not a value of its
-/// kind,
-///   out of range.
+/// \throws std::invalid_argument: unknown key, not a value of its kind, out of range.
 void set(Parameters& parameters, std::string_view key, std::string_view value);
 
 /// \throws std::invalid_argument naming the first parameter that is out of its range, or ranks of

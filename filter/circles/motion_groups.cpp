@@ -21,8 +21,11 @@ MotionGroups::MotionGroups(const Intrinsics& camera, const CircleParameters& par
     : camera_(camera), parameters_(parameters) {}
 
 void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& field) {
+  // What the picture shows of a unit vector upwards; nothing where the camera looks straight down.
   const Vec2 up = field.ground() ? Vec2(field.ground()->up_C.head<2>()) : Vec2::Zero();
-  const UprightMetric upright(up, parameters_.upward);
+  const Vec2 axis = up.isZero() ? Vec2(Vec2::UnitY()) : up.normalized();
+  const double upward =
+      std::sqrt(1 - (1 - parameters_.upward * parameters_.upward) * up.squaredNorm());
   of_edge_.clear();
   sums_.clear();
   reach_px_.clear();
@@ -51,7 +54,7 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
     }
     sums_.emplace_back(h, value, std::hypot(sigma, parameters_.roughness * value.norm()));
     of_edge_.push_back(static_cast<int>(i));
-    points_.push_back(upright(edge.location));
+    points_.emplace_back(cross(axis, edge.location), upward * axis.dot(edge.location));
   }
   rebel_ = !edges.empty() && edges.front().rebel;
   ground_known_ = !rebel_ && field.ground().has_value();

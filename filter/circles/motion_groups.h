@@ -53,7 +53,7 @@ class MotionGroups {
   std::vector<int> of_edge_;      // of each node
   std::vector<PlaneSums> sums_;   // of each node, and of the group that a root stands for
   std::vector<double> reach_px_;  // of each node: within which another is likely of its body
-  std::vector<Vec2> points_;      // of each node, as `UprightMetric` has them
+  std::vector<Vec2> points_;      // of each node: along the horizon, and upwards
   PointGrid grid_;
   std::vector<Couple> links_;
   DisjointSets sets_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "filter/edges/gauss.h"
@@ -55,7 +54,7 @@ void Association::expect(std::span<const Track> predicted, double noise2_px2, do
   const double anywhere = 1 / reach_area_px2(dt_s), wrong = parameters_.turnover(dt_s);
   expected_.clear();
   for (const Track& track : predicted) {
-    const double moves = std::clamp(chance(track.belief), parameters_.prior, 1 - parameters_.prior);
+    const double moves = chance(track.belief);
     Expected& next = expected_.emplace_back();
     next.track_px = track.place_px;
     next.anywhere_ppx2 = wrong * anywhere;
@@ -91,11 +90,7 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
   const double near = parameters_.neighbour_reach_px;
   const bool looks = !chi.signatures.empty();
   places_.clear();
-  signatures_.clear();
-  for (const Track& track : predicted) {
-    places_.push_back(track.place_px);
-    signatures_.push_back(track.signature);
-  }
+  for (const Track& track : predicted) places_.push_back(track.place_px);
   tracks_.build(places_, std::max(20.0, reach / 2));
   pairs_.clear();
   // As many as there may ever be of so many corners, so that no later frame asks for more.
@@ -114,7 +109,8 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
     tracks_.visit_within(x, std::max(near, reach), [&](int t, double apart2) {
       round += apart2 <= near * near;
       if (apart2 > reach * reach) return;
-      const double likeness = looks ? likeness_[distance(chi.signatures[c], signatures_[t])] : 0.0;
+      const double likeness =
+          looks ? likeness_[distance(chi.signatures[c], predicted[t].signature)] : 0.0;
       if (likeness < 0) return;
       const Expected& track = expected_[t];
       const double still = track.still.ln(x), moving = track.moving.ln(x);
@@ -186,7 +182,7 @@ const std::vector<int>& Association::match(const Chi& chi, std::span<const Track
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (first_[c] == first_[c + 1]) continue;
     corners_.nearest(
-        chi.locations[c], kFar * near, static_cast<std::size_t>(parameters_.voters),
+        chi.locations[c], kFar * near, static_cast<std::size_t>(parameters_.neighbours),
         [&](int other) { return other != static_cast<int>(c); }, near_);
     voices_.clear();
     for (const Neighbour& other : near_) {

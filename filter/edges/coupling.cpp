@@ -8,11 +8,8 @@
 #include "filter/matching/refill.h"
 
 namespace lcs {
-namespace {
 
 constexpr double kInfinity_px = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 /// How much two nodes have to say to each other, the one's reach as far as the other's.
 double Coupling::weight(int i, int j, std::span<const Node> nodes, double distance2_px2,
@@ -22,8 +19,9 @@ double Coupling::weight(int i, int j, std::span<const Node> nodes, double distan
   const double longer2 = std::max(a.step_px.squaredNorm(), b.step_px.squaredNorm());
   const double variance =
       noise2_px2 + share * share * longer2 + a.step_variance_px2 + b.step_variance_px2;
-  const double exponent = distance2_px2 / (reach_px_[i] * reach_px_[j]) +
-                          (a.step_px - b.step_px).squaredNorm() / variance;
+  const double exponent =
+      distance2_px2 / (reach_px_[i] * reach_px_[i] + reach_px_[j] * reach_px_[j]) +
+      (a.step_px - b.step_px).squaredNorm() / variance;
   return exponent < kFar * kFar ? std::exp(-0.5 * exponent) : 0;
 }
 
@@ -66,40 +64,28 @@ const std::vector<double>& Coupling::settle(std::span<const Node> nodes, double 
   return beliefs_;
 }
 
-/// How far the nearest `neighbours` and `voters` lie from each node.
+/// How far the nearest `neighbours` lie from each node.
 void Coupling::find_reaches() {
-  const auto neighbours = static_cast<std::size_t>(parameters_.neighbours);
-  const auto voters = static_cast<std::size_t>(parameters_.voters);
   reach_px_.clear();
-  near_px2_.clear();
   for (std::size_t i = 0; i < places_.size(); ++i) {
     grid_.nearest(
-        places_[i], kInfinity_px, std::max(neighbours, voters),
+        places_[i], kInfinity_px, static_cast<std::size_t>(parameters_.neighbours),
         [&](int other) { return other != static_cast<int>(i); }, found_);
-    const auto farthest2 = [&](std::size_t count) {
-      count = std::min(count, found_.size());
-      return count > 0 ? found_[count - 1].distance2 : 0;
-    };
-    reach_px_.push_back(std::sqrt(farthest2(neighbours)));
-    near_px2_.push_back(farthest2(voters));
+    reach_px_.push_back(found_.empty() ? 0 : std::sqrt(found_.back().distance2));
   }
 }
 
-/// Who tells nothing of itself is what the nearest is that does and is near; of equally near ones
-/// the likeliest to move.
+/// Who tells nothing of itself is what the nearest is that does; of equally near ones the likeliest
+/// to move.
 void Coupling::follow(std::span<const Node> nodes) {
-  refill(followed_, nodes.size(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].tells) continue;
-    int& followed = followed_[i];
-    double least2 = near_px2_[i];
-    grid_.visit_within(places_[i], std::sqrt(least2), [&](int j, double apart2) {
-      if (!nodes[j].tells || apart2 > near_px2_[j] || apart2 > least2) return;
-      if (followed >= 0 && apart2 == least2 && beliefs_[j] <= beliefs_[followed]) return;
+    double least2 = kInfinity_px;
+    grid_.visit_within(places_[i], reach_px_[i], [&](int j, double apart2) {
+      if (!nodes[j].tells || apart2 > least2 || apart2 > reach_px_[j] * reach_px_[j]) return;
+      beliefs_[i] = apart2 < least2 ? beliefs_[j] : std::max(beliefs_[i], beliefs_[j]);
       least2 = apart2;
-      followed = j;
     });
-    if (followed >= 0) beliefs_[i] = beliefs_[followed];
   }
 }
 

@@ -3,9 +3,10 @@
 ///
 ///   m_i = L_i + J sum_j w_ij tanh(m_j / 2) / sum_j w_ij,
 ///
-/// where w falls with how unlike their motions are and with the distance in the image, in units of
-/// r, within which the nearest `neighbours` corners lie: exp(-d^2 / 2 r_i r_j). So it is the same
-/// for any density of corners (Zelnik-Manor, Perona: Self-tuning spectral clustering, 2004).
+/// where w falls with how unlike their motions are and with their distance in the image,
+/// exp(-d^2 / 2 (r_i^2 + r_j^2)), in units of r, within which the nearest `neighbours` lie. So it
+/// is the same for any density of corners (Zelnik-Manor, Perona: Self-tuning spectral clustering,
+/// 2004).
 #pragma once
 
 #include <span>
@@ -30,12 +31,9 @@ class Coupling {
   };
 
   /// \param noise2_px2 variance of a corner's place on an axis.
-  /// \return m of each. A node that tells nothing has the m of the nearest that does, where each is
-  /// among the other's nearest `voters`; of equally near ones the largest. Else its own log odds.
+  /// \return m of each. A node that tells nothing has the m of the nearest that does, each within
+  /// the other's r; of equally near ones the largest. Else its own log odds.
   const std::vector<double>& settle(std::span<const Node> nodes, double noise2_px2);
-
-  /// Of the nodes last settled the one that one has its m from. -1: none.
-  int followed(std::size_t node) const { return followed_[node]; }
 
  private:
   void find_reaches();
@@ -47,7 +45,7 @@ class Coupling {
   PointGrid grid_;
   std::vector<Vec2> places_;
   std::vector<Neighbour> found_;
-  std::vector<double> reach_px_, near_px2_;  // of each node
+  std::vector<double> reach_px_;  // of each node
   struct Tie {
     int a, b;
     double weight;
@@ -55,7 +53,6 @@ class Coupling {
   std::vector<Tie> ties_;
   std::vector<double> sums_, pulls_;  // of each node: weights, and what they pull it by
   std::vector<double> tanh_, beliefs_;
-  std::vector<int> followed_;  // by each node
 };
 
 }  // namespace lcs

@@ -34,9 +34,6 @@ class EdgeExpert {
   /// Forgets all that it keeps of former frames, but for the layers.
   virtual void forget() {}
 
-  /// Corners of the last chi that are rebels only because of an edge near them.
-  const std::vector<Follower>& followers() const { return followers_; }
-
   /// The reason for the verdict on each corner of the last chi.
   const std::vector<Reason>& reasons() const { return reasons_; }
 
@@ -54,7 +51,6 @@ class EdgeExpert {
   const Intrinsics camera_;
   const TrustRanks trust_;
   std::vector<Reason> reasons_;
-  std::vector<Follower> followers_;
 
  private:
   Id next_id_ = 1;

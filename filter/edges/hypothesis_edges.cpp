@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "filter/edges/gauss.h"
 #include "filter/kinematics/geometry.h"
@@ -18,7 +17,7 @@ HypothesisEdges::HypothesisEdges(const Intrinsics& camera, const CircleParameter
 
 /// The noise of this frame's corners, by what stood in those before; not less than the parameter.
 void HypothesisEdges::estimate_noise(double dt_s) {
-  const double least2 = parameters_.noise_px * parameters_.noise_px, n = parameters_.voters;
+  const double least2 = parameters_.noise_px * parameters_.noise_px, n = parameters_.neighbours;
   const double kept = dt_s > 0 ? 1 - parameters_.turnover(dt_s) : 0;
   noise_sum_px2_ *= kept;
   noise_weight_ *= kept;
@@ -189,13 +188,7 @@ void HypothesisEdges::couple(const MotionField& field) {
                       track.as_moving.step_variance_px2(dt), track.has_motion()});
   }
   const std::vector<double>& beliefs = coupling_.settle(nodes_, noise2_px2_);
-  followers_.clear();
-  for (std::size_t i = 0; i < seen_.size(); ++i) {
-    seen_[i]->belief = beliefs[i];
-    const int followed = coupling_.followed(i);
-    if (followed >= 0 && beliefs[i] > 0)
-      followers_.push_back({seen_[i]->place_px, seen_[followed]->id});
-  }
+  for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i]->belief = beliefs[i];
 }
 
 /// The paper's edge of a track.

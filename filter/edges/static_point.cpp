@@ -97,10 +97,6 @@ Eigen::Matrix2d StaticPoint::spread(double noise2_px2) const {
   return covariance.topLeftCorner<2, 2>() + noise2_px2 * Eigen::Matrix2d::Identity();
 }
 
-double StaticPoint::density(const Vec2& x_px, double noise2_px2) const {
-  return gauss(x_px - place_px, spread(noise2_px2));
-}
-
 double StaticPoint::see(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds) {
   const Eigen::Matrix2d S = spread(noise2_px2);
   const Vec2 residual = x_px - place_px;

@@ -56,10 +56,7 @@ struct StaticPoint {
   /// \return the density of a sighting just there, 1/px^2.
   double see(const Vec2& x_px, double noise2_px2, const DepthBounds& bounds);
 
-  /// Density of a sighting at `x_px` of a predicted point, 1/px^2, bounds left aside.
-  double density(const Vec2& x_px, double noise2_px2) const;
-
-  /// Of a sighting about the place, px^2.
+  /// Covariance of a sighting about the place, px^2.
   Eigen::Matrix2d spread(double noise2_px2) const;
 };
 

@@ -38,23 +38,6 @@ inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Where distances upwards count less: bodies are taller than the gaps between them are wide.
-class UprightMetric {
- public:
-  /// \param up what the picture shows of a unit vector upwards; null where that is not known, or
-  ///   the camera looks straight down, so that distances are as they are.
-  /// \param upward what a distance upwards counts beside one along the horizon.
-  UprightMetric(const Vec2& up, double upward)
-      : up_(up.isZero() ? Vec2(Vec2::UnitY()) : up.normalized()),
-        upward_(std::sqrt(1 - (1 - upward * upward) * up.squaredNorm())) {}
-  /// To coordinates along the horizon and across it, in which distances are plain.
-  Vec2 operator()(const Vec2& x) const { return {cross(up_, x), upward_ * up_.dot(x)}; }
-
- private:
-  Vec2 up_;
-  double upward_;
-};
-
 /// Distance of `x` from the segment a-b.
 inline double distance_to_segment(const Vec2& x, const Vec2& a, const Vec2& b) {
   const Vec2 ab = b - a;

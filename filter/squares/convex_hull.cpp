@@ -1,28 +1,19 @@
 #include "filter/squares/convex_hull.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <tuple>
 
+#include "filter/kinematics/geometry.h"
+
 namespace lcs {
-namespace {
 
-/// Whether the way a, b, c turns clockwise, as the picture is seen.
-bool turns(const Vec2& a, const Vec2& b, const Vec2& c) {
-  const Vec2 ab = b - a, bc = c - b;
-  return ab.x() * bc.y() - ab.y() * bc.x() > 0;
-}
-
-}  // namespace
-
-ConvexHull::Box ConvexHull::box() const {
-  Box box{points_.front(), points_.front()};
+std::pair<Vec2, Vec2> ConvexHull::box() const {
+  Vec2 low = points_.front(), high = low;
   for (const Vec2& point : points_) {
-    box.low = box.low.cwiseMin(point);
-    box.high = box.high.cwiseMax(point);
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
   }
-  return box;
+  return {low, high};
 }
 
 /// From the leftmost point along the upper side to the rightmost, and back along the lower one.
@@ -33,8 +24,10 @@ void ConvexHull::make_chain() {
   points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
   chain_.clear();
   if (chain_.capacity() < points_.size() + 1) chain_.reserve(points_.capacity() + 1);
+  // All turns are clockwise, as the picture is seen.
   const auto add = [&](const Vec2& point, std::size_t first) {
-    while (chain_.size() >= first + 2 && !turns(chain_[chain_.size() - 2], chain_.back(), point)) {
+    while (chain_.size() >= first + 2 &&
+           !(cross(chain_.back() - chain_[chain_.size() - 2], point - chain_.back()) > 0)) {
       chain_.pop_back();
     }
     chain_.push_back(point);
@@ -56,8 +49,7 @@ Outline ConvexHull::outline() {
   }
   // Going round both, the farthest vertex of one direction is the last one's or comes behind it.
   for (int k = 0; k < Outline::kMost; ++k) {
-    const double angle = std::numbers::pi * (2.0 * k / Outline::kMost - 1);
-    const Vec2 direction(std::cos(angle), std::sin(angle));
+    const Vec2 direction = unit_vector(kPi * (2.0 * k / Outline::kMost - 1));
     const Vec2& farthest = *std::max_element(
         chain_.begin(), chain_.end(),
         [&](const Vec2& a, const Vec2& b) { return a.dot(direction) < b.dot(direction); });

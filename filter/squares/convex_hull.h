@@ -2,6 +2,7 @@
 /// The outline of a square: the convex hull of where its edges are.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "filter/layers.h"
@@ -14,11 +15,8 @@ class ConvexHull {
   void clear() { points_.clear(); }
   void add(const Vec2& point) { points_.push_back(point); }
 
-  /// The corners of the box that holds all points, of which there must be some.
-  struct Box {
-    Vec2 low, high;
-  };
-  Box box() const;
+  /// The least and the largest of the box that holds all points, of which there must be some.
+  std::pair<Vec2, Vec2> box() const;
 
   /// The hull of the points, by Andrew's monotone chain: the same in whatever order they came. Of
   /// more vertices than an outline has room for it has those that reach farthest in as many

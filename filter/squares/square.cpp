@@ -31,32 +31,18 @@ void SquareExpert::feed_back(const Layers& layers, std::vector<IgnoreRegion>& ps
   }
 }
 
-/// Where the edges of circles are, and what follows them, circle by circle.
-void SquareExpert::gather(const std::vector<Edge>& edges, std::span<const Follower> followers) {
+/// Where the edges of circles are, circle by circle.
+void SquareExpert::gather(const std::vector<Edge>& edges) {
   places_.clear();
-  make_room(places_, edges.size() + followers.size());
+  make_room(places_, edges.size());
   for (const Edge& edge : edges) {
     if (edge.circle >= 0) places_.push_back({edge.circle, edge.location});
-  }
-  for (const Follower& follower : followers) {
-    // Ids rise in the lists of edges.
-    const auto edge = std::lower_bound(edges.begin(), edges.end(), follower.edge,
-                                       [](const Edge& before, Id id) { return before.id < id; });
-    if (edge == edges.end() || edge->id != follower.edge || edge->circle < 0) continue;
-    places_.push_back({edge->circle, follower.location});
   }
   std::sort(places_.begin(), places_.end(),
             [](const Place& a, const Place& b) { return a.circle < b.circle; });
 }
 
-/// Whether a circle is an object's whose box is as large.
-bool SquareExpert::is_object(const Circle& circle, const Vec2& half_size,
-                             const MotionField& field) const {
-  const double w = circle.depth_ratio / field.reference_depth_m();
-  return circle.rebel || 2 * half_size.maxCoeff() <= parameters_.max_size * camera_.focal_px * w;
-}
-
-/// The squares of circles of one kind.
+/// The squares of circles of one kind. What stands and is larger than an object is the setting.
 void SquareExpert::box(const std::vector<Circle>& circles, const std::vector<Square>& before,
                        const MotionField& field) {
   auto place = places_.begin();
@@ -83,7 +69,9 @@ void SquareExpert::box(const std::vector<Circle>& circles, const std::vector<Squ
     square.location = 0.5 * (low + high);
     square.half_size = 0.5 * (high - low);
     const Vec2 half_size = beyond(place - first) * square.half_size;
-    if (!is_object(circle, half_size, field)) continue;
+    const double size_m = 2 * half_size.maxCoeff() * field.reference_depth_m() /
+                          (circle.depth_ratio * camera_.focal_px);
+    if (!circle.rebel && size_m > parameters_.max_size) continue;
     square.outline = hull_.outline();
     lcs::place(square, square.location, half_size);
     square.origin = circle.origin;
@@ -100,17 +88,16 @@ void SquareExpert::box(const std::vector<Circle>& circles, const std::vector<Squ
   }
 }
 
-void SquareExpert::update(Layers& layers, const MotionField& field,
-                          std::span<const Follower> followers) {
+void SquareExpert::update(Layers& layers, const MotionField& field) {
   if (parameters_.layer_rule == LayerRule::couples) {
     paper_.update(layers, field);
     return;
   }
   squares_.clear();
   make_room(squares_, layers.normal_circles.size() + layers.rebel_circles.size());
-  gather(layers.normal_edges, {});
+  gather(layers.normal_edges);
   box(layers.normal_circles, layers.squares, field);
-  gather(layers.rebel_edges, followers);
+  gather(layers.rebel_edges);
   box(layers.rebel_circles, layers.squares, field);
   copy_over(squares_, layers.squares);
 }

@@ -1,9 +1,8 @@
 /// \file
-/// Square expert: circles that are objects become rectangles. By default each circle that is a
-/// body's is one, and goes on as it does; the paper's are `PaperSquares`.
+/// Square expert: circles that are objects become rectangles, by default each as wide as its body
+/// and going on as it does; the paper's are `PaperSquares`.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "filter/kinematics/motion_field.h"
@@ -25,8 +24,7 @@ class SquareExpert {
   void feed_back(const Layers& layers, std::vector<IgnoreRegion>& psi) const;
 
   /// Layers the circles and matches, estimates, makes and deletes squares.
-  /// \param followers of rebel edges, which belong to their squares.
-  void update(Layers& layers, const MotionField& field, std::span<const Follower> followers = {});
+  void update(Layers& layers, const MotionField& field);
 
   /// Squares that reached Tr_m will be ignored in the next frame, as circles are (transition IV).
   void update_ignorance(Layers& layers) const;
@@ -38,10 +36,9 @@ class SquareExpert {
     Vec2 location;
   };
 
-  void gather(const std::vector<Edge>& edges, std::span<const Follower> followers);
+  void gather(const std::vector<Edge>& edges);
   void box(const std::vector<Circle>& circles, const std::vector<Square>& before,
            const MotionField& field);
-  bool is_object(const Circle& circle, const Vec2& half_size, const MotionField& field) const;
 
   Intrinsics camera_;
   SquareParameters parameters_;

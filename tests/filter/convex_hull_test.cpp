@@ -144,7 +144,7 @@ TEST(ConvexHull, OfMoreVerticesThanThereIsRoomForItHasThoseThatReachFarthest) {
     hull.add(point);
     left = std::min(left, point.x());
   }
-  EXPECT_EQ(hull.box().low.x(), left);
+  EXPECT_EQ(hull.box().first.x(), left);
   EXPECT_EQ(outline.places[0].x(), left);
 }
 

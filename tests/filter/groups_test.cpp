@@ -59,9 +59,9 @@ struct Experts {
   CircleExpert circles{vga(), preset("default").circle};
   SquareExpert squares{vga(), preset("default").square};
 
-  void update(Layers& layers, const MotionField& field, std::span<const Follower> followers = {}) {
+  void update(Layers& layers, const MotionField& field) {
     circles.update(layers, field);
-    squares.update(layers, field, followers);
+    squares.update(layers, field);
   }
 };
 
@@ -205,25 +205,6 @@ TEST(Groups, RebelsInOneLineAreNoCircle) {
   add_rebels(layers, {100, 100}, {200, 100}, {80, 0});
   Experts().update(layers, ahead());
   EXPECT_TRUE(layers.rebel_circles.empty());
-}
-
-TEST(Groups, ARebelSquareReachesAsFarAsWhatFollowsItsEdges) {
-  Layers layers;
-  add_rebels(layers, {100, 100}, {140, 140}, {80, 0});
-  add_rebels(layers, {400, 100}, {440, 140}, {80, 0});
-  layers.rebel_edges.front().corner = -1;  // id 1
-  const Id last = layers.rebel_edges.back().id;
-  const std::size_t each = layers.rebel_edges.size() / 2;
-  // Of the second body, of an edge that is not seen, of one that is not there any more.
-  const std::vector<Follower> followers = {
-      {{430, 190}, last}, {{470, 120}, last - 3}, {{50, 50}, 1}, {{600, 400}, last + 1}};
-  Experts().update(layers, ahead(), followers);
-  const std::vector<Square>& squares = layers.squares;
-  ASSERT_EQ(squares.size(), 2u);
-  EXPECT_TRUE(squares[0].location.isApprox(Vec2(120, 120)));
-  EXPECT_TRUE(squares[0].half_size.isApprox(spanned({20, 20}, each - 1)));
-  EXPECT_TRUE(squares[1].location.isApprox(Vec2(435, 145)));
-  EXPECT_TRUE(squares[1].half_size.isApprox(spanned({35, 45}, each + 2)));
 }
 
 TEST(Groups, FewEdgesThinGroupsAndUnseenRebelsMakeNoSquare) {

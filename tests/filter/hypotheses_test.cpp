@@ -41,6 +41,11 @@ constexpr double kDt_s = 0.1;
 
 const HypothesisParameters kUsual = preset("default").circle.hypotheses;
 
+/// Of a sighting, were there no bounds on depth.
+double density(const StaticPoint& point, const Vec2& x_px, double noise2_px2) {
+  return gauss(x_px - point.place_px, point.spread(noise2_px2));
+}
+
 /// Images of a point, frame by frame, and its 1/Z in the last.
 struct Seen {
   std::vector<Vec2> places;
@@ -142,17 +147,17 @@ TEST(StaticPoint, IsLikeliestWhereItIsExpected) {
   const MotionField field(vga(), steady_motion({0.1, 0, 0.6}, {0, 0.05, 0}, kDt_s), {});
   const StaticPoint point = StaticPoint::seen_once(field.rotated({200, 150}), vga(), field,
                                                    field.displacement_C_m(), kNoise2_px2);
-  const double there = point.density(point.place_px, kNoise2_px2);
+  const double there = density(point, point.place_px, kNoise2_px2);
   for (int i = 0; i < 16; ++i) {
     const Vec2 aside(std::cos(i * 0.4), std::sin(i * 0.4));
-    const double near = point.density(point.place_px + aside, kNoise2_px2);
+    const double near = density(point, point.place_px + aside, kNoise2_px2);
     EXPECT_LT(near, there);
-    EXPECT_LT(point.density(point.place_px + 2 * aside, kNoise2_px2), near);
+    EXPECT_LT(density(point, point.place_px + 2 * aside, kNoise2_px2), near);
   }
   // A density: it sums to one. Of steps of 1 px as the noise is no finer.
   double sum = 0;
   for (int v = -80; v <= 80; ++v) {
-    for (int u = -80; u <= 80; ++u) sum += point.density(point.place_px + Vec2(u, v), kNoise2_px2);
+    for (int u = -80; u <= 80; ++u) sum += density(point, point.place_px + Vec2(u, v), kNoise2_px2);
   }
   EXPECT_NEAR(sum, 1, 0.01);
 }
@@ -175,11 +180,11 @@ TEST(StaticPoint, IsNotNearerThanItMayBeNorBehindTheGround) {
     StaticPoint point =
         StaticPoint::seen_once(px, vga(), field, field.displacement_C_m(), kNoise2_px2);
     const Vec2 x = px - Vec2(vga().focal_px * 0.1 * inverse_depth_pm, 0);
-    const double unbounded = point.density(x, kNoise2_px2);
-    const double density = point.see(x, kNoise2_px2, bounds);
+    const double unbounded = density(point, x, kNoise2_px2);
+    const double bounded = point.see(x, kNoise2_px2, bounds);
     EXPECT_GE(point.inverse_depth_pm, bounds.least_pm);
     EXPECT_LE(point.inverse_depth_pm, bounds.most_pm);
-    return density / unbounded;
+    return bounded / unbounded;
   };
   EXPECT_GT(share(0.5 * (bounds.least_pm + bounds.most_pm)), 0.99);
   // A frame shows 1/Z to 0.6 px of 42 px m, and the bounds' place in it to as much: 0.02 1/m.
@@ -383,15 +388,15 @@ std::vector<int> matched_by_formula(const HypothesisParameters& parameters, cons
       if (o != c && apart <= 3 * near) others.emplace_back(apart, o);
     }
     std::ranges::sort(others);
-    if (others.size() > static_cast<std::size_t>(parameters.voters))
-      others.resize(static_cast<std::size_t>(parameters.voters));
+    if (others.size() > static_cast<std::size_t>(parameters.neighbours))
+      others.resize(static_cast<std::size_t>(parameters.neighbours));
     best.emplace_back(0, static_cast<int>(c), -1);
     for (std::size_t i = 0; i < tracks.size(); ++i) {
       if (!is_pair(c, tracks[i])) continue;
       const Vec2& x = chi.locations[c];
-      const double P = std::max(chance(tracks[i].belief), parameters.prior);
+      const double P = chance(tracks[i].belief);
       const double p =
-          (1 - t) * ((1 - P) * tracks[i].as_static.density(x, kNoise2_px2) + P * anywhere) +
+          (1 - t) * ((1 - P) * density(tracks[i].as_static, x, kNoise2_px2) + P * anywhere) +
           t * anywhere;
       double weight = std::log(p / clutter(c)) + likeness(c, tracks[i]);
       const Vec2 step = x - tracks[i].place_px;
@@ -479,7 +484,7 @@ TEST(Association, WhatNeighboursAgreeOnGoesBeforeANearerChanceMatch) {
   const auto asked = match(parameters, chi_of(corners), tracks);
   for (int c = 0; c < 9; ++c) EXPECT_EQ(asked[c], c);
   EXPECT_EQ(asked[9], -1);
-  parameters.voters = 0;
+  parameters.neighbours = 0;
   const auto alone = match(parameters, chi_of(corners), tracks);
   EXPECT_NE(alone[0], 0);
   EXPECT_EQ(alone[9], 0) << "or the test says nothing";
@@ -530,8 +535,9 @@ TEST(Coupling, OfTwoNodesIsTheSumByHand) {
   // standard deviations, so that there is no tie.
   m = coupling.settle(std::vector{node(100, 20), node(125, -1, {6, 0})}, kNoise2_px2);
   EXPECT_EQ(m[1], -1);
-  // Between one that is sure to move, w = exp(-1/2) = 0.6065, and one as sure to stand whose step
-  // is 1 px off, w = exp(-1/2 (1 + 1 / 0.37)) = 0.1570: -1 + 8 (0.6065 - 0.1570) / 0.7636.
+  // Between one that is sure to move, w = exp(-1/2 25^2 / (50^2 + 25^2)) = 0.9048, and one as sure
+  // to stand whose step is 1 px off, w = 0.9048 exp(-1/2 / 0.37) = 0.2343:
+  // -1 + 8 (0.9048 - 0.2343) / 1.1391.
   m = coupling.settle(std::vector{node(100, 20), node(125, -1), node(150, -20, {1, 0})},
                       kNoise2_px2);
   EXPECT_NEAR(m[1], 3.7096, 1e-3);
@@ -585,18 +591,15 @@ TEST(Coupling, WhoTellsNothingIsWhatTheNearestIsThatDoesOfEquallyNearOnesTheLike
         coupling.settle(std::vector{node(300, 20 * sign, {9, 0}), node(320, -20 * sign),
                                     silent(309, 240), silent(311, 250), silent(310, 235)},
                         kNoise2_px2);
-    EXPECT_EQ(coupling.followed(0), -1) << "it knows by itself";
-    EXPECT_EQ(coupling.followed(2), 0);
-    EXPECT_EQ(coupling.followed(3), 1);
-    EXPECT_EQ(coupling.followed(4), sign > 0 ? 0 : 1);
-    for (const std::size_t i : {2, 3, 4}) EXPECT_EQ(m[i], m[coupling.followed(i)]);
+    EXPECT_EQ(m[2], m[0]);
+    EXPECT_EQ(m[3], m[1]);
+    EXPECT_EQ(m[4], std::max(m[0], m[1]));
   }
   // Many that are new and one that is none of the nearest to those farthest from it: nobody knows.
   std::vector<Coupling::Node> nodes = {node(0, 20)};
-  for (int i = 1; i <= 2 * kUsual.voters; ++i) nodes.push_back(silent(10 * i, 240));
+  for (int i = 1; i <= 2 * kUsual.neighbours; ++i) nodes.push_back(silent(10 * i, 240));
   const std::vector<double> m = coupling.settle(nodes, kNoise2_px2);
-  EXPECT_EQ(coupling.followed(1), 0);
-  EXPECT_EQ(coupling.followed(nodes.size() - 1), -1);
+  EXPECT_EQ(m[1], m[0]);
   EXPECT_EQ(m.back(), 0);
 }
 

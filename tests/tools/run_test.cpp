@@ -311,7 +311,7 @@ class Again : public Run {
 };
 
 TEST_F(Again, TheFilterSaysWhatItWouldSayInARunOfItsOwn) {
-  const char* const kSetting = "filter.hypotheses.voters=4";
+  const char* const kSetting = "filter.hypotheses.neighbours=4";
   ASSERT_EQ(approaching({"--events", "--no-video", "--out", "first"}).exit_code, 0);
   ASSERT_EQ(approaching({"--events", "--no-video", "--set", kSetting, "--out", "live"}).exit_code,
             0);

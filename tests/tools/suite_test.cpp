@@ -196,7 +196,7 @@ nlohmann::ordered_json timeless(const fs::path& file) {
 }
 
 TEST_F(Suite, OnTheFramesOfAnEarlierOneItHasTheFiguresOfOneThatSimulates) {
-  const char* const kSetting = "filter.hypotheses.voters=4";
+  const char* const kSetting = "filter.hypotheses.neighbours=4";
   scenario("near", "", 8);
   scenario("speeds", "sweep: {ego.speed: [0.1 m/s, 0.9 m/s]}\n", 8);
   ASSERT_EQ(run({"--seeds", "2", "--out", "first"}).exit_code, 0);

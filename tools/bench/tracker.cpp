@@ -6,6 +6,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "scenarios/spelling.h"
+
 namespace lcs::bench {
 
 Intrinsics intrinsics(const sim::Pinhole& camera) {
@@ -34,7 +36,15 @@ Parameters filter_parameters(const scenario::Scenario& scenario) {
   Parameters parameters = at(scenario.filter_preset_source, [&] {
     return preset(scenario.filter_preset.empty() ? "default" : scenario.filter_preset);
   });
+  std::vector<std::string> known;
+  for (const ParameterInfo& info : describe(parameters)) known.push_back(info.key);
   for (const scenario::FilterSetting& setting : scenario.filter) {
+    if (std::find(known.begin(), known.end(), setting.key) == known.end()) {
+      throw scenario::Error(
+          setting.source,
+          fmt::format("the filter has no parameter '{}'; the nearest is '{}'", setting.key,
+                      scenario::nearest_first(setting.key, known).front()));
+    }
     at(setting.source, [&] { set(parameters, setting.key, setting.value); });
   }
   // Each value is in its range by now; together they may still make no sense.
