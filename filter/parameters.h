@@ -74,7 +74,7 @@ struct HypothesisParameters {
   double step_share = 0.1;         ///< by which the steps of neighbours may differ
   double neighbour_reach_px = 25;  ///< px: where what a voter counts has fallen to 0.6
   double coupling = 8;             ///< J: what those round a corner count at the most, log odds
-  int neighbours = 8;              ///< nearest corners, which are asked and have a say
+  int neighbours = 9;              ///< nearest corners, which are asked and have a say
 };
 
 /// Circle expert: edges, alpha, circles.
