@@ -90,7 +90,11 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
   const double near = parameters_.neighbour_reach_px;
   const bool looks = !chi.signatures.empty();
   places_.clear();
-  for (const Track& track : predicted) places_.push_back(track.place_px);
+  signatures_.clear();
+  for (const Track& track : predicted) {
+    places_.push_back(track.place_px);
+    signatures_.push_back(track.signature);
+  }
   tracks_.build(places_, std::max(20.0, reach / 2));
   pairs_.clear();
   // As many as there may ever be of so many corners, so that no later frame asks for more.
@@ -109,8 +113,7 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
     tracks_.visit_within(x, std::max(near, reach), [&](int t, double apart2) {
       round += apart2 <= near * near;
       if (apart2 > reach * reach) return;
-      const double likeness =
-          looks ? likeness_[distance(chi.signatures[c], predicted[t].signature)] : 0.0;
+      const double likeness = looks ? likeness_[distance(chi.signatures[c], signatures_[t])] : 0.0;
       if (likeness < 0) return;
       const Expected& track = expected_[t];
       const double still = track.still.ln(x), moving = track.moving.ln(x);

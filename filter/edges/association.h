@@ -89,6 +89,7 @@ class Association {
   // Of the current frame; kept for their memory.
   PointGrid tracks_, corners_;
   std::vector<Vec2> places_;
+  std::vector<Signature> signatures_;             // of the tracks
   std::vector<Expected> expected_;                // of the tracks
   std::vector<Pair> pairs_;                       // by corner
   std::vector<std::size_t> first_;                // of each corner's

@@ -5,8 +5,7 @@
 /// 1. Tracks are predicted under both, and corners matched to them (`Association`). 2. Each
 /// sighting adds ln p(x | moves) / p(x | stands) to the track's log odds. 3. Neighbouring corners
 /// count, too (`Coupling`); for corners without a track they alone do. 4. A track that is likelier
-/// to move is a rebel edge, any other a normal one; its trust follows
-///    from how sure that is.
+/// to move is a rebel edge, any other a normal one; its trust follows from how sure that is.
 #pragma once
 
 #include <vector>

@@ -20,8 +20,7 @@ struct Residual {
   double inverse_depth_pm = 0, inverse_depth_variance_pm2 = 0;
   double voice = 1;   ///< what it counts for: those of one body are off together
   double stands = 1;  ///< chance that the point is static
-  double otherwise_ppx2 =
-      0;  ///< density of the corner there if it does not, times the chance of it
+  double otherwise_ppx2 = 0;  ///< density of the corner there if not, times the chance of it
 };
 
 /// To be added to a motion, in the camera frame of k.

@@ -21,8 +21,7 @@ class ImuWatch {
   struct Finding {
     bool believed = true;    ///< it measures: it is neither frozen nor saturated
     double accel_scale = 1;  ///< to m/s^2
-    bool begins_in_g =
-        false;  ///< this reading settled it, and the `kInG` before it were not scaled
+    bool begins_in_g = false;  ///< this reading settles it; the `kInG` before it were not scaled
   };
   /// Of a finite reading, in order.
   Finding look(const Eigen::Vector3d& gyro_radps, const Eigen::Vector3d& accel_mps2,

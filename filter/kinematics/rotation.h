@@ -1,6 +1,5 @@
 /// \file
-/// Rotations and the vectors that they are made of: about the vector's direction by its length,
-/// rad.
+/// Rotations, and the vectors that make them: about the vector's direction by its length, rad.
 #pragma once
 
 #include <Eigen/Core>
