@@ -18,8 +18,8 @@ struct Residual {
   Vec2 place_px, off_px;
   Eigen::Matrix2d covariance_px2;  ///< of the latter, whatever its depth
   double inverse_depth_pm = 0, inverse_depth_variance_pm2 = 0;
-  double voice = 1;   ///< what it counts for: those of one body are off together
-  double stands = 1;  ///< chance that the point is static
+  double voice = 1;           ///< what it counts for: those of one body are off together
+  double stands = 1;          ///< chance that the point is static
   double otherwise_ppx2 = 0;  ///< density of the corner there if not, times the chance of it
 };
 
