@@ -11,7 +11,7 @@ namespace lcs {
 
 constexpr double kInfinity_px = std::numeric_limits<double>::infinity();
 
-/// How much two nodes have to say to each other, the one's reach as far as the other's.
+/// How much two nodes have to say to each other, whose reaches add as variances do.
 double Coupling::weight(int i, int j, std::span<const Node> nodes, double distance2_px2,
                         double noise2_px2) const {
   const Node &a = nodes[i], &b = nodes[j];
