@@ -27,7 +27,7 @@ void HypothesisEdges::estimate_noise(double dt_s) {
 }
 
 void HypothesisEdges::predict(Layers&, const MotionField& told) {
-  velocity_error_.advance(told);
+  velocity_error_.advance(told, 1 - parameters_.turnover(told.dt_s()));
   predict_tracks(velocity_error_.without(told));
 }
 

@@ -66,10 +66,10 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
   return {fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>()};
 }
 
-void VelocityError::advance(const MotionField& told) {
+void VelocityError::advance(const MotionField& told, double lasts) {
   const double sigma = told.velocity_sigma_mps();
   // What is left of the last frame's error; its variance is what is told all the while.
-  const double kept = told_sigma_mps_ > 0 ? std::min(1.0, sigma / told_sigma_mps_) : 0;
+  const double kept = told_sigma_mps_ > 0 ? lasts * std::min(1.0, sigma / told_sigma_mps_) : 0;
   const double fresh2 = sigma * sigma - kept * kept * told_sigma_mps_ * told_sigma_mps_;
   const Eigen::Matrix3d F = kept * told.R_cur_prev();
   lasting_mps_ = F * lasting_mps_;

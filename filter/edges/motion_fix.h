@@ -42,7 +42,8 @@ class VelocityError {
   explicit VelocityError(double ego_share) : ego_share_(ego_share) {}
 
   /// To the next frame.
-  void advance(const MotionField& told);
+  /// \param lasts share of the lasting error that is still the same.
+  void advance(const MotionField& told, double lasts);
 
   /// The told field, corrected by the lasting error as far as that is known.
   MotionField without(const MotionField& told) const;
