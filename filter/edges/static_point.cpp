@@ -79,15 +79,20 @@ StaticPoint StaticPoint::predicted(const Intrinsics& camera, const MotionField& 
   const Vec2 shift = camera.focal_px * d.head<2>();
   const Vec2 rotated = field.rotated(place_px);
   const Vec2 h = rotated - camera.centre_px;
+  const Eigen::Vector3d ray((place_px.x() - camera.centre_px.x()) / camera.focal_px,
+                            (place_px.y() - camera.centre_px.y()) / camera.focal_px, 1);
   // What the camera passes within a frame comes as near as anything may be.
-  const double nearing =
-      std::max(inverse_depth_pm / nearest_pm(field), 1 - inverse_depth_pm * d.z());
+  const double nearest = nearest_pm(field);
+  const double turned =
+      std::max(inverse_depth_pm / nearest, field.R_cur_prev().row(2).dot(ray));
+  const double w = inverse_depth_pm / turned;
+  const double nearing = std::max(w / nearest, 1 - w * d.z());
   StaticPoint next;
-  next.place_px = camera.centre_px + (h - inverse_depth_pm * shift) / nearing;
-  next.inverse_depth_pm = inverse_depth_pm / nearing;
+  next.place_px = camera.centre_px + (h - w * shift) / nearing;
+  next.inverse_depth_pm = w / nearing;
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity() / nearing;
-  F.topRightCorner<2, 1>() = (h * d.z() - shift) / (nearing * nearing);
-  F(2, 2) /= nearing;
+  F.topRightCorner<2, 1>() = (h * d.z() - shift) / (nearing * nearing * turned);
+  F(2, 2) /= nearing * turned;
   next.covariance = F * covariance * F.transpose();
   next.covariance.topLeftCorner<2, 2>() += wrong_flow(next.place_px - rotated, ego_share);
   return next;

@@ -2,11 +2,11 @@
 /// A corner as a static point: its place in the image and its inverse depth, with their covariance.
 /// The state (x, y, w), w = 1/Z, goes from frame to frame as the camera's motion says,
 ///
-///   x' = c + (x_r - c - f w d_xy) / (1 - w d_z),   w' = w / (1 - w d_z),
+///   x' = c + (x_r - c - f w_r d_xy) / (1 - w_r d_z),   w' = w_r / (1 - w_r d_z),
 ///
-/// where x_r is x after the rotation and d the camera's displacement in its own frame, and takes
-/// each sighting as an extended Kalman filter does. No point is nearer than z_min, nor behind the
-/// ground that is seen there.
+/// where x_r and w_r = w / (R_3 (h, 1)), h = (x - c) / f, are those after the rotation R, and d the
+/// camera's displacement in its own frame, and takes each sighting as an extended Kalman filter
+/// does. No point is nearer than z_min, nor behind the ground that is seen there.
 #pragma once
 
 #include <Eigen/Core>
