@@ -65,7 +65,7 @@ struct HypothesisParameters {
   double turnover_ps = 1;
   /// The share of it in a frame.
   double turnover(double dt_s) const { return std::min(0.5, turnover_ps * dt_s); }
-  double ego_share = 0.02;      ///< of the image motion by which the camera's velocity may be wrong
+  double ego_share = 0.02;      ///< of its speed, by which the camera's velocity may be wrong
   double max_speed_pxps = 900;  ///< px/s: the fastest that a mover is looked for, rotation removed
   int coast = 3;                ///< frames that a track goes on unseen
   /// That differ where two signatures are as often of one place as of two; of more no pair is made.

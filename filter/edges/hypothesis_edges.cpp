@@ -70,7 +70,7 @@ MotionFix HypothesisEdges::fix(const MotionField& told, const Chi& chi,
                           1.0 / association_.crowd(c), 1 - moves,
                           moves * track.as_moving.density(x, noise2_px2_) + anywhere});
   }
-  return motion_fix(camera_, told, residuals_, velocity_error_.covariance(told));
+  return motion_fix(camera_, told, residuals_, velocity_error_.covariance());
 }
 
 Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner) {
@@ -259,7 +259,7 @@ void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& 
   MotionField field = velocity_error_.without(told);
   if (!predicted_.empty()) {
     const MotionFix off = fix(field, chi, track_of);
-    velocity_error_.see(off, field);
+    velocity_error_.see(off);
     field = field.corrected(off.turn_rad, off.velocity_mps);
     predict_tracks(field);
   }

@@ -67,33 +67,24 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
 }
 
 void VelocityError::advance(const MotionField& told, double lasts) {
-  const double sigma = told.velocity_sigma_mps();
-  // What is left of the last frame's error; its variance is what is told all the while.
-  const double kept = told_sigma_mps_ > 0 ? lasts * std::min(1.0, sigma / told_sigma_mps_) : 0;
-  const double fresh2 = sigma * sigma - kept * kept * told_sigma_mps_ * told_sigma_mps_;
+  if (!(told.dt_s() > 0)) return forget();
+  const double speed_mps = told.displacement_C_m().norm() / told.dt_s();
+  const double sigma = std::hypot(told.velocity_sigma_mps(), share_ * speed_mps);
+  const double kept = sigma_mps_ > 0 ? lasts * std::min(1.0, sigma / sigma_mps_) : 0;
   const Eigen::Matrix3d F = kept * told.R_cur_prev();
-  lasting_mps_ = F * lasting_mps_;
-  lasting_covariance_ = F * lasting_covariance_ * F.transpose();
-  lasting_covariance_.diagonal().array() += fresh2;
-  told_sigma_mps_ = sigma;
+  mean_mps_ = F * mean_mps_;
+  covariance_ = F * covariance_ * F.transpose();
+  covariance_.diagonal().array() += sigma * sigma - kept * kept * sigma_mps_ * sigma_mps_;
+  sigma_mps_ = sigma;
 }
 
 MotionField VelocityError::without(const MotionField& told) const {
-  return told.corrected(Eigen::Vector3d::Zero(), lasting_mps_);
+  return told.corrected(Eigen::Vector3d::Zero(), mean_mps_);
 }
 
-Eigen::Matrix3d VelocityError::covariance(const MotionField& field) const {
-  const double drift = ego_share_ * field.displacement_C_m().norm() / field.dt_s();
-  Eigen::Matrix3d both = lasting_covariance_;
-  both.diagonal().array() += drift * drift;
-  return both;
-}
-
-void VelocityError::see(const MotionFix& fix, const MotionField& field) {
-  const Eigen::Matrix3d both = covariance(field);
-  const Eigen::Matrix3d share = both.ldlt().solve(lasting_covariance_).transpose();
-  lasting_mps_ += share * fix.velocity_mps;
-  lasting_covariance_ -= share * (both - fix.velocity_covariance) * share.transpose();
+void VelocityError::see(const MotionFix& fix) {
+  mean_mps_ += fix.velocity_mps;
+  covariance_ = fix.velocity_covariance;
 }
 
 }  // namespace lcs

@@ -34,34 +34,34 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
                      std::span<const Residual> residuals,
                      const Eigen::Matrix3d& velocity_covariance);
 
-/// The error of the told velocity: one that lasts, as large as the estimator says
-/// (`EgoMotion::velocity_sigma_mps`), and one of each frame by itself.
+/// The error of the told velocity. All the while it is as large as the estimator says
+/// (`EgoMotion::velocity_sigma_mps`) and a share of the speed; most of it lasts.
 class VelocityError {
  public:
-  /// \param ego_share of its speed by which the camera's velocity may be wrong in a frame.
-  explicit VelocityError(double ego_share) : ego_share_(ego_share) {}
+  /// \param share of its speed by which the camera's velocity may be wrong.
+  explicit VelocityError(double share) : share_(share) {}
 
   /// To the next frame.
-  /// \param lasts share of the lasting error that is still the same.
+  /// \param lasts share of the error that is still the same.
   void advance(const MotionField& told, double lasts);
 
-  /// The told field, corrected by the lasting error as far as that is known.
+  /// The told field, corrected by the error as far as that is known.
   MotionField without(const MotionField& told) const;
 
-  /// (m/s)^2: covariance of the error that is left in that field's velocity.
-  Eigen::Matrix3d covariance(const MotionField& field) const;
+  /// (m/s)^2: of the error that is left in that field's velocity.
+  const Eigen::Matrix3d& covariance() const { return covariance_; }
 
   /// Updates the estimate by the error of that field.
-  void see(const MotionFix& fix, const MotionField& field);
+  void see(const MotionFix& fix);
 
-  void forget() { *this = VelocityError(ego_share_); }
+  void forget() { *this = VelocityError(share_); }
 
  private:
-  double ego_share_;
-  // Of the error that lasts, in the camera frame of k.
-  Eigen::Vector3d lasting_mps_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d lasting_covariance_ = Eigen::Matrix3d::Zero();
-  double told_sigma_mps_ = 0;  // in the last frame
+  double share_;
+  // In the camera frame of k.
+  Eigen::Vector3d mean_mps_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
+  double sigma_mps_ = 0;  // of the whole error, in the last frame
 };
 
 }  // namespace lcs
