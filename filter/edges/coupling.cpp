@@ -11,6 +11,9 @@ namespace lcs {
 
 constexpr double kInfinity_px = std::numeric_limits<double>::infinity();
 
+/// b: what a neighbour has to say that is as far as any.
+const double kBeyond = std::exp(-0.5 * kFar * kFar);
+
 /// How much two nodes have to say to each other, whose reaches add as variances do.
 double Coupling::weight(int i, int j, std::span<const Node> nodes, double distance2_px2,
                         double noise2_px2) const {
@@ -57,7 +60,8 @@ const std::vector<double>& Coupling::settle(std::span<const Node> nodes, double 
     }
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       beliefs_[i] = nodes[i].log_odds;
-      if (sums_[i] > 0) beliefs_[i] += parameters_.coupling * pulls_[i] / sums_[i];
+      if (!nodes[i].tells) continue;
+      beliefs_[i] += parameters_.coupling * (pulls_[i] - kBeyond) / (sums_[i] + kBeyond);
     }
   }
   follow(nodes);

@@ -1,12 +1,13 @@
 /// \file
 /// Lets neighbouring corners support each other: their log odds are coupled as in a mean field,
 ///
-///   m_i = L_i + J sum_j w_ij tanh(m_j / 2) / sum_j w_ij,
+///   m_i = L_i + J [sum_j w_ij tanh(m_j / 2) - b] / [sum_j w_ij + b],
 ///
 /// where w falls with how unlike their motions are and with their distance in the image,
 /// exp(-d^2 / 2 (r_i^2 + r_j^2)), in units of r, within which the nearest `neighbours` lie. So it
 /// is the same for any density of corners (Zelnik-Manor, Perona: Self-tuning spectral clustering,
-/// 2004).
+/// 2004). b is what a neighbour counts that is as far as any, and stands, as the world does: what
+/// moves like nothing round it is rather a chance than a body.
 #pragma once
 
 #include <span>
