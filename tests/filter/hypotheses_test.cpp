@@ -238,6 +238,21 @@ TEST(StaticPoint, IsFiniteWhereTheCameraGoesThroughIt) {
   }
 }
 
+TEST(StaticPoint, IsFiniteWhereTheCameraTurnsAway) {
+  const MotionField field(vga(), steady_motion({0.1, 0, 0.5}, {0, 20, 0}, kDt_s), {});
+  for (const double inverse_depth_pm : {0.0, 1e-300, 0.5}) {
+    for (const double x_px : {-1e4, 0.0, 250.0, 1e4}) {
+      StaticPoint point;
+      point.place_px = {x_px, 200};
+      point.inverse_depth_pm = inverse_depth_pm;
+      point.covariance.setIdentity();
+      for (int k = 0; k < 5; ++k) point = point.predicted(vga(), field, kUsual.ego_share);
+      EXPECT_TRUE(std::isfinite(point.inverse_depth_pm)) << inverse_depth_pm << " at " << x_px;
+      EXPECT_TRUE(point.place_px.allFinite() && point.covariance.allFinite());
+    }
+  }
+}
+
 // ---- A motion of its own
 
 /// Without acceleration it is the line through all sightings.
