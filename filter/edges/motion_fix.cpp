@@ -78,13 +78,4 @@ void VelocityError::advance(const MotionField& told, double lasts) {
   sigma_mps_ = sigma;
 }
 
-MotionField VelocityError::without(const MotionField& told) const {
-  return told.corrected(Eigen::Vector3d::Zero(), mean_mps_);
-}
-
-void VelocityError::see(const MotionFix& fix) {
-  mean_mps_ += fix.velocity_mps;
-  covariance_ = fix.velocity_covariance;
-}
-
 }  // namespace lcs

@@ -46,13 +46,18 @@ class VelocityError {
   void advance(const MotionField& told, double lasts);
 
   /// The told field, corrected by the error as far as that is known.
-  MotionField without(const MotionField& told) const;
+  MotionField without(const MotionField& told) const {
+    return told.corrected(Eigen::Vector3d::Zero(), mean_mps_);
+  }
 
   /// (m/s)^2: of the error that is left in that field's velocity.
   const Eigen::Matrix3d& covariance() const { return covariance_; }
 
   /// Updates the estimate by the error of that field.
-  void see(const MotionFix& fix);
+  void see(const MotionFix& fix) {
+    mean_mps_ += fix.velocity_mps;
+    covariance_ = fix.velocity_covariance;
+  }
 
   void forget() { *this = VelocityError(share_); }
 

@@ -79,12 +79,11 @@ StaticPoint StaticPoint::predicted(const Intrinsics& camera, const MotionField& 
   const Vec2 shift = camera.focal_px * d.head<2>();
   const Vec2 rotated = field.rotated(place_px);
   const Vec2 h = rotated - camera.centre_px;
-  const Eigen::Vector3d ray((place_px.x() - camera.centre_px.x()) / camera.focal_px,
-                            (place_px.y() - camera.centre_px.y()) / camera.focal_px, 1);
-  // What the camera passes within a frame comes as near as anything may be; what is turned behind it
-  // has no image, and stays where it was.
+  // What the camera passes within a frame comes as near as anything may be; what is turned behind
+  // it has no image, and stays where it was.
   const double nearest = nearest_pm(field);
-  const double Z = field.R_cur_prev().row(2).dot(ray);  // after the rotation, in Z before
+  const Vec2 before = (place_px - camera.centre_px) / camera.focal_px;
+  const double Z = field.R_cur_prev().row(2).dot(before.homogeneous());  // in Z before the rotation
   const double turned = Z > 0 ? std::max(inverse_depth_pm / nearest, Z) : 1;
   const double w = inverse_depth_pm / turned;
   const double nearing = std::max(w / nearest, 1 - w * d.z());

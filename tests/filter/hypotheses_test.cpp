@@ -79,10 +79,10 @@ TEST(StaticPoint, LearnsTheDepthOfWhatItSeesWhateverTheMotion) {
   struct Drive {
     Vector3d v_mps, w_radps;
   };
-  for (const Drive& drive : {Drive{{0.5, 0, 0}, {0, 0, 0}}, Drive{{0, 0, 0.8}, {0, 0, 0}},
-                             Drive{{0, 0, -0.8}, {0, 0, 0}}, Drive{{0.1, -0.3, 0.6}, {0, 0, 0}},
-                             Drive{{0.1, 0, 0.8}, {0.02, -0.05, 0.1}},
-                             Drive{{0.2, 0, 0.4}, {0, -0.3, 0}}}) {
+  for (const Drive& drive :
+       {Drive{{0.5, 0, 0}, {0, 0, 0}}, Drive{{0, 0, 0.8}, {0, 0, 0}},
+        Drive{{0, 0, -0.8}, {0, 0, 0}}, Drive{{0.1, -0.3, 0.6}, {0, 0, 0}},
+        Drive{{0.1, 0, 0.8}, {0.02, -0.05, 0.1}}, Drive{{0.2, 0, 0.4}, {0, -0.3, 0}}}) {
     const EgoMotion motion = steady_motion(drive.v_mps, drive.w_radps, kDt_s);
     const MotionField field(vga(), motion, {});
     for (const Vec2& px : {Vec2(180, 130), Vec2(430, 330)}) {
@@ -550,10 +550,10 @@ TEST(Coupling, OfTwoNodesIsTheSumByHand) {
   parameters.coupling = 8;
   parameters.step_share = 0.1;
   parameters.neighbour_reach_px = 25;
-  // Either is at the rim of the other's reach, w = exp(-1/2 25^2 / (25^2 + 25^2)) = 0.7788, and what
-  // is beyond counts for exp(-1/2 3^2) = 0.0111, a share of 0.0281 against both: the first is sure,
-  // so that the second has -1 + 8 (1 - 0.0281), and the first 20 + 8 (0.9859 tanh(6.775 / 2) -
-  // 0.0141).
+  // Either is at the rim of the other's reach, w = exp(-1/2 25^2 / (25^2 + 25^2)) = 0.7788, and
+  // what is beyond counts for exp(-1/2 3^2) = 0.0111, a share of 0.0281 against both: the first is
+  // sure, so that the second has -1 + 8 (1 - 0.0281), and the first 20 + 8 (0.9859 tanh(6.775 / 2)
+  // - 0.0141).
   Coupling coupling(parameters);
   std::vector<double> m = coupling.settle(std::vector{node(100, 20), node(125, -1)}, kNoise2_px2);
   EXPECT_NEAR(m[0], 27.7570, 1e-3);
