@@ -1,6 +1,5 @@
 #include "filter/edges/motion_fix.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

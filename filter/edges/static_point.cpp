@@ -1,5 +1,6 @@
 #include "filter/edges/static_point.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
