@@ -54,21 +54,24 @@ void HypothesisEdges::predict_tracks(const MotionField& field) {
 MotionFix HypothesisEdges::fix(const MotionField& told, const Chi& chi,
                                const std::vector<int>& track_of) {
   residuals_.clear();
+  const bool started = std::ranges::any_of(predicted_, &Track::has_motion);
   const double anywhere = 1 / association_.reach_area_px2(told.dt_s());
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (track_of[c] < 0) continue;
     const Track& track = predicted_[track_of[c]];
-    if (!track.has_motion()) continue;
+    if (started && !track.has_motion()) continue;
     const Vec2& x = chi.locations[c];
     const StaticPoint& point = track.as_static;
+    StaticPoint seen = point;
+    if (!started) seen.see(x, noise2_px2_, depth_bounds(told, x));
     const Vec2 by_depth = depth_bounds(told, point.place_px).half_pm() *
                           parallax_px_m(camera_, told.displacement_C_m(), point.place_px);
     const double moves = chance(track.belief);
+    const double moving = started ? track.as_moving.density(x, noise2_px2_) : anywhere;
     residuals_.push_back({point.place_px, x - point.place_px,
                           point.spread(noise2_px2_) + by_depth * by_depth.transpose(),
-                          point.inverse_depth_pm, point.covariance(2, 2),
-                          1.0 / association_.crowd(c), 1 - moves,
-                          moves * track.as_moving.density(x, noise2_px2_) + anywhere});
+                          seen.inverse_depth_pm, seen.covariance(2, 2),
+                          1.0 / association_.crowd(c), 1 - moves, moves * moving + anywhere});
   }
   return motion_fix(camera_, told, residuals_, velocity_error_.covariance());
 }
