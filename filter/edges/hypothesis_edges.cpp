@@ -70,8 +70,8 @@ MotionFix HypothesisEdges::fix(const MotionField& told, const Chi& chi,
     const double moving = started ? track.as_moving.density(x, noise2_px2_) : anywhere;
     residuals_.push_back({point.place_px, x - point.place_px,
                           point.spread(noise2_px2_) + by_depth * by_depth.transpose(),
-                          seen.inverse_depth_pm, seen.covariance(2, 2),
-                          1.0 / association_.crowd(c), 1 - moves, moves * moving + anywhere});
+                          seen.inverse_depth_pm, seen.covariance(2, 2), 1.0 / association_.crowd(c),
+                          1 - moves, moves * moving + anywhere});
   }
   return motion_fix(camera_, told, residuals_, velocity_error_.covariance());
 }

@@ -45,6 +45,7 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     Matrix6 information = Matrix6::Zero();
     Vector6 pull = Vector6::Zero();
+    double weights = 0, misfit = 0;
     for (const Residual& residual : residuals) {
       const Eigen::Matrix<double, 2, 6> J = jacobian(camera, residual, dt);
       // How far a change of velocity moves a point is as uncertain as its depth.
@@ -53,14 +54,17 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
                               residual.inverse_depth_variance_pm2;
       const Vec2 left = residual.off_px - J * fix;
       const double stands = residual.stands * gauss(left, S + J * covariance * J.transpose());
-      const Eigen::Matrix<double, 6, 2> weighed = residual.voice * stands /
-                                                  (stands + residual.otherwise_ppx2) *
-                                                  J.transpose() * S.inverse();
-      information += weighed * J;
-      pull += weighed * residual.off_px;
+      const double weight = residual.voice * stands / (stands + residual.otherwise_ppx2);
+      const Eigen::Matrix2d precision = weight * S.inverse();
+      information += J.transpose() * precision * J;
+      pull += J.transpose() * precision * residual.off_px;
+      misfit += residual.off_px.dot(precision * residual.off_px);
+      weights += 2 * weight;
     }
     covariance = (Matrix6::Identity() + prior * information).inverse() * prior;
     fix = covariance * pull;
+    misfit += fix.dot(information * fix - 2 * pull);
+    if (misfit > weights) covariance *= misfit / weights;
   }
   return {fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>()};
 }

@@ -80,6 +80,10 @@ void check(const Mounting& mounting, const EgoMotionNoise& noise,
 
 }  // namespace
 
+double unseen_turn_rad(double dt_s) {
+  return kUnseenTurn * std::sqrt(dt_s);
+}
+
 EgoMotionEstimator::EgoMotionEstimator(const Mounting& mounting, const EgoMotionNoise& noise,
                                        const Start& start)
     : mounting_(mounting),

@@ -46,6 +46,9 @@ struct EgoMotion {
   std::optional<Ground> ground;
 };
 
+/// Standard deviation of a turn, about any axis, where for so long no gyro tells of it.
+double unseen_turn_rad(double dt_s);
+
 /// Rotations (only) of the sensors, and their lever arms, in the rover's frame B.
 struct Mounting {
   Eigen::Matrix3d R_BC = Eigen::Matrix3d::Identity();

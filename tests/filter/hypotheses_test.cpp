@@ -638,9 +638,9 @@ struct Misled {
   MotionField told, truth;
   std::vector<Residual> residuals;
 
-  Misled(const Vector3d& turn, const Vector3d& velocity, int points, Random& random)
-      : told(vga(), steady_motion({0, 0, 1}, {0, 0.1, 0}, kDt_s), {}),
-        truth(told.corrected(turn, velocity)) {
+  Misled(const Vector3d& turn, const Vector3d& velocity, int points, Random& random,
+         double unseen_turn_rad = 0)
+      : told(vga(), ahead_and_aside(unseen_turn_rad), {}), truth(told.corrected(turn, velocity)) {
     for (int i = 0; i < points; ++i) {
       const Vec2 before(random.uniform(0, 639), random.uniform(0, 479));
       const double ratio = told.reference_depth_m() / random.uniform(2, 10);
@@ -652,6 +652,12 @@ struct Misled {
            kNoise2_px2 * Eigen::Matrix2d::Identity() + by_depth * by_depth.transpose(),
            ratio / told.reference_depth_m(), 1e-4, 0.05, 0.97, 1e-6});
     }
+  }
+
+  static EgoMotion ahead_and_aside(double unseen_turn_rad) {
+    EgoMotion motion = steady_motion({0, 0, 1}, {0, 0.1, 0}, kDt_s);
+    motion.unseen_turn_rad = unseen_turn_rad;
+    return motion;
   }
 
   /// px: the most that a field differs from the true one across the parallax.
@@ -686,6 +692,21 @@ TEST(MotionFix, FindsWhatTheToldMotionIsOffByAmongWrongMatches) {
     // The worst of 200 places. A turn and a velocity aside look alike where depths are, and each
     // residual counts as one of twenty of a body, so that what is told holds the fix back.
     EXPECT_LT(after, before / 2);
+  }
+}
+
+/// Every other match is wrong, and may be right by a turn as large as that.
+TEST(MotionFix, FindsALargeTurnThatNoGyroSawAmongWrongMatches) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    const Vector3d turn = random.vector(0.05);
+    Misled misled(turn, Vector3d::Zero(), 200, random, 0.1);
+    for (std::size_t i = 0; i < misled.residuals.size(); i += 2) {
+      misled.residuals[i].off_px = Vec2(50, -100) + 50 * random.vector(1).head<2>();
+    }
+    const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
+    // It is linear in the turn.
+    EXPECT_LT((fix.turn_rad - turn).norm(), 1e-3 + turn.squaredNorm() / 2) << "seed " << seed;
   }
 }
 
@@ -833,12 +854,28 @@ TEST(HypothesisEdges, AStaticWorldOfWholePixelsIsSilent) {
       for (int k = 0; k < 25; ++k) {
         const FrameResult& result =
             filter.step(rounded(world.corners()), k == 0 ? EgoMotion{} : motion);
-        if (k >= 5) {
-          EXPECT_EQ(rebels(result), 0)
-              << "v " << v.transpose() << ", every " << spacing << " px, frame " << k;
-        }
+        EXPECT_EQ(rebels(result), 0)
+            << "v " << v.transpose() << ", every " << spacing << " px, frame " << k;
         world.advance(motion);
       }
+    }
+  }
+}
+
+/// No track has a motion by then; a turn of 4 mrad is 1.7 px, and most of the first steps are less.
+TEST(HypothesisEdges, AFirstTurnThatIsToldWrongIsSeenByTheCorners) {
+  for (const Vector3d& turn_rad :
+       {Vector3d(4e-3, 0, 0), Vector3d(0, -4e-3, 0), Vector3d(2e-3, 2e-3, 4e-3)}) {
+    World world = sparse_world(5, 30);
+    const EgoMotion motion = steady_motion({0, 0, 0.5}, {0.01, 0.05, -0.02}, kDt_s);
+    const EgoMotion wrong =
+        steady_motion(motion.v_C_mps, motion.w_C_radps + turn_rad / kDt_s, kDt_s);
+    Filter filter(world.camera, preset("default"));
+    for (std::size_t k = 0; k < 6; ++k) {
+      const EgoMotion told = k == 0 ? EgoMotion{} : k == 1 ? wrong : motion;
+      const FrameResult& result = filter.step(rounded(world.corners()), world.signatures(k), told);
+      EXPECT_EQ(rebels(result), 0) << turn_rad.transpose() << ", frame " << k;
+      world.advance(motion);
     }
   }
 }
@@ -858,7 +895,7 @@ TEST(HypothesisEdges, CornersThatJitterBeforeAStandingCameraStand) {
   }
 }
 
-/// As another detector's may be, or another camera's: at first 0.6 px are taken for noise.
+/// As another detector's may be, or another camera's: at first 0.35 px are taken for noise.
 TEST(HypothesisEdges, CornersOfAnyExactnessStandBeforeACameraThatDrives) {
   for (const double half_px : {0.0, 1.0, 2.0, 4.0}) {
     World world = sparse_world(8, 40);

@@ -31,7 +31,7 @@ class MotionSource {
   virtual Diagnostics diagnostics() const { return {}; }
 };
 
-/// Straight ahead along the optical axis.
+/// Straight ahead along the optical axis; where it travels, turns are not told of.
 class SteadyMotion : public MotionSource {
  public:
   /// \param mount_rpy_rad of the camera on what stands upright; none: not known.
