@@ -73,7 +73,8 @@ MotionFix HypothesisEdges::fix(const MotionField& told, const Chi& chi,
                           seen.inverse_depth_pm, seen.covariance(2, 2), 1.0 / association_.crowd(c),
                           1 - moves, moves * moving + anywhere});
   }
-  return motion_fix(camera_, told, residuals_, velocity_error_.covariance());
+  return motion_fix(camera_, told, residuals_, turn_error_.variance_rad2(told),
+                    velocity_error_.covariance());
 }
 
 Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner) {
@@ -263,6 +264,7 @@ void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& 
   if (!predicted_.empty()) {
     const MotionFix off = fix(field, chi, track_of);
     velocity_error_.see(off);
+    turn_error_.see(off, field, 1 - parameters_.turnover(told.dt_s()));
     field = field.corrected(off.turn_rad, off.velocity_mps);
     predict_tracks(field);
   }

@@ -27,6 +27,7 @@ class HypothesisEdges : public EdgeExpert {
               std::vector<Verdict>& verdicts) override;
   void forget() override {
     tracks_.clear();
+    turn_error_.forget();
     velocity_error_.forget();
     noise_sum_px2_ = noise_weight_ = 0;
   }
@@ -50,6 +51,7 @@ class HypothesisEdges : public EdgeExpert {
   double noise_sum_px2_ = 0, noise_weight_ = 0;  // seen in these: its sum, and that of the weights
   Association association_;
   Coupling coupling_;
+  TurnError turn_error_;
   VelocityError velocity_error_;
   std::vector<Track> tracks_;     // of the last frame; those of its corners first, by chi
   std::vector<Track> predicted_;  // the same, in this frame

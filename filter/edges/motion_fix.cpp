@@ -32,13 +32,12 @@ Eigen::Matrix<double, 2, 6> jacobian(const Intrinsics& camera, const Residual& r
 /// Normal equations, each residual weighed by the chance that it is of a static point, given what
 /// is left of it and how well the fix is known by then.
 MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
-                     std::span<const Residual> residuals,
+                     std::span<const Residual> residuals, double turn_variance_rad2,
                      const Eigen::Matrix3d& velocity_covariance) {
   const double dt = told.dt_s();
-  const double turn = std::hypot(kTurn_rad, told.unseen_turn_rad());
   const double velocity_variance = velocity_covariance.trace() / 3;
   Matrix6 prior = Matrix6::Zero();  // not inverted, as it is 0 where nothing can be wrong
-  prior.topLeftCorner<3, 3>().diagonal().setConstant(turn * turn);
+  prior.topLeftCorner<3, 3>().diagonal().setConstant(turn_variance_rad2);
   prior.bottomRightCorner<3, 3>() = velocity_covariance;
   Matrix6 covariance = prior;
   Vector6 fix = Vector6::Zero();
@@ -61,12 +60,27 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
       misfit += residual.off_px.dot(precision * residual.off_px);
       weights += 2 * weight;
     }
-    covariance = (Matrix6::Identity() + prior * information).inverse() * prior;
-    fix = covariance * pull;
+    const auto known = [&](double share) -> Matrix6 {
+      return (Matrix6::Identity() + share * prior * information).inverse() * prior;
+    };
+    fix = known(1) * pull;
+    // What is off by more than it should be tells by as much less.
     misfit += fix.dot(information * fix - 2 * pull);
-    if (misfit > weights) covariance *= misfit / weights;
+    covariance = known(misfit > weights ? weights / misfit : 1);
   }
-  return {fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>()};
+  return {fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>(),
+          covariance.topLeftCorner<3, 3>().trace() / 3};
+}
+
+double TurnError::variance_rad2(const MotionField& told) const {
+  const double least = kTurn_rad * kTurn_rad;
+  return std::max(least, (least + sum_rad2_) / (1 + frames_)) + std::pow(told.unseen_turn_rad(), 2);
+}
+
+void TurnError::see(const MotionFix& fix, const MotionField& told, double lasts) {
+  const double found = fix.turn_rad.squaredNorm() / 3 + fix.turn_variance_rad2;
+  sum_rad2_ = lasts * sum_rad2_ + std::max(0.0, found - std::pow(told.unseen_turn_rad(), 2));
+  frames_ = lasts * frames_ + 1;
 }
 
 void VelocityError::advance(const MotionField& told, double lasts) {

@@ -27,12 +27,28 @@ struct Residual {
 struct MotionFix {
   Eigen::Vector3d turn_rad, velocity_mps;
   Eigen::Matrix3d velocity_covariance;  ///< of what is left of the latter, (m/s)^2
+  double turn_variance_rad2;            ///< of what is left of the former, about an axis
 };
 
-/// \param velocity_covariance of what is wrong with the told velocity before anything is seen.
+/// \param turn_variance_rad2, velocity_covariance of what is wrong with the told turn, about an
+///        axis, and with the told velocity, before anything is seen.
 MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
-                     std::span<const Residual> residuals,
+                     std::span<const Residual> residuals, double turn_variance_rad2,
                      const Eigen::Matrix3d& velocity_covariance);
+
+/// The error of the told turns, which is as large as that of the turns before, but not less than
+/// `kTurn_rad`.
+class TurnError {
+ public:
+  /// rad^2, about an axis, of what a field tells.
+  double variance_rad2(const MotionField& told) const;
+  /// \param lasts share of what is known that still holds.
+  void see(const MotionFix& fix, const MotionField& told, double lasts);
+  void forget() { *this = {}; }
+
+ private:
+  double sum_rad2_ = 0, frames_ = 0;
+};
 
 /// The error of the told velocity. All the while it is as large as the estimator says
 /// (`EgoMotion::velocity_sigma_mps`) and a share of the speed; most of it lasts.
