@@ -102,8 +102,8 @@ void MotionGroups::merge() {
   sets_.reset(points_.size());
   std::sort(links_.begin(), links_.end());
   for (const Couple& link : links_) {
-    if (sets_.are_joined(link.a, link.b)) continue;
     const int a = sets_.root(link.a), b = sets_.root(link.b);
+    if (a == b) continue;
     PlaneSums both = sums_[a];
     both += sums_[b];
     const double scale = both.magnitude();

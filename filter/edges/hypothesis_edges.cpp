@@ -8,23 +8,16 @@
 #include "filter/matching/refill.h"
 
 namespace lcs {
+
+/// Standard deviation of a told turn's error, about an axis, before anything is seen.
+constexpr double kTurn_rad = 1e-3;
+
 HypothesisEdges::HypothesisEdges(const Intrinsics& camera, const CircleParameters& parameters)
     : EdgeExpert(camera, parameters.trust),
       parameters_(parameters.hypotheses),
       association_(parameters_),
       coupling_(parameters_),
       velocity_error_(parameters_.ego_share) {}
-
-/// The noise of this frame's corners, by what stood in those before; not less than the parameter.
-void HypothesisEdges::estimate_noise(double dt_s) {
-  const double least2 = parameters_.noise_px * parameters_.noise_px, n = parameters_.neighbours;
-  const double kept = dt_s > 0 ? 1 - parameters_.turnover(dt_s) : 0;
-  noise_sum_px2_ *= kept;
-  noise_weight_ *= kept;
-  const double weight = n + noise_weight_;
-  noise2_px2_ = least2;
-  if (weight > 0) noise2_px2_ = std::max(least2, (n * least2 + noise_sum_px2_) / weight);
-}
 
 void HypothesisEdges::predict(Layers&, const MotionField& told) {
   velocity_error_.advance(told, 1 - parameters_.turnover(told.dt_s()));
@@ -73,8 +66,13 @@ MotionFix HypothesisEdges::fix(const MotionField& told, const Chi& chi,
                           seen.inverse_depth_pm, seen.covariance(2, 2), 1.0 / association_.crowd(c),
                           1 - moves, moves * moving + anywhere});
   }
-  return motion_fix(camera_, told, residuals_, turn_error_.variance_rad2(told),
-                    velocity_error_.covariance());
+  const double unseen2 = std::pow(told.unseen_turn_rad(), 2);
+  const double turn2 = seen_turn2_rad2_.or_more(kTurn_rad * kTurn_rad, 1) + unseen2;
+  const MotionFix off = motion_fix(camera_, told, residuals_, turn2, velocity_error_.covariance());
+  velocity_error_.see(off);
+  const double turned2 = off.turn_rad.squaredNorm() / 3 + off.turn_variance_rad2;
+  seen_turn2_rad2_.see(std::max(0.0, turned2 - unseen2), 1);
+  return off;
 }
 
 Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner) {
@@ -93,11 +91,7 @@ double HypothesisEdges::faded(double log_odds, double dt_s) const {
   return lcs::log_odds(chance(log_odds) * (1 - turnover) + parameters_.prior * turnover);
 }
 
-/// Density of a second sighting of what moves. A static point may have come along a
-/// segment l of the image, all depths alike; a mover may have come by as much from any of it, at
-/// speeds of which each order of magnitude is as likely:
-///   p(x | moves) = [atan((l - a) / s) + atan(a / s)] / (pi l s ln(1 + R^2 / 2 sigma^2)),
-/// a along the segment and b across, s^2 = b^2 + 2 sigma^2, R the reach.
+/// Density of a second sighting of what moves (RULES.md, 3).
 double HypothesisEdges::first_step(const Track& track, const Vec2& x_px,
                                    const DepthBounds& bounds) const {
   const Vec2 parallax = parallax_px_m(camera_, track.displacement_C_m, track.place_px);
@@ -142,10 +136,9 @@ bool HypothesisEdges::see(Track& track, const Vec2& x_px, double chance_ppx2,
   // A step of EM: what is left, and what is not known of the place, is noise where the match is
   // right.
   const double stands = (1 - chance(before + evidence)) * right * still / (right * still + none);
-  noise_sum_px2_ +=
-      stands / 2 *
-      ((x_px - seen.place_px).squaredNorm() + seen.covariance.topLeftCorner<2, 2>().trace());
-  noise_weight_ += stands;
+  const double square2 =
+      (x_px - seen.place_px).squaredNorm() + seen.covariance.topLeftCorner<2, 2>().trace();
+  seen_noise2_px2_.see(square2 / 2, stands);
   if (!track.has_motion()) {
     track.as_moving = OwnMotion::first(track.place_px, x_px, noise2_px2_, track.since_s);
   } else {
@@ -257,14 +250,15 @@ void HypothesisEdges::decide(Layers& layers, const Chi& chi, const MotionField& 
 void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& told,
                              std::vector<Verdict>& verdicts) {
   refill(reasons_, chi.size(), Reason::unknown);
-  if (!(told.dt_s() > 0)) predicted_.clear();
-  estimate_noise(told.dt_s());
+  if (!(told.dt_s() > 0)) forget();
+  for (SeenVariance* seen : {&seen_noise2_px2_, &seen_turn2_rad2_}) {
+    seen->fade(1 - parameters_.turnover(told.dt_s()));
+  }
+  noise2_px2_ = seen_noise2_px2_.or_more(std::pow(parameters_.noise_px, 2), parameters_.neighbours);
   const std::vector<int>& track_of = association_.match(chi, predicted_, noise2_px2_, told.dt_s());
   MotionField field = velocity_error_.without(told);
   if (!predicted_.empty()) {
     const MotionFix off = fix(field, chi, track_of);
-    velocity_error_.see(off);
-    turn_error_.see(off, field, 1 - parameters_.turnover(told.dt_s()));
     field = field.corrected(off.turn_rad, off.velocity_mps);
     predict_tracks(field);
   }

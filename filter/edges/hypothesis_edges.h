@@ -1,11 +1,6 @@
 /// \file
-/// Edges by two hypotheses, as filter/RULES.md derives them: each tracked corner is a static point
-/// or a point that moves by itself, and carries the log odds of the latter.
-///
-/// 1. Tracks are predicted under both, and corners matched to them (`Association`). 2. Each
-/// sighting adds ln p(x | moves) / p(x | stands) to the track's log odds. 3. Neighbouring corners
-/// count, too (`Coupling`); for corners without a track they alone do. 4. A track that is likelier
-/// to move is a rebel edge, any other a normal one; its trust follows from how sure that is.
+/// Edges by two hypotheses: each tracked corner stands or moves by itself, and carries the log odds
+/// of the latter. filter/RULES.md has the steps.
 #pragma once
 
 #include <vector>
@@ -14,6 +9,7 @@
 #include "filter/edges/coupling.h"
 #include "filter/edges/edge_expert.h"
 #include "filter/edges/motion_fix.h"
+#include "filter/edges/seen_variance.h"
 #include "filter/edges/track.h"
 
 namespace lcs {
@@ -27,13 +23,12 @@ class HypothesisEdges : public EdgeExpert {
               std::vector<Verdict>& verdicts) override;
   void forget() override {
     tracks_.clear();
-    turn_error_.forget();
+    predicted_.clear();
     velocity_error_.forget();
-    noise_sum_px2_ = noise_weight_ = 0;
+    seen_noise2_px2_ = seen_turn2_rad2_ = {};
   }
 
  private:
-  void estimate_noise(double dt_s);
   void predict_tracks(const MotionField& field);
   MotionFix fix(const MotionField& told, const Chi& chi, const std::vector<int>& track_of);
   Track first_seen(const Chi& chi, std::size_t corner);
@@ -47,11 +42,10 @@ class HypothesisEdges : public EdgeExpert {
   Edge edge_of(const Track& track, const MotionField& field) const;
 
   HypothesisParameters parameters_;
-  double noise2_px2_ = 0;                        // of this frame's corners, by the frames before
-  double noise_sum_px2_ = 0, noise_weight_ = 0;  // seen in these: its sum, and that of the weights
+  double noise2_px2_ = 0;                           // of this frame's corners
+  SeenVariance seen_noise2_px2_, seen_turn2_rad2_;  // of corners, and of told turns
   Association association_;
   Coupling coupling_;
-  TurnError turn_error_;
   VelocityError velocity_error_;
   std::vector<Track> tracks_;     // of the last frame; those of its corners first, by chi
   std::vector<Track> predicted_;  // the same, in this frame

@@ -9,9 +9,6 @@
 namespace lcs {
 namespace {
 
-/// Standard deviation of the turn that is told of a frame, on an axis, before anything is seen.
-constexpr double kTurn_rad = 1e-3;
-
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
@@ -70,17 +67,6 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
   }
   return {fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>(),
           covariance.topLeftCorner<3, 3>().trace() / 3};
-}
-
-double TurnError::variance_rad2(const MotionField& told) const {
-  const double least = kTurn_rad * kTurn_rad;
-  return std::max(least, (least + sum_rad2_) / (1 + frames_)) + std::pow(told.unseen_turn_rad(), 2);
-}
-
-void TurnError::see(const MotionFix& fix, const MotionField& told, double lasts) {
-  const double found = fix.turn_rad.squaredNorm() / 3 + fix.turn_variance_rad2;
-  sum_rad2_ = lasts * sum_rad2_ + std::max(0.0, found - std::pow(told.unseen_turn_rad(), 2));
-  frames_ = lasts * frames_ + 1;
 }
 
 void VelocityError::advance(const MotionField& told, double lasts) {

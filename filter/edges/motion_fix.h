@@ -36,20 +36,6 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
                      std::span<const Residual> residuals, double turn_variance_rad2,
                      const Eigen::Matrix3d& velocity_covariance);
 
-/// The error of the told turns, which is as large as that of the turns before, but not less than
-/// `kTurn_rad`.
-class TurnError {
- public:
-  /// rad^2, about an axis, of what a field tells.
-  double variance_rad2(const MotionField& told) const;
-  /// \param lasts share of what is known that still holds.
-  void see(const MotionFix& fix, const MotionField& told, double lasts);
-  void forget() { *this = {}; }
-
- private:
-  double sum_rad2_ = 0, frames_ = 0;
-};
-
 /// The error of the told velocity. All the while it is as large as the estimator says
 /// (`EgoMotion::velocity_sigma_mps`) and a share of the speed; most of it lasts.
 class VelocityError {

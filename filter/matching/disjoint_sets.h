@@ -25,8 +25,6 @@ class DisjointSets {
     return i;
   }
 
-  bool are_joined(int i, int j) { return root(i) == root(j); }
-
   /// Both sets become one, whose root is that of `into`.
   void join(int into, int other) { parent_[root(other)] = root(into); }
 

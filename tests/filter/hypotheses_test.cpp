@@ -14,6 +14,7 @@
 #include "filter/edges/gauss.h"
 #include "filter/edges/motion_fix.h"
 #include "filter/edges/own_motion.h"
+#include "filter/edges/seen_variance.h"
 #include "filter/edges/static_point.h"
 #include "filter/filter.h"
 #include "filter/kinematics/geometry.h"
@@ -755,26 +756,14 @@ TEST(MotionFix, SaysNothingWhereNobodyTellsAndMoreTheMoreTell) {
   EXPECT_GT(turn, 5e-4);
 }
 
-TEST(TurnErrors, AreAsLargeAsThoseBeforeThemButNoLessThanAtFirst) {
-  EgoMotion motion = steady_motion({0, 0, 1}, Vector3d::Zero(), kDt_s);
-  const MotionField told(vga(), motion, {});
-  TurnError error;
-  const auto off_by = [](double turn_rad) -> MotionFix {
-    return {Vector3d::Constant(turn_rad), Vector3d::Zero(), kWrong, 0};
-  };
-  const double at_first = error.variance_rad2(told);
-  for (int k = 0; k < 100; ++k) error.see(off_by(0), told, 0.95);
-  EXPECT_EQ(error.variance_rad2(told), at_first);
-  // 10 mrad about each axis.
-  for (int k = 0; k < 100; ++k) error.see(off_by(0.01), told, 0.95);
-  EXPECT_NEAR(error.variance_rad2(told), 1e-4, 1e-5);
-  // A gyro that is silent is not one that is wrong.
-  motion.unseen_turn_rad = 0.1;
-  const MotionField blind(vga(), motion, {});
-  EXPECT_NEAR(error.variance_rad2(blind) - error.variance_rad2(told), 0.01, 1e-12);
-  error.forget();
-  for (int k = 0; k < 100; ++k) error.see(off_by(0.1), blind, 0.95);
-  EXPECT_EQ(error.variance_rad2(told), at_first);
+TEST(SeenVariance, IsWhatWasSeenAndNoLessThanWhatIsSet) {
+  SeenVariance variance;
+  EXPECT_EQ(variance.or_more(4, 0), 4) << "nothing counts";
+  for (int k = 0; k < 9; ++k) variance.see(1, 0.5);
+  EXPECT_EQ(variance.or_more(4, 3), 4);
+  EXPECT_EQ(variance.or_more(0.25, 3), (3 * 0.25 + 9 * 0.5) / (3 + 9 * 0.5));
+  variance.fade(0.1);
+  EXPECT_DOUBLE_EQ(variance.or_more(0.25, 3), (3 * 0.25 + 0.45) / 3.45);
 }
 
 /// A camera whose told velocity is off by the same in each frame, of which the corners show half.
