@@ -9,15 +9,23 @@
 
 namespace lcs {
 
-/// Standard deviation of a told turn's error, about an axis, before anything is seen.
-constexpr double kTurn_rad = 1e-3;
-
 HypothesisEdges::HypothesisEdges(const Intrinsics& camera, const CircleParameters& parameters)
     : EdgeExpert(camera, parameters.trust),
       parameters_(parameters.hypotheses),
       association_(parameters_),
       coupling_(parameters_),
       velocity_error_(parameters_.ego_share) {}
+
+/// The noise of this frame's corners, by what stood in those before; not less than the parameter.
+void HypothesisEdges::estimate_noise(double dt_s) {
+  const double least2 = parameters_.noise_px * parameters_.noise_px, n = parameters_.neighbours;
+  const double kept = 1 - parameters_.turnover(dt_s);
+  noise_sum_px2_ *= kept;
+  noise_weight_ *= kept;
+  const double weight = n + noise_weight_;
+  noise2_px2_ = least2;
+  if (weight > 0) noise2_px2_ = std::max(least2, (n * least2 + noise_sum_px2_) / weight);
+}
 
 void HypothesisEdges::predict(Layers&, const MotionField& told) {
   velocity_error_.advance(told, 1 - parameters_.turnover(told.dt_s()));
@@ -66,13 +74,7 @@ MotionFix HypothesisEdges::fix(const MotionField& told, const Chi& chi,
                           seen.inverse_depth_pm, seen.covariance(2, 2), 1.0 / association_.crowd(c),
                           1 - moves, moves * moving + anywhere});
   }
-  const double unseen2 = std::pow(told.unseen_turn_rad(), 2);
-  const double turn2 = seen_turn2_rad2_.or_more(kTurn_rad * kTurn_rad, 1) + unseen2;
-  const MotionFix off = motion_fix(camera_, told, residuals_, turn2, velocity_error_.covariance());
-  velocity_error_.see(off);
-  const double turned2 = off.turn_rad.squaredNorm() / 3 + off.turn_variance_rad2;
-  seen_turn2_rad2_.see(std::max(0.0, turned2 - unseen2), 1);
-  return off;
+  return motion_fix(camera_, told, residuals_, velocity_error_.covariance());
 }
 
 Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner) {
@@ -136,9 +138,10 @@ bool HypothesisEdges::see(Track& track, const Vec2& x_px, double chance_ppx2,
   // A step of EM: what is left, and what is not known of the place, is noise where the match is
   // right.
   const double stands = (1 - chance(before + evidence)) * right * still / (right * still + none);
-  const double square2 =
-      (x_px - seen.place_px).squaredNorm() + seen.covariance.topLeftCorner<2, 2>().trace();
-  seen_noise2_px2_.see(square2 / 2, stands);
+  noise_sum_px2_ +=
+      stands / 2 *
+      ((x_px - seen.place_px).squaredNorm() + seen.covariance.topLeftCorner<2, 2>().trace());
+  noise_weight_ += stands;
   if (!track.has_motion()) {
     track.as_moving = OwnMotion::first(track.place_px, x_px, noise2_px2_, track.since_s);
   } else {
@@ -251,14 +254,12 @@ void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& 
                              std::vector<Verdict>& verdicts) {
   refill(reasons_, chi.size(), Reason::unknown);
   if (!(told.dt_s() > 0)) forget();
-  for (SeenVariance* seen : {&seen_noise2_px2_, &seen_turn2_rad2_}) {
-    seen->fade(1 - parameters_.turnover(told.dt_s()));
-  }
-  noise2_px2_ = seen_noise2_px2_.or_more(std::pow(parameters_.noise_px, 2), parameters_.neighbours);
+  estimate_noise(told.dt_s());
   const std::vector<int>& track_of = association_.match(chi, predicted_, noise2_px2_, told.dt_s());
   MotionField field = velocity_error_.without(told);
   if (!predicted_.empty()) {
     const MotionFix off = fix(field, chi, track_of);
+    velocity_error_.see(off);
     field = field.corrected(off.turn_rad, off.velocity_mps);
     predict_tracks(field);
   }

@@ -9,7 +9,6 @@
 #include "filter/edges/coupling.h"
 #include "filter/edges/edge_expert.h"
 #include "filter/edges/motion_fix.h"
-#include "filter/edges/seen_variance.h"
 #include "filter/edges/track.h"
 
 namespace lcs {
@@ -25,10 +24,11 @@ class HypothesisEdges : public EdgeExpert {
     tracks_.clear();
     predicted_.clear();
     velocity_error_.forget();
-    seen_noise2_px2_ = seen_turn2_rad2_ = {};
+    noise_sum_px2_ = noise_weight_ = 0;
   }
 
  private:
+  void estimate_noise(double dt_s);
   void predict_tracks(const MotionField& field);
   MotionFix fix(const MotionField& told, const Chi& chi, const std::vector<int>& track_of);
   Track first_seen(const Chi& chi, std::size_t corner);
@@ -42,8 +42,8 @@ class HypothesisEdges : public EdgeExpert {
   Edge edge_of(const Track& track, const MotionField& field) const;
 
   HypothesisParameters parameters_;
-  double noise2_px2_ = 0;                           // of this frame's corners
-  SeenVariance seen_noise2_px2_, seen_turn2_rad2_;  // of corners, and of told turns
+  double noise2_px2_ = 0;                        // of this frame's corners, by the frames before
+  double noise_sum_px2_ = 0, noise_weight_ = 0;  // seen in these: its sum, and that of the weights
   Association association_;
   Coupling coupling_;
   VelocityError velocity_error_;

@@ -5,9 +5,13 @@
 #include <cmath>
 
 #include "filter/edges/gauss.h"
+#include "filter/matching/point_grid.h"
 
 namespace lcs {
 namespace {
+
+/// Standard deviation of the turn that is told of a frame, on an axis, before anything is seen.
+constexpr double kTurn_rad = 1e-3;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -29,19 +33,19 @@ Eigen::Matrix<double, 2, 6> jacobian(const Intrinsics& camera, const Residual& r
 /// Normal equations, each residual weighed by the chance that it is of a static point, given what
 /// is left of it and how well the fix is known by then.
 MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
-                     std::span<const Residual> residuals, double turn_variance_rad2,
+                     std::span<const Residual> residuals,
                      const Eigen::Matrix3d& velocity_covariance) {
   const double dt = told.dt_s();
+  const double turn = std::hypot(kTurn_rad, told.unseen_turn_rad());
   const double velocity_variance = velocity_covariance.trace() / 3;
   Matrix6 prior = Matrix6::Zero();  // not inverted, as it is 0 where nothing can be wrong
-  prior.topLeftCorner<3, 3>().diagonal().setConstant(turn_variance_rad2);
+  prior.topLeftCorner<3, 3>().diagonal().setConstant(turn * turn);
   prior.bottomRightCorner<3, 3>() = velocity_covariance;
-  Matrix6 covariance = prior;
+  Matrix6 left_open = prior, covariance = prior;
   Vector6 fix = Vector6::Zero();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     Matrix6 information = Matrix6::Zero();
     Vector6 pull = Vector6::Zero();
-    double weights = 0, misfit = 0;
     for (const Residual& residual : residuals) {
       const Eigen::Matrix<double, 2, 6> J = jacobian(camera, residual, dt);
       // How far a change of velocity moves a point is as uncertain as its depth.
@@ -49,24 +53,18 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
       S.diagonal().array() += camera.focal_px * camera.focal_px * dt * dt * velocity_variance *
                               residual.inverse_depth_variance_pm2;
       const Vec2 left = residual.off_px - J * fix;
-      const double stands = residual.stands * gauss(left, S + J * covariance * J.transpose());
+      const double stands = residual.stands * gauss(left, S + J * left_open * J.transpose());
       const double weight = residual.voice * stands / (stands + residual.otherwise_ppx2);
       const Eigen::Matrix2d precision = weight * S.inverse();
       information += J.transpose() * precision * J;
       pull += J.transpose() * precision * residual.off_px;
-      misfit += residual.off_px.dot(precision * residual.off_px);
-      weights += 2 * weight;
     }
-    const auto known = [&](double share) -> Matrix6 {
-      return (Matrix6::Identity() + share * prior * information).inverse() * prior;
-    };
-    fix = known(1) * pull;
-    // What is off by more than it should be tells by as much less.
-    misfit += fix.dot(information * fix - 2 * pull);
-    covariance = known(misfit > weights ? weights / misfit : 1);
+    covariance = (Matrix6::Identity() + prior * information).inverse() * prior;
+    fix = covariance * pull;
+    // Where much may be wrong, wrong matches pull it far off at first: by and by it looks less far.
+    left_open = covariance + prior * std::pow(kFar, -2 * (iteration + 1));
   }
-  return {fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>(),
-          covariance.topLeftCorner<3, 3>().trace() / 3};
+  return {fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>()};
 }
 
 void VelocityError::advance(const MotionField& told, double lasts) {

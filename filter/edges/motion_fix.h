@@ -27,13 +27,11 @@ struct Residual {
 struct MotionFix {
   Eigen::Vector3d turn_rad, velocity_mps;
   Eigen::Matrix3d velocity_covariance;  ///< of what is left of the latter, (m/s)^2
-  double turn_variance_rad2;            ///< of what is left of the former, about an axis
 };
 
-/// \param turn_variance_rad2, velocity_covariance of what is wrong with the told turn, about an
-///        axis, and with the told velocity, before anything is seen.
+/// \param velocity_covariance of what is wrong with the told velocity before anything is seen.
 MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
-                     std::span<const Residual> residuals, double turn_variance_rad2,
+                     std::span<const Residual> residuals,
                      const Eigen::Matrix3d& velocity_covariance);
 
 /// The error of the told velocity. All the while it is as large as the estimator says

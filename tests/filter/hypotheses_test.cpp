@@ -14,7 +14,6 @@
 #include "filter/edges/gauss.h"
 #include "filter/edges/motion_fix.h"
 #include "filter/edges/own_motion.h"
-#include "filter/edges/seen_variance.h"
 #include "filter/edges/static_point.h"
 #include "filter/filter.h"
 #include "filter/kinematics/geometry.h"
@@ -638,13 +637,10 @@ TEST(Coupling, WhoTellsNothingIsWhatTheNearestIsThatDoesOfEquallyNearOnesTheLike
 struct Misled {
   MotionField told, truth;
   std::vector<Residual> residuals;
-  double turn_variance_rad2;
 
   Misled(const Vector3d& turn, const Vector3d& velocity, int points, Random& random,
-         double turn_sigma_rad = 1e-3)
-      : told(vga(), steady_motion({0, 0, 1}, {0, 0.1, 0}, kDt_s), {}),
-        truth(told.corrected(turn, velocity)),
-        turn_variance_rad2(turn_sigma_rad * turn_sigma_rad) {
+         double unseen_turn_rad = 0)
+      : told(vga(), ahead_and_aside(unseen_turn_rad), {}), truth(told.corrected(turn, velocity)) {
     for (int i = 0; i < points; ++i) {
       const Vec2 before(random.uniform(0, 639), random.uniform(0, 479));
       const double ratio = told.reference_depth_m() / random.uniform(2, 10);
@@ -656,6 +652,12 @@ struct Misled {
            kNoise2_px2 * Eigen::Matrix2d::Identity() + by_depth * by_depth.transpose(),
            ratio / told.reference_depth_m(), 1e-4, 0.05, 0.97, 1e-6});
     }
+  }
+
+  static EgoMotion ahead_and_aside(double unseen_turn_rad) {
+    EgoMotion motion = steady_motion({0, 0, 1}, {0, 0.1, 0}, kDt_s);
+    motion.unseen_turn_rad = unseen_turn_rad;
+    return motion;
   }
 
   /// px: the most that a field differs from the true one across the parallax.
@@ -684,8 +686,7 @@ TEST(MotionFix, FindsWhatTheToldMotionIsOffByAmongWrongMatches) {
       misled.residuals[i].off_px = 30 * random.vector(1).head<2>();
     }
     const double before = misled.worst_across(misled.told);
-    const MotionFix fix =
-        motion_fix(vga(), misled.told, misled.residuals, misled.turn_variance_rad2, kWrong);
+    const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
     const double after = misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps));
     EXPECT_GT(before, 0.6);
     // The worst of 200 places. A turn and a velocity aside look alike where depths are, and each
@@ -703,8 +704,7 @@ TEST(MotionFix, FindsALargeTurnThatNoGyroSawAmongWrongMatches) {
     for (std::size_t i = 0; i < misled.residuals.size(); i += 2) {
       misled.residuals[i].off_px = Vec2(50, -100) + 50 * random.vector(1).head<2>();
     }
-    const MotionFix fix =
-        motion_fix(vga(), misled.told, misled.residuals, misled.turn_variance_rad2, kWrong);
+    const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
     // It is linear in the turn.
     EXPECT_LT((fix.turn_rad - turn).norm(), 1e-3 + turn.squaredNorm() / 2) << "seed " << seed;
   }
@@ -717,8 +717,7 @@ TEST(MotionFix, TakesNothingFromWhatADepthExplains) {
   for (Residual& residual : misled.residuals) {
     residual.off_px += 3 * misled.told.direction(residual.place_px);
   }
-  const MotionFix fix =
-      motion_fix(vga(), misled.told, misled.residuals, misled.turn_variance_rad2, kWrong);
+  const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
   EXPECT_LT(fix.turn_rad.norm(), 2e-4);
   EXPECT_LT(misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps)), 0.3);
 }
@@ -731,8 +730,7 @@ TEST(MotionFix, TakesLittleFromWhatIsKnownToMove) {
     misled.residuals[i].stands = 0.01;
     misled.residuals[i].otherwise_ppx2 = 0.2;
   }
-  const MotionFix fix =
-      motion_fix(vga(), misled.told, misled.residuals, misled.turn_variance_rad2, kWrong);
+  const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
   EXPECT_LT(misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps)), 0.3);
 }
 
@@ -742,8 +740,7 @@ TEST(MotionFix, SaysNothingWhereNobodyTellsAndMoreTheMoreTell) {
   double turn = 0;
   for (const int residuals : {0, 20, 200}) {
     const Misled misled({1e-3, 0, 0}, Vector3d::Zero(), residuals, random);
-    const MotionFix fix =
-        motion_fix(vga(), misled.told, misled.residuals, misled.turn_variance_rad2, kWrong);
+    const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
     if (residuals == 0) {
       EXPECT_EQ(fix.turn_rad.norm(), 0);
       EXPECT_TRUE(fix.velocity_covariance.isApprox(kWrong));
@@ -754,16 +751,6 @@ TEST(MotionFix, SaysNothingWhereNobodyTellsAndMoreTheMoreTell) {
     turn = fix.turn_rad.x();
   }
   EXPECT_GT(turn, 5e-4);
-}
-
-TEST(SeenVariance, IsWhatWasSeenAndNoLessThanWhatIsSet) {
-  SeenVariance variance;
-  EXPECT_EQ(variance.or_more(4, 0), 4) << "nothing counts";
-  for (int k = 0; k < 9; ++k) variance.see(1, 0.5);
-  EXPECT_EQ(variance.or_more(4, 3), 4);
-  EXPECT_EQ(variance.or_more(0.25, 3), (3 * 0.25 + 9 * 0.5) / (3 + 9 * 0.5));
-  variance.fade(0.1);
-  EXPECT_DOUBLE_EQ(variance.or_more(0.25, 3), (3 * 0.25 + 0.45) / 3.45);
 }
 
 /// A camera whose told velocity is off by the same in each frame, of which the corners show half.
@@ -779,7 +766,7 @@ struct Drifting {
       error.advance(told, lasts);
       const MotionField field = error.without(told);
       left = error_mps - (field.displacement_C_m() - told.displacement_C_m()) / kDt_s;
-      error.see({Vector3d::Zero(), left / 2, error.covariance() / 2, 0});
+      error.see({Vector3d::Zero(), left / 2, error.covariance() / 2});
     }
     return left;
   }
@@ -800,7 +787,7 @@ TEST(VelocityErrors, AreAsLargeAsToldAllTheWhile) {
         const double sigma_mps = std::hypot(told_sigma_mps, 0.02 * speed_mps);
         const Eigen::Matrix3d expected = sigma_mps * sigma_mps * Eigen::Matrix3d::Identity();
         EXPECT_LT((error.covariance() - expected).norm(), 1e-12);
-        if (k == 10) error.see({Vector3d::Zero(), {0.1, 0, 0}, expected, 0});
+        if (k == 10) error.see({Vector3d::Zero(), {0.1, 0, 0}, expected});
       }
     }
   }
@@ -893,10 +880,11 @@ TEST(HypothesisEdges, AFirstTurnThatIsToldWrongIsSeenByTheCorners) {
   }
 }
 
-/// As on a pole in the wind: each frame is turned by up to 10 mrad, 4 px, and nothing tells of it.
+/// As on a pole in the wind: each frame is turned by up to 10 mrad, 4 px, and no gyro sees it.
 TEST(HypothesisEdges, AStandingCameraMayShake) {
   const World still = sparse_world(5, 30);
-  const EgoMotion told = steady_motion(Vector3d::Zero(), Vector3d::Zero(), kDt_s);
+  EgoMotion told = steady_motion(Vector3d::Zero(), Vector3d::Zero(), kDt_s);
+  told.unseen_turn_rad = unseen_turn_rad(kDt_s);
   Random random(1);
   Filter filter(still.camera, preset("default"));
   for (std::size_t k = 0; k < 40; ++k) {

@@ -19,8 +19,7 @@ EgoMotion SteadyMotion::at(std::int64_t t_ns) {
   if (last_ns_) {
     motion.dt_s = static_cast<double>(t_ns - *last_ns_) * 1e-9;
     motion.v_C_mps = {0, 0, speed_mps_};
-    // What travels turns, too, and nothing here tells of it.
-    if (speed_mps_ != 0) motion.unseen_turn_rad = unseen_turn_rad(motion.dt_s);
+    motion.unseen_turn_rad = unseen_turn_rad(motion.dt_s);
   }
   last_ns_ = t_ns;
   return motion;

@@ -31,7 +31,7 @@ class MotionSource {
   virtual Diagnostics diagnostics() const { return {}; }
 };
 
-/// Straight ahead along the optical axis; where it travels, turns are not told of.
+/// Straight ahead along the optical axis; how it turns nobody tells.
 class SteadyMotion : public MotionSource {
  public:
   /// \param mount_rpy_rad of the camera on what stands upright; none: not known.
