@@ -3,11 +3,9 @@
 ///
 ///   m_i = L_i + J [sum_j w_ij tanh(m_j / 2) - b] / [sum_j w_ij + b],
 ///
-/// where w falls with how unlike their motions are and with their distance in the image,
-/// exp(-d^2 / 2 (r_i^2 + r_j^2)), in units of r, within which the nearest `neighbours` lie. So it
-/// is the same for any density of corners (Zelnik-Manor, Perona: Self-tuning spectral clustering,
-/// 2004). b is what a neighbour counts that is as far as any, and stands, as the world does: what
-/// moves like nothing round it is rather a chance than a body.
+/// where w falls with how unlike their motions are and with their distance, in units of r, within
+/// which the nearest `neighbours` lie (Zelnik-Manor, Perona: Self-tuning spectral clustering,
+/// 2004), and b is one more neighbour, as far away as any, that stands (RULES.md, 9).
 #pragma once
 
 #include <span>

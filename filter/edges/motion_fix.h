@@ -1,8 +1,7 @@
 /// \file
 /// Estimates the error of the told motion from tracks that are likely to be static, by how far each
-/// corner is from where it was expected. While the camera travels, only the part across the
-/// parallax is used: any distance along it can be explained by another depth, and a depth that was
-/// learnt under a wrong motion would confirm that motion.
+/// corner is from where it was expected, across the parallax: along it another depth explains all,
+/// and a depth that was learnt under a wrong motion would confirm that motion.
 #pragma once
 
 #include <Eigen/Core>
