@@ -52,6 +52,8 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
       Eigen::Matrix2d S = residual.covariance_px2;
       S.diagonal().array() += camera.focal_px * camera.focal_px * dt * dt * velocity_variance *
                               residual.inverse_depth_variance_pm2;
+      // Along a segment of a million pixels what is known across is lost in rounding.
+      if (!(S.determinant() > 1e-12 * S.trace() * S.trace())) continue;
       const Vec2 left = residual.off_px - J * fix;
       const double stands = residual.stands * gauss(left, S + J * left_open * J.transpose());
       const double weight = residual.voice * stands / (stands + residual.otherwise_ppx2);
