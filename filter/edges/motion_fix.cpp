@@ -58,8 +58,9 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
       const double stands = residual.stands * gauss(left, S + J * left_open * J.transpose());
       const double weight = residual.voice * stands / (stands + residual.otherwise_ppx2);
       const Eigen::Matrix2d precision = weight * S.inverse();
-      information += J.transpose() * precision * J;
-      pull += J.transpose() * precision * residual.off_px;
+      const Eigen::Matrix<double, 6, 2> weighed = J.transpose() * precision;
+      information += weighed * J;
+      pull += weighed * residual.off_px;
     }
     covariance = (Matrix6::Identity() + prior * information).inverse() * prior;
     fix = covariance * pull;
