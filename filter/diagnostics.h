@@ -24,6 +24,7 @@ enum class Fault : std::uint8_t {
   motion_not_finite,
   motion_too_fast,
   motion_no_rotation,
+  motion_contradicted,
   ground_unusable,
   // Of the IMU and the odometry that the ego-motion is estimated from.
   imu_not_finite,
@@ -45,7 +46,7 @@ struct FaultText {
 };
 
 /// In the order of `Fault`.
-inline constexpr std::array<FaultText, 22> kFaults{{
+inline constexpr std::array<FaultText, 23> kFaults{{
     {"corner_not_finite", "corners are at no number: left out"},
     {"corner_outside", "corners are outside of the picture: left out"},
     {"corner_repeated", "corners are at the place of another one: they get its verdict"},
@@ -57,6 +58,8 @@ inline constexpr std::array<FaultText, 22> kFaults{{
     {"motion_too_fast", "ego-motions are over 1000 m/s or rad/s: the filter started anew"},
     {"motion_no_rotation",
      "ego-motions have a matrix that is no rotation: the filter started anew"},
+    {"motion_contradicted",
+     "ego-motions put most of what stood where it is not: the filter started anew"},
     {"ground_unusable", "ego-motions have a ground that is none: it is not used"},
     {"imu_not_finite", "readings of the IMU are no numbers: left out"},
     {"imu_too_large", "readings of the IMU are over 100 rad/s or 2000 m/s^2: left out"},

@@ -98,6 +98,7 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
   // Transition I: chi goes to the Circle expert.
   if (parameters.circle.edge_rule == EdgeRule::paper) grouping.group(layers.collectors, chi);
   edges->update(layers, chi, field, result.verdicts);
+  if (edges->began_anew()) diagnostics.add(Fault::motion_contradicted);
   hand_out_reasons();
   circles.update(layers, field);
   if (parameters.line.ignore) circles.update_ignorance(layers);  // transition II

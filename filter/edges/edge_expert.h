@@ -34,6 +34,9 @@ class EdgeExpert {
   /// Forgets all that it keeps of former frames, but for the layers.
   virtual void forget() {}
 
+  /// Whether it forgot all in the last update, as the corners contradicted the told motion.
+  bool began_anew() const { return began_anew_; }
+
   /// The reason for the verdict on each corner of the last chi.
   const std::vector<Reason>& reasons() const { return reasons_; }
 
@@ -51,6 +54,7 @@ class EdgeExpert {
   const Intrinsics camera_;
   const TrustRanks trust_;
   std::vector<Reason> reasons_;
+  bool began_anew_ = false;
 
  private:
   Id next_id_ = 1;

@@ -51,12 +51,13 @@ void HypothesisEdges::predict_tracks(const MotionField& field) {
   }
 }
 
-/// What the told motion is off by, as the tracks show it that are likely to stand.
-MotionFix HypothesisEdges::fix(const MotionField& told, const Chi& chi,
-                               const std::vector<int>& track_of) {
+/// How far corners are from where tracks that stand are by this motion: of those that have a motion
+/// or, in the beginning, of those seen once.
+void HypothesisEdges::find_residuals(const MotionField& field, const Chi& chi,
+                                     const std::vector<int>& track_of) {
   residuals_.clear();
   const bool started = std::ranges::any_of(predicted_, &Track::has_motion);
-  const double anywhere = 1 / association_.reach_area_px2(told.dt_s());
+  const double anywhere = 1 / association_.reach_area_px2(field.dt_s());
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (track_of[c] < 0) continue;
     const Track& track = predicted_[track_of[c]];
@@ -64,17 +65,15 @@ MotionFix HypothesisEdges::fix(const MotionField& told, const Chi& chi,
     const Vec2& x = chi.locations[c];
     const StaticPoint& point = track.as_static;
     StaticPoint seen = point;
-    if (!started) seen.see(x, noise2_px2_, depth_bounds(told, x));
-    const Vec2 by_depth = depth_bounds(told, point.place_px).half_pm() *
-                          parallax_px_m(camera_, told.displacement_C_m(), point.place_px);
-    const double moves = chance(track.belief);
+    if (!started) seen.see(x, noise2_px2_, depth_bounds(field, x));
+    const Vec2 by_depth = depth_bounds(field, point.place_px).half_pm() *
+                          parallax_px_m(camera_, field.displacement_C_m(), point.place_px);
+    const double moves = started ? chance(track.belief) : parameters_.prior;
     const double moving = started ? track.as_moving.density(x, noise2_px2_) : anywhere;
-    residuals_.push_back({point.place_px, x - point.place_px,
-                          point.spread(noise2_px2_) + by_depth * by_depth.transpose(),
+    residuals_.push_back({point.place_px, x - point.place_px, point.spread(noise2_px2_), by_depth,
                           seen.inverse_depth_pm, seen.covariance(2, 2), 1.0 / association_.crowd(c),
                           1 - moves, moves * moving + anywhere});
   }
-  return motion_fix(camera_, told, residuals_, velocity_error_.covariance());
 }
 
 Track HypothesisEdges::first_seen(const Chi& chi, std::size_t corner) {
@@ -257,15 +256,20 @@ void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& 
   estimate_noise(told.dt_s());
   const std::vector<int>& track_of = association_.match(chi, predicted_, noise2_px2_, told.dt_s());
   MotionField field = velocity_error_.without(told);
+  began_anew_ = false;
   if (!predicted_.empty()) {
-    const MotionFix off = fix(field, chi, track_of);
+    find_residuals(field, chi, track_of);
+    const MotionFix off = motion_fix(camera_, field, residuals_, velocity_error_.covariance());
     velocity_error_.see(off);
     field = field.corrected(off.turn_rad, off.velocity_mps);
     predict_tracks(field);
+    find_residuals(field, chi, track_of);
+    began_anew_ = is_contradicted(residuals_);
+    if (began_anew_) forget();
   }
   tracks_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
-    if (track_of[c] >= 0) {
+    if (track_of[c] >= 0 && !began_anew_) {
       Track& track = predicted_[track_of[c]];
       track.corner = static_cast<int>(c);
       if (see(track, chi.locations[c], association_.chance_ppx2(c), field)) {

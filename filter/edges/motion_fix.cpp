@@ -12,6 +12,8 @@ namespace {
 
 /// Standard deviation of the turn that is told of a frame, on an axis, before anything is seen.
 constexpr double kTurn_rad = 1e-3;
+/// Share of all that is seen which may leave its place in one frame: more is not the world's doing.
+constexpr double kLeave = 0.67;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -49,7 +51,8 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
     for (const Residual& residual : residuals) {
       const Eigen::Matrix<double, 2, 6> J = jacobian(camera, residual, dt);
       // How far a change of velocity moves a point is as uncertain as its depth.
-      Eigen::Matrix2d S = residual.covariance_px2;
+      Eigen::Matrix2d S =
+          residual.covariance_px2 + residual.by_depth_px * residual.by_depth_px.transpose();
       S.diagonal().array() += camera.focal_px * camera.focal_px * dt * dt * velocity_variance *
                               residual.inverse_depth_variance_pm2;
       // Along a segment of a million pixels what is known across is lost in rounding.
@@ -68,6 +71,17 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
     left_open = covariance + prior * std::pow(kFar, -2 * (iteration + 1));
   }
   return {fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>()};
+}
+
+bool is_contradicted(std::span<const Residual> residuals) {
+  double left = 0, all = 0;
+  for (const Residual& residual : residuals) {
+    const double stands = residual.stands * gauss(residual.off_px, residual.covariance_px2);
+    left += residual.voice * residual.stands * residual.otherwise_ppx2 /
+            (stands + residual.otherwise_ppx2);
+    all += residual.voice;
+  }
+  return left > kLeave * all;
 }
 
 void VelocityError::advance(const MotionField& told, double lasts) {

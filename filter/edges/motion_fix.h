@@ -15,7 +15,8 @@ namespace lcs {
 /// How far a corner is from where its track was expected if it stands.
 struct Residual {
   Vec2 place_px, off_px;
-  Eigen::Matrix2d covariance_px2;  ///< of the latter, whatever its depth
+  Eigen::Matrix2d covariance_px2;  ///< of the latter, by the depth that the track has
+  Vec2 by_depth_px;                ///< what half of the depths that it may have move it by
   double inverse_depth_pm = 0, inverse_depth_variance_pm2 = 0;
   double voice = 1;           ///< what it counts for: those of one body are off together
   double stands = 1;          ///< chance that the point is static
@@ -32,6 +33,11 @@ struct MotionFix {
 MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
                      std::span<const Residual> residuals,
                      const Eigen::Matrix3d& velocity_covariance);
+
+/// Whether most of what stood has left the places that this motion gives it, so that it is the
+/// motion that is wrong.
+/// \param residuals under the motion as fixed.
+bool is_contradicted(std::span<const Residual> residuals);
 
 /// The error of the told velocity. All the while it is as large as the estimator says
 /// (`EgoMotion::velocity_sigma_mps`) and a share of the speed; most of it lasts.

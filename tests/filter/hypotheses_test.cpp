@@ -647,10 +647,9 @@ struct Misled {
       const Vec2 expected = told.translated(told.rotated(before), ratio);
       const Vec2 x = truth.translated(truth.rotated(before), ratio);
       const Vec2 by_depth = 0.5 * parallax_px_m(vga(), told.displacement_C_m(), expected);
-      residuals.push_back(
-          {expected, x - expected + random.vector(0.3).head<2>(),
-           kNoise2_px2 * Eigen::Matrix2d::Identity() + by_depth * by_depth.transpose(),
-           ratio / told.reference_depth_m(), 1e-4, 0.05, 0.97, 1e-6});
+      residuals.push_back({expected, x - expected + random.vector(0.3).head<2>(),
+                           kNoise2_px2 * Eigen::Matrix2d::Identity(), by_depth,
+                           ratio / told.reference_depth_m(), 1e-4, 0.05, 0.97, 1e-6});
     }
   }
 
@@ -751,6 +750,19 @@ TEST(MotionFix, SaysNothingWhereNobodyTellsAndMoreTheMoreTell) {
     turn = fix.turn_rad.x();
   }
   EXPECT_GT(turn, 5e-4);
+}
+
+/// What is known to move says nothing of it.
+TEST(MotionFix, IsContradictedWhereMoreLeaveThanTwoThirds) {
+  Random random(9);
+  EXPECT_FALSE(is_contradicted({}));
+  for (const std::size_t leave : {0, 100, 130, 145, 200}) {
+    Misled misled(Vector3d::Zero(), Vector3d::Zero(), 200, random);
+    for (std::size_t i = 0; i < leave; ++i) misled.residuals[i].off_px = {30, 40};
+    EXPECT_EQ(is_contradicted(misled.residuals), leave > 135) << leave;
+    for (std::size_t i = 0; i < leave; ++i) misled.residuals[i].stands = 0.1;
+    EXPECT_FALSE(is_contradicted(misled.residuals)) << leave;
+  }
 }
 
 /// A camera whose told velocity is off by the same in each frame, of which the corners show half.
@@ -878,6 +890,59 @@ TEST(HypothesisEdges, AFirstTurnThatIsToldWrongIsSeenByTheCorners) {
       world.advance(motion);
     }
   }
+}
+
+/// As where poses jump, or stand for some frames.
+TEST(HypothesisEdges, BeginAnewWhereTheToldMotionIsNotTheCameras) {
+  const EgoMotion motion = steady_motion({0.6, 0, 0.5}, {0.01, 0.05, -0.02}, kDt_s);
+  struct Wrong {
+    const char* what;
+    EgoMotion told;
+    int frames;
+  };
+  for (const auto& [what, wrong, frames] :
+       {Wrong{"a turn", steady_motion(motion.v_C_mps, {0, 1, 0}, kDt_s), 3},
+        Wrong{"a step aside", steady_motion({8, 0, 0.5}, motion.w_C_radps, kDt_s), 1},
+        Wrong{"a step upwards", steady_motion({0.6, -8, 0.5}, motion.w_C_radps, kDt_s), 3},
+        Wrong{"none at all", steady_motion(Vector3d::Zero(), Vector3d::Zero(), kDt_s), 3}}) {
+    World world = sparse_world(5, 30);
+    Filter filter(world.camera, preset("default"));
+    for (int k = 0; k < 16; ++k) {
+      const bool is_wrong = k >= 8 && k < 8 + frames;
+      const FrameResult& result =
+          filter.step(rounded(world.corners()), world.signatures(static_cast<std::uint64_t>(k)),
+                      k == 0     ? EgoMotion{}
+                      : is_wrong ? wrong
+                                 : motion);
+      EXPECT_EQ(rebels(result), 0) << what << ", frame " << k;
+      const auto edges = result.layers.normal_edges.size();
+      EXPECT_EQ(edges > 200, k > 0 && !is_wrong) << what << ", frame " << k << ": " << edges;
+      world.advance(motion);
+    }
+    EXPECT_EQ(filter.diagnostics().count(Fault::motion_contradicted), frames) << what;
+    EXPECT_EQ(filter.diagnostics().total(), frames) << what;
+  }
+}
+
+/// It has been parked till then.
+TEST(HypothesisEdges, WhatFillsHalfOfThePictureMayDriveOff) {
+  World world = sparse_world(5, 30);
+  const EgoMotion motion = steady_motion({0, 0, 0.5}, {0, 0.05, 0}, kDt_s);
+  Filter filter(world.camera, preset("default"));
+  for (std::size_t k = 0; k < 12; ++k) {
+    if (k == 6) {
+      for (World::Point& point : world.points) {
+        if (point.x_C.x() > 0) point.velocity_C = {0.3, -0.6, 0};
+      }
+    }
+    const FrameResult& result =
+        filter.step(rounded(world.corners()), world.signatures(k), k == 0 ? EgoMotion{} : motion);
+    if (k > 8) {
+      EXPECT_GT(rebels(result), 0.4 * static_cast<double>(result.verdicts.size())) << k;
+    }
+    world.advance(motion);
+  }
+  EXPECT_EQ(filter.diagnostics().total(), 0);
 }
 
 /// As on a pole in the wind: each frame is turned by up to 10 mrad, 4 px, and no gyro sees it.
