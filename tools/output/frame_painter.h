@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "filter/draw/panels.h"
+#include "tools/output/panels.h"
 #include "tools/recording/recording.h"
 
 namespace lcs::bench {

@@ -16,7 +16,7 @@
 
 #include "filter/layers.h"
 
-namespace lcs {
+namespace lcs::bench {
 
 /// \name Colours, BGR, as in the paper.
 ///@{
@@ -97,4 +97,4 @@ class PanelSheet {
   cv::Size panel_;
 };
 
-}  // namespace lcs
+}  // namespace lcs::bench

@@ -1,4 +1,4 @@
-#include "filter/draw/panels.h"
+#include "tools/output/panels.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace lcs {
+namespace lcs::bench {
 namespace {
 
 constexpr double kDim = 0.75;       // of the image's brightness, so that thin lines stand out
@@ -407,4 +407,4 @@ cv::Mat3b PanelSheet::draw(const PanelContent& content) const {
   return sheet;
 }
 
-}  // namespace lcs
+}  // namespace lcs::bench

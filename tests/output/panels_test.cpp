@@ -1,11 +1,11 @@
-#include "filter/draw/panels.h"
+#include "tools/output/panels.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace lcs {
+namespace lcs::bench {
 namespace {
 
 /// Of captions and legends.
@@ -335,4 +335,4 @@ TEST_P(Panels, NoPanelPaintsOverAnother) {
 }
 
 }  // namespace
-}  // namespace lcs
+}  // namespace lcs::bench
