@@ -8,12 +8,6 @@
 #include "filter/matching/refill.h"
 
 namespace lcs {
-namespace {
-
-/// Sightings after which a track has a depth of its own.
-constexpr int kKnown = 3;
-
-}  // namespace
 
 HypothesisEdges::HypothesisEdges(const Intrinsics& camera, const CircleParameters& parameters)
     : EdgeExpert(camera, parameters.trust),
@@ -57,24 +51,25 @@ void HypothesisEdges::predict_tracks(const MotionField& field) {
   }
 }
 
-/// How far corners are from where this motion has their tracks if they stand, of tracks with so
-/// many sightings.
+/// How far corners are from where this motion has their tracks if they stand: those that have a
+/// motion or, where none has, those seen once.
 void HypothesisEdges::find_residuals(const MotionField& field, const Chi& chi,
-                                     const std::vector<int>& track_of, int least_sightings) {
+                                     const std::vector<int>& track_of) {
   residuals_.clear();
+  const bool started = std::ranges::any_of(predicted_, &Track::has_motion);
   const double anywhere = 1 / association_.reach_area_px2(field.dt_s());
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (track_of[c] < 0) continue;
     const Track& track = predicted_[track_of[c]];
-    if (track.sightings < least_sightings) continue;
+    if (started && !track.has_motion()) continue;
     const Vec2& x = chi.locations[c];
     const StaticPoint& point = track.as_static;
     StaticPoint seen = point;
-    if (!track.has_motion()) seen.see(x, noise2_px2_, depth_bounds(field, x));
+    if (!started) seen.see(x, noise2_px2_, depth_bounds(field, x));
     const Vec2 by_depth = depth_bounds(field, point.place_px).half_pm() *
                           parallax_px_m(camera_, field.displacement_C_m(), point.place_px);
-    const double moves = track.has_motion() ? chance(track.belief) : parameters_.prior;
-    const double moving = track.has_motion() ? track.as_moving.density(x, noise2_px2_) : anywhere;
+    const double moves = started ? chance(track.belief) : parameters_.prior;
+    const double moving = started ? track.as_moving.density(x, noise2_px2_) : anywhere;
     residuals_.push_back({point.place_px, x - point.place_px, point.spread(noise2_px2_), by_depth,
                           seen.inverse_depth_pm, seen.covariance(2, 2), 1.0 / association_.crowd(c),
                           1 - moves, moves * moving + anywhere});
@@ -261,19 +256,20 @@ void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& 
   estimate_noise(told.dt_s());
   const std::vector<int>& track_of = association_.match(chi, predicted_, noise2_px2_, told.dt_s());
   MotionField field = velocity_error_.without(told);
-  began_anew_ = false;
+  bool is_wrong = false;
   if (!predicted_.empty()) {
-    const int most = std::ranges::max(predicted_, {}, &Track::sightings).sightings;
-    find_residuals(field, chi, track_of, std::min(most, 2));
+    find_residuals(field, chi, track_of);
     const MotionFix off = motion_fix(camera_, field, residuals_, velocity_error_.covariance());
     velocity_error_.see(off);
     field = field.corrected(off.turn_rad, off.velocity_mps);
     predict_tracks(field);
-    find_residuals(field, chi, track_of, std::min(most, kKnown));
-    began_anew_ = (most >= kKnown || is_doubted_) && is_contradicted(residuals_);
-    if (began_anew_) forget();
-    is_doubted_ = began_anew_ || (is_doubted_ && most < kKnown);
+    find_residuals(field, chi, track_of);
+    // At the start nothing is known that could contradict, but that the last motion was wrong.
+    const bool is_known = began_anew_ || std::ranges::any_of(predicted_, &Track::has_motion);
+    is_wrong = is_known && is_contradicted(residuals_);
+    if (is_wrong) forget();
   }
+  began_anew_ = is_wrong;
   tracks_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (track_of[c] >= 0 && !began_anew_) {

@@ -24,15 +24,14 @@ class HypothesisEdges : public EdgeExpert {
     tracks_.clear();
     predicted_.clear();
     velocity_error_.forget();
-    is_doubted_ = false;
+    began_anew_ = false;
     noise_sum_px2_ = noise_weight_ = 0;
   }
 
  private:
   void estimate_noise(double dt_s);
   void predict_tracks(const MotionField& field);
-  void find_residuals(const MotionField& field, const Chi& chi, const std::vector<int>& track_of,
-                      int least_sightings);
+  void find_residuals(const MotionField& field, const Chi& chi, const std::vector<int>& track_of);
   Track first_seen(const Chi& chi, std::size_t corner);
   bool see(Track& track, const Vec2& x_px, double chance_ppx2, const MotionField& field);
   double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds) const;
@@ -49,7 +48,6 @@ class HypothesisEdges : public EdgeExpert {
   Association association_;
   Coupling coupling_;
   VelocityError velocity_error_;
-  bool is_doubted_ = false;       // it was contradicted, and no depth is known since
   std::vector<Track> tracks_;     // of the last frame; those of its corners first, by chi
   std::vector<Track> predicted_;  // the same, in this frame
   std::vector<Residual> residuals_;

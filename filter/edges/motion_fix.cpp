@@ -13,7 +13,7 @@ namespace {
 /// Standard deviation of the turn that is told of a frame, on an axis, before anything is seen.
 constexpr double kTurn_rad = 1e-3;
 /// Share of all that is seen which may leave its place in one frame: more is not the world's doing.
-constexpr double kLeave = 0.67;
+constexpr double kLeave = 0.8;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;

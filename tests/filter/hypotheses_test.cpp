@@ -753,13 +753,13 @@ TEST(MotionFix, SaysNothingWhereNobodyTellsAndMoreTheMoreTell) {
 }
 
 /// What is known to move says nothing of it.
-TEST(MotionFix, IsContradictedWhereMoreLeaveThanTwoThirds) {
+TEST(MotionFix, IsContradictedWhereMoreLeaveThanFourFifths) {
   Random random(9);
   EXPECT_FALSE(is_contradicted({}));
-  for (const std::size_t leave : {0, 100, 130, 145, 200}) {
+  for (const std::size_t leave : {0, 100, 155, 170, 200}) {
     Misled misled(Vector3d::Zero(), Vector3d::Zero(), 200, random);
     for (std::size_t i = 0; i < leave; ++i) misled.residuals[i].off_px = {30, 40};
-    EXPECT_EQ(is_contradicted(misled.residuals), leave > 135) << leave;
+    EXPECT_EQ(is_contradicted(misled.residuals), leave > 160) << leave;
     for (std::size_t i = 0; i < leave; ++i) misled.residuals[i].stands = 0.1;
     EXPECT_FALSE(is_contradicted(misled.residuals)) << leave;
   }
