@@ -68,7 +68,7 @@ void HypothesisEdges::find_residuals(const MotionField& field, const Chi& chi,
     if (!started) seen.see(x, noise2_px2_, depth_bounds(field, x));
     const Vec2 by_depth = depth_bounds(field, point.place_px).half_pm() *
                           parallax_px_m(camera_, field.displacement_C_m(), point.place_px);
-    const double moves = started ? chance(track.belief) : parameters_.prior;
+    const double moves = chance(track.belief);
     const double moving = started ? track.as_moving.density(x, noise2_px2_) : anywhere;
     residuals_.push_back({point.place_px, x - point.place_px, point.spread(noise2_px2_), by_depth,
                           seen.inverse_depth_pm, seen.covariance(2, 2), 1.0 / association_.crowd(c),

@@ -12,7 +12,7 @@ namespace {
 
 /// Standard deviation of the turn that is told of a frame, on an axis, before anything is seen.
 constexpr double kTurn_rad = 1e-3;
-/// Share of all that is seen which may leave its place in one frame: more is not the world's doing.
+/// Share of what stood that may leave its place in one frame: more is not the world's doing.
 constexpr double kLeave = 0.8;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -74,14 +74,15 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
 }
 
 bool is_contradicted(std::span<const Residual> residuals) {
-  double left = 0, all = 0;
+  double left = 0, stood = 0, all = 0;
   for (const Residual& residual : residuals) {
     const double stands = residual.stands * gauss(residual.off_px, residual.covariance_px2);
     left += residual.voice * residual.stands * residual.otherwise_ppx2 /
             (stands + residual.otherwise_ppx2);
+    stood += residual.voice * residual.stands;
     all += residual.voice;
   }
-  return left > kLeave * all;
+  return stood >= 0.5 * all && left > kLeave * stood;
 }
 
 void VelocityError::advance(const MotionField& told, double lasts) {
