@@ -52,11 +52,10 @@ void HypothesisEdges::predict_tracks(const MotionField& field) {
 }
 
 /// How far corners are from where this motion has their tracks if they stand: those that have a
-/// motion or, where none has, those seen once.
+/// motion or, where it has not started and none has, those seen once.
 void HypothesisEdges::find_residuals(const MotionField& field, const Chi& chi,
-                                     const std::vector<int>& track_of) {
+                                     const std::vector<int>& track_of, bool started) {
   residuals_.clear();
-  const bool started = std::ranges::any_of(predicted_, &Track::has_motion);
   const double anywhere = 1 / association_.reach_area_px2(field.dt_s());
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (track_of[c] < 0) continue;
@@ -258,15 +257,17 @@ void HypothesisEdges::update(Layers& layers, const Chi& chi, const MotionField& 
   MotionField field = velocity_error_.without(told);
   bool is_wrong = false;
   if (!predicted_.empty()) {
-    find_residuals(field, chi, track_of);
+    const bool started = std::ranges::any_of(predicted_, &Track::has_motion);
+    find_residuals(field, chi, track_of, started);
     const MotionFix off = motion_fix(camera_, field, residuals_, velocity_error_.covariance());
     velocity_error_.see(off);
     field = field.corrected(off.turn_rad, off.velocity_mps);
     predict_tracks(field);
-    find_residuals(field, chi, track_of);
     // At the start nothing is known that could contradict, but that the last motion was wrong.
-    const bool is_known = began_anew_ || std::ranges::any_of(predicted_, &Track::has_motion);
-    is_wrong = is_known && is_contradicted(residuals_);
+    if (started || began_anew_) {
+      find_residuals(field, chi, track_of, started);
+      is_wrong = is_contradicted(residuals_);
+    }
     if (is_wrong) forget();
   }
   began_anew_ = is_wrong;

@@ -31,7 +31,8 @@ class HypothesisEdges : public EdgeExpert {
  private:
   void estimate_noise(double dt_s);
   void predict_tracks(const MotionField& field);
-  void find_residuals(const MotionField& field, const Chi& chi, const std::vector<int>& track_of);
+  void find_residuals(const MotionField& field, const Chi& chi, const std::vector<int>& track_of,
+                      bool started);
   Track first_seen(const Chi& chi, std::size_t corner);
   bool see(Track& track, const Vec2& x_px, double chance_ppx2, const MotionField& field);
   double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds) const;

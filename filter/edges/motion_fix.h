@@ -34,8 +34,8 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
                      std::span<const Residual> residuals,
                      const Eigen::Matrix3d& velocity_covariance);
 
-/// Whether most of what stood has left the places that this motion gives it, so that it is the
-/// motion that is wrong.
+/// Whether most of what stood, and that half of all, has left the places that this motion gives it,
+/// so that it is the motion that is wrong.
 /// \param residuals under the motion as fixed.
 bool is_contradicted(std::span<const Residual> residuals);
 
