@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <system_error>
 
+#include "scenarios/inputs_read.h"
+
 namespace lcs::scenario {
 namespace {
 
@@ -26,6 +28,7 @@ InputFile::InputFile(const std::filesystem::path& file, const FileKind& kind)
 
 InputFile::InputFile(const std::filesystem::path& file, const FileKind& kind, const Source& where)
     : file_(file.string()), kind_(kind), where_(where) {
+  note_input(file);
   struct stat status = {};
   // Before it is opened too: that alone wakes up whoever writes to a pipe, or moves a tape.
   if (::stat(file_.c_str(), &status) != 0) fail(errno);

@@ -2,6 +2,7 @@
 
 #include <system_error>
 
+#include "scenarios/inputs_read.h"
 #include "scenarios/quantities.h"
 #include "scenarios/scenes.h"
 
@@ -17,7 +18,9 @@ std::optional<fs::path> file_of(Reader& reader, const char* key, const fs::path&
   const Value* value = reader.find(key);
   if (!value) return std::nullopt;
   as_text(*value, reader.path_of(key));
-  return file_beside(*value, folder, reader.path_of(key) + ": there is no file ");
+  const fs::path file = file_beside(*value, folder, reader.path_of(key) + ": there is no file ");
+  note_input(file);
+  return file;
 }
 
 /// A folder, but for a video.
@@ -26,7 +29,10 @@ fs::path path_of(Reader& reader, const fs::path& folder) {
   if (!value) return {};
   const fs::path path = folder / as_text(*value, reader.path_of("path"));
   std::error_code none;  // of a name that nothing can have
-  if (fs::is_directory(path, none) || fs::is_regular_file(path, none)) return path;
+  if (fs::is_directory(path, none) || fs::is_regular_file(path, none)) {
+    note_input(path);
+    return path;
+  }
   throw Error(value->where, reader.path_of("path") + ": there is no folder or video " +
                                 path.string() + "; " + path_remedy(folder));
 }

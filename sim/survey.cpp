@@ -113,10 +113,9 @@ Survey survey(const scenario::Scenario& scenario, int looks,
   return s;
 }
 
-void save_world(const scenario::Scenario& scenario, const std::filesystem::path& file,
-                WorldFormat format) {
+std::string world_file(const scenario::Scenario& scenario, WorldFormat format) {
   World world(require_scene(scenario), WrongStart::told);
-  world.save(file.string(), format == WorldFormat::mjcf);
+  return world.saved(format == WorldFormat::mjcf);
 }
 
 }  // namespace lcs::sim

@@ -45,9 +45,7 @@ enum class WorldFormat {
   mjb,  ///< MuJoCo's binary, which also holds the painted textures and the bumps of the ground
 };
 
-/// The world with rover and actors at the start.
-/// \throws as `survey`; std::runtime_error where the file cannot be written.
-void save_world(const scenario::Scenario& scenario, const std::filesystem::path& file,
-                WorldFormat format);
+/// The bytes of a file of the world, with rover and actors at the start. \throws as `survey`
+std::string world_file(const scenario::Scenario& scenario, WorldFormat format);
 
 }  // namespace lcs::sim

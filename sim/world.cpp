@@ -1,14 +1,18 @@
 #include "sim/world.h"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <system_error>
 
 #include "sim/ground.h"
 #include "sim/limits.h"
@@ -20,7 +24,8 @@ namespace lcs::sim {
 namespace {
 
 constexpr std::int64_t kLongestStep_ns = 2'000'000;
-constexpr double kActorInside_m = 0.22;  // less is a graze; a leg of a pedestrian in a crate is deeper
+constexpr double kActorInside_m =
+    0.22;  // less is a graze; a leg of a pedestrian in a crate is deeper
 
 /// A geom or body of the scene, for what is wrong with it once it is compiled.
 scenario::Source source_of(const scenario::Scenario& scenario, const ComposedScene& composed,
@@ -196,11 +201,10 @@ void World::find_objects(const ComposedScene& composed) {
     if (m.body_parentid[body] != 0) {
       object_of_body[b] = object_of_body[static_cast<std::size_t>(m.body_parentid[body])];
       if (moves && object_of_body[b] >= 0) {
-        refuse(
-            name,
-            fmt::format("body '{}' has a joint inside another body; an object moves as one: take "
-                        "the joint away, or make it a body of the worldbody",
-                        name));
+        refuse(name, fmt::format(
+                         "body '{}' has a joint inside another body; an object moves as one: take "
+                         "the joint away, or make it a body of the worldbody",
+                         name));
       }
     } else if (name == kEgoBody) {
       object_of_body[b] = -1;
@@ -362,8 +366,8 @@ void World::read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample
                             Eigen::Map<const Eigen::Vector3d>(readings + accelerometer_)});
     if (!in_gap(scenario_.imu.gaps, t_ns_)) imu.push_back(reading);
     if (imu_truth) {
-      imu_truth->push_back({t_ns_, T_WS(), v_WS_mps(), imu_noise_.gyro_bias_radps(),
-                            imu_noise_.accel_bias_mps2()});
+      imu_truth->push_back(
+          {t_ns_, T_WS(), v_WS_mps(), imu_noise_.gyro_bias_radps(), imu_noise_.accel_bias_mps2()});
     }
   }
   if (scenario_.odometry.enabled &&
@@ -384,7 +388,7 @@ void World::advance_to(std::int64_t t_ns, std::vector<ImuSample>& imu,
   }
 }
 
-void World::save(const std::string& file, bool as_mjcf) {
+std::string World::saved(bool as_mjcf) {
   mjModel& m = model_.m();
   for (const MovingActor& actor : actors_) {
     for (int body = 1; body < m.nbody; ++body) {
@@ -403,14 +407,23 @@ void World::save(const std::string& file, bool as_mjcf) {
   }
   if (!has_contacts(m)) m.opt.disableflags &= ~mjDSBL_CONTACT;  // for what is added to it
   if (!as_mjcf) {
-    mj_saveModel(&m, file.c_str(), nullptr, 0);
+    std::string bytes(static_cast<std::size_t>(mj_sizeModel(&m)), '\0');
+    mj_saveModel(&m, nullptr, bytes.data(), static_cast<int>(bytes.size()));
     if (const std::string warning = take_warning(); !warning.empty()) throw MujocoError(warning);
-    return;
+    return bytes;
   }
+  // MuJoCo writes XML to files alone, and does not notice a full disk. This one is in memory.
+  const int file = ::memfd_create("world", MFD_CLOEXEC);
+  if (file < 0) throw std::system_error(errno, std::generic_category(), "memfd_create");
+  const std::string path = "/proc/self/fd/" + std::to_string(file);
   std::array<char, 1000> message{};
-  if (!mj_saveLastXML(file.c_str(), &m, message.data(), static_cast<int>(message.size()))) {
-    throw MujocoError(message.data());
-  }
+  const bool is_saved =
+      mj_saveLastXML(path.c_str(), &m, message.data(), static_cast<int>(message.size())) != 0;
+  std::string bytes(static_cast<std::size_t>(std::max<off_t>(::lseek(file, 0, SEEK_END), 0)), '\0');
+  const ssize_t read = ::pread(file, bytes.data(), bytes.size(), 0);
+  ::close(file);
+  if (!is_saved || read != static_cast<ssize_t>(bytes.size())) throw MujocoError(message.data());
+  return bytes;
 }
 
 Snapshot World::snapshot() const {

@@ -64,10 +64,10 @@ class World {
   /// What starts inside of what: a line each, worded as in the error.
   const std::vector<std::string>& wrong_at_start() const { return wrong_at_start_; }
 
-  /// Writes MJCF, with rover and actors where they are now, or MuJoCo's binary. To be called at t =
-  /// 0; it changes the model, which must be the one that was made last in this process. \throws
-  /// MujocoError
-  void save(const std::string& file, bool as_mjcf);
+  /// The bytes of MJCF, with rover and actors where they are now, or of MuJoCo's binary. To be
+  /// called at t = 0; it changes the model, which must be the one that was made last in this
+  /// process. \throws MujocoError; std::system_error without memory for them.
+  std::string saved(bool as_mjcf);
 
   Snapshot snapshot() const;
   Pose T_WB() const;

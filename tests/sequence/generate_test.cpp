@@ -22,9 +22,9 @@
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/csv.h"
+#include "tools/files/sha256.h"
 #include "tools/recording/recording_io.h"
 #include "tools/sequence/manifest.h"
-#include "tools/sequence/sha256.h"
 #include "tools/sequence/text_file.h"
 #include "tools/sequence/true_flow.h"
 #include "tools/sequence/writer.h"
@@ -100,7 +100,7 @@ TEST_F(Generated, TheManifestHasEveryFileWithItsHashAndWhatTookPart) {
   std::set<std::string> listed;
   for (const auto& [path, record] : manifest.at("files").items()) {
     listed.insert(path);
-    EXPECT_EQ(record.at("sha256"), sha256_of_file(folder() / path)) << path;
+    EXPECT_EQ(record.at("sha256"), bench::sha256_of_file(folder() / path)) << path;
     EXPECT_EQ(record.at("bytes"), fs::file_size(folder() / path)) << path;
   }
   std::set<std::string> there = files_in(folder());
@@ -386,7 +386,7 @@ TEST_F(Generate, OnlyWhatIsAskedForIsWritten) {
 
 TEST_F(Generate, AFolderThatHoldsSomethingElseIsRefusedAndLeftAsItIs) {
   fs::create_directory(folder());
-  write_file(folder() / "thesis.tex", "years of work");
+  bench::write(folder() / "thesis.tex", "years of work");
   const CommandResult result = generate({"--out", folder()});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("thesis.tex"), std::string::npos) << result.err;
@@ -414,7 +414,7 @@ TEST_F(Generate, AnotherSequenceIsRefusedAndToldApart) {
 
 TEST_F(Generate, DamageToAFinishedSequenceIsFound) {
   ASSERT_EQ(generate({"--out", folder(), "--formats", "depth", "--quiet"}).exit_code, 0);
-  write_file(folder() / "depth/000001.png", "not what it was");
+  bench::write(folder() / "depth/000001.png", "not what it was");
   fs::remove(folder() / "depth/000002.png");
   const CommandResult result = generate({"--out", folder(), "--formats", "depth"});
   EXPECT_EQ(result.exit_code, 2);
@@ -449,9 +449,9 @@ TEST_F(GenerateInParts, AKilledRunGoesOnToTheSameBytes) {
       EXPECT_NE(stopped.err.find("goes on from there"), std::string::npos) << stopped.err;
     }
     // What a stroke of bad luck may leave: a file that is not finished, and one that is too short.
-    write_file(folder() / ".generate/4711.partial", "half");
-    write_file(folder() / "my.partial", "precious");
-    write_file(folder() / "depth/000000.png", "short");
+    bench::write(folder() / ".generate/4711.partial", "half");
+    bench::write(folder() / "my.partial", "precious");
+    bench::write(folder() / "depth/000000.png", "short");
     const CommandResult result = generate({"--out", folder(), "--quiet"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(fs::remove(folder() / "my.partial")) << "it is the user's";
@@ -532,7 +532,7 @@ TEST_F(GenerateInParts, WhatIsWrongWithItsWorldIsToldOnceHoweverManyProcessesMak
 }
 
 TEST_F(GenerateInParts, ShardsOfASuiteAreTheSuiteAndOneBrokenScenarioDoesNotStopTheOthers) {
-  write_file(home_.path() / "scenarios/broken.yaml", "frames: many\n");
+  bench::write(home_.path() / "scenarios/broken.yaml", "frames: many\n");
   for (const char* name : {"a", "b", "c"}) {
     fs::copy_file(kCrossing, home_.path() / "scenarios" / fmt::format("{}.yaml", name));
   }

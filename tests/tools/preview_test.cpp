@@ -126,7 +126,7 @@ TEST_F(PreviewCommand, TheWorldThatItWritesLoadsAgainAndStandsAsAtTheStart) {
   EXPECT_TRUE(model.has(mjOBJ_BODY, "crate"));
   EXPECT_FALSE(model.m().opt.disableflags & mjDSBL_CONTACT) << "what is added to it can stand";
 
-  sim::save_world(load(), folder_.path() / "world.mjb", sim::WorldFormat::mjb);
+  bench::write(folder_.path() / "world.mjb", sim::world_file(load(), sim::WorldFormat::mjb));
   const std::unique_ptr<mjModel, sim::ModelDeleter> binary(
       mj_loadModel((folder_.path() / "world.mjb").c_str(), nullptr));
   ASSERT_TRUE(binary);

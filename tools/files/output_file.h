@@ -4,7 +4,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -22,10 +21,8 @@ class OutputError : public std::runtime_error {
 /// What to do about an error of writing.
 std::string remedy(const std::error_code& error);
 
-/// The first bytes of a plain file; "" for anything else.
+/// At most that many first bytes of a regular file; "" for anything else, a link included.
 std::string beginning(const std::filesystem::path& file, std::size_t bytes);
-/// Whether a plain file has `sign` near its beginning.
-bool has_sign(const std::filesystem::path& file, std::string_view sign);
 
 /// Created (or emptied) on construction. Only `close` tells whether all of it was written.
 class OutputFile {
@@ -53,21 +50,5 @@ class OutputFile {
 
 /// A whole file at once. \throws OutputError
 void write_file(const std::filesystem::path& path, std::string_view bytes);
-
-/// Ends the names of files that `write_whole` has not finished: "metrics.json.1234.partial".
-inline constexpr const char* kUnfinished = ".partial";
-/// The name that such a file gets when it is finished.
-std::filesystem::path finished_name(const std::filesystem::path& unfinished);
-
-/// Writes a file that appears whole or not at all: `write` is given a path beside it to write to. A
-/// pipe, /dev/stdout, or whatever else is there and no plain file, is written to directly.
-/// \param sign that an earlier file must have, unless it is empty, in order to be replaced.
-/// \throws OutputError, and what `write` throws; then an earlier file is as it was.
-void write_whole(const std::filesystem::path& path,
-                 const std::function<void(const std::filesystem::path&)>& write,
-                 std::string_view sign = "");
-/// The same of these bytes.
-void write_whole(const std::filesystem::path& path, std::string_view bytes,
-                 std::string_view sign = "");
 
 }  // namespace lcs::bench

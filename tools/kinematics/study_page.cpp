@@ -77,11 +77,10 @@ std::string data_of(const Study& study, const std::vector<Statement>& statements
 
 }  // namespace
 
-bench::ResultFiles study_files() {
-  bench::ResultFiles files{{}, "topic,figure,value,unit,expected"};
-  for (const char* table : kTables) files.names.push_back(fmt::format("{}.csv", table));
-  files.names.insert(files.names.end(), {kAnswerFile, kPageFile, kFieldFile});
-  return files;
+bench::ResultNames study_files() {
+  bench::ResultNames names{kAnswerFile, kPageFile, kFieldFile};
+  for (const char* table : kTables) names.push_back(fmt::format("{}.csv", table));
+  return names;
 }
 
 void write_study(const std::filesystem::path& folder, const Study& study) {

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "tools/files/output_folder.h"
+#include "tools/files/output.h"
 #include "tools/kinematics/study.h"
 
 namespace lcs::kinematics {
@@ -15,7 +15,7 @@ inline constexpr const char* kPageFile = "kinematics.html";
 inline constexpr const char* kFieldFile = "field.png";
 
 /// All files that `write_study` may write.
-bench::ResultFiles study_files();
+bench::ResultNames study_files();
 
 /// \throws bench::OutputError
 void write_study(const std::filesystem::path& folder, const Study& study);

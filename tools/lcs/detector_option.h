@@ -79,6 +79,7 @@ inline void add_beside_option(CLI::App& command, std::vector<std::string>& besid
           "Let this detector watch the same frames too, and write its figures and layers to "
           "the folder; may be repeated")
       ->type_name("NAME=DIR")
+      ->group(kOutputs)
       ->allow_extra_args(false);
 }
 

@@ -16,7 +16,7 @@
 #include "sim/simulation.h"
 #include "tools/bench/tracker.h"
 #include "tools/files/csv.h"
-#include "tools/files/output_folder.h"
+#include "tools/files/output.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
@@ -149,7 +149,8 @@ CLI::App& add_generate_command(CLI::App& app, GenerateOptions& options) {
           "--out", options.out,
           "Folder of the sequence, data/<scenario> if not given; with --suite the folder of all, "
           "data if not given")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->group(kOutputs);
   std::string about = "Formats, with commas between them; all if not given:";
   for (const sequence::Format& format : sequence::formats()) {
     about += fmt::format("\n{:<10} {}", format.name, format.purpose);

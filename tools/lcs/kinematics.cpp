@@ -5,7 +5,7 @@
 #include "scenarios/load.h"
 #include "scenarios/scenes.h"
 #include "scenarios/shipped.h"
-#include "tools/files/output_folder.h"
+#include "tools/files/output.h"
 #include "tools/kinematics/answer.h"
 #include "tools/kinematics/study.h"
 #include "tools/kinematics/study_page.h"
@@ -82,7 +82,7 @@ ExitCode kinematics(const KinematicsOptions& options) {
       options.quick ? kinematics::Effort::quick() : kinematics::Effort::full());
   config.tolerance_px = options.tolerance_px;
   warn(scenario::shadowed_files(config.scenario));
-  bench::OutputFolder folder(options.out, kinematics::study_files());
+  bench::Output folder(options.out, kinematics::study_files());
   const auto study = [&] {
     Progress progress("kinematics", kinematics::study_pieces(config), options.quiet, "experiments");
     int done = 0;

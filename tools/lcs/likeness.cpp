@@ -13,7 +13,7 @@
 
 #include "scenarios/load.h"
 #include "sim/simulation.h"
-#include "tools/files/output_folder.h"
+#include "tools/files/output.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
@@ -165,8 +165,8 @@ CLI::App& add_likeness_command(CLI::App& app, LikenessOptions& options) {
 }
 
 ExitCode likeness(const LikenessOptions& options) {
-  bench::OutputFolder folder(options.out, likeness::likeness_files());
   std::vector<likeness::Run> runs = runs_of(options);
+  bench::Output folder(options.out, likeness::likeness_files());
   std::vector<likeness::Row> rows;
   {
     Progress progress("likeness", static_cast<int>(runs.size()), options.quiet, "runs");

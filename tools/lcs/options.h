@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "scenarios/reader.h"
+#include "tools/files/output.h"
 
 namespace lcs::tools {
 
@@ -94,10 +95,31 @@ inline std::pair<std::string, std::string> key_and_value(const std::string& sett
   return {setting.substr(0, equals), setting.substr(equals + 1)};
 }
 
+/// The heading in the help of all options that name what is written. Each goes through
+/// `bench::Output`, or `bench::output_path` where a folder grows.
+inline constexpr const char* kOutputs = "Outputs";
+
 /// \param otherwise the folder of the results where none is given.
 inline void add_out_option(CLI::App& command, std::string& out, const std::string& otherwise) {
   command.add_option("--out", out, "Folder for the results; " + otherwise + " if not given")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->group(kOutputs);
+}
+
+/// An option that names a single file, and `--force` beside the first of a command.
+inline void add_output_file_option(CLI::App& command, const std::string& name, std::string& out,
+                                   bool& force, const std::string& about) {
+  command.add_option(name, out, about)->type_name("FILE")->group(kOutputs);
+  if (command.get_option_no_throw("--force") != nullptr) return;
+  command
+      .add_flag("--force", force,
+                "Replace a file that lcs has not written, or that was changed since")
+      ->group(kOutputs);
+}
+
+/// How a file that is named may be replaced.
+inline bench::Overwrite overwrite(bool force) {
+  return force ? bench::Overwrite::any_file : bench::Overwrite::own_or_forced;
 }
 
 /// What a run leaves beside its figures.

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <vector>
 
 #include "scenarios/load.h"
 #include "sim/survey.h"
-#include "tools/files/output_file.h"
+#include "tools/files/output.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
@@ -67,12 +69,10 @@ CLI::App& add_preview_command(CLI::App& app, PreviewOptions& options) {
   command.add_option("SCENARIO", options.scenario, "The scenario, a YAML file")
       ->required()
       ->type_name("");
-  command.add_option("--out", options.out, "The page; out/preview/SCENARIO.html if not given")
-      ->type_name("FILE");
-  command
-      .add_option("--mjcf", options.mjcf,
-                  "Write the world too, for MuJoCo's viewer: an .xml, or an .mjb")
-      ->type_name("FILE");
+  add_output_file_option(command, "--out", options.out, options.force,
+                         "The page; out/preview/SCENARIO.html if not given");
+  add_output_file_option(command, "--mjcf", options.mjcf, options.force,
+                         "Write the world too, for MuJoCo's viewer: an .xml, or an .mjb");
   add_seed_option(command, options.seed);
   add_set_option(command, options.sets, "Set a value of the scenario, as \"ego.speed=0.7 m/s\"");
   command.add_flag("--quiet", options.quiet, "Print only what is wrong");
@@ -83,6 +83,14 @@ CLI::App& add_preview_command(CLI::App& app, PreviewOptions& options) {
 ExitCode preview(const PreviewOptions& options) {
   const scenario::Scenario scenario =
       scenario::load(options.scenario, {.sets = options.sets, .seed = options.seed});
+  bench::Output page(options.out.empty() ? fs::path("out") / "preview" / (scenario.name + ".html")
+                                         : fs::path(options.out),
+                     overwrite(options.force));
+  std::vector<bench::Output*> outputs{&page};
+  std::optional<bench::Output> world;
+  if (!options.mjcf.empty()) {
+    outputs.push_back(&world.emplace(options.mjcf, overwrite(options.force)));
+  }
   const preview::Preview p = [&] {
     Progress progress(scenario.name, scenario.frames, options.quiet);
     return preview::preview(scenario, [&](int done) {
@@ -90,19 +98,15 @@ ExitCode preview(const PreviewOptions& options) {
       progress.show(done);
     });
   }();
-  if (!options.mjcf.empty()) {
+  if (world) {
     const auto format = fs::path(options.mjcf).extension() == ".mjb" ? sim::WorldFormat::mjb
                                                                      : sim::WorldFormat::mjcf;
-    bench::write_whole(options.mjcf,
-                       [&](const fs::path& beside) { sim::save_world(scenario, beside, format); });
+    bench::write_file(world->staging(), sim::world_file(scenario, format));
   }
-  fs::path page = options.out;
-  if (page.empty()) {
-    page = fs::path("out") / "preview" / (scenario.name + ".html");
-    fs::create_directories(page.parent_path());
-  }
-  preview::write_preview(page, scenario, p);
-  if (!options.quiet) print_preview(scenario, p, page);
+  preview::write_preview(page.staging(), scenario, p);
+  check_interrupted();
+  bench::commit_all(outputs);
+  if (!options.quiet) print_preview(scenario, p, page.target());
   for (const std::string& line : p.wrong) tell(line);
   return p.wrong.empty() ? kFine : kCriterionFailed;
 }

@@ -18,6 +18,7 @@ struct PreviewOptions {
   std::string mjcf;      ///< file for the world; "": none
   std::optional<std::uint64_t> seed;
   std::vector<std::string> sets;  ///< "key=value"
+  bool force = false;
   bool quiet = false;
 };
 

@@ -8,7 +8,7 @@
 #include "scenarios/document.h"
 #include "scenarios/load.h"
 #include "tools/files/csv.h"
-#include "tools/files/output_file.h"
+#include "tools/files/output.h"
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/run.h"
@@ -169,11 +169,12 @@ void make_absolute(Value& recording) {
   }
 }
 
-void write_scenario(Value document, const fs::path& file) {
+void write_scenario(Value document, bench::Output&& file) {
   for (scenario::Entry& entry : document.entries) {
     if (entry.key == "recording") make_absolute(entry.value);
   }
-  bench::write_file(file, scenario::yaml_text(document) + "\n");
+  bench::write_file(file.staging(), scenario::yaml_text(document) + "\n");
+  file.commit();
 }
 
 }  // namespace
@@ -215,10 +216,8 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
   add_set_option(command, options.sets, "Set a parameter of the filter, as hypotheses.prior=0.05");
   add_beside_option(command, options.beside);
   add_out_option(command, options.out, "out/<recording>");
-  command
-      .add_option("--write", options.write,
-                  "Write the scenario that the options make to this file, and run nothing")
-      ->type_name("FILE");
+  add_output_file_option(command, "--write", options.write, options.force,
+                         "Write the scenario that the options make to this file, and run nothing");
   add_result_options(command, options.no_video, options.events);
   add_quiet_option(command, options.quiet);
   command.footer(kHelp);
@@ -230,7 +229,7 @@ ExitCode replay(const ReplayOptions& options) {
   scenario::Scenario scenario = scenario::load(document, "");
   scenario.name = options.out.empty() ? name_of(options.path) : name_of(options.out);
   if (!options.write.empty()) {
-    write_scenario(document, options.write);
+    write_scenario(document, bench::Output(options.write, overwrite(options.force)));
     return kFine;
   }
   return run_scenario({.scenario = {},

@@ -23,6 +23,7 @@ struct ReplayOptions {
   std::vector<std::string> beside;  ///< as `RunOptions`
   std::string out;                  ///< folder; "" is out/<name of the recording>
   std::string write;                ///< file for the scenario, and nothing is run; "": run it
+  bool force = false;
   bool no_video = false;
   bool events = false;
   bool quiet = false;

@@ -185,17 +185,10 @@ std::vector<Watching> watching(const RunOptions& options, const scenario::Scenar
     all.push_back(
         {comparators::wanted(beside.substr(0, equals)), beside.substr(equals + 1), scenario});
   }
-  std::set<std::filesystem::path> targets;
   for (Watching& one : all) {
     // whoever reads the filter's settings: what is wrong is told
     one.idle_settings = comparators::apply_preset(one.wanted, one.scenario);
     if (!options.recorded.empty()) comparators::require_corners_suffice(one.wanted);
-    if (!targets.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(one.target)))
-             .second) {
-      throw std::invalid_argument(
-          fmt::format("{} is to hold the results of two detectors; give each a folder of its own",
-                      one.target.string()));
-    }
   }
   return all;
 }
@@ -363,7 +356,13 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   }
   check_interrupted();
   std::vector<bench::Metrics> metrics;
-  for (Watching& one : all) metrics.push_back(one.result->finish(one.recording));
+  std::vector<bench::Output*> outputs;
+  for (Watching& one : all) {
+    metrics.push_back(one.result->finish(one.recording));
+    outputs.push_back(&one.result->output());
+  }
+  check_interrupted();
+  bench::commit_all(outputs);
 
   warn(bench::lines_of(bench::warnings_of(own.recording)));
   if (playback && options.recorded.empty()) {
@@ -374,7 +373,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   if (!options.quiet) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       print_result(scenario, all[i].wanted.name, metrics[i], playback ? &*playback : nullptr,
-                   all[i].result->target());
+                   all[i].result->output().target());
     }
   }
   bool failed = false;

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
+#include <vector>
 
 #include "scenarios/message.h"
+#include "tools/files/output.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
@@ -55,14 +58,6 @@ bench::Recording read_run(const std::filesystem::path& folder) {
   return recording;
 }
 
-/// Detections that were read are somebody's own.
-void require_other_file(const std::filesystem::path& out, const std::filesystem::path& in) {
-  std::error_code is_not_there;
-  if (in.empty() || !std::filesystem::equivalent(out, in, is_not_there)) return;
-  throw bench::OutputError(fmt::format(
-      "{} is the file that is scored; choose another one with --write-detections", out.string()));
-}
-
 /// Each run's figures anew, in the table that `lcs suite` prints.
 ExitCode score_suite(const ScoreOptions& options) {
   if (!options.detections.empty() || !options.out.empty() || !options.write_detections.empty()) {
@@ -97,13 +92,10 @@ CLI::App& add_score_command(CLI::App& app, ScoreOptions& options) {
       .add_option("--detections", options.detections,
                   "Score what this CSV file says instead of the run's own detector")
       ->type_name("FILE");
-  command
-      .add_option("--out", options.out, "Write the figures to this file, as metrics.json has them")
-      ->type_name("FILE");
-  command
-      .add_option("--write-detections", options.write_detections,
-                  "Write the verdicts and boxes that are scored to this CSV file")
-      ->type_name("FILE");
+  add_output_file_option(command, "--out", options.out, options.force,
+                         "Write the figures to this file, as metrics.json has them");
+  add_output_file_option(command, "--write-detections", options.write_detections, options.force,
+                         "Write the verdicts and boxes that are scored to this CSV file");
   add_quiet_option(command, options.quiet);
   command.footer(kHelp);
   return command;
@@ -119,22 +111,18 @@ ExitCode score(const ScoreOptions& options) {
     for (const std::string& line : bench::lines_of(detections.counts)) tell(line);
     recording = std::move(detections.recording);
   }
+  std::vector<bench::Output*> outputs;
+  std::optional<bench::Output> figures, verdicts;
+  const auto add = [&](std::optional<bench::Output>& output, const std::string& file) {
+    if (!file.empty()) outputs.push_back(&output.emplace(file, overwrite(options.force)));
+  };
+  add(figures, options.out);
+  add(verdicts, options.write_detections);
   const bench::Metrics metrics = bench::score(recording);
-
   check_interrupted();
-  if (!options.out.empty()) {
-    bench::write_whole(
-        options.out,
-        [&](const std::filesystem::path& path) { bench::write_metrics(path, metrics); },
-        bench::kMetricsSign);
-  }
-  if (!options.write_detections.empty()) {
-    require_other_file(options.write_detections, options.detections);
-    bench::write_whole(
-        options.write_detections,
-        [&](const std::filesystem::path& path) { bench::write_detections(path, recording); },
-        bench::kDetectionsHeader);
-  }
+  if (figures) bench::write_metrics(figures->staging(), metrics);
+  if (verdicts) bench::write_detections(verdicts->staging(), recording);
+  bench::commit_all(outputs);
   if (!options.quiet) {
     print_out("{}\n{}",
               scenario::one_line(fmt::format("{} by {}: {} frames, seed {}", recording.scenario,

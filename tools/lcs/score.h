@@ -14,6 +14,7 @@ struct ScoreOptions {
   std::string detections;        ///< CSV; "": the run's own detector
   std::string out;               ///< file for the figures; "": none
   std::string write_detections;  ///< file for the verdicts; "": none
+  bool force = false;
   bool quiet = false;
 };
 

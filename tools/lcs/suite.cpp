@@ -16,7 +16,7 @@
 #include "tools/bench/tracker.h"
 #include "tools/comparators/detectors.h"
 #include "tools/files/output_file.h"
-#include "tools/files/output_folder.h"
+#include "tools/files/output.h"
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
@@ -302,7 +302,7 @@ ExitCode suite(const SuiteOptions& options) {
   std::optional<suite::SuiteResult> baseline;
   if (!options.baseline.empty()) baseline = suite::read_suite(options.baseline);
 
-  bench::OutputFolder folder(options.out, suite::suite_files());
+  bench::Output folder(options.out, suite::suite_files());
   SuiteProgress progress(options.quiet);
   const auto run = [&](const std::vector<std::string>& detectors, const fs::path& recordings) {
     const bool with_own = detectors.front() == own;

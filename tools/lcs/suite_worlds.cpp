@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "tools/files/output_file.h"
+#include "tools/files/written.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/output/frame_pictures.h"
@@ -85,7 +86,13 @@ std::vector<std::string> make_worlds(const WorldsOptions& options, std::size_t j
   for (const worlds::Choice& choice : choices) {
     const std::filesystem::path file = worlds::kept_world(kFolder, choice);
     files.push_back(file.string());
-    if (std::filesystem::exists(file)) continue;
+    const fs::path world = file.parent_path();
+    if (fs::exists(world) && !fs::is_empty(world)) {
+      const std::string what = bench::first_difference(world);
+      if (what.empty()) continue;
+      throw bench::OutputError(fmt::format(
+          "{}: {}; remove that folder, so that the world is drawn anew", world.string(), what));
+    }
     std::filesystem::create_directories(file.parent_path().parent_path());
     commands.push_back({"world", choice.family, "--seed", std::to_string(choice.seed), "--out",
                         file.parent_path().string(), "--quiet"});

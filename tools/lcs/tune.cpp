@@ -5,11 +5,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <ctime>
 #include <filesystem>
 #include <optional>
 
-#include "tools/files/output_file.h"
+#include "tools/files/output.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
@@ -166,12 +167,12 @@ ExitCode tune(const TuneOptions& options) {
       fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))), program_text(),
       command_of(options)};
   const std::string record = tune::record_text(found, stated, circumstances);
-  const auto write = [&](const char* name, const std::string& text, const char* sign) {
-    bench::write_whole(out / name, text, sign);
-  };
-  write(tune::kPresetFile, tune::preset_text(with_other_learnt(found, start), circumstances),
-        tune::kPresetSign);
-  write(tune::kRecordFile, record, tune::kRecordSign);
+  bench::Output preset_file(out / tune::kPresetFile, bench::Overwrite::own);
+  bench::Output record_file(out / tune::kRecordFile, bench::Overwrite::own);
+  bench::write_file(preset_file.staging(),
+                    tune::preset_text(with_other_learnt(found, start), circumstances));
+  bench::write_file(record_file.staging(), record);
+  bench::commit_all(std::array{&preset_file, &record_file});
   if (!options.quiet) print_out("{}\nresults in {}\n", record, out.string());
   return kFine;
 }

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "tools/files/output.h"
 #include "tools/files/output_file.h"
-#include "tools/files/output_folder.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
@@ -37,7 +37,7 @@ Files written to the folder, all or none:
 
 Exit codes:
   0  fine
-  2  error, or the folder holds something; nothing was written
+  2  error, or the folder holds anything else than a world that lcs wrote; nothing was written
   130  interrupted (Ctrl-C): likewise
 )";
 
@@ -52,8 +52,7 @@ CLI::App& add_world_command(CLI::App& app, WorldOptions& options) {
       ->type_name("")
       ->required();
   add_seed_option(command, options.seed, "What it is drawn from; 1 if not given");
-  command.add_option("--out", options.out, "Folder for it; out/worlds/FAMILY_SEED if not given")
-      ->type_name("DIR");
+  add_out_option(command, options.out, "out/worlds/FAMILY_SEED");
   command
       .add_option("--pictures", options.pictures,
                   "Folder of pictures (.png, .jpg, .jpeg, .bmp) to take some of the surfaces from")
@@ -72,12 +71,7 @@ ExitCode world(const WorldOptions& options) {
   const std::filesystem::path target =
       options.out.empty() ? std::filesystem::path("out") / "worlds" / worlds::name_of(drawn)
                           : std::filesystem::path(options.out);
-  if (std::filesystem::exists(target) && !std::filesystem::is_empty(target)) {
-    throw bench::OutputError(fmt::format(
-        "{} holds something, perhaps a world that was edited; choose another folder with --out",
-        target.string()));
-  }
-  bench::OutputFolder folder(target, worlds::world_files());
+  bench::Output folder(target, worlds::world_files());
   worlds::write_world(drawn, folder.staging());
   if (options.sheet) {
     const auto scenario = folder.staging() / (worlds::name_of(drawn) + ".yaml");

@@ -120,8 +120,8 @@ std::string text_of(const std::vector<Group>& groups) {
   return text;
 }
 
-bench::ResultFiles likeness_files() {
-  return {{kTable, kPage}, kHead};
+bench::ResultNames likeness_files() {
+  return {kTable, kPage};
 }
 
 void write_likeness(const std::filesystem::path& folder, const std::vector<Row>& rows) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/files/output_folder.h"
+#include "tools/files/output.h"
 #include "tools/likeness/measure.h"
 
 namespace lcs::likeness {
@@ -27,7 +27,7 @@ std::vector<Group> groups_of(const std::vector<Row>& rows);
 std::string text_of(const std::vector<Group>& groups);
 
 /// likeness.csv with all rows, page.html with the groups.
-bench::ResultFiles likeness_files();
+bench::ResultNames likeness_files();
 /// \throws bench::OutputError
 void write_likeness(const std::filesystem::path& folder, const std::vector<Row>& rows);
 

@@ -9,10 +9,9 @@
 
 namespace lcs::bench {
 
-ResultFiles result_files() {
-  return {.names = {kMetricsFile, kFramesFile, kLayersFile, kTruthFile, kCameraFile, kWarningsFile,
-                    kVideoFile, kEventsFile, kPicturesFile, "report.html"},
-          .sign = kMetricsSign};
+ResultNames result_files() {
+  return {kMetricsFile,  kFramesFile, kLayersFile, kTruthFile,    kCameraFile,
+          kWarningsFile, kVideoFile,  kEventsFile, kPicturesFile, "report.html"};
 }
 
 Result::Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,
@@ -60,7 +59,6 @@ Metrics Result::finish(const Recording& run) {
     write_events(folder_.staging() / kEventsFile, events, sums);
   }
   if (add_page_) add_page_(folder_.staging(), metrics);
-  folder_.commit();
   return metrics;
 }
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/files/output_folder.h"
+#include "tools/files/output.h"
 #include "tools/output/frame_painter.h"
 #include "tools/output/frame_pictures.h"
 #include "tools/output/video.h"
@@ -19,7 +19,7 @@
 namespace lcs::bench {
 
 /// All files that a run's folder may hold.
-ResultFiles result_files();
+ResultNames result_files();
 
 /// What a result holds beside its figures.
 struct ResultOptions {
@@ -43,14 +43,14 @@ class Result {
   /// \param image may be empty where no video is made and nothing shown. \throws OutputError
   void add(const FrameRecord& frame, const cv::Mat3b& image);
 
-  /// Scores the run, writes what depends on all of it, and puts the folder in its place.
-  /// \throws OutputError; then an earlier result is still there.
+  /// Scores the run, and writes what depends on all of it. The folder takes its place when the
+  /// output is committed. \throws OutputError
   Metrics finish(const Recording& run);
 
-  const std::filesystem::path& target() const { return folder_.target(); }
+  Output& output() { return folder_; }
 
  private:
-  OutputFolder folder_;
+  Output folder_;
   RecordingWriter writer_;
   FramePainter painter_;
   std::optional<Video> video_;

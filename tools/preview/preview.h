@@ -42,7 +42,7 @@ struct Preview {
 /// \param on_frame as of `sim::survey`. \throws as `sim::survey`.
 Preview preview(const scenario::Scenario& scenario, const std::function<void(int)>& on_frame = {});
 
-/// One HTML file with its pictures inside, whole or not at all. \throws bench::OutputError
+/// One HTML file with its pictures inside. \throws bench::OutputError
 void write_preview(const std::filesystem::path& file, const scenario::Scenario& scenario,
                    const Preview& preview);
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "scenarios/input_file.h"
+#include "scenarios/inputs_read.h"
 #include "scenarios/message.h"
 #include "tools/files/json_node.h"
 #include "tools/recording/coco_mask.h"
@@ -353,6 +354,7 @@ class LineReader {
 
 Recording read_recording(const std::filesystem::path& folder) {
   Recording recording;
+  scenario::note_input(folder);
   LineReader layers(folder / kLayersFile);
   LineReader truth(folder / kTruthFile);
   const bool has_header = truth.next([&](const Json& json) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "scenarios/inputs_read.h"
 #include "tools/replay/in_order.h"
 #include "tools/replay/picture_folder.h"
 
@@ -49,6 +50,7 @@ const std::vector<Layout>& layouts() {
 
 const Layout& layout_of(const scenario::Recorded& asked) {
   std::string names;
+  scenario::note_input(asked.path);
   for (const Layout& layout : layouts()) {
     if (asked.format.empty() ? layout.fits(asked.path) : asked.format == layout.name) return layout;
     names += fmt::format("{}{}", names.empty() ? "" : ", ", layout.name);

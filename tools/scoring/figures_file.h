@@ -11,7 +11,6 @@
 namespace lcs::bench {
 
 inline constexpr const char* kMetricsFile = "metrics.json";
-inline constexpr const char* kMetricsSign = "\"rebel.f1\"";  ///< no other program's file has it
 inline constexpr const char* kFramesFile = "frames.csv";
 
 /// Flat JSON, null for what is undefined. \throws OutputError

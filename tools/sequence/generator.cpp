@@ -9,12 +9,12 @@
 #include <stdexcept>
 
 #include "sim/simulation.h"
+#include "tools/files/sha256.h"
 #include "tools/sequence/manifest.h"
 #include "tools/sequence/objects.h"
 #include "tools/sequence/readme.h"
 #include "tools/sequence/replay_settings.h"
 #include "tools/sequence/self_check.h"
-#include "tools/sequence/sha256.h"
 #include "tools/sequence/text_file.h"
 #include "tools/sequence/true_flow.h"
 #include "tools/sequence/writers.h"
@@ -132,12 +132,17 @@ FrameRange part_of(int count, int i, int n) {
   return {share(i - 1), share(i)};
 }
 
+/// Of a file that the sequence is made of.
+std::string sha256_of(const std::filesystem::path& file) {
+  return bench::sha256(read_file(file));
+}
+
 std::string plan_of(const scenario::Scenario& scenario, const GenerateOptions& options) {
   const sim::Versions versions = sim::versions();
   nlohmann::ordered_json plan = {
       {"scenario", scenario.name},
-      {"scenario_sha256", sha256_of_file(scenario.file)},
-      {"scene_sha256", sha256_of_file(scenario.scene)},
+      {"scenario_sha256", sha256_of(scenario.file)},
+      {"scene_sha256", sha256_of(scenario.scene)},
       {"set", options.sets},
       {"seed", scenario.seed},
       {"frames", scenario.frames},
@@ -147,11 +152,11 @@ std::string plan_of(const scenario::Scenario& scenario, const GenerateOptions& o
       {"renderer", versions.gl_renderer},
   };
   if (scenario.ego.drive == scenario::Drive::own) {
-    plan["rover_sha256"] = sha256_of_file(scenario.ego.drive_file);
+    plan["rover_sha256"] = sha256_of(scenario.ego.drive_file);
   }
   for (const scenario::Actor& actor : scenario.actors) {
     if (actor.body || actor.shape != scenario::Shape::own) continue;
-    plan["shape_sha256"][actor.name] = sha256_of_file(actor.shape_file);
+    plan["shape_sha256"][actor.name] = sha256_of(actor.shape_file);
   }
   return plan.dump();
 }
@@ -169,6 +174,11 @@ sim::Warnings generate_frames(const scenario::Scenario& scenario, const Generate
 
   sim::Simulation simulation(scenario);
   const SequenceInfo info{scenario, simulation.calibration(), simulation.objects()};
+  std::vector<std::filesystem::path> later{kManifestFile};
+  for (const GrowingDocument& document : documents_of(info, options)) {
+    later.emplace_back(document.path());
+  }
+  journal.require_unwritten(later, *missing.begin());
   const FrameMaker maker(info, options, journal);
   std::optional<sim::Observation> last;  // waits for its next frame
   const auto make = [&](const sim::Observation& now, const sim::Observation* next) {
@@ -213,7 +223,7 @@ std::vector<std::string> finish_sequence(const scenario::Scenario& scenario,
   for (const GrowingDocument& document : documents) {
     const std::string text = document.text();
     journal.write(document.path(), text);
-    files.push_back({document.path(), text.size(), sha256(text)});
+    files.push_back({document.path(), text.size(), bench::sha256(text)});
     if (document.is_empty()) {
       notes.push_back(
           fmt::format("{} is empty: there is nothing to tell in any frame", document.path()));

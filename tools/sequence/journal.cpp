@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <tuple>
+#include <utility>
 
-#include "tools/files/output_file.h"
+#include "tools/files/output.h"
+#include "tools/files/sha256.h"
 #include "tools/sequence/manifest.h"
-#include "tools/sequence/sha256.h"
 #include "tools/sequence/text_file.h"
 
 namespace lcs::sequence {
@@ -20,6 +22,7 @@ using Json = nlohmann::json;
 
 constexpr const char* kJournal = ".generate";
 constexpr const char* kPlan = "plan.json";
+constexpr const char* kUnfinished = ".partial";
 
 /// What two plans differ in, for people; "" if in nothing.
 std::string difference(const Json& there, const Json& asked) {
@@ -44,7 +47,7 @@ std::string first_stranger(const fs::path& folder) {
 
 Journal::Journal(const fs::path& folder, const std::string& plan,
                  const std::function<void(const fs::path&)>& before_it_is_read)
-    : folder_(fs::absolute(folder).lexically_normal()) {
+    : folder_(bench::output_path(folder)) {
   try {
     if (fs::exists(folder_) && !fs::is_directory(folder_)) {
       throw bench::OutputError(folder_.string() +
@@ -69,7 +72,7 @@ void Journal::take_over(const std::string& plan) {
           "with --out, or move it away",
           folder_.string(), stranger));
     }
-    write_file(plan_file(), plan);
+    replace(plan_file(), plan);
     return;
   }
   const Json there = is_begun ? Json::parse(read_file(plan_file()), nullptr, false)
@@ -119,18 +122,19 @@ int Journal::recorded() const {
 void Journal::add(int frame, const FrameOutput& output, const Agreements& checks) const {
   if (!fs::exists(plan_file())) return;
   Json files = Json::array();
-  std::map<std::string, Json> by_path;
+  std::map<std::string, std::pair<Json, std::string_view>> by_path;
   for (const FrameFile& file : output.files) {
     Json record;
+    std::string_view bytes = file.bytes;
     if (file.same_as.empty()) {
-      write(file.path, file.bytes);
-      record = {{"path", file.path}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}};
+      write(file.path, bytes);
+      record = {{"path", file.path}, {"bytes", bytes.size()}, {"sha256", bench::sha256(bytes)}};
     } else {
-      link_or_copy(file.same_as, file.path);
-      record = by_path.at(file.same_as);
+      std::tie(record, bytes) = by_path.at(file.same_as);
+      link_or_copy(file.same_as, file.path, bytes);
       record["path"] = file.path;
     }
-    by_path[file.path] = record;
+    by_path[file.path] = {record, bytes};
     files.push_back(std::move(record));
   }
   Json agreements = Json::object();
@@ -138,7 +142,7 @@ void Journal::add(int frame, const FrameOutput& output, const Agreements& checks
     agreements[name] = {{"worst", agreement.worst}, {"compared", agreement.compared}};
   }
   const Json record = {{"files", files}, {"rows", output.rows}, {"checks", agreements}};
-  write_file(record_file(frame), record.dump());
+  replace(record_file(frame), record.dump());
   if (!fs::exists(plan_file())) close();  // it was just put together
 }
 
@@ -158,17 +162,54 @@ FrameRecordEntry Journal::read(int frame) const {
   return record;
 }
 
+void Journal::require_own(const fs::path& within, std::string_view bytes) const {
+  const fs::path path = folder_ / within;
+  const auto refuse = [&](const std::string& place, const char* what) {
+    throw bench::OutputError(
+        fmt::format("{} {}, and would be lost; move it away, or choose another folder with --out",
+                    place, what));
+  };
+  fs::path above = folder_;
+  for (const fs::path& name : within.parent_path()) {
+    above /= name;
+    if (fs::is_symlink(above)) refuse(above.string(), "is a link, which is not followed");
+  }
+  const fs::file_status status = fs::symlink_status(path);
+  if (!fs::exists(status)) return;
+  if (!fs::is_regular_file(status)) refuse(path.string(), "is not a file");
+  if (fs::file_size(path) > bytes.size() || !bytes.starts_with(read_file(path))) {
+    refuse(path.string(), "is not a file that lcs has written");
+  }
+}
+
+void Journal::require_unwritten(const std::vector<fs::path>& within, int frame) const {
+  for (const fs::path& path : within) {
+    if (!fs::exists(fs::symlink_status(folder_ / path))) continue;
+    // Another process may have put the sequence together meanwhile.
+    if (is_whole(frame) || !fs::exists(plan_file())) return;
+    throw bench::OutputError(fmt::format(
+        "{} is not a file that lcs has written, and would be lost; move it away, or choose "
+        "another folder with --out",
+        (folder_ / path).string()));
+  }
+}
+
 void Journal::write(const fs::path& within, std::string_view bytes) const {
-  const fs::path unfinished =
-      folder_ / kJournal / fmt::format("{}{}", ::getpid(), bench::kUnfinished);
+  require_own(within, bytes);
+  replace(folder_ / within, bytes);
+}
+
+void Journal::replace(const fs::path& path, std::string_view bytes) const {
+  const fs::path unfinished = folder_ / kJournal / fmt::format("{}{}", ::getpid(), kUnfinished);
   std::error_code error;
   try {
+    fs::create_directories(unfinished.parent_path());
     bench::write_file(unfinished, bytes);
-    fs::create_directories((folder_ / within).parent_path());
-    fs::rename(unfinished, folder_ / within);
+    fs::create_directories(path.parent_path());
+    fs::rename(unfinished, path);
   } catch (const fs::filesystem_error& failure) {
     fs::remove(unfinished, error);
-    throw bench::OutputError(fmt::format("cannot write {}: {}; {}", (folder_ / within).string(),
+    throw bench::OutputError(fmt::format("cannot write {}: {}; {}", path.string(),
                                          failure.code().message(), bench::remedy(failure.code())));
   } catch (...) {
     fs::remove(unfinished, error);
@@ -176,12 +217,13 @@ void Journal::write(const fs::path& within, std::string_view bytes) const {
   }
 }
 
-void Journal::link_or_copy(const fs::path& from, const fs::path& to) const {
+void Journal::link_or_copy(const fs::path& from, const fs::path& to, std::string_view bytes) const {
+  require_own(to, bytes);
   std::error_code error;
   fs::create_directories((folder_ / to).parent_path(), error);
   fs::remove(folder_ / to, error);
   fs::create_hard_link(folder_ / from, folder_ / to, error);
-  if (error) write(to, read_file(folder_ / from));  // a file system without links
+  if (error) write(to, bytes);  // a file system without links
 }
 
 void Journal::close() const {
@@ -190,7 +232,7 @@ void Journal::close() const {
   for (const auto& entry : fs::directory_iterator(folder_ / kJournal)) {
     const std::string name = entry.path().filename().string();
     const bool is_record = name.starts_with("frame-") && name.ends_with(".json");
-    if (is_record || name.ends_with(bench::kUnfinished)) own.push_back(entry.path());
+    if (is_record || name.ends_with(kUnfinished)) own.push_back(entry.path());
   }
   for (const fs::path& path : own) fs::remove(path);
   std::error_code holds_something_else;

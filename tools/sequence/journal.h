@@ -38,7 +38,8 @@ class Journal {
  public:
   /// \param plan a JSON object that says all that the bytes of the sequence depend on.
   /// Takes over a folder that is missing, empty, or holds a sequence that was begun by the same
-  /// plan. \throws bench::OutputError for a folder that holds anything else.
+  /// plan. \throws bench::OutputError for a folder that holds anything else, and as
+  /// `bench::output_path`.
   /// \param before_it_is_read called with the folder, which is there then.
   Journal(const std::filesystem::path& folder, const std::string& plan,
           const std::function<void(const std::filesystem::path&)>& before_it_is_read = {});
@@ -56,8 +57,14 @@ class Journal {
   void add(int frame, const FrameOutput& output, const Agreements& checks) const;
 
   /// Writes a file of the sequence, which appears whole or not at all; until then it is in the
-  /// journal, which takes it along. \throws bench::OutputError
+  /// journal, which takes it along. A file that is there with the same bytes, or with the first of
+  /// them, was left by a process that was stopped. \throws bench::OutputError, also where there is
+  /// any other file, or a link, which is left as it is.
   void write(const std::filesystem::path& within, std::string_view bytes) const;
+
+  /// \throws bench::OutputError where one of these files is there before `frame` is whole. They are
+  /// written when all frames are, so that it is not of the sequence.
+  void require_unwritten(const std::vector<std::filesystem::path>& within, int frame) const;
 
   /// \throws std::runtime_error for a frame without a record.
   FrameRecordEntry read(int frame) const;
@@ -72,7 +79,10 @@ class Journal {
   std::filesystem::path record_file(int frame) const;
   std::filesystem::path plan_file() const;
   void take_over(const std::string& plan);
-  void link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to) const;
+  void require_own(const std::filesystem::path& within, std::string_view bytes) const;
+  void replace(const std::filesystem::path& path, std::string_view bytes) const;
+  void link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to,
+                    std::string_view bytes) const;
 
   std::filesystem::path folder_;
   bool complete_ = false;

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "tools/files/json_node.h"
-#include "tools/sequence/sha256.h"
+#include "tools/files/sha256.h"
 #include "tools/sequence/text_file.h"
 
 namespace lcs::sequence {
@@ -47,7 +47,7 @@ std::vector<std::string> damage(const fs::path& folder) {
       std::error_code error;
       if (!fs::is_regular_file(folder / path, error)) {
         damaged.push_back(path + " is missing");
-      } else if (sha256_of_file(folder / path) != sha256) {
+      } else if (bench::sha256_of_file(folder / path) != sha256) {
         damaged.push_back(path + " has other bytes than the manifest says");
       }
     });

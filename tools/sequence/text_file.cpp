@@ -1,9 +1,6 @@
 #include "tools/sequence/text_file.h"
 
-#include <system_error>
-
 #include "scenarios/input_file.h"
-#include "tools/files/output_file.h"
 
 namespace lcs::sequence {
 
@@ -14,12 +11,6 @@ std::string read_file(const fs::path& path) {
   constexpr scenario::FileKind kSequenceFile{16 * scenario::kGibibyte,
                                              "generate the sequence again"};
   return scenario::read_file(path, kSequenceFile);
-}
-
-void write_file(const fs::path& path, std::string_view bytes) {
-  std::error_code error;
-  fs::create_directories(path.parent_path(), error);  // what fails here fails again in a moment
-  bench::write_whole(path, bytes);
 }
 
 }  // namespace lcs::sequence

@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "scenarios/inputs_read.h"
 #include "scenarios/load.h"
 #include "scenarios/message.h"
 #include "scenarios/shipped.h"
@@ -37,6 +38,7 @@ fs::path as_people_write(const fs::path& path) {
 
 void add_folder(const fs::path& folder, std::vector<File>& files) {
   std::vector<fs::path> found;
+  scenario::note_input(folder);
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.is_regular_file() && entry.path().extension() == ".yaml") {
       found.push_back(as_people_write(entry.path()));

@@ -9,6 +9,7 @@
 #include <set>
 #include <string_view>
 
+#include "scenarios/inputs_read.h"
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
 
@@ -183,6 +184,7 @@ SuiteResult read_suite(const std::filesystem::path& path) {
       bench::kMostJsonBytes, "name the folder of a suite, or its suite.json; lcs suite makes one"};
   std::error_code error;
   const bool is_folder = std::filesystem::is_directory(path, error);
+  if (is_folder) scenario::note_input(path);
   return bench::read_json(is_folder ? path / kSuiteFile : path, kSuiteDocument, suite_of);
 }
 

@@ -162,16 +162,20 @@ void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteWat
 
 }  // namespace
 
-bench::ResultFiles suite_files() {
-  bench::ResultFiles files{{kSuiteFile, kJunitFile, "report.html", "worlds.html", "worlds/*.jpg",
-                            kStandingFile, std::string("beside/*/") + kSuiteFile},
-                           "\"detector\""};
-  for (const std::string& file : bench::result_files().names) {
+bench::ResultNames suite_files() {
+  bench::ResultNames names{kSuiteFile,
+                           kJunitFile,
+                           "report.html",
+                           "worlds.html",
+                           "worlds/*.jpg",
+                           kStandingFile,
+                           std::string("beside/*/") + kSuiteFile};
+  for (const std::string& file : bench::result_files()) {
     for (const char* suite : {"", "beside/*/"}) {
-      files.names.push_back(fmt::format("{}runs/*/seed-*/{}", suite, file));
+      names.push_back(fmt::format("{}runs/*/seed-*/{}", suite, file));
     }
   }
-  return files;
+  return names;
 }
 
 fs::path detections_of(const std::string& scenario, std::uint64_t seed) {

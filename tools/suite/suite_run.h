@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/files/output_folder.h"
+#include "tools/files/output.h"
 #include "tools/suite/plan.h"
 #include "tools/suite/suite_result.h"
 
@@ -17,7 +17,7 @@ namespace lcs::suite {
 
 /// All files that a suite's folder may hold: its own, and in beside/NAME/ those of the same suite
 /// with other detectors.
-bench::ResultFiles suite_files();
+bench::ResultNames suite_files();
 
 /// What is told while runs are under way.
 struct SuiteProgress {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/files/output_folder.h"
+#include "tools/files/output.h"
 #include "tools/worlds/world.h"
 
 namespace lcs::worlds {
@@ -55,8 +55,8 @@ std::string name_of(const World& world);
 inline constexpr const char* kPlanFile = "plan.png";
 inline constexpr const char* kSheetFile = "sheet.png";
 
-/// Files that a world's folder may hold, as `bench::OutputFolder` takes them.
-bench::ResultFiles world_files();
+/// Files that a world's folder may hold, as `bench::Output` takes them.
+bench::ResultNames world_files();
 
 /// Writes NAME.yaml, scene.xml, plan.png, textures/ and meshes/ into a folder.
 /// \throws bench::OutputError

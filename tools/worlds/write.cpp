@@ -230,9 +230,8 @@ std::string scenario_text(const World& world) {
 
 }  // namespace
 
-bench::ResultFiles world_files() {
-  return {{"scene.xml", "*.yaml", "textures/*.png", "meshes/*.obj", kPlanFile, kSheetFile},
-          "<mujoco"};
+bench::ResultNames world_files() {
+  return {"scene.xml", "*.yaml", "textures/*.png", "meshes/*.obj", kPlanFile, kSheetFile};
 }
 
 void write_world(const World& world, const std::filesystem::path& folder) {

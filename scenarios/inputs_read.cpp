@@ -1,0 +1,30 @@
+#include "scenarios/inputs_read.h"
+
+#include <mutex>
+#include <set>
+
+namespace lcs::scenario {
+namespace {
+
+std::mutex mutex;
+
+std::set<std::filesystem::path>& noted() {
+  static std::set<std::filesystem::path> paths;
+  return paths;
+}
+
+}  // namespace
+
+void note_input(const std::filesystem::path& path) {
+  std::error_code error;  // a working folder that is gone: the path is told as it is
+  std::filesystem::path absolute = std::filesystem::absolute(path, error);
+  const std::lock_guard lock(mutex);
+  noted().insert(error ? path : std::move(absolute));
+}
+
+std::vector<std::filesystem::path> inputs_read() {
+  const std::lock_guard lock(mutex);
+  return {noted().begin(), noted().end()};
+}
+
+}  // namespace lcs::scenario

@@ -1,0 +1,649 @@
+#include "tools/files/output.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <random>
+#include <set>
+#include <thread>
+
+#include "scenarios/inputs_read.h"
+#include "tests/tools/files.h"
+#include "tests/tools/refusal.h"
+#include "tests/tools/temporary_folder.h"
+
+namespace lcs::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+const ResultNames kFiles{"metrics.json", "video.mp4"};
+
+class OutputTest : public testing::Test {
+ protected:
+  /// A finished result.
+  static void make_result(const fs::path& target, const std::string& text) {
+    Output folder(target, kFiles);
+    write(folder.staging() / "metrics.json", "by lcs: " + text);
+    folder.commit();
+  }
+  static std::string refusal(const fs::path& target) {
+    return refusal_of<OutputError>([&] { Output(target, kFiles); });
+  }
+  static std::string file_refusal(const fs::path& target, Overwrite overwrite = Overwrite::own) {
+    return refusal_of<OutputError>([&] { Output(target, overwrite); });
+  }
+  TemporaryFolder temporary_;
+  fs::path top_ = fs::canonical(temporary_.path());
+};
+
+TEST_F(OutputTest, ResultsAppearAtTheTargetOnCommitAndNotBefore) {
+  Output folder(top_ / "run", kFiles);
+  write(folder.staging() / "metrics.json", "{}");
+  EXPECT_FALSE(fs::exists(top_ / "run"));
+  folder.commit();
+  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "{}");
+  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+}
+
+TEST_F(OutputTest, NothingIsLeftWhenItIsNotCommitted) {
+  try {
+    const Output folder(top_ / "out" / "deep" / "run", kFiles);
+    write(folder.staging() / "metrics.json", "{}");
+    throw std::runtime_error("the run failed");
+  } catch (const std::runtime_error&) {
+  }
+  EXPECT_TRUE(entries(top_).empty()) << "the folders made above the target are gone too";
+}
+
+TEST_F(OutputTest, FoldersAboveTheTargetThatWereThereStay) {
+  fs::create_directory(top_ / "out");
+  { const Output folder(top_ / "out" / "deep" / "run", kFiles); }
+  EXPECT_EQ(entries(top_), std::set<std::string>{"out"});
+  EXPECT_TRUE(entries(top_ / "out").empty());
+}
+
+TEST_F(OutputTest, AnEarlierResultIsReplacedAsAWhole) {
+  {
+    Output folder(top_ / "run", kFiles);
+    write(folder.staging() / "metrics.json", "by lcs: old");
+    write(folder.staging() / "video.mp4", "old");
+    folder.commit();
+  }
+  make_result(top_ / "run", "new");
+  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: new");
+  EXPECT_EQ(entries(top_ / "run"), (std::set<std::string>{"metrics.json", ".lcs-written"}))
+      << "no old video is left";
+  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+}
+
+TEST_F(OutputTest, AnEarlierResultStaysWhenTheNextOneFails) {
+  make_result(top_ / "run", "old");
+  {
+    const Output folder(top_ / "run", kFiles);
+    write(folder.staging() / "metrics.json", "new");
+  }
+  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: old");
+  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+}
+
+// ---- What killed processes left
+
+/// A process that is killed while it writes to a target: all that it made stays.
+class Abandoned : public OutputTest {
+ protected:
+  static fs::path abandon(const fs::path& target, const ResultNames& files,
+                          const std::function<void(Output&)>& write_some) {
+    const pid_t process = ::fork();
+    if (process == 0) {
+      Output folder(target, files);
+      write_some(folder);
+      ::_exit(0);
+    }
+    ::waitpid(process, nullptr, 0);
+    return target.string() + ".partial-" + std::to_string(process);
+  }
+  static void write_metrics(const Output& folder) {
+    write(folder.staging() / "metrics.json", "half");
+  }
+};
+
+TEST_F(Abandoned, IsTakenAway) {
+  const fs::path left = abandon(top_ / "run", kFiles, write_metrics);
+  ASSERT_EQ(entries(top_), std::set<std::string>{left.filename()});
+  make_result(top_ / "run", "new");
+  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+}
+
+TEST_F(Abandoned, IsLeftAloneWhileItsProcessLivesOrByOthers) {
+  const fs::path left = abandon(top_ / "run", kFiles, write_metrics);
+  make_result(top_ / "walk", "new");
+  {
+    const FolderLock living(left);
+    ASSERT_TRUE(living.is_held());
+    make_result(top_ / "run", "new");
+  }
+  EXPECT_EQ(entries(top_), (std::set<std::string>{"run", "walk", left.filename()}));
+}
+
+TEST_F(Abandoned, FoldersOfTheUserThatAreCalledLikeItAreNeverTouched) {
+  std::set<std::string> mine;
+  for (const char* name : {"run.partial-notes", "run.partial-1", "run.partial-2", "run.old-3"}) {
+    fs::create_directories(top_ / name / "in");
+    write(top_ / name / "in" / "metrics.json", "precious");
+    mine.insert(name);
+  }
+  // a copy of a real one, under another name
+  const fs::path left = abandon(top_ / "run", kFiles, write_metrics);
+  fs::copy(left, top_ / "run.partial-copy", fs::copy_options::recursive);
+  mine.insert({"run.partial-copy", "run"});
+  make_result(top_ / "run", "new");
+  EXPECT_EQ(entries(top_), mine);
+  for (const char* name : {"run.partial-notes", "run.partial-1", "run.partial-2", "run.old-3"}) {
+    EXPECT_EQ(read(top_ / name / "in" / "metrics.json"), "precious");
+  }
+}
+
+TEST_F(Abandoned, WhatTheUserPutIntoItStays) {
+  const fs::path left = abandon(top_ / "run", kFiles, write_metrics);
+  write(left / "in" / "thesis.tex", "precious");
+  write(left / "notes.txt", "precious");
+  fs::create_symlink(left / "notes.txt", left / "in" / "video.mp4");
+  make_result(top_ / "run", "new");
+  EXPECT_EQ(entries(top_), (std::set<std::string>{"run", left.filename()}));
+  EXPECT_EQ(entries(left), (std::set<std::string>{"in", "notes.txt"}));
+  EXPECT_EQ(entries(left / "in"), (std::set<std::string>{"thesis.tex", "video.mp4"}));
+}
+
+TEST_F(Abandoned, SuitesGoWithTheRunsThatWereUnderWayInThem) {
+  const ResultNames suite{"suite.json", "runs/*/seed-*/metrics.json"};
+  abandon(top_ / "suite", suite, [](Output& folder) {
+    const fs::path run = folder.staging() / "runs" / "near" / "seed-1";
+    fs::create_directories(run.parent_path());
+    abandon(run, kFiles, write_metrics);
+  });
+  {
+    Output folder(top_ / "suite", suite);
+    write(folder.staging() / "suite.json", "by lcs: new");
+    folder.commit();
+  }
+  EXPECT_EQ(entries(top_), std::set<std::string>{"suite"});
+}
+
+TEST_F(Abandoned, AnEarlierResultOnItsWayOutIsPutBack) {
+  const fs::path left = abandon(top_ / "run", kFiles, write_metrics);
+  fs::create_directory(left / "out");  // as where two folders cannot be exchanged at once
+  write(left / "out" / "metrics.json", "by lcs: old");
+  { const Output folder(top_ / "run", kFiles); }
+  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: old");
+}
+
+// ---- What is not replaced
+
+TEST_F(OutputTest, AFolderOfTheSameNamesByAnotherProgramIsRefused) {
+  const std::string mine = R"({"detector": "mine", "rebel.f1": 0.9})";
+  fs::create_directory(top_ / "run");
+  write(top_ / "run" / "metrics.json", mine);
+  EXPECT_NE(refusal(top_ / "run").find("metrics.json is not a file that lcs has written"),
+            std::string::npos);
+  EXPECT_EQ(read(top_ / "run" / "metrics.json"), mine);
+  // Neither does a record that tells of other bytes help.
+  write(top_ / "run" / ".lcs-written", std::string(64, '0') + "  metrics.json\n");
+  EXPECT_NE(refusal(top_ / "run").find("metrics.json was changed"), std::string::npos);
+  write(top_ / "run" / ".lcs-written", "by lcs\n");
+  EXPECT_NE(refusal(top_ / "run").find("metrics.json is not a file"), std::string::npos);
+  EXPECT_EQ(read(top_ / "run" / "metrics.json"), mine);
+}
+
+TEST_F(OutputTest, AResultThatWasEditedIsRefusedAndUntouched) {
+  make_result(top_ / "run", "old");
+  write(top_ / "run" / "metrics.json", "by lcs: my notes");
+  EXPECT_NE(refusal(top_ / "run").find("metrics.json was changed since lcs wrote it"),
+            std::string::npos);
+  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: my notes");
+}
+
+TEST_F(OutputTest, AResultWithoutSomeOfItsFilesOrCopiedElsewhereIsReplaced) {
+  {
+    Output folder(top_ / "run", kFiles);
+    write(folder.staging() / "metrics.json", "old");
+    write(folder.staging() / "video.mp4", "old");
+    folder.commit();
+  }
+  fs::remove(top_ / "run" / "video.mp4");
+  fs::copy(top_ / "run", top_ / "copy", fs::copy_options::recursive);
+  make_result(top_ / "run", "new");
+  make_result(top_ / "copy", "new");
+  EXPECT_EQ(bytes_in(top_ / "run"), bytes_in(top_ / "copy"));
+}
+
+TEST_F(OutputTest, TheFolderThatOneIsInIsNotReplaced) {
+  make_result(top_ / "run", "old");
+  const fs::path before = fs::current_path();
+  fs::current_path(top_ / "run");
+  const std::string refused = refusal(".");
+  fs::current_path(before);
+  EXPECT_NE(refused.find("the folder that this runs in"), std::string::npos) << refused;
+}
+
+TEST_F(OutputTest, AnEmptyFolderIsTaken) {
+  fs::create_directory(top_ / "run");
+  make_result(top_ / "run", "new");
+  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: new");
+}
+
+TEST_F(OutputTest, AFolderThatHoldsSomethingElseIsRefusedAndUntouched) {
+  make_result(top_ / "run", "old");
+  write(top_ / "run" / "thesis.tex", "precious");
+  EXPECT_NE(refusal(top_ / "run").find("thesis.tex"), std::string::npos);
+  EXPECT_EQ(read(top_ / "run" / "thesis.tex"), "precious");
+  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: old");
+  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+}
+
+TEST_F(OutputTest, FilesOfAnotherKindOfResultAreForeign) {
+  make_result(top_ / "run", "old");
+  const ResultNames others{"answer.md"};
+  EXPECT_NE(refusal_of<OutputError>([&] { Output(top_ / "run", others); }).find("would be lost"),
+            std::string::npos);
+  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: old");
+}
+
+/// How folders are exchanged on the file system of the test.
+enum class Exchange { works, is_unknown, comes_late };
+Exchange exchange = Exchange::works;
+fs::path late;  ///< what somebody writes just then
+
+}  // namespace
+}  // namespace lcs::bench
+
+/// In place of the C library's.
+extern "C" int renameat2(int, const char* from, int, const char* to, unsigned flags) {
+  using namespace lcs::bench;
+  if (exchange == Exchange::comes_late) std::ofstream(late) << "precious";
+  if (exchange == Exchange::is_unknown) {
+    errno = EINVAL;
+    return -1;
+  }
+  exchange = Exchange::works;
+  return static_cast<int>(::syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, flags));
+}
+
+namespace lcs::bench {
+namespace {
+
+TEST_F(OutputTest, IsReplacedWhereFoldersCannotBeExchanged) {
+  make_result(top_ / "run", "old");
+  exchange = Exchange::is_unknown;
+  make_result(top_ / "run", "new");
+  exchange = Exchange::works;
+  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: new");
+  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+}
+
+TEST_F(OutputTest, WhatComesInTheLastMomentIsNotLost) {
+  make_result(top_ / "run", "old");
+  late = top_ / "run" / "thesis.tex";
+  exchange = Exchange::comes_late;
+  EXPECT_THROW(make_result(top_ / "run", "new"), OutputError);
+  EXPECT_EQ(exchange, Exchange::works) << "it did come";
+  EXPECT_EQ(read(late), "precious");
+  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: old");
+  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+}
+
+TEST_F(OutputTest, WhatBecameForeignDuringTheRunIsNotReplaced) {
+  Output folder(top_ / "run", kFiles);
+  write(folder.staging() / "metrics.json", "new");
+  fs::create_directory(top_ / "run");
+  write(top_ / "run" / "thesis.tex", "precious");
+  EXPECT_THROW(folder.commit(), OutputError);
+  EXPECT_EQ(read(top_ / "run" / "thesis.tex"), "precious");
+}
+
+class NestedOutput : public OutputTest {
+ protected:
+  const ResultNames kNested{"suite.json", "runs/*/seed-*/metrics.json"};
+  NestedOutput() {
+    Output folder(target_, kNested);
+    write(folder.staging() / "suite.json", "by lcs: old");
+    fs::create_directories(folder.staging() / "runs" / "near" / "seed-1");
+    write(folder.staging() / "runs" / "near" / "seed-1" / "metrics.json", "old");
+    folder.commit();
+  }
+  std::string refusal() const {
+    return refusal_of<OutputError>([&] { Output(target_, kNested); });
+  }
+  const fs::path target_ = top_ / "suite";
+};
+
+TEST_F(NestedOutput, IsReplacedAsAWhole) {
+  {
+    Output folder(target_, kNested);
+    write(folder.staging() / "suite.json", "by lcs: new");
+    folder.commit();
+  }
+  EXPECT_EQ(read(target_ / "suite.json"), "by lcs: new");
+  EXPECT_EQ(entries(target_), (std::set<std::string>{"suite.json", ".lcs-written"}));
+  EXPECT_EQ(entries(top_), std::set<std::string>{"suite"});
+}
+
+TEST_F(NestedOutput, IsRefusedWhateverForeignLiesHoweverDeep) {
+  for (const fs::path foreign :
+       {"runs/thesis.tex", "runs/near/thesis.tex", "runs/near/seed-1/thesis.tex",
+        "runs/near/seed-1/thesis/metrics.json", "runs/near/notes/metrics.json", "metrics.json",
+        "runs/metrics.json", "suite.json/thesis.tex"}) {
+    const bool replaces_file = foreign.parent_path() == "suite.json";
+    if (replaces_file) fs::remove(target_ / "suite.json");
+    fs::create_directories((target_ / foreign).parent_path());
+    write(target_ / foreign, "precious");
+    const std::string refused = refusal();
+    EXPECT_NE(refused.find("would be lost"), std::string::npos) << foreign;
+    EXPECT_EQ(read(target_ / foreign), "precious");
+    fs::remove(target_ / foreign);
+    for (const char* folder : {"runs/near/seed-1/thesis", "runs/near/notes"}) {
+      fs::remove(target_ / folder);
+    }
+  }
+}
+
+TEST_F(NestedOutput, ALinkInsideItIsForeignAndNotFollowed) {
+  fs::create_directory(top_ / "papers");
+  write(top_ / "papers" / "metrics.json", "precious");
+  fs::create_directory_symlink(top_ / "papers", target_ / "runs" / "near" / "seed-2");
+  EXPECT_NE(refusal().find("runs/near/seed-2"), std::string::npos) << refusal();
+  EXPECT_EQ(read(top_ / "papers" / "metrics.json"), "precious");
+}
+
+TEST_F(OutputTest, ATargetThatCannotBeIsRefusedWithTheReason) {
+  write(top_ / "file", "");
+  EXPECT_NE(refusal(top_ / "file").find("is not a folder"), std::string::npos);
+  EXPECT_NE(refusal(top_ / "file" / "run").find("Not a directory"), std::string::npos);
+  EXPECT_NE(refusal("/proc/run").find("/proc/run"), std::string::npos);
+  EXPECT_EQ(entries(top_), std::set<std::string>{"file"});
+}
+
+TEST_F(OutputTest, ATrailingSlashAndDotsMeanTheSameFolder) {
+  make_result(top_ / "out" / ".." / "run" / "", "new");
+  EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: new");
+}
+
+TEST_F(OutputTest, ALinkIsRefusedWhateverItLeadsTo) {
+  make_result(top_ / "run", "old");
+  const auto before = bytes_in(top_);
+  fs::create_directory_symlink(top_ / "run", top_ / "latest");
+  fs::create_directory_symlink(top_ / "nowhere", top_ / "dangling");
+  for (const char* name : {"latest", "dangling", "latest/"}) {
+    EXPECT_NE(refusal(top_ / name).find("is a link"), std::string::npos) << name;
+  }
+  EXPECT_EQ(bytes_in(top_), before);
+  EXPECT_FALSE(fs::exists(top_ / "nowhere"));
+}
+
+TEST_F(OutputTest, AFolderAboveTheTargetMayBeALink) {
+  fs::create_directory(top_ / "disk");
+  fs::create_directory_symlink(top_ / "disk", top_ / "out");
+  make_result(top_ / "out" / "run", "new");
+  EXPECT_EQ(read(top_ / "disk" / "run" / "metrics.json"), "by lcs: new");
+}
+
+// ---- Inputs
+
+TEST_F(OutputTest, AnInputIsNoOutputNorIsWhatLiesInsideOrRoundIt) {
+  make_result(top_ / "recording", "old");
+  write(top_ / "drive" / "poses.txt", "0 0 0");
+  const auto before = bytes_in(top_);
+  scenario::note_input(top_ / "recording");
+  scenario::note_input(top_ / "drive" / "poses.txt");
+  for (const char* target : {"recording", "recording/deep/run", "drive", ".", "drive/poses.txt"}) {
+    EXPECT_NE(refusal(top_ / target).find("which is read"), std::string::npos)
+        << target << ": " << refusal(top_ / target);
+    EXPECT_NE(file_refusal(top_ / target, Overwrite::any_file).find("which is read"),
+              std::string::npos)
+        << target << ": --force does not help";
+  }
+  EXPECT_EQ(bytes_in(top_), before);
+  make_result(top_ / "drive" / "run", "new");  // a file is an input, but not its folder
+}
+
+// ---- Single files
+
+class OutputOfAFile : public OutputTest {
+ protected:
+  static void make_file(const fs::path& target, const std::string& text,
+                        Overwrite overwrite = Overwrite::own) {
+    Output file(target, overwrite);
+    write(file.staging(), text);
+    file.commit();
+  }
+};
+
+TEST_F(OutputOfAFile, AppearsWithItsRecordAndIsReplacedWhileNobodyChangesIt) {
+  make_file(top_ / "deep" / "figures.json", "old");
+  EXPECT_EQ(entries(top_ / "deep"),
+            (std::set<std::string>{"figures.json", ".figures.json.lcs-written"}));
+  make_file(top_ / "deep" / "figures.json", "new");
+  EXPECT_EQ(read(top_ / "deep" / "figures.json"), "new");
+  write(top_ / "deep" / "figures.json", "new, and edited");
+  EXPECT_NE(file_refusal(top_ / "deep" / "figures.json").find("was changed since"),
+            std::string::npos);
+  EXPECT_EQ(read(top_ / "deep" / "figures.json"), "new, and edited");
+  EXPECT_EQ(entries(top_ / "deep").size(), 2u);
+}
+
+TEST_F(OutputOfAFile, ItsRecordIsReadBySha256sum) {
+  for (const char* name : {"figures.json", "two words", "back\\slash", "line\nend"}) {
+    make_file(top_ / name, "text");
+    const std::string record = (top_ / fmt::format(".{}.lcs-written", name)).string();
+    EXPECT_EQ(std::system(fmt::format("cd '{}' && sha256sum --strict --status -c '{}'",
+                                      top_.string(), record)
+                              .c_str()),
+              0)
+        << name;
+    make_file(top_ / name, "again");
+    EXPECT_EQ(read(top_ / name), "again");
+  }
+}
+
+TEST_F(OutputOfAFile, ByAnotherProgramIsReplacedByForceAlone) {
+  write(top_ / "mine.csv", "frame,type\n0,rebel,1\n");
+  EXPECT_NE(file_refusal(top_ / "mine.csv").find("is not a file that lcs has written"),
+            std::string::npos);
+  EXPECT_EQ(file_refusal(top_ / "mine.csv").find("--force"), std::string::npos);
+  EXPECT_NE(file_refusal(top_ / "mine.csv", Overwrite::own_or_forced).find("--force"),
+            std::string::npos);
+  EXPECT_EQ(read(top_ / "mine.csv"), "frame,type\n0,rebel,1\n");
+  make_file(top_ / "mine.csv", "by force", Overwrite::any_file);
+  EXPECT_EQ(read(top_ / "mine.csv"), "by force");
+  make_file(top_ / "mine.csv", "its own now");
+}
+
+TEST_F(OutputOfAFile, ForceReplacesNoLinkNoFolderAndNoRecordOfAnother) {
+  write(top_ / "mine.csv", "precious");
+  fs::create_symlink("mine.csv", top_ / "link");
+  fs::create_symlink("nowhere", top_ / "dangling");
+  fs::create_directory(top_ / "folder");
+  write(top_ / ".x.lcs-written", "precious");
+  const auto before = bytes_in(top_);
+  for (const char* name : {"link", "dangling", "folder", "x"}) {
+    EXPECT_NE(file_refusal(top_ / name, Overwrite::any_file), "nothing was refused") << name;
+  }
+  EXPECT_EQ(bytes_in(top_), before);
+  EXPECT_FALSE(fs::exists(top_ / "nowhere"));
+}
+
+TEST_F(OutputOfAFile, AnEmptyFileIsTaken) {
+  write(top_ / "empty", "");
+  make_file(top_ / "empty", "new");
+  EXPECT_EQ(read(top_ / "empty"), "new");
+}
+
+TEST_F(OutputOfAFile, ToADeviceOrAPipeThatIsReadIsWrittenDirectly) {
+  make_file("/dev/null", "new");
+  ASSERT_EQ(::mkfifo((top_ / "pipe").c_str(), 0600), 0);
+  EXPECT_NE(file_refusal(top_ / "pipe").find("nobody reads"), std::string::npos);
+  const int reader = ::open((top_ / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  make_file(top_ / "pipe", "new");
+  std::array<char, 16> got{};
+  EXPECT_EQ(::read(reader, got.data(), got.size()), 3);
+  ::close(reader);
+  EXPECT_EQ(std::string(got.data()), "new");
+  EXPECT_EQ(entries(top_), std::set<std::string>{"pipe"});
+}
+
+TEST_F(OutputOfAFile, ThatAKilledProcessLeftIsTakenAway) {
+  const pid_t process = ::fork();
+  if (process == 0) {
+    const Output file(top_ / "page.html", Overwrite::own);
+    write(file.staging(), "half");
+    ::_exit(0);
+  }
+  ::waitpid(process, nullptr, 0);
+  EXPECT_EQ(entries(top_).size(), 1u);
+  make_file(top_ / "page.html", "new");
+  EXPECT_EQ(entries(top_), (std::set<std::string>{"page.html", ".page.html.lcs-written"}));
+}
+
+TEST_F(Abandoned, AFolderThatWasJustBegunIsTakenAway) {
+  for (const char* name : {"run.partial-123", "run.partial-124-1"}) {
+    fs::create_directory(top_ / name);
+  }
+  write(top_ / "run.partial-125" / ".lcs-partial", "");
+  write(top_ / "run.partial-126" / ".lcs-partial", "lcs writes its res");
+  const std::set<std::string> mine{"run.partial-notes", "run.partial-127"};
+  fs::create_directory(top_ / "run.partial-notes");
+  write(top_ / "run.partial-127" / ".lcs-partial", "my own");
+  make_result(top_ / "run", "new");
+  std::set<std::string> expected = mine;
+  expected.insert("run");
+  EXPECT_EQ(entries(top_), expected);
+}
+
+// ---- Several outputs of one command
+
+class Together : public OutputTest {
+ protected:
+  /// Two folders and a file, which all say the same.
+  void make(const std::string& text) {
+    make(text, [] {});
+  }
+  void make(const std::string& text, const std::function<void()>& before_commit) {
+    Output one(top_ / "one", kFiles), other(top_ / "other", kFiles);
+    Output page(top_ / "page.html", Overwrite::own);
+    write(one.staging() / "metrics.json", text);
+    write(other.staging() / "metrics.json", text);
+    write(page.staging(), text);
+    before_commit();
+    commit_all(std::array{&one, &other, &page});
+  }
+  std::set<std::string> said() const {
+    std::set<std::string> texts;
+    for (const char* file : {"one/metrics.json", "other/metrics.json", "page.html"}) {
+      texts.insert(fs::exists(top_ / file) ? read(top_ / file) : "nothing");
+    }
+    return texts;
+  }
+  void expect_no_staging() const {
+    EXPECT_EQ(entries(top_),
+              (std::set<std::string>{"one", "other", "page.html", ".page.html.lcs-written"}));
+  }
+};
+
+TEST_F(Together, AreAllNew) {
+  make("old");
+  make("new");
+  EXPECT_EQ(said(), std::set<std::string>{"new"});
+  expect_no_staging();
+}
+
+TEST_F(Together, AreAllOldWhereAFileAppearsMeanwhile) {
+  make("old");
+  const fs::path mine = top_ / "other" / "thesis.tex";
+  EXPECT_THROW(make("new", [&] { write(mine, "precious"); }), OutputError);
+  EXPECT_EQ(said(), std::set<std::string>{"old"});
+  EXPECT_EQ(read(mine), "precious");
+  expect_no_staging();
+}
+
+TEST_F(Together, AreAllOldWhereAFileAppearsInTheLastMoment) {
+  make("old");
+  late = top_ / "other" / "thesis.tex";
+  exchange = Exchange::comes_late;
+  EXPECT_THROW(make("new"), OutputError);
+  exchange = Exchange::works;
+  EXPECT_EQ(said(), std::set<std::string>{"old"});
+  EXPECT_EQ(read(late), "precious");
+  expect_no_staging();
+}
+
+TEST_F(Together, AreAllNewOnAFileSystemThatExchangesNothing) {
+  make("old");
+  exchange = Exchange::is_unknown;
+  make("new");
+  exchange = Exchange::works;
+  EXPECT_EQ(said(), std::set<std::string>{"new"});
+  expect_no_staging();
+}
+
+TEST_F(Together, AreAllOldOrAllNewWhenTheProcessIsKilledAtAnyMoment) {
+  make("0");
+  std::mt19937 random(1);
+  std::string last = "0";
+  int changed = 0;
+  for (int i = 1; i <= 100; ++i) {
+    std::array<int, 2> ready{};
+    ASSERT_EQ(::pipe(ready.data()), 0);
+    const pid_t process = ::fork();
+    if (process == 0) {
+      make(std::to_string(i), [&] { ::close(ready[1]); });
+      ::_exit(0);
+    }
+    ::close(ready[1]);
+    char end = 0;
+    EXPECT_EQ(::read(ready[0], &end, 1), 0);  // returns where the commit begins
+    ::close(ready[0]);
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % 6000));
+    ::kill(process, SIGKILL);
+    ::waitpid(process, nullptr, 0);
+    // The second process of the commit may still be at work: it holds the locks.
+    const auto is_busy = [&] {
+      for (const auto& entry : fs::directory_iterator(top_)) {
+        if (entry.path().string().find(".partial-") == std::string::npos) continue;
+        if (FolderLock(entry.path()).is_of_another()) return true;
+      }
+      return false;
+    };
+    while (is_busy()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_EQ(said().size(), 1u) << "after " << i;
+    changed += *said().begin() != last;
+    last = *said().begin();
+  }
+  EXPECT_GT(changed, 0) << "no kill came late enough";
+  EXPECT_LT(changed, 100) << "no kill came early enough";
+  make("end");
+  expect_no_staging();
+}
+
+TEST_F(Together, DoNotGoIntoEachOther) {
+  const Output one(top_ / "one", kFiles);
+  for (const char* other : {"one", "one/deep/other", "one/../one", "."}) {
+    EXPECT_NE(refusal(top_ / other).find("into each other"), std::string::npos) << other;
+    EXPECT_NE(file_refusal(top_ / other).find("into each other"), std::string::npos) << other;
+  }
+}
+
+}  // namespace
+}  // namespace lcs::bench

@@ -1,0 +1,497 @@
+#include "tools/files/output.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <functional>
+#include <string_view>
+#include <system_error>
+
+#include "scenarios/inputs_read.h"
+#include "scenarios/message.h"
+#include "tools/files/written.h"
+
+namespace lcs::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kAnother = "choose another place, or move it away";
+
+[[noreturn]] void fail(std::string_view what, const fs::path& path, const std::error_code& error) {
+  throw OutputError(
+      fmt::format("cannot {} {}: {}; {}", what, path.string(), error.message(), remedy(error)));
+}
+
+[[noreturn]] void fail(std::string_view what, const fs::path& path, int error) {
+  fail(what, path, std::error_code(error, std::generic_category()));
+}
+
+/// Absolute, links resolved but for that of the last name, without a trailing slash.
+fs::path resolved(const fs::path& target) {
+  std::error_code error;
+  fs::path path = fs::absolute(target, error).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  if (!error) path = fs::weakly_canonical(path.parent_path(), error) / path.filename();
+  if (error) fail("use", target, error);
+  return path;
+}
+
+/// Whether `path` is `folder` or lies in it. Both are normal and absolute.
+bool is_within(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
+}
+
+/// Outputs of this process that are under way.
+std::vector<const Output*>& under_way() {
+  static std::vector<const Output*> all;
+  return all;
+}
+
+/// Beside a target there may be `TARGET.partial-PROCESS/`, with the marker, and with one folder for
+/// the result on its way in and one for the result on its way out.
+constexpr std::string_view kPartial = ".partial-";
+constexpr std::string_view kMarker = ".lcs-partial", kIn = "in", kOut = "out";
+
+std::string marker_text(std::string_view folder_name) {
+  return fmt::format("lcs writes its results here, and takes this folder away: {}\n", folder_name);
+}
+
+/// Whether a process of this program made the folder. It may live.
+bool has_marker(const fs::path& folder) {
+  const std::string text = marker_text(folder.filename().string());
+  return beginning(folder / kMarker, text.size() + 1) == text;
+}
+
+bool name_fits(std::string_view name, std::string_view pattern) {
+  if (pattern == "*") return true;
+  if (pattern.ends_with('*')) return name.starts_with(pattern.substr(0, pattern.size() - 1));
+  if (pattern.starts_with('*')) return name.ends_with(pattern.substr(1));
+  return name == pattern;
+}
+
+/// A file fits a pattern as a whole, a folder the beginning of one.
+bool fits(const fs::path& within, bool is_folder, const fs::path& pattern) {
+  auto part = pattern.begin();
+  for (const fs::path& name : within) {
+    if (part == pattern.end() || !name_fits(name.native(), part->native())) return false;
+    ++part;
+  }
+  return (part != pattern.end()) == is_folder;
+}
+
+bool is_of_result(const fs::path& within, const fs::directory_entry& entry,
+                  const ResultNames& names) {
+  const fs::file_type type = entry.symlink_status().type();
+  const bool is_folder = type == fs::file_type::directory;
+  if (!is_folder && type != fs::file_type::regular) return false;
+  if (!is_folder && within.filename() == kRecordName) return true;
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return fits(within, is_folder, name); });
+}
+
+/// Whether this program put an entry into its folder beside a target. A suite has such folders of
+/// its runs inside: `in/runs/NAME/seed-1.partial-PROCESS/in/metrics.json`.
+bool is_of_staging(const fs::path& within, const fs::directory_entry& entry,
+                   const ResultNames& names) {
+  fs::path of_result;
+  bool is_beside = true;  // right in a folder beside a target
+  for (const fs::path& name : within) {
+    if (is_beside && name == kMarker)
+      return entry.symlink_status().type() == fs::file_type::regular;
+    if (!is_beside || (name != kIn && name != kOut)) of_result /= name;
+    is_beside = name.native().find(kPartial) != std::string::npos;
+  }
+  if (of_result.empty()) return entry.symlink_status().type() == fs::file_type::directory;
+  return is_of_result(of_result, entry, names);
+}
+
+/// Of a folder beside a target takes away what this program put there; then, if that was all, the
+/// folder.
+void remove_own(const fs::path& folder, const ResultNames& names) {
+  std::error_code ignored;  // what cannot be taken away stays
+  std::vector<fs::path> own{folder};
+  // One folder at a time is open: there may be no more descriptors than that.
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    for (fs::directory_iterator entry(own[i], ignored), end; entry != end;
+         entry.increment(ignored)) {
+      const fs::path within = entry->path().lexically_relative(folder);
+      if (within != kMarker && is_of_staging(within, *entry, names)) own.push_back(entry->path());
+    }
+  }
+  // What is in a folder comes after it. The marker goes last.
+  for (std::size_t i = own.size(); i-- > 1;) fs::remove(own[i], ignored);
+  fs::remove(folder / kMarker, ignored);
+  fs::remove(folder, ignored);
+}
+
+/// Whether nothing is in the folder, or a marker that a killed process did not write to its end.
+bool is_just_begun(const fs::path& folder) {
+  const std::string text = marker_text(folder.filename().string());
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const bool is_marker = entry->path().filename() == kMarker;
+    if (!is_marker || entry->symlink_status().type() != fs::file_type::regular) return false;
+    if (!text.starts_with(beginning(entry->path(), text.size() + 1))) return false;
+  }
+  const std::string name = folder.filename().string();
+  const std::string process = name.substr(name.rfind(kPartial) + kPartial.size());
+  return !error && process.find_first_not_of("0123456789-") == std::string::npos;
+}
+
+/// \return 0, or why not.
+int rename_by(const fs::path& from, const fs::path& to, unsigned flags) {
+  return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0 ? 0 : errno;
+}
+
+void rename_or_fail(std::string_view what, const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) fail(what, to, error);
+}
+
+/// Runs `work` in a process of its own, which no signal to this one ends.
+/// \throws OutputError with what `work` throws.
+void in_second_process(const std::function<void()>& work) {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("write", "the results", errno);
+  const pid_t process = ::fork();
+  if (process < 0) fail("write", "the results", errno);
+  if (process == 0) {
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, nullptr);
+    ::setsid();
+    std::string problem;
+    try {
+      work();
+    } catch (const std::exception& error) {
+      problem = scenario::message_of(error);
+    }
+    // What a pipe holds without a reader is more than a message.
+    const ssize_t written = ::write(ends[1], problem.data(), problem.size());
+    ::_exit(written == static_cast<ssize_t>(problem.size()) ? 0 : 1);
+  }
+  ::close(ends[1]);
+  std::string problem;
+  std::array<char, 4096> block;
+  ssize_t got = 0;
+  while ((got = ::read(ends[0], block.data(), block.size())) > 0 || (got < 0 && errno == EINTR)) {
+    problem.append(block.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  }
+  ::close(ends[0]);
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (problem.empty() && status != 0) {
+    problem = "the process that puts the results in their places was ended; look at both of them";
+  }
+  if (!problem.empty()) throw OutputError(problem);
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const fs::path& folder)
+    : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)) {
+  is_held_ = file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) == 0;
+  is_of_another_ = file_ >= 0 && !is_held_ && errno == EWOULDBLOCK;
+}
+
+FolderLock::~FolderLock() {
+  if (file_ >= 0) ::close(file_);
+}
+
+namespace {
+
+void remove_abandoned(const fs::path& target, const ResultNames& names, bool is_folder) {
+  std::error_code ignored;
+  const std::string begin = target.filename().string() + std::string(kPartial);
+  std::vector<fs::path> found;
+  for (fs::directory_iterator entry(target.parent_path(), ignored), end; entry != end;
+       entry.increment(ignored)) {
+    if (entry->path().filename().string().starts_with(begin)) found.push_back(entry->path());
+  }
+  for (const fs::path& path : found) {
+    const FolderLock lock(path);  // its process holds it from before it writes the marker
+    if (!lock.is_held() || !(has_marker(path) || is_just_begun(path))) continue;
+    if (is_folder) {
+      rename_by(path / kOut, target, RENAME_NOREPLACE);
+    } else {
+      for (const std::string& name : names) {
+        rename_by(path / kOut / name, target.parent_path() / name, RENAME_NOREPLACE);
+      }
+    }
+    remove_own(path, names);
+  }
+}
+
+}  // namespace
+
+void remove_abandoned(const fs::path& target, const ResultNames& names) {
+  remove_abandoned(target, names, true);
+}
+
+fs::path output_path(const fs::path& named) {
+  const fs::path path = resolved(named);
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(path, error);
+  if (status.type() == fs::file_type::none) fail("use", named, error);
+  if (fs::is_symlink(status)) {
+    throw OutputError(
+        fmt::format("{} is a link, which is not followed; name the place itself", named.string()));
+  }
+  for (const fs::path& input : scenario::inputs_read()) {
+    const fs::path read = fs::weakly_canonical(input, error);
+    if (is_within(read, path)) {
+      throw OutputError(fmt::format("{} {} {}, which is read; choose another place", named.string(),
+                                    read == path ? "is" : "holds", input.string()));
+    }
+    if (is_within(path, read)) {
+      throw OutputError(fmt::format("{} lies inside of {}, which is read; choose another place",
+                                    named.string(), input.string()));
+    }
+  }
+  return path;
+}
+
+/// What was made, its place, and where that goes which was there before.
+struct Output::Move {
+  fs::path made, place, earlier;
+
+  /// \return whether something was there.
+  bool put() const {
+    const int error = rename_by(made, place, RENAME_NOREPLACE);
+    if (error == 0) return false;
+    const bool is_there = fs::exists(fs::symlink_status(place));
+    if (is_there && rename_by(made, place, RENAME_EXCHANGE) == 0) {
+      rename_or_fail("replace", made, earlier);
+      return true;
+    }
+    const bool is_unknown = error == EINVAL || error == ENOSYS;  // to the file system
+    if (!is_there && !is_unknown) fail("create", place, error);
+    if (is_there) rename_or_fail("replace", place, earlier);
+    try {
+      rename_or_fail("create", made, place);
+    } catch (const OutputError&) {
+      if (is_there) rename_or_fail("put back", earlier, place);
+      throw;
+    }
+    return is_there;
+  }
+
+  void take_back(bool was_there) const {
+    if (was_there && rename_by(earlier, place, RENAME_EXCHANGE) == 0) {
+      rename_or_fail("take back", earlier, made);
+      return;
+    }
+    rename_or_fail("take back", place, made);
+    if (was_there) rename_or_fail("put back", earlier, place);
+  }
+};
+
+Output::Output(const fs::path& target, ResultNames names) : names_(std::move(names)) {
+  target_ = output_path(target);
+  prepare();
+}
+
+Output::Output(const fs::path& target, Overwrite overwrite) : overwrite_(overwrite) {
+  std::error_code error;
+  const fs::file_status status = fs::status(target, error);  // /dev/stdout is a link
+  is_direct_ = fs::is_character_file(status) || fs::is_fifo(status);
+  if (is_direct_) {
+    pipe_ = ::open(target.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (pipe_ < 0 && errno == ENXIO) {
+      throw OutputError(
+          fmt::format("{} is a pipe that nobody reads; start its reader first", target.string()));
+    }
+    target_ = staging_ = target;
+    return;
+  }
+  target_ = output_path(target);
+  names_ = {target_.filename(), record_beside(target_).filename()};
+  prepare();
+}
+
+void Output::prepare() {
+  for (const Output* other : under_way()) {
+    if (!is_within(other->target_, target_) && !is_within(target_, other->target_)) continue;
+    throw OutputError(
+        fmt::format("{} and {}: results would go into each other; give each a place of its own",
+                    other->target_.string(), target_.string()));
+  }
+  require_replaceable();
+  make_parents();
+  remove_abandoned(target_, names_, is_folder());
+  try {
+    make_staging();
+  } catch (const OutputError&) {
+    remove_all_made();
+    throw;
+  }
+  under_way().push_back(this);
+}
+
+Output::~Output() {
+  if (pipe_ >= 0) ::close(pipe_);
+  std::erase(under_way(), this);
+  if (!committed_) remove_all_made();
+}
+
+void Output::remove_all_made() const {
+  if (lock_) remove_own(own_, names_);
+  std::error_code ignored;  // there is nobody left to tell
+  // `remove` leaves folders that are not empty alone.
+  std::for_each(made_parents_.rbegin(), made_parents_.rend(),
+                [&](const fs::path& parent) { fs::remove(parent, ignored); });
+}
+
+/// \throws OutputError where something is at the target that must not be lost.
+void Output::require_replaceable() const {
+  for (const Move& move : moves()) require_own(move.place);
+}
+
+/// `place` is a place of the output, or where its earlier content went.
+void Output::require_own(const fs::path& place) const {
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(place, error);
+  if (status.type() == fs::file_type::not_found) return;
+  if (status.type() == fs::file_type::none) fail("use", target_, error);
+  if (is_folder()) return require_own_folder(place, status.type());
+  if (status.type() != fs::file_type::regular) {
+    throw OutputError(fmt::format("{} is not a file; choose another place", target_.string()));
+  }
+  const WrittenFiles written = read_record(record_beside(place.parent_path() / names_.front()));
+  if (place.filename() != names_.front()) {
+    if (written.size() == 1 && written.contains(names_.front())) return;
+    throw OutputError(
+        fmt::format("{} is not a record that lcs has written; {}", place.string(), kAnother));
+  }
+  if (overwrite_ == Overwrite::any_file || fs::file_size(place, error) == 0) return;
+  const std::string what = difference(written, names_.front(), place);
+  if (what.empty()) return;
+  throw OutputError(fmt::format("{} {}, and would be lost; {}{}", target_.string(), what, kAnother,
+                                overwrite_ == Overwrite::own ? "" : ", or give --force"));
+}
+
+void Output::require_own_folder(const fs::path& folder, fs::file_type type) const {
+  if (type != fs::file_type::directory) {
+    throw OutputError(target_.string() + " is not a folder; choose another place");
+  }
+  std::error_code error;
+  const fs::path here = fs::current_path(error);
+  if (!error && is_within(here, folder)) {
+    throw OutputError(fmt::format(
+        "{} is the folder that this runs in, or holds it, and replacing it would leave you in a "
+        "folder that is gone; choose another place",
+        target_.string()));
+  }
+  const WrittenFiles written = read_record(folder / kRecordName);
+  error.clear();
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string within = entry->path().lexically_relative(folder);
+    std::string what = "is not a file of such a result";
+    if (is_of_result(within, *entry, names_)) {
+      if (within == kRecordName || entry->is_directory()) continue;
+      what = difference(written, within, entry->path());
+    }
+    if (what.empty()) continue;
+    throw OutputError(
+        fmt::format("{}: {} {}, and would be lost; {}", target_.string(), within, what, kAnother));
+  }
+  if (error) fail("read", target_, error);
+}
+
+std::vector<Output::Move> Output::moves() const {
+  if (is_folder()) return {{staging_, target_, own_ / kOut}};
+  std::vector<Move> all;
+  for (const std::string& name : names_) {
+    all.push_back({own_ / kIn / name, target_.parent_path() / name, own_ / kOut / name});
+  }
+  return all;
+}
+
+void Output::make_parents() {
+  std::vector<fs::path> missing;
+  for (fs::path parent = target_.parent_path(); !fs::exists(parent);
+       parent = parent.parent_path()) {
+    missing.push_back(parent);
+  }
+  std::for_each(missing.rbegin(), missing.rend(), [&](const fs::path& parent) {
+    std::error_code error;
+    if (fs::create_directory(parent, error)) made_parents_.push_back(parent);
+    if (error) fail("create", parent, error);
+  });
+}
+
+/// Under the first name that is free: the process may have had its number before, and what is there
+/// need not be this program's. Another process may take the new folder for an abandoned one before
+/// it is locked.
+void Output::make_staging() {
+  std::error_code error;
+  for (int attempt = 0; !lock_; ++attempt) {
+    own_ = target_;
+    own_ += fmt::format("{}{}", kPartial, ::getpid());
+    if (attempt > 0) own_ += fmt::format("-{}", attempt);
+    if (fs::create_directory(own_, error)) lock_.emplace(own_);
+    if (error) fail("create", own_, error);
+    if (lock_ && !lock_->is_held() && lock_->is_of_another()) lock_.reset();
+  }
+  write_file(own_ / kMarker, marker_text(own_.filename().string()));
+  staging_ = own_ / kIn;
+  fs::create_directory(staging_, error);
+  if (!error && !is_folder()) fs::create_directory(own_ / kOut, error);
+  if (error) fail("create", staging_, error);
+  if (!is_folder()) staging_ /= names_.front();
+}
+
+void Output::commit() {
+  Output* const self = this;
+  commit_all({&self, 1});
+}
+
+/// Looks at each earlier result once more when nobody can reach it by its name any longer.
+void put_in_place(std::span<Output* const> outputs) {
+  std::vector<std::pair<Output::Move, bool>> done;
+  try {
+    for (const Output* output : outputs) {
+      for (const Output::Move& move : output->moves()) done.emplace_back(move, move.put());
+    }
+    for (const Output* output : outputs) {
+      for (const Output::Move& move : output->moves()) output->require_own(move.earlier);
+    }
+  } catch (const OutputError&) {
+    for (auto move = done.rbegin(); move != done.rend(); ++move)
+      move->first.take_back(move->second);
+    throw;
+  }
+  for (const Output* output : outputs) remove_own(output->own_, output->names_);
+}
+
+void commit_all(std::span<Output* const> outputs) {
+  std::vector<Output*> all(outputs.begin(), outputs.end());
+  std::erase_if(all, [](const Output* output) { return output->is_direct_; });
+  std::size_t moves = 0;
+  for (const Output* output : all) {
+    output->require_replaceable();  // the place may have changed since
+    output->is_folder() ? write_record_of_folder(output->staging_)
+                        : write_record_of_file(output->staging_);
+    moves += output->moves().size();
+  }
+  // One rename is all or nothing by itself.
+  const auto put = [&] { put_in_place(all); };
+  moves > 1 ? in_second_process(put) : put();
+  for (Output* output : all) output->committed_ = true;
+}
+
+}  // namespace lcs::bench

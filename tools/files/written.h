@@ -1,0 +1,39 @@
+/// \file
+/// The record by which this program knows the files that it wrote: their SHA-256, in the format of
+/// `sha256sum`. A folder of results holds the record of all its files, `.lcs-written`; a single
+/// file NAME has one beside it, `.NAME.lcs-written`. A file that was changed since no longer
+/// matches its record, and counts as the user's own.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace lcs::bench {
+
+inline constexpr const char* kRecordName = ".lcs-written";
+
+/// The record's place of a single file.
+std::filesystem::path record_beside(const std::filesystem::path& file);
+
+/// SHA-256 by path. The paths are relative to the folder of the record.
+using WrittenFiles = std::map<std::string, std::string>;
+
+/// Empty where there is no record, or where it does not parse as a whole.
+WrittenFiles read_record(const std::filesystem::path& record);
+
+/// Writes the record of all files in a folder and below. \throws OutputError
+void write_record_of_folder(const std::filesystem::path& folder);
+/// Writes the record of one file, beside it. \throws OutputError
+void write_record_of_file(const std::filesystem::path& file);
+
+/// What is wrong with a file, as "was changed since lcs wrote it"; "" where its bytes are those
+/// that this program wrote. \param name of the file in its record.
+std::string difference(const WrittenFiles& written, const std::string& name,
+                       const std::filesystem::path& file);
+
+/// The first file of a folder's record that is missing or was changed, with what is wrong with it;
+/// "" where there is none. Files that are not in the record do not count.
+std::string first_difference(const std::filesystem::path& folder);
+
+}  // namespace lcs::bench
