@@ -1,8 +1,10 @@
 #include "tests/tools/command.h"
 
 #include <fcntl.h>
+#include <linux/capability.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -26,6 +28,10 @@ namespace {
     const rlimit both{*most, *most};
     ::setrlimit(what, &both);
   };
+  if (options.obeys_permissions) {  // where this is not root it is so already
+    ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE);
+    ::prctl(PR_CAPBSET_DROP, CAP_DAC_READ_SEARCH);
+  }
   limit(RLIMIT_FSIZE, options.largest_file);
   limit(RLIMIT_AS, options.most_memory);
   // A sanitized build is not to add to stderr which of the known leaks it saw.

@@ -24,6 +24,7 @@ struct CommandOptions {
   std::vector<int> closed = {};                  ///< of the standard descriptors
   std::filesystem::path out = {};                ///< for standard output, in place of `out`
   std::optional<std::size_t> most_memory = {};   ///< bytes, as `ulimit -v` has it in kB
+  bool obeys_permissions = false;                ///< of files, as all users but root do
 };
 
 /// Started on construction; waited for at the latest on destruction.
