@@ -451,13 +451,43 @@ TEST_F(GenerateInParts, AKilledRunGoesOnToTheSameBytes) {
     // What a stroke of bad luck may leave: a file that is not finished, and one that is too short.
     bench::write(folder() / ".generate/4711.partial", "half");
     bench::write(folder() / "my.partial", "precious");
-    bench::write(folder() / "depth/000000.png", "short");
+    fs::resize_file(folder() / "depth/000000.png", 100);
     const CommandResult result = generate({"--out", folder(), "--quiet"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(fs::remove(folder() / "my.partial")) << "it is the user's";
     EXPECT_TRUE(bytes_in(folder()) == whole);
     fs::remove_all(folder());
   }
+}
+
+TEST_F(GenerateInParts, FilesOfTheUserInAFolderThatWasBegunAreNeverReplaced) {
+  ASSERT_EQ(generate({"--out", folder(), "--shard", "1/2", "--quiet"}).exit_code, 0);
+  fs::create_directory(home_.path() / "elsewhere");
+  const auto put_link = [&](const fs::path& link) {
+    fs::create_directories(link.parent_path());
+    fs::create_symlink(home_.path() / "elsewhere", link);
+  };
+  for (const char* name : {"README.md", "manifest.json", "coco/annotations.json",
+                           "depth/000003.png", "mav0/cam0/data.csv"}) {
+    bench::write(folder() / name, "precious");
+    const auto before = bytes_in(folder());
+    const CommandResult result = generate({"--out", folder(), "--quiet"});
+    EXPECT_EQ(result.exit_code, 2) << name;
+    EXPECT_NE(result.err.find("would be lost"), std::string::npos) << result.err;
+    EXPECT_EQ(bytes_in(folder()).at(name), "precious");
+    for (const auto& [path, bytes] : before) EXPECT_EQ(bytes_in(folder()).at(path), bytes) << path;
+    fs::remove(folder() / name);
+  }
+  for (const char* name : {"flow/000003.flo", "coco"}) {
+    fs::remove_all(folder() / name);
+    put_link(folder() / name);
+    const CommandResult result = generate({"--out", folder(), "--quiet"});
+    EXPECT_EQ(result.exit_code, 2) << name;
+    EXPECT_TRUE(fs::is_empty(home_.path() / "elsewhere")) << "the link was followed";
+    fs::remove(folder() / name);
+  }
+  EXPECT_EQ(generate({"--out", folder(), "--quiet"}).exit_code, 0);
+  EXPECT_TRUE(bytes_in(folder()) == in_one_go());
 }
 
 TEST_F(GenerateInParts, ADiskThatFillsUpIsToldInOneLineAndWithRoomItGoesOnToTheSameBytes) {

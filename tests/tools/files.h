@@ -26,11 +26,11 @@ inline void write(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// Names of what lies in a folder.
+/// Names of what lies in a folder, but for the records of written files (tools/files/written.h).
 inline std::set<std::string> entries(const std::filesystem::path& folder) {
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    names.insert(entry.path().filename());
+    if (!entry.path().string().ends_with(".lcs-written")) names.insert(entry.path().filename());
   }
   return names;
 }

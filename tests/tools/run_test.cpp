@@ -519,7 +519,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"nowhere_beside", {kCrossing, "--beside", "klt"}, "as klt=out/klt"},
         Mistake{"two_in_one_folder",
                 {kCrossing, "--out", "a", "--beside", "klt=./a"},
-                "two detectors; give each a folder of its own"},
+                "results would go into each other"},
         Mistake{"recording_that_is_not_there",
                 {kCrossing, "--recorded", "nowhere"},
                 "there is no run in nowhere"},

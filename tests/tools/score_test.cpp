@@ -146,12 +146,18 @@ TEST_F(Score, FilesOfOthersAreNotReplaced) {
   make_run("lcs", "frames=4");
   const fs::path thesis = folder_.path() / "thesis.tex", mine = folder_.path() / "mine.csv";
   std::ofstream(thesis) << "precious";
+  const fs::path figures = folder_.path() / "mine.json";
   std::ofstream(mine) << "frame,type\n1,rebel,0\n";
+  std::ofstream(figures) << R"({"rebel.f1": 0.5})";
   for (const auto& [arguments, said] :
        {std::pair{std::vector<std::string>{"--out", "thesis.tex"}, "would be lost"},
         {{"--write-detections", "thesis.tex"}, "would be lost"},
-        {{"--detections", "mine.csv", "--write-detections", "mine.csv"},
-         "the file that is scored"}}) {
+        {{"--write-detections", "mine.csv"}, "would be lost"},
+        {{"--out", "mine.json"}, "would be lost"},
+        {{"--out", "mine.json", "--write-detections", "new.csv"}, "would be lost"},
+        {{"--detections", "mine.csv", "--write-detections", "mine.csv"}, "which is read"},
+        {{"--detections", "mine.csv", "--write-detections", "mine.csv", "--force"},
+         "which is read"}}) {
     std::vector<std::string> all{"score", "run"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     const CommandResult result = lcs(all);
@@ -160,6 +166,9 @@ TEST_F(Score, FilesOfOthersAreNotReplaced) {
   }
   EXPECT_EQ(read(thesis), "precious");
   EXPECT_EQ(read(mine), "frame,type\n1,rebel,0\n");
+  EXPECT_EQ(read(figures), R"({"rebel.f1": 0.5})");
+  EXPECT_FALSE(fs::exists(folder_.path() / "new.csv"));
+  EXPECT_EQ(lcs({"score", "run", "--out", "mine.json", "--force"}).exit_code, 0);
   std::ofstream(folder_.path() / "empty.json");
   EXPECT_EQ(lcs({"score", "run", "--out", "empty.json"}).exit_code, 0);
   EXPECT_EQ(lcs({"score", "run", "--out", "empty.json"}).exit_code, 0) << "its own";
@@ -221,14 +230,12 @@ TEST(Option, OfAnyCommandIsRefusedWithoutAValue) {
 
 TEST_F(Score, AFullDiskIsNoticedAndLeavesTheEarlierFile) {
   make_run("lcs", "frames=4");
-  std::ofstream(folder_.path() / "old.json") << "old \"rebel.f1\"";
+  ASSERT_EQ(lcs({"score", "run", "--out", "old.json"}).exit_code, 0);
+  const auto before = bytes_in(folder_.path());
   const CommandResult result = run_lcs({"score", "run", "--out", "old.json"},
                                        {.folder = folder_.path(), .largest_file = 1000});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_EQ(read(folder_.path() / "old.json"), "old \"rebel.f1\"");
-  int files = 0;
-  for (const auto& entry : fs::directory_iterator(folder_.path())) files += entry.is_regular_file();
-  EXPECT_EQ(files, 1) << "nothing half-written is left";
+  EXPECT_EQ(bytes_in(folder_.path()), before) << "nothing half-written is left";
 }
 
 }  // namespace

@@ -42,13 +42,15 @@ TEST_F(WorldCommand, ASheetShowsIt) {
   EXPECT_TRUE(fs::exists(folder_.path() / "mine" / "sheet.png"));
 }
 
-TEST_F(WorldCommand, ReplacesNothing) {
+TEST_F(WorldCommand, ReplacesNoWorldThatWasEdited) {
   const std::vector<std::string> command{"world", "corridor", "--seed", "4", "--out", "mine"};
   ASSERT_EQ(run(command).exit_code, 0);
+  ASSERT_EQ(run(command).exit_code, 0) << "its own";
   std::ofstream(folder_.path() / "mine" / "scene.xml") << "edited";
   const CommandResult again = run(command);
   EXPECT_EQ(again.exit_code, 2);
-  EXPECT_NE(again.err.find("perhaps a world that was edited"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("scene.xml was changed since lcs wrote it"), std::string::npos)
+      << again.err;
   EXPECT_EQ(bench::read(folder_.path() / "mine" / "scene.xml"), "edited");
 }
 
@@ -87,11 +89,47 @@ TEST_F(WorldCommand, ASuiteOfWorldsRunsEachOnceAndKeepsThem) {
   ASSERT_TRUE(result.scenarios[0].drawn);
   EXPECT_EQ(result.scenarios[0].drawn->family, "corridor");
   EXPECT_GT(result.scenarios[0].drawn->features.size(), 2u);
-  const fs::path kept = folder_.path() / result.scenarios[0].file;
-  // what is kept is used as it is
-  std::ofstream(kept, std::ios::app) << "# looked at\n";
+}
+
+TEST_F(WorldCommand, AKeptWorldThatWasEditedIsRefused) {
+  const std::vector<std::string> command{"suite",    "--worlds", "train", "--count",  "1",
+                                         "--family", "corridor", "--set", "frames=2", "--quiet"};
   ASSERT_EQ(run(command).exit_code, 0);
-  EXPECT_NE(bench::read(kept).find("# looked at"), std::string::npos);
+  const fs::path kept =
+      (folder_.path() / suite::read_suite(folder_.path() / "out" / "suite").scenarios[0].file)
+          .parent_path();
+  ASSERT_EQ(run(command).exit_code, 0) << "it is used again";
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(kept)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  ASSERT_GT(files.size(), 4u);
+  for (const fs::path& file : files) {
+    const std::string bytes = bench::read(file);
+    bench::write(file, bytes + " ");
+    const CommandResult edited = run(command);
+    EXPECT_EQ(edited.exit_code, 2) << file;
+    EXPECT_NE(edited.err.find("remove that folder"), std::string::npos) << edited.err;
+    EXPECT_EQ(bench::read(file), bytes + " ");
+    fs::remove(file);
+    EXPECT_EQ(run(command).exit_code, 2) << file << " is missing";
+    bench::write(file, bytes);
+  }
+  EXPECT_EQ(run(command).exit_code, 0);
+}
+
+TEST_F(WorldCommand, TwoSuitesThatNeedTheSameWorldsAtOnceBothRun) {
+  const auto start = [&](const char* out) {
+    return std::make_unique<bench::Command>(
+        std::vector<std::string>{"suite", "--worlds", "train", "--count", "2", "--family",
+                                 "corridor", "--set", "frames=2", "--quiet", "--out", out},
+        bench::CommandOptions{.folder = folder_.path()});
+  };
+  const auto one = start("one"), other = start("other");
+  for (bench::Command* suite : {one.get(), other.get()}) {
+    const CommandResult result = suite->wait();
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  }
 }
 
 TEST_F(WorldCommand, ASuiteOfWorldsLeavesAPageToLookAtAndSaysWhatTheSplitIsFor) {
