@@ -44,6 +44,17 @@ bool is_within(char c) {
   return (static_cast<std::uint8_t>(c) & 0xC0u) == 0x80u;
 }
 
+std::string remedy(const std::error_code& error) {
+  if (error == std::errc::too_many_files_open ||
+      error == std::errc::too_many_files_open_in_system) {
+    return "raise the limit of open files (ulimit -n)";
+  }
+  if (error == std::errc::resource_unavailable_try_again) {
+    return "end other programs, or raise the limit of processes (ulimit -u)";
+  }
+  return "end other programs, and try again";
+}
+
 }  // namespace
 
 std::string printable(std::string_view text) {
@@ -91,7 +102,10 @@ std::string message_of(const std::exception& error) {
     return one_line(of_files->path1().string() + ": " + of_files->code().message() +
                     "; check the name and its permissions");
   }
-  return one_line(error.what());
+  const std::string what = error.what();
+  const auto* of_system = dynamic_cast<const std::system_error*>(&error);
+  const bool has_remedy = what.find(';') != what.npos;
+  return one_line(of_system && !has_remedy ? what + "; " + remedy(of_system->code()) : what);
 }
 
 }  // namespace lcs::scenario

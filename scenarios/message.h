@@ -16,7 +16,8 @@ std::string printable(std::string_view text);
 /// with what to do.
 std::string one_line(std::string_view text);
 
-/// What an exception says, in one line; of too little memory and of files also what to do.
+/// What an exception says, in one line; of too little memory, files and other calls of the system
+/// also what to do.
 std::string message_of(const std::exception& error);
 
 }  // namespace lcs::scenario

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <string>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "scenarios/input_file.h"
+#include "sim/picture_file.h"
 
 namespace lcs::sim {
 namespace {
@@ -207,10 +207,9 @@ std::string read(const Element& e, const fs::path& file) {
 }
 
 /// An integer of 4 bytes in a file.
-std::uint32_t word_at(std::string_view bytes, std::size_t at, bool big_endian = false) {
+std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   std::array<unsigned char, 4> b{};
   if (at + b.size() <= bytes.size()) std::memcpy(b.data(), bytes.data() + at, b.size());
-  if (big_endian) std::reverse(b.begin(), b.end());
   return std::uint32_t(b[0]) | std::uint32_t(b[1]) << 8 | std::uint32_t(b[2]) << 16 |
          std::uint32_t(b[3]) << 24;
 }
@@ -230,16 +229,13 @@ struct Size {
 /// What a picture's header says, PNG or MuJoCo's own; nothing where a PNG has none, which it tells.
 /// \param bytes of a point in MuJoCo's own format.
 Size picture_size(const Element& e, const fs::path& file, int bytes) {
-  check_file(e, file);
-  std::ifstream stream(file, std::ios::binary);
-  std::string head(24, '\0');
-  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  const std::string content = read(e, file);
   if (has_extension(file, ".png")) {
-    const bool is_png = head.substr(1, 3) == "PNG";
-    return is_png ? Size{double(word_at(head, 16, true)), double(word_at(head, 20, true))} : Size{};
+    const auto size = sim::picture_size(content).value_or(cv::Size2l());
+    return {static_cast<double>(size.width), static_cast<double>(size.height)};
   }
-  const Size own{double(word_at(head, 0)), double(word_at(head, 4))};
-  if (static_cast<double>(fs::file_size(file)) != 8 + bytes * own.product()) {
+  const Size own{double(word_at(content, 0)), double(word_at(content, 4))};
+  if (static_cast<double>(content.size()) != 8 + bytes * own.product()) {
     refuse(e,
            fmt::format("'{}' is neither called .png nor in MuJoCo's own binary format; give a PNG "
                        "file",

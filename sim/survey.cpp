@@ -80,6 +80,7 @@ void note_inside(const World& world, double t_s, std::set<std::string>& known,
 }  // namespace
 
 Survey survey(const scenario::Scenario& scenario, int looks,
+              const std::function<void(const Observation&)>& on_look,
               const std::function<void(int)>& on_frame) {
   Observer observer(require_scene(scenario), WrongStart::told);
   const World& world = observer.world();
@@ -103,7 +104,7 @@ Survey survey(const scenario::Scenario& scenario, int looks,
     note_inside(world, 1e-9 * static_cast<double>(event_time_ns(k, scenario.camera.rate_hz)), known,
                 s.inside);
     if (looked_at.contains(k)) {
-      s.looks.push_back(observer.observe());
+      on_look(observer.observe());
     } else {
       observer.advance();
     }

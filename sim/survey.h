@@ -28,16 +28,17 @@ struct Survey {
   std::vector<int> actors;                  ///< the object that each actor of the scenario is
   std::vector<Eigen::Vector2d> rover_m;     ///< in W, in each frame
   std::vector<Snapshot> snapshots;          ///< of each frame
-  std::vector<Observation> looks;           ///< the frames that were rendered
   std::vector<std::string> wrong_at_start;  ///< what a run refuses, a line each
   std::vector<std::string> inside;          ///< a line for each thing that the camera gets into
   Warnings warnings;
 };
 
 /// \param looks how many frames to make pictures of, evenly spread from the first to the last.
+/// \param on_look handed each of these.
 /// \param on_frame called after each frame with how many are done; what it throws ends the survey.
 /// \throws what a `Simulation` throws, but for what starts inside of something else.
 Survey survey(const scenario::Scenario& scenario, int looks,
+              const std::function<void(const Observation&)>& on_look,
               const std::function<void(int)>& on_frame = {});
 
 enum class WorldFormat {

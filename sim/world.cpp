@@ -77,11 +77,6 @@ void fill_textures(Model& model, const scenario::Scenario& scenario,
   fill_procedural_textures(model, scenario.seed);
   for (const PictureTexture& picture : composed.pictures) {
     cv::Mat image = read_picture(picture.file, picture.source, cv::IMREAD_COLOR);
-    if (image.empty()) {
-      throw scenario::Error(picture.source,
-                            fmt::format("'{}' is no picture that can be read; give a PNG file",
-                                        picture.file.string()));
-    }
     cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
     fill_texture(model, model.id(mjOBJ_TEXTURE, picture.texture), image);
   }

@@ -18,7 +18,7 @@ namespace {
 using namespace lcs;
 namespace fs = std::filesystem;
 
-constexpr int kWidth_px = 640;
+const cv::Size kSize_px(640, 480);
 
 constexpr const char* kFiles[] = {
     bench::kLayersFile, bench::kTruthFile,    bench::kFramesFile, bench::kMetricsFile,
@@ -78,7 +78,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   read_or_be_refused(folder, [&] { bench::read_events(folder / bench::kEventsFile); });
   read_or_be_refused(folder, [&] { suite::read_suite(folder); });
   read_or_be_refused(folder, [&] {
-    const auto pictures = bench::FramePictures::read(folder / bench::kPicturesFile, kWidth_px);
+    const auto pictures = bench::FramePictures::read(folder / bench::kPicturesFile, kSize_px);
     for (std::size_t i = 0; i < pictures.size(); ++i) decode(pictures, i);
   });
   return 0;

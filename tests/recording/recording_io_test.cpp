@@ -457,7 +457,7 @@ TEST_F(BrokenRecording, ANumberThatNoIntegerHolds) {
 TEST_F(BrokenRecording, AHundredThousandNestedLists) {
   const std::string lists = std::string(100000, '[') + std::string(100000, ']');
   edit(kLayersFile, 2, "\"index\":", "\"index\":" + lists + ",\"was\":");
-  expect_error("layers.jsonl:2: index is not a whole number");
+  expect_error("layers.jsonl:2: lists and objects are nested more than 64 deep at byte ");
 }
 TEST_F(BrokenRecording, SignaturesThatAreNotOneForEachCorner) {
   Recording recording = scorable();

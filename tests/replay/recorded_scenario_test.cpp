@@ -323,7 +323,7 @@ TEST_F(RecordedScenario, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_NE(refusal(pictures + "speed: 0, mask: mask.png").find("mask.png is of 20 x 20 pixels"),
             std::string::npos);
   write(home() / "mask.png", "not a picture");
-  EXPECT_NE(refusal(pictures + "speed: 0, mask: mask.png").find("mask.png is no picture"),
+  EXPECT_NE(refusal(pictures + "speed: 0, mask: mask.png").find("mask.png': this is no picture"),
             std::string::npos);
   EXPECT_NE(refusal(pictures + "speed: 0, format: mot").find("seqinfo.ini: there is no such file"),
             std::string::npos);

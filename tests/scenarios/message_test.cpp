@@ -42,6 +42,14 @@ TEST(Message, OfALibrarySaysWhatToDo) {
   const std::filesystem::filesystem_error error(
       "status", "dir/x", std::make_error_code(std::errc::permission_denied));
   EXPECT_EQ(message_of(error), "dir/x: Permission denied; check the name and its permissions");
+  const auto of_system = [](std::errc why, const char* what) {
+    return message_of(std::system_error(std::make_error_code(why), what));
+  };
+  EXPECT_EQ(of_system(std::errc::too_many_files_open, "no pipe can be made"),
+            "no pipe can be made: Too many open files; raise the limit of open files (ulimit -n)");
+  EXPECT_NE(of_system(std::errc::resource_unavailable_try_again, "fork").find("(ulimit -u)"),
+            std::string::npos);
+  EXPECT_EQ(of_system(std::errc::io_error, "a; b"), "a; b: Input/output error");
 }
 
 }  // namespace

@@ -193,12 +193,12 @@ TEST_F(OwnDetector, ThatDoesNotKeepToTheProtocolEndsTheRunWithOneMessageAndNoOut
       {"hangs",
        "frame 3: no answer within 4 s; end each answer with a line end and flush it, or give "
        "more time by --detector-timeout; it wrote to stderr: still thinking"},
-      {"garbage", "frame 3: its answer is not JSON at byte 1: '\\x1b[31mrebels: 7'"},
+      {"garbage", "frame 3: its answer '\\x1b[31mrebels: 7': not JSON at byte 1; write one"},
       {"list", "frame 3: its answer is no object: '[]'"},
       {"no index", "frame 3: its answer has no \"index\""},
       {"corner", "frame 3: there is no corner 99999: frame 3 has "},
       {"word", "frame 3: there is no type 'rebels'; give ignored, pending, normal, rebel, box"},
-      {"nan", "frame 3: its answer is not JSON at byte 26"},
+      {"nan", "frame 3: its answer '{\"index\": 3, \"box\": [[1, NaN, 2, 3, 4]]}': not JSON at byte 26"},
       {"mask", "frame 3: the mask's counts do not add up to 240 x 320 pixels"},
       {"circle", "frame 3: it gives circles, and has not said \"circles\": true in its greeting"},
       {"twice", "frame 4: it"},  // before it was asked, or with the index of the last one

@@ -64,7 +64,7 @@ EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenari
   require_same(folder, recorded_, scenario);
   const fs::path pictures = folder / kPicturesFile;
   if (!fs::exists(pictures)) return;
-  pictures_ = FramePictures::read(pictures, camera_.width_px);
+  pictures_ = FramePictures::read(pictures, {camera_.width_px, camera_.height_px});
   if (pictures_->size() != recorded_.frames.size()) {
     throw std::runtime_error(fmt::format("{} has {} pictures of {} frames; record the run again",
                                          pictures.string(), pictures_->size(),

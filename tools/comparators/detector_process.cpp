@@ -26,7 +26,6 @@ using namespace std::chrono_literals;
 constexpr auto kTick = 50ms;        // between two calls of on_wait
 constexpr auto kPatience = 2s;      // with what was asked to end
 constexpr auto kLastWords = 500ms;  // to write what a process that ends has to say
-constexpr std::size_t kMostAnswer = 64U << 20U;
 constexpr std::size_t kMostStderr = 1U << 16U;
 constexpr std::size_t kMostLines = 8;  // of stderr that are told
 
@@ -34,11 +33,12 @@ constexpr std::size_t kMostLines = 8;  // of stderr that are told
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-/// For a shell, which a single program takes the place of: what ends the shell then ends it.
-std::string for_shell(const std::string& command) {
-  const bool is_list = command.find_first_of(";&|(){}<>\n!") != std::string::npos;
-  const std::string first = command.substr(0, command.find(' '));
-  return is_list || first.find('=') != std::string::npos ? command : "exec " + command;
+/// Has the kernel end a process group when the last writer of a pipe is gone, however that ended.
+/// \param reads the pipe's end to read from, which the group has inherited.
+void end_with_writer(int reads, pid_t group) {
+  ::fcntl(reads, F_SETSIG, SIGKILL);
+  ::fcntl(reads, F_SETOWN, -group);
+  ::fcntl(reads, F_SETFL, O_ASYNC);
 }
 
 /// What is written to a process that is gone is an error like any other, and no signal to this one,
@@ -92,24 +92,28 @@ void DetectorProcess::Pipe::close() {
 DetectorProcess::DetectorProcess(const std::string& command, double timeout_s,
                                  std::function<void()> on_wait)
     : timeout_s_(timeout_s), on_wait_(std::move(on_wait)) {
-  Pipe its_in, its_out, its_err;
+  Pipe its_in, its_out, its_err, its_lifeline;
   const auto connect = [](Pipe& reads, Pipe& writes) {
     std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("pipe2");
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("no pipe to the detector can be made");
     reads.take(ends[0]);
     writes.take(ends[1]);
   };
   connect(its_in, in_);
   connect(out_, its_out);
   connect(err_, its_err);
+  connect(its_lifeline, lifeline_);
+  if (::fcntl(its_lifeline.get(), F_SETFD, 0) != 0)
+    fail("no pipe to the detector can be made");  // it is inherited
   for (const Pipe* own : {&in_, &out_, &err_}) {
-    if (::fcntl(own->get(), F_SETFL, O_NONBLOCK) != 0) fail("fcntl");
+    if (::fcntl(own->get(), F_SETFL, O_NONBLOCK) != 0) fail("no pipe to the detector can be made");
   }
   ::fcntl(in_.get(), F_SETPIPE_SZ, 1 << 20);  // pictures go faster; it is no matter if not
 
-  const std::array<std::string, 3> shell{"sh", "-c", for_shell(command)};
+  const std::array<std::string, 3> shell{"sh", "-c", command};
   pid_ = process::start_child("/bin/sh", shell, {its_in.get(), its_out.get(), its_err.get()},
                               {.when_parent_ends = SIGKILL, .own_group = true});
+  end_with_writer(its_lifeline.get(), pid_);
 }
 
 DetectorProcess::~DetectorProcess() {
@@ -143,7 +147,13 @@ std::string DetectorProcess::ask(std::string_view line, std::span<const unsigned
     const std::size_t unread = line.size() + picture.size();
     const bool ended = has_ended();  // and all that it wrote is there
     read_what_is_there();
-    if (const std::size_t end = answers_.find('\n'); end != std::string::npos) {
+    const std::size_t end = answers_.find('\n');
+    if (std::min(end, answers_.size()) > most_answer_) {
+      throw DetectorError(fmt::format(
+          "its line is longer than {} bytes; write a shorter one, or say \"{}\" in the greeting",
+          most_answer_, kAnswerBytes));
+    }
+    if (end != std::string::npos) {
       if (unread > 0 && in_.is_open()) {
         throw DetectorError(
             fmt::format("it answered before it had read the last {} bytes of the frame; read the "
@@ -153,10 +163,6 @@ std::string DetectorProcess::ask(std::string_view line, std::span<const unsigned
       std::string answer = answers_.substr(0, end);
       answers_.erase(0, end + 1);
       return answer;
-    }
-    if (answers_.size() > kMostAnswer) {
-      throw DetectorError(
-          fmt::format("it wrote {} MiB without the end of a line", kMostAnswer >> 20U));
     }
     if (ended || !out_.is_open() || !in_.is_open()) fail_ended();
     if (Clock::now() >= deadline) {
@@ -234,7 +240,7 @@ void DetectorProcess::read_what_is_there() {
       if (&text == &stderr_ && text.size() > kMostStderr) text.erase(0, text.size() - kMostStderr);
     }
   };
-  drain(out_, answers_, kMostAnswer);
+  drain(out_, answers_, most_answer_);
   drain(err_, stderr_, kMostStderr);
 }
 

@@ -22,12 +22,17 @@ class DetectorError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Bytes of a line that answers a frame; and the field of the greeting that asks for more, and how
+/// much it can ask for. Parsed, a line takes thirty times as much.
+inline constexpr std::size_t kMostAnswer = 1'000'000, kMostAskedAnswer = 16'000'000;
+inline constexpr const char* kAnswerBytes = "answer_bytes";
+
 /// The program and all processes that it starts are in a process group of their own, which is ended
 /// with this object: Ctrl-C does not reach them, and none stays behind.
 class DetectorProcess {
  public:
-  /// \param command for `/bin/sh -c`. A single program ends with this one, also by SIGKILL; of
-  ///   several that a shell runs, those that read what they are handed do.
+  /// \param command for `/bin/sh -c`. All that it starts ends with this process, also where that is
+  ///   ended by SIGKILL, but for what leaves the process group.
   /// \param timeout_s that the program may take to answer, and to end.
   /// \param on_wait called some times a second while it is waited for; what it throws ends that.
   /// \throws std::system_error where no process can be started.
@@ -44,6 +49,9 @@ class DetectorProcess {
   /// Tells it that nothing more comes, and waits for its end.
   /// \throws DetectorError for another exit code than 0, or an answer that nobody asked for.
   void finish();
+
+  /// How long a line it may write, without its end; `kMostAnswer` if it was not said.
+  void allow_answer(std::size_t bytes) { most_answer_ = bytes; }
 
   /// The last lines that it wrote to stderr.
   std::vector<std::string> said() const;
@@ -80,9 +88,11 @@ class DetectorProcess {
   std::function<void()> on_wait_;
   pid_t pid_ = -1;
   std::optional<int> status_;  ///< of waitpid, once it was called
-  Pipe in_, out_, err_;        ///< its
-  std::string answers_;        ///< read, and not asked for yet
-  std::string stderr_;         ///< the last of it
+  std::size_t most_answer_ = kMostAnswer;
+  Pipe in_, out_, err_;  ///< its
+  Pipe lifeline_;        ///< nothing is written to it
+  std::string answers_;  ///< read, and not asked for yet
+  std::string stderr_;   ///< the last of it
 };
 
 }  // namespace lcs::comparators

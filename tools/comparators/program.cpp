@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "scenarios/message.h"
+#include "tools/files/json_node.h"
 #include "tools/recording/recording_io.h"
 
 namespace lcs::comparators {
@@ -20,16 +21,14 @@ constexpr std::string_view kIndex = "index", kCircle = "circle", kMask = "mask";
 
 Json parsed(const std::string& line) {
   const std::string shown = scenario::one_line(std::string_view(line).substr(0, 200));
-  Json json;
+  constexpr const char* kRemedy = "write one object of JSON in a line, and nothing else";
   try {
-    json = Json::parse(line);
-  } catch (const Json::parse_error& error) {
-    throw DetectorError(fmt::format("its answer is not JSON at byte {}: '{}'", error.byte, shown));
-  } catch (const Json::exception&) {
-    throw DetectorError("its answer has a number that is too large");
+    Json json = bench::parse_json<Json>(line);
+    if (json.is_object()) return json;
+  } catch (const bench::JsonError& error) {
+    throw DetectorError(fmt::format("its answer '{}': {}; {}", shown, error.what(), kRemedy));
   }
-  if (!json.is_object()) throw DetectorError(fmt::format("its answer is no object: '{}'", shown));
-  return json;
+  throw DetectorError(fmt::format("its answer is no object: '{}'; {}", shown, kRemedy));
 }
 
 /// As text of JSON, which is what a row of CSV has for numbers.
@@ -101,13 +100,23 @@ void ProgramTracker::greet(const Announced& announced) {
   const Json greeting = parsed(process_.ask(header + '\n'));
   const auto protocol = greeting.find("protocol");
   if (protocol == greeting.end() || *protocol != kProtocol) {
-    throw DetectorError(fmt::format("it does not say {{\"protocol\": {}}}, but '{}'", kProtocol,
-                                    scenario::one_line(text_of(greeting).substr(0, 200))));
+    throw DetectorError(fmt::format(
+        "it does not say {{\"protocol\": {0}}}, but '{1}'; speak protocol {0} (PROTOCOL.md)",
+        kProtocol, scenario::one_line(text_of(greeting).substr(0, 200))));
   }
-  const auto circles = greeting.find("circles");
-  if (circles == greeting.end()) return;
-  if (!circles->is_boolean()) throw DetectorError("its \"circles\" is not true or false");
-  gives_circles_ = circles->get<bool>();
+  if (const auto circles = greeting.find("circles"); circles != greeting.end()) {
+    if (!circles->is_boolean()) {
+      throw DetectorError("its \"circles\" is not true or false; say which");
+    }
+    gives_circles_ = circles->get<bool>();
+  }
+  if (const auto most = greeting.find(kAnswerBytes); most != greeting.end()) {
+    if (!most->is_number_unsigned() || *most > kMostAskedAnswer) {
+      throw DetectorError(fmt::format("its \"{}\" is {}; give a whole number up to {}",
+                                      kAnswerBytes, text_of(*most), kMostAskedAnswer));
+    }
+    process_.allow_answer(most->get<std::size_t>());
+  }
 }
 
 void ProgramTracker::read_answer(const std::string& line, bench::FrameRecord& frame) {

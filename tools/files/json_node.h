@@ -22,20 +22,43 @@
 
 namespace lcs::bench {
 
-/// "not JSON at byte 12", behind the line of that byte.
-/// \throws scenario::Error; what follows the ';' is `remedy`.
+/// Why a text cannot be read as JSON, as "not JSON at byte 12", and how many lines are before that.
+struct JsonError : std::runtime_error {
+  JsonError(const std::string& what, int lines_) : std::runtime_error(what), lines(lines_) {}
+  int lines;
+};
+
+/// No document of this program is half as deep. Deeper ones overflow the stack where they are
+/// written or destroyed.
+inline constexpr int kDeepestJson = 64;
+
+/// \throws JsonError for lists and objects that are nested too deep, wherever they are.
+void require_shallow(std::string_view text);
+
+/// The one way in which JSON is parsed. \throws JsonError
 template <class Json>
-Json parse_json(const std::string& text, const scenario::Source& where, std::string_view remedy) {
+Json parse_json(std::string_view text) {
+  const auto lines_before = [&](std::size_t byte) {
+    return static_cast<int>(std::ranges::count(text.substr(0, byte), '\n'));
+  };
+  require_shallow(text);
   try {
     return Json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {
-    const std::size_t byte = std::min(error.byte, text.size());
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(byte);
-    const auto lines = static_cast<int>(std::count(text.begin(), end, '\n'));
-    throw scenario::Error({where.file, where.line + lines},
-                          fmt::format("not JSON at byte {}; {}", error.byte, remedy));
+    throw JsonError(fmt::format("not JSON at byte {}", error.byte), lines_before(error.byte));
   } catch (const nlohmann::json::exception&) {
-    throw scenario::Error(where, fmt::format("there is a number that is too large; {}", remedy));
+    throw JsonError("there is a number that is too large", 0);
+  }
+}
+
+/// \param where the text begins. \throws scenario::Error; what follows the ';' is `remedy`.
+template <class Json>
+Json parse_json(std::string_view text, const scenario::Source& where, std::string_view remedy) {
+  try {
+    return parse_json<Json>(text);
+  } catch (const JsonError& error) {
+    throw scenario::Error({where.file, where.line + error.lines},
+                          fmt::format("{}; {}", error.what(), remedy));
   }
 }
 

@@ -8,10 +8,15 @@ namespace lcs::tools {
 
 class Interrupted : public std::runtime_error {
  public:
-  Interrupted() : std::runtime_error("interrupted") {}
+  explicit Interrupted(const char* what = "interrupted; nothing was written")
+      : std::runtime_error(what) {}
 };
 
-/// To be called between two frames. Signals only make a note.
+/// Whether a signal has come that `check_interrupted` throws for.
+bool is_interrupted();
+
+/// To be called between two frames. Signals only make a note; but a process that has still not ended
+/// 20 s after one that asks it to end, ends at once, whatever it waits for, as by SIGKILL.
 /// \throws Interrupted if SIGINT, SIGTERM, SIGHUP or SIGXCPU has come since the program started,
 ///   bench::OutputError if SIGPIPE or SIGXFSZ has: something could not be written.
 void check_interrupted();

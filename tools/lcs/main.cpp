@@ -136,8 +136,8 @@ int main(int argc, char** argv) {
     const int exit_code = run_command_line(argc, argv);
     finish_out();
     return exit_code;
-  } catch (const Interrupted&) {
-    print_err("lcs: interrupted; nothing was written\n");
+  } catch (const Interrupted& interrupted) {
+    print_err("lcs: {}\n", interrupted.what());
     return kInterrupted;
   } catch (const std::bad_alloc&) {
     return fail(kNoMemory);

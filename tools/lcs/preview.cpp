@@ -56,7 +56,7 @@ void print_preview(const scenario::Scenario& scenario, const preview::Preview& p
         mover.moves
             ? fmt::format("moves from {:.1f} to {:.1f} s", mover.moves->from_s, mover.moves->to_s)
             : "never moves",
-        mover.nearest_m, mover.nearest_s, mover.looks, p.survey.looks.size());
+        mover.nearest_m, mover.nearest_s, mover.looks, p.looks.size());
   }
   write_out(fmt::format("{}  page     {}\n", text, page.string()));
 }

@@ -7,10 +7,12 @@
 #include <optional>
 #include <stdexcept>
 
+#include "sim/picture_file.h"
 #include "tools/files/output_file.h"
 #include "tools/files/written.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
+#include "tools/lcs/terminal.h"
 #include "tools/output/frame_pictures.h"
 #include "tools/recording/recording_io.h"
 #include "tools/report/worlds_page.h"
@@ -28,9 +30,9 @@ constexpr const char* kFolder = "out/worlds";
 constexpr int kMostWorlds = 100'000;
 
 /// What a run's camera saw; none where it has left no pictures.
-std::optional<worlds::Shots> recorded_shots(const fs::path& run, int image_width_px) {
+std::optional<worlds::Shots> recorded_shots(const fs::path& run, cv::Size image_px) {
   if (!fs::exists(run / bench::kPicturesFile)) return std::nullopt;
-  const auto pictures = bench::FramePictures::read(run / bench::kPicturesFile, image_width_px);
+  const auto pictures = bench::FramePictures::read(run / bench::kPicturesFile, image_px);
   const auto shown = worlds::frames_shown(static_cast<int>(pictures.size()));
   const auto objects = bench::read_object_truth(run, shown);
   worlds::Shots shots;
@@ -47,10 +49,16 @@ void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
   constexpr int kQuality = 85, kColumns = 4;
   for (const suite::RunResult& run : scenario.runs) {
     if (run.folder.empty() || !planned.scenario) continue;
-    const auto shots = recorded_shots(folder / run.folder, planned.scenario->camera.width_px);
+    const auto shots = recorded_shots(folder / run.folder, {planned.scenario->camera.width_px,
+                                                            planned.scenario->camera.height_px});
     if (!shots) continue;
     const fs::path plan = scenario.file.parent_path() / worlds::kPlanFile;
-    const cv::Mat3b above = cv::imread(plan.string(), cv::IMREAD_COLOR);
+    cv::Mat3b above;
+    try {
+      above = sim::read_picture(plan, {plan.string(), 0}, cv::IMREAD_COLOR);
+    } catch (const scenario::Error& error) {  // the runs are worth more than their picture
+      warn({error.what()});
+    }
     const auto bytes = bench::jpeg(worlds::contact_sheet(*shots, above, kColumns), kQuality);
     bench::write_file(folder / report::sheet_path(scenario),
                       {reinterpret_cast<const char*>(bytes.data()), bytes.size()});

@@ -1,15 +1,20 @@
 #include "tools/lcs/terminal.h"
 
 #include <fcntl.h>
+#include <poll.h>
+#include <stdio_ext.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <cstdio>
 #include <iostream>
 #include <system_error>
 
 #include "scenarios/message.h"
 #include "tools/files/output_file.h"
+#include "tools/lcs/interrupt.h"
 
 namespace lcs::tools {
 namespace {
@@ -18,6 +23,42 @@ namespace {
   const std::error_code code(error, std::generic_category());
   throw bench::OutputError(
       fmt::format("cannot write to standard output: {}; {}", code.message(), bench::remedy(code)));
+}
+
+/// Waits until a block can be written, for there is no end to it where nobody reads a pipe.
+/// \return whether it can: else a signal came first, which does not end a write.
+bool has_room(int descriptor) {
+  constexpr int kTick_ms = 1000;
+  while (true) {
+    pollfd one{descriptor, POLLOUT, 0};
+    const bool is_last = is_interrupted();
+    const int ready = ::poll(&one, 1, is_last ? 0 : kTick_ms);
+    if (ready > 0 || (ready < 0 && errno != EINTR)) return true;  // what fails is told by the write
+    if (is_last) return false;
+  }
+}
+
+/// \return whether all of it was written.
+bool write(std::FILE* file, std::string_view text) {
+  constexpr std::size_t kBlock = PIPE_BUF;  // a pipe that has room takes so much at once
+  for (; !text.empty(); text.remove_prefix(std::min(kBlock, text.size()))) {
+    if (!has_room(::fileno(file))) return false;
+    const std::string_view block = text.substr(0, kBlock);
+    if (std::fwrite(block.data(), 1, block.size(), file) != block.size()) return false;
+  }
+  return true;
+}
+
+/// What is still in its buffer. \return whether it was written.
+bool flush_out() {
+  if (::__fpending(stdout) == 0 || has_room(STDOUT_FILENO)) return std::fflush(stdout) == 0;
+  ::__fpurge(stdout);  // else it is waited for at exit
+  return false;
+}
+
+[[noreturn]] void fail_out() {
+  if (std::ferror(stdout) == 0) throw Interrupted("interrupted before all was told");
+  fail(errno);
 }
 
 }  // namespace
@@ -30,12 +71,12 @@ void open_standard_descriptors() {
 }
 
 void write_out(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail(errno);
+  if (!write(stdout, text)) fail_out();
 }
 
 void write_err(const std::string& text) {
-  std::fflush(stdout);  // in a file that both go to, what came first stands first
-  std::fwrite(text.data(), 1, text.size(), stderr);
+  flush_out();  // in a file that both go to, what came first stands first
+  write(stderr, text);
 }
 
 void tell(std::string_view message) {
@@ -49,7 +90,7 @@ void warn(const std::vector<std::string>& lines) {
 void finish_out() {
   std::cout.flush();
   const bool has_failed = std::ferror(stdout) != 0;  // what was to be written then is lost
-  if (std::fflush(stdout) != 0 || has_failed) fail(errno);
+  if (!flush_out() || has_failed) fail_out();
 }
 
 }  // namespace lcs::tools

@@ -15,7 +15,8 @@ namespace lcs::tools {
 /// opened later takes their place and what is printed ends in it.
 void open_standard_descriptors();
 
-/// To standard output. \throws bench::OutputError
+/// To standard output. \throws bench::OutputError, and Interrupted where nobody reads it and a signal
+/// asks to end.
 void write_out(const std::string& text);
 /// To standard error; what cannot be written there is lost.
 void write_err(const std::string& text);
@@ -34,7 +35,7 @@ void print_err(fmt::format_string<Args...> format, Args&&... args) {
   write_err(fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// Writes out what is still buffered, by anybody. \throws bench::OutputError
+/// Writes out what is still buffered, by anybody. \throws as `write_out`.
 void finish_out();
 
 }  // namespace lcs::tools

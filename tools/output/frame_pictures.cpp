@@ -1,5 +1,7 @@
 #include "tools/output/frame_pictures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -8,6 +10,7 @@
 #include <string_view>
 
 #include "scenarios/input_file.h"
+#include "sim/picture_file.h"
 #include "tools/files/output_file.h"
 
 namespace lcs::bench {
@@ -42,11 +45,14 @@ void FramePictures::add(const cv::Mat3b& image) {
   jpegs_.push_back(jpeg(kept, kKeptQuality));
 }
 
-FramePictures FramePictures::read(const std::filesystem::path& file, int image_width_px) {
+FramePictures FramePictures::read(const std::filesystem::path& file, cv::Size image_px) {
   // 40 kB a picture: of hundreds of thousands of frames.
   constexpr scenario::FileKind kMotionJpeg{16 * scenario::kGibibyte, kRecordAgain};
   const std::string bytes = scenario::read_file(file, kMotionJpeg);
   FramePictures pictures;
+  pictures.scale_ = kept_scale(image_px.width);
+  const cv::Size2l expected(cvRound(image_px.width * pictures.scale_),
+                            cvRound(image_px.height * pictures.scale_));
   for (std::size_t start = 0; start < bytes.size();) {
     const std::size_t end = bytes.find(kJpegEnd, start);
     if (bytes.compare(start, kJpegStart.size(), kJpegStart) != 0 || end == std::string::npos) {
@@ -55,10 +61,18 @@ FramePictures FramePictures::read(const std::filesystem::path& file, int image_w
     }
     const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(start);
     const std::size_t length = end + kJpegEnd.size() - start;
+    const auto size = sim::picture_size({bytes.data() + start, length}).value_or(cv::Size2l());
+    if (size != expected) {
+      throw scenario::Error(
+          {file.string(), 0},
+          fmt::format(
+              "picture {} has {} x {} pixels, and one of a camera of {} x {} has {} x {}; {}",
+              pictures.size(), size.width, size.height, image_px.width, image_px.height,
+              expected.width, expected.height, kRecordAgain));
+    }
     pictures.jpegs_.emplace_back(first, first + static_cast<std::ptrdiff_t>(length));
     start += length;
   }
-  pictures.scale_ = kept_scale(image_width_px);
   return pictures;
 }
 
@@ -72,12 +86,14 @@ void FramePictures::write(const std::filesystem::path& file) const {
 
 cv::Mat3b FramePictures::at(std::size_t position, double& scale) const {
   scale = scale_;
-  cv::Mat3b picture = cv::imdecode(jpegs_.at(position), cv::IMREAD_COLOR);
-  if (picture.empty()) {
+  const std::vector<unsigned char>& bytes = jpegs_.at(position);
+  try {
+    return sim::decode_picture({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                               cv::IMREAD_COLOR);
+  } catch (const sim::PictureError&) {
     throw std::runtime_error("picture " + std::to_string(position) + " of " + kPicturesFile +
                              " is broken; " + kRecordAgain);
   }
-  return picture;
 }
 
 }  // namespace lcs::bench

@@ -17,9 +17,11 @@ inline constexpr const char* kPicturesFile = "pictures.mjpeg";
 /// 640 px are kept at that width: some 40 kB a frame.
 class FramePictures {
  public:
-  /// Reads back what `write` wrote. \param image_width_px of the run's images.
-  /// \throws std::runtime_error naming the file and what is wrong with it.
-  static FramePictures read(const std::filesystem::path& file, int image_width_px);
+  /// Reads back what `write` wrote. \param image_px the size of the run's images.
+  /// \throws scenario::Error naming the file and what is wrong with it, also for pictures of
+  /// another
+  ///   size than `add` makes of such images.
+  static FramePictures read(const std::filesystem::path& file, cv::Size image_px);
   /// As Motion JPEG: one picture after the other, and nothing else. \throws OutputError
   void write(const std::filesystem::path& file) const;
 
@@ -27,7 +29,7 @@ class FramePictures {
   void add(const cv::Mat3b& image);
 
   /// \param scale set to the picture's pixels for each pixel of the image.
-  /// \throws std::runtime_error for bytes that are no picture.
+  /// \throws std::runtime_error for a picture that is damaged.
   cv::Mat3b at(std::size_t position, double& scale) const;
   std::size_t size() const { return jpegs_.size(); }
 

@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 
+#include "tools/output/video_reader.h"
+
 namespace lcs::bench {
 namespace {
 
@@ -36,7 +38,7 @@ void Video::write(const cv::Mat3b& frame) {
 
 void Video::close() {
   writer_.release();
-  cv::VideoCapture written(path_.string(), cv::CAP_FFMPEG);
+  const cv::VideoCapture written = open_video(path_);
   if (!written.isOpened() || static_cast<int>(written.get(cv::CAP_PROP_FRAME_COUNT)) != frames_) {
     require_writable(path_);
     throw OutputError(fmt::format(

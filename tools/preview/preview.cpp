@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <variant>
 
@@ -16,7 +17,19 @@ namespace {
 
 constexpr double kStands_m = 1e-4;  // from one frame to the next
 
-Mover mover_of(const scenario::Scenario& scenario, const sim::Survey& survey, std::size_t actor) {
+std::vector<unsigned char> jpeg_of(const cv::Mat3b& image) {
+  constexpr int kMostWidth_px = 1920, kQuality = 85;
+  cv::Mat3b shown = image;
+  if (const double scale = static_cast<double>(kMostWidth_px) / image.cols; scale < 1) {
+    cv::resize(image, shown, {}, scale, scale, cv::INTER_AREA);
+  }
+  std::vector<unsigned char> jpeg;
+  cv::imencode(".jpg", shown, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+  return jpeg;
+}
+
+Mover mover_of(const scenario::Scenario& scenario, const sim::Survey& survey,
+               const std::vector<Look>& looks, std::size_t actor) {
   Mover mover{.name = scenario.actors[actor].name, .object = survey.actors[actor]};
   const auto id = static_cast<std::size_t>(mover.object);
   for (std::size_t k = 0; k < survey.snapshots.size(); ++k) {
@@ -33,7 +46,7 @@ Mover mover_of(const scenario::Scenario& scenario, const sim::Survey& survey, st
     }
     mover.way_m.push_back(here);
   }
-  for (const sim::Observation& look : survey.looks) {
+  for (const Look& look : looks) {
     mover.looks += std::ranges::find(look.objects, mover.object, &sim::ObjectTruth::object) !=
                    look.objects.end();
   }
@@ -56,7 +69,7 @@ std::vector<std::string> what_is_wrong(const scenario::Scenario& scenario, const
       lines.push_back(
           fmt::format("actor '{}' is in none of the {} pictures that were looked at: change its "
                       "trajectory, its start, or the rover's way",
-                      mover.name, p.survey.looks.size()));
+                      mover.name, p.looks.size()));
     }
     if (!mover.moves && !std::holds_alternative<scenario::Still>(scenario.actors[i].trajectory)) {
       lines.push_back(
@@ -80,15 +93,16 @@ std::vector<std::string> what_is_wrong(const scenario::Scenario& scenario, const
 
 Preview preview(const scenario::Scenario& scenario, const std::function<void(int)>& on_frame) {
   Preview p;
-  p.survey = sim::survey(scenario, kLooks, on_frame);
   const FastDetector detector(scenario.fast_threshold);
-  for (const sim::Observation& look : p.survey.looks) {
+  const auto on_look = [&](const sim::Observation& seen) {
     cv::Mat1b grey;
-    cv::cvtColor(look.image, grey, cv::COLOR_BGR2GRAY);
+    cv::cvtColor(seen.image, grey, cv::COLOR_BGR2GRAY);
     p.corners_px.push_back(detector.detect(grey));
-  }
+    p.looks.push_back({seen.index, seen.image.size(), seen.objects, jpeg_of(seen.image)});
+  };
+  p.survey = sim::survey(scenario, kLooks, on_look, on_frame);
   for (std::size_t i = 0; i < scenario.actors.size(); ++i) {
-    p.movers.push_back(mover_of(scenario, p.survey, i));
+    p.movers.push_back(mover_of(scenario, p.survey, p.looks, i));
   }
   p.wrong = what_is_wrong(scenario, p);
   return p;

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <functional>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,8 +33,18 @@ struct Mover {
   int looks = 0;  ///< in which some of it is seen
 };
 
+/// A frame that was looked at. Its picture is of the camera's size only up to 1920 px of width: of
+/// the largest camera all of them would take gigabytes.
+struct Look {
+  int index = 0;
+  cv::Size image_px = {};
+  std::vector<sim::ObjectTruth> objects = {};
+  std::vector<unsigned char> jpeg = {};
+};
+
 struct Preview {
   sim::Survey survey;
+  std::vector<Look> looks;
   std::vector<std::vector<Eigen::Vector2f>> corners_px;  ///< of each look
   std::vector<Mover> movers;                             ///< by the scenario's actors
   std::vector<std::string> wrong;  ///< a line each, with what to do; what a run refuses is first

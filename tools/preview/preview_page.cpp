@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <ranges>
 #include <string_view>
 #include <vector>
@@ -67,7 +66,7 @@ class PreviewPage : public report::TextPage {
     plan();
     movers();
     add("<h2>What the camera sees</h2>\n<div class=\"pictures\">\n");
-    const std::size_t last = survey_.looks.size() - 1;
+    const std::size_t last = preview_.looks.size() - 1;
     for (const std::size_t look : {std::size_t{0}, last / 2, last}) picture(look);
     add("</div>\n<p class=\"small quiet\">Yellow: corners. Boxes: actors.</p>\n");
     corners();
@@ -336,26 +335,24 @@ class PreviewPage : public report::TextPage {
           mover.moves ? fmt::format("{:.1f} to {:.1f} s", mover.moves->from_s, mover.moves->to_s)
                       : "never",
           from.x(), from.y(), to.x(), to.y(), mover.nearest_m, mover.nearest_s, mover.looks,
-          survey_.looks.size());
+          preview_.looks.size());
     }
     add("</tbody></table></div>\n");
   }
 
   void picture(std::size_t which) {
-    const sim::Observation& look = survey_.looks[which];
-    std::vector<unsigned char> jpeg;
-    cv::imencode(".jpg", look.image, jpeg, {cv::IMWRITE_JPEG_QUALITY, 85});
-    const std::string_view bytes(reinterpret_cast<const char*>(jpeg.data()), jpeg.size());
-    const double line = look.image.cols / 640.0;
+    const Look& look = preview_.looks[which];
+    const std::string_view bytes(reinterpret_cast<const char*>(look.jpeg.data()), look.jpeg.size());
+    const double line = look.image_px.width / 640.0;
     add("<figure><svg viewBox=\"0 0 {0} {1}\" role=\"img\" aria-label=\"frame {2}\">\n<image "
         "width=\"{0}\" height=\"{1}\" href=\"data:image/jpeg;base64,{3}\"/>\n<path "
         "class=\"corners\" stroke-width=\"{4:.1f}\" d=\"",
-        look.image.cols, look.image.rows, look.index, bench::base64(bytes), 2.5 * line);
+        look.image_px.width, look.image_px.height, look.index, bench::base64(bytes), 2.5 * line);
     for (const Eigen::Vector2f& p : preview_.corners_px[which]) {
       add("M{:.0f} {:.0f}h0", p.x() + 0.5, p.y() + 0.5);
     }
     add("\"/>\n");
-    Labels labels{{Vector2d::Zero(), Vector2d(look.image.cols, look.image.rows)}};
+    Labels labels{{Vector2d::Zero(), Vector2d(look.image_px.width, look.image_px.height)}};
     for (const sim::ObjectTruth& object : look.objects) {
       const auto mover = std::ranges::find(preview_.movers, object.object, &Mover::object);
       if (mover == preview_.movers.end()) continue;
@@ -389,7 +386,7 @@ class PreviewPage : public report::TextPage {
           x + 4, kHeight + 20 - high, kStep - 8, high);
       label({x + kStep / 2, kHeight + 16 - high}, std::to_string(preview_.corners_px[i].size()),
             "text-anchor=\"middle\"");
-      label({x + kStep / 2, kHeight + 36}, fmt::format("{:.1f} s", time_s(survey_.looks[i].index)),
+      label({x + kStep / 2, kHeight + 36}, fmt::format("{:.1f} s", time_s(preview_.looks[i].index)),
             "text-anchor=\"middle\"");
     }
     add("</svg></figure>\n");

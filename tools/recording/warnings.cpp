@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <stdexcept>
 
+#include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
 #include "tools/recording/motion_warnings.h"
 
@@ -72,19 +70,18 @@ void write_warnings(const std::filesystem::path& path, const std::vector<Warned>
 }
 
 std::vector<Warned> read_warnings(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot read " + path.string());
-  try {
+  constexpr scenario::FileKind kWarningsDocument{scenario::kMebibyte,
+                                                 "name the folder of a whole run, or run it again"};
+  return read_json(path, kWarningsDocument, [](const JsonNode& node) {
     std::vector<Warned> all;
-    const auto json = nlohmann::ordered_json::parse(file);
-    for (const auto& [word, warned] : json.items()) {
-      all.push_back(
-          {word, warned.at("count").get<std::int64_t>(), warned.at("first").get<std::string>()});
-    }
+    node.each_entry([&](const std::string& word, const JsonNode& warned) {
+      const auto count = warned["count"].natural<std::int64_t>();
+      const std::string first = warned["first"].text();
+      warned["first"].require(count == 0 || !first.empty(), "what is told of the first time");
+      all.push_back({word, count, first});
+    });
     return all;
-  } catch (const std::exception& error) {
-    throw std::runtime_error(path.string() + ": " + error.what());
-  }
+  });
 }
 
 std::optional<sim::Warnings> world_warnings(const std::filesystem::path& folder) {

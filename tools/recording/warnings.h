@@ -34,7 +34,7 @@ std::vector<std::string> lines_of(const std::vector<Warned>& warnings);
 /// All of them, by word. \throws OutputError
 void write_warnings(const std::filesystem::path& path, const std::vector<Warned>& warnings);
 
-/// What was written there. \throws std::runtime_error naming file and what is wrong with it.
+/// What was written there. \throws scenario::Error naming file and what is wrong with it.
 std::vector<Warned> read_warnings(const std::filesystem::path& path);
 
 /// The warnings that the simulation gave in a run; none where the run's folder has no such file.

@@ -48,7 +48,9 @@ void leave_out_without_pose(std::size_t poses, Recorded& recorded) {
   const auto first = std::find_if(frames.begin(), frames.end(),
                                   [&](const auto& frame) { return frame.number >= poses; });
   if (first == frames.end()) return;
-  recorded.tally.add("pictures have no pose and are left out", first->picture.filename().string(),
+  recorded.tally.add("pictures have no pose and are left out",
+                     recorded.video.empty() ? first->picture.filename().string()
+                                            : fmt::format("picture {}", first->number),
                      static_cast<int>(frames.end() - first));
   std::erase_if(frames, [&](const auto& frame) { return frame.number >= poses; });
 }

@@ -115,6 +115,59 @@ Start start_by_truth(const std::vector<TrueState>& truth, std::int64_t t_ns) {
           state.accel_bias_mps2};
 }
 
+/// What a generated sequence says in `lcs.json` it says again in each sensor.yaml, for other
+/// readers. One of the two that was edited is not overlooked.
+void require_same(const fs::path& mav, const sequence::ReplaySettings& exact) {
+  const auto is_same = [](double said, double number) {
+    constexpr double kRounding = 1e-9;
+    return std::abs(said - number) <= kRounding * std::max(1.0, std::abs(number));
+  };
+  const auto read = [&](const char* sensor, const sim::Pose& T_BS, const auto& check) {
+    const fs::path file = mav / sensor / "sensor.yaml";
+    if (!fs::exists(file)) return;
+    const SensorYaml said = read_sensor_yaml(file);
+    const auto require = [&](bool same, const char* key) {
+      if (same) return;
+      const auto at = said.keys.find(key);
+      throw scenario::Error(
+          at == said.keys.end() ? scenario::Source{file.string(), 0} : at->second,
+          fmt::format(
+              "{0} is not as {1} of the sequence says; generate the sequence again, or take "
+              "{1} away to replay it by its other files alone",
+              key, sequence::kSettingsFile));
+    };
+    require(said.T_BS.R.isApprox(T_BS.R, 1e-9) && (said.T_BS.p - T_BS.p).norm() < 1e-9, "T_BS");
+    check(said, require);
+  };
+  const auto nothing_else = [](const SensorYaml&, const auto&) {};
+  const sim::Calibration& told = exact.calibration;
+  read("cam0", told.T_BS.inverse() * told.T_BC, [&](const SensorYaml& said, const auto& require) {
+    const double rate_hz = exact.scenario.camera.rate_hz;
+    require(is_same(said.rate_hz.value_or(rate_hz), rate_hz), "rate_hz");
+    if (!said.lens) return;
+    const Lens& lens = *said.lens;
+    const sim::Pinhole& camera = told.camera;
+    require(is_same(lens.fu_px, camera.focal_px) && is_same(lens.fv_px, camera.focal_px) &&
+                is_same(lens.cu_px, camera.centre_px.x()) &&
+                is_same(lens.cv_px, camera.centre_px.y()),
+            "intrinsics");
+    const cv::Size size_px(lens.width_px, lens.height_px);
+    require(size_px.empty() || size_px == cv::Size(camera.width_px, camera.height_px),
+            "resolution");
+    require(std::ranges::all_of(lens.coefficients, [](double c) { return c == 0; }),
+            "distortion_coefficients");
+  });
+  read("imu0", {}, [&](const SensorYaml& said, const auto& require) {
+    if (!said.noise) return;
+    for (const auto& [key, member] : sequence::kImuNoise) {
+      if (!said.keys.contains(key)) continue;  // turn-on biases, which Kalibr does not know
+      require((*said.noise).*member == exact.scenario.imu.noise.*member, key);
+    }
+  });
+  read("odometry0", told.T_BS.inverse(), nothing_else);
+  read(kTruth, {}, nothing_else);
+}
+
 /// As a generated sequence says it: the bits of the run.
 void move_as_run(const fs::path& mav, const sequence::ReplaySettings& exact, Recorded& recorded) {
   SensorReadings readings;
@@ -217,6 +270,7 @@ Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion) {
   const fs::path settings_file = asked.path / sequence::kSettingsFile;
   if (fs::exists(settings_file)) {
     const sequence::ReplaySettings exact = sequence::read_settings(settings_file);
+    require_same(mav, exact);
     recorded.settings = exact.scenario;
     if (exact_motion) recorded.settings.ego_motion = scenario::EgoMotionSource::truth;
     recorded.lens = lens_of(exact.calibration.camera, settings_file);

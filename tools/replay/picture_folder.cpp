@@ -76,7 +76,6 @@ std::optional<cv::Mat3b> PictureReader::read(const fs::path& file) {
   } catch (const scenario::Error& refused) {
     return skip(refused.what());
   }
-  if (picture.empty()) return skip(fmt::format("{} cannot be read", file.string()));
   if (size_.empty()) size_ = picture.size();
   if (picture.size() != size_) {
     return skip(fmt::format("{} is {}x{}, not {}x{} as those before it", file.string(),

@@ -2,6 +2,7 @@
 /// The pictures of a recording's frames, from files or from a video.
 #pragma once
 
+#include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 #include <optional>
@@ -27,10 +28,11 @@ class PictureStream {
  private:
   std::optional<cv::Mat3b> read_video(const RecordedFrame& frame);
 
-  bool video_;
+  std::filesystem::path video_;  ///< empty: the pictures are files
   PictureReader files_;
   cv::VideoCapture capture_;
   std::size_t next_ = 0;  ///< picture of the video
+  bool has_ended_ = false;
   cv::Size size_;
   std::vector<std::string> skipped_;  ///< of the video
 };

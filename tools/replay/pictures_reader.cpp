@@ -2,14 +2,16 @@
 // MOTChallenge.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <opencv2/videoio.hpp>
 #include <stdexcept>
 
 #include "scenarios/input_file.h"
+#include "sim/picture_file.h"
 #include "tools/files/csv.h"
+#include "tools/output/video_reader.h"
 #include "tools/replay/picture_folder.h"
 #include "tools/replay/recorded.h"
 
@@ -20,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr scenario::FileKind kVideo{
     64 * scenario::kGibibyte,
-    "give one that FFmpeg reads, as .mp4 or .avi, or its pictures in a folder"};
+    "give a whole MP4, MOV, AVI, MKV, WebM, MPEG, FLV, ASF or OGG, or its pictures in a folder"};
 
 constexpr const char* kSequenceInfo = "seqinfo.ini";
 
@@ -91,23 +93,35 @@ bool is_video(const fs::path& file) {
 }
 
 Recorded read_video(const scenario::Recorded& asked, bool) {
-  // FFmpeg writes to stderr what is told here anyway. Read once, at its first use.
-  ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
   const scenario::InputFile no_pipe(asked.path, kVideo, asked.source);
-  cv::VideoCapture video(asked.path.string(), cv::CAP_FFMPEG);
-  const double count = video.isOpened() ? video.get(cv::CAP_PROP_FRAME_COUNT) : 0;
-  constexpr double kMostPictures = 1e8;
-  if (!(count >= 1 && count <= kMostPictures)) {
+  const cv::VideoCapture video = bench::open_video(asked.path);
+  const auto refuse = [&](const std::string& what) {
     throw scenario::Error(asked.source,
-                          fmt::format("{} is no video that says how many pictures it has; {}",
-                                      asked.path.string(), kVideo.remedy));
+                          fmt::format("{} {}; {}", asked.path.string(), what, kVideo.remedy));
+  };
+  const double count = video.isOpened() ? video.get(cv::CAP_PROP_FRAME_COUNT) : 0;
+  if (!(count >= 1)) refuse("is no video that says how many pictures it has");
+  // All frames are listed before the first one is read. The shortest has its place in the file, its
+  // length and a few bits.
+  constexpr double kMostPictures = 1e7, kLeastBytes = 8;
+  const auto bytes = static_cast<double>(fs::file_size(asked.path));
+  if (count > std::min(kMostPictures, bytes / kLeastBytes)) {
+    refuse(fmt::format(
+        "says that it has {:.0f} pictures, and its {:.0f} bytes {}", count, bytes,
+        count > kMostPictures ? "can be those of 10 million at most" : "cannot hold so many"));
+  }
+  const double width = video.get(cv::CAP_PROP_FRAME_WIDTH);
+  const double height = video.get(cv::CAP_PROP_FRAME_HEIGHT);
+  if (width * height > static_cast<double>(sim::kMostPixels)) {
+    refuse(fmt::format("has pictures of {:.0f} x {:.0f} pixels, and can have {} million in all",
+                       width, height, sim::kMostPixels / 1'000'000));
   }
   Recorded recorded;
-  recorded.video = true;
+  recorded.video = asked.path;
   recorded.timed = false;
   recorded.fps = rate_in(fmt::format("{}", video.get(cv::CAP_PROP_FPS)));
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    recorded.frames.push_back({0, asked.path, i});
+    recorded.frames.push_back({0, {}, i});
   }
   return recorded;
 }

@@ -92,12 +92,9 @@ void Playback::read_mask() {
   const cv::Size size_px(camera().width_px, camera().height_px);
   if (grey.size() != size_px) {
     throw scenario::Error(
-        where, fmt::format("the mask {} is {}, and the pictures have {} x {} pixels; give one of "
-                           "that size, white where the vehicle itself is seen",
-                           file->string(),
-                           grey.empty() ? "no picture"
-                                        : fmt::format("of {} x {} pixels", grey.cols, grey.rows),
-                           size_px.width, size_px.height));
+        where, fmt::format("the mask {} is of {} x {} pixels, and the pictures have {} x {}; give "
+                           "one of that size, white where the vehicle itself is seen",
+                           file->string(), grey.cols, grey.rows, size_px.width, size_px.height));
   }
   mask_ = grey > kWhite;
 }
@@ -171,7 +168,7 @@ void Playback::label(bench::FrameRecord& frame) {
   } else {
     bench::set_corner_truth(truth_, frame);
   }
-  const std::string name = recorded_.video ? "" : recorded.picture.filename().string();
+  const std::string name = recorded.picture.filename().string();
   const bench::Labels::Boxes* boxes = labels_.of(static_cast<int>(recorded.number), name);
   if (!boxes) return;
   frame.labels = *boxes;

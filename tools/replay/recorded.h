@@ -46,7 +46,7 @@ struct Lens {
 
 struct RecordedFrame {
   std::int64_t t_ns = 0;
-  std::filesystem::path picture;  ///< or the video that it is of
+  std::filesystem::path picture;  ///< empty: of the video
   std::size_t number = 0;         ///< its place among all pictures of the recording, from 0
 };
 
@@ -55,7 +55,7 @@ struct Recorded {
   std::vector<RecordedFrame> frames;
   bool timed = true;            ///< by time, each time once
   std::optional<double> fps;    ///< of what is not timed, where the layout says it
-  bool video = false;           ///< the pictures are those of one video
+  std::filesystem::path video;  ///< whose pictures they are; empty: they are files
   std::optional<Lens> lens;     ///< none: the layout has no calibration
   std::optional<int> demosaic;  ///< OpenCV's colour conversion for raw pictures
   /// Detection, filter, noise; where the recording does not say, as they are by default, but

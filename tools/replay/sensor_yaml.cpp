@@ -148,6 +148,7 @@ SensorYaml read_sensor_yaml(const std::filesystem::path& file) {
   // Other keys than these are other people's.
   Reader reader(yaml, "");
   SensorYaml sensor;
+  for (const scenario::Entry& entry : yaml.entries) sensor.keys[entry.key] = entry.where;
   if (const Value* pose = reader.find("T_BS")) sensor.T_BS = read_pose(*pose);
   reader.read("rate_hz", kRate, sensor.rate_hz);
   if (const Value* intrinsics = reader.find("intrinsics")) {

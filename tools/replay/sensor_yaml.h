@@ -3,7 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "scenarios/scenario.h"
 #include "sim/pose.h"
@@ -14,8 +16,9 @@ namespace lcs::replay {
 struct SensorYaml {
   sim::Pose T_BS;
   std::optional<double> rate_hz;
-  std::optional<Lens> lens;                 ///< of a camera
-  std::optional<scenario::ImuNoise> noise;  ///< of an IMU; turn-on biases are 0
+  std::optional<Lens> lens;                           ///< of a camera
+  std::optional<scenario::ImuNoise> noise;            ///< of an IMU; turn-on biases are 0
+  std::map<std::string, scenario::Source> keys = {};  ///< those at the top, and where they are
 };
 
 /// \throws scenario::Error by file and line.

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -17,6 +15,7 @@
 
 #include "scenarios/input_file.h"
 #include "tools/files/csv.h"
+#include "tools/files/json_node.h"
 #include "tools/output/video.h"
 #include "tools/scoring/events.h"
 #include "tools/scoring/figures_file.h"
@@ -125,7 +124,7 @@ Json number_of(std::string_view cell) {
   if (cell.empty()) return nullptr;
   const std::optional<double> number = bench::number_in<double>(cell);
   if (!number) throw std::invalid_argument(fmt::format("'{}' is not a number", cell));
-  return Json::parse(fmt::format("{:.5g}", *number));
+  return bench::parse_json<Json>(fmt::format("{:.5g}", *number));
 }
 
 Json frames_of(const fs::path& file) {
@@ -385,9 +384,8 @@ std::string run_report_data(const SuiteInFolder& suite) {
   if (fs::exists(video) && fs::file_size(video) > kVideoBudget) {
     data["video_left_out_mb"] = fs::file_size(video) / 1'000'000;
   } else if (fs::exists(video)) {
-    std::ifstream stream(video, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    data["video"] = bench::base64(bytes);
+    constexpr scenario::FileKind kVideo{kVideoBudget, "run the scenario again"};
+    data["video"] = bench::base64(scenario::read_file(video, kVideo));
   }
   return text_of(data);
 }

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "tools/files/json_node.h"
 #include "tools/files/output.h"
 #include "tools/files/sha256.h"
 #include "tools/sequence/manifest.h"
@@ -75,10 +76,9 @@ void Journal::take_over(const std::string& plan) {
     replace(plan_file(), plan);
     return;
   }
-  const Json there = is_begun ? Json::parse(read_file(plan_file()), nullptr, false)
-                              : plan_in_manifest(folder_ / kManifestFile);
-  const std::string differs =
-      there.is_object() ? difference(there, Json::parse(plan)) : "its plan cannot be read";
+  const Json there = is_begun ? read_plan(plan_file()) : plan_in_manifest(folder_ / kManifestFile);
+  const std::string differs = there.is_object() ? difference(there, bench::parse_json<Json>(plan))
+                                                : "its plan cannot be read";
   if (!differs.empty()) {
     throw bench::OutputError(
         fmt::format("{} holds another sequence: {}; choose another folder with --out, or remove it",
@@ -147,7 +147,7 @@ void Journal::add(int frame, const FrameOutput& output, const Agreements& checks
 }
 
 FrameRecordEntry Journal::read(int frame) const {
-  const Json json = Json::parse(read_file(record_file(frame)));
+  const auto json = bench::parse_json<Json>(read_file(record_file(frame)));
   FrameRecordEntry record;
   for (const Json& file : json.at("files")) {
     record.files.push_back({file.at("path").get<std::string>(),

@@ -21,7 +21,7 @@ std::string manifest_text(const std::string& plan, const Agreements& checks,
   std::sort(files.begin(), files.end(),
             [](const FileRecord& a, const FileRecord& b) { return a.path < b.path; });
   Json manifest;
-  manifest["plan"] = Json::parse(plan);
+  manifest["plan"] = bench::parse_json<Json>(plan);
   for (const auto& [name, agreement] : checks) {
     manifest["checks"][name] = {{"worst", agreement.worst}, {"compared", agreement.compared}};
   }
@@ -31,8 +31,14 @@ std::string manifest_text(const std::string& plan, const Agreements& checks,
   return manifest.dump(1) + "\n";
 }
 
+nlohmann::json read_plan(const fs::path& file) {
+  return bench::parse_json<nlohmann::json>(
+      read_file(file), {file.string(), 1},
+      "choose another folder with --out, or remove this one to make the sequence anew");
+}
+
 nlohmann::json plan_in_manifest(const fs::path& manifest) {
-  const nlohmann::json json = nlohmann::json::parse(read_file(manifest), nullptr, false);
+  const nlohmann::json json = read_plan(manifest);
   return json.is_object() && json.contains("plan") ? json.at("plan") : nlohmann::json();
 }
 

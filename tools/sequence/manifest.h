@@ -18,7 +18,10 @@ inline constexpr const char* kManifestFile = "manifest.json";
 std::string manifest_text(const std::string& plan, const Agreements& checks,
                           std::vector<FileRecord> files);
 
-/// The plan of a finished sequence; not an object if the file is not a manifest.
+/// The JSON of a plan, or of a manifest. \throws scenario::Error
+nlohmann::json read_plan(const std::filesystem::path& file);
+
+/// The plan of a finished sequence; not an object if the file is not a manifest. \throws as above.
 nlohmann::json plan_in_manifest(const std::filesystem::path& manifest);
 
 /// Files that are missing or are not what the manifest says, with what is wrong.

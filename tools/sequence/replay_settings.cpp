@@ -18,14 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Node = bench::JsonNode;
 
-constexpr std::pair<const char*, double scenario::ImuNoise::*> kNoise[] = {
-    {"gyroscope_noise_density", &scenario::ImuNoise::gyroscope_noise_density},
-    {"gyroscope_random_walk", &scenario::ImuNoise::gyroscope_random_walk},
-    {"accelerometer_noise_density", &scenario::ImuNoise::accelerometer_noise_density},
-    {"accelerometer_random_walk", &scenario::ImuNoise::accelerometer_random_walk},
-    {"gyroscope_turn_on_bias_radps", &scenario::ImuNoise::gyroscope_turn_on_bias_radps},
-    {"accelerometer_turn_on_bias_mps2", &scenario::ImuNoise::accelerometer_turn_on_bias_mps2}};
-
 constexpr const char* kImu = "imu";
 constexpr const char* kTruth = "truth";
 constexpr const char* kFromPicture = "auto";
@@ -104,7 +96,7 @@ void read_scenario(const Node& node, const std::string& file, scenario::Scenario
   node["ego_motion"].require(source == kImu || source == kTruth, "imu or truth");
   scenario.ego_motion =
       source == kTruth ? scenario::EgoMotionSource::truth : scenario::EgoMotionSource::imu;
-  for (const auto& [key, member] : kNoise) {
+  for (const auto& [key, member] : kImuNoise) {
     scenario.imu.noise.*member = not_negative_in(node["imu_noise"][key]);
   }
   scenario.odometry.enabled = node["odometry"].flag();
@@ -125,7 +117,7 @@ void read_scenario(const Node& node, const std::string& file, scenario::Scenario
 std::string settings_text(const scenario::Scenario& scenario, const sim::Calibration& calibration) {
   const sim::Pinhole& camera = calibration.camera;
   Json noise;
-  for (const auto& [key, member] : kNoise) noise[key] = scenario.imu.noise.*member;
+  for (const auto& [key, member] : kImuNoise) noise[key] = scenario.imu.noise.*member;
   Json filter = Json::object();
   for (const scenario::FilterSetting& setting : scenario.filter) {
     filter[setting.key] = setting.value;  // of a key that is set twice the last one holds

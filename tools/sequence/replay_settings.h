@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "scenarios/scenario.h"
 #include "sim/simulation.h"
@@ -17,6 +18,15 @@ namespace lcs::sequence {
 inline constexpr const char* kSettingsFile = "lcs.json";
 /// What a replay is scored by (`bench::read_seen`), times as the pictures' names have them.
 inline constexpr const char* kTruthFile = "truth.jsonl";
+
+/// What an IMU's noise is called in it, and as far as Kalibr knows it in `sensor.yaml`.
+inline constexpr std::pair<const char*, double scenario::ImuNoise::*> kImuNoise[] = {
+    {"gyroscope_noise_density", &scenario::ImuNoise::gyroscope_noise_density},
+    {"gyroscope_random_walk", &scenario::ImuNoise::gyroscope_random_walk},
+    {"accelerometer_noise_density", &scenario::ImuNoise::accelerometer_noise_density},
+    {"accelerometer_random_walk", &scenario::ImuNoise::accelerometer_random_walk},
+    {"gyroscope_turn_on_bias_radps", &scenario::ImuNoise::gyroscope_turn_on_bias_radps},
+    {"accelerometer_turn_on_bias_mps2", &scenario::ImuNoise::accelerometer_turn_on_bias_mps2}};
 
 struct ReplaySettings {
   /// Name, seed, rates, noise, odometry, detection and filter of the scenario; the rest is left as

@@ -70,7 +70,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
   std::vector<std::string> command{"lcs"};
   command.insert(command.end(), arguments.begin(), arguments.end());
   err_ = ::memfd_create("stderr", MFD_CLOEXEC);
-  if (err_ < 0) throw std::system_error(errno, std::generic_category(), "memfd_create");
+  if (err_ < 0) throw std::system_error(errno, std::generic_category(), "no process can be started (memfd_create)");
   try {
     // Not a path that a rebuild may replace meanwhile.
     pid_ = process::start_child("/proc/self/exe", command, {.err = err_},

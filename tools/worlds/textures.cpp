@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "scenarios/inputs_read.h"
+#include "sim/picture_file.h"
 
 namespace lcs::worlds {
 namespace {
@@ -491,10 +492,7 @@ std::vector<std::string> pictures_in(const std::string& folder) {
 
 cv::Mat3b photograph(const std::vector<std::string>& files, int side_px, Draw& draw) {
   const std::string& file = draw.pick(files);
-  const cv::Mat3b whole = cv::imread(file, cv::IMREAD_COLOR);
-  if (whole.empty()) {
-    throw std::runtime_error("'" + file + "' is no picture that can be read; take it away");
-  }
+  const cv::Mat3b whole = sim::read_picture(file, {file, 0}, cv::IMREAD_COLOR);
   const int shorter = std::min(whole.cols, whole.rows);
   const int side = std::max(1, static_cast<int>(shorter * draw.between(0.6, 1)));
   const cv::Rect part{draw.whole(0, whole.cols - side), draw.whole(0, whole.rows - side), side,

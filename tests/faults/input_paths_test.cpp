@@ -1,0 +1,72 @@
+// Every file is opened by scenarios/input_file.h, every picture decoded by sim/picture_file.h,
+// every video opened by tools/output/video_reader.h and all JSON parsed by tools/files/json_node.h:
+// their limits hold for all that is read. Nothing opens a file in another way.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "tests/tools/files.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kSources = fs::path(LCS_TESTS_DIR).parent_path();
+
+/// What reads a file or decodes bytes, and the files that may use it.
+const std::map<std::string, std::set<std::string>> kWays{
+    {R"(ifstream|std::fstream|basic_filebuf|std::filebuf|freopen|fopen\([^;]*"r|FileStorage)",
+     {"sim/trial.cpp",  // /proc/self/statm
+      "tools/tune/search.cpp"}},
+    {R"(::open(at)?\()",
+     {"scenarios/input_file.cpp",
+      "sim/trial.cpp",                    // /dev/null
+      "tools/lcs/terminal.cpp",           // /dev/null
+      "tools/process/child.cpp",          // /dev/null
+      "tools/files/output_file.cpp",      // what it is about to replace
+      "tools/files/output_folder.cpp"}},  // a folder
+    {R"(imread|imdecode)",
+     {"sim/picture_file.cpp", "sim/picture_file.h", "sim/photograph.cpp"}},  // its own bytes
+    {R"(VideoCapture[\s(>&]*[a-z]*\()", {"tools/output/video_reader.cpp"}},
+    {R"(\.open\()", {"tools/output/video.cpp"}},  // to write
+    {R"(LoadFile|mj_loadModel|mj_parse)", {}},
+    {R"(mj_loadXML)", {"sim/model.cpp"}},  // text in memory
+    {R"([Jj]son::(parse|accept|sax_parse))", {"tools/files/json_node.h"}},
+};
+
+/// Without comments, which may name what they forbid.
+std::string code_of(const fs::path& file) {
+  std::istringstream lines(lcs::bench::read(file));
+  std::string code;
+  for (std::string line; std::getline(lines, line);) {
+    code += line.substr(0, line.find("//")) + '\n';
+  }
+  return code;
+}
+
+TEST(InputPaths, AreOneForEachKindOfFile) {
+  int files = 0;
+  for (const char* folder : {"filter", "scenarios", "sim", "tools"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(kSources / folder)) {
+      const std::string kind = entry.path().extension();
+      if (kind != ".cpp" && kind != ".h") continue;
+      ++files;
+      const std::string name = entry.path().lexically_relative(kSources);
+      const std::string code = code_of(entry.path());
+      for (const auto& [way, allowed] : kWays) {
+        if (allowed.contains(name)) continue;
+        std::smatch found;
+        EXPECT_FALSE(std::regex_search(code, found, std::regex(way)))
+            << name << " has '" << found.str() << "', which the files above are for";
+      }
+    }
+  }
+  EXPECT_GT(files, 300);
+}
+
+}  // namespace
