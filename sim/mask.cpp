@@ -60,6 +60,10 @@ Mask mask_of(const cv::Mat1b& picture) {
 
 Mask mask_of(std::span<const std::int64_t> runs, const cv::Size& size_px) {
   const std::int64_t all = std::int64_t{size_px.height} * size_px.width;
+  if (!std::in_range<Runs::value_type>(all)) {
+    throw std::invalid_argument(fmt::format("the mask is of {} x {} pixels, which no picture has",
+                                            size_px.height, size_px.width));
+  }
   std::int64_t sum = 0;
   for (const std::int64_t run : runs) {
     if (run < 0 || run > all - sum) {

@@ -1,17 +1,21 @@
-// Someone else's detections in CSV: read, and the same once more when written and read again; or
-// refused by an error that names file and line.
+// Someone else's detections in CSV, of a camera that is known and of one that is not: read, and the
+// same once more when written and read again; or refused by an error that names file and line.
 #include "scenarios/scenario.h"
 #include "tests/fuzz/input.h"
+#include "tools/recording/box.h"
 #include "tools/recording/detections.h"
 
 namespace {
 
 using namespace lcs;
 
+constexpr int kWidth_px = 64, kHeight_px = 48;
+
 /// Three frames of a few corners.
-const bench::Recording& sequence() {
-  static const bench::Recording recording = [] {
+const bench::Recording& sequence(bool has_camera) {
+  static const auto make = [](bool is_known) {
     bench::Recording made;
+    if (is_known) made.camera = Intrinsics{50, {31.5, 23.5}, kWidth_px, kHeight_px};
     made.scenario = "fuzz";
     for (int k = 0; k < 3; ++k) {
       bench::FrameRecord& frame = made.frames.emplace_back();
@@ -24,34 +28,44 @@ const bench::Recording& sequence() {
       frame.corner_truth.resize(frame.corners_px.size());
     }
     return made;
-  }();
-  return recording;
+  };
+  static const bench::Recording without = make(false), with = make(true);
+  return has_camera ? with : without;
 }
 
 void check(const bench::Detections& detections) {
-  fuzz::require(detections.recording.frames.size() == sequence().frames.size(),
+  fuzz::require(detections.recording.frames.size() == sequence(true).frames.size(),
                 "no frame is lost or made");
   fuzz::require(detections.counts.corners() >= 0, "no more rows are left out than there are");
   for (const bench::FrameRecord& frame : detections.recording.frames) {
     fuzz::require(frame.verdicts.size() == frame.corners_px.size(), "each corner has a verdict");
     for (const Square& square : frame.layers.squares) {
-      fuzz::require(square.location.allFinite() && square.half_size.minCoeff() > 0,
+      fuzz::require(square.location.allFinite() && square.half_size.minCoeff() >= 0,
                     "boxes are boxes");
+    }
+    if (!detections.recording.camera) continue;
+    const cv::Rect picture(0, 0, kWidth_px, kHeight_px);
+    for (const auto& [id, mask] : frame.masks) {
+      fuzz::require((mask.box & picture) == mask.box, "masks lie in the picture");
+    }
+    for (const Square& square : frame.layers.squares) {
+      const auto edges = bench::edges_of(square);
+      fuzz::require(edges[0] <= kWidth_px + 1 && edges[1] <= kHeight_px + 1 && edges[2] >= -1 &&
+                        edges[3] >= -1,
+                    "boxes touch the picture");
     }
   }
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::filesystem::path file = fuzz::work_folder() / "detections.csv";
-  fuzz::write_file(file, fuzz::text_of(data, size));
+/// Read, written and read again, or refused.
+void read(const std::filesystem::path& file, const bench::Recording& recording) {
   try {
-    const bench::Detections detections = bench::read_detections(file, sequence());
+    const bench::Detections detections = bench::read_detections(file, recording);
     check(detections);
-    bench::write_detections(file, detections.recording);
-    const bench::Detections again = bench::read_detections(file, sequence());
-    for (std::size_t k = 0; k < sequence().frames.size(); ++k) {
+    const std::filesystem::path copy = fuzz::work_folder() / "again.csv";
+    bench::write_detections(copy, detections.recording);
+    const bench::Detections again = bench::read_detections(copy, recording);
+    for (std::size_t k = 0; k < recording.frames.size(); ++k) {
       const bench::FrameRecord& a = detections.recording.frames[k];
       const bench::FrameRecord& b = again.recording.frames[k];
       fuzz::require(a.verdicts == b.verdicts, "verdicts survive writing and reading");
@@ -62,5 +76,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require(std::string_view(error.what()).find("detections.csv:") != std::string_view::npos,
                   "an error names file and line");
   }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::filesystem::path file = fuzz::work_folder() / "detections.csv";
+  fuzz::write_file(file, fuzz::text_of(data, size));
+  for (const bool has_camera : {false, true}) read(file, sequence(has_camera));
   return 0;
 }

@@ -1,8 +1,11 @@
 """What the package promises beyond its figures: arrays that stay, errors in words, and no crash."""
 
 import ast
+import copy
 import gc
+import itertools
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -522,6 +525,180 @@ class Scores(unittest.TestCase):
         ):
             with self.assertRaises(error, msg=bad):
                 lcs.Detections(**bad)
+
+
+    def test_detections_are_checked_against_the_camera(self):
+        frame = self.frames[0]  # of 640 x 480 pixels
+        whole = np.ones((1, 480, 640), bool)
+        for told, bad in (
+            ("of 320 x 240 pixels, and the picture of 640 x 480", {"masks": whole[:, ::2, ::2], "ids": [1]}),
+            ("of 480 x 640 pixels, and the picture of 640 x 480", {"masks": whole.transpose(0, 2, 1), "ids": [1]}),
+            ("lies outside of the picture", {"boxes": [[640, 0, 650, 10]], "ids": [1]}),
+            ("reaches more than 10 times", {"boxes": [[0, 0, 9000, 10]], "ids": [1]}),
+            ("lies outside of the picture", {"circles": [[320, 500, 10]]}),
+        ):
+            scorer = lcs.Scorer()
+            with self.assertRaisesRegex(ValueError, "^frame 0: .*" + told):
+                scorer.add(frame, lcs.Detections(**bad))
+            scorer.add(frame, lcs.Detections())  # it counted for nothing
+        lcs.Scorer().add(frame, lcs.Detections(boxes=[[-10, -10, 5, 5]], ids=[1], circles=[[320, 485, 10]]))
+        lcs.Scorer().add(frame, lcs.Detections(masks=whole[:, ::-1, ::-1], ids=[1]))
+
+    def test_absurd_arrays_are_refused_at_once(self):
+        endless = []
+        endless.append(endless)
+        boxes = [[0, 0, 1, 1]] * 1001
+        for error, bad in (
+            (ValueError, {"boxes": boxes, "ids": range(1001)}),
+            (ValueError, {"boxes": [[0, 0, 1, 1]], "ids": itertools.count()}),
+            (ValueError, {"boxes": [[0, 0, 1, 1]], "ids": [2**53]}),
+            (ValueError, {"boxes": [[0, 0, 1, 1]], "ids": np.array([2**64 - 1], np.uint64)}),
+            (TypeError, {"boxes": [[0, 0, 1, 1]], "ids": [2**64]}),
+            (ValueError, {"boxes": [[-1e308, 0, 1e308, 1]], "ids": [1]}),
+            (ValueError, {"boxes": [[0, 0, 1e6, 1]], "ids": [1]}),
+            (ValueError, {"circles": [[0, 0, 1e308]]}),
+            (ValueError, {"circles": [[0, 0, np.inf]]}),
+            (ValueError, {"circles": np.zeros((10001, 3))}),
+            (ValueError, {"masks": itertools.repeat(np.ones((2, 2), bool)), "ids": range(2)}),
+            (ValueError, {"masks": np.broadcast_to(True, (10**12, 2, 2)), "ids": itertools.count()}),
+            (ValueError, {"masks": np.broadcast_to(True, (1, 2**32 + 4, 1)), "ids": [1]}),
+            (ValueError, {"masks": np.broadcast_to(True, (1, 2**31, 2**31)), "ids": [1]}),
+            (ValueError, {"masks": np.zeros((3, 0, 5), bool), "ids": range(3)}),
+            (ValueError, {"masks": np.zeros((0, 5, 5), bool), "ids": [1]}),
+            ((TypeError, ValueError), {"boxes": endless, "ids": [1]}),
+            ((TypeError, ValueError), {"boxes": [[0, 0, 1, 1]], "ids": endless}),
+            ((TypeError, ValueError), {"masks": endless, "ids": [1]}),
+            ((TypeError, ValueError), {"rebels": endless}),
+            (MemoryError, {"boxes": np.broadcast_to(1.0, (2**55, 4)), "ids": [1]}),
+            (MemoryError, {"rebels": np.broadcast_to(True, (2**60,))[::-1]}),
+        ):
+            with self.assertRaises(error, msg=str(bad)[:200]):
+                lcs.Detections(**bad)
+        lcs.Detections(boxes=np.array([[0, 0, 1, 1]] * 4)[::-1, ::1][::2], ids=np.arange(4)[::-2])
+        camera = lcs.Camera(focal=400, cx=159.5, cy=119.5, width=320, height=240)
+        motion = lcs.Motion(dt=0.1)
+        for error, corners in (
+            ((TypeError, ValueError), endless),
+            (MemoryError, np.broadcast_to(1.0, (2**55, 2))),
+            (TypeError, np.array([[2**70, 1]], object)),
+        ):
+            with self.assertRaises(error):
+                lcs.Filter(camera).step(corners, motion)
+        for bad in ({"dt": 10**400}, {"dt": 1, "height": 10**400, "up": [0, 1, 0]}):
+            with self.assertRaises((TypeError, OverflowError)):
+                lcs.Motion(**bad)
+        for side in (2**31, -(2**31) - 1, 10**400, 0.5):
+            with self.assertRaises(TypeError):
+                lcs.Camera(focal=1, cx=0, cy=0, width=side, height=10)
+        for side in (0, -1, 2**31 - 1):
+            with self.assertRaises(ValueError):
+                lcs.Filter(lcs.Camera(focal=1, cx=0, cy=0, width=side, height=side))
+
+
+class Values(unittest.TestCase):
+    """No object lacks its value, whichever way it is made, so that none can crash."""
+
+    CLASSES = [thing for thing in vars(lcs._core).values() if type(thing) is type(lcs.Filter)]
+    WAYS = """
+import copy, copyreg, itertools, pickle, sys
+import numpy as np
+import lcs
+
+C = getattr(lcs, sys.argv[1])
+
+def other():
+    x = lcs.Scorer() if C is lcs.Motion else lcs.Motion(dt=1)
+    if sys.version_info < (3, 10): raise TypeError("a class is not frozen")
+    x.__class__ = C
+    return x
+
+def derived(**members):
+    return type("Derived", (C,), members)
+
+ways = {
+    "__new__": lambda: C.__new__(C),
+    "__new__ with arguments": lambda: C.__new__(C, 1, a=2),
+    "__new__ of object": lambda: object.__new__(C),
+    "__new__ of the base": lambda: C.__mro__[1].__new__(C),
+    "call of type": lambda: type.__call__(C),
+    "call of the metaclass's base": lambda: type(C).__mro__[1].__call__(C),
+    "copyreg.__newobj__": lambda: copyreg.__newobj__(C),
+    "copyreg.__newobj_ex__": lambda: copyreg.__newobj_ex__(C, (), {}),
+    "copyreg of object": lambda: copyreg._reconstructor(C, object, None),
+    "copyreg of the base": lambda: copyreg._reconstructor(C, C.__mro__[1], None),
+    "pickle": lambda: pickle.loads(b"\x80\x02clcs\n" + sys.argv[1].encode() + b"\n)\x81."),
+    "derived, without super().__init__()": lambda: derived(__init__=lambda self: None)(),
+    "derived, __new__": lambda: derived().__new__(derived()),
+    "another object's __class__": other,
+}
+
+def use(x):
+    for name in dir(C):
+        if name == "__class__": continue
+        for arguments in ([], [x], [[], x]):
+            try:
+                value = getattr(x, name)
+                value(*arguments)
+            except Exception:
+                pass
+    repr(x), str(x), list(itertools.islice(x, 3))
+
+for name, make in ways.items():
+    try:
+        x = make()
+    except TypeError:
+        continue
+    print("made by", name, flush=True)
+    use(x)
+"""
+
+    def test_the_module_has_no_other_classes(self):
+        enumerations = {"Error", "Label", "Reason", "Verdict"}
+        names = {name for name in lcs.__all__ if isinstance(getattr(lcs, name), type)}
+        self.assertEqual({thing.__name__ for thing in self.CLASSES}, names - enumerations)
+
+    def test_no_way_leads_round_the_call(self):
+        for thing in self.CLASSES:
+            done = subprocess.run(
+                [sys.executable, "-c", self.WAYS, thing.__name__],
+                env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+                capture_output=True,
+                text=True,
+            )
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""), thing)
+
+    def test_members_refuse_what_is_of_no_or_another_class(self):
+        strangers = [None, object(), 3, lcs.Motion(dt=1), lcs.Scorer()]
+        for thing in self.CLASSES:
+            for name, member in vars(thing).items():
+                function = member.fget if isinstance(member, property) else member
+                if not callable(function) or isinstance(member, staticmethod) or name == "__new__":
+                    continue
+                for stranger in strangers:
+                    if isinstance(stranger, thing):
+                        continue
+                    with self.assertRaises(TypeError, msg=(thing, name, stranger)):
+                        function(stranger)
+
+    def test_objects_are_not_copied_and_not_pickled(self):
+        scenario = small()
+        simulation = lcs.simulate(scenario)
+        frame = next(simulation)
+        lcs_filter = lcs.Filter(scenario)
+        result = lcs_filter.step(frame.corners, frame.motion)
+        objects = [scenario, scenario.camera, simulation, frame, frame.motion, frame.truth, lcs_filter,
+                   result, lcs.Detections(), lcs.Scorer()]  # fmt: skip
+        self.assertEqual({type(x) for x in objects}, set(self.CLASSES))
+        for x in objects:
+            before = repr(x)
+            for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+                with self.assertRaises(TypeError, msg=(x, protocol)):
+                    pickle.dumps(x, protocol)
+            for make in (copy.copy, copy.deepcopy):
+                with self.assertRaises(TypeError, msg=(x, make)):
+                    make(x)
+            self.assertEqual(repr(x), before)
+        self.assertEqual(next(simulation).index, 1)
 
 
 class Types(unittest.TestCase):

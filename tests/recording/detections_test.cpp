@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <random>
 #include <string_view>
+#include <tuple>
 
 #include "scenarios/scenario.h"
 #include "tests/tools/files.h"
@@ -15,6 +18,7 @@
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/box.h"
 #include "tools/recording/coco_mask.h"
+#include "tools/recording/recording_io.h"
 #include "tools/scoring/scoring.h"
 
 namespace lcs::bench {
@@ -39,14 +43,22 @@ Recording sequence() {
   return recording_of(frames);
 }
 
+/// The same, of a camera of 96 x 48 pixels.
+Recording seen_by_a_camera() {
+  Recording recording = sequence();
+  recording.camera =
+      Intrinsics{.focal_px = 50, .centre_px = {47.5, 23.5}, .width_px = 96, .height_px = 48};
+  return recording;
+}
+
 class DetectionsTest : public testing::Test {
  protected:
-  Detections detections(const std::string& text) {
+  Detections detections(const std::string& text, const Recording& of = sequence()) {
     std::ofstream(path_) << text;
-    return read_detections(path_, sequence());
+    return read_detections(path_, of);
   }
-  std::string error(const std::string& text) {
-    const std::string message = refusal_of<scenario::Error>([&] { detections(text); });
+  std::string error(const std::string& text, const Recording& of = sequence()) {
+    const std::string message = refusal_of<scenario::Error>([&] { detections(text, of); });
     const std::string where = path_.string() + ":";
     EXPECT_TRUE(message.starts_with(where)) << message;
     return message.substr(std::min(where.size(), message.size()));
@@ -237,7 +249,8 @@ TEST_F(DetectionsTest, EveryBadRowIsToldWithItsLineAndWhatToWriteInstead) {
       {"3,box,1,0,0,0,4", "width is 0; it must be above 0"},
       {"3,box,1,0,0,4,-4", "height is -4; it must be above 0"},
       {"3,box,1,,0,4,4", "left is ''; give a number"},
-      {"3,box,1,0,0,4,4\n3,square,1,9,9,4,4", "frame 3 has a box 1 already; an id is one object's"},
+      {"3,box,1,0,0,4,4\n3,square,1,9,9,4,4",
+       "the frame has a box 1 already; an id is one object's"},
       {"3,mask,1,48,96", "not all of a mask is there; give ID,HEIGHT,WIDTH,COUNTS"},
       {"3,mask,1,48,x,0P`4", "the mask's width is 'x'; give that of the picture"},
       {"3,mask,1,24,48,0Pb0",
@@ -257,7 +270,7 @@ TEST_F(DetectionsTest, EveryBadRowIsToldWithItsLineAndWhatToWriteInstead) {
        "first"},
       {"3,mask,1,48,96,P`4", "the mask has no pixel; leave out what is not seen"},
       {"3,mask,1,48,96,0P`4\n3,box,1,0,0,4,4",
-       "frame 3 has a box 1 already; an id is one object's"},
+       "the frame has a box 1 already; an id is one object's"},
       {"3,square,1,2,3,4,5,6",
        "not all of a square is there; give ID,X,Y,HALF_WIDTH,HALF_HEIGHT[,X,Y,...], the latter of "
        "its outline"},
@@ -265,7 +278,7 @@ TEST_F(DetectionsTest, EveryBadRowIsToldWithItsLineAndWhatToWriteInstead) {
       {"3,square,1,2,3,4",
        "not all of a square is there; give ID,X,Y,HALF_WIDTH,HALF_HEIGHT[,X,Y,...], the latter of "
        "its outline"},
-      {"3,square,1,2,3,4,0", "half height is 0; it must be above 0"},
+      {"3,square,1,2,3,4,-0.5", "half height is -0.5; it must be 0 or more"},
       {"3,circle,1,2", "not all of a circle is there; give X,Y,RADIUS, or nothing"},
       {"3,circle,1,2,-1", "the radius is -1; it must be 0 or more"},
       {"3,rebel,1\nframe,type", "the frame is 'frame'; give its number"},
@@ -274,6 +287,84 @@ TEST_F(DetectionsTest, EveryBadRowIsToldWithItsLineAndWhatToWriteInstead) {
     const auto line = 2 + std::count(rows.begin(), rows.end(), '\n');
     EXPECT_EQ(error("2,rebel,0\n" + rows + "\n2,rebel,1\n"), fmt::format("{}: {}", line, message));
   }
+}
+
+TEST_F(DetectionsTest, WhatIsNotInTheCamerasPictureIsRefused) {
+  const std::string outside =
+      " lies outside of the picture, which has 96 x 48 pixels; leave out what is not in it";
+  const std::string too_far =
+      " reaches more than 10 times as far as the picture, which has 96 x 48 pixels; clip it to the "
+      "picture";
+  const std::string other_size = ", and the picture of 96 x 48; give one of the picture's size";
+  const std::map<std::string, std::string> bad{
+      {"3,mask,1,24,48,0Pb0", "the mask is of 48 x 24 pixels" + other_size},
+      {"3,mask,1,96,192,0,18432", "the mask is of 192 x 96 pixels" + other_size},
+      {"3,mask,1,96,48,0,4608", "the mask is of 48 x 96 pixels" + other_size},
+      {"3,mask,1,120,2147483647,0,257698037640",
+       "the mask is of 2147483647 x 120 pixels" + other_size},
+      {"3,box,1,96,0,4,4", "the box from 95.5, -0.5 to 99.5, 3.5" + outside},
+      {"3,box,1,0,48,4,4", "the box from -0.5, 47.5 to 3.5, 51.5" + outside},
+      {"3,box,1,-4,0,4,4", "the box from -4.5, -0.5 to -0.5, 3.5" + outside},
+      {"3,box,1,0,-4,4,4", "the box from -0.5, -4.5 to 3.5, -0.5" + outside},
+      {"3,box,1,0,0,1060,4", "the box from -0.5, -0.5 to 1059.5, 3.5" + too_far},
+      {"3,box,1,-1e300,0,2e300,4", "the box from -1e+300, -0.5 to 1e+300, 3.5" + too_far},
+      {"3,square,1,200,20,4,4", "the box from 196, 16 to 204, 24" + outside},
+      {"3,square,1,97,20,0,2", "the box from 97, 18 to 97, 22" + outside},
+      {"3,square,1,20,20,1e308,1e308", "the box from -1e+308, -1e+308 to 1e+308, 1e+308" + too_far},
+      {"3,square,1,20,20,4,4,200,9,210,9,210,20", "the outline from 200, 9 to 210, 20" + outside},
+      {"3,square,1,20,20,4,4,9,9,2000,9,9,20", "the outline from 9, 9 to 2000, 20" + too_far},
+      {"3,circle,120,20,5", "the circle from 115, 15 to 125, 25" + outside},
+      {"3,circle,20,20,1e6", "the circle from -999980, -999980 to 1000020, 1000020" + too_far},
+      {"3,rebel,98,20", "the corner at 98, 20" + outside},
+      {"3,normal,20,1e30", "the corner at 20, 1e+30" + outside},
+  };
+  for (const auto& [row, message] : bad) {
+    EXPECT_EQ(error("2,rebel,0\n" + row, seen_by_a_camera()), "2: " + message) << row;
+  }
+}
+
+TEST_F(DetectionsTest, WhatReachesOverThePicturesEdgeIsKeptAsItIs) {
+  const FrameRecord frame =
+      detections(
+          "3,box,1,-10,-10,20,20\n3,box,2,95.9,47.9,30,30\n3,square,3,96,20,0,3\n"
+          "3,circle,100,20,5\n3,rebel,97,20\n3,mask,4,48,96,0,4608",
+          seen_by_a_camera())
+          .recording.frames[3];
+  ASSERT_EQ(frame.layers.squares.size(), 4u);
+  EXPECT_EQ(frame.layers.squares[0].location, Vec2(-0.5, -0.5));
+  EXPECT_EQ(frame.layers.squares[0].half_size, Vec2(10, 10));
+  EXPECT_EQ(frame.layers.squares[2].half_size, Vec2(0, 3));
+  EXPECT_EQ(frame.layers.rebel_circles.size(), 1u);
+}
+
+TEST_F(DetectionsTest, WhereTheCameraIsNotKnownNothingIsFartherOutThanAnyPicture) {
+  EXPECT_EQ(error("3,box,1,1e5,0,4,4"),
+            "1: the box from 99999.5, -0.5 to 100003.5, 3.5 lies farther out than any picture "
+            "reaches; give pixels");
+  EXPECT_EQ(error("3,mask,1,120,2147483647,0,257698037640"),
+            "1: the mask is of 2147483647 x 120 pixels; a picture has no side of more than 16384");
+  EXPECT_EQ(detections("3,box,1,9999,0,4,4").recording.frames[3].layers.squares.size(), 1u);
+}
+
+TEST_F(DetectionsTest, AFrameHasNoMoreThanAsManyOfEachKind) {
+  const auto rows = [](std::size_t count, const char* row) {
+    std::string all;
+    for (std::size_t i = 0; i < count; ++i) all += fmt::format(fmt::runtime(row), i);
+    return all;
+  };
+  for (const auto& [most, row, what] :
+       {std::tuple{kMostBoxes, "3,box,{},0,0,4,4\n", "boxes in the frame; give those of objects"},
+        {kMostCircles, "3,circle,9,9,4\n", "circles in the frame; give those of objects"},
+        {kMostPlaces, "3,rebel,9,9\n",
+         "verdicts by place in the frame; give the corners' indices"}}) {
+    EXPECT_NO_THROW(detections(rows(most, row), seen_by_a_camera())) << row;
+    EXPECT_EQ(error(rows(most + 1, row), seen_by_a_camera()),
+              fmt::format("{}: there are more than {} {}", most + 1, most, what));
+  }
+  EXPECT_EQ(error("3,box,9007199254740992,0,0,4,4"),
+            "1: the id is 9007199254740992; give a whole number up to 9007199254740991");
+  EXPECT_EQ(detections("3,box,9007199254740991,0,0,4,4").recording.frames[3].layers.squares[0].id,
+            kMostId);
 }
 
 TEST_F(DetectionsTest, AByteOrderMarkIsNotRead) {
@@ -327,13 +418,24 @@ Recording awkward() {
       frame.record().layers.squares.push_back(square);
       frame.rebel_circle({number(0, 300), number(0, 100)}, number(0, 40));
     }
+    Square& thin = frame.record().layers.squares.emplace_back();  // of corners one below the other
+    thin.id = 9;
+    thin.location = {number(60, 70), number(50, 60)};
+    thin.half_size = {0, number(20, 30)};
     frames.push_back(frame);
   }
   return recording_of(frames);
 }
 
-TEST_F(DetectionsTest, WrittenAndReadAgainHaveTheSameFiguresToTheLastBit) {
-  const Recording recording = awkward();
+class StoredDetectionsTest : public DetectionsTest, public testing::WithParamInterface<bool> {};
+INSTANTIATE_TEST_SUITE_P(CameraIsKnown, StoredDetectionsTest, testing::Bool());
+
+TEST_P(StoredDetectionsTest, ReadAgainHaveTheSameFiguresToTheLastBit) {
+  Recording recording = awkward();
+  if (GetParam()) {
+    recording.camera =
+        Intrinsics{.focal_px = 300, .centre_px = {159.5, 119.5}, .width_px = 320, .height_px = 240};
+  }
   write_detections(path_, recording);
   const Detections again = read_detections(path_, recording);
   EXPECT_EQ(again.counts.without_corner + again.counts.repeated, 0);
@@ -349,6 +451,113 @@ TEST_F(DetectionsTest, WrittenAndReadAgainHaveTheSameFiguresToTheLastBit) {
       EXPECT_EQ(value(after, name), figure) << name;
     }
   }
+}
+
+/// A field of a row as nobody should write it, and as some do.
+std::string tempting(std::mt19937& random) {
+  static constexpr const char* kTempting[] = {"0",
+                                              "-0",
+                                              "1",
+                                              "-1",
+                                              "0.5",
+                                              "47.5",
+                                              "47.75",
+                                              "96",
+                                              "95.5",
+                                              "1e3",
+                                              "-1e3",
+                                              "1056",
+                                              "1e9",
+                                              "1e30",
+                                              "-1e300",
+                                              "1e308",
+                                              "5e-324",
+                                              "-5e-324",
+                                              "2e-308",
+                                              "1e-30",
+                                              "nan",
+                                              "inf",
+                                              "2147483648",
+                                              "4294967296",
+                                              "9007199254740991",
+                                              "9007199254740992",
+                                              "18446744073709551615",
+                                              "18446744073709551616",
+                                              "",
+                                              "x",
+                                              "48"};
+  const auto chance = [&](unsigned parts) { return random() % parts; };
+  if (chance(8) == 0) return kTempting[chance(std::size(kTempting))];
+  if (chance(2) == 0) return std::to_string(chance(48));
+  return fmt::format("{}", (static_cast<double>(chance(1u << 20)) / 8000) - 8);
+}
+
+std::string any_row(std::mt19937& random) {
+  static constexpr std::pair<const char*, int> kKinds[] = {
+      {"rebel", 1},  {"rebel", 2},   {"pending", 2}, {"box", 5},    {"mask", 5},
+      {"square", 5}, {"square", 11}, {"square", 69}, {"circle", 3}, {"circle", 0}};
+  const auto& [type, fields] = kKinds[random() % std::size(kKinds)];
+  std::string row = fmt::format("{},{}", random() % 6, type);
+  const int more = random() % 16 == 0 ? static_cast<int>(random() % 3) - 1 : 0;
+  for (int i = 0; i < fields + more; ++i) {
+    const bool is_id = i == 0 && fields >= 5;
+    row += ',' + (is_id && random() % 8 != 0 ? std::to_string(random() % 1000) : tempting(random));
+  }
+  if (type != std::string_view("mask")) return row;
+  const std::uint32_t before = random() % 4700, inside = random() % 4700;
+  const std::int64_t after = std::int64_t{96 * 48} - before - inside;
+  return fmt::format("{},mask,{},{},{},{},{},{}", random() % 6, random() % 1000,
+                     random() % 16 == 0 ? tempting(random) : "48",
+                     random() % 16 == 0 ? tempting(random) : "96", before, inside, after);
+}
+
+/// Figures that are the same to the bit, and finite.
+void expect_same(const Metrics& before, const Metrics& after, const std::string& rows) {
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const auto& [name, figure] = before[i];
+    EXPECT_EQ(after[i], before[i]) << name << " of\n" << rows;
+    EXPECT_TRUE(!figure || std::isfinite(*figure)) << name << " of\n" << rows;
+  }
+}
+
+TEST_F(DetectionsTest, AnyRowIsRefusedOrKeptStoredReadAndScoredAlike) {
+  std::mt19937 random(57);
+  Recording frames = seen_by_a_camera();
+  for (FrameRecord& frame : frames.frames) {  // of which masks are known, and corners enough
+    frame.object_truth[0].mask = {0, 1200};
+    for (sim::CornerTruth& corner : frame.corner_truth) corner.object = 1;
+  }
+  int kept = 0, refused = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    std::string rows;
+    for (int i = 0; i < 30; ++i) {
+      const std::string row = any_row(random) + '\n';
+      if (refusal_of<scenario::Error>([&] { detections(rows + row, frames); }) ==
+          "nothing was refused") {
+        rows += row;
+        ++kept;
+      } else {
+        ++refused;
+      }
+    }
+    const Recording said = detections(rows, frames).recording;
+    const Metrics figures = score(said);
+
+    const std::filesystem::path run = folder_.path() / "run";
+    std::filesystem::create_directories(run);
+    RecordingWriter writer(run, said);
+    for (const FrameRecord& frame : said.frames) writer.write(frame);
+    writer.close();
+    const Recording stored = read_recording(run);
+    expect_same(figures, score(stored), rows);
+
+    write_detections(path_, stored);
+    expect_same(figures, score(read_detections(path_, stored).recording), rows);
+    if (HasFailure()) break;
+  }
+  EXPECT_GT(kept, 1000);
+  EXPECT_GT(refused, 1000);
 }
 
 TEST_F(DetectionsTest, TheDocumentsRowsAreRead) {

@@ -426,6 +426,16 @@ TEST_F(BrokenRecording, BadJson) {
   edit(kLayersFile, 3, "{", "[");
   expect_error("layers.jsonl:3: not JSON at byte ");
 }
+TEST_F(BrokenRecording, ACameraWithoutAPicture) {
+  const std::string begin = "{\"focal_px\":100,\"centre_px\":[1,1],";
+  for (const auto& [text, message] :
+       {std::pair{begin + "\"width_px\":0,\"height_px\":1}", "1: width_px is not the side of a"},
+        {begin + "\"width_px\":1,\"height_px\":-2147483648}", "1: height_px is not the side of a"},
+        {std::string(), "0: is empty"}}) {
+    std::ofstream(folder_.path() / kCameraFile) << text;
+    expect_error(std::string("camera.json:") + message);
+  }
+}
 TEST_F(BrokenRecording, AMissingKey) {
   edit(kLayersFile, 2, "\"squares\"", "\"sqares\"");
   expect_error("layers.jsonl:2: has no squares; ");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 #include <stdexcept>
 
@@ -87,6 +88,15 @@ TEST(ModalBoxes, HaveTheMasksOfTheirPixels) {
       EXPECT_EQ(truth.mask.empty(), truth.visible_px == 0);
       EXPECT_TRUE(are_same(drawn(mask_of(truth), size), ids == truth.object));
     }
+  }
+}
+
+TEST(Mask, OfMoreThanARunHoldsIsRefused) {
+  const cv::Size size(std::numeric_limits<int>::max(), 120);
+  const std::int64_t all = std::int64_t{size.width} * size.height;
+  for (const std::vector<std::int64_t>& runs :
+       {std::vector{std::int64_t{0}, all}, {all - 5, std::int64_t{5}}}) {
+    EXPECT_THROW(mask_of(runs, size), std::invalid_argument);
   }
 }
 

@@ -75,21 +75,25 @@ void Command::send(int signal) const {
   ::kill(pid_, signal);
 }
 
-bool Command::is_running() {
+bool Command::collect(int flags) {
   int status = 0;
-  if (!status_ && ::waitpid(pid_, &status, WNOHANG) == pid_) status_ = status;
-  return !status_;
+  rusage usage{};
+  if (status_ || ::wait4(pid_, &status, flags, &usage) != pid_) return status_.has_value();
+  status_ = status;
+  peak_bytes_ = static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+  return true;
+}
+
+bool Command::is_running() {
+  return !collect(WNOHANG);
 }
 
 CommandResult Command::wait() {
-  if (!status_) {
-    int status = 0;
-    ::waitpid(pid_, &status, 0);
-    status_ = status;
-  }
+  if (!collect(0)) status_ = 0;
   return {.exit_code = WIFEXITED(*status_) ? WEXITSTATUS(*status_) : 128 + WTERMSIG(*status_),
           .out = read_all(capture_ / "out"),
-          .err = read_all(capture_ / "err")};
+          .err = read_all(capture_ / "err"),
+          .peak_bytes = peak_bytes_};
 }
 
 CommandResult run_lcs(const std::vector<std::string>& arguments, const CommandOptions& options) {

@@ -15,6 +15,7 @@ struct CommandResult {
   int exit_code = -1;  ///< 128 + signal when it was killed by one
   std::string out;
   std::string err;
+  std::size_t peak_bytes = 0;  ///< of memory that it, or a child that it waited for, held at a time
 };
 
 struct CommandOptions {
@@ -42,9 +43,13 @@ class Command {
   CommandResult wait();
 
  private:
+  /// Whether it has ended. \param flags of `wait4`.
+  bool collect(int flags);
+
   std::filesystem::path capture_;  ///< folder with what it printed
   pid_t pid_ = -1;
   std::optional<int> status_;
+  std::size_t peak_bytes_ = 0;
 };
 
 CommandResult run_lcs(const std::vector<std::string>& arguments, const CommandOptions& options);

@@ -73,6 +73,13 @@ for line in sys.stdin.buffer:
         if mode == "nan": answer["box"] = [[1, float("nan"), 2, 3, 4]]
         if mode == "circle": answer["circle"] = []
         if mode == "mask": answer["mask"] = [[1, {"size": [240, 320], "counts": [9, 9]}]]
+        if mode == "large mask": answer["mask"] = [[1, {"size": [480, 640], "counts": [0, 307200]}]]
+        if mode == "endless mask":
+            answer["mask"] = [[1, {"size": [240, 2147483647], "counts": [0, 240 * 2147483647]}]]
+        if mode == "outside": answer["box"] = [[1, 320, 0, 5, 5]]
+        if mode == "corner outside": answer["rebel"] = [[10, -3]]
+        if mode == "large id": answer["box"] = [[2**64 - 1, 0, 0, 5, 5]]
+        if mode == "crowd": answer["box"] = [[i, 0, 0, 5, 5] for i in range(1001)]
         if mode == "twice": print(json.dumps(answer), flush=True)
         if mode == "skips": answer["index"] = 4
         if mode == "dies": print("no more", file=sys.stderr); raise ValueError("of frame 3")
@@ -221,6 +228,29 @@ TEST_F(OwnDetector, ThatDoesNotKeepToTheProtocolEndsTheRunWithOneMessageAndNoOut
         << mode << ": " << command.err;
     EXPECT_EQ(std::count(command.err.begin(), command.err.end(), '\n'), 1) << command.err;
     EXPECT_EQ(entries(folder_.path()), (std::set<std::string>{"mine.py", "scenarios"})) << mode;
+  }
+}
+
+TEST_F(OwnDetector, IsCheckedAgainstTheCamera) {
+  const std::map<std::string, std::string> faults{
+      {"large mask",
+       "the mask is of 640 x 480 pixels, and the picture of 320 x 240; give one of the picture's "
+       "size"},
+      {"endless mask",
+       "the mask is of 2147483647 x 240 pixels, and the picture of 320 x 240; give one of the "
+       "picture's size"},
+      {"outside", "the box from 319.5, -0.5 to 324.5, 4.5 lies outside of the picture, which has"},
+      {"corner outside", "the corner at 10, -3 lies outside of the picture, which has 320 x 240"},
+      {"large id", "the id is 18446744073709551615; give a whole number up to 9007199254740991"},
+      {"crowd", "there are more than 1000 boxes in the frame; give those of objects"},
+  };
+  for (const auto& [mode, said] : faults) {
+    const CommandResult command = lcs(run_arguments(mode));
+    EXPECT_EQ(command.exit_code, 2) << mode;
+    EXPECT_TRUE(command.err.starts_with("lcs: detector mine, frame 3: " + said))
+        << mode << ": " << command.err;
+    EXPECT_EQ(std::count(command.err.begin(), command.err.end(), '\n'), 1) << command.err;
+    EXPECT_FALSE(fs::exists(folder_.path() / "out")) << mode;
   }
 }
 

@@ -84,7 +84,9 @@ void add_rows(const std::string& type, const Json& rows, bench::FrameDetections&
 
 ProgramTracker::ProgramTracker(std::string name, const Program& program, const Announced& announced,
                                std::function<void()> on_wait)
-    : name_(std::move(name)), process_(program.command, program.timeout_s, std::move(on_wait)) {
+    : name_(std::move(name)),
+      camera_(announced.camera),
+      process_(program.command, program.timeout_s, std::move(on_wait)) {
   at(name_, "its greeting", [&] { greet(announced); });
 }
 
@@ -131,7 +133,7 @@ void ProgramTracker::read_answer(const std::string& line, bench::FrameRecord& fr
                     "in their order",
                     text_of(*index)));
   }
-  bench::FrameDetections detections(frame);
+  bench::FrameDetections detections(frame, camera_);
   for (const auto& [type, rows] : answer.items()) {
     if (type != kIndex) add_rows(type, rows, detections);
   }

@@ -54,6 +54,7 @@ class ProgramTracker : public bench::Tracker {
   void read_answer(const std::string& line, bench::FrameRecord& frame);
 
   std::string name_;
+  Intrinsics camera_;
   DetectorProcess process_;
   bool gives_circles_ = false;
   Intake intake_;

@@ -10,6 +10,7 @@
 #include "tools/bench/tracker.h"
 #include "tools/python/arrays.h"
 #include "tools/python/scenario.h"
+#include "tools/python/type.h"
 #include "tools/recording/box.h"
 
 namespace lcs::python {
@@ -101,10 +102,10 @@ py::list outlines(const Result& result) {
 }
 
 void bind_result(py::module_& module) {
-  py::class_<Result, std::shared_ptr<Result>>(module, "Result",
-                                              "What the filter says of a frame. Structured arrays "
-                                              "have the fields of layers.jsonl; places are in\n"
-                                              "pixels, angles in rad, speeds in px/s.")
+  class_of<Result, std::shared_ptr<Result>>(module, "Result",
+                                            "What the filter says of a frame. Structured arrays "
+                                            "have the fields of layers.jsonl; places are in\n"
+                                            "pixels, angles in rad, speeds in px/s.")
       .def_property_readonly(
           "verdicts", [](const py::object& self) { return codes(self, &FrameResult::verdicts); },
           "N uint8, a Verdict for each corner.")
@@ -151,7 +152,7 @@ void bind_result(py::module_& module) {
 
 void bind_filter(py::module_& module) {
   bind_result(module);
-  py::class_<Filter>(
+  class_of<Filter>(
       module, "Filter",
       "The Line-Circle-Square filter. The same corners, signatures and motions give the same bits.")
       .def(py::init(&of_scenario), py::arg("scenario"),

@@ -12,6 +12,7 @@
 
 #include "filter/ego_motion/intake.h"
 #include "tools/python/arrays.h"
+#include "tools/python/type.h"
 #include "tools/recording/box.h"
 #include "tools/recording/warnings.h"
 #include "tools/replay/playback.h"
@@ -107,7 +108,7 @@ bool is_usable(const EgoMotion& motion) {
 }
 
 void bind_motion(py::module_& module) {
-  py::class_<EgoMotion>(
+  class_of<EgoMotion>(
       module, "Motion",
       "How the camera moved from the last frame to this one. Camera frame: x right, y down, z\n"
       "forward.")
@@ -250,7 +251,7 @@ py::array odometry(const Frame& frame) {
 }
 
 void bind_seen(py::module_& module) {
-  py::class_<Frame, std::shared_ptr<Frame>>(
+  class_of<Frame, std::shared_ptr<Frame>>(
       module, "Frame",
       "What the sensors said, and apart from that what is true. Arrays are read-only and stay as "
       "they are\n"
@@ -338,11 +339,10 @@ py::array object_boxes(const Truth& truth) {
 }
 
 void bind_truth(py::module_& module) {
-  py::class_<Truth>(
-      module, "Truth",
-      "What is true of a frame, as tools/scoring/SCORING.md defines it. Of a recorded "
-      "frame there are\n"
-      "labels alone, and motion, depth, object_ids and poses raise ValueError.")
+  class_of<Truth>(module, "Truth",
+                  "What is true of a frame, as tools/scoring/SCORING.md defines it. Of a recorded "
+                  "frame there are\n"
+                  "labels alone, and motion, depth, object_ids and poses raise ValueError.")
       .def_property_readonly(
           "motion",
           [](const Truth& t) {
@@ -465,7 +465,7 @@ void bind_frame(py::module_& module) {
   bind_motion(module);
   bind_truth(module);
   bind_seen(module);
-  py::class_<Simulation>(
+  class_of<Simulation>(
       module, "Simulation",
       "The frames of a scenario, one after another. To be used by the thread that made it; other\n"
       "threads run meanwhile. The same scenario and seed give the same bits.")

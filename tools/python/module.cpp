@@ -9,6 +9,7 @@
 #include "tools/python/frame.h"
 #include "tools/python/scenario.h"
 #include "tools/python/scorer.h"
+#include "tools/python/type.h"
 #include "tools/recording/recording_fields.h"
 
 namespace lcs::python {
@@ -74,4 +75,5 @@ PYBIND11_MODULE(_core, module) {
   python::bind_frame(module);
   python::bind_filter(module);
   python::bind_scorer(module);
+  python::freeze_classes(module);
 }

@@ -11,6 +11,7 @@
 #include "scenarios/scenes.h"
 #include "tools/bench/tracker.h"
 #include "tools/python/arrays.h"
+#include "tools/python/type.h"
 #include "tools/replay/playback.h"
 
 namespace lcs::python {
@@ -64,7 +65,7 @@ py::array intrinsic_matrix(const Camera& camera) {
 }
 
 void bind_camera(py::module_& module) {
-  py::class_<Camera>(
+  class_of<Camera>(
       module, "Camera",
       "A pinhole with square pixels and no distortion: x right, y down, z forward, pixels with\n"
       "(0, 0) at the centre of the top-left one.")
@@ -132,7 +133,7 @@ void warn(const std::vector<std::string>& lines) {
 
 void bind_scenario(py::module_& module) {
   bind_camera(module);
-  py::class_<Scenario, std::shared_ptr<Scenario>>(
+  class_of<Scenario, std::shared_ptr<Scenario>>(
       module, "Scenario",
       "What is simulated, or what was recorded: a YAML file as scenarios/README.md has it.")
       .def(py::init(&from_file), py::arg("file"), py::kw_only(), py::arg("set") = py::none(),

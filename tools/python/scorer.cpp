@@ -6,15 +6,18 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <set>
+#include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "tools/bench/tracker.h"
 #include "tools/python/arrays.h"
 #include "tools/python/filter.h"
 #include "tools/python/frame.h"
-#include "tools/recording/box.h"
+#include "tools/python/type.h"
+#include "tools/recording/frame_detections.h"
 #include "tools/recording/warnings.h"
 #include "tools/scoring/scoring.h"
 
@@ -24,19 +27,29 @@ namespace {
 /// What somebody's own detector says of a frame.
 struct Detections {
   std::optional<std::vector<bool>> rebels;  ///< of each corner; none: of no corner
-  std::vector<Square> squares;
-  bench::SquareMasks masks;
-  std::vector<Circle> circles;
+  bench::FrameRecord boxes;                 ///< with squares, masks and circles alone
+  cv::Size masks_px;                        ///< of the picture that the masks are of
 };
 
-/// Row `i` of a table of numbers. \throws py::value_error for one that is not finite.
-template <int Columns>
-Eigen::Matrix<double, Columns, 1> row_of(const Numbers& table, py::ssize_t i, const char* name) {
-  const Eigen::Map<const Eigen::Matrix<double, Columns, 1>> row(table.data(i, 0));
-  if (!row.allFinite()) {
-    throw py::value_error(fmt::format("row {} of {} has what is no number; leave it out", i, name));
+/// Adds who it was to what `FrameDetections` refuses.
+template <class Add>
+void add_or_refuse(const std::string& who, const Add& add) {
+  try {
+    add();
+  } catch (const std::invalid_argument& error) {
+    throw py::value_error(fmt::format("{}: {}", who, error.what()));
   }
-  return row;
+}
+
+/// An array as it is, of any other iterable a list of its first items: it may have no end.
+py::object listed(const py::object& items, py::ssize_t most) {
+  if (py::isinstance<py::array>(items)) return items;
+  py::list list;
+  for (const py::handle each : py::iter(items)) {
+    if (std::ssize(list) == most) break;
+    list.append(each);
+  }
+  return list;
 }
 
 /// \param what boxes or masks.
@@ -48,93 +61,83 @@ std::vector<Id> ids_of(const py::object& ids, py::ssize_t count, const char* wha
                     "ids=range(len({0})) where nothing is followed",
                     what));
   }
-  const py::object list = py::isinstance<py::array>(ids) ? ids : py::object(py::list(ids));
-  const py::array array = array_of(list, "ids", "a whole number for each box", "iu");
+  const py::array array =
+      array_of(listed(ids, count + 1), "ids", "a whole number for each box", "iu");
   if (array.ndim() != 1 || array.size() != count) {
-    throw py::value_error(
-        fmt::format("there are {} ids and {} {}; give one for each", array.size(), count, what));
+    throw py::value_error(fmt::format("there are {}{} ids and {} {}; give one for each",
+                                      array.size() > count ? "at least " : "", array.size(), count,
+                                      what));
   }
   std::vector<Id> numbers;
-  std::set<Id> met;
   for (const py::handle each : array) {
     if (py::cast<bool>(each.attr("__lt__")(0))) {
       throw py::value_error(fmt::format("the id is {}; give a whole number from 0 on",
                                         py::cast<std::string>(py::str(each))));
     }
-    const Id id = py::cast<Id>(each.attr("__int__")());
-    if (!met.insert(id).second) {
-      throw py::value_error(fmt::format("id {} is given twice; an id is one object's", id));
-    }
-    numbers.push_back(id);
+    numbers.push_back(py::cast<Id>(each.attr("__int__")()));
   }
   return numbers;
 }
 
-std::vector<Square> squares_of(const py::object& boxes, const py::object& ids) {
+void add_boxes(const py::object& boxes, const py::object& ids, bench::FrameDetections& said) {
   const Numbers table =
       boxes.is_none()
           ? Numbers(std::vector<py::ssize_t>{0, 4})
           : table_of(boxes, "boxes", "M x 4 numbers, left, top, right, bottom in pixels", 4);
-  std::vector<Square> squares;
   const std::vector<Id> numbers = ids_of(ids, table.shape(0), "boxes");
   for (py::ssize_t i = 0; i < table.shape(0); ++i) {
-    const Eigen::Vector4d edges = row_of<4>(table, i, "boxes");
-    const Vec2 size = edges.tail<2>() - edges.head<2>();
-    if (!(size.array() > 0).all()) {
-      throw py::value_error(
-          fmt::format("box {} has left {}, top {}, right {}, bottom {}; left must be less than "
-                      "right, and top than bottom",
-                      i, edges[0], edges[1], edges[2], edges[3]));
-    }
-    squares.push_back(
-        bench::square_of(numbers[static_cast<std::size_t>(i)], edges.head<2>(), size));
+    const Eigen::Map<const Eigen::Vector4d> edges(table.data(i, 0));
+    const Vec2 corner = edges.head<2>();
+    add_or_refuse(fmt::format("box {}", i), [&] {
+      said.add_box(numbers[static_cast<std::size_t>(i)], corner, edges.tail<2>() - corner);
+    });
   }
-  return squares;
 }
 
-/// Masks in place of boxes, which are those round them.
-void add_masks(const py::object& masks, const py::object& ids, Detections& detections) {
-  const py::object list = py::isinstance<py::array>(masks) ? masks : py::object(py::list(masks));
+/// Masks in place of boxes, which are those round them. \return the size of their picture.
+cv::Size add_masks(const py::object& masks, const py::object& ids, bench::FrameDetections& said) {
   constexpr const char* kExpected = "M x H x W bool, which pixels each covers";
-  const py::array array = array_of(list, "masks", kExpected, "b");
-  if (array.size() == 0) return;
+  const py::array array = array_of(listed(masks, bench::kMostBoxes + 1), "masks", kExpected, "b");
+  if (array.ndim() == 1 && array.size() == 0) {  // an empty list
+    ids_of(ids, 0, "masks");
+    return {};
+  }
   if (array.ndim() != 3) {
     throw py::value_error(fmt::format("masks has {} dimensions; give {}", array.ndim(), kExpected));
   }
-  const auto pixels = py::array_t<bool, py::array::c_style | py::array::forcecast>(array);
-  const std::vector<Id> numbers = ids_of(ids, pixels.shape(0), "masks");
-  for (py::ssize_t i = 0; i < pixels.shape(0); ++i) {
-    cv::Mat1b picture(static_cast<int>(pixels.shape(1)), static_cast<int>(pixels.shape(2)));
-    std::copy_n(pixels.data(i, 0, 0), picture.total(), picture.begin());
-    sim::Mask mask = sim::mask_of(picture);
-    if (mask.box.empty()) {
-      throw py::value_error(fmt::format("mask {} has no pixel; leave out what is not seen", i));
-    }
-    const Id id = numbers[static_cast<std::size_t>(i)];
-    detections.squares.push_back(bench::square_of(mask, id));
-    detections.masks[id] = std::move(mask);
+  const py::ssize_t height = array.shape(1), width = array.shape(2);
+  const bool has_size = std::min(height, width) > 0 &&
+                        std::max(height, width) <= bench::kMostSide_px &&
+                        array.shape(0) <= static_cast<py::ssize_t>(bench::kMostBoxes);
+  if (!has_size) {
+    throw py::value_error(
+        fmt::format("masks are {} of {} x {} pixels; give {} at the most, of the picture's size",
+                    array.shape(0), width, height, bench::kMostBoxes));
   }
+  const cv::Size size_px(static_cast<int>(width), static_cast<int>(height));
+  const std::vector<Id> numbers = ids_of(ids, array.shape(0), "masks");
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    add_or_refuse(fmt::format("mask {}", i), [&] {
+      const py::array_t<bool, py::array::c_style | py::array::forcecast> pixels(
+          array.attr("__getitem__")(i));
+      cv::Mat1b picture(size_px);
+      std::copy_n(pixels.data(), picture.total(), picture.begin());
+      said.add_mask(numbers[i], sim::mask_of(picture), size_px);
+    });
+  }
+  return size_px;
 }
 
-std::vector<Circle> circles_of(const py::object& circles) {
-  std::vector<Circle> made;
-  if (circles.is_none()) return made;
+void add_circles(const py::object& circles, bench::FrameDetections& said) {
+  if (circles.is_none()) return;
   const Numbers table = table_of(circles, "circles", "K x 3 numbers, x, y and radius in pixels", 3);
   for (py::ssize_t i = 0; i < table.shape(0); ++i) {
-    const Eigen::Vector3d row = row_of<3>(table, i, "circles");
-    if (row[2] < 0) {
-      throw py::value_error(
-          fmt::format("circle {} has the radius {}; it must be 0 or more", i, row[2]));
-    }
-    Circle& circle = made.emplace_back();
-    circle.id = static_cast<Id>(i);
-    circle.rebel = true;
-    circle.location = row.head<2>();
-    circle.radius = row[2];
+    const double* const row = table.data(i, 0);
+    add_or_refuse(fmt::format("circle {}", i), [&] { said.add_circle({row[0], row[1]}, row[2]); });
   }
-  return made;
 }
 
+/// Checked but for the picture, which is not known yet.
 Detections detections_of(const py::object& rebels, const py::object& boxes, const py::object& ids,
                          const py::object& circles, const py::object& masks) {
   Detections detections;
@@ -142,13 +145,32 @@ Detections detections_of(const py::object& rebels, const py::object& boxes, cons
   if (!masks.is_none() && !boxes.is_none()) {
     throw py::value_error("there are boxes and masks; give masks alone, whose boxes are known");
   }
+  bench::FrameDetections said(detections.boxes, std::nullopt);
   if (masks.is_none()) {
-    detections.squares = squares_of(boxes, ids);
+    add_boxes(boxes, ids, said);
   } else {
-    add_masks(masks, ids, detections);
+    detections.masks_px = add_masks(masks, ids, said);
   }
-  detections.circles = circles_of(circles);
+  add_circles(circles, said);
   return detections;
+}
+
+/// Puts them into a frame, checked against its camera.
+void note(const Detections& detections, const Frame& frame, bench::FrameRecord& record) {
+  const auto& [layers, masks] = std::tie(detections.boxes.layers, detections.boxes.masks);
+  add_or_refuse(fmt::format("frame {}", record.index), [&] {
+    bench::FrameDetections said(record, bench::intrinsics(frame.run->scenario->camera.pinhole));
+    for (const Square& square : layers.squares) {
+      if (const auto mask = masks.find(square.id); mask != masks.end()) {
+        said.add_mask(square.id, mask->second, detections.masks_px);
+      } else {
+        said.add_square(square);
+      }
+    }
+    for (const Circle& circle : layers.rebel_circles) {
+      said.add_circle(circle.location, circle.radius);
+    }
+  });
 }
 
 class Scorer {
@@ -168,16 +190,13 @@ class Scorer {
     } else {
       const auto& detections = said.cast<const Detections&>();
       record.times.reset();
-      record.verdicts.assign(record.corners_px.size(), Verdict::normal);
+      note(detections, frame, record);
       if (detections.rebels) {
         require_all_corners(frame, detections.rebels->size());
         std::transform(detections.rebels->begin(), detections.rebels->end(),
                        record.verdicts.begin(),
                        [](bool rebel) { return rebel ? Verdict::rebel : Verdict::normal; });
       }
-      record.layers.squares = detections.squares;
-      record.masks = detections.masks;
-      record.layers.rebel_circles = detections.circles;
     }
     if (!run_) {
       run_ = frame.run;
@@ -233,7 +252,7 @@ class Scorer {
 }  // namespace
 
 void bind_scorer(py::module_& module) {
-  py::class_<Detections>(module, "Detections", "What somebody's own detector says of a frame.")
+  class_of<Detections>(module, "Detections", "What somebody's own detector says of a frame.")
       .def(
           py::init(&detections_of), py::arg("rebels") = py::none(), py::kw_only(),
           py::arg("boxes") = py::none(), py::arg("ids") = py::none(),
@@ -245,14 +264,18 @@ void bind_scorer(py::module_& module) {
           "masks: in place of boxes, M x H x W bool: the pixels that each covers.\n"
           "circles: K x 3, x, y, radius in pixels: groups of rebels, by which false objects are "
           "counted.\n"
-          "Raises TypeError or ValueError for what is none of these.");
-  py::class_<Scorer>(module, "Scorer",
-                     "Scores a run's frames, one after another, without keeping their pictures.")
+          "Raises TypeError or ValueError for what is none of these. Places and the masks' size are "
+          "checked\n"
+          "against the camera by Scorer.add.");
+  class_of<Scorer>(module, "Scorer",
+                   "Scores a run's frames, one after another, without keeping their pictures.")
       .def(py::init<>())
       .def("add", &Scorer::add, py::arg("frame"), py::arg("said"),
            "said: a Result of the filter, Detections, or N bool, which of the frame's corners are "
            "rebels.\n"
-           "Frames come in order, each once, from the first on; what raises counts for nothing.")
+           "Frames come in order, each once, from the first on; what raises counts for nothing.\n"
+           "Raises ValueError for what is not in the camera's picture "
+           "(tools/recording/DETECTIONS.md).")
       .def("metrics", &Scorer::metrics,
            "All figures of metrics.json (tools/scoring/SCORING.md) by name; None where undefined. "
            "Times and\n"

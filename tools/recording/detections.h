@@ -17,7 +17,8 @@ struct Detections {
   VerdictCounts counts;
 };
 
-/// \param sequence whose corners and truth the detections are of.
+/// \param sequence whose corners and truth the detections are of; its camera is what they are
+///   checked against.
 /// \throws scenario::Error by file and line.
 Detections read_detections(const std::filesystem::path& csv, const Recording& sequence);
 

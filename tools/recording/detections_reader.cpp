@@ -18,7 +18,9 @@ namespace {
 class RowReader {
  public:
   explicit RowReader(Recording& recording) {
-    for (FrameRecord& frame : recording.frames) frames_.emplace(frame.index, frame);
+    for (FrameRecord& frame : recording.frames) {
+      frames_.emplace(frame.index, FrameDetections(frame, recording.camera));
+    }
   }
 
   /// \throws std::invalid_argument, whose message goes behind file and line.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "tools/recording/coco_mask.h"
@@ -10,8 +11,10 @@
 namespace lcs::bench {
 namespace {
 
-/// Of a picture that holds a mask and all corners: the file does not say how large it was.
-cv::Size size_for(const sim::Mask& mask, const FrameRecord& frame) {
+/// Of the picture; where the camera is not known, of one that holds the mask and all corners.
+cv::Size size_for(const sim::Mask& mask, const FrameRecord& frame,
+                  const std::optional<Intrinsics>& camera) {
+  if (camera) return {camera->width_px, camera->height_px};
   cv::Size size(mask.box.x + mask.box.width, mask.box.y + mask.box.height);
   for (const Eigen::Vector2f& corner : frame.corners_px) {
     size.width = std::max(size.width, static_cast<int>(corner.x()) + 1);
@@ -20,7 +23,7 @@ cv::Size size_for(const sim::Mask& mask, const FrameRecord& frame) {
   return size;
 }
 
-std::string rows_of(const FrameRecord& frame) {
+std::string rows_of(const FrameRecord& frame, const std::optional<Intrinsics>& camera) {
   std::string rows;
   const int k = frame.index;
   for (std::size_t i = 0; i < frame.verdicts.size(); ++i) {
@@ -29,7 +32,7 @@ std::string rows_of(const FrameRecord& frame) {
   }
   for (const Square& square : frame.layers.squares) {
     if (const auto mask = frame.masks.find(square.id); mask != frame.masks.end()) {
-      const cv::Size size = size_for(mask->second, frame);
+      const cv::Size size = size_for(mask->second, frame, camera);
       const sim::Runs runs = sim::runs_in({{}, size}, mask->second);
       rows += fmt::format("{},mask,{},{},{},{}\n", k, square.id, size.height, size.width,
                           packed_runs(runs));
@@ -57,7 +60,7 @@ void write_detections(const std::filesystem::path& csv, const Recording& recordi
   if (recording.detector.circles && !recording.frames.empty()) {
     file.write(fmt::format("{},circle\n", recording.frames.front().index));  // should there be none
   }
-  for (const FrameRecord& frame : recording.frames) file.write(rows_of(frame));
+  for (const FrameRecord& frame : recording.frames) file.write(rows_of(frame, recording.camera));
   file.close();
 }
 

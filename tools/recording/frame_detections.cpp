@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <tuple>
@@ -11,7 +12,6 @@
 
 #include "scenarios/message.h"
 #include "tools/files/csv.h"
-#include "tools/recording/box.h"
 #include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_fields.h"
 
@@ -32,16 +32,26 @@ double number(std::string_view text, const char* what) {
   return *value;
 }
 
-double above_zero(std::string_view text, const char* what) {
-  const double value = number(text, what);
-  if (!(value > 0)) refuse("{} is {}; it must be above 0", what, text);
-  return value;
+void require_finite(double value, const char* what) {
+  if (!std::isfinite(value)) refuse("{} is {}; give a number", what, value);
+}
+void require_above_zero(double value, const char* what) {
+  require_finite(value, what);
+  if (value <= 0) refuse("{} is {}; it must be above 0", what, value);
+}
+void require_not_negative(double value, const char* what) {
+  require_finite(value, what);
+  if (value < 0) refuse("{} is {}; it must be 0 or more", what, value);
 }
 
 Id id_in(std::string_view text) {
   const std::optional<Id> id = number_in<Id>(text);
   if (!id) refuse("the id is '{}'; give a whole number from 0 on", text);
   return *id;
+}
+
+Box widened(const Box& box, double by_px) {
+  return {box.min().array() - by_px, box.max().array() + by_px};
 }
 
 /// Numbers, or one word that holds all of them.
@@ -79,8 +89,9 @@ std::vector<std::string> lines_of(const VerdictCounts& counts) {
   return lines;
 }
 
-FrameDetections::FrameDetections(FrameRecord& frame)
+FrameDetections::FrameDetections(FrameRecord& frame, const std::optional<Intrinsics>& camera)
     : frame_(&frame), named_(frame.corners_px.size()) {
+  if (camera) picture_px_.emplace(camera->width_px, camera->height_px);
   frame.verdicts.assign(frame.corners_px.size(), Verdict::normal);
 }
 
@@ -108,7 +119,13 @@ void FrameDetections::add_verdict(Verdict verdict, std::span<const std::string_v
     frame_->verdicts[corner] = verdict;
     named_[corner] = 1;
   } else if (values.size() == 2) {
-    placed_.push_back({verdict, {number(values[0], "x"), number(values[1], "y")}});
+    const Vec2 place(number(values[0], "x"), number(values[1], "y"));
+    require_in_picture("corner", {place, place}, kCornerReach_px);
+    if (placed_.size() == kMostPlaces) {
+      refuse("there are more than {} verdicts by place in the frame; give the corners' indices",
+             kMostPlaces);
+    }
+    placed_.push_back({verdict, place});
   } else {
     refuse("{} names no corner; give it an INDEX, or X,Y",
            kVerdicts[static_cast<std::size_t>(verdict)]);
@@ -129,21 +146,18 @@ std::size_t FrameDetections::corner_by_index(std::string_view text) const {
   return *index;
 }
 
-void FrameDetections::add_box(std::span<const std::string_view> values) {
-  if (values.size() != 5) refuse("not all of a box is there; give ID,LEFT,TOP,WIDTH,HEIGHT");
-  const Vec2 corner(number(values[1], "left"), number(values[2], "top"));
-  const Vec2 size(above_zero(values[3], "width"), above_zero(values[4], "height"));
-  put(square_of(id_in(values[0]), corner, size));
-}
-
-void FrameDetections::add_mask(std::span<const std::string_view> values) {
-  if (values.size() < 4) refuse("not all of a mask is there; give ID,HEIGHT,WIDTH,COUNTS");
-  const auto side = [&](std::size_t i, const char* what) {
-    const std::optional<int> px = number_in<int>(values[i]);
-    if (!px || *px < 1) refuse("{} is '{}'; give that of the picture", what, values[i]);
-    return *px;
-  };
-  const cv::Size size_px(side(2, "the mask's width"), side(1, "the mask's height"));
+void FrameDetections::require_picture(const cv::Size& size_px) const {
+  if (picture_px_) {
+    if (size_px == *picture_px_) return;
+    refuse(
+        "the mask is of {} x {} pixels, and the picture of {} x {}; give one of the picture's "
+        "size",
+        size_px.width, size_px.height, picture_px_->width, picture_px_->height);
+  }
+  if (std::max(size_px.width, size_px.height) > kMostSide_px) {
+    refuse("the mask is of {} x {} pixels; a picture has no side of more than {}", size_px.width,
+           size_px.height, kMostSide_px);
+  }
   for (const Eigen::Vector2f& corner : frame_->corners_px) {
     if (corner.x() < static_cast<float>(size_px.width) &&
         corner.y() < static_cast<float>(size_px.height)) {
@@ -154,9 +168,72 @@ void FrameDetections::add_mask(std::span<const std::string_view> values) {
         "size",
         size_px.width, size_px.height, corner.x(), corner.y());
   }
+}
+
+/// \param margin_px round the picture, which the shape has to touch; 0: it has to overlap the
+///   picture.
+void FrameDetections::require_in_picture(const char* what, const Box& shape,
+                                         double margin_px) const {
+  constexpr double kMostSides = 10;  // that a shape may reach beyond the picture
+  const auto where = [&] {
+    const std::string from = fmt::format("{}, {}", shape.min().x(), shape.min().y());
+    return shape.min() == shape.max() ? fmt::format("the {} at {}", what, from)
+                                      : fmt::format("the {} from {} to {}, {}", what, from,
+                                                    shape.max().x(), shape.max().y());
+  };
+  if (!picture_px_) {
+    if (shape.min().cwiseAbs().cwiseMax(shape.max().cwiseAbs()).maxCoeff() > 2 * kMostSide_px) {
+      refuse("{} lies farther out than any picture reaches; give pixels", where());
+    }
+    return;
+  }
+  const auto& [width, height] = *picture_px_;
+  const Box picture(Vec2(-0.5, -0.5), Vec2(width - 0.5, height - 0.5));
+  const Box common = widened(picture, margin_px).intersection(shape);
+  if (margin_px > 0 ? common.isEmpty() : !((common.sizes().array() > 0).all())) {
+    refuse("{} lies outside of the picture, which has {} x {} pixels; leave out what is not in it",
+           where(), width, height);
+  }
+  if (!widened(picture, kMostSides * std::max(width, height)).contains(shape)) {
+    refuse(
+        "{} reaches more than {} times as far as the picture, which has {} x {} pixels; clip it "
+        "to the picture",
+        where(), kMostSides, width, height);
+  }
+}
+
+void FrameDetections::add_box(std::span<const std::string_view> values) {
+  if (values.size() != 5) refuse("not all of a box is there; give ID,LEFT,TOP,WIDTH,HEIGHT");
+  const Vec2 corner(number(values[1], "left"), number(values[2], "top"));
+  const Vec2 size(number(values[3], "width"), number(values[4], "height"));
+  add_box(id_in(values[0]), corner, size);
+}
+
+void FrameDetections::add_box(Id id, const Vec2& corner, const Vec2& size) {
+  require_finite(corner.x(), "left");
+  require_finite(corner.y(), "top");
+  require_above_zero(size.x(), "width");
+  require_above_zero(size.y(), "height");
+  add_square(square_of(id, corner, size));
+}
+
+void FrameDetections::add_mask(std::span<const std::string_view> values) {
+  if (values.size() < 4) refuse("not all of a mask is there; give ID,HEIGHT,WIDTH,COUNTS");
+  const auto side = [&](std::size_t i, const char* what) {
+    const std::optional<int> px = number_in<int>(values[i]);
+    if (!px || *px < 1) refuse("{} is '{}'; give that of the picture", what, values[i]);
+    return *px;
+  };
+  const cv::Size size_px(side(2, "the mask's width"), side(1, "the mask's height"));
+  require_picture(size_px);
   const Id id = id_in(values[0]);
-  sim::Mask mask = sim::mask_of(counts_in(values.subspan(3)), size_px);
-  put(square_of(mask, id));
+  add_mask(id, sim::mask_of(counts_in(values.subspan(3)), size_px), size_px);
+}
+
+void FrameDetections::add_mask(Id id, sim::Mask mask, const cv::Size& size_px) {
+  require_picture(size_px);
+  if (mask.box.empty()) refuse("the mask has no pixel; leave out what is not seen");
+  add_square(square_of(mask, id));
   frame_->masks[id] = std::move(mask);
 }
 
@@ -169,37 +246,66 @@ void FrameDetections::add_square(std::span<const std::string_view> values) {
   Square square;
   square.id = id_in(values[0]);
   square.location = {number(values[1], "x"), number(values[2], "y")};
-  square.half_size = {above_zero(values[3], "half width"), above_zero(values[4], "half height")};
+  square.half_size = {number(values[3], "half width"), number(values[4], "half height")};
   Outline& outline = square.outline;
-  outline.count = static_cast<int>(values.size() - 5) / 2;
-  if (outline.count > Outline::kMost) {
-    refuse("the outline has {} points; give {} at the most", outline.count, Outline::kMost);
+  const std::size_t points = (values.size() - 5) / 2;
+  if (points > Outline::kMost) {
+    refuse("the outline has {} points; give {} at the most", points, Outline::kMost);
   }
+  outline.count = static_cast<int>(points);
   for (std::size_t i = 5; Vec2 & vertex : outline.vertices()) {
     vertex.x() = number(values[i++], "x of the outline");
     vertex.y() = number(values[i++], "y of the outline");
   }
-  put(square);
+  add_square(square);
 }
 
-void FrameDetections::put(const Square& square) {
-  if (!boxes_.insert(square.id).second) {
-    refuse("frame {} has a box {} already; an id is one object's", frame_->index, square.id);
+void FrameDetections::add_square(const Square& square) {
+  constexpr double kThinnest_px = 1;  // that has to overlap the picture; thinner ones touch it
+  if (square.id > kMostId) {
+    refuse("the id is {}; give a whole number up to {}", square.id, kMostId);
   }
-  frame_->layers.squares.push_back(square);
+  require_finite(square.location.x(), "x");
+  require_finite(square.location.y(), "y");
+  require_not_negative(square.half_size.x(), "half width");
+  require_not_negative(square.half_size.y(), "half height");
+  const bool is_thin = 2 * square.half_size.minCoeff() < kThinnest_px;
+  require_in_picture("box", box_of(square), is_thin ? kThinnest_px : 0);
+  if (Box outline; square.outline.count > 0) {
+    for (const Vec2& vertex : square.outline.vertices()) outline.extend(vertex);
+    require_in_picture("outline", outline, kThinnest_px);
+  }
+  std::vector<Square>& squares = frame_->layers.squares;
+  if (squares.size() == kMostBoxes) {
+    refuse("there are more than {} boxes in the frame; give those of objects", kMostBoxes);
+  }
+  if (!boxes_.insert(square.id).second) {
+    refuse("the frame has a box {} already; an id is one object's", square.id);
+  }
+  squares.push_back(square);
 }
 
 void FrameDetections::add_circle(std::span<const std::string_view> values) {
   gives_circles_ = true;
   if (values.empty()) return;
   if (values.size() != 3) refuse("not all of a circle is there; give X,Y,RADIUS, or nothing");
-  Circle circle;
-  circle.rebel = true;
-  circle.location = {number(values[0], "x"), number(values[1], "y")};
-  circle.radius = number(values[2], "radius");
-  if (circle.radius < 0) refuse("the radius is {}; it must be 0 or more", values[2]);
+  add_circle({number(values[0], "x"), number(values[1], "y")}, number(values[2], "radius"));
+}
+
+void FrameDetections::add_circle(const Vec2& location, double radius) {
+  require_finite(location.x(), "x");
+  require_finite(location.y(), "y");
+  require_not_negative(radius, "the radius");
+  require_in_picture("circle", widened({location, location}, radius), 1);
   std::vector<Circle>& circles = frame_->layers.rebel_circles;
+  if (circles.size() == kMostCircles) {
+    refuse("there are more than {} circles in the frame; give those of objects", kMostCircles);
+  }
+  Circle circle;
   circle.id = static_cast<Id>(circles.size());
+  circle.rebel = true;
+  circle.location = location;
+  circle.radius = radius;
   circles.push_back(circle);
 }
 

@@ -376,13 +376,20 @@ Recording read_recording(const std::filesystem::path& folder) {
   if (!has_header) truth.fail("is empty");
   recording.warnings = world_warnings(folder);
   if (std::filesystem::exists(folder / kCameraFile)) {
-    LineReader(folder / kCameraFile).next([&](const Json& json) {
+    LineReader file(folder / kCameraFile);
+    const bool is_there = file.next([&](const Json& json) {
       Intrinsics& camera = recording.camera.emplace();
       read_member(json, "focal_px", camera.focal_px);
       read_member_array(json, "centre_px", {camera.centre_px.data(), 2});
-      read_member(json, "width_px", camera.width_px);
-      read_member(json, "height_px", camera.height_px);
+      for (const auto& [key, side] :
+           {std::pair("width_px", &camera.width_px), std::pair("height_px", &camera.height_px)}) {
+        read_member(json, key, *side);
+        within(key, [&, side = side] {
+          require(*side > 0 && *side <= kLongest_px, "the side of a picture");
+        });
+      }
     });
+    if (!is_there) file.fail("is empty");
   }
 
   while (true) {

@@ -61,9 +61,6 @@ __all__ = [
     "simulate",
 ]
 
-for _type in (Camera, Detections, Filter, Frame, Motion, Result, Scenario, Scorer, Simulation, Truth):
-    _type.__module__ = "lcs"
-
 _folder = _Path(__file__).parent
 _core._use_scenes(_folder / "scenes")
 
