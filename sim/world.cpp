@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -20,7 +21,8 @@ namespace lcs::sim {
 namespace {
 
 constexpr std::int64_t kLongestStep_ns = 2'000'000;
-constexpr double kActorInside_m = 0.22;  // less is a graze; a leg of a pedestrian in a crate is deeper
+constexpr double kActorInside_m =
+    0.22;  // less is a graze; a leg of a pedestrian in a crate is deeper
 
 /// A geom or body of the scene, for what is wrong with it once it is compiled.
 scenario::Source source_of(const scenario::Scenario& scenario, const ComposedScene& composed,
@@ -80,6 +82,42 @@ void fill_textures(Model& model, const scenario::Scenario& scenario,
     cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
     fill_texture(model, model.id(mjOBJ_TEXTURE, picture.texture), image);
   }
+}
+
+/// As the scene states it; none if it does not.
+std::optional<scenario::Origin> origin_of(const Model& model, const scenario::Source& where) {
+  if (!model.has(mjOBJ_TEXT, scenario::kOriginText)) return std::nullopt;
+  const mjModel& m = model.m();
+  const std::string_view text =
+      m.text_data + m.text_adr[model.id(mjOBJ_TEXT, scenario::kOriginText)];
+  const std::size_t space = std::min(text.rfind(' '), text.size());
+  scenario::Origin origin;
+  origin.source = where;
+  origin.family = text.substr(0, space);
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] =
+      std::from_chars(text.data() + std::min(space + 1, text.size()), end, origin.seed);
+  if (origin.family.empty() || error != std::errc() || stop != end) {
+    throw scenario::Error(where, fmt::format("the text '{}' is '{}', and names no world; write "
+                                             "family and seed, as in 'room 7', or remove it",
+                                             scenario::kOriginText, text));
+  }
+  return origin;
+}
+
+/// \throws scenario::Error where the scenario states another origin than its scene.
+std::optional<scenario::Origin> origin_of(const scenario::Scenario& scenario,
+                                          const ComposedScene& composed, const Model& model) {
+  const auto of_scene =
+      origin_of(model, source_of(scenario, composed, "text", scenario::kOriginText));
+  if (!scenario.origin || !of_scene) return scenario.origin ? scenario.origin : of_scene;
+  if (scenario.origin->is_same_world(*of_scene)) return scenario.origin;
+  throw scenario::Error(
+      scenario.origin->source,
+      fmt::format("origin is {} {}, but the scene {} was drawn as {} {}; remove origin, or give "
+                  "the scene that it is of",
+                  scenario.origin->family, scenario.origin->seed, scenario.scene.string(),
+                  of_scene->family, of_scene->seed));
 }
 
 double yaw(const Eigen::Matrix3d& R) {
@@ -149,6 +187,7 @@ World::World(const scenario::Scenario& scenario, const ComposedScene& composed,
       imu_site_(model_.id(mjOBJ_SITE, "ego/imu")),
       accelerometer_(model_.m().sensor_adr[model_.id(mjOBJ_SENSOR, "ego/accelerometer")]),
       gyro_(model_.m().sensor_adr[model_.id(mjOBJ_SENSOR, "ego/gyro")]) {
+  origin_ = origin_of(scenario_, composed, model_);
   fill_textures(model_, scenario_, composed);
   if (scenario_.ground) raise_ground(model_, *scenario_.ground, scenario_.seed);
   set_options(composed);
@@ -196,11 +235,10 @@ void World::find_objects(const ComposedScene& composed) {
     if (m.body_parentid[body] != 0) {
       object_of_body[b] = object_of_body[static_cast<std::size_t>(m.body_parentid[body])];
       if (moves && object_of_body[b] >= 0) {
-        refuse(
-            name,
-            fmt::format("body '{}' has a joint inside another body; an object moves as one: take "
-                        "the joint away, or make it a body of the worldbody",
-                        name));
+        refuse(name, fmt::format(
+                         "body '{}' has a joint inside another body; an object moves as one: take "
+                         "the joint away, or make it a body of the worldbody",
+                         name));
       }
     } else if (name == kEgoBody) {
       object_of_body[b] = -1;
@@ -362,8 +400,8 @@ void World::read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample
                             Eigen::Map<const Eigen::Vector3d>(readings + accelerometer_)});
     if (!in_gap(scenario_.imu.gaps, t_ns_)) imu.push_back(reading);
     if (imu_truth) {
-      imu_truth->push_back({t_ns_, T_WS(), v_WS_mps(), imu_noise_.gyro_bias_radps(),
-                            imu_noise_.accel_bias_mps2()});
+      imu_truth->push_back(
+          {t_ns_, T_WS(), v_WS_mps(), imu_noise_.gyro_bias_radps(), imu_noise_.accel_bias_mps2()});
     }
   }
   if (scenario_.odometry.enabled &&
