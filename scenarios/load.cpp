@@ -121,6 +121,29 @@ double read_truth(Reader reader) {
   return min_depth_m;
 }
 
+Origin read_origin(Reader reader) {
+  constexpr std::int64_t kMostAgain = 1'000'000;
+  Origin origin;
+  origin.source = reader.where();
+  reader.require("family");
+  reader.read("family", origin.family);
+  if (const Value* seed = reader.require("seed")) {
+    origin.seed = as_seed(*seed, reader.path_of("seed"));
+  }
+  if (const Value* again = reader.find("again")) {
+    origin.again =
+        static_cast<std::uint64_t>(as_integer(*again, reader.path_of("again"), 0, kMostAgain));
+  }
+  if (const Value* features = reader.find("features")) {
+    const std::string path = reader.path_of("features");
+    for (const Value& item : as_list(*features, path)) {
+      origin.features.push_back(as_text(item, path + "." + std::to_string(origin.features.size())));
+    }
+  }
+  reader.finish();
+  return origin;
+}
+
 /// False for nan and inf, as YAML (".inf") or C++ ("inf") write them.
 bool is_finite(std::string_view text) {
   if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
@@ -194,8 +217,8 @@ void read_section(Reader& reader, std::string_view key, auto&& read, auto& out) 
 
 /// What was recorded is not made, and so nothing else can be said of it.
 void read_recorded(Reader& reader, const std::filesystem::path& folder, Scenario& scenario) {
-  for (const char* key : {"scene", "seed", "ego", "camera", "imu", "odometry", "truth", "image",
-                          "ground", "actors"}) {
+  for (const char* key : {"scene", "origin", "seed", "ego", "camera", "imu", "odometry", "truth",
+                          "image", "ground", "actors"}) {
     reader.at_most_one_of({"recording", key});
   }
   scenario.recording = read_recording({*reader.find("recording"), "recording"}, folder);
@@ -213,6 +236,7 @@ void read_simulated(Reader& reader, const std::filesystem::path& folder, Scenari
     scenario.scene = find_scene(*scene, folder);
     scenario.scene_source = scene->where;
   }
+  section("origin", read_origin, scenario.origin);
   if (const Value* seed = reader.find("seed")) scenario.seed = as_seed(*seed, "seed");
   if (const Value* ego = reader.require("ego")) scenario.ego = read_ego({*ego, "ego"}, folder);
   section("camera", read_camera, scenario.camera);
@@ -253,9 +277,9 @@ void read_top(Reader& reader, const std::filesystem::path& folder, Scenario& sce
   if (const Value* sweep = reader.find("sweep")) scenario.sweep = read_sweep(*sweep);
 }
 
-/// Without what is for people, for the seeds, and for who watches and judges.
+/// Without what is for people, what it was drawn from, the seeds, and who watches and judges.
 std::map<std::string, std::string> world_of(const Value& root) {
-  constexpr std::array<std::string_view, 6> kNotOfTheWorld{"purpose", "groups",   "seed",
+  constexpr std::array<std::string_view, 7> kNotOfTheWorld{"purpose", "groups",   "origin", "seed",
                                                            "filter",  "criteria", "sweep"};
   Value world(Value::Kind::map, root.where);
   for (const Entry& entry : root.entries) {

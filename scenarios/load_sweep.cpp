@@ -9,7 +9,8 @@ namespace lcs::scenario {
 namespace {
 
 /// What says nothing about the run, or is not the scenario's to vary.
-constexpr std::array<std::string_view, 4> not_to_be_swept = {"sweep", "groups", "purpose", "seed"};
+constexpr std::array<std::string_view, 5> not_to_be_swept = {"sweep", "groups", "purpose", "origin",
+                                                             "seed"};
 
 SweptKey read_key(const Entry& entry) {
   const std::string path = "sweep." + entry.key;

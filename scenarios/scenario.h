@@ -287,6 +287,23 @@ struct SweptKey {
   Source source;
 };
 
+/// The world that a scene was drawn as (`lcs world`). It stays the same world under another name,
+/// with another seed, in another scenario and as a sequence of pictures.
+struct Origin {
+  Source source = {};
+  std::string family = {};  ///< "room"
+  std::uint64_t seed = 0;   ///< that the world was drawn from; a run may have another
+  std::uint64_t again = 0;  ///< worlds of this seed that were thrown away before this one
+  std::vector<std::string> features = {};  ///< that occur in it
+
+  bool is_same_world(const Origin& other) const {
+    return family == other.family && seed == other.seed;
+  }
+};
+/// The name of the text by which a scene states its origin, as in MJCF's
+/// `<custom><text name="lcs.world" data="room 7"/></custom>`.
+inline constexpr const char* kOriginText = "lcs.world";
+
 inline constexpr int kFastThreshold = 20;
 
 struct Scenario {
@@ -299,8 +316,9 @@ struct Scenario {
   std::optional<Recorded> recording;
   std::filesystem::path scene;  ///< the MJCF file, which exists
   Source scene_source;
-  std::uint64_t seed = 1;  ///< textures, IMU noise, odometry; independent streams by name
-  int frames = 0;          ///< > 0; of a recording at the most, and 0 for all that it has
+  std::optional<Origin> origin;  ///< as the file states it; the scene may state one as well
+  std::uint64_t seed = 1;        ///< textures, IMU noise, odometry; independent streams by name
+  int frames = 0;                ///< > 0; of a recording at the most, and 0 for all that it has
   Ego ego;
   Camera camera;
   Imu imu;

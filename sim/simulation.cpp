@@ -26,6 +26,9 @@ const Calibration& Simulation::calibration() const {
 const std::vector<Object>& Simulation::objects() const {
   return impl_->world().objects();
 }
+const std::optional<scenario::Origin>& Simulation::origin() const {
+  return impl_->world().origin();
+}
 
 const Warnings& Simulation::warnings() const {
   return impl_->world().warnings();

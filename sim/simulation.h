@@ -62,6 +62,8 @@ class Simulation {
 
   const Calibration& calibration() const;
   const std::vector<Object>& objects() const;
+  /// The world that the scene was drawn as; none if it is not stated.
+  const std::optional<scenario::Origin>& origin() const;
 
   /// The warnings until now, or until the last frame.
   const Warnings& warnings() const;

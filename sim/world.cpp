@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -82,6 +83,42 @@ void fill_textures(Model& model, const scenario::Scenario& scenario,
   }
 }
 
+/// As the scene states it; none if it does not.
+std::optional<scenario::Origin> origin_of(const Model& model, const scenario::Source& where) {
+  if (!model.has(mjOBJ_TEXT, scenario::kOriginText)) return std::nullopt;
+  const mjModel& m = model.m();
+  const std::string_view text =
+      m.text_data + m.text_adr[model.id(mjOBJ_TEXT, scenario::kOriginText)];
+  const std::size_t space = std::min(text.rfind(' '), text.size());
+  scenario::Origin origin;
+  origin.source = where;
+  origin.family = text.substr(0, space);
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] =
+      std::from_chars(text.data() + std::min(space + 1, text.size()), end, origin.seed);
+  if (origin.family.empty() || error != std::errc() || stop != end) {
+    throw scenario::Error(where, fmt::format("the text '{}' is '{}', and names no world; write "
+                                             "family and seed, as in 'room 7', or remove it",
+                                             scenario::kOriginText, text));
+  }
+  return origin;
+}
+
+/// \throws scenario::Error where the scenario states another origin than its scene.
+std::optional<scenario::Origin> origin_of(const scenario::Scenario& scenario,
+                                          const ComposedScene& composed, const Model& model) {
+  const auto of_scene =
+      origin_of(model, source_of(scenario, composed, "text", scenario::kOriginText));
+  if (!scenario.origin || !of_scene) return scenario.origin ? scenario.origin : of_scene;
+  if (scenario.origin->is_same_world(*of_scene)) return scenario.origin;
+  throw scenario::Error(
+      scenario.origin->source,
+      fmt::format("origin is {} {}, but the scene {} was drawn as {} {}; remove origin, or give "
+                  "the scene that it is of",
+                  scenario.origin->family, scenario.origin->seed, scenario.scene.string(),
+                  of_scene->family, of_scene->seed));
+}
+
 double yaw(const Eigen::Matrix3d& R) {
   return std::atan2(R(1, 0), R(0, 0));
 }
@@ -149,6 +186,7 @@ World::World(const scenario::Scenario& scenario, const ComposedScene& composed,
       imu_site_(model_.id(mjOBJ_SITE, "ego/imu")),
       accelerometer_(model_.m().sensor_adr[model_.id(mjOBJ_SENSOR, "ego/accelerometer")]),
       gyro_(model_.m().sensor_adr[model_.id(mjOBJ_SENSOR, "ego/gyro")]) {
+  origin_ = origin_of(scenario_, composed, model_);
   fill_textures(model_, scenario_, composed);
   if (scenario_.ground) raise_ground(model_, *scenario_.ground, scenario_.seed);
   set_options(composed);

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,9 @@ class World {
   const Model& model() const { return model_; }
   int camera_id() const { return camera_; }
   double gravity_mps2() const { return gravity_mps2_; }
+
+  /// What the scenario or its scene states; none if neither does.
+  const std::optional<scenario::Origin>& origin() const { return origin_; }
 
   const std::vector<Object>& objects() const { return objects_; }
   /// Body of an object; index 0 is the world.
@@ -104,6 +108,7 @@ class World {
 
   scenario::Scenario scenario_;
   Model model_;
+  std::optional<scenario::Origin> origin_;
   std::unique_ptr<Rover> rover_;
   std::vector<MovingActor> actors_;
   std::vector<Object> objects_;

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <random>
+#include <sstream>
 #include <thread>
 
 #include "tests/tools/command.h"
@@ -124,6 +125,58 @@ TEST_F(Killed, GenerateGoesOnToTheSameBytes) {
   }
   time(to("stopped", "1"));
   EXPECT_TRUE(bytes_in(home_.path() / "stopped") == expected);
+}
+
+/// The lines of a text that end otherwise, each with its line end.
+std::string without_lines_that_end(const std::string& text, const std::string& end) {
+  std::istringstream lines(text);
+  std::string rest;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.ends_with(end)) rest += line + '\n';
+  }
+  return rest;
+}
+
+/// The numbers that `lcs tune` found, without when it found them.
+std::string numbers_in(const fs::path& preset) {
+  const std::string text = read(preset);
+  return text.substr(text.find("#pragma once"));
+}
+
+TEST_F(Killed, TuneLosesNoRowAndEndsWithTheSameNumbers) {
+  run({"suite", "scenarios", "--seeds", "2", "--out", "suite", "--quiet"});
+  const auto to = [](const char* folder) {
+    return std::vector<std::string>{
+        "tune",          "suite",  "--out",
+        folder,          "--keys", "hypotheses.prior,hypotheses.coupling",
+        "--evaluations", "30",     "--quiet"};
+  };
+  const Seconds whole = time(to("never_stopped"));
+  const fs::path stopped = home_.path() / "stopped", never = home_.path() / "never_stopped";
+  const std::string expected = read(never / "evaluations.csv");
+  const auto expect_whole = [&] {
+    time(to("stopped"));
+    EXPECT_EQ(without_lines_that_end(read(stopped / "evaluations.csv"), "# cut off"), expected);
+    EXPECT_EQ(numbers_in(stopped / "learnt.h"), numbers_in(never / "learnt.h"));
+  };
+  std::string before;
+  int torn = 0, grown = 0;
+  for (int i = 0; i < kills(); ++i) {
+    run_and_kill(to("stopped"), whole);
+    const bool is_there = fs::exists(stopped / "evaluations.csv");
+    const std::string after = is_there ? read(stopped / "evaluations.csv") : "";
+    EXPECT_TRUE(after.starts_with(before)) << "a row was lost";
+    grown += after.size() > before.size();
+    torn += !after.empty() && !after.ends_with('\n');
+    before = after;
+    if (after != expected && i % 4 != 3) continue;
+    expect_whole();
+    fs::remove_all(stopped);
+    before.clear();
+  }
+  expect_whole();
+  RecordProperty("kills_that_found_a_longer_journal", grown);
+  RecordProperty("kills_that_left_a_torn_row", torn);
 }
 
 }  // namespace

@@ -125,6 +125,7 @@ Recording full_recording() {
   recording.objects = {{1, "box \"quoted\""}, {2, "caf\u00e9\n"}};
   recording.seed = std::numeric_limits<std::uint64_t>::max();
   recording.world = {{"ego.speed", "0.5 m/s"}, {"actors.caf\u00e9.\"x\"", ""}};
+  recording.origin = scenario::Origin{.family = "caf\u00e9", .seed = recording.seed};
   for (int k = 0; k < 5; ++k) recording.frames.push_back(full_frame(filler, k));
   return recording;
 }
@@ -161,6 +162,9 @@ TEST(RecordingIo, EveryFieldComesBackToTheSameBits) {
   EXPECT_EQ(back.scenario, recording.scenario);
   EXPECT_EQ(back.seed, recording.seed);
   EXPECT_EQ(back.world, recording.world);
+  ASSERT_TRUE(back.origin);
+  EXPECT_TRUE(back.origin->is_same_world(*recording.origin));
+  EXPECT_TRUE(read_without_frames(folder.path()).origin.value().is_same_world(*recording.origin));
   ASSERT_EQ(back.objects.size(), recording.objects.size());
   for (std::size_t i = 0; i < back.objects.size(); ++i) {
     EXPECT_EQ(back.objects[i].id, recording.objects[i].id);

@@ -50,10 +50,12 @@ INSTANTIATE_TEST_SUITE_P(
     Keys, Refused,
     testing::Values(
         added("UnknownNear", "sede: 5\n", "4: unknown key 'sede'; did you mean 'seed'?"),
-        added("UnknownFar", "weather: rain\n",
-              "4: unknown key 'weather'; known are purpose, groups, scene, recording, seed, ego, "
-              "camera, frames, duration, imu, odometry, truth, image, ground, actors, ego_motion, "
-              "corners, filter, criteria and sweep"),
+        added(
+            "UnknownFar", "weather: rain\n",
+            "4: unknown key 'weather'; known are purpose, groups, scene, recording, origin, seed, "
+            "ego, camera, frames, duration, imu, odometry, truth, image, ground, actors, "
+            "ego_motion, "
+            "corners, filter, criteria and sweep"),
         added("UnknownInSection", "camera:\n  rate: 5\n  fov: 60\n",
               "6: unknown key 'fov' in camera; did you mean 'fovy'?"),
         added("UnknownBeforeMissing",
@@ -65,6 +67,8 @@ INSTANTIATE_TEST_SUITE_P(
               "5: key 'seed' is given twice, first in line 4; remove one"),
         added("TwiceInSection", "camera: {rate: 5, size: [640, 480], rate: 6}\n",
               "4: key 'rate' is given twice, first in line 4; remove one"),
+        added("OriginWithoutSeed", "origin:\n  family: room\n",
+              "5: origin needs 'seed'; add it (scenarios/README.md shows how)"),
         added("NoName", "? [a, b]\n: 5\n", "4: a key is a list; give a name"),
         added("NoValue", "seed:\n", "4: seed has no value; give one or remove the key"),
         added("NoSection", "odometry:\n", "4: odometry has no value; give one or remove the key"),

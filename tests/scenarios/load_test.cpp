@@ -457,8 +457,9 @@ TEST(Load, WhatLcsScenesPutsBeforeTheProjectsOwnIsTold) {
   std::filesystem::create_directories(folder.path() / "ego");
   folder.write("lab.xml", "<mujoco/>");
   folder.write("ego/wheeled.xml", "<mujoco/>");
-  const auto file = folder.write(
-      "test.yaml", "scene: lab\nframes: 1\nego: {}\nactors:\n  a: {shape: box, trajectory: "
+  const auto file =
+      folder.write("test.yaml",
+                   "scene: lab\nframes: 1\nego: {}\nactors:\n  a: {shape: box, trajectory: "
                    "{still: {position: [1, 2]}}}\n");
   const std::filesystem::path own = std::filesystem::path(LCS_SOURCE_DIR) / "scenes";
   EXPECT_TRUE(shadowed_files(load(file)).empty());
@@ -498,6 +499,21 @@ TEST(Load, TheWorldIsAllThatIsWrittenButWhoWatchesAndJudges) {
   EXPECT_EQ(fast.world.at("ego.speed"), "2 m/s");
   EXPECT_EQ(fast.world.at("imu.gaps.0.1"), "2 s");
   EXPECT_NE(fast.world, plain.world);
+}
+
+TEST(Load, AnOriginIsTheSameWorldWithAnySeed) {
+  const std::string drawn =
+      smallest + "origin: {family: room, seed: 7, again: 2, features: [slope, weeds]}\n";
+  const Scenario s = load_text(drawn, {.sets = {}, .seed = 3});
+  ASSERT_TRUE(s.origin);
+  EXPECT_EQ(s.origin->family, "room");
+  EXPECT_EQ(s.origin->seed, 7u);
+  EXPECT_EQ(s.origin->again, 2u);
+  EXPECT_EQ(s.origin->features, (std::vector<std::string>{"slope", "weeds"}));
+  EXPECT_EQ(s.origin->source.line, 4);
+  EXPECT_EQ(s.seed, 3u);
+  EXPECT_EQ(s.world, load_text(smallest).world) << "sensors' data do not depend on it";
+  EXPECT_FALSE(load_text(smallest).origin);
 }
 
 TEST(Load, TheSeedGivenReplacesTheFiles) {

@@ -110,6 +110,8 @@ TEST_F(RecordingKeys, ThatAreWrongAreRefusedAtTheirLine) {
        "test.yaml:1: both scene and recording are given; keep one of them"},
       {"recording: {path: drive}\nego: {}\n",
        "test.yaml:2: both recording and ego are given; keep one of them"},
+      {"recording: {path: drive}\norigin: {family: room, seed: 3}\n",
+       "test.yaml:2: both recording and origin are given; keep one of them"},
       {"recording: {path: drive}\nseed: 3\n",
        "test.yaml:2: both recording and seed are given; keep one of them"},
       {"recording: {}\n",

@@ -130,6 +130,8 @@ TEST(Sweep, ABadFormIsRefusedByEveryLoad) {
             "test.yaml:5: sweep.ego.speed has '1' twice; remove one");
   EXPECT_EQ(refusal(smallest + "sweep:\n  seed: [1, 2]\n"),
             "test.yaml:5: sweep.seed cannot be swept; the number of seeds is the suite's option");
+  EXPECT_EQ(refusal(smallest + "sweep:\n  origin: [{family: room, seed: 1}]\n"),
+            "test.yaml:5: sweep.origin cannot be swept; remove it");
 }
 
 TEST(Sweep, MorePointsThanAnybodyWaitsForAreRefused) {

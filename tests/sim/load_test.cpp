@@ -133,6 +133,24 @@ TEST_F(SceneRefused, LinesHoldBehindAttributesOfManyLines) {
          9, {"sizes"});
 }
 
+TEST_F(SceneRefused, ForAnOriginThatIsNoneOrNotTheScenarios) {
+  const auto stated = [](const std::string& text) {
+    return "<custom><text name='lcs.world' data='" + text + "'/></custom>";
+  };
+  for (const char* text : {"room", "room x", " 7", "room 7 8x", "room -1"}) {
+    expect({.top = stated(text)}, 2, {"lcs.world", "family and seed"});
+  }
+  scenario::Scenario s = scenario({.top = stated("room 2000000")});
+  const auto of_scene = World(s).origin();
+  ASSERT_TRUE(of_scene);
+  EXPECT_EQ(of_scene->family, "room");
+  EXPECT_EQ(of_scene->seed, 2'000'000u);
+  s.origin = {.source = {"mine.yaml", 3}, .family = "room", .seed = 2'000'000};
+  EXPECT_NO_THROW(World{s});
+  s.origin->seed = 1;
+  expect_at("mine.yaml:3: ", refusal(s), {"origin is room 1", "drawn as room 2000000"});
+}
+
 TEST_F(SceneRefused, ForAFlatMeshInOneLineAndNoneOfQhulls) {
   expect({.asset = "<mesh name='m' vertex='0 0 0 1 0 0 0 1 0 1 1 0'/>",
           .world = "<geom type='mesh' mesh='m'/>"},

@@ -2,17 +2,25 @@
 /// never looks at what figures are stated on.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include "filter/learnt.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
+#include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/suite/suite_result.h"
+#include "tools/tune/journal.h"
 #include "tools/tune/search.h"
 #include "tools/tune/trials.h"
 
@@ -49,10 +57,26 @@ struct Hill {
   int calls = 0;
 };
 
-Found climb(const fs::path& journal, Hill& hill, int evaluations = 120,
-            const std::string& subject = "a hill") {
-  return search(preset("default"), {.keys = kKeys, .evaluations = evaluations}, std::ref(hill),
-                journal, subject, [](int) {});
+struct Search {
+  std::vector<std::string> keys = kKeys;
+  int evaluations = 120;
+  std::uint64_t seed = 1;
+  std::string subject = "a hill";
+  Parameters start = preset("default");
+
+  SearchOptions options() const {
+    return {.axes = axes_of(start, keys), .evaluations = evaluations, .seed = seed};
+  }
+  Journal journal(const fs::path& file) const {
+    std::vector<Fact> facts{{"subject", subject}};
+    for (Fact& fact : facts_of(options())) facts.push_back(fact);
+    return {file, facts, keys};
+  }
+};
+
+Found climb(const fs::path& file, Hill& hill, const Search& what = {}) {
+  Journal journal = what.journal(file);
+  return search(what.start, what.options(), std::ref(hill), journal, [](int) {});
 }
 
 std::string values(const Found& found) {
@@ -74,6 +98,16 @@ TEST(Search, FindsTheTopWithinAFewPercentAndTriesNoMoreThanAsked) {
   EXPECT_EQ(std::stod(found.after[2].value), number(start, kKeys[2])) << "a whole number";
 }
 
+/// The rows that were cut off left out.
+std::string whole_rows(const std::string& journal) {
+  std::stringstream lines(journal);
+  std::string whole;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.ends_with("# cut off")) whole += line + '\n';
+  }
+  return whole;
+}
+
 TEST(Search, GoesOnWhereItWasWithTheSameEnd) {
   const TemporaryFolder folder;
   Hill whole;
@@ -86,40 +120,176 @@ TEST(Search, GoesOnWhereItWasWithTheSameEnd) {
     std::ofstream torn(journal, std::ios::app);
     torn << "0.015,1";  // as a line is where a disk was full
   }
+  const std::string before = bench::read(journal);
   Hill rest;
   EXPECT_EQ(values(climb(journal, rest)), expected);
   EXPECT_EQ(rest.calls, whole.calls - 10) << "those before the failure are not asked again";
-  EXPECT_EQ(bench::read(journal), bench::read(folder.path() / "whole.csv"));
+  EXPECT_TRUE(bench::read(journal).starts_with(before + " # cut off\n"));
+  EXPECT_EQ(whole_rows(bench::read(journal)), bench::read(folder.path() / "whole.csv"));
+  Hill none;
+  EXPECT_EQ(values(climb(journal, none)), expected);
+  EXPECT_EQ(none.calls, 0);
 }
 
-TEST(Search, RefusesAJournalOfAnotherSearchAndLeavesItAsItWas) {
+TEST(SearchJournal, OfAnotherSearchIsRefusedWithWhatDiffersAndLeftAsItWas) {
   const TemporaryFolder folder;
-  const fs::path journal = folder.path() / "journal.csv";
+  const fs::path file = folder.path() / "journal.csv";
   Hill hill;
-  climb(journal, hill, 3);
-  const std::string before = bench::read(journal);
-  EXPECT_THROW(climb(journal, hill, 3, "another hill"), std::runtime_error);
-  EXPECT_EQ(bench::read(journal), before);
+  climb(file, hill, {.evaluations = 3});
+  const std::string before = bench::read(file);
+  Search moved;
+  set(moved.start, kKeys[0], "0.05");
+  const std::pair<Search, std::vector<std::string>> cases[] = {
+      {{.subject = "a dune"}, {"subject: a hill -> a dune"}},
+      {{.seed = 2}, {"seed: 1 -> 2"}},
+      {moved, {"hypotheses.prior: 0.0397, tried from ", " -> 0.05, tried from 0.0125 to 0.2"}},
+      {{.keys = {kKeys[0], kKeys[1]}}, {"circle.min_members: ", " -> nothing"}},
+      {{.keys = {kKeys[0], kKeys[1], kKeys[2], "hypotheses.turnover"}},
+       {"hypotheses.turnover: nothing -> "}},
+      {{.keys = {kKeys[1], kKeys[0], kKeys[2]}},
+       {"keys: hypotheses.prior, ", " -> hypotheses.coupling, hypotheses.prior"}},
+  };
+  for (const auto& [search, parts] : cases) {
+    const std::string message = bench::refusal_of([&] { search.journal(file); });
+    for (const std::string& part : parts) {
+      EXPECT_NE(message.find(part), std::string::npos) << part << "\n" << message;
+    }
+    EXPECT_NE(message.find("choose another folder with --out, or remove the file"),
+              std::string::npos)
+        << message;
+    EXPECT_EQ(bench::read(file), before);
+  }
+}
+
+TEST(SearchJournal, WithAnyOtherByteIsRefusedAtItsLine) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "journal.csv";
+  Hill hill;
+  const Search search{.evaluations = 3};
+  climb(file, hill, search);
+  const std::string before = bench::read(file);
+  for (std::size_t i = 0; i + 1 < before.size(); ++i) {
+    std::string changed = before;
+    changed[i] = static_cast<char>(changed[i] ^ 1);
+    bench::write(file, changed);
+    const std::string message = bench::refusal_of([&] { search.journal(file); });
+    EXPECT_TRUE(message.starts_with(file.string() + ":")) << i << ": " << message;
+    EXPECT_EQ(bench::read(file), changed);
+  }
+}
+
+TEST(SearchJournal, WithARowThatItHasNotWrittenIsRefusedAtItsLine) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "journal.csv";
+  Hill hill;
+  const Search search{.evaluations = 3};
+  climb(file, hill, search);
+  const std::string before = bench::read(file);
+  const std::string last = before.substr(before.rfind('\n', before.size() - 2) + 1);
+  const auto lines = std::count(before.begin(), before.end(), '\n');
+  for (const std::string& row :
+       {std::string("0.0397,13.2,3,nan,0,0,0,0,000000000000\n"),
+        std::string("0.0397,13.2,3,9e999,0,0,0,0,000000000000\n"),
+        std::string("0.0397,13.2,3,,0,0,0,0,000000000000\n"),
+        std::string("0.0397,13.2,3,abc,0,0,0,0,000000000000\n"),
+        std::string("0.0397,13.2,3,1,0,0,0,0,000000000000\n"),
+        std::string("0.0397,nan,xx,,9e999,abc\n"), std::string("\n"), std::string(9000, ',') + "\n",
+        "0" + last, last.substr(0, last.size() - 2) + "\n", " " + last,
+        last.substr(0, last.size() - 1) + "\r\n", "1," + last, std::string("\0\n", 2)}) {
+    bench::write(file, before + row);
+    const std::string message = bench::refusal_of([&] { search.journal(file); });
+    EXPECT_TRUE(message.starts_with(file.string() + ":" + std::to_string(lines + 1) + ": "))
+        << row << message;
+    EXPECT_EQ(bench::read(file), before + row);
+  }
+}
+
+TEST(SearchJournal, CutOffAnywhereKeepsItsWholeRows) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "journal.csv";
+  const Search search{.evaluations = 4};
+  Hill hill;
+  climb(file, hill, search);
+  const std::string all = bench::read(file);
+  const std::size_t head = all.find("check\n") + 6;
+  for (std::size_t size = 0; size < all.size(); ++size) {
+    const std::string kept = all.substr(0, size);
+    bench::write(file, kept);
+    if (size < head) {
+      EXPECT_NE(bench::refusal_of([&] { search.journal(file); }).find("remove the file"),
+                std::string::npos)
+          << size;
+      EXPECT_EQ(bench::read(file), kept);
+      continue;
+    }
+    const auto rows =
+        std::count(kept.begin() + static_cast<std::ptrdiff_t>(head), kept.end(), '\n');
+    Hill rest;
+    climb(file, rest, search);
+    EXPECT_EQ(rest.calls, 4 - rows) << size;
+    EXPECT_TRUE(bench::read(file).starts_with(kept));
+    EXPECT_EQ(whole_rows(bench::read(file)), all);
+  }
+}
+
+TEST(SearchJournal, IsNeverWrittenThroughWhatIsNoPlainFileOfItsOwn) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "evaluations.csv", other = folder.path() / "other";
+  const auto refused = [&](const char* what) {
+    const std::string message = bench::refusal_of([&] { Search{}.journal(file); });
+    EXPECT_TRUE(message.starts_with(file.string())) << what << ": " << message;
+    EXPECT_NE(message.find(what), std::string::npos) << message;
+  };
+  Hill hill;
+  climb(other, hill, {.evaluations = 1});
+  const std::string journal = bench::read(other);
+  for (const fs::path& target : {other, fs::path("/dev/zero"), folder.path() / "none"}) {
+    fs::create_symlink(target, file);
+    refused("this is a link");
+    EXPECT_TRUE(fs::is_symlink(file));
+    fs::remove(file);
+  }
+  EXPECT_EQ(bench::read(other), journal);
+  ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+  refused("this is a pipe");
+  EXPECT_TRUE(fs::is_fifo(file));
+  fs::remove(file);
+  fs::create_directory(file);
+  refused("this is a folder");
+  fs::remove(file);
+  for (const char* text : {"", "my notes\n", "my notes", "# lcs tune: an older one\nf1\n"}) {
+    bench::write(file, text);
+    refused("this is no journal of lcs tune");
+    EXPECT_EQ(bench::read(file), text);
+  }
 }
 
 TEST(Search, RefusesWhatIsNoNumberAboveNought) {
-  const TemporaryFolder folder;
-  for (const char* key : {"circle.edge_rule", "line.ignore", "circle.no_such_thing"}) {
-    Hill hill;
-    EXPECT_THROW(search(preset("default"), {.keys = {key}, .evaluations = 2}, std::ref(hill),
-                        folder.path() / "journal.csv", "a hill", [](int) {}),
-                 std::invalid_argument)
-        << key;
+  const Parameters start = preset("default");
+  for (const auto& [keys, part] :
+       {std::pair<std::vector<std::string>, const char*>{{"circle.edge_rule"}, "above 0"},
+        {{"line.ignore"}, "above 0"},
+        {{"hypotheses.prio"}, "the nearest is 'hypotheses.prior'"},
+        {{""}, "the nearest is"},
+        {{kKeys[0], kKeys[1], kKeys[0]}, "hypotheses.prior is given twice"}}) {
+    const std::string message =
+        bench::refusal_of<std::invalid_argument>([&] { axes_of(start, keys); });
+    EXPECT_NE(message.find(part), std::string::npos) << message;
   }
 }
 
 /// The command on a suite of one short run.
 class TuneCommand : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto made = bench::run_lcs({"suite", LCS_SCENARIOS_DIR "/crossing.yaml", "--seeds", "1",
-                                      "--set", "frames=16", "--out", suite().string(), "--quiet"},
-                                     {folder_.path()});
+  void SetUp() override { make_suite({}); }
+  void make_suite(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments{"suite",   LCS_SCENARIOS_DIR "/crossing.yaml",
+                                       "--seeds", "1",
+                                       "--set",   "frames=16",
+                                       "--out",   suite().string(),
+                                       "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto made = bench::run_lcs(arguments, {folder_.path()});
     ASSERT_LE(made.exit_code, 1) << made.err;  // of 16 frames no criterion is asked
   }
   fs::path suite() const { return folder_.path() / "suite"; }
@@ -135,14 +305,18 @@ class TuneCommand : public testing::Test {
 };
 
 TEST_F(TuneCommand, StatesTheSuitesFiguresAndWritesAPresetThatItsRecordExplains) {
+  const fs::path copy = folder_.path() / "copy";
+  fs::copy(suite(), copy, fs::copy_options::recursive);
   const auto result =
-      tune({"--keys", "hypotheses.prior", "--evaluations", "4", "--validate", suite().string()});
+      tune({"--keys", "hypotheses.prior", "--evaluations", "4", "--validate", copy.string()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto f1 =
       bench::value(suite::read_suite(suite()).scenarios.front().runs.front().metrics, "rebel.f1");
   std::ifstream journal(out() / "evaluations.csv");
   std::string line;
-  for (int i = 0; i < 3; ++i) std::getline(journal, line);
+  while (std::getline(journal, line) && !line.ends_with(",check")) {
+  }
+  std::getline(journal, line);
   std::stringstream cells(line);
   std::getline(cells, line, ',');
   EXPECT_EQ(std::stod(line), number(preset("default"), "hypotheses.prior"));
@@ -166,9 +340,156 @@ TEST_F(TuneCommand, StatesTheSuitesFiguresAndWritesAPresetThatItsRecordExplains)
 
   const auto more = tune({"--keys", "hypotheses.prior", "--evaluations", "6"});
   EXPECT_EQ(more.exit_code, 0) << "the same search goes on: " << more.err;
-  const auto other = tune({"--keys", "hypotheses.turnover", "--evaluations", "6"});
-  EXPECT_EQ(other.exit_code, 2);
-  EXPECT_NE(other.err.find("evaluations.csv is of another search"), std::string::npos) << other.err;
+}
+
+TEST_F(TuneCommand, RefusesAJournalOfOtherRunsOrOfAnotherProgramAndLeavesItAsItWas) {
+  const std::vector<std::string> command{"--keys", "hypotheses.prior", "--evaluations", "2"};
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& what) {
+    const std::string before = bench::read(out() / kJournalFile);
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = tune(arguments);
+    EXPECT_EQ(result.exit_code, 2) << what;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    for (const std::string& part :
+         {what, std::string(kJournalFile), std::string("remove the file")}) {
+      EXPECT_NE(result.err.find(part), std::string::npos) << part << ": " << result.err;
+    }
+    EXPECT_EQ(bench::read(out() / kJournalFile), before);
+  };
+  ASSERT_EQ(tune(command).exit_code, 0);
+  refused({"--seed", "2"}, "seed: 1 -> 2");
+  refused({"--set", "hypotheses.coupling=10"}, "settings: none -> hypotheses.coupling=10");
+
+  // A program that is a byte longer.
+  const fs::path rebuilt = folder_.path() / "lcs", said = folder_.path() / "said";
+  fs::copy_file(LCS_PROGRAM, rebuilt);
+  std::ofstream(rebuilt, std::ios::app) << "x";
+  const std::string before = bench::read(out() / kJournalFile);
+  const std::string line =
+      fmt::format("{} tune {} --out {} --quiet --keys hypotheses.prior --evaluations 2 2>{}",
+                  rebuilt.string(), suite().string(), out().string(), said.string());
+  EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 2);
+  EXPECT_NE(bench::read(said).find("another search: program: "), std::string::npos)
+      << bench::read(said);
+  EXPECT_EQ(bench::read(out() / kJournalFile), before);
+
+  // The suite made anew with another speed.
+  const fs::path old = folder_.path() / "old";
+  fs::rename(suite(), old);
+  make_suite({"--set", "ego.speed=0.4 m/s"});
+  refused({}, "recordings: SHA-256 ");
+  fs::remove_all(suite());
+  fs::rename(old, suite());
+  EXPECT_EQ(tune(command).exit_code, 0) << "all is as it was";
+  // What only a byte of a file says differs, too.
+  for (const char* name : {"layers.jsonl", "truth.jsonl", "camera.json"}) {
+    const fs::path file =
+        suite() / suite::read_suite(suite()).scenarios.front().runs.front().folder / name;
+    const std::string bytes = bench::read(file);
+    std::string changed = bytes;
+    changed.insert(changed.find(','), " ");
+    bench::write(file, changed);
+    refused({}, "recordings: SHA-256 ");
+    bench::write(file, bytes);
+  }
+}
+
+TEST_F(TuneCommand, AFullDiskLosesNoRow) {
+  const auto asked = [&](const char* evaluations, std::optional<std::size_t> largest) {
+    return bench::run_lcs({"tune", suite().string(), "--out", out().string(), "--quiet", "--keys",
+                           "hypotheses.prior,hypotheses.coupling", "--evaluations", evaluations},
+                          {.folder = folder_.path(), .largest_file = largest});
+  };
+  ASSERT_EQ(asked("4", {}).exit_code, 0);
+  std::string before = bench::read(out() / kJournalFile);
+  for (const std::size_t room : {1, 20, 0, 90}) {
+    const auto full = asked("12", before.size() + room);
+    EXPECT_EQ(full.exit_code, 2);
+    EXPECT_NE(full.err.find("ulimit -f"), std::string::npos) << full.err;
+    const std::string after = bench::read(out() / kJournalFile);
+    EXPECT_TRUE(after.starts_with(before)) << "with room for " << room;
+    before = after;
+  }
+  EXPECT_EQ(asked("12", 0).exit_code, 2);
+  EXPECT_EQ(bench::read(out() / kJournalFile), before);
+  ASSERT_EQ(asked("12", {}).exit_code, 0);
+  const std::string rows = whole_rows(bench::read(out() / kJournalFile));
+  fs::remove_all(out());
+  ASSERT_EQ(asked("12", {}).exit_code, 0);
+  EXPECT_EQ(rows, bench::read(out() / kJournalFile)) << "as if there had always been room";
+}
+
+TEST_F(TuneCommand, TwoAtATimeIntoOneFolderAreRefused) {
+  bench::Command first(
+      {"tune", suite().string(), "--out", out().string(), "--quiet", "--evaluations", "1000000"},
+      {folder_.path()});
+  while (first.is_running() && !fs::exists(out() / kJournalFile)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  first.send(SIGSTOP);
+  const auto second = tune({"--evaluations", "1000000"});
+  EXPECT_TRUE(first.is_running());
+  first.send(SIGKILL);
+  first.wait();
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_NE(second.err.find("in use by another lcs tune"), std::string::npos) << second.err;
+  EXPECT_EQ(tune({"--evaluations", "1"}).exit_code, 0) << "the lock ends with its process";
+}
+
+TEST_F(TuneCommand, MistakesAreToldInOneLineAndNothingIsWritten) {
+  fs::create_directory_symlink(suite(), folder_.path() / "link");
+  const std::string same = (suite() / ".." / "suite" / "").string(),
+                    link = (folder_.path() / "link").string(),
+                    file = (suite() / "suite.json").string();
+  const std::string copy = (folder_.path() / "copy").string();
+  fs::copy(suite(), copy, fs::copy_options::recursive);
+  const std::pair<std::vector<std::string>, const char*> cases[] = {
+      {{"--keys", "nope"}, "--keys: the filter has no parameter 'nope'; the nearest is"},
+      {{"--keys", "hypotheses.prior,hypotheses.prior"}, "is given twice"},
+      {{"--keys", "line.ignore"}, "only a number above 0"},
+      {{"--set", "hypotheses.prio=1"}, "the nearest is 'hypotheses.prior'"},
+      {{"--set", "hypotheses.prior=x"}, "takes a number"},
+      {{suite().string()}, "one suite"},
+      {{same}, "one suite"},
+      {{link}, "one suite"},
+      {{file}, "one suite"},
+      {{"--validate", same}, "one suite"},
+      {{"--validate", copy + "," + copy + "/."}, "one suite"},
+  };
+  for (const auto& [more, part] : cases) {
+    const auto result = tune(more);
+    EXPECT_EQ(result.exit_code, 2) << more.back();
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(fs::exists(out())) << more.back();
+  }
+}
+
+TEST_F(TuneCommand, NamesOfSuitesCannotLeaveTheCommentsOfThePreset) {
+  const fs::path named = folder_.path() / "a\n#error b */ \xe2\x80\xae|\\";
+  fs::rename(suite(), named);
+  const auto result = bench::run_lcs(
+      {"tune", named.string(), "--out", out().string(), "--quiet", "--evaluations", "1"},
+      {folder_.path()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::stringstream lines(bench::read(out() / "learnt.h"));
+  int told = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("#error") == std::string::npos) continue;
+    ++told;
+    EXPECT_TRUE(line.starts_with("/// ")) << line;
+    EXPECT_FALSE(line.ends_with('\\')) << line;
+  }
+  EXPECT_EQ(told, 1);
+  const std::string record = bench::read(out() / "record.md");
+  EXPECT_EQ(record.find("\n#error"), std::string::npos) << record;
+  EXPECT_EQ(bench::run_lcs(
+                {"tune", named.string(), "--out", out().string(), "--quiet", "--evaluations", "2"},
+                {folder_.path()})
+                .exit_code,
+            0)
+      << "its journal goes on";
 }
 
 TEST_F(TuneCommand, CountsTheFalseCornersOfRecordingsInWhichNothingMoves) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
@@ -158,6 +159,161 @@ TEST_F(WorldCommand, ASuiteOfWorldsLeavesAPageToLookAtAndSaysWhatTheSplitIsFor) 
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_FALSE(fs::exists(out / "worlds.html"));
   EXPECT_FALSE(fs::exists(out / "worlds"));
+}
+
+/// A world of `test`, and one of `train` that shows that it is the split that is refused.
+class WorldOfSplit : public WorldCommand, public testing::WithParamInterface<std::uint64_t> {
+ protected:
+  WorldOfSplit() {
+    EXPECT_EQ(run({"world", "corridor", "--seed", seed(), "--out", "w"}).exit_code, 0);
+  }
+  static std::string seed() { return std::to_string(GetParam()); }
+  fs::path world() const { return folder_.path() / "w" / ("corridor_" + seed() + ".yaml"); }
+
+  void make_suite(const std::string& of, std::vector<std::string> more = {}) {
+    fs::remove_all(folder_.path() / "s");
+    std::vector<std::string> arguments{"suite", of, "--out", "s", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const CommandResult made = run(arguments);
+    ASSERT_LE(made.exit_code, 1) << made.err;
+  }
+  void expect_refused_or_not(const char* way) {
+    const CommandResult tuned = run(
+        {"tune", "s", "--evaluations", "1", "--keys", "hypotheses.prior", "--out", "t", "--quiet"});
+    if (GetParam() < 2'000'000) {
+      EXPECT_EQ(tuned.exit_code, 0) << way << ": " << tuned.err;
+      fs::remove_all(folder_.path() / "t");
+      return;
+    }
+    EXPECT_EQ(tuned.exit_code, 2) << way;
+    EXPECT_NE(tuned.err.find("is of the split test (world corridor 2000000)"), std::string::npos)
+        << way << ": " << tuned.err;
+    EXPECT_FALSE(fs::exists(folder_.path() / "t")) << way;
+  }
+  /// The world's YAML without the lines that begin so, as another file beside it.
+  void copy_without(const std::vector<std::string>& begins, const std::string& name,
+                    const std::string& added = "") {
+    std::istringstream lines(bench::read(world()));
+    std::string text;
+    for (std::string line; std::getline(lines, line);) {
+      const bool is_out = std::any_of(begins.begin(), begins.end(), [&](const std::string& begin) {
+        return line.starts_with(begin);
+      });
+      if (!is_out) text += line + '\n';
+    }
+    bench::write(folder_.path() / "w" / name, text + added);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(TrainAndTest, WorldOfSplit, testing::Values(1, 2'000'000));
+
+const std::vector<std::string> kBrief{"--set", "frames=4"};
+const std::vector<std::string> kOrigin{
+    "#", "origin:", "  family:", "  seed:", "  again:", "  features:"};
+
+TEST_P(WorldOfSplit, StaysOneOfItByAnyNameAndSeed) {
+  make_suite("w", kBrief);
+  expect_refused_or_not("as it is");
+  copy_without({"#", "seed:"}, "mine.yaml", "seed: 5\n");
+  make_suite("w/mine.yaml", {"--set", "frames=4", "--seeds", "2"});
+  expect_refused_or_not("a copy with seeds of its own");
+  copy_without(kOrigin, "plain.yaml", "");
+  make_suite("w/plain.yaml", {"--set", "frames=4", "--set", "seed=3"});
+  expect_refused_or_not("without its origin: the scene has it");
+}
+
+TEST_P(WorldOfSplit, StaysOneOfItInAnotherScenarioAndASceneOfItsOwn) {
+  bench::write(folder_.path() / "other" / "drive.yaml",
+               "scene: ../w/scene.xml\nframes: 4\nego: {start: [0 m, 0 m], speed: 0.3 m/s}\n"
+               "camera: {size: [160, 120]}\n");
+  make_suite("other");
+  expect_refused_or_not("another scenario");
+  bench::write(folder_.path() / "other" / "own.xml",
+               "<mujoco><include file='../w/scene.xml'/></mujoco>");
+  bench::write(folder_.path() / "other" / "drive.yaml",
+               "scene: own.xml\nframes: 4\nego: {start: [0 m, 0 m], speed: 0.3 m/s}\n"
+               "camera: {size: [160, 120]}\n");
+  make_suite("other");
+  expect_refused_or_not("a scene that includes it");
+}
+
+TEST_P(WorldOfSplit, StaysOneOfItAsARecording) {
+  const CommandResult made = run({"generate", world().string(), "--set", "frames=4", "--formats",
+                                  "euroc,landmarks,mot", "--out", "seq", "--quiet"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const fs::path recorded = folder_.path() / "recorded" / "drive.yaml";
+  bench::write(recorded, "recording: {path: ../seq}\n");
+  make_suite("recorded");
+  expect_refused_or_not("a sequence");
+  const CommandResult watched =
+      run({"suite", "recorded", "--recorded", "s", "--out", "again", "--quiet"});
+  ASSERT_LE(watched.exit_code, 1) << watched.err;
+  fs::remove_all(folder_.path() / "s");
+  fs::rename(folder_.path() / "again", folder_.path() / "s");
+  expect_refused_or_not("an earlier run of a sequence");
+  bench::write(recorded,
+               "recording: {path: ../seq/mav0/cam0/data, fps: 10 Hz, focal: 300 px, speed: 0 m/s, "
+               "nothing_moves: true}\n");
+  make_suite("recorded");
+  expect_refused_or_not("pictures of a sequence");
+  // A sequence that is older than the statement of its origin.
+  const fs::path settings = folder_.path() / "seq" / "lcs.json";
+  std::string text = bench::read(settings);
+  const std::size_t at = text.find(",\n  \"origin\"");
+  ASSERT_NE(at, std::string::npos);
+  bench::write(settings, text.substr(0, at) + "\n}\n");
+  bench::write(recorded, "recording: {path: ../seq}\n");
+  make_suite("recorded");
+  expect_refused_or_not("a sequence of old");
+}
+
+TEST_P(WorldOfSplit, OfOldIsKnownByItsName) {
+  make_suite("w", kBrief);
+  const fs::path truth = folder_.path() / "s" /
+                         suite::read_suite(folder_.path() / "s").scenarios[0].runs[0].folder /
+                         "truth.jsonl";
+  std::string text = bench::read(truth);
+  const std::string origin = ",\"origin\":{\"family\":\"corridor\",\"seed\":" + seed() + "}";
+  const std::size_t at = text.find(origin);
+  ASSERT_NE(at, std::string::npos);
+  bench::write(truth, text.erase(at, origin.size()));
+  expect_refused_or_not("by its name");
+}
+
+TEST_P(WorldOfSplit, WithAnotherOriginThanItsSceneIsRefused) {
+  for (const char* set : {"origin.seed=5", "origin={family: corridor, seed: 5}"}) {
+    const CommandResult other = run(
+        {"run", world().string(), "--no-video", "--set", "frames=4", "--set", set, "--out", "r"});
+    EXPECT_EQ(other.exit_code, 2) << set;
+    EXPECT_NE(other.err.find("origin is corridor 5, but the scene"), std::string::npos)
+        << other.err;
+    EXPECT_FALSE(fs::exists(folder_.path() / "r"));
+  }
+}
+
+TEST_F(WorldCommand, ItsOriginChangesNoPicture) {
+  ASSERT_EQ(run({"world", "corridor", "--seed", "4", "--out", "w"}).exit_code, 0);
+  const fs::path with = folder_.path() / "w", without = folder_.path() / "without";
+  fs::copy(with, without, fs::copy_options::recursive);
+  std::string scene = bench::read(without / "scene.xml");
+  const std::size_t begin = scene.find("  <custom>"), end = scene.find("  <compiler");
+  ASSERT_LT(begin, end);
+  bench::write(without / "scene.xml", scene.erase(begin, end - begin));
+  std::string yaml = bench::read(without / "corridor_4.yaml");
+  bench::write(without / "corridor_4.yaml",
+               yaml.erase(yaml.find("origin:"), yaml.find("purpose:") - yaml.find("origin:")));
+  for (const char* folder : {"w", "without"}) {
+    const CommandResult made =
+        run({"generate", std::string(folder) + "/corridor_4.yaml", "--set", "frames=3", "--formats",
+             "euroc,landmarks", "--out", std::string("of_") + folder, "--quiet"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+  }
+  const auto one = bench::bytes_in(folder_.path() / "of_w");
+  auto other = bench::bytes_in(folder_.path() / "of_without");
+  for (const auto& [path, bytes] : one) {
+    const bool tells_of_it =
+        path == "lcs.json" || path == "scenario.yaml" || path == "manifest.json";
+    EXPECT_TRUE(tells_of_it || bytes == other[path]) << path;
+  }
 }
 
 }  // namespace

@@ -129,18 +129,25 @@ TEST(Worlds, TheScenarioSaysHowItWasDrawn) {
   for (const World& world : sixty()) {
     if (world.attempt == 0 && is_any_again) continue;
     const bench::TemporaryFolder folder;
-    const Origin origin = origin_of(written(world, folder));
+    const scenario::Origin origin = scenario::load(written(world, folder)).origin.value();
     EXPECT_EQ(origin.family, world.family);
+    EXPECT_EQ(origin.seed, world.seed);
     EXPECT_EQ(origin.again, static_cast<std::uint64_t>(world.attempt));
     EXPECT_EQ(std::set<std::string>(origin.features.begin(), origin.features.end()),
               world.features);
     is_any_again |= world.attempt > 0;
   }
   EXPECT_TRUE(is_any_again);
-  const bench::TemporaryFolder folder;
-  std::ofstream(folder.path() / "edited.yaml") << "purpose: no more than that\n";
-  EXPECT_EQ(origin_of(folder.path() / "edited.yaml").family, "");
-  EXPECT_THROW(origin_of(folder.path() / "missing.yaml"), std::runtime_error);
+}
+
+TEST(Worlds, ANameOfOldMeansAWorld) {
+  const auto origin = origin_named("room_2000000 ego.speed=1");
+  ASSERT_TRUE(origin);
+  EXPECT_EQ(origin->family, "room");
+  EXPECT_EQ(origin->seed, 2'000'000u);
+  for (const char* name : {"room", "room_", "room_x", "hall_7", "_7", "", "my_room_7"}) {
+    EXPECT_FALSE(origin_named(name)) << name;
+  }
 }
 
 TEST(Worlds, WhatMustOccurOccurs) {

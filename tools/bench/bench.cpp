@@ -73,6 +73,7 @@ Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulat
   recording.scenario = scenario.name;
   recording.seed = scenario.seed;
   recording.world = scenario.world;
+  recording.origin = simulation.origin();
   recording.objects = simulation.objects();
   return recording;
 }

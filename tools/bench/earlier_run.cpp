@@ -43,6 +43,10 @@ void require_same(const fs::path& folder, const Recording& recorded,
   if (recorded.seed != scenario.seed) {
     refuse(fmt::format("it is of seed {}, not {}", recorded.seed, scenario.seed));
   }
+  if (recorded.origin && scenario.origin && !recorded.origin->is_same_world(*scenario.origin)) {
+    refuse(fmt::format("it is of the world {} {}, not {} {}", recorded.origin->family,
+                       recorded.origin->seed, scenario.origin->family, scenario.origin->seed));
+  }
   if (recorded.world.empty()) refuse("it does not say what world it is of");
   if (recorded.world != scenario.world) refuse(difference(recorded.world, scenario.world));
   // Of a recording, pictures that cannot be read have no frames.
@@ -62,6 +66,7 @@ EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenari
   }
   recorded_ = without_detections(read_recording(folder));
   require_same(folder, recorded_, scenario);
+  if (!recorded_.origin) recorded_.origin = scenario.origin;
   const fs::path pictures = folder / kPicturesFile;
   if (!fs::exists(pictures)) return;
   pictures_ = FramePictures::read(pictures, {camera_.width_px, camera_.height_px});
@@ -82,6 +87,7 @@ Recording EarlierRun::begin() const {
   return {.scenario = recorded_.scenario,
           .seed = recorded_.seed,
           .world = recorded_.world,
+          .origin = recorded_.origin,
           .detector = {},
           .truth = recorded_.truth,
           .objects = recorded_.objects,

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "scenarios/load.h"
 #include "sim/picture_file.h"
 #include "tools/files/output_file.h"
 #include "tools/files/written.h"
@@ -118,8 +119,13 @@ std::vector<std::string> make_worlds(const WorldsOptions& options, std::size_t j
 
 void add_origins(suite::SuiteResult& result) {
   for (suite::ScenarioResult& scenario : result.scenarios) {
-    worlds::Origin origin = worlds::origin_of(scenario.file);
-    scenario.drawn = {std::move(origin.family), origin.again, std::move(origin.features)};
+    scenario.drawn.emplace();
+    try {
+      const scenario::Origin origin =
+          scenario::load(scenario.file).origin.value_or(scenario::Origin{});
+      scenario.drawn = {origin.family, origin.again, origin.features};
+    } catch (const scenario::Error&) {  // its runs have told it
+    }
   }
 }
 

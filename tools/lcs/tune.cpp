@@ -8,14 +8,23 @@
 #include <array>
 #include <ctime>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 
+#include "scenarios/input_file.h"
+#include "scenarios/message.h"
+#include "tools/bench/tracker.h"
 #include "tools/files/output.h"
+#include "tools/files/sha256.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
+#include "tools/suite/suite_result.h"
+#include "tools/tune/journal.h"
 #include "tools/tune/record.h"
 #include "tools/tune/search.h"
 #include "tools/tune/trials.h"
@@ -39,13 +48,17 @@ on all cores. What counts is the mean F1 of rebels over the worlds in which some
 tenth of the mean number of false objects in a frame, of which no world counts for more than one, and
 less a hundredth of the false corners in a frame of recordings in which nothing moves. NLopt's BOBYQA
 looks for the most of it, between a quarter of the present values and four times these. Runs of the
-split test are refused: nothing is chosen by them.
+split test are refused: nothing is chosen by them. A run knows the world that it is of, under any name,
+with any seed, in another scenario and as a sequence of lcs generate.
 
-Each evaluation is kept at once. A search that was interrupted, or is to go on with more evaluations,
-goes on where it was by the same command; the same command gives the same numbers.
+Each evaluation is kept at once, also if the program is killed. A search that was interrupted, or is to
+go on with more evaluations, goes on where it was by the same command; the same command gives the same
+numbers. The journal states what its figures depend on: the program, the files of the runs, the suites'
+names, the settings, the seed, each number with its start and bounds. It is refused where any of these
+is another now, and where a row was changed; remove it then, or name another folder.
 
 Files in the folder:
-  evaluations.csv    every set that was tried, with its figures
+  evaluations.csv    the journal: every set that was tried, with its figures
   learnt.h           the best of them, for filter/learnt.h: the preset default takes them from there
   record.md          the suites before and after, the numbers, the command, the program
 
@@ -55,15 +68,65 @@ Exit codes:
   130  interrupted (Ctrl-C): the evaluations so far are kept
 )";
 
-/// "60 runs, corridor_1 to yard_10".
-std::string about(const std::vector<std::string>& names, const tune::Trials& trials) {
+/// Texts of the user in one line; "none" where there are none.
+std::string line_of(const std::vector<std::string>& texts) {
+  std::string line;
+  for (const std::string& text : texts) {
+    line += (line.empty() ? "" : " ") + scenario::one_line(text);
+  }
+  return line.empty() ? "none" : line;
+}
+
+/// "out/train, 60 runs, corridor_1 to yard_10".
+std::string about(std::vector<std::string> names, const tune::Trials& trials) {
+  for (std::string& name : names)
+    name = (suite::folder_of(name) / "").lexically_normal().parent_path();
   std::string first = trials.runs().front().scenario, last = first;
   for (const bench::Recording& run : trials.runs()) {
     first = std::min(first, run.scenario);
     last = std::max(last, run.scenario);
   }
-  return fmt::format("{}, {} runs, {} to {}", fmt::join(names, " "), trials.runs().size(), first,
-                     last);
+  return fmt::format("{}, {} runs, {} to {}", line_of(names), trials.runs().size(),
+                     scenario::one_line(first), scenario::one_line(last));
+}
+
+/// The present numbers, with these settings.
+Parameters start_of(const std::vector<std::string>& sets) {
+  scenario::Scenario settings;
+  for (const std::string& setting : sets) {
+    const auto [key, value] = key_and_value(setting);
+    settings.filter.push_back({key, value, {"--set " + setting, 0}});
+  }
+  return bench::filter_parameters(settings);
+}
+
+/// \throws std::invalid_argument where two of the paths lead to one suite.
+void require_different(const TuneOptions& options) {
+  std::map<fs::path, std::string> known;  // by the folder, what it was called
+  for (const auto* suites : {&options.suites, &options.validate}) {
+    for (const std::string& name : *suites) {
+      const fs::path folder = fs::weakly_canonical(suite::folder_of(fs::absolute(name)));
+      const auto [place, is_new] = known.try_emplace(folder, name);
+      if (is_new) continue;
+      throw std::invalid_argument(
+          fmt::format("{} and {} are one suite; name each suite once", place->second, name));
+    }
+  }
+}
+
+/// What the figures of a journal depend on.
+std::vector<tune::Fact> facts_of(const TuneOptions& options, const tune::Trials& trials,
+                                 const tune::SearchOptions& search) {
+  constexpr scenario::FileKind kProgram{scenario::kGibibyte, "start lcs by its path"};
+  std::vector<tune::Fact> facts{
+      {"program",
+       fmt::format("{}, SHA-256 {}", program_text(),
+                   bench::sha256(scenario::read_file("/proc/self/exe", kProgram)))},
+      {"recordings", fmt::format("SHA-256 {}", trials.digest())},
+      {"suites", about(options.suites, trials)},
+      {"settings", line_of(options.sets)}};
+  for (tune::Fact& fact : tune::facts_of(search)) facts.push_back(std::move(fact));
+  return facts;
 }
 
 std::vector<std::string> learnt_keys() {
@@ -85,14 +148,20 @@ tune::Found with_other_learnt(tune::Found found, const Parameters& start) {
   return found;
 }
 
-std::string command_of(const TuneOptions& options) {
-  std::string command = fmt::format("lcs tune {}", fmt::join(options.suites, " "));
+std::vector<std::string> command_of(const TuneOptions& options) {
+  std::vector<std::string> command{"tune"};
+  const auto add = [&](const std::string& option, const std::string& value) {
+    command.insert(command.end(), {option, value});
+  };
+  command.insert(command.end(), options.suites.begin(), options.suites.end());
   if (!options.validate.empty()) {
-    command += fmt::format(" --validate {}", fmt::join(options.validate, ","));
+    add("--validate", fmt::format("{}", fmt::join(options.validate, ",")));
   }
-  if (!options.keys.empty()) command += fmt::format(" --keys {}", fmt::join(options.keys, ","));
-  for (const std::string& setting : options.sets) command += fmt::format(" --set {}", setting);
-  return command + fmt::format(" --evaluations {} --seed {}", options.evaluations, options.seed);
+  if (!options.keys.empty()) add("--keys", fmt::format("{}", fmt::join(options.keys, ",")));
+  for (const std::string& setting : options.sets) add("--set", setting);
+  add("--evaluations", std::to_string(options.evaluations));
+  add("--seed", std::to_string(options.seed));
+  return command;
 }
 
 }  // namespace
@@ -126,29 +195,33 @@ CLI::App& add_tune_command(CLI::App& app, TuneOptions& options) {
 }
 
 ExitCode tune(const TuneOptions& options) {
-  Parameters start = preset("default");
-  for (const std::string& setting : options.sets) {
-    const auto [key, value] = key_and_value(setting);
-    set(start, key, value);
-  }
-  validate(start);
+  const Parameters start = start_of(options.sets);
+  const std::vector<std::string> keys = options.keys.empty() ? learnt_keys() : options.keys;
+  const tune::SearchOptions search_options{tune::axes_of(start, keys), options.evaluations,
+                                           options.seed};
+  require_different(options);
   const tune::Trials trials(options.suites);
   std::optional<tune::Trials> others;
   if (!options.validate.empty()) others.emplace(options.validate);
 
-  const fs::path out = options.out;
+  const fs::path out = bench::output_path(options.out);
   fs::create_directories(out);
-  const tune::SearchOptions search_options{options.keys.empty() ? learnt_keys() : options.keys,
-                                           options.evaluations, options.seed};
-  const std::string subject = fmt::format("{}, seed {}, {}", about(options.suites, trials),
-                                          options.seed, fmt::join(options.sets, " "));
+  const bench::FolderLock lock(out);
+  if (!lock.is_held()) {
+    throw std::runtime_error(
+        fmt::format("{} {}; choose another folder with --out", out.string(),
+                    lock.is_of_another() ? "is in use by another lcs tune" : "cannot be locked"));
+  }
+  tune::Journal journal(out / tune::kJournalFile, facts_of(options, trials, search_options), keys);
+  bench::Output preset_file(out / tune::kPresetFile, bench::Overwrite::own);
+  bench::Output record_file(out / tune::kRecordFile, bench::Overwrite::own);
   tune::Found found;
   try {
     Progress progress("tune", options.evaluations, options.quiet, "evaluations");
     found = tune::search(
         start, search_options,
         [&](const Parameters& parameters) { return trials.worth(parameters, check_interrupted); },
-        out / tune::kJournalFile, subject, [&](int done) { progress.show(done); });
+        journal, [&](int done) { progress.show(done); });
   } catch (const Interrupted&) {
     tell(fmt::format("lcs: interrupted; what was tried is in {}, and the same command goes on",
                      (out / tune::kJournalFile).string()));
@@ -167,8 +240,6 @@ ExitCode tune(const TuneOptions& options) {
       fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))), program_text(),
       command_of(options)};
   const std::string record = tune::record_text(found, stated, circumstances);
-  bench::Output preset_file(out / tune::kPresetFile, bench::Overwrite::own);
-  bench::Output record_file(out / tune::kRecordFile, bench::Overwrite::own);
   bench::write_file(preset_file.staging(),
                     tune::preset_text(with_other_learnt(found, start), circumstances));
   bench::write_file(record_file.staging(), record);

@@ -13,6 +13,7 @@ Recording without_detections(const Recording& recording) {
   bare.scenario = recording.scenario;
   bare.seed = recording.seed;
   bare.world = recording.world;
+  bare.origin = recording.origin;
   bare.camera = recording.camera;
   bare.truth = recording.truth;
   bare.objects = recording.objects;

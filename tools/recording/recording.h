@@ -16,6 +16,7 @@
 #include "filter/layers.h"
 #include "filter/reason.h"
 #include "filter/signature.h"
+#include "scenarios/scenario.h"
 #include "sim/mask.h"
 #include "sim/truth.h"
 #include "sim/warnings.h"
@@ -85,6 +86,8 @@ struct Recording {
   /// `scenario::Scenario::world`, to tell whether the scenario's world has changed since; empty
   /// where there is none.
   std::map<std::string, std::string> world;
+  /// The world that the frames are of: its family and seed; none if it is not known.
+  std::optional<scenario::Origin> origin = {};
   DetectorInfo detector;
   std::optional<Intrinsics> camera = {};  ///< as detectors are told of it
   Truth truth = Truth::all;

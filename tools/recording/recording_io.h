@@ -74,6 +74,10 @@ class RecordingWriter {
 /// naming file and line.
 Recording read_recording(const std::filesystem::path& folder);
 
+/// What `truth.jsonl` begins with: scenario, seed, origin and detector of a run.
+/// \throws std::runtime_error naming file and line.
+Recording read_without_frames(const std::filesystem::path& folder);
+
 /// The truth of objects in single frames, without reading the rest: in milliseconds.
 /// \param frames from 0, in rising order; one may come again.
 /// \throws std::runtime_error naming file and line.

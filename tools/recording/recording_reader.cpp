@@ -320,6 +320,30 @@ void read_truth(const Json& json, FrameRecord& frame) {
   if (json.contains("labels")) frame.labels = read_columns<LabelledBox>(json, "labels");
 }
 
+void read_header(const Json& json, Recording& recording) {
+  read_member(json, "scenario", recording.scenario);
+  read_member(json, "seed", recording.seed);
+  read_member(json, "detector", recording.detector.name);
+  read_member(json, "layered", recording.detector.layered);
+  read_member(json, "circles", recording.detector.circles);
+  if (json.contains("world")) {
+    const Json& world = json.at("world");
+    within(".world", [&] {
+      require(world.is_object(), "an object");
+      for (const auto& [key, text] : world.items()) read(text, recording.world[key]);
+    });
+  }
+  if (json.contains("origin")) {
+    scenario::Origin& origin = recording.origin.emplace();
+    within(".origin", [&] {
+      read_member(json["origin"], "family", origin.family);
+      read_member(json["origin"], "seed", origin.seed);
+    });
+  }
+  if (json.contains("truth")) read_member(json, "truth", recording.truth);
+  recording.objects = read_columns<sim::Object>(json, "objects");
+}
+
 // A hundred kB a frame: of hundreds of thousands of frames.
 constexpr scenario::FileKind kRecordingFile{64 * scenario::kGibibyte,
                                             "name the folder of a whole run, or run it again"};
@@ -357,22 +381,7 @@ Recording read_recording(const std::filesystem::path& folder) {
   scenario::note_input(folder);
   LineReader layers(folder / kLayersFile);
   LineReader truth(folder / kTruthFile);
-  const bool has_header = truth.next([&](const Json& json) {
-    read_member(json, "scenario", recording.scenario);
-    read_member(json, "seed", recording.seed);
-    read_member(json, "detector", recording.detector.name);
-    read_member(json, "layered", recording.detector.layered);
-    read_member(json, "circles", recording.detector.circles);
-    if (json.contains("world")) {
-      const Json& world = json.at("world");
-      within(".world", [&] {
-        require(world.is_object(), "an object");
-        for (const auto& [key, text] : world.items()) read(text, recording.world[key]);
-      });
-    }
-    if (json.contains("truth")) read_member(json, "truth", recording.truth);
-    recording.objects = read_columns<sim::Object>(json, "objects");
-  });
+  const bool has_header = truth.next([&](const Json& json) { read_header(json, recording); });
   if (!has_header) truth.fail("is empty");
   recording.warnings = world_warnings(folder);
   if (std::filesystem::exists(folder / kCameraFile)) {
@@ -401,6 +410,13 @@ Recording read_recording(const std::filesystem::path& folder) {
     recording.frames.push_back(std::move(frame));
   }
   if (truth.next([](const Json&) {})) layers.fail("ends before the truth does");
+  return recording;
+}
+
+Recording read_without_frames(const std::filesystem::path& folder) {
+  Recording recording;
+  LineReader truth(folder / kTruthFile);
+  if (!truth.next([&](const Json& json) { read_header(json, recording); })) truth.fail("is empty");
   return recording;
 }
 

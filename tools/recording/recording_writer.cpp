@@ -262,6 +262,15 @@ std::string header_line(const Recording& run) {
     }
     out += '}';
   }
+  if (run.origin) {
+    append_key(out, "origin");
+    out += '{';
+    append_key(out, "family");
+    append(out, run.origin->family);
+    append_key(out, "seed");
+    append(out, run.origin->seed);
+    out += '}';
+  }
   if (run.truth != Truth::all) {
     append_key(out, "truth");
     append(out, run.truth);

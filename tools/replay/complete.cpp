@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "tools/recording/recording_io.h"
 #include "tools/replay/at_rest.h"
 #include "tools/replay/in_order.h"
 #include "tools/replay/navigation.h"
@@ -14,6 +15,8 @@
 #include "tools/replay/recorded.h"
 #include "tools/replay/sensor_csv.h"
 #include "tools/replay/times.h"
+#include "tools/sequence/replay_settings.h"
+#include "tools/worlds/worlds.h"
 
 namespace lcs::replay {
 namespace {
@@ -204,6 +207,29 @@ void set_lens(const scenario::Recorded& asked, Recorded& recorded) {
   require_lens(lens);
 }
 
+/// The world that pictures are of, by the sequence of `lcs generate` or the run that they lie in,
+/// whatever layout they are read as. None where they lie in neither.
+std::optional<scenario::Origin> origin_of(const std::filesystem::path& pictures) {
+  namespace fs = std::filesystem;
+  constexpr int kMostAbove = 4;  // mav0/cam0/data is three below its sequence
+  const auto stated = [](const std::optional<scenario::Origin>& origin, const std::string& name) {
+    return origin ? origin : worlds::origin_named(name);
+  };
+  std::error_code error;
+  fs::path folder = fs::weakly_canonical(pictures, error);
+  for (int i = 0; i <= kMostAbove && !error; ++i, folder = folder.parent_path()) {
+    if (std::error_code none; fs::exists(folder / sequence::kSettingsFile, none)) {
+      const auto made = sequence::read_settings(folder / sequence::kSettingsFile).scenario;
+      return stated(made.origin, made.name);
+    }
+    if (std::error_code none; fs::exists(folder / bench::kLayersFile, none)) {
+      const bench::Recording run = bench::read_without_frames(folder);
+      return stated(run.origin, run.scenario);
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void time_by(double fps, Recorded& recorded) {
@@ -222,6 +248,7 @@ Recorded read_recorded(const scenario::Scenario& scenario) {
   const scenario::Recorded& asked = scenario.recording.value();
   Recorded recorded =
       layout_of(asked).read(asked, scenario.ego_motion == scenario::EgoMotionSource::truth);
+  recorded.settings.origin = origin_of(asked.path);
   const bool times_known = set_times(asked, recorded);
   if (!times_known && !asked.poses) recorded.lacks.emplace_back(kNoTimes);
   set_motion(asked, times_known, recorded);

@@ -104,6 +104,7 @@ bench::Recording Playback::begin() const {
   recording.scenario = scenario_.name;
   recording.seed = scenario_.seed;
   recording.world = scenario_.world;
+  recording.origin = recorded_.settings.origin;
   recording.truth = truth_;
   if (truth_ == bench::Truth::all) recording.objects = recorded_.truth->objects;
   return recording;

@@ -113,7 +113,7 @@ std::vector<GrowingDocument> documents_of(const SequenceInfo& info,
   const auto add_text = [&](const char* path, std::string text) {
     all.emplace_back(Document{path, {{.text = std::move(text)}}});
   };
-  add_text(kSettingsFile, settings_text(info.scenario, info.calibration));
+  add_text(kSettingsFile, settings_text(info.scenario, info.calibration, info.origin));
   add_text(kScenarioFile, read_file(info.scenario.file));
   add_text(kReadmeFile, readme_text(info, options.formats));
   for (const auto& writer : writers_of(info, options)) {
@@ -173,7 +173,8 @@ sim::Warnings generate_frames(const scenario::Scenario& scenario, const Generate
   if (missing.empty()) return {};
 
   sim::Simulation simulation(scenario);
-  const SequenceInfo info{scenario, simulation.calibration(), simulation.objects()};
+  const SequenceInfo info{scenario, simulation.calibration(), simulation.objects(),
+                          simulation.origin()};
   std::vector<std::filesystem::path> later{kManifestFile};
   for (const GrowingDocument& document : documents_of(info, options)) {
     later.emplace_back(document.path());
@@ -209,7 +210,8 @@ std::vector<std::string> finish_sequence(const scenario::Scenario& scenario,
                                          const GenerateOptions& options, const std::string& plan,
                                          Journal& journal) {
   const sim::Simulation simulation(scenario);  // for mounting and objects
-  const SequenceInfo info{scenario, simulation.calibration(), simulation.objects()};
+  const SequenceInfo info{scenario, simulation.calibration(), simulation.objects(),
+                          simulation.origin()};
   std::vector<GrowingDocument> documents = documents_of(info, options);
   Agreements checks;
   std::vector<FileRecord> files;

@@ -91,6 +91,11 @@ void read_calibration(const Node& node, sim::Calibration& calibration) {
 void read_scenario(const Node& node, const std::string& file, scenario::Scenario& scenario) {
   scenario.name = node["scenario"].text();
   scenario.seed = node["seed"].natural();
+  if (node.has("origin")) {
+    scenario::Origin& origin = scenario.origin.emplace();
+    origin.family = node["origin"]["family"].text();
+    origin.seed = node["origin"]["seed"].natural();
+  }
   scenario.camera.rate_hz = above_zero_in(node["camera_rate_hz"]);
   const std::string source = node["ego_motion"].text();
   node["ego_motion"].require(source == kImu || source == kTruth, "imu or truth");
@@ -114,7 +119,8 @@ void read_scenario(const Node& node, const std::string& file, scenario::Scenario
 
 }  // namespace
 
-std::string settings_text(const scenario::Scenario& scenario, const sim::Calibration& calibration) {
+std::string settings_text(const scenario::Scenario& scenario, const sim::Calibration& calibration,
+                          const std::optional<scenario::Origin>& origin) {
   const sim::Pinhole& camera = calibration.camera;
   Json noise;
   for (const auto& [key, member] : kImuNoise) noise[key] = scenario.imu.noise.*member;
@@ -122,7 +128,7 @@ std::string settings_text(const scenario::Scenario& scenario, const sim::Calibra
   for (const scenario::FilterSetting& setting : scenario.filter) {
     filter[setting.key] = setting.value;  // of a key that is set twice the last one holds
   }
-  const Json json = {
+  Json json = {
       {"scenario", scenario.name},
       {"seed", scenario.seed},
       {"start_ns", kEpoch_ns},
@@ -148,6 +154,7 @@ std::string settings_text(const scenario::Scenario& scenario, const sim::Calibra
       {"filter_preset", scenario.filter_preset},
       {"filter", filter},
   };
+  if (origin) json["origin"] = {{"family", origin->family}, {"seed", origin->seed}};
   return json.dump(2) + "\n";
 }
 

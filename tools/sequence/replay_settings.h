@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -29,14 +30,16 @@ inline constexpr std::pair<const char*, double scenario::ImuNoise::*> kImuNoise[
     {"accelerometer_turn_on_bias_mps2", &scenario::ImuNoise::accelerometer_turn_on_bias_mps2}};
 
 struct ReplaySettings {
-  /// Name, seed, rates, noise, odometry, detection and filter of the scenario; the rest is left as
-  /// it is by default.
+  /// Name, origin, seed, rates, noise, odometry, detection and filter of the scenario; the rest is
+  /// left as it is by default.
   scenario::Scenario scenario;
   sim::Calibration calibration;
   std::int64_t start_ns = 0;  ///< time 0 of the run, in the sequence's own time
 };
 
-std::string settings_text(const scenario::Scenario& scenario, const sim::Calibration& calibration);
+/// \param origin the world that the pictures are of, as the simulation has it.
+std::string settings_text(const scenario::Scenario& scenario, const sim::Calibration& calibration,
+                          const std::optional<scenario::Origin>& origin);
 
 /// \throws std::runtime_error naming file and key.
 ReplaySettings read_settings(const std::filesystem::path& file);

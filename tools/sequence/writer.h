@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,7 @@ struct SequenceInfo {
   const scenario::Scenario& scenario;
   const sim::Calibration& calibration;
   const std::vector<sim::Object>& objects;
+  const std::optional<scenario::Origin>& origin;
 };
 
 struct FrameView {

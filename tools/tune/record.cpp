@@ -2,23 +2,43 @@
 
 #include <fmt/format.h>
 
+#include "scenarios/message.h"
+#include "tools/suite/suite_run.h"
+
 namespace lcs::tune {
+
+namespace {
+
+/// As a shell takes it, in one line whatever its words hold: it is put into a comment of C++.
+std::string line_of(std::vector<std::string> command) {
+  for (std::string& word : command) word = scenario::one_line(word);
+  return suite::shell_line(command);
+}
+
+/// Of a table.
+std::string cell_of(const std::string& text) {
+  std::string cell;
+  for (const char c : scenario::one_line(text)) cell += c == '|' ? "\\|" : std::string(1, c);
+  return cell;
+}
+
+}  // namespace
 
 std::string preset_text(const Found& found, const Circumstances& circumstances) {
   std::string text = fmt::format(
       "{}, and not by hand: what the preset `default` has learnt from worlds and\n"
       "/// recordings of `train`.\n"
       "///\n"
-      "/// {}, lcs {}, {} evaluations; objective {:.4f} -> {:.4f}:\n"
       "///   {}\n"
+      "/// {}, lcs {}, {} evaluations; objective {:.4f} -> {:.4f}\n"
       "#pragma once\n\n"
       "#include <array>\n"
       "#include <utility>\n\n"
       "namespace lcs {{\n\n"
       "/// Keys and values as `set` takes them.\n"
       "inline constexpr std::array<std::pair<const char*, const char*>, {}> kLearnt{{{{\n",
-      kPresetSign, circumstances.date, circumstances.program, found.evaluations,
-      found.worth_before.objective(), found.worth_after.objective(), circumstances.command,
+      kPresetSign, line_of(circumstances.command), circumstances.date, circumstances.program,
+      found.evaluations, found.worth_before.objective(), found.worth_after.objective(),
       found.after.size());
   for (const Setting& setting : found.after) {
     text += fmt::format("    {{\"{}\", \"{}\"}},\n", setting.key, setting.value);
@@ -40,12 +60,12 @@ std::string record_text(const Found& found, const std::vector<Stated>& stated,
       "corners, recordings |\n"
       "|---|---|---|---|---|---|\n",
       kRecordSign, circumstances.date, circumstances.program, found.evaluations,
-      circumstances.command);
+      line_of(circumstances.command));
   for (const Stated& one : stated) {
     for (const auto& [when, worth] : {std::pair("before", one.before), {"after", one.after}}) {
-      text += fmt::format("| {}, {} | {:.4f} | {:.4f} | {:.1f} | {:.1f} | {:.1f} |\n", one.suite,
-                          when, worth.objective(), worth.f1, 100 * worth.false_moving,
-                          100 * worth.false_static, worth.false_corners);
+      text += fmt::format("| {}, {} | {:.4f} | {:.4f} | {:.1f} | {:.1f} | {:.1f} |\n",
+                          cell_of(one.suite), when, worth.objective(), worth.f1,
+                          100 * worth.false_moving, 100 * worth.false_static, worth.false_corners);
     }
   }
   text += "\n| parameter | before | after |\n|---|---|---|\n";

@@ -13,7 +13,6 @@ inline constexpr const char* kPresetFile = "learnt.h";
 inline constexpr const char* kPresetSign = "/// Written by `lcs tune`";
 inline constexpr const char* kRecordFile = "record.md";
 inline constexpr const char* kRecordSign = "# What `lcs tune` found";
-inline constexpr const char* kJournalFile = "evaluations.csv";
 
 /// How the values before and after did on one suite.
 struct Stated {
@@ -23,7 +22,8 @@ struct Stated {
 
 /// When, by which program and by which command it was done.
 struct Circumstances {
-  std::string date, program, command;
+  std::string date, program;
+  std::vector<std::string> command;  ///< its words behind `lcs`
 };
 
 /// `filter/learnt.h`: what the preset `default` takes these parameters from.

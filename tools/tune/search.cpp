@@ -1,20 +1,17 @@
 #include "tools/tune/search.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <map>
 #include <nlopt.hpp>
 #include <optional>
 #include <random>
-#include <sstream>
 #include <stdexcept>
+#include <utility>
 
-#include "tools/files/output_file.h"
+#include "scenarios/spelling.h"
 
 namespace lcs::tune {
 namespace {
@@ -24,15 +21,17 @@ constexpr double kReach = 4;
 /// Of the first steps, and of where other seeds start: in logarithms to that base.
 constexpr double kFirstStep = 0.25;
 
-/// A parameter on the search's scale: 0 is the present value, 1 `kReach` times that.
-struct Axis {
-  std::string key;
-  double start = 0, low = 0, high = 0;
+/// \name The search's scale: 0 is the present value, 1 `kReach` times that.
+///@{
+double value_at(const Axis& axis, double z) {
+  return std::clamp(axis.start * std::pow(kReach, z), axis.low, axis.high);
+}
+double z_of(const Axis& axis, double value) {
+  return std::log(value / axis.start) / std::log(kReach);
+}
+///@}
 
-  double value(double z) const { return std::clamp(start * std::pow(kReach, z), low, high); }
-  double z(double value) const { return std::log(value / start) / std::log(kReach); }
-};
-
+/// That a text begins with, as the filter describes its parameters.
 double number(std::string_view text) {
   double value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -42,12 +41,19 @@ double number(std::string_view text) {
 Axis axis_of(const std::vector<ParameterInfo>& known, const std::string& key) {
   const auto found = std::find_if(known.begin(), known.end(),
                                   [&](const ParameterInfo& info) { return info.key == key; });
-  if (found == known.end()) throw std::invalid_argument("the filter has no parameter " + key);
+  if (found == known.end()) {
+    std::vector<std::string> names;
+    for (const ParameterInfo& info : known) names.push_back(info.key);
+    throw std::invalid_argument(
+        fmt::format("--keys: the filter has no parameter '{}'; the nearest is '{}'", key,
+                    scenario::nearest_first(key, std::move(names)).front()));
+  }
   const std::size_t to = found->range.find(" to ");
   Axis axis{key, number(found->value), 0, 0};
   if (to == std::string::npos || !(axis.start > 0)) {
     throw std::invalid_argument(
-        fmt::format("{} is {}; what is tuned must be a number above 0", key, found->value));
+        fmt::format("--keys: {} is {}, and only a number above 0 can be tuned; leave it out", key,
+                    found->value));
   }
   axis.low = std::max(number(found->range), axis.start / kReach);
   axis.high = std::min(number(found->range.substr(to + 4)), axis.start * kReach);
@@ -67,79 +73,39 @@ std::string text_of(const Parameters& parameters, const std::string& key, double
   }
 }
 
-/// What was tried, and what came of it, as it is made and as it is read back.
-class Journal {
- public:
-  Journal(const std::filesystem::path& path, const std::string& subject,
-          const std::vector<std::string>& keys)
-      : path_(path),
-        head_(fmt::format(
-            "# lcs tune: {}\n{},f1,false_moving,false_static,false_capped,false_corners\n", subject,
-            fmt::join(keys, ","))) {
-    std::ifstream file(path);
-    std::stringstream all;
-    all << file.rdbuf();
-    std::string text = all.str();
-    if (!text.empty() && !text.starts_with(head_)) {
-      throw std::runtime_error(fmt::format(
-          "{} is of another search; name another folder, or take it away", path.string()));
-    }
-    // What was cut off in the middle of a line is asked again.
-    text.resize(text.rfind('\n') + 1);
-    if (text.empty()) text = head_;
-    std::stringstream lines(text.substr(head_.size()));
-    for (std::string line; std::getline(lines, line);) {
-      std::vector<std::string> cells;
-      std::stringstream cell_stream(line);
-      for (std::string cell; std::getline(cell_stream, cell, ',');) cells.push_back(cell);
-      if (cells.size() != keys.size() + 5) {
-        throw std::runtime_error(
-            fmt::format("{} has a line of another search: {}; take it away", path.string(), line));
-      }
-      const std::string* figures = &cells[keys.size()];
-      known_[fmt::format("{}", fmt::join(cells.begin(), cells.begin() + keys.size(), ","))] = {
-          number(figures[0]), number(figures[1]), number(figures[2]), number(figures[3]),
-          number(figures[4])};
-    }
-    file_.emplace(path);
-    file_->write(text);
-    file_->flush();
-  }
-
-  std::optional<Worth> known(const std::string& values) const {
-    const auto found = known_.find(values);
-    return found == known_.end() ? std::nullopt : std::optional(found->second);
-  }
-  void add(const std::string& values, const Worth& worth) {
-    known_[values] = worth;
-    file_->write(fmt::format("{},{},{},{},{},{}\n", values, worth.f1, worth.false_moving,
-                             worth.false_static, worth.false_capped, worth.false_corners));
-    file_->flush();
-  }
-
- private:
-  std::filesystem::path path_;
-  std::string head_;
-  std::map<std::string, Worth> known_;  // by the values, with commas
-  std::optional<bench::OutputFile> file_;
-};
-
 }  // namespace
 
-Found search(const Parameters& start, const SearchOptions& options, const Judge& judge,
-             const std::filesystem::path& journal_path, const std::string& subject,
-             const std::function<void(int)>& tick) {
-  std::vector<Axis> axes;
+std::vector<Axis> axes_of(const Parameters& start, const std::vector<std::string>& keys) {
   const std::vector<ParameterInfo> known = describe(start);
-  for (const std::string& key : options.keys) axes.push_back(axis_of(known, key));
-  Journal journal(journal_path, subject, options.keys);
+  std::vector<Axis> axes;
+  for (const std::string& key : keys) {
+    if (std::ranges::count(keys, key) > 1) {
+      throw std::invalid_argument(fmt::format("--keys: {} is given twice; remove one", key));
+    }
+    axes.push_back(axis_of(known, key));
+  }
+  return axes;
+}
 
+std::vector<Fact> facts_of(const SearchOptions& options) {
+  std::vector<Fact> facts{{"seed", std::to_string(options.seed)}, {"keys", ""}};
+  for (const Axis& axis : options.axes) {
+    facts[1].text += (facts[1].text.empty() ? "" : ", ") + axis.key;
+    facts.push_back(
+        {axis.key, fmt::format("{}, tried from {} to {}", axis.start, axis.low, axis.high)});
+  }
+  return facts;
+}
+
+Found search(const Parameters& start, const SearchOptions& options, const Judge& judge,
+             Journal& journal, const std::function<void(int)>& tick) {
+  const std::vector<Axis>& axes = options.axes;
   Found found;
   std::exception_ptr problem;
   const auto settings_at = [&](const std::vector<double>& z) {
     std::vector<Setting> settings;
     for (std::size_t i = 0; i < axes.size(); ++i) {
-      settings.push_back({axes[i].key, text_of(start, axes[i].key, axes[i].value(z[i]))});
+      settings.push_back({axes[i].key, text_of(start, axes[i].key, value_at(axes[i], z[i]))});
     }
     return settings;
   };
@@ -151,11 +117,10 @@ Found search(const Parameters& start, const SearchOptions& options, const Judge&
       values.push_back(setting.value);
       set(parameters, setting.key, setting.value);
     }
-    const std::string row = fmt::format("{}", fmt::join(values, ","));
-    std::optional<Worth> worth = journal.known(row);
+    std::optional<Worth> worth = journal.find(values);
     if (!worth) {
       worth = judge(parameters);
-      journal.add(row, *worth);
+      journal.add(values, *worth);
     }
     if (found.evaluations++ == 0) {
       found.before = settings;
@@ -173,8 +138,8 @@ Found search(const Parameters& start, const SearchOptions& options, const Judge&
   worth_at(z);  // the present values come first, whatever the seed
   std::mt19937_64 draw(options.seed);
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    low.push_back(axes[i].z(axes[i].low));
-    high.push_back(axes[i].z(axes[i].high));
+    low.push_back(z_of(axes[i], axes[i].low));
+    high.push_back(z_of(axes[i], axes[i].high));
     // The standard library's distributions differ from one to the next.
     const double unit = static_cast<double>(draw() >> 11) * 0x1p-53;
     if (options.seed != 1) z[i] = std::clamp(kFirstStep * (2 * unit - 1), low[i], high[i]);

@@ -5,12 +5,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "filter/parameters.h"
+#include "tools/tune/journal.h"
 #include "tools/tune/trials.h"
 
 namespace lcs::tune {
@@ -20,9 +20,21 @@ struct Setting {
   std::string key, value;
 };
 
+/// A number that is looked for, and where: between a quarter and four times its present value, and
+/// within its range.
+struct Axis {
+  std::string key;
+  double start = 0, low = 0, high = 0;
+};
+
+/// \throws std::invalid_argument for a key that is unknown, is given twice, or is of no number
+/// above
+///   0.
+std::vector<Axis> axes_of(const Parameters& start, const std::vector<std::string>& keys);
+
 struct SearchOptions {
-  std::vector<std::string> keys;  ///< of parameters that are numbers above 0
-  int evaluations = 0;            ///< at the most; those of an earlier search that it resumes too
+  std::vector<Axis> axes;
+  int evaluations = 0;  ///< at the most; those of an earlier search that it resumes too
   /// 1 starts from the present values, any other from a point that it draws about them, so that the
   /// same end from several says that it is one.
   std::uint64_t seed = 1;
@@ -36,17 +48,15 @@ struct Found {
 
 using Judge = std::function<Worth(const Parameters&)>;
 
-/// Tries values between a quarter and four times the present ones, within their range.
-///
-/// \param journal CSV that each evaluation is added to as it is made. Where there is one of the
-///   same search, what it holds is not asked again, so that a search that was interrupted goes on
-///   where it was: it is the same in each run.
-/// \param subject what the journal is of, beside the keys and their values: a line of text.
+/// What the search itself depends on, for its journal.
+std::vector<Fact> facts_of(const SearchOptions& options);
+
+/// \param journal that each evaluation is added to as it is made. What it holds already is not
+/// asked
+///   again, so that a search that was interrupted goes on where it was: it is the same in each run.
 /// \param tick called after each evaluation with their number; what it throws ends the search.
-/// \throws std::invalid_argument for a key that is no number above 0; std::runtime_error for a
-///   journal of another search; bench::OutputError.
+/// \throws bench::OutputError
 Found search(const Parameters& start, const SearchOptions& options, const Judge& judge,
-             const std::filesystem::path& journal, const std::string& subject,
-             const std::function<void(int)>& tick);
+             Journal& journal, const std::function<void(int)>& tick);
 
 }  // namespace lcs::tune

@@ -6,9 +6,12 @@
 #include <stdexcept>
 
 #include "filter/filter.h"
+#include "scenarios/input_file.h"
 #include "tools/process/parallel.h"
 #include "tools/recording/recording_io.h"
+#include "tools/recording/warnings.h"
 #include "tools/scoring/scoring.h"
+#include "tools/files/sha256.h"
 #include "tools/suite/suite_result.h"
 #include "tools/worlds/worlds.h"
 
@@ -28,10 +31,38 @@ bench::Recording asked(const bench::Recording& seen, const Parameters& parameter
   return said;
 }
 
+/// Of all files that `bench::read_recording` reads.
+std::string digest_of(const std::filesystem::path& run) {
+  constexpr scenario::FileKind kRunFile{64 * scenario::kGibibyte, "run the suite again"};
+  std::string digests;
+  for (const char* name :
+       {bench::kLayersFile, bench::kTruthFile, bench::kCameraFile, bench::kWarningsFile}) {
+    const bool is_there = std::filesystem::exists(run / name);
+    digests += is_there ? bench::sha256(scenario::read_file(run / name, kRunFile)) : "none";
+  }
+  return bench::sha256(digests);
+}
+
+/// What says that a run is of the split `test`; "" where nothing does.
+std::string why_of_test(const suite::ScenarioResult& scenario, const bench::Recording& run) {
+  const worlds::Split& test = worlds::split("test");
+  const auto is_of_test = [&](std::uint64_t seed) {
+    return seed >= test.first_seed && seed <= test.last_seed;
+  };
+  const auto& groups = scenario.groups;
+  if (std::find(groups.begin(), groups.end(), test.name) != groups.end()) return "by its group";
+  const auto origin = run.origin ? run.origin : worlds::origin_named(run.scenario);
+  if (origin && is_of_test(origin->seed)) {
+    return fmt::format("world {} {}", origin->family, origin->seed);
+  }
+  return is_of_test(run.seed) ? fmt::format("by its seed {}", run.seed) : "";
+}
+
 }  // namespace
 
 Trials::Trials(const std::vector<std::string>& suites) {
   for (const std::string& suite : suites) read(suite);
+  if (runs_.empty()) throw std::runtime_error("the suites have no run; name others");
   // The longest first, so that all cores end together.
   std::stable_sort(runs_.begin(), runs_.end(), [](const auto& a, const auto& b) {
     const auto corners = [](const bench::Recording& run) {
@@ -44,23 +75,27 @@ Trials::Trials(const std::vector<std::string>& suites) {
 }
 
 void Trials::read(const std::filesystem::path& suite) {
-  const worlds::Split& test = worlds::split("test");
   for (const suite::ScenarioResult& scenario : suite::read_suite(suite).scenarios) {
-    const bool is_for_stating =
-        std::find(scenario.groups.begin(), scenario.groups.end(), "test") != scenario.groups.end();
     for (const suite::RunResult& run : scenario.runs) {
-      const std::filesystem::path folder = suite / run.folder;
+      const std::filesystem::path folder = suite::folder_of(suite) / run.folder;
       const auto refuse = [&](const std::string& why) {
         throw std::runtime_error(fmt::format("{} {}", folder.string(), why));
       };
+      const std::string digest = digest_of(folder);
       bench::Recording recording = bench::without_detections(bench::read_recording(folder));
-      if (is_for_stating || (scenario.drawn && recording.seed >= test.first_seed &&
-                             recording.seed <= test.last_seed)) {
-        refuse("is of the split test, by which nothing is chosen; name a suite of train");
+      if (digest_of(folder) != digest) {
+        refuse("changes while it is read; wait until what writes to it has ended");
+      }
+      if (const std::string why = why_of_test(scenario, recording); !why.empty()) {
+        refuse(
+            fmt::format("is of the split test ({}), by which nothing is chosen; name a suite of "
+                        "train",
+                        why));
       }
       if (recording.truth == bench::Truth::unknown) refuse("has no truth to learn from");
       if (!recording.camera) refuse("does not say what camera it was; run it again");
       runs_.push_back(std::move(recording));
+      digest_ = bench::sha256(digest_ + digest);
     }
   }
 }

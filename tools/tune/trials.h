@@ -30,8 +30,9 @@ struct Worth {
 class Trials {
  public:
   /// Reads the runs of suites (`lcs suite`), of worlds or recordings.
-  /// \throws std::runtime_error naming the folder: no suite, a run without truth or signatures, or
-  ///   one of the split `test`, by which nothing is chosen.
+  /// \param suites folders of suites, or their files.
+  /// \throws std::runtime_error naming the folder: no suite, a run without truth or signatures, one
+  ///   that changes while it is read, or one of the split `test`, by which nothing is chosen.
   explicit Trials(const std::vector<std::string>& suites);
 
   /// On all cores; the same on any number of them.
@@ -41,10 +42,14 @@ class Trials {
 
   const std::vector<bench::Recording>& runs() const { return runs_; }
 
+  /// SHA-256 of all files that the runs were read from.
+  const std::string& digest() const { return digest_; }
+
  private:
   void read(const std::filesystem::path& suite);
 
   std::vector<bench::Recording> runs_;
+  std::string digest_;
 };
 
 }  // namespace lcs::tune

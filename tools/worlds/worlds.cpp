@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <stdexcept>
 
 #include "tools/worlds/families.h"
@@ -227,6 +228,18 @@ World draw_world(const Choice& choice, const std::vector<std::string>& pictures)
 
 std::string name_of(const World& world) {
   return fmt::format("{}_{}", world.family, world.seed);
+}
+
+std::optional<scenario::Origin> origin_named(std::string_view name) {
+  const std::size_t line = name.find('_');
+  scenario::Origin origin;
+  origin.family = name.substr(0, line);
+  if (line == name.npos || std::ranges::find(families(), origin.family) == families().end()) {
+    return std::nullopt;
+  }
+  name.remove_prefix(line + 1);
+  const auto error = std::from_chars(name.data(), name.data() + name.size(), origin.seed).ec;
+  return error == std::errc() ? std::optional(origin) : std::nullopt;
 }
 
 std::filesystem::path kept_world(const std::filesystem::path& folder, const Choice& choice) {

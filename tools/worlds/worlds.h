@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,14 +63,9 @@ bench::ResultNames world_files();
 /// \throws bench::OutputError
 void write_world(const World& world, const std::filesystem::path& folder);
 
-/// What the first lines of a world's scenario file say of how it was drawn.
-struct Origin {
-  std::string family;
-  std::uint64_t again = 0;  ///< worlds of this seed that were thrown away before this one
-  std::vector<std::string> features;
-};
-/// What the lines do not say, as after an edit, is left empty. \throws scenario::Error
-Origin origin_of(const std::filesystem::path& scenario);
+/// The world that a name as "room_7" means, for runs and sequences that are older than the
+/// statement of their origin; none for any other name.
+std::optional<scenario::Origin> origin_named(std::string_view name);
 
 /// Where the scenario file of a world is kept, in a folder of worlds: named by what it is made of,
 /// this program's generator, family and seed.

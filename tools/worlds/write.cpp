@@ -3,10 +3,8 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <charconv>
 #include <filesystem>
 
-#include "scenarios/input_file.h"
 #include "tools/files/output_file.h"
 #include "tools/sequence/png.h"
 #include "tools/worlds/meshes.h"
@@ -17,10 +15,6 @@ namespace lcs::worlds {
 namespace {
 
 using Eigen::Vector3d;
-
-/// How a scenario file begins, between which its family, attempts and features stand.
-constexpr std::string_view kWritten = "# Written by `lcs world ", kAgain = "# Drawn again ",
-                           kTimes = " times.", kHas = "# It has: ";
 
 /// With decimals enough for a tenth of a millimetre, and none to spare.
 std::string number(double value) {
@@ -78,6 +72,8 @@ std::string geom_text(const Part& part) {
 
 std::string scene_text(const World& world) {
   std::string text = fmt::format("<mujoco model=\"{}\">\n", name_of(world));
+  text += fmt::format("  <custom>\n    <text name=\"{}\" data=\"{} {}\"/>\n  </custom>\n",
+                      scenario::kOriginText, world.family, world.seed);
   text += "  <compiler meshdir=\"meshes\" texturedir=\"textures\"/>\n";
   text += fmt::format("  <statistic extent=\"{}\" center=\"0 0 1\"/>\n", number(world.extent_m));
   // round primitives with as many faces as the meshes have: the renderer's time goes with them
@@ -173,9 +169,11 @@ std::string motion_text(const scenario::EgoPhase& phase, std::string_view indent
 
 std::string scenario_text(const World& world) {
   const scenario::Scenario& s = world.scenario;
-  std::string text = fmt::format("{}{} --seed {}`.\n", kWritten, world.family, world.seed);
-  if (world.attempt > 0) text += fmt::format("{}{}{}\n", kAgain, world.attempt, kTimes);
-  text += fmt::format("{}{}.\n", kHas, fmt::join(world.features, ", "));
+  std::string text = fmt::format(
+      "# Written by `lcs world {0} --seed {1}`.\norigin:\n  family: {0}\n  seed: {1}\n  again: "
+      "{2}\n"
+      "  features: [{3}]\n",
+      world.family, world.seed, world.attempt, fmt::join(world.features, ", "));
   text += fmt::format("purpose: {}\ngroups: [{}]\nscene: scene.xml\nseed: {}\nframes: {}\n",
                       s.purpose, fmt::join(s.groups, ", "), s.seed, s.frames);
   text += "ego:\n";
@@ -247,34 +245,6 @@ void write_world(const World& world, const std::filesystem::path& folder) {
   bench::write_file(folder / kPlanFile, sequence::encode_png(plan(world), sequence::PngFilter::up));
   bench::write_file(folder / "scene.xml", scene_text(world));
   bench::write_file(folder / (name_of(world) + ".yaml"), scenario_text(world));
-}
-
-Origin origin_of(const std::filesystem::path& scenario) {
-  constexpr scenario::FileKind kScenario{scenario::kMebibyte, "draw the world again"};
-  scenario::InputFile file(scenario, kScenario);
-  Origin origin;
-  std::string line;
-  while (file.next_line(line) && line.starts_with('#')) {
-    std::string_view rest = line;
-    const auto follows = [&](std::string_view begin) {
-      if (!rest.starts_with(begin)) return false;
-      rest.remove_prefix(begin.size());
-      return true;
-    };
-    if (follows(kWritten)) {
-      origin.family = rest.substr(0, rest.find(' '));
-    } else if (follows(kAgain)) {
-      std::from_chars(rest.data(), rest.data() + rest.size(), origin.again);
-    } else if (follows(kHas)) {
-      rest = rest.substr(0, rest.rfind('.'));
-      while (!rest.empty()) {
-        const std::size_t comma = rest.find(", ");
-        origin.features.emplace_back(rest.substr(0, comma));
-        rest = comma == rest.npos ? "" : rest.substr(comma + 2);
-      }
-    }
-  }
-  return origin;
 }
 
 }  // namespace lcs::worlds
