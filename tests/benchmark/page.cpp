@@ -14,7 +14,7 @@
 
 #include "sim/simulation.h"
 #include "tests/benchmark/raw_renderer.h"
-#include "tools/files/output_file.h"
+#include "tools/files/output.h"
 
 namespace lcs::bench {
 namespace {
@@ -211,22 +211,18 @@ void PageReporter::write(const std::filesystem::path& page) const {
     if (any("settings/" + scene)) tables += settings_table(scene);
   }
 
-  write_whole(page, [&](const std::filesystem::path& path) {
-    OutputFile file(path);
-    file.write(
-        fmt::format("<!doctype html><meta charset=utf-8><title>lcs benchmarks</title><style>{}"
-                    "</style>\n<h1>Benchmarks, {:%Y-%m-%d %H:%M} UTC</h1>\n",
-                    kStyle, fmt::gmtime(std::time(nullptr))));
-    file.write(machine());
-    file.write(
-        "<p>Milliseconds a frame, the quickest of the repetitions: of one core's time for what "
-        "computes, of "
-        "the wall clock for what renders, with all cores. The streams have the "
-        "density of corners of the recorded pictures; with their number grows the "
-        "picture.</p>\n<ul>\n" +
-        targets + "</ul>\n" + tables);
-    file.close();
-  });
+  Output output(page, Overwrite::own);
+  write_file(output.staging(),
+             fmt::format("<!doctype html><meta charset=utf-8><title>lcs benchmarks</title><style>{}"
+                         "</style>\n<h1>Benchmarks, {:%Y-%m-%d %H:%M} UTC</h1>\n",
+                         kStyle, fmt::gmtime(std::time(nullptr))) +
+                 machine() +
+                 "<p>Milliseconds a frame, the quickest of the repetitions: of one core's time for "
+                 "what computes, of the wall clock for what renders, with all cores. The streams "
+                 "have the density of corners of the recorded pictures; with their number grows "
+                 "the picture.</p>\n<ul>\n" +
+                 targets + "</ul>\n" + tables);
+  output.commit();
 }
 
 }  // namespace lcs::bench

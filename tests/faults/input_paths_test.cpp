@@ -21,15 +21,16 @@ const fs::path kSources = fs::path(LCS_TESTS_DIR).parent_path();
 /// What reads a file or decodes bytes, and the files that may use it.
 const std::map<std::string, std::set<std::string>> kWays{
     {R"(ifstream|std::fstream|basic_filebuf|std::filebuf|freopen|fopen\([^;]*"r|FileStorage)",
-     {"sim/trial.cpp",  // /proc/self/statm
-      "tools/tune/search.cpp"}},
+     {"sim/trial.cpp"}},  // /proc/self/statm
     {R"(::open(at)?\()",
      {"scenarios/input_file.cpp",
-      "sim/trial.cpp",                    // /dev/null
-      "tools/lcs/terminal.cpp",           // /dev/null
-      "tools/process/child.cpp",          // /dev/null
-      "tools/files/output_file.cpp",      // what it is about to replace
-      "tools/files/output_folder.cpp"}},  // a folder
+      "sim/trial.cpp",                // /dev/null
+      "tools/lcs/terminal.cpp",       // /dev/null
+      "tools/process/child.cpp",      // /dev/null
+      "tools/files/output_file.cpp",  // what it is about to replace
+      "tools/files/sha256.cpp",       // what it wrote
+      "tools/files/output.cpp",       // a folder, a pipe to write to
+      "tools/tune/journal.cpp"}},     // to append
     {R"(imread|imdecode)",
      {"sim/picture_file.cpp", "sim/picture_file.h", "sim/photograph.cpp"}},  // its own bytes
     {R"(VideoCapture[\s(>&]*[a-z]*\()", {"tools/output/video_reader.cpp"}},

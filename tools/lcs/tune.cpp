@@ -119,9 +119,8 @@ std::vector<tune::Fact> facts_of(const TuneOptions& options, const tune::Trials&
                                  const tune::SearchOptions& search) {
   constexpr scenario::FileKind kProgram{scenario::kGibibyte, "start lcs by its path"};
   std::vector<tune::Fact> facts{
-      {"program",
-       fmt::format("{}, SHA-256 {}", program_text(),
-                   bench::sha256(scenario::read_file("/proc/self/exe", kProgram)))},
+      {"program", fmt::format("{}, SHA-256 {}", program_text(),
+                              bench::sha256(scenario::read_file("/proc/self/exe", kProgram)))},
       {"recordings", fmt::format("SHA-256 {}", trials.digest())},
       {"suites", about(options.suites, trials)},
       {"settings", line_of(options.sets)}};
