@@ -16,6 +16,9 @@
 #include "tests/tools/files.h"
 #include "tests/tools/processes.h"
 #include "tests/tools/temporary_folder.h"
+#include "tools/files/output.h"
+#include "tools/files/written.h"
+#include "tools/recording/recording_io.h"
 #include "tools/scoring/figures_file.h"
 #include "tools/sequence/manifest.h"
 #include "tools/suite/suite_result.h"
@@ -62,6 +65,15 @@ class Killed : public testing::Test {
     return Clock::now() - start;
   }
 
+  /// Whether a process is at work on a result.
+  bool has_locked_folder() const {
+    for (const auto& entry : fs::directory_iterator(home_.path())) {
+      const bool is_staging = entry.path().string().find(".partial-") != std::string::npos;
+      if (is_staging && FolderLock(entry.path()).is_of_another()) return true;
+    }
+    return false;
+  }
+
   const TemporaryFolder home_;
 
  private:
@@ -105,6 +117,27 @@ TEST_F(Killed, SuiteLeavesTheEarlierOneOrTheNewOne) {
   time(earlier);
   EXPECT_EQ(entries(home_.path() / "out"), std::set<std::string>{"suite"});
   EXPECT_TRUE(suite::read_suite(out).sets.empty());
+}
+
+TEST_F(Killed, RunBesideLeavesBothResultsOldOrBothNew) {
+  const auto with_seed = [](int seed) {
+    return std::vector<std::string>{
+        "run",      "scenarios/near.yaml", "--no-video", "--quiet",           "--out", "own",
+        "--beside", "klt=beside",          "--seed",     std::to_string(seed)};
+  };
+  const Seconds whole = time(with_seed(0));
+  for (int i = 1; i <= kills(); ++i) {
+    run_and_kill(with_seed(i), whole);
+    // The process that puts both in their places ends by itself.
+    while (has_locked_folder()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const std::uint64_t own = read_recording(home_.path() / "own").seed;
+    EXPECT_EQ(read_recording(home_.path() / "beside").seed, own);
+    for (const char* folder : {"own", "beside"}) {
+      EXPECT_EQ(first_difference(home_.path() / folder), "") << "it is whole";
+    }
+  }
+  time(with_seed(0));
+  EXPECT_EQ(entries(home_.path()), (std::set<std::string>{"beside", "own", "scenarios"}));
 }
 
 TEST_F(Killed, GenerateGoesOnToTheSameBytes) {
