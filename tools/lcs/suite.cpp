@@ -60,8 +60,8 @@ constexpr const char* kHelp = R"(Examples:
                                                   how far the filter is from its yardsticks, by family
   lcs compare out/before out/suite                what two suites differ in, beyond noise
 
-Worlds are kept in out/worlds/ and drawn anew only where the generator changed. Those of the split `test` are
-for stating figures: nothing is chosen by them (tools/worlds/README.md).
+Worlds are kept in out/worlds/ and drawn anew only where the generator changed. A kept world that was edited is
+refused. Those of the split `test` are for stating figures: nothing is chosen by them (tools/worlds/README.md).
 
 Seeds are the scenario's own and those that follow. Each run is a process of its own; one that
 crashes, or a scenario that is broken, is an error, and the others still run.
