@@ -1,12 +1,14 @@
 // `lcs preview`: what it finds wrong, what is on its page, and that the world it writes is one.
 #include "tools/preview/preview.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "scenarios/load.h"
 #include "sim/model.h"
+#include "sim/picture_file.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
@@ -66,6 +68,21 @@ TEST_F(PreviewCommand, TellsWhoGoesWhereAndWhoIsSeen) {
   EXPECT_LT(walker.nearest_m, 2.3);
   EXPECT_EQ(walker.looks, kLooks);
   EXPECT_EQ(p.corners_px.size(), static_cast<std::size_t>(kLooks));
+}
+
+TEST_F(PreviewCommand, PicturesOfAnyCameraAreKeptNoWiderThanTheyAreShown) {
+  for (const int width : {160, 3000}) {
+    const Preview p = preview(load({fmt::format("camera.size=[{}, 120]", width)}));
+    ASSERT_EQ(p.looks.size(), static_cast<std::size_t>(kLooks));
+    for (const Look& look : p.looks) {
+      EXPECT_EQ(look.image_px, cv::Size(width, 120));
+      const std::string_view bytes(reinterpret_cast<const char*>(look.jpeg.data()),
+                                   look.jpeg.size());
+      EXPECT_EQ(sim::picture_size(bytes).value().width, std::min(width, 1920));
+      EXPECT_LT(look.jpeg.size(), 300'000u);
+    }
+    EXPECT_EQ(p.movers.front().looks, kLooks);
+  }
 }
 
 TEST_F(PreviewCommand, TellsWhatIsWrongWithItsLine) {
