@@ -1,6 +1,9 @@
 // What a process is given by its surroundings: descriptors, limits, signals, numbers as text.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,6 +14,7 @@
 
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
+#include "tests/tools/processes.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
 
@@ -153,6 +157,68 @@ TEST_F(Process, ASignalInItsFirstMomentsLeavesNothing) {
     }
   }
   EXPECT_GT(ended_by_itself, 0);
+}
+
+/// A pipe that is full, and that nobody reads.
+class FullPipe {
+ public:
+  explicit FullPipe(const fs::path& path) {
+    EXPECT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    reads_ = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    writes_ = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+    const std::string block(4096, 'x');
+    while (::write(writes_, block.data(), block.size()) > 0) {
+    }
+  }
+  ~FullPipe() {
+    ::close(reads_);
+    ::close(writes_);
+  }
+  FullPipe(const FullPipe&) = delete;
+  FullPipe& operator=(const FullPipe&) = delete;
+
+ private:
+  int reads_ = -1, writes_ = -1;
+};
+
+/// Whether it waits in the kernel, and for a second.
+bool is_asleep(pid_t process) {
+  for (int i = 0; i < 10; ++i) {
+    if (state_of(std::to_string(process)).state != 'S') return false;
+    std::this_thread::sleep_for(100ms);
+  }
+  return true;
+}
+
+TEST_F(Process, ASignalEndsTheWaitForAPipeThatNobodyReads) {
+  ASSERT_EQ(run_lcs(run({"--out", "run", "--quiet"}), options()).exit_code, 0);
+  const FullPipe pipe(home() / "pipe");
+  CommandOptions full = options();
+  full.out = home() / "pipe";
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+    Command command({"score", "run"}, full);
+    for (int i = 0; i < 100 && !is_asleep(command.pid()); ++i) std::this_thread::sleep_for(10ms);
+    ASSERT_TRUE(command.is_running());
+    command.send(signal);
+    const CommandResult result = command.wait();
+    EXPECT_EQ(result.exit_code, 130);
+    EXPECT_EQ(result.err, "lcs: interrupted before all was told\n");
+  }
+}
+
+TEST_F(Process, ASignalEndsAnyWaitAtLast) {
+  const FullPipe pipe(home() / "pipe");
+  CommandOptions full = options();
+  full.out = home() / "pipe";
+  Command command({"--help"}, full);  // which the library that reads the command line writes
+  for (int i = 0; i < 100 && !is_asleep(command.pid()); ++i) std::this_thread::sleep_for(10ms);
+  ASSERT_TRUE(command.is_running());
+  command.send(SIGTERM);
+  std::this_thread::sleep_for(5s);
+  EXPECT_TRUE(command.is_running()) << "what tidies up has time for it";
+  const CommandResult result = command.wait();
+  EXPECT_EQ(result.exit_code, 130);
+  EXPECT_EQ(result.err, "lcs: interrupted\n");
 }
 
 // ---- Numbers

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -225,6 +226,116 @@ TEST_F(RecordedScenario, OfAVideoHasItsPicturesAtItsRateOrAtTheUsers) {
   write(home() / "words.avi", "not a video");
   EXPECT_NE(refusal("path: words.avi, speed: 0, focal: 300").find("words.avi is no video"),
             std::string::npos);
+}
+
+/// Writes a number of 32 bits behind a word, in each place where it is.
+std::string with_number(std::string bytes, const std::string& word, std::size_t behind,
+                        std::uint32_t number) {
+  std::size_t at = bytes.find(word);
+  EXPECT_NE(at, std::string::npos) << word;
+  for (; at != std::string::npos; at = bytes.find(word, at + 1)) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      bytes.at(at + word.size() + behind + i) = static_cast<char>(number >> (8 * i));
+    }
+  }
+  return bytes;
+}
+
+TEST_F(RecordedScenario, OfAVideoThatSaysMoreThanItsFileHoldsIsRefused) {
+  const fs::path file = home() / "road.avi";
+  {
+    cv::VideoWriter video(file.string(), cv::CAP_FFMPEG,
+                          cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10, {160, 120});
+    for (int k = 0; k < kFrames; ++k) video.write(view(k));
+  }
+  const std::string recording = "path: road.avi, speed: 0, focal: 300", whole = bench::read(file);
+  ASSERT_NO_THROW(playback(recording));
+  // The lengths in the headers of the file and of its stream.
+  constexpr std::size_t kFramesOfFile = 20, kFramesOfStream = 36;
+  for (const std::uint32_t count : {90'000'000U, 10'000U}) {
+    write(file, with_number(with_number(whole, "avih", kFramesOfFile, count), "strh",
+                            kFramesOfStream, count));
+    const std::string told = refusal(recording);
+    EXPECT_NE(told.find(fmt::format("says that it has {} pictures, and its {} bytes ", count,
+                                    whole.size())),
+              std::string::npos)
+        << told;
+  }
+  // A few more than there are cannot be told from the header: they are told once.
+  write(file,
+        with_number(with_number(whole, "avih", kFramesOfFile, 100), "strh", kFramesOfStream, 100));
+  Playback longer = playback(recording);
+  EXPECT_EQ(all_of(longer).frames.size(), static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(longer.skipped(), 96u);
+  ASSERT_EQ(longer.told().size(), 1u);
+  EXPECT_NE(longer.told()[0].find("picture 4 of"), std::string::npos) << longer.told()[0];
+  EXPECT_NE(longer.told()[0].find("cannot be read, and none after it"), std::string::npos);
+  write(file, with_number(with_number(whole, "strf", 8, 32'000), "strf", 12, 32'000));
+  const std::string told = refusal(recording);
+  EXPECT_NE(told.find("has pictures of 32000 x 32000 pixels, and can have 67 million in all"),
+            std::string::npos)
+      << told;
+}
+
+TEST_F(RecordedScenario, OfWhatFfmpegOnlyTakesForAVideoIsRefused) {
+  {
+    cv::VideoWriter video((home() / "real.ts").string(), cv::CAP_FFMPEG,
+                          cv::VideoWriter::fourcc('M', 'P', 'G', '2'), 25, {160, 120});
+    for (int k = 0; k < 20; ++k) video.write(view(k % kFrames));
+  }
+  const std::string playlist =
+      "#EXTM3U\n#EXT-X-VERSION:3\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\nreal.ts\n#EXT-X-ENDLIST\n";
+  const std::string concat = "ffconcat version 1.0\nfile real.ts\n";
+  for (const auto& [name, text] :
+       {std::pair<const char*, std::string>{"notes.txt", std::string(2000, 'a') + "\n"},
+        {"list.mp4", playlist},
+        {"list.m3u8", playlist},
+        {"list.avi", concat},
+        {"session.sdp",
+         "v=0\no=- 0 0 IN IP4 127.0.0.1\ns=x\nc=IN IP4 127.0.0.1\nt=0 0\n"
+         "m=video 5004 RTP/AVP 96\na=rtpmap:96 H264/90000\n"},
+        {"text.nut", "a b c"}}) {
+    write(home() / name, text);
+    const std::string told = refusal(fmt::format("path: {}, speed: 0, focal: 300", name));
+    EXPECT_NE(told.find(std::string(name) + " is no video that says how many pictures it has; "),
+              std::string::npos)
+        << told;
+  }
+  cv::imwrite((home() / "one.png").string(), view(0));
+  EXPECT_NE(refusal("path: one.png, speed: 0, focal: 300").find("one.png is no video"),
+            std::string::npos);
+}
+
+TEST_F(RecordedScenario, OfAVideoLeavesTheOptionsOfOthersAsTheyWere) {
+  constexpr const char* kVariable = "OPENCV_FFMPEG_CAPTURE_OPTIONS";
+  write(home() / "words.avi", "not a video");
+  for (const char* before : {"", "fflags;nobuffer"}) {
+    ::setenv(kVariable, before, 1);
+    refusal("path: words.avi, speed: 0, focal: 300");
+    EXPECT_STREQ(std::getenv(kVariable), before);
+  }
+  ::unsetenv(kVariable);
+  refusal("path: words.avi, speed: 0, focal: 300");
+  EXPECT_EQ(std::getenv(kVariable), nullptr);
+}
+
+TEST_F(RecordedScenario, OfPicturesThatClaimToBeHugeIsRefusedBeforeTheyAreDecoded) {
+  draw(home() / "pictures", "{}.png");
+  std::string bytes = bench::read(home() / "pictures" / "1.png");
+  bytes.replace(16, 8, std::string("\0\0\x7d\0\0\0\x7d\0", 8));  // 32000 x 32000
+  write(home() / "pictures" / "1.png", bytes);
+  const std::string recording = "path: pictures, fps: 10, focal: 300, speed: 0";
+  Playback some = playback(recording);
+  EXPECT_EQ(all_of(some).frames.size(), 3u);
+  ASSERT_EQ(some.told().size(), 1u);
+  EXPECT_NE(some.told()[0].find("1.png: the picture has 32000 x 32000 pixels, and can have"),
+            std::string::npos)
+      << some.told()[0];
+  write(home() / "mask.png", bytes);
+  EXPECT_NE(refusal(recording + ", mask: mask.png").find("32000 x 32000 pixels, and can have"),
+            std::string::npos);
+  for (const char* name : {"0.png", "2.png", "3.png"}) write(home() / "pictures" / name, bytes);
+  EXPECT_NE(refusal(recording).find("none of the pictures in"), std::string::npos);
 }
 
 TEST_F(RecordedScenario, OfPicturesWithPosesTakesTheirTimesOrTheUsersRate) {

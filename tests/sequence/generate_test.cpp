@@ -412,6 +412,29 @@ TEST_F(Generate, AnotherSequenceIsRefusedAndToldApart) {
   EXPECT_EQ(bytes_in(folder()), before);
 }
 
+TEST_F(Generate, APlanThatCannotBeReadIsRefusedWithItsPlace) {
+  const std::string lists = std::string(100'000, '[') + std::string(100'000, ']');
+  const std::vector<std::pair<std::string, std::string>> plans{
+      {"{\"formats\": " + lists + "}", ":1: lists and objects are nested more than 64 deep"},
+      {"{\n\"plan\": {\"formats\":" + lists + "}}",
+       ":2: lists and objects are nested more than 64"},
+      {std::string(100'000, '['), ":1: lists and objects are nested more than 64 deep"},
+      {"{\"formats\":\n\n", ":3: not JSON at byte "},
+      {"", ":1: not JSON at byte 1; "},
+  };
+  for (const char* file : {".generate/plan.json", "manifest.json"}) {
+    for (const auto& [plan, expected] : plans) {
+      write_file(folder() / file, plan);
+      const CommandResult result = generate({"--out", folder()});
+      EXPECT_EQ(result.exit_code, 2);
+      EXPECT_NE(result.err.find(file + expected), std::string::npos) << result.err;
+      EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+      EXPECT_EQ(files_in(folder()), std::set<std::string>{file});
+    }
+    fs::remove_all(folder());
+  }
+}
+
 TEST_F(Generate, DamageToAFinishedSequenceIsFound) {
   ASSERT_EQ(generate({"--out", folder(), "--formats", "depth", "--quiet"}).exit_code, 0);
   bench::write(folder() / "depth/000001.png", "not what it was");

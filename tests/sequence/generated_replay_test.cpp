@@ -118,6 +118,46 @@ TEST_F(GeneratedReplay, OfAComparatorHasTheVerdictsAndTheFiguresOfItsRun) {
   EXPECT_NE(broken.err.find("truth.jsonl:1: objects"), std::string::npos) << broken.err;
 }
 
+TEST_F(GeneratedReplay, OfFilesThatContradictEachOtherIsRefusedAtTheLine) {
+  make("generate", "suite/rough_ground.yaml", {"frames=3"},
+       {"--formats", "euroc", "--out", home_.path() / "sequence"});
+  ASSERT_EQ(replay().exit_code, 0);
+  const fs::path mav = home_.path() / "sequence" / "mav0";
+  struct Edit {
+    const char *sensor, *key, *line;
+  };
+  for (const Edit& edit :
+       {Edit{"cam0", "intrinsics", "intrinsics: [500, 500, 319.5, 239.5]"},
+        Edit{"cam0", "resolution", "resolution: [320, 240]"},
+        Edit{"cam0", "rate_hz", "rate_hz: 25"},
+        Edit{"cam0", "distortion_coefficients", "distortion_coefficients: [0.1, 0, 0, 0]"},
+        Edit{"imu0", "gyroscope_noise_density", "gyroscope_noise_density: 0.5"},
+        Edit{"imu0", "accelerometer_random_walk", "accelerometer_random_walk: 0"},
+        Edit{"cam0", "T_BS", nullptr}, Edit{"imu0", "T_BS", nullptr},
+        Edit{"odometry0", "T_BS", nullptr}, Edit{"state_groundtruth_estimate0", "T_BS", nullptr}}) {
+    SCOPED_TRACE(std::string(edit.sensor) + " " + edit.key);
+    const fs::path file = mav / edit.sensor / "sensor.yaml";
+    const std::string before = read_file(file);
+    // A pose is moved by a metre.
+    const std::size_t start = before.find(edit.line ? edit.key : "data: ");
+    ASSERT_NE(start, std::string::npos);
+    std::string text = before;
+    text.replace(start, before.find('\n', start) - start,
+                 edit.line ? edit.line : "data: [1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]");
+    write_file(file, text);
+    const CommandResult result = replay();
+    EXPECT_EQ(result.exit_code, 2);
+    const auto at = before.begin() + static_cast<std::ptrdiff_t>(before.find(edit.key));
+    EXPECT_NE(result.err.find(file.string() + ":" +
+                              std::to_string(1 + std::count(before.begin(), at, '\n')) + ": " +
+                              edit.key + " is not as lcs.json of the sequence says; "),
+              std::string::npos)
+        << result.err;
+    write_file(file, before);
+  }
+  EXPECT_EQ(replay().exit_code, 0);
+}
+
 TEST_F(GeneratedReplay, ByEurocsOwnFilesAloneIsTheSameToTheNoise) {
   make("run", "suite/turning_0_3.yaml", {"frames=10"},
        {"--no-video", "--out", home_.path() / "run"});

@@ -50,7 +50,12 @@ mode = sys.argv[1]
 header = json.loads(sys.stdin.buffer.readline())
 if mode == "silent": time.sleep(1000)
 if mode == "writes": open(sys.argv[2], "w").write(json.dumps(header) + "\n")
-print(json.dumps({"protocol": 2 if mode == "newer" else 1}), flush=True)
+lists = "[" * 100000 + "]" * 100000
+if mode == "nested greeting": print('{"protocol": ' + lists + '}', flush=True)
+greeting = {"protocol": 2 if mode == "newer" else 1}
+if mode == "asks for all": greeting["answer_bytes"] = 1 << 40
+if mode == "asks for more": greeting["answer_bytes"] = 3000000
+print(json.dumps(greeting), flush=True)
 for line in sys.stdin.buffer:
     frame = json.loads(line)
     k = frame["index"]
@@ -80,6 +85,13 @@ for line in sys.stdin.buffer:
         if mode == "corner outside": answer["rebel"] = [[10, -3]]
         if mode == "large id": answer["box"] = [[2**64 - 1, 0, 0, 5, 5]]
         if mode == "crowd": answer["box"] = [[i, 0, 0, 5, 5] for i in range(1001)]
+        if mode == "nested index": print('{"index": ' + lists + '}', flush=True)
+        if mode == "nested row": print('{"index": 3, "rebel": [' + lists + ']}', flush=True)
+        if mode == "nested mask": print('{"index": 3, "mask": [[1, ' + lists + ']]}', flush=True)
+        if mode == "nested word": print('{"index": 3, "nobody": ' + lists + '}', flush=True)
+        if mode == "nested objects": print('{"index": 3, "a": ' + '{"a": ' * 100000, flush=True)
+        if mode in ("long", "asks for more"): answer["rebel"] = [0] * 500000
+        if mode == "endless": print("[" + "0, " * 10000000, flush=True)
         if mode == "twice": print(json.dumps(answer), flush=True)
         if mode == "skips": answer["index"] = 4
         if mode == "dies": print("no more", file=sys.stderr); raise ValueError("of frame 3")
@@ -202,10 +214,20 @@ TEST_F(OwnDetector, ThatDoesNotKeepToTheProtocolEndsTheRunWithOneMessageAndNoOut
        "more time by --detector-timeout; it wrote to stderr: still thinking"},
       {"garbage", "frame 3: its answer '\\x1b[31mrebels: 7': not JSON at byte 1; write one"},
       {"list", "frame 3: its answer is no object: '[]'"},
+      {"nested greeting", "its greeting: its answer '{\"protocol\": [[["},
+      {"nested index", "frame 3: its answer '{\"index\": [[["},
+      {"nested row", "frame 3: its answer '{\"index\": 3, \"rebel\": [[["},
+      {"nested mask", "frame 3: its answer '{\"index\": 3, \"mask\": [[1, [[["},
+      {"nested word", "frame 3: its answer '{\"index\": 3, \"nobody\": [[["},
+      {"nested objects", "frame 3: its answer '{\"index\": 3, \"a\": {\"a\": "},
+      {"long", "frame 3: its line is longer than 1000000 bytes; write a shorter one, or say "},
+      {"endless", "frame 3: its line is longer than 1000000 bytes; write a shorter one, or say "},
+      {"asks for all", "its greeting: its \"answer_bytes\" is 1099511627776; give a whole number "},
       {"no index", "frame 3: its answer has no \"index\""},
       {"corner", "frame 3: there is no corner 99999: frame 3 has "},
       {"word", "frame 3: there is no type 'rebels'; give ignored, pending, normal, rebel, box"},
-      {"nan", "frame 3: its answer '{\"index\": 3, \"box\": [[1, NaN, 2, 3, 4]]}': not JSON at byte 26"},
+      {"nan",
+       "frame 3: its answer '{\"index\": 3, \"box\": [[1, NaN, 2, 3, 4]]}': not JSON at byte 26"},
       {"mask", "frame 3: the mask's counts do not add up to 240 x 320 pixels"},
       {"circle", "frame 3: it gives circles, and has not said \"circles\": true in its greeting"},
       {"twice", "frame 4: it"},  // before it was asked, or with the index of the last one
@@ -227,6 +249,10 @@ TEST_F(OwnDetector, ThatDoesNotKeepToTheProtocolEndsTheRunWithOneMessageAndNoOut
     EXPECT_TRUE(command.err.starts_with("lcs: detector mine, " + said))
         << mode << ": " << command.err;
     EXPECT_EQ(std::count(command.err.begin(), command.err.end(), '\n'), 1) << command.err;
+    if (mode.starts_with("nested")) {
+      EXPECT_NE(command.err.find("nested more than 64 deep at byte "), std::string::npos)
+          << command.err;
+    }
     EXPECT_EQ(entries(folder_.path()), (std::set<std::string>{"mine.py", "scenarios"})) << mode;
   }
 }
@@ -305,6 +331,59 @@ TEST_F(OwnDetector, LeavesNoProcessBehindHoweverTheRunEnds) {
     };
     for (int i = 0; i < 200 && any_runs(); ++i) std::this_thread::sleep_for(10ms);
     EXPECT_FALSE(any_runs()) << "after signal " << signal;
+  }
+}
+
+TEST_F(OwnDetector, MayAskForLongerAnswersInItsGreeting) {
+  const CommandResult command = lcs(run_arguments("asks for more"));
+  ASSERT_EQ(command.exit_code, 0) << command.err;
+  const bench::FrameRecord frame = bench::read_recording(folder_.path() / "out").frames.at(3);
+  ASSERT_FALSE(frame.verdicts.empty());
+  EXPECT_EQ(frame.verdicts.front(), Verdict::rebel);
+}
+
+/// All processes of a word in their command line.
+std::vector<pid_t> processes_with(const std::string& word) {
+  std::vector<pid_t> found;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    const pid_t process = std::stoi(name);
+    if (bench::command_line_of(process).find(word) != std::string::npos) found.push_back(process);
+  }
+  return found;
+}
+
+TEST_F(OwnDetector, OfAnyCommandOfAShellEndsWithAProgramThatIsKilled) {
+  const std::string naps = "import time;time.sleep(1000);'" + folder_.path().string() + "'";
+  const std::string nap = python() + " -c \"" + naps + "\"";
+  for (const std::string& shell :
+       {nap, "cd . && " + nap + "; true", nap + " & " + nap + " & wait", "( " + nap + " | cat ); :",
+        "{ sh -c '" + python() + " -c \"import time;time.sleep(1000)\" x " +
+            folder_.path().string() + "; true'; true; } <&-"}) {
+    SCOPED_TRACE(shell);
+    Command command({"run", "scenarios/near.yaml", "--out", "out", "--quiet", "--no-video",
+                     "--detector", "mine", "--detector-command", shell},
+                    {.folder = folder_.path()});
+    const auto naps_now = [&] {
+      auto all = processes_with(folder_.path().string());
+      std::erase(all, command.pid());
+      return all;
+    };
+    const auto has_nap = [&] {
+      const auto all = naps_now();
+      return std::ranges::any_of(all, [](pid_t process) {
+        return bench::command_line_of(process).starts_with(python() + std::string(1, '\0'));
+      });
+    };
+    for (int i = 0; i < 1000 && !has_nap(); ++i) std::this_thread::sleep_for(10ms);
+    ASSERT_TRUE(has_nap());
+    command.send(SIGKILL);
+    command.wait();
+    for (int i = 0; i < 200 && !naps_now().empty(); ++i) std::this_thread::sleep_for(10ms);
+    EXPECT_TRUE(naps_now().empty());
+    for (const pid_t process : naps_now()) ::kill(process, SIGKILL);
+    fs::remove_all(folder_.path() / "out");
   }
 }
 

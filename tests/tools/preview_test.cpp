@@ -1,12 +1,14 @@
 // `lcs preview`: what it finds wrong, what is on its page, and that the world it writes is one.
 #include "tools/preview/preview.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "scenarios/load.h"
 #include "sim/model.h"
+#include "sim/picture_file.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
@@ -66,6 +68,22 @@ TEST_F(PreviewCommand, TellsWhoGoesWhereAndWhoIsSeen) {
   EXPECT_LT(walker.nearest_m, 2.3);
   EXPECT_EQ(walker.looks, kLooks);
   EXPECT_EQ(p.corners_px.size(), static_cast<std::size_t>(kLooks));
+}
+
+TEST_F(PreviewCommand, ALargeCameraIsLookedThroughAtASmallerSize) {
+  const std::vector<std::string> large{"camera.size=[4096, 2048]", "frames=2", "image.noise=none"};
+  const Preview p = preview(load(large));
+  ASSERT_EQ(p.looks.size(), 2u);
+  for (const Look& look : p.looks) {
+    EXPECT_EQ(look.image_px, cv::Size(2896, 1448)) << "four million pixels of the same view";
+    const std::string_view bytes(reinterpret_cast<const char*>(look.jpeg.data()), look.jpeg.size());
+    EXPECT_EQ(sim::picture_size(bytes).value_or(cv::Size2l()), cv::Size2l(look.image_px));
+  }
+  EXPECT_EQ(p.movers.front().looks, 2);
+  write_preview(folder_.path() / "page.html", load(large), p);
+  EXPECT_NE(read(folder_.path() / "page.html").find("those of 2896 x 1448 pixels"),
+            std::string::npos);
+  EXPECT_EQ(preview(load({"frames=1"})).looks.front().image_px, cv::Size(160, 120));
 }
 
 TEST_F(PreviewCommand, TellsWhatIsWrongWithItsLine) {

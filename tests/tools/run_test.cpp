@@ -427,6 +427,14 @@ TEST_F(Again, ABrokenRecordingIsToldWithItsFile) {
   refused("pictures.mjpeg has 8 pictures of 4 frames");
   rewrite(kPicturesFile, "");
   refused("pictures.mjpeg has 0 pictures of 4 frames");
+  const std::vector<unsigned char> small = jpeg(cv::Mat3b(120, 160, cv::Vec3b(9, 9, 9)), 90);
+  rewrite(kPicturesFile, std::string(small.begin(), small.end()) + pictures);
+  refused("picture 0 has 160 x 120 pixels, and one of a camera of 320 x 240 has 320 x 240; run");
+  const std::size_t frame = pictures.find("\xff\xc0");
+  ASSERT_NE(frame, std::string::npos);
+  rewrite(kPicturesFile, std::string(pictures).replace(frame + 5, 4, "\x7d\0\x7d\0", 4));
+  refused(
+      "picture 0 has 32000 x 32000 pixels, and one of a camera of 320 x 240 has 320 x 240; run");
   fs::remove(first / kPicturesFile);
 
   // As a program left it that did not say it yet.

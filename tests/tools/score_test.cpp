@@ -1,4 +1,5 @@
 // `lcs score` from its command line, on what `lcs run` leaves.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -196,9 +197,47 @@ TEST_F(Score, APipeOrADeviceIsRefusedAndNotWaitedFor) {
   refused({"score", "run", "--detections", "pipe"}, "pipe: this is a pipe");
   refused({"run", "pipe"}, "pipe: this is a pipe");
   refused({"compare", "pipe", "pipe"}, "pipe: this is a pipe");
-  fs::remove(folder_.path() / "run/layers.jsonl");
-  fs::rename(folder_.path() / "pipe", folder_.path() / "run/layers.jsonl");
-  refused({"score", "run"}, "run/layers.jsonl: this is a pipe");
+  for (const char* file : {"warnings.json", "layers.jsonl"}) {
+    fs::rename(folder_.path() / "run" / file, folder_.path() / "was");
+    fs::rename(folder_.path() / "pipe", folder_.path() / "run" / file);
+    refused({"score", "run"}, fmt::format("run/{}: this is a pipe", file));
+    fs::rename(folder_.path() / "run" / file, folder_.path() / "pipe");
+    fs::rename(folder_.path() / "was", folder_.path() / "run" / file);
+  }
+}
+
+TEST_F(Score, WarningsThatAreCutOrEditedAreRefusedWithTheirPlace) {
+  make_run("lcs", "frames=4");
+  const fs::path file = folder_.path() / "run/warnings.json";
+  const std::string whole = read(file);
+  const std::size_t count = whole.find("\"count\": 0");
+  ASSERT_NE(count, std::string::npos);
+  const auto with = [&](const std::string& text) {
+    return whole.substr(0, count) + text + whole.substr(count + std::string("\"count\": 0").size());
+  };
+  const std::string lists = std::string(100'000, '[') + std::string(100'000, ']');
+  for (const auto& [text, told] : std::vector<std::pair<std::string, std::string>>{
+           {whole.substr(0, count), "run/warnings.json:3: not JSON at byte "},
+           {"", "run/warnings.json:1: not JSON at byte 1; "},
+           {"[]", "run/warnings.json: the file is not an object; "},
+           {with("\"count\": -5"), ".count is not a whole number from 0; "},
+           {with("\"count\": 1.5"), ".count is not a whole number from 0; "},
+           {with("\"count\": 99999999999999999999"), ".count is not a whole number from 0; "},
+           {with("\"count\": 5"), ".first is not what is told of the first time; "},
+           {with("\"counts\": 0"), ".count is missing; "},
+           {with("\"count\": " + lists), "run/warnings.json:3: lists and objects are nested"},
+           {"{\"few_corners\": 3}", "run/warnings.json: few_corners is not an object; "},
+           {"{\"few_corners\": {\"count\": 0, \"first\": 3}}",
+            "few_corners.first is not a text; "}}) {
+    write(file, text);
+    const CommandResult result = lcs({"score", "run"});
+    EXPECT_EQ(result.exit_code, 2) << told;
+    EXPECT_NE(result.err.find(told), std::string::npos) << told << " in " << result.err;
+    EXPECT_EQ(result.err.find("exception"), std::string::npos) << result.err;
+    EXPECT_TRUE(result.err.ends_with("; name the folder of a whole run, or run it again\n"))
+        << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  }
 }
 
 TEST(Option, OfAnyCommandIsRefusedWithoutAValue) {

@@ -68,6 +68,11 @@ TEST_F(WorldCommand, MistakesAreToldInOneLineAndNothingIsWritten) {
   refused({"world", "moon"}, "no family of worlds 'moon'; there are room, corridor, warehouse");
   refused({"world", "room", "--pictures", "empty"}, "no picture (.png, .jpg, .jpeg, .bmp)");
   refused({"world", "room", "--pictures", "broken"}, "no picture that can be read");
+  std::string huge("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x7d\0\0\0\x7d\0\x8\2\0\0\0",
+                   29);  // 32000 x 32000
+  std::ofstream(folder_.path() / "broken" / "a.png", std::ios::binary) << huge;
+  refused({"world", "room", "--pictures", "broken"},
+          "a.png: the picture has 32000 x 32000 pixels, and can have 67 million in all; give a");
   refused({"world", "room", "--out", "broken"}, "broken");
   refused({"suite", "--worlds", "dev"}, "no split 'dev'; give train, validate or test");
   refused({"suite", "--worlds", "train", "--family", "moon"}, "no family of worlds 'moon'");

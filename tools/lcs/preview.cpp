@@ -30,7 +30,7 @@ The page has the plan from above with the ways of the rover and the actors and t
 middle and the last picture with the corners in them; and what is wrong: who starts inside of something, runs
 into something, is never seen or never moves, a camera inside of something, too few corners. The physics are
 done, the filter is not asked: that takes a second or two, three for a drive of a minute. That an actor is never
-seen, and corners, go by 13 pictures, evenly spread.
+seen, and corners, go by 13 pictures, evenly spread, of four million pixels at most.
 
 --mjcf writes the world with all at their start: MJCF, in which surfaces that this project draws are of one
 colour and bumps of the ground are level; or, to a file called .mjb, MuJoCo's binary, which has them.

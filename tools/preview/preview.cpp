@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
@@ -18,13 +19,9 @@ namespace {
 constexpr double kStands_m = 1e-4;  // from one frame to the next
 
 std::vector<unsigned char> jpeg_of(const cv::Mat3b& image) {
-  constexpr int kMostWidth_px = 1920, kQuality = 85;
-  cv::Mat3b shown = image;
-  if (const double scale = static_cast<double>(kMostWidth_px) / image.cols; scale < 1) {
-    cv::resize(image, shown, {}, scale, scale, cv::INTER_AREA);
-  }
+  constexpr int kQuality = 85;
   std::vector<unsigned char> jpeg;
-  cv::imencode(".jpg", shown, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+  cv::imencode(".jpg", image, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality});
   return jpeg;
 }
 
@@ -51,6 +48,17 @@ Mover mover_of(const scenario::Scenario& scenario, const sim::Survey& survey,
                    look.objects.end();
   }
   return mover;
+}
+
+/// The same view in no more pixels than are looked at.
+scenario::Scenario looked_at(scenario::Scenario scenario) {
+  int &width = scenario.camera.width_px, &height = scenario.camera.height_px;
+  const double share = kMostLookPixels / (static_cast<double>(width) * height);
+  if (share < 1) {
+    width = std::max(1, static_cast<int>(width * std::sqrt(share)));
+    height = std::max(1, static_cast<int>(height * std::sqrt(share)));
+  }
+  return scenario;
 }
 
 std::vector<std::string> what_is_wrong(const scenario::Scenario& scenario, const Preview& p) {
@@ -100,7 +108,7 @@ Preview preview(const scenario::Scenario& scenario, const std::function<void(int
     p.corners_px.push_back(detector.detect(grey));
     p.looks.push_back({seen.index, seen.image.size(), seen.objects, jpeg_of(seen.image)});
   };
-  p.survey = sim::survey(scenario, kLooks, on_look, on_frame);
+  p.survey = sim::survey(looked_at(scenario), kLooks, on_look, on_frame);
   for (std::size_t i = 0; i < scenario.actors.size(); ++i) {
     p.movers.push_back(mover_of(scenario, p.survey, p.looks, i));
   }

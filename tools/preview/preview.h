@@ -33,8 +33,11 @@ struct Mover {
   int looks = 0;  ///< in which some of it is seen
 };
 
-/// A frame that was looked at. Its picture is of the camera's size only up to 1920 px of width: of
-/// the largest camera all of them would take gigabytes.
+/// Pixels of a picture that is looked at. Larger cameras are looked through at a smaller size: the
+/// largest one's pictures take gigabytes, and seconds each.
+inline constexpr int kMostLookPixels = 2048 * 2048;
+
+/// A frame that was looked at.
 struct Look {
   int index = 0;
   cv::Size image_px = {};

@@ -68,7 +68,12 @@ class PreviewPage : public report::TextPage {
     add("<h2>What the camera sees</h2>\n<div class=\"pictures\">\n");
     const std::size_t last = preview_.looks.size() - 1;
     for (const std::size_t look : {std::size_t{0}, last / 2, last}) picture(look);
-    add("</div>\n<p class=\"small quiet\">Yellow: corners. Boxes: actors.</p>\n");
+    const cv::Size shown_px = preview_.looks.front().image_px;
+    const bool is_smaller = shown_px.width < scenario.camera.width_px;
+    add("</div>\n<p class=\"small quiet\">Yellow: corners. Boxes: actors.{}</p>\n",
+        is_smaller ? fmt::format(" Pictures and corners are those of {} x {} pixels.",
+                                 shown_px.width, shown_px.height)
+                   : "");
     corners();
   }
 

@@ -36,7 +36,7 @@ class Playback : public bench::FrameSource {
   Diagnostics diagnostics() const override;
 
   /// Pictures that could not be used so far.
-  std::size_t skipped() const { return pictures_.skipped().size(); }
+  std::size_t skipped() const { return next_ - static_cast<std::size_t>(index_); }
   /// What was not as it should be so far, and what is not known: a line for people each.
   std::vector<std::string> told() const;
 
