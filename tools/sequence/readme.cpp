@@ -48,7 +48,7 @@ belong to the very same moment; there is no delay between sensors.
 
 constexpr const char* kPictures = R"(
 * `mav0/cam0/data/<ns>.png`, `mav0/cam0/data.csv`: the pictures, 8-bit colour, and their list.
-* `lcs.json`: how `lcs replay` sets up the detectors for the same bits as `lcs run` gives.
+* `lcs.json`: how `lcs replay` sets up the detectors for the same bits as `lcs run` gives; `origin` is the world of `lcs world` that the pictures are of, if they are of one.
 * `scenario.yaml`: the scenario as it was read, without what was set on the command line.
 )";
 

@@ -42,7 +42,7 @@ std::optional<std::string> take_line(std::string_view& text) {
   return line;
 }
 
-/// All that two heads differ in, as "seed: 1 before, 2 now".
+/// All that two heads differ in, as "seed: 1 -> 2".
 std::string differences(const std::vector<Fact>& before, const std::vector<Fact>& now) {
   constexpr const char* kNothing = "nothing";
   const auto in = [&](const std::vector<Fact>& facts, const std::string& name) {
@@ -80,12 +80,7 @@ Journal::Journal(const fs::path& file, const std::vector<Fact>& facts,
     create();
   }
   file_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (file_ < 0) {
-    const std::error_code code(errno, std::generic_category());
-    throw bench::OutputError(fmt::format("cannot write {}: {}; {}", path_.string(), code.message(),
-                                         bench::remedy(code)));
-  }
-  if (is_cut_off_) append(fmt::format("{}\n", kCutOff));
+  if (file_ < 0) fail(errno);
 }
 
 void Journal::create() const {
@@ -107,6 +102,12 @@ Journal::~Journal() {
 
 void Journal::refuse(int line, const std::string& what) const {
   throw scenario::Error({path_.string(), line}, fmt::format("{}; {}", what, kRemedy));
+}
+
+void Journal::fail(int error) const {
+  const std::error_code code(error, std::generic_category());
+  throw bench::OutputError(
+      fmt::format("cannot write {}: {}; {}", path_.string(), code.message(), bench::remedy(code)));
 }
 
 void Journal::read(const std::vector<Fact>& facts) {
@@ -141,19 +142,20 @@ void Journal::read(const std::vector<Fact>& facts) {
 }
 
 void Journal::read_row(const std::string& row, int line) {
-  const auto fail = [&](const std::string& what) {
+  const auto refuse_row = [&](const std::string& what) {
     refuse(line, fmt::format("the row '{}' {}", scenario::one_line(row), what));
   };
   const auto cells = bench::fields_of(row);
   if (cells.size() != columns_) {
-    fail(fmt::format("has {} cells, and not {}", cells.size(), columns_));
+    refuse_row(fmt::format("has {} cells, and not {}", cells.size(), columns_));
   }
   std::vector<std::string> values;
   Worth worth;
   const std::size_t keys = columns_ - 1 - std::size(kFigures);
   for (std::size_t i = 0; i + 1 < columns_; ++i) {
     const auto number = bench::number_in<double>(cells[i]);
-    if (!number) fail(fmt::format("has '{}', which is no number", scenario::one_line(cells[i])));
+    if (!number)
+      refuse_row(fmt::format("has '{}', which is no number", scenario::one_line(cells[i])));
     if (i < keys) {
       values.emplace_back(cells[i]);
     } else {
@@ -162,7 +164,7 @@ void Journal::read_row(const std::string& row, int line) {
   }
   const std::size_t end = row.rfind(',');
   if (row.substr(end + 1) != check_of(row.substr(0, end))) {
-    fail("was changed after it was written, as its check says");
+    refuse_row("was changed after it was written, as its check says");
   }
   known_[values] = worth;
 }
@@ -179,21 +181,16 @@ std::optional<Worth> Journal::find(const std::vector<std::string>& values) const
 void Journal::add(const std::vector<std::string>& values, const Worth& worth) {
   std::string row = fmt::format("{}", fmt::join(values, ","));
   for (double Worth::*figure : kFigures) row += fmt::format(",{}", worth.*figure);
-  append(fmt::format("{},{}\n", row, check_of(row)));
-  known_[values] = worth;
-}
-
-void Journal::append(const std::string& text) {
+  const std::string line = fmt::format("{},{}\n", row, check_of(row));
+  const std::string text = is_cut_off_ ? fmt::format("{}\n{}", kCutOff, line) : line;
   for (std::string_view rest = text; !rest.empty();) {
     const ssize_t written = ::write(file_, rest.data(), rest.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) {
-      const std::error_code code(errno, std::generic_category());
-      throw bench::OutputError(fmt::format("cannot write {}: {}; {}", path_.string(),
-                                           code.message(), bench::remedy(code)));
-    }
+    if (written < 0) fail(errno);
     rest.remove_prefix(static_cast<std::size_t>(written));
   }
+  is_cut_off_ = false;
+  known_[values] = worth;
 }
 
 }  // namespace lcs::tune

@@ -27,7 +27,7 @@ struct Fact {
 class Journal {
  public:
   /// Opens the file, or creates it where there is none. A last line without its line end, as a kill
-  /// or a full disk leaves it, is marked as cut off and not read.
+  /// or a full disk leaves it, is not read; the next row marks it as cut off.
   /// \param facts about the search. \param keys of the numbers that it tries.
   /// \throws scenario::Error naming file and line, before anything is written: the file is no plain
   ///   file, is no journal, is one of other facts (each is named with both its texts), or has a row
@@ -49,8 +49,8 @@ class Journal {
   void read(const std::vector<Fact>& facts);
   void read_row(const std::string& row, int line);
   std::string check_of(const std::string& row) const;
-  void append(const std::string& text);
   [[noreturn]] void refuse(int line, const std::string& what) const;
+  [[noreturn]] void fail(int error) const;  ///< of writing
 
   std::filesystem::path path_;
   std::size_t columns_;  ///< of a row, the check included
