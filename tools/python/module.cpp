@@ -25,6 +25,9 @@ void translate(std::exception_ptr thrown) {
     std::rethrow_exception(std::move(thrown));
   } catch (const py::error_already_set&) {
     throw;
+  } catch (const py::cast_error&) {
+    PyErr_SetString(PyExc_TypeError,
+                    "an argument is not of its class; see help() of what is called");
   } catch (const py::builtin_exception&) {
     throw;
   } catch (const std::bad_alloc&) {
