@@ -1,7 +1,13 @@
 #include "sim/simulation.h"
 
+#include <sys/mman.h>
+
+#include <memory>
+#include <string>
+
 #include "sim/gl_context.h"
 #include "sim/observer.h"
+#include "sim/trial.h"
 
 namespace lcs::sim {
 
@@ -44,7 +50,19 @@ void Simulation::skip() {
 }
 
 Versions versions() {
-  return {mj_versionString(), GlContext().renderer()};
+  // Asked in a child: once this process has drawn, no child of it can try what it has memory for.
+  constexpr std::size_t kLongest = 4096;
+  void* const shared =
+      ::mmap(nullptr, kLongest, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (shared == MAP_FAILED) return {mj_versionString(), GlContext().renderer()};
+  const std::unique_ptr<void, void (*)(void*)> owner(shared,
+                                                     [](void* at) { ::munmap(at, kLongest); });
+  const Trial trial = try_in_child([&] {
+    const std::string renderer = GlContext().renderer();
+    renderer.copy(static_cast<char*>(shared), kLongest - 1);
+  });
+  if (!trial.fine) return {mj_versionString(), GlContext().renderer()};  // which says why not
+  return {mj_versionString(), static_cast<const char*>(shared)};
 }
 
 }  // namespace lcs::sim

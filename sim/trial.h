@@ -28,7 +28,7 @@ struct TrialBounds {
 /// no input, leaves no core, and ends when this process ends.
 ///
 /// The child has only the calling thread: `action` must wait for no lock that another thread may
-/// hold, and use no GL.
+/// hold, and use no GL where this process has used it: Mesa's threads are not the child's.
 /// \throws std::system_error if no child can be started.
 Trial try_in_child(const std::function<void()>& action, const TrialBounds& bounds = {});
 

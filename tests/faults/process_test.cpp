@@ -130,6 +130,20 @@ TEST_F(Process, ALimitOfMemoryIsToldAsSuchAndLeavesNothing) {
   EXPECT_TRUE(entries(home()).empty());
 }
 
+TEST_F(Process, ALimitOfMemoryThatIsEnoughStopsNoCommand) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer itself takes terabytes";
+#endif
+  CommandOptions enough = options();
+  enough.most_memory = std::size_t{8} << 30;
+  const Arguments generate = brief({"generate", kCrossing, "--formats", "tum", "--quiet"});
+  const Arguments preview = brief({"preview", kCrossing, "--quiet"});
+  for (const Arguments& arguments : {run({"--quiet"}), generate, preview, {"--version"}}) {
+    const CommandResult result = run_lcs(arguments, enough);
+    EXPECT_EQ(result.exit_code, 0) << arguments.front() << ": " << result.err;
+  }
+}
+
 /// Whether a process has taken a signal into its own hands. Until `main` it has not: the loader is
 /// at work, for as long as the machine takes.
 bool catches(pid_t process, int signal) {

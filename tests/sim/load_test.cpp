@@ -145,7 +145,10 @@ TEST_F(SceneRefused, ForAnOriginThatIsNoneOrNotTheScenarios) {
   ASSERT_TRUE(of_scene);
   EXPECT_EQ(of_scene->family, "room");
   EXPECT_EQ(of_scene->seed, 2'000'000u);
-  s.origin = {.source = {"mine.yaml", 3}, .family = "room", .seed = 2'000'000};
+  scenario::Origin& stated = s.origin.emplace();
+  stated.source = {"mine.yaml", 3};
+  stated.family = "room";
+  stated.seed = 2'000'000;
   EXPECT_NO_THROW(World{s});
   s.origin->seed = 1;
   expect_at("mine.yaml:3: ", refusal(s), {"origin is room 1", "drawn as room 2000000"});
