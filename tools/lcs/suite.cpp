@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "scenarios/inputs_read.h"
 #include "scenarios/message.h"
 #include "scenarios/scenes.h"
 #include "tools/bench/tracker.h"
@@ -183,6 +184,7 @@ void require_detections(const fs::path& folder, const std::vector<suite::Planned
         fmt::format("--detections {} is no folder; name one that holds {} for each run",
                     folder.string(), suite::detections_of("SCENARIO", 1).string()));
   }
+  scenario::note_input(folder);
   std::vector<std::string> missing;
   for (const suite::PlannedScenario& planned : plan) {
     if (!planned.scenario) continue;
