@@ -504,7 +504,8 @@ std::string any_row(std::mt19937& random) {
     row += ',' + (is_id && random() % 8 != 0 ? std::to_string(random() % 1000) : tempting(random));
   }
   if (type != std::string_view("mask")) return row;
-  const std::uint32_t before = random() % 4700, inside = random() % 4700;
+  const auto before = static_cast<std::int64_t>(random() % 4700);
+  const auto inside = static_cast<std::int64_t>(random() % 4700);
   const std::int64_t after = std::int64_t{96 * 48} - before - inside;
   return fmt::format("{},mask,{},{},{},{},{},{}", random() % 6, random() % 1000,
                      random() % 16 == 0 ? tempting(random) : "48",

@@ -125,7 +125,9 @@ Recording full_recording() {
   recording.objects = {{1, "box \"quoted\""}, {2, "caf\u00e9\n"}};
   recording.seed = std::numeric_limits<std::uint64_t>::max();
   recording.world = {{"ego.speed", "0.5 m/s"}, {"actors.caf\u00e9.\"x\"", ""}};
-  recording.origin = scenario::Origin{.family = "caf\u00e9", .seed = recording.seed};
+  scenario::Origin& origin = recording.origin.emplace();
+  origin.family = "caf\u00e9";
+  origin.seed = recording.seed;
   for (int k = 0; k < 5; ++k) recording.frames.push_back(full_frame(filler, k));
   return recording;
 }

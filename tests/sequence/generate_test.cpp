@@ -424,7 +424,7 @@ TEST_F(Generate, APlanThatCannotBeReadIsRefusedWithItsPlace) {
   };
   for (const char* file : {".generate/plan.json", "manifest.json"}) {
     for (const auto& [plan, expected] : plans) {
-      write_file(folder() / file, plan);
+      bench::write(folder() / file, plan);
       const CommandResult result = generate({"--out", folder()});
       EXPECT_EQ(result.exit_code, 2);
       EXPECT_NE(result.err.find(file + expected), std::string::npos) << result.err;

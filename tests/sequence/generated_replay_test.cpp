@@ -5,6 +5,7 @@
 #include <map>
 
 #include "tests/tools/command.h"
+#include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/figures_file.h"
@@ -144,7 +145,7 @@ TEST_F(GeneratedReplay, OfFilesThatContradictEachOtherIsRefusedAtTheLine) {
     std::string text = before;
     text.replace(start, before.find('\n', start) - start,
                  edit.line ? edit.line : "data: [1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]");
-    write_file(file, text);
+    bench::write(file, text);
     const CommandResult result = replay();
     EXPECT_EQ(result.exit_code, 2);
     const auto at = before.begin() + static_cast<std::ptrdiff_t>(before.find(edit.key));
@@ -153,7 +154,7 @@ TEST_F(GeneratedReplay, OfFilesThatContradictEachOtherIsRefusedAtTheLine) {
                               edit.key + " is not as lcs.json of the sequence says; "),
               std::string::npos)
         << result.err;
-    write_file(file, before);
+    bench::write(file, before);
   }
   EXPECT_EQ(replay().exit_code, 0);
 }
