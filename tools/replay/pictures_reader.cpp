@@ -106,9 +106,8 @@ Recorded read_video(const scenario::Recorded& asked, bool) {
   constexpr double kMostPictures = 1e7, kLeastBytes = 8;
   const auto bytes = static_cast<double>(fs::file_size(asked.path));
   if (count > std::min(kMostPictures, bytes / kLeastBytes)) {
-    refuse(fmt::format(
-        "says that it has {:.0f} pictures, and its {:.0f} bytes {}", count, bytes,
-        count > kMostPictures ? "can be those of 10 million at most" : "cannot hold so many"));
+    refuse(fmt::format("says that it has {:.0f} pictures, and one of {:.0f} bytes can have {:.0f}",
+                       count, bytes, std::min(kMostPictures, bytes / kLeastBytes)));
   }
   const double width = video.get(cv::CAP_PROP_FRAME_WIDTH);
   const double height = video.get(cv::CAP_PROP_FRAME_HEIGHT);

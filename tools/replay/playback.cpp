@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
+#include "scenarios/message.h"
 #include "sim/picture_file.h"
 #include "tools/sequence/replay_settings.h"
 
@@ -63,9 +64,10 @@ void Playback::look_at_first_picture() {
   const scenario::Recorded& asked = scenario_.recording.value();
   if (!first) {
     throw scenario::Error(
-        asked.source, fmt::format("none of the pictures in {} can be read; give a recording with "
-                                  "its pictures",
-                                  asked.path.string()));
+        asked.source,
+        fmt::format("none of the pictures in {} can be read (the first: {}); give a recording with "
+                    "its pictures",
+                    asked.path.string(), scenario::one_line(pictures.skipped().front())));
   }
   Lens& lens = recorded_.lens.value();
   const cv::Size size_px = first->size();
