@@ -506,7 +506,7 @@ std::string any_row(std::mt19937& random) {
   if (type != std::string_view("mask")) return row;
   const auto before = static_cast<std::int64_t>(random() % 4700);
   const auto inside = static_cast<std::int64_t>(random() % 4700);
-  const std::int64_t after = std::int64_t{96 * 48} - before - inside;
+  const std::int64_t after = 96 * 48 - before - inside;
   return fmt::format("{},mask,{},{},{},{},{},{}", random() % 6, random() % 1000,
                      random() % 16 == 0 ? tempting(random) : "48",
                      random() % 16 == 0 ? tempting(random) : "96", before, inside, after);
@@ -530,7 +530,7 @@ TEST_F(DetectionsTest, AnyRowIsRefusedOrKeptStoredReadAndScoredAlike) {
     for (sim::CornerTruth& corner : frame.corner_truth) corner.object = 1;
   }
   int kept = 0, refused = 0;
-  for (int trial = 0; trial < 300; ++trial) {
+  for (int trial = 0; trial < 40; ++trial) {
     std::string rows;
     for (int i = 0; i < 30; ++i) {
       const std::string row = any_row(random) + '\n';
@@ -557,8 +557,8 @@ TEST_F(DetectionsTest, AnyRowIsRefusedOrKeptStoredReadAndScoredAlike) {
     expect_same(figures, score(read_detections(path_, stored).recording), rows);
     if (HasFailure()) break;
   }
-  EXPECT_GT(kept, 1000);
-  EXPECT_GT(refused, 1000);
+  EXPECT_GT(kept, 200);
+  EXPECT_GT(refused, 200);
 }
 
 TEST_F(DetectionsTest, TheDocumentsRowsAreRead) {

@@ -286,7 +286,7 @@ void bind_seen(py::module_& module) {
           "Likewise, fields t (s), velocity (3, m/s, of the rover in its frame: x forward, z up),\n"
           "yaw_rate (rad/s, by the wheels; nan where they do not tell it).")
       .def_property_readonly(
-          "truth", [](std::shared_ptr<const Frame> f) { return Truth{std::move(f)}; },
+          "truth", [](const Frame& f) { return Truth{f.shared_from_this()}; },
           "What no detector is to be told.")
       .def("__repr__", [](const Frame& f) {
         return fmt::format("<lcs.Frame {} of {}: {} corners at {} s>", f.seen.record.index,

@@ -21,7 +21,7 @@ struct Run {
 };
 
 /// What was seen and what is true. Never changed once it is made, so that arrays may look at it.
-struct Frame {
+struct Frame : std::enable_shared_from_this<Frame> {
   std::shared_ptr<const Run> run;
   bench::SeenFrame seen;
   std::optional<sim::Observation> observation;  ///< none of a recorded frame
