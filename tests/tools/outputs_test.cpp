@@ -340,7 +340,7 @@ TEST_F(Outputs, OnAFullDiskLeaveNothing) {
     const auto before = entries(home_.path());
     // A generated sequence and a search keep what they have.
     const bool grows = option.command == "generate" || option.command == "tune";
-    const CommandOptions full{.folder = home_.path(), .largest_file = 300};
+    const CommandOptions full{.folder = home_.path(), .largest_file = 100};
     if (!grows) {
       expect_refused(naming(option, "place"), full);
       EXPECT_EQ(entries(home_.path()), before);

@@ -484,6 +484,7 @@ void commit_all(std::span<Output* const> outputs) {
   std::size_t moves = 0;
   for (const Output* output : all) {
     output->require_replaceable();  // the place may have changed since
+    if (!output->is_folder()) output_path(output->target_);  // and may have been read
     output->is_folder() ? write_record_of_folder(output->staging_)
                         : write_record_of_file(output->staging_);
     moves += output->moves().size();
