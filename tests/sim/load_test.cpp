@@ -145,10 +145,10 @@ TEST_F(SceneRefused, ForAnOriginThatIsNoneOrNotTheScenarios) {
   ASSERT_TRUE(of_scene);
   EXPECT_EQ(of_scene->family, "room");
   EXPECT_EQ(of_scene->seed, 2'000'000u);
-  scenario::Origin& stated = s.origin.emplace();
-  stated.source = {"mine.yaml", 3};
-  stated.family = "room";
-  stated.seed = 2'000'000;
+  scenario::Origin& of_scenario = s.origin.emplace();
+  of_scenario.source = {"mine.yaml", 3};
+  of_scenario.family = "room";
+  of_scenario.seed = 2'000'000;
   EXPECT_NO_THROW(World{s});
   s.origin->seed = 1;
   expect_at("mine.yaml:3: ", refusal(s), {"origin is room 1", "drawn as room 2000000"});
