@@ -282,9 +282,11 @@ TEST_F(BrokenRecording, WhatCannotBeReplayedIsToldInOneLineAndNothingIsWritten) 
   ASSERT_NE(settings.find(width), settings.npos);
   settings.replace(settings.find(width), width.size(), "\"width_px\": 8192");
   write(sequence() / "lcs.json", settings);
+  refused("resolution is not as lcs.json of the sequence says; ");
+  const fs::path sensor = sequence() / "mav0/cam0/sensor.yaml";
+  fs::remove(sensor);
   refused("the calibration is of 8192 x 480 pixels, and the pictures have 640 x 480; ");
   fs::remove(sequence() / "lcs.json");
-  const fs::path sensor = sequence() / "mav0/cam0/sensor.yaml";
   const std::string lens =
       "resolution: [640, 480]\nintrinsics: [500, 500, 320, 240]\ndistortion_model: radtan\n"
       "distortion_coefficients: [0.1, 0, 0, 0]\n";

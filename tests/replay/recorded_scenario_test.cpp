@@ -256,8 +256,8 @@ TEST_F(RecordedScenario, OfAVideoThatSaysMoreThanItsFileHoldsIsRefused) {
     write(file, with_number(with_number(whole, "avih", kFramesOfFile, count), "strh",
                             kFramesOfStream, count));
     const std::string told = refusal(recording);
-    EXPECT_NE(told.find(fmt::format("says that it has {} pictures, and one of {} bytes can have ", count,
-                                    whole.size())),
+    EXPECT_NE(told.find(fmt::format("says that it has {} pictures, and one of {} bytes can have ",
+                                    count, whole.size())),
               std::string::npos)
         << told;
   }
@@ -267,8 +267,10 @@ TEST_F(RecordedScenario, OfAVideoThatSaysMoreThanItsFileHoldsIsRefused) {
   Playback longer = playback(recording);
   EXPECT_EQ(all_of(longer).frames.size(), static_cast<std::size_t>(kFrames));
   EXPECT_EQ(longer.skipped(), 96u);
-  ASSERT_EQ(longer.told().size(), 1u);
-  EXPECT_NE(longer.told()[0].find("picture 4 of"), std::string::npos) << longer.told()[0];
+  EXPECT_EQ(std::ranges::count_if(
+                longer.told(), [](const std::string& line) { return line.starts_with("skipped"); }),
+            1);
+  EXPECT_NE(longer.told()[0].find("skipped: picture 4 of"), std::string::npos) << longer.told()[0];
   EXPECT_NE(longer.told()[0].find("cannot be read, and none after it"), std::string::npos);
   write(file, with_number(with_number(whole, "strf", 8, 32'000), "strf", 12, 32'000));
   const std::string told = refusal(recording);
@@ -280,7 +282,7 @@ TEST_F(RecordedScenario, OfAVideoThatSaysMoreThanItsFileHoldsIsRefused) {
 TEST_F(RecordedScenario, OfWhatFfmpegOnlyTakesForAVideoIsRefused) {
   {
     cv::VideoWriter video((home() / "real.ts").string(), cv::CAP_FFMPEG,
-                          cv::VideoWriter::fourcc('M', 'P', 'G', '2'), 25, {160, 120});
+                          cv::VideoWriter::fourcc(2, 0, 0, 0), 25, {160, 120});
     for (int k = 0; k < 20; ++k) video.write(view(k % kFrames));
   }
   const std::string playlist =
@@ -327,7 +329,6 @@ TEST_F(RecordedScenario, OfPicturesThatClaimToBeHugeIsRefusedBeforeTheyAreDecode
   const std::string recording = "path: pictures, fps: 10, focal: 300, speed: 0";
   Playback some = playback(recording);
   EXPECT_EQ(all_of(some).frames.size(), 3u);
-  ASSERT_EQ(some.told().size(), 1u);
   EXPECT_NE(some.told()[0].find("1.png: the picture has 32000 x 32000 pixels, and can have"),
             std::string::npos)
       << some.told()[0];
