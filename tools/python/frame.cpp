@@ -473,7 +473,11 @@ void bind_frame(py::module_& module) {
              return std::make_unique<Simulation>(std::move(scenario));
            }),
            py::arg("scenario").none(false))
-      .def("__iter__", [](const py::object& self) { return self; })
+      .def("__iter__",
+           [](const py::object& self) {
+             static_cast<void>(self.cast<const Simulation&>());  // or it is refused
+             return self;
+           })
       .def("__next__",
            [](Simulation& self) {
              std::shared_ptr<Frame> frame = self.next();

@@ -264,24 +264,33 @@ void bind_scorer(py::module_& module) {
           "masks: in place of boxes, M x H x W bool: the pixels that each covers.\n"
           "circles: K x 3, x, y, radius in pixels: groups of rebels, by which false objects are "
           "counted.\n"
-          "Raises TypeError or ValueError for what is none of these. Places and the masks' size are "
+          "Raises TypeError or ValueError for what is none of these. Places and the masks' size "
+          "are "
           "checked\n"
           "against the camera by Scorer.add.");
+  // By references: pybind11 takes None for the pointers of member functions.
   class_of<Scorer>(module, "Scorer",
                    "Scores a run's frames, one after another, without keeping their pictures.")
       .def(py::init<>())
-      .def("add", &Scorer::add, py::arg("frame"), py::arg("said"),
-           "said: a Result of the filter, Detections, or N bool, which of the frame's corners are "
-           "rebels.\n"
-           "Frames come in order, each once, from the first on; what raises counts for nothing.\n"
-           "Raises ValueError for what is not in the camera's picture "
-           "(tools/recording/DETECTIONS.md).")
-      .def("metrics", &Scorer::metrics,
-           "All figures of metrics.json (tools/scoring/SCORING.md) by name; None where undefined. "
-           "Times and\n"
-           "sizes are those of the filter; of other detectors they are None.")
-      .def_property_readonly("warnings", &Scorer::warnings,
-                             "What should not be, a line each, as lcs run tells it.");
+      .def(
+          "add",
+          [](Scorer& scorer, const Frame& frame, const py::object& said) {
+            scorer.add(frame, said);
+          },
+          py::arg("frame"), py::arg("said"),
+          "said: a Result of the filter, Detections, or N bool, which of the frame's corners are "
+          "rebels.\n"
+          "Frames come in order, each once, from the first on; what raises counts for nothing.\n"
+          "Raises ValueError for what is not in the camera's picture "
+          "(tools/recording/DETECTIONS.md).")
+      .def(
+          "metrics", [](Scorer& scorer) { return scorer.metrics(); },
+          "All figures of metrics.json (tools/scoring/SCORING.md) by name; None where undefined. "
+          "Times and\n"
+          "sizes are those of the filter; of other detectors they are None.")
+      .def_property_readonly(
+          "warnings", [](Scorer& scorer) { return scorer.warnings(); },
+          "What should not be, a line each, as lcs run tells it.");
 }
 
 }  // namespace lcs::python
