@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
         added("TwiceInSection", "camera: {rate: 5, size: [640, 480], rate: 6}\n",
               "4: key 'rate' is given twice, first in line 4; remove one"),
         added("OriginWithoutSeed", "origin:\n  family: room\n",
-              "5: origin needs 'seed'; add it (scenarios/README.md shows how)"),
+              "4: origin needs 'seed'; add it (scenarios/README.md shows how)"),
         added("NoName", "? [a, b]\n: 5\n", "4: a key is a list; give a name"),
         added("NoValue", "seed:\n", "4: seed has no value; give one or remove the key"),
         added("NoSection", "odometry:\n", "4: odometry has no value; give one or remove the key"),

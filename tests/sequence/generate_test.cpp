@@ -501,7 +501,7 @@ TEST_F(GenerateInParts, FilesOfTheUserInAFolderThatWasBegunAreNeverReplaced) {
     for (const auto& [path, bytes] : before) EXPECT_EQ(bytes_in(folder()).at(path), bytes) << path;
     fs::remove(folder() / name);
   }
-  for (const char* name : {"flow/000003.flo", "coco"}) {
+  for (const char* name : {"flow/kitti/000002.png", "coco"}) {
     fs::remove_all(folder() / name);
     put_link(folder() / name);
     const CommandResult result = generate({"--out", folder(), "--quiet"});

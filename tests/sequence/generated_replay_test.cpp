@@ -148,9 +148,10 @@ TEST_F(GeneratedReplay, OfFilesThatContradictEachOtherIsRefusedAtTheLine) {
     bench::write(file, text);
     const CommandResult result = replay();
     EXPECT_EQ(result.exit_code, 2);
-    const auto at = before.begin() + static_cast<std::ptrdiff_t>(before.find(edit.key));
+    const std::size_t key = before.find("\n" + std::string(edit.key) + ":");
+    const auto end = before.begin() + static_cast<std::ptrdiff_t>(key);
     EXPECT_NE(result.err.find(file.string() + ":" +
-                              std::to_string(1 + std::count(before.begin(), at, '\n')) + ": " +
+                              std::to_string(2 + std::count(before.begin(), end, '\n')) + ": " +
                               edit.key + " is not as lcs.json of the sequence says; "),
               std::string::npos)
         << result.err;
