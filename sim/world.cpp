@@ -439,23 +439,24 @@ std::string World::saved(bool as_mjcf) {
     std::copy_n(model_.d().qpos + m.jnt_qposadr[joint], 7, m.qpos0 + m.jnt_qposadr[joint]);
   }
   if (!has_contacts(m)) m.opt.disableflags &= ~mjDSBL_CONTACT;  // for what is added to it
-  if (!as_mjcf) {
-    std::string bytes(static_cast<std::size_t>(mj_sizeModel(&m)), '\0');
-    mj_saveModel(&m, nullptr, bytes.data(), static_cast<int>(bytes.size()));
-    if (const std::string warning = take_warning(); !warning.empty()) throw MujocoError(warning);
-    return bytes;
-  }
-  // MuJoCo writes XML to files alone, and does not notice a full disk. This one is in memory.
+  // MuJoCo writes to files alone, and does not notice a full disk. This one is in memory.
   const int file = ::memfd_create("world", MFD_CLOEXEC);
   if (file < 0) throw std::system_error(errno, std::generic_category(), "memfd_create");
   const std::string path = "/proc/self/fd/" + std::to_string(file);
   std::array<char, 1000> message{};
-  const bool is_saved =
-      mj_saveLastXML(path.c_str(), &m, message.data(), static_cast<int>(message.size())) != 0;
+  if (as_mjcf) {
+    mj_saveLastXML(path.c_str(), &m, message.data(), static_cast<int>(message.size()));
+  } else {
+    mj_saveModel(&m, path.c_str(), nullptr, 0);
+  }
   std::string bytes(static_cast<std::size_t>(std::max<off_t>(::lseek(file, 0, SEEK_END), 0)), '\0');
   const ssize_t read = ::pread(file, bytes.data(), bytes.size(), 0);
   ::close(file);
-  if (!is_saved || read != static_cast<ssize_t>(bytes.size())) throw MujocoError(message.data());
+  const std::string problem = as_mjcf ? message.data() : take_warning();
+  if (!problem.empty()) throw MujocoError(problem);
+  if (bytes.empty() || read != static_cast<ssize_t>(bytes.size())) {
+    throw MujocoError("the world cannot be saved");
+  }
   return bytes;
 }
 

@@ -232,10 +232,10 @@ TEST_P(WorldOfSplit, StaysOneOfItInAnotherScenarioAndASceneOfItsOwn) {
                "camera: {size: [160, 120]}\n");
   make_suite("other");
   expect_refused_or_not("another scenario");
-  bench::write(folder_.path() / "other" / "own.xml",
-               "<mujoco><include file='../w/scene.xml'/></mujoco>");
+  bench::write(folder_.path() / "w" / "own.xml",
+               "<mujoco><include file='scene.xml'/></mujoco>");  // its textures lie beside it
   bench::write(folder_.path() / "other" / "drive.yaml",
-               "scene: own.xml\nframes: 4\nego: {start: [0 m, 0 m], speed: 0.3 m/s}\n"
+               "scene: ../w/own.xml\nframes: 4\nego: {start: [0 m, 0 m], speed: 0.3 m/s}\n"
                "camera: {size: [160, 120]}\n");
   make_suite("other");
   expect_refused_or_not("a scene that includes it");
