@@ -211,7 +211,7 @@ TEST_F(Process, ASignalEndsTheWaitForAPipeThatNobodyReads) {
   full.out = home() / "pipe";
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
     Command command({"score", "run"}, full);
-    for (int i = 0; i < 100 && !is_asleep(command.pid()); ++i) std::this_thread::sleep_for(10ms);
+    for (int i = 0; i < 5000 && !is_asleep(command.pid()); ++i) std::this_thread::sleep_for(10ms);
     ASSERT_TRUE(command.is_running());
     command.send(signal);
     const CommandResult result = command.wait();
@@ -225,7 +225,7 @@ TEST_F(Process, ASignalEndsAnyWaitAtLast) {
   CommandOptions full = options();
   full.out = home() / "pipe";
   Command command({"--help"}, full);  // which the library that reads the command line writes
-  for (int i = 0; i < 100 && !is_asleep(command.pid()); ++i) std::this_thread::sleep_for(10ms);
+  for (int i = 0; i < 5000 && !is_asleep(command.pid()); ++i) std::this_thread::sleep_for(10ms);
   ASSERT_TRUE(command.is_running());
   command.send(SIGTERM);
   std::this_thread::sleep_for(5s);

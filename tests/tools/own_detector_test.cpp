@@ -90,8 +90,6 @@ for line in sys.stdin.buffer:
         if mode == "nested mask": print('{"index": 3, "mask": [[1, ' + lists + ']]}', flush=True)
         if mode == "nested word": print('{"index": 3, "nobody": ' + lists + '}', flush=True)
         if mode == "nested objects": print('{"index": 3, "a": ' + '{"a": ' * 100000, flush=True)
-        if mode == "long": answer["rebel"] = [0] * 500000
-        if mode == "asks for more": answer["rebel"] = [0]
         if mode == "endless": print("[" + "0, " * 10000000, flush=True)
         if mode == "twice": print(json.dumps(answer), flush=True)
         if mode == "skips": answer["index"] = 4
@@ -99,7 +97,9 @@ for line in sys.stdin.buffer:
         if mode == "killed": os.kill(os.getpid(), signal.SIGSEGV)
         if mode == "ends": sys.exit(0)
         if mode == "closes": os.close(1); time.sleep(1000)
-    print(json.dumps(answer) + 2000000 * " " * (mode == "asks for more"), flush=True)
+        if mode == "asks for more": answer["rebel"] = [0]
+        if mode in ("long", "asks for more"): print(" " * 1500000, end="")
+    print(json.dumps(answer), flush=True)
 if mode == "one more": print(json.dumps({"index": k + 1}), flush=True)
 if mode == "fails late": sys.exit(3)
 if mode == "stays": time.sleep(1000)

@@ -33,6 +33,14 @@ constexpr std::size_t kMostLines = 8;  // of stderr that are told
   throw std::system_error(errno, std::generic_category(), what);
 }
 
+/// For a shell, which a single program takes the place of, where it is plain that there is only one:
+/// what it closes is closed then, and its end by a signal is its own.
+std::string for_shell(const std::string& command) {
+  const bool is_list = command.find_first_of(";&|(){}<>\n!") != std::string::npos;
+  const std::string first = command.substr(0, command.find(' '));
+  return is_list || first.find('=') != std::string::npos ? command : "exec " + command;
+}
+
 /// Has the kernel end a process group when the last writer of a pipe is gone, however that ended.
 /// \param reads the pipe's end to read from, which the group has inherited.
 void end_with_writer(int reads, pid_t group) {
@@ -110,7 +118,7 @@ DetectorProcess::DetectorProcess(const std::string& command, double timeout_s,
   }
   ::fcntl(in_.get(), F_SETPIPE_SZ, 1 << 20);  // pictures go faster; it is no matter if not
 
-  const std::array<std::string, 3> shell{"sh", "-c", command};
+  const std::array<std::string, 3> shell{"sh", "-c", for_shell(command)};
   pid_ = process::start_child("/bin/sh", shell, {its_in.get(), its_out.get(), its_err.get()},
                               {.when_parent_ends = SIGKILL, .own_group = true});
   end_with_writer(its_lifeline.get(), pid_);
