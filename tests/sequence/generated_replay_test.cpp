@@ -1,4 +1,5 @@
 // A sequence that was generated, replayed, gives what a run of its scenario gives.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -148,7 +149,7 @@ TEST_F(GeneratedReplay, OfFilesThatContradictEachOtherIsRefusedAtTheLine) {
     bench::write(file, text);
     const CommandResult result = replay();
     EXPECT_EQ(result.exit_code, 2);
-    const std::size_t key = before.find("\n" + std::string(edit.key) + ":");
+    const std::size_t key = before.find(fmt::format("\n{}:", edit.key));
     const auto end = before.begin() + static_cast<std::ptrdiff_t>(key);
     EXPECT_NE(result.err.find(file.string() + ":" +
                               std::to_string(2 + std::count(before.begin(), end, '\n')) + ": " +
