@@ -522,7 +522,7 @@ int hunt(const std::string& kind, std::chrono::seconds time, std::uint64_t seed)
     std::fflush(stdout);
   }
   for (const auto& [code, count] : exit_codes) fmt::print("{} ended with {}\n", count, code);
-  return findings == 0 && exit_codes.contains(2) ? 0 : 1;
+  return findings == 0 && !exit_codes.empty() ? 0 : 1;
 }
 
 }  // namespace
