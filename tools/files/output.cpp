@@ -274,8 +274,10 @@ struct Output::Move {
     if (error == 0) return false;
     const bool is_there = fs::exists(fs::symlink_status(place));
     if (is_there && rename_by(made, place, RENAME_EXCHANGE) == 0) {
-      rename_or_fail("replace", made, earlier);
-      return true;
+      const int problem = rename_by(made, earlier, 0);
+      if (problem == 0) return true;
+      rename_by(made, place, RENAME_EXCHANGE);
+      fail("replace", place, problem);
     }
     const bool is_unknown = error == EINVAL || error == ENOSYS;  // to the file system
     if (!is_there && !is_unknown) fail("create", place, error);
