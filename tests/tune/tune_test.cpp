@@ -467,6 +467,20 @@ TEST_F(TuneCommand, MistakesAreToldInOneLineAndNothingIsWritten) {
   }
 }
 
+TEST_F(TuneCommand, AScenarioWithoutFiguresIsNamed) {
+  bench::write(folder_.path() / "bad.yaml",
+               "scene: none.xml\nframes: 4\nego: {start: [0 m, 0 m], speed: 0.3 m/s}\n");
+  const auto made = bench::run_lcs({"suite", "bad.yaml", "--seeds", "1", "--out",
+                                    (folder_.path() / "failed").string(), "--quiet"},
+                                   {folder_.path()});
+  ASSERT_EQ(made.exit_code, 2) << made.err;
+  const auto result = tune({(folder_.path() / "failed").string()});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("failed has no figures of bad, seed 0; correct it"), std::string::npos)
+      << result.err;
+  EXPECT_FALSE(fs::exists(out()));
+}
+
 TEST_F(TuneCommand, NamesOfSuitesCannotLeaveTheCommentsOfThePreset) {
   const fs::path named = folder_.path() / "a\n#error b \xe2\x80\xae|\\";
   fs::rename(suite(), named);

@@ -7,11 +7,11 @@
 
 #include "filter/filter.h"
 #include "scenarios/input_file.h"
+#include "tools/files/sha256.h"
 #include "tools/process/parallel.h"
 #include "tools/recording/recording_io.h"
 #include "tools/recording/warnings.h"
 #include "tools/scoring/scoring.h"
-#include "tools/files/sha256.h"
 #include "tools/suite/suite_result.h"
 #include "tools/worlds/worlds.h"
 
@@ -77,6 +77,11 @@ Trials::Trials(const std::vector<std::string>& suites) {
 void Trials::read(const std::filesystem::path& suite) {
   for (const suite::ScenarioResult& scenario : suite::read_suite(suite).scenarios) {
     for (const suite::RunResult& run : scenario.runs) {
+      if (run.folder.empty()) {
+        throw std::runtime_error(fmt::format(
+            "{} has no figures of {}, seed {}; correct it, or leave it out of the suite",
+            suite.string(), scenario.name, run.seed));
+      }
       const std::filesystem::path folder = suite::folder_of(suite) / run.folder;
       const auto refuse = [&](const std::string& why) {
         throw std::runtime_error(fmt::format("{} {}", folder.string(), why));
