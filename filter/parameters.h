@@ -51,8 +51,8 @@ struct LineParameters {
   int max_corners = 20000;
 };
 
-/// Two hypotheses a corner (`filter/edges/`), which stand in for xi and alpha; where each
-/// comes from is in filter/RULES.md.
+/// Two hypotheses a corner (`filter/edges/`), which stand in for xi and alpha. The table of symbols
+/// in filter/MODEL.md says where each value comes from.
 struct HypothesisParameters {
   /// The least standard deviation of a corner's place on an axis: whole pixels, and FAST. How
   /// much it is above that is estimated.

@@ -5,7 +5,8 @@
 ///
 /// where w falls with how unlike their motions are and with their distance, in units of r, within
 /// which the nearest `neighbours` lie (Zelnik-Manor, Perona: Self-tuning spectral clustering,
-/// 2004), and b is one more neighbour, as far away as any, that stands (RULES.md, 9).
+/// 2004), and b is the weight of a virtual static neighbour at the cut-off distance. MODEL.md (18)
+/// and (19) call w k, and b k_0.
 #pragma once
 
 #include <span>

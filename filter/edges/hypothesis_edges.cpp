@@ -91,7 +91,7 @@ double HypothesisEdges::faded(double log_odds, double dt_s) const {
   return lcs::log_odds(chance(log_odds) * (1 - turnover) + parameters_.prior * turnover);
 }
 
-/// Density of a second sighting of what moves (RULES.md, 3).
+/// Density of a second sighting of what moves (MODEL.md (13)).
 double HypothesisEdges::first_step(const Track& track, const Vec2& x_px,
                                    const DepthBounds& bounds) const {
   const Vec2 parallax = parallax_px_m(camera_, track.displacement_C_m, track.place_px);

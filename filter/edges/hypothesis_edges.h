@@ -1,6 +1,6 @@
 /// \file
 /// Edges by two hypotheses: each tracked corner stands or moves by itself, and carries the log odds
-/// of the latter. filter/RULES.md has the steps.
+/// of the latter. The formulas are in filter/MODEL.md (6) to (20).
 #pragma once
 
 #include <vector>

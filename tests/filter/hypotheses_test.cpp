@@ -382,7 +382,7 @@ TEST(Association, IsOneToOne) {
   }
 }
 
-/// RULES.md, step 4, word by word: each pair with the votes of all neighbours.
+/// MODEL.md (7), term by term: each pair with the votes of all neighbours.
 std::vector<int> matched_by_formula(const HypothesisParameters& parameters, const Chi& chi,
                                     const std::vector<Track>& tracks) {
   const double reach = parameters.max_speed_pxps * kDt_s, near = parameters.neighbour_reach_px;

@@ -1,4 +1,4 @@
-/// The numbers of the default filter are counted, and RULES.md says of each where it comes from.
+/// The numbers of the default filter are counted, and MODEL.md says where each comes from.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,8 +61,8 @@ TEST(Numbers, AreNoMoreThanTheyWere) {
 }
 
 TEST(Numbers, HaveASourceEach) {
-  const std::string rules = bench::read(kFilter / "RULES.md");
-  const std::string table = rules.substr(rules.find("## The numbers"));
+  const std::string model = bench::read(kFilter / "MODEL.md");
+  const std::string table = model.substr(model.find("## Symbols"));
   for (const std::string& key : keys()) {
     EXPECT_NE(table.find('`' + key + '`'), std::string::npos) << key;
   }
