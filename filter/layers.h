@@ -1,6 +1,6 @@
 /// \file
-/// What the filter knows at the end of a frame: its edges, circles and squares, and the regions and
-/// collectors that it hands to the next frame. Plain values; the paper's symbol stands beside each.
+/// The filter's state at the end of a frame: edges, circles and squares. Plain values; the paper's
+/// symbol stands beside each.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ struct Edge {
   int age = 0;                    ///< frames since it was made, 0 in its first
   /// Standard deviation of depth_ratio; infinite where nothing is known.
   double depth_ratio_sigma = std::numeric_limits<double>::infinity();
-  int corner = -1;  ///< index in chi of the corner that supports it, -1: none this frame
+  int corner = -1;  ///< index in the frame's corners of the one that supports it, -1: no corner
   int circle = -1;  ///< index in its kind's circles, -1: in none
 
   /// px/s, rotation removed.
@@ -54,7 +54,7 @@ struct Circle {
   int trust = 0;                 ///< Tr
   int age = 0;
   int members = 0;        ///< edges grouped into it in this frame; 0 while it coasts
-  bool ignoring = false;  ///< reached Tr_m: makes a region of psi in the next frame
+  bool ignoring = false;  ///< the paper's filter: makes a region of psi in the next frame
 };
 
 /// A convex polygon of at most `kMost` vertices, which it holds in place, so that a frame allocates
@@ -86,9 +86,8 @@ struct Square {
   int age = 0;
   int circles = 0;        ///< grouped into it in this frame; 0 while it coasts
   int rebel_circles = 0;  ///< of these
-  bool ignoring = false;  ///< reached Tr_m: makes a region of psi in the next frame
-  /// The convex hull of its edges, as wide and high as the square. While these are not seen, it
-  /// moves and grows with the square. Empty for the paper's.
+  bool ignoring = false;  ///< the paper's filter: makes a region of psi in the next frame
+  /// The convex hull of its edges, as wide and high as the square. Empty in the paper's filter.
   Outline outline;
 };
 
@@ -114,15 +113,24 @@ struct Chain {
   double off_field_px = 0;        ///< by how much its steps exceed those of any static point
 };
 
+/// Edges or circles of a frame, or numbers for each of them.
+template <typename T>
+struct BothKinds {
+  std::vector<T> normal, rebel;
+};
+
 struct Layers {
   std::vector<Edge> normal_edges;      ///< E_n
   std::vector<Edge> rebel_edges;       ///< E_r
   std::vector<Circle> normal_circles;  ///< C_n
   std::vector<Circle> rebel_circles;   ///< C_r
   std::vector<Square> squares;         ///< S
-  std::vector<IgnoreRegion> ignored;   ///< psi that was applied to this frame's corners
-  std::vector<Collector> collectors;   ///< lambda that grouped this frame's corners
-  std::vector<Chain> chains;           ///< alpha after this frame
+  /// \name The paper's filter only.
+  ///@{
+  std::vector<IgnoreRegion> ignored;  ///< psi that was applied to this frame's corners
+  std::vector<Collector> collectors;  ///< lambda that grouped this frame's corners
+  std::vector<Chain> chains;          ///< alpha after this frame
+  ///@}
 
   /// |E_n| + |E_r| + |C_n| + |C_r| + |S|, the paper's dimensionality.
   std::size_t dimension() const {

@@ -2,7 +2,9 @@
 /// recordings of `train`.
 ///
 /// 2026-11-26, lcs 0.1.0 (146ad6b, changed since), 22 evaluations; objective 0.6570 -> 0.6636:
-///   lcs tune out/train out/recorded --keys hypotheses.noise,hypotheses.coupling,hypotheses.prior,hypotheses.newcomer,hypotheses.step_share --evaluations 22 --seed 1
+///   lcs tune out/train out/recorded --keys
+///   hypotheses.noise,hypotheses.coupling,hypotheses.prior,hypotheses.newcomer,hypotheses.step_share
+///   --evaluations 22 --seed 1
 #pragma once
 
 #include <array>
@@ -10,18 +12,18 @@
 
 namespace lcs {
 
-/// Keys and values as `set` takes them.
-inline constexpr std::array<std::pair<const char*, const char*>, 10> kLearnt{{
-    {"hypotheses.noise", "0.352"},
-    {"hypotheses.coupling", "13.2"},
-    {"hypotheses.prior", "0.0397"},
-    {"hypotheses.newcomer", "1.4"},
-    {"hypotheses.step_share", "0.206"},
-    {"hypotheses.turnover", "0.8"},
-    {"hypotheses.ego_share", "0.02"},
-    {"hypotheses.bits_even", "86.6"},
-    {"hypotheses.bits_weight", "0.23"},
-    {"hypotheses.neighbour_reach", "29.6"},
+/// Keys as `set` takes them, and values.
+inline constexpr std::array<std::pair<const char*, double>, 10> kLearnt{{
+    {"hypotheses.noise", 0.352},
+    {"hypotheses.coupling", 13.2},
+    {"hypotheses.prior", 0.0397},
+    {"hypotheses.newcomer", 1.4},
+    {"hypotheses.step_share", 0.206},
+    {"hypotheses.turnover", 0.8},
+    {"hypotheses.ego_share", 0.02},
+    {"hypotheses.bits_even", 86.6},
+    {"hypotheses.bits_weight", 0.23},
+    {"hypotheses.neighbour_reach", 29.6},
 }};
 
 }  // namespace lcs

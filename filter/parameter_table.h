@@ -1,51 +1,38 @@
 /// \file
-/// What is known of each parameter beside its value. The rows of what only the paper's rules ask
-/// for are in `paper/`, the others in `parameters.cpp`.
+/// Parameters by name: text to value and back, with ranges. A filter lists its parameters once, as
+/// entries that point into its struct.
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "filter/parameters.h"
+#include "filter/trust.h"
 
 namespace lcs {
 
-/// A value that is one of a few words.
-struct Choice {
-  int (*get)(const Parameters&);
-  void (*put)(Parameters&, int);
-  std::vector<std::string> words;
-};
-
-template <typename T>
-using Field = T& (*)(Parameters&);
-
-/// The rules that ask for a parameter, each by the choice that names it; none: it is always asked
-/// for.
-using AskedBy = std::vector<Rule>;
-
+/// A parameter: its name, its range, and where it is.
 struct Entry {
   std::string key;
-  std::string symbol;
-  std::string unit;  // "deg" fields are radians in the struct
+  std::string symbol;  ///< the paper's; "" where it has none
+  std::string unit;    ///< values of unit "deg" are radians in the struct
   double min = 0, max = 0;
-  std::variant<Field<double>, Field<int>, Field<bool>, Choice> field;
-  AskedBy asked_by = {};
+  std::variant<double*, int*, bool*, RotationModel*> value;
 };
 
-// A captureless lambda that names the member: a table reads as a list of fields.
-#define LCS_FIELD(type, member) Field<type>([](Parameters& p) -> type& { return p.member; })
-#define LCS_REAL(member) LCS_FIELD(double, member)
-#define LCS_CHOICE(type, member, ...)                                                             \
-  Choice {                                                                                        \
-    [](const Parameters& p) { return static_cast<int>(p.member); },                               \
-        [](Parameters& p, int i) { p.member = static_cast<type>(i); }, std::vector<std::string> { \
-      __VA_ARGS__                                                                                 \
-    }                                                                                             \
-  }
+/// \throws std::invalid_argument as the `set` of parameters.
+void set(std::span<const Entry> entries, std::string_view key, std::string_view value);
 
-/// Of the parameters that only the paper's rules ask for.
-std::vector<Entry> paper_entries();
+/// \throws std::invalid_argument as the `validate` of parameters.
+void validate(std::span<const Entry> entries);
+void validate(const TrustRanks& ranks, const std::string& expert);
+
+std::vector<ParameterInfo> describe(std::span<const Entry> entries);
+
+/// The entries of a motion field.
+std::vector<Entry> entries_of(FieldParameters& field);
 
 }  // namespace lcs

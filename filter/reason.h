@@ -2,9 +2,9 @@
 /// The rule that decided a corner's verdict, so that a missed or false rebel can be traced to its
 /// cause.
 ///
-/// A corner passes several tests in a row; the reason is the one that decided. Where several edges
-/// or rows of alpha rejected a corner, the one that came nearest to accepting it counts; the
-/// reasons of the paper's rule are declared in that order.
+/// A corner passes several tests in a row; the reason is the test that decided. In the paper's
+/// filter several edges or rows of alpha may reject a corner: the reason is that of the edge or row
+/// that came nearest to accepting it, in the order of declaration.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@
 namespace lcs {
 
 enum class Reason : std::uint8_t {
-  unknown,  // The tracker gives no reasons.
+  unknown,  // The detector gives no reasons.
 
-  // All rules.
+  // Both filters.
   not_finite,
   outside,
   too_many,
@@ -24,11 +24,11 @@ enum class Reason : std::uint8_t {
   normal_edge,
   rebel_edge,
 
-  // `EdgeRule::hypotheses`, on a corner that no track has.
+  // The default filter, on a corner that no track has.
   inherited,
   first_sighting,
 
-  // `EdgeRule::paper`: no edge took the corner, so that it starts a row of alpha,
+  // The paper's filter: no edge took the corner, so that it starts a row of alpha,
   alpha_first,
   xi_5,
   xi_4,

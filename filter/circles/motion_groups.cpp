@@ -17,8 +17,9 @@ constexpr double kSlant = 0.2;
 
 }  // namespace
 
-MotionGroups::MotionGroups(const Intrinsics& camera, const CircleParameters& parameters)
-    : camera_(camera), parameters_(parameters) {}
+MotionGroups::MotionGroups(const Intrinsics& camera, const CircleParameters& parameters,
+                           const EdgeParameters& edges)
+    : camera_(camera), parameters_(parameters), edge_parameters_(edges) {}
 
 void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& field) {
   // What the picture shows of a unit vector upwards; nothing where the camera looks straight down.
@@ -45,8 +46,8 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
     double sigma = 0;
     if (edge.rebel) {
       value = edge.velocity() * field.dt_s();
-      sigma = 2 * parameters_.hypotheses.noise_px;
-      reach_px_.push_back(parameters_.hypotheses.neighbour_reach_px);
+      sigma = 2 * edge_parameters_.noise_px;
+      reach_px_.push_back(edge_parameters_.neighbour_reach_px);
     } else {
       value = {edge.depth_ratio / field.reference_depth_m(), 0};
       sigma = edge.depth_ratio_sigma / field.reference_depth_m();
@@ -67,7 +68,7 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
 }
 
 void MotionGroups::link() {
-  grid_.build(points_, parameters_.hypotheses.neighbour_reach_px);
+  grid_.build(points_, edge_parameters_.neighbour_reach_px);
   links_.clear();
   // Each pair is looked at once.
   make_room(links_, kCrowd / 2 * points_.size());

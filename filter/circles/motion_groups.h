@@ -8,19 +8,21 @@
 #include <span>
 #include <vector>
 
+#include "filter/circles/circle_parameters.h"
 #include "filter/circles/plane_evidence.h"
+#include "filter/edges/edge_parameters.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/layers.h"
 #include "filter/matching/couples.h"
 #include "filter/matching/disjoint_sets.h"
 #include "filter/matching/point_grid.h"
-#include "filter/parameters.h"
 
 namespace lcs {
 
 class MotionGroups {
  public:
-  MotionGroups(const Intrinsics& camera, const CircleParameters& parameters);
+  MotionGroups(const Intrinsics& camera, const CircleParameters& parameters,
+               const EdgeParameters& edges);
 
   struct Group {
     std::vector<int>::size_type first, count;  ///< of its edges in `edges()`
@@ -46,6 +48,7 @@ class MotionGroups {
 
   Intrinsics camera_;
   CircleParameters parameters_;
+  EdgeParameters edge_parameters_;
 
   // Of the current call; kept for their memory.
   bool rebel_ = false, ground_known_ = false;

@@ -21,7 +21,7 @@ double softplus(double x) {
 
 }  // namespace
 
-Association::Association(const HypothesisParameters& parameters) : parameters_(parameters) {
+Association::Association(const EdgeParameters& parameters) : parameters_(parameters) {
   for (int bits = 0; bits <= 256; ++bits) {
     likeness_[bits] = (parameters_.bits_even - bits) * parameters_.bits_weight;
   }

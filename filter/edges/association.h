@@ -14,16 +14,16 @@
 #include <span>
 #include <vector>
 
+#include "filter/edges/edge_parameters.h"
 #include "filter/edges/track.h"
 #include "filter/line/line.h"
 #include "filter/matching/point_grid.h"
-#include "filter/parameters.h"
 
 namespace lcs {
 
 class Association {
  public:
-  explicit Association(const HypothesisParameters& parameters);
+  explicit Association(const EdgeParameters& parameters);
 
   /// \param predicted tracks, in this frame's pixels.
   /// \return for each corner of chi the track that it is a sighting of, -1: of none.
@@ -83,7 +83,7 @@ class Association {
   double clutter_ppx2(std::size_t corner) const;
   double asked(std::size_t pair, double noise2_px2, double least) const;
 
-  HypothesisParameters parameters_;
+  EdgeParameters parameters_;
   std::array<double, 257> likeness_;  // by the number of bits that differ
 
   // Of the current frame; kept for their memory.

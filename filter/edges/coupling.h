@@ -12,15 +12,15 @@
 #include <span>
 #include <vector>
 
+#include "filter/edges/edge_parameters.h"
 #include "filter/kinematics/camera.h"
 #include "filter/matching/point_grid.h"
-#include "filter/parameters.h"
 
 namespace lcs {
 
 class Coupling {
  public:
-  explicit Coupling(const HypothesisParameters& parameters) : parameters_(parameters) {}
+  explicit Coupling(const EdgeParameters& parameters) : parameters_(parameters) {}
 
   struct Node {
     Vec2 place_px;
@@ -41,7 +41,7 @@ class Coupling {
   double weight(int i, int j, std::span<const Node> nodes, double distance2_px2,
                 double noise2_px2) const;
 
-  HypothesisParameters parameters_;
+  EdgeParameters parameters_;
   PointGrid grid_;
   std::vector<Vec2> places_;
   std::vector<Neighbour> found_;

@@ -1,31 +1,291 @@
 #include "filter/edges/edge_expert.h"
 
-#include "filter/edges/hypothesis_edges.h"
+#include <algorithm>
+#include <cmath>
+
+#include "filter/edges/edge.h"
+#include "filter/edges/gauss.h"
 #include "filter/kinematics/geometry.h"
-#include "filter/paper/paper_edges.h"
+#include "filter/matching/refill.h"
 
 namespace lcs {
 
-void EdgeExpert::bury(std::vector<Edge>& edges) const {
-  const Pixels picture{camera_.width_px, camera_.height_px};
-  std::erase_if(edges, [&](const Edge& edge) {
-    return !trust_.alive(edge.trust) || !picture.contain(edge.location);
-  });
+EdgeExpert::EdgeExpert(const Intrinsics& camera, const EdgeParameters& parameters,
+                       const TrustRanks& trust)
+    : camera_(camera),
+      parameters_(parameters),
+      trust_(trust),
+      association_(parameters_),
+      coupling_(parameters_),
+      velocity_error_(parameters_.ego_share) {}
+
+/// The noise of this frame's corners, by what stood in those before; not less than the parameter.
+void EdgeExpert::estimate_noise(double dt_s) {
+  const double least2 = parameters_.noise_px * parameters_.noise_px, n = parameters_.neighbours;
+  const double kept = 1 - parameters_.turnover(dt_s);
+  noise_sum_px2_ *= kept;
+  noise_weight_ *= kept;
+  const double weight = n + noise_weight_;
+  noise2_px2_ = least2;
+  if (weight > 0) noise2_px2_ = std::max(least2, (n * least2 + noise_sum_px2_) / weight);
 }
 
-void EdgeExpert::move_as_static(Edge& edge, const MotionField& field) const {
-  edge.origin = field.origin(edge.location);
-  edge.speed = edge.depth_ratio * field.reference_speed(edge.location);
-  const Vec2 along = field.direction(edge.location);
-  edge.angle = angle_of(along.isZero() ? Vec2(edge.location - camera_.centre_px) : along);
+void EdgeExpert::forget() {
+  tracks_.clear();
+  predicted_.clear();
+  velocity_error_.forget();
+  result_.began_anew = false;
+  noise_sum_px2_ = noise_weight_ = 0;
 }
 
-std::unique_ptr<EdgeExpert> make_edge_expert(const Intrinsics& camera,
-                                             const CircleParameters& parameters) {
-  if (parameters.edge_rule == EdgeRule::paper) {
-    return std::make_unique<PaperEdges>(camera, parameters);
+void EdgeExpert::predict_tracks(const MotionField& field) {
+  predicted_.clear();
+  for (const Track& track : tracks_) {
+    Track& next = predicted_.emplace_back(track);
+    next.place_px = field.rotated(track.place_px);
+    next.since_s += field.dt_s();
+    next.displacement_C_m = field.R_cur_prev() * track.displacement_C_m + field.displacement_C_m();
+    if (!track.has_motion()) {
+      next.as_static =
+          StaticPoint::seen_once(next.place_px, camera_, field, next.displacement_C_m, noise2_px2_);
+    } else {
+      next.as_static = track.as_static.predicted(camera_, field, parameters_.ego_share);
+      next.as_moving = track.as_moving.predicted(field, parameters_.turnover_ps);
+    }
+    next.corner = -1;
+    ++next.age;
   }
-  return std::make_unique<HypothesisEdges>(camera, parameters);
+}
+
+/// How far corners are from where this motion has their tracks if they stand: those that have a
+/// motion or, where it has not started and none has, those seen once.
+void EdgeExpert::find_residuals(const MotionField& field, const Chi& chi,
+                                const std::vector<int>& track_of, bool started) {
+  residuals_.clear();
+  const double anywhere = 1 / association_.reach_area_px2(field.dt_s());
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    if (track_of[c] < 0) continue;
+    const Track& track = predicted_[track_of[c]];
+    if (started && !track.has_motion()) continue;
+    const Vec2& x = chi.locations[c];
+    const StaticPoint& point = track.as_static;
+    StaticPoint seen = point;
+    if (!started) seen.see(x, noise2_px2_, depth_bounds(field, x));
+    const Vec2 by_depth = depth_bounds(field, point.place_px).half_pm() *
+                          parallax_px_m(camera_, field.displacement_C_m(), point.place_px);
+    const double moves = chance(track.belief);
+    const double moving = started ? track.as_moving.density(x, noise2_px2_) : anywhere;
+    residuals_.push_back({point.place_px, x - point.place_px, point.spread(noise2_px2_), by_depth,
+                          seen.inverse_depth_pm, seen.covariance(2, 2), 1.0 / association_.crowd(c),
+                          1 - moves, moves * moving + anywhere});
+  }
+}
+
+Track EdgeExpert::first_seen(const Chi& chi, std::size_t corner) {
+  Track track;
+  track.id = next_id_++;
+  track.place_px = chi.locations[corner];
+  if (!chi.signatures.empty()) track.signature = chi.signatures[corner];
+  track.sightings = 1;
+  track.corner = static_cast<int>(corner);
+  return track;
+}
+
+/// Log odds a frame on: a corner may have changed its kind, or its track may have jumped.
+double EdgeExpert::faded(double log_odds, double dt_s) const {
+  const double turnover = parameters_.turnover(dt_s);
+  return lcs::log_odds(chance(log_odds) * (1 - turnover) + parameters_.prior * turnover);
+}
+
+/// Density of a second sighting of what moves (MODEL.md (13)).
+double EdgeExpert::first_step(const Track& track, const Vec2& x_px,
+                              const DepthBounds& bounds) const {
+  const Vec2 parallax = parallax_px_m(camera_, track.displacement_C_m, track.place_px);
+  const double length = parallax.norm();
+  const Vec2 along = length > 1e-9 ? Vec2(parallax / length) : Vec2::UnitX();
+  const Vec2 step = x_px - track.place_px;
+  const double segment = (bounds.most_pm - bounds.least_pm) * length;
+  const double a = step.dot(along) - bounds.least_pm * length, b = cross(along, step);
+  const double s2 = b * b + 2 * noise2_px2_, s = std::sqrt(s2);
+  const double reach = association_.reach_px(track.since_s);
+  const double orders = std::log(1 + reach * reach / (2 * noise2_px2_));
+  return segment > 1e-6 * s
+             ? (std::atan((segment - a) / s) + std::atan(a / s)) / (segment * kPi * orders * s)
+             : 1 / (kPi * orders * (s2 + (a - segment / 2) * (a - segment / 2)));
+}
+
+/// Takes a sighting in. \param chance_ppx2 `Association::chance_ppx2`.
+/// \return false where neither hypothesis has a place for it, so that it is none: nothing is
+/// changed then.
+bool EdgeExpert::see(Track& track, const Vec2& x_px, double chance_ppx2, const MotionField& field) {
+  const DepthBounds bounds = depth_bounds(field, x_px);
+  const double turnover = parameters_.turnover(field.dt_s()), right = 1 - turnover;
+  const double anywhere = turnover / association_.reach_area_px2(field.dt_s());
+  StaticPoint seen = track.as_static;
+  double noise2_px2 = noise2_px2_, moving = 0, before = 0;
+  if (!track.has_motion()) {
+    noise2_px2 += std::pow(parameters_.ego_share * (x_px - track.place_px).norm(), 2);
+    moving = first_step(track, x_px, bounds);
+    before = lcs::log_odds(parameters_.prior) + parameters_.newcomer;
+  } else {
+    moving = track.as_moving.density(x_px, noise2_px2_);
+    before = faded(track.log_odds, field.dt_s());
+  }
+  const double still = seen.see(x_px, noise2_px2, bounds);
+  if (track.has_motion() && right * std::max(still, moving) < anywhere) return false;
+  // A match may be none: then it may be anywhere, and is likelier where many would look as good.
+  const double none = anywhere + chance_ppx2;
+  const double evidence = std::log((right * moving + none) / (right * still + none));
+  const double most = lcs::log_odds((1 - turnover) / (1 - turnover + turnover * parameters_.prior));
+  track.log_odds = std::clamp(before + evidence, -most, most);
+  // A step of EM: what is left, and what is not known of the place, is noise where the match is
+  // right.
+  const double stands = (1 - chance(before + evidence)) * right * still / (right * still + none);
+  noise_sum_px2_ +=
+      stands / 2 *
+      ((x_px - seen.place_px).squaredNorm() + seen.covariance.topLeftCorner<2, 2>().trace());
+  noise_weight_ += stands;
+  if (!track.has_motion()) {
+    track.as_moving = OwnMotion::first(track.place_px, x_px, noise2_px2_, track.since_s);
+  } else {
+    track.as_moving.see(x_px, noise2_px2_);
+  }
+  track.as_static = seen;
+  track.place_px = x_px;
+  track.unseen = 0;
+  track.since_s = 0;
+  track.displacement_C_m.setZero();
+  ++track.sightings;
+  return true;
+}
+
+/// A track without a corner coasts for some frames on its likelier hypothesis.
+void EdgeExpert::coast(const MotionField& field) {
+  const Pixels picture{camera_.width_px, camera_.height_px};
+  for (Track& track : predicted_) {
+    if (track.corner >= 0 || track.unseen++ >= parameters_.coast) continue;
+    if (track.has_motion()) {
+      track.belief = track.log_odds = faded(track.belief, field.dt_s());
+      track.place_px = track.belief > 0 ? track.as_moving.place_px : track.as_static.place_px;
+    }
+    if (picture.contain(track.place_px)) tracks_.push_back(track);
+  }
+}
+
+/// Beliefs of what is seen. A corner seen for the first time is what the edge nearest to it is;
+/// where none is near nobody knows, and it is not called.
+void EdgeExpert::couple(const MotionField& field) {
+  nodes_.clear();
+  seen_.clear();
+  const double dt = field.dt_s();
+  for (Track& track : tracks_) {
+    if (track.corner < 0) continue;
+    seen_.push_back(&track);
+    nodes_.push_back({track.place_px, track.log_odds, track.as_moving.velocity_pxps * dt,
+                      track.as_moving.step_variance_px2(dt), track.has_motion()});
+  }
+  const std::vector<double>& beliefs = coupling_.settle(nodes_, noise2_px2_);
+  for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i]->belief = beliefs[i];
+}
+
+/// The edge of a track.
+Edge EdgeExpert::edge_of(const Track& track, const MotionField& field) const {
+  Edge edge;
+  edge.id = track.id;
+  edge.rebel = track.belief > 0;
+  edge.location = track.place_px;
+  edge.predicted = edge.rebel ? track.as_moving.place_px : track.as_static.place_px;
+  edge.depth_ratio = track.as_static.inverse_depth_pm * field.reference_depth_m();
+  edge.age = track.age;
+  edge.corner = track.corner;
+  // How sure it is, from 0 to 1, of the ranks that there are.
+  const double sure = std::abs(std::tanh(0.5 * track.belief));
+  const double ranks = trust_.maximum - trust_.critical;
+  edge.trust = trust_.critical + static_cast<int>(std::lround(sure * ranks)) - track.unseen;
+  if (edge.rebel) {
+    const Vec2& velocity_pxps = track.as_moving.velocity_pxps;
+    edge.speed = velocity_pxps.norm();
+    if (edge.speed > 0) edge.angle = angle_of(velocity_pxps);
+    edge.origin = edge.location - field.dt_s() * velocity_pxps;  // so that beta is of now
+    return edge;
+  }
+  move_as_static(edge, camera_, field);
+  edge.depth_ratio_sigma = std::sqrt(track.as_static.covariance(2, 2)) * field.reference_depth_m();
+  return edge;
+}
+
+void EdgeExpert::decide(const Chi& chi, const MotionField& field) {
+  auto& [edges, verdicts, reasons, began_anew] = result_;
+  edges.normal.clear();
+  edges.rebel.clear();
+  refill(verdicts, chi.size(), Verdict::pending);
+  refill(reasons, chi.size(), Reason::unknown);
+  for (const Track& track : tracks_) {
+    const bool rebel = track.belief > 0;
+    if (track.corner >= 0) {
+      const auto c = static_cast<std::size_t>(track.corner);
+      if (rebel) {
+        verdicts[c] = Verdict::rebel;
+        reasons[c] = track.has_motion() ? Reason::rebel_edge : Reason::inherited;
+      } else if (track.has_motion()) {
+        verdicts[c] = Verdict::normal;
+        reasons[c] = Reason::normal_edge;
+      } else {
+        reasons[c] = Reason::first_sighting;
+      }
+    }
+    if (!track.has_motion()) continue;
+    Edge edge = edge_of(track, field);
+    if (edge.corner >= 0) edge.corner = chi.sources[edge.corner];
+    (rebel ? edges.rebel : edges.normal).push_back(edge);
+  }
+  for (std::vector<Edge>* kind : {&edges.normal, &edges.rebel}) {
+    delete_lost(*kind, camera_, trust_);
+    std::sort(kind->begin(), kind->end(), [](const Edge& a, const Edge& b) { return a.id < b.id; });
+  }
+}
+
+const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& told) {
+  velocity_error_.advance(told, 1 - parameters_.turnover(told.dt_s()));
+  predict_tracks(velocity_error_.without(told));
+  if (!(told.dt_s() > 0)) forget();
+  estimate_noise(told.dt_s());
+  const std::vector<int>& track_of = association_.match(chi, predicted_, noise2_px2_, told.dt_s());
+  MotionField field = velocity_error_.without(told);
+  bool is_wrong = false;
+  if (!predicted_.empty()) {
+    const bool started = std::ranges::any_of(predicted_, &Track::has_motion);
+    find_residuals(field, chi, track_of, started);
+    const MotionFix off = motion_fix(camera_, field, residuals_, velocity_error_.covariance());
+    velocity_error_.see(off);
+    field = field.corrected(off.turn_rad, off.velocity_mps);
+    predict_tracks(field);
+    // In the second frame no depth is known that could contradict the motion, except right after
+    // the motion before was contradicted.
+    if (started || result_.began_anew) {
+      find_residuals(field, chi, track_of, started);
+      is_wrong = is_contradicted(residuals_);
+    }
+    if (is_wrong) forget();
+  }
+  result_.began_anew = is_wrong;
+  tracks_.clear();
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    if (track_of[c] >= 0 && !is_wrong) {
+      Track& track = predicted_[track_of[c]];
+      track.corner = static_cast<int>(c);
+      if (see(track, chi.locations[c], association_.chance_ppx2(c), field)) {
+        if (!chi.signatures.empty()) track.signature = chi.signatures[c];
+        tracks_.push_back(track);
+        continue;
+      }
+    }
+    tracks_.push_back(first_seen(chi, c));
+  }
+  if (field.dt_s() > 0) coast(field);
+  couple(field);
+  decide(chi, field);
+  return result_;
 }
 
 }  // namespace lcs

@@ -1,67 +1,74 @@
 /// \file
-/// Circle expert, first part: which corner belongs to which edge, which edges are new, and which
-/// are rebels. Two rules for it stand side by side; what they share is here.
-///
-/// Both predict normal edges by the motion field and rebels by their own motion, assign corners to
-/// edges one to one, and give trust. They differ in how they recognise a rebel: `PaperEdges` by
-/// single corners that line up over three frames (alpha), `HypothesisEdges` by how much likelier
-/// each sighting is for a mover than for a static point.
+/// Circle expert, first part: edges. Each tracked corner is a static point or moves by itself; an
+/// edge carries the log odds of the latter (filter/MODEL.md).
 #pragma once
 
-#include <memory>
+#include <span>
 #include <vector>
 
+#include "filter/edges/association.h"
+#include "filter/edges/coupling.h"
+#include "filter/edges/edge_parameters.h"
+#include "filter/edges/motion_fix.h"
+#include "filter/edges/track.h"
+#include "filter/frame_result.h"
 #include "filter/kinematics/motion_field.h"
-#include "filter/layers.h"
 #include "filter/line/line.h"
-#include "filter/parameters.h"
-#include "filter/reason.h"
+#include "filter/trust.h"
 
 namespace lcs {
 
 class EdgeExpert {
  public:
-  virtual ~EdgeExpert() = default;
+  /// \param trust ranks of an edge's trust, which tells how sure its kind is.
+  EdgeExpert(const Intrinsics& camera, const EdgeParameters& parameters, const TrustRanks& trust);
 
-  /// Moves edges, and what else is remembered, to where they should be in this frame.
-  virtual void predict(Layers& layers, const MotionField& field) = 0;
+  struct Result {
+    BothKinds<Edge> edges;          ///< by rising id
+    std::vector<Verdict> verdicts;  ///< of each corner of chi
+    std::vector<Reason> reasons;    ///< of each corner of chi
+    /// The corners contradicted the given motion, and all tracks were dropped.
+    bool began_anew = false;
+  };
 
-  /// Matches, estimates, updates trust, deletes, and makes new edges.
-  /// \param verdicts by the caller's order; `normal` or `rebel` is written for decided corners.
-  virtual void update(Layers& layers, const Chi& chi, const MotionField& field,
-                      std::vector<Verdict>& verdicts) = 0;
+  /// Predicts the tracks of the frame before, assigns the corners to them, and updates their
+  /// beliefs.
+  /// \param told the motion field of the given ego-motion since the frame before.
+  /// \return valid until the next call.
+  const Result& step(const Chi& chi, const MotionField& told);
 
-  /// Forgets all that it keeps of former frames, but for the layers.
-  virtual void forget() {}
-
-  /// Whether it forgot all in the last update, as the corners contradicted the told motion.
-  bool began_anew() const { return began_anew_; }
-
-  /// The reason for the verdict on each corner of the last chi.
-  const std::vector<Reason>& reasons() const { return reasons_; }
-
- protected:
-  EdgeExpert(const Intrinsics& camera, const TrustRanks& trust) : camera_(camera), trust_(trust) {}
-
-  /// Deletes what is no longer trusted, or has left the image.
-  void bury(std::vector<Edge>& edges) const;
-
-  /// Gives an edge the origin, speed and angle that a static point of its depth has where it is.
-  void move_as_static(Edge& edge, const MotionField& field) const;
-
-  Id next_id() { return next_id_++; }
-
-  const Intrinsics camera_;
-  const TrustRanks trust_;
-  std::vector<Reason> reasons_;
-  bool began_anew_ = false;
+  /// Drops all tracks.
+  void forget();
 
  private:
-  Id next_id_ = 1;
-};
+  void estimate_noise(double dt_s);
+  void predict_tracks(const MotionField& field);
+  void find_residuals(const MotionField& field, const Chi& chi, const std::vector<int>& track_of,
+                      bool started);
+  Track first_seen(const Chi& chi, std::size_t corner);
+  bool see(Track& track, const Vec2& x_px, double chance_ppx2, const MotionField& field);
+  double first_step(const Track& track, const Vec2& x_px, const DepthBounds& bounds) const;
+  double faded(double log_odds, double dt_s) const;
+  void coast(const MotionField& field);
+  void couple(const MotionField& field);
+  void decide(const Chi& chi, const MotionField& field);
+  Edge edge_of(const Track& track, const MotionField& field) const;
 
-/// The rule that the parameters name.
-std::unique_ptr<EdgeExpert> make_edge_expert(const Intrinsics& camera,
-                                             const CircleParameters& parameters);
+  Intrinsics camera_;
+  EdgeParameters parameters_;
+  TrustRanks trust_;
+  Id next_id_ = 1;
+  double noise2_px2_ = 0;                        // of this frame's corners, by the frames before
+  double noise_sum_px2_ = 0, noise_weight_ = 0;  // seen in these: its sum, and that of the weights
+  Association association_;
+  Coupling coupling_;
+  VelocityError velocity_error_;
+  std::vector<Track> tracks_;     // of the last frame; those of its corners first, by chi
+  std::vector<Track> predicted_;  // the same, in this frame
+  std::vector<Residual> residuals_;
+  std::vector<Coupling::Node> nodes_;
+  std::vector<Track*> seen_;  // of each node
+  Result result_;
+};
 
 }  // namespace lcs

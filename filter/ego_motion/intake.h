@@ -6,9 +6,15 @@
 #include <optional>
 
 #include "filter/diagnostics.h"
-#include "filter/ego_motion/ego_motion.h"
+#include "filter/kinematics/ego_motion.h"
 
 namespace lcs {
+
+/// A longer step between two frames starts the filter anew: what it knew is of no use.
+inline constexpr double kLongestStep_s = 60;
+
+/// A faster motion is a broken input, not that of a vehicle.
+inline constexpr double kMostSpeed_mps = 1000;
 
 class Intake {
  public:

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "filter/kinematics/geometry.h"
-#include "filter/paper/rotation_models.h"
+#include "filter/kinematics/rotation_models.h"
 
 namespace lcs {
 namespace {
@@ -34,7 +34,7 @@ MotionField::MotionField(const Intrinsics& camera, const EgoMotion& motion,
       w_dt_(motion.w_C_radps * motion.dt_s),
       v_C_mps_(motion.v_C_mps),
       parameters_(parameters),
-      ground_(parameters.ground ? motion.ground : std::nullopt),
+      ground_(motion.ground),
       moving_(motion.dt_s > 0 && motion.v_C_mps.norm() > parameters.still_speed_mps) {
   if (moving_ && std::abs(v_C_mps_.z()) * kInfinity_px > focal_px_ * v_C_mps_.head<2>().norm()) {
     foe_ = centre_px_ + focal_px_ * v_C_mps_.head<2>() / v_C_mps_.z();

@@ -12,11 +12,26 @@
 
 #include <optional>
 
-#include "filter/ego_motion/ego_motion.h"
 #include "filter/kinematics/camera.h"
-#include "filter/parameters.h"
+#include "filter/kinematics/ego_motion.h"
 
 namespace lcs {
+
+/// How stored locations follow the rotation of the camera (`rotation_models.h`).
+enum class RotationModel {
+  first_order,  ///< the motion field of the rotation, integrated once: for small rotations
+  homography,   ///< x' ~ K dR K^-1 x, exact
+  as_printed,   ///< the paper's first equation with its wrong terms, for comparison
+};
+
+struct FieldParameters {
+  RotationModel rotation = RotationModel::homography;
+  /// Z_ref: V_v(x) is the image speed of a static point at this depth. A unit of depth: results do
+  /// not depend on it.
+  double reference_depth_m = 3;
+  double nearest_depth_m = 0.4;    ///< z_min: the least depth of a static point
+  double still_speed_mps = 0.005;  ///< below it the camera stands still: there is no field
+};
 
 /// K R K^-1: takes a pixel of a camera to where it lies once the camera's coordinates are turned by
 /// R.
@@ -88,11 +103,11 @@ class MotionField {
 
   /// Z_ref / Z by which the ground may differ from its plane.
   double ground_slack() const {
-    return ground_ ? parameters_.reference_depth_m * parameters_.ground_tilt_rad / ground_->height_m
-                   : 0;
+    constexpr double kTilt_rad = 0.015;  // of a road's surface against the plane under the vehicle
+    return ground_ ? parameters_.reference_depth_m * kTilt_rad / ground_->height_m : 0;
   }
 
-  /// What the ground is known by; none where it is not.
+  /// Absent where it is not known.
   const std::optional<Ground>& ground() const { return ground_; }
 
   /// Largest Z_ref / Z of a static point: at the nearest plausible depth.

@@ -17,22 +17,25 @@ bool inside_any(std::span<const IgnoreRegion> regions, const Vec2& x) {
                      [&](const IgnoreRegion& region) { return contains(region, x); });
 }
 
-void LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
-                         std::span<const Signature> signatures, std::span<const IgnoreRegion> psi,
-                         Chi& chi, std::vector<Verdict>& verdicts) {
-  refill(verdicts, corners_px.size(), Verdict::pending);
+const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
+                               std::span<const Signature> signatures,
+                               std::span<const IgnoreRegion> psi) {
+  refill(chi_.rejected, corners_px.size(), Reason::too_many);
   entries_.clear();
   for (std::size_t i = 0; i < corners_px.size(); ++i) {
     const Vec2 x = corners_px[i].cast<double>();
-    if (!picture_.contain(x)) continue;  // nor is it where it is not a number
-    if (inside_any(psi, x)) {
-      verdicts[i] = Verdict::ignored;
+    if (!x.allFinite()) {
+      chi_.rejected[i] = Reason::not_finite;
+    } else if (!picture_.contain(x)) {
+      chi_.rejected[i] = Reason::outside;
+    } else if (inside_any(psi, x)) {
+      chi_.rejected[i] = Reason::in_psi;
     } else {
       entries_.push_back({(x - centre_px_).squaredNorm(), x, static_cast<int>(i)});
     }
   }
-  // The distance from the centre survives mirroring and quarter turns of the image; the coordinates
-  // only part what it leaves equal, and the signatures those at one place.
+  // Mirroring and quarter turns of the image keep the distance from the centre; coordinates order
+  // corners at the same distance, and signatures those at the same place.
   const auto signature = [&](const Entry& entry) {
     return signatures.empty() ? Signature{} : signatures[static_cast<std::size_t>(entry.source)];
   };
@@ -48,18 +51,47 @@ void LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
   }
   std::sort(entries_.begin(), entries_.end(), nearer);
 
-  chi.locations.clear();
-  chi.sources.clear();
-  chi.signatures.clear();
-  chi.repeats.clear();
+  chi_.locations.clear();
+  chi_.sources.clear();
+  chi_.signatures.clear();
+  chi_.repeats.clear();
   for (const Entry& entry : entries_) {
-    if (!chi.locations.empty() && entry.location == chi.locations.back()) {
-      chi.repeats.push_back({entry.source, chi.sources.back()});
+    chi_.rejected[static_cast<std::size_t>(entry.source)] = Reason::unknown;
+    if (!chi_.locations.empty() && entry.location == chi_.locations.back()) {
+      chi_.repeats.push_back({entry.source, chi_.sources.back()});
       continue;
     }
-    chi.locations.push_back(entry.location);
-    chi.sources.push_back(entry.source);
-    if (!signatures.empty()) chi.signatures.push_back(signature(entry));
+    chi_.locations.push_back(entry.location);
+    chi_.sources.push_back(entry.source);
+    if (!signatures.empty()) chi_.signatures.push_back(signature(entry));
+  }
+  return chi_;
+}
+
+void count_rejected(const Chi& chi, Diagnostics& diagnostics) {
+  const auto count = [&](Fault fault, Reason reason) {
+    diagnostics.add(fault, std::count(chi.rejected.begin(), chi.rejected.end(), reason));
+  };
+  count(Fault::corner_not_finite, Reason::not_finite);
+  count(Fault::corner_outside, Reason::outside);
+  count(Fault::corner_too_many, Reason::too_many);
+  diagnostics.add(Fault::corner_repeated, static_cast<std::int64_t>(chi.repeats.size()));
+}
+
+void assign_verdicts(const Chi& chi, std::span<const Verdict> verdicts,
+                     std::span<const Reason> reasons, FrameResult& result) {
+  copy_over(chi.rejected, result.reasons);
+  refill(result.verdicts, chi.rejected.size(), Verdict::pending);
+  for (std::size_t i = 0; i < chi.rejected.size(); ++i) {
+    if (chi.rejected[i] == Reason::in_psi) result.verdicts[i] = Verdict::ignored;
+  }
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    result.verdicts[chi.sources[c]] = verdicts[c];
+    result.reasons[chi.sources[c]] = reasons[c];
+  }
+  for (const Chi::Repeat& repeat : chi.repeats) {
+    result.verdicts[repeat.source] = result.verdicts[repeat.of_source];
+    result.reasons[repeat.source] = result.reasons[repeat.of_source];
   }
 }
 

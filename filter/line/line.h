@@ -1,31 +1,39 @@
 /// \file
-/// Line expert: removes invalid corners and those inside psi.
+/// Line expert: selects and orders the corners of a frame that the filter looks at.
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
+#include <cstddef>
 #include <span>
 #include <vector>
 
-#include "filter/layers.h"
+#include "filter/diagnostics.h"
+#include "filter/frame_result.h"
+#include "filter/kinematics/camera.h"
 #include "filter/signature.h"
 
 namespace lcs {
 
-/// chi after the Line expert: the corners that are looked at, in an order that does not depend on
-/// the caller's (nearest to the principal point first).
+struct LineParameters {
+  /// Of more corners than these, those nearest to the principal point are used. Bounds the memory.
+  int max_corners = 20000;
+};
+
+/// chi after the Line expert: the corners that the filter looks at, in an order that does not
+/// depend on the caller's (nearest to the principal point first).
 struct Chi {
   std::vector<Vec2> locations;        ///< px
   std::vector<int> sources;           ///< index of each in the caller's corners
-  std::vector<Signature> signatures;  ///< of each; empty where the caller gives none
-  /// Collector that each falls into, -1: a single landmark. Of the paper's rule alone.
-  std::vector<int> groups;
+  std::vector<Signature> signatures;  ///< of each; empty where the caller gives no signatures
 
-  /// A corner at the very place of another one, which stands for both: it gets that one's verdict.
+  /// A corner at the same place as a corner of chi, whose verdict it gets.
   struct Repeat {
     int source, of_source;  ///< indices in the caller's corners
   };
   std::vector<Repeat> repeats;
+
+  /// For each of the caller's corners, why it was rejected; `unknown` for those of chi and repeats.
+  std::vector<Reason> rejected;
 
   std::size_t size() const { return locations.size(); }
 };
@@ -36,20 +44,16 @@ bool inside_any(std::span<const IgnoreRegion> regions, const Vec2& x);
 
 class LineExpert {
  public:
-  /// \param max_corners that are looked at: the nearest to the principal point.
-  explicit LineExpert(const Intrinsics& camera,
-                      std::size_t max_corners = std::numeric_limits<std::size_t>::max())
+  LineExpert(const Intrinsics& camera, const LineParameters& parameters)
       : centre_px_(camera.centre_px),
         picture_{camera.width_px, camera.height_px},
-        max_corners_(max_corners) {}
+        max_corners_(static_cast<std::size_t>(parameters.max_corners)) {}
 
   /// \param signatures one for each corner, or none at all.
-  /// \param chi its groups are left alone.
-  /// \param verdicts one for each corner: set to `ignored` inside psi, to `pending` elsewhere.
-  ///   Corners that are not in the picture stay `pending` and go no further, nor do those that
-  ///   repeat another one.
-  void collect(std::span<const Eigen::Vector2f> corners_px, std::span<const Signature> signatures,
-               std::span<const IgnoreRegion> psi, Chi& chi, std::vector<Verdict>& verdicts);
+  /// \param psi corners inside these regions are rejected.
+  /// \return valid until the next call.
+  const Chi& collect(std::span<const Eigen::Vector2f> corners_px,
+                     std::span<const Signature> signatures, std::span<const IgnoreRegion> psi);
 
  private:
   Vec2 centre_px_;
@@ -61,6 +65,16 @@ class LineExpert {
     int source;
   };
   std::vector<Entry> entries_;
+  Chi chi_;
 };
+
+/// Counts the rejected and repeated corners.
+void count_rejected(const Chi& chi, Diagnostics& diagnostics);
+
+/// Sets the verdict and reason of each of the caller's corners: rejected ones are `ignored` inside
+/// psi and `pending` elsewhere, a repeat gets those of the corner at its place.
+/// \param verdicts, reasons of the corners of chi.
+void assign_verdicts(const Chi& chi, std::span<const Verdict> verdicts,
+                     std::span<const Reason> reasons, FrameResult& result);
 
 }  // namespace lcs

@@ -12,7 +12,7 @@
 #include "filter/matching/couples.h"
 #include "filter/matching/refill.h"
 
-namespace lcs {
+namespace lcs::paper {
 
 /// Goes through couples, the cheapest first.
 class CheapestFirst {
@@ -64,4 +64,4 @@ class CheapestFirst {
   std::vector<std::uint32_t> ends_;      // of each portion
 };
 
-}  // namespace lcs
+}  // namespace lcs::paper

@@ -7,7 +7,7 @@
 #include "filter/kinematics/geometry.h"
 #include "filter/matching/refill.h"
 
-namespace lcs {
+namespace lcs::paper {
 namespace {
 
 bool contains(const Square& square, const Vec2& x) {
@@ -105,9 +105,10 @@ void CoupleLayering::add_minor_circles(std::size_t a, double d_t, const MotionFi
 
 /// Couples of circles, furthest first, with what lies inside them; a circle without a partner is a
 /// layer by itself.
-const std::vector<Square>& CoupleLayering::layer(const Layers& layers, const MotionField& field) {
+const std::vector<Square>& CoupleLayering::layer(const BothKinds<Circle>& circles,
+                                                 const MotionField& field) {
   circles_.clear();
-  for (const auto* kind : {&layers.normal_circles, &layers.rebel_circles}) {
+  for (const auto* kind : {&circles.normal, &circles.rebel}) {
     for (const Circle& circle : *kind) {
       if (circle.members > 0) circles_.push_back(circle);
     }
@@ -144,4 +145,4 @@ const std::vector<Square>& CoupleLayering::layer(const Layers& layers, const Mot
   return means_;
 }
 
-}  // namespace lcs
+}  // namespace lcs::paper

@@ -7,9 +7,9 @@
 
 #include "filter/kinematics/motion_field.h"
 #include "filter/layers.h"
-#include "filter/parameters.h"
+#include "filter/paper/parameters.h"
 
-namespace lcs {
+namespace lcs::paper {
 
 /// What parts the couple a, b: a slower circle (farther away) that the segment between their
 /// centres crosses and that lies between them.
@@ -17,11 +17,11 @@ bool parts(const Circle& between, const Circle& a, const Circle& b);
 
 class CoupleLayering {
  public:
-  CoupleLayering(const Intrinsics& camera, const SquareParameters& parameters)
+  CoupleLayering(const Intrinsics& camera, const PaperSquareParameters& parameters)
       : camera_(camera), parameters_(parameters) {}
 
   /// Mean squares S_m of this frame, valid until the next call.
-  const std::vector<Square>& layer(const Layers& layers, const MotionField& field);
+  const std::vector<Square>& layer(const BothKinds<Circle>& circles, const MotionField& field);
 
  private:
   bool like_speed(const Circle& a, const Circle& b) const;
@@ -31,7 +31,7 @@ class CoupleLayering {
   Square mean_square(std::size_t a, const MotionField& field) const;
 
   Intrinsics camera_;
-  SquareParameters parameters_;
+  PaperSquareParameters parameters_;
 
   // Of the current frame; kept for their memory.
   std::vector<Circle> circles_;  // C_n and C_r
@@ -40,4 +40,4 @@ class CoupleLayering {
   std::vector<Square> means_;          // S_m
 };
 
-}  // namespace lcs
+}  // namespace lcs::paper

@@ -4,7 +4,7 @@
 
 #include "filter/trust.h"
 
-namespace lcs {
+namespace lcs::paper {
 
 /// The estimate that the paper applies to every property of a landmark or layer,
 ///   P^ = ((Tr - Tr_c) P' + P) / ((Tr - Tr_c) + 1):
@@ -15,4 +15,4 @@ T estimate(int trust, const TrustRanks& ranks, const T& predicted, const T& meas
   return (weight * predicted + measured) / (weight + 1);
 }
 
-}  // namespace lcs
+}  // namespace lcs::paper

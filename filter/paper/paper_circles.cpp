@@ -10,7 +10,7 @@
 #include "filter/matching/refill.h"
 #include "filter/paper/estimate.h"
 
-namespace lcs {
+namespace lcs::paper {
 namespace {
 
 bool within(double angle_rad, double about_rad, double epsilon_rad) {
@@ -19,8 +19,28 @@ bool within(double angle_rad, double about_rad, double epsilon_rad) {
 
 }  // namespace
 
-PaperCircles::PaperCircles(const Intrinsics& camera, const CircleParameters& parameters)
-    : camera_(camera), parameters_(parameters) {}
+const BothKinds<Circle>& PaperCircles::predict(const BothKinds<Circle>& before,
+                                               const MotionField& field) {
+  copy_over(before.normal, predicted_.normal);
+  copy_over(before.rebel, predicted_.rebel);
+  for (Circle& circle : predicted_.normal) {
+    const Vec2 rotated = field.rotated(circle.location);
+    if (field.moving()) circle.depth_ratio = field.advanced_ratio(circle.depth_ratio);
+    circle.location = field.translated(rotated, circle.depth_ratio);
+    circle.radius *= std::max(0.0, field.expansion(circle.depth_ratio));
+    circle.origin = field.origin(circle.location);
+    circle.speed = circle.depth_ratio * field.reference_speed(rotated);
+    const Vec2 along = field.direction(circle.location);
+    if (!along.isZero()) circle.angle = angle_of(along);
+  }
+  for (Circle& circle : predicted_.rebel) {
+    circle.angle = field.turned(circle.angle, circle.location, circle.origin);
+    circle.origin = field.rotated(circle.origin);
+    circle.location =
+        field.rotated(circle.location) + circle.speed * field.dt_s() * unit_vector(circle.angle);
+  }
+  return predicted_;
+}
 
 /// Like direction, like depth (normal) or like speed (rebel).
 bool PaperCircles::alike(const Edge& a, const Edge& b, const MotionField& field) const {
@@ -73,7 +93,7 @@ void PaperCircles::group(const std::vector<Edge>& edges, const MotionField& fiel
     }
     Group group{{}, first, count};
     group.mean = mean_circle(edges, members(group), field);
-    group.mean.radius += parameters_.corner_noise;
+    group.mean.radius += corner_noise_px_;
     groups_.push_back(group);
   }
 }
@@ -102,10 +122,11 @@ void PaperCircles::estimate_circle(Circle& circle, const Circle& mean, bool alig
   circle.trust = aligned ? ranks.raised(circle.trust) : circle.trust - 1;
 }
 
-void PaperCircles::update(std::vector<Edge>& edges, std::vector<Circle>& circles,
-                          const Layers& layers, const MotionField& field) {
+void PaperCircles::update_kind(const std::vector<Edge>& edges, std::span<const IgnoreRegion> psi,
+                               const MotionField& field, std::vector<Circle>& circles,
+                               std::vector<int>& of_edges) {
   group(edges, field);
-  for (Edge& edge : edges) edge.circle = -1;
+  refill(of_edges, edges.size(), -1);
 
   pairs_.clear();
   for (std::size_t c = 0; c < circles.size(); ++c) {
@@ -145,7 +166,7 @@ void PaperCircles::update(std::vector<Edge>& edges, std::vector<Circle>& circles
     Circle& circle = circles[pair.circle];
     ++circle.age;
     // Edges that coast in psi carry their circle along, but prove nothing.
-    const bool unseen = inside_any(layers.ignored, circle.location);
+    const bool unseen = inside_any(psi, circle.location);
     const int trust = circle.trust;
     estimate_circle(circle, groups_[pair.group].mean, pair.aligned);
     if (unseen) circle.trust = trust;
@@ -155,7 +176,7 @@ void PaperCircles::update(std::vector<Edge>& edges, std::vector<Circle>& circles
     ++circles[c].age;
     circles[c].members = 0;
     // A region that was not looked at had no chance to show its edges.
-    if (inside_any(layers.ignored, circles[c].location)) continue;
+    if (inside_any(psi, circles[c].location)) continue;
     --circles[c].trust;
   }
   const std::size_t most = circles.size() + groups_.size();
@@ -185,9 +206,27 @@ void PaperCircles::update(std::vector<Edge>& edges, std::vector<Circle>& circles
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
     for (const int i : members(group)) {
-      edges[i].circle = kept_[static_cast<std::size_t>(circle_of_group_[g])];
+      of_edges[i] = kept_[static_cast<std::size_t>(circle_of_group_[g])];
     }
   }
 }
 
-}  // namespace lcs
+const PaperCircles::Result& PaperCircles::update(const BothKinds<Edge>& edges,
+                                                 const BothKinds<Circle>& predicted,
+                                                 std::span<const IgnoreRegion> psi,
+                                                 const MotionField& field) {
+  auto& [circles, of_edges] = result_;
+  copy_over(predicted.normal, circles.normal);
+  copy_over(predicted.rebel, circles.rebel);
+  update_kind(edges.normal, psi, field, circles.normal, of_edges.normal);
+  update_kind(edges.rebel, psi, field, circles.rebel, of_edges.rebel);
+  if (!ignore_) return result_;
+  // Rebels are never ignored. The trust of an ignored circle falls, so that it is looked at again.
+  for (Circle& circle : circles.normal) {
+    circle.ignoring = circle.trust >= parameters_.trust.maximum;
+    if (circle.ignoring) circle.trust = parameters_.trust.after_ignoring();
+  }
+  return result_;
+}
+
+}  // namespace lcs::paper

@@ -1,7 +1,7 @@
 /// \file
-/// The paper's circles: each starts from a trusted edge and takes those near it of like direction
-/// and velocity, and is matched to the predicted ones by overlap ("Normal Edge Circling", "Rebel
-/// Edge Circling").
+/// The paper's circles ("Normal Edge Circling", "Rebel Edge Circling"): each starts from a trusted
+/// edge, takes the edges near it of like direction and velocity, and is matched to the predicted
+/// circles by overlap.
 #pragma once
 
 #include <span>
@@ -10,17 +10,33 @@
 #include "filter/kinematics/motion_field.h"
 #include "filter/layers.h"
 #include "filter/matching/point_grid.h"
-#include "filter/parameters.h"
+#include "filter/paper/parameters.h"
 
-namespace lcs {
+namespace lcs::paper {
 
 class PaperCircles {
  public:
-  PaperCircles(const Intrinsics& camera, const CircleParameters& parameters);
+  /// \param ignore circles that reach Tr_m make regions of psi (transition II).
+  PaperCircles(const Intrinsics& camera, const PaperCircleParameters& parameters,
+               double corner_noise_px, bool ignore)
+      : camera_(camera),
+        parameters_(parameters),
+        corner_noise_px_(corner_noise_px),
+        ignore_(ignore) {}
 
-  /// Groups the edges of one kind, and matches, estimates, makes and deletes its circles.
-  void update(std::vector<Edge>& edges, std::vector<Circle>& circles, const Layers& layers,
-              const MotionField& field);
+  struct Result {
+    BothKinds<Circle> circles;
+    BothKinds<int> of_edges;  ///< index of each edge's circle among its kind, -1: in no circle
+  };
+
+  /// Circles of the frame before, moved to where this frame should show them.
+  /// \return valid until the next call.
+  const BothKinds<Circle>& predict(const BothKinds<Circle>& before, const MotionField& field);
+
+  /// Groups the edges, and matches, estimates, makes and deletes circles of both kinds.
+  /// \return valid until the next call.
+  const Result& update(const BothKinds<Edge>& edges, const BothKinds<Circle>& predicted,
+                       std::span<const IgnoreRegion> psi, const MotionField& field);
 
  private:
   /// Mean circle of a group of edges, C_m.
@@ -47,12 +63,19 @@ class PaperCircles {
   std::span<const int> members(const Group& group) const {
     return std::span(grouped_).subspan(group.first, group.count);
   }
+  void update_kind(const std::vector<Edge>& edges, std::span<const IgnoreRegion> psi,
+                   const MotionField& field, std::vector<Circle>& circles,
+                   std::vector<int>& of_edges);
   double overlap(const Circle& circle, const Group& group, const std::vector<Edge>& edges) const;
   void estimate_circle(Circle& circle, const Circle& mean, bool aligned) const;
 
   Intrinsics camera_;
-  CircleParameters parameters_;
+  PaperCircleParameters parameters_;
+  double corner_noise_px_;
+  bool ignore_;
   Id next_id_ = 1;
+  BothKinds<Circle> predicted_;
+  Result result_;
 
   // Of the current frame; kept for their memory.
   PointGrid grid_;
@@ -67,4 +90,4 @@ class PaperCircles {
   std::vector<int> kept_;      // index of each circle after deletion, -1: deleted
 };
 
-}  // namespace lcs
+}  // namespace lcs::paper

@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "filter/edges/edge.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/matching/refill.h"
 #include "filter/paper/estimate.h"
 
-namespace lcs {
+namespace lcs::paper {
 namespace {
 
 /// Below this displacement of the reference point a frame says nothing about an edge's depth.
 constexpr double kLeastDisplacement_px = 0.2;
 
 }  // namespace
-
-PaperEdges::PaperEdges(const Intrinsics& camera, const CircleParameters& parameters)
-    : EdgeExpert(camera, parameters.trust), parameters_(parameters) {}
 
 void PaperEdges::assign_one_to_one(std::size_t edges, std::size_t corners) {
   refill(match_of_edge_, edges, -1);
@@ -32,7 +30,7 @@ void PaperEdges::assign_one_to_one(std::size_t edges, std::size_t corners) {
       });
 }
 
-void PaperEdges::coast(Edge& edge, const std::vector<IgnoreRegion>& psi) const {
+void PaperEdges::coast(Edge& edge, std::span<const IgnoreRegion> psi) const {
   edge.corner = -1;
   edge.location = edge.predicted;
   if (!inside_any(psi, edge.predicted)) --edge.trust;
@@ -41,17 +39,20 @@ void PaperEdges::coast(Edge& edge, const std::vector<IgnoreRegion>& psi) const {
 Edge PaperEdges::make_normal(const Vec2& x, double depth_ratio, double mu,
                              const MotionField& field) {
   Edge edge;
-  edge.id = next_id();
+  edge.id = next_id_++;
   edge.location = edge.rotated = edge.predicted = x;
   edge.depth_ratio = depth_ratio;
-  move_as_static(edge, field);
+  move_as_static(edge, camera_, field);
   edge.mu = mu;
   edge.trust = trust_.initial_normal();
   return edge;
 }
 
-void PaperEdges::predict(Layers& layers, const MotionField& field) {
-  for (Edge& edge : layers.normal_edges) {
+const EdgeLayer& PaperEdges::predict(const EdgeLayer& before, const MotionField& field) {
+  copy_over(before.edges.normal, predicted_.edges.normal);
+  copy_over(before.edges.rebel, predicted_.edges.rebel);
+  copy_over(before.chains, predicted_.chains);
+  for (Edge& edge : predicted_.edges.normal) {
     edge.rotated = field.rotated(edge.location);
     // V~ = (V + V_v) / 2; a camera that stands still teaches nothing.
     if (field.moving()) edge.depth_ratio = 0.5 * (edge.depth_ratio + 1);
@@ -61,16 +62,17 @@ void PaperEdges::predict(Layers& layers, const MotionField& field) {
     const Vec2 along = field.direction(edge.predicted);
     if (!along.isZero()) edge.angle = angle_of(along);
   }
-  for (Edge& edge : layers.rebel_edges) {
+  for (Edge& edge : predicted_.edges.rebel) {
     edge.rotated = field.rotated(edge.location);
     edge.origin = field.rotated(edge.origin);
     const Vec2 path = edge.rotated - edge.origin;
     if (!path.isZero()) edge.angle = angle_of(path);
     edge.predicted = edge.rotated + edge.speed * field.dt_s() * unit_vector(edge.angle);
   }
-  for (Chain& chain : layers.chains) {
+  for (Chain& chain : predicted_.chains) {
     for (int i = 0; i < chain.count; ++i) chain.sightings[i] = field.rotated(chain.sightings[i]);
   }
+  return predicted_;
 }
 
 bool PaperEdges::in_span(const Edge& edge, const Vec2& x, const MotionField& field) const {
@@ -119,19 +121,20 @@ bool PaperEdges::matches_rebel(const Edge& edge, const Vec2& x, const MotionFiel
 
 /// Of all that turned a corner away, the one that came nearest to taking it.
 void PaperEdges::came_to(int corner, Reason reason) {
-  reasons_[corner] = std::max(reasons_[corner], reason);
+  result_.reasons[corner] = std::max(result_.reasons[corner], reason);
 }
 
-void PaperEdges::assign(const Layers& layers, const Chi& chi, const MotionField& field) {
-  const int normals = static_cast<int>(layers.normal_edges.size());
-  const int rebels = static_cast<int>(layers.rebel_edges.size());
+void PaperEdges::assign(const EdgeLayer& predicted, const Chi& chi, const MotionField& field) {
+  const auto& [normal_edges, rebel_edges] = predicted.edges;
+  const int normals = static_cast<int>(normal_edges.size());
+  const int rebels = static_cast<int>(rebel_edges.size());
   const auto cost = [&](const Edge& edge, double distance2) {
     return std::sqrt(distance2) - parameters_.trust_bonus * (edge.trust - trust_.critical);
   };
   pairs_.clear();
-  reasons_.assign(chi.size(), Reason::alpha_first);
+  result_.reasons.assign(chi.size(), Reason::alpha_first);
   for (int i = 0; i < normals; ++i) {
-    const Edge& edge = layers.normal_edges[i];
+    const Edge& edge = normal_edges[i];
     corner_grid_.visit_within(edge.predicted, edge.mu, [&](int corner, double distance2) {
       const Xi xi = classify(edge, chi.locations[corner], field);
       const double base = cost(edge, distance2);
@@ -143,7 +146,7 @@ void PaperEdges::assign(const Layers& layers, const Chi& chi, const MotionField&
     });
   }
   for (int i = 0; i < rebels; ++i) {
-    const Edge& edge = layers.rebel_edges[i];
+    const Edge& edge = rebel_edges[i];
     const double reach = rebel_reach(edge, field);
     corner_grid_.visit_within(edge.predicted, reach, [&](int corner, double distance2) {
       if (!matches_rebel(edge, chi.locations[corner], field)) return;
@@ -151,16 +154,16 @@ void PaperEdges::assign(const Layers& layers, const Chi& chi, const MotionField&
       came_to(corner, Reason::outbid);
     });
   }
-  assign_one_to_one(layers.normal_edges.size() + layers.rebel_edges.size(), chi.size());
+  assign_one_to_one(normal_edges.size() + rebel_edges.size(), chi.size());
 }
 
 /// Cor of the group's x and y, 1 - rho^2: small when the corners that the landmark was matched
 /// among lie on a line. 1 for fewer than three, which have no correlation to speak of.
-double PaperEdges::spread(const Edge& edge, const Chi& chi) const {
+double PaperEdges::spread(const Edge& edge, const Chi& chi, std::span<const int> groups) const {
   double n = 0, xx = 0, yy = 0, xy = 0;
   Vec2 sum = Vec2::Zero();
   corner_grid_.visit_within(edge.predicted, edge.mu, [&](int other, double) {
-    if (chi.groups[other] != chi.groups[edge.corner]) return;
+    if (groups[other] != groups[edge.corner]) return;
     const Vec2 d = chi.locations[other] - edge.predicted;
     n += 1;
     sum += d;
@@ -174,13 +177,14 @@ double PaperEdges::spread(const Edge& edge, const Chi& chi) const {
   return product > 0 ? std::clamp(1 - covariance * covariance / product, 0.0, 1.0) : 0.0;
 }
 
-void PaperEdges::update_normal(Edge& edge, const Vec2& x, const Chi& chi,
+void PaperEdges::update_normal(Edge& edge, const Chi& chi, std::span<const int> groups,
                                const MotionField& field) {
+  const Vec2& x = chi.locations[edge.corner];
   const Xi xi = classify(edge, x, field);
   const double reference_step = field.reference_speed(edge.rotated) * field.dt_s();
   // mu^ = ( |V_v - V~| t_f / Cor + mu ) / 2, with a length in place of the printed speed.
   const double off_reference = std::abs(1 - edge.depth_ratio) * reference_step;
-  edge.mu = std::clamp(0.5 * (off_reference / std::max(spread(edge, chi), 1e-3) + edge.mu),
+  edge.mu = std::clamp(0.5 * (off_reference / std::max(spread(edge, chi, groups), 1e-3) + edge.mu),
                        parameters_.mu_min, parameters_.mu_max);
   // V^ = |V~ +- residual / t_f|, signed along the direction of motion.
   if (reference_step > kLeastDisplacement_px) {
@@ -193,7 +197,7 @@ void PaperEdges::update_normal(Edge& edge, const Vec2& x, const Chi& chi,
   const Vec2 along = field.direction(edge.location);
   if (!along.isZero()) edge.angle = angle_of(along);
   edge.trust = xi == Xi::two ? trust_.raised(edge.trust) : edge.trust - 1;
-  reasons_[edge.corner] = xi == Xi::two ? Reason::xi_2 : Reason::xi_3;
+  result_.reasons[edge.corner] = xi == Xi::two ? Reason::xi_2 : Reason::xi_3;
 }
 
 void PaperEdges::update_rebel(Edge& edge, const Vec2& x, const MotionField& field) {
@@ -207,27 +211,28 @@ void PaperEdges::update_rebel(Edge& edge, const Vec2& x, const MotionField& fiel
   const Vec2 path = edge.location - edge.origin;
   if (!path.isZero()) edge.angle = angle_of(path);
   edge.trust = trust_.raised(edge.trust);
-  reasons_[edge.corner] = Reason::rebel_edge;
+  result_.reasons[edge.corner] = Reason::rebel_edge;
 }
 
 /// What becomes of the corners that no edge took. By xi_1 a corner belongs to the layer of a normal
 /// edge that lost its own; all others may be rebels, and start normal edges of their own meanwhile.
-void PaperEdges::classify_rest(const Layers& layers, const Chi& chi, const MotionField& field) {
+void PaperEdges::classify_rest(const Chi& chi, const MotionField& field) {
+  const std::vector<Edge>& normal_edges = result_.layer.edges.normal;
   to_alpha_.assign(chi.size(), 0);
   to_normal_.assign(chi.size(), 0);
   predictions_.clear();
-  for (const Edge& edge : layers.normal_edges) predictions_.push_back(edge.predicted);
+  for (const Edge& edge : normal_edges) predictions_.push_back(edge.predicted);
   edge_grid_.build(predictions_, parameters_.mu_0);
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (match_of_corner_[c] >= 0) continue;
     bool further = false;
     edge_grid_.visit_within(chi.locations[c], parameters_.mu_0, [&](int e, double) {
       further = further || (match_of_edge_[e] < 0 &&
-                            classify(layers.normal_edges[e], chi.locations[c], field) == Xi::one);
+                            classify(normal_edges[e], chi.locations[c], field) == Xi::one);
     });
     to_normal_[c] = 1;
     to_alpha_[c] = !further;
-    if (further) reasons_[c] = Reason::xi_1;
+    if (further) result_.reasons[c] = Reason::xi_1;
   }
 }
 
@@ -242,7 +247,7 @@ Edge PaperEdges::make_rebel(const Chain& chain, const Vec2& x, const MotionField
   const Vec2& first = chain.sightings[0];
   const Vec2& second = chain.sightings[1];
   Edge edge;
-  edge.id = next_id();
+  edge.id = next_id_++;
   edge.rebel = true;
   edge.location = edge.predicted = x;
   edge.rotated = second;
@@ -256,10 +261,12 @@ Edge PaperEdges::make_rebel(const Chain& chain, const Vec2& x, const MotionField
 
 /// Rows of two sightings find their third, near the line through them and off the field, and become
 /// rebel edges: one row for a corner, and one for a sighting that rows share.
-void PaperEdges::complete_chains(Layers& layers, const Chi& chi, const MotionField& field) {
+void PaperEdges::complete_chains(const Chi& chi, const MotionField& field) {
+  const std::vector<Chain>& chains = result_.layer.chains;
+  std::vector<Edge>& rebels = result_.layer.edges.rebel;
   pairs_.clear();
-  for (std::size_t i = 0; i < layers.chains.size(); ++i) {
-    const Chain& chain = layers.chains[i];
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    const Chain& chain = chains[i];
     if (chain.count != 2) continue;
     const Vec2 step = chain.sightings[1] - chain.sightings[0];
     const double reach =
@@ -282,24 +289,24 @@ void PaperEdges::complete_chains(Layers& layers, const Chi& chi, const MotionFie
   std::sort(pairs_.begin(), pairs_.end());
   std::vector<Vec2> used;
   for (const auto& [distance2, row, corner] : pairs_) {
-    const Chain& chain = layers.chains[row];
+    const Chain& chain = chains[row];
     if (!to_alpha_[corner] ||
         std::find(used.begin(), used.end(), chain.sightings[1]) != used.end()) {
       continue;
     }
     used.push_back(chain.sightings[1]);
-    layers.rebel_edges.push_back(make_rebel(chain, chi.locations[corner], field));
-    layers.rebel_edges.back().corner = corner;
+    rebels.push_back(make_rebel(chain, chi.locations[corner], field));
+    rebels.back().corner = corner;
     to_alpha_[corner] = to_normal_[corner] = 0;
-    reasons_[corner] = Reason::alpha_third;
+    result_.reasons[corner] = Reason::alpha_third;
   }
 }
 
 /// Rows of one sighting branch into rows of two, and what is left starts rows of one. A row that
 /// found no continuation is gone: it lives three frames at the most.
-void PaperEdges::branch_chains(const Layers& layers, const Chi& chi, const MotionField& field) {
+void PaperEdges::branch_chains(const Chi& chi, const MotionField& field) {
   grown_.clear();
-  for (const Chain& chain : layers.chains) {
+  for (const Chain& chain : result_.layer.chains) {
     if (chain.count != 1) continue;
     corner_grid_.nearest(
         chain.sightings[0], parameters_.alpha_reach, std::size_t(parameters_.alpha_branches),
@@ -319,53 +326,61 @@ void PaperEdges::branch_chains(const Layers& layers, const Chi& chi, const Motio
   }
 }
 
-void PaperEdges::update(Layers& layers, const Chi& chi, const MotionField& field,
-                        std::vector<Verdict>& verdicts) {
+const PaperEdges::Result& PaperEdges::update(const EdgeLayer& predicted, const Chi& chi,
+                                             std::span<const int> groups,
+                                             std::span<const IgnoreRegion> psi,
+                                             const MotionField& field) {
+  auto& [edges, chains] = result_.layer;
+  copy_over(predicted.edges.normal, edges.normal);
+  copy_over(predicted.edges.rebel, edges.rebel);
+  copy_over(predicted.chains, chains);
   corner_grid_.build(chi.locations, parameters_.mu_max);
-  assign(layers, chi, field);
+  assign(predicted, chi, field);
 
-  const std::size_t normals = layers.normal_edges.size();
+  const std::size_t normals = edges.normal.size();
   for (std::size_t i = 0; i < normals; ++i) {
-    Edge& edge = layers.normal_edges[i];
+    Edge& edge = edges.normal[i];
     ++edge.age;
     edge.corner = match_of_edge_[i];
-    if (edge.corner >= 0) update_normal(edge, chi.locations[edge.corner], chi, field);
+    if (edge.corner >= 0) update_normal(edge, chi, groups, field);
   }
-  for (std::size_t i = 0; i < layers.rebel_edges.size(); ++i) {
-    Edge& edge = layers.rebel_edges[i];
+  for (std::size_t i = 0; i < edges.rebel.size(); ++i) {
+    Edge& edge = edges.rebel[i];
     ++edge.age;
     edge.corner = match_of_edge_[normals + i];
     if (edge.corner >= 0) update_rebel(edge, chi.locations[edge.corner], field);
   }
-  classify_rest(layers, chi, field);
-  // Sightings at one and the same time are no chain.
-  if (field.dt_s() > 0) complete_chains(layers, chi, field);
-  if (field.dt_s() > 0 || layers.chains.empty()) {
-    branch_chains(layers, chi, field);
-    layers.chains.swap(grown_);
+  classify_rest(chi, field);
+  // Sightings at the same time are no chain.
+  if (field.dt_s() > 0) complete_chains(chi, field);
+  if (field.dt_s() > 0 || chains.empty()) {
+    branch_chains(chi, field);
+    chains.swap(grown_);
   } else {
     for (std::size_t c = 0; c < chi.size(); ++c) {
-      if (to_alpha_[c]) reasons_[c] = Reason::no_time;
+      if (to_alpha_[c]) result_.reasons[c] = Reason::no_time;
     }
   }
 
-  for (auto* edges : {&layers.normal_edges, &layers.rebel_edges}) {
-    for (Edge& edge : *edges) {
+  refill(result_.verdicts, chi.size(), Verdict::pending);
+  for (auto* kind : {&edges.normal, &edges.rebel}) {
+    for (Edge& edge : *kind) {
       if (edge.corner < 0) {
-        coast(edge, layers.ignored);
+        coast(edge, psi);
         continue;
       }
+      result_.verdicts[edge.corner] = edge.rebel ? Verdict::rebel : Verdict::normal;
       edge.corner = chi.sources[edge.corner];
-      verdicts[edge.corner] = edge.rebel ? Verdict::rebel : Verdict::normal;
     }
-    bury(*edges);
+    delete_lost(*kind, camera_, trust_);
   }
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (!to_normal_[c]) continue;
     // V(0) = V_v.
-    layers.normal_edges.push_back(make_normal(chi.locations[c], 1, parameters_.mu_0, field));
-    layers.normal_edges.back().corner = chi.sources[c];
+    edges.normal.push_back(make_normal(chi.locations[c], 1, parameters_.mu_0, field));
+    edges.normal.back().corner = chi.sources[c];
   }
+  return result_;
 }
 
-}  // namespace lcs
+}  // namespace lcs::paper

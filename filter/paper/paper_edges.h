@@ -3,13 +3,17 @@
 /// zeta_r), and what is left goes to alpha or becomes a new normal edge.
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "filter/edges/edge_expert.h"
+#include "filter/frame_result.h"
+#include "filter/kinematics/motion_field.h"
+#include "filter/line/line.h"
 #include "filter/matching/point_grid.h"
 #include "filter/paper/cheapest_first.h"
+#include "filter/paper/parameters.h"
 
-namespace lcs {
+namespace lcs::paper {
 
 /// How a corner stands to a predicted normal edge: inside the span delta_v about its predicted
 /// motion, at a speed that a static point may have, inside its radius mu, and at the prediction or
@@ -24,13 +28,33 @@ enum class Xi {
   five,   ///< outside the span: to alpha
 };
 
-class PaperEdges : public EdgeExpert {
- public:
-  PaperEdges(const Intrinsics& camera, const CircleParameters& parameters);
+/// Edges and alpha.
+struct EdgeLayer {
+  BothKinds<Edge> edges;
+  std::vector<Chain> chains;
+};
 
-  void predict(Layers& layers, const MotionField& field) override;
-  void update(Layers& layers, const Chi& chi, const MotionField& field,
-              std::vector<Verdict>& verdicts) override;
+class PaperEdges {
+ public:
+  PaperEdges(const Intrinsics& camera, const PaperEdgeParameters& parameters,
+             const TrustRanks& trust)
+      : camera_(camera), parameters_(parameters), trust_(trust) {}
+
+  struct Result {
+    EdgeLayer layer;
+    std::vector<Verdict> verdicts;  ///< of each corner of chi
+    std::vector<Reason> reasons;    ///< of each corner of chi
+  };
+
+  /// Edges and chains of the frame before, moved to where this frame should show them.
+  /// \return valid until the next call.
+  const EdgeLayer& predict(const EdgeLayer& before, const MotionField& field);
+
+  /// Matches, estimates, updates trust, deletes, and makes new edges.
+  /// \param groups the collector that each corner of chi falls into (`Feedback`).
+  /// \return valid until the next call.
+  const Result& update(const EdgeLayer& predicted, const Chi& chi, std::span<const int> groups,
+                       std::span<const IgnoreRegion> psi, const MotionField& field);
 
   /// The case of corner `x` with regard to a predicted normal edge.
   Xi classify(const Edge& edge, const Vec2& x, const MotionField& field) const;
@@ -40,14 +64,15 @@ class PaperEdges : public EdgeExpert {
   bool plausible_speed(const Edge& edge, const Vec2& x, const MotionField& field) const;
   double rebel_reach(const Edge& edge, const MotionField& field) const;
   bool matches_rebel(const Edge& edge, const Vec2& x, const MotionField& field) const;
-  void assign(const Layers& layers, const Chi& chi, const MotionField& field);
+  void assign(const EdgeLayer& predicted, const Chi& chi, const MotionField& field);
   void came_to(int corner, Reason reason);
-  void update_normal(Edge& edge, const Vec2& x, const Chi& chi, const MotionField& field);
+  void update_normal(Edge& edge, const Chi& chi, std::span<const int> groups,
+                     const MotionField& field);
   void update_rebel(Edge& edge, const Vec2& x, const MotionField& field);
-  double spread(const Edge& edge, const Chi& chi) const;
-  void classify_rest(const Layers& layers, const Chi& chi, const MotionField& field);
-  void complete_chains(Layers& layers, const Chi& chi, const MotionField& field);
-  void branch_chains(const Layers& layers, const Chi& chi, const MotionField& field);
+  double spread(const Edge& edge, const Chi& chi, std::span<const int> groups) const;
+  void classify_rest(const Chi& chi, const MotionField& field);
+  void complete_chains(const Chi& chi, const MotionField& field);
+  void branch_chains(const Chi& chi, const MotionField& field);
   double off_field(const Vec2& from, const Vec2& to, const MotionField& field) const;
   Edge make_rebel(const Chain& chain, const Vec2& x, const MotionField& field);
 
@@ -56,12 +81,17 @@ class PaperEdges : public EdgeExpert {
 
   /// An edge without a corner follows its prediction. It loses trust for that, unless it lies in a
   /// region that was not looked at.
-  void coast(Edge& edge, const std::vector<IgnoreRegion>& psi) const;
+  void coast(Edge& edge, std::span<const IgnoreRegion> psi) const;
 
   /// A normal edge at a corner, with V = depth_ratio * V_v.
   Edge make_normal(const Vec2& x, double depth_ratio, double mu, const MotionField& field);
 
-  CircleParameters parameters_;
+  Intrinsics camera_;
+  PaperEdgeParameters parameters_;
+  TrustRanks trust_;
+  Id next_id_ = 1;
+  EdgeLayer predicted_;
+  Result result_;
 
   // Of the current frame; kept for their memory.
   PointGrid corner_grid_;
@@ -77,4 +107,4 @@ class PaperEdges : public EdgeExpert {
   std::vector<Neighbour> near_;
 };
 
-}  // namespace lcs
+}  // namespace lcs::paper

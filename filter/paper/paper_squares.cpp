@@ -11,7 +11,7 @@
 #include "filter/paper/tangent.h"
 #include "filter/squares/convex_hull.h"
 
-namespace lcs {
+namespace lcs::paper {
 namespace {
 
 double side_overlap(double a, double half_a, double b, double half_b) {
@@ -60,24 +60,28 @@ double overlap_percent(const Square& a, const Square& b) {
   return std::min(100.0, 100 * common / smaller);
 }
 
-PaperSquares::PaperSquares(const Intrinsics& camera, const SquareParameters& parameters)
-    : camera_(camera), parameters_(parameters), couples_(camera, parameters) {}
-
-void PaperSquares::predict(Layers& layers, const MotionField& field) const {
-  for (Square& square : layers.squares) {
+const std::vector<Square>& PaperSquares::predict(const std::vector<Square>& before,
+                                                 const MotionField& field) {
+  copy_over(before, predicted_);
+  for (Square& square : predicted_) {
     if (square.rebel_circles > 0) {
       carry_on(square, field);
     } else {
       expand(square, field);
     }
   }
+  return predicted_;
 }
 
-void PaperSquares::update(Layers& layers, const MotionField& field) {
-  copy_over(couples_.layer(layers, field), means_);
+const std::vector<Square>& PaperSquares::update(const BothKinds<Circle>& circles,
+                                                const std::vector<Square>& predicted,
+                                                std::span<const IgnoreRegion> psi,
+                                                const MotionField& field) {
+  copy_over(predicted, squares_);
+  copy_over(couples_.layer(circles, field), means_);
   pairs_.clear();
-  for (std::size_t s = 0; s < layers.squares.size(); ++s) {
-    const Square& square = layers.squares[s];
+  for (std::size_t s = 0; s < squares_.size(); ++s) {
+    const Square& square = squares_[s];
     for (std::size_t m = 0; m < means_.size(); ++m) {
       const double rho_s = overlap_percent(square, means_[m]);
       if (rho_s <= parameters_.rho_c) continue;
@@ -91,16 +95,16 @@ void PaperSquares::update(Layers& layers, const MotionField& field) {
     return std::tuple(!a.aligned, a.distance, -a.overlap, a.square, a.mean) <
            std::tuple(!b.aligned, b.distance, -b.overlap, b.square, b.mean);
   });
-  refill(matched_, layers.squares.size());
+  refill(matched_, squares_.size());
   refill(mean_used_, means_.size());
   const TrustRanks& ranks = parameters_.trust;
   for (const Pair& pair : pairs_) {
     if (matched_[pair.square] || mean_used_[pair.mean]) continue;
     matched_[pair.square] = mean_used_[pair.mean] = 1;
-    Square& square = layers.squares[pair.square];
+    Square& square = squares_[pair.square];
     const Square& mean = means_[pair.mean];
     // Circles that coast in psi carry their square along, but prove nothing.
-    const bool unseen = inside_any(layers.ignored, square.location);
+    const bool unseen = inside_any(psi, square.location);
     square.location = estimate(square.trust, ranks, square.location, mean.location);
     square.half_size = estimate(square.trust, ranks, square.half_size, mean.half_size);
     square.speed = mean.speed;
@@ -112,32 +116,31 @@ void PaperSquares::update(Layers& layers, const MotionField& field) {
     ++square.age;
     if (!unseen) square.trust = pair.aligned ? ranks.raised(square.trust) : square.trust - 1;
   }
-  for (std::size_t s = 0; s < layers.squares.size(); ++s) {
+  for (std::size_t s = 0; s < squares_.size(); ++s) {
     if (matched_[s]) continue;
-    Square& square = layers.squares[s];
+    Square& square = squares_[s];
     ++square.age;
     square.circles = 0;
-    if (!inside_any(layers.ignored, square.location)) --square.trust;
+    if (!inside_any(psi, square.location)) --square.trust;
   }
   for (std::size_t m = 0; m < means_.size(); ++m) {
     if (mean_used_[m]) continue;
     Square square = means_[m];
     square.id = next_id_++;
     square.trust = ranks.initial_square();
-    layers.squares.push_back(square);
+    squares_.push_back(square);
   }
-  std::erase_if(layers.squares, [&](const Square& square) {
+  std::erase_if(squares_, [&](const Square& square) {
     const Vec2& x = square.location;
     return !ranks.alive(square.trust) || x.x() < 0 || x.y() < 0 || x.x() > camera_.width_px ||
            x.y() > camera_.height_px;
   });
-}
-
-void PaperSquares::update_ignorance(Layers& layers) const {
-  for (Square& square : layers.squares) {
-    square.ignoring = square.trust >= parameters_.trust.maximum && square.rebel_circles == 0;
-    if (square.ignoring) square.trust = parameters_.trust.after_ignoring();
+  if (!ignore_) return squares_;
+  for (Square& square : squares_) {
+    square.ignoring = square.trust >= ranks.maximum && square.rebel_circles == 0;
+    if (square.ignoring) square.trust = ranks.after_ignoring();
   }
+  return squares_;
 }
 
-}  // namespace lcs
+}  // namespace lcs::paper

@@ -1,16 +1,17 @@
 /// \file
 /// The paper's squares: circles that belong together ("Geometric Layering", "Mean Square"), matched
-/// to the predicted ones by overlap ("Square Estimation").
+/// to the predicted squares by overlap ("Square Estimation").
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "filter/kinematics/motion_field.h"
 #include "filter/layers.h"
 #include "filter/paper/couple_layering.h"
-#include "filter/parameters.h"
+#include "filter/paper/parameters.h"
 
-namespace lcs {
+namespace lcs::paper {
 
 /// Overlap rho_s of two rectangles: the common area in % of the smaller one. Symmetric; 0 for
 /// disjoint ones, 100 where one contains the other, 0 where one has no area.
@@ -18,16 +19,19 @@ double overlap_percent(const Square& a, const Square& b);
 
 class PaperSquares {
  public:
-  PaperSquares(const Intrinsics& camera, const SquareParameters& parameters);
+  /// \param ignore squares that reach Tr_m make regions of psi (transition IV).
+  PaperSquares(const Intrinsics& camera, const PaperSquareParameters& parameters, bool ignore)
+      : camera_(camera), parameters_(parameters), ignore_(ignore), couples_(camera, parameters) {}
 
-  /// Moves the squares to where this frame should show them.
-  void predict(Layers& layers, const MotionField& field) const;
+  /// Squares of the frame before, moved to where this frame should show them.
+  /// \return valid until the next call.
+  const std::vector<Square>& predict(const std::vector<Square>& before, const MotionField& field);
 
   /// Layers the circles and matches, estimates, makes and deletes squares.
-  void update(Layers& layers, const MotionField& field);
-
-  /// Transition IV: squares that reached Tr_m will be ignored in the next frame.
-  void update_ignorance(Layers& layers) const;
+  /// \return valid until the next call.
+  const std::vector<Square>& update(const BothKinds<Circle>& circles,
+                                    const std::vector<Square>& predicted,
+                                    std::span<const IgnoreRegion> psi, const MotionField& field);
 
  private:
   /// A predicted square and a mean one that may be it.
@@ -38,8 +42,10 @@ class PaperSquares {
   };
 
   Intrinsics camera_;
-  SquareParameters parameters_;
+  PaperSquareParameters parameters_;
+  bool ignore_;
   Id next_id_ = 1;
+  std::vector<Square> predicted_, squares_;
 
   // Of the current frame; kept for their memory.
   std::vector<Square> means_;  // S_m
@@ -48,4 +54,4 @@ class PaperSquares {
   CoupleLayering couples_;
 };
 
-}  // namespace lcs
+}  // namespace lcs::paper

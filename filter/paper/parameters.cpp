@@ -1,54 +1,85 @@
 #include "filter/paper/parameters.h"
 
+#include <stdexcept>
+
 #include "filter/parameter_table.h"
 
-namespace lcs {
+namespace lcs::paper {
+namespace {
 
-std::vector<Entry> paper_entries() {
-  const AskedBy kPaper{{"circle.edge_rule", "paper"}};
-  const AskedBy kCouples{{"square.layer_rule", "couples"}};
-  return {
-      {"circle.delta_v", "delta_v", "deg", 0, 90, LCS_REAL(circle.delta_v), kPaper},
-      {"circle.mu_0", "mu_0", "px", 0.1, 1000, LCS_REAL(circle.mu_0), kPaper},
-      {"circle.mu_min", "", "px", 0.1, 1000, LCS_REAL(circle.mu_min), kPaper},
-      {"circle.mu_max", "", "px", 0.1, 1000, LCS_REAL(circle.mu_max), kPaper},
-      {"circle.corner_noise", "", "px", 0, 100, LCS_REAL(circle.corner_noise), kPaper},
-      {"circle.trust_bonus", "", "px", 0, 100, LCS_REAL(circle.trust_bonus), kPaper},
-      {"circle.alpha_reach", "", "px", 0, 1000, LCS_REAL(circle.alpha_reach), kPaper},
-      {"circle.alpha_deviation", "mu_r", "deg", 0, 180, LCS_REAL(circle.alpha_deviation), kPaper},
-      {"circle.alpha_stretch", "", "", 0, 10, LCS_REAL(circle.alpha_stretch), kPaper},
-      {"circle.alpha_branches", "", "", 1, 100, LCS_FIELD(int, circle.alpha_branches), kPaper},
-      {"circle.rebel_reach", "", "", 0, 10, LCS_REAL(circle.rebel_reach), kPaper},
-      {"circle.epsilon_beta_n", "eps_beta,n", "deg", 0, 180, LCS_REAL(circle.epsilon_beta_n),
-       kPaper},
-      {"circle.epsilon_beta_r", "eps_beta,r", "deg", 0, 180, LCS_REAL(circle.epsilon_beta_r),
-       kPaper},
-      {"circle.epsilon_v_n", "eps_v,n", "V_v", 0, 1000, LCS_REAL(circle.epsilon_v_n), kPaper},
-      {"circle.epsilon_v_r", "eps_v,r", "V_v", 0, 1000, LCS_REAL(circle.epsilon_v_r), kPaper},
-      {"circle.epsilon_v", "eps_v", "V_v", 0, 1000, LCS_REAL(circle.epsilon_v), kPaper},
-      {"circle.rho_c", "rho_c", "%", 0, 100, LCS_REAL(circle.rho_c), kPaper},
-      {"circle.reach_n", "", "px", 0.1, 10000, LCS_REAL(circle.reach_n), kPaper},
-      {"circle.reach_r", "", "px", 0.1, 10000, LCS_REAL(circle.reach_r), kPaper},
-      {"square.Tr_c", "Tr^s_c", "", 0, 1000, LCS_FIELD(int, square.trust.critical), kCouples},
-      {"square.Tr_s", "Tr^s_s", "", 0, 1000, LCS_FIELD(int, square.trust.standard), kCouples},
-      {"square.Tr_m", "Tr^s_m", "", 0, 1000, LCS_FIELD(int, square.trust.maximum), kCouples},
-      {"square.delta_beta_1", "delta_beta,1", "deg", 0, 180, LCS_REAL(square.delta_beta_1),
-       kCouples},
-      {"square.delta_beta_2", "delta_beta,2", "deg", 0, 180, LCS_REAL(square.delta_beta_2),
-       kCouples},
-      {"square.epsilon_beta_1", "eps_beta,1", "deg", 0, 180, LCS_REAL(square.epsilon_beta_1),
-       kCouples},
-      {"square.epsilon_beta_2", "eps_beta,2", "deg", 0, 180, LCS_REAL(square.epsilon_beta_2),
-       kCouples},
-      {"square.epsilon_beta", "eps_beta", "deg", 0, 180, LCS_REAL(square.epsilon_beta), kCouples},
-      {"square.epsilon_beta_s", "eps_beta,s", "deg", 0, 180, LCS_REAL(square.epsilon_beta_s),
-       kCouples},
-      {"square.epsilon_v", "eps_v", "V_v", 0, 1000, LCS_REAL(square.epsilon_v), kCouples},
-      {"square.epsilon_v_s", "eps_v,s", "V_v", 0, 1000, LCS_REAL(square.epsilon_v_s), kCouples},
-      {"square.rho_c", "rho_c", "%", 0, 100, LCS_REAL(square.rho_c), kCouples},
-      {"square.d_t", "d_t", "diagonals", 0, 10, LCS_REAL(square.d_t), kCouples},
-      {"square.mix_kinds", "", "", 0, 0, LCS_FIELD(bool, square.mix_kinds), kCouples},
+std::vector<Entry> entries_of(PaperParameters& p) {
+  std::vector<Entry> all = lcs::entries_of(p.field);
+  const std::vector<Entry> own = {
+      {"line.ignore", "psi", "", 0, 0, &p.ignore},
+      {"line.max_corners", "", "", 1, 10000000, &p.line.max_corners},
+      {"circle.Tr_c", "Tr^c_c", "", 0, 1000, &p.circle.trust.critical},
+      {"circle.Tr_s", "Tr^c_s", "", 0, 1000, &p.circle.trust.standard},
+      {"circle.Tr_m", "Tr^c_m", "", 0, 1000, &p.circle.trust.maximum},
+      {"circle.min_members", "", "", 1, 1000, &p.circle.min_members},
+      {"circle.delta_v", "delta_v", "deg", 0, 90, &p.edge.delta_v},
+      {"circle.mu_0", "mu_0", "px", 0.1, 1000, &p.edge.mu_0},
+      {"circle.mu_min", "", "px", 0.1, 1000, &p.edge.mu_min},
+      {"circle.mu_max", "", "px", 0.1, 1000, &p.edge.mu_max},
+      {"circle.corner_noise", "", "px", 0, 100, &p.edge.corner_noise},
+      {"circle.trust_bonus", "", "px", 0, 100, &p.edge.trust_bonus},
+      {"circle.alpha_reach", "", "px", 0, 1000, &p.edge.alpha_reach},
+      {"circle.alpha_deviation", "mu_r", "deg", 0, 180, &p.edge.alpha_deviation},
+      {"circle.alpha_stretch", "", "", 0, 10, &p.edge.alpha_stretch},
+      {"circle.alpha_branches", "", "", 1, 100, &p.edge.alpha_branches},
+      {"circle.rebel_reach", "", "", 0, 10, &p.edge.rebel_reach},
+      {"circle.epsilon_beta_n", "eps_beta,n", "deg", 0, 180, &p.circle.epsilon_beta_n},
+      {"circle.epsilon_beta_r", "eps_beta,r", "deg", 0, 180, &p.circle.epsilon_beta_r},
+      {"circle.epsilon_v_n", "eps_v,n", "V_v", 0, 1000, &p.circle.epsilon_v_n},
+      {"circle.epsilon_v_r", "eps_v,r", "V_v", 0, 1000, &p.circle.epsilon_v_r},
+      {"circle.epsilon_v", "eps_v", "V_v", 0, 1000, &p.circle.epsilon_v},
+      {"circle.rho_c", "rho_c", "%", 0, 100, &p.circle.rho_c},
+      {"circle.reach_n", "", "px", 0.1, 10000, &p.circle.reach_n},
+      {"circle.reach_r", "", "px", 0.1, 10000, &p.circle.reach_r},
+      {"square.Tr_c", "Tr^s_c", "", 0, 1000, &p.square.trust.critical},
+      {"square.Tr_s", "Tr^s_s", "", 0, 1000, &p.square.trust.standard},
+      {"square.Tr_m", "Tr^s_m", "", 0, 1000, &p.square.trust.maximum},
+      {"square.delta_beta_1", "delta_beta,1", "deg", 0, 180, &p.square.delta_beta_1},
+      {"square.delta_beta_2", "delta_beta,2", "deg", 0, 180, &p.square.delta_beta_2},
+      {"square.epsilon_beta_1", "eps_beta,1", "deg", 0, 180, &p.square.epsilon_beta_1},
+      {"square.epsilon_beta_2", "eps_beta,2", "deg", 0, 180, &p.square.epsilon_beta_2},
+      {"square.epsilon_beta", "eps_beta", "deg", 0, 180, &p.square.epsilon_beta},
+      {"square.epsilon_beta_s", "eps_beta,s", "deg", 0, 180, &p.square.epsilon_beta_s},
+      {"square.epsilon_v", "eps_v", "V_v", 0, 1000, &p.square.epsilon_v},
+      {"square.epsilon_v_s", "eps_v,s", "V_v", 0, 1000, &p.square.epsilon_v_s},
+      {"square.rho_c", "rho_c", "%", 0, 100, &p.square.rho_c},
+      {"square.d_t", "d_t", "diagonals", 0, 10, &p.square.d_t},
+      {"square.mix_kinds", "", "", 0, 0, &p.square.mix_kinds},
   };
+  all.insert(all.end(), own.begin(), own.end());
+  return all;
 }
 
-}  // namespace lcs
+}  // namespace
+
+PaperParameters cars() {
+  PaperParameters p;
+  p.circle.trust = {1, 4, 7};
+  p.square.trust = {2, 5, 8};
+  return p;
+}
+
+void set(PaperParameters& parameters, std::string_view key, std::string_view value) {
+  lcs::set(entries_of(parameters), key, value);
+}
+
+void validate(const PaperParameters& parameters) {
+  PaperParameters copy = parameters;  // entries point to what they may change
+  lcs::validate(entries_of(copy));
+  lcs::validate(copy.circle.trust, "circle");
+  lcs::validate(copy.square.trust, "square");
+  if (copy.edge.mu_min > copy.edge.mu_max) {
+    throw std::invalid_argument("'circle.mu_min' is above 'circle.mu_max'");
+  }
+}
+
+std::vector<ParameterInfo> describe(const PaperParameters& parameters) {
+  PaperParameters copy = parameters;
+  return lcs::describe(entries_of(copy));
+}
+
+}  // namespace lcs::paper

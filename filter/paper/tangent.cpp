@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lcs {
+namespace lcs::paper {
 namespace {
 
 /// Denominators below this, in units of the square's size, make the solution worthless.
@@ -71,4 +71,4 @@ Extent predict_by_homothety(const Extent& square, const Vec2& origin, double tra
   return {origin + s * ray, s * square.half_size};
 }
 
-}  // namespace lcs
+}  // namespace lcs::paper

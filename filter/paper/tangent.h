@@ -14,7 +14,7 @@
 
 #include "filter/kinematics/camera.h"
 
-namespace lcs {
+namespace lcs::paper {
 
 struct Extent {
   Vec2 location = Vec2::Zero();   ///< L_s, px
@@ -32,4 +32,4 @@ std::optional<Extent> predict_by_tangents(const Extent& square, const Vec2& orig
 /// The homothety about `origin`. A square whose centre is the origin stays.
 Extent predict_by_homothety(const Extent& square, const Vec2& origin, double travelled_px);
 
-}  // namespace lcs
+}  // namespace lcs::paper

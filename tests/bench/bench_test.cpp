@@ -130,10 +130,14 @@ TEST(FilterParameters, AreThePresetWithTheScenariosSettingsOnTop) {
     return filter_parameters(
         scenario::load(LCS_SCENARIOS_DIR "/crossing.yaml", {.sets = std::move(sets), .seed = {}}));
   };
-  EXPECT_EQ(load({"filter.preset=lab"}).circle.mu_0, preset("lab").circle.mu_0);
-  EXPECT_EQ(load({"filter.preset=lab", "filter.circle.mu_0=17"}).circle.mu_0, 17);
+  const auto mu_0 = [&](std::vector<std::string> sets) {
+    return std::get<paper::PaperParameters>(load(std::move(sets))).edge.mu_0;
+  };
+  EXPECT_EQ(mu_0({"filter.preset=lab"}), paper::PaperParameters{}.edge.mu_0);
+  EXPECT_EQ(mu_0({"filter.preset=lab", "filter.circle.mu_0=17"}), 17);
   EXPECT_THROW(load({"filter.preset=best"}), scenario::Error);
-  EXPECT_THROW(load({"filter.circle.mu_0=wide"}), scenario::Error);
+  EXPECT_THROW(load({"filter.circle.mu_0=17"}), scenario::Error);
+  EXPECT_THROW(load({"filter.circle.gap=wide"}), scenario::Error);
   // Each in its range, and out of order together.
   EXPECT_THROW(load({"filter.circle.Tr_c=9", "filter.circle.Tr_m=5"}), scenario::Error);
 }

@@ -109,7 +109,7 @@ void signatures(benchmark::State& state, const std::string& scene, int corners) 
 
 void filter(benchmark::State& state, const std::string& scene, int corners) {
   const Stream& of = stream(scene, corners);
-  const auto fresh = [&] { return Filter(of.camera(), preset("default")); };
+  const auto fresh = [&] { return Filter(of.camera(), Parameters{}); };
   Filter under_test = fresh();
   StageTimes sum;
   double total_s = 0;

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "filter/ego_motion/ego_motion.h"
 #include "filter/kinematics/camera.h"
+#include "filter/kinematics/ego_motion.h"
 #include "filter/signature.h"
 #include "scenarios/scenario.h"
 

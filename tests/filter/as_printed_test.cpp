@@ -9,11 +9,12 @@
 #include "filter/kinematics/motion_field.h"
 #include "filter/paper/paper_squares.h"
 #include "filter/paper/tangent.h"
-#include "filter/squares/square.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
 namespace {
+
+using namespace paper;
 
 using Eigen::Vector3d;
 using testing::Random;

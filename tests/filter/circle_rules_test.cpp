@@ -3,12 +3,17 @@
 
 #include <algorithm>
 
-#include "filter/circles/circle.h"
 #include "filter/kinematics/geometry.h"
 #include "tests/filter/items.h"
+#include "tests/filter/paper_steps.h"
 
 namespace lcs {
 namespace {
+
+using namespace paper;
+using testing::CircleSteps;
+using testing::EdgeSteps;
+using testing::SquareSteps;
 
 using testing::ahead;
 using testing::normal;
@@ -16,13 +21,13 @@ using testing::Random;
 using testing::rebel;
 using testing::vga;
 
-const CircleParameters kLab = preset("lab").circle;
+const PaperCircleParameters kLab;
 const TrustRanks kRanks = kLab.trust;
 
 std::vector<Circle> circles_of(std::vector<Edge> edges) {
   Layers layers;
   (edges.front().rebel ? layers.rebel_edges : layers.normal_edges) = std::move(edges);
-  CircleExpert(vga(), kLab).update(layers, ahead());
+  CircleSteps(kLab).update(layers, ahead());
   return layers.normal_circles.empty() ? layers.rebel_circles : layers.normal_circles;
 }
 
@@ -141,7 +146,7 @@ struct CircleMatch : ::testing::Test {
     const bool rebels = edges.front().rebel;
     (rebels ? layers.rebel_circles : layers.normal_circles) = {circle};
     (rebels ? layers.rebel_edges : layers.normal_edges) = std::move(edges);
-    CircleExpert(vga(), kLab).update(layers, ahead());
+    CircleSteps(kLab).update(layers, ahead());
     const Circle& first = (rebels ? layers.rebel_circles : layers.normal_circles).front();
     EXPECT_EQ(first.id, 100u);
     return {first.trust, first.members > 0};
@@ -233,7 +238,7 @@ TEST_F(CircleMatch, WhatHasLeftTheImageIsDeleted) {
   for (const Vec2& outside : {Vec2(-5, 200), Vec2(645, 200), Vec2(300, -5), Vec2(300, 485)}) {
     layers = {};
     layers.normal_circles = {predicted(outside, 20), predicted({300, 200}, 20)};
-    CircleExpert(vga(), kLab).update(layers, ahead());
+    CircleSteps(kLab).update(layers, ahead());
     ASSERT_EQ(layers.normal_circles.size(), 1u);
     EXPECT_EQ(layers.normal_circles[0].location, Vec2(300, 200));
   }

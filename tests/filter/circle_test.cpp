@@ -1,12 +1,17 @@
-#include "filter/circles/circle.h"
 
 #include <gtest/gtest.h>
 
 #include "filter/kinematics/geometry.h"
 #include "tests/filter/items.h"
+#include "tests/filter/paper_steps.h"
 
 namespace lcs {
 namespace {
+
+using namespace paper;
+using testing::CircleSteps;
+using testing::EdgeSteps;
+using testing::SquareSteps;
 
 using Eigen::Vector3d;
 using testing::ahead;
@@ -15,7 +20,7 @@ using testing::rebel;
 using testing::vga;
 
 struct Circling : ::testing::Test {
-  CircleExpert expert{vga(), preset("lab").circle};
+  CircleSteps expert;
   Layers layers;
   void update() { expert.update(layers, ahead()); }
 };
@@ -31,7 +36,7 @@ TEST_F(Circling, NeighboursOfOneDepthAndDirectionAreOneCircleThatHoldsThem) {
     EXPECT_LE((edge.location - circle.location).norm(), circle.radius);
     EXPECT_EQ(edge.circle, 0);
   }
-  EXPECT_EQ(circle.trust, preset("lab").circle.trust.initial_normal());
+  EXPECT_EQ(circle.trust, PaperParameters{}.circle.trust.initial_normal());
 }
 
 TEST_F(Circling, GroupsOfNoneOneAndTwoMakeNoCircle) {
@@ -84,7 +89,7 @@ TEST_F(Circling, RebelsGroupByTheirOwnMotion) {
 }
 
 TEST_F(Circling, AnAlignedMatchRaisesTrustAndAMissLowersItUntilDeletion) {
-  const TrustRanks ranks = preset("lab").circle.trust;
+  const TrustRanks ranks = PaperParameters{}.circle.trust;
   layers.normal_edges = {normal({500, 240}), normal({510, 250}), normal({505, 230})};
   update();
   update();
@@ -102,20 +107,21 @@ TEST_F(Circling, AnAlignedMatchRaisesTrustAndAMissLowersItUntilDeletion) {
 
 TEST_F(Circling, AtTheMaximumACircleIsIgnoredNextAndLookedAtAgainAfter) {
   layers.normal_edges = {normal({500, 240}), normal({510, 250}), normal({505, 230})};
-  const TrustRanks ranks = preset("lab").circle.trust;
-  for (int i = ranks.initial_normal(); i < ranks.maximum + 1; ++i) update();
+  const TrustRanks ranks = PaperParameters{}.circle.trust;
+  CircleSteps ignoring({}, true);
+  for (int i = ranks.initial_normal(); i < ranks.maximum + 1; ++i) {
+    EXPECT_TRUE(layers.normal_circles.empty() || !layers.normal_circles[0].ignoring);
+    ignoring.update(layers, ahead());
+  }
   ASSERT_EQ(layers.normal_circles.size(), 1u);
-  EXPECT_EQ(layers.normal_circles[0].trust, ranks.maximum);
-  expert.update_ignorance(layers);
   EXPECT_TRUE(layers.normal_circles[0].ignoring);
   EXPECT_EQ(layers.normal_circles[0].trust, ranks.maximum - 2);
-  std::vector<IgnoreRegion> psi;
-  std::vector<Collector> lambda;
-  expert.feed_back(layers, psi, lambda);
+  Feedback feedback(ranks);
+  const auto& [psi, lambda] = feedback.regions(layers.normal_circles, {});
   ASSERT_EQ(psi.size(), 1u);
   EXPECT_TRUE(lambda.empty());
   EXPECT_TRUE(psi[0].location.isApprox(layers.normal_circles[0].location));
-  expert.update_ignorance(layers);
+  ignoring.update(layers, ahead());
   EXPECT_FALSE(layers.normal_circles[0].ignoring);
 }
 

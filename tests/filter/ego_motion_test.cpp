@@ -1,4 +1,4 @@
-#include "filter/ego_motion/ego_motion.h"
+#include "filter/ego_motion/estimator.h"
 
 #include <gtest/gtest.h>
 

@@ -3,16 +3,19 @@
 
 #include <map>
 
-#include "filter/circles/circle.h"
-#include "filter/filter.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/line/line.h"
-#include "filter/paper/corner_grouping.h"
-#include "filter/squares/square.h"
+#include "filter/paper/any_filter.h"
 #include "tests/filter/items.h"
+#include "tests/filter/paper_steps.h"
 
 namespace lcs {
 namespace {
+
+using namespace paper;
+using testing::CircleSteps;
+using testing::EdgeSteps;
+using testing::SquareSteps;
 
 using Eigen::Vector3d;
 using testing::ahead;
@@ -29,16 +32,14 @@ Circle circle(const Vec2& at, int trust, bool ignoring = false) {
 }
 
 TEST(Lambda, HoldsTheTrustedNormalCirclesThatAreNotIgnored) {
-  const CircleParameters p = preset("cars").circle;
+  const PaperCircleParameters p = cars().circle;
   ASSERT_LT(p.trust.critical, p.trust.standard);
   Layers layers;
   layers.normal_circles = {
       circle({100, 100}, p.trust.standard), circle({200, 100}, p.trust.standard - 1),
       circle({300, 100}, p.trust.maximum), circle({400, 100}, p.trust.standard, true)};
-  layers.rebel_circles = {circle({500, 100}, p.trust.maximum)};
-  std::vector<IgnoreRegion> psi;
-  std::vector<Collector> lambda;
-  CircleExpert(vga(), p).feed_back(layers, psi, lambda);
+  Feedback feedback(p.trust);
+  const auto& [psi, lambda] = feedback.regions(layers.normal_circles, layers.squares);
   ASSERT_EQ(lambda.size(), 2u);
   EXPECT_EQ(lambda[0].location, Vec2(100, 100));
   EXPECT_EQ(lambda[1].location, Vec2(300, 100));
@@ -55,10 +56,9 @@ TEST(Psi, IsADiscOfACircleAndARectangleOfASquare) {
   square.half_size = {40, 10};
   layers.squares = {square};
   layers.squares[0].ignoring = true;
-  std::vector<IgnoreRegion> psi;
-  std::vector<Collector> lambda;
-  CircleExpert(vga(), preset("lab").circle).feed_back(layers, psi, lambda);
-  SquareExpert(vga(), preset("lab").square).feed_back(layers, psi);
+  Feedback feedback({});
+  const std::vector<IgnoreRegion>& psi =
+      feedback.regions(layers.normal_circles, layers.squares).ignored;
   ASSERT_EQ(psi.size(), 2u);
   EXPECT_EQ(static_cast<int>(psi[0].shape), 1);  // Ty
   EXPECT_EQ(static_cast<int>(psi[1].shape), 2);
@@ -74,36 +74,56 @@ TEST(Psi, ComesBeforeLambda) {
   const std::vector<IgnoreRegion> psi = {{IgnoreRegion::Shape::circle, {100, 100}, {30, 30}}};
   const std::vector<Collector> lambda = {{{120, 100}, 30}};
   const std::vector<Eigen::Vector2f> corners = {{110, 100}, {140, 100}};
-  LineExpert line(vga());
-  std::vector<Verdict> verdicts;
-  Chi chi;
-  line.collect(corners, {}, psi, chi, verdicts);
-  CornerGrouping().group(lambda, chi);
+  LineExpert line(vga(), {});
+  const Chi& chi = line.collect(corners, {}, psi);
   ASSERT_EQ(chi.size(), 1u);
   EXPECT_EQ(chi.sources[0], 1);
-  EXPECT_EQ(chi.groups[0], 0);
+  EXPECT_EQ(Feedback({}).group(lambda, chi)[0], 0);
+}
+
+Square square_round(const Circle& circle, int trust) {
+  Square square;
+  square.location = circle.location;
+  square.half_size = {circle.radius, circle.radius};
+  square.depth_ratio = circle.depth_ratio;
+  square.angle = circle.angle;
+  square.trust = trust;
+  return square;
 }
 
 TEST(Psi, IsMadeByNormalCirclesAndSquaresAtTheirMaximumAndByNoRebel) {
-  const Parameters p = preset("lab");
-  Layers layers;
-  layers.normal_circles = {circle({100, 100}, p.circle.trust.maximum),
-                           circle({200, 100}, p.circle.trust.maximum - 1)};
-  layers.rebel_circles = {circle({300, 100}, p.circle.trust.maximum)};
-  layers.squares.resize(3);
-  layers.squares[0].trust = layers.squares[1].trust = p.square.trust.maximum;
-  layers.squares[1].rebel_circles = 1;
-  layers.squares[2].trust = p.square.trust.maximum - 1;
-  CircleExpert(vga(), p.circle).update_ignorance(layers);
-  SquareExpert(vga(), p.square).update_ignorance(layers);
-  EXPECT_TRUE(layers.normal_circles[0].ignoring);
-  EXPECT_EQ(layers.normal_circles[0].trust, p.circle.trust.maximum - 2);
-  EXPECT_FALSE(layers.normal_circles[1].ignoring);
-  EXPECT_FALSE(layers.rebel_circles[0].ignoring);
-  EXPECT_TRUE(layers.squares[0].ignoring);
-  EXPECT_EQ(layers.squares[0].trust, p.square.trust.maximum - 2);
-  EXPECT_FALSE(layers.squares[1].ignoring);
-  EXPECT_FALSE(layers.squares[2].ignoring);
+  const PaperParameters p;
+  const auto edges_at = [](const Vec2& at) {
+    return std::vector<Edge>{testing::normal(at), testing::normal(at + Vec2(3, 0)),
+                             testing::normal(at + Vec2(0, 3))};
+  };
+  for (const int short_of_maximum : {1, 2}) {  // a match raises trust by one
+    Layers layers;
+    layers.normal_circles = {circle({420, 240}, p.circle.trust.maximum - short_of_maximum)};
+    layers.normal_edges = edges_at({420, 240});
+    layers.squares = {
+        square_round(layers.normal_circles[0], p.square.trust.maximum - short_of_maximum)};
+    CircleSteps(p.circle, true).update(layers, ahead());
+    SquareSteps(p.square, true).update(layers, ahead());
+    ASSERT_EQ(layers.normal_circles.size(), 1u);
+    ASSERT_EQ(layers.squares.size(), 1u);
+    const bool reached = short_of_maximum == 1;
+    EXPECT_EQ(layers.normal_circles[0].ignoring, reached);
+    EXPECT_EQ(layers.squares[0].ignoring, reached);
+    EXPECT_EQ(layers.normal_circles[0].trust, p.circle.trust.maximum - (reached ? 2 : 1));
+    EXPECT_EQ(layers.squares[0].trust, p.square.trust.maximum - (reached ? 2 : 1));
+  }
+  Layers rebels;
+  for (Edge& edge : rebels.rebel_edges = edges_at({420, 240})) edge = testing::moved(edge, 0, 80);
+  rebels.rebel_circles = {testing::moved(circle({420, 240}, p.circle.trust.maximum), 0, 80)};
+  rebels.squares = {square_round(rebels.rebel_circles[0], p.square.trust.maximum)};
+  CircleSteps(p.circle, true).update(rebels, ahead());
+  SquareSteps(p.square, true).update(rebels, ahead());
+  ASSERT_EQ(rebels.rebel_circles.size(), 1u);
+  ASSERT_FALSE(rebels.squares.empty());
+  EXPECT_EQ(rebels.rebel_circles[0].trust, p.circle.trust.maximum);
+  EXPECT_FALSE(rebels.rebel_circles[0].ignoring);
+  for (const Square& square : rebels.squares) EXPECT_FALSE(square.ignoring);
 }
 
 /// A static world of trackable points, all near the reference depth.
@@ -123,7 +143,7 @@ TEST(Psi, LastsOneFrameAndReturnsAfterTwoOthersAtTheEarliest) {
     SCOPED_TRACE(name);
     World world = steady_world(1);
     const EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);
-    Filter filter(world.camera, preset(name));
+    AnyFilter filter(world.camera, preset(name));
     std::map<Id, int> circle_made, square_made;
     int returned = 0;
     for (int k = 0; k < 40; ++k) {
@@ -147,7 +167,7 @@ TEST(Psi, LastsOneFrameAndReturnsAfterTwoOthersAtTheEarliest) {
 }
 
 TEST(Psi, InsideItALayerNeitherGainsNorLosesTrust) {
-  const Parameters p = preset("lab");
+  const PaperParameters p;
   Layers layers;
   for (int i = 0; i < 5; ++i) {  // edges that coast in psi, as alike as can be
     Edge edge;
@@ -167,8 +187,8 @@ TEST(Psi, InsideItALayerNeitherGainsNorLosesTrust) {
   layers.squares[1].location = {100, 100};
   layers.ignored = {{IgnoreRegion::Shape::circle, {500, 240}, {60, 60}},
                     {IgnoreRegion::Shape::circle, {100, 100}, {60, 60}}};
-  CircleExpert(vga(), p.circle).update(layers, ahead());
-  SquareExpert(vga(), p.square).update(layers, ahead());
+  CircleSteps(p.circle).update(layers, ahead());
+  SquareSteps(p.square).update(layers, ahead());
   ASSERT_EQ(layers.normal_circles.size(), 2u);
   EXPECT_EQ(layers.normal_circles[0].members, 5);  // by what its edges are predicted to do
   EXPECT_EQ(layers.normal_circles[1].members, 0);
@@ -180,11 +200,11 @@ TEST(Psi, InsideItALayerNeitherGainsNorLosesTrust) {
 }
 
 TEST(Psi, IsNeverAppliedWhenSwitchedOff) {
-  Parameters p = preset("lab");
-  p.line.ignore = false;
+  PaperParameters p;
+  p.ignore = false;
   World world = steady_world(2);
   const EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);
-  Filter filter(world.camera, p);
+  PaperFilter filter(world.camera, p);
   for (int k = 0; k < 15; ++k) {
     const FrameResult& result = filter.step(world.corners(), k == 0 ? EgoMotion{} : motion);
     EXPECT_TRUE(result.layers.ignored.empty());
@@ -198,7 +218,7 @@ TEST(Psi, IsNeverAppliedWhenSwitchedOff) {
 TEST(Lambda, AppearsInTheFrameAfterItsCircles) {
   World world = steady_world(3);
   const EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);
-  Filter filter(world.camera, preset("lab"));
+  PaperFilter filter(world.camera);
   EXPECT_TRUE(filter.step(world.corners(), {}).layers.collectors.empty());
   world.advance(motion);
   EXPECT_FALSE(filter.step(world.corners(), motion).layers.collectors.empty());

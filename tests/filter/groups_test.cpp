@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "filter/circles/circle.h"
+#include "filter/circles/circle_expert.h"
 
 #include "filter/kinematics/geometry.h"
-#include "filter/squares/square.h"
+#include "filter/squares/square_expert.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
@@ -56,12 +56,21 @@ void add_rebels(Layers& layers, const Vec2& low, const Vec2& high, const Vec2& v
 
 /// The default's circles and squares of one frame after the other.
 struct Experts {
-  CircleExpert circles{vga(), preset("default").circle};
-  SquareExpert squares{vga(), preset("default").square};
+  CircleExpert circles{vga(), {}, {}};
+  SquareExpert squares{vga(), {}};
 
   void update(Layers& layers, const MotionField& field) {
-    circles.update(layers, field);
-    squares.update(layers, field);
+    const BothKinds<Edge> edges{layers.normal_edges, layers.rebel_edges};
+    const CircleExpert::Result& found = circles.step(edges, field);
+    layers.squares = squares.step(edges, found, field);
+    layers.normal_circles = found.circles.normal;
+    layers.rebel_circles = found.circles.rebel;
+    for (std::size_t i = 0; i < layers.normal_edges.size(); ++i) {
+      layers.normal_edges[i].circle = found.of_edges.normal[i];
+    }
+    for (std::size_t i = 0; i < layers.rebel_edges.size(); ++i) {
+      layers.rebel_edges[i].circle = found.of_edges.rebel[i];
+    }
   }
 };
 
@@ -231,7 +240,7 @@ TEST(Groups, AnObjectIsOneBeforeADenseBackground) {
 
 /// Bodies are tall before gaps are wide: head and feet are one, neighbours are two.
 TEST(Groups, ReachFartherUpwardsThanAcross) {
-  const double gap = 3.5 * preset("default").circle.gap_m * vga().focal_px / 4;
+  const double gap = 3.5 * CircleParameters{}.gap_m * vga().focal_px / 4;
   for (const double roll : {0.0, 0.5}) {  // upwards is where the ground is not
     const Eigen::Rotation2Dd turned(roll);
     const auto count = [&](const Vec2& offset) {
@@ -261,7 +270,7 @@ TEST(Groups, ReachFartherWhereTheyAreNear) {
 
 // 200 px wide, and as many metres as its depth makes of them.
 TEST(Groups, WhatIsLargerThanAnObjectMayBeIsBackground) {
-  const double limit_m = preset("default").square.max_size * vga().focal_px / 200;
+  const double limit_m = SquareParameters{}.max_size * vga().focal_px / 200;
   for (const double share : {0.9, 1.1}) {
     Layers layers;
     add_patch(layers, {200, 100}, {400, 200}, share * limit_m, 5);

@@ -15,6 +15,7 @@
 #include "filter/edges/motion_fix.h"
 #include "filter/edges/own_motion.h"
 #include "filter/edges/static_point.h"
+#include "filter/ego_motion/estimator.h"
 #include "filter/filter.h"
 #include "filter/kinematics/geometry.h"
 #include "tests/filter/same_result.h"
@@ -39,7 +40,7 @@ using Corners = std::vector<Vector2f>;
 constexpr double kNoise2_px2 = 0.36;
 constexpr double kDt_s = 0.1;
 
-const HypothesisParameters kUsual = preset("default").circle.hypotheses;
+const EdgeParameters kUsual = EdgeParameters{};
 
 /// Of a sighting, were there no bounds on depth.
 double density(const StaticPoint& point, const Vec2& x_px, double noise2_px2) {
@@ -170,7 +171,7 @@ TEST(StaticPoint, IsNotNearerThanItMayBeNorBehindTheGround) {
   const Vec2 px(420, 330);
   const DepthBounds bounds = depth_bounds(field, px);
   const double ground = (px.y() - vga().centre_px.y()) / vga().focal_px / 0.8;
-  EXPECT_NEAR(bounds.most_pm, 1 / 0.8, 1e-12) << "at z_min";
+  EXPECT_NEAR(bounds.most_pm, 1 / FieldParameters{}.nearest_depth_m, 1e-12) << "at z_min";
   EXPECT_NEAR(bounds.ground_pm, ground, 1e-12);
   // It may fall away by 0.015 rad, and the height be wrong by a tenth.
   const double sigma = std::hypot(0.015 / 0.8, 0.1 * ground);
@@ -337,7 +338,7 @@ Signature with_bits(int bits) {
   return signature;
 }
 
-std::vector<int> match(const HypothesisParameters& parameters, const Chi& chi,
+std::vector<int> match(const EdgeParameters& parameters, const Chi& chi,
                        const std::vector<Track>& tracks) {
   return Association(parameters).match(chi, tracks, kNoise2_px2, kDt_s);
 }
@@ -383,7 +384,7 @@ TEST(Association, IsOneToOne) {
 }
 
 /// MODEL.md (7), term by term: each pair with the votes of all neighbours.
-std::vector<int> matched_by_formula(const HypothesisParameters& parameters, const Chi& chi,
+std::vector<int> matched_by_formula(const EdgeParameters& parameters, const Chi& chi,
                                     const std::vector<Track>& tracks) {
   const double reach = parameters.max_speed_pxps * kDt_s, near = parameters.neighbour_reach_px;
   const double t = parameters.turnover(kDt_s), anywhere = 1 / (kPi * reach * reach);
@@ -501,7 +502,7 @@ TEST(Association, WhatNeighboursAgreeOnGoesBeforeANearerChanceMatch) {
     corners.push_back(x + Vec2(22, 5));
   }
   corners.push_back(group[0] + Vec2(1, 1));  // a chance match of the first
-  HypothesisParameters parameters = kUsual;
+  EdgeParameters parameters = kUsual;
   parameters.step_share = 0.1;  // they move as one
   const auto asked = match(parameters, chi_of(corners), tracks);
   for (int c = 0; c < 9; ++c) EXPECT_EQ(asked[c], c);
@@ -513,7 +514,7 @@ TEST(Association, WhatNeighboursAgreeOnGoesBeforeANearerChanceMatch) {
 }
 
 TEST(Association, ReachesNoFartherThanTheFastest) {
-  HypothesisParameters parameters = kUsual;
+  EdgeParameters parameters = kUsual;
   parameters.max_speed_pxps = 600;
   EXPECT_DOUBLE_EQ(Association(parameters).reach_px(0.02), 12);
   const std::vector<Track> tracks = {track_at({300, 200})};
@@ -546,7 +547,7 @@ TEST(Coupling, ANodeThatNoneMovesLikeHasTheWholeWorldAgainstIt) {
 }
 
 TEST(Coupling, OfTwoNodesIsTheSumByHand) {
-  HypothesisParameters parameters = kUsual;
+  EdgeParameters parameters = kUsual;
   parameters.coupling = 8;
   parameters.step_share = 0.1;
   parameters.neighbour_reach_px = 25;
@@ -862,7 +863,7 @@ TEST(HypothesisEdges, AStaticWorldOfWholePixelsIsSilent) {
     for (const Vector3d& v : {Vector3d(0, 0, 0.5), Vector3d(0.3, 0, 0), Vector3d(0, 0, -0.4)}) {
       World world = sparse_world(5, spacing);
       const EgoMotion motion = steady_motion(v, {0.01, 0.05, -0.02}, kDt_s);
-      Filter filter(world.camera, preset("default"));
+      Filter filter(world.camera);
       for (int k = 0; k < 25; ++k) {
         const FrameResult& result =
             filter.step(rounded(world.corners()), k == 0 ? EgoMotion{} : motion);
@@ -882,7 +883,7 @@ TEST(HypothesisEdges, AFirstTurnThatIsToldWrongIsSeenByTheCorners) {
     const EgoMotion motion = steady_motion({0, 0, 0.5}, {0.01, 0.05, -0.02}, kDt_s);
     const EgoMotion wrong =
         steady_motion(motion.v_C_mps, motion.w_C_radps + turn_rad / kDt_s, kDt_s);
-    Filter filter(world.camera, preset("default"));
+    Filter filter(world.camera);
     for (std::size_t k = 0; k < 6; ++k) {
       const EgoMotion told = k == 0 ? EgoMotion{} : k == 1 ? wrong : motion;
       const FrameResult& result = filter.step(rounded(world.corners()), world.signatures(k), told);
@@ -906,7 +907,7 @@ TEST(HypothesisEdges, BeginAnewWhereTheToldMotionIsNotTheCameras) {
         Wrong{"a step upwards", steady_motion({0.6, -8, 0.5}, motion.w_C_radps, kDt_s), 3},
         Wrong{"none at all", steady_motion(Vector3d::Zero(), Vector3d::Zero(), kDt_s), 3}}) {
     World world = sparse_world(5, 30);
-    Filter filter(world.camera, preset("default"));
+    Filter filter(world.camera);
     for (int k = 0; k < 16; ++k) {
       const bool is_wrong = k >= 8 && k < 8 + frames;
       const FrameResult& result =
@@ -928,7 +929,7 @@ TEST(HypothesisEdges, BeginAnewWhereTheToldMotionIsNotTheCameras) {
 TEST(HypothesisEdges, WhatFillsHalfOfThePictureMayDriveOff) {
   World world = sparse_world(5, 30);
   const EgoMotion motion = steady_motion({0, 0, 0.5}, {0, 0.05, 0}, kDt_s);
-  Filter filter(world.camera, preset("default"));
+  Filter filter(world.camera);
   for (std::size_t k = 0; k < 12; ++k) {
     if (k == 6) {
       for (World::Point& point : world.points) {
@@ -951,7 +952,7 @@ TEST(HypothesisEdges, AStandingCameraMayShake) {
   EgoMotion told = steady_motion(Vector3d::Zero(), Vector3d::Zero(), kDt_s);
   told.unseen_turn_rad = unseen_turn_rad(kDt_s);
   Random random(1);
-  Filter filter(still.camera, preset("default"));
+  Filter filter(still.camera);
   for (std::size_t k = 0; k < 40; ++k) {
     World shaken = still;
     shaken.advance(steady_motion(Vector3d::Zero(), random.vector(0.01) / kDt_s, kDt_s));
@@ -968,7 +969,7 @@ TEST(HypothesisEdges, CornersThatJitterBeforeAStandingCameraStand) {
     const World world = sparse_world(8, spacing);
     const EgoMotion motion = steady_motion(Vector3d::Zero(), Vector3d::Zero(), kDt_s);
     Random random(1);
-    Filter filter(world.camera, preset("default"));
+    Filter filter(world.camera);
     for (int k = 0; k < 40; ++k) {
       Corners corners = world.corners();
       for (Vector2f& x : corners) x += random.vector(0.7).head<2>().cast<float>();
@@ -984,7 +985,7 @@ TEST(HypothesisEdges, CornersOfAnyExactnessStandBeforeACameraThatDrives) {
     World world = sparse_world(8, 40);
     const EgoMotion motion = steady_motion({0.1, 0, 0.3}, {0, 0.02, 0}, kDt_s);
     Random random(1);
-    Filter filter(world.camera, preset("default"));
+    Filter filter(world.camera);
     std::size_t called = 0, seen = 0;
     for (std::size_t k = 0; k < 40; ++k) {
       Corners corners = world.corners();
@@ -1011,7 +1012,7 @@ TEST(HypothesisEdges, APatchThatCrossesIsCalledAndTheBackgroundIsNot) {
                   {-0.6, 0.05, 0});
       }
       const EgoMotion motion = steady_motion({0, 0, speed_mps}, {0, 0.02, 0}, kDt_s);
-      Filter filter(world.camera, preset("default"));
+      Filter filter(world.camera);
       for (std::size_t k = 0; k < 12; ++k) {
         SCOPED_TRACE(::testing::Message()
                      << speed_mps << " m/s, frame " << k << (looks ? ", signatures" : ""));
@@ -1041,7 +1042,7 @@ TEST(HypothesisEdges, APatchThatCrossesIsCalledAndTheBackgroundIsNot) {
 
 TEST(HypothesisEdges, ACornerThatNobodyKnowsIsNotCalled) {
   // First frames, and later a corner that comes on by itself.
-  Filter filter(vga(), preset("default"));
+  Filter filter(vga());
   const EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), kDt_s);
   for (int k = 0; k < 3; ++k) {
     const Corners corners(1, Vector2f(100 + 200 * k, 200));
@@ -1060,7 +1061,7 @@ TEST(HypothesisEdges, ACornerSeenOnceIsWhatTheNearestEdgeIs) {
   const EgoMotion motion = steady_motion({0, 0, 0}, Vector3d::Zero(), kDt_s);
   for (const bool movers_first : {true, false}) {
     SCOPED_TRACE(movers_first ? "movers first" : "movers last");
-    Filter filter(vga(), preset("default"));
+    Filter filter(vga());
     FrameResult result;
     for (int k = 0; k < 5; ++k) {
       Corners movers = moving, corners = standing;
@@ -1079,8 +1080,8 @@ TEST(HypothesisEdges, ACornerSeenOnceIsWhatTheNearestEdgeIs) {
 
 TEST(HypothesisEdges, SayTheSameAgainAndWhateverTheOrderOfTheCorners) {
   Scene scene(2);
-  Filter first(vga(), preset("default")), second(vga(), preset("default"));
-  Filter backward(vga(), preset("default"));
+  Filter first(vga()), second(vga());
+  Filter backward(vga());
   std::ptrdiff_t found = 0;
   for (std::size_t k = 0; k < 10; ++k) {
     const EgoMotion motion = k == 0 ? EgoMotion{} : scene.motion;
@@ -1105,7 +1106,7 @@ TEST(HypothesisEdges, ForgetAllWhereTheyStartAnew) {
   const auto frames = record(scene, 12);
   // Time that stands still, and motion that nobody knows.
   for (const double dt_s : {0.0, std::nan("")}) {
-    Filter used(vga(), preset("default")), fresh(vga(), preset("default"));
+    Filter used(vga()), fresh(vga());
     std::ptrdiff_t found = 0;
     for (std::size_t k = 0; k < frames.size(); ++k) {
       EgoMotion motion = scene.motion;

@@ -7,7 +7,7 @@
 #include <functional>
 #include <limits>
 
-#include "filter/ego_motion/ego_motion.h"
+#include "filter/ego_motion/estimator.h"
 #include "filter/ego_motion/intake.h"
 #include "tests/filter/world.h"
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "filter/filter.h"
+#include "tests/filter/presets.h"
 
 namespace lcs::testing {
 
@@ -56,7 +56,7 @@ inline bool is_outline(const Square& square) {
 /// The first thing that is wrong with what the filter said of `corners` corners, if any.
 inline std::optional<std::string> violation(const FrameResult& result, std::size_t corners,
                                             const Intrinsics& camera,
-                                            const Parameters& parameters) {
+                                            const AnyParameters& parameters) {
   const Layers& layers = result.layers;
   if (result.verdicts.size() != corners) return "a corner has no verdict";
   if (result.reasons.size() != corners) return "a corner has no reason";
@@ -77,7 +77,7 @@ inline std::optional<std::string> violation(const FrameResult& result, std::size
       expect(inside(edge.location), "an edge is outside of the picture");
       expect(edge.rebel == rebel, "an edge is in the wrong list");
       expect(edge.id > last, "edges are not in the order of their ids");
-      expect(trusted(edge.trust, parameters.circle.trust), "an edge has a trust out of its ranks");
+      expect(trusted(edge.trust, circle_trust(parameters)), "an edge has a trust out of its ranks");
       expect(edge.corner < static_cast<int>(corners), "an edge has a corner that there is not");
       expect(edge.circle < static_cast<int>(circles), "an edge has a circle that there is not");
       last = edge.id;
@@ -89,16 +89,14 @@ inline std::optional<std::string> violation(const FrameResult& result, std::size
     for (const Circle& circle : *circles) {
       expect(is_finite(circle), "a circle is not finite");
       expect(inside(circle.location), "a circle is outside of the picture");
-      expect(trusted(circle.trust, parameters.circle.trust), "a circle's trust is out of ranks");
+      expect(trusted(circle.trust, circle_trust(parameters)), "a circle's trust is out of ranks");
     }
   }
   for (const Square& square : layers.squares) {
     expect(is_finite(square), "a square is not finite");
     expect(is_outline(square), "an outline is not convex, or not as large as its square");
     expect(inside(square.location), "a square is outside of the picture");
-    const bool of_circle = parameters.square.layer_rule == LayerRule::circles;
-    expect(trusted(square.trust, of_circle ? parameters.circle.trust : parameters.square.trust),
-           "a square's trust is out of ranks");
+    expect(trusted(square.trust, square_trust(parameters)), "a square's trust is out of ranks");
   }
   for (const IgnoreRegion& region : layers.ignored) {
     expect(region.location.allFinite() && region.size.allFinite(), "psi is not finite");

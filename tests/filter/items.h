@@ -3,6 +3,7 @@
 #pragma once
 
 #include "filter/kinematics/geometry.h"
+#include "filter/layers.h"
 #include "tests/filter/world.h"
 
 namespace lcs::testing {

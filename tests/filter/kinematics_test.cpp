@@ -1,14 +1,16 @@
 /// What the camera's own motion does to everything that is stored from frame to frame.
 #include <gtest/gtest.h>
 
-#include "filter/circles/circle.h"
 #include "filter/kinematics/geometry.h"
-#include "filter/paper/paper_edges.h"
-#include "filter/squares/square.h"
-#include "tests/filter/world.h"
+#include "tests/filter/paper_steps.h"
 
 namespace lcs {
 namespace {
+
+using namespace paper;
+using testing::CircleSteps;
+using testing::EdgeSteps;
+using testing::SquareSteps;
 
 using Eigen::Vector3d;
 using testing::back_project;
@@ -45,9 +47,9 @@ Square rebel_square(Random& random) {
 }
 
 void predict_all(Layers& layers, const MotionField& field) {
-  PaperEdges(vga(), preset("lab").circle).predict(layers, field);
-  CircleExpert(vga(), preset("lab").circle).predict(layers, field);
-  SquareExpert(vga(), preset("lab").square).predict(layers, field);
+  EdgeSteps().predict(layers, field);
+  CircleSteps().predict(layers, field);
+  SquareSteps().predict(layers, field);
 }
 
 struct Rotation : ::testing::TestWithParam<RotationModel> {
@@ -205,18 +207,16 @@ TEST_F(Driving, ANormalCircleGoesAndGrowsAsItsStaticPatchDoesAndSoDoPsiAndLambda
     circle.location = c.before;
     circle.radius = 20;
     circle.depth_ratio = c.ratio_before;
-    circle.trust = preset("lab").circle.trust.standard;
+    circle.trust = PaperParameters{}.circle.trust.standard;
     Layers layers;
     layers.normal_circles = {circle, circle};
     layers.normal_circles[1].ignoring = true;
     const MotionField field(vga(), c.motion, parameters);
-    const CircleExpert expert(vga(), preset("lab").circle);
-    expert.predict(layers, field);
+    CircleSteps().predict(layers, field);
     EXPECT_TRUE(layers.normal_circles[0].location.isApprox(c.now, 1e-9));
     EXPECT_NEAR(layers.normal_circles[0].radius, 20 * c.growth, 1e-9);
-    std::vector<IgnoreRegion> psi;
-    std::vector<Collector> lambda;
-    expert.feed_back(layers, psi, lambda);
+    Feedback feedback({});
+    const auto& [psi, lambda] = feedback.regions(layers.normal_circles, {});
     ASSERT_EQ(psi.size(), 1u);
     ASSERT_EQ(lambda.size(), 1u);
     EXPECT_TRUE(psi[0].location.isApprox(c.now, 1e-9));
@@ -237,7 +237,7 @@ TEST_F(Driving, ANormalSquareGoesAndGrowsAboutTheFocusOfNow) {
     square.origin = vga().centre_px;  // where the FOE was a frame ago
     Layers layers;
     layers.squares = {square};
-    SquareExpert(vga(), preset("lab").square).predict(layers, field);
+    SquareSteps().predict(layers, field);
     EXPECT_LT((layers.squares[0].location - c.now).norm(), 1e-6) << c.before.transpose();
     // The stand-in for an FOE at infinity, 100 focal lengths off, grows a square by that little.
     EXPECT_TRUE(
@@ -255,10 +255,9 @@ TEST_F(Driving, BetaOfANormalEdgeIsItsDirectionOfFlowAlsoWhileItCoasts) {
     Layers layers;
     layers.normal_edges = {from_origin<Edge>(random)};
     layers.normal_edges[0].trust = 4;
-    PaperEdges experts(vga(), preset("lab").circle);
+    EdgeSteps experts;
     experts.predict(layers, field);
-    std::vector<Verdict> verdicts;
-    experts.update(layers, Chi{}, field, verdicts);
+    experts.update(layers, Chi{}, {}, field);
     ASSERT_EQ(layers.normal_edges.size(), 1u);
     const Edge& edge = layers.normal_edges[0];
     EXPECT_EQ(edge.location, edge.predicted);

@@ -1,5 +1,5 @@
 #include "filter/line/line.h"
-#include "filter/paper/corner_grouping.h"
+#include "filter/paper/feedback.h"
 
 #include <gtest/gtest.h>
 
@@ -21,10 +21,18 @@ IgnoreRegion rectangle(const Vec2& at, const Vec2& half) {
   return {IgnoreRegion::Shape::rectangle, at, half};
 }
 
+LineExpert line_expert(int most = 1000) {
+  return {testing::vga(), {.max_corners = most}};
+}
+
 Chi collected(const std::vector<Eigen::Vector2f>& corners, const std::vector<IgnoreRegion>& psi,
-              std::vector<Verdict>& verdicts, std::size_t most = 1000) {
-  Chi chi;
-  LineExpert(testing::vga(), most).collect(corners, {}, psi, chi, verdicts);
+              std::vector<Verdict>& verdicts, int most = 1000) {
+  LineExpert line = line_expert(most);
+  const Chi& chi = line.collect(corners, {}, psi);
+  FrameResult result;
+  assign_verdicts(chi, std::vector<Verdict>(chi.size(), Verdict::pending),
+                  std::vector<Reason>(chi.size()), result);
+  verdicts = result.verdicts;
   return chi;
 }
 
@@ -40,16 +48,14 @@ TEST(LineExpert, HandsOnTheSignaturesOfTheCornersItLooksAtInTheirOrder) {
   corners.emplace_back(std::numeric_limits<float>::quiet_NaN(), 10.F);
   signatures.push_back({});
   const std::vector<IgnoreRegion> psi = {disc({100, 100}, 90)};
-  LineExpert line(testing::vga(), 40);
-  Chi chi;
-  std::vector<Verdict> verdicts;
-  line.collect(corners, signatures, psi, chi, verdicts);
+  LineExpert line = line_expert(40);
+  const Chi& chi = line.collect(corners, signatures, psi);
   ASSERT_EQ(chi.size(), 40U);
   ASSERT_EQ(chi.signatures.size(), chi.size());
   for (std::size_t c = 0; c < chi.size(); ++c) {
     EXPECT_EQ(chi.signatures[c], signatures[static_cast<std::size_t>(chi.sources[c])]) << c;
   }
-  line.collect(corners, {}, psi, chi, verdicts);
+  line.collect(corners, {}, psi);
   EXPECT_EQ(chi.size(), 40U);
   EXPECT_TRUE(chi.signatures.empty()) << "of the frame before";
 }
@@ -58,10 +64,9 @@ TEST(LineExpert, OfCornersAtOnePlaceTakesTheSameSignatureInWhateverOrderTheyCome
   const std::vector<Eigen::Vector2f> corners(3, {200, 100});
   const std::vector<Signature> one = {Signature{5}, Signature{3}, Signature{4}},
                                other = {Signature{3}, Signature{4}, Signature{5}};
-  Chi chi;
-  std::vector<Verdict> verdicts;
   for (const std::vector<Signature>& signatures : {one, other}) {
-    LineExpert(testing::vga()).collect(corners, signatures, {}, chi, verdicts);
+    LineExpert line = line_expert();
+    const Chi& chi = line.collect(corners, signatures, {});
     EXPECT_EQ(chi.signatures, std::vector{Signature{3}});
     EXPECT_EQ(chi.repeats.size(), 2U);
   }
@@ -81,7 +86,7 @@ TEST(LineExpert, LooksAtTheNearestToTheCentreOfTooManyCorners) {
   EXPECT_EQ(std::count(verdicts.begin(), verdicts.end(), Verdict::pending), 100);
 }
 
-TEST(CornerGrouping, GroupsByTheNearestCollectorAndOfEqualsTheFirst) {
+TEST(Lambda, GroupsByTheNearestCollectorAndOfEqualsTheFirst) {
   Random random(10);
   std::vector<Eigen::Vector2f> corners;
   std::vector<Collector> lambda;
@@ -91,8 +96,8 @@ TEST(CornerGrouping, GroupsByTheNearestCollectorAndOfEqualsTheFirst) {
   }
   lambda.push_back(lambda.front());
   std::vector<Verdict> verdicts;
-  Chi chi = collected(corners, {}, verdicts);
-  CornerGrouping().group(lambda, chi);
+  const Chi chi = collected(corners, {}, verdicts);
+  const std::vector<int> groups = paper::Feedback({}).group(lambda, chi);
   for (std::size_t i = 0; i < chi.size(); ++i) {
     int expected = -1;
     double nearest = 0;
@@ -102,7 +107,7 @@ TEST(CornerGrouping, GroupsByTheNearestCollectorAndOfEqualsTheFirst) {
       expected = static_cast<int>(c);
       nearest = distance;
     }
-    EXPECT_EQ(chi.groups[i], expected);
+    EXPECT_EQ(groups[i], expected);
   }
 }
 
@@ -126,14 +131,14 @@ TEST(LineExpert, RemovesExactlyTheCornersInsidePsi) {
   EXPECT_EQ(chi.size(), outside);
 }
 
-TEST(CornerGrouping, GroupsByTheNearestCollectorAndLeavesTheRestSingle) {
+TEST(Lambda, GroupsByTheNearestCollectorAndLeavesTheRestSingle) {
   const std::vector<Collector> lambda = {{{100, 100}, 50}, {{160, 100}, 50}};
   const std::vector<Eigen::Vector2f> corners = {{90, 100}, {140, 100}, {300, 300}};
   std::vector<Verdict> verdicts;
-  Chi chi = collected(corners, {}, verdicts);
-  CornerGrouping().group(lambda, chi);
+  const Chi chi = collected(corners, {}, verdicts);
+  const std::vector<int> groups = paper::Feedback({}).group(lambda, chi);
   std::vector<int> group(3, -2);
-  for (std::size_t c = 0; c < chi.size(); ++c) group[chi.sources[c]] = chi.groups[c];
+  for (std::size_t c = 0; c < chi.size(); ++c) group[chi.sources[c]] = groups[c];
   EXPECT_EQ(group, (std::vector<int>{0, 1, -1}));  // 140 is within both, and nearer to 160
 }
 

@@ -98,7 +98,7 @@ EgoMotion sideways_on_ground() {
 void expect_none_in_the_end(const EgoMotion& ego) {
   const std::size_t warm_up = 4 * kPeriod;
   const std::vector<Corners> frames = busy_frames(400, warm_up + kPeriod);
-  Filter filter(vga(), preset("default"));
+  Filter filter(vga());
   std::size_t in_the_end = 0, rebels = 0, squares = 0;
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const std::size_t before = heap.allocations;
@@ -126,7 +126,7 @@ TEST(Memory, ASteadySceneOnAKnownGroundAsksForNone) {
 /// What the filter holds at the most, with as many corners as are offered.
 std::size_t peak_bytes(const Intrinsics& camera, const char* max_corners, int offered) {
   const std::vector<Corners> frames = busy_frames(offered, 40);
-  Parameters parameters = preset("default");
+  Parameters parameters;
   set(parameters, "line.max_corners", max_corners);
   const std::size_t before = heap.bytes;
   heap.peak_bytes = before;

@@ -1,13 +1,17 @@
-#include "filter/paper/paper_edges.h"
 
 #include <gtest/gtest.h>
 
-#include "filter/filter.h"
 #include "filter/kinematics/geometry.h"
-#include "tests/filter/world.h"
+#include "filter/paper/paper_filter.h"
+#include "tests/filter/paper_steps.h"
 
 namespace lcs {
 namespace {
+
+using namespace paper;
+using testing::CircleSteps;
+using testing::EdgeSteps;
+using testing::SquareSteps;
 
 using Eigen::Vector3d;
 using testing::Random;
@@ -18,7 +22,7 @@ using testing::World;
 
 /// An edge 150 px right of the FOE at the reference depth, predicted by a camera that moves ahead.
 struct Classified : ::testing::Test {
-  Classified() : experts(vga(), preset("lab").circle), field(vga(), motion, parameters) {
+  Classified() : field(vga(), motion, PaperParameters{}.field) {
     Layers layers;
     Edge start;
     start.location = vga().centre_px + Vec2(150, 0);
@@ -30,12 +34,11 @@ struct Classified : ::testing::Test {
   }
 
   Xi at(double ahead, double aside) const {
-    return experts.classify(edge, edge.predicted + Vec2(ahead, aside), field);
+    return experts.expert.classify(edge, edge.predicted + Vec2(ahead, aside), field);
   }
 
-  FieldParameters parameters;
   EgoMotion motion = steady_motion({0, 0, 1}, Vector3d::Zero(), 0.2);
-  PaperEdges experts;
+  EdgeSteps experts;
   MotionField field;
   Edge edge;
 };
@@ -82,9 +85,9 @@ TEST(Alpha, APointAgainstTheFieldIsARebelOnItsThirdSightingNotBeforeAndNotAfter)
     SCOPED_TRACE(speed);
     World world = sparse_world(3, 80);
     const EgoMotion motion = steady_motion({0, 0, 0.2}, Vector3d::Zero(), 0.1);
-    Parameters parameters = preset("lab");
-    parameters.line.ignore = false;
-    Filter filter(world.camera, parameters);
+    PaperParameters parameters;
+    parameters.ignore = false;
+    PaperFilter filter(world.camera, parameters);
     // A gap between the grid's rows and columns; it enters the image's middle after three frames.
     Vec2 mover(560, 240);
     for (int k = 0; k < 8; ++k) {
@@ -105,9 +108,9 @@ TEST(Alpha, APointAgainstTheFieldIsARebelOnItsThirdSightingNotBeforeAndNotAfter)
 TEST(Alpha, ARadialIncomerNearerThanAnyStaticPointIsFoundByItsSpeedAlone) {
   World world = sparse_world(4, 80);
   const EgoMotion motion = steady_motion({0, 0, 0.5}, Vector3d::Zero(), 0.1);
-  Parameters parameters = preset("lab");
-  parameters.line.ignore = false;
-  Filter filter(world.camera, parameters);
+  PaperParameters parameters;
+  parameters.ignore = false;
+  PaperFilter filter(world.camera, parameters);
   // Towards the camera's image plane at 4 m/s: away from the FOE, as a static point would go, but
   // as fast as one at 0.55 m, when 0.8 m is the nearest that is plausible.
   world.add({420, 240}, 5, {0, 0, -4});
@@ -122,8 +125,7 @@ TEST(Alpha, ARadialIncomerNearerThanAnyStaticPointIsFoundByItsSpeedAlone) {
 }
 
 TEST(Alpha, ChainsLiveThreeFramesAtTheMost) {
-  Parameters parameters = preset("lab");
-  Filter filter(vga(), parameters);
+  PaperFilter filter(vga());
   const EgoMotion motion = steady_motion({0, 0, 0.2}, Vector3d::Zero(), 0.1);
   Random random(5);
   std::vector<Eigen::Vector2f> corners;

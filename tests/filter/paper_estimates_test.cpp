@@ -6,35 +6,36 @@
 #include <set>
 
 #include "filter/kinematics/geometry.h"
-#include "filter/paper/paper_edges.h"
-#include "tests/filter/world.h"
+#include "tests/filter/paper_steps.h"
 
 namespace lcs {
 namespace {
+
+using namespace paper;
+using testing::CircleSteps;
+using testing::EdgeSteps;
+using testing::SquareSteps;
 
 using Eigen::Vector3d;
 using testing::Random;
 using testing::steady_motion;
 using testing::vga;
 
-const CircleParameters kLab = preset("lab").circle;
-const TrustRanks kRanks = kLab.trust;
+const PaperEdgeParameters kLab;
+const TrustRanks kRanks = PaperCircleParameters{}.trust;
 
-Chi chi_of(std::vector<Vec2> corners, int group = -1) {
+Chi chi_of(std::vector<Vec2> corners) {
   Chi chi;
   for (std::size_t i = 0; i < corners.size(); ++i) chi.sources.push_back(static_cast<int>(i));
-  chi.groups.assign(corners.size(), group);
   chi.locations = std::move(corners);
   return chi;
 }
 
 /// A frame of the paper's rule without the Line expert.
-std::vector<Verdict> step(PaperEdges& experts, Layers& layers, const std::vector<Vec2>& corners,
+std::vector<Verdict> step(EdgeSteps& experts, Layers& layers, const std::vector<Vec2>& corners,
                           const MotionField& field, int group = -1) {
-  std::vector<Verdict> verdicts(corners.size(), Verdict::pending);
   experts.predict(layers, field);
-  experts.update(layers, chi_of(corners, group), field, verdicts);
-  return verdicts;
+  return experts.update(layers, chi_of(corners), std::vector<int>(corners.size(), group), field);
 }
 
 /// The field of a camera that moves to the left.
@@ -92,7 +93,7 @@ struct NormalEstimates : ::testing::Test {
   }
 
   Random random{1};
-  PaperEdges experts{vga(), kLab};
+  EdgeSteps experts;
   Vec2 corner;
 };
 
@@ -183,13 +184,12 @@ TEST_F(NormalEstimates, CorWidensTheRadiusWhereTheGroupLiesOnALine) {
   const auto radius = [&](const std::vector<Vec2>& offsets, int others_group) {
     std::vector<Vec2> corners;
     for (const Vec2& offset : offsets) corners.push_back(predicted + offset);
-    Chi chi = chi_of(corners, others_group);
-    chi.groups[0] = 7;
+    std::vector<int> groups(corners.size(), others_group);
+    groups[0] = 7;
     Layers layers;
     layers.normal_edges = {edge};
-    std::vector<Verdict> verdicts(corners.size());
     experts.predict(layers, field);
-    experts.update(layers, chi, field, verdicts);
+    experts.update(layers, chi_of(corners), groups, field);
     return layers.normal_edges[0].mu;
   };
   const double off = 0.2 * step_px;
@@ -218,10 +218,10 @@ TEST(PaperVelocity, SettlesBesideTheTrueOneTheMoreSoTheMoreTrusted) {
   const MotionField field(vga(), motion, FieldParameters{});
   const double step_px = field.reference_speed({300, 240}) * motion.dt_s;
   for (const int maximum : {2, 3, 5}) {
-    CircleParameters p = kLab;
-    p.trust = {2, 2, maximum};
-    p.mu_min = p.mu_max;  // the radius does not matter here
-    PaperEdges experts(vga(), p);
+    PaperParameters p;
+    p.circle.trust = {2, 2, maximum};
+    p.edge.mu_min = p.edge.mu_max;  // the radius does not matter here
+    EdgeSteps experts(p);
     Layers layers;
     const double ratio = 2.5;
     double x = 20;
@@ -238,7 +238,7 @@ TEST(PaperVelocity, SettlesBesideTheTrueOneTheMoreSoTheMoreTrusted) {
 std::vector<int> lives(double ratio) {
   const MotionField field = to_the_right();
   const double step_px = field.reference_speed({300, 240}) * 0.1;  // 7 px
-  PaperEdges experts(vga(), kLab);
+  EdgeSteps experts;
   Layers layers;
   std::vector<int> lived;
   for (double x = 20; x < 600; x += ratio * step_px) {
@@ -276,7 +276,7 @@ TEST(NormalEdge, StartsAtTheVehiclesSpeedFromTheFocusWithMu0) {
     const EgoMotion motion = steady_motion(
         {random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), 0.5}, {0, 0.1, 0}, 0.1);
     const MotionField field(vga(), motion, FieldParameters{});
-    PaperEdges experts(vga(), kLab);
+    EdgeSteps experts;
     Layers layers;
     const Vec2 x(random.uniform(0, 639), random.uniform(0, 479));
     EXPECT_EQ(step(experts, layers, {x}, field)[0], Verdict::pending);
@@ -297,7 +297,7 @@ TEST(Xi, OneMakesAFurtherNormalEdgeAndNoCandidate) {
   const Edge edge = edge_with_radius(4);
   Layers layers;
   layers.normal_edges = {edge};
-  PaperEdges experts(vga(), kLab);
+  EdgeSteps experts;
   const Vec2 predicted = field.translated(edge.location, 1);
   step(experts, layers, {predicted + Vec2(8, 0)}, field);
   ASSERT_EQ(layers.normal_edges.size(), 2u);
@@ -317,7 +317,7 @@ TEST(Xi, FourAndFiveGoToAlpha) {
   for (const Vec2& x : {against, Vec2(predicted + Vec2(0, 80))}) {
     Layers layers;
     layers.normal_edges = {edge};
-    PaperEdges experts(vga(), kLab);
+    EdgeSteps experts;
     step(experts, layers, {x}, field);
     ASSERT_EQ(layers.chains.size(), 1u);
     EXPECT_EQ(layers.chains[0].sightings[0], x);
@@ -331,7 +331,7 @@ TEST(Xi, OneOfAnEdgeWithACornerOfItsOwnIsACandidate) {
   const Edge edge = edge_with_radius(4);
   Layers layers;
   layers.normal_edges = {edge};
-  PaperEdges experts(vga(), kLab);
+  EdgeSteps experts;
   const Vec2 predicted = field.translated(edge.location, 1);
   step(experts, layers, {predicted, predicted + Vec2(8, 0)}, field);
   ASSERT_EQ(layers.chains.size(), 1u);
@@ -345,13 +345,13 @@ TEST(Xi, TheSpanWidensUpToHalfADiagonal) {
   layers.normal_edges.resize(1);
   layers.normal_edges[0].location = {300, 240};
   layers.normal_edges[0].mu = 200;
-  PaperEdges experts(vga(), kLab);
+  EdgeSteps experts;
   experts.predict(layers, field);
   const Edge& edge = layers.normal_edges[0];
   const double half_width = 400 * std::sin(kLab.delta_v) + kLab.corner_noise;
   for (const double side : {-1.0, 1.0}) {
     const auto at = [&](double aside) {
-      return experts.classify(edge, edge.predicted + Vec2(0, side * aside), field);
+      return experts.expert.classify(edge, edge.predicted + Vec2(0, side * aside), field);
     };
     EXPECT_EQ(at(half_width - 1), Xi::two);
     EXPECT_EQ(at(half_width + 1), Xi::five);
@@ -371,7 +371,7 @@ struct Competing : ::testing::Test {
     layers.normal_edges[0].trust = first_trust;
     layers.normal_edges[1].trust = second_trust;
     for (Edge& edge : layers.normal_edges) edge.mu = 20;
-    PaperEdges experts(vga(), kLab);
+    EdgeSteps experts;
     step(experts, layers, {corner}, field);
     EXPECT_NE(layers.normal_edges[0].corner < 0, layers.normal_edges[1].corner < 0);
     return layers.normal_edges[0].corner >= 0;
@@ -414,7 +414,7 @@ TEST(RebelInitial, ValuesAreThoseOfTheThreeSightings) {
     const Vec2 a2 = field.rotated(field.rotated(a)), b2 = field.rotated(b);
     const double turn = random.uniform(-0.2, 0.2), stretch = random.uniform(0.85, 1.15);
     const Vec2 c = b2 + stretch * length * unit_vector(angle_of(b2 - a2) + turn);
-    PaperEdges experts(vga(), kLab);
+    EdgeSteps experts;
     Layers layers;
     EXPECT_EQ(step(experts, layers, {a}, field)[0], Verdict::pending);
     EXPECT_EQ(step(experts, layers, {b}, field)[0], Verdict::pending);
@@ -434,7 +434,7 @@ TEST(RebelInitial, ValuesAreThoseOfTheThreeSightings) {
 
 /// Three sightings of a corner that goes `first` and then `second`.
 bool becomes_rebel(const Vec2& first, const Vec2& second) {
-  PaperEdges experts(vga(), kLab);
+  EdgeSteps experts;
   Layers layers;
   const Vec2 a(320, 240);
   step(experts, layers, {a}, standing());
@@ -462,25 +462,25 @@ TEST(Alpha, ABendBeyondMuROrAChangeOfSpeedEndsARow) {
 
 /// In the presets the gate of `alpha_stretch` is the tighter one; where it is wide, mu_r decides.
 TEST(Alpha, TheBendOfTheLineIsAtMostMuR) {
-  CircleParameters p = kLab;
-  p.alpha_stretch = 1;
+  PaperParameters p;
+  p.edge.alpha_stretch = 1;
   const auto found = [&](double bend) {
-    PaperEdges experts(vga(), p);
+    EdgeSteps experts(p);
     Layers layers;
     const Vec2 a(320, 240), b = a + Vec2(30, 0), c = a + 55 * unit_vector(bend);
     for (const Vec2& x : {a, b, c}) step(experts, layers, {x}, standing());
     return !layers.rebel_edges.empty();
   };
   for (const double sign : {-1.0, 1.0}) {
-    EXPECT_TRUE(found(sign * (p.alpha_deviation - 0.01)));
-    EXPECT_FALSE(found(sign * (p.alpha_deviation + 0.01)));
+    EXPECT_TRUE(found(sign * (p.edge.alpha_deviation - 0.01)));
+    EXPECT_FALSE(found(sign * (p.edge.alpha_deviation + 0.01)));
   }
 }
 
 /// A row of two sightings and the corners that come: how many rebels.
 std::size_t rebels_after(const std::vector<Chain>& chains, const std::vector<Vec2>& corners,
                          const MotionField& field) {
-  PaperEdges experts(vga(), kLab);
+  EdgeSteps experts;
   Layers layers;
   layers.chains = chains;
   step(experts, layers, corners, field);
@@ -513,7 +513,7 @@ TEST(Alpha, ASightingThatRowsShareBecomesOneRebel) {
 }
 
 TEST(Alpha, ASightingBranchesIntoTheNearestOnly) {
-  PaperEdges experts(vga(), kLab);
+  EdgeSteps experts;
   Layers layers;
   const Vec2 a(320, 240);
   std::vector<Vec2> candidates;
@@ -529,7 +529,7 @@ TEST(Alpha, ASightingBranchesIntoTheNearestOnly) {
 }
 
 TEST(Alpha, TwoFramesOfOneTimeMakeNoRebelAndKeepTheRows) {
-  PaperEdges experts(vga(), kLab);
+  EdgeSteps experts;
   Layers layers;
   const Vec2 a(320, 240);
   layers.chains = {row(a, a + Vec2(20, 0))};
@@ -541,7 +541,7 @@ TEST(Alpha, TwoFramesOfOneTimeMakeNoRebelAndKeepTheRows) {
 }
 
 TEST(Alpha, ARowBranchesIntoEveryCornerNearAndTheRightOneBecomesTheRebel) {
-  PaperEdges experts(vga(), kLab);
+  EdgeSteps experts;
   Layers layers;
   const Vec2 a(320, 240);
   const std::vector<Vec2> candidates = {a + Vec2(0, 12), a + Vec2(15, 0), a + Vec2(-20, -20)};
@@ -562,7 +562,7 @@ TEST(Alpha, ARowBranchesIntoEveryCornerNearAndTheRightOneBecomesTheRebel) {
 }
 
 TEST(Alpha, ACornerBecomesOneRebelHoweverManyRowsEndAtIt) {
-  PaperEdges experts(vga(), kLab);
+  EdgeSteps experts;
   Layers layers;
   const Vec2 a(320, 240);
   step(experts, layers, {a, a + Vec2(0, 6), a + Vec2(0, 12)}, standing());
@@ -602,7 +602,7 @@ struct RebelEstimates : ::testing::Test {
   Edge after(const Case& c, const Vec2& corner, Verdict expected) {
     Layers layers;
     layers.rebel_edges = {c.edge};
-    PaperEdges experts(vga(), kLab);
+    EdgeSteps experts;
     EXPECT_EQ(step(experts, layers, {corner}, c.field)[0], expected);
     return layers.rebel_edges.empty() ? Edge{} : layers.rebel_edges[0];
   }

@@ -1,12 +1,14 @@
-#include "filter/parameters.h"
+#include "filter/paper/any_filter.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 #include <stdexcept>
 
+#include "filter/learnt.h"
 #include "tests/tools/refusal.h"
 
 namespace lcs {
@@ -20,9 +22,9 @@ std::string refusal(Action action) {
 }
 
 TEST(Parameters, LabCarriesTheTableOfThePaper) {
-  const Parameters p = preset("lab");
-  EXPECT_NEAR(p.circle.delta_v, 9 * kDegree, 1e-12);
-  EXPECT_DOUBLE_EQ(p.circle.mu_0, 25);
+  const paper::PaperParameters p;
+  EXPECT_NEAR(p.edge.delta_v, 9 * kDegree, 1e-12);
+  EXPECT_DOUBLE_EQ(p.edge.mu_0, 25);
   EXPECT_DOUBLE_EQ(p.circle.rho_c, 40);
   EXPECT_DOUBLE_EQ(p.square.rho_c, 40);
   EXPECT_EQ(p.circle.trust.critical, 2);
@@ -42,12 +44,11 @@ TEST(Parameters, LabCarriesTheTableOfThePaper) {
   EXPECT_DOUBLE_EQ(p.circle.epsilon_v_r, 1.00);
   EXPECT_DOUBLE_EQ(p.square.epsilon_v, 0.7);
   EXPECT_DOUBLE_EQ(p.square.epsilon_v_s, 0.7);
-  EXPECT_EQ(p.circle.edge_rule, EdgeRule::paper);
-  EXPECT_TRUE(p.line.ignore);
+  EXPECT_TRUE(p.ignore);
 }
 
 TEST(Parameters, CarsChangesTheRanksOfTrust) {
-  const Parameters p = preset("cars");
+  const paper::PaperParameters p = paper::cars();
   EXPECT_EQ(p.circle.trust.critical, 1);
   EXPECT_EQ(p.circle.trust.standard, 4);
   EXPECT_EQ(p.circle.trust.maximum, 7);
@@ -65,7 +66,7 @@ TEST(Parameters, EveryPresetIsValid) {
 
 TEST(Parameters, EveryParameterCanBeSetToWhatItIs) {
   for (const std::string& name : preset_names()) {
-    Parameters p = preset(name);
+    AnyParameters p = preset(name);
     std::set<std::string> keys;
     for (const ParameterInfo& info : describe(p)) {
       SCOPED_TRACE(info.key);
@@ -80,21 +81,21 @@ TEST(Parameters, EveryParameterCanBeSetToWhatItIs) {
 }
 
 TEST(Parameters, AnglesAreDegreesInTextAndRadiansInside) {
-  Parameters p = preset("lab");
+  paper::PaperParameters p;
   set(p, "circle.delta_v", "12");
-  EXPECT_NEAR(p.circle.delta_v, 12 * kDegree, 1e-12);
+  EXPECT_NEAR(p.edge.delta_v, 12 * kDegree, 1e-12);
   set(p, "circle.delta_v", "10 deg");
-  EXPECT_NEAR(p.circle.delta_v, 10 * kDegree, 1e-12);
+  EXPECT_NEAR(p.edge.delta_v, 10 * kDegree, 1e-12);
 }
 
 TEST(Parameters, AnUnknownKeyIsRefusedByName) {
-  Parameters p = preset("lab");
+  paper::PaperParameters p;
   const std::string message = refusal([&] { set(p, "circle.mu0", "25"); });
   EXPECT_NE(message.find("circle.mu0"), std::string::npos) << message;
 }
 
 TEST(Parameters, AValueOutOfRangeIsRefusedByName) {
-  Parameters p = preset("lab");
+  paper::PaperParameters p;
   for (const auto& [key, value] : {std::pair{"circle.mu_0", "-1"},
                                    {"circle.rho_c", "101"},
                                    {"circle.delta_v", "91"},
@@ -106,7 +107,7 @@ TEST(Parameters, AValueOutOfRangeIsRefusedByName) {
 }
 
 TEST(Parameters, WhatIsNotAValueIsRefusedByName) {
-  Parameters p = preset("lab");
+  paper::PaperParameters p;
   for (const auto& [key, value] : {std::pair{"circle.mu_0", "wide"},
                                    {"circle.mu_0", "nan"},
                                    {"circle.mu_0", "inf"},
@@ -114,7 +115,6 @@ TEST(Parameters, WhatIsNotAValueIsRefusedByName) {
                                    {"circle.mu_0", ""},
                                    {"circle.Tr_m", "2.5"},
                                    {"line.ignore", "yes"},
-                                   {"circle.edge_rule", "printed"},
                                    {"field.rotation", "2"}}) {
     const std::string message = refusal([&, k = key, v = value] { set(p, k, v); });
     EXPECT_NE(message.find(key), std::string::npos) << key << " = " << value << ": " << message;
@@ -129,23 +129,55 @@ TEST(Parameters, AnUnknownPresetIsRefusedWithTheKnownOnes) {
 }
 
 TEST(Parameters, RanksOfTrustOutOfOrderAreRefused) {
-  Parameters p = preset("lab");
+  paper::PaperParameters p;
   p.circle.trust = {4, 3, 5};
   EXPECT_NE(refusal([&] { validate(p); }).find("Tr_c <= Tr_s <= Tr_m"), std::string::npos);
 }
 
 TEST(Parameters, ALeastRadiusAboveTheGreatestIsRefused) {
-  Parameters p = preset("lab");
-  p.circle.mu_min = p.circle.mu_max;
+  paper::PaperParameters p;
+  p.edge.mu_min = p.edge.mu_max;
   EXPECT_NO_THROW(validate(p));
-  p.circle.mu_min = std::nextafter(p.circle.mu_max, 1e9);
+  p.edge.mu_min = std::nextafter(p.edge.mu_max, 1e9);
   EXPECT_NE(refusal([&] { validate(p); }).find("'circle.mu_min' is above"), std::string::npos);
 }
 
-TEST(Parameters, ValidationSeesWhatWasSetInCode) {
-  Parameters p = preset("default");
-  p.square.rho_c = 1000;
-  EXPECT_NE(refusal([&] { validate(p); }).find("square.rho_c"), std::string::npos);
+TEST(Parameters, ValidationChecksValuesThatWereSetInCode) {
+  Parameters p;
+  p.square.max_size = 1e6;
+  EXPECT_NE(refusal([&] { validate(p); }).find("square.max_size"), std::string::npos);
+}
+
+/// Value by value, so that a changed default is noticed here.
+TEST(Parameters, DefaultConstructedOnesAreThePresetDefault) {
+  std::map<std::string, std::string> values;
+  for (const ParameterInfo& info : describe(Parameters{})) values[info.key] = info.value;
+  const std::map<std::string, std::string> expected = {
+      {"circle.Tr_c", "2"},
+      {"circle.Tr_m", "7"},
+      {"circle.Tr_s", "3"},
+      {"circle.gap", "0.2"},
+      {"circle.min_members", "7"},
+      {"circle.min_width", "1.5"},
+      {"circle.roughness", "0.05"},
+      {"circle.upward", "0.45"},
+      {"field.ground", "true"},
+      {"field.nearest_depth", "0.4"},
+      {"field.reference_depth", "3"},
+      {"field.rotation", "homography"},
+      {"field.still_speed", "0.005"},
+      {"hypotheses.coast", "3"},
+      {"hypotheses.max_speed", "900"},
+      {"hypotheses.neighbours", "9"},
+      {"line.max_corners", "20000"},
+      {"square.max_size", "5"},
+  };
+  for (const auto& [key, value] : expected) EXPECT_EQ(values[key], value) << key;
+  for (const auto& [key, value] : kLearnt) EXPECT_EQ(std::stod(values[key]), value) << key;
+  EXPECT_EQ(values.size(), expected.size() + kLearnt.size());
+  const auto of_preset = describe(preset("default"));
+  ASSERT_EQ(of_preset.size(), values.size());
+  for (const ParameterInfo& info : of_preset) EXPECT_EQ(values[info.key], info.value) << info.key;
 }
 
 }  // namespace

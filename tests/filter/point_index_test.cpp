@@ -12,6 +12,8 @@
 namespace lcs {
 namespace {
 
+using namespace paper;
+
 using testing::Random;
 
 std::vector<Vec2> random_points(Random& random, int count) {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <set>
 
-#include "filter/filter.h"
+#include "filter/paper/any_filter.h"
 #include "tests/filter/world.h"
 
 namespace lcs {
@@ -41,7 +41,7 @@ const Corners kFive = {{200, 200}, {209, 197}, {204, 211}, {219, 206}, {213, 217
 class Frames {
  public:
   explicit Frames(const char* preset_name) : Frames(preset(preset_name)) {}
-  explicit Frames(const Parameters& parameters) : filter_(vga(), parameters) {}
+  explicit Frames(const AnyParameters& parameters) : filter_(vga(), parameters) {}
 
   /// The next frame. \return reasons of its corners.
   std::vector<Reason> see(const Corners& corners, double dt_s = kDt_s, double speed_mps = 0) {
@@ -53,7 +53,7 @@ class Frames {
   std::vector<Verdict> verdicts;
 
  private:
-  Filter filter_;
+  AnyFilter filter_;
 };
 
 void expect_all(const Frames& frames, const std::vector<Reason>& reasons, std::size_t first,
@@ -87,7 +87,7 @@ TEST(Reasons, OfAPlaceThatIsNotANumber) {
 }
 
 TEST(Reasons, OfCornersBeyondTheMostThatAreLookedAt) {
-  Parameters p = preset("default");
+  Parameters p = Parameters{};
   p.line.max_corners = 1;
   Filter filter(testing::vga(), p);
   const Corners corners = {{600, 400}, {320, 240}, {10, 10}};
@@ -122,7 +122,7 @@ TEST(Reasons, GoWithTheirVerdicts) {
       if (i % 45 < 6 && i / 45 < 6) world.points[i].velocity_C = {0.9, 0.1, 0};
     }
     const EgoMotion motion = steady_motion({0, 0, 0.5}, {0.01, 0.05, 0}, kDt_s);
-    Filter filter(vga(), preset(name));
+    AnyFilter filter(vga(), preset(name));
     int rebels = 0;
     for (int k = 0; k < 10; ++k) {
       world.advance(motion);
@@ -167,7 +167,7 @@ TEST(PaperReasons, ACornerAloneStartsARowOfAlphaAndIsMatchedThen) {
 
 TEST(PaperReasons, ACornerOutsideTheSpanOfTheEdgeNearIt) {
   // Alpha reaches less far than mu, or the corner would be the second of a row.
-  Parameters parameters = preset("lab");
+  AnyParameters parameters = preset("lab");
   set(parameters, "circle.alpha_reach", "5");
   Frames frames(parameters);
   frames.see({{100, 100}});
@@ -179,8 +179,8 @@ TEST(PaperReasons, ACornerOutsideTheSpanOfTheEdgeNearIt) {
 class NearAnEdge : public ::testing::Test {
  protected:
   NearAnEdge() : frames_(with_short_alpha()) { frames_.see({at(0)}, 0.2, 1); }
-  static Parameters with_short_alpha() {
-    Parameters parameters = preset("lab");
+  static AnyParameters with_short_alpha() {
+    AnyParameters parameters = preset("lab");
     set(parameters, "circle.alpha_reach", "1");
     return parameters;
   }
@@ -231,7 +231,7 @@ TEST(PaperReasons, AThirdSightingOffTheLineBreaksTheRow) {
 TEST(PaperReasons, AThirdSightingWhereAStaticPointMayBeBreaksTheRow) {
   // Twice as fast as the reference: a point at half its depth. Edges that reach 5 px do not take
   // it.
-  Parameters parameters = preset("lab");
+  AnyParameters parameters = preset("lab");
   set(parameters, "circle.mu_0", "5");
   Frames frames(parameters);
   const auto at = [](float ahead) {

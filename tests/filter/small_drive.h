@@ -12,7 +12,7 @@ namespace lcs::testing {
 
 /// Eight frames of a camera that drives over a known ground, past points at several depths of which
 /// some move. \return what was wrong in one of them, if anything.
-inline std::optional<std::string> violation_on_a_small_drive(const Parameters& parameters) {
+inline std::optional<std::string> violation_on_a_small_drive(const AnyParameters& parameters) {
   World world;
   world.camera = {90, {79.5, 59.5}, 160, 120};
   Random random(1);
@@ -24,7 +24,7 @@ inline std::optional<std::string> violation_on_a_small_drive(const Parameters& p
   }
   EgoMotion motion = steady_motion({0.05, 0.02, 0.5}, {0.02, -0.05, 0.03}, 0.1);
   motion.ground = Ground{.up_C = {0, -1, 0}, .height_m = 0.8};
-  Filter filter(world.camera, parameters);
+  AnyFilter filter(world.camera, parameters);
   for (int k = 0; k < 8; ++k) {
     const auto corners = world.corners();
     const FrameResult& result = filter.step(corners, k == 0 ? EgoMotion{} : motion);

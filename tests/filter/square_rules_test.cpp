@@ -6,18 +6,23 @@
 #include <tuple>
 
 #include "filter/kinematics/geometry.h"
-#include "filter/squares/square.h"
 #include "tests/filter/items.h"
+#include "tests/filter/paper_steps.h"
 
 namespace lcs {
 namespace {
+
+using namespace paper;
+using testing::CircleSteps;
+using testing::EdgeSteps;
+using testing::SquareSteps;
 
 using testing::ahead;
 using testing::circle;
 using testing::Random;
 using testing::vga;
 
-const SquareParameters kLab = preset("lab").square;
+const PaperSquareParameters kLab;
 const TrustRanks kRanks = kLab.trust;
 
 Circle rebel(const Vec2& at, double radius, double angle, double speed) {
@@ -25,10 +30,10 @@ Circle rebel(const Vec2& at, double radius, double angle, double speed) {
 }
 
 std::vector<Square> squares_of(std::vector<Circle> circles,
-                               const SquareParameters& parameters = kLab) {
+                               const PaperSquareParameters& parameters = kLab) {
   Layers layers;
   for (Circle& c : circles) (c.rebel ? layers.rebel_circles : layers.normal_circles).push_back(c);
-  SquareExpert(vga(), parameters).update(layers, ahead());
+  SquareSteps(parameters).update(layers, ahead());
   return layers.squares;
 }
 
@@ -74,7 +79,7 @@ TEST(Couple, MayMixNormalAndRebelUnlessToldOtherwise) {
   const Circle b = rebel({430, 240}, 10, 0, ahead().reference_speed({430, 240}));
   EXPECT_EQ(squares_of({a, b}).size(), 1u);
   EXPECT_EQ(squares_of({a, b}).front().rebel_circles, 1);
-  SquareParameters apart = kLab;
+  PaperSquareParameters apart = kLab;
   apart.mix_kinds = false;
   EXPECT_EQ(squares_of({a, b}, apart).size(), 2u);
 }
@@ -86,7 +91,7 @@ TEST(Couple, IsTheFurthestOneNearerThanTheStartOfDt) {
   ASSERT_EQ(all.size(), 1u);
   EXPECT_NEAR(all[0].half_size.x(), (605 - 345) / 2.0, 1e-9);
   EXPECT_EQ(all[0].circles, 4);
-  SquareParameters near = kLab;
+  PaperSquareParameters near = kLab;
   near.d_t = 160.0 / 800;  // of the diagonal of 640 x 480
   const auto some = squares_of(in_line, near);
   ASSERT_EQ(some.size(), 2u);
@@ -137,7 +142,7 @@ TEST(PartingCondition, LeavesTheCirclesBeyondTheReducedDtOut) {
 /// d_t = d_t - d_bb': from 300 px to 170, which also leaves out what lies within d_ab off the line.
 TEST(PartingCondition, ReducesDtByTheDistanceOfThePartingCircleFromB) {
   const Vec2 a_px(100, 100);
-  SquareParameters p = kLab;
+  PaperSquareParameters p = kLab;
   p.d_t = 300.0 / 800;
   const auto partners_of_a = [&](double distance_of_c) {
     std::vector<Circle> circles = {circle(a_px, 8, 2), circle(a_px + Vec2(280, 0), 8, 2),
@@ -234,7 +239,7 @@ TEST(MinorCircle, MustBeNearerThanDt) {
   std::vector<Circle> circles = {circle({400, 240}, 5), circle({500, 240}, 30),
                                  circle({525, 240}, 2)};
   circles[0].trust = 5;
-  SquareParameters p = kLab;
+  PaperSquareParameters p = kLab;
   p.d_t = 110.0 / 800;
   EXPECT_EQ(squares_of(circles, p).front().circles, 2);
   p.d_t = 124.0 / 800;
@@ -247,7 +252,7 @@ TEST(MinorCircle, IsOfTheSameKindWhereKindsDoNotMix) {
                                  rebel({450, 242}, 5, 0, v_v)};
   circles[0].trust = circles[1].trust = 5;
   EXPECT_EQ(squares_of(circles).front().circles, 3);
-  SquareParameters apart = kLab;
+  PaperSquareParameters apart = kLab;
   apart.mix_kinds = false;
   EXPECT_EQ(squares_of(circles, apart).front().circles, 2);
 }
@@ -309,7 +314,7 @@ struct SquareMatch : ::testing::Test {
     layers = {};
     layers.squares = {square};
     layers.normal_circles = {found};
-    SquareExpert(vga(), kLab).update(layers, ahead());
+    SquareSteps(kLab).update(layers, ahead());
     EXPECT_EQ(layers.squares.front().id, 100u);
     return {layers.squares.front().trust, layers.squares.front().circles > 0};
   }
@@ -353,7 +358,7 @@ TEST_F(SquareMatch, WhatHasLeftTheImageIsDeleted) {
     layers = {};
     layers.squares = {predicted(), predicted()};
     layers.squares[0].location = outside;
-    SquareExpert(vga(), kLab).update(layers, ahead());
+    SquareSteps(kLab).update(layers, ahead());
     ASSERT_EQ(layers.squares.size(), 1u);
     EXPECT_EQ(layers.squares[0].location, found.location);
   }

@@ -1,13 +1,17 @@
-#include "filter/squares/square.h"
-#include "filter/paper/paper_squares.h"
 
 #include <gtest/gtest.h>
 
 #include "filter/kinematics/geometry.h"
 #include "tests/filter/items.h"
+#include "tests/filter/paper_steps.h"
 
 namespace lcs {
 namespace {
+
+using namespace paper;
+using testing::CircleSteps;
+using testing::EdgeSteps;
+using testing::SquareSteps;
 
 using Eigen::Vector3d;
 using testing::ahead;
@@ -66,7 +70,7 @@ struct Layering : ::testing::Test {
   std::vector<Square> squares(std::vector<Circle> circles) {
     Layers layers;
     layers.normal_circles = std::move(circles);
-    SquareExpert expert(vga(), preset("lab").square);
+    SquareSteps expert;
     expert.update(layers, ahead());
     return layers.squares;
   }
@@ -78,7 +82,7 @@ TEST_F(Layering, AlignedCirclesOfOneDepthAreOneSquareRoundTheirExtents) {
   EXPECT_TRUE(found[0].location.isApprox(Vec2(507.5, 237.5)));
   EXPECT_TRUE(found[0].half_size.isApprox(Vec2(42.5, 32.5)));
   EXPECT_EQ(found[0].circles, 2);
-  EXPECT_EQ(found[0].trust, preset("lab").square.trust.standard);
+  EXPECT_EQ(found[0].trust, PaperParameters{}.square.trust.standard);
 }
 
 TEST_F(Layering, CirclesAtARightAngleAboutTheOriginAreACouple) {
@@ -121,15 +125,15 @@ TEST(SquarePrediction, IsTheHomothetyOfAStaticPatch) {
   s.origin = *field.foe();
   s.depth_ratio = FieldParameters{}.reference_depth_m / depth;
   layers.squares = {s};
-  SquareExpert(vga(), preset("lab").square).predict(layers, field);
+  SquareSteps().predict(layers, field);
   const Vec2 low = edge_px({410, 275}), high = edge_px({490, 325});
   EXPECT_TRUE(layers.squares[0].location.isApprox(Vec2(0.5 * (low + high)), 1e-6));
   EXPECT_TRUE(layers.squares[0].half_size.isApprox(Vec2(0.5 * (high - low)), 1e-5));
 }
 
 TEST(SquareTrust, RisesWhileMatchedAndFallsWhileNot) {
-  const TrustRanks ranks = preset("lab").square.trust;
-  SquareExpert expert(vga(), preset("lab").square);
+  const TrustRanks ranks = PaperParameters{}.square.trust;
+  SquareSteps expert;
   Layers layers;
   layers.normal_circles = {circle({480, 220}, 15, 1), circle({540, 260}, 10, 1)};
   expert.update(layers, ahead());

@@ -8,6 +8,8 @@
 namespace lcs {
 namespace {
 
+using namespace paper;
+
 using testing::Random;
 
 Extent random_extent(Random& random) {

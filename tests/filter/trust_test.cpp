@@ -8,6 +8,8 @@
 namespace lcs {
 namespace {
 
+using namespace paper;
+
 TEST(Trust, InitialValuesFollowThePaperForItsTables) {
   const TrustRanks lab_circle{2, 3, 5}, lab_square{3, 5, 7}, cars_circle{1, 4, 7};
   EXPECT_EQ(lab_circle.initial_normal(), 3);   // (2 + 3) / 2, rounded

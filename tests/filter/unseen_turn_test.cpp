@@ -21,7 +21,7 @@ constexpr double kSigma_rad = 0.03;
 /// Rebels among 150 static corners, in the worst of four frames in which the turn is not told.
 int most_false_rebels(std::uint64_t seed, double pan_radps, double unseen_turn_rad) {
   Scene scene(seed);
-  Filter filter(scene.world.camera, preset("default"));
+  Filter filter(scene.world.camera);
   int most = 0;
   for (int k = 0; k < 16; ++k) {
     const bool blind = k >= 12;

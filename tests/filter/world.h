@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "filter/ego_motion/ego_motion.h"
 #include "filter/kinematics/camera.h"
+#include "filter/kinematics/ego_motion.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/signature.h"

@@ -51,7 +51,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   mounting.p_BC_m = {0.2, 0, 0.4};
   mounting.on_ground = true;
   EgoMotionEstimator estimator(mounting, {}, {});
-  const Parameters parameters = preset("default");
+  const Parameters parameters;
   Filter filter(kCamera, parameters);
   std::vector<Eigen::Vector2f> corners;
   for (int i = 0; i < 40; ++i) {

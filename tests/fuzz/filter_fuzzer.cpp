@@ -70,11 +70,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Bytes bytes(data, size);
   const std::uint8_t settings = bytes.byte();
   const std::vector<std::string> presets = preset_names();
-  Parameters parameters = preset(presets[settings % presets.size()]);
-  if (settings & 128) parameters.line.ignore = !parameters.line.ignore;
-  if (settings & 64) parameters.line.max_corners = 50;
-  if (settings & 32) parameters.field.rotation = RotationModel::first_order;
-  Filter filter(kCamera, parameters);
+  AnyParameters parameters = preset(presets[settings % presets.size()]);
+  auto* paper = std::get_if<paper::PaperParameters>(&parameters);
+  if (paper && settings & 128) paper->ignore = !paper->ignore;
+  if (settings & 64) set(parameters, "line.max_corners", "50");
+  if (settings & 32) set(parameters, "field.rotation", "first_order");
+  AnyFilter filter(kCamera, parameters);
   Corners corners;
   std::size_t offered = 0;
   for (int k = 0; k < kMostFrames && !bytes.empty(); ++k) {
@@ -88,7 +89,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require(result.layers.normal_edges.size() <= offered, "edges come of corners");
     fuzz::require(result.layers.rebel_edges.size() <= 2 * offered, "rebel edges come of corners");
     // A row of one sighting each, which branches into so many of two.
-    const auto branches = static_cast<std::size_t>(1 + parameters.circle.alpha_branches);
+    const auto branches = static_cast<std::size_t>(paper ? 1 + paper->edge.alpha_branches : 0);
     fuzz::require(result.layers.chains.size() <= branches * offered, "alpha comes of corners");
   }
   const Diagnostics& diagnostics = filter.diagnostics();

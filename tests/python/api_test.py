@@ -13,7 +13,6 @@ import tempfile
 import threading
 import time
 import unittest
-import warnings
 from pathlib import Path
 
 import numpy as np
@@ -83,7 +82,7 @@ class Scenarios(unittest.TestCase):
             "--set ego.sped=1: unknown key 'sped' in ego; did you mean 'speed'?",
         )
         self.assertIn("is an angle", refusal(CROSSING, set={"ego.speed": "9 deg"}))
-        self.assertIn("circle.mu_0", refusal(CROSSING, set={"filter.circle.mu_00": 3}))
+        self.assertIn("circle.gap", refusal(CROSSING, set={"filter.circle.gap0": 3}))
         self.assertIn("the seed", refusal(CROSSING, seed=-1))
         self.assertIn("the seed", refusal(CROSSING, seed="many"))
         self.assertIn("there is no scene 'moon'", refusal(CROSSING, set={"scene": "moon"}))
@@ -101,13 +100,9 @@ class Scenarios(unittest.TestCase):
         with self.assertRaises(TypeError):
             lcs.Scenario(3)
 
-    def test_warns_of_settings_without_effect(self):
-        with self.assertWarnsRegex(UserWarning, "has no effect"):
+    def test_refuses_parameters_of_another_preset(self):
+        with self.assertRaisesRegex(lcs.Error, "which is of lab, cars"):
             lcs.Scenario(CROSSING, set={"filter.circle.alpha_reach": 3})
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            with self.assertRaises(UserWarning):
-                lcs.Scenario(CROSSING, set={"filter.circle.alpha_reach": 3})
 
 
 class Frames(unittest.TestCase):
@@ -412,8 +407,8 @@ class Filters(unittest.TestCase):
         self.assertTrue(any("corner_not_finite" in line for line in lcs_filter.diagnostics))
 
     def test_settings_are_checked(self):
-        for settings in ({"circle.mu_00": 3}, {"circle.mu_0": "wide"}, {"circle.mu_0": -1}):
-            with self.assertRaisesRegex(lcs.Error, "circle.mu_0"):
+        for settings in ({"circle.gap0": 3}, {"circle.gap": "wide"}, {"circle.gap": -1}):
+            with self.assertRaisesRegex(lcs.Error, "circle.gap"):
                 lcs.Filter(self.camera, set=settings)
         with self.assertRaisesRegex(lcs.Error, "default, lab, cars"):
             lcs.Filter(self.camera, "labb")
@@ -422,8 +417,9 @@ class Filters(unittest.TestCase):
         for nothing in ("crossing", None):
             with self.assertRaises(TypeError):
                 lcs.Filter(nothing)
-        with self.assertWarnsRegex(UserWarning, "circle.alpha_reach has no effect"):
+        with self.assertRaisesRegex(lcs.Error, "which is of lab, cars"):
             lcs.Filter(self.camera, set={"circle.alpha_reach": 3})
+        lcs.Filter(self.camera, "lab", set={"circle.alpha_reach": 3})
 
 
 class Scores(unittest.TestCase):

@@ -518,7 +518,7 @@ TEST_F(RecordedScenario, IsWhatReplayMakesOfItsOptions) {
   draw(home() / "pictures", "{}.png");
   const std::vector<std::string> options{"replay",   "pictures", "--fps",   "10",
                                          "--focal",  "300",      "--speed", "0.5",
-                                         "--centre", "80,60",    "--set",   "circle.mu_0=20"};
+                                         "--centre", "80,60",    "--set",   "circle.gap=0.3"};
   const auto lcs = [&](std::vector<std::string> arguments, std::vector<std::string> more) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_lcs(arguments, {.folder = home()});

@@ -95,7 +95,7 @@ struct Part {
 };
 
 int drive(const std::vector<Seen>& seen, const Intrinsics& camera, int frames) {
-  const Parameters parameters = preset("default");
+  const Parameters parameters;
   Filter filter(camera, parameters);
   Corners corners;
   corners.reserve(100'000);  // none of the growth is the driver's

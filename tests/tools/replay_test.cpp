@@ -107,7 +107,8 @@ TEST_F(Replay, SkipsAndNamesWhatItCannotUseAndLetsItsTimePass) {
   const CommandResult result = replay({"--no-video"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("view3.png is 100x100"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("view4.png: this is no picture that can be read"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("view4.png: this is no picture that can be read"), std::string::npos)
+      << result.err;
   EXPECT_NE(result.out.find("4 pictures, 2 skipped"), std::string::npos) << result.out;
   const Recording recording = read_recording(out());
   ASSERT_EQ(recording.frames.size(), 4u);
@@ -125,7 +126,7 @@ TEST_F(Replay, MistakesAreToldInOneLineBeforeAnyOutput) {
       {{"--speed", "inf"}, "--speed"},
       {{"--fast-threshold", "0"}, "threshold"},
       {{"--preset", "office"}, "office"},
-      {{"--set", "circle.mu0=3"}, "circle.mu_0"},
+      {{"--set", "circle.gap0=3"}, "circle.gap"},
       {{"--set", "circle.mu_0"}, "KEY=VALUE"},
       {{"--images", folder_.path() / "nowhere"}, "nowhere"},
       {{"--images", folder_.path() / "empty"}, "holds no pictures"},

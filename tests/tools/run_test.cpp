@@ -176,15 +176,15 @@ TEST_F(Run, TellsWhichFileIsUsedWhereLcsScenesHasOneOfTheProjectsOwnNames) {
   EXPECT_EQ(run(brief({"--quiet"})).err, "");
 }
 
-TEST_F(Run, TellsASettingOfTheFilterThatNoRuleInUseAsksFor) {
-  const auto err = [&](const std::string& preset) {
-    return run(brief({"--set", "filter.circle.mu_0=20", "--set", "filter.preset=" + preset})).err;
+TEST_F(Run, RefusesAParameterThatOnlyTheFilterOfAnotherPresetHas) {
+  const auto with = [&](const std::string& preset) {
+    return run(brief({"--set", "filter.circle.mu_0=20", "--set", "filter.preset=" + preset}));
   };
-  EXPECT_NE(
-      err("default").find("warning: the filter's circle.mu_0 has no effect with preset "
-                          "default: only circle.edge_rule=paper asks for it, as in lab, cars"),
-      std::string::npos);
-  EXPECT_EQ(err("lab").find("has no effect"), std::string::npos);
+  EXPECT_EQ(with("default").exit_code, 2);
+  EXPECT_NE(with("default").err.find("the filter of preset default has no parameter "
+                                     "'circle.mu_0', which is of lab, cars; "),
+            std::string::npos);
+  EXPECT_EQ(with("lab").exit_code, 0);
 }
 
 TEST_F(Run, AnotherSeedIsAnotherRun) {
@@ -398,7 +398,7 @@ TEST_F(Again, ARecordingOfAnythingElseIsRefusedWithTheFirstDifference) {
   says(refusal({"--detector", "klt"}), "klt looks at the pictures");
 
   // Who watches and judges may change, and what is for people.
-  for (const char* setting : {"filter.circle.mu_0=20", "criteria=[{metric: frames, min: 4}]",
+  for (const char* setting : {"filter.circle.gap=0.3", "criteria=[{metric: frames, min: 4}]",
                               "purpose=another", "groups=[long]"}) {
     EXPECT_EQ(run(brief({"--recorded", "first", "--out", "again", "--set", setting})).exit_code, 0)
         << setting;
@@ -516,7 +516,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "moves body 'ghost'"},
         Mistake{"unknown_preset", {kCrossing, "--set", "filter.preset=best"}, "best"},
         Mistake{"unknown_parameter", {kCrossing, "--set", "filter.circle.mu_9=1"}, "circle.mu"},
-        Mistake{"parameter_out_of_range", {kCrossing, "--set", "filter.circle.mu_0=-1"}, "mu_0"},
+        Mistake{"parameter_out_of_range", {kCrossing, "--set", "filter.circle.gap=-1"}, "gap"},
         Mistake{"unknown_metric",
                 {kCrossing, "--set", "criteria=[{metric: rebel.f2, min: 1}]"},
                 "rebel.f1"},

@@ -44,7 +44,7 @@ double number(const Parameters& parameters, const std::string& key) {
 struct Hill {
   Worth operator()(const Parameters& parameters) {
     if (++calls == fails_at) throw std::runtime_error("the power failed");
-    const Parameters start = preset("default");
+    const Parameters start;
     double off = 0;
     const double best[] = {0.5, 2, 1};
     for (std::size_t i = 0; i < kKeys.size(); ++i) {
@@ -62,7 +62,7 @@ struct Search {
   int evaluations = 120;
   std::uint64_t seed = 1;
   std::string subject = "a hill";
-  Parameters start = preset("default");
+  Parameters start;
 
   SearchOptions options() const {
     return {.axes = axes_of(start, keys), .evaluations = evaluations, .seed = seed};
@@ -92,7 +92,7 @@ TEST(Search, FindsTheTopWithinAFewPercentAndTriesNoMoreThanAsked) {
   EXPECT_LT(found.worth_before.f1, 0.1) << "two factors of two are ln(2)^2 each";
   EXPECT_GT(found.worth_after.f1, 0.995);
   EXPECT_LE(found.evaluations, 120);
-  const Parameters start = preset("default");
+  const Parameters start;
   EXPECT_NEAR(std::stod(found.after[0].value) / number(start, kKeys[0]), 0.5, 0.05);
   EXPECT_NEAR(std::stod(found.after[1].value) / number(start, kKeys[1]), 2, 0.15);
   EXPECT_EQ(std::stod(found.after[2].value), number(start, kKeys[2])) << "a whole number";
@@ -266,10 +266,10 @@ TEST(SearchJournal, IsNeverWrittenThroughWhatIsNoPlainFileOfItsOwn) {
 }
 
 TEST(Search, RefusesWhatIsNoNumberAboveNought) {
-  const Parameters start = preset("default");
+  const Parameters start;
   for (const auto& [keys, part] :
-       {std::pair<std::vector<std::string>, const char*>{{"circle.edge_rule"}, "above 0"},
-        {{"line.ignore"}, "above 0"},
+       {std::pair<std::vector<std::string>, const char*>{{"field.rotation"}, "above 0"},
+        {{"field.ground"}, "above 0"},
         {{"hypotheses.prio"}, "the nearest is 'hypotheses.prior'"},
         {{""}, "the nearest is"},
         {{kKeys[0], kKeys[1], kKeys[0]}, "hypotheses.prior is given twice"}}) {
@@ -320,7 +320,7 @@ TEST_F(TuneCommand, StatesTheSuitesFiguresAndWritesAPresetThatItsRecordExplains)
   std::getline(journal, line);
   std::stringstream cells(line);
   std::getline(cells, line, ',');
-  EXPECT_EQ(std::stod(line), number(preset("default"), "hypotheses.prior"));
+  EXPECT_EQ(std::stod(line), number(Parameters{}, "hypotheses.prior"));
   std::getline(cells, line, ',');
   EXPECT_DOUBLE_EQ(std::stod(line), f1.value()) << "the first evaluation is of what there is";
   const std::string record = bench::read(out() / "record.md");
@@ -335,7 +335,7 @@ TEST_F(TuneCommand, StatesTheSuitesFiguresAndWritesAPresetThatItsRecordExplains)
   }
   EXPECT_NE(
       preset_text.find("{\"hypotheses.coupling\", \"" +
-                       fmt::format("{}", number(preset("default"), "hypotheses.coupling")) + "\"}"),
+                       fmt::format("{}", number(Parameters{}, "hypotheses.coupling")) + "\"}"),
       std::string::npos)
       << "what was left alone keeps its value";
 
@@ -448,7 +448,7 @@ TEST_F(TuneCommand, MistakesAreToldInOneLineAndNothingIsWritten) {
   const std::pair<std::vector<std::string>, const char*> cases[] = {
       {{"--keys", "nope"}, "--keys: the filter has no parameter 'nope'; the nearest is"},
       {{"--keys", "hypotheses.prior,hypotheses.prior"}, "is given twice"},
-      {{"--keys", "line.ignore"}, "only a number above 0"},
+      {{"--keys", "field.ground"}, "only a number above 0"},
       {{"--set", "hypotheses.prio=1"}, "the nearest is 'hypotheses.prior'"},
       {{"--set", "hypotheses.prior=x"}, "takes a number"},
       {{suite().string()}, "one suite"},
@@ -525,8 +525,8 @@ TEST_F(TuneCommand, CountsTheFalseCornersOfRecordingsInWhichNothingMoves) {
                                 "rebel.false_corners_per_frame");
   ASSERT_GT(off.value(), 1);
 
-  const auto alone = Trials({suite().string()}).worth(preset("default"));
-  const auto both = Trials({suite().string(), asked.string()}).worth(preset("default"));
+  const auto alone = Trials({suite().string()}).worth(Parameters{});
+  const auto both = Trials({suite().string(), asked.string()}).worth(Parameters{});
   EXPECT_DOUBLE_EQ(both.f1, alone.f1);
   EXPECT_DOUBLE_EQ(both.false_capped, alone.false_capped);
   EXPECT_DOUBLE_EQ(both.false_corners, off.value());

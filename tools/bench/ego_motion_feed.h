@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "filter/ego_motion/ego_motion.h"
+#include "filter/ego_motion/estimator.h"
 #include "scenarios/scenario.h"
 #include "sim/simulation.h"
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <stdexcept>
 
 #include "scenarios/spelling.h"
@@ -17,15 +16,35 @@ Intrinsics intrinsics(const sim::Pinhole& camera) {
           .height_px = camera.height_px};
 }
 
-LcsTracker::LcsTracker(const Intrinsics& camera, const Parameters& parameters)
-    : filter_(camera, parameters) {}
+namespace {
 
-const FrameResult& LcsTracker::step(const TrackerInput& input) {
-  if (input.signatures.empty()) return filter_.step(input.corners_px, input.motion);
-  return filter_.step(input.corners_px, input.signatures, input.motion);
+std::vector<std::string> keys_of(const AnyParameters& parameters) {
+  std::vector<std::string> keys;
+  for (const ParameterInfo& info : describe(parameters)) keys.push_back(info.key);
+  return keys;
 }
 
-Parameters filter_parameters(const scenario::Scenario& scenario) {
+/// Why a preset's filter has no parameter of that key, and what to do.
+std::string unknown_key(const std::string& key, const std::string& own_preset,
+                        const std::vector<std::string>& known) {
+  std::string others;
+  for (const std::string& name : preset_names()) {
+    if (std::ranges::count(keys_of(preset(name)), key) == 0) continue;
+    others += (others.empty() ? "" : ", ") + name;
+  }
+  if (others.empty()) {
+    return fmt::format("the filter has no parameter '{}'; the nearest is '{}'", key,
+                       scenario::nearest_first(key, known).front());
+  }
+  return fmt::format(
+      "the filter of preset {} has no parameter '{}', which is of {}; choose one of these by "
+      "filter.preset, or leave it out",
+      own_preset, key, others);
+}
+
+}  // namespace
+
+AnyParameters filter_parameters(const scenario::Scenario& scenario) {
   const auto at = [](const scenario::Source& source, auto&& use) {
     try {
       return use();
@@ -33,45 +52,20 @@ Parameters filter_parameters(const scenario::Scenario& scenario) {
       throw scenario::Error(source, error.what());
     }
   };
-  Parameters parameters = at(scenario.filter_preset_source, [&] {
-    return preset(scenario.filter_preset.empty() ? "default" : scenario.filter_preset);
-  });
-  std::vector<std::string> known;
-  for (const ParameterInfo& info : describe(parameters)) known.push_back(info.key);
+  const std::string name = scenario.filter_preset.empty() ? "default" : scenario.filter_preset;
+  AnyParameters parameters = at(scenario.filter_preset_source, [&] { return preset(name); });
+  const std::vector<std::string> known = keys_of(parameters);
   for (const scenario::FilterSetting& setting : scenario.filter) {
     if (std::find(known.begin(), known.end(), setting.key) == known.end()) {
-      throw scenario::Error(
-          setting.source,
-          fmt::format("the filter has no parameter '{}'; the nearest is '{}'", setting.key,
-                      scenario::nearest_first(setting.key, known).front()));
+      throw scenario::Error(setting.source, unknown_key(setting.key, name, known));
     }
     at(setting.source, [&] { set(parameters, setting.key, setting.value); });
   }
-  // Each value is in its range by now; together they may still make no sense.
+  // Each value is in its range here; together they may still contradict each other.
   const scenario::Source& last =
       scenario.filter.empty() ? scenario.filter_preset_source : scenario.filter.back().source;
   at(last, [&] { validate(parameters); });
   return parameters;
-}
-
-std::vector<std::string> idle_settings(const scenario::Scenario& scenario) {
-  const Parameters parameters = filter_parameters(scenario);
-  const std::string preset = scenario.filter_preset.empty() ? "default" : scenario.filter_preset;
-  std::vector<std::string> lines;
-  for (const scenario::FilterSetting& setting : scenario.filter) {
-    const std::optional<Idle> why = idle(parameters, setting.key);
-    if (!why) continue;
-    std::string rules, presets;
-    for (const Rule& rule : why->rules) {
-      rules += fmt::format("{}{}={}", rules.empty() ? "" : " or ", rule.key, rule.value);
-    }
-    for (const std::string& name : why->presets) presets += (presets.empty() ? "" : ", ") + name;
-    std::string line =
-        fmt::format("the filter's {} has no effect with preset {}: only {} asks for it, as in {}",
-                    setting.key, preset, rules, presets);
-    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
-  }
-  return lines;
 }
 
 }  // namespace lcs::bench

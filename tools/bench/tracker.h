@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "filter/filter.h"
+#include "filter/paper/any_filter.h"
 #include "scenarios/scenario.h"
 #include "sim/pose.h"
 #include "tools/recording/recording.h"
@@ -69,21 +69,21 @@ Intrinsics intrinsics(const sim::Pinhole& camera);
 /// image.
 class LcsTracker : public Tracker {
  public:
-  LcsTracker(const Intrinsics& camera, const Parameters& parameters);
-  const FrameResult& step(const TrackerInput& input) override;
+  LcsTracker(const Intrinsics& camera, const AnyParameters& parameters)
+      : filter_(camera, parameters) {}
+  const FrameResult& step(const TrackerInput& input) override {
+    if (input.signatures.empty()) return filter_.step(input.corners_px, input.motion);
+    return filter_.step(input.corners_px, input.signatures, input.motion);
+  }
   bool wants_signatures() const override { return true; }
   Diagnostics diagnostics() const override { return filter_.diagnostics(); }
 
  private:
-  Filter filter_;
+  AnyFilter filter_;
 };
 
 /// The scenario's preset with its settings on top.
 /// \throws scenario::Error at the line of a preset, key or value that the filter does not take.
-Parameters filter_parameters(const scenario::Scenario& scenario);
-
-/// A line for each of the scenario's settings of the filter that has no effect, because the rule
-/// that reads it is not in use. \throws as `filter_parameters`.
-std::vector<std::string> idle_settings(const scenario::Scenario& scenario);
+AnyParameters filter_parameters(const scenario::Scenario& scenario);
 
 }  // namespace lcs::bench

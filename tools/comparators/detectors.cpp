@@ -142,9 +142,9 @@ std::unique_ptr<bench::Tracker> make(const Wanted& wanted, const Occasion& occas
 }
 
 std::vector<std::string> apply_preset(const Wanted& wanted, scenario::Scenario& scenario) {
-  std::vector<std::string> lines = bench::idle_settings(scenario);
+  bench::filter_parameters(scenario);  // they are valid, whether used or not
+  std::vector<std::string> lines;
   if (wanted.preset.empty()) return lines;
-  lines.clear();
   const auto leave_out = [&](std::string_view key, const scenario::Source& where) {
     if (!where.file.starts_with("--set ")) return;
     lines.push_back(fmt::format("filter.{} has no effect with {}, which is the preset alone", key,

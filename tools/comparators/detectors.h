@@ -65,8 +65,8 @@ struct Occasion {
 std::unique_ptr<bench::Tracker> make(const Wanted& wanted, const Occasion& occasion);
 
 /// Replaces a scenario's settings of the filter by the preset that is wanted, if any: what others
-/// are compared with must not change with them. \return a line for each setting that has no effect:
-/// with a preset each `--set`, else as `bench::idle_settings` has it. \throws as that one.
+/// are compared with must not change with them. \return a line for each `--set` that has no effect
+/// because of the preset. \throws as `bench::filter_parameters`.
 std::vector<std::string> apply_preset(const Wanted& wanted, scenario::Scenario& scenario);
 
 /// For frames of an earlier run, which kept its corners, but its pictures compressed at best.

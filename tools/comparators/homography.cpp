@@ -1,5 +1,6 @@
 #include "tools/comparators/homography.h"
 
+#include <Eigen/Geometry>
 #include <opencv2/calib3d.hpp>
 #include <stdexcept>
 

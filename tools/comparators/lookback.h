@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "filter/ego_motion/ego_motion.h"
 #include "filter/ego_motion/intake.h"
+#include "filter/kinematics/ego_motion.h"
 
 namespace lcs::comparators {
 

@@ -81,7 +81,7 @@ Statement first_order(const Study& study, const PointSet& points) {
   double limit_deg[3];
   for (const int axis : kAxes) {
     limit_deg[axis] =
-        rotation_limit_rad(points, study.config.filter.field, RotationModel::first_order, axis,
+        rotation_limit_rad(points, field_of(study.config.filter), RotationModel::first_order, axis,
                            study.config.tolerance_px) /
         kDegree;
     s.figures.push_back({fmt::format("first_order.limit.{}", axis_name(axis)), limit_deg[axis],
@@ -117,8 +117,8 @@ Statement as_printed(const Study& study, const PointSet& points) {
   double limit_deg[3], kindest_deg[3];
   for (const int axis : kAxes) {
     const auto limit = [&](double told_sign) {
-      return rotation_limit_rad(points, study.config.filter.field, RotationModel::as_printed, axis,
-                                study.config.tolerance_px, told_sign) /
+      return rotation_limit_rad(points, field_of(study.config.filter), RotationModel::as_printed,
+                                axis, study.config.tolerance_px, told_sign) /
              kDegree;
     };
     limit_deg[axis] = limit(1);
@@ -169,8 +169,8 @@ Statement depth_sources(const Study& study) {
               "{:g} m errs by {:.2g} px (95 %: {:.2g}), by the landmark's own V by {:.2g} px (95 "
               "%: {:.2g}), by the true depth by less than {:.0e} px",
               study.config.speed_mps, study.config.scenario.camera.rate_hz,
-              study.config.filter.field.reference_depth_m, reference.median_px, reference.p95_px,
-              learnt.median_px, learnt.p95_px, truth.max_px),
+              field_of(study.config.filter).reference_depth_m, reference.median_px,
+              reference.p95_px, learnt.median_px, learnt.p95_px, truth.max_px),
           {{"translation.reference.median", reference.median_px, "px",
             of(DepthSource::reference).expected_median_px},
            {"translation.reference.p95", reference.p95_px, "px", kUnknown},
@@ -216,7 +216,7 @@ Statement mount(const Study& study, const PointSet& points) {
   Statement s{"mount", "", {}};
   for (const double pan_deg : {0.0, kMountPan_deg}) {
     const std::vector<Landmark> seen =
-        landmarks(points, turned(1, pan_deg * kDegree, step_C_m), study.config.filter.field);
+        landmarks(points, turned(1, pan_deg * kDegree, step_C_m), field_of(study.config.filter));
     for (const int axis : kAxes) {
       s.figures.push_back(
           {fmt::format("mount.{}{}.rms", pan_deg == 0 ? "" : "panning.", axis_name(axis)),
@@ -281,7 +281,7 @@ std::string drift_verdict(const Study& study, const std::string& name) {
   const StudyConfig& config = study.config;
   const bool odometry = config.scenario.odometry.enabled;
   const double px_for_mps =
-      config.camera.focal_px * config.frame_s() / config.filter.field.reference_depth_m;
+      config.camera.focal_px * config.frame_s() / field_of(config.filter).reference_depth_m;
   double until_s = 0, end_s = 0;
   bool is_over = false;
   for (const DriftRow& row : study.drift) {
@@ -293,7 +293,7 @@ std::string drift_verdict(const Study& study, const std::string& name) {
   return fmt::format("{}: {} {:g} s by the velocity {} odometry, at {:g} m", is_over ? "no" : "yes",
                      is_over ? "for" : "for all", is_over ? until_s : end_s,
                      odometry ? "with the scenario's" : "without",
-                     config.filter.field.reference_depth_m);
+                     field_of(config.filter).reference_depth_m);
 }
 
 /// Of one IMU at the end of the drive.
@@ -342,7 +342,7 @@ std::vector<Statement> answer(const Study& study) {
   for (const NamedImu& imu : others) all.push_back(drift(study, imu.name));
   // a topic's own is its first statement, but of rotations the filter's, and of depths the learnt
   // one
-  const bool is_exact = study.config.filter.field.rotation == RotationModel::homography;
+  const bool is_exact = field_of(study.config.filter).rotation == RotationModel::homography;
   for (const std::size_t own : {is_exact ? 1U : 0U, 4U, 5U, 6U, 7U, 8U}) all[own].is_own = true;
   return all;
 }

@@ -25,9 +25,10 @@ HeatMap map_of(const StudyConfig& config, const std::string& name, const sim::Po
   HeatMap map{name, kColumns, rows_of(camera), {}};
   const PointSet points = geometric_points(camera, std::array{depth_m}, map.columns, map.rows);
   map.errors_px.assign(points.sites.size(), std::nan(""));
-  const Step step{step_to(camera, {}, 1, config.filter.field).camera, told, config.filter.field};
+  const Step step{step_to(camera, {}, 1, field_of(config.filter)).camera, told,
+                  field_of(config.filter)};
   const Predictor predictor(step, model);
-  for (const Landmark& landmark : landmarks(points, T_CN, config.filter.field)) {
+  for (const Landmark& landmark : landmarks(points, T_CN, field_of(config.filter))) {
     const auto site = std::find_if(points.sites.begin(), points.sites.end(),
                                    [&](const Site& s) { return s.px == landmark.before_px; });
     map.errors_px[static_cast<std::size_t>(site - points.sites.begin())] =
@@ -39,10 +40,10 @@ HeatMap map_of(const StudyConfig& config, const std::string& name, const sim::Po
 }  // namespace
 
 std::vector<HeatMap> geometric_heat_maps(const StudyConfig& config) {
-  const double reference_m = config.filter.field.reference_depth_m;
+  const double reference_m = field_of(config.filter).reference_depth_m;
   std::vector<HeatMap> maps;
   const auto exact = [&](const sim::Pose& T_CN) {
-    return step_to(config.camera, T_CN, config.frame_s(), config.filter.field).motion;
+    return step_to(config.camera, T_CN, config.frame_s(), field_of(config.filter)).motion;
   };
   const auto turns = [&](RotationModel rotation, std::string_view model, double angle_deg) {
     for (int axis = 0; axis < 3; ++axis) {

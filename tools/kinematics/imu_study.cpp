@@ -7,8 +7,8 @@
 
 #include "scenarios/imu_presets.h"
 #include "tools/bench/ego_motion_feed.h"
-#include "tools/process/parallel.h"
 #include "tools/kinematics/theory.h"
+#include "tools/process/parallel.h"
 #include "tools/scoring/statistics.h"
 
 namespace lcs::kinematics {
@@ -86,7 +86,7 @@ Errors errors_along(const StudyConfig& config, const sim::Drive& drive,
                     const scenario::Scenario& scenario,
                     const std::vector<std::vector<Landmark>>& seen) {
   bench::EgoMotionFeed feed(scenario, drive.calibration);
-  const Intrinsics camera = step_to(config.camera, {}, 1, config.filter.field).camera;
+  const Intrinsics camera = step_to(config.camera, {}, 1, field_of(config.filter)).camera;
   Errors result;
   for (std::size_t k = 0; k < drive.frames.size(); ++k) {
     const bench::EgoMotionFeed::Motions motions = feed.next(drive.frames[k]);
@@ -95,7 +95,7 @@ Errors errors_along(const StudyConfig& config, const sim::Drive& drive,
     turned_only.v_C_mps = motions.exact.v_C_mps;
     const auto add = [&](const EgoMotion& motion, std::vector<double>& into) {
       const std::vector<double> more =
-          errors({camera, motion, config.filter.field}, {}, seen[k - 1]);
+          errors({camera, motion, field_of(config.filter)}, {}, seen[k - 1]);
       into.insert(into.end(), more.begin(), more.end());
     };
     add(motions.told, result.all);
@@ -138,7 +138,7 @@ std::vector<ImuRow> imu_rows(const StudyConfig& config, const Tick& tick) {
   std::vector<ImuRow> rows;
   for (const double rate_hz : rates(config)) {
     const sim::Drive ideal = sim::drive(straight_drive(config, kImuDrive_s, rate_hz));
-    const auto seen = landmarks_along(ideal, points, config.filter.field);
+    const auto seen = landmarks_along(ideal, points, field_of(config.filter));
     for (const NamedImu& imu : imus(config)) {
       for (const bool odometry : {false, true}) {
         const scenario::Scenario scenario = with_imu(config, imu.noise, odometry);
@@ -186,7 +186,7 @@ std::vector<BumpRow> bump_rows(const StudyConfig& config, const Tick& tick) {
   const auto roll = [&](int piece) {
     const double roughness_m = kRoughness_m[static_cast<std::size_t>(piece)];
     const sim::Drive drive = sim::drive(bumpy_drive(config, duration_s, rate_hz, roughness_m));
-    const auto seen = landmarks_along(drive, points, config.filter.field);
+    const auto seen = landmarks_along(drive, points, field_of(config.filter));
     const scenario::Scenario own =
         with_imu(config, config.scenario.imu.noise, config.scenario.odometry.enabled);
     const sim::Drive told = with_noise(drive, own);
@@ -209,7 +209,7 @@ std::vector<BumpRow> bump_rows(const StudyConfig& config, const Tick& tick) {
       EgoMotion unturned = motions.exact;
       unturned.R_cur_prev.setIdentity();
       unturned.w_C_radps.setZero();
-      const Intrinsics camera = step_to(config.camera, {}, 1, config.filter.field).camera;
+      const Intrinsics camera = step_to(config.camera, {}, 1, field_of(config.filter)).camera;
       for (Way& way : ways) {
         const EgoMotion& motion = way.rotation == "none" ? unturned
                                   : way.told == "imu"    ? motions.told
@@ -218,7 +218,7 @@ std::vector<BumpRow> bump_rows(const StudyConfig& config, const Tick& tick) {
         for (const RotationModel model : kRotations) {
           if (name(model) == way.rotation) rotation = model;
         }
-        const std::vector<double> more = errors({camera, motion, config.filter.field},
+        const std::vector<double> more = errors({camera, motion, field_of(config.filter)},
                                                 {rotation, DepthSource::truth}, seen[k - 1]);
         way.errors_px.insert(way.errors_px.end(), more.begin(), more.end());
         for (const Landmark& landmark : seen[k - 1]) {

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "filter/detect/fast.h"
-#include "filter/filter.h"
+#include "filter/paper/any_filter.h"
 #include "sim/simulation.h"
 #include "tools/bench/ego_motion_feed.h"
 #include "tools/bench/tracker.h"
@@ -56,7 +56,7 @@ FieldFrame field_frame(const StudyConfig& config, const sim::Pinhole& camera,
                        const std::vector<Landmark>& landmarks, double min_depth_m) {
   const sim::FrameTruth& truth = frame.truth;
   const sim::Pose T_CN = truth.now.T_WC.inverse() * truth.next.T_WC;
-  const Step step = step_to(camera, T_CN, config.frame_s(), config.filter.field);
+  const Step step = step_to(camera, T_CN, config.frame_s(), field_of(config.filter));
   FieldFrame field{
       frame.image, frame.index, {}, {}, MotionField(step.camera, step.motion, step.field).foe()};
   const Predictor predict(step, {RotationModel::homography, DepthSource::learnt});
@@ -93,7 +93,7 @@ DriveResult rendered_drive(const StudyConfig& config, const std::string& name,
   const Intrinsics intrinsics = bench::intrinsics(camera);
   const FastDetector detector(scenario.fast_threshold);
   bench::EgoMotionFeed feed(scenario, simulation.calibration());
-  Filter filter(intrinsics, config.filter);
+  AnyFilter filter(intrinsics, config.filter);
 
   DriveResult result;
   std::vector<std::vector<double>> all(2 * kRotations.size() * kDepths.size());
@@ -104,7 +104,7 @@ DriveResult rendered_drive(const StudyConfig& config, const std::string& name,
     const bench::EgoMotionFeed::Motions motions = feed.next(*frame);
     auto errors_of = all.begin();
     for (const EgoMotion& motion : {motions.exact, motions.told}) {
-      const Step step{intrinsics, motion, config.filter.field};
+      const Step step{intrinsics, motion, field_of(config.filter)};
       for (const RotationModel rotation : kRotations) {
         for (const DepthSource depth : kDepths) {
           const std::vector<double> more = errors(step, {rotation, depth}, landmarks);
@@ -113,13 +113,13 @@ DriveResult rendered_drive(const StudyConfig& config, const std::string& name,
         }
       }
     }
-    const MotionField exact(intrinsics, motions.exact, config.filter.field);
+    const MotionField exact(intrinsics, motions.exact, field_of(config.filter));
     for (const Landmark& landmark : landmarks) {
       const double ratio = exact.reference_depth_m() / landmark.depth_after_m;
       reference_px.push_back(exact.reference_speed(exact.rotated(landmark.before_px)) *
                              exact.dt_s() * std::abs(ratio - 1));
     }
-    const Predictor learnt({intrinsics, motions.told, config.filter.field},
+    const Predictor learnt({intrinsics, motions.told, field_of(config.filter)},
                            {RotationModel::homography, DepthSource::learnt});
     for (const Landmark& landmark : landmarks) {
       result.learnt.push_back({landmark.before_px, learnt.error(landmark)});

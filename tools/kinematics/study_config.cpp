@@ -27,7 +27,7 @@ StudyConfig configure(const scenario::Scenario& scenario, const Effort& effort) 
         std::max(config.speed_mps, (points[i].position_m - points[i - 1].position_m).norm() /
                                        (points[i].at_s - points[i - 1].at_s));
   }
-  config.stands = config.speed_mps <= config.filter.field.still_speed_mps;
+  config.stands = config.speed_mps <= field_of(config.filter).still_speed_mps;
   if (config.stands) config.speed_mps = kStandInSpeed_mps;
   const sim::Calibration calibration = sim::drive(straight_drive(config, 0, 1)).calibration;
   config.camera = calibration.camera;

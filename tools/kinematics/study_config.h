@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "filter/kinematics/geometry.h"
-#include "filter/parameters.h"
+#include "filter/paper/any_filter.h"
 #include "scenarios/scenario.h"
 #include "sim/drive.h"
 
@@ -24,7 +24,7 @@ struct Effort {
 
 struct StudyConfig {
   scenario::Scenario scenario;
-  Parameters filter;
+  AnyParameters filter;
   Effort effort;
   /// Nominal: the fastest that the scenario commands at the start of a phase.
   double speed_mps = 0;

@@ -53,7 +53,7 @@ std::string data_of(const Study& study, const std::vector<Statement>& statements
                {"tables", Json::object()},
                {"heat", Json::array()},
                {"bottom_line", bottom_line(study.config, statements)},
-               {"reference_depth_m", study.config.filter.field.reference_depth_m},
+               {"reference_depth_m", field_of(study.config.filter).reference_depth_m},
                {"has_movers", !study.field.moving.empty()},
                {"tolerance_px", study.config.tolerance_px},
                {"rate_hz", study.config.scenario.camera.rate_hz},

@@ -28,9 +28,9 @@ void append(std::vector<double>& all, const std::vector<double>& more) {
 std::vector<double> errors_after(const StudyConfig& config, const std::vector<PointSet>& points,
                                  const sim::Pose& T_CN, double dt_s, const Model& model) {
   std::vector<double> all;
-  const Step step = step_to(config.camera, T_CN, dt_s, config.filter.field);
+  const Step step = step_to(config.camera, T_CN, dt_s, field_of(config.filter));
   for (const PointSet& set : points) {
-    append(all, errors(step, model, landmarks(set, T_CN, config.filter.field)));
+    append(all, errors(step, model, landmarks(set, T_CN, field_of(config.filter))));
   }
   return all;
 }
@@ -133,11 +133,11 @@ std::vector<TranslationRow> sweep_translation(const StudyConfig& config,
 std::vector<FoeRow> sweep_foe_distance(const StudyConfig& config,
                                        const std::vector<PointSet>& points) {
   const sim::Pose T_CN = turned(1, kFoePan_deg * kDegree, config.step_C_m());
-  const Step step = step_to(config.camera, T_CN, config.frame_s(), config.filter.field);
+  const Step step = step_to(config.camera, T_CN, config.frame_s(), field_of(config.filter));
   const MotionField field(step.camera, step.motion, step.field);
   std::vector<Landmark> seen;
   for (const PointSet& set : points) {
-    const std::vector<Landmark> more = landmarks(set, T_CN, config.filter.field);
+    const std::vector<Landmark> more = landmarks(set, T_CN, field_of(config.filter));
     seen.insert(seen.end(), more.begin(), more.end());
   }
   std::vector<FoeRow> rows;
@@ -176,13 +176,13 @@ std::vector<MountRow> sweep_mount(const StudyConfig& config, const std::vector<P
     for (const double error_deg : kMount_deg) {
       for (const double pan_deg : {0.0, kMountPan_deg}) {
         const sim::Pose T_CN = turned(1, pan_deg * kDegree, config.step_C_m());
-        Step step = step_to(config.camera, T_CN, config.frame_s(), config.filter.field);
+        Step step = step_to(config.camera, T_CN, config.frame_s(), field_of(config.filter));
         const auto foe = MotionField(step.camera, step.motion, step.field).foe();
         step.motion = seen_by_wrong_mount(step.motion, turned(axis, error_deg * kDegree).R);
         const auto told_foe = MotionField(step.camera, step.motion, step.field).foe();
         std::vector<double> all;
         for (const PointSet& set : points) {
-          append(all, errors(step, {}, landmarks(set, T_CN, config.filter.field)));
+          append(all, errors(step, {}, landmarks(set, T_CN, field_of(config.filter))));
         }
         rows.push_back({points.front().name, axis, error_deg, pan_deg,
                         foe && told_foe ? (*told_foe - *foe).norm() : std::nan(""),
@@ -198,7 +198,7 @@ FocalRow focal_row(const StudyConfig& config, const PointSet& points, double fov
   row.points = points.name;
   row.fovy_deg = fovy_deg;
   row.focal_px = points.camera.focal_px;
-  const FieldParameters& field = config.filter.field;
+  const FieldParameters& field = field_of(config.filter);
   for (int axis = 0; axis < 3; ++axis) {
     row.limit_deg[axis] =
         rotation_limit_rad(points, field, RotationModel::first_order, axis, config.tolerance_px) /

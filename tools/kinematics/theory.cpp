@@ -1,5 +1,6 @@
 #include "tools/kinematics/theory.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

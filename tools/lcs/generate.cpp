@@ -229,7 +229,6 @@ ExitCode generate(const GenerateOptions& options) {
 
   if (options.jobs == 1) {  // else its processes tell it
     warn(scenario::shadowed_files(scenario));
-    warn(bench::idle_settings(scenario));
   }
   bench::Recording seen;  // of which nothing but its world matters
   const int frames = range.last - range.first;

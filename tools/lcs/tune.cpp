@@ -97,7 +97,7 @@ Parameters start_of(const std::vector<std::string>& sets) {
     const auto [key, value] = key_and_value(setting);
     settings.filter.push_back({key, value, {"--set " + setting, 0}});
   }
-  return bench::filter_parameters(settings);
+  return std::get<Parameters>(bench::filter_parameters(settings));
 }
 
 /// \throws std::invalid_argument where two of the paths lead to one suite.
@@ -130,7 +130,7 @@ std::vector<tune::Fact> facts_of(const TuneOptions& options, const tune::Trials&
 
 std::vector<std::string> learnt_keys() {
   std::vector<std::string> keys;
-  for (const ParameterInfo& info : describe(preset("default"))) {
+  for (const ParameterInfo& info : describe(Parameters{})) {
     if (info.learnt) keys.push_back(info.key);
   }
   return keys;

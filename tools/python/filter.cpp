@@ -16,12 +16,12 @@
 namespace lcs::python {
 namespace {
 
-Filter of_scenario(const Scenario& scenario) {
+AnyFilter of_scenario(const Scenario& scenario) {
   return {bench::intrinsics(scenario.camera.pinhole), bench::filter_parameters(scenario.full)};
 }
 
 /// As a scenario with these settings has it.
-Filter of_camera(const Camera& camera, const std::string& preset, const py::object& set) {
+AnyFilter of_camera(const Camera& camera, const std::string& preset, const py::object& set) {
   scenario::Scenario settings;
   settings.filter_preset = preset;
   settings.filter_preset_source = {"preset", 0};
@@ -30,12 +30,10 @@ Filter of_camera(const Camera& camera, const std::string& preset, const py::obje
     settings.filter.push_back(
         {assignment.substr(0, equals), assignment.substr(equals + 1), {"set " + assignment, 0}});
   }
-  const Parameters parameters = bench::filter_parameters(settings);
-  warn(bench::idle_settings(settings));
-  return {bench::intrinsics(camera.pinhole), parameters};
+  return {bench::intrinsics(camera.pinhole), bench::filter_parameters(settings)};
 }
 
-std::shared_ptr<Result> step(Filter& filter, const py::object& corners, const EgoMotion& motion,
+std::shared_ptr<Result> step(AnyFilter& filter, const py::object& corners, const EgoMotion& motion,
                              const py::object& signatures) {
   const std::vector<Eigen::Vector2f> corners_px = points_of(corners, "corners");
   auto result = std::make_shared<Result>();
@@ -152,7 +150,7 @@ void bind_result(py::module_& module) {
 
 void bind_filter(py::module_& module) {
   bind_result(module);
-  class_of<Filter>(
+  class_of<AnyFilter>(
       module, "Filter",
       "The Line-Circle-Square filter. The same corners, signatures and motions give the same bits.")
       .def(py::init(&of_scenario), py::arg("scenario"),
@@ -161,7 +159,7 @@ void bind_filter(py::module_& module) {
           py::init(&of_camera), py::arg("camera"), py::arg("preset") = "default", py::kw_only(),
           py::arg("set") = py::none(),
           "preset: default, lab or cars. set: parameters on top of it, by the keys of\n"
-          "filter/parameters.h: {\"circle.mu_0\": 25}; angles in degrees.\n"
+          "filter/parameters.h: {\"circle.gap\": 0.3}; angles in degrees.\n"
           "Raises Error for what is no preset, key or value, ValueError for a camera that is none.")
       .def("step", &step, py::arg("corners"), py::arg("motion"), py::arg("signatures") = py::none(),
            "The next frame.\n\n"
@@ -171,7 +169,7 @@ void bind_filter(py::module_& module) {
            "the frame had\n"
            "not been given. Bad numbers never raise: they are left out, see diagnostics.")
       .def_property_readonly(
-          "diagnostics", [](const Filter& f) { return f.diagnostics().lines(); },
+          "diagnostics", [](const AnyFilter& f) { return f.diagnostics().lines(); },
           "What was wrong with the data so far, a line for each kind.");
 }
 

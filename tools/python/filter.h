@@ -4,7 +4,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "filter/filter.h"
+#include "filter/paper/any_filter.h"
 
 namespace lcs::python {
 

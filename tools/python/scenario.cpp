@@ -38,7 +38,7 @@ std::shared_ptr<Scenario> made_of(scenario::Scenario asked) {
   }
   made->asked = std::move(asked);
   warn(scenario::shadowed_files(made->full));
-  warn(bench::idle_settings(made->full));
+  bench::filter_parameters(made->full);  // is checked here
   return made;
 }
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "filter/ego_motion/ego_motion.h"
 #include "filter/kinematics/camera.h"
+#include "filter/kinematics/ego_motion.h"
 #include "filter/layers.h"
 #include "filter/reason.h"
 #include "filter/signature.h"

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "filter/ego_motion/ego_motion.h"
+#include "filter/kinematics/ego_motion.h"
 #include "filter/layers.h"
 #include "filter/reason.h"
 #include "sim/truth.h"
@@ -59,6 +59,8 @@ template <class T>
 struct Form {
   T& value;
 };
+template <class T>
+Form(T&) -> Form<T>;  // clang before 17 deduces no aggregate's argument by itself
 
 /// A corner with its verdict and the rule that settled it, as `layers.jsonl` has them.
 struct CornerRow {

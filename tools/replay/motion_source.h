@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "filter/ego_motion/ego_motion.h"
+#include "filter/ego_motion/estimator.h"
 #include "scenarios/scenario.h"
 #include "sim/simulation.h"
 #include "tools/bench/ego_motion_feed.h"

@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "filter/ego_motion/ego_motion.h"
+#include "filter/ego_motion/intake.h"
 
 namespace lcs::replay {
 

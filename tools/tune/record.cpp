@@ -35,13 +35,13 @@ std::string preset_text(const Found& found, const Circumstances& circumstances) 
       "#include <array>\n"
       "#include <utility>\n\n"
       "namespace lcs {{\n\n"
-      "/// Keys and values as `set` takes them.\n"
-      "inline constexpr std::array<std::pair<const char*, const char*>, {}> kLearnt{{{{\n",
+      "/// Keys as `set` takes them, and values.\n"
+      "inline constexpr std::array<std::pair<const char*, double>, {}> kLearnt{{{{\n",
       kPresetSign, line_of(circumstances.command), circumstances.date, circumstances.program,
       found.evaluations, found.worth_before.objective(), found.worth_after.objective(),
       found.after.size());
   for (const Setting& setting : found.after) {
-    text += fmt::format("    {{\"{}\", \"{}\"}},\n", setting.key, setting.value);
+    text += fmt::format("    {{\"{}\", {}}},\n", setting.key, setting.value);
   }
   return text + "}};\n\n}  // namespace lcs\n";
 }

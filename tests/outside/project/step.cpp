@@ -14,7 +14,7 @@ int main() {
   lcs::EgoMotion motion;
   motion.dt_s = 0.1;
   motion.v_C_mps = {0, 0, 0.5};
-  lcs::Filter filter(camera, lcs::preset("default"));
+  lcs::Filter filter(camera);
   std::size_t found = 0, false_rebels = 0;
   for (int k = 0; k < 10; ++k) {
     std::vector<Eigen::Vector2f> corners_px;

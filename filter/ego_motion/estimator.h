@@ -1,6 +1,5 @@
 /// \file
-/// How the camera moved between two frames, and the strapdown integration that finds it from an
-/// IMU.
+/// The camera's motion between two frames, estimated from an IMU and wheel odometry.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,40 +10,9 @@
 
 #include "filter/diagnostics.h"
 #include "filter/ego_motion/imu_watch.h"
+#include "filter/kinematics/ego_motion.h"
 
 namespace lcs {
-
-/// Between two frames; of what was known a longer time ago nothing is of use.
-inline constexpr double kLongestStep_s = 60;
-
-/// Nothing that drives is faster: larger numbers are those of something broken.
-inline constexpr double kMostSpeed_mps = 1000;
-
-/// The plane that the rover stands on, seen from the camera of frame k.
-struct Ground {
-  Eigen::Vector3d up_C = -Eigen::Vector3d::UnitY();  ///< its unit normal, against gravity
-  double height_m = 0;                               ///< of the camera above it, > 0
-};
-
-/// Motion of the camera from frame k-1 to frame k.
-struct EgoMotion {
-  double dt_s = 0;  ///< t_f; 0 in the first frame
-  /// Takes camera coordinates of frame k-1 to those of frame k (rotation part).
-  Eigen::Matrix3d R_cur_prev = Eigen::Matrix3d::Identity();
-  /// Mean velocity of the camera over the interval, in the camera frame of k.
-  Eigen::Vector3d v_C_mps = Eigen::Vector3d::Zero();
-  /// Mean body rate of the camera over the interval, in the camera frame: R_cur_prev = exp(-[w]
-  /// dt).
-  Eigen::Vector3d w_C_radps = Eigen::Vector3d::Zero();
-  /// Standard deviation of the rotation's error, about any axis, because readings of the gyro are
-  /// missing; 0 where none are.
-  double unseen_turn_rad = 0;
-  /// Standard deviation of the velocity's error, along any axis, as the estimator has it: it grows
-  /// while the IMU is integrated without odometry. 0 where it is not known.
-  double velocity_sigma_mps = 0;
-  /// At frame k; none where the camera's mounting is not known.
-  std::optional<Ground> ground;
-};
 
 /// Standard deviation of a turn, about any axis, where for so long no gyro tells of it.
 double unseen_turn_rad(double dt_s);

@@ -1,0 +1,124 @@
+#include "filter/circles/circle_expert.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "filter/circles/mean_circle.h"
+#include "filter/kinematics/geometry.h"
+#include "filter/matching/refill.h"
+
+namespace lcs {
+
+void CircleExpert::forget() {
+  result_ = {};
+  members_ = {};
+}
+
+/// Whether a group lies along a line.
+bool CircleExpert::is_line(const std::vector<Edge>& edges, std::span<const int> group) const {
+  Vec2 mean = Vec2::Zero();
+  for (const int i : group) mean += edges[i].location;
+  mean /= static_cast<double>(group.size());
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  for (const int i : group) {
+    const Vec2 off = edges[i].location - mean;
+    scatter += off * off.transpose();
+  }
+  // Across the line their deviation is the root of the lesser eigenvalue, t - sqrt(t^2 - det).
+  const double t = 0.5 * scatter.trace();
+  const double least = t - std::sqrt(std::max(0.0, t * t - scatter.determinant()));
+  return least < parameters_.min_width * parameters_.min_width * static_cast<double>(group.size());
+}
+
+/// Assigns groups to the circles of the frame before, those that share most edges first.
+void CircleExpert::match(const std::vector<Edge>& edges, std::size_t circles,
+                         const std::vector<Member>& before) {
+  shares_.clear();
+  make_room(shares_, edges.size());
+  for (std::size_t g = 0; g < found_.size(); ++g) {
+    for (const int i : groups_.edges(found_[g])) {
+      const auto was = std::lower_bound(before.begin(), before.end(), edges[i].id,
+                                        [](const Member& m, Id id) { return m.edge < id; });
+      if (was == before.end() || was->edge != edges[i].id) continue;
+      shares_.push_back({1, was->circle, g});
+    }
+  }
+  const auto place = [](const Share& s) { return std::tuple(s.circle, s.group); };
+  std::sort(shares_.begin(), shares_.end(),
+            [&](const Share& a, const Share& b) { return place(a) < place(b); });
+  std::size_t last = 0;
+  for (std::size_t s = 1; s < shares_.size(); ++s) {
+    if (place(shares_[s]) == place(shares_[last])) {
+      ++shares_[last].edges;
+    } else {
+      shares_[++last] = shares_[s];
+    }
+  }
+  if (!shares_.empty()) shares_.resize(last + 1);
+  std::sort(shares_.begin(), shares_.end(), [](const Share& a, const Share& b) {
+    return std::tuple(-a.edges, a.circle, a.group) < std::tuple(-b.edges, b.circle, b.group);
+  });
+  refill(circle_of_group_, found_.size(), -1);
+  refill(group_of_circle_, circles, -1);
+  for (const Share& share : shares_) {
+    if (circle_of_group_[share.group] >= 0 || group_of_circle_[share.circle] >= 0) continue;
+    circle_of_group_[share.group] = share.circle;
+    group_of_circle_[share.circle] = static_cast<int>(share.group);
+  }
+}
+
+/// Groups the edges of one kind. A circle of the frame before that no group continues is gone.
+void CircleExpert::regroup(const std::vector<Edge>& edges, const MotionField& field,
+                           std::vector<Circle>& circles, std::vector<int>& of_edges,
+                           std::vector<Member>& members) {
+  const TrustRanks& ranks = parameters_.trust;
+  found_.clear();
+  make_room(found_, edges.size());
+  for (const MotionGroups::Group& group : groups_.group(edges, field)) {
+    if (group.ground || group.count < static_cast<std::size_t>(parameters_.min_members)) continue;
+    if (!is_line(edges, groups_.edges(group))) found_.push_back(group);
+  }
+  match(edges, circles.size(), members);
+
+  refill(of_edges, edges.size(), -1);
+  next_.clear();
+  make_room(next_, found_.size());
+  const auto add = [&](std::size_t g, Id id, int trust, int age) {
+    const auto of_group = groups_.edges(found_[g]);
+    for (const int i : of_group) of_edges[i] = static_cast<int>(next_.size());
+    Circle circle = mean_circle(edges, of_group, field);
+    circle.id = id;
+    circle.trust = trust;
+    circle.age = age;
+    next_.push_back(circle);
+  };
+  for (std::size_t c = 0; c < circles.size(); ++c) {
+    const Circle& circle = circles[c];
+    const int g = group_of_circle_[c];
+    if (g < 0) continue;
+    add(static_cast<std::size_t>(g), circle.id, ranks.raised(circle.trust), circle.age + 1);
+  }
+  for (std::size_t g = 0; g < found_.size(); ++g) {
+    if (circle_of_group_[g] >= 0) continue;
+    const bool rebel = edges[groups_.edges(found_[g]).front()].rebel;
+    add(g, next_id_++, rebel ? ranks.initial_rebel() : ranks.initial_normal(), 0);
+  }
+  copy_over(next_, circles);
+  members.clear();
+  make_room(members, edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (of_edges[i] >= 0) members.push_back({edges[i].id, of_edges[i]});
+  }
+}
+
+const CircleExpert::Result& CircleExpert::step(const BothKinds<Edge>& edges,
+                                               const MotionField& field) {
+  auto& [circles, of_edges] = result_;
+  regroup(edges.normal, field, circles.normal, of_edges.normal, members_.normal);
+  regroup(edges.rebel, field, circles.rebel, of_edges.rebel, members_.rebel);
+  return result_;
+}
+
+}  // namespace lcs

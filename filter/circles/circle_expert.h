@@ -1,0 +1,67 @@
+/// \file
+/// Circle expert, second part: edges of like motion become circles. Each circle is one group of
+/// `MotionGroups`, and keeps its id while it shares most edges with its group of the frame before.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "filter/circles/circle_parameters.h"
+#include "filter/circles/motion_groups.h"
+#include "filter/kinematics/motion_field.h"
+#include "filter/layers.h"
+
+namespace lcs {
+
+class CircleExpert {
+ public:
+  CircleExpert(const Intrinsics& camera, const CircleParameters& parameters,
+               const EdgeParameters& edges)
+      : parameters_(parameters), groups_(camera, parameters, edges) {}
+
+  struct Result {
+    BothKinds<Circle> circles;
+    BothKinds<int> of_edges;  ///< index of each edge's circle among its kind, -1: in no circle
+  };
+
+  /// Groups the edges of both kinds, and carries ids, trust and age over from the frame before.
+  /// \return valid until the next call.
+  const Result& step(const BothKinds<Edge>& edges, const MotionField& field);
+
+  /// Drops all circles.
+  void forget();
+
+ private:
+  /// An edge of a circle of the frame before.
+  struct Member {
+    Id edge;
+    int circle;
+  };
+
+  /// How many edges a group shares with a circle of the frame before.
+  struct Share {
+    int edges, circle;
+    std::size_t group;
+  };
+
+  bool is_line(const std::vector<Edge>& edges, std::span<const int> group) const;
+  void match(const std::vector<Edge>& edges, std::size_t circles,
+             const std::vector<Member>& before);
+  void regroup(const std::vector<Edge>& edges, const MotionField& field,
+               std::vector<Circle>& circles, std::vector<int>& of_edges,
+               std::vector<Member>& members);
+
+  CircleParameters parameters_;
+  MotionGroups groups_;
+  Id next_id_ = 1;
+  Result result_;
+  BothKinds<Member> members_;  // of the last frame, by rising edge
+
+  // Of the current frame; kept for their memory.
+  std::vector<MotionGroups::Group> found_;
+  std::vector<Share> shares_;
+  std::vector<int> circle_of_group_, group_of_circle_;
+  std::vector<Circle> next_;
+};
+
+}  // namespace lcs

@@ -1,0 +1,40 @@
+/// \file
+/// Parameters of the edges (keys `hypotheses.*`). MODEL.md defines each by its formula.
+#pragma once
+
+#include <algorithm>
+
+#include "filter/learnt_value.h"
+
+namespace lcs {
+
+struct EdgeParameters {
+  /// px: least standard deviation of a corner's place on each axis (whole pixels, FAST). The filter
+  /// estimates the excess over it.
+  double noise_px = learnt("hypotheses.noise");
+  double prior = learnt("hypotheses.prior");  ///< share of corners that move
+  /// Log odds of "moves" that a new corner starts with, above the prior: FAST finds movers' corners
+  /// again less often.
+  double newcomer = learnt("hypotheses.newcomer");
+  /// 1/s: rate at which a corner changes its kind, a track jumps to another corner, or a mover
+  /// changes its image velocity by as much as that velocity.
+  double turnover_ps = learnt("hypotheses.turnover");
+  /// The probability of such a change within a frame.
+  double turnover(double dt_s) const { return std::min(0.5, turnover_ps * dt_s); }
+  /// Standard deviation of the camera's velocity, as a share of its speed.
+  double ego_share = learnt("hypotheses.ego_share");
+  double max_speed_pxps = 900;  ///< px/s: the fastest mover that is searched for, rotation removed
+  int coast = 3;                ///< frames that a track without a corner lives on
+  /// Differing bits of two signatures that are as likely of one place as of two. Corners whose
+  /// signatures differ more are never paired.
+  double bits_even = learnt("hypotheses.bits_even");
+  double bits_weight = learnt("hypotheses.bits_weight");  ///< log odds for each bit less
+  /// Standard deviation between the steps of neighbours on one body, as a share of the step.
+  double step_share = learnt("hypotheses.step_share");
+  /// px: distance at which a neighbour's weight has fallen to 0.6.
+  double neighbour_reach_px = learnt("hypotheses.neighbour_reach");
+  double coupling = learnt("hypotheses.coupling");  ///< J: the most log odds that neighbours add
+  int neighbours = 9;                               ///< nearest corners that are asked
+};
+
+}  // namespace lcs

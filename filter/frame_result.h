@@ -1,0 +1,26 @@
+/// \file
+/// What a filter says of one frame.
+#pragma once
+
+#include <vector>
+
+#include "filter/layers.h"
+#include "filter/reason.h"
+
+namespace lcs {
+
+/// Wall time of each expert in a frame. For reports only: no filter reads it.
+struct StageTimes {
+  double line_ms = 0;
+  double circle_ms = 0;
+  double square_ms = 0;
+};
+
+struct FrameResult {
+  Layers layers;
+  std::vector<Verdict> verdicts;  ///< one for each corner, in the caller's order
+  std::vector<Reason> reasons;    ///< of each verdict; empty from a detector without reasons
+  StageTimes times;
+};
+
+}  // namespace lcs

@@ -1,0 +1,36 @@
+/// \file
+/// The camera's motion between two frames, as the filter takes it.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+namespace lcs {
+
+/// The plane that the vehicle stands on, seen from the camera of frame k.
+struct Ground {
+  Eigen::Vector3d up_C = -Eigen::Vector3d::UnitY();  ///< unit normal, against gravity
+  double height_m = 0;                               ///< of the camera above the plane, > 0
+};
+
+/// Motion of the camera from frame k-1 to frame k.
+struct EgoMotion {
+  double dt_s = 0;  ///< t_f; 0 in the first frame
+  /// Takes camera coordinates of frame k-1 to those of frame k (rotation part).
+  Eigen::Matrix3d R_cur_prev = Eigen::Matrix3d::Identity();
+  /// Mean velocity of the camera over the interval, in the camera frame of k.
+  Eigen::Vector3d v_C_mps = Eigen::Vector3d::Zero();
+  /// Mean body rate of the camera over the interval, in the camera frame:
+  /// R_cur_prev = exp(-[w] dt).
+  Eigen::Vector3d w_C_radps = Eigen::Vector3d::Zero();
+  /// Standard deviation of the rotation about any axis that missing gyro readings cause; 0 where
+  /// no reading is missing.
+  double unseen_turn_rad = 0;
+  /// Standard deviation of the velocity along any axis, by the estimator: it grows while the IMU
+  /// is integrated without odometry. 0 where unknown.
+  double velocity_sigma_mps = 0;
+  /// At frame k; absent where the camera's mounting is unknown.
+  std::optional<Ground> ground;
+};
+
+}  // namespace lcs

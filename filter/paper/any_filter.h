@@ -1,0 +1,42 @@
+/// \file
+/// A filter by the name of its preset: `default`, or the paper's `lab` and `cars`.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "filter/paper/paper_filter.h"
+
+namespace lcs {
+
+using AnyParameters = std::variant<Parameters, paper::PaperParameters>;
+
+std::vector<std::string> preset_names();
+/// \throws std::invalid_argument naming the known presets.
+AnyParameters preset(std::string_view name);
+
+/// As those of `lcs::Parameters`.
+///@{
+void set(AnyParameters& parameters, std::string_view key, std::string_view value);
+void validate(const AnyParameters& parameters);
+std::vector<ParameterInfo> describe(const AnyParameters& parameters);
+const FieldParameters& field_of(const AnyParameters& parameters);
+///@}
+
+/// As `lcs::Filter`.
+class AnyFilter {
+ public:
+  AnyFilter(const Intrinsics& camera, const AnyParameters& parameters);
+
+  const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,
+                          std::span<const Signature> signatures, const EgoMotion& motion);
+  const FrameResult& step(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& motion);
+  const Diagnostics& diagnostics() const;
+
+ private:
+  std::variant<Filter, paper::PaperFilter> filter_;
+};
+
+}  // namespace lcs

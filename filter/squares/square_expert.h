@@ -1,0 +1,47 @@
+/// \file
+/// Square expert: each circle of an object's size becomes a square.
+#pragma once
+
+#include <vector>
+
+#include "filter/circles/circle_expert.h"
+#include "filter/kinematics/motion_field.h"
+#include "filter/layers.h"
+#include "filter/squares/convex_hull.h"
+
+namespace lcs {
+
+struct SquareParameters {
+  double max_size = 5;  ///< m: a larger static body, by its depth, is background and no object
+};
+
+class SquareExpert {
+ public:
+  SquareExpert(const Intrinsics& camera, const SquareParameters& parameters)
+      : camera_(camera), parameters_(parameters) {}
+
+  /// The squares of the circles of both kinds, each with its circle's id, trust and age.
+  /// \return valid until the next call.
+  const std::vector<Square>& step(const BothKinds<Edge>& edges, const CircleExpert::Result& circles,
+                                  const MotionField& field);
+
+ private:
+  /// Of an edge of a circle, which is given by its index.
+  struct Place {
+    int circle;
+    Vec2 location;
+  };
+
+  void gather(const std::vector<Edge>& edges, const std::vector<int>& circle_of_edge);
+  void box(const std::vector<Circle>& circles, const MotionField& field);
+
+  Intrinsics camera_;
+  SquareParameters parameters_;
+  std::vector<Square> squares_;
+
+  // Of the current frame; kept for their memory.
+  std::vector<Place> places_;
+  ConvexHull hull_;
+};
+
+}  // namespace lcs
