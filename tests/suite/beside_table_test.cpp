@@ -45,8 +45,9 @@ TEST(StandingTable, HasARowForEachDetectorOverWhatItHas) {
   SuiteResult other = suite_by("klt", {scenario("near", {0.6, 0.7}, 3)});
   other.scenarios[0].runs[0].metrics.emplace_back("time.process_ms_median", 7);
   const std::string head =
-      "| detector | F1 | recall | boxes of movers | false objects per 100 frames | ms a frame | ms "
-      "as a process |\n|---|---|---|---|---|---|---|\n";
+      "| detector | F1 | recall | boxed movers | false (per 100 frames) | filter (ms) | process "
+      "(ms) "
+      "|\n|---|---|---|---|---|---|---|\n";
   const std::vector<SuiteResult> others{other};
   EXPECT_EQ(standing_table(suite, others), head +
                                                "| `lcs` | 0.650 | - | - | - | 1.5 | - |\n"
@@ -109,7 +110,7 @@ TEST(BesideTable, OfWorldsHasTheIntervalOfEachMeanAndOfThePairedDifferenceByFami
             "= room (1)                         +0.100\n"
             "= yard (2)                         +0.250±.635\n"
             "= mean (3)                         +0.200±.248\n"
-            "false per 100 frames     lcs          klt\n"
+            "false (per 100 frames)   lcs          klt\n"
             "= static (2)             4.0±13      20.0\n"
             "= mean (5)               5.8±2.8     11.0±10\n"
             "±: 95 % interval of the mean over worlds; ahead: by world, and then the mean\n"

@@ -29,7 +29,7 @@ struct CriterionResult {
   std::optional<double> value;  ///< none: undefined, which meets no bound
   bool required = true;
   bool met = false;
-  std::string message;  ///< as `bench::FailedCriterion`; empty where met
+  std::string message;  ///< as `bench::JudgedCriterion`; empty where met
 };
 
 struct RunResult {

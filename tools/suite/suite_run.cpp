@@ -193,8 +193,8 @@ void judge_run(const std::vector<scenario::Criterion>& criteria, RunResult& run)
   for (std::size_t i = 0; i < judged.size(); ++i) {
     const scenario::Criterion& criterion = criteria[i];
     run.criteria.push_back({criterion.metric, criterion.min, criterion.max, judged[i].figure,
-                            criterion.required, judged[i].met, judged[i].message});
-    if (criterion.required && !judged[i].met) run.outcome = Outcome::failed;
+                            judged[i].required, judged[i].met, judged[i].message});
+    if (judged[i].required && !judged[i].met) run.outcome = Outcome::failed;
   }
 }
 
