@@ -39,7 +39,7 @@ TEST(Criteria, ThoseThatAreMetAreJudgedToo) {
       judge({criterion("rebel.f1", 0.4, {}), criterion("rebel.f1", 0.6, {})}, kMetrics);
   ASSERT_EQ(judged.size(), 2u);
   EXPECT_TRUE(judged[0].met);
-  EXPECT_EQ(judged[0].figure, 0.5);
+  EXPECT_EQ(judged[0].value, 0.5);
   EXPECT_EQ(judged[0].message, "");
   EXPECT_FALSE(judged[1].met);
   EXPECT_NE(judged[1].message, "");

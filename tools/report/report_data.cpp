@@ -110,7 +110,7 @@ Json groups_of(const SuiteResult& suite, const DifferenceOf& differences) {
 
 Json criteria_of(const RunResult& run) {
   Json criteria = Json::array();
-  for (const suite::CriterionResult& criterion : run.criteria) {
+  for (const bench::JudgedCriterion& criterion : run.criteria) {
     criteria.push_back({{"metric", criterion.metric},
                         {"min", json_of(criterion.min)},
                         {"max", json_of(criterion.max)},

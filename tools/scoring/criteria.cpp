@@ -78,15 +78,15 @@ std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& crite
                                    const Metrics& metrics) {
   std::vector<JudgedCriterion> judged;
   for (const scenario::Criterion& criterion : criteria) {
-    JudgedCriterion& one = judged.emplace_back();
-    one.required = criterion.required;
-    one.figure = value(metrics, criterion.metric);
-    one.met = is_met(criterion, one.figure);
-    if (one.met) continue;
+    const std::optional<double> figure = value(metrics, criterion.metric);
+    const bool met = is_met(criterion, figure);
+    JudgedCriterion& one = judged.emplace_back(JudgedCriterion{
+        criterion.metric, criterion.min, criterion.max, figure, criterion.required, met, ""});
+    if (met) continue;
     const std::string of = criterion.detector.empty() ? "" : " of " + criterion.detector;
-    one.message = fmt::format(
-        "{}: {}{} is {}, must be {}", place(criterion.source), criterion.metric, of,
-        one.figure ? fmt::format("{:.4g}", *one.figure) : "undefined", bounds(criterion));
+    one.message =
+        fmt::format("{}: {}{} is {}, must be {}", place(criterion.source), criterion.metric, of,
+                    figure ? fmt::format("{:.4g}", *figure) : "undefined", bounds(criterion));
   }
   return judged;
 }

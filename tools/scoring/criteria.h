@@ -27,8 +27,10 @@ std::vector<std::string> not_asked(const std::vector<scenario::Criterion>& crite
                                    const std::set<std::string>& detectors);
 
 struct JudgedCriterion {
+  std::string metric;
+  std::optional<double> min, max;
+  std::optional<double> value;  ///< undefined meets no bound
   bool required = true;
-  std::optional<double> figure;  ///< undefined meets no bound
   bool met = false;
   std::string message;  ///< of a failure, as "crossing.yaml:31: rebel.f1 is 0.41, must be at least
                         ///< 0.6"; empty where met

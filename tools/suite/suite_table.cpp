@@ -202,7 +202,7 @@ std::vector<std::string> problems(const SuiteResult& suite) {
     std::vector<Repeated> run_errors;
     for (const RunResult& run : scenario.runs) {
       if (run.outcome == Outcome::error) add(run_errors, run.error, run.error, run.seed);
-      for (const CriterionResult& criterion : run.criteria) {
+      for (const bench::JudgedCriterion& criterion : run.criteria) {
         if (criterion.met) continue;
         failures.push_back(fmt::format("{}: {} seed {}: {}",
                                        criterion.required ? "failed" : "missed (not required)",
