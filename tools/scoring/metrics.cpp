@@ -91,8 +91,8 @@ std::vector<Metric> rebel_metrics() {
        "false rebels. For static scenes, where precision is 0 or undefined"},
       {"rebel.object_recall", [](auto& s) { return ratio(s.objects.found, s.objects.objects); },
        kShare, "found",
-       "share of the movers that are found: 3 or more of its corners are rebels in a frame from k0 "
-       "on. Of movers with rebel corners in at least N frames"},
+       "share of the movers that are found. A mover is found if 3 or more of its corners are "
+       "rebels in a frame from k0 on. Of movers with rebel corners in at least N frames"},
       {"rebel.latency_frames_median", [](auto& s) { return median(s.objects.latencies); },
        lower("frames", 0.4, 1), "latency",  // the median of an even number has halves
        "frames from k0 of a mover until it is found. Median over those found: 2 or more by the "
@@ -102,20 +102,20 @@ std::vector<Metric> rebel_metrics() {
          return ratio_of_circles(s, 100.0 * s.objects.false_circles, s.objects.frames);
        },
        lower("per 100 frames", 1, 1), "false",
-       "rebel circles with no mover under them: no corner of one in the disc, no box round the "
-       "centre"},
+       "rebel circles with no mover under them. There is no corner of one in the disc, no box "
+       "round the centre"},
       {"rebel.circle_recall",
        [](auto& s) { return ratio_of_circles(s, s.objects.circled, s.objects.seen); }, kShare, "",
        "share of the movers with 3 or more rebel corners that have the centre of a rebel circle in "
        "their box. Falls where a detector gives fewer circles to avoid false objects"},
       {"truth.rebel_corners", [](auto& s) { return counted_rebels(s.corners.overall); }, kCount, "",
-       "corners that recall is taken over"},
+       "rebel corners that recall counts"},
       {"truth.radial_corners", [](auto& s) { return counted_rebels(s.corners.radial); }, kCount, "",
-       "radial ones among them"},
+       "radial corners that recall counts"},
       {"truth.fixed_corners", [](auto& s) { return s.corners.fixed_corners; }, kCount, "",
        "corners labelled fixed"},
       {"truth.rebel_objects", [](auto& s) { return s.objects.objects; }, kCount, "movers",
-       "movers that rebel.object_recall is taken over"},
+       "movers that rebel.object_recall counts"},
   };
 }
 
@@ -213,8 +213,8 @@ std::vector<Metric> label_metrics() {
       {"labels.circles_off_per_100_frames",
        [](auto& s) { return ratio_of_circles(s, 100.0 * s.labels.circles_off, s.labels.frames); },
        lower("per 100 frames", 1, 1), "circles off",
-       "rebel circles with no labelled box under them: no corner in a box in the disc, no box "
-       "round the centre"},
+       "rebel circles with no labelled box under them. There is no corner in a box in the disc, no "
+       "box round the centre"},
   };
 }
 
@@ -338,7 +338,7 @@ std::vector<Metric> time_metrics() {
   }
   all.push_back(
       {"sim.frames_per_second", frames_per_second, neutral("frames/s", 1), "",
-       "of simulate, detect, describe, filter or process, and truth. Without writing files"});
+       "speed of simulate, detect, describe, filter or process, and truth. Without writing files"});
   return all;
 }
 

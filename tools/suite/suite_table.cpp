@@ -69,7 +69,7 @@ class TableText {
       const std::size_t rest =
           cell_width(column, with_spreads_) - column.width - (with_spreads_ ? kSpreadWidth : 0);
       const std::optional<Spread> spread = spread_of(column.metric.key);
-      text_ += fmt::format(" {:{}}", "", with_spreads_ ? 0 : rest);
+      text_ += fmt::format(" {:{}}", "", rest);
       text_ += spread ? fmt::format("{:>{}.{}f}", spread->mean, column.width,
                                     column.metric.scale.decimals)
                       : fmt::format("{:>{}}", "-", column.width);
