@@ -34,7 +34,7 @@ RunResult run_with(std::uint64_t seed, double f1) {
   run.seed = seed;
   run.outcome = f1 >= 0.5 ? Outcome::passed : Outcome::failed;
   run.metrics = {{"rebel.f1", f1}, {"rebel.recall", std::nullopt}};
-  suite::CriterionResult& criterion = run.criteria.emplace_back();
+  bench::JudgedCriterion& criterion = run.criteria.emplace_back();
   criterion.metric = "rebel.f1";
   criterion.min = 0.5;
   criterion.value = f1;

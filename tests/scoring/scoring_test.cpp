@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <functional>
-#include <regex>
 
 #include "tests/tools/recordings.h"
 
@@ -38,66 +36,6 @@ Recording frames(int count, const std::function<void(FrameMaker&)>& fill) {
 constexpr PixelBox kBox{100, 100, 140, 150};
 
 // ---- All metrics
-
-TEST(Scoring, EveryRecordingHasTheSameMetricsInTheSameOrder) {
-  const Metrics none = score(Recording{});
-  const Metrics some = score(frames(5, [](FrameMaker& frame) {
-    frame.corners(4, Verdict::rebel, Label::rebel, 1).object(1, kBox, true).square(1, kBox);
-  }));
-  ASSERT_EQ(none.size(), some.size());
-  for (std::size_t i = 0; i < none.size(); ++i) EXPECT_EQ(none[i].first, some[i].first);
-}
-
-TEST(Scoring, EveryMetricThatUsersRelyOnExistsOnce) {
-  const Metrics metrics = score(Recording{});
-  for (const char* name : {"frames",
-                           "rebel.precision",
-                           "rebel.recall",
-                           "rebel.f1",
-                           "rebel.f1_distinct",
-                           "rebel.recall_distinct",
-                           "rebel.precision_clear",
-                           "rebel.f1_clear",
-                           "rebel.recall_radial",
-                           "rebel.object_recall",
-                           "rebel.latency_frames_median",
-                           "rebel.false_objects_per_100_frames",
-                           "rebel.circle_recall",
-                           "square.recall_50",
-                           "square.precision_50",
-                           "square.recall_30",
-                           "square.recall_70",
-                           "square.mean_iou",
-                           "dimension.mean",
-                           "dimension.five_frame_mean",
-                           "dimension.eight_frame_mean",
-                           "dimension.accumulative",
-                           "time.detect_ms_median",
-                           "time.describe_ms_median",
-                           "time.line_ms_median",
-                           "time.circle_ms_median",
-                           "time.square_ms_median",
-                           "time.filter_ms_p99",
-                           "truth.rebel_corners",
-                           "truth.objects",
-                           "sim.frames_per_second"}) {
-    EXPECT_EQ(1, std::count_if(metrics.begin(), metrics.end(),
-                               [&](const auto& metric) { return metric.first == name; }))
-        << name;
-  }
-}
-
-TEST(Scoring, EveryMetricIsDefinedInItsDocument) {
-  std::ifstream file(LCS_SCORING_MD);
-  ASSERT_TRUE(file);
-  const std::string document{std::istreambuf_iterator<char>(file), {}};
-  for (const auto& [name, figure] : score(Recording{})) {
-    // Times are defined once for all stages.
-    const std::string written =
-        std::regex_replace(name, std::regex("^time\\.[a-z]+_(ms|over)"), "time.<stage>_$1");
-    EXPECT_NE(document.find('`' + written + '`'), std::string::npos) << name;
-  }
-}
 
 TEST(Scoring, WithoutFramesOnlyCountsAreDefined) {
   for (const auto& [name, figure] : score(Recording{})) {

@@ -111,8 +111,9 @@ TEST(Compare, TheSizeBesideAStoreIsJudgedAsAnyOtherFigure) {
     for (RunResult& run : scenario.runs) run.metrics.push_back({"dimension.five_frame_mean", 100});
     return suite_with({scenario});
   };
-  const Comparison comparison = compare(with_size(20), with_size(30),
-                                        [](std::string_view name) { return name == kSizeShare; });
+  const Comparison comparison = compare(with_size(20), with_size(30), [](std::string_view name) {
+    return name == bench::kSizeShare;
+  });
   ASSERT_EQ(comparison.differences.size(), 1u);
   EXPECT_EQ(comparison.differences[0].verdict, Change::regressed);
   EXPECT_DOUBLE_EQ(comparison.differences[0].after, 0.3);

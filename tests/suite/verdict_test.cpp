@@ -17,7 +17,7 @@ Verdict verdict_against(const SuiteInFolder& after, const SuiteInFolder& before)
   return verdict_of(after, &before, &comparison);
 }
 
-CriterionResult criterion(bool met, bool required = true) {
+bench::JudgedCriterion criterion(bool met, bool required = true) {
   return {.metric = "rebel.f1",
           .min = 0.5,
           .max = {},

@@ -31,6 +31,7 @@
 #include "tools/replay/playback.h"
 #include "tools/report/report_page.h"
 #include "tools/scoring/criteria.h"
+#include "tools/scoring/metrics.h"
 #include "tools/suite/suite_run.h"
 
 namespace lcs::tools {
@@ -85,8 +86,9 @@ void print_result(const scenario::Scenario& scenario, const std::string& detecto
   const std::string what =
       playback ? fmt::format("{:.0f} pictures, {} skipped", frames, playback->skipped())
                : fmt::format("{:.0f} frames, seed {}", frames, scenario.seed);
-  print_out("{}{}: {}, {:.1f} frames/s\n", scenario.name, by, what,
-            bench::value(metrics, "sim.frames_per_second").value_or(0));
+  const bench::Metric& speed = bench::metric("sim.frames_per_second");
+  print_out("{}{}: {}, {} {}\n", scenario.name, by, what,
+            speed.number(bench::value(metrics, speed.key).value_or(0)), speed.scale.unit);
   print_out("{}  files    {}\n", bench::table(metrics), folder.string());
 }
 
@@ -231,15 +233,15 @@ void write_page(const RunOptions& options, const scenario::Scenario& scenario, c
   report::write_run_report(folder / report::kReportFile, {suite, folder});
 }
 
-/// One line each, on stderr. \return whether a required one is among them.
-bool report_failures(const std::vector<bench::FailedCriterion>& failures) {
-  bool required = false;
-  for (const bench::FailedCriterion& failure : failures) {
-    tell(fmt::format("{}: {}", failure.required ? "failed" : "missed (not required)",
-                     failure.message));
-    required |= failure.required;
+/// Prints a line for each missed criterion on stderr. \return whether a required one is missed.
+bool report_missed(const std::vector<bench::JudgedCriterion>& criteria) {
+  bool failed = false;
+  for (const bench::JudgedCriterion& one : criteria) {
+    if (one.met) continue;
+    tell(fmt::format("{}: {}", one.required ? "failed" : "missed (not required)", one.message));
+    failed |= one.required;
   }
-  return required;
+  return failed;
 }
 
 }  // namespace
@@ -379,7 +381,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   bool failed = false;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto asked = bench::asked_of(all[i].wanted.name, i == 0, scenario.criteria);
-    failed |= report_failures(bench::failed_criteria(asked, metrics[i]));
+    failed |= report_missed(bench::judge(asked, metrics[i]));
   }
   if (view) view->hold();
   return failed ? kCriterionFailed : kFine;

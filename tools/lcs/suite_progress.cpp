@@ -8,6 +8,7 @@
 
 #include "scenarios/message.h"
 #include "tools/lcs/terminal.h"
+#include "tools/scoring/metrics.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::tools {
@@ -56,10 +57,12 @@ void SuiteProgress::finished(const suite::SuiteProgress& progress, const std::st
   const suite::RunResult& own = *runs.front();
   std::string figures;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const std::optional<double> f1 = suite::figure_of(*runs[i], "rebel.f1");
+    const bench::Metric& metric = bench::metric("rebel.f1");
+    const std::optional<double> f1 = suite::figure_of(*runs[i], metric.key);
     if (!f1) continue;
     const std::string by = runs.size() > 1 ? detectors[i] + " " : "";
-    figures += fmt::format("{}{}{:.2f}", figures.empty() ? ", F1 " : ", ", by, *f1);
+    const std::string label = figures.empty() ? metric.label + " " : "";
+    figures += fmt::format(", {}{}{}", label, by, metric.number(f1));
   }
   tell(fmt::format("[{}/{}] {} seed {}: {}{}, {:.1f} s", progress.done, progress.total, scenario,
                    own.seed, outcome_text(own), figures, own.wall_s));

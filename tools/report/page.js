@@ -43,24 +43,13 @@ const badge = (outcome) => el('span', { class: 'badge ' + outcome }, OUTCOMES[ou
 
 // ---- The head
 
-const COLUMNS = [
-  ['rebel.f1', 'F1', 'rebel corners: harmonic mean of precision and recall'],
-  ['rebel.precision', 'Precision', 'of the corners called rebels, those that are'],
-  ['rebel.recall', 'Recall', 'of the rebel corners, those that were called so'],
-  ['rebel.f1_distinct', 'F1 distinct', 'F1 without corners that move as nearer static ones would'],
-  ['rebel.f1_clear', 'F1 clear', 'F1 without the fixed corners at the outlines of what moves'],
-  ['rebel.latency_frames_median', 'Latency', 'frames from an object\'s first rebel corner until it is found'],
-  ['rebel.object_recall', 'Objects', 'share of the moving objects that are found'],
-  ['rebel.false_objects_per_100_frames', 'False /100', 'rebel circles without a mover under them, per 100 frames'],
-  ['square.recall_50', 'Square recall', 'at an intersection over union of 0.5'],
-  ['square.precision_50', 'Square prec.', 'at an intersection over union of 0.5'],
-  ['square.mask_mean_iou', 'Mask IoU', 'of outlines and the objects\' masks, pixel by pixel: mean of the squares that are right'],
-  ['size_share', 'Size', 'all layers, as a share of a store of the last five frames\' corners'],
-  ['time.filter_over_fast', 'Time', 'of the detector\'s step, over that of FAST'],
-];
+const COLUMNS = ['rebel.f1', 'rebel.precision', 'rebel.recall', 'rebel.f1_distinct', 'rebel.f1_clear', 'rebel.latency_frames_median',
+  'rebel.object_recall', 'rebel.false_objects_per_100_frames', 'square.recall_50', 'square.precision_50', 'square.mask_mean_iou',
+  'size_share', 'time.filter_over_fast'];
+const F1 = data.metrics['rebel.f1'].label;
 
-/** Those that some scenario has: what was recorded has no times. */
-const SHOWN_COLUMNS = COLUMNS.filter(([name]) => data.scenarios.some((scenario) => scenario.figures[name]));
+/** Columns with a figure of some scenario: recordings have no times. */
+const SHOWN_COLUMNS = COLUMNS.filter((name) => data.scenarios.some((scenario) => scenario.figures[name]));
 
 /** The verdict first; what it is of beneath it. */
 function head() {
@@ -70,7 +59,7 @@ function head() {
     : 'Suite by ' + data.detector + ': ' + count(data.scenarios.length, 'scenario') + ', ' + count(runs.length, 'run');
   const f1 = data.is_run && runs[0].metrics['rebel.f1'];
   document.getElementById('head').append(
-    el('h1', null, (isNumber(f1) ? 'F1 ' + digits(f1) + ', ' : '') + data.verdict),
+    el('h1', null, (isNumber(f1) ? F1 + ' ' + digits(f1) + ', ' : '') + data.verdict),
     el('p', { class: 'quiet' }, what + (hasBaseline ? ', against ' + data.baseline.folder : '') +
       (data.sets.length ? ', with ' + data.sets.join(', ') : ''), data.note ? [el('br'), data.note] : null));
 }
@@ -104,10 +93,11 @@ function worst() {
 }
 
 function headerRow(first, sorting) {
-  return el('thead', null, el('tr', null, ...[[null, first, ''], ...SHOWN_COLUMNS].map(([name, label, title]) =>
-    el('th', { scope: 'col', title: title || null, 'data-metric': name },
-      sorting ? el('button', { type: 'button', onclick: (e) => sorting(e.currentTarget.parentNode) }, label)
-        : label))));
+  return el('thead', null, el('tr', null, ...[null, ...SHOWN_COLUMNS].map((name) => {
+    const { label, title } = data.metrics[name] || { label: first, title: null };
+    return el('th', { scope: 'col', title, 'data-metric': name },
+      sorting ? el('button', { type: 'button', onclick: (e) => sorting(e.currentTarget.parentNode) }, label) : label);
+  })));
 }
 
 function groupTable() {
@@ -117,13 +107,13 @@ function groupTable() {
     el('div', { class: 'scroll' }, el('table', { id: 'groups' }, headerRow('Group'),
       el('tbody', null, ...data.groups.map((group) => el('tr', null,
         el('td', null, group.name + ' ', el('span', { class: 'quiet small' }, String(group.scenarios))),
-        ...SHOWN_COLUMNS.map(([name]) => figureCell(name, group.figures[name]))))))));
+        ...SHOWN_COLUMNS.map((name) => figureCell(name, group.figures[name]))))))));
 }
 
 /** Of a single run. */
 function runTable() {
   return el('div', { class: 'scroll' }, el('table', { id: 'figures' }, headerRow(''), el('tbody', null, el('tr', null,
-    el('td'), ...SHOWN_COLUMNS.map(([name]) => figureCell(name, data.scenarios[0].figures[name]))))));
+    el('td'), ...SHOWN_COLUMNS.map((name) => figureCell(name, data.scenarios[0].figures[name]))))));
 }
 
 // ---- The table of scenarios
@@ -143,7 +133,7 @@ function link(scenario) {
 function scenarioRow(scenario) {
   const row = el('tr', { 'data-scenario': scenario.name },
     el('td', null, link(scenario), scenario.outcome === 'passed' ? null : el('span', null, ' ', badge(scenario.outcome))),
-    ...SHOWN_COLUMNS.map(([name]) => figureCell(name, scenario.figures[name])));
+    ...SHOWN_COLUMNS.map((name) => figureCell(name, scenario.figures[name])));
   row.scenario = scenario;
   return row;
 }
@@ -357,7 +347,7 @@ function allFigures(scenario) {
     el('div', { class: 'scroll' }, el('table', null,
       el('thead', null, el('tr', null, el('th', null, 'Figure'), el('th', null, 'mean'),
         ...scenario.runs.map((run) => el('th', null, 'seed ' + run.seed)))),
-      el('tbody', null, ...names.map((name) => el('tr', null, el('td', null, el('code', null, name)),
+      el('tbody', null, ...names.map((name) => el('tr', null, el('td', { title: data.metrics[name].title }, el('code', null, name)),
         figureCell(name, scenario.figures[name]),
         ...scenario.runs.map((run) => el('td', null, digits(run.metrics[name])))))))));
 }
@@ -404,7 +394,7 @@ function scenarioSection(scenario) {
     if (section.open && !section.querySelector('.body')) section.append(scenarioBody(scenario));
   } }, el('summary', null, el('span', { class: 'name' }, scenario.name),
     el('span', { class: 'quiet' }, scenario.purpose),
-    el('span', { class: 'right' }, f1 ? 'F1 ' + digits(f1.mean) + ' ' : '', badge(scenario.outcome))));
+    el('span', { class: 'right' }, f1 ? F1 + ' ' + digits(f1.mean) + ' ' : '', badge(scenario.outcome))));
   return section;
 }
 
@@ -443,12 +433,12 @@ function sweepPlot(points) {
   const numeric = measures.every((m) => m && m.unit === measures[0].unit);
   const sorted = points.map((scenario, i) => ({ scenario, x: numeric ? measures[i].value : i }))
     .sort((a, b) => a.x - b.x);
-  const series = (name, label, style) => ({ name: label, style,
+  const series = (name, style) => ({ name: data.metrics[name].label, style,
     values: sorted.map((p) => figureOf(p.scenario, name)),
     spread: sorted.map((p) => (p.scenario.figures[name] || {}).spread || 0) });
   return el('div', { class: 'plots' }, plot({ title: 'Over ' + key, x: sorted.map((p) => p.x),
     xName: numeric ? measures[0].unit : 'point', top: 1.05, series: [
-      series('rebel.f1', 'F1', 's1'), series('rebel.recall', 'recall', 's2')] }));
+      series('rebel.f1', 's1'), series('rebel.recall', 's2')] }));
 }
 
 /** Light where nothing is found, deep where all is: readable in black in both themes. */
@@ -462,7 +452,7 @@ function heatMap(points) {
   };
   const columns = valuesOf(1);
   return el('div', { class: 'scroll' }, el('table', { class: 'heat' },
-    el('caption', { class: 'small' }, 'F1 over ' + rowKey + ' (down) and ' + columnKey + ' (across)'),
+    el('caption', { class: 'small' }, F1 + ' over ' + rowKey + ' (down) and ' + columnKey + ' (across)'),
     el('thead', null, el('tr', null, el('th'), ...columns.map((value) => el('th', { scope: 'col' }, value)))),
     el('tbody', null, ...valuesOf(0).map((row) => el('tr', null, el('th', { scope: 'row' }, row),
       ...columns.map((column) => {

@@ -19,7 +19,7 @@
 #include "tools/output/video.h"
 #include "tools/scoring/events.h"
 #include "tools/scoring/figures_file.h"
-#include "tools/suite/metric_traits.h"
+#include "tools/scoring/metrics.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::report {
@@ -47,11 +47,13 @@ Json json_of(std::optional<double> figure) {
 
 // ---- Figures
 
-std::vector<std::string> figure_names() {
-  std::vector<std::string> names;
-  for (const suite::MetricTraits& traits : suite::metric_traits()) names.emplace_back(traits.name);
-  names.emplace_back(suite::kSizeShare);
-  return names;
+/// The words of each metric for the page.
+Json metrics_json() {
+  Json all = Json::object();
+  for (const bench::Metric& metric : bench::metrics()) {
+    all[metric.key] = {{"label", metric.heading()}, {"title", metric.tooltip()}};
+  }
+  return all;
 }
 
 /// The one of a scenario, or a group, and a figure.
@@ -78,12 +80,12 @@ void add_change(Json& figure, const DifferenceOf& differences, const std::string
 
 Json figures_of(const ScenarioResult& scenario, const DifferenceOf& differences) {
   Json figures = Json::object();
-  for (const std::string& name : figure_names()) {
-    const auto now = suite::over_seeds(scenario, name);
+  for (const bench::Metric& metric : bench::metrics()) {
+    const auto now = suite::over_seeds(scenario, metric.key);
     if (!now) continue;
-    Json& figure = figures[name] = {{"mean", now->mean}};
+    Json& figure = figures[metric.key] = {{"mean", now->mean}};
     if (now->count > 1) figure["spread"] = now->half;
-    add_change(figure, differences, scenario.name, name);
+    add_change(figure, differences, scenario.name, metric.key);
   }
   return figures;
 }
@@ -92,11 +94,11 @@ Json groups_of(const SuiteResult& suite, const DifferenceOf& differences) {
   Json groups = Json::array();
   for (const std::string& group : suite::groups_of(suite)) {
     Json figures = Json::object();
-    for (const std::string& name : figure_names()) {
-      const auto now = suite::over_group(suite, group, name);
+    for (const bench::Metric& metric : bench::metrics()) {
+      const auto now = suite::over_group(suite, group, metric.key);
       if (!now) continue;
-      figures[name] = {{"mean", json_of(now)}};
-      add_change(figures[name], differences, group, name);
+      figures[metric.key] = {{"mean", json_of(now)}};
+      add_change(figures[metric.key], differences, group, metric.key);
     }
     groups.push_back(
         {{"name", group}, {"scenarios", suite::count_in(suite, group)}, {"figures", figures}});
@@ -108,7 +110,7 @@ Json groups_of(const SuiteResult& suite, const DifferenceOf& differences) {
 
 Json criteria_of(const RunResult& run) {
   Json criteria = Json::array();
-  for (const suite::CriterionResult& criterion : run.criteria) {
+  for (const bench::JudgedCriterion& criterion : run.criteria) {
     criteria.push_back({{"metric", criterion.metric},
                         {"min", json_of(criterion.min)},
                         {"max", json_of(criterion.max)},
@@ -250,8 +252,9 @@ Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
                {"frames", nullptr},
                {"events", nullptr},
                {"before", nullptr}};
-  for (const std::string& name : figure_names()) {
-    if (const auto figure = suite::figure_of(run, name)) json["metrics"][name] = *figure;
+  for (const bench::Metric& metric : bench::metrics()) {
+    const auto figure = suite::figure_of(run, metric.key);
+    if (figure) json["metrics"][metric.key] = *figure;
   }
   if (run.folder.empty()) return json;
   const fs::path folder = suite.folder / run.folder;
@@ -349,6 +352,7 @@ Json data_of(const SuiteInFolder& suite, const suite::Verdict& verdict, const Ag
                {"recorded", suite.suite.recorded},
                {"baseline", nullptr},
                {"is_run", false},
+               {"metrics", metrics_json()},
                {"groups", groups_of(suite.suite, of_groups)},
                {"scenarios", Json::array()}};
   if (baseline) {

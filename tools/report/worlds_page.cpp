@@ -9,6 +9,7 @@
 
 #include "tools/report/page_writer.h"
 #include "tools/report/report_page.h"
+#include "tools/scoring/metrics.h"
 #include "tools/scoring/statistics.h"
 #include "tools/suite/interval.h"
 #include "tools/suite/summary.h"
@@ -35,19 +36,13 @@ article td, article th { padding: 0.1rem 0.5rem; }
 nav a { margin-right: 0.9em; }
 )";
 
-struct Column {
-  const char* header;
-  std::string_view figure;
-  int decimals;
-};
-constexpr Column kColumns[] = {
-    {"F1", "rebel.f1", 2},
-    {"Precision", "rebel.precision", 2},
-    {"Recall", "rebel.recall", 2},
-    {"Objects found", "rebel.object_recall", 2},
-    {"False objects a 100 frames", "rebel.false_objects_per_100_frames", 1},
-    {"Squares' recall", "square.recall_50", 2},
-};
+constexpr std::string_view kF1 = "rebel.f1";
+constexpr std::string_view kColumns[] = {kF1,
+                                         "rebel.precision",
+                                         "rebel.recall",
+                                         "rebel.object_recall",
+                                         "rebel.false_objects_per_100_frames",
+                                         "square.recall_50"};
 constexpr std::string_view kCorners = "dimension.corners_mean", kFrames = "frames";
 
 /// The worlds of a family, or one alone.
@@ -64,7 +59,9 @@ std::vector<double> figures_of(const SuiteResult& by, const Worlds& worlds,
   return figures;
 }
 
-std::string cell(const std::vector<double>& figures, int decimals) {
+std::string cell(const SuiteResult& by, const Worlds& worlds, const bench::Metric& metric) {
+  const std::vector<double> figures = figures_of(by, worlds, metric.key);
+  const int decimals = metric.scale.decimals;
   if (figures.empty()) return "<td class=\"nothing\">–</td>";
   const suite::Interval mean = suite::interval_of(figures);
   std::string text = fmt::format("<td>{:.{}f}", mean.mean, decimals);
@@ -114,8 +111,9 @@ class WorldsPage : public TextPage {
         "<b class=\"moves\">moves</b>, <b class=\"stands\">stands</b>. Plan from above, as drawn: "
         "<b class=\"rover\">the rover's way</b> and what it sees at first and at last, "
         "<b class=\"moves\">the movers'</b>. ±: 95 % interval of the mean over worlds.</p>\n");
-    add("<h2>F1 of rebels by family</h2>\n<div "
-        "class=\"scroll\"><table>\n<thead><tr><th>family</th>");
+    add("<h2>{} by family</h2>\n<div "
+        "class=\"scroll\"><table>\n<thead><tr><th>family</th>",
+        bench::metric(kF1).label);
     for (const SuiteResult* by : detectors_) add("<th>{}</th>", escaped(by->detector));
     add("</tr></thead>\n<tbody>\n");
     for (const auto& [family, worlds] : families_) {
@@ -129,7 +127,7 @@ class WorldsPage : public TextPage {
 
   void f1_cells(const Worlds& worlds) {
     for (const SuiteResult* by : detectors_) {
-      add("{}", cell(figures_of(*by, worlds, kColumns[0].figure), kColumns[0].decimals));
+      add("{}", cell(*by, worlds, bench::metric(kF1)));
     }
     add("</tr>\n");
   }
@@ -137,12 +135,15 @@ class WorldsPage : public TextPage {
   /// A row a detector.
   void table(const Worlds& worlds) {
     add("<div class=\"scroll\"><table>\n<thead><tr><th></th>");
-    for (const Column& column : kColumns) add("<th>{}</th>", column.header);
+    for (const std::string_view key : kColumns) {
+      const bench::Metric& metric = bench::metric(key);
+      add("<th title=\"{}\">{}</th>", escaped(metric.tooltip()), metric.heading());
+    }
     add("</tr></thead>\n<tbody>\n");
     for (const SuiteResult* by : detectors_) {
       add("<tr><td>{}</td>", escaped(by->detector));
-      for (const Column& column : kColumns) {
-        add("{}", cell(figures_of(*by, worlds, column.figure), column.decimals));
+      for (const std::string_view key : kColumns) {
+        add("{}", cell(*by, worlds, bench::metric(key)));
       }
       add("</tr>\n");
     }

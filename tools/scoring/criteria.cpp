@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "scenarios/spelling.h"
+#include "tools/scoring/metrics.h"
 
 namespace lcs::bench {
 namespace {
@@ -34,7 +35,9 @@ bool is_met(const scenario::Criterion& criterion, std::optional<double> figure) 
 
 void require_known_metrics(const std::vector<scenario::Criterion>& criteria) {
   std::vector<std::string> names;
-  for (const auto& [name, figure] : score(Recording{})) names.push_back(name);
+  for (const Metric& metric : metrics()) {
+    if (metric.compute) names.push_back(metric.key);
+  }
   for (const scenario::Criterion& criterion : criteria) {
     if (std::find(names.begin(), names.end(), criterion.metric) != names.end()) continue;
     const std::optional<std::string> near = scenario::nearest(criterion.metric, names);
@@ -75,26 +78,17 @@ std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& crite
                                    const Metrics& metrics) {
   std::vector<JudgedCriterion> judged;
   for (const scenario::Criterion& criterion : criteria) {
-    JudgedCriterion& one = judged.emplace_back();
-    one.figure = value(metrics, criterion.metric);
-    one.met = is_met(criterion, one.figure);
-    if (one.met) continue;
+    const std::optional<double> figure = value(metrics, criterion.metric);
+    const bool met = is_met(criterion, figure);
+    JudgedCriterion& one = judged.emplace_back(JudgedCriterion{
+        criterion.metric, criterion.min, criterion.max, figure, criterion.required, met, ""});
+    if (met) continue;
     const std::string of = criterion.detector.empty() ? "" : " of " + criterion.detector;
-    one.message = fmt::format(
-        "{}: {}{} is {}, must be {}", place(criterion.source), criterion.metric, of,
-        one.figure ? fmt::format("{:.4g}", *one.figure) : "undefined", bounds(criterion));
+    one.message =
+        fmt::format("{}: {}{} is {}, must be {}", place(criterion.source), criterion.metric, of,
+                    figure ? fmt::format("{:.4g}", *figure) : "undefined", bounds(criterion));
   }
   return judged;
-}
-
-std::vector<FailedCriterion> failed_criteria(const std::vector<scenario::Criterion>& criteria,
-                                             const Metrics& metrics) {
-  const std::vector<JudgedCriterion> judged = judge(criteria, metrics);
-  std::vector<FailedCriterion> failed;
-  for (std::size_t i = 0; i < judged.size(); ++i) {
-    if (!judged[i].met) failed.push_back({criteria[i].required, judged[i].message});
-  }
-  return failed;
 }
 
 }  // namespace lcs::bench

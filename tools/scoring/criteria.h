@@ -27,7 +27,10 @@ std::vector<std::string> not_asked(const std::vector<scenario::Criterion>& crite
                                    const std::set<std::string>& detectors);
 
 struct JudgedCriterion {
-  std::optional<double> figure;  ///< none: undefined, which meets no bound
+  std::string metric;
+  std::optional<double> min, max;
+  std::optional<double> value;  ///< undefined meets no bound
+  bool required = true;
   bool met = false;
   std::string message;  ///< of a failure, as "crossing.yaml:31: rebel.f1 is 0.41, must be at least
                         ///< 0.6"; empty where met
@@ -36,14 +39,5 @@ struct JudgedCriterion {
 /// All of them, in the scenario's order.
 std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& criteria,
                                    const Metrics& metrics);
-
-struct FailedCriterion {
-  bool required = true;
-  std::string message;  ///< as `JudgedCriterion::message`
-};
-
-/// The criteria that are not met, in the scenario's order.
-std::vector<FailedCriterion> failed_criteria(const std::vector<scenario::Criterion>& criteria,
-                                             const Metrics& metrics);
 
 }  // namespace lcs::bench

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/files/json_node.h"
+#include "tools/scoring/stages.h"
 
 namespace lcs::bench {
 namespace {
@@ -17,17 +18,17 @@ namespace {
 class Row {
  public:
   template <class Number>
-  Row& operator()(const char* name, Number value) {
+  Row& operator()(const std::string& name, Number value) {
     return add(name, fmt::format("{}", value));
   }
-  Row& operator()(const char* name, std::optional<double> value) {
+  Row& operator()(const std::string& name, std::optional<double> value) {
     return add(name, value ? fmt::format("{}", *value) : "");  // shortest that reads back alike
   }
   const std::string& header() const { return header_; }
   const std::string& values() const { return values_; }
 
  private:
-  Row& add(const char* name, const std::string& value) {
+  Row& add(const std::string& name, const std::string& value) {
     const char* separator = header_.empty() ? "" : ",";
     header_ += separator;
     header_ += name;
@@ -39,13 +40,6 @@ class Row {
 };
 
 Row row_of(const FrameRecord& frame, const RebelCounts& rebels, bool layered) {
-  const auto time = [&](double FrameTimes::*stage) -> std::optional<double> {
-    return frame.times && (*frame.times).*stage > 0 ? std::optional((*frame.times).*stage)
-                                                    : std::nullopt;
-  };
-  const auto stage_time = [&](double FrameTimes::*stage) {
-    return layered ? time(stage) : std::nullopt;
-  };
   const Layers& layers = frame.layers;
   Row row;
   row("frame", frame.index)("t_s", static_cast<double>(frame.t_ns) * 1e-9);
@@ -62,13 +56,11 @@ Row row_of(const FrameRecord& frame, const RebelCounts& rebels, bool layered) {
   row("true_rebels", rebels.true_rebels)("false_rebels", rebels.false_rebels);
   row("found_rebels", rebels.found_rebels)("missed_rebels", rebels.missed_rebels);
   row("precision", rebels.precision())("recall", rebels.recall());
-  row("detect_ms", time(&FrameTimes::detect_ms));
-  row("describe_ms", time(&FrameTimes::describe_ms))("line_ms", stage_time(&FrameTimes::line_ms));
-  row("circle_ms", stage_time(&FrameTimes::circle_ms));
-  row("square_ms", stage_time(&FrameTimes::square_ms));
-  row("filter_ms", time(&FrameTimes::filter_ms))("process_ms", time(&FrameTimes::process_ms));
-  row("simulate_ms", time(&FrameTimes::simulate_ms));
-  row("truth_ms", time(&FrameTimes::truth_ms));
+  for (const Stage& stage : kStages) {
+    const double ms = frame.times ? (*frame.times).*stage.time_ms : 0;
+    const bool is_known = ms > 0 && (layered || !stage.is_layer);
+    row(stage.column(), is_known ? std::optional(ms) : std::nullopt);
+  }
   return row;
 }
 

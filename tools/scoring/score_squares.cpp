@@ -86,25 +86,26 @@ class FrameRegions {
   std::map<Id, Region> squares_;
 };
 
-SquareCounts count(const FrameSquares& frame, double threshold) {
-  SquareCounts counts;
-  counts.boxes = static_cast<int>(frame.eligible.size());
-  std::set<Id> matched;
-  for (const BoxPair& pair : frame.pairs) {
-    if (pair.iou >= threshold) matched.insert(pair.square);
+SquareOutcomes outcomes_of(const FrameSquares& squares, double threshold) {
+  SquareOutcomes outcomes{squares.eligible, {}, {}};
+  std::set<Id> right;
+  for (const BoxPair& pair : squares.pairs) {
+    if (pair.iou < threshold) continue;
+    outcomes.right.push_back(pair);
+    right.insert(pair.square);
   }
-  counts.matched = static_cast<int>(matched.size());
-  for (const BoxPair& best : frame.best_box) {
-    const bool on_other_object = best.iou >= threshold && !frame.eligible.contains(best.box);
-    counts.squares += matched.contains(best.square) || !on_other_object;
+  for (const BoxPair& best : squares.best_box) {
+    const bool is_on_other = best.iou >= threshold && !squares.eligible.contains(best.box);
+    if (!right.contains(best.square) && !is_on_other) outcomes.wrong.push_back(best.square);
   }
-  return counts;
+  return outcomes;
 }
 
-void add(SquareCounts& sum, const SquareCounts& counts) {
-  sum.boxes += counts.boxes;
-  sum.matched += counts.matched;
-  sum.squares += counts.squares;
+void add(SquareCounts& sum, const SquareOutcomes& outcomes) {
+  const auto right = static_cast<int>(outcomes.right.size());
+  sum.boxes += static_cast<int>(outcomes.eligible.size());
+  sum.matched += right;
+  sum.squares += right + static_cast<int>(outcomes.wrong.size());
 }
 
 std::set<int> movers(const Recording& recording) {
@@ -132,7 +133,7 @@ void add_masks(const FrameRecord& frame, const std::vector<BoxPair>& pairs,
       compare(frame, [&](const sim::ObjectTruth& truth, const Square& square) {
         return regions.iou(truth.object, square.id);
       });
-  add(masks.at_50, count(squares, kRightIou));
+  add(masks.at_50, outcomes_of(squares, kRightIou));
   for (const BoxPair& pair : pairs) {
     if (pair.iou < kRightIou) continue;
     (moving.contains(pair.box) ? masks.movers_iou : masks.static_iou)
@@ -151,19 +152,7 @@ std::set<int> eligible_objects(const FrameRecord& frame) {
 }
 
 SquareOutcomes square_outcomes(const FrameRecord& frame) {
-  const FrameSquares squares = compare_boxes(frame);
-  SquareOutcomes outcomes{squares.eligible, {}, {}};
-  std::set<Id> right;
-  for (const BoxPair& pair : squares.pairs) {
-    if (pair.iou < kRightIou) continue;
-    outcomes.right.push_back(pair);
-    right.insert(pair.square);
-  }
-  for (const BoxPair& best : squares.best_box) {
-    const bool is_on_other = best.iou >= kRightIou && !squares.eligible.contains(best.box);
-    if (!right.contains(best.square) && !is_on_other) outcomes.wrong.push_back(best.square);
-  }
-  return outcomes;
+  return outcomes_of(compare_boxes(frame), kRightIou);
 }
 
 std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs) {
@@ -197,9 +186,9 @@ SquareScore score_squares(const Recording& recording) {
   for (const FrameRecord& frame : recording.frames) {
     if (frame.index < kSightings) continue;
     const FrameSquares squares = compare_boxes(frame);
-    add(score.at_30, count(squares, 0.3));
-    add(score.at_50, count(squares, kRightIou));
-    add(score.at_70, count(squares, 0.7));
+    add(score.at_30, outcomes_of(squares, 0.3));
+    add(score.at_50, outcomes_of(squares, kRightIou));
+    add(score.at_70, outcomes_of(squares, 0.7));
     for (const int object : squares.eligible) {
       ++(moving.contains(object) ? score.movers_50 : score.static_50).boxes;
     }

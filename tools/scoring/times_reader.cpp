@@ -7,27 +7,12 @@
 #include "scenarios/input_file.h"
 #include "tools/files/csv.h"
 #include "tools/scoring/figures_file.h"
+#include "tools/scoring/stages.h"
 
 namespace lcs::bench {
 namespace {
 
-struct Column {
-  std::string_view name;
-  double FrameTimes::*time_ms;
-  bool may_lack = false;  ///< as in tables from before there was such a time
-};
-
-constexpr Column kColumns[] = {{"simulate_ms", &FrameTimes::simulate_ms},
-                               {"detect_ms", &FrameTimes::detect_ms},
-                               {"describe_ms", &FrameTimes::describe_ms, true},
-                               {"line_ms", &FrameTimes::line_ms},
-                               {"circle_ms", &FrameTimes::circle_ms},
-                               {"square_ms", &FrameTimes::square_ms},
-                               {"filter_ms", &FrameTimes::filter_ms},
-                               {"process_ms", &FrameTimes::process_ms, true},
-                               {"truth_ms", &FrameTimes::truth_ms}};
-
-/// The number of columns where there is none.
+/// The number of columns if the header lacks the name.
 std::size_t place_of(const std::vector<std::string_view>& header, std::string_view name) {
   return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
 }
@@ -38,18 +23,19 @@ std::size_t column_of(const std::vector<std::string_view>& header, std::string_v
   return place;
 }
 
-/// None where every time is empty; a stage that the detector does not have is empty, and 0.
+/// Nothing if every time is empty. The empty time of a stage that the detector does not have is 0.
 std::optional<FrameTimes> times_in(const std::vector<std::string_view>& header,
                                    const std::vector<std::string_view>& row) {
   FrameTimes times;
   bool any = false;
-  for (const auto& [name, time_ms, may_lack] : kColumns) {
-    if (may_lack && place_of(header, name) == header.size()) continue;
+  for (const Stage& stage : kStages) {
+    const std::string name = stage.column();
+    if (stage.is_younger && place_of(header, name) == header.size()) continue;
     const std::string_view text = row[column_of(header, name)];
     if (text.empty()) continue;
     const std::optional<double> ms = number_in<double>(text);
     if (!ms) throw std::runtime_error(fmt::format("{} is '{}', not a number", name, text));
-    times.*time_ms = *ms;
+    times.*stage.time_ms = *ms;
     any = true;
   }
   return any ? std::optional(times) : std::nullopt;

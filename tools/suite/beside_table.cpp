@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/scoring/metrics.h"
 #include "tools/scoring/statistics.h"
 #include "tools/suite/interval.h"
 #include "tools/suite/summary.h"
@@ -17,7 +18,6 @@ namespace {
 constexpr std::string_view kF1 = "rebel.f1", kTime = "time.filter_ms_median",
                            kFalse = "rebel.false_objects_per_100_frames";
 
-constexpr std::string_view kFalseHead = "false per 100 frames";
 constexpr const char* kIntervalLegend =
     "±: 95 % interval of the mean over worlds; ahead: by world, and then the mean\n";
 
@@ -183,43 +183,34 @@ std::string summary_line(const SuiteResult& suite, const SuiteResult& other,
   return line + '\n';
 }
 
-struct Column {
-  std::string_view name;
-  std::string_view metric;
-  int decimals;
-};
-constexpr Column kStanding[] = {{"F1", kF1, 3},
-                                {"recall", "rebel.recall", 2},
-                                {"boxes of movers", "square.recall_50_movers", 2},
-                                {"false objects per 100 frames", kFalse, 1},
-                                {"ms a frame", kTime, 1},
-                                {"ms as a process", "time.process_ms_median", 1}};
+constexpr std::string_view kStanding[] = {kF1,    "rebel.recall", "square.recall_50_movers",
+                                          kFalse, kTime,          "time.process_ms_median"};
 
 }  // namespace
 
 std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult> others) {
   std::string text = "| detector |", rule = "|---|";
-  for (const Column& column : kStanding) {
-    text += fmt::format(" {} |", column.name);
+  for (const std::string_view key : kStanding) {
+    text += fmt::format(" {} |", bench::metric(key).heading());
     rule += "---|";
   }
   text += '\n' + rule + '\n';
   const auto add = [&](const SuiteResult& by) {
     text += fmt::format("| `{}` |", by.detector);
-    for (const Column& column : kStanding) {
+    for (const std::string_view key : kStanding) {
       std::vector<double> figures;
       for (const ScenarioResult& scenario : by.scenarios) {
-        if (const auto spread = over_seeds(scenario, column.metric))
-          figures.push_back(spread->mean);
+        if (const auto spread = over_seeds(scenario, key)) figures.push_back(spread->mean);
       }
       if (figures.empty()) {
         text += " - |";
         continue;
       }
       const Interval mean = interval_of(figures);
-      text += fmt::format(" {:.{}f}", mean.mean, column.decimals);
-      const bool is_time = column.metric.starts_with("time.");
-      if (is_of_worlds(by) && !is_time) text += half_text(mean.half.value_or(0), column.decimals);
+      const int decimals = key == kF1 ? 3 : bench::metric(key).scale.decimals;
+      text += fmt::format(" {:.{}f}", mean.mean, decimals);
+      const bool has_interval = is_of_worlds(by) && !bench::metric(key).is_time();
+      if (has_interval) text += half_text(mean.half.value_or(0), decimals);
       while (text.ends_with(' ')) text.pop_back();
       text += " |";
     }
@@ -232,7 +223,8 @@ std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult
 
 std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> others) {
   std::vector<Row> rows = rows_of(suite, others, kF1);
-  if (rows.empty()) return "no scenario has an F1 by every detector\n";
+  const std::string& f1 = bench::metric(kF1).label;
+  if (rows.empty()) return fmt::format("no scenario has an {} by every detector\n", f1);
   const std::vector<Row> times = rows_of(suite, others, kTime);
   std::string lines;
   for (std::size_t i = 0; i < others.size(); ++i) {
@@ -242,20 +234,21 @@ std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> 
   const bool of_worlds = is_of_worlds(suite);
 
   const std::string ahead = fmt::format("{} ahead by", suite.detector);
-  std::size_t longest = of_worlds ? std::max(ahead.size(), kFalseHead.size()) : 0;
+  const std::string false_head = bench::metric(kFalse).heading();
+  std::size_t longest = of_worlds ? std::max(ahead.size(), false_head.size()) : 0;
   for (const Row& row : rows) longest = std::max(longest, row.name.size());
   for (const MeanRow& row : means) longest = std::max(longest, row.name.size());
   std::vector<std::string> names{suite.detector};
   for (const SuiteResult& other : others) names.push_back(other.detector);
 
   Columns table(longest, names, of_worlds);
-  table.header("F1");
+  table.header(f1);
   for (const Row& row : rows) table.row(row);
   for (const MeanRow& row : means) table.row(row, 2);
   if (of_worlds) {
     table.header(ahead, 1);
     for (const MeanRow& row : means_of(suite, leads(rows))) table.row(row, 3, 1);
-    table.header(kFalseHead);
+    table.header(false_head);
     for (const MeanRow& row : false_objects(suite, others, rows)) table.row(row, 1);
     table.line(kIntervalLegend);
   }

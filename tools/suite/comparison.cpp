@@ -13,10 +13,6 @@
 namespace lcs::suite {
 namespace {
 
-bool is_time(std::string_view metric) {
-  return metric.starts_with("time.") || metric.starts_with("sim.");
-}
-
 struct RunPair {
   const RunResult* before;
   const RunResult* after;
@@ -40,10 +36,9 @@ class Comparer {
   Comparer(const SuiteResult& before, const SuiteResult& after,
            const std::function<bool(std::string_view)>& is_wanted)
       : before_(before), after_(after), by_world_(is_of_worlds(after)) {
-    for (const MetricTraits& traits : metric_traits()) {
-      if (!is_time(traits.name) && is_wanted(traits.name)) compared_.push_back(traits);
+    for (const bench::Metric& metric : bench::metrics()) {
+      if (!metric.is_time() && is_wanted(metric.key)) compared_.push_back(&metric);
     }
-    if (is_wanted(kSizeShare)) compared_.push_back(traits_of(kSizeShare));
   }
 
   Comparison compare() {
@@ -59,7 +54,7 @@ class Comparer {
       if (!find(before_, scenario.name)) note("{}: only after", scenario.name);
     }
     for (const std::string& group : groups_of(after_)) {
-      for (const MetricTraits& traits : compared_) compare_group(group, traits);
+      for (const bench::Metric* metric : compared_) compare_group(group, *metric);
     }
     return result_;
   }
@@ -72,7 +67,7 @@ class Comparer {
 
   void compare(const ScenarioResult& before, const ScenarioResult& after) {
     const std::vector<RunPair> pairs = pair_up(before, after);
-    for (const MetricTraits& traits : compared_) compare(before.name, traits, pairs);
+    for (const bench::Metric* metric : compared_) compare(before.name, *metric, pairs);
   }
 
   /// The runs with figures that both have.
@@ -101,14 +96,14 @@ class Comparer {
     return pairs;
   }
 
-  void compare(const std::string& scenario, const MetricTraits& traits,
+  void compare(const std::string& scenario, const bench::Metric& metric,
                const std::vector<RunPair>& pairs) {
     std::vector<double> before, after, changes;
     std::vector<std::optional<double>> by_pair;
     std::vector<std::uint64_t> lost, gained;  // seeds in which the figure is defined on one side
     for (const RunPair& pair : pairs) {
-      const std::optional<double> was = figure_of(*pair.before, traits.name);
-      const std::optional<double> is = figure_of(*pair.after, traits.name);
+      const std::optional<double> was = figure_of(*pair.before, metric.key);
+      const std::optional<double> is = figure_of(*pair.after, metric.key);
       if (was && !is) lost.push_back(pair.before->seed);
       if (!was && is) gained.push_back(pair.before->seed);
       by_pair.push_back(was && is ? std::optional(*is - *was) : std::nullopt);
@@ -117,27 +112,27 @@ class Comparer {
       after.push_back(*is);
       changes.push_back(*is - *was);
     }
-    if (!lost.empty()) note("{}: {} undefined after, {}", scenario, traits.name, seed_list(lost));
+    if (!lost.empty()) note("{}: {} undefined after, {}", scenario, metric.key, seed_list(lost));
     if (!gained.empty()) {
-      note("{}: {} undefined before, {}", scenario, traits.name, seed_list(gained));
+      note("{}: {} undefined before, {}", scenario, metric.key, seed_list(gained));
     }
     if (changes.empty()) return;
 
     result_.differences.push_back(
-        difference_of(scenario, traits, *bench::mean(before), *bench::mean(after), changes));
-    changes_[{scenario, std::string(traits.name)}] = std::move(by_pair);
-    result_.judged += traits.direction != Direction::neutral;
+        difference_of(scenario, metric, *bench::mean(before), *bench::mean(after), changes));
+    changes_[{scenario, metric.key}] = std::move(by_pair);
+    result_.judged += metric.scale.better != bench::Direction::neutral;
     result_.single_seeds |= changes.size() == 1;
   }
 
   /// Worlds are a sample of worlds, whose changes differ; the project's own scenarios are what they
   /// are, and only the seeds differ: of each seed in turn the mean change over the scenarios.
-  void compare_group(const std::string& group, const MetricTraits& traits) {
+  void compare_group(const std::string& group, const bench::Metric& metric) {
     std::vector<double> before, after;
     std::vector<std::vector<double>> samples;
     for (const Difference& one : result_.differences) {
       const ScenarioResult* scenario = find(after_, one.scenario);
-      if (one.metric != traits.name || !scenario || !is_in(*scenario, group)) continue;
+      if (one.metric != metric.key || !scenario || !is_in(*scenario, group)) continue;
       before.push_back(one.before);
       after.push_back(one.after);
       if (by_world_) {
@@ -156,23 +151,23 @@ class Comparer {
       if (const auto mean = bench::mean(sample)) changes.push_back(*mean);
     }
     result_.groups.push_back(
-        difference_of(group, traits, *bench::mean(before), *bench::mean(after), changes));
+        difference_of(group, metric, *bench::mean(before), *bench::mean(after), changes));
   }
 
   /// Real is what lies beyond the least change that matters with all of its interval.
-  static Difference difference_of(const std::string& name, const MetricTraits& traits,
+  static Difference difference_of(const std::string& name, const bench::Metric& metric,
                                   double before, double after, const std::vector<double>& changes) {
     Difference difference{.scenario = name,
-                          .metric = std::string(traits.name),
-                          .direction = traits.direction,
+                          .metric = metric.key,
+                          .better = metric.scale.better,
                           .before = before,
                           .after = after,
                           .change = interval_of(changes),
                           .seeds = static_cast<int>(changes.size())};
     const double certain = std::abs(difference.change.mean) - difference.change.half.value_or(0);
-    const double least = least_change(traits, before);
+    const double least = least_change(metric.scale, before);
     if (certain <= least) return difference;
-    const int sign = sign_of_change(traits.direction, before, after);
+    const int sign = sign_of_change(metric.scale.better, before, after);
     difference.verdict = sign > 0 ? Change::improved : sign < 0 ? Change::regressed : Change::moved;
     difference.weight = least > 0 ? certain / least : 1;
     return difference;
@@ -181,7 +176,7 @@ class Comparer {
   const SuiteResult& before_;
   const SuiteResult& after_;
   bool by_world_;
-  std::vector<MetricTraits> compared_;
+  std::vector<const bench::Metric*> compared_;
   std::map<std::pair<std::string, std::string>, std::vector<std::optional<double>>> changes_;
   Comparison result_;
 };

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/scoring/metrics.h"
 #include "tools/suite/interval.h"
-#include "tools/suite/metric_traits.h"
 #include "tools/suite/suite_result.h"
 
 namespace lcs::suite {
@@ -22,7 +22,7 @@ enum class Change { improved, regressed, moved, none };  ///< moved: of a neutra
 struct Difference {
   std::string scenario;  ///< or the group
   std::string metric;
-  Direction direction = Direction::neutral;
+  bench::Direction better = bench::Direction::neutral;
   double before = 0, after = 0;  ///< means over the seeds that both sides have
   Interval change;  ///< of after - before, paired by seed; of a group of worlds by world
   int seeds = 0;    ///< pairs, >= 1
@@ -53,7 +53,7 @@ struct Comparison {
   bool has_regressed() const;
 };
 
-/// \param is_wanted which figures. All those of `metric_traits` but times are compared.
+/// \param is_wanted which figures. All those of `bench::metrics` but times are compared.
 Comparison compare(const SuiteResult& before, const SuiteResult& after,
                    const std::function<bool(std::string_view metric)>& is_wanted);
 

@@ -42,7 +42,7 @@ struct Counts {
 
 /// Without the bounds: a test of another bound has the same history. What still is called like
 /// one before it is counted.
-std::string name_of(const CriterionResult& criterion, std::uint64_t seed,
+std::string name_of(const bench::JudgedCriterion& criterion, std::uint64_t seed,
                     std::map<std::string, int>& times) {
   std::string name = criterion.metric;
   if (criterion.min) name += " min";
@@ -85,7 +85,7 @@ Counts add_run(XMLElement& parent, const ScenarioResult& scenario, const RunResu
     return counts;
   }
   std::map<std::string, int> times;
-  for (const CriterionResult& criterion : run.criteria) {
+  for (const bench::JudgedCriterion& criterion : run.criteria) {
     XMLElement& element = add_case(parent, scenario, by + name_of(criterion, run.seed, times),
                                    counts.tests == 0 ? run.wall_s : 0);
     ++counts.tests;

@@ -28,7 +28,7 @@ Json to_json(std::optional<double> figure) {
   return figure && std::isfinite(*figure) ? Json(*figure) : Json(nullptr);
 }
 
-Json to_json(const CriterionResult& criterion) {
+Json to_json(const bench::JudgedCriterion& criterion) {
   return {{"metric", criterion.metric},     {"min", to_json(criterion.min)},
           {"max", to_json(criterion.max)},  {"value", to_json(criterion.value)},
           {"required", criterion.required}, {"met", criterion.met},
@@ -39,7 +39,8 @@ Json to_json(const RunResult& run) {
   Json metrics = Json::object();
   for (const auto& [name, figure] : run.metrics) metrics[name] = to_json(figure);
   Json criteria = Json::array();
-  for (const CriterionResult& criterion : run.criteria) criteria.push_back(to_json(criterion));
+  for (const bench::JudgedCriterion& criterion : run.criteria)
+    criteria.push_back(to_json(criterion));
   Json warnings = Json::object();
   for (const bench::Warned& warned : run.warnings) {
     warnings[warned.word] = {{"count", warned.count.value_or(0)}, {"first", warned.text}};
@@ -90,7 +91,7 @@ std::pair<std::string, std::string> pair_of(const Node& node) {
   return {both[0], both[1]};
 }
 
-CriterionResult criterion_of(const Node& node) {
+bench::JudgedCriterion criterion_of(const Node& node) {
   return {.metric = node["metric"].text(),
           .min = node["min"].figure(),
           .max = node["max"].figure(),

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tools/recording/warnings.h"
+#include "tools/scoring/criteria.h"
 #include "tools/scoring/scoring.h"
 
 namespace lcs::suite {
@@ -23,22 +24,13 @@ enum class Outcome {
   error,   ///< there are no figures: a broken scenario, scene, file or GL
 };
 
-struct CriterionResult {
-  std::string metric;
-  std::optional<double> min, max;
-  std::optional<double> value;  ///< none: undefined, which meets no bound
-  bool required = true;
-  bool met = false;
-  std::string message;  ///< as `bench::FailedCriterion`; empty where met
-};
-
 struct RunResult {
   std::uint64_t seed = 0;
   Outcome outcome = Outcome::error;
   std::string command;     ///< that makes it again, as a shell takes it
   std::string error;       ///< the command's message, for an error
   bench::Metrics metrics;  ///< empty for an error
-  std::vector<CriterionResult> criteria;
+  std::vector<bench::JudgedCriterion> criteria;
   std::vector<bench::Warned> warnings;  ///< those that happened
   std::filesystem::path folder;         ///< of the run's own files, relative to the suite's
   double wall_s = 0;

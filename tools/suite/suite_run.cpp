@@ -189,12 +189,9 @@ std::string shell_line(const std::vector<std::string>& arguments) {
 }
 
 void judge_run(const std::vector<scenario::Criterion>& criteria, RunResult& run) {
-  const std::vector<bench::JudgedCriterion> judged = bench::judge(criteria, run.metrics);
-  for (std::size_t i = 0; i < judged.size(); ++i) {
-    const scenario::Criterion& criterion = criteria[i];
-    run.criteria.push_back({criterion.metric, criterion.min, criterion.max, judged[i].figure,
-                            criterion.required, judged[i].met, judged[i].message});
-    if (criterion.required && !judged[i].met) run.outcome = Outcome::failed;
+  run.criteria = bench::judge(criteria, run.metrics);
+  for (const bench::JudgedCriterion& one : run.criteria) {
+    if (one.required && !one.met) run.outcome = Outcome::failed;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "tools/scoring/metrics.h"
 #include "tools/suite/interval.h"
 #include "tools/suite/summary.h"
 
@@ -16,29 +17,23 @@ namespace {
 constexpr std::size_t kWidth = 120;
 
 struct Column {
-  const char* header;
-  std::string_view figure;
-  int decimals;
-  int width;  ///< of the mean
+  const bench::Metric& metric;
+  int width = 4;  ///< of the mean
 };
-constexpr Column kColumns[] = {
-    {"prec", "rebel.precision", 2, 4},
-    {"recall", "rebel.recall", 2, 4},
-    {"F1", "rebel.f1", 2, 4},
-    {"F1 d", "rebel.f1_distinct", 2, 4},
-    {"late", "rebel.latency_frames_median", 1, 4},
-    {"found", "rebel.object_recall", 2, 4},
-    {"false", "rebel.false_objects_per_100_frames", 1, 5},
-    {"sq rec", "square.recall_50", 2, 4},
-    {"sq prec", "square.precision_50", 2, 4},
-    {"size", kSizeShare, 2, 4},
-    {"time", "time.filter_over_fast", 1, 4},
-};
-constexpr const char* kLegend =
-    "prec, recall, F1: of rebel corners (F1 d: distinct ones alone); late: frames until an object "
-    "is\n"
-    "found; found: share of objects; false: false objects per 100 frames; sq: squares at IoU 0.5;\n"
-    "size: of all layers, over a store of 5 frames' corners; time: of the filter, over cv::FAST\n";
+const std::vector<Column>& columns() {
+  static const std::vector<Column> all{{bench::metric("rebel.precision")},
+                                       {bench::metric("rebel.recall")},
+                                       {bench::metric("rebel.f1")},
+                                       {bench::metric("rebel.f1_distinct")},
+                                       {bench::metric("rebel.latency_frames_median")},
+                                       {bench::metric("rebel.object_recall")},
+                                       {bench::metric("rebel.false_objects_per_100_frames"), 5},
+                                       {bench::metric("square.recall_50")},
+                                       {bench::metric("square.precision_50")},
+                                       {bench::metric(bench::kSizeShare)},
+                                       {bench::metric("time.filter_over_fast")}};
+  return all;
+}
 constexpr const char* kWorldsLegend = "±, of a group: the 95 % interval of its mean over worlds\n";
 /// Columns of `half_text` where there are at most two decimals.
 constexpr int kSpreadWidth = 4;
@@ -50,7 +45,7 @@ class TableText {
 
   static std::size_t figures_width(bool with_spreads) {
     std::size_t width = 0;
-    for (const Column& column : kColumns) {
+    for (const Column& column : columns()) {
       width += 1 + cell_width(column, with_spreads);
     }
     return width;
@@ -58,12 +53,11 @@ class TableText {
 
   void header() {
     begin("scenario");
-    for (const Column& column : kColumns) {
+    for (const Column& column : columns()) {
       // Over the numbers, whose spreads stick out to the right.
-      const std::size_t numbers =
-          std::max<std::size_t>(std::string_view(column.header).size(), column.width);
+      const std::size_t numbers = std::max<std::size_t>(column.metric.label.size(), column.width);
       const std::size_t rest = cell_width(column, with_spreads_) - numbers;
-      text_ += fmt::format(" {:>{}}{:{}}", column.header, numbers, "", rest);
+      text_ += fmt::format(" {:>{}}{:{}}", column.metric.label, numbers, "", rest);
     }
     end();
   }
@@ -71,15 +65,17 @@ class TableText {
   template <class SpreadOf>
   void row(const std::string& name, const SpreadOf& spread_of) {
     begin(name);
-    for (const Column& column : kColumns) {
+    for (const Column& column : columns()) {
       const std::size_t rest =
           cell_width(column, with_spreads_) - column.width - (with_spreads_ ? kSpreadWidth : 0);
-      const std::optional<Spread> spread = spread_of(column.figure);
-      text_ += fmt::format(" {:{}}", "", with_spreads_ ? 0 : rest);
-      text_ += spread ? fmt::format("{:>{}.{}f}", spread->mean, column.width, column.decimals)
+      const std::optional<Spread> spread = spread_of(column.metric.key);
+      text_ += fmt::format(" {:{}}", "", rest);
+      text_ += spread ? fmt::format("{:>{}.{}f}", spread->mean, column.width,
+                                    column.metric.scale.decimals)
                       : fmt::format("{:>{}}", "-", column.width);
       if (with_spreads_) {
-        text_ += spread ? half_text(spread->half, column.decimals) : std::string(kSpreadWidth, ' ');
+        text_ += spread ? half_text(spread->half, column.metric.scale.decimals)
+                        : std::string(kSpreadWidth, ' ');
       }
     }
     end();
@@ -96,7 +92,7 @@ class TableText {
 
  private:
   static std::size_t cell_width(const Column& column, bool with_spreads) {
-    return std::max<std::size_t>(std::string_view(column.header).size(),
+    return std::max<std::size_t>(column.metric.label.size(),
                                  column.width + (with_spreads ? kSpreadWidth : 0));
   }
   void begin(const std::string& name) {
@@ -130,6 +126,23 @@ std::string marked(const ScenarioResult& scenario) {
       return "E " + scenario.name;
   }
   return scenario.name;
+}
+
+/// A message that several seeds have in common.
+struct Repeated {
+  std::string key;
+  std::string text;   ///< of the first seed
+  std::string seeds;  ///< "1, 3"
+};
+
+void add(std::vector<Repeated>& messages, const std::string& key, const std::string& text,
+         std::uint64_t seed) {
+  const auto found = std::ranges::find(messages, key, &Repeated::key);
+  if (found == messages.end()) {
+    messages.push_back({key, text, std::to_string(seed)});
+  } else {
+    found->seeds += fmt::format(", {}", seed);
+  }
 }
 
 std::string group_row_name(const SuiteResult& suite, const std::string& group) {
@@ -176,7 +189,9 @@ std::string suite_table(const SuiteResult& suite, bool worst_first) {
       return Spread{mean.mean, of_worlds ? mean.half.value_or(0) : 0, 1};
     });
   }
-  table.line(kLegend);
+  for (const auto& [metric, width] : columns()) {
+    table.line(fmt::format("  {:<10} {}: {}\n", metric.label, metric.key, metric.first_sentence()));
+  }
   if (of_worlds) table.line(kWorldsLegend);
   return table.text();
 }
@@ -184,27 +199,17 @@ std::string suite_table(const SuiteResult& suite, bool worst_first) {
 std::vector<std::string> problems(const SuiteResult& suite) {
   std::vector<std::string> failures, errors;
   for (const ScenarioResult& scenario : suite.scenarios) {
-    std::vector<std::pair<std::string, std::string>> seeds_by_error;  // in order
+    std::vector<Repeated> run_errors;
     for (const RunResult& run : scenario.runs) {
-      const std::string seed = std::to_string(run.seed);
-      if (run.outcome == Outcome::error) {
-        const auto found =
-            std::find_if(seeds_by_error.begin(), seeds_by_error.end(),
-                         [&](const auto& entry) { return entry.first == run.error; });
-        if (found == seeds_by_error.end()) {
-          seeds_by_error.emplace_back(run.error, seed);
-        } else {
-          found->second += ", " + seed;
-        }
-      }
-      for (const CriterionResult& criterion : run.criteria) {
+      if (run.outcome == Outcome::error) add(run_errors, run.error, run.error, run.seed);
+      for (const bench::JudgedCriterion& criterion : run.criteria) {
         if (criterion.met) continue;
         failures.push_back(fmt::format("{}: {} seed {}: {}",
                                        criterion.required ? "failed" : "missed (not required)",
-                                       scenario.name, seed, criterion.message));
+                                       scenario.name, run.seed, criterion.message));
       }
     }
-    for (const auto& [error, seeds] : seeds_by_error) {
+    for (const auto& [key, error, seeds] : run_errors) {
       // A scenario that could not even be loaded has one run, with no seed of its own.
       const std::string which = seeds == "0" ? "" : " seed " + seeds;
       errors.push_back(fmt::format("error: {}{}: {}", scenario.name, which, error));
@@ -217,27 +222,14 @@ std::vector<std::string> problems(const SuiteResult& suite) {
 std::vector<std::string> warnings(const SuiteResult& suite) {
   std::vector<std::string> lines;
   for (const ScenarioResult& scenario : suite.scenarios) {
-    struct Told {
-      bench::Warned first;
-      std::string seeds;
-    };
-    std::vector<Told> told;
+    std::vector<Repeated> told;
     for (const RunResult& run : scenario.runs) {
       for (const bench::Warned& warned : run.warnings) {
-        const std::string seed = std::to_string(run.seed);
-        const auto found = std::find_if(told.begin(), told.end(), [&](const Told& entry) {
-          return entry.first.word == warned.word;
-        });
-        if (found == told.end()) {
-          told.push_back({warned, seed});
-        } else {
-          found->seeds += ", " + seed;
-        }
+        add(told, warned.word, bench::lines_of({warned}).front(), run.seed);
       }
     }
-    for (const Told& entry : told) {
-      lines.push_back(fmt::format("{} seed {}: {}", scenario.name, entry.seeds,
-                                  bench::lines_of({entry.first}).front()));
+    for (const auto& [word, text, seeds] : told) {
+      lines.push_back(fmt::format("{} seed {}: {}", scenario.name, seeds, text));
     }
   }
   return lines;

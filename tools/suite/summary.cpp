@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tools/scoring/metrics.h"
 #include "tools/scoring/statistics.h"
 
 namespace lcs::suite {
@@ -28,7 +29,7 @@ const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed) {
 }
 
 std::optional<double> figure_of(const RunResult& run, std::string_view name) {
-  if (name != kSizeShare) return metric_of(run, name);
+  if (name != bench::kSizeShare) return metric_of(run, name);
   const std::optional<double> size = metric_of(run, "dimension.mean");
   const std::optional<double> store = metric_of(run, "dimension.five_frame_mean");
   return size && store ? bench::ratio(*size, *store) : std::nullopt;

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/suite/metric_traits.h"
 #include "tools/suite/suite_result.h"
 
 namespace lcs::suite {
@@ -17,7 +16,7 @@ namespace lcs::suite {
 const ScenarioResult* find(const SuiteResult& suite, const std::string& name);
 const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed);
 
-/// A metric of a run, or `kSizeShare`; none where undefined, unknown, or the run has no figures.
+/// A metric of a run, or `bench::kSizeShare`; none where undefined, unknown, or the run has no figures.
 std::optional<double> figure_of(const RunResult& run, std::string_view name);
 
 struct Spread {

@@ -1,0 +1,104 @@
+#include "tools/scoring/metrics.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "tests/tools/files.h"
+#include "tools/recording/warnings.h"
+#include "tools/scoring/scoring.h"
+
+namespace lcs::bench {
+namespace {
+
+TEST(Metrics, HaveAKeyOfTheirOwn) {
+  std::set<std::string> keys;
+  for (const Metric& metric : metrics()) EXPECT_TRUE(keys.insert(metric.key).second) << metric.key;
+}
+
+TEST(Metrics, AreOneForEachWarning) {
+  std::vector<std::string> known, given;
+  for (const Metric& metric : metrics()) {
+    if (metric.key.starts_with("warnings.")) known.push_back(metric.key);
+  }
+  for (const Warned& warned : warnings_of({})) given.push_back("warnings." + warned.word);
+  EXPECT_EQ(known, given);
+}
+
+TEST(Metrics, HaveNoBetterDirectionWhereTheyAreTimesOrTruths) {
+  for (const Metric& metric : metrics()) {
+    const bool is_given = metric.is_time() || metric.key.starts_with("truth.");
+    EXPECT_TRUE(!is_given || metric.scale.better == Direction::neutral) << metric.key;
+  }
+}
+
+TEST(Metrics, SayWhichWayIsBetter) {
+  EXPECT_EQ(metric("rebel.f1").scale.better, Direction::higher);
+  EXPECT_EQ(metric("rebel.latency_frames_median").scale.better, Direction::lower);
+  EXPECT_THROW(metric("no.such_figure"), std::out_of_range);
+  EXPECT_EQ(sign_of_change(Direction::higher, 0.5, 0.6), 1);
+  EXPECT_EQ(sign_of_change(Direction::higher, 0.6, 0.5), -1);
+  EXPECT_EQ(sign_of_change(Direction::lower, 0.5, 0.6), -1);
+  EXPECT_EQ(sign_of_change(Direction::lower, 0.6, 0.5), 1);
+  EXPECT_EQ(sign_of_change(Direction::higher, 0.5, 0.5), 0);
+  EXPECT_EQ(sign_of_change(Direction::neutral, 0.5, 0.6), 0);
+}
+
+TEST(Metrics, TheLeastChangeIsAbsoluteForSharesAndRelativeForLargeCounts) {
+  EXPECT_DOUBLE_EQ(least_change(metric("rebel.f1").scale, 0.9), 0.01);
+  const Scale& false_objects = metric("rebel.false_objects_per_100_frames").scale;
+  EXPECT_DOUBLE_EQ(least_change(false_objects, 0), 1);
+  EXPECT_DOUBLE_EQ(least_change(false_objects, 200), 10);
+}
+
+/// "higher, by 0.01", "lower, by 0.1 and 5 %"; empty for a neutral metric.
+std::string better_text(const Scale& scale) {
+  if (scale.better == Direction::neutral) return "";
+  const char* better = scale.better == Direction::higher ? "higher" : "lower";
+  const std::string share =
+      scale.least_share > 0 ? fmt::format(" and {:g} %", 100 * scale.least_share) : "";
+  return fmt::format("{}, by {:g}{}", better, scale.least_change, share);
+}
+
+/// The table in Markdown. Metrics of the same meaning share a row.
+std::string markdown() {
+  using Row = std::tuple<std::string, std::string, std::string>;
+  std::vector<Row> rows;
+  std::map<Row, std::string> keys;
+  for (const Metric& metric : metrics()) {
+    const Row row{metric.scale.unit, better_text(metric.scale), metric.meaning};
+    std::string& shared = keys[row];
+    if (shared.empty()) rows.push_back(row);
+    if (!shared.empty()) shared += ", ";
+    shared += fmt::format("`{}`", metric.key);
+    if (!metric.label.empty()) shared += fmt::format(" \"{}\"", metric.label);
+  }
+  std::string text = "| key \"label\" | unit | better | meaning |\n|---|---|---|---|\n";
+  for (const Row& row : rows) {
+    const auto& [unit, better, meaning] = row;
+    text += fmt::format("| {} | {} | {} | {} |\n", keys[row], unit, better, meaning);
+  }
+  return text;
+}
+
+TEST(Metrics, AreAllInTheTableOfScoringMd) {
+  std::string document = read(LCS_SCORING_MD);
+  const std::string begin = "<!-- metrics -->\n", end = "<!-- end of metrics -->";
+  const std::size_t first = document.find(begin) + begin.size();
+  const std::size_t size = document.find(end) - first;
+  ASSERT_LT(first + size, document.size());
+  const std::string written = document.substr(first, size);
+  if (std::getenv("LCS_WRITE_DOCUMENTS") && written != markdown()) {
+    std::ofstream(LCS_SCORING_MD) << document.replace(first, size, markdown());
+  } else {
+    EXPECT_EQ(written, markdown()) << "LCS_WRITE_DOCUMENTS=1 makes this test write it";
+  }
+}
+
+}  // namespace
+}  // namespace lcs::bench

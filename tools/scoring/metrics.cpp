@@ -1,0 +1,450 @@
+#include "tools/scoring/metrics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "tools/scoring/scores.h"
+#include "tools/scoring/stages.h"
+#include "tools/scoring/statistics.h"
+
+namespace lcs::bench {
+namespace {
+
+using Figure = std::optional<double>;
+
+constexpr double kRelative = 0.05;  // of figures that are no shares
+
+constexpr Scale kShare{"", Direction::higher, 0.01, 0, 2};
+constexpr Scale kLostShare{"", Direction::lower, 0.01, kRelative, 2};
+constexpr Scale kCount{"", Direction::neutral, 0, kRelative, 0};
+constexpr Scale lower(std::string_view unit, double least_change, int decimals) {
+  return {unit, Direction::lower, least_change, kRelative, decimals};
+}
+constexpr Scale neutral(std::string_view unit, int decimals) {
+  return {unit, Direction::neutral, 0, kRelative, decimals};
+}
+
+// ---- Rebels
+
+Figure lost_f1(const Scores& s, Difficulty difficulty) {
+  const Figure without = s.corners.without[static_cast<std::size_t>(difficulty)].f1();
+  const Figure f1 = s.corners.overall.f1();
+  return without && f1 ? Figure(*without - *f1) : std::nullopt;
+}
+
+/// Undefined for a detector that never gives the reason `first_sighting`.
+Figure lost_f1_by_sighting(const Scores& s, Difficulty difficulty) {
+  const bool is_told = std::ranges::any_of(s.recording.frames, [](const FrameRecord& frame) {
+    return std::ranges::count(frame.reasons, Reason::first_sighting) > 0;
+  });
+  return is_told ? lost_f1(s, difficulty) : std::nullopt;
+}
+
+int counted_rebels(const RebelCounts& counts) {
+  return counts.found_rebels + counts.missed_rebels;
+}
+
+/// Undefined for a detector without circles.
+Figure ratio_of_circles(const Scores& s, double part, double whole) {
+  return s.recording.detector.circles ? ratio(part, whole) : std::nullopt;
+}
+
+std::vector<Metric> rebel_metrics() {
+  return {
+      {"rebel.precision", [](auto& s) { return s.corners.overall.precision(); }, kShare,
+       "precision", "true rebels / (true + false rebels). After the warm-up"},
+      {"rebel.recall", [](auto& s) { return s.corners.overall.recall(); }, kShare, "recall",
+       "share of the rebel corners with verdict rebel. Counted from frame k0 + N of their object "
+       "on, whatever else the verdict is"},
+      {"rebel.f1", [](auto& s) { return s.corners.overall.f1(); }, kShare, "F1",
+       "harmonic mean of precision and recall. 0 where recall is 0, null where recall is"},
+      {"rebel.precision_distinct", [](auto& s) { return s.corners.distinct.precision(); }, kShare,
+       "", "precision without radial corners"},
+      {"rebel.recall_distinct", [](auto& s) { return s.corners.distinct.recall(); }, kShare, "",
+       "recall without radial corners"},
+      {"rebel.f1_distinct", [](auto& s) { return s.corners.distinct.f1(); }, kShare, "F1 dist.",
+       "F1 without radial corners, which move as nearer static ones would"},
+      {"rebel.precision_clear", [](auto& s) { return s.corners.clear.precision(); }, kShare, "",
+       "precision without corners at outlines. Recall is the same, as no rebel is at an outline"},
+      {"rebel.f1_clear", [](auto& s) { return s.corners.clear.f1(); }, kShare, "F1 clear",
+       "F1 without the fixed corners at outlines of movers. Its distance from 1 is what better "
+       "separation of motions can gain"},
+      {"rebel.recall_radial", [](auto& s) { return s.corners.radial.recall(); }, kShare,
+       "radial recall", "recall over radial corners alone"},
+      {"rebel.f1_lost_outline", [](auto& s) { return lost_f1(s, Difficulty::outline); }, kLostShare,
+       "", "gain of F1 if all verdicts on corners at outlines were right"},
+      {"rebel.f1_lost_radial", [](auto& s) { return lost_f1(s, Difficulty::radial); }, kLostShare,
+       "", "gain of F1 if all verdicts on radial corners were right"},
+      {"rebel.f1_lost_first_seen",
+       [](auto& s) { return lost_f1_by_sighting(s, Difficulty::first_seen); }, kLostShare, "",
+       "gain of F1 if all verdicts on corners seen for the first time were right. By the reasons "
+       "first_sighting and inherited; null for detectors without these"},
+      {"rebel.f1_lost_tracked", [](auto& s) { return lost_f1_by_sighting(s, Difficulty::tracked); },
+       kLostShare, "", "gain of F1 if all verdicts on other corners were right. null likewise"},
+      {"rebel.false_corners_per_frame",
+       [](auto& s) { return ratio(s.corners.overall.false_rebels, s.objects.frames); },
+       lower("per frame", 0.1, 1), "",
+       "false rebels. For static scenes, where precision is 0 or undefined"},
+      {"rebel.object_recall", [](auto& s) { return ratio(s.objects.found, s.objects.objects); },
+       kShare, "found",
+       "share of the movers that are found. A mover is found if 3 or more of its corners are "
+       "rebels in a frame from k0 on. Of movers with rebel corners in at least N frames"},
+      {"rebel.latency_frames_median", [](auto& s) { return median(s.objects.latencies); },
+       lower("frames", 0.4, 1), "latency",  // the median of an even number has halves
+       "frames from k0 of a mover until it is found. Median over those found: 2 or more by the "
+       "paper's rule, which needs N sightings; 0 or 1 are possible by the default"},
+      {"rebel.false_objects_per_100_frames",
+       [](auto& s) {
+         return ratio_of_circles(s, 100.0 * s.objects.false_circles, s.objects.frames);
+       },
+       lower("per 100 frames", 1, 1), "false",
+       "rebel circles with no mover under them. There is no corner of one in the disc, no box "
+       "round the centre"},
+      {"rebel.circle_recall",
+       [](auto& s) { return ratio_of_circles(s, s.objects.circled, s.objects.seen); }, kShare, "",
+       "share of the movers with 3 or more rebel corners that have the centre of a rebel circle in "
+       "their box. Falls where a detector gives fewer circles to avoid false objects"},
+      {"truth.rebel_corners", [](auto& s) { return counted_rebels(s.corners.overall); }, kCount, "",
+       "rebel corners that recall counts"},
+      {"truth.radial_corners", [](auto& s) { return counted_rebels(s.corners.radial); }, kCount, "",
+       "radial corners that recall counts"},
+      {"truth.fixed_corners", [](auto& s) { return s.corners.fixed_corners; }, kCount, "",
+       "corners labelled fixed"},
+      {"truth.rebel_objects", [](auto& s) { return s.objects.objects; }, kCount, "movers",
+       "movers that rebel.object_recall counts"},
+  };
+}
+
+// ---- Squares
+
+SquareScore::Masks masks_of(const Scores& s) {
+  return s.squares.masks.value_or(SquareScore::Masks{});
+}
+
+/// \param ious with the members of `SquareScore` or of its `Masks`.
+template <class Ious>
+Figure mean_iou(const Ious& ious) {
+  std::vector<double> all = ious.movers_iou;
+  all.insert(all.end(), ious.static_iou.begin(), ious.static_iou.end());
+  return mean(all);
+}
+
+double objects_seen(const Scores& s) {
+  std::set<int> seen;
+  for (const FrameRecord& frame : s.recording.frames) {
+    for (const sim::ObjectTruth& truth : frame.object_truth) seen.insert(truth.object);
+  }
+  return static_cast<double>(seen.size());
+}
+
+std::vector<Metric> square_metrics() {
+  const std::string boxed = "right squares / eligible boxes, at the IoU in the key (%)";
+  const std::string right = "right / (right + wrong) squares, at the IoU in the key (%)";
+  return {
+      {"square.recall_30", [](auto& s) { return s.squares.at_30.recall(); }, kShare, "", boxed},
+      {"square.recall_50", [](auto& s) { return s.squares.at_50.recall(); }, kShare, "boxed",
+       boxed},
+      {"square.recall_70", [](auto& s) { return s.squares.at_70.recall(); }, kShare, "", boxed},
+      {"square.precision_30", [](auto& s) { return s.squares.at_30.precision(); }, kShare, "",
+       right},
+      {"square.precision_50", [](auto& s) { return s.squares.at_50.precision(); }, kShare,
+       "sq prec.", right},
+      {"square.precision_70", [](auto& s) { return s.squares.at_70.precision(); }, kShare, "",
+       right},
+      {"square.recall_50_movers", [](auto& s) { return s.squares.movers_50.recall(); }, kShare,
+       "boxed movers", "square.recall_50 over objects that move at any time in the run"},
+      {"square.recall_50_static", [](auto& s) { return s.squares.static_50.recall(); }, kShare,
+       "boxed static", "square.recall_50 over objects that never move"},
+      {"square.mean_iou", [](auto& s) { return mean_iou(s.squares); }, kShare, "IoU",
+       "mean IoU of the pairs matched at 0.5"},
+      {"square.mean_iou_movers", [](auto& s) { return mean(s.squares.movers_iou); }, kShare, "",
+       "square.mean_iou over objects that move at any time in the run"},
+      {"square.mean_iou_static", [](auto& s) { return mean(s.squares.static_iou); }, kShare, "",
+       "square.mean_iou over objects that never move"},
+      {"square.identity_switches",
+       [](auto& s) {
+         return s.squares.at_50.boxes > 0 ? Figure(s.squares.identity_switches) : std::nullopt;
+       },
+       lower("", 0.9, 0), "",
+       "times that an object's square at 0.5 has another id than its last one"},
+      {"square.mask_recall_50", [](auto& s) { return masks_of(s).at_50.recall(); }, kShare, "",
+       "square.recall_50 by the IoU of masks in place of boxes"},
+      {"square.mask_precision_50", [](auto& s) { return masks_of(s).at_50.precision(); }, kShare,
+       "", "square.precision_50 by the IoU of masks in place of boxes"},
+      {"square.mask_mean_iou", [](auto& s) { return mean_iou(masks_of(s)); }, kShare, "mask IoU",
+       "mean IoU of masks, pixel by pixel. Of the pairs whose boxes match at 0.5"},
+      {"square.mask_mean_iou_movers", [](auto& s) { return mean(masks_of(s).movers_iou); }, kShare,
+       "", "square.mask_mean_iou over objects that move at any time in the run"},
+      {"square.mask_mean_iou_static", [](auto& s) { return mean(masks_of(s).static_iou); }, kShare,
+       "", "square.mask_mean_iou over objects that never move"},
+      {"truth.boxes", [](auto& s) { return s.squares.at_50.boxes; }, kCount, "",
+       "eligible boxes, over all frames"},
+      {"truth.objects", objects_seen, kCount, "", "objects seen in at least one frame"},
+  };
+}
+
+// ---- Labels
+
+/// Undefined where nobody has labelled a frame.
+Figure label_count(const Scores& s, int count) {
+  return s.labels.frames > 0 ? Figure(count) : std::nullopt;
+}
+
+std::vector<Metric> label_metrics() {
+  return {
+      {"labels.frames", [](auto& s) { return label_count(s, s.labels.frames); }, kCount, "frames",
+       "labelled frames. null where nothing is labelled"},
+      {"labels.boxes", [](auto& s) { return label_count(s, s.labels.boxes); }, kCount, "boxes",
+       "boxes in the labelled frames. null where nothing is labelled"},
+      {"labels.found", [](auto& s) { return ratio(s.labels.found, s.labels.boxes); }, kShare,
+       "found", "share of the labelled boxes with at least 3 rebel corners in them"},
+      {"labels.boxed_50", [](auto& s) { return ratio(s.labels.boxed, s.labels.boxes); }, kShare,
+       "boxed",
+       "share of the labelled boxes that a moving square covers with an IoU of 0.5, one to one. A "
+       "square moves if a circle of it is rebel; by detectors other than the filter every square "
+       "does"},
+      {"labels.rebels_off_per_frame",
+       [](auto& s) { return ratio(s.labels.rebels_off, s.labels.frames); },
+       lower("per frame", 0.1, 1), "rebels off", "rebel corners in no labelled box"},
+      {"labels.circles_off_per_100_frames",
+       [](auto& s) { return ratio_of_circles(s, 100.0 * s.labels.circles_off, s.labels.frames); },
+       lower("per 100 frames", 1, 1), "circles off",
+       "rebel circles with no labelled box under them. There is no corner in a box in the disc, no "
+       "box round the centre"},
+  };
+}
+
+// ---- Sizes, ego-motion
+
+/// Corners in the last `length` frames, the current one included, at each frame.
+std::vector<double> store_sizes(const Scores& s, std::size_t length) {
+  std::vector<double> sizes;
+  for (std::size_t k = 0; k < s.corner_counts.size(); ++k) {
+    const std::size_t first = k + 1 > length ? k + 1 - length : 0;
+    double size = 0;
+    for (std::size_t i = first; i <= k; ++i) size += s.corner_counts[i];
+    sizes.push_back(size);
+  }
+  return sizes;
+}
+
+std::vector<double> all_corners(const Scores& s) {
+  return store_sizes(s, s.corner_counts.size());
+}
+
+Figure rematched_edges(const Scores& s) {
+  double edges = 0, rematched = 0;
+  const std::vector<FrameRecord>& frames = s.recording.frames;
+  const std::size_t end = s.recording.detector.layered ? frames.size() : 0;
+  for (std::size_t k = 1; k < end; ++k) {
+    std::set<Id> supported;
+    for (const Edge& edge : frames[k].layers.normal_edges) {
+      if (edge.corner >= 0) supported.insert(edge.id);
+    }
+    for (const Edge& edge : frames[k - 1].layers.normal_edges) {
+      edges += 1;
+      rematched += static_cast<double>(supported.count(edge.id));
+    }
+  }
+  return ratio(rematched, edges);
+}
+
+std::vector<Metric> other_metrics() {
+  return {
+      {"dimension.corners_mean", [](auto& s) { return mean(s.corner_counts); }, kCount, "corners",
+       "corners of a frame, ignored ones included. Mean over frames"},
+      {"dimension.mean", [](auto& s) { return mean(s.dimensions); }, lower("", 1, 0), "items",
+       "edges, circles and squares of a frame, the paper's dimensionality. Mean over frames"},
+      {"dimension.max", [](auto& s) { return quantile(s.dimensions, 1); }, lower("", 1, 0), "",
+       "greatest number of edges, circles and squares in a frame"},
+      {"dimension.five_frame_mean", [](auto& s) { return mean(store_sizes(s, 5)); }, kCount,
+       "5-frame store",
+       "corners of the last 5 frames together, the current one included. Mean over frames"},
+      {"dimension.eight_frame_mean", [](auto& s) { return mean(store_sizes(s, 8)); }, kCount,
+       "8-frame store",
+       "corners of the last 8 frames together, the current one included. Mean over frames"},
+      {"dimension.accumulative", [](auto& s) { return mean(all_corners(s)); }, kCount, "",
+       "corners of all frames so far. Mean over frames"},
+      {"dimension.accumulative_final", [](auto& s) { return quantile(all_corners(s), 1); }, kCount,
+       "full store", "corners of all frames"},
+      {"edges.rematched", rematched_edges, kShare, "",
+       "share of the normal edges of a frame that have a corner in the next one. The others may "
+       "lie inside psi then, or have left the image"},
+      {"ego.rotation_error_mrad_median", [](auto& s) { return median(s.rotation_errors_mrad); },
+       lower("mrad", 0.01, 2), "",
+       "angle between the told and the true rotation since the last frame. Median over frames"},
+      {"ego.velocity_error_mps_median", [](auto& s) { return median(s.velocity_errors_mps); },
+       lower("m/s", 0.001, 3), "",
+       "distance between the told and the true mean velocity over a frame. Median over frames"},
+  };
+}
+
+// ---- Times
+
+/// Empty where the stage took no time in any frame.
+std::vector<double> times_of(const Recording& recording, const Stage& stage) {
+  std::vector<double> times;
+  if (stage.is_layer && !recording.detector.layered) return times;
+  for (const FrameRecord& frame : recording.frames) {
+    if (frame.times) times.push_back((*frame.times).*stage.time_ms);
+  }
+  const bool was_done = std::ranges::any_of(times, [](double ms) { return ms > 0; });
+  return was_done ? times : std::vector<double>{};
+}
+
+Figure over_fast(const Recording& recording, const Stage& stage) {
+  const std::vector<double> times = times_of(recording, stage);
+  const std::vector<double> fast = times_of(recording, kStages[0]);
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < std::min(times.size(), fast.size()); ++i) {
+    if (fast[i] > 0) ratios.push_back(times[i] / fast[i]);
+  }
+  return median(ratios);
+}
+
+Figure frames_per_second(const Scores& s) {
+  double seconds = 0;
+  int timed = 0;
+  for (const FrameRecord& frame : s.recording.frames) {
+    if (!frame.times) continue;
+    const FrameTimes& times = *frame.times;
+    seconds += 1e-3 * (times.simulate_ms + times.detect_ms + times.describe_ms + times.filter_ms +
+                       times.process_ms + times.truth_ms);
+    ++timed;
+  }
+  return ratio(timed, seconds);
+}
+
+/// Times differ between machines and runs: no direction is better.
+std::vector<Metric> time_metrics() {
+  std::vector<Metric> all;
+  for (const Stage& stage : kStages) {
+    const std::string key = std::string("time.") + stage.name, label = stage.label;
+    all.push_back({key + "_ms_median",
+                   [stage](auto& s) { return median(times_of(s.recording, stage)); },
+                   neutral("ms", 1), label, "median over frames of the stage's time"});
+    all.push_back({key + "_ms_p99",
+                   [stage](auto& s) { return quantile(times_of(s.recording, stage), 0.99); },
+                   neutral("ms", 1), label.empty() ? "" : label + " p99",
+                   "99th percentile over frames of the stage's time"});
+    if (!stage.is_of_filter) continue;
+    all.push_back({key + "_over_fast", [stage](auto& s) { return over_fast(s.recording, stage); },
+                   neutral("", 1), label == "filter" ? "time" : "",
+                   "the stage's time over that of FAST in the same frame. Median over frames"});
+  }
+  all.push_back(
+      {"sim.frames_per_second", frames_per_second, neutral("frames/s", 1), "",
+       "speed of simulate, detect, describe, filter or process, and truth. Without writing files"});
+  return all;
+}
+
+// ---- Warnings
+
+/// A warning is of the world or the told motion, not of the detector: no direction is better.
+std::vector<Metric> warning_metrics() {
+  const std::pair<std::string, std::string> rows[] = {
+      {"rover_below_ground",
+       "times that the rover's origin came over 0.1 m below the floor (a plane that faces up, a "
+       "height field), or without one below all of the setting"},
+      {"rover_tipped", "times that the rover came to lean by over 45 deg"},
+      {"rover_collisions",
+       "objects, actors and geoms of the setting that were inside of the rover by over 2 cm, or "
+       "that its wheels pushed sideways. Each counts once a run"},
+      {"actor_collisions",
+       "pairs of an actor and another actor, an object or a geom of the setting, inside of each "
+       "other by over 2 cm. Each counts once a run; actors step over fixed geoms that end lower "
+       "than 0.2 m above their feet"},
+      {"objects_below_ground",
+       "times that the middle of an object with a joint fell over 0.1 m below the ground"},
+      {"few_corners", "frames with fewer than 10 corners; 0 if not more than half"},
+      {"runaway_speed", "frames with a told speed above 70 m/s. Of recordings alone"},
+      {"turn_not_told",
+       "frames in which most corners moved by the same vector of 3 px or more, without a told turn "
+       "or motion to the side; 0 if fewer than five. Of recordings alone"},
+      {"still_camera",
+       "times that nearly all corners stayed in place over 1 m of told motion; 0 if fewer than "
+       "three, or than nine in ten. Of recordings alone"},
+      {"many_rebels",
+       "frames after the warm-up with 30 % rebels or more; 0 if not more than half. Of recordings "
+       "alone"},
+  };
+  std::vector<Metric> all;
+  for (const auto& [word, meaning] : rows) {
+    const auto count = [word = word](const Scores& s) {
+      return Figure(std::ranges::find(s.warnings, word, &Warned::word)->count);
+    };
+    all.push_back({"warnings." + word, count, kCount, "", meaning});
+  }
+  return all;
+}
+
+}  // namespace
+
+const std::vector<Metric>& metrics() {
+  static const std::vector<Metric> all = [] {
+    std::vector<Metric> table;
+    const auto add = [&](std::vector<Metric> rows, Truth needs = Truth::unknown) {
+      for (Metric& row : rows) {
+        row.needs = needs;
+        table.push_back(std::move(row));
+      }
+    };
+    add({{"frames", [](auto& s) { return static_cast<double>(s.recording.frames.size()); }, kCount,
+          "frames", "frames of the recording"}});
+    add(rebel_metrics(), Truth::nothing_moves);
+    add(square_metrics(), Truth::all);
+    add(label_metrics());
+    add(other_metrics());
+    add(time_metrics());
+    add(warning_metrics());
+    add({{std::string(kSizeShare), nullptr, kLostShare, "size",
+          "dimension.mean / dimension.five_frame_mean. In suites and comparisons, not in "
+          "metrics.json"}});
+    return table;
+  }();
+  return all;
+}
+
+const Metric& metric(std::string_view key) {
+  const auto found = std::ranges::find(metrics(), key, &Metric::key);
+  if (found == metrics().end()) throw std::out_of_range(fmt::format("no metric is called {}", key));
+  return *found;
+}
+
+std::string Metric::number(std::optional<double> value) const {
+  if (!value) return "-";
+  // Three digits of a time, whatever its size.
+  const int digits = scale.unit != "ms" ? scale.decimals : *value < 10 ? 2 : *value < 100 ? 1 : 0;
+  return fmt::format("{:.{}f}", *value, digits);
+}
+
+std::string Metric::heading() const {
+  return scale.unit.empty() ? label : fmt::format("{} ({})", label, scale.unit);
+}
+
+std::string Metric::tooltip() const {
+  return fmt::format("{}: {}", key, meaning);
+}
+
+std::string_view Metric::first_sentence() const {
+  return std::string_view(meaning).substr(0, meaning.find(". "));
+}
+
+bool Metric::is_time() const {
+  return key.starts_with("time.") || key.starts_with("sim.");
+}
+
+double least_change(const Scale& scale, double before) {
+  return std::max(scale.least_change, scale.least_share * std::abs(before));
+}
+
+int sign_of_change(Direction better, double before, double after) {
+  if (better == Direction::neutral || before == after) return 0;
+  return (after > before) == (better == Direction::higher) ? 1 : -1;
+}
+
+}  // namespace lcs::bench
