@@ -191,7 +191,7 @@ class Outputs : public testing::Test {
 std::unique_ptr<TemporaryFolder> Outputs::made_;
 
 TEST_F(Outputs, AreUnderAHeadingOfTheirOwn) {
-  EXPECT_GE(commands().size(), 11u);
+  EXPECT_GE(commands().size(), 10u);
   EXPECT_GE(options().size(), 14u);
   const std::regex path("FILE|DIR|FOLDER|SUITE");
   for (const std::string& command : commands()) {
