@@ -20,13 +20,16 @@ std::vector<std::smatch> matches(const std::string& text, const std::regex& patt
   return {std::sregex_iterator(text.begin(), text.end(), pattern), {}};
 }
 
-/// As they are written in the sources: "Suite.Test".
+/// As the sources name them: "Suite.Test" in C++, "test_..." in Python.
 std::set<std::string> tests_in_the_tree() {
   const std::regex definition(R"(\nTEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\))");
+  const std::regex in_python(R"(\n    def (test_\w+)\()");
   std::set<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(kTests)) {
-    if (entry.path().extension() != ".cpp") continue;
+    const std::string type = entry.path().extension();
+    if (type != ".cpp" && type != ".py") continue;
     const std::string text = lcs::bench::read(entry.path());
+    for (const std::smatch& match : matches(text, in_python)) names.insert(match.str(1));
     for (const std::smatch& match : matches(text, definition)) {
       names.insert(match.str(1) + "." + match.str(2));
     }

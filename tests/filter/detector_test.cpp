@@ -91,6 +91,24 @@ double changed_levels(const cv::Mat1b& before, const cv::Mat1b& after) {
   return std::sqrt(squares / pixels);
 }
 
+TEST(Noise, IsEstimatedWithinATenthOnFlatAndOnCrowdedPictures) {
+  cv::Mat1b slope(240, 320);
+  for (int x = 0; x < slope.cols; ++x) slope.col(x).setTo(60 + 0.25 * x);
+  const double rounding = 1 / std::sqrt(12.0);
+  for (const double levels : {1.0, 2.0, 5.0, 12.0}) {
+    for (const cv::Mat1b& clean : {slope, boards()}) {
+      EXPECT_NEAR(noise_levels(noisy(clean, levels)).value_or(0), std::hypot(levels, rounding),
+                  0.1 * levels);
+    }
+  }
+}
+
+TEST(Noise, IsUnknownWhereAllIsBlackOrWhite) {
+  EXPECT_FALSE(noise_levels(cv::Mat1b(240, 320, uchar{0})));
+  EXPECT_FALSE(noise_levels(cv::Mat1b(240, 320, uchar{255})));
+  EXPECT_EQ(noise_levels(cv::Mat1b(240, 320, uchar{90})), 0);
+}
+
 TEST(Compression, IsMeasuredByTheGridThatItLeaves) {
   const cv::Mat1b clean = noisy(boards(), 2);  // as any camera has it
   EXPECT_LT(compression_levels(clean), 1);

@@ -275,11 +275,11 @@ TEST(KinematicsNoise, IsTheSimulatorSOwnForTheSameSeed) {
   }
 }
 
-TEST(KinematicsNoise, AnOwnImuIsTriedBesideThePresets) {
+TEST(KinematicsNoise, AnOwnImuIsTriedBeforeThePresets) {
   EXPECT_EQ(imus(config_with()).size(), scenario::imu_preset_names().size());
   const auto with_own = imus(config_with({"imu.gyroscope_noise_density=0.01"}));
   EXPECT_EQ(with_own.size(), scenario::imu_preset_names().size() + 1);
-  EXPECT_EQ(with_own.back().name, "own");
+  EXPECT_EQ(with_own.front().name, "own");
 }
 
 /// Results belong to the seed, not to the thread: twice the same bits.

@@ -65,11 +65,11 @@ std::vector<Listed> listed(const std::string& help) {
 }
 
 /// Options that name what is read. Any other option that takes a path has to be an output.
-const std::set<std::string> kInputs{
-    "run --recorded",    "run --detections",     "suite --recorded", "suite --detections",
-    "suite --baseline",  "score --detections",   "replay --poses",   "replay --imu",
-    "replay --odometry", "replay --mask",        "replay --labels",  "kinematics --config",
-    "world --pictures",  "likeness --recording", "tune --validate"};
+const std::set<std::string> kInputs{"run --recorded",     "run --detections", "suite --recorded",
+                                    "suite --detections", "suite --baseline", "score --detections",
+                                    "replay --poses",     "replay --imu",     "replay --odometry",
+                                    "replay --mask",      "replay --labels",  "kinematics --config",
+                                    "world --pictures",   "tune --validate"};
 
 class Outputs : public testing::Test {
  protected:
@@ -140,7 +140,6 @@ class Outputs : public testing::Test {
         {"generate", {"generate", "scenarios/mine.yaml", "--formats", "tum", "--quiet"}},
         {"kinematics", {"kinematics", "--config", "scenarios/mine.yaml", "--quick", "--quiet"}},
         {"world", {"world", "room", "--pictures", "pictures", "--quiet"}},
-        {"likeness", {"likeness", "--recording", "mine=pictures", "--pairs", "1", "--quiet"}},
         {"tune", {"tune", "suite", "--evaluations", "1", "--quiet"}}};
     const auto found = uses.find(option.command);
     EXPECT_NE(found, uses.end()) << "lcs " << option.command
@@ -192,7 +191,7 @@ class Outputs : public testing::Test {
 std::unique_ptr<TemporaryFolder> Outputs::made_;
 
 TEST_F(Outputs, AreUnderAHeadingOfTheirOwn) {
-  EXPECT_GE(commands().size(), 11u);
+  EXPECT_GE(commands().size(), 10u);
   EXPECT_GE(options().size(), 14u);
   const std::regex path("FILE|DIR|FOLDER|SUITE");
   for (const std::string& command : commands()) {
@@ -284,7 +283,6 @@ TEST_F(Outputs, AreNoInputsNorLieInsideOrRoundThem) {
       {"generate", {"scenarios/mine.yaml", "scenarios"}},
       {"kinematics", {"scenarios/mine.yaml", "scenarios"}},
       {"world", {"pictures", "pictures/deep/world"}},
-      {"likeness", {"pictures", "pictures/deep/out"}},
       {"tune", {"suite", "suite/tune"}}};
   for (const Option& option : options()) {
     SCOPED_TRACE(option.key());

@@ -8,9 +8,7 @@ namespace lcs::comparators {
 BackwardFlow::BackwardFlow(const FlowParameters& parameters)
     : parameters_(parameters), pyramids_(parameters.baseline_s) {
   const bool window_is_right = parameters.window_px >= 3 && parameters.window_px % 2 == 1;
-  const bool trip_is_right = !parameters.round_trip_px || *parameters.round_trip_px >= 0;
-  if (!window_is_right || parameters.levels < 0 || parameters.max_iterations < 1 ||
-      !trip_is_right) {
+  if (!window_is_right || parameters.levels < 0 || parameters.max_iterations < 1) {
     throw std::invalid_argument("a parameter of the optical flow is out of its range");
   }
 }
@@ -35,25 +33,10 @@ std::span<const std::optional<Vec2>> BackwardFlow::track(
     before_.emplace_back(cv::Point2d(guesses_px[i].x(), guesses_px[i].y()));
   }
   lucas_kanade(pyramids_.now(), *pyramids_.earlier(), corners_, before_, found_);
-  if (parameters_.round_trip_px) drop_those_that_do_not_return(guesses_px);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     if (found_[i]) result_[i] = Vec2(before_[i].x, before_[i].y);
   }
   return result_;
-}
-
-void BackwardFlow::drop_those_that_do_not_return(std::span<const Vec2> guesses_px) {
-  again_.clear();
-  for (std::size_t i = 0; i < corners_.size(); ++i) {
-    // The guess that the way there began with, from where the way ended.
-    const cv::Point2f guess(cv::Point2d(guesses_px[i].x(), guesses_px[i].y()));
-    again_.push_back(before_[i] + (corners_[i] - guess));
-  }
-  lucas_kanade(*pyramids_.earlier(), pyramids_.now(), before_, again_, found_again_);
-  for (std::size_t i = 0; i < corners_.size(); ++i) {
-    if (cv::norm(again_[i] - corners_[i]) > *parameters_.round_trip_px) found_[i] = 0;
-    if (!found_again_[i]) found_[i] = 0;
-  }
 }
 
 void BackwardFlow::lucas_kanade(const Pyramid& from, const Pyramid& to, const Points& here,

@@ -25,10 +25,6 @@ struct FlowParameters {
   int max_iterations = 30;          ///< on each level
   double least_step_px = 0.01;      ///< at which iterations end
   double least_eigenvalue = 1e-4;   ///< of the window's gradients, as OpenCV normalises it
-  /// A corner that, tracked there and back again, ends farther than this from itself is lost; none:
-  /// no way back, in half the time. What fails the check lies on movers' outlines more often than
-  /// not, so that checking costs more recall than it gains precision (README.md).
-  std::optional<double> round_trip_px;
 };
 
 class BackwardFlow {
@@ -55,7 +51,6 @@ class BackwardFlow {
  private:
   using Pyramid = std::vector<cv::Mat>;
   using Points = std::vector<cv::Point2f>;
-  void drop_those_that_do_not_return(std::span<const Vec2> guesses_px);
   /// `there` holds guesses before, and what was found after.
   void lucas_kanade(const Pyramid& from, const Pyramid& to, const Points& here, Points& there,
                     std::vector<unsigned char>& found) const;
@@ -64,8 +59,8 @@ class BackwardFlow {
   Lookback<Pyramid> pyramids_;
 
   // Of the current frame; kept for their memory.
-  Points corners_, before_, again_;
-  std::vector<unsigned char> found_, found_again_;
+  Points corners_, before_;
+  std::vector<unsigned char> found_;
   std::vector<std::optional<Vec2>> result_;
 };
 

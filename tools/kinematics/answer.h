@@ -1,5 +1,6 @@
 /// \file
-/// The plain answer of a study: sentences, and the figures in them beside what theory expects.
+/// The answer of a study: for each part of the model its figures beside what theory expects, and
+/// whether it is within the tolerance.
 #pragma once
 
 #include <string>
@@ -10,29 +11,27 @@
 namespace lcs::kinematics {
 
 struct Figure {
-  std::string name;  ///< as "first_order.pan"
+  std::string name;  ///< as "first_order.limit.pan"
   double value = 0;
   std::string unit;
-  double expected = 0;  ///< by theory; NaN where it has nothing to say
+  double expected = 0;  ///< by theory; NaN where theory has no formula
 };
 
 struct Statement {
   std::string topic;  ///< "rotation", "translation", "IMU", "mount", "bumps", "drift"
-  std::string text;
+  std::string text;   ///< says how the figures were taken
   std::vector<Figure> figures;
-  /// Whether, or how far, it stays within `StudyConfig::tolerance_px`, as "yes: 0.021 px"; empty
-  /// for what the tolerance does not judge.
-  std::string verdict = {};
-  bool is_own = false;  ///< of what the scenario's filter and sensors do, not of what they might
+  /// Whether the error stays within `StudyConfig::tolerance_px`, and the error, as "yes: 0.021 px".
+  std::string verdict;
+  bool is_own = false;  ///< tells of the scenario's own filter and sensors, not of alternatives
 };
 
-/// The scenario's own IMU is the first of those that are told of.
 std::vector<Statement> answer(const Study& study);
 
-/// What the answer is about: camera, rover, IMU.
+/// Camera, rover and IMU in one line.
 std::string subject(const StudyConfig& config);
 
-/// The verdicts on what is the scenario's own, in a line.
+/// The verdicts on the scenario's own filter and sensors in one line.
 std::string bottom_line(const StudyConfig& config, const std::vector<Statement>& statements);
 
 /// For people, with a heading.

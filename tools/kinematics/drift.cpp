@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "tools/bench/ego_motion_feed.h"
-#include "tools/process/parallel.h"
 #include "tools/kinematics/theory.h"
+#include "tools/process/parallel.h"
 
 namespace lcs::kinematics {
 namespace {
 
-constexpr double kRate_hz = 1;  // at which the errors are looked at
+constexpr double kRate_hz = 1;  // of the rows
 
-/// Squares of the errors at one moment.
+/// Squared errors at one moment.
 struct Squares {
   double tilt = 0, heading = 0;
   Eigen::Vector3d velocity_B = Eigen::Vector3d::Zero();
@@ -25,7 +25,8 @@ Squares squares_of(const EgoMotionEstimator& estimator, const sim::Observation& 
   const Eigen::Matrix3d R_WB_told = estimator.R_WS() * T_BS.R.transpose();
   const Eigen::AngleAxisd off(R_WB_told * R_WB.transpose());
   const Eigen::Vector3d off_W = off.angle() * off.axis();
-  // The truth is the camera's velocity, the estimator's the IMU's: they turn as one body.
+  // The truth is the velocity of the camera, the estimate that of the IMU: both turn with the
+  // rover.
   const Eigen::Vector3d w_W = frame.truth.now.T_WC.R * frame.truth.w_C_radps;
   const Eigen::Vector3d v_WS =
       frame.truth.v_WC_mps + w_W.cross(R_WB * (T_BS.p - calibration.T_BC.p));
@@ -36,25 +37,18 @@ Squares squares_of(const EgoMotionEstimator& estimator, const sim::Observation& 
           .velocity_B = off_B.cwiseAbs2()};
 }
 
-void expect(DriftRow& row, const StudyConfig& config, const scenario::Scenario& s,
-            double gravity_mps2) {
-  const Drift drift = dead_reckoning_drift(s.imu.noise, gravity_mps2, row.t_s);
-  row.expected_heading_rad = std::sqrt(drift.attitude_rad2);
-  if (!row.odometry) {
-    // A heading or pitch that is off turns the speed aside.
-    const double aside = config.speed_mps * config.speed_mps * drift.attitude_rad2;
-    row.expected_tilt_rad = std::sqrt(drift.attitude_rad2);
-    row.expected_forward_mps = std::sqrt(drift.velocity_horizontal_mps2);
-    row.expected_lateral_mps = std::sqrt(drift.velocity_horizontal_mps2 + aside);
-    row.expected_vertical_mps = std::sqrt(drift.velocity_vertical_mps2 + aside);
-    return;
-  }
-  const HeldVelocity held = odometry_held_velocity(s.imu.noise, s.odometry, gravity_mps2);
-  row.expected_tilt_rad = std::sqrt(odometry_held_tilt(s.imu.noise, gravity_mps2, row.t_s));
-  row.expected_forward_mps =
-      std::hypot(std::sqrt(held.horizontal_mps2), s.odometry.scale_error * config.speed_mps);
-  row.expected_lateral_mps = std::sqrt(held.horizontal_mps2);
-  row.expected_vertical_mps = std::sqrt(held.vertical_mps2);
+DriftErrors expected_errors(const StudyConfig& config, const scenario::Scenario& s,
+                            double gravity_mps2, double t_s) {
+  const double attitude_rad2 = dead_reckoning_drift(s.imu.noise, gravity_mps2, t_s).attitude_rad2;
+  const double tilt_rad2 =
+      s.odometry.enabled ? odometry_held_tilt(s.imu.noise, gravity_mps2, t_s) : attitude_rad2;
+  const Eigen::Vector3d velocity =
+      velocity_variance_B(s, gravity_mps2, config.speed_mps, t_s).cwiseSqrt();
+  return {.tilt_rad = std::sqrt(tilt_rad2),
+          .heading_rad = std::sqrt(attitude_rad2),
+          .forward_mps = velocity.x(),
+          .lateral_mps = velocity.y(),
+          .vertical_mps = velocity.z()};
 }
 
 }  // namespace
@@ -93,17 +87,18 @@ std::vector<DriftRow> drift_rows(const StudyConfig& config, const Tick& tick) {
           sum.velocity_B += squares[k].velocity_B;
         }
         const Eigen::Vector3d velocity = (sum.velocity_B / seeds).cwiseSqrt();
-        DriftRow row{.imu = imu.name,
-                     .odometry = odometry,
-                     .t_s = static_cast<double>(k) / kRate_hz,
-                     .seeds = seeds,
-                     .tilt_rad = std::sqrt(sum.tilt / seeds),
+        const double t_s = static_cast<double>(k) / kRate_hz;
+        rows.push_back(
+            {.imu = imu.name,
+             .odometry = odometry,
+             .t_s = t_s,
+             .seeds = seeds,
+             .rms = {.tilt_rad = std::sqrt(sum.tilt / seeds),
                      .heading_rad = std::sqrt(sum.heading / seeds),
                      .forward_mps = velocity.x(),
                      .lateral_mps = velocity.y(),
-                     .vertical_mps = velocity.z()};
-        expect(row, config, scenario, ideal.calibration.gravity_mps2);
-        rows.push_back(row);
+                     .vertical_mps = velocity.z()},
+             .expected = expected_errors(config, scenario, ideal.calibration.gravity_mps2, t_s)});
       }
     }
   }

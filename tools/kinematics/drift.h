@@ -1,6 +1,6 @@
 /// \file
-/// The IMU's path apart from any picture: by how much attitude and velocity drift on a straight
-/// drive from a known start, with and without odometry, beside what theory expects.
+/// Dead reckoning without pictures: the drift of attitude and velocity on a straight drive from a
+/// known start, with and without odometry, beside the drift that theory expects.
 #pragma once
 
 #include <vector>
@@ -9,26 +9,22 @@
 
 namespace lcs::kinematics {
 
-/// Root mean squares, over seeds, after `t_s`, and what `theory.h` expects. With odometry the
-/// expected velocities are those of a filter that has settled, which takes some seconds.
+/// Root mean squares of the errors of attitude, and of velocity in the rover's frame.
+struct DriftErrors {
+  double tilt_rad = 0;     ///< about each horizontal axis
+  double heading_rad = 0;  ///< about the vertical
+  double forward_mps = 0;
+  double lateral_mps = 0;
+  double vertical_mps = 0;
+};
+
 struct DriftRow {
   std::string imu;
   bool odometry = false;
   double t_s = 0;
   int seeds = 0;
-  double tilt_rad = 0;     ///< about each horizontal axis
-  double heading_rad = 0;  ///< about the vertical
-  /// \name Velocity in the rover's frame, m/s.
-  ///@{
-  double forward_mps = 0;
-  double lateral_mps = 0;
-  double vertical_mps = 0;
-  ///@}
-  double expected_tilt_rad = 0;
-  double expected_heading_rad = 0;
-  double expected_forward_mps = 0;
-  double expected_lateral_mps = 0;
-  double expected_vertical_mps = 0;
+  DriftErrors rms;       ///< over the seeds, after `t_s`
+  DriftErrors expected;  ///< by `theory.h`: with odometry that of a filter that has settled
 };
 
 /// A row for each second.

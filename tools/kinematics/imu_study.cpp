@@ -7,6 +7,7 @@
 
 #include "scenarios/imu_presets.h"
 #include "tools/bench/ego_motion_feed.h"
+#include "tools/bench/tracker.h"
 #include "tools/kinematics/theory.h"
 #include "tools/process/parallel.h"
 #include "tools/scoring/statistics.h"
@@ -44,7 +45,7 @@ std::vector<std::vector<Landmark>> landmarks_along(const sim::Drive& drive, cons
   return all;
 }
 
-/// Mean square over the frames of what theory expects, as a root.
+/// The error that theory expects, root mean square over the frames.
 double expected_rms_px(const StudyConfig& config, const sim::Drive& drive,
                        const std::vector<std::vector<Landmark>>& seen, const scenario::Scenario& s,
                        double rate_hz, bool with_velocity) {
@@ -58,17 +59,7 @@ double expected_rms_px(const StudyConfig& config, const sim::Drive& drive,
     const Eigen::Vector3d attitude =
         Eigen::Vector3d::Constant(gyro_turn_variance(imu, s.imu.rate_hz, dt) + bias2 * dt * dt);
     Eigen::Vector3d velocity_B = Eigen::Vector3d::Zero();
-    if (with_velocity && s.odometry.enabled) {
-      const HeldVelocity held = odometry_held_velocity(imu, s.odometry, g);
-      velocity_B = {held.horizontal_mps2 + std::pow(s.odometry.scale_error * config.speed_mps, 2),
-                    held.horizontal_mps2, held.vertical_mps2};
-    } else if (with_velocity) {
-      const Drift drift = dead_reckoning_drift(imu, g, t);
-      // A heading or pitch that is off turns the speed aside.
-      const double aside = config.speed_mps * config.speed_mps * drift.attitude_rad2;
-      velocity_B = {drift.velocity_horizontal_mps2, drift.velocity_horizontal_mps2 + aside,
-                    drift.velocity_vertical_mps2 + aside};
-    }
+    if (with_velocity) velocity_B = velocity_variance_B(s, g, config.speed_mps, t);
     const Eigen::Matrix3d R_CB = drive.calibration.T_BC.R.transpose();
     const Eigen::Vector3d velocity_C =
         (R_CB * velocity_B.asDiagonal() * R_CB.transpose()).diagonal();
@@ -86,20 +77,16 @@ Errors errors_along(const StudyConfig& config, const sim::Drive& drive,
                     const scenario::Scenario& scenario,
                     const std::vector<std::vector<Landmark>>& seen) {
   bench::EgoMotionFeed feed(scenario, drive.calibration);
-  const Intrinsics camera = step_to(config.camera, {}, 1, field_of(config.filter)).camera;
+  const Intrinsics camera = bench::intrinsics(config.camera);
   Errors result;
   for (std::size_t k = 0; k < drive.frames.size(); ++k) {
     const bench::EgoMotionFeed::Motions motions = feed.next(drive.frames[k]);
     if (k == 0) continue;
     EgoMotion turned_only = motions.told;
     turned_only.v_C_mps = motions.exact.v_C_mps;
-    const auto add = [&](const EgoMotion& motion, std::vector<double>& into) {
-      const std::vector<double> more =
-          errors({camera, motion, field_of(config.filter)}, {}, seen[k - 1]);
-      into.insert(into.end(), more.begin(), more.end());
-    };
-    add(motions.told, result.all);
-    add(turned_only, result.rotation);
+    append(result.all, errors({camera, motions.told, field_of(config.filter)}, {}, seen[k - 1]));
+    append(result.rotation,
+           errors({camera, turned_only, field_of(config.filter)}, {}, seen[k - 1]));
   }
   return result;
 }
@@ -107,13 +94,17 @@ Errors errors_along(const StudyConfig& config, const sim::Drive& drive,
 }  // namespace
 
 std::vector<NamedImu> imus(const StudyConfig& config) {
+  const scenario::ImuNoise& own = config.scenario.imu.noise;
   std::vector<NamedImu> all;
-  bool is_own_there = false;
   for (const std::string& name : scenario::imu_preset_names()) {
     all.push_back({name, *scenario::imu_preset(name)});
-    is_own_there |= all.back().noise == config.scenario.imu.noise;
   }
-  if (!is_own_there) all.push_back({"own", config.scenario.imu.noise});
+  const auto found = std::ranges::find(all, own, &NamedImu::noise);
+  if (found == all.end()) {
+    all.insert(all.begin(), {"own", own});
+  } else {
+    std::rotate(all.begin(), found, found + 1);
+  }
   return all;
 }
 
@@ -154,8 +145,8 @@ std::vector<ImuRow> imu_rows(const StudyConfig& config, const Tick& tick) {
             tick);
         Errors together;
         for (const Errors& e : of_seed) {
-          together.all.insert(together.all.end(), e.all.begin(), e.all.end());
-          together.rotation.insert(together.rotation.end(), e.rotation.begin(), e.rotation.end());
+          append(together.all, e.all);
+          append(together.rotation, e.rotation);
         }
         rows.push_back(
             {.imu = imu.name,
@@ -182,26 +173,28 @@ std::vector<BumpRow> bump_rows(const StudyConfig& config, const Tick& tick) {
   const double rate_hz = config.scenario.camera.rate_hz;
   const double duration_s =
       std::clamp(kBumpyWay_m / config.speed_mps, 2 / rate_hz, kLongestBumps_s);
-  std::vector<std::vector<BumpRow>> of_roughness(kRoughness_m.size());
-  const auto roll = [&](int piece) {
-    const double roughness_m = kRoughness_m[static_cast<std::size_t>(piece)];
+  const scenario::Scenario own =
+      with_imu(config, config.scenario.imu.noise, config.scenario.odometry.enabled);
+  const Intrinsics camera = bench::intrinsics(config.camera);
+  std::vector<BumpRow> rows;
+  // One after the other: the physics engine's error handlers belong to the whole process.
+  for (const double roughness_m : kRoughness_m) {
     const sim::Drive drive = sim::drive(bumpy_drive(config, duration_s, rate_hz, roughness_m));
     const auto seen = landmarks_along(drive, points, field_of(config.filter));
-    const scenario::Scenario own =
-        with_imu(config, config.scenario.imu.noise, config.scenario.odometry.enabled);
     const sim::Drive told = with_noise(drive, own);
     bench::EgoMotionFeed feed(own, drive.calibration);
 
     std::vector<double> turns_deg;
     struct Way {
       std::string rotation, told;
+      RotationModel model;
       std::vector<double> errors_px, expected_px;
     };
-    std::vector<Way> ways = {{"none", "truth", {}, {}},
-                             {"as_printed", "truth", {}, {}},
-                             {"first_order", "truth", {}, {}},
-                             {"homography", "truth", {}, {}},
-                             {"homography", "imu", {}, {}}};
+    std::vector<Way> ways = {{"none", "truth", RotationModel::homography, {}, {}},
+                             {"as_printed", "truth", RotationModel::as_printed, {}, {}},
+                             {"first_order", "truth", RotationModel::first_order, {}, {}},
+                             {"homography", "truth", RotationModel::homography, {}, {}},
+                             {"homography", "imu", RotationModel::homography, {}, {}}};
     for (std::size_t k = 0; k < told.frames.size(); ++k) {
       const bench::EgoMotionFeed::Motions motions = feed.next(told.frames[k]);
       if (k == 0) continue;
@@ -209,18 +202,12 @@ std::vector<BumpRow> bump_rows(const StudyConfig& config, const Tick& tick) {
       EgoMotion unturned = motions.exact;
       unturned.R_cur_prev.setIdentity();
       unturned.w_C_radps.setZero();
-      const Intrinsics camera = step_to(config.camera, {}, 1, field_of(config.filter)).camera;
       for (Way& way : ways) {
         const EgoMotion& motion = way.rotation == "none" ? unturned
                                   : way.told == "imu"    ? motions.told
                                                          : motions.exact;
-        RotationModel rotation = RotationModel::homography;
-        for (const RotationModel model : kRotations) {
-          if (name(model) == way.rotation) rotation = model;
-        }
-        const std::vector<double> more = errors({camera, motion, field_of(config.filter)},
-                                                {rotation, DepthSource::truth}, seen[k - 1]);
-        way.errors_px.insert(way.errors_px.end(), more.begin(), more.end());
+        append(way.errors_px, errors({camera, motion, field_of(config.filter)},
+                                     {way.model, DepthSource::truth}, seen[k - 1]));
         for (const Landmark& landmark : seen[k - 1]) {
           const Vec2 x = landmark.before_px - camera.centre_px;
           const Eigen::Vector3d w = motions.exact.w_C_radps * motions.exact.dt_s;
@@ -233,26 +220,19 @@ std::vector<BumpRow> bump_rows(const StudyConfig& config, const Tick& tick) {
       }
     }
     for (Way& way : ways) {
-      of_roughness[static_cast<std::size_t>(piece)].push_back(
-          {.roughness_m = roughness_m,
-           .turn_median_deg = bench::median(turns_deg).value_or(0),
-           .turn_p95_deg = bench::quantile(turns_deg, 0.95).value_or(0),
-           .turn_max_deg = bench::quantile(turns_deg, 1).value_or(0),
-           .rotation = way.rotation,
-           .told = way.told,
-           .error = summary(std::move(way.errors_px)),
-           .expected_rms_px = way.expected_px.empty()
-                                  ? std::nan("")
-                                  : summary(std::move(way.expected_px)).rms_px});
+      rows.push_back({.roughness_m = roughness_m,
+                      .turn_median_deg = bench::median(turns_deg).value_or(0),
+                      .turn_p95_deg = bench::quantile(turns_deg, 0.95).value_or(0),
+                      .turn_max_deg = bench::quantile(turns_deg, 1).value_or(0),
+                      .rotation = way.rotation,
+                      .told = way.told,
+                      .error = summary(std::move(way.errors_px)),
+                      .expected_rms_px = way.expected_px.empty()
+                                             ? std::nan("")
+                                             : summary(std::move(way.expected_px)).rms_px});
     }
-  };
-  // One after the other: the physics engine's error handlers belong to the whole process.
-  for (int piece = 0; piece < bump_pieces(); ++piece) {
-    roll(piece);
     tick(1);
   }
-  std::vector<BumpRow> rows;
-  for (const auto& some : of_roughness) rows.insert(rows.end(), some.begin(), some.end());
   return rows;
 }
 

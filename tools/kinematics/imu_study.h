@@ -1,7 +1,7 @@
 /// \file
-/// What the sensors cost: end-point errors of the exact model (homography, true depth) where the
-/// motion is told by a noisy IMU, and of all rotation models where wheels roll over bumps. Poses
-/// and readings are MuJoCo's; points are geometric.
+/// Errors by the sensors: end-point errors of the exact model (homography, true depth) where a
+/// noisy IMU tells the motion, and of all rotation models where wheels roll over bumps. Poses and
+/// readings are MuJoCo's; points are geometric.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ struct NamedImu {
   std::string name;
   scenario::ImuNoise noise;
 };
-/// The presets, and the scenario's own where it is none of them.
+/// The scenario's own first, then the other presets.
 std::vector<NamedImu> imus(const StudyConfig& config);
 
 /// The configured scenario with another IMU; odometry is the scenario's own, or the default one.

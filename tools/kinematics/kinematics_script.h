@@ -1,5 +1,5 @@
 /// \file
-/// `kinematics.js` as it lies beside this file: what lays out a study's data.
+/// The text of `kinematics.js`, which lays out a study on its page.
 #pragma once
 
 #include <string_view>

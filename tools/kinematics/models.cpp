@@ -15,27 +15,15 @@ FieldParameters with_rotation(FieldParameters field, RotationModel rotation) {
 }  // namespace
 
 std::string_view name(RotationModel rotation) {
-  switch (rotation) {
-    case RotationModel::as_printed:
-      return "as_printed";
-    case RotationModel::first_order:
-      return "first_order";
-    case RotationModel::homography:
-      break;
-  }
-  return "homography";
+  return rotation == RotationModel::as_printed    ? "as_printed"
+         : rotation == RotationModel::first_order ? "first_order"
+                                                  : "homography";
 }
 
 std::string_view name(DepthSource depth) {
-  switch (depth) {
-    case DepthSource::reference:
-      return "reference";
-    case DepthSource::learnt:
-      return "learnt";
-    case DepthSource::truth:
-      break;
-  }
-  return "truth";
+  return depth == DepthSource::reference ? "reference"
+         : depth == DepthSource::learnt  ? "learnt"
+                                         : "truth";
 }
 
 Predictor::Predictor(const Step& step, const Model& model)
@@ -43,7 +31,7 @@ Predictor::Predictor(const Step& step, const Model& model)
       depth_(model.depth) {}
 
 Vec2 Predictor::operator()(const Landmark& landmark) const {
-  // The ratio is that at the end of the interval; of what was learnt the known motion leads there.
+  // The field takes the ratio at the end of the interval; the learnt one is of its start.
   const double ratio = depth_ == DepthSource::reference ? 1
                        : depth_ == DepthSource::learnt
                            ? field_.advanced_ratio(landmark.learnt_ratio)

@@ -1,6 +1,6 @@
 /// \file
-/// The nine models that are held against the truth: three for the rotation, each with three kinds
-/// of knowledge of a landmark's depth. All of them are the filter's own (`filter/kinematics/motion_field.h`).
+/// The nine models that are compared with the truth: three of the rotation, each with three sources
+/// of a landmark's depth. All are the filter's own code (`filter/kinematics/motion_field.h`).
 ///
 /// A landmark is a static point, seen in frame k-1 and again in frame k. Pixels and frames are
 /// those of `filter/kinematics/camera.h`.
@@ -15,10 +15,10 @@
 
 namespace lcs::kinematics {
 
-/// What is known of Z_ref / Z, and so of the image speed V = V_v Z_ref / Z.
+/// Where the ratio Z_ref / Z, and so the image speed V = V_v Z_ref / Z, is known from.
 enum class DepthSource {
-  reference,  ///< nothing: V = V_v, as if all points were at Z_ref
-  learnt,     ///< what the landmark's own motion has shown up to frame k-1
+  reference,  ///< no knowledge: V = V_v, as if all points were at Z_ref
+  learnt,     ///< the landmark's own motion up to frame k-1
   truth,      ///< the true depth
 };
 
@@ -40,10 +40,10 @@ struct Landmark {
   Vec2 after_px = Vec2::Zero();   ///< in frame k: the truth
   double depth_before_m = 0;
   double depth_after_m = 0;
-  double learnt_ratio = 1;  ///< Z_ref / Z in frame k-1, as it was learnt
+  double learnt_ratio = 1;  ///< Z_ref / Z in frame k-1, estimated from the earlier motion
 };
 
-/// Camera, what it was told of its motion, and the filter's parameters of the field.
+/// Camera, its motion as the model is told it, and the filter's parameters of the field.
 struct Step {
   Intrinsics camera;
   EgoMotion motion;
@@ -67,7 +67,7 @@ class Predictor {
   DepthSource depth_;
 };
 
-/// End-point errors, px. Of none, all figures are 0.
+/// End-point errors, px. Without points all figures are 0.
 struct ErrorSummary {
   std::size_t count = 0;
   double median_px = 0;
@@ -76,6 +76,11 @@ struct ErrorSummary {
   double rms_px = 0;
 };
 ErrorSummary summary(std::vector<double> errors_px);
+
+template <class Value>
+void append(std::vector<Value>& all, const std::vector<Value>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
 
 /// Errors of one model on landmarks that share a step.
 std::vector<double> errors(const Step& step, const Model& model,

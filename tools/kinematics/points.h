@@ -35,11 +35,11 @@ struct PointSet {
 PointSet geometric_points(const sim::Pinhole& camera, std::span<const double> depths_m,
                           int columns = 21, int rows = 15);
 
-/// The corners of a frame that lie on what is fixed.
+/// The corners of a frame that lie on fixed objects.
 PointSet rendered_points(const sim::Pinhole& camera, sim::FrameTruth truth,
                          const std::vector<Eigen::Vector2f>& corners_px);
 
-/// Sightings before the step that a landmark has learnt from, if it was in the image for as long.
+/// Steps before the experiment over which a landmark learns its ratio, if it was in the image.
 inline constexpr int kLearningSteps = 5;
 
 /// Z_ref / Z now of the static point seen at `now_px` that would have been nearest to `before_px`
@@ -49,9 +49,9 @@ double ratio_from(const sim::Pinhole& camera, const MotionField& field, const Ve
 
 /// The points that are in the image before and after a motion.
 ///
-/// What each has learnt is its depth by the parallax of up to `kLearningSteps` steps before: the
-/// camera moved by as much in each, without turning, and corners were seen in whole pixels, as FAST
-/// gives them. One that was out of the image until now has learnt nothing yet: Z_ref.
+/// Each has learnt its depth from the parallax of up to `kLearningSteps` equal steps before, in
+/// which the camera did not turn, and corners were seen in whole pixels, as FAST gives them. A
+/// point that was out of the image before has the ratio 1, that of Z_ref.
 std::vector<Landmark> landmarks(const PointSet& points, const sim::Pose& T_CN,
                                 const FieldParameters& field);
 

@@ -51,32 +51,6 @@ std::vector<Landmark> landmarks_of(const Layers& layers, const sim::Pinhole& cam
   return landmarks;
 }
 
-FieldFrame field_frame(const StudyConfig& config, const sim::Pinhole& camera,
-                       const sim::Observation& frame, const std::vector<Eigen::Vector2f>& corners,
-                       const std::vector<Landmark>& landmarks, double min_depth_m) {
-  const sim::FrameTruth& truth = frame.truth;
-  const sim::Pose T_CN = truth.now.T_WC.inverse() * truth.next.T_WC;
-  const Step step = step_to(camera, T_CN, config.frame_s(), field_of(config.filter));
-  FieldFrame field{
-      frame.image, frame.index, {}, {}, MotionField(step.camera, step.motion, step.field).foe()};
-  const Predictor predict(step, {RotationModel::homography, DepthSource::learnt});
-  for (const Landmark& landmark : landmarks) {
-    field.fixed.push_back({landmark.before_px, landmark.after_px, predict(landmark)});
-  }
-  const auto labels = sim::label_corners(camera, truth, corners, min_depth_m);
-  const Predictor stand(step, {});
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (labels[i].label != sim::Label::rebel || !labels[i].motion_px.allFinite()) continue;
-    Landmark corner;
-    corner.before_px = corners[i].cast<double>();
-    corner.depth_after_m =
-        (T_CN.inverse() * camera.back_project(corner.before_px, labels[i].depth_m)).z();
-    field.moving.push_back(
-        {corner.before_px, corner.before_px + labels[i].motion_px, stand(corner)});
-  }
-  return field;
-}
-
 scenario::Scenario with_sensors(scenario::Scenario scenario, const StudyConfig& config) {
   scenario.imu = config.scenario.imu;
   scenario.odometry = config.scenario.odometry;
@@ -95,23 +69,27 @@ DriveResult rendered_drive(const StudyConfig& config, const std::string& name,
   bench::EgoMotionFeed feed(scenario, simulation.calibration());
   AnyFilter filter(intrinsics, config.filter);
 
+  struct Case {
+    std::string told;
+    Model model;
+    std::vector<double> errors_px;
+  };
+  std::vector<Case> cases;
+  for (const char* told : {"truth", "imu"}) {
+    for (const RotationModel rotation : kRotations) {
+      for (const DepthSource depth : kDepths) cases.push_back({told, {rotation, depth}, {}});
+    }
+  }
   DriveResult result;
-  std::vector<std::vector<double>> all(2 * kRotations.size() * kDepths.size());
-  std::vector<double> reference_px;  // expected of the reference depth
+  std::vector<double> reference_px;  // that theory expects of the reference depth
   std::vector<Landmark> landmarks;   // of the frame before
   const int every = std::max(1, scenario.frames / kStillFrames);
   while (const auto frame = simulation.next()) {
     const bench::EgoMotionFeed::Motions motions = feed.next(*frame);
-    auto errors_of = all.begin();
-    for (const EgoMotion& motion : {motions.exact, motions.told}) {
-      const Step step{intrinsics, motion, field_of(config.filter)};
-      for (const RotationModel rotation : kRotations) {
-        for (const DepthSource depth : kDepths) {
-          const std::vector<double> more = errors(step, {rotation, depth}, landmarks);
-          errors_of->insert(errors_of->end(), more.begin(), more.end());
-          ++errors_of;
-        }
-      }
+    for (Case& each : cases) {
+      const EgoMotion& motion = each.told == "truth" ? motions.exact : motions.told;
+      append(each.errors_px,
+             errors({intrinsics, motion, field_of(config.filter)}, each.model, landmarks));
     }
     const MotionField exact(intrinsics, motions.exact, field_of(config.filter));
     for (const Landmark& landmark : landmarks) {
@@ -119,41 +97,20 @@ DriveResult rendered_drive(const StudyConfig& config, const std::string& name,
       reference_px.push_back(exact.reference_speed(exact.rotated(landmark.before_px)) *
                              exact.dt_s() * std::abs(ratio - 1));
     }
-    const Predictor learnt({intrinsics, motions.told, field_of(config.filter)},
-                           {RotationModel::homography, DepthSource::learnt});
-    for (const Landmark& landmark : landmarks) {
-      result.learnt.push_back({landmark.before_px, learnt.error(landmark)});
-    }
     const auto corners = corners_of(detector, frame->image);
     const FrameResult& seen = filter.step(corners, motions.told);
     landmarks = landmarks_of(seen.layers, camera, frame->truth, scenario.truth_min_depth_m);
-    // Early frames have little to show: nothing is learnt yet.
-    if (frame->index > kLearningSteps) {
-      FieldFrame field =
-          field_frame(config, camera, *frame, corners, landmarks, scenario.truth_min_depth_m);
-      if (result.field.image.empty() || field.moving.size() >= result.field.moving.size()) {
-        result.field = std::move(field);
-      }
-    }
     if (frame->index % every == 0) {
       result.still_frames.push_back(rendered_points(camera, frame->truth, corners));
     }
     tick(1);
   }
-  auto errors_of = all.begin();
-  for (const char* told : {"truth", "imu"}) {
-    for (const RotationModel rotation : kRotations) {
-      for (const DepthSource depth : kDepths) {
-        const bool is_expected = std::string_view(told) == "truth" &&
-                                 rotation == RotationModel::homography &&
-                                 depth == DepthSource::reference;
-        result.rows.push_back({name,
-                               told,
-                               {rotation, depth},
-                               summary(std::move(*errors_of++)),
-                               is_expected ? summary(reference_px).median_px : std::nan("")});
-      }
-    }
+  for (Case& each : cases) {
+    const bool is_expected = each.told == "truth" &&
+                             each.model.rotation == RotationModel::homography &&
+                             each.model.depth == DepthSource::reference;
+    result.rows.push_back({name, each.told, each.model, summary(std::move(each.errors_px)),
+                           is_expected ? summary(reference_px).median_px : std::nan("")});
   }
   return result;
 }

@@ -8,12 +8,7 @@ namespace {
 
 constexpr std::array kDepths_m = {1.0, 2.0, 4.0, 8.0, 16.0};
 constexpr std::array kLenses_deg = {20.0, 30.0, 45.0, 60.0, 75.0, 90.0, 110.0};
-constexpr int kSweeps = 4;
-
-template <class Row>
-void append(std::vector<Row>& all, std::vector<Row> more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
+constexpr int kSweeps = 3;
 
 }  // namespace
 
@@ -33,12 +28,9 @@ Study carry_out(const StudyConfig& config, const Tick& tick) {
   study.config = config;
 
   std::vector<PointSet> rendered;
-  std::vector<ErrorAt> learnt;
   for (const NamedDrive& drive : drives(config)) {
     DriveResult result = rendered_drive(config, drive.name, drive.scenario, tick);
     append(study.drives, std::move(result.rows));
-    append(learnt, std::move(result.learnt));
-    if (study.field.image.empty()) study.field = std::move(result.field);
     if (rendered.empty()) rendered = std::move(result.still_frames);
   }
 
@@ -50,10 +42,6 @@ Study carry_out(const StudyConfig& config, const Tick& tick) {
     tick(1);
   }
   study.translation = sweep_translation(config, rendered);
-  tick(1);
-  study.heat = geometric_heat_maps(config);
-  study.heat.push_back(
-      heat_map_of("exact rotation, learnt V, told by the IMU: all drives", config.camera, learnt));
   tick(1);
   for (const double fovy_deg : kLenses_deg) {
     const double fovy_rad = fovy_deg * kDegree;

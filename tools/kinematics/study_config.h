@@ -1,6 +1,6 @@
 /// \file
-/// What a study is about: a camera, a rover and an IMU, taken from a scenario, and how much of each
-/// experiment is done.
+/// The subject of a study: a camera, a rover and an IMU, taken from a scenario; and the size of
+/// each experiment.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 
 namespace lcs::kinematics {
 
-/// How much is done of what costs time; nothing else depends on it.
+/// The size of the experiments that take time. All others are the same at any effort.
 struct Effort {
   int drive_frames = 40;  ///< of each rendered drive
   int noise_seeds = 20;   ///< of each IMU at each frame rate
@@ -28,7 +28,7 @@ struct StudyConfig {
   Effort effort;
   /// Nominal: the fastest that the scenario commands at the start of a phase.
   double speed_mps = 0;
-  double tolerance_px = 1;  ///< of an end-point error: what the answer is held against
+  double tolerance_px = 1;  ///< bound of an end-point error in the verdicts
   bool stands = false;      ///< the scenario's rover never moves, so that the speed is a stand-in
   Eigen::Vector3d forward_C = Eigen::Vector3d::UnitZ();  ///< the rover's x in the camera
   sim::Pinhole camera;

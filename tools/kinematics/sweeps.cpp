@@ -20,10 +20,6 @@ constexpr std::array kMount_deg = {0.0, 0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0};
 constexpr double kFoeBin_px = 50;
 constexpr double kSmallestTurn_rad = 1e-5, kTurnStep = 1.2;  // where limits are looked for
 
-void append(std::vector<double>& all, const std::vector<double>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
 /// Errors of a model on all sets after one motion.
 std::vector<double> errors_after(const StudyConfig& config, const std::vector<PointSet>& points,
                                  const sim::Pose& T_CN, double dt_s, const Model& model) {

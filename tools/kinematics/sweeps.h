@@ -1,7 +1,7 @@
 /// \file
-/// The purely geometric experiments: one step of the camera, of known size, over points whose truth
-/// is known, and every model's end-point error. No sensor noise; the motion told is the exact one,
-/// but for the error of the mount.
+/// The experiments of geometry alone: every model's end-point error after one step of the camera,
+/// of known size, over points of known truth. There is no sensor noise, and the models are told the
+/// exact motion, but for the error of the mount.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace lcs::kinematics {
 
-/// As the rows of a table say it: "tilt" (about x), "pan" (about y), "roll" (about z).
+/// "tilt" (about x), "pan" (about y), "roll" (about z).
 std::string_view axis_name(int axis);
 
 /// Turning by `angle_deg` in a frame, to both sides.
@@ -30,8 +30,7 @@ std::vector<RotationRow> sweep_rotation(const StudyConfig& config,
 /// that stay in the image; NaN for a model that never does more, up to `kLargestTurn_rad` or to
 /// where no point is left.
 inline constexpr double kLargestTurn_rad = 0.5;
-/// \param told_sign -1: the rate is told with the other sign, as for a model that is suspected to
-///   mean other axes.
+/// \param told_sign -1: the rate is told with the other sign, in case the model means other axes.
 double rotation_limit_rad(const PointSet& points, const FieldParameters& field,
                           RotationModel rotation, int axis, double bound_px, double told_sign = 1);
 
@@ -72,7 +71,7 @@ struct MountRow {
 inline constexpr double kMountPan_deg = 1;
 std::vector<MountRow> sweep_mount(const StudyConfig& config, const std::vector<PointSet>& points);
 
-/// What is told of a motion by one who believes the camera to look along C' = C turned by `R_CM`.
+/// The motion as an estimator states it that takes the camera's axes for C' = C turned by `R_CM`.
 EgoMotion seen_by_wrong_mount(const EgoMotion& motion, const Eigen::Matrix3d& R_CM);
 
 /// The same image behind other lenses.

@@ -120,6 +120,20 @@ HeldVelocity odometry_held_velocity(const scenario::ImuNoise& noise,
   return held;
 }
 
+Eigen::Vector3d velocity_variance_B(const scenario::Scenario& scenario, double gravity_mps2,
+                                    double speed_mps, double t_s) {
+  const scenario::Odometry& odometry = scenario.odometry;
+  if (odometry.enabled) {
+    const HeldVelocity held = odometry_held_velocity(scenario.imu.noise, odometry, gravity_mps2);
+    return {held.horizontal_mps2 + squared(odometry.scale_error * speed_mps), held.horizontal_mps2,
+            held.vertical_mps2};
+  }
+  const Drift drift = dead_reckoning_drift(scenario.imu.noise, gravity_mps2, t_s);
+  const double aside = squared(speed_mps) * drift.attitude_rad2;
+  return {drift.velocity_horizontal_mps2, drift.velocity_horizontal_mps2 + aside,
+          drift.velocity_vertical_mps2 + aside};
+}
+
 double odometry_held_tilt(const scenario::ImuNoise& noise, double gravity_mps2, double t_s) {
   const double tilt = dead_reckoning_drift(noise, gravity_mps2, t_s).attitude_rad2;
   const double bias = squared(noise.accelerometer_random_walk) * t_s +

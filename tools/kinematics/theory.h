@@ -1,5 +1,5 @@
 /// \file
-/// What theory says of the errors that are measured, for the same camera.
+/// Errors that theory expects of the experiments, for the same camera.
 #pragma once
 
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace lcs::kinematics {
 
-/// Error of the first-order rotation to second order, px: what x' ~ exp(-[w]) x has at second order
-/// in w and the first-order field lacks. `x_px` from the principal point; `w_rad` in the interval.
-/// With t = x/f, for a pan by w: x (1 + t^2) w^2 along x and y (1/2 + t^2) w^2 along y, nothing at
-/// the centre, where the error is of third order, f w^3 / 3; for a roll: |x| w^2 / 2.
+/// Error of the first-order rotation to second order, px: the terms of x' ~ exp(-[w]) x of second
+/// order in w, which the first-order field lacks. `x_px` from the principal point; `w_rad` in the
+/// interval. With t = x/f, for a pan by w: x (1 + t^2) w^2 along x and y (1/2 + t^2) w^2 along y,
+/// nothing at the centre, where the error is of third order, f w^3 / 3; for a roll: |x| w^2 / 2.
 Vec2 second_order_rotation(const Vec2& x_px, const Eigen::Vector3d& w_rad, double focal_px);
 
 /// Angle about an axis at which that error reaches `bound_px` somewhere in the image, rad.
@@ -29,9 +29,8 @@ Eigen::Matrix<double, 2, 3> rotation_jacobian(const Vec2& x_px, double focal_px)
 Eigen::Matrix<double, 2, 3> velocity_jacobian(const Vec2& x_px, double focal_px, double depth_m,
                                               double dt_s);
 
-/// Root mean square over landmarks, px, of what a camera mounted `error_rad` off about an axis
-/// costs: step d and turn w are told about other axes, off by d x error and w x error; to first
-/// order.
+/// Error to first order, px, root mean square over landmarks, of a camera mounted `error_rad` off
+/// about an axis: step d and turn w are told in other axes, off by d x error and w x error.
 double mount_rms_px(const sim::Pinhole& camera, const std::vector<Landmark>& landmarks,
                     const Eigen::Vector3d& step_C_m, const Eigen::Vector3d& turn_C_rad, int axis,
                     double error_rad);
@@ -41,7 +40,7 @@ double mount_rms_px(const sim::Pinhole& camera, const std::vector<Landmark>& lan
 double printed_limit_rad(const sim::Pinhole& camera, int axis, double bound_px,
                          double told_sign = 1);
 
-/// What a strapdown integration of an IMU that is at rest, or drives straight on, is off by after
+/// Errors of the strapdown integration of an IMU that is at rest, or drives straight on, after
 /// `t_s`: variances, each of one axis, of attitude (rad^2) and velocity ((m/s)^2).
 ///
 /// With noise n, random walk b and turn-on bias b0 of the gyro, attitude phi' = n + b + b0; that of
@@ -70,14 +69,20 @@ struct HeldVelocity {
 HeldVelocity odometry_held_velocity(const scenario::ImuNoise& noise,
                                     const scenario::Odometry& odometry, double gravity_mps2);
 
+/// Variances, (m/s)^2, of the velocity forwards, to the left and upwards, after driving straight on
+/// for `t_s` from a known start: held by the scenario's odometry, or without it by dead reckoning,
+/// where an error of heading or pitch turns part of the speed aside.
+Eigen::Vector3d velocity_variance_B(const scenario::Scenario& scenario, double gravity_mps2,
+                                    double speed_mps, double t_s);
+
 /// Variance, rad^2, about each horizontal axis, of a tilt where odometry holds the velocity: of
 /// tilt and accelerometer bias only the force that both make, g phi + b, is seen. What is left of
 /// two unknowns of variances V_phi and V_b once their sum is known is V_phi V_b / (g^2 V_phi +
 /// V_b). Their histories differ, which tells a little more: this is about an upper bound.
 double odometry_held_tilt(const scenario::ImuNoise& noise, double gravity_mps2, double t_s);
 
-/// Root mean square over landmarks, px, of what independent errors of attitude and velocity do in
-/// one interval. Variances of each axis of C: rad^2, (m/s)^2.
+/// Root mean square over landmarks, px, of the errors in one interval that independent errors of
+/// attitude and velocity make. Variances of each axis of C: rad^2, (m/s)^2.
 double image_rms_px(const sim::Pinhole& camera, const std::vector<Landmark>& landmarks,
                     const Eigen::Vector3d& attitude_rad2, const Eigen::Vector3d& velocity_mps2,
                     double dt_s);

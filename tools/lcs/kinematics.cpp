@@ -8,7 +8,7 @@
 #include "tools/files/output.h"
 #include "tools/kinematics/answer.h"
 #include "tools/kinematics/study.h"
-#include "tools/kinematics/study_page.h"
+#include "tools/kinematics/study_files.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
@@ -34,13 +34,12 @@ along drives. tools/kinematics/README.md says how each figure is taken.
 of 20 and 300. What has no noise in it is the same.
 
 Files written to the folder, all or none:
-  answer.txt         what is printed
-  answer.csv         its figures, beside what theory expects
-  kinematics.html    everything to look at, in one page: open it in a browser
-  field.png          predicted and true motion over a rendered frame, what is fixed and what moves
+  answer.txt         the printed text
+  answer.csv         its figures, beside those that theory expects
+  kinematics.html    the answer and plots; open it in a browser
   rotation.csv, translation.csv, foe_distance.csv, focal_length.csv, mount.csv, drives.csv, imu.csv,
-  bumps.csv, drift.csv, heat.csv
-                     every figure of the page
+  bumps.csv, drift.csv
+                     all figures of each experiment
 
 Exit codes:
   0  fine

@@ -19,7 +19,6 @@
 #include "tools/lcs/generate.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/kinematics.h"
-#include "tools/lcs/likeness.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/preview.h"
 #include "tools/lcs/replay.h"
@@ -47,7 +46,6 @@ through its camera and IMU, and the simulator's truth scores what the filter say
   lcs replay PATH                     the filter on EuRoC, KITTI, TUM RGB-D, MOT, a video, pictures
   lcs score DIR --detections FILE     someone else's detector, by a run's truth
   lcs world FAMILY                    a scenario and its scene, drawn from a seed
-  lcs likeness                        worlds' corners beside those of real recordings
   lcs tune out/train                  the filter's numbers, learnt from recorded worlds
   lcs kinematics                      when the motion model holds, for your camera and rover
   lcs run --help                      all about a command
@@ -90,7 +88,6 @@ int run_command_line(int argc, char** argv) {
   GenerateOptions generate_options;
   KinematicsOptions kinematics_options;
   WorldOptions world_options;
-  LikenessOptions likeness_options;
   TuneOptions tune_options;
   const struct {
     const CLI::App& command;
@@ -106,7 +103,6 @@ int run_command_line(int argc, char** argv) {
       {add_kinematics_command(app, kinematics_options),
        [&] { return kinematics(kinematics_options); }},
       {add_world_command(app, world_options), [&] { return world(world_options); }},
-      {add_likeness_command(app, likeness_options), [&] { return likeness(likeness_options); }},
       {add_tune_command(app, tune_options), [&] { return tune(tune_options); }},
   };
   refuse_empty_options(app);

@@ -16,8 +16,8 @@
 #include "scenarios/scenes.h"
 #include "tools/bench/tracker.h"
 #include "tools/comparators/detectors.h"
-#include "tools/files/output_file.h"
 #include "tools/files/output.h"
+#include "tools/files/output_file.h"
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
@@ -234,8 +234,7 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
   add_integer_option(command, "--jobs", options.jobs,
                      "Runs at a time; if not given, as many as there are processors", 1, kMostJobs)
       ->type_name("N");
-  add_worlds_options(command, options.worlds, "Run worlds in place of scenario files")
-      ->excludes("PATH");
+  add_worlds_options(command, options.worlds)->excludes("PATH");
   add_integer_option(command, "--seeds", options.seeds,
                      "Runs of each scenario; 3 if not given, of worlds 1", 1, kMostSeeds)
       ->type_name("N");
@@ -315,25 +314,25 @@ ExitCode suite(const SuiteOptions& options) {
       fs::create_directories(watchers.back().folder);
     }
     std::vector<suite::SuiteResult> results = suite::run_suite(
-        plan, {.watchers = watchers,
-               .own_detector =
-                   with_own ? arguments_of(options.detector) : std::vector<std::string>{},
-               .detections = with_own ? options.detector.detections : "",
-               .sets = options.sets,
-               .recorded = recordings,
-               .version = version_line(),
-               .jobs = jobs_at_once(options),
-               .former = former_suite(folder.target() / part_of(detectors.front(), own)),
-               .on_run =
-                   [&](const suite::SuiteProgress& done, const std::string& scenario,
-                       std::span<const suite::RunResult* const> runs) {
-                     progress.finished(done, scenario, detectors, runs);
-                   },
-               .on_tick =
-                   [&](const suite::SuiteProgress& now) {
-                     check_interrupted();
-                     progress.show(now);
-                   }});
+        plan,
+        {.watchers = watchers,
+         .own_detector = with_own ? arguments_of(options.detector) : std::vector<std::string>{},
+         .detections = with_own ? options.detector.detections : "",
+         .sets = options.sets,
+         .recorded = recordings,
+         .version = version_line(),
+         .jobs = jobs_at_once(options),
+         .former = former_suite(folder.target() / part_of(detectors.front(), own)),
+         .on_run =
+             [&](const suite::SuiteProgress& done, const std::string& scenario,
+                 std::span<const suite::RunResult* const> runs) {
+               progress.finished(done, scenario, detectors, runs);
+             },
+         .on_tick =
+             [&](const suite::SuiteProgress& now) {
+               check_interrupted();
+               progress.show(now);
+             }});
     check_interrupted();
     if (of_worlds) {
       for (suite::SuiteResult& result : results) add_origins(result);

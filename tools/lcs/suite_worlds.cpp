@@ -69,11 +69,11 @@ void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
 
 }  // namespace
 
-CLI::Option* add_worlds_options(CLI::App& command, WorldsOptions& options,
-                                const std::string& about) {
+CLI::Option* add_worlds_options(CLI::App& command, WorldsOptions& options) {
   CLI::Option* split = command
                            .add_option("--worlds", options.split,
-                                       about + ": those of the split train, validate or test")
+                                       "Run worlds in place of scenario files: those of the split "
+                                       "train, validate or test")
                            ->type_name("SPLIT");
   add_integer_option(command, "--count", options.count, "How many worlds; 60 if not given", 1,
                      kMostWorlds)

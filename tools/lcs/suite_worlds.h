@@ -19,10 +19,8 @@ struct WorldsOptions {
   std::string family;  ///< "": all
 };
 
-/// Adds `--worlds`, `--count` and `--family`. \param about what `--worlds` does.
-/// \return `--worlds`
-CLI::Option* add_worlds_options(CLI::App& command, WorldsOptions& options,
-                                const std::string& about);
+/// Adds `--worlds`, which is returned, `--count` and `--family`.
+CLI::Option* add_worlds_options(CLI::App& command, WorldsOptions& options);
 
 /// Makes the worlds in out/worlds/, each by a process of its own, `jobs` at a time.
 /// \return their scenario files, family by family.

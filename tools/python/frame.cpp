@@ -10,6 +10,7 @@
 #include <opencv2/core/utility.hpp>
 #include <utility>
 
+#include "filter/detect/picture_noise.h"
 #include "filter/ego_motion/intake.h"
 #include "tools/python/arrays.h"
 #include "tools/python/type.h"
@@ -270,6 +271,10 @@ void bind_seen(py::module_& module) {
           "grey",
           [](const py::object& self) { return view(self.cast<const Frame&>().seen.grey, self); },
           "H x W uint8: what the corners were found in.")
+      .def_property_readonly(
+          "noise", [](const Frame& f) { return noise_levels(f.seen.grey); },
+          "Standard deviation of the noise of grey, in grey levels; None where all flat parts are "
+          "black or white.")
       .def_property_readonly("corners", &corners, "N x 2 float64, x and y in pixels: FAST's.")
       .def_property_readonly("signatures", &signatures,
                              "N x 32 uint8: what each corner looks like, ORB's bits.")

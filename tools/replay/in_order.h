@@ -1,5 +1,5 @@
 /// \file
-/// What is sorted by time, each time once.
+/// Sorts readings, poses and pictures by time, and keeps each time once.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,15 +12,15 @@
 
 namespace lcs::replay {
 
-/// Sorts what has a `t_ns`, and takes out what has a time that another one has; counts both.
-/// \param plural what they are, as "poses". \param whose table they are of.
+/// Sorts items that have a `t_ns`, and removes all but the first of those with the same time;
+/// counts both in `tally`. \param plural of the items, as "poses". \param source of the table.
 template <class Timed>
-void sort_by_time(std::vector<Timed>& items, const std::string& plural, const std::string& whose,
+void sort_by_time(std::vector<Timed>& items, const std::string& plural, const std::string& source,
                   Tally& tally) {
   const auto earlier = [](const Timed& a, const Timed& b) { return a.t_ns < b.t_ns; };
   const auto same = [](const Timed& a, const Timed& b) { return a.t_ns == b.t_ns; };
   if (!std::is_sorted(items.begin(), items.end(), earlier)) {
-    tally.add("tables are not in the order of time and are sorted", whose);
+    tally.add("tables are not in the order of time and are sorted", source);
     std::stable_sort(items.begin(), items.end(), earlier);
   }
   const auto twice = std::unique(items.begin(), items.end(), same);

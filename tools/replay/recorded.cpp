@@ -74,22 +74,7 @@ std::vector<RecordedFrame> frames_in(const std::filesystem::path& folder) {
 
 void put_in_order(std::vector<RecordedFrame>& frames, const std::filesystem::path& list,
                   Tally& tally) {
-  const auto earlier = [](const RecordedFrame& a, const RecordedFrame& b) {
-    return a.t_ns < b.t_ns;
-  };
-  if (!std::is_sorted(frames.begin(), frames.end(), earlier)) {
-    tally.add("lists of pictures are not in the order of time and are sorted",
-              frames.front().picture.parent_path().string());
-    std::stable_sort(frames.begin(), frames.end(), earlier);
-  }
-  const auto twice =
-      std::unique(frames.begin(), frames.end(),
-                  [](const RecordedFrame& a, const RecordedFrame& b) { return a.t_ns == b.t_ns; });
-  if (twice != frames.end()) {
-    tally.add("pictures have the time of another one and are left out",
-              twice->picture.filename().string(), static_cast<int>(frames.end() - twice));
-  }
-  frames.erase(twice, frames.end());
+  sort_by_time(frames, "pictures", list.string(), tally);
   if (frames.empty()) {
     throw scenario::Error({list.string(), 0},
                           "lists no picture with a time; give a row for each picture");

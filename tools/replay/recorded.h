@@ -125,8 +125,8 @@ void time_by(double fps, Recorded& recorded);
 /// The pictures of a folder, in the order of their numbers, without times.
 std::vector<RecordedFrame> frames_in(const std::filesystem::path& folder);
 
-/// Sorts frames by time, and takes out what has a time that another one has; counts both.
-/// \param list that they are from. \throws scenario::Error where it has none.
+/// Sorts frames by time, and removes all but the first of those with the same time; counts both.
+/// \param list file of the frames. \throws scenario::Error where it has none.
 void put_in_order(std::vector<RecordedFrame>& frames, const std::filesystem::path& list,
                   Tally& tally);
 

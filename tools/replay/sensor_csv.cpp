@@ -12,6 +12,7 @@
 
 #include "filter/ego_motion/imu_watch.h"
 #include "tools/files/csv.h"
+#include "tools/replay/in_order.h"
 #include "tools/replay/navigation.h"
 #include "tools/replay/times.h"
 #include "tools/sequence/pose_text.h"
@@ -61,19 +62,7 @@ std::vector<NumberRow> read_numbers(const std::filesystem::path& file,
       tally.add("rows cannot be read and are left out", table.at(row));
     }
   }
-  if (!std::is_sorted(rows.begin(), rows.end(),
-                      [](const auto& a, const auto& b) { return a.t_ns < b.t_ns; })) {
-    tally.add("tables are not in the order of time and are sorted", file.string());
-    std::stable_sort(rows.begin(), rows.end(),
-                     [](const auto& a, const auto& b) { return a.t_ns < b.t_ns; });
-  }
-  const auto twice = std::unique(rows.begin(), rows.end(),
-                                 [](const auto& a, const auto& b) { return a.t_ns == b.t_ns; });
-  if (twice != rows.end()) {
-    tally.add("rows have the time of another one and are left out", file.string(),
-              static_cast<int>(rows.end() - twice));
-  }
-  rows.erase(twice, rows.end());
+  sort_by_time(rows, "rows", file.string(), tally);
   return rows;
 }
 

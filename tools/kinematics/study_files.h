@@ -1,6 +1,5 @@
 /// \file
-/// A study as files: the answer, a CSV a table, the field as a PNG, and one HTML page with all of
-/// it.
+/// A study as files: the answer, a CSV file for each experiment, and one HTML page with plots.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +8,6 @@
 #include "tools/kinematics/study.h"
 
 namespace lcs::kinematics {
-
-inline constexpr const char* kAnswerFile = "answer.txt";
-inline constexpr const char* kPageFile = "kinematics.html";
-inline constexpr const char* kFieldFile = "field.png";
 
 /// All files that `write_study` may write.
 bench::ResultNames study_files();
