@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "sim/limits.h"
 #include "sim/trial.h"
 
 namespace lcs::sim {
@@ -24,20 +25,6 @@ void on_warning(const char* message) {
 Pose pose(const mjtNum* position, const mjtNum* rotation) {
   return {Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation),
           Eigen::Map<const Eigen::Vector3d>(position)};
-}
-
-/// Indices that MuJoCo gives to GL without a look at them.
-void check_skins(const mjModel& m) {
-  for (int skin = 0; skin < m.nskin; ++skin) {
-    const int* face = m.skin_face + 3 * m.skin_faceadr[skin];
-    for (int i = 0; i < 3 * m.skin_facenum[skin]; ++i) {
-      if (face[i] >= 0 && face[i] < m.skin_vertnum[skin]) continue;
-      const char* name = mj_id2name(&m, mjOBJ_SKIN, skin);
-      throw MujocoError("a face of skin '" + std::string(name ? name : "") + "' names vertex " +
-                        std::to_string(face[i]) + ", and there are " +
-                        std::to_string(m.skin_vertnum[skin]));
-    }
-  }
 }
 
 using ModelAndData =
@@ -60,7 +47,7 @@ ModelAndData load(const std::string& mjcf) {
   if (message[0] != '\0') throw MujocoError(message.data());
   if (!model) throw MujocoError("no reason is given");
   if (!warning.empty()) throw MujocoError(warning);
-  check_skins(*model);
+  check_compiled(*model);
   data.reset(mj_makeData(model.get()));
   if (!data) throw MujocoError("could not allocate the state of the scene");
   return loaded;
@@ -90,8 +77,11 @@ Model::Model(const std::string& mjcf) {
                       "to look at");
   }
   if (!trial.fine) {
-    throw MujocoCrash("MuJoCo needs more than " + trial.crash +
-                      " to load this scene; make it smaller, or raise ulimit -v where that is set");
+    const std::string what =
+        trial.crash == "memory" ? "too much memory" : "more than " + trial.crash;
+    throw MujocoCrash(
+        "MuJoCo needs " + what + " to load this scene; make it smaller (sizes in " +
+        "<size>, composites, textures, meshes), or raise ulimit -v where that is set");
   }
   std::tie(model_, data_) = load(mjcf);
 }

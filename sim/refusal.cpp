@@ -59,6 +59,13 @@ constexpr Remedy kRemedies[] = {
     {"nuser_", "raise it in <size>, or take numbers away from 'user'"},
     {"contact buffer is full", "set <size nconmax=\"1000\"/>, or let fewer geoms touch"},
     {"constraint buffer is full", "set <size njmax=\"2000\"/>, or let fewer geoms touch"},
+    {"ould not create mj",
+     "not enough memory: lower the numbers in <size>, or make textures and meshes smaller"},
+    {"points, and can have", "choose a smaller one"},
+    {"is one too many", "choose fewer or smaller ones"},
+    {"a face of vertex", "correct its faces"},
+    {"vertex index out of range", "correct its faces"},
+    {"not finite", "save the files of meshes, skins and height fields anew"},
     {"ould not allocate", "not enough memory: make the scene smaller, or raise ulimit -v"},
     {"too large", "make the scene smaller"},
     {"at least 4 ver", "give four or more"},
@@ -105,6 +112,10 @@ const Origin* culprit(std::string_view said, const xml::Printed& scene) {
   }
   if (said.find(" in sensor '") != std::string_view::npos) {  // these know no line
     return scene.within("sensor", number_behind(said, ", id = "));
+  }
+  for (const char* kind : {"texture", "hfield", "skin"}) {
+    const std::string_view name = between(said, std::string(kind) + " '", "'");
+    if (const Origin* found = name.empty() ? nullptr : scene.named(kind, name)) return found;
   }
   for (const std::string_view name :
        {between(said, "Object name = ", ", id"), between(said, "'", "'")}) {

@@ -90,6 +90,8 @@ void run(const std::function<void()>& action, Report& report) {
     say(Report::Kind::fine, "");
   } catch (const std::bad_alloc&) {
     say(Report::Kind::no_memory, "");
+  } catch (const std::length_error&) {  // a container longer than the address space
+    say(Report::Kind::no_memory, "");
   } catch (const std::exception& e) {
     say(Report::Kind::refused, e.what());
   }

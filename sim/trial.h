@@ -16,7 +16,7 @@ struct Trial {
   std::string crash;
 };
 
-/// What a try may take at most. Scenes at the limits of `sim/limits.h` load in a tenth of that; the
+/// What a try may take at most. The largest scenes that are of use load in a tenth of that; the
 /// wall time leaves room for busy machines.
 struct TrialBounds {
   unsigned processor_s = 10;

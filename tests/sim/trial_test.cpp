@@ -25,6 +25,7 @@ TEST(Trial, SaysHowItEnded) {
   EXPECT_EQ(try_in_child([] { std::abort(); }).crash, "signal ABRT");
   EXPECT_EQ(try_in_child([] { ::_exit(7); }).crash, "exit code 7");
   EXPECT_EQ(try_in_child([] { throw std::bad_alloc(); }).crash, "memory");
+  EXPECT_EQ(try_in_child([] { throw std::length_error("as of a vector"); }).crash, "memory");
   EXPECT_EQ(try_in_child([] { ::raise(SIGKILL); }).crash, "memory") << "as the kernel does";
 }
 

@@ -26,22 +26,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* kAnother = "choose another place, or move it away";
 
-[[noreturn]] void fail(std::string_view what, const fs::path& path, const std::error_code& error) {
-  throw OutputError(
-      fmt::format("cannot {} {}: {}; {}", what, path.string(), error.message(), remedy(error)));
-}
-
-[[noreturn]] void fail(std::string_view what, const fs::path& path, int error) {
-  fail(what, path, std::error_code(error, std::generic_category()));
-}
-
 /// Absolute, links resolved but for that of the last name, without a trailing slash.
 fs::path resolved(const fs::path& target) {
   std::error_code error;
   fs::path path = fs::absolute(target, error).lexically_normal();
   if (!path.has_filename()) path = path.parent_path();
   if (!error) path = fs::weakly_canonical(path.parent_path(), error) / path.filename();
-  if (error) fail("use", target, error);
+  if (error) fail_to("use", target, error);
   return path;
 }
 
@@ -57,8 +48,8 @@ std::vector<const Output*>& under_way() {
   return all;
 }
 
-/// Beside a target there may be `TARGET.partial-PROCESS/`, with the marker, and with one folder for
-/// the result on its way in and one for the result on its way out.
+/// The staging folder of a target is `TARGET.partial-PROCESS/`. It contains the marker, the folder
+/// "in" for the new result, and the folder "out" for the earlier result.
 constexpr std::string_view kPartial = ".partial-";
 constexpr std::string_view kMarker = ".lcs-partial", kIn = "in", kOut = "out";
 
@@ -66,7 +57,7 @@ std::string marker_text(std::string_view folder_name) {
   return fmt::format("lcs writes its results here, and takes this folder away: {}\n", folder_name);
 }
 
-/// Whether a process of this program made the folder. It may live.
+/// Whether a process of this program made the folder. The process may still run.
 bool has_marker(const fs::path& folder) {
   const std::string text = marker_text(folder.filename().string());
   return beginning(folder / kMarker, text.size() + 1) == text;
@@ -79,7 +70,7 @@ bool name_fits(std::string_view name, std::string_view pattern) {
   return name == pattern;
 }
 
-/// A file fits a pattern as a whole, a folder the beginning of one.
+/// A file must match a whole pattern, a folder the beginning of a pattern.
 bool fits(const fs::path& within, bool is_folder, const fs::path& pattern) {
   auto part = pattern.begin();
   for (const fs::path& name : within) {
@@ -99,12 +90,12 @@ bool is_of_result(const fs::path& within, const fs::directory_entry& entry,
                      [&](const std::string& name) { return fits(within, is_folder, name); });
 }
 
-/// Whether this program put an entry into its folder beside a target. A suite has such folders of
-/// its runs inside: `in/runs/NAME/seed-1.partial-PROCESS/in/metrics.json`.
+/// Whether an entry of a staging folder is this program's. The staging folder of a suite contains
+/// those of its runs: `in/runs/NAME/seed-1.partial-PROCESS/in/metrics.json`.
 bool is_of_staging(const fs::path& within, const fs::directory_entry& entry,
                    const ResultNames& names) {
   fs::path of_result;
-  bool is_beside = true;  // right in a folder beside a target
+  bool is_beside = true;  // directly in a staging folder
   for (const fs::path& name : within) {
     if (is_beside && name == kMarker)
       return entry.symlink_status().type() == fs::file_type::regular;
@@ -115,12 +106,11 @@ bool is_of_staging(const fs::path& within, const fs::directory_entry& entry,
   return is_of_result(of_result, entry, names);
 }
 
-/// Of a folder beside a target takes away what this program put there; then, if that was all, the
-/// folder.
+/// Removes this program's files from a staging folder, and the folder if it is empty then.
 void remove_own(const fs::path& folder, const ResultNames& names) {
-  std::error_code ignored;  // what cannot be taken away stays
+  std::error_code ignored;  // files that cannot be removed stay
   std::vector<fs::path> own{folder};
-  // One folder at a time is open: there may be no more descriptors than that.
+  // Opens one folder at a time, as there may be no descriptors for more.
   for (std::size_t i = 0; i < own.size(); ++i) {
     for (fs::directory_iterator entry(own[i], ignored), end; entry != end;
          entry.increment(ignored)) {
@@ -128,13 +118,13 @@ void remove_own(const fs::path& folder, const ResultNames& names) {
       if (within != kMarker && is_of_staging(within, *entry, names)) own.push_back(entry->path());
     }
   }
-  // What is in a folder comes after it. The marker goes last.
+  // Backwards, as the contents of a folder come after it. The marker is removed last.
   for (std::size_t i = own.size(); i-- > 1;) fs::remove(own[i], ignored);
   fs::remove(folder / kMarker, ignored);
   fs::remove(folder, ignored);
 }
 
-/// Whether nothing is in the folder, or a marker that a killed process did not write to its end.
+/// Whether the folder is empty, or has only the beginning of a marker, of a killed process.
 bool is_just_begun(const fs::path& folder) {
   const std::string text = marker_text(folder.filename().string());
   std::error_code error;
@@ -149,7 +139,7 @@ bool is_just_begun(const fs::path& folder) {
   return !error && process.find_first_not_of("0123456789-") == std::string::npos;
 }
 
-/// \return 0, or why not.
+/// \return 0, or the error.
 int rename_by(const fs::path& from, const fs::path& to, unsigned flags) {
   return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0 ? 0 : errno;
 }
@@ -157,16 +147,16 @@ int rename_by(const fs::path& from, const fs::path& to, unsigned flags) {
 void rename_or_fail(std::string_view what, const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::rename(from, to, error);
-  if (error) fail(what, to, error);
+  if (error) fail_to(what, to, error);
 }
 
-/// Runs `work` in a process of its own, which no signal to this one ends.
-/// \throws OutputError with what `work` throws.
+/// Runs `work` in a second process, which does not end by signals to this process.
+/// \throws OutputError with the message of an exception of `work`.
 void in_second_process(const std::function<void()>& work) {
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("write", "the results", errno);
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_to("write", "the results", errno);
   const pid_t process = ::fork();
-  if (process < 0) fail("write", "the results", errno);
+  if (process < 0) fail_to("write", "the results", errno);
   if (process == 0) {
     sigset_t all;
     sigfillset(&all);
@@ -178,7 +168,7 @@ void in_second_process(const std::function<void()>& work) {
     } catch (const std::exception& error) {
       problem = scenario::message_of(error);
     }
-    // What a pipe holds without a reader is more than a message.
+    // A message is shorter than the buffer of a pipe, so that this does not wait.
     const ssize_t written = ::write(ends[1], problem.data(), problem.size());
     ::_exit(written == static_cast<ssize_t>(problem.size()) ? 0 : 1);
   }
@@ -211,8 +201,6 @@ FolderLock::~FolderLock() {
   if (file_ >= 0) ::close(file_);
 }
 
-namespace {
-
 void remove_abandoned(const fs::path& target, const ResultNames& names, bool is_folder) {
   std::error_code ignored;
   const std::string begin = target.filename().string() + std::string(kPartial);
@@ -222,7 +210,7 @@ void remove_abandoned(const fs::path& target, const ResultNames& names, bool is_
     if (entry->path().filename().string().starts_with(begin)) found.push_back(entry->path());
   }
   for (const fs::path& path : found) {
-    const FolderLock lock(path);  // its process holds it from before it writes the marker
+    const FolderLock lock(path);  // the process of the folder locks it before it writes the marker
     if (!lock.is_held() || !(has_marker(path) || is_just_begun(path))) continue;
     if (is_folder) {
       rename_by(path / kOut, target, RENAME_NOREPLACE);
@@ -235,17 +223,11 @@ void remove_abandoned(const fs::path& target, const ResultNames& names, bool is_
   }
 }
 
-}  // namespace
-
-void remove_abandoned(const fs::path& target, const ResultNames& names) {
-  remove_abandoned(target, names, true);
-}
-
 fs::path output_path(const fs::path& named) {
   const fs::path path = resolved(named);
   std::error_code error;
   const fs::file_status status = fs::symlink_status(path, error);
-  if (status.type() == fs::file_type::none) fail("use", named, error);
+  if (status.type() == fs::file_type::none) fail_to("use", named, error);
   if (fs::is_symlink(status)) {
     throw OutputError(
         fmt::format("{} is a link, which is not followed; name the place itself", named.string()));
@@ -264,11 +246,10 @@ fs::path output_path(const fs::path& named) {
   return path;
 }
 
-/// What was made, its place, and where that goes which was there before.
 struct Output::Move {
   fs::path made, place, earlier;
 
-  /// \return whether something was there.
+  /// \return whether an earlier result was at the place.
   bool put() const {
     const int error = rename_by(made, place, RENAME_NOREPLACE);
     if (error == 0) return false;
@@ -277,10 +258,10 @@ struct Output::Move {
       const int problem = rename_by(made, earlier, 0);
       if (problem == 0) return true;
       rename_by(made, place, RENAME_EXCHANGE);
-      fail("replace", place, problem);
+      fail_to("replace", place, problem);
     }
-    const bool is_unknown = error == EINVAL || error == ENOSYS;  // to the file system
-    if (!is_there && !is_unknown) fail("create", place, error);
+    const bool is_unknown = error == EINVAL || error == ENOSYS;  // the flag, to the file system
+    if (!is_there && !is_unknown) fail_to("create", place, error);
     if (is_there) rename_or_fail("replace", place, earlier);
     try {
       rename_or_fail("create", made, place);
@@ -351,23 +332,22 @@ Output::~Output() {
 
 void Output::remove_all_made() const {
   if (lock_) remove_own(own_, names_);
-  std::error_code ignored;  // there is nobody left to tell
-  // `remove` leaves folders that are not empty alone.
+  std::error_code ignored;  // a destructor cannot report it; `remove` keeps folders with contents
   std::for_each(made_parents_.rbegin(), made_parents_.rend(),
                 [&](const fs::path& parent) { fs::remove(parent, ignored); });
 }
 
-/// \throws OutputError where something is at the target that must not be lost.
+/// \throws OutputError if the target is a file or folder that must not be lost.
 void Output::require_replaceable() const {
   for (const Move& move : moves()) require_own(move.place);
 }
 
-/// `place` is a place of the output, or where its earlier content went.
+/// \param place of the output, or the place to which its earlier content was moved.
 void Output::require_own(const fs::path& place) const {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(place, error);
   if (status.type() == fs::file_type::not_found) return;
-  if (status.type() == fs::file_type::none) fail("use", target_, error);
+  if (status.type() == fs::file_type::none) fail_to("use", target_, error);
   if (is_folder()) return require_own_folder(place, status.type());
   if (status.type() != fs::file_type::regular) {
     throw OutputError(fmt::format("{} is not a file; choose another place", target_.string()));
@@ -411,7 +391,7 @@ void Output::require_own_folder(const fs::path& folder, fs::file_type type) cons
     throw OutputError(
         fmt::format("{}: {} {}, and would be lost; {}", target_.string(), within, what, kAnother));
   }
-  if (error) fail("read", target_, error);
+  if (error) fail_to("read", target_, error);
 }
 
 std::vector<Output::Move> Output::moves() const {
@@ -432,13 +412,13 @@ void Output::make_parents() {
   std::for_each(missing.rbegin(), missing.rend(), [&](const fs::path& parent) {
     std::error_code error;
     if (fs::create_directory(parent, error)) made_parents_.push_back(parent);
-    if (error) fail("create", parent, error);
+    if (error) fail_to("create", parent, error);
   });
 }
 
-/// Under the first name that is free: the process may have had its number before, and what is there
-/// need not be this program's. Another process may take the new folder for an abandoned one before
-/// it is locked.
+/// Takes the first free name: another process may have had the same number, or the user may have a
+/// file of that name. Tries again if another process took the new folder for an abandoned one
+/// before it was locked.
 void Output::make_staging() {
   std::error_code error;
   for (int attempt = 0; !lock_; ++attempt) {
@@ -446,14 +426,14 @@ void Output::make_staging() {
     own_ += fmt::format("{}{}", kPartial, ::getpid());
     if (attempt > 0) own_ += fmt::format("-{}", attempt);
     if (fs::create_directory(own_, error)) lock_.emplace(own_);
-    if (error) fail("create", own_, error);
+    if (error) fail_to("create", own_, error);
     if (lock_ && !lock_->is_held() && lock_->is_of_another()) lock_.reset();
   }
   write_file(own_ / kMarker, marker_text(own_.filename().string()));
   staging_ = own_ / kIn;
   fs::create_directory(staging_, error);
   if (!error && !is_folder()) fs::create_directory(own_ / kOut, error);
-  if (error) fail("create", staging_, error);
+  if (error) fail_to("create", staging_, error);
   if (!is_folder()) staging_ /= names_.front();
 }
 
@@ -462,7 +442,7 @@ void Output::commit() {
   commit_all({&self, 1});
 }
 
-/// Looks at each earlier result once more when nobody can reach it by its name any longer.
+/// Checks each earlier result again after it is moved away, when nobody can change it by its name.
 void put_in_place(std::span<Output* const> outputs) {
   std::vector<std::pair<Output::Move, bool>> done;
   try {
@@ -485,13 +465,13 @@ void commit_all(std::span<Output* const> outputs) {
   std::erase_if(all, [](const Output* output) { return output->is_direct_; });
   std::size_t moves = 0;
   for (const Output* output : all) {
-    output->require_replaceable();  // the place may have changed since
-    if (!output->is_folder()) output_path(output->target_);  // and may have been read
+    output->require_replaceable();                           // the target may have changed since
+    if (!output->is_folder()) output_path(output->target_);  // or may have been read
     output->is_folder() ? write_record_of_folder(output->staging_)
                         : write_record_of_file(output->staging_);
     moves += output->moves().size();
   }
-  // One rename is all or nothing by itself.
+  // A single rename needs no second process.
   const auto put = [&] { put_in_place(all); };
   moves > 1 ? in_second_process(put) : put();
   for (Output* output : all) output->committed_ = true;

@@ -1,6 +1,6 @@
 /// \file
-/// The one way in which commands write what a user names: a file or a folder that appears whole or
-/// not at all, and that never takes the place of anything but this program's own, unchanged files.
+/// Commands write their results by `Output`: a file or a folder appears as a whole or not at all,
+/// and replaces only files that this program wrote and nobody changed since.
 #pragma once
 
 #include <filesystem>
@@ -13,11 +13,11 @@
 
 namespace lcs::bench {
 
-/// A lock that says that the process working in a folder is alive: it ends with the process,
-/// however that ends.
+/// A process holds this lock while it works in a folder. The system releases it when the process
+/// ends, also by SIGKILL.
 class FolderLock {
  public:
-  /// Does not wait for another process that holds it.
+  /// Does not wait if another process holds the lock.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
@@ -36,35 +36,35 @@ class FolderLock {
 /// "runs/*/seed-*/metrics.json".
 using ResultNames = std::vector<std::string>;
 
-/// Removes the staging folders that killed processes left beside `target`, which are known by their
-/// marker. Removes nothing but files of such names from them, and leaves what cannot be removed.
-/// Where the target is missing and an earlier one was being replaced, puts that back.
-void remove_abandoned(const std::filesystem::path& target, const ResultNames& names);
+/// Removes the staging folders that killed processes left beside `target`. They have a marker. Only
+/// files of these names are removed from them. If the process was killed while it replaced an
+/// earlier result, and the target is missing, the earlier result is put back.
+/// \param is_folder whether the target is a folder; else it is a file.
+void remove_abandoned(const std::filesystem::path& target, const ResultNames& names,
+                      bool is_folder = true);
 
-/// The place that a path names: absolute, the links of the folders above it resolved.
-/// \throws OutputError for a link, and for a path that is an input of this process, lies inside
-/// one,
-///   or holds one (scenarios/inputs_read.h). All inputs have to be read before.
+/// The absolute path of an output; links in the folders above it are resolved.
+/// \throws OutputError for a link, and for a path that is, contains or lies in an input of this
+///   process (scenarios/inputs_read.h). Call it after all inputs are read.
 std::filesystem::path output_path(const std::filesystem::path& named);
 
 enum class Overwrite {
   own,            ///< only files that this program wrote and nobody changed since
-  own_or_forced,  ///< likewise, and the message of a refusal names `--force`
-  any_file        ///< with `--force`: any regular file
+  own_or_forced,  ///< as `own`; the message of a refusal names `--force`
+  any_file        ///< any regular file, as `--force` asks for
 };
 
-/// Results are written into a staging folder beside the target, and take the target's place in the
-/// end. At whatever moment the process is killed, the target is the earlier result or the new one.
+/// Results are written into a staging folder beside the target, and moved to the target in the end.
+/// At whatever moment the process is killed, the target is the earlier result or the new one.
 class Output {
  public:
-  /// A folder of results. Makes the staging folder, and the folders above it where they are
-  /// missing. \param names of the files that a result may consist of. A folder that holds any other
-  /// file, or
-  ///   one that this program did not write, or that was changed since, is not replaced.
+  /// A folder of results. Makes the staging folder, and the folders above it if they are missing.
+  /// \param names of all files that a result can have. A folder is not replaced if it holds any
+  ///   other file, or a file that this program did not write, or that was changed since.
   /// \throws OutputError, also as `output_path`, and for the working folder and those above it.
   Output(const std::filesystem::path& target, ResultNames names);
-  /// A single file. A terminal, /dev/null, a pipe that is read, and other character devices are
-  /// written to directly.
+  /// A single file. Terminals, pipes that are read, and other character devices such as /dev/null
+  /// are written to directly.
   Output(const std::filesystem::path& target, Overwrite overwrite);
 
   /// Removes what was written, unless it was committed.
@@ -72,7 +72,7 @@ class Output {
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  /// Where to write: a folder that is there, or a file that is not.
+  /// Write the results here: into an existing folder, or as a new file.
   const std::filesystem::path& staging() const { return staging_; }
   /// Where the results will be.
   const std::filesystem::path& target() const { return target_; }
@@ -81,7 +81,7 @@ class Output {
   void commit();
 
  private:
-  struct Move;  ///< something new, its place, and where the earlier one goes
+  struct Move;  ///< a new file or folder, its place, and a place for the earlier one
   friend void commit_all(std::span<Output* const> outputs);
   friend void put_in_place(std::span<Output* const> outputs);
 
@@ -97,7 +97,7 @@ class Output {
   void remove_all_made() const;
 
   ResultNames names_;
-  std::optional<Overwrite> overwrite_;  ///< none: a folder
+  std::optional<Overwrite> overwrite_;  ///< nullopt for a folder
   std::filesystem::path target_;
   std::filesystem::path own_;      ///< beside the target: the marker, and `staging_`
   std::filesystem::path staging_;  ///< in `own_`
@@ -108,8 +108,8 @@ class Output {
   bool committed_ = false;
 };
 
-/// Puts all outputs of a command in their places: all of them, or none. A second process does so
-/// where there are several, so that a signal or a `kill -9` of this one does not come in between.
+/// Puts all outputs of a command in their places, or none of them. If there are several, a second
+/// process moves them, so that a signal or `kill -9` of this process does not interrupt the moves.
 /// \throws OutputError; then every earlier result is still there.
 void commit_all(std::span<Output* const> outputs);
 

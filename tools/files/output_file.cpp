@@ -9,6 +9,7 @@
 #include <cerrno>
 
 namespace lcs::bench {
+namespace {
 
 std::string remedy(const std::error_code& error) {
   if (error == std::errc::no_space_on_device || error.value() == EDQUOT) {
@@ -21,6 +22,18 @@ std::string remedy(const std::error_code& error) {
   }
   if (error == std::errc::broken_pipe) return "let all of it be read, or give --quiet";
   return "choose another folder with --out";
+}
+
+}  // namespace
+
+void fail_to(std::string_view verb, const std::filesystem::path& path,
+             const std::error_code& error) {
+  throw OutputError(
+      fmt::format("cannot {} {}: {}; {}", verb, path.string(), error.message(), remedy(error)));
+}
+
+void fail_to(std::string_view verb, const std::filesystem::path& path, int error) {
+  fail_to(verb, path, std::error_code(error, std::generic_category()));
 }
 
 std::string beginning(const std::filesystem::path& file, std::size_t bytes) {
@@ -39,25 +52,21 @@ std::string beginning(const std::filesystem::path& file, std::size_t bytes) {
 
 OutputFile::OutputFile(const std::filesystem::path& path)
     : path_(path), file_(std::fopen(path.c_str(), "wb")) {
-  if (!file_) fail(errno);
+  if (!file_) fail_to("write", path_, errno);
 }
 
 void OutputFile::write(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail(errno);
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) {
+    fail_to("write", path_, errno);
+  }
 }
 
 void OutputFile::flush() {
-  if (std::fflush(file_.get()) != 0) fail(errno);
+  if (std::fflush(file_.get()) != 0) fail_to("write", path_, errno);
 }
 
 void OutputFile::close() {
-  if (std::fclose(file_.release()) != 0) fail(errno);
-}
-
-void OutputFile::fail(int error) const {
-  const std::error_code code(error, std::generic_category());
-  throw OutputError(
-      fmt::format("cannot write {}: {}; {}", path_.string(), code.message(), remedy(code)));
+  if (std::fclose(file_.release()) != 0) fail_to("write", path_, errno);
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {

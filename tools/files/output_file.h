@@ -12,16 +12,18 @@
 
 namespace lcs::bench {
 
-/// Results cannot be written: says why, and what to do about it.
+/// Results cannot be written. The message says why, and what to do.
 class OutputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What to do about an error of writing.
-std::string remedy(const std::error_code& error);
+/// \throws OutputError "cannot VERB PATH: why; what to do"
+[[noreturn]] void fail_to(std::string_view verb, const std::filesystem::path& path,
+                          const std::error_code& error);
+[[noreturn]] void fail_to(std::string_view verb, const std::filesystem::path& path, int error);
 
-/// At most that many first bytes of a regular file; "" for anything else, a link included.
+/// The first bytes of a regular file, at most so many; "" for anything else, a link included.
 std::string beginning(const std::filesystem::path& file, std::size_t bytes);
 
 /// Created (or emptied) on construction. Only `close` tells whether all of it was written.
@@ -42,8 +44,6 @@ class OutputFile {
   struct Closer {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  [[noreturn]] void fail(int error) const;
-
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Closer> file_;
 };

@@ -1,12 +1,11 @@
 #include "tools/lcs/interrupt.h"
 
-#include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <string_view>
-#include <system_error>
 
 #include "tools/files/output_file.h"
 #include "tools/lcs/exit_codes.h"
@@ -60,13 +59,8 @@ bool is_interrupted() {
 }
 
 void check_interrupted() {
-  const auto fail = [](const char* what, std::errc why) {
-    const std::error_code error = std::make_error_code(why);
-    throw bench::OutputError(
-        fmt::format("cannot write {}: {}; {}", what, error.message(), bench::remedy(error)));
-  };
-  if (requested == SIGXFSZ) fail("a file", std::errc::file_too_large);
-  if (requested == SIGPIPE) fail("what there is to tell", std::errc::broken_pipe);
+  if (requested == SIGXFSZ) bench::fail_to("write", "a file", EFBIG);
+  if (requested == SIGPIPE) bench::fail_to("write", "the output", EPIPE);
   if (requested) throw Interrupted();
 }
 

@@ -10,7 +10,6 @@
 #include <climits>
 #include <cstdio>
 #include <iostream>
-#include <system_error>
 
 #include "scenarios/message.h"
 #include "tools/files/output_file.h"
@@ -18,12 +17,6 @@
 
 namespace lcs::tools {
 namespace {
-
-[[noreturn]] void fail(int error) {
-  const std::error_code code(error, std::generic_category());
-  throw bench::OutputError(
-      fmt::format("cannot write to standard output: {}; {}", code.message(), bench::remedy(code)));
-}
 
 /// Waits until a block can be written, for there is no end to it where nobody reads a pipe.
 /// \return whether it can: else a signal came first, which does not end a write.
@@ -58,7 +51,7 @@ bool flush_out() {
 
 [[noreturn]] void fail_out() {
   if (std::ferror(stdout) == 0) throw Interrupted("interrupted before all was told");
-  fail(errno);
+  bench::fail_to("write to", "standard output", errno);
 }
 
 }  // namespace

@@ -16,6 +16,12 @@
 #include "tools/sequence/text_file.h"
 
 namespace lcs::sequence {
+
+// The keys of a frame's record.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FileRecord, path, bytes, sha256)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Agreement, worst, compared)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrameRecordEntry, files, rows, checks)
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -25,7 +31,7 @@ constexpr const char* kJournal = ".generate";
 constexpr const char* kPlan = "plan.json";
 constexpr const char* kUnfinished = ".partial";
 
-/// What two plans differ in, for people; "" if in nothing.
+/// The first difference of two plans, for people; "" if there is none.
 std::string difference(const Json& there, const Json& asked) {
   for (const auto& [key, value] : asked.items()) {
     if (!there.contains(key) || there.at(key) != value) {
@@ -36,12 +42,14 @@ std::string difference(const Json& there, const Json& asked) {
   return "";
 }
 
-/// Anything in a folder but a journal without a plan; "" if there is nothing.
-std::string first_stranger(const fs::path& folder) {
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().filename() != kJournal) return entry.path().filename().string();
-  }
-  return "";
+bool is_record(const std::string& name) {
+  return name.starts_with("frame-") && name.ends_with(".json");
+}
+
+[[noreturn]] void refuse_to_replace(const fs::path& place, const char* what) {
+  throw bench::OutputError(
+      fmt::format("{} {}, and would be lost; move it away, or choose another folder with --out",
+                  place.string(), what));
 }
 
 }  // namespace
@@ -67,11 +75,12 @@ void Journal::take_over(const std::string& plan) {
   const bool is_begun = fs::exists(plan_file());
   const bool is_finished = !is_begun && fs::exists(folder_ / kManifestFile);
   if (!is_begun && !is_finished) {
-    if (const std::string stranger = first_stranger(folder_); !stranger.empty()) {
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      if (entry.path().filename() == kJournal) continue;
       throw bench::OutputError(fmt::format(
           "{} holds {}, which is no part of a generated sequence; choose another folder "
           "with --out, or move it away",
-          folder_.string(), stranger));
+          folder_.string(), entry.path().filename().string()));
     }
     replace(plan_file(), plan);
     return;
@@ -85,7 +94,7 @@ void Journal::take_over(const std::string& plan) {
                     folder_.string(), differs));
   }
   complete_ = is_finished;
-  if (is_finished && fs::exists(folder_ / kJournal)) close();  // a process was killed at that
+  if (is_finished && fs::exists(folder_ / kJournal)) close();  // a killed process began to
 }
 
 fs::path Journal::plan_file() const {
@@ -113,84 +122,57 @@ int Journal::recorded() const {
   std::error_code error;
   int count = 0;
   for (const auto& entry : fs::directory_iterator(folder_ / kJournal, error)) {
-    const std::string name = entry.path().filename().string();
-    count += name.starts_with("frame-") && name.ends_with(".json");
+    count += is_record(entry.path().filename().string());
   }
   return count;
 }
 
 void Journal::add(int frame, const FrameOutput& output, const Agreements& checks) const {
   if (!fs::exists(plan_file())) return;
-  Json files = Json::array();
-  std::map<std::string, std::pair<Json, std::string_view>> by_path;
+  FrameRecordEntry frame_record{.files = {}, .rows = output.rows, .checks = checks};
+  std::map<std::string, std::pair<FileRecord, std::string_view>> written;  // with the bytes
   for (const FrameFile& file : output.files) {
-    Json record;
-    std::string_view bytes = file.bytes;
+    auto& [record, bytes] = written[file.path];
     if (file.same_as.empty()) {
+      bytes = file.bytes;
       write(file.path, bytes);
-      record = {{"path", file.path}, {"bytes", bytes.size()}, {"sha256", bench::sha256(bytes)}};
+      record = {file.path, bytes.size(), bench::sha256(bytes)};
     } else {
-      std::tie(record, bytes) = by_path.at(file.same_as);
+      std::tie(record, bytes) = written.at(file.same_as);
       link_or_copy(file.same_as, file.path, bytes);
-      record["path"] = file.path;
+      record.path = file.path;
     }
-    by_path[file.path] = {record, bytes};
-    files.push_back(std::move(record));
+    frame_record.files.push_back(record);
   }
-  Json agreements = Json::object();
-  for (const auto& [name, agreement] : checks) {
-    agreements[name] = {{"worst", agreement.worst}, {"compared", agreement.compared}};
-  }
-  const Json record = {{"files", files}, {"rows", output.rows}, {"checks", agreements}};
-  replace(record_file(frame), record.dump());
-  if (!fs::exists(plan_file())) close();  // it was just put together
+  replace(record_file(frame), Json(frame_record).dump());
+  if (!fs::exists(plan_file())) close();  // another process has just finished the sequence
 }
 
 FrameRecordEntry Journal::read(int frame) const {
-  const auto json = bench::parse_json<Json>(read_file(record_file(frame)));
-  FrameRecordEntry record;
-  for (const Json& file : json.at("files")) {
-    record.files.push_back({file.at("path").get<std::string>(),
-                            file.at("bytes").get<std::uint64_t>(),
-                            file.at("sha256").get<std::string>()});
-  }
-  record.rows = json.at("rows").get<Rows>();
-  for (const auto& [name, agreement] : json.at("checks").items()) {
-    record.checks[name] = {agreement.at("worst").get<double>(),
-                           agreement.at("compared").get<std::int64_t>()};
-  }
-  return record;
+  return bench::parse_json<Json>(read_file(record_file(frame))).get<FrameRecordEntry>();
 }
 
 void Journal::require_own(const fs::path& within, std::string_view bytes) const {
   const fs::path path = folder_ / within;
-  const auto refuse = [&](const std::string& place, const char* what) {
-    throw bench::OutputError(
-        fmt::format("{} {}, and would be lost; move it away, or choose another folder with --out",
-                    place, what));
-  };
   fs::path above = folder_;
   for (const fs::path& name : within.parent_path()) {
     above /= name;
-    if (fs::is_symlink(above)) refuse(above.string(), "is a link, which is not followed");
+    if (fs::is_symlink(above)) refuse_to_replace(above, "is a link, which is not followed");
   }
   const fs::file_status status = fs::symlink_status(path);
   if (!fs::exists(status)) return;
-  if (!fs::is_regular_file(status)) refuse(path.string(), "is not a file");
+  if (!fs::is_regular_file(status)) refuse_to_replace(path, "is not a file");
   if (fs::file_size(path) > bytes.size() || !bytes.starts_with(read_file(path))) {
-    refuse(path.string(), "is not a file that lcs has written");
+    refuse_to_replace(path, "is not a file that lcs has written");
   }
 }
 
 void Journal::require_unwritten(const std::vector<fs::path>& within, int frame) const {
   for (const fs::path& path : within) {
     if (!fs::exists(fs::symlink_status(folder_ / path))) continue;
-    // Another process may have put the sequence together meanwhile.
+    // Another process may have finished the sequence since.
     if (is_whole(frame) || !fs::exists(plan_file())) return;
-    throw bench::OutputError(fmt::format(
-        "{} is not a file that lcs has written, and would be lost; move it away, or choose "
-        "another folder with --out",
-        (folder_ / path).string()));
+    refuse_to_replace(folder_ / path, "is not a file that lcs has written");
   }
 }
 
@@ -209,8 +191,7 @@ void Journal::replace(const fs::path& path, std::string_view bytes) const {
     fs::rename(unfinished, path);
   } catch (const fs::filesystem_error& failure) {
     fs::remove(unfinished, error);
-    throw bench::OutputError(fmt::format("cannot write {}: {}; {}", path.string(),
-                                         failure.code().message(), bench::remedy(failure.code())));
+    bench::fail_to("write", path, failure.code());
   } catch (...) {
     fs::remove(unfinished, error);
     throw;
@@ -231,8 +212,7 @@ void Journal::close() const {
   std::vector<fs::path> own;
   for (const auto& entry : fs::directory_iterator(folder_ / kJournal)) {
     const std::string name = entry.path().filename().string();
-    const bool is_record = name.starts_with("frame-") && name.ends_with(".json");
-    if (is_record || name.ends_with(kUnfinished)) own.push_back(entry.path());
+    if (is_record(name) || name.ends_with(kUnfinished)) own.push_back(entry.path());
   }
   for (const fs::path& path : own) fs::remove(path);
   std::error_code holds_something_else;

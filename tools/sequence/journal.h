@@ -1,8 +1,8 @@
 /// \file
-/// Which frames of a sequence are whole. While a sequence grows, its folder has a folder
-/// `.generate` with the plan, and with a record for each frame that is whole: rows, and the hashes
-/// of its files. A record is the last that is written of a frame, and appears in one piece, so that
-/// a process may be killed at any moment, and several may work on one sequence.
+/// Progress of `lcs generate`, by which it continues after it was stopped, and by which several
+/// processes share a sequence. While a sequence is made, its folder `.generate` contains the plan
+/// and a record of each complete frame: its rows and the hashes of its files. A record is written
+/// after the files of its frame, and by a rename, so that a process may be killed at any moment.
 #pragma once
 
 #include <cstdint>
@@ -36,41 +36,39 @@ struct FrameRecordEntry {
 
 class Journal {
  public:
-  /// \param plan a JSON object that says all that the bytes of the sequence depend on.
-  /// Takes over a folder that is missing, empty, or holds a sequence that was begun by the same
-  /// plan. \throws bench::OutputError for a folder that holds anything else, and as
-  /// `bench::output_path`.
-  /// \param before_it_is_read called with the folder, which is there then.
+  /// Takes over a folder that is missing, empty, or holds a sequence of the same plan.
+  /// \param plan a JSON object with everything on which the bytes of the sequence depend.
+  /// \param before_it_is_read called with the folder, which exists then.
+  /// \throws bench::OutputError for a folder that holds anything else, and as `bench::output_path`.
   Journal(const std::filesystem::path& folder, const std::string& plan,
           const std::function<void(const std::filesystem::path&)>& before_it_is_read = {});
 
-  /// The sequence is there with its manifest: nothing is to be done.
+  /// The sequence has its manifest: nothing is left to do.
   bool is_complete() const { return complete_; }
 
-  /// Whether a frame has a record, and its files are there, as long as it says.
+  /// Whether a frame has a record, and its files exist with the lengths of the record.
   bool is_whole(int frame) const;
-  /// How many frames have records.
+  /// The number of frames that have records.
   int recorded() const;
 
-  /// Writes the files of a frame, then its record; nothing where another process has put the
-  /// sequence together meanwhile. \throws bench::OutputError
+  /// Writes the files of a frame, then its record. Does nothing if another process has finished the
+  /// sequence. \throws bench::OutputError
   void add(int frame, const FrameOutput& output, const Agreements& checks) const;
 
-  /// Writes a file of the sequence, which appears whole or not at all; until then it is in the
-  /// journal, which takes it along. A file that is there with the same bytes, or with the first of
-  /// them, was left by a process that was stopped. \throws bench::OutputError, also where there is
-  /// any other file, or a link, which is left as it is.
+  /// Writes a file of the sequence, which appears as a whole or not at all. Replaces a file of the
+  /// same bytes, or of the first of them, as a stopped process leaves it.
+  /// \throws bench::OutputError, also for any other file at its place, and for a link.
   void write(const std::filesystem::path& within, std::string_view bytes) const;
 
-  /// \throws bench::OutputError where one of these files is there before `frame` is whole. They are
-  /// written when all frames are, so that it is not of the sequence.
+  /// \throws bench::OutputError if one of these files exists before `frame` is complete. They are
+  /// written after all frames, so that it is a file of the user.
   void require_unwritten(const std::vector<std::filesystem::path>& within, int frame) const;
 
   /// \throws std::runtime_error for a frame without a record.
   FrameRecordEntry read(int frame) const;
 
-  /// Takes the journal away, but nothing else that somebody put there, when all that it tells of is
-  /// in the manifest.
+  /// Removes the journal, but no files of the user in its folder. Call it after the manifest is
+  /// written.
   void close() const;
 
   const std::filesystem::path& folder() const { return folder_; }

@@ -80,7 +80,7 @@ Journal::Journal(const fs::path& file, const std::vector<Fact>& facts,
     create();
   }
   file_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (file_ < 0) fail(errno);
+  if (file_ < 0) bench::fail_to("write", path_, errno);
 }
 
 void Journal::create() const {
@@ -102,12 +102,6 @@ Journal::~Journal() {
 
 void Journal::refuse(int line, const std::string& what) const {
   throw scenario::Error({path_.string(), line}, fmt::format("{}; {}", what, kRemedy));
-}
-
-void Journal::fail(int error) const {
-  const std::error_code code(error, std::generic_category());
-  throw bench::OutputError(
-      fmt::format("cannot write {}: {}; {}", path_.string(), code.message(), bench::remedy(code)));
 }
 
 void Journal::read(const std::vector<Fact>& facts) {
@@ -186,7 +180,7 @@ void Journal::add(const std::vector<std::string>& values, const Worth& worth) {
   for (std::string_view rest = text; !rest.empty();) {
     const ssize_t written = ::write(file_, rest.data(), rest.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail(errno);
+    if (written < 0) bench::fail_to("write", path_, errno);
     rest.remove_prefix(static_cast<std::size_t>(written));
   }
   is_cut_off_ = false;

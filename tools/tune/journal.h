@@ -50,7 +50,6 @@ class Journal {
   void read_row(const std::string& row, int line);
   std::string check_of(const std::string& row) const;
   [[noreturn]] void refuse(int line, const std::string& what) const;
-  [[noreturn]] void fail(int error) const;  ///< of writing
 
   std::filesystem::path path_;
   std::size_t columns_;  ///< of a row, the check included
