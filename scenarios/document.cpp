@@ -227,7 +227,9 @@ void emit(YAML::Emitter& out, const Value& value, int level) {
       out << YAML::EndSeq;
       return;
     case Value::Kind::map:
-      if (level >= kOneLine || (level >= 2 && height(value) < 3)) out << YAML::Flow;
+      if (level >= kOneLine || (level >= 2 && height(value) < 3) || value.entries.empty()) {
+        out << YAML::Flow;
+      }
       out << YAML::BeginMap;
       for (const Entry& entry : value.entries) {
         out << YAML::Key << entry.key << YAML::Value;
