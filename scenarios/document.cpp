@@ -200,8 +200,19 @@ void flatten(const Value& value, const std::string& path,
   for (const Entry& entry : value.entries) flatten(entry.value, prefix + entry.key, texts);
 }
 
-/// In one line.
-void emit(YAML::Emitter& out, const Value& value) {
+constexpr int kOneLine = 1000;  ///< a level at which all is written in one line
+
+/// How deep lists and maps are nested in it: 0 of a single value.
+int height(const Value& value) {
+  int inner = -1;
+  for (const Value& item : value.items) inner = std::max(inner, height(item));
+  for (const Entry& entry : value.entries) inner = std::max(inner, height(entry.value));
+  return inner + 1;
+}
+
+/// \param level of the maps round it; those of the first two have a line for each key, and so have
+/// deeply nested ones and lists of lists. All others are written in one line.
+void emit(YAML::Emitter& out, const Value& value, int level) {
   switch (value.kind) {
     case Value::Kind::null:
       out << YAML::Null;
@@ -210,15 +221,19 @@ void emit(YAML::Emitter& out, const Value& value) {
       out << value.text;
       return;
     case Value::Kind::list:
-      out << YAML::Flow << YAML::BeginSeq;
-      for (const Value& item : value.items) emit(out, item);
+      if (level >= kOneLine || height(value) < 2) out << YAML::Flow;
+      out << YAML::BeginSeq;
+      for (const Value& item : value.items) emit(out, item, std::max(level + 1, 2));
       out << YAML::EndSeq;
       return;
     case Value::Kind::map:
-      out << YAML::Flow << YAML::BeginMap;
+      if (level >= kOneLine || (level >= 2 && height(value) < 3) || value.entries.empty()) {
+        out << YAML::Flow;
+      }
+      out << YAML::BeginMap;
       for (const Entry& entry : value.entries) {
         out << YAML::Key << entry.key << YAML::Value;
-        emit(out, entry.value);
+        emit(out, entry.value, level + 1);
       }
       out << YAML::EndMap;
       return;
@@ -316,27 +331,13 @@ void apply_set(Value& root, const std::string& assignment) {
 
 std::string line_of(const Value& value) {
   YAML::Emitter out;
-  emit(out, value);
+  emit(out, value, kOneLine);
   return out.c_str();
 }
 
 std::string yaml_text(const Value& root) {
   YAML::Emitter out;
-  out << YAML::BeginMap;
-  for (const Entry& entry : root.entries) {
-    out << YAML::Key << entry.key << YAML::Value;
-    if (entry.value.kind != Value::Kind::map) {
-      emit(out, entry.value);
-      continue;
-    }
-    out << YAML::BeginMap;
-    for (const Entry& inner : entry.value.entries) {
-      out << YAML::Key << inner.key << YAML::Value;
-      emit(out, inner.value);
-    }
-    out << YAML::EndMap;
-  }
-  out << YAML::EndMap;
+  emit(out, root, 0);
   return out.c_str();
 }
 

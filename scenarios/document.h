@@ -56,7 +56,8 @@ Value parse_text(const std::string& text, const Source& where);
 
 /// YAML that reads back as a value, in one line.
 std::string line_of(const Value& value);
-/// YAML of a map that reads back as it, with a line for each key of it and of the maps in it.
+/// YAML of a map that reads back as it, with a line for each key of it and of the maps in it, and
+/// for each item of a list of lists.
 std::string yaml_text(const Value& root);
 
 /// What is written in the tree, by the paths that `apply_set` takes: {"ego.start.0", "-4 m"}. Empty

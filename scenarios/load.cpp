@@ -4,144 +4,287 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <system_error>
 
 #include "scenarios/document.h"
-#include "scenarios/imu_presets.h"
-#include "scenarios/load_actor.h"
-#include "scenarios/load_ego.h"
-#include "scenarios/load_image.h"
-#include "scenarios/load_recording.h"
-#include "scenarios/load_sweep.h"
-#include "scenarios/quantities.h"
+#include "scenarios/fields.h"
+#include "scenarios/inputs_read.h"
+#include "scenarios/reader.h"
 #include "scenarios/scenes.h"
 
 namespace lcs::scenario {
 namespace {
 
-constexpr int kMostFrames = 1'000'000;
-constexpr int kSmallestImagePx = 16;
-constexpr int kLargestImagePx = 8192;
-const Value empty_map(Value::Kind::map, {});
+namespace fs = std::filesystem;
 
-Camera::Told read_told(Reader reader) {
-  Camera::Told told;
-  reader.read("height_error", kPosition, told.height_error_m);
-  reader.read("pitch_error", kAngle, told.pitch_error_rad);
-  reader.finish();
-  return told;
+/// A value that is to be read, the path that messages call it, and the folder of the scenario.
+struct Item {
+  const Value& value;
+  std::string path;
+  const fs::path& folder;
+
+  Item at(std::size_t index, const Value& item) const {
+    return {item, path + "." + std::to_string(index), folder};
+  }
+};
+
+// --- checks of a whole map, after its keys
+// --------------------------------------------------------
+
+template <class T>
+void complete(Reader&, T&) {}
+
+void complete(Reader& reader, Ego& ego) {
+  if (ego.waypoints.empty()) return;
+  ego.start_m = ego.waypoints.front().position_m;
+  const auto elsewhere = std::ranges::find_if(
+      ego.waypoints, [&](const Waypoint& point) { return point.position_m != ego.start_m; });
+  if (elsewhere == ego.waypoints.end()) {
+    throw Error(reader.find("waypoints")->where,
+                reader.path_of("waypoints") +
+                    " lead nowhere: all are one place; make one of them another, or give start "
+                    "and heading for a rover that stands");
+  }
+  const Eigen::Vector2d way = elsewhere->position_m - ego.start_m;
+  ego.heading_rad = std::atan2(way.y(), way.x());
 }
 
-Camera read_camera(Reader reader) {
-  Camera camera;
-  if (const Value* size = reader.find("size")) {
-    const std::string path = reader.path_of("size");
-    const std::vector<Value>& list = as_list(*size, path, 2);
-    const auto pixels = [&](std::size_t i) {
-      return static_cast<int>(
-          as_integer(list[i], path + "." + std::to_string(i), kSmallestImagePx, kLargestImagePx));
-    };
-    camera.width_px = pixels(0);
-    camera.height_px = pixels(1);
-  }
-  if (reader.at_most_one_of({"fovy", "focal"}) == "focal") {
-    double focal_px = 0;
-    reader.read("focal", kFocal, focal_px);
-    camera.fovy_rad = 2 * std::atan(camera.height_px / 2.0 / focal_px);
-  }
-  reader.read("fovy", kFieldOfView, camera.fovy_rad);
-  reader.read("rate", kCameraRate, camera.rate_hz);
-  reader.read("position", kPosition, camera.mount_position_m);
-  reader.read("rotation", kAngle, camera.mount_rpy_rad);
-  if (const Value* told = reader.find("told")) {
-    camera.told = read_told({*told, reader.path_of("told")});
-  }
-  reader.finish();
-  return camera;
+void complete(Reader&, Imu& imu) {
+  if (imu.noise != imu_preset(imu.preset)) imu.preset = "custom";
 }
 
-/// The estimator takes the state at 0 from the first reading, so there is one.
-std::vector<TimeSpan> read_gaps(const Value& value, const std::string& path) {
-  std::vector<TimeSpan> gaps;
-  for (const Value& item : as_list(value, path)) {
-    const std::string item_path = path + "." + std::to_string(gaps.size());
-    const std::vector<Value>& pair = as_list(item, item_path, 2);
-    const TimeSpan gap{as_quantity(pair[0], item_path + ".0", kDuration),
-                       as_quantity(pair[1], item_path + ".1", kDuration)};
+void complete(Reader& reader, Criterion& criterion) {
+  if (!criterion.min && !criterion.max) {
+    throw Error(criterion.source, reader.path() + " has no bound; give min, max or both");
+  }
+  if (criterion.min && criterion.max && *criterion.min > *criterion.max) {
+    throw Error(criterion.source, reader.path() + " has its min above its max; exchange them");
+  }
+}
+
+/// A body of the scene has a place to begin at, an added shape has none.
+void require_place(const Actor& actor, const std::string& path) {
+  const auto* still = std::get_if<Still>(&actor.trajectory);
+  const auto* line = std::get_if<Line>(&actor.trajectory);
+  std::string missing;
+  if (still && !still->position_m) missing = "still.position";
+  if (line && !line->heading_rad) missing = "line.heading";
+  if (line && !line->from_m) missing = "line.from";
+  if (missing.empty()) return;
+  throw Error(actor.source, path + " has a shape of its own and so needs trajectory." + missing +
+                                "; add it (only a body of the scene has a place there)");
+}
+
+void complete(Reader& reader, Actor& actor) {
+  if (!actor.body) return require_place(actor, reader.path());
+  for (const char* key : {"size", "texture"}) {
+    const Value* value = reader.find(key);
+    if (!value) continue;
+    throw Error(value->where, reader.path_of(key) +
+                                  " is given for a body of the scene, which has its own; "
+                                  "remove it, or give 'shape' in place of 'body'");
+  }
+}
+
+// --- values by their type and form
+// ----------------------------------------------------------------
+
+void read_value(const Item& item, const Quantity& quantity, double& out) {
+  out = as_quantity(item.value, item.path, quantity);
+}
+
+void read_value(const Item& item, const In& form, double& out) {
+  out = as_quantity(item.value, item.path, form.quantity);
+}
+
+template <std::integral T>
+void read_value(const Item& item, const Whole& form, T& out) {
+  out = static_cast<T>(as_integer(item.value, item.path, form.low, form.high));
+}
+
+void read_value(const Item& item, Plain, std::uint64_t& seed) {
+  seed = as_seed(item.value, item.path);
+}
+
+void read_value(const Item& item, Plain, bool& out) {
+  out = as_choice(item.value, item.path, {"false", "true"}) == 1;
+}
+
+void read_value(const Item& item, Plain, std::string& out) {
+  out = as_text(item.value, item.path);
+}
+
+void read_value(const Item& item, const Words& form, std::string& out) {
+  out = form.words[as_choice(item.value, item.path, form.words)];
+}
+
+template <class Enum>
+requires std::is_enum_v<Enum>
+void read_value(const Item& item, const Words& form, Enum& out) {
+  out = static_cast<Enum>(as_choice(item.value, item.path, form.words));
+}
+
+template <class Enum>
+requires std::is_enum_v<Enum>
+void read_value(const Item& item, const OwnFileOr& form, Enum& out) {
+  const Value& value = item.value;
+  if (value.kind == Value::Kind::scalar && value.text.ends_with(".xml")) {
+    out = Enum::own;
+    form.file = file_beside(value, item.folder, item.path + ": there is no file ");
+  } else {
+    out = static_cast<Enum>(as_choice(value, item.path, form.words, "the path of an .xml file"));
+  }
+}
+
+template <class Number, int N, class Form>
+void read_value(const Item& item, const Form& form, Eigen::Matrix<Number, N, 1>& out) {
+  const std::vector<Value>& list = as_list(item.value, item.path, N);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    read_value(item.at(i, list[i]), form, out[static_cast<Eigen::Index>(i)]);
+  }
+}
+
+template <class T, class Form>
+void read_value(const Item& item, const Form& form, std::optional<T>& out) {
+  read_value(item, form, out.emplace());
+}
+
+template <class T, class Form>
+void read_value(const Item& item, const OrWord<Form>& form, std::optional<T>& out) {
+  if (item.value.kind == Value::Kind::scalar && item.value.text == form.word) {
+    out.reset();
+  } else if constexpr (std::is_same_v<Form, Whole>) {
+    out = static_cast<T>(as_integer(item.value, item.path, form.form.low, form.form.high,
+                                    " or " + std::string(form.word)));
+  } else {
+    read_value(item, form.form, out.emplace());
+  }
+}
+
+template <class T, class Form>
+void read_value(const Item& item, const Form& form, std::vector<T>& out) {
+  for (const Value& value : as_list(item.value, item.path)) {
+    const Item next = item.at(out.size(), value);
+    read_value(next, form, out.emplace_back());
+  }
+}
+
+void read_value(const Item& item, const SceneName& form, fs::path& out) {
+  out = find_scene(item.value, item.folder);
+  form.source = item.value.where;
+}
+
+void read_value(const Item& item, File, fs::path& out) {
+  as_text(item.value, item.path);
+  out = file_beside(item.value, item.folder, item.path + ": there is no file ");
+  note_input(out);
+}
+
+void read_value(const Item& item, FolderOrFile, fs::path& out) {
+  out = item.folder / as_text(item.value, item.path);
+  std::error_code none;  // of a name that no file can have
+  if (!fs::is_directory(out, none) && !fs::is_regular_file(out, none)) {
+    throw Error(item.value.where, item.path + ": there is no folder or video " + out.string() +
+                                      "; " + path_remedy(item.folder));
+  }
+  note_input(out);
+}
+
+void read_value(const Item& item, StyleOrPicture, std::string& out) {
+  out = as_text(item.value, item.path);
+  if (!out.ends_with(".png")) return;
+  out = file_beside(item.value, item.folder, item.path + ": there is no picture ").string();
+}
+
+/// Frames at 0, 1/rate, 2/rate, ... that lie before the end.
+int frames_before(double duration_s, double rate_hz, const Value& duration) {
+  constexpr double rounding = 1e-6;  // 0.3 s at 10 Hz is 3 frames, whatever 0.3 * 10 is in binary
+  const double frames = std::ceil(duration_s * rate_hz - rounding);
+  if (frames <= kMostFrames) return std::max(1, static_cast<int>(frames));
+  throw Error(duration.where, "duration '" + duration.text + "' makes more than " +
+                                  std::to_string(kMostFrames) + " frames; shorten it");
+}
+
+void read_value(const Item& item, const FramesBefore& form, int& frames) {
+  const double duration_s = as_quantity(item.value, item.path, kDuration);
+  frames = frames_before(duration_s, form.rate_hz, item.value);
+}
+
+void read_value(const Item& item, Plain, Recorded::Distortion& out) {
+  Value list = item.value;
+  std::string path = item.path;
+  if (list.kind == Value::Kind::map) {
+    Reader reader(item.value, path);
+    const Value* coefficients = reader.require("equidistant");
+    reader.finish();
+    list = *coefficients;
+    path = reader.path_of("equidistant");
+    out.equidistant = true;
+  }
+  as_list(list, path, out.equidistant ? 4 : 5);
+  read_value(Item{list, path, item.folder}, kCoefficient, out.coefficients);
+}
+
+void read_value(const Item& item, Plain, std::vector<Waypoint>& points) {
+  for (const Value& value : as_list(item.value, item.path)) {
+    const Item next = item.at(points.size(), value);
+    const std::vector<Value>& triple = as_list(value, next.path, 3);
+    const Waypoint point{as_quantity(triple[0], next.path + ".0", kTime),
+                         {as_quantity(triple[1], next.path + ".1", kPosition),
+                          as_quantity(triple[2], next.path + ".2", kPosition)}};
+    if (!points.empty() && point.at_s <= points.back().at_s) {
+      throw Error(value.where, next.path + " is at '" + triple[0].text +
+                                   "', not after the one before; make the times increase");
+    }
+    points.push_back(point);
+  }
+  if (points.size() < 2) {
+    throw Error(item.value.where,
+                item.path + " has fewer than two waypoints; give two or more [time, x, y]");
+  }
+}
+
+void read_value(const Item& item, Plain, Waypoints& waypoints) {
+  read_value(item, Plain{}, waypoints.points);
+}
+
+/// The estimator takes the state at 0 from the first reading: there has to be a reading at 0.
+void read_value(const Item& item, Plain, std::vector<TimeSpan>& gaps) {
+  for (const Value& value : as_list(item.value, item.path)) {
+    const Item next = item.at(gaps.size(), value);
+    const std::vector<Value>& pair = as_list(value, next.path, 2);
+    const TimeSpan gap{as_quantity(pair[0], next.path + ".0", kDuration),
+                       as_quantity(pair[1], next.path + ".1", kDuration)};
     if (gap.to_s <= gap.from_s || (!gaps.empty() && gap.from_s < gaps.back().to_s)) {
-      throw Error(item.where, item_path + " is [" + pair[0].text + ", " + pair[1].text +
-                                  "]; make the times increase, from each gap to the next");
+      throw Error(value.where, next.path + " is [" + pair[0].text + ", " + pair[1].text +
+                                   "]; make the times increase, from each gap to the next");
     }
     gaps.push_back(gap);
   }
-  return gaps;
 }
 
-Imu read_imu(Reader reader) {
-  Imu imu;
-  const std::vector<std::string> presets = imu_preset_names();
-  if (const auto preset = reader.choice("preset", presets)) imu.preset = presets[*preset];
-  const ImuNoise preset_noise = imu_preset(imu.preset).value();
-  imu.noise = preset_noise;
-  reader.read("gyroscope_noise_density", kNoiseDensity, imu.noise.gyroscope_noise_density);
-  reader.read("gyroscope_random_walk", kNoiseDensity, imu.noise.gyroscope_random_walk);
-  reader.read("accelerometer_noise_density", kNoiseDensity, imu.noise.accelerometer_noise_density);
-  reader.read("accelerometer_random_walk", kNoiseDensity, imu.noise.accelerometer_random_walk);
-  reader.read("gyroscope_turn_on_bias", kTurnOnRate, imu.noise.gyroscope_turn_on_bias_radps);
-  reader.read("accelerometer_turn_on_bias", kTurnOnAcceleration,
-              imu.noise.accelerometer_turn_on_bias_mps2);
-  if (const Value* gaps = reader.find("gaps")) imu.gaps = read_gaps(*gaps, reader.path_of("gaps"));
-  reader.read("rate", kSensorRate, imu.rate_hz);
-  reader.finish();
-  if (imu.noise != preset_noise) imu.preset = "custom";
-  return imu;
+bool is_name(const std::string& text) {
+  return std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
 }
 
-Odometry read_odometry(Reader reader) {
-  Odometry odometry;
-  odometry.enabled = true;
-  reader.read("rate", kSensorRate, odometry.rate_hz);
-  reader.read("noise", kSpeed, odometry.noise_mps);
-  reader.read("yaw_noise", kYawNoise, odometry.yaw_noise_radps);
-  reader.read("scale_error", kRatio, odometry.scale_error);
-  reader.finish();
-  return odometry;
-}
-
-void read_corners(Reader reader, std::optional<int>& threshold) {
-  if (const Value* value = reader.find("threshold")) {
-    threshold = as_threshold(*value, reader.path_of("threshold"));
-  }
-  reader.finish();
-}
-
-double read_truth(Reader reader) {
-  double min_depth_m = Scenario{}.truth_min_depth_m;
-  reader.read("min_depth", kDistance, min_depth_m);
-  reader.finish();
-  return min_depth_m;
-}
-
-Origin read_origin(Reader reader) {
-  constexpr std::int64_t kMostAgain = 1'000'000;
-  Origin origin;
-  origin.source = reader.where();
-  reader.require("family");
-  reader.read("family", origin.family);
-  if (const Value* seed = reader.require("seed")) {
-    origin.seed = as_seed(*seed, reader.path_of("seed"));
-  }
-  if (const Value* again = reader.find("again")) {
-    origin.again =
-        static_cast<std::uint64_t>(as_integer(*again, reader.path_of("again"), 0, kMostAgain));
-  }
-  if (const Value* features = reader.find("features")) {
-    const std::string path = reader.path_of("features");
-    for (const Value& item : as_list(*features, path)) {
-      origin.features.push_back(as_text(item, path + "." + std::to_string(origin.features.size())));
+void read_value(const Item& item, GroupNames, std::vector<std::string>& groups) {
+  groups.clear();
+  for (const Value& value : as_list(item.value, item.path)) {
+    const std::string& group = as_text(value, item.at(groups.size(), value).path);
+    if (!is_name(group)) {
+      throw Error(value.where, "the group '" + group +
+                                   "' has other characters than a-z, 0-9, '_' and '-'; rename it");
     }
+    if (std::ranges::count(groups, group) > 0) {
+      throw Error(value.where, "groups has '" + group + "' twice; remove one");
+    }
+    groups.push_back(group);
   }
-  reader.finish();
-  return origin;
+  if (groups.empty()) {
+    throw Error(item.value.where, "groups is an empty list; give one or more, or remove the key");
+  }
 }
 
 /// False for nan and inf, as YAML (".inf") or C++ ("inf") write them.
@@ -154,130 +297,150 @@ bool is_finite(std::string_view text) {
   return !whole || (error == std::errc() && std::isfinite(number));
 }
 
-/// The names and ranges are the filter's to check; what no number may be is refused here.
-void read_filter(const Value& value, Scenario& scenario) {
-  const Reader reader(value, "filter");
-  for (const Entry& entry : value.entries) {
+/// Refuses numbers that are not finite. The filter checks the names and the ranges.
+void read_value(const Item& item, const FilterParameters& form,
+                std::vector<FilterSetting>& settings) {
+  const Reader reader(item.value, item.path);
+  for (const Entry& entry : item.value.entries) {
     const std::string path = reader.path_of(entry.key);
     const std::string& text = as_text(entry.value, path);
     if (entry.key == "preset") {
-      scenario.filter_preset = text;
-      scenario.filter_preset_source = entry.value.where;
+      form.preset = text;
+      form.source = entry.value.where;
       continue;
     }
     if (!is_finite(text)) {
       throw Error(entry.value.where, path + ": '" + text + "' is not finite; give a number");
     }
-    scenario.filter.push_back({entry.key, text, entry.value.where});
+    settings.push_back({entry.key, text, entry.value.where});
   }
 }
 
-Criterion read_criterion(Reader reader) {
-  Criterion criterion;
-  criterion.source = reader.where();
-  reader.require("metric");
-  reader.read("metric", criterion.metric);
-  reader.read("min", kBound, criterion.min);
-  reader.read("max", kBound, criterion.max);
-  reader.read("required", criterion.required);
-  reader.read("detector", criterion.detector);
+/// Keys that change nothing in a run, and the seed, which is the suite's to vary.
+constexpr std::array<std::string_view, 5> not_to_be_swept = {"sweep", "groups", "purpose", "origin",
+                                                             "seed"};
+
+SweptKey read_key(const Entry& entry) {
+  const std::string path = "sweep." + entry.key;
+  if (std::count(not_to_be_swept.begin(), not_to_be_swept.end(), entry.key) > 0) {
+    throw Error(entry.where, path + " cannot be swept; " +
+                                 (entry.key == "seed" ? "the number of seeds is the suite's option"
+                                                      : "remove it"));
+  }
+  SweptKey swept{entry.key, {}, entry.where};
+  for (const Value& value : as_list(entry.value, path)) {
+    const std::string index = std::to_string(swept.values.size());
+    if (value.kind == Value::Kind::null) {
+      throw Error(value.where, path + "." + index + " is nothing; give a value");
+    }
+    const std::string text = line_of(value);
+    const auto same = [&](const SweptKey::Value& other) { return other.text == text; };
+    if (std::any_of(swept.values.begin(), swept.values.end(), same)) {
+      throw Error(value.where, path + " has '" + text + "' twice; remove one");
+    }
+    swept.values.push_back({text, value.where});
+  }
+  if (swept.values.empty()) {
+    throw Error(entry.where, path + " is an empty list; give one or more values");
+  }
+  return swept;
+}
+
+/// Checks the form alone: whether a key is known and takes its values shows when a point is loaded.
+void read_value(const Item& item, Plain, std::vector<SweptKey>& sweep) {
+  const Reader keys(item.value, item.path);
+  for (const Entry& entry : item.value.entries) sweep.push_back(read_key(entry));
+  if (sweep.empty()) {
+    throw Error(item.value.where,
+                "sweep is an empty map; give keys, as in {ego.speed: [0.2, 0.4]}");
+  }
+}
+
+// --- maps
+// -----------------------------------------------------------------------------------------
+
+struct ReadFields {
+  Reader& reader;
+  const fs::path& folder;
+
+  template <class T, class Form = Plain>
+  void operator()(const Key& key, T& member, const Form& form = {}) const {
+    const Value* value =
+        key.without == kRequired ? reader.require(key.name) : reader.find(key.name);
+    if (value) read_value(Item{*value, reader.path_of(key.name), folder}, form, member);
+  }
+  void at_most_one_of(std::initializer_list<std::string_view> keys) const {
+    reader.at_most_one_of(keys);
+  }
+  void exactly_one_of(std::initializer_list<std::string_view> keys) const {
+    reader.exactly_one_of(keys);
+  }
+  void in_place_of(std::string_view key, std::initializer_list<std::string_view> others) const {
+    for (const std::string_view other : others) reader.at_most_one_of({key, other});
+  }
+};
+
+template <HasFields T>
+void read_value(const Item& item, Plain, T& out) {
+  Reader reader(item.value, item.path);
+  if constexpr (requires { out.source; }) out.source = reader.where();
+  fields(out, ReadFields{reader, item.folder});
   reader.finish();
-  if (!criterion.min && !criterion.max) {
-    throw Error(criterion.source, reader.path() + " has no bound; give min, max or both");
+  complete(reader, out);
+}
+
+/// The command that a phase gives at the later time `at_s`.
+EgoPhase carried_on(const EgoPhase& before, double at_s) {
+  EgoPhase phase = before;
+  phase.at_s = at_s;
+  phase.speed_mps =
+      std::max(0.0, before.speed_mps + before.acceleration_mps2 * (at_s - before.at_s));
+  return phase;
+}
+
+/// The first phase is the ego's own.
+void read_value(const Item& item, Plain, std::vector<EgoPhase>& phases) {
+  for (const Value& value : as_list(item.value, item.path)) {
+    const EgoPhase before = phases.back();
+    const Item next = item.at(phases.size() - 1, value);
+    Reader reader(value, next.path);
+    double at_s = before.at_s;
+    reader.read("at", kTime, at_s);
+    read_value(next, Plain{}, phases.emplace_back(carried_on(before, at_s)));
+    if (at_s > before.at_s) continue;
+    const Value& at = *reader.find("at");
+    throw Error(at.where, reader.path_of("at") + " is '" + at.text +
+                              "', not after the phase before (" + number_text(before.at_s) +
+                              " s); make the times increase");
   }
-  if (criterion.min && criterion.max && *criterion.min > *criterion.max) {
-    throw Error(criterion.source, reader.path() + " has its min above its max; exchange them");
-  }
-  return criterion;
 }
 
-/// Frames at 0, 1/rate, 2/rate, ... that lie before the end.
-int frames_before(double duration_s, double rate_hz, const Value& duration) {
-  constexpr double rounding = 1e-6;  // 0.3 s at 10 Hz is 3 frames, whatever 0.3 * 10 is in binary
-  const double frames = std::ceil(duration_s * rate_hz - rounding);
-  if (frames <= kMostFrames) return std::max(1, static_cast<int>(frames));
-  throw Error(duration.where, "duration '" + duration.text + "' makes more than " +
-                                  std::to_string(kMostFrames) + " frames; shorten it");
-}
-
-int read_frames(Reader& reader, double rate_hz) {
-  int frames = 0;
-  reader.read("frames", 1, kMostFrames, frames);
-  double duration_s = 0;
-  reader.read("duration", kDuration, duration_s);
-  const auto given = reader.exactly_one_of({"frames", "duration"});
-  return given == "duration" ? frames_before(duration_s, rate_hz, *reader.find("duration"))
-                             : frames;
-}
-
-/// A section under its key, when it is given.
-void read_section(Reader& reader, std::string_view key, auto&& read, auto& out) {
-  if (const Value* value = reader.find(key)) out = read(Reader(*value, reader.path_of(key)));
-}
-
-/// What was recorded is not made, and so nothing else can be said of it.
-void read_recorded(Reader& reader, const std::filesystem::path& folder, Scenario& scenario) {
-  for (const char* key : {"scene", "origin", "seed", "ego", "camera", "imu", "odometry", "truth",
-                          "image", "ground", "actors"}) {
-    reader.at_most_one_of({"recording", key});
-  }
-  scenario.recording = read_recording({*reader.find("recording"), "recording"}, folder);
-  if (const auto& split = scenario.recording->split) {
-    scenario.groups.emplace_back(kSplits.at(static_cast<std::size_t>(*split)));
-  }
-  reader.read("frames", 1, kMostFrames, scenario.frames);
-}
-
-void read_simulated(Reader& reader, const std::filesystem::path& folder, Scenario& scenario) {
-  const auto section = [&](std::string_view key, auto&& read, auto& out) {
-    read_section(reader, key, read, out);
+/// Names become names of bodies in the world and parts of `--set` paths.
+void check_name(const Entry& entry) {
+  const auto is_name_char = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
   };
-  if (const Value* scene = reader.find("scene")) {
-    scenario.scene = find_scene(*scene, folder);
-    scenario.scene_source = scene->where;
+  if (entry.key == "ego") {
+    throw Error(entry.where, "an actor is called 'ego', which is the rover's name; rename it");
   }
-  section("origin", read_origin, scenario.origin);
-  if (const Value* seed = reader.find("seed")) scenario.seed = as_seed(*seed, "seed");
-  if (const Value* ego = reader.require("ego")) scenario.ego = read_ego({*ego, "ego"}, folder);
-  section("camera", read_camera, scenario.camera);
-  scenario.frames = read_frames(reader, scenario.camera.rate_hz);
-  const Value* imu = reader.find("imu");
-  scenario.imu = read_imu({imu ? *imu : empty_map, "imu"});
-  section("odometry", read_odometry, scenario.odometry);
-  section("truth", read_truth, scenario.truth_min_depth_m);
-  section("image", read_image, scenario.image);
-  section("ground", read_ground, scenario.ground);
-  if (const Value* actors = reader.find("actors")) {
-    const Reader names(*actors, "actors");
-    for (const Entry& entry : actors->entries) {
-      scenario.actors.push_back(read_actor(entry, folder));
-    }
+  if (std::all_of(entry.key.begin(), entry.key.end(), is_name_char)) return;
+  throw Error(entry.where,
+              "the actor's name '" + entry.key +
+                  "' has other characters than letters, digits, '_' and '-'; rename it");
+}
+
+void read_value(const Item& item, Plain, std::vector<Actor>& actors) {
+  const Reader names(item.value, item.path);
+  for (const Entry& entry : item.value.entries) {
+    check_name(entry);
+    Actor& actor = actors.emplace_back();
+    actor.name = entry.key;
+    read_value(Item{entry.value, names.path_of(entry.key), item.folder}, Plain{}, actor);
   }
 }
 
-void read_top(Reader& reader, const std::filesystem::path& folder, Scenario& scenario) {
-  reader.read("purpose", scenario.purpose);
-  if (const Value* groups = reader.find("groups")) scenario.groups = read_groups(*groups);
-  const bool is_recorded = reader.exactly_one_of({"scene", "recording"}) == "recording";
-  (is_recorded ? read_recorded : read_simulated)(reader, folder, scenario);
-  if (const auto source = reader.choice("ego_motion", {"imu", "truth"})) {
-    scenario.ego_motion = static_cast<EgoMotionSource>(*source);
-  }
-  if (is_recorded) scenario.fast_threshold.reset();  // each camera has its own noise
-  if (const Value* corners = reader.find("corners")) {
-    read_corners({*corners, "corners"}, scenario.fast_threshold);
-  }
-  if (const Value* filter = reader.find("filter")) read_filter(*filter, scenario);
-  if (const Value* criteria = reader.find("criteria")) {
-    for (const Value& item : as_list(*criteria, "criteria")) {
-      const std::string index = std::to_string(scenario.criteria.size());
-      scenario.criteria.push_back(read_criterion({item, "criteria." + index}));
-    }
-  }
-  if (const Value* sweep = reader.find("sweep")) scenario.sweep = read_sweep(*sweep);
-}
-
-/// Without what is for people, what it was drawn from, the seeds, and who watches and judges.
+/// The keys that the sensors' data and the truth depend on, the seed apart.
 std::map<std::string, std::string> world_of(const Value& root) {
   constexpr std::array<std::string_view, 7> kNotOfTheWorld{"purpose", "groups",   "origin", "seed",
                                                            "filter",  "criteria", "sweep"};
@@ -300,9 +463,16 @@ Scenario load(Value root, const std::filesystem::path& file, const LoadOptions& 
   Scenario scenario;
   scenario.name = file.stem().string();
   scenario.file = file;
-  Reader reader(root, "");
-  read_top(reader, file.parent_path(), scenario);
-  reader.finish();
+  if (Reader(root, "").find("recording")) {
+    scenario.fast_threshold.reset();  // each camera has its own noise
+  } else {
+    scenario.imu.noise = imu_preset(scenario.imu.preset).value();
+  }
+  read_value(Item{root, "", file.parent_path()}, Plain{}, scenario);
+  if (scenario.recording && scenario.recording->split) {
+    const std::string split = kSplits.at(static_cast<std::size_t>(*scenario.recording->split));
+    if (std::ranges::count(scenario.groups, split) == 0) scenario.groups.push_back(split);
+  }
   scenario.world = world_of(root);
   if (options.seed && !scenario.recording) scenario.seed = *options.seed;
   return scenario;

@@ -151,6 +151,27 @@ double parse_quantity(std::string_view text, Dimension dimension) {
   return si;
 }
 
+std::vector<std::string_view> units_of(Dimension dimension) {
+  std::vector<std::string_view> names;
+  for (const Unit& unit : units) {
+    if (unit.dimension == dimension) names.push_back(unit.name);
+  }
+  return names;
+}
+
+std::string quantity_text(double si, Dimension dimension, std::string_view unit) {
+  const Unit* in = unit.empty() ? base(dimension) : find(unit);
+  const double number = in ? si * in->denominator / in->numerator : si;
+  std::array<char, 64> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number,
+                                 std::chars_format::general, 12);
+  double rounded = 0;
+  std::from_chars(buffer.data(), end.ptr, rounded);
+  std::string text = number_text(rounded == 0 ? 0 : rounded);
+  if (in) text.append(" ").append(in->name);
+  return text;
+}
+
 std::string number_text(double value) {
   const double size = std::abs(value);
   const bool plain = value == 0 || (size >= 1e-4 && size < 1e7);

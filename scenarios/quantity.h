@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lcs::scenario {
 
@@ -32,6 +33,13 @@ double to_si(double in_base_unit, Dimension dimension);
 /// \throws std::invalid_argument "what is wrong; what to do" for what is not a finite number in a
 ///   unit of this dimension.
 double parse_quantity(std::string_view text, Dimension dimension);
+
+/// The units of a dimension, the base unit first.
+std::vector<std::string_view> units_of(Dimension dimension);
+
+/// An SI value with its unit, as `parse_quantity` reads it, to 12 digits. \param unit of the
+/// dimension; "": its base unit.
+std::string quantity_text(double si, Dimension dimension, std::string_view unit = "");
 
 /// A double in as few digits as bring it back, for messages.
 std::string number_text(double value);

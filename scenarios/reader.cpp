@@ -30,21 +30,6 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& kn
   return "known are " + joined(known, " and ");
 }
 
-/// "above 0 and at most 100 m/s"
-std::string range_text(const Quantity& quantity) {
-  const Range& range = quantity.range;
-  std::string text;
-  if (std::isfinite(range.low)) {
-    text = (range.low_open ? "above " : "at least ") + number_text(range.low);
-  }
-  if (std::isfinite(range.high)) {
-    text += (text.empty() ? "" : " and ") + std::string(range.high_open ? "below " : "at most ") +
-            number_text(range.high);
-  }
-  const std::string_view unit = base_unit(quantity.dimension);
-  return unit.empty() ? text : text + " " + std::string(unit);
-}
-
 void require_scalar(const Value& value, const std::string& path, std::string_view wanted) {
   if (value.kind == Value::Kind::scalar) return;
   throw Error(value.where,
@@ -72,6 +57,20 @@ Integer integer(const Value& value, const std::string& path, Integer low, Intege
 
 }  // namespace
 
+std::string range_text(const Quantity& quantity) {
+  const Range& range = quantity.range;
+  std::string text;
+  if (std::isfinite(range.low)) {
+    text = (range.low_open ? "above " : "at least ") + number_text(range.low);
+  }
+  if (std::isfinite(range.high)) {
+    text += (text.empty() ? "" : " and ") + std::string(range.high_open ? "below " : "at most ") +
+            number_text(range.high);
+  }
+  const std::string_view unit = base_unit(quantity.dimension);
+  return unit.empty() ? text : text + " " + std::string(unit);
+}
+
 double as_quantity(const Value& value, const std::string& path, const Quantity& quantity) {
   const auto [dimension, range] = quantity;
   const std::string_view unit = base_unit(dimension);
@@ -91,13 +90,20 @@ double as_quantity(const Value& value, const std::string& path, const Quantity& 
 }
 
 std::int64_t as_integer(const Value& value, const std::string& path, std::int64_t low,
-                        std::int64_t high) {
-  return integer(value, path, low, high);
+                        std::int64_t high, const std::string& other) {
+  return integer(value, path, low, high, other);
 }
 
-std::optional<int> as_threshold(const Value& value, const std::string& path) {
-  if (value.kind == Value::Kind::scalar && value.text == "auto") return std::nullopt;
-  return integer(value, path, 1, 254, " or auto");
+std::size_t as_choice(const Value& value, const std::string& path,
+                      const std::vector<std::string>& words, const std::string& other) {
+  std::vector<std::string> all = words;
+  if (!other.empty()) all.push_back(other);
+  require_scalar(value, path, joined(all, " or "));
+  const auto word = std::find(words.begin(), words.end(), value.text);
+  if (word == words.end()) {
+    throw Error(value.where, path + " is '" + value.text + "'; give " + joined(all, " or "));
+  }
+  return static_cast<std::size_t>(word - words.begin());
 }
 
 std::uint64_t as_seed(const Value& value, const std::string& path) {
@@ -155,7 +161,10 @@ const Value* Reader::require(std::string_view key) {
   return value;
 }
 
-std::optional<std::string> Reader::at_most_one_of(std::initializer_list<std::string_view> keys) {
+std::optional<std::string> Reader::at_most_one_of(std::vector<std::string_view> keys) {
+  std::ranges::stable_sort(keys, {}, [&](std::string_view key) {
+    return std::find(known_.begin(), known_.end(), key) - known_.begin();
+  });
   std::optional<std::string> given;
   for (const std::string_view key : keys) {
     const Value* value = find(key);
@@ -178,34 +187,10 @@ std::optional<std::string> Reader::exactly_one_of(std::initializer_list<std::str
   return std::nullopt;
 }
 
-void Reader::read(std::string_view key, bool& out) {
-  if (const auto index = choice(key, {"false", "true"})) out = *index == 1;
-}
-
-void Reader::read(std::string_view key, int low, int high, int& out) {
-  if (const Value* value = find(key)) {
-    out = static_cast<int>(as_integer(*value, path_of(key), low, high));
-  }
-}
-
-void Reader::read(std::string_view key, std::string& out) {
-  if (const Value* value = find(key)) out = as_text(*value, path_of(key));
-}
-
 std::optional<std::size_t> Reader::choice(std::string_view key,
-                                          const std::vector<std::string>& words,
-                                          std::string_view other) {
+                                          const std::vector<std::string>& words) {
   const Value* value = find(key);
-  if (!value) return std::nullopt;
-  const std::string path = path_of(key);
-  std::vector<std::string> all = words;
-  if (!other.empty()) all.emplace_back(other);
-  require_scalar(*value, path, joined(all, " or "));
-  const auto word = std::find(words.begin(), words.end(), value->text);
-  if (word == words.end()) {
-    throw Error(value->where, path + " is '" + value->text + "'; give " + joined(all, " or "));
-  }
-  return static_cast<std::size_t>(word - words.begin());
+  return value ? std::optional(as_choice(*value, path_of(key), words)) : std::nullopt;
 }
 
 void Reader::finish() const {

@@ -10,7 +10,6 @@
 /// value.
 #pragma once
 
-#include <Eigen/Core>
 #include <concepts>
 #include <cstdint>
 #include <initializer_list>
@@ -39,14 +38,19 @@ struct Quantity {
   Range range;
 };
 
+/// The range in words: "above 0 and at most 100 m/s"; "" for any number.
+std::string range_text(const Quantity& quantity);
+
 /// \name One value.
 /// \param path as in "ego.speed", for the message.
 ///@{
 double as_quantity(const Value& value, const std::string& path, const Quantity& quantity);
+/// \param other what may be given too, as " or auto".
 std::int64_t as_integer(const Value& value, const std::string& path, std::int64_t low,
-                        std::int64_t high);
-/// The threshold of FAST in grey levels; none for "auto".
-std::optional<int> as_threshold(const Value& value, const std::string& path);
+                        std::int64_t high, const std::string& other = "");
+/// The position of the value among `words`. \param other what may be given too, as "a path".
+std::size_t as_choice(const Value& value, const std::string& path,
+                      const std::vector<std::string>& words, const std::string& other = "");
 std::uint64_t as_seed(const Value& value, const std::string& path);
 const std::string& as_text(const Value& value, const std::string& path);
 const std::vector<Value>& as_list(const Value& value, const std::string& path,
@@ -67,41 +71,21 @@ class Reader {
   const Value* find(std::string_view key);
   /// As `find`, but `finish` complains when it is absent.
   const Value* require(std::string_view key);
-  /// The one of these keys that is given, if any is.
-  std::optional<std::string> at_most_one_of(std::initializer_list<std::string_view> keys);
+  /// The one of these keys that is given, if any is. A message names first the key that was asked
+  /// for first.
+  std::optional<std::string> at_most_one_of(std::vector<std::string_view> keys);
   /// As `at_most_one_of`, but `finish` complains when all are absent.
   std::optional<std::string> exactly_one_of(std::initializer_list<std::string_view> keys);
 
-  /// \name Replace `out` when the key is given.
-  ///@{
+  /// Replaces `out` when the key is given.
   template <class Out>
   requires std::assignable_from<Out&, double>
   void read(std::string_view key, const Quantity& quantity, Out& out) {
     if (const Value* value = find(key)) out = as_quantity(*value, path_of(key), quantity);
   }
-  template <int N>
-  void read(std::string_view key, const Quantity& quantity, Eigen::Matrix<double, N, 1>& out) {
-    const Value* value = find(key);
-    if (!value) return;
-    const std::vector<Value>& list = as_list(*value, path_of(key), N);
-    for (int i = 0; i < N; ++i) {
-      out[i] = as_quantity(list[i], path_of(key) + "." + std::to_string(i), quantity);
-    }
-  }
-  template <int N>
-  void read(std::string_view key, const Quantity& quantity,
-            std::optional<Eigen::Matrix<double, N, 1>>& out) {
-    if (find(key)) read(key, quantity, out.emplace());
-  }
-  void read(std::string_view key, bool& out);
-  void read(std::string_view key, int low, int high, int& out);
-  void read(std::string_view key, std::string& out);
-  ///@}
 
-  /// The position of the key's word among `words`, none when the key is absent.
-  /// \param other what may be given too, as the message says it.
-  std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& words,
-                                    std::string_view other = "");
+  /// `as_choice` of the key's value; none when the key is absent.
+  std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& words);
 
   /// Checks the map as a whole: no key that was not asked for, none missing that was required.
   void finish() const;

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "scenarios/reader.h"
 #include "scenarios/shipped.h"
 
 namespace lcs::scenario {
@@ -128,12 +129,6 @@ fs::path file_beside(const Value& value, const fs::path& folder, const std::stri
 std::string path_remedy(const fs::path& folder) {
   return folder.empty() ? "give its path from the current folder"
                         : "give its path relative to the scenario file";
-}
-
-std::optional<fs::path> own_file(Reader& reader, const char* key, const fs::path& folder) {
-  const Value* value = reader.find(key);
-  if (!value || value->kind != Value::Kind::scalar || !value->text.ends_with(".xml")) return {};
-  return file_beside(*value, folder, reader.path_of(key) + ": there is no file ");
 }
 
 }  // namespace lcs::scenario

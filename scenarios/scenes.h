@@ -4,11 +4,10 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "scenarios/reader.h"
+#include "scenarios/document.h"
 #include "scenarios/scenario.h"
 
 namespace lcs::scenario {
@@ -45,13 +44,5 @@ std::filesystem::path file_beside(const Value& value, const std::filesystem::pat
 
 /// What a message advises about a missing file. \param folder a relative path starts there.
 std::string path_remedy(const std::filesystem::path& folder);
-
-/// What messages call the alternative to the known words for a rover's drive or an actor's shape.
-inline constexpr const char* kOwnFile = "the path of an .xml file";
-
-/// The file that a key names, if its value ends in ".xml"; none for any other value.
-/// \throws Error as `file_beside`.
-std::optional<std::filesystem::path> own_file(Reader& reader, const char* key,
-                                              const std::filesystem::path& folder);
 
 }  // namespace lcs::scenario

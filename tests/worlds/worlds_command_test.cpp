@@ -305,7 +305,7 @@ TEST_F(WorldCommand, ItsOriginChangesNoPicture) {
   bench::write(without / "scene.xml", scene.erase(begin, end - begin));
   std::string yaml = bench::read(without / "corridor_4.yaml");
   bench::write(without / "corridor_4.yaml",
-               yaml.erase(yaml.find("origin:"), yaml.find("purpose:") - yaml.find("origin:")));
+               yaml.erase(yaml.find("origin:"), yaml.find("\nseed:") + 1 - yaml.find("origin:")));
   for (const char* folder : {"w", "without"}) {
     const CommandResult made =
         run({"generate", std::string(folder) + "/corridor_4.yaml", "--set", "frames=3", "--formats",

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 
+#include "scenarios/save.h"
 #include "tools/files/output_file.h"
 #include "tools/sequence/png.h"
 #include "tools/worlds/meshes.h"
@@ -121,96 +122,15 @@ std::string scene_text(const World& world) {
   return text + "  </worldbody>\n</mujoco>\n";
 }
 
-std::string angle(double rad) {
-  return number(rad / kDegree) + " deg";
-}
-std::string place(const Eigen::Vector2d& at_m) {
-  return fmt::format("[{} m, {} m]", number(at_m.x()), number(at_m.y()));
-}
-
-std::string trajectory_text(const scenario::Trajectory& trajectory) {
-  if (const auto* circle = std::get_if<scenario::Circular>(&trajectory)) {
-    return fmt::format(
-        "      circle: {{centre: {}, radius: {} m, start_angle: {} rad, speed: {} m/s}}\n",
-        place(circle->centre_m), number(circle->radius_m), number(circle->start_angle_rad),
-        number(circle->speed_mps));
-  }
-  std::string text = "      waypoints:\n";
-  for (const scenario::Waypoint& point : std::get<scenario::Waypoints>(trajectory).points) {
-    text += fmt::format("        - [{} s, {} m, {} m]\n", number(point.at_s),
-                        number(point.position_m.x()), number(point.position_m.y()));
-  }
-  return text;
-}
-
-std::string motion_text(const scenario::EgoPhase& phase, std::string_view indent) {
-  std::string text = fmt::format("{}speed: {} m/s\n", indent, number(phase.speed_mps));
-  const auto add = [&](const char* key, double value, const std::string& written) {
-    if (value != 0) text += fmt::format("{}{}: {}\n", indent, key, written);
-  };
-  add("acceleration", phase.acceleration_mps2, number(phase.acceleration_mps2) + " m/s^2");
-  add("direction", phase.direction_rad, angle(phase.direction_rad));
-  add("yaw_rate", phase.yaw_rate_radps, number(phase.yaw_rate_radps / kDegree) + " deg/s");
-  return text;
-}
-
 std::string scenario_text(const World& world) {
-  const scenario::Scenario& s = world.scenario;
-  std::string text = fmt::format(
-      "# Written by `lcs world {0} --seed {1}`.\norigin:\n  family: {0}\n  seed: {1}\n  again: "
-      "{2}\n"
-      "  features: [{3}]\n",
-      world.family, world.seed, world.attempt, fmt::join(world.features, ", "));
-  text += fmt::format("purpose: {}\ngroups: [{}]\nscene: scene.xml\nseed: {}\nframes: {}\n",
-                      s.purpose, fmt::join(s.groups, ", "), s.seed, s.frames);
-  text += "ego:\n";
-  if (s.ego.drive == scenario::Drive::wheeled) text += "  drive: wheeled\n";
-  text +=
-      fmt::format("  start: {}\n  heading: {}\n", place(s.ego.start_m), angle(s.ego.heading_rad));
-  text += motion_text(s.ego.phases.front(), "  ");
-  if (s.ego.phases.size() > 1) text += "  phases:\n";
-  for (std::size_t i = 1; i < s.ego.phases.size(); ++i) {
-    const scenario::EgoPhase& phase = s.ego.phases[i];
-    // each key is said, as what is not said goes on as it was
-    text += fmt::format(
-        "    - {{at: {} s, speed: {} m/s, acceleration: {} m/s^2, direction: {}, yaw_rate: {} "
-        "deg/s}}\n",
-        number(phase.at_s), number(phase.speed_mps), number(phase.acceleration_mps2),
-        angle(phase.direction_rad), number(phase.yaw_rate_radps / kDegree));
-  }
-  const scenario::Camera& c = s.camera;
-  text += fmt::format(
-      "camera:\n  size: [{}, {}]\n  fovy: {}\n  rate: {} Hz\n  position: [{} m, 0 m, {} m]\n"
-      "  rotation: [0 deg, {}, 0 deg]\n",
-      c.width_px, c.height_px, angle(c.fovy_rad), number(c.rate_hz), number(c.mount_position_m.x()),
-      number(c.mount_position_m.z()), angle(c.mount_rpy_rad.y()));
-  if (c.told.height_error_m != 0 || c.told.pitch_error_rad != 0) {
-    text += fmt::format("  told: {{height_error: {} m, pitch_error: {}}}\n",
-                        number(c.told.height_error_m), angle(c.told.pitch_error_rad));
-  }
-  const scenario::Image& image = s.image;
-  text += "image:\n";
-  if (image.blur_px > 0) text += fmt::format("  blur: {}\n", number(image.blur_px));
-  text += fmt::format("  exposure: {} ms\n  gain: {}\n  noise: {{full_well: {}, read: {}}}\n",
-                      number(1e3 * image.exposure_s), number(image.gain),
-                      number(image.noise->full_well_e), number(image.noise->read_e));
-  if (image.jpeg_quality) text += fmt::format("  jpeg: {}\n", *image.jpeg_quality);
-  text += fmt::format("imu: {{preset: {}}}\n", s.imu.preset);
-  if (s.odometry.enabled) text += "odometry: {}\n";
-  if (s.ground) {
-    text += fmt::format(
-        "ground: {{roughness: {} m, wavelength: {} m, centre: {}, size: [{} m, {} m]}}\n",
-        number(s.ground->roughness_m), number(s.ground->wavelength_m), place(*s.ground->centre_m),
-        number(s.ground->size_m.x()), number(s.ground->size_m.y()));
-  }
-  if (!s.actors.empty()) text += "actors:\n";
-  for (const scenario::Actor& actor : s.actors) {
-    text += fmt::format("  {}:\n    body: {}\n", actor.name, *actor.body);
-    if (actor.start.at_s > 0)
-      text += fmt::format("    start: {{time: {} s}}\n", number(actor.start.at_s));
-    text += "    trajectory:\n" + trajectory_text(actor.trajectory);
-  }
-  return text;
+  scenario::Scenario s = world.scenario;
+  s.scene = "scene.xml";
+  s.origin = {.family = world.family,
+              .seed = world.seed,
+              .again = static_cast<std::uint64_t>(world.attempt),
+              .features = {world.features.begin(), world.features.end()}};
+  return fmt::format("# Written by `lcs world {} --seed {}`.\n{}\n", world.family, world.seed,
+                     scenario::yaml_text(scenario::document_of(s)));
 }
 
 }  // namespace

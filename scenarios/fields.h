@@ -1,0 +1,565 @@
+/// \file
+/// Every key of a scenario file. Reading (`load.cpp`), writing (`written.h`), the tables of
+/// README.md and `scenario.schema.json` (both `keys.cpp`) all follow this one list.
+///
+/// Each `fields` names the keys of one map: it calls `visit(key, member, form)` for each, in the
+/// order in which they are written. A form is needed where the member's type does not tell which
+/// values are taken. Binding all members of the struct by name makes a new member that is forgotten
+/// here fail to compile.
+///
+/// Besides, a visitor has
+///   at_most_one_of({"a", "b"}), exactly_one_of({"a", "b"})   keys that exclude each other
+///   in_place_of("a", {"b", "c"})                             where a is given, b and c are not
+///
+/// Some keys have no member of their own (`focal`, `duration`). They are local variables, which
+/// only reading fills.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenarios/imu_presets.h"
+#include "scenarios/quantities.h"
+#include "scenarios/scenario.h"
+
+namespace lcs::scenario {
+
+/// \name `Key::without` of a key that has to be given.
+///@{
+inline constexpr std::string_view kRequired = "required";
+inline constexpr std::string_view kOneOfThese = "one of these is required";
+///@}
+
+struct Key {
+  std::string_view name;
+  std::string_view meaning;       ///< Markdown, in one line
+  std::string_view without = "";  ///< what holds without the key; "": the member's default
+};
+
+inline constexpr int kMostFrames = 1'000'000;
+
+/// \name Forms
+///@{
+struct Plain {};  ///< the member's type tells all
+struct Whole {    ///< a whole number
+  std::int64_t low;
+  std::int64_t high;
+};
+struct In {  ///< a quantity that is written in another than its base unit
+  Quantity quantity;
+  std::string_view unit;
+};
+struct Words {  ///< one of them: an enumerator by its number, or a text
+  std::vector<std::string> words;
+};
+template <class Form>
+struct OrWord {  ///< a word stands for an optional member without a value
+  Form form;
+  std::string_view word;
+};
+struct OwnFileOr {  ///< one of the words, or a file ("rover.xml") for the enumerator `own`
+  std::vector<std::string> words;
+  std::filesystem::path& file;
+};
+struct SceneName {  ///< of a scene that ships, or a file ("room.xml")
+  Source& source;
+};
+struct File {};            ///< that exists
+struct FolderOrFile {};    ///< that exists
+struct StyleOrPicture {};  ///< the name of a texture, or a file ("brick.png")
+struct GroupNames {};      ///< one or more, each once
+struct FilterParameters {  ///< any key
+  std::string& preset;
+  Source& source;
+};
+struct FramesBefore {  ///< a time, for the number of frames before it
+  double rate_hz;
+};
+///@}
+
+// --- the rover
+// ------------------------------------------------------------------------------------
+
+template <class Visit>
+void motion_fields(EgoPhase& phase, std::string_view without, Visit&& visit) {
+  visit({"speed", "at the start", without}, phase.speed_mps, kSpeed);
+  visit({"acceleration", "along the direction of travel; a speed that falls to 0 stays 0", without},
+        phase.acceleration_mps2, kAcceleration);
+  visit({"direction", "of travel, from the heading: 90 deg is to the left, 180 deg is backwards",
+         without},
+        phase.direction_rad, kAngle);
+  visit({"yaw_rate", "of the heading", without}, phase.yaw_rate_radps, kAngularRate);
+}
+
+template <class Visit>
+void fields(EgoPhase& phase, Visit&& visit) {
+  [[maybe_unused]] auto& [at_s, speed, acceleration, direction, yaw_rate] = phase;
+  visit({"at", "the phase begins; times increase", kRequired}, at_s, kTime);
+  motion_fields(phase, "as before", visit);
+}
+
+template <class Visit>
+void fields(Ego& ego, Visit&& visit) {
+  auto& [source, drive, drive_file, start_m, heading_rad, phases, waypoints] = ego;
+  if (phases.empty()) phases.emplace_back();
+  visit({"drive",
+         "`holonomic`: a planar base that follows any command; `wheeled`: two driven wheels on "
+         "contacts; or a rover of one's own (scenes/README.md): a path relative to this file"},
+        drive, OwnFileOr{{"holonomic", "wheeled"}, drive_file});
+  visit({"start", "[x, y]"}, start_m, kPosition);
+  visit({"heading", "the direction that the rover faces at the start"}, heading_rad, kAngle);
+  motion_fields(phases.front(), "", visit);
+  visit({"phases",
+         "new commands, each from a time on. A key that a phase leaves out keeps its value, the "
+         "speed after acceleration included",
+         "none"},
+        phases);
+  visit({"waypoints",
+         "`[[time, x, y], ...]`, two or more: places and the times to be there, which increase. "
+         "In place of all other keys but `drive`, which is holonomic",
+         "none"},
+        waypoints);
+  visit.in_place_of("waypoints", {"start", "heading", "speed", "acceleration", "direction",
+                                  "yaw_rate", "phases"});
+}
+
+// --- its sensors
+// ----------------------------------------------------------------------------------
+
+template <class Visit>
+void fields(Camera::Told& told, Visit&& visit) {
+  auto& [height_error_m, pitch_error_rad] = told;
+  visit({"height_error", "added to the camera's true height"}, height_error_m, kPosition);
+  visit({"pitch_error", "added to its true pitch"}, pitch_error_rad, kAngle);
+}
+
+template <class Visit>
+void fields(Camera& camera, Visit&& visit) {
+  auto& [width_px, height_px, fovy_rad, rate_hz, position_m, rotation_rad, told] = camera;
+  Eigen::Vector2i size_px(width_px, height_px);
+  visit({"size", "[width, height] in pixels"}, size_px, Whole{16, 8192});
+  width_px = size_px.x();
+  height_px = size_px.y();
+  std::optional<double> focal_px;
+  visit({"fovy", "vertical field of view"}, fovy_rad, kFieldOfView);
+  visit({"focal", "in place of `fovy`: the focal length, half the height by tan(fovy / 2)",
+         "that of `fovy`"},
+        focal_px, kFocal);
+  visit.at_most_one_of({"fovy", "focal"});
+  if (focal_px) fovy_rad = 2 * std::atan(height_px / 2.0 / *focal_px);
+  visit({"rate", "frames a second"}, rate_hz, kCameraRate);
+  visit({"position", "[x, y, z] of the camera in the rover"}, position_m, kPosition);
+  visit({"rotation",
+         "[roll, pitch, yaw] about the rover's fixed x, y, z in this order; positive pitch looks "
+         "down, positive yaw to the left"},
+        rotation_rad, kAngle);
+  visit({"told",
+         "`{height_error: 2 cm, pitch_error: 0.5 deg}`: errors of the calibration that the filter "
+         "is given",
+         "none"},
+        told);
+}
+
+template <class Visit>
+void fields(Imu& imu, Visit&& visit) {
+  auto& [preset, noise, rate_hz, gaps] = imu;
+  auto& [gyroscope_density, gyroscope_walk, accelerometer_density, accelerometer_walk,
+         gyroscope_bias_radps, accelerometer_bias_mps2] = noise;
+  std::string known = imu_preset(preset) ? preset : "ideal";
+  const std::string before = known;
+  visit(
+      {"preset",
+       "noise of a known IMU: `adis16448` (EuRoC), `tumvi` (BMI160), `esim`, or `ideal` for none"},
+      known, Words{imu_preset_names()});
+  if (known != before) {
+    preset = known;
+    noise = *imu_preset(known);
+  }
+  visit({"gyroscope_noise_density", "rad/s/sqrt(Hz)", "the preset's"}, gyroscope_density,
+        kNoiseDensity);
+  visit({"gyroscope_random_walk", "rad/s^2/sqrt(Hz)", "the preset's"}, gyroscope_walk,
+        kNoiseDensity);
+  visit({"accelerometer_noise_density", "m/s^2/sqrt(Hz)", "the preset's"}, accelerometer_density,
+        kNoiseDensity);
+  visit({"accelerometer_random_walk", "m/s^3/sqrt(Hz)", "the preset's"}, accelerometer_walk,
+        kNoiseDensity);
+  visit({"gyroscope_turn_on_bias",
+         "standard deviation of a constant bias, drawn for each axis once a run"},
+        gyroscope_bias_radps, kTurnOnRate);
+  visit({"accelerometer_turn_on_bias", "likewise"}, accelerometer_bias_mps2, kTurnOnAcceleration);
+  visit({"gaps", "a list of [from, to]: times without readings, from above 0, increasing", "none"},
+        gaps);
+  visit({"rate", "samples a second"}, rate_hz, kSensorRate);
+}
+
+template <class Visit>
+void fields(Odometry& odometry, Visit&& visit) {
+  auto& [enabled, rate_hz, noise_mps, yaw_noise_radps, scale_error] = odometry;
+  visit({"rate", "samples a second"}, rate_hz, kSensorRate);
+  visit({"noise", "white, in each sample of x and y"}, noise_mps, kSpeed);
+  visit({"yaw_noise", "likewise of the yaw rate; by it the estimator recognises wheels that slip"},
+        yaw_noise_radps, In{kYawNoise, "rad/s"});
+  visit({"scale_error", "standard deviation of a factor drawn once a run"}, scale_error, kRatio);
+}
+
+// --- light, weather and the ground
+// ----------------------------------------------------------------
+
+template <class Visit>
+void fields(Image::Headlights& headlights, Visit&& visit) {
+  auto& [intensity_cd, beam_rad] = headlights;
+  visit({"intensity", "on the optical axis", kRequired}, intensity_cd, kIntensity);
+  visit({"beam", "standard deviation of the beam round the axis"}, beam_rad, kBeam);
+}
+
+template <class Visit>
+void fields(Image::Rain& rain, Visit&& visit) {
+  auto& [rate_mmph, lens_drops, drop_life_s] = rain;
+  visit({"rate", "mm/h that fall, as streaks"}, rate_mmph, kRainRate);
+  visit({"lens_drops", "drops on the window before the lens at any time"}, lens_drops,
+        Whole{0, 500});
+  visit({"drop_life", "mean time until a drop is replaced"}, drop_life_s, kDropLife);
+}
+
+template <class Visit>
+void fields(Image::Noise& noise, Visit&& visit) {
+  auto& [full_well_e, read_e] = noise;
+  visit({"full_well", "electrons of a full pixel; shot noise follows from them"}, full_well_e,
+        kFullWell);
+  visit({"read", "electrons that reading adds (standard deviation)"}, read_e, kElectrons);
+}
+
+template <class Visit>
+void fields(Image& image, Visit&& visit) {
+  auto& [light_lx, headlights, visibility_m, rain, blur_px, exposure_s, gain, noise, jpeg_quality] =
+      image;
+  visit({"light", "on the scene: 10 klx is an overcast day, 100 lx dusk, 0.5 lx night"}, light_lx,
+        kIlluminance);
+  visit({"headlights", "`{intensity: 3000 cd, beam: 20 deg}`: lamps at the camera", "none"},
+        headlights);
+  visit({"visibility", "distance at which contrast falls to 2 %", "none: clear air"}, visibility_m,
+        kDistance);
+  visit({"rain", "`{rate: 15, lens_drops: 25, drop_life: 4 s}`", "none"}, rain);
+  visit({"blur", "standard deviation in pixels, on top of the lens's own"}, blur_px, kBlur);
+  visit({"exposure",
+         "at 1 ms a white surface in daylight fills a pixel; it makes noise and the length of "
+         "streaks, no motion blur"},
+        exposure_s, In{kExposure, "ms"});
+  visit({"gain", "after the sensor, of signal and noise"}, gain, kGain);
+  visit({"noise", "`{full_well: 10000, read: 5}`, or `none`"}, noise, OrWord<Plain>{{}, "none"});
+  visit({"jpeg", "quality by which the picture is compressed before anything reads it",
+         "none: not compressed"},
+        jpeg_quality, Whole{1, 100});
+}
+
+template <class Visit>
+void fields(Ground& ground, Visit&& visit) {
+  auto& [roughness_m, wavelength_m, centre_m, size_m] = ground;
+  visit({"roughness",
+         "standard deviation of the height; the ground rises to four of them above the floor"},
+        roughness_m, kRoughness);
+  visit({"wavelength", "of the shortest waves; the longest are three times as long"}, wavelength_m,
+        kSize);
+  visit({"centre", "[x, y]", "where the ego starts"}, centre_m, kPosition);
+  visit({"size", "[along x, along y]; level at the edges"}, size_m, kSize);
+}
+
+// --- actors
+// ---------------------------------------------------------------------------------------
+
+template <class Visit>
+void fields(Still& still, Visit&& visit) {
+  auto& [position_m, heading_rad] = still;
+  visit({"position", "[x, y]", "the body's; required of a shape"}, position_m, kPosition);
+  visit({"heading", "the direction that the actor faces", "the body's; 0 deg of a shape"},
+        heading_rad, kAngle);
+}
+
+template <class Visit>
+void fields(Line& line, Visit&& visit) {
+  auto& [from_m, heading_rad, speed_mps, acceleration_mps2] = line;
+  visit({"from", "[x, y]", "the body's place; required of a shape"}, from_m, kPosition);
+  visit({"heading", "the direction that the actor moves in", "the body's; required of a shape"},
+        heading_rad, kAngle);
+  visit({"speed", "at the start", kRequired}, speed_mps, kSpeed);
+  visit({"acceleration", "a speed that falls to 0 stays 0"}, acceleration_mps2, kAcceleration);
+}
+
+template <class Visit>
+void fields(Circular& circle, Visit&& visit) {
+  auto& [centre_m, radius_m, start_angle_rad, speed_mps] = circle;
+  visit({"centre", "[x, y]", kRequired}, centre_m, kPosition);
+  visit({"radius", "of the circle", kRequired}, radius_m, kDistance);
+  visit({"start_angle", "of the first point, seen from the centre"}, start_angle_rad,
+        In{kAngle, "rad"});
+  visit({"speed", "counter-clockwise if it is positive", kRequired}, speed_mps, kSignedSpeed);
+}
+
+template <class T>
+std::optional<T> alternative(const Trajectory& trajectory) {
+  const T* held = std::get_if<T>(&trajectory);
+  return held ? std::optional(*held) : std::nullopt;
+}
+
+template <class Visit>
+void fields(Trajectory& trajectory, Visit&& visit) {
+  auto still = alternative<Still>(trajectory);
+  auto line = alternative<Line>(trajectory);
+  auto waypoints = alternative<Waypoints>(trajectory);
+  auto circle = alternative<Circular>(trajectory);
+  visit({"still", "the actor does not move", kOneOfThese}, still);
+  visit({"line", "it moves straight", kOneOfThese}, line);
+  visit({"waypoints",
+         "`[[time, x, y], ...]`, two or more: straight and uniform in between; times count from "
+         "the start trigger, and increase",
+         kOneOfThese},
+        waypoints);
+  visit({"circle", "it moves round a centre", kOneOfThese}, circle);
+  visit.exactly_one_of({"still", "line", "waypoints", "circle"});
+  // The default is `still`: it holds where no other is given.
+  if (still) trajectory = *still;
+  if (line) trajectory = *line;
+  if (waypoints) trajectory = *waypoints;
+  if (circle) trajectory = *circle;
+}
+
+template <class Visit>
+void fields(StartTrigger& start, Visit&& visit) {
+  auto& [at_s, ego_within_m] = start;
+  visit({"time", "the actor starts not before this time"}, at_s, kTime);
+  visit({"ego_within", "nor before the ego is as near as this", "at any distance"}, ego_within_m,
+        kDistance);
+}
+
+template <class Visit>
+void fields(Actor& actor, Visit&& visit) {
+  auto& [name, source, body, shape, shape_file, size_m, texture, trajectory, start] = actor;
+  std::optional<Shape> added;
+  if (!body) added = shape;
+  visit({"shape",
+         "adds one to the scene: `box`, `cylinder`, `pedestrian`, `car`, or one's own "
+         "(scenes/README.md): a path relative to this file",
+         kOneOfThese},
+        added, OwnFileOr{{"box", "cylinder", "pedestrian", "car"}, shape_file});
+  if (added) shape = *added;
+  visit({"body", "the name of a body of the scene: moves that one", kOneOfThese}, body);
+  visit.exactly_one_of({"shape", "body"});
+  visit({"size",
+         "of a shape: [length, width, height]; a cylinder stays round, at the geometric mean of "
+         "length and width",
+         "the shape's own"},
+        size_m, kSize);
+  visit({"texture",
+         "of a shape, for its material `paint`: a style of procedural texture (`rects`, `bricks`, "
+         "`windows` and others of `sim/texture.cpp`), or a `.png` file, relative to this one",
+         "the shape's own"},
+        texture, StyleOrPicture{});
+  visit({"trajectory", "how the actor moves", kRequired}, trajectory);
+  visit({"start", "when it starts: both conditions hold", "at once"}, start);
+}
+
+/// The words of `Recorded::Split`, in its order.
+inline constexpr std::array<const char*, 3> kSplits{"train", "validate", "test"};
+
+// --- recorded frames
+// ------------------------------------------------------------------------------
+
+template <class Visit>
+void fields(Recorded& recorded, Visit&& visit) {
+  auto& [source, path, format, camera, fps, every, poses, imu, odometry, speed_mps, focal_px,
+         centre_px, distortion, camera_height_m, mount_rpy_rad, mask, at_rest_s, labels,
+         nothing_moves, split] = recorded;
+  visit({"path", "a folder, or a video", kRequired}, path, FolderOrFile{});
+  visit({"format", "the layout of the files", "recognised from the files"}, format,
+        Words{{kRecordingFormats.begin(), kRecordingFormats.end()}});
+  visit({"camera", "one of several, as `cam1`, `image_02`, `mono_rear`", "the layout's first"},
+        camera);
+  visit({"fps", "pictures a second, where the layout has no times", "a video's own"}, fps,
+        kSensorRate);
+  visit({"every", "only every n-th picture is a frame"}, every, Whole{1, 10000});
+  visit({"poses",
+         "how the camera moved: lines of TUM (`t x y z qx qy qz qw`) or of KITTI odometry (12 "
+         "numbers, line k of picture k); x right, y down, z ahead",
+         "the layout's own"},
+        poses, File{});
+  visit({"odometry",
+         "beside `imu`: velocities by the wheels, and yaw rates if there are some, CSV as `lcs "
+         "generate` writes them",
+         "none"},
+        odometry, File{});
+  visit({"imu",
+         "in place of `poses`: readings, CSV with EuRoC's columns; axes are the vehicle's (x "
+         "ahead, y left, z up), which starts upright",
+         odometry ? kRequired : "the layout's own"},
+        imu, File{});
+  visit({"speed",
+         "without `poses`: ahead, along the optical axis, at all times, and how the camera turns "
+         "is not known; with `imu` at the start",
+         "none"},
+        speed_mps, kSignedSpeed);
+  for (const char* key : {"imu", "odometry", "speed"}) visit.at_most_one_of({"poses", key});
+  visit({"focal", "focal length; the layout's calibration is then left aside", "the layout's own"},
+        focal_px, kFocal);
+  visit({"centre", "principal point", "the calibration's, with `focal` the middle"}, centre_px,
+        kInPicture);
+  visit({"distortion",
+         "`[k1, k2, p1, p2, k3]`, or `{equidistant: [k1, k2, k3, k4]}`, as OpenCV has them",
+         "the calibration's, with `focal` none"},
+        distortion);
+  visit({"camera_height", "of the camera above the ground", "not known"}, camera_height_m,
+        kDistance);
+  visit({"mount",
+         "[roll, pitch, yaw] of the camera in the vehicle, as `camera.rotation`; in place of the "
+         "attitude of `poses` it gives the vertical",
+         "straight ahead for `imu`, else not known"},
+        mount_rpy_rad, kAngle);
+  visit({"mask",
+         "a picture of the same size, white where the vehicle itself is seen: corners there are "
+         "left out",
+         "none"},
+        mask, File{});
+  visit({"at_rest",
+         "how long the camera stands at the start: with `imu` this gives biases and the vertical",
+         "as long as the readings are still, if that is a second at least and there is no `speed`"},
+        at_rest_s, kDuration);
+  visit({"labels", "boxes of all that moves: MOTChallenge's `gt.txt`, or COCO's JSON", "none"},
+        labels, File{});
+  visit({"nothing_moves", "in place of `labels`: every rebel is false"}, nothing_moves);
+  if (nothing_moves) visit.at_most_one_of({"labels", "nothing_moves"});
+  visit({"split", "the use of its figures; a group of that name has the scenario, too", "none"},
+        split, Words{{kSplits.begin(), kSplits.end()}});
+}
+
+// --- the whole
+// ------------------------------------------------------------------------------------
+
+template <class Visit>
+void fields(Origin& origin, Visit&& visit) {
+  auto& [source, family, seed, again, features] = origin;
+  visit({"family", "of worlds, as `room`", kRequired}, family);
+  visit({"seed", "that the world was drawn from; `seed` of the scenario may be another", kRequired},
+        seed);
+  visit({"again", "worlds of this seed that were thrown away before this one"}, again,
+        Whole{0, 1'000'000});
+  visit({"features", "that occur in it", "none"}, features);
+}
+
+template <class Visit>
+void fields(Criterion& criterion, Visit&& visit) {
+  auto& [metric, min, max, required, source, detector] = criterion;
+  visit({"metric", "a key of `metrics.json`", kRequired}, metric);
+  visit({"min", "least value; `min`, `max` or both are given", "none"}, min, kBound);
+  visit({"max", "largest value", "none"}, max, kBound);
+  visit({"required", "`lcs run` exits with 1 when the criterion does not hold"}, required);
+  visit({"detector", "the detector of the run that is judged, by its name", "the run's own"},
+        detector);
+}
+
+struct CornerKeys {
+  std::optional<int> threshold = kFastThreshold;
+};
+
+template <class Visit>
+void fields(CornerKeys& corners, Visit&& visit) {
+  auto& [threshold] = corners;
+  visit({"threshold",
+         "of the FAST detector, in grey levels; `auto`: by the noise and the compression of each "
+         "picture (`filter/detect/picture_noise.h`), 20 where there is little"},
+        threshold, OrWord<Whole>{{1, 254}, "auto"});
+}
+
+inline const Scenario& default_scenario() {
+  static const Scenario scenario;
+  return scenario;
+}
+
+struct TruthKeys {
+  double min_depth_m = default_scenario().truth_min_depth_m;
+};
+
+template <class Visit>
+void fields(TruthKeys& truth, Visit&& visit) {
+  auto& [min_depth_m] = truth;
+  visit({"min_depth",
+         "nearest depth that a static corner may have, when the truth decides whether a motion is "
+         "radial"},
+        min_depth_m, kDistance);
+}
+
+template <class Visit>
+void fields(Scenario& scenario, Visit&& visit) {
+  auto& [name, file, purpose, groups, recording, scene, scene_source, origin, seed, frames, ego,
+         camera, imu, odometry, ego_motion, fast_threshold, truth_min_depth_m, image, ground,
+         actors, filter_preset, filter_preset_source, filter, criteria, world, sweep] = scenario;
+  visit({"purpose", "one line for people", "none"}, purpose);
+  visit({"groups", "list of the groups that a suite chooses by, as in `[short, night]`"}, groups,
+        GroupNames{});
+  visit({"scene",
+         "a scene of `scenes/` by its name, or a path ending in `.xml`, relative to this file",
+         kOneOfThese},
+        scene, SceneName{scene_source});
+  visit({"recording", "recorded frames, below, in place of a scene and all that belongs to it",
+         kOneOfThese},
+        recording);
+  visit.exactly_one_of({"scene", "recording"});
+  visit({"origin",
+         "`{family: room, seed: 7, again: 0, features: [slope]}`: the world that `lcs world` drew "
+         "it as. It stays that world with any seed; each run states it in `truth.jsonl`, and `lcs "
+         "tune` takes none of the split test. A scene may state it too, by `<custom><text "
+         "name=\"lcs.world\" data=\"room 7\"/></custom>`; then both must agree",
+         "that of the scene"},
+        origin);
+  visit({"seed",
+         "of textures, bumps, rain, IMU noise, odometry and the camera's noise; each draws from a "
+         "stream of its own"},
+        seed);
+  visit({"ego", "the rover, below", recording ? "none" : kRequired}, ego);
+  visit({"camera", "below"}, camera);
+  std::optional<int> count;
+  if (frames > 0) count = frames;
+  visit({"frames", "of the camera; frame k is at k / rate", kOneOfThese}, count,
+        Whole{1, kMostFrames});
+  std::optional<int> before;
+  visit({"duration", "in place of `frames`: all frames before this time", kOneOfThese}, before,
+        FramesBefore{camera.rate_hz});
+  if (!recording) visit.exactly_one_of({"frames", "duration"});
+  frames = before.value_or(count.value_or(0));
+  visit({"imu", "below"}, imu);
+  std::optional<Odometry> measured;
+  if (odometry.enabled) measured = odometry;
+  visit({"odometry", "of the wheels, below", "none"}, measured);
+  if (measured) {
+    odometry = *measured;
+    odometry.enabled = true;
+  }
+  TruthKeys truth{truth_min_depth_m};
+  visit({"truth", "how the truth is made"}, truth);
+  truth_min_depth_m = truth.min_depth_m;
+  visit({"image", "what the camera makes of the scene, below", "a real sensor's noise"}, image);
+  visit({"ground", "bumps on the floor, below", "level"}, ground);
+  visit({"actors", "who else moves, by name, below", "none"}, actors);
+  visit.in_place_of("recording", {"scene", "origin", "seed", "ego", "camera", "duration", "imu",
+                                  "odometry", "truth", "image", "ground", "actors"});
+  visit({"ego_motion",
+         "what the filter is told of the rover's own motion: `imu` integrates the simulated IMU "
+         "(with odometry, if there is some); `truth` is for experiments"},
+        ego_motion, Words{{"imu", "truth"}});
+  CornerKeys corners{fast_threshold};
+  visit({"corners", "how corners are found"}, corners);
+  fast_threshold = corners.threshold;
+  visit({"filter", "parameters of the filter, below", "its own"}, filter,
+        FilterParameters{filter_preset, filter_preset_source});
+  visit({"criteria", "bounds on the metrics, below", "none"}, criteria);
+  visit({"sweep", "keys and the values that a suite runs them with, below: to 1000 points", "none"},
+        sweep);
+}
+
+/// A map in a file.
+template <class T>
+concept HasFields = requires(T& object) {
+  fields(object, 0);
+};
+
+}  // namespace lcs::scenario

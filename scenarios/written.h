@@ -1,0 +1,204 @@
+/// \file
+/// Values of a scenario in YAML, by their types and forms. `save.h` writes a scenario as a whole.
+#pragma once
+
+#include <algorithm>
+
+#include "scenarios/document.h"
+#include "scenarios/fields.h"
+
+namespace lcs::scenario {
+
+inline Value scalar(std::string text) {
+  return {Value::Kind::scalar, {}, std::move(text)};
+}
+inline Value list(std::vector<Value> items) {
+  Value value(Value::Kind::list, {});
+  value.items = std::move(items);
+  return value;
+}
+inline Value map() {
+  return {Value::Kind::map, {}};
+}
+/// Adds a key to a map.
+void put(Value& map, std::string_view key, const Value& value);
+
+/// \name A value by its type and form, null where there is nothing to write. Numbers have 12
+/// digits. Paths are written as they are, and when they are read, relative ones begin at the file.
+///@{
+inline Value written(const Quantity& quantity, double number) {
+  return scalar(quantity_text(number, quantity.dimension));
+}
+inline Value written(const In& form, double number) {
+  return scalar(quantity_text(number, form.quantity.dimension, form.unit));
+}
+template <std::integral T>
+Value written(const Whole&, T number) {
+  return scalar(std::to_string(number));
+}
+inline Value written(Plain, std::uint64_t seed) {
+  return scalar(std::to_string(seed));
+}
+inline Value written(Plain, bool value) {
+  return scalar(value ? "true" : "false");
+}
+template <class Form>
+Value written(const Form&, const std::string& text) {
+  return text.empty() ? Value{} : scalar(text);
+}
+template <class Form>
+Value written(const Form&, const std::filesystem::path& path) {
+  return written(Plain{}, path.string());
+}
+template <class Enum>
+requires std::is_enum_v<Enum> Value written(const Words& form, Enum value) {
+  return scalar(form.words[static_cast<std::size_t>(value)]);
+}
+template <class Enum>
+requires std::is_enum_v<Enum> Value written(const OwnFileOr& form, Enum value) {
+  return value == Enum::own ? scalar(form.file.string()) : written(Words{form.words}, value);
+}
+inline Value written(const FramesBefore&, int) {
+  return {};  // `frames` says it
+}
+template <class Form, class Number, int N>
+Value written(const Form& form, const Eigen::Matrix<Number, N, 1>& vector) {
+  Value items = list({});
+  for (const Number number : vector) items.items.push_back(written(form, number));
+  return items;
+}
+inline Value written(Plain, const Recorded::Distortion& distortion) {
+  Value numbers = list({});
+  for (const double k : distortion.coefficients) numbers.items.push_back(written(kCoefficient, k));
+  if (!distortion.equidistant) return numbers;
+  Value fisheye = map();
+  put(fisheye, "equidistant", numbers);
+  return fisheye;
+}
+inline Value written(Plain, const Waypoint& point) {
+  return list({written(kTime, point.at_s), written(kPosition, point.position_m.x()),
+               written(kPosition, point.position_m.y())});
+}
+inline Value written(Plain, const TimeSpan& span) {
+  return list({written(kTime, span.from_s), written(kTime, span.to_s)});
+}
+template <HasFields T>
+Value written(Plain, const T& object);
+template <class Form, class T>
+Value written(const Form& form, const std::vector<T>& values);
+inline Value written(Plain, const Waypoints& waypoints);
+template <class Form, class T>
+Value written(const Form& form, const std::optional<T>& value) {
+  if (!value) return {};
+  Value inner = written(form, *value);
+  return inner.kind == Value::Kind::null ? map() : inner;
+}
+template <class Form, class T>
+Value written(const OrWord<Form>& form, const std::optional<T>& value) {
+  return value ? written(form.form, value) : scalar(std::string(form.word));
+}
+///@}
+
+/// Collects the keys of a map.
+struct WriteFields {
+  Value& keys;
+  bool is_default = false;  ///< keys that are always to be given are left out
+
+  template <class T, class Form = Plain>
+  void operator()(const Key& key, const T& member, const Form& form = {}) const {
+    const bool is_required = key.without == kRequired;
+    if (is_default && (is_required || key.without == kOneOfThese)) return;
+    Value value = written(form, member);
+    if (value.kind == Value::Kind::null && is_required) value = map();
+    if (value.kind != Value::Kind::null) put(keys, key.name, value);
+  }
+  void at_most_one_of(std::initializer_list<std::string_view>) const {}
+  void exactly_one_of(std::initializer_list<std::string_view>) const {}
+  void in_place_of(std::string_view key, std::initializer_list<std::string_view> others) const {
+    const bool is_given =
+        std::ranges::any_of(keys.entries, [&](const Entry& entry) { return entry.key == key; });
+    if (!is_given) return;
+    std::erase_if(keys.entries, [&](const Entry& entry) {
+      return std::ranges::find(others, entry.key) != others.end();
+    });
+  }
+};
+
+/// Every key that has a value.
+template <HasFields T>
+Value all_keys(T object, bool is_default = false) {
+  Value keys = map();
+  fields(object, WriteFields{keys, is_default});
+  return keys;
+}
+
+/// The struct that an absent map means, beside these values.
+template <class T>
+T default_beside(const T&) {
+  T standard;
+  return standard;
+}
+inline Imu default_beside(const Imu& imu) {
+  Imu standard;
+  standard.noise = imu_preset(imu.preset).value_or(ImuNoise{});
+  return standard;
+}
+
+/// The keys that differ from their defaults.
+template <HasFields T>
+Value written(Plain, const T& object) {
+  Value keys = all_keys(object);
+  const Value standard = all_keys(default_beside(object), true);
+  std::erase_if(keys.entries, [&](const Entry& entry) {
+    return std::ranges::any_of(standard.entries, [&](const Entry& other) {
+      return other.key == entry.key && line_of(other.value) == line_of(entry.value);
+    });
+  });
+  return keys.entries.empty() ? Value{} : keys;
+}
+
+template <class Form, class T>
+Value written(const Form& form, const std::vector<T>& values) {
+  Value items = list({});
+  for (const T& value : values) items.items.push_back(written(form, value));
+  return values.empty() ? Value{} : items;
+}
+inline Value written(Plain, const Waypoints& waypoints) {
+  return written(Plain{}, waypoints.points);
+}
+
+/// After the first, which is the ego's own. Each key is given, as a phase carries on the one
+/// before.
+inline Value written(Plain, const std::vector<EgoPhase>& phases) {
+  Value items = list({});
+  for (std::size_t i = 1; i < phases.size(); ++i) items.items.push_back(all_keys(phases[i]));
+  return items.items.empty() ? Value{} : items;
+}
+inline Value written(Plain, const std::vector<Actor>& actors) {
+  Value names = map();
+  for (const Actor& actor : actors) {
+    put(names, actor.name, written(Plain{}, actor));
+  }
+  return actors.empty() ? Value{} : names;
+}
+inline Value written(const FilterParameters& form, const std::vector<FilterSetting>& settings) {
+  Value keys = map();
+  if (!form.preset.empty()) put(keys, "preset", scalar(form.preset));
+  for (const FilterSetting& setting : settings) {
+    put(keys, setting.key, scalar(setting.value));
+  }
+  return keys.entries.empty() ? Value{} : keys;
+}
+inline Value written(Plain, const std::vector<SweptKey>& sweep) {
+  Value keys = map();
+  for (const SweptKey& swept : sweep) {
+    Value values = list({});
+    for (const SweptKey::Value& value : swept.values) {
+      values.items.push_back(parse_text(value.text, value.source));
+    }
+    put(keys, swept.key, values);
+  }
+  return sweep.empty() ? Value{} : keys;
+}
+
+}  // namespace lcs::scenario

@@ -1,0 +1,144 @@
+// The list of keys (scenarios/fields.h): all of it can be written, and the files that follow it do.
+#include "scenarios/keys.h"
+
+#include <gtest/gtest.h>
+
+#include "scenarios/save.h"
+#include "tests/scenarios/scenario_file.h"
+#include "tests/tools/files.h"
+
+namespace lcs::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kScenarios = fs::path(LCS_SOURCE_DIR) / "scenarios";
+
+/// A file that differs is written as it should be, to be put in place.
+void expect_file(const std::string& name, const std::string& right) {
+  if (bench::read(kScenarios / name) == right) return;
+  const fs::path made = fs::path(LCS_BUILD_DIR) / name;
+  bench::write(made, right);
+  FAIL() << "scenarios/" << name << " does not follow scenarios/fields.h; cp " << made << " "
+         << kScenarios / name << ", which has:\n"
+         << right;
+}
+
+TEST(Keys, TheTablesOfTheReadmeFollowTheList) {
+  std::string readme = bench::read(kScenarios / "README.md");
+  for (const std::string_view section : kSections) {
+    const std::string name = section.empty() ? "the top level" : std::string(section);
+    const std::string begin = "<!-- keys of " + name + " -->\n";
+    const std::size_t from = readme.find(begin), to = readme.find("<!-- end -->", from);
+    ASSERT_NE(to, std::string::npos) << "there is no " << begin;
+    readme.replace(from, to - from, begin + keys_table(section));
+  }
+  expect_file("README.md", readme);
+}
+
+TEST(Keys, TheSchemaFollowsTheList) {
+  expect_file("scenario.schema.json", schema_text());
+}
+
+/// Every value in its base unit, in the order of the list, none at its default.
+constexpr const char* kSimulated = R"(purpose: all keys
+groups: [long, night]
+scene: room.xml
+origin: {family: room, seed: 7, again: 2, features: [slope, weeds]}
+seed: 18446744073709551615
+ego:
+  drive: wheeled
+  start: [-3 m, 1.5 m]
+  heading: 90 deg
+  speed: 0.1 m/s
+  acceleration: 0.05 m/s^2
+  direction: -90 deg
+  yaw_rate: 9.3 deg/s
+  phases: [{at: 2 s, speed: 0 m/s, acceleration: -0.1 m/s^2, direction: 1 deg, yaw_rate: 0 deg/s}]
+camera:
+  size: [1280, 960]
+  fovy: 45.1 deg
+  rate: 30 Hz
+  position: [0.1 m, 0 m, 0.3 m]
+  rotation: [1 deg, 0 deg, -3.1 deg]
+  told: {height_error: 0.02 m, pitch_error: 0.5 deg}
+frames: 12
+imu:
+  preset: tumvi
+  gaps: [[1 s, 2 s], [3 s, 4.5 s]]
+  rate: 1000 Hz
+odometry: {rate: 20 Hz, noise: 0.02 m/s, yaw_noise: 0.1 rad/s, scale_error: 0.01}
+truth: {min_depth: 0.3 m}
+image:
+  light: 2000 lx
+  headlights: {intensity: 3000 cd, beam: 15 deg}
+  visibility: 200 m
+  rain: {rate: 15, lens_drops: 25, drop_life: 3 s}
+  blur: 0.7
+  exposure: 0.35 ms
+  gain: 8.25
+  noise: none
+  jpeg: 60
+ground: {roughness: 0.004 m, wavelength: 0.4 m, centre: [1 m, 2 m], size: [6 m, 3 m]}
+actors:
+  box1:
+    shape: box
+    size: [0.5 m, 0.4 m, 0.6 m]
+    texture: rects
+    trajectory: {line: {from: [2 m, -2 m], heading: 90 deg, speed: 0 m/s, acceleration: 0.1 m/s^2}}
+    start: {time: 1 s, ego_within: 4 m}
+  walker: {shape: pedestrian, trajectory: {waypoints: [[0 s, 1 m, 2 m], [0.5 s, 3 m, 4 m]]}}
+  door:
+    body: front_door
+    trajectory: {circle: {centre: [1 m, 1 m], radius: 2 m, start_angle: 0.01 rad, speed: -1 m/s}}
+  shelf: {body: shelf, trajectory: {still: {position: [1 m, 2 m], heading: 10 deg}}}
+ego_motion: truth
+corners: {threshold: auto}
+filter: {preset: lab, circle.mu_0: 25}
+criteria: [{metric: a, min: 0.5, max: 2, required: false, detector: klt}]
+sweep: {ego.speed: [0.2 m/s, 0.4 m/s], camera.size: [[320, 240], [640, 480]]}
+)";
+
+std::map<std::string, std::string> read_and_written(const std::string& text) {
+  return flattened(parse_text(yaml_text(document_of(load_text(text))), {"written", 1}));
+}
+
+/// What a file would have, but for the names of files, which are those that were found.
+std::map<std::string, std::string> without_files(std::map<std::string, std::string> keys) {
+  for (const char* key : {"scene", "recording.path"}) keys.erase(key);
+  return keys;
+}
+
+TEST(Written, IsTheFileThatWasRead) {
+  EXPECT_EQ(without_files(read_and_written(kSimulated)),
+            without_files(flattened(parse_text(kSimulated, {"text", 1}))));
+  const std::string way = "frames: 3\nego: {waypoints: [[0 s, 1 m, 2 m], [1 s, 1 m, 3 m]]}\n";
+  EXPECT_EQ(without_files(read_and_written("scene: room.xml\n" + way)),
+            flattened(parse_text(way, {"text", 1})));
+  const std::string recorded =
+      "recording: {format: kitti, camera: cam1, fps: 25 Hz, every: 2, speed: 10 m/s, focal: 700 "
+      "px, "
+      "centre: [320 px, 240 px], distortion: {equidistant: [0.1, 0, 0, 0]}, camera_height: 1.65 m, "
+      "mount: [0 deg, 3 deg, 180 deg], at_rest: 2 s, nothing_moves: true, split: test}\n"
+      "corners: {threshold: 30}\ngroups: [real, test]\n";
+  std::string with_path = recorded;
+  with_path.insert(with_path.find('{') + 1, "path: room.xml, ");
+  EXPECT_EQ(without_files(read_and_written(with_path)),
+            flattened(parse_text(recorded, {"text", 1})));
+}
+
+TEST(Written, HasTheNoiseOfAnImuThatIsNoPreset) {
+  const std::string own = smallest + "imu: {preset: esim, gyroscope_random_walk: 1.23e-5}\n";
+  const Imu imu = load_text(own).imu;
+  std::string text = yaml_text(document_of(load_text(own)));
+  text.replace(text.find("scene: "), text.find('\n') - text.find("scene: "), "scene: room.xml");
+  EXPECT_EQ(load_text(text).imu.noise, imu.noise) << text;
+}
+
+TEST(Written, SaysNothingOfDefaults) {
+  const std::map<std::string, std::string> keys{{"frames", "3"}, {"ego.speed", "0.5 m/s"}};
+  EXPECT_EQ(without_files(read_and_written(smallest + "odometry: {}\n")).erase("odometry"), 1u);
+  EXPECT_EQ(without_files(read_and_written(smallest)), keys);
+}
+
+}  // namespace
+}  // namespace lcs::scenario
