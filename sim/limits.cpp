@@ -29,12 +29,16 @@ using xml::Element;
 /// The range of an attribute whose value MuJoCo 2.2.2 takes without a check, and whose excess the
 /// trial in a child process (sim/trial.h) does not show.
 struct Limit {
-  std::string_view element, attribute;
+  std::string_view element, attribute;  // "nuser_*": each that begins so
   double least, most;
   const char* reason;
 };
 constexpr Limit kLimits[] = {
+    {"size", "njmax", -1, 5000, "the solver's memory grows with its square: 1 GB"},
+    {"size", "nconmax", -1, 20'000, "more contacts are never solved in time"},
+    {"size", "nstack", -1, 1e8, "it is in numbers of 8 bytes: 800 MB"},
     {"size", "nuserdata", 0, 1e6, "they are copied with every state"},
+    {"size", "nuser_*", -1, 1000, "an attribute 'user' holds no more"},
     {"option", "timestep", 1e-6, 1, "the simulation takes steps of it, in seconds"},
     {"option", "iterations", 0, 10'000, "each step may take so many"},
     {"option", "noslip_iterations", 0, 10'000, "each step may take so many"},
@@ -76,6 +80,9 @@ constexpr std::array<std::string_view, 4> kNumberLists = {"vertex", "normal", "t
                                                           "vertweight"};
 constexpr std::array<std::string_view, 2> kIndexLists = {"face", "vertid"};
 
+// Attributes whose words may begin with a digit and are no numbers.
+constexpr std::array<std::string_view, 2> kKinds = {"type", "gridlayout"};
+
 constexpr std::size_t kMostShown = 40;  // characters of a value, in a message
 
 [[noreturn]] void refuse(const Element& e, const std::string& what) {
@@ -112,7 +119,11 @@ void check_words(const Element& e, std::string_view name, const std::string& tex
     if (is_index && word.find_first_not_of("+-0123456789") != word.npos) {
       complain("which is no integer; correct it");
     }
-    if (!value && is_one_of(kNumberLists, name)) complain("which is no number; correct it");
+    // MuJoCo takes "12abc" for 12; a word like "2d" is a kind
+    const bool begins_as_number = word.find_first_of("0123456789") == 0 && !is_one_of(kKinds, name);
+    if (!value && (begins_as_number || is_one_of(kNumberLists, name))) {
+      complain("which is no number; correct it");
+    }
     const bool may_be_open = value && std::isinf(*value) && name.ends_with("range");
     if (value && !std::isfinite(*value) && !may_be_open)
       complain("and takes finite numbers alone; correct it");
@@ -125,8 +136,12 @@ void check_words(const Element& e, std::string_view name, const std::string& tex
 
 void check_range(const Element& e, std::string_view name, const std::string& text) {
   for (const Limit& limit : kLimits) {
-    if (e.Name() != limit.element || name != limit.attribute) continue;
-    const auto found = words(text);  // MuJoCo takes "12abc" for 12
+    const bool is_named =
+        limit.attribute.ends_with('*')
+            ? name.starts_with(limit.attribute.substr(0, limit.attribute.size() - 1))
+            : name == limit.attribute;
+    if (e.Name() != limit.element || !is_named) continue;
+    const auto found = words(text);
     const auto value = found.empty() ? std::nullopt : number(found.front());
     if (value && *value >= limit.least && *value <= limit.most) continue;
     refuse(e,
@@ -138,7 +153,7 @@ void check_range(const Element& e, std::string_view name, const std::string& tex
 /// The indices in the faces of a Wavefront file. Where one is out of range, MuJoCo takes a vertex
 /// from any place in memory, and the compiled model does not show it.
 void check_obj(const Element& e, const fs::path& file) {
-  constexpr std::array<std::string_view, 3> kKinds = {"v", "vt", "vn"};
+  constexpr std::array<std::string_view, 3> kLines = {"v", "vt", "vn"};
   constexpr std::array<const char*, 3> kNames = {"vertex", "texture coordinate", "normal"};
   std::array<std::size_t, 3> counts{};
   struct Face {
@@ -151,13 +166,13 @@ void check_obj(const Element& e, const fs::path& file) {
   for (std::string line; input.next_line(line);) {
     const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
     const std::string kind = line.substr(begin, line.find_first_of(" \t", begin) - begin);
-    for (std::size_t k = 0; k < kKinds.size(); ++k) counts[k] += kind == kKinds[k];
+    for (std::size_t k = 0; k < kLines.size(); ++k) counts[k] += kind == kLines[k];
     if (kind == "f") faces.push_back({line.substr(begin + 1), input.here().line, counts});
   }
   for (const Face& face : faces) {
     for (const std::string& corner : words(face.text)) {
       std::string_view rest = corner;
-      for (std::size_t k = 0; k < kKinds.size(); ++k) {
+      for (std::size_t k = 0; k < kLines.size(); ++k) {
         const std::size_t slash = std::min(rest.find('/'), rest.size());
         const std::string_view word = rest.substr(0, slash);
         rest.remove_prefix(std::min(slash + 1, rest.size()));

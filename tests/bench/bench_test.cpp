@@ -11,10 +11,10 @@
 namespace lcs::bench {
 namespace {
 
-/// Any tracker will do: this one calls every corner a rebel and keeps what it was told.
-class Alarmist : public Tracker {
+/// Any detector will do: this one calls every corner a rebel and keeps what it was told.
+class Alarmist : public Detector {
  public:
-  const FrameResult& step(const TrackerInput& input) override {
+  const FrameResult& step(const DetectorInput& input) override {
     images_.push_back(input.image.clone());
     motions_.push_back(input.motion);
     signatures_.emplace_back(input.signatures.begin(), input.signatures.end());
@@ -43,13 +43,13 @@ class BenchTest : public testing::Test {
   scenario::Scenario scenario_ =
       scenario::load(LCS_SCENARIOS_DIR "/crossing.yaml", {.sets = {"frames=6"}, .seed = {}});
   sim::Simulation simulation_{scenario_};
-  Alarmist tracker_;
+  Alarmist detector_;
   Recording recording_ = begin_recording(scenario_, simulation_);
 };
 
-TEST_F(BenchTest, RunsAnyTrackerThroughTheWholeLoop) {
+TEST_F(BenchTest, RunsAnyDetectorThroughTheWholeLoop) {
   int seen = 0;
-  run(scenario_, simulation_, tracker_, recording_,
+  run(scenario_, simulation_, detector_, recording_,
       [&](const FrameRecord& frame, const cv::Mat3b& image) {
         EXPECT_EQ(frame.index, seen);
         EXPECT_EQ(image.size(), cv::Size(scenario_.camera.width_px, scenario_.camera.height_px));
@@ -64,32 +64,32 @@ TEST_F(BenchTest, RunsAnyTrackerThroughTheWholeLoop) {
     EXPECT_EQ(frame.t_ns, k * std::int64_t{100'000'000});
     EXPECT_EQ(frame.verdicts.size(), frame.corners_px.size());
     EXPECT_EQ(frame.corner_truth.size(), frame.corners_px.size());
-    EXPECT_EQ(frame.motion.v_C_mps, tracker_.motions()[static_cast<std::size_t>(k)].v_C_mps);
+    EXPECT_EQ(frame.motion.v_C_mps, detector_.motions()[static_cast<std::size_t>(k)].v_C_mps);
     EXPECT_EQ(frame.times.value().line_ms, 1.25);
     EXPECT_GT(frame.times.value().detect_ms, 0);
   }
   // The rover drives at 0.5 m/s along the optical axis; the IMU knows it to a few per cent.
   EXPECT_NEAR(recording_.frames.back().motion.v_C_mps.z(), 0.5, 0.05);
   EXPECT_NEAR(recording_.frames.back().true_motion.v_C_mps.z(), 0.5, 0.005);
-  EXPECT_FALSE(std::equal(tracker_.images()[0].begin(), tracker_.images()[0].end(),
-                          tracker_.images()[1].begin()))
+  EXPECT_FALSE(std::equal(detector_.images()[0].begin(), detector_.images()[0].end(),
+                          detector_.images()[1].begin()))
       << "the world stood still";
 }
 
 TEST_F(BenchTest, SignaturesAreMadeOnceForThoseWhoWantThemAndForNobodyElse) {
   Alarmist other;
-  tracker_.want_signatures();
+  detector_.want_signatures();
   Recording of_other = begin_recording(scenario_, simulation_);
   const FrameSink sink = [](const FrameRecord&, const cv::Mat3b&) {};
-  const Watcher both[] = {{tracker_, recording_, sink}, {other, of_other, sink}};
+  const Watcher both[] = {{detector_, recording_, sink}, {other, of_other, sink}};
   run(scenario_, simulation_, both);
   for (std::size_t k = 0; k < recording_.frames.size(); ++k) {
     const FrameRecord &frame = recording_.frames[k], &without = of_other.frames[k];
     cv::Mat1b grey;
-    cv::cvtColor(tracker_.images()[k], grey, cv::COLOR_BGR2GRAY);
+    cv::cvtColor(detector_.images()[k], grey, cv::COLOR_BGR2GRAY);
     ASSERT_FALSE(frame.corners_px.empty());
     EXPECT_EQ(frame.signatures, describe(grey, frame.corners_px));
-    EXPECT_EQ(tracker_.signatures()[k], frame.signatures);
+    EXPECT_EQ(detector_.signatures()[k], frame.signatures);
     EXPECT_GT(frame.times.value().describe_ms, 0);
     EXPECT_EQ(without.corners_px, frame.corners_px);
     EXPECT_TRUE(without.signatures.empty());
@@ -99,7 +99,7 @@ TEST_F(BenchTest, SignaturesAreMadeOnceForThoseWhoWantThemAndForNobodyElse) {
 }
 
 TEST_F(BenchTest, AnAlarmistMissesNothingAndHasThePrecisionOfChance) {
-  run(scenario_, simulation_, tracker_, recording_, [](const FrameRecord&, const cv::Mat3b&) {});
+  run(scenario_, simulation_, detector_, recording_, [](const FrameRecord&, const cv::Mat3b&) {});
   const Metrics metrics = score(recording_);
   EXPECT_EQ(value(metrics, "rebel.recall"), 1);
   EXPECT_EQ(value(metrics, "rebel.object_recall"), 1);
@@ -121,7 +121,7 @@ TEST_F(BenchTest, WhatTheSinkThrowsEndsTheRun) {
   const auto stop_at_2 = [](const FrameRecord& frame, const cv::Mat3b&) {
     if (frame.index == 2) throw std::runtime_error("enough");
   };
-  EXPECT_THROW(run(scenario_, simulation_, tracker_, recording_, stop_at_2), std::runtime_error);
+  EXPECT_THROW(run(scenario_, simulation_, detector_, recording_, stop_at_2), std::runtime_error);
   EXPECT_EQ(recording_.frames.size(), 3u);
 }
 

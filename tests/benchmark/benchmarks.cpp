@@ -26,8 +26,8 @@
 #include "tests/benchmark/page.h"
 #include "tests/benchmark/raw_renderer.h"
 #include "tests/benchmark/stream.h"
+#include "tools/bench/detector.h"
 #include "tools/bench/ego_motion_feed.h"
-#include "tools/bench/tracker.h"
 #include "tools/comparators/klt.h"
 
 namespace lcs::bench {
@@ -143,7 +143,7 @@ void filter(benchmark::State& state, const std::string& scene, int corners) {
 
 void klt(benchmark::State& state, const std::string& scene, int corners) {
   const Stream& of = stream(scene, corners);
-  comparators::KltTracker tracker(of.camera());
+  comparators::KltDetector detector(of.camera());
   std::vector<cv::Mat3b> images;
   std::vector<cv::Mat1b> greys;
   for (std::size_t k = 0; k < of.size(); ++k) {
@@ -151,7 +151,7 @@ void klt(benchmark::State& state, const std::string& scene, int corners) {
     greys.push_back(of.grey(k));
   }
   const auto step = [&](std::size_t k) {
-    tracker.step({images[k], greys[k], of.corners_px(k), of.motion(k)});
+    detector.step({images[k], greys[k], of.corners_px(k), of.motion(k)});
   };
   step(0);
   std::size_t k = 0;

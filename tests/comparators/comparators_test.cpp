@@ -29,24 +29,24 @@ Recording run(std::string_view name, const char* file, std::vector<std::string> 
   const scenario::Scenario scenario = scenario::load(std::string(LCS_SCENARIOS_DIR "/") + file,
                                                      {.sets = std::move(sets), .seed = {}});
   sim::Simulation simulation(scenario);
-  const auto tracker =
+  const auto detector =
       detector(name).make(bench::intrinsics(simulation.calibration().camera), scenario);
   Recording recording = bench::begin_recording(scenario, simulation);
-  bench::run(scenario, simulation, *tracker, recording,
+  bench::run(scenario, simulation, *detector, recording,
              [](const bench::FrameRecord&, const cv::Mat3b&) {});
   return recording;
 }
 
 TEST(Detectors, AreKnownByNameAndOthersAreRefusedWithTheListOfThem) {
-  for (const Detector& each : detectors()) EXPECT_EQ(&detector(each.name), &each);
+  for (const DetectorKind& each : detectors()) EXPECT_EQ(&detector(each.name), &each);
   EXPECT_EQ(bench::refusal_of<std::invalid_argument>([] { detector("yolo"); }),
             "no detector is called 'yolo'; there are lcs, klt, homography, dis");
 }
 
-TEST(Wanted, IsADetectorOrTheFilterWithAPresetOfItsOwn) {
-  EXPECT_EQ(&wanted("klt").detector, &detector("klt"));
-  EXPECT_EQ(wanted("klt").preset, "");
-  const Wanted lab = wanted("lcs:lab");
+TEST(DetectorSpec, IsADetectorOrTheFilterWithAPresetOfItsOwn) {
+  EXPECT_EQ(&spec_of("klt").detector, &detector("klt"));
+  EXPECT_EQ(spec_of("klt").preset, "");
+  const DetectorSpec lab = spec_of("lcs:lab");
   EXPECT_EQ(lab.name, "lcs:lab");
   EXPECT_EQ(&lab.detector, &detector("lcs"));
   EXPECT_EQ(lab.preset, "lab");
@@ -55,25 +55,25 @@ TEST(Wanted, IsADetectorOrTheFilterWithAPresetOfItsOwn) {
         {"lcs:", "the filter has no preset ''"},
         {"klt:lab", "klt has no presets, which are the filter's; give klt alone, or lcs:lab"},
         {"yolo:lab", "no detector is called 'yolo'"}}) {
-    const std::string what = bench::refusal_of<std::invalid_argument>([&] { wanted(name); });
+    const std::string what = bench::refusal_of<std::invalid_argument>([&] { spec_of(name); });
     EXPECT_NE(what.find(said), std::string::npos) << name << ": " << what;
   }
 }
 
-TEST(Wanted, APresetStandsAloneWhateverTheScenarioAndSettingsSay) {
+TEST(DetectorSpec, APresetStandsAloneWhateverTheScenarioAndSettingsSay) {
   const std::string file = std::string(LCS_SCENARIOS_DIR) + "/suite/night.yaml";
   const scenario::Scenario plain =
       scenario::load(file, {.sets = {"filter.preset=cars"}, .seed = {}});
   ASSERT_EQ(plain.filter_preset, "cars");
   scenario::Scenario unchanged = plain;
-  EXPECT_TRUE(apply_preset(wanted("lcs"), unchanged).empty());
+  EXPECT_TRUE(apply_preset(spec_of("lcs"), unchanged).empty());
   EXPECT_EQ(unchanged.filter_preset, "cars");
 
   scenario::Scenario with_lab = plain;
-  apply_preset(wanted("lcs:lab"), with_lab);
+  apply_preset(spec_of("lcs:lab"), with_lab);
   scenario::Scenario set = scenario::load(
       file, {.sets = {"filter.hypotheses.prior=0.1", "filter.preset=cars"}, .seed = {}});
-  EXPECT_EQ(apply_preset(wanted("lcs:lab"), set),
+  EXPECT_EQ(apply_preset(spec_of("lcs:lab"), set),
             (std::vector<std::string>{
                 "filter.preset has no effect with lcs:lab, which is the preset alone",
                 "filter.hypotheses.prior has no effect with lcs:lab, which is the preset "
@@ -203,7 +203,7 @@ TEST(EpipolarDistance, OfGroundThatIsNearerThanTheNearestDepthIsThatFromItsEnd) 
   EXPECT_NEAR(epipolar_distance(field_of(back), x, nearest + Vec2(0, 3)), 3, 1e-9);
 }
 
-// ---- Trackers on pictures drawn for the purpose: a plane at 3 m, seen by a camera that moves.
+// ---- Detectors on pictures drawn for the purpose: a plane at 3 m, seen by a camera that moves.
 
 constexpr double kPlane_m = 3;
 
@@ -256,39 +256,39 @@ void paste_mover(cv::Mat1b& seen, cv::Point shift, cv::Point2d slid = {}) {
   piece.copyTo(seen(kMover + shift));
 }
 
-class TrackerTest : public testing::TestWithParam<const char*> {
+class DetectorTest : public testing::TestWithParam<const char*> {
  protected:
-  std::unique_ptr<bench::Tracker> make() const {
-    if (GetParam() == std::string("klt")) return std::make_unique<KltTracker>(kIntrinsics);
-    if (GetParam() == std::string("dis")) return std::make_unique<DisTracker>(kIntrinsics);
-    return std::make_unique<HomographyTracker>();
+  std::unique_ptr<bench::Detector> make() const {
+    if (GetParam() == std::string("klt")) return std::make_unique<KltDetector>(kIntrinsics);
+    if (GetParam() == std::string("dis")) return std::make_unique<DisDetector>(kIntrinsics);
+    return std::make_unique<HomographyDetector>();
   }
   static std::vector<Eigen::Vector2f> corners_of(const cv::Mat1b& grey) {
     return FastDetector(20).detect(grey);
   }
-  static FrameResult step(bench::Tracker& tracker, const cv::Mat1b& grey,
+  static FrameResult step(bench::Detector& detector, const cv::Mat1b& grey,
                           const std::vector<Eigen::Vector2f>& corners, const EgoMotion& motion) {
     cv::Mat3b colour;
     cv::cvtColor(grey, colour, cv::COLOR_GRAY2BGR);
-    return tracker.step({colour, grey, corners, motion});
+    return detector.step({colour, grey, corners, motion});
   }
   static double share(const std::vector<Verdict>& verdicts, Verdict verdict) {
     const auto count = std::count(verdicts.begin(), verdicts.end(), verdict);
     return static_cast<double>(count) / static_cast<double>(verdicts.size());
   }
 };
-INSTANTIATE_TEST_SUITE_P(Names, TrackerTest, testing::Values("klt", "homography", "dis"),
+INSTANTIATE_TEST_SUITE_P(Names, DetectorTest, testing::Values("klt", "homography", "dis"),
                          [](const auto& test) { return test.param; });
 
-TEST_P(TrackerTest, InAStillWorldNothingIsARebelHoweverTheCameraMoves) {
+TEST_P(DetectorTest, InAStillWorldNothingIsARebelHoweverTheCameraMoves) {
   for (const EgoMotion& ego : {motion({0, 0, 0}, {0, 0, 0}), motion({0, 0, 0}, {0.1, 0.4, 0.2}),
                                motion({0, 0, 1.5}, {0, 0, 0}), motion({0, 0, -1.5}, {0, 0, 0}),
                                motion({1, 0, 0}, {0, 0, 0}), motion({0.3, 0, 1}, {0, 0.3, 0})}) {
-    const auto tracker = make();
+    const auto detector = make();
     const cv::Mat1b before = view({}), now = view(ego);
-    step(*tracker, before, corners_of(before), {});
+    step(*detector, before, corners_of(before), {});
     const auto corners = corners_of(now);
-    const FrameResult said = step(*tracker, now, corners, ego);
+    const FrameResult said = step(*detector, now, corners, ego);
     ASSERT_GT(corners.size(), 100u);
     // What has just come into sight, at the border, has no place in the last image: any may be
     // found.
@@ -307,15 +307,15 @@ TEST_P(TrackerTest, InAStillWorldNothingIsARebelHoweverTheCameraMoves) {
   }
 }
 
-TEST_P(TrackerTest, AMoverAcrossTheFieldIsFoundAndBoxed) {
+TEST_P(DetectorTest, AMoverAcrossTheFieldIsFoundAndBoxed) {
   const EgoMotion ego = motion({0, 0, 1}, {0, 0.1, 0});
-  const auto tracker = make();
+  const auto detector = make();
   cv::Mat1b before = view({}), now = view(ego);
   paste_mover(before, {0, 0});
   paste_mover(now, {-7, 5});
-  step(*tracker, before, corners_of(before), {});
+  step(*detector, before, corners_of(before), {});
   const auto corners = corners_of(now);
-  const FrameResult said = step(*tracker, now, corners, ego);
+  const FrameResult said = step(*detector, now, corners, ego);
   const cv::Rect mover = kMover + cv::Point(-7, 5), round_it(170, 40, 100, 110);
   int inside = 0, found = 0, far = 0, false_alarms = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -344,8 +344,8 @@ TEST_P(TrackerTest, AMoverAcrossTheFieldIsFoundAndBoxed) {
 /// At a high rate, so that several frames make a baseline.
 constexpr double kFastFrame_s = 1.0 / 60;
 
-TEST_P(TrackerTest, AtAHighRateAStillWorldHasNoRebelsWhileTheCameraTurnsAndGoes) {
-  const auto tracker = make();
+TEST_P(DetectorTest, AtAHighRateAStillWorldHasNoRebelsWhileTheCameraTurnsAndGoes) {
+  const auto detector = make();
   const auto pose = [](int k) {
     const double t_s = k * kFastFrame_s;
     return sim::Pose{
@@ -356,7 +356,7 @@ TEST_P(TrackerTest, AtAHighRateAStillWorldHasNoRebelsWhileTheCameraTurnsAndGoes)
     const cv::Mat1b seen = view(k == 0 ? EgoMotion() : bench::motion_between(pose(0), pose(k), 1));
     const auto corners = corners_of(seen);
     const FrameResult said =
-        step(*tracker, seen, corners,
+        step(*detector, seen, corners,
              k == 0 ? EgoMotion() : bench::motion_between(pose(k - 1), pose(k), kFastFrame_s));
     ASSERT_GT(corners.size(), 100u);
     EXPECT_LT(share(said.verdicts, Verdict::rebel), 0.02) << "frame " << k;
@@ -366,8 +366,8 @@ TEST_P(TrackerTest, AtAHighRateAStillWorldHasNoRebelsWhileTheCameraTurnsAndGoes)
   }
 }
 
-TEST_P(TrackerTest, AtAHighRateAMoverIsFoundThatMovesLittleFromFrameToFrame) {
-  const auto tracker = make();
+TEST_P(DetectorTest, AtAHighRateAMoverIsFoundThatMovesLittleFromFrameToFrame) {
+  const auto detector = make();
   constexpr int kFrames = 8;
   int inside = 0, found = 0;
   for (int k = 0; k < kFrames; ++k) {
@@ -377,7 +377,7 @@ TEST_P(TrackerTest, AtAHighRateAMoverIsFoundThatMovesLittleFromFrameToFrame) {
     EgoMotion still;
     still.dt_s = k == 0 ? 0 : kFastFrame_s;
     const auto corners = corners_of(seen);
-    const FrameResult said = step(*tracker, seen, corners, still);
+    const FrameResult said = step(*detector, seen, corners, still);
     if (k + 1 < kFrames) continue;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       if (!kMover.contains(pixel(corners[i]))) continue;
@@ -389,20 +389,20 @@ TEST_P(TrackerTest, AtAHighRateAMoverIsFoundThatMovesLittleFromFrameToFrame) {
   EXPECT_GT(found, 0.6 * inside);
 }
 
-class TrackerOnGroundTest : public TrackerTest {};
-INSTANTIATE_TEST_SUITE_P(Names, TrackerOnGroundTest, testing::Values("klt", "dis"),
+class DetectorOnGroundTest : public DetectorTest {};
+INSTANTIATE_TEST_SUITE_P(Names, DetectorOnGroundTest, testing::Values("klt", "dis"),
                          [](const auto& test) { return test.param; });
 
-TEST_P(TrackerOnGroundTest, WhatIsSeenBelowTheGroundMovesByItself) {
+TEST_P(DetectorOnGroundTest, WhatIsSeenBelowTheGroundMovesByItself) {
   EgoMotion ego = motion({0, 0, 1.5}, {0, 0, 0});
   const cv::Mat1b before = view({}), now = view(ego);
   const auto corners = corners_of(now);
   for (const bool known : {false, true}) {
     // So low a camera would not see the plane 3 m ahead through the ground, from the horizon down.
     if (known) ego.ground = Ground{.up_C = {0, -1, 0}, .height_m = 0.4};
-    const auto tracker = make();
-    step(*tracker, before, corners_of(before), {});
-    const FrameResult said = step(*tracker, now, corners, ego);
+    const auto detector = make();
+    step(*detector, before, corners_of(before), {});
+    const FrameResult said = step(*detector, now, corners, ego);
     int low = 0, low_rebels = 0, high_rebels = 0;
     const cv::Rect lower(20, 190, kWidth - 40, 30), upper(20, 20, kWidth - 40, 100);
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -420,7 +420,7 @@ TEST_P(TrackerOnGroundTest, WhatIsSeenBelowTheGroundMovesByItself) {
   }
 }
 
-TEST_P(TrackerTest, TheFirstFrameIsPending) {
+TEST_P(DetectorTest, TheFirstFrameIsPending) {
   const cv::Mat1b seen = view({});
   const FrameResult said = step(*make(), seen, corners_of(seen), {});
   EXPECT_GT(said.verdicts.size(), 100u);
@@ -428,42 +428,42 @@ TEST_P(TrackerTest, TheFirstFrameIsPending) {
   EXPECT_EQ(said.layers.dimension(), 0u);
 }
 
-TEST_P(TrackerTest, NoCornersAndOneCornerGetNoneAndOneVerdict) {
-  const auto tracker = make();
+TEST_P(DetectorTest, NoCornersAndOneCornerGetNoneAndOneVerdict) {
+  const auto detector = make();
   const cv::Mat1b seen = view({});
   const std::vector<Eigen::Vector2f> none, one{corners_of(seen).at(50)};
   for (int k = 0; k < 3; ++k) {
-    EXPECT_TRUE(step(*tracker, seen, none, {}).verdicts.empty());
-    EXPECT_EQ(step(*tracker, seen, one, motion({0, 0, 1}, {0, 0, 0})).verdicts.size(), 1u);
+    EXPECT_TRUE(step(*detector, seen, none, {}).verdicts.empty());
+    EXPECT_EQ(step(*detector, seen, one, motion({0, 0, 1}, {0, 0, 0})).verdicts.size(), 1u);
   }
-  EXPECT_EQ(step(*tracker, seen, one, {}).verdicts, std::vector{Verdict::normal});
+  EXPECT_EQ(step(*detector, seen, one, {}).verdicts, std::vector{Verdict::normal});
 }
 
-TEST_P(TrackerTest, CornersOnTexturelessGreyAreLostOrStandNoRebels) {
-  const auto tracker = make();
+TEST_P(DetectorTest, CornersOnTexturelessGreyAreLostOrStandNoRebels) {
+  const auto detector = make();
   const cv::Mat1b grey(kHeight, kWidth, uchar{128});
   std::vector<Eigen::Vector2f> corners;
   for (int i = 0; i < 40; ++i) {
     corners.emplace_back(static_cast<float>(8 * i), static_cast<float>(6 * i));
   }
-  step(*tracker, grey, corners, {});
-  const FrameResult said = step(*tracker, grey, corners, motion({0, 0, 1}, {0, 0, 0}));
+  step(*detector, grey, corners, {});
+  const FrameResult said = step(*detector, grey, corners, motion({0, 0, 1}, {0, 0, 0}));
   // Dense flow has an answer everywhere: here, that nothing moved.
   const bool dense = GetParam() == std::string("dis");
   EXPECT_EQ(share(said.verdicts, dense ? Verdict::normal : Verdict::pending), 1);
 }
 
-TEST_P(TrackerTest, TheGlobalGeneratorOfRandomNumbersHasNoSay) {
+TEST_P(DetectorTest, TheGlobalGeneratorOfRandomNumbersHasNoSay) {
   const auto said = [&](unsigned seed) {
     cv::theRNG().state = seed;
-    const auto tracker = make();
+    const auto detector = make();
     cv::Mat1b before = view({}), now = view(motion({0, 0, 1}, {0, 0.1, 0}));
     paste_mover(before, {0, 0});
     paste_mover(now, {-7, 5});
-    step(*tracker, before, corners_of(before), {});
+    step(*detector, before, corners_of(before), {});
     bench::FrameRecord frame;
     frame.corners_px = corners_of(now);
-    FrameResult result = step(*tracker, now, frame.corners_px, motion({0, 0, 1}, {0, 0.1, 0}));
+    FrameResult result = step(*detector, now, frame.corners_px, motion({0, 0, 1}, {0, 0.1, 0}));
     frame.verdicts = result.verdicts;
     frame.layers = result.layers;
     return layers_line(frame);
@@ -480,11 +480,11 @@ TEST(Dis, SaysTheSameHoweverManyThreadsThereAre) {
   std::vector<std::string> lines;
   for (const int count : {1, 2, 5}) {
     cv::setNumThreads(count);
-    DisTracker tracker(kIntrinsics);
-    tracker.step({cv::Mat3b(), before, {}, {}});
+    DisDetector detector(kIntrinsics);
+    detector.step({cv::Mat3b(), before, {}, {}});
     bench::FrameRecord frame;
     frame.corners_px = corners;
-    const FrameResult& said = tracker.step({cv::Mat3b(), now, corners, ego});
+    const FrameResult& said = detector.step({cv::Mat3b(), now, corners, ego});
     frame.verdicts = said.verdicts;
     frame.layers = said.layers;
     lines.push_back(layers_line(frame));
@@ -496,19 +496,19 @@ TEST(Dis, SaysTheSameHoweverManyThreadsThereAre) {
 
 TEST(Dis, TakesTheSmallestPictures) {
   for (const cv::Size size : {cv::Size(16, 16), cv::Size(16, 320), cv::Size(40, 24)}) {
-    DisTracker tracker(
+    DisDetector detector(
         bench::intrinsics(sim::Pinhole::from_fovy(size.width, size.height, kPi / 3)));
     const cv::Mat1b seen = texture()(cv::Rect({0, 0}, size)).clone();
     const std::vector<Eigen::Vector2f> corners{{8, 8}, {4, 10}};
-    tracker.step({cv::Mat3b(), seen, corners, {}});
+    detector.step({cv::Mat3b(), seen, corners, {}});
     const FrameResult& said =
-        tracker.step({cv::Mat3b(), seen, corners, motion({0, 0, 0}, {0, 0, 0})});
+        detector.step({cv::Mat3b(), seen, corners, motion({0, 0, 0}, {0, 0, 0})});
     EXPECT_EQ(said.verdicts, std::vector(2, Verdict::normal));
   }
 }
 
 TEST(Homography, OfTooFewCornersTellsNothing) {
-  HomographyTracker tracker;
+  HomographyDetector detector;
   cv::Mat1b before = view({});
   const auto corners = FastDetector(20).detect(before);
   std::vector<Eigen::Vector2f> few;
@@ -520,12 +520,12 @@ TEST(Homography, OfTooFewCornersTellsNothing) {
   before.rowRange(0, kHeight - 4).copyTo(now.rowRange(4, kHeight));
   std::vector<Eigen::Vector2f> moved = few;
   for (Eigen::Vector2f& px : moved) px.y() += 4;
-  tracker.step({cv::Mat3b(), before, few, {}});
-  const FrameResult& said = tracker.step({cv::Mat3b(), now, moved, {}});
+  detector.step({cv::Mat3b(), before, few, {}});
+  const FrameResult& said = detector.step({cv::Mat3b(), now, moved, {}});
   EXPECT_EQ(said.verdicts, std::vector<Verdict>(7, Verdict::normal));
 }
 
-TEST(Trackers, RefuseParametersOutOfTheirRange) {
+TEST(Detectors, RefuseParametersOutOfTheirRange) {
   EXPECT_THROW(BackwardFlow({.window_px = 12}), std::invalid_argument);
   EXPECT_THROW(BackwardFlow({.levels = -1}), std::invalid_argument);
   EXPECT_THROW(BackwardFlow({.baseline_s = -1}), std::invalid_argument);
@@ -533,10 +533,10 @@ TEST(Trackers, RefuseParametersOutOfTheirRange) {
   EXPECT_THROW(RebelGroups({.least_corners = 0}), std::invalid_argument);
   DisParameters dis;
   dis.baseline_s = std::nan("");
-  EXPECT_THROW(DisTracker(kIntrinsics, dis), std::invalid_argument);
+  EXPECT_THROW(DisDetector(kIntrinsics, dis), std::invalid_argument);
   HomographyParameters homography;
   homography.least_corners = 3;
-  EXPECT_THROW(HomographyTracker{homography}, std::invalid_argument);
+  EXPECT_THROW(HomographyDetector{homography}, std::invalid_argument);
 }
 
 // ---- Flow

@@ -252,7 +252,7 @@ TEST(RecordingIo, FramesFromBeforeThereWereSignaturesHaveNone) {
   }
 }
 
-TEST(RecordingIo, ReasonsThatATrackerDoesNotGiveAreUnknown) {
+TEST(RecordingIo, ReasonsThatADetectorDoesNotGiveAreUnknown) {
   FrameMaker maker(0);
   maker.corners(2, Verdict::rebel, sim::Label::fixed);
   const TemporaryFolder folder;

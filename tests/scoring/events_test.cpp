@@ -128,7 +128,7 @@ TEST(Events, ReasonsAreCountedMostFrequentFirst) {
                                          {Reason::first_sighting, 5 * kCorners}}));
 }
 
-TEST(Events, ATrackerWithoutReasonsHasUnknownOnes) {
+TEST(Events, ADetectorWithoutReasonsHasUnknownOnes) {
   Recording recording = recording_with([](int) { return kCorners; });
   for (FrameRecord& frame : recording.frames) frame.reasons.clear();
   EXPECT_EQ(find_events(recording).at(0).reasons.at(0).first, Reason::unknown);

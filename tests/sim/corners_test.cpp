@@ -1,5 +1,5 @@
 // Corners as the detector finds them in the project's scenes: how many, whether they are found
-// again, and whether the truth of their motion is what an independent tracker sees.
+// again, and whether the truth of their motion is what an independent detector sees.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -168,11 +168,11 @@ TEST(Corners, OfMoversAreFoundAgain) {
 }
 
 struct Tracked {
-  std::vector<double> fixed_px, rebel_px;  ///< |tracker - truth|
+  std::vector<double> fixed_px, rebel_px;  ///< |detector - truth|
 };
 
 /// Truth against pyramidal Lucas-Kanade, off depth edges, where a window shows one motion. Tracks
-/// that do not lead back to where they began are the tracker's own mistakes.
+/// that do not lead back to where they began are the detector's own mistakes.
 Tracked against_tracker(const scenario::Scenario& s) {
   Simulation simulation(s);
   Tracked result;
@@ -204,7 +204,7 @@ Tracked against_tracker(const scenario::Scenario& s) {
     last_grey = grey;
     last = std::move(o);
   }
-  fmt::print("tracker against truth: median {:.3f} px of {} fixed", median(result.fixed_px),
+  fmt::print("detector against truth: median {:.3f} px of {} fixed", median(result.fixed_px),
              result.fixed_px.size());
   if (!result.rebel_px.empty()) {
     fmt::print(", {:.3f} px of {} rebels", median(result.rebel_px), result.rebel_px.size());
@@ -213,17 +213,17 @@ Tracked against_tracker(const scenario::Scenario& s) {
   return result;
 }
 
-// The project promises 0.5 px at the median; a tracker on clean images is good to some hundredths,
+// The project promises 0.5 px at the median; a detector on clean images is good to some hundredths,
 // so that a truth half a pixel off, or a frame late, would show at 0.15.
-TEST(TrueMotion, OfFixedCornersInTheLabIsWhatATrackerSees) {
+TEST(TrueMotion, OfFixedCornersInTheLabIsWhatADetectorSees) {
   const Tracked t = against_tracker(slow_lab());
   ASSERT_GT(t.fixed_px.size(), 1000u);
   EXPECT_LE(median(t.fixed_px), 0.15);
 }
 
-TEST(TrueMotion, OfMoversIsWhatATrackerSees) {
+TEST(TrueMotion, OfMoversIsWhatADetectorSees) {
   auto s = fast_lab();
-  s.camera.rate_hz = 30;  // within reach of the tracker's window
+  s.camera.rate_hz = 30;  // within reach of the detector's window
   const Tracked t = against_tracker(s);
   ASSERT_GT(t.fixed_px.size(), 1000u);
   ASSERT_GT(t.rebel_px.size(), 500u);
@@ -231,7 +231,7 @@ TEST(TrueMotion, OfMoversIsWhatATrackerSees) {
   EXPECT_LE(median(t.rebel_px), 0.15);
 }
 
-TEST(TrueMotion, InTheStreetIsWhatATrackerSees) {
+TEST(TrueMotion, InTheStreetIsWhatADetectorSees) {
   auto s = street(12, 1);
   s.actors = {line_actor("other", Shape::car, {9, 0.3}, 180 * test::kDegree, 1)};
   const Tracked t = against_tracker(s);
@@ -239,7 +239,7 @@ TEST(TrueMotion, InTheStreetIsWhatATrackerSees) {
   EXPECT_LE(median(t.fixed_px), 0.15);
 }
 
-TEST(TrueMotion, UnderYawAndRollOfTheCameraIsWhatATrackerSees) {
+TEST(TrueMotion, UnderYawAndRollOfTheCameraIsWhatADetectorSees) {
   auto s = scenario_in("lab", 0.3, 20);
   s.ego.phases[0].yaw_rate_radps = 0.2;
   s.camera.mount_rpy_rad = {0.3, -0.1, 0.05};

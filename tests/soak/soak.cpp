@@ -17,7 +17,7 @@
 #include "sim/simulation.h"
 #include "tests/filter/invariants.h"
 #include "tools/bench/bench.h"
-#include "tools/bench/tracker.h"
+#include "tools/bench/detector.h"
 
 namespace {
 
@@ -45,9 +45,9 @@ EgoMotion reversed(const EgoMotion& motion, const std::optional<Ground>& ground_
   return back;
 }
 
-class Recorder : public bench::Tracker {
+class Recorder : public bench::Detector {
  public:
-  const FrameResult& step(const bench::TrackerInput& input) override {
+  const FrameResult& step(const bench::DetectorInput& input) override {
     seen.push_back({{input.corners_px.begin(), input.corners_px.end()}, input.motion, {}});
     result_.verdicts.assign(input.corners_px.size(), Verdict::pending);
     return result_;

@@ -78,30 +78,30 @@ Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulat
   return recording;
 }
 
-void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame) {
+void ask(Detector& detector, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame) {
   double step_ms = 0;
   const FrameResult& said = timed(step_ms, [&]() -> const FrameResult& {
-    return tracker.step(
+    return detector.step(
         {image, grey, frame.corners_px, frame.motion, frame.signatures, frame.index, frame.t_ns});
   });
-  note(said, tracker.step_time(), step_ms, frame);
-  frame.masks = tracker.masks();
+  note(said, detector.step_time(), step_ms, frame);
+  frame.masks = detector.masks();
 }
 
 std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
                              std::span<const Watcher> watchers) {
   const bool are_signatures_wanted =
       std::any_of(watchers.begin(), watchers.end(),
-                  [](const Watcher& watcher) { return watcher.tracker.wants_signatures(); });
+                  [](const Watcher& watcher) { return watcher.detector.wants_signatures(); });
 
   while (const std::optional<SeenFrame> seen = see(source, detector, are_signatures_wanted)) {
     for (const Watcher& watcher : watchers) {
       FrameRecord& frame = watcher.recording.frames.emplace_back(seen->record);
-      if (!watcher.tracker.wants_signatures()) {  // as alone
+      if (!watcher.detector.wants_signatures()) {  // as alone
         frame.signatures = {};
         frame.times->describe_ms = 0;
       }
-      ask(watcher.tracker, seen->image, seen->grey, frame);
+      ask(watcher.detector, seen->image, seen->grey, frame);
       watcher.sink(frame, seen->image);
     }
   }
@@ -109,8 +109,8 @@ std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
   for (const Watcher& watcher : watchers) {
     watcher.recording.warnings = source.warnings();
     all.push_back(source.diagnostics());
-    watcher.tracker.finish();
-    all.back() += watcher.tracker.diagnostics();
+    watcher.detector.finish();
+    all.back() += watcher.detector.diagnostics();
   }
   return all;
 }
@@ -121,9 +121,9 @@ std::vector<Diagnostics> run(const scenario::Scenario& scenario, sim::Simulation
   return run(frames, FastDetector(scenario.fast_threshold), watchers);
 }
 
-Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracker& tracker,
+Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation, Detector& detector,
                 Recording& recording, const FrameSink& sink) {
-  const Watcher watcher{tracker, recording, sink};
+  const Watcher watcher{detector, recording, sink};
   return run(scenario, simulation, {&watcher, 1}).front();
 }
 

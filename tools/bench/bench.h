@@ -1,5 +1,5 @@
 /// \file
-/// The loop of a run: observation -> corners and their signatures -> ego-motion -> tracker ->
+/// The loop of a run: observation -> corners and their signatures -> ego-motion -> detector ->
 /// record with truth.
 #pragma once
 
@@ -12,8 +12,8 @@
 #include "filter/detect/fast.h"
 #include "scenarios/scenario.h"
 #include "sim/simulation.h"
+#include "tools/bench/detector.h"
 #include "tools/bench/ego_motion_feed.h"
-#include "tools/bench/tracker.h"
 #include "tools/recording/recording.h"
 
 namespace lcs::bench {
@@ -30,7 +30,7 @@ class FrameSource {
   /// \param image set to what the camera saw, BGR. \return false after the last one.
   virtual bool next(FrameRecord& frame, cv::Mat3b& image) = 0;
 
-  /// Undistorts corners and picture: from the camera that took it to the pinhole that trackers are
+  /// Undistorts corners and picture: from the camera that took it to the pinhole that detectors are
   /// told of. Corners that are not to be judged are left out.
   /// \return whether the picture was changed.
   virtual bool straighten(std::vector<Eigen::Vector2f>&, cv::Mat3b&) const { return false; }
@@ -75,8 +75,9 @@ struct SeenFrame {
 std::optional<SeenFrame> see(FrameSource& source, const FastDetector& detector,
                              bool are_signatures_wanted);
 
-/// Stores in a frame what a tracker says of it.
-/// \param step_ms that the tracker took: stored as the time that `step_time` points to, unless that
+/// Stores in a frame what a detector says of it.
+/// \param step_ms that the detector took: stored as the time that `step_time` points to, unless
+/// that
 ///   is null.
 void note(const FrameResult& said, double FrameTimes::*step_time, double step_ms,
           FrameRecord& frame);
@@ -84,22 +85,22 @@ void note(const FrameResult& said, double FrameTimes::*step_time, double step_ms
 /// A recording of the scenario without frames yet.
 Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulation& simulation);
 
-/// Runs a tracker on a frame whose corners are known.
+/// Runs a detector on a frame whose corners are known.
 /// \param frame with corners, motion, and signatures if there are any; gets verdicts, layers and
 ///   times.
-/// \param grey,image may be empty for a tracker that does not look at them.
-void ask(Tracker& tracker, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame);
+/// \param grey,image may be empty for a detector that does not look at them.
+void ask(Detector& detector, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame);
 
-/// A tracker that takes part in a run, and where its results go.
+/// A detector that takes part in a run, and where its results go.
 struct Watcher {
-  Tracker& tracker;
+  Detector& detector;
   Recording& recording;  ///< gets every frame before the sink does, and in the end the warnings
   FrameSink sink;
 };
 
 /// Goes through all frames. Each watcher gets the same frames as it would alone.
-/// \return for each watcher, what was wrong with the sensors' readings and with what its tracker
-/// was told. \throws what the source, trackers and sinks throw.
+/// \return for each watcher, what was wrong with the sensors' readings and with what its detector
+/// was told. \throws what the source, detectors and sinks throw.
 std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
                              std::span<const Watcher> watchers);
 
@@ -107,8 +108,8 @@ std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
 /// \return,\throws as above, and sim::PhysicsError.
 std::vector<Diagnostics> run(const scenario::Scenario& scenario, sim::Simulation& simulation,
                              std::span<const Watcher> watchers);
-/// The same for one tracker.
-Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation, Tracker& tracker,
+/// The same for one detector.
+Diagnostics run(const scenario::Scenario& scenario, sim::Simulation& simulation, Detector& detector,
                 Recording& recording, const FrameSink& sink);
 
 }  // namespace lcs::bench

@@ -104,16 +104,16 @@ cv::Mat3b EarlierRun::image(std::size_t position) const {
   return picture;
 }
 
-Diagnostics EarlierRun::run(Tracker& tracker, Recording& recording, bool with_images,
+Diagnostics EarlierRun::run(Detector& detector, Recording& recording, bool with_images,
                             const FrameSink& sink) const {
   for (std::size_t k = 0; k < recorded_.frames.size(); ++k) {
     FrameRecord& frame = recording.frames.emplace_back(recorded_.frames[k]);
     const cv::Mat3b picture = with_images ? image(k) : cv::Mat3b{};
-    ask(tracker, picture, {}, frame);
+    ask(detector, picture, {}, frame);
     sink(frame, picture);
   }
-  tracker.finish();
-  return tracker.diagnostics();
+  detector.finish();
+  return detector.diagnostics();
 }
 
 }  // namespace lcs::bench

@@ -35,11 +35,11 @@ class EarlierRun {
   Recording begin() const;
 
   /// Goes through all frames, as `bench::run` does.
-  /// \param with_images whether tracker and sink get pictures, which needs `pictures()`: in colour
+  /// \param with_images whether detector and sink get pictures, which needs `pictures()`: in colour
   ///   alone, and with the losses of their compression. Else they are empty.
-  /// \return what was wrong with what the tracker was told.
-  /// \throws what the tracker and the sink throw.
-  Diagnostics run(Tracker& tracker, Recording& recording, bool with_images,
+  /// \return what was wrong with what the detector was told.
+  /// \throws what the detector and the sink throw.
+  Diagnostics run(Detector& detector, Recording& recording, bool with_images,
                   const FrameSink& sink) const;
 
  private:

@@ -1,5 +1,5 @@
 /// \file
-/// From an observation's sensor readings, or exact poses, to the motion that a tracker is told.
+/// From an observation's sensor readings, or exact poses, to the motion that a detector is told.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 /// \file
 /// Where the corners of a frame were a baseline ago, by pyramidal Lucas-Kanade (Bouguet, "Pyramidal
-/// Implementation of the Affine Lucas Kanade Feature Tracker", 2000; OpenCV's).
+/// Implementation of the Affine Lucas Kanade Feature Detector", 2000; OpenCV's).
 ///
 /// A verdict on a corner is due in the corner's own frame, so the flow runs back from this frame's
 /// corners to the earlier image. Tracking that one's corners ahead, as is common, would end on

@@ -16,25 +16,25 @@
 namespace lcs::comparators {
 namespace {
 
-using Made = std::unique_ptr<bench::Tracker>;
+using Made = std::unique_ptr<bench::Detector>;
 
 Made make_lcs(const Intrinsics& camera, const scenario::Scenario& scenario) {
-  return std::make_unique<bench::LcsTracker>(camera, bench::filter_parameters(scenario));
+  return std::make_unique<bench::LcsDetector>(camera, bench::filter_parameters(scenario));
 }
 
 Made make_klt(const Intrinsics& camera, const scenario::Scenario&) {
-  return std::make_unique<KltTracker>(camera);
+  return std::make_unique<KltDetector>(camera);
 }
 
 Made make_homography(const Intrinsics&, const scenario::Scenario&) {
-  return std::make_unique<HomographyTracker>();
+  return std::make_unique<HomographyDetector>();
 }
 
 Made make_dis(const Intrinsics& camera, const scenario::Scenario&) {
-  return std::make_unique<DisTracker>(camera);
+  return std::make_unique<DisDetector>(camera);
 }
 
-constexpr std::array<Detector, 4> kDetectors{{
+constexpr std::array<DetectorKind, 4> kDetectors{{
     {"lcs", "the Line-Circle-Square filter", true, false, make_lcs},
     {"klt", "Lucas-Kanade, and distance to the epipolar segment that the IMU gives", false, true,
      make_klt},
@@ -43,8 +43,8 @@ constexpr std::array<Detector, 4> kDetectors{{
     {"dis", "dense flow, and distance to the epipolar segment", false, true, make_dis},
 }};
 
-constexpr Detector kProgram{"program", "a program of yours", false, true, nullptr};
-constexpr Detector kFile{"file", "what a detector has written", false, false, nullptr};
+constexpr DetectorKind kProgram{"program", "a program of yours", false, true, nullptr};
+constexpr DetectorKind kFile{"file", "what a detector has written", false, false, nullptr};
 
 /// Letters of the name of a folder, and of a test.
 std::string own_name(const std::string& name) {
@@ -58,7 +58,7 @@ std::string own_name(const std::string& name) {
         "--detector",
         name));
   }
-  for (const Detector& each : kDetectors) {
+  for (const DetectorKind& each : kDetectors) {
     if (each.name != name) continue;
     throw std::invalid_argument(fmt::format(
         "{} is a detector of this program; give yours another name by --detector", name));
@@ -76,24 +76,24 @@ std::string program_name(const std::string& command) {
 
 }  // namespace
 
-std::span<const Detector> detectors() {
+std::span<const DetectorKind> detectors() {
   return kDetectors;
 }
 
-const Detector& detector(std::string_view name) {
+const DetectorKind& detector(std::string_view name) {
   const auto found = std::find_if(kDetectors.begin(), kDetectors.end(),
-                                  [&](const Detector& each) { return each.name == name; });
+                                  [&](const DetectorKind& each) { return each.name == name; });
   if (found != kDetectors.end()) return *found;
   std::string names;
-  for (const Detector& each : kDetectors) {
+  for (const DetectorKind& each : kDetectors) {
     names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);
   }
   throw std::invalid_argument(fmt::format("no detector is called '{}'; there are {}", name, names));
 }
 
-Wanted wanted(const std::string& name) {
+DetectorSpec spec_of(const std::string& name) {
   const std::size_t colon = name.find(':');
-  const Detector& found = detector(name.substr(0, colon));
+  const DetectorKind& found = detector(name.substr(0, colon));
   if (colon == std::string::npos) return {name, found, ""};
   if (!found.layered) {
     throw std::invalid_argument(fmt::format(
@@ -105,11 +105,11 @@ Wanted wanted(const std::string& name) {
   return {name, found, preset};
 }
 
-Wanted wanted_program(const std::string& name, const Program& program) {
+DetectorSpec spec_of_program(const std::string& name, const Program& program) {
   return {own_name(name.empty() ? program_name(program.command) : name), kProgram, "", program, {}};
 }
 
-Wanted wanted_file(const std::string& name, const std::filesystem::path& detections_file) {
+DetectorSpec spec_of_file(const std::string& name, const std::filesystem::path& detections_file) {
   return {own_name(name.empty() ? detections_file.stem().string() : name),
           kFile,
           "",
@@ -117,52 +117,50 @@ Wanted wanted_file(const std::string& name, const std::filesystem::path& detecti
           detections_file};
 }
 
-std::unique_ptr<bench::Tracker> make(const Wanted& wanted, const Occasion& occasion) {
-  if (!wanted.detections_file.empty()) {
-    if (occasion.recorded == nullptr) {
+std::unique_ptr<bench::Detector> make(const DetectorSpec& spec, const DetectorContext& context) {
+  if (!spec.detections_file.empty()) {
+    if (context.recorded == nullptr) {
       throw std::invalid_argument(
           "--detections are of the frames of an earlier run; name it by "
           "--recorded");
     }
-    return std::make_unique<StoredDetections>(wanted.detections_file, *occasion.recorded);
+    return std::make_unique<StoredDetections>(spec.detections_file, *context.recorded);
   }
-  if (!wanted.program) return wanted.detector.make(occasion.camera, occasion.scenario);
-  const scenario::Scenario& scenario = occasion.scenario;
-  const int frames = occasion.recorded != nullptr
-                         ? static_cast<int>(occasion.recorded->frames.size())
-                         : scenario.frames;
+  if (!spec.program) return spec.detector.make(context.camera, context.scenario);
+  const scenario::Scenario& scenario = context.scenario;
+  const int frames = context.recorded != nullptr ? static_cast<int>(context.recorded->frames.size())
+                                                 : scenario.frames;
   const Announced announced{.scenario = scenario.name,
                             .seed = scenario.seed,
                             .frames = frames,
                             .rate_hz = scenario.camera.rate_hz,
-                            .camera = occasion.camera,
-                            .compressed = occasion.recorded != nullptr};
-  return std::make_unique<ProgramTracker>(wanted.name, *wanted.program, announced,
-                                          occasion.on_wait);
+                            .camera = context.camera,
+                            .compressed = context.recorded != nullptr};
+  return std::make_unique<ProgramDetector>(spec.name, *spec.program, announced, context.on_wait);
 }
 
-std::vector<std::string> apply_preset(const Wanted& wanted, scenario::Scenario& scenario) {
+std::vector<std::string> apply_preset(const DetectorSpec& spec, scenario::Scenario& scenario) {
   bench::filter_parameters(scenario);  // they are valid, whether used or not
   std::vector<std::string> lines;
-  if (wanted.preset.empty()) return lines;
+  if (spec.preset.empty()) return lines;
   const auto leave_out = [&](std::string_view key, const scenario::Source& where) {
     if (!where.file.starts_with("--set ")) return;
-    lines.push_back(fmt::format("filter.{} has no effect with {}, which is the preset alone", key,
-                                wanted.name));
+    lines.push_back(
+        fmt::format("filter.{} has no effect with {}, which is the preset alone", key, spec.name));
   };
   leave_out("preset", scenario.filter_preset_source);
   for (const scenario::FilterSetting& setting : scenario.filter) {
     leave_out(setting.key, setting.source);
   }
-  scenario.filter_preset = wanted.preset;
+  scenario.filter_preset = spec.preset;
   scenario.filter.clear();
   return lines;
 }
 
-void require_corners_suffice(const Wanted& wanted) {
-  if (!wanted.detector.sees_pictures || wanted.program) return;
+void require_corners_suffice(const DetectorSpec& spec) {
+  if (!spec.detector.sees_pictures || spec.program) return;
   throw std::invalid_argument(fmt::format(
-      "{} looks at the pictures, and a recording has corners; leave out --recorded", wanted.name));
+      "{} looks at the pictures, and a recording has corners; leave out --recorded", spec.name));
 }
 
 }  // namespace lcs::comparators

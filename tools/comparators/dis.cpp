@@ -6,14 +6,14 @@
 
 namespace lcs::comparators {
 
-DisTracker::DisTracker(const Intrinsics& camera, const DisParameters& parameters)
+DisDetector::DisDetector(const Intrinsics& camera, const DisParameters& parameters)
     : camera_(camera),
       parameters_(parameters),
       pictures_(parameters.baseline_s),
       flow_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)),
       groups_(parameters.groups) {}
 
-const FrameResult& DisTracker::step(const bench::TrackerInput& input) {
+const FrameResult& DisDetector::step(const bench::DetectorInput& input) {
   input.grey.copyTo(pictures_.begin(input.motion));
   const EgoMotion& motion = pictures_.motion();
   motions_.assign(input.corners_px.size(), {});

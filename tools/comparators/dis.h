@@ -8,7 +8,7 @@
 
 #include <opencv2/video/tracking.hpp>
 
-#include "tools/bench/tracker.h"
+#include "tools/bench/detector.h"
 #include "tools/comparators/epipolar.h"
 #include "tools/comparators/lookback.h"
 #include "tools/comparators/rebel_groups.h"
@@ -21,11 +21,11 @@ struct DisParameters {
   GroupParameters groups;
 };
 
-class DisTracker : public bench::Tracker {
+class DisDetector : public bench::Detector {
  public:
   /// \throws std::invalid_argument for a parameter out of its range.
-  explicit DisTracker(const Intrinsics& camera, const DisParameters& parameters = {});
-  const FrameResult& step(const bench::TrackerInput& input) override;
+  explicit DisDetector(const Intrinsics& camera, const DisParameters& parameters = {});
+  const FrameResult& step(const bench::DetectorInput& input) override;
   Diagnostics diagnostics() const override { return pictures_.diagnostics(); }
 
  private:

@@ -6,14 +6,14 @@
 
 namespace lcs::comparators {
 
-HomographyTracker::HomographyTracker(const HomographyParameters& parameters)
+HomographyDetector::HomographyDetector(const HomographyParameters& parameters)
     : parameters_(parameters), flow_(parameters.flow), groups_(parameters.groups) {
   if (parameters.least_corners < 4) {
     throw std::invalid_argument("a homography needs at least 4 corners");
   }
 }
 
-const FrameResult& HomographyTracker::step(const bench::TrackerInput& input) {
+const FrameResult& HomographyDetector::step(const bench::DetectorInput& input) {
   const EgoMotion& motion = flow_.see(input.grey, input.motion);
   guesses_.clear();
   for (const Eigen::Vector2f& corner : input.corners_px) guesses_.push_back(corner.cast<double>());

@@ -5,7 +5,7 @@
 /// code for moving cameras assumes.
 #pragma once
 
-#include "tools/bench/tracker.h"
+#include "tools/bench/detector.h"
 #include "tools/comparators/backward_flow.h"
 #include "tools/comparators/rebel_groups.h"
 
@@ -21,11 +21,11 @@ struct HomographyParameters {
   GroupParameters groups;
 };
 
-class HomographyTracker : public bench::Tracker {
+class HomographyDetector : public bench::Detector {
  public:
   /// \throws std::invalid_argument for a parameter out of its range.
-  explicit HomographyTracker(const HomographyParameters& parameters = {});
-  const FrameResult& step(const bench::TrackerInput& input) override;
+  explicit HomographyDetector(const HomographyParameters& parameters = {});
+  const FrameResult& step(const bench::DetectorInput& input) override;
   Diagnostics diagnostics() const override { return flow_.diagnostics(); }
 
  private:

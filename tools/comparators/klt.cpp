@@ -2,13 +2,13 @@
 
 namespace lcs::comparators {
 
-KltTracker::KltTracker(const Intrinsics& camera, const KltParameters& parameters)
+KltDetector::KltDetector(const Intrinsics& camera, const KltParameters& parameters)
     : camera_(camera),
       parameters_(parameters),
       flow_(parameters.flow),
       groups_(parameters.groups) {}
 
-const FrameResult& KltTracker::step(const bench::TrackerInput& input) {
+const FrameResult& KltDetector::step(const bench::DetectorInput& input) {
   const EgoMotion& motion = flow_.see(input.grey, input.motion);
   const MotionField field = exact_field(camera_, motion);
   const MotionField back = exact_field(camera_, turned_back(motion));

@@ -7,7 +7,7 @@
 /// nothing else, and so decides on two frames.
 #pragma once
 
-#include "tools/bench/tracker.h"
+#include "tools/bench/detector.h"
 #include "tools/comparators/backward_flow.h"
 #include "tools/comparators/epipolar.h"
 #include "tools/comparators/rebel_groups.h"
@@ -20,11 +20,11 @@ struct KltParameters {
   GroupParameters groups;
 };
 
-class KltTracker : public bench::Tracker {
+class KltDetector : public bench::Detector {
  public:
   /// \throws std::invalid_argument for a parameter out of its range.
-  explicit KltTracker(const Intrinsics& camera, const KltParameters& parameters = {});
-  const FrameResult& step(const bench::TrackerInput& input) override;
+  explicit KltDetector(const Intrinsics& camera, const KltParameters& parameters = {});
+  const FrameResult& step(const bench::DetectorInput& input) override;
   Diagnostics diagnostics() const override { return flow_.diagnostics(); }
 
  private:

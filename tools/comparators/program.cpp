@@ -82,15 +82,15 @@ void add_rows(const std::string& type, const Json& rows, bench::FrameDetections&
 
 }  // namespace
 
-ProgramTracker::ProgramTracker(std::string name, const Program& program, const Announced& announced,
-                               std::function<void()> on_wait)
+ProgramDetector::ProgramDetector(std::string name, const Program& program,
+                                 const Announced& announced, std::function<void()> on_wait)
     : name_(std::move(name)),
       camera_(announced.camera),
       process_(program.command, program.timeout_s, std::move(on_wait)) {
   at(name_, "its greeting", [&] { greet(announced); });
 }
 
-void ProgramTracker::greet(const Announced& announced) {
+void ProgramDetector::greet(const Announced& announced) {
   const std::size_t bytes = static_cast<std::size_t>(announced.camera.width_px) *
                             static_cast<std::size_t>(announced.camera.height_px) * 3;
   const std::string header = fmt::format(
@@ -121,7 +121,7 @@ void ProgramTracker::greet(const Announced& announced) {
   }
 }
 
-void ProgramTracker::read_answer(const std::string& line, bench::FrameRecord& frame) {
+void ProgramDetector::read_answer(const std::string& line, bench::FrameRecord& frame) {
   const Json answer = parsed(line);
   const auto index = answer.find(kIndex);
   if (index == answer.end()) {
@@ -143,7 +143,7 @@ void ProgramTracker::read_answer(const std::string& line, bench::FrameRecord& fr
   counts_ += detections.finish();
 }
 
-const FrameResult& ProgramTracker::step(const bench::TrackerInput& input) {
+const FrameResult& ProgramDetector::step(const bench::DetectorInput& input) {
   if (input.image.empty()) {
     throw DetectorError(
         fmt::format("detector {}: there is no picture of frame {}", name_, input.index));
@@ -164,11 +164,11 @@ const FrameResult& ProgramTracker::step(const bench::TrackerInput& input) {
   return result_;
 }
 
-void ProgramTracker::finish() {
+void ProgramDetector::finish() {
   at(name_, "after the last frame", [&] { process_.finish(); });
 }
 
-std::vector<std::string> ProgramTracker::told() const {
+std::vector<std::string> ProgramDetector::told() const {
   std::vector<std::string> lines = bench::lines_of(counts_);
   for (const std::string& line : process_.said()) {
     lines.push_back(fmt::format("{}: {}", name_, line));

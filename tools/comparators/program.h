@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "filter/ego_motion/intake.h"
-#include "tools/bench/tracker.h"
+#include "tools/bench/detector.h"
 #include "tools/comparators/detector_process.h"
 #include "tools/recording/frame_detections.h"
 
@@ -33,15 +33,15 @@ struct Announced {
   bool compressed = false;  ///< pictures are those that an earlier run kept
 };
 
-class ProgramTracker : public bench::Tracker {
+class ProgramDetector : public bench::Detector {
  public:
   /// Starts the program, tells it what comes, and waits for its greeting.
   /// \param name for messages. \param on_wait as `DetectorProcess` has it.
   /// \throws DetectorError for whatever goes wrong with it, naming it and the frame.
-  ProgramTracker(std::string name, const Program& program, const Announced& announced,
-                 std::function<void()> on_wait);
+  ProgramDetector(std::string name, const Program& program, const Announced& announced,
+                  std::function<void()> on_wait);
 
-  const FrameResult& step(const bench::TrackerInput& input) override;
+  const FrameResult& step(const bench::DetectorInput& input) override;
   double bench::FrameTimes::*step_time() const override { return &bench::FrameTimes::process_ms; }
   bool gives_circles() const override { return gives_circles_; }
   const bench::SquareMasks& masks() const override { return masks_; }

@@ -6,19 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "tools/bench/tracker.h"
+#include "tools/bench/detector.h"
 #include "tools/recording/detections.h"
 
 namespace lcs::comparators {
 
-class StoredDetections : public bench::Tracker {
+class StoredDetections : public bench::Detector {
  public:
   /// \param sequence whose frames it will be asked of, in order.
   /// \throws scenario::Error by file and line.
   StoredDetections(const std::filesystem::path& csv, const bench::Recording& sequence)
       : said_(bench::read_detections(csv, sequence)) {}
 
-  const FrameResult& step(const bench::TrackerInput&) override {
+  const FrameResult& step(const bench::DetectorInput&) override {
     bench::FrameRecord& frame = said_.recording.frames.at(next_++);
     result_.verdicts = std::move(frame.verdicts);
     result_.layers = std::move(frame.layers);

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "scenarios/imu_presets.h"
+#include "tools/bench/detector.h"
 #include "tools/bench/ego_motion_feed.h"
-#include "tools/bench/tracker.h"
 #include "tools/kinematics/theory.h"
 #include "tools/process/parallel.h"
 #include "tools/scoring/statistics.h"

@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
+#include "tools/bench/detector.h"
 #include "tools/bench/ego_motion_feed.h"
-#include "tools/bench/tracker.h"
 
 namespace lcs::kinematics {
 namespace {

@@ -7,8 +7,8 @@
 #include "filter/detect/fast.h"
 #include "filter/paper/any_filter.h"
 #include "sim/simulation.h"
+#include "tools/bench/detector.h"
 #include "tools/bench/ego_motion_feed.h"
-#include "tools/bench/tracker.h"
 
 namespace lcs::kinematics {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sim/imu_noise.h"
-#include "tools/bench/tracker.h"
+#include "tools/bench/detector.h"
 
 namespace lcs::kinematics {
 namespace {

@@ -29,22 +29,22 @@ inline std::vector<std::string> arguments_of(const DetectorOptions& options) {
           fmt::format("{} s", options.timeout_s)};
 }
 
-/// \throws std::invalid_argument as `comparators::wanted` and its like.
-inline comparators::Wanted wanted(const DetectorOptions& options) {
+/// \throws std::invalid_argument as `comparators::spec_of` and its like.
+inline comparators::DetectorSpec spec_of(const DetectorOptions& options) {
   if (!options.command.empty()) {
-    return comparators::wanted_program(options.name, {options.command, options.timeout_s});
+    return comparators::spec_of_program(options.name, {options.command, options.timeout_s});
   }
   if (!options.detections.empty()) {
-    return comparators::wanted_file(options.name, options.detections);
+    return comparators::spec_of_file(options.name, options.detections);
   }
-  return comparators::wanted(options.name.empty() ? "lcs" : options.name);
+  return comparators::spec_of(options.name.empty() ? "lcs" : options.name);
 }
 
 /// --detector, with all that there are and what each is, and how to give one's own.
 inline void add_detector_option(CLI::App& command, DetectorOptions& options,
                                 const std::string& more = "") {
   std::string about = "What watches; lcs if not given:";
-  for (const comparators::Detector& each : comparators::detectors()) {
+  for (const comparators::DetectorKind& each : comparators::detectors()) {
     about += fmt::format("\n{:<10} {}", each.name, each.purpose);
   }
   command

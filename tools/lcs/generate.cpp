@@ -14,7 +14,7 @@
 #include "scenarios/load.h"
 #include "scenarios/scenes.h"
 #include "sim/simulation.h"
-#include "tools/bench/tracker.h"
+#include "tools/bench/detector.h"
 #include "tools/files/csv.h"
 #include "tools/files/output.h"
 #include "tools/lcs/interrupt.h"

@@ -15,8 +15,8 @@
 #include "scenarios/scenes.h"
 #include "sim/simulation.h"
 #include "tools/bench/bench.h"
+#include "tools/bench/detector.h"
 #include "tools/bench/earlier_run.h"
-#include "tools/bench/tracker.h"
 #include "tools/comparators/detectors.h"
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/interrupt.h"
@@ -133,7 +133,7 @@ Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
   if (is_program && !earlier->pictures()) {
     throw std::invalid_argument(
         fmt::format("{} has no pictures to hand to {}; record it with --events", options.recorded,
-                    wanted(options.detector).name));
+                    spec_of(options.detector).name));
   }
   if (with_images && !earlier->pictures()) {
     throw std::invalid_argument(
@@ -157,7 +157,7 @@ Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
             std::vector<Diagnostics> all;
             for (const bench::Watcher& watcher : watchers) {
               all.push_back(
-                  earlier->run(watcher.tracker, watcher.recording, with_images, watcher.sink));
+                  earlier->run(watcher.detector, watcher.recording, with_images, watcher.sink));
             }
             return all;
           }};
@@ -165,11 +165,11 @@ Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
 
 /// A detector that watches, and where what it says goes.
 struct Watching {
-  comparators::Wanted wanted;
+  comparators::DetectorSpec spec;
   std::filesystem::path target;
   scenario::Scenario scenario;  ///< as it takes it
   std::vector<std::string> idle_settings = {};
-  std::unique_ptr<bench::Tracker> tracker = {};
+  std::unique_ptr<bench::Detector> detector = {};
   bench::Recording recording = {};
   std::unique_ptr<bench::Result> result = {};
 };
@@ -177,7 +177,7 @@ struct Watching {
 /// The run's own detector and those beside it.
 std::vector<Watching> watching(const RunOptions& options, const scenario::Scenario& scenario) {
   std::vector<Watching> all;
-  all.push_back({wanted(options.detector), target_of(options, scenario), scenario});
+  all.push_back({spec_of(options.detector), target_of(options, scenario), scenario});
   for (const std::string& beside : options.beside) {
     const std::size_t equals = beside.find('=');
     if (equals == std::string::npos || equals + 1 == beside.size()) {
@@ -185,12 +185,12 @@ std::vector<Watching> watching(const RunOptions& options, const scenario::Scenar
           "--beside {}: give a detector and the folder for its results, as klt=out/klt", beside));
     }
     all.push_back(
-        {comparators::wanted(beside.substr(0, equals)), beside.substr(equals + 1), scenario});
+        {comparators::spec_of(beside.substr(0, equals)), beside.substr(equals + 1), scenario});
   }
   for (Watching& one : all) {
     // whoever reads the filter's settings: what is wrong is told
-    one.idle_settings = comparators::apply_preset(one.wanted, one.scenario);
-    if (!options.recorded.empty()) comparators::require_corners_suffice(one.wanted);
+    one.idle_settings = comparators::apply_preset(one.spec, one.scenario);
+    if (!options.recorded.empty()) comparators::require_corners_suffice(one.spec);
   }
   return all;
 }
@@ -205,7 +205,7 @@ void write_page(const RunOptions& options, const scenario::Scenario& scenario, c
   };
   for (const std::string& set : options.sets) add("--set", set);
   add("--frames", options.frames);
-  if (own.wanted.name != "lcs") add("--detector", own.wanted.name);
+  if (own.spec.name != "lcs") add("--detector", own.spec.name);
   add("--recorded", options.recorded);
   add("--detections", options.detector.detections);
   std::ranges::move(arguments_of(options.detector), std::back_inserter(command));
@@ -217,8 +217,8 @@ void write_page(const RunOptions& options, const scenario::Scenario& scenario, c
                        .criteria = {},
                        .warnings = bench::warnings_of(own.recording),
                        .folder = "."};
-  suite::judge_run(bench::asked_of(own.wanted.name, true, scenario.criteria), run);
-  suite::SuiteResult suite{.detector = own.wanted.name,
+  suite::judge_run(bench::asked_of(own.spec.name, true, scenario.criteria), run);
+  suite::SuiteResult suite{.detector = own.spec.name,
                            .sets = options.sets,
                            .version = version_line(),
                            .recorded = options.recorded,
@@ -311,13 +311,13 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   std::optional<View> view;
   if (options.view) view.emplace(scenario.name, scenario.camera.rate_hz);
   for (Watching& one : all) {
-    one.tracker = comparators::make(one.wanted, {.camera = frames.camera,
-                                                 .scenario = one.scenario,
-                                                 .recorded = frames.earlier,
-                                                 .on_wait = check_interrupted});
+    one.detector = comparators::make(one.spec, {.camera = frames.camera,
+                                                .scenario = one.scenario,
+                                                .recorded = frames.earlier,
+                                                .on_wait = check_interrupted});
     one.recording = frames.recording;
-    one.recording.detector = {one.wanted.name, one.wanted.detector.layered,
-                              one.tracker->gives_circles()};
+    one.recording.detector = {one.spec.name, one.spec.detector.layered,
+                              one.detector->gives_circles()};
     one.recording.camera = frames.camera;
   }
   for (Watching& one : all) {
@@ -339,7 +339,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   warn(scenario::shadowed_files(scenario));
   warn(own.idle_settings);
   std::set<std::string> names;
-  for (const Watching& one : all) names.insert(one.wanted.name);
+  for (const Watching& one : all) names.insert(one.spec.name);
   warn(bench::not_asked(scenario.criteria, names));
   warn(frames.missing);
   std::vector<Diagnostics> diagnostics;
@@ -347,7 +347,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
     Progress progress(scenario.name, scenario.frames, options.quiet);
     std::vector<bench::Watcher> watchers;
     for (Watching& one : all) {
-      watchers.push_back({*one.tracker, one.recording,
+      watchers.push_back({*one.detector, one.recording,
                           [&](const bench::FrameRecord& frame, const cv::Mat3b& image) {
                             check_interrupted();
                             one.result->add(frame, image);
@@ -371,16 +371,16 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
     for (const std::string& line : playback->told()) tell(line);
   }
   for (const std::string& line : diagnostics.front().lines()) tell(line);
-  for (const std::string& line : own.tracker->told()) tell(line);
+  for (const std::string& line : own.detector->told()) tell(line);
   if (!options.quiet) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-      print_result(scenario, all[i].wanted.name, metrics[i], playback ? &*playback : nullptr,
+      print_result(scenario, all[i].spec.name, metrics[i], playback ? &*playback : nullptr,
                    all[i].result->output().target());
     }
   }
   bool failed = false;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto asked = bench::asked_of(all[i].wanted.name, i == 0, scenario.criteria);
+    const auto asked = bench::asked_of(all[i].spec.name, i == 0, scenario.criteria);
     failed |= report_missed(bench::judge(asked, metrics[i]));
   }
   if (view) view->hold();

@@ -14,7 +14,7 @@
 #include "scenarios/inputs_read.h"
 #include "scenarios/message.h"
 #include "scenarios/scenes.h"
-#include "tools/bench/tracker.h"
+#include "tools/bench/detector.h"
 #include "tools/comparators/detectors.h"
 #include "tools/files/output.h"
 #include "tools/files/output_file.h"
@@ -123,7 +123,7 @@ ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
 /// What is seldom meant, of all scenarios, each once. What is wrong with settings is told by the
 /// runs.
 std::vector<std::string> seldom_meant(const std::vector<suite::PlannedScenario>& plan,
-                                      const comparators::Wanted& wanted) {
+                                      const comparators::DetectorSpec& spec) {
   std::vector<std::string> lines;
   const auto add = [&](const std::vector<std::string>& more) {
     for (const std::string& line : more) {
@@ -135,7 +135,7 @@ std::vector<std::string> seldom_meant(const std::vector<suite::PlannedScenario>&
     add(scenario::shadowed_files(*planned.scenario));
     try {
       scenario::Scenario scenario = *planned.scenario;
-      add(comparators::apply_preset(wanted, scenario));
+      add(comparators::apply_preset(spec, scenario));
     } catch (const scenario::Error&) {
     }
   }
@@ -156,7 +156,7 @@ void print_changes(const suite::Verdict& verdict, const suite::Comparison& compa
 std::set<std::string> names_of_all(const SuiteOptions& options, const std::string& own) {
   std::set<std::string> names{own};
   for (const std::string& name : options.beside) {
-    comparators::wanted(name);
+    comparators::spec_of(name);
     if (!names.insert(name).second) {
       throw std::invalid_argument(fmt::format("--beside {}: it is run already", name));
     }
@@ -279,12 +279,12 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
 
 ExitCode suite(const SuiteOptions& options) {
   // What cannot be is told before anything runs.
-  const comparators::Wanted wanted = tools::wanted(options.detector);
-  const std::string& own = wanted.name;
+  const comparators::DetectorSpec spec = tools::spec_of(options.detector);
+  const std::string& own = spec.name;
   const std::set<std::string> watching = names_of_all(options, own);
   std::string recorded;
   if (!options.recorded.empty()) {
-    comparators::require_corners_suffice(wanted);
+    comparators::require_corners_suffice(spec);
     recorded = fmt::format("{}, {}", options.recorded, suite::read_suite(options.recorded).version);
   }
   const bool of_worlds = !options.worlds.split.empty();
@@ -298,7 +298,7 @@ ExitCode suite(const SuiteOptions& options) {
                    .seeds = options.seeds.value_or(of_worlds ? 1 : 3)});
   if (options.list) return list_plan(plan);
   if (!options.detector.detections.empty()) require_detections(options.detector.detections, plan);
-  warn(seldom_meant(plan, wanted));
+  warn(seldom_meant(plan, spec));
   warn(bench::not_asked(criteria_of(plan), watching));
   std::optional<suite::SuiteResult> baseline;
   if (!options.baseline.empty()) baseline = suite::read_suite(options.baseline);
@@ -342,7 +342,7 @@ ExitCode suite(const SuiteOptions& options) {
   // What looks at pictures cannot watch a recording.
   std::vector<std::string> beside_own{own}, apart;
   for (const std::string& name : options.beside) {
-    const bool looks = comparators::wanted(name).detector.sees_pictures;
+    const bool looks = comparators::spec_of(name).detector.sees_pictures;
     (looks && !options.recorded.empty() ? apart : beside_own).push_back(name);
   }
   std::vector<suite::SuiteResult> others = run(beside_own, options.recorded);

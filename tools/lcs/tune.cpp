@@ -15,7 +15,7 @@
 
 #include "scenarios/input_file.h"
 #include "scenarios/message.h"
-#include "tools/bench/tracker.h"
+#include "tools/bench/detector.h"
 #include "tools/files/output.h"
 #include "tools/files/sha256.h"
 #include "tools/lcs/interrupt.h"

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "tools/bench/detector.h"
 #include "tools/bench/timed.h"
-#include "tools/bench/tracker.h"
 #include "tools/python/arrays.h"
 #include "tools/python/scenario.h"
 #include "tools/python/type.h"

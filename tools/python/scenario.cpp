@@ -9,7 +9,7 @@
 #include "scenarios/load.h"
 #include "scenarios/reader.h"
 #include "scenarios/scenes.h"
-#include "tools/bench/tracker.h"
+#include "tools/bench/detector.h"
 #include "tools/python/arrays.h"
 #include "tools/python/type.h"
 #include "tools/replay/playback.h"

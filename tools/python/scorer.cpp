@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/bench/tracker.h"
+#include "tools/bench/detector.h"
 #include "tools/python/arrays.h"
 #include "tools/python/filter.h"
 #include "tools/python/frame.h"

@@ -53,7 +53,7 @@ struct FrameRecord {
   std::vector<Reason> reasons;              ///< of each verdict; empty where none are given
   Layers layers;
   SquareMasks masks;
-  EgoMotion motion;                            ///< since the last frame, as the tracker was told
+  EgoMotion motion;                            ///< since the last frame, as the detector was told
   EgoMotion true_motion;                       ///< likewise, from the exact poses
   std::vector<sim::CornerTruth> corner_truth;  ///< of each corner
   std::vector<sim::ObjectTruth> object_truth;

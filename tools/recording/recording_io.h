@@ -1,11 +1,11 @@
 /// \file
-/// A recording on disk, without its times: `layers.jsonl` holds what the tracker was given and what
-/// it found, `truth.jsonl` the truth. Each frame is a JSON object on a line of its own;
+/// A recording on disk, without its times: `layers.jsonl` holds what the detector was given and
+/// what it found, `truth.jsonl` the truth. Each frame is a JSON object on a line of its own;
 /// `truth.jsonl` begins with a further line about the run and its detector. `told_motion` in the
-/// first file is the motion that the tracker was told, `true_motion` in the second the exact one.
+/// first file is the motion that the detector was told, `true_motion` in the second the exact one.
 /// Lists of items are stored by column, as {"id": [1, 2], "x": [3.5, 4]}.
 ///
-/// Where the tracker was given signatures, `layers.jsonl` has "signatures": 32 bytes for each
+/// Where the detector was given signatures, `layers.jsonl` has "signatures": 32 bytes for each
 /// corner, in the order of the corners, as ORB has them, in hexadecimal digits (Python:
 /// `bytes.fromhex(frame["signatures"])`).
 ///

@@ -1,7 +1,7 @@
 /// \file
-/// From any lens to a pinhole with square pixels, which is what trackers know. Corners are found in
-/// the picture as it was taken, and taken to where the pinhole would have seen them, to the digit;
-/// only for those who look at pictures is the picture itself straightened, which blurs it.
+/// From any lens to a pinhole with square pixels, which is what detectors know. Corners are found
+/// in the picture as it was taken, and taken to where the pinhole would have seen them, to the
+/// digit; only for those who look at pictures is the picture itself straightened, which blurs it.
 #pragma once
 
 #include <Eigen/Core>

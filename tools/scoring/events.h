@@ -3,7 +3,7 @@
 /// rebels, circles with no mover under them, objects without their square, squares without an
 /// object, merged over neighbouring frames. What is missed and what is false is for
 /// `score_rebels.h` and `score_squares.h` to say; here it is only gathered, with the reasons that
-/// the tracker gave.
+/// the detector gave.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// What is under test: a tracker, which says of each corner of a frame whether it moves by itself.
+/// What is under test: a detector, which says of each corner of a frame whether it moves by itself.
 /// The LCS filter is one, each comparator another; the bench treats all alike.
 #pragma once
 
@@ -17,8 +17,8 @@
 
 namespace lcs::bench {
 
-/// All that a tracker is told of a frame.
-struct TrackerInput {
+/// All that a detector is told of a frame.
+struct DetectorInput {
   const cv::Mat3b& image;  ///< BGR
   const cv::Mat1b& grey;   ///< the same: what the corners were found in
   std::span<const Eigen::Vector2f> corners_px;
@@ -28,18 +28,18 @@ struct TrackerInput {
   std::int64_t t_ns = 0;                       ///< its time
 };
 
-class Tracker {
+class Detector {
  public:
-  virtual ~Tracker() = default;
+  virtual ~Detector() = default;
 
   /// \return a verdict for each corner, in the order given, the layers if there are any, and the
   ///   times of stages. Valid until the next step.
-  virtual const FrameResult& step(const TrackerInput& input) = 0;
+  virtual const FrameResult& step(const DetectorInput& input) = 0;
 
   /// Whether signatures are to be made for it, which takes longer than to find the corners.
   virtual bool wants_signatures() const { return false; }
 
-  /// The pixels that each square of the last step covers, from a tracker that finds them.
+  /// The pixels that each square of the last step covers, from a detector that finds them.
   virtual const SquareMasks& masks() const {
     static const SquareMasks kNone;
     return kNone;
@@ -62,16 +62,16 @@ class Tracker {
   virtual std::vector<std::string> told() const { return {}; }
 };
 
-/// The simulator's camera in the form that the filter and all trackers take.
+/// The simulator's camera in the form that the filter and all detectors take.
 Intrinsics intrinsics(const sim::Pinhole& camera);
 
 /// The LCS filter. It sees corners, their signatures if there are any, and ego-motion, never the
 /// image.
-class LcsTracker : public Tracker {
+class LcsDetector : public Detector {
  public:
-  LcsTracker(const Intrinsics& camera, const AnyParameters& parameters)
+  LcsDetector(const Intrinsics& camera, const AnyParameters& parameters)
       : filter_(camera, parameters) {}
-  const FrameResult& step(const TrackerInput& input) override {
+  const FrameResult& step(const DetectorInput& input) override {
     if (input.signatures.empty()) return filter_.step(input.corners_px, input.motion);
     return filter_.step(input.corners_px, input.signatures, input.motion);
   }

@@ -1,4 +1,4 @@
-#include "tools/bench/tracker.h"
+#include "tools/bench/detector.h"
 
 #include <fmt/format.h>
 
