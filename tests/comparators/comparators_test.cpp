@@ -29,10 +29,10 @@ Recording run(std::string_view name, const char* file, std::vector<std::string> 
   const scenario::Scenario scenario = scenario::load(std::string(LCS_SCENARIOS_DIR "/") + file,
                                                      {.sets = std::move(sets), .seed = {}});
   sim::Simulation simulation(scenario);
-  const auto detector =
+  const auto made =
       detector(name).make(bench::intrinsics(simulation.calibration().camera), scenario);
   Recording recording = bench::begin_recording(scenario, simulation);
-  bench::run(scenario, simulation, *detector, recording,
+  bench::run(scenario, simulation, *made, recording,
              [](const bench::FrameRecord&, const cv::Mat3b&) {});
   return recording;
 }

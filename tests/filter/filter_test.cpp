@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "filter/kinematics/geometry.h"
+#include "tests/filter/invariants.h"
 #include "tests/filter/presets.h"
 #include "tests/filter/same_result.h"
 #include "tests/filter/world.h"

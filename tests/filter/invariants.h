@@ -9,9 +9,19 @@
 #include <span>
 #include <string>
 
-#include "tests/filter/presets.h"
+#include "filter/paper/any_filter.h"
 
 namespace lcs::testing {
+
+/// Ranks of the trust of edges and circles.
+inline TrustRanks circle_trust(const AnyParameters& parameters) {
+  return std::visit([](const auto& p) { return p.circle.trust; }, parameters);
+}
+/// Ranks of the trust of squares: in the default each has that of its circle.
+inline TrustRanks square_trust(const AnyParameters& parameters) {
+  const auto* paper = std::get_if<paper::PaperParameters>(&parameters);
+  return paper ? paper->square.trust : circle_trust(parameters);
+}
 
 inline bool finite(std::initializer_list<double> numbers) {
   return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });

@@ -14,16 +14,6 @@ struct OfEachPreset : ::testing::TestWithParam<std::string> {
   AnyParameters parameters() const { return preset(GetParam()); }
 };
 
-/// Ranks of the trust of edges and circles.
-inline TrustRanks circle_trust(const AnyParameters& parameters) {
-  return std::visit([](const auto& p) { return p.circle.trust; }, parameters);
-}
-/// Ranks of the trust of squares: in the default each has that of its circle.
-inline TrustRanks square_trust(const AnyParameters& parameters) {
-  const auto* paper = std::get_if<paper::PaperParameters>(&parameters);
-  return paper ? paper->square.trust : circle_trust(parameters);
-}
-
 inline auto each_preset() {
   return ::testing::ValuesIn(preset_names());
 }

@@ -1,6 +1,7 @@
 // The estimator of ego-motion, fed arbitrary readings at arbitrary times, and the filter behind it.
 #include <array>
 
+#include "filter/ego_motion/estimator.h"
 #include "filter/ego_motion/intake.h"
 #include "filter/kinematics/geometry.h"
 #include "tests/filter/invariants.h"
