@@ -138,10 +138,11 @@ std::string scene_text(const World& world) {
 std::string scenario_text(const World& world) {
   scenario::Scenario s = world.scenario;
   s.scene = "scene.xml";
-  s.origin = {.family = world.family,
-              .seed = world.seed,
-              .again = static_cast<std::uint64_t>(world.attempt),
-              .features = {world.features.begin(), world.features.end()}};
+  scenario::Origin& origin = s.origin.emplace();
+  origin.family = world.family;
+  origin.seed = world.seed;
+  origin.again = static_cast<std::uint64_t>(world.attempt);
+  origin.features = {world.features.begin(), world.features.end()};
   return fmt::format("# Written by `lcs world {} --seed {}`.\n{}\n", world.family, world.seed,
                      scenario::yaml_text(scenario::document_of(s)));
 }
