@@ -41,16 +41,29 @@ std::string rotation_text(const Eigen::Quaterniond& q) {
 }
 
 std::string geom_text(const Part& part) {
-  // In the order of Part::Shape.
-  constexpr std::array<const char*, 6> kShapes{"box",       "cylinder", "capsule",
-                                               "ellipsoid", "plane",    "mesh"};
-  const bool is_round = part.shape == Part::Shape::cylinder || part.shape == Part::Shape::capsule;
-  const std::string size =
-      is_round ? numbers(part.size_m.x(), part.size_m.y()) : numbers(part.size_m);
-  const std::string shape =
-      fmt::format("type=\"{}\" {}", kShapes[static_cast<std::size_t>(part.shape)],
-                  part.shape == Part::Shape::mesh ? fmt::format("mesh=\"mesh_{}\"", part.mesh)
-                                                  : fmt::format("size=\"{}\"", size));
+  std::string shape;
+  switch (part.shape) {
+    case Part::Shape::box:
+      shape = fmt::format("type=\"box\" size=\"{}\"", numbers(part.size_m));
+      break;
+    case Part::Shape::ellipsoid:
+      shape = fmt::format("type=\"ellipsoid\" size=\"{}\"", numbers(part.size_m));
+      break;
+    case Part::Shape::cylinder:
+      shape =
+          fmt::format("type=\"cylinder\" size=\"{}\"", numbers(part.size_m.x(), part.size_m.y()));
+      break;
+    case Part::Shape::capsule:
+      shape =
+          fmt::format("type=\"capsule\" size=\"{}\"", numbers(part.size_m.x(), part.size_m.y()));
+      break;
+    case Part::Shape::plane:
+      shape = fmt::format("type=\"plane\" size=\"{}\"", numbers(part.size_m));
+      break;
+    case Part::Shape::mesh:
+      shape = fmt::format("type=\"mesh\" mesh=\"mesh_{}\"", part.mesh);
+      break;
+  }
   const std::string place =
       part.position_m.isZero() ? "" : fmt::format(" pos=\"{}\"", numbers(part.position_m));
   return fmt::format("<geom {}{}{}{} material=\"material_{}\"/>\n",
@@ -129,7 +142,7 @@ std::string scenario_text(const World& world) {
   origin.family = world.family;
   origin.seed = world.seed;
   origin.again = static_cast<std::uint64_t>(world.attempt);
-  origin.features.assign(world.features.begin(), world.features.end());
+  origin.features = {world.features.begin(), world.features.end()};
   return fmt::format("# Written by `lcs world {} --seed {}`.\n{}\n", world.family, world.seed,
                      scenario::yaml_text(scenario::document_of(s)));
 }
