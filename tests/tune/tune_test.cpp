@@ -62,7 +62,7 @@ struct Search {
   int evaluations = 120;
   std::uint64_t seed = 1;
   std::string subject = "a hill";
-  Parameters start;
+  Parameters start = {};
 
   SearchOptions options() const {
     return {.axes = axes_of(start, keys), .evaluations = evaluations, .seed = seed};
