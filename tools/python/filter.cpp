@@ -159,7 +159,7 @@ void bind_filter(py::module_& module) {
           py::init(&of_camera), py::arg("camera"), py::arg("preset") = "default", py::kw_only(),
           py::arg("set") = py::none(),
           "preset: default, lab or cars. set: parameters on top of it, by the keys of\n"
-          "filter/parameters.h: {\"circle.gap\": 0.3}; angles in degrees.\n"
+          "filter/parameters.cpp: {\"circle.gap\": 0.3}; angles in degrees.\n"
           "Raises Error for what is no preset, key or value, ValueError for a camera that is none.")
       .def("step", &step, py::arg("corners"), py::arg("motion"), py::arg("signatures") = py::none(),
            "The next frame.\n\n"
