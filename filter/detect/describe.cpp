@@ -16,8 +16,7 @@ constexpr int kPatch_px = 31;
 /// Margin added round the picture, so that ORB accepts every corner in it.
 constexpr int kMargin_px = kPatch_px + 1;
 
-/// Keypoints in the padded picture, of the corners in the picture; `class_id` is the corner's
-/// index.
+/// Keypoints of the corners in the picture, in padded pixels; `class_id`: corner index.
 std::vector<cv::KeyPoint> keypoints_at(std::span<const Eigen::Vector2f> corners_px,
                                        const Pixels& picture) {
   std::vector<cv::KeyPoint> keypoints;

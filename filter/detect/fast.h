@@ -10,9 +10,8 @@
 
 namespace lcs {
 
-/// A corner has nine contiguous pixels, of the circle of 16, brighter or darker than the centre by
-/// the threshold. Non-maximum suppression is on. Pure: the same image gives the same corners in
-/// order.
+/// A corner: nine contiguous pixels of the circle of 16 are brighter or darker than the centre by
+/// the threshold; non-maximum suppression. Pure: the same image gives the same ordered corners.
 class FastDetector {
  public:
   /// \param threshold in grey levels, 1 to 254; absent: computed for each picture
