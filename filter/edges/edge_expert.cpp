@@ -203,8 +203,7 @@ Edge EdgeExpert::edge_of(const Track& track, const MotionField& field) const {
     const Vec2& velocity_pxps = track.as_moving.velocity_pxps;
     edge.speed = velocity_pxps.norm();
     if (edge.speed > 0) edge.angle = angle_of(velocity_pxps);
-    edge.origin =
-        edge.location - field.dt_s() * velocity_pxps;  // so that beta is the current direction
+    edge.origin = edge.location - field.dt_s() * velocity_pxps;  // so that beta is current
     return edge;
   }
   move_as_static(edge, camera_, field);

@@ -84,8 +84,7 @@ StaticPoint StaticPoint::predicted(const Intrinsics& camera, const MotionField& 
   // camera has no image and keeps its place and inverse depth.
   const double nearest = nearest_pm(field);
   const Vec2 before = (place_px - camera.centre_px) / camera.focal_px;
-  const double Z =
-      field.R_cur_prev().row(2).dot(before.homogeneous());  // depth ratio of the rotation
+  const double Z = field.R_cur_prev().row(2).dot(before.homogeneous());  // Z after R / Z before
   const double turned = Z > 0 ? std::max(inverse_depth_pm / nearest, Z) : 1;
   const double w = inverse_depth_pm / turned;
   const double nearing = std::max(w / nearest, 1 - w * d.z());

@@ -140,9 +140,8 @@ class EgoMotionEstimator {
   std::int64_t period_ns_ = 0;    ///< least maximum of two successive intervals so far
   Diagnostics diagnostics_;
   ImuWatch watch_;
-  Eigen::Vector3d dv_in_g_W_ =
-      Eigen::Vector3d::Zero();                  ///< velocity change while readings may be in g
-  std::optional<std::int64_t> wrong_frame_ns_;  ///< set if the last frame's time was wrong
+  Eigen::Vector3d dv_in_g_W_ = Eigen::Vector3d::Zero();  ///< velocity gained, maybe in g
+  std::optional<std::int64_t> wrong_frame_ns_;           ///< set if the last frame's time was wrong
 
   std::optional<std::int64_t> last_frame_ns_;
   double unseen_turn_rad2_ = 0;  ///< its variance since the last frame
