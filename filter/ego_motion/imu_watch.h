@@ -13,7 +13,7 @@ class ImuWatch {
  public:
   struct Options {
     double gravity_mps2 = 9.81;
-    bool noisy = true;  ///< false: an ideal IMU, whose repeated readings are no fault
+    bool noisy = true;  ///< false: ideal IMU, not checked for frozen or saturated readings
   };
   explicit ImuWatch(const Options& options) : options_(options) {}
 

@@ -213,8 +213,8 @@ void PaperEdges::update_rebel(Edge& edge, const Vec2& x, const MotionField& fiel
   result_.reasons[edge.corner] = Reason::rebel_edge;
 }
 
-/// Classifies the corners that no edge took. In case xi_1 a corner joins the layer of a normal edge
-/// that lost its own corner. All others go to alpha, and also start new normal edges.
+/// Starts a new normal edge at each corner that no edge took. The corner also goes to alpha, except
+/// in case xi_1: there it joins the layer of a normal edge that lost its own corner.
 void PaperEdges::classify_rest(const Chi& chi, const MotionField& field) {
   const std::vector<Edge>& normal_edges = result_.layer.edges.normal;
   to_alpha_.assign(chi.size(), 0);

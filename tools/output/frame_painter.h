@@ -15,8 +15,8 @@ namespace lcs::bench {
 
 class FramePainter {
  public:
-  /// \param image_px size of the camera's image. \param run that the frames are of: gives the names
-  ///   of scenario and objects, and what is known of them.
+  /// \param image_px size of the camera's image. \param run with the names of scenario and objects,
+  ///   and whether their truth is known.
   FramePainter(cv::Size image_px, const Recording& run);
 
   cv::Size size_px() const { return sheet_.size_px(); }

@@ -44,8 +44,7 @@ pid_t start_child(const char* program, std::span<const std::string> arguments,
   const pid_t self = ::getpid();
   const pid_t child = ::fork();
   if (child == 0) become(program, pointers.data(), files, options, self);
-  if (child < 0)
-    throw std::system_error(errno, std::generic_category(), "no process can be started (fork)");
+  if (child < 0) throw std::system_error(errno, std::generic_category(), "no process can be started (fork)");
   if (options.own_group) ::setpgid(child, child);  // set in both processes, to avoid a race
   return child;
 }
