@@ -11,8 +11,8 @@ namespace {
 
 /// Log odds that two edges at one place belong to one body.
 constexpr double kNear = 2;
-/// Standard deviation of inverse depth over a body, relative: the tangent of its slant to the
-/// image. Less accurate depths are not used.
+/// Standard deviation of a body's slope of inverse depth, relative: the tangent of its slant to the
+/// image. Normal edges with a larger relative error of depth are not used.
 constexpr double kSlant = 0.2;
 
 }  // namespace

@@ -27,7 +27,7 @@ class Coupling {
     double log_odds;
     Vec2 step_px;              ///< in this frame, rotation removed
     double step_variance_px2;  ///< on one axis
-    bool tells = true;         ///< false: seen once, the three fields before are not used
+    bool tells = true;         ///< false: seen once, so its motion is unknown
   };
 
   /// \param noise2_px2 variance of a corner's place on an axis, px^2.

@@ -41,7 +41,7 @@ struct StaticPoint {
   /// A point with one sighting, at `rotated_px` after the rotation, predicted to this frame at any
   /// depth within the bounds. Its place is linear in w of this frame:
   ///   x = x_r + w (d_z (x_r - c) - f d_xy).
-  /// Omits the error of the velocity, as that grows with the point's image motion.
+  /// Omits the error of the velocity: it depends on the image motion, unknown before the sighting.
   /// \param displacement_C_m of the camera since the sighting.
   static StaticPoint seen_once(const Vec2& rotated_px, const Intrinsics& camera,
                                const MotionField& field, const Eigen::Vector3d& displacement_C_m,

@@ -172,7 +172,7 @@ void EgoMotionEstimator::note_gap(std::int64_t silent_ns) {
   diagnostics_.add(Fault::imu_gap);
 }
 
-/// Period: the least maximum of two successive intervals, robust to one wrong time.
+/// Period: least value so far of the longer of two successive intervals; robust to a wrong time.
 void EgoMotionEstimator::measure_period(std::int64_t since_ns) {
   if (since_ns <= 0) return;
   note_gap(since_ns);

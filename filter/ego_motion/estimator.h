@@ -137,7 +137,7 @@ class EgoMotionEstimator {
   std::int64_t heard_ns_ = 0;     ///< time of the newest believed reading
   std::int64_t interval_ns_ = 0;  ///< time between the last two readings
   bool in_gap_ = false;           ///< the current gap has been counted
-  std::int64_t period_ns_ = 0;    ///< least maximum of two successive intervals so far
+  std::int64_t period_ns_ = 0;    ///< least of max(two successive intervals)
   Diagnostics diagnostics_;
   ImuWatch watch_;
   Eigen::Vector3d dv_in_g_W_ = Eigen::Vector3d::Zero();  ///< velocity gained, maybe in g

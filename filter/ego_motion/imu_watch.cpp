@@ -9,8 +9,8 @@ namespace {
 /// Coarse quantisation may repeat a reading by chance, but not on all six axes this many times.
 constexpr int kFrozen = 10;
 
-/// A saturated axis repeats its largest magnitude this many times. No sensor's range is smaller
-/// than these.
+/// A saturated axis repeats its largest magnitude this many times. No sensor's range ends
+/// below these limits.
 constexpr int kSaturated = 5;
 constexpr double kLeastRange_radps = 1.5, kLeastRange_g = 1.5;
 
