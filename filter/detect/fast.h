@@ -10,8 +10,8 @@
 
 namespace lcs {
 
-/// A corner: nine contiguous pixels of the circle of 16 are brighter or darker than the centre by
-/// the threshold; non-maximum suppression. Pure: the same image gives the same ordered corners.
+/// FAST-9: nine contiguous pixels of the circle of 16 are brighter or darker than the centre by the
+/// threshold; non-maximum suppression. Pure: one image always gives the same corners in one order.
 class FastDetector {
  public:
   /// \param threshold in grey levels, 1 to 254; absent: computed for each picture
