@@ -3,10 +3,9 @@
 ///
 /// The paper finds the points L_t where lines from the origin O touch the ellipse, moves them along
 /// those lines by d_r, and solves for the ellipse that touches there. The second case of d_r
-/// contradicts the first: its condition is printed as a ratio of norms against 0. The first case is
-/// the homothety about O by s = (|O L| + dr) / |O L|: L~ = O + s (L - O), R~ = s R. The
-/// construction fails if O is inside the ellipse, or if a tangent or chord is parallel to an axis.
-#pragma once
+/// contradicts the first: it compares a ratio of norms with 0. The first case is the homothety
+/// about O by s = (|O L| + dr) / |O L|: L~ = O + s (L - O), R~ = s R. The construction fails if O
+/// is inside the ellipse, or a tangent or chord is parallel to an axis; the homothety never fails.
 
 #include <optional>
 #include <utility>
