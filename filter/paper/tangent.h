@@ -6,6 +6,7 @@
 /// contradicts the first: it compares a ratio of norms with 0. The first case is the homothety
 /// about O by s = (|O L| + dr) / |O L|: L~ = O + s (L - O), R~ = s R. The construction fails if O
 /// is inside the ellipse, or a tangent or chord is parallel to an axis; the homothety never fails.
+#pragma once
 
 #include <optional>
 #include <utility>
