@@ -1,6 +1,6 @@
 /// \file
-/// Counts of what was wrong with the input. Bad data never throw: the filter drops or bridges a bad
-/// sample, and counts it here.
+/// Counts of faults in the input. Bad data never throw: the filter drops or bridges a bad sample
+/// and counts it here.
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@
 namespace lcs {
 
 enum class Fault : std::uint8_t {
-  // Of corners.
+  // Corners.
   corner_not_finite,
   corner_outside,
   corner_repeated,
   corner_too_many,
-  // Of the ego-motion that the filter is told.
+  // Given ego-motion.
   time_still,
   time_back,
   time_jump,
@@ -26,7 +26,7 @@ enum class Fault : std::uint8_t {
   motion_no_rotation,
   motion_contradicted,
   ground_unusable,
-  // Of the IMU and the odometry that the ego-motion is estimated from.
+  // IMU and odometry of the ego-motion estimator.
   imu_not_finite,
   imu_too_large,
   imu_out_of_order,
@@ -42,7 +42,7 @@ enum class Fault : std::uint8_t {
 
 struct FaultText {
   const char* word;
-  const char* meaning;  ///< for people, printed after the number of them
+  const char* meaning;  ///< human-readable, printed after the count
 };
 
 /// In the order of `Fault`.
@@ -81,14 +81,14 @@ constexpr const FaultText& text_of(Fault fault) {
   return kFaults[static_cast<std::size_t>(fault)];
 }
 
-/// How often each fault was met.
+/// Number of occurrences of each fault.
 class Diagnostics {
  public:
   void add(Fault fault, std::int64_t count = 1) {
     counts_[static_cast<std::size_t>(fault)] += count;
   }
 
-  /// For a fault that is reported elsewhere.
+  /// Resets the count of a fault that is reported elsewhere.
   void forget(Fault fault) { counts_[static_cast<std::size_t>(fault)] = 0; }
 
   std::int64_t count(Fault fault) const { return counts_[static_cast<std::size_t>(fault)]; }
@@ -103,7 +103,7 @@ class Diagnostics {
     return *this;
   }
 
-  /// One line for each fault that was met, as "3 corners are at no number: left out (corner_...)".
+  /// One line for each fault that occurred: "3 corners are at no number: left out (corner_...)".
   std::vector<std::string> lines() const {
     std::vector<std::string> lines;
     for (std::size_t i = 0; i < counts_.size(); ++i) {

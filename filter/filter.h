@@ -1,6 +1,6 @@
 /// \file
-/// The LCS filter: takes the corners of a frame and the ego-motion, gives layers and a verdict for
-/// each corner. filter/MODEL.md is its specification; `filter/paper/` has the paper's own filter.
+/// The LCS filter. Input: corners of a frame and ego-motion. Output: layers, and a verdict for each
+/// corner. filter/MODEL.md specifies it; `filter/paper/` has the paper's own filter.
 #pragma once
 
 #include <memory>
@@ -15,12 +15,12 @@
 
 namespace lcs {
 
-/// Deterministic: the same corners, signatures and motions give the same bits, in whatever order
-/// the corners of a frame come.
+/// Deterministic: the same corners, signatures and motions give the same bits, for any order of the
+/// corners of a frame.
 ///
-/// Bad data never throw and have no lasting effect. Invalid corners are dropped. Where the time or
-/// the motion since the last frame is unknown, the filter starts anew: from that frame on its
-/// results equal those of a new filter, except for the ids.
+/// Bad data never throw and have no lasting effect. Invalid corners are dropped. If the time or
+/// motion since the last frame is unknown, the filter resets: from that frame on its results equal
+/// those of a new filter, except for the ids.
 class Filter {
  public:
   /// \throws std::invalid_argument for parameters out of range, or an invalid camera.
@@ -35,12 +35,12 @@ class Filter {
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& motion);
 
   /// \param signatures one for each corner, in their order.
-  /// \throws std::invalid_argument for fewer or more signatures than corners; the filter is then as
-  ///   it was before the call.
+  /// \throws std::invalid_argument if the counts of signatures and corners differ; the filter is
+  ///   then unchanged.
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,
                           std::span<const Signature> signatures, const EgoMotion& motion);
 
-  /// What was wrong with the data of all frames so far.
+  /// Counts of the faults in the data so far.
   const Diagnostics& diagnostics() const;
 
  private:
@@ -51,7 +51,7 @@ class Filter {
 /// \throws std::invalid_argument for a camera without a focal length, principal point or pixels.
 void validate(const Intrinsics& camera);
 
-/// \throws std::invalid_argument for fewer or more signatures than corners.
+/// \throws std::invalid_argument if the counts of signatures and corners differ.
 void validate(std::span<const Eigen::Vector2f> corners_px, std::span<const Signature> signatures);
 
 }  // namespace lcs

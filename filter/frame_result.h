@@ -1,5 +1,5 @@
 /// \file
-/// What a filter says of one frame.
+/// A filter's result for one frame.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace lcs {
 
-/// Wall time of each expert in a frame. For reports only: no filter reads it.
+/// Wall time of each expert in a frame, ms. For reports only: no filter reads it.
 struct StageTimes {
   double line_ms = 0;
   double circle_ms = 0;
@@ -19,7 +19,7 @@ struct StageTimes {
 struct FrameResult {
   Layers layers;
   std::vector<Verdict> verdicts;  ///< one for each corner, in the caller's order
-  std::vector<Reason> reasons;    ///< of each verdict; empty from a detector without reasons
+  std::vector<Reason> reasons;    ///< of each verdict; empty if the detector gives none
   StageTimes times;
 };
 

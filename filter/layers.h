@@ -1,6 +1,5 @@
 /// \file
-/// The filter's state at the end of a frame: edges, circles and squares. Plain values; the paper's
-/// symbol stands beside each.
+/// The filter's state at the end of a frame: edges, circles and squares, with the paper's symbols.
 #pragma once
 
 #include <array>
@@ -14,34 +13,34 @@
 
 namespace lcs {
 
-/// Number that a landmark or layer keeps for its whole life; unique within a run and kind. With 32
-/// bits they would run out within a week of a busy street.
+/// Identifies a landmark or layer for its whole life; unique within a run and kind. 32 bits would
+/// overflow within a week of a busy street.
 using Id = std::uint64_t;
 
-/// A tracked corner: E_n where it moves as the static world must, E_r (rebel) where it does not.
+/// A tracked corner: E_n moves as a static point, E_r (rebel) does not.
 struct Edge {
   Id id = 0;
   bool rebel = false;
   Vec2 location = Vec2::Zero();   ///< L, px
   Vec2 origin = Vec2::Zero();     ///< O, px: first sighting (rebel), FOE (normal)
-  Vec2 rotated = Vec2::Zero();    ///< L of the frame before, moved by the rotation alone, px
-  Vec2 predicted = Vec2::Zero();  ///< L~, px: where this frame's corner was expected
+  Vec2 rotated = Vec2::Zero();    ///< L of the last frame, rotated to this one, px
+  Vec2 predicted = Vec2::Zero();  ///< L~, px: predicted place in this frame
   double speed = 0;               ///< V, px/s, along beta; never negative
   double depth_ratio = 1;         ///< V / V_v = Z_ref / Z, equal for landmarks of one depth
   double angle = 0;               ///< beta, of the direction of motion seen from O
   double mu = 0;                  ///< normal: radius of detection, px; rebel: deviation angle, rad
   int trust = 0;                  ///< Tr
-  int age = 0;                    ///< frames since it was made, 0 in its first
-  /// Standard deviation of depth_ratio; infinite where nothing is known.
+  int age = 0;                    ///< frames since its creation
+  /// Standard deviation of depth_ratio; infinite if unknown.
   double depth_ratio_sigma = std::numeric_limits<double>::infinity();
-  int corner = -1;  ///< index in the frame's corners of the one that supports it, -1: no corner
-  int circle = -1;  ///< index in its kind's circles, -1: in none
+  int corner = -1;  ///< index of its corner in this frame, -1: none
+  int circle = -1;  ///< index in its kind's circles, -1: none
 
   /// px/s, rotation removed.
   Vec2 velocity() const { return speed * Vec2(std::cos(angle), std::sin(angle)); }
 };
 
-/// A group of edges of like motion: C_n or C_r.
+/// A group of edges with similar motion: C_n or C_r.
 struct Circle {
   Id id = 0;
   bool rebel = false;
@@ -53,12 +52,11 @@ struct Circle {
   double angle = 0;              ///< beta
   int trust = 0;                 ///< Tr
   int age = 0;
-  int members = 0;        ///< edges grouped into it in this frame; 0 while it coasts
+  int members = 0;        ///< number of its edges in this frame; 0 while it coasts
   bool ignoring = false;  ///< the paper's filter: makes a region of psi in the next frame
 };
 
-/// A convex polygon of at most `kMost` vertices, which it holds in place, so that a frame allocates
-/// no memory.
+/// A convex polygon of at most `kMost` vertices, stored in place to avoid allocation.
 struct Outline {
   static constexpr int kMost = 32;
 
@@ -68,9 +66,9 @@ struct Outline {
     return {places.data(), static_cast<std::size_t>(count)};
   }
 
-  /// px: clockwise as seen in the picture, beginning with the leftmost; no three lie on one line.
+  /// px: clockwise in the picture, from the leftmost vertex; no three are collinear.
   std::array<Vec2, kMost> places;
-  int count = 0;  ///< of `places`, the first ones
+  int count = 0;  ///< number of vertices, first in `places`
 };
 
 /// An object (or a layer of objects at one depth): S, an axis-aligned rectangle.
@@ -84,14 +82,14 @@ struct Square {
   double angle = 0;               ///< beta
   int trust = 0;                  ///< Tr
   int age = 0;
-  int circles = 0;        ///< grouped into it in this frame; 0 while it coasts
-  int rebel_circles = 0;  ///< of these
+  int circles = 0;        ///< number of its circles in this frame; 0 while it coasts
+  int rebel_circles = 0;  ///< number of rebel ones among them
   bool ignoring = false;  ///< the paper's filter: makes a region of psi in the next frame
-  /// The convex hull of its edges, as wide and high as the square. Empty in the paper's filter.
+  /// The convex hull of its edges; the square is its box. Empty in the paper's filter.
   Outline outline;
 };
 
-/// Ignorance region psi: corners inside are not looked at in the next frame.
+/// Ignorance region psi: corners inside it are skipped in the next frame.
 struct IgnoreRegion {
   enum class Shape : std::uint8_t { circle = 1, rectangle = 2 };  ///< Ty
   Shape shape = Shape::circle;
@@ -99,21 +97,21 @@ struct IgnoreRegion {
   Vec2 size = Vec2::Zero();      ///< R_psi, px: radius in x (circle), half sizes (rectangle)
 };
 
-/// Collector lambda: a region in which corners are grouped for a trusted circle.
+/// Collector lambda: a region that groups corners for a trusted circle.
 struct Collector {
   Vec2 location = Vec2::Zero();  ///< L_lambda, px
   double radius = 0;             ///< mu_lambda, px
-  double depth_ratio = 1;        ///< of its circle: what a new edge inside it starts from
+  double depth_ratio = 1;        ///< of its circle: initial value of new edges inside
 };
 
-/// A row of alpha: a corner's sightings on the way to becoming a rebel edge.
+/// A row of alpha: sightings of a corner that may become a rebel edge.
 struct Chain {
   std::array<Vec2, 2> sightings;  ///< oldest first, in this frame's pixels (rotation removed)
-  int count = 0;                  ///< 1 or 2: the third makes it a rebel edge, or ends it
-  double off_field_px = 0;        ///< by how much its steps exceed those of any static point
+  int count = 0;                  ///< 1 or 2; the third sighting decides
+  double off_field_px = 0;        ///< excess of its steps over those of any static point
 };
 
-/// Edges or circles of a frame, or numbers for each of them.
+/// Values for normal and rebel edges or circles.
 template <typename T>
 struct BothKinds {
   std::vector<T> normal, rebel;
@@ -139,7 +137,7 @@ struct Layers {
   }
 };
 
-/// What became of a corner.
+/// Classification of a corner.
 enum class Verdict : std::uint8_t {
   ignored,  ///< inside psi
   pending,  ///< new, or a candidate in alpha

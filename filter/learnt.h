@@ -12,7 +12,7 @@
 
 namespace lcs {
 
-/// Keys as `set` takes them, and values.
+/// Keys and values for `set`.
 inline constexpr std::array<std::pair<const char*, double>, 10> kLearnt{{
     {"hypotheses.noise", 0.352},
     {"hypotheses.coupling", 13.2},

@@ -1,5 +1,5 @@
 /// \file
-/// Defaults that `lcs tune` has found.
+/// Defaults found by `lcs tune`.
 #pragma once
 
 #include <stdexcept>
@@ -9,7 +9,7 @@
 
 namespace lcs {
 
-/// The value of a key of `learnt.h`. A key that it lacks is an error of compilation.
+/// The value of a key of `learnt.h`. A missing key is a compile-time error.
 consteval double learnt(std::string_view key) {
   for (const auto& [name, value] : kLearnt) {
     if (key == name) return value;

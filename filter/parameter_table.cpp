@@ -55,7 +55,7 @@ std::string joined(std::span<const char* const> words) {
   return text;
 }
 
-/// As `set` takes it.
+/// In the format of `set`.
 std::string value_text(const Entry& entry) {
   if (const auto* real = std::get_if<double*>(&entry.value)) return number(**real / scale(entry));
   if (const auto* whole = std::get_if<int*>(&entry.value)) return number(**whole);
@@ -63,7 +63,7 @@ std::string value_text(const Entry& entry) {
   return kRotations[static_cast<std::size_t>(*std::get<RotationModel*>(entry.value))];
 }
 
-/// The values that are allowed, for people.
+/// The allowed values, human-readable.
 std::string range_text(const Entry& entry) {
   if (std::holds_alternative<bool*>(entry.value)) return "true, false";
   if (std::holds_alternative<RotationModel*>(entry.value)) return joined(kRotations);
@@ -112,7 +112,7 @@ void set(std::span<const Entry> entries, std::string_view key, std::string_view 
 void validate(std::span<const Entry> entries) {
   for (const Entry& entry : entries) {
     if (const auto* real = std::get_if<double*>(&entry.value)) {
-      // The round trip through radians may leave a bound by one unit in the last place.
+      // The conversion through radians may exceed a bound by one unit in the last place.
       const double value = **real / scale(entry);
       check(entry, std::abs(value - entry.max) < 1e-9 ? entry.max : value);
     } else if (const auto* whole = std::get_if<int*>(&entry.value)) {

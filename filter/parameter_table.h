@@ -1,6 +1,6 @@
 /// \file
-/// Parameters by name: text to value and back, with ranges. A filter lists its parameters once, as
-/// entries that point into its struct.
+/// Parameters by name: conversion from and to text, with ranges. A filter lists its parameters
+/// once, as entries that point into its struct.
 #pragma once
 
 #include <span>
@@ -14,25 +14,25 @@
 
 namespace lcs {
 
-/// A parameter: its name, its range, and where it is.
+/// A parameter: name, range and address.
 struct Entry {
   std::string key;
-  std::string symbol;  ///< the paper's; "" where it has none
+  std::string symbol;  ///< the paper's; "" if none
   std::string unit;    ///< values of unit "deg" are radians in the struct
   double min = 0, max = 0;
   std::variant<double*, int*, bool*, RotationModel*> value;
 };
 
-/// \throws std::invalid_argument as the `set` of parameters.
+/// \throws std::invalid_argument like `set(Parameters&, ...)`.
 void set(std::span<const Entry> entries, std::string_view key, std::string_view value);
 
-/// \throws std::invalid_argument as the `validate` of parameters.
+/// \throws std::invalid_argument like `validate(const Parameters&)`.
 void validate(std::span<const Entry> entries);
 void validate(const TrustRanks& ranks, const std::string& expert);
 
 std::vector<ParameterInfo> describe(std::span<const Entry> entries);
 
-/// The entries of a motion field.
+/// The entries of the motion field's parameters.
 std::vector<Entry> entries_of(FieldParameters& field);
 
 }  // namespace lcs

@@ -44,7 +44,7 @@ void set(Parameters& parameters, std::string_view key, std::string_view value) {
 }
 
 void validate(const Parameters& parameters) {
-  Parameters copy = parameters;  // entries point to what they may change
+  Parameters copy = parameters;  // entries hold pointers to non-const
   validate(entries_of(copy));
   validate(copy.circle.trust, "circle");
 }

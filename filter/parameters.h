@@ -1,7 +1,7 @@
 /// \file
-/// Every number that the filter can be tuned by. Each struct stands beside the step that uses it.
-/// Keys for `set` are "group.field", as in "circle.gap". Angles are radians in the structs and
-/// degrees in text.
+/// All tuning parameters of the filter. Each struct is declared with the step that uses it. Keys
+/// for `set` are "group.field", such as "circle.gap". Angles are radians in structs, degrees in
+/// text.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ namespace lcs {
 
 /// `Parameters{}` is the preset `default`.
 struct Parameters {
-  bool ground = true;  ///< no static point is below the ground, where the ground is known
+  bool ground = true;  ///< no static point lies below a known ground
   FieldParameters field;
   LineParameters line;
   EdgeParameters edge;
@@ -27,17 +27,16 @@ struct Parameters {
 };
 
 /// Sets one parameter from text, as in set(p, "circle.gap", "0.3").
-/// \throws std::invalid_argument: unknown key, not a value of its kind, out of range.
+/// \throws std::invalid_argument for an unknown key, a wrong type or a value out of range.
 void set(Parameters& parameters, std::string_view key, std::string_view value);
 
-/// \throws std::invalid_argument naming the first parameter that is out of its range, or ranks of
-///   trust out of order.
+/// \throws std::invalid_argument naming the first parameter out of range, or unordered ranks.
 void validate(const Parameters& parameters);
 
-/// One line a parameter: key, value, unit, range, symbol. For `--help` and manifests.
+/// One line per parameter: key, value, unit, range, symbol. For `--help` and manifests.
 struct ParameterInfo {
   std::string key, value, unit, range, symbol;
-  bool learnt = false;  ///< its default is from `learnt.h`
+  bool learnt = false;  ///< its default comes from `learnt.h`
 };
 std::vector<ParameterInfo> describe(const Parameters& parameters);
 

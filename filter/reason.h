@@ -1,10 +1,9 @@
 /// \file
-/// The rule that decided a corner's verdict, so that a missed or false rebel can be traced to its
-/// cause.
+/// The rule that decided a corner's verdict, to trace a missed or false rebel to its cause.
 ///
-/// A corner passes several tests in a row; the reason is the test that decided. In the paper's
-/// filter several edges or rows of alpha may reject a corner: the reason is that of the edge or row
-/// that came nearest to accepting it, in the order of declaration.
+/// A corner passes several tests in a row; the reason is the deciding test. In the paper's filter
+/// several edges or rows of alpha may reject a corner: the reason is that of the edge or row that
+/// passed the most tests, in the order of declaration.
 #pragma once
 
 #include <array>
@@ -24,18 +23,18 @@ enum class Reason : std::uint8_t {
   normal_edge,
   rebel_edge,
 
-  // The default filter, on a corner that no track has.
+  // The default filter: the corner has no track with a motion.
   inherited,
   first_sighting,
 
-  // The paper's filter: no edge took the corner, so that it starts a row of alpha,
+  // The paper's filter: no edge took the corner. It starts a row of alpha,
   alpha_first,
   xi_5,
   xi_4,
   outbid,
   // or belongs to a normal edge's layer,
   xi_1,
-  // or goes on with a row of alpha,
+  // or continues a row of alpha,
   alpha_second,
   alpha_bend,
   alpha_on_field,
@@ -48,10 +47,10 @@ enum class Reason : std::uint8_t {
 
 struct ReasonText {
   const char* word;     ///< in files
-  const char* meaning;  ///< for people, printed after a share of corners
+  const char* meaning;  ///< human-readable, printed after a share of corners
 };
 
-/// In the order of `Reason`. Behind each, the verdict that it comes with.
+/// In the order of `Reason`, each with the verdict that it implies.
 inline constexpr std::array<ReasonText, 22> kReasons{{
     {"unknown", "no reason given"},
     {"not_finite", "its place is not a number"},                                         // pending

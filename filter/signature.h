@@ -1,6 +1,6 @@
 /// \file
-/// A corner's descriptor: 256 bits, few of which differ between two pictures of the same place. It
-/// tells corners apart by their looks, without a picture being kept.
+/// A corner's descriptor: 256 bits, few of which differ between two pictures of one place. It
+/// identifies corners by appearance without storing a picture.
 #pragma once
 
 #include <array>
@@ -9,15 +9,15 @@
 
 namespace lcs {
 
-/// What the bits mean is up to who makes them (`filter/detect/describe.h`); the filter only counts
-/// how many differ.
+/// The detector defines the bits (`filter/detect/describe.h`); the filter only counts differing
+/// bits.
 using Signature = std::array<std::uint64_t, 4>;
-/// The same bits as bytes: std::bit_cast takes one to the other, to make and to store them.
+/// The same bits as bytes, by std::bit_cast, for computing and storing them.
 using SignatureBytes = std::array<std::uint8_t, sizeof(Signature)>;
 
-/// How many bits differ: 0 to 256.
+/// Hamming distance, 0 to 256.
 inline int distance(const Signature& a, const Signature& b) {
-  // All words at once, in bytes: on the x86-64 baseline std::popcount is a call for each.
+  // Byte-parallel sums: on the x86-64 baseline std::popcount is a function call.
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     std::uint64_t x = a[i] ^ b[i];

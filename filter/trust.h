@@ -1,6 +1,5 @@
 /// \file
-/// The trust factor Tr: how far a landmark or layer is believed (the paper's section "Trust
-/// Factor").
+/// The trust factor Tr: certainty of a landmark or layer (the paper's section "Trust Factor").
 #pragma once
 
 #include <algorithm>
@@ -9,18 +8,17 @@ namespace lcs {
 
 /// The three ranks of one expert, Tr_c <= Tr_s <= Tr_m.
 struct TrustRanks {
-  int critical = 2;  ///< Tr_c: below it, the item is deleted
-  int standard = 3;  ///< Tr_s: from it on, the item is tracked with confidence
-  int maximum = 5;   ///< Tr_m: never above it; a layer that reaches it makes an ignorance region
+  int critical = 2;  ///< Tr_c: items below it are deleted
+  int standard = 3;  ///< Tr_s: items from it on are tracked with confidence
+  int maximum = 5;   ///< Tr_m: upper limit; a layer that reaches it makes an ignorance region
 
-  /// (Tr_c + Tr_s) / 2, rounded up: new normal edges and circles.
+  /// Of new normal edges and circles: (Tr_c + Tr_s) / 2, rounded up.
   int initial_normal() const { return std::min((critical + standard + 1) / 2, maximum); }
-  /// Above Tr_s, as rebels are harder to track: Tr_s + 2.
+  /// Of new rebels: Tr_s + 2, as rebels are harder to track.
   int initial_rebel() const { return std::min(standard + 2, maximum); }
-  /// New squares.
+  /// Of new squares.
   int initial_square() const { return standard; }
-  /// After making an ignorance region a layer is looked at for two frames before it can make
-  /// another.
+  /// After an ignorance region, a layer is observed for two frames before it can make another.
   int after_ignoring() const { return std::max(maximum - 2, critical); }
 
   int raised(int trust) const { return std::min(trust + 1, maximum); }

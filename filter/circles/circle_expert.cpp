@@ -16,7 +16,7 @@ void CircleExpert::forget() {
   members_ = {};
 }
 
-/// Whether a group lies along a line.
+/// Whether the edges of a group lie on a line, up to `min_width`.
 bool CircleExpert::is_line(const std::vector<Edge>& edges, std::span<const int> group) const {
   Vec2 mean = Vec2::Zero();
   for (const int i : group) mean += edges[i].location;
@@ -26,13 +26,13 @@ bool CircleExpert::is_line(const std::vector<Edge>& edges, std::span<const int> 
     const Vec2 off = edges[i].location - mean;
     scatter += off * off.transpose();
   }
-  // Across the line their deviation is the root of the lesser eigenvalue, t - sqrt(t^2 - det).
+  // The variance across the line is the lesser eigenvalue, t - sqrt(t^2 - det).
   const double t = 0.5 * scatter.trace();
   const double least = t - std::sqrt(std::max(0.0, t * t - scatter.determinant()));
   return least < parameters_.min_width * parameters_.min_width * static_cast<double>(group.size());
 }
 
-/// Assigns groups to the circles of the frame before, those that share most edges first.
+/// Assigns groups to circles of the last frame; pairs that share the most edges come first.
 void CircleExpert::match(const std::vector<Edge>& edges, std::size_t circles,
                          const std::vector<Member>& before) {
   shares_.clear();
@@ -69,7 +69,7 @@ void CircleExpert::match(const std::vector<Edge>& edges, std::size_t circles,
   }
 }
 
-/// Groups the edges of one kind. A circle of the frame before that no group continues is gone.
+/// Groups the edges of one kind. Deletes each circle of the last frame that has no group.
 void CircleExpert::regroup(const std::vector<Edge>& edges, const MotionField& field,
                            std::vector<Circle>& circles, std::vector<int>& of_edges,
                            std::vector<Member>& members) {

@@ -1,6 +1,6 @@
 /// \file
-/// Circle expert, second part: edges of like motion become circles. Each circle is one group of
-/// `MotionGroups`, and keeps its id while it shares most edges with its group of the frame before.
+/// Circle expert, second part: groups edges with similar motion into circles. Each circle is one
+/// `MotionGroups` group. It keeps its id while it shares most edges with its previous group.
 #pragma once
 
 #include <span>
@@ -24,7 +24,7 @@ class CircleExpert {
     BothKinds<int> of_edges;  ///< index of each edge's circle among its kind, -1: in no circle
   };
 
-  /// Groups the edges of both kinds, and carries ids, trust and age over from the frame before.
+  /// Groups the edges of both kinds. Matched circles keep id, trust and age of the last frame.
   /// \return valid until the next call.
   const Result& step(const BothKinds<Edge>& edges, const MotionField& field);
 
@@ -32,13 +32,13 @@ class CircleExpert {
   void forget();
 
  private:
-  /// An edge of a circle of the frame before.
+  /// An edge that belonged to a circle in the last frame.
   struct Member {
     Id edge;
     int circle;
   };
 
-  /// How many edges a group shares with a circle of the frame before.
+  /// Number of edges that a group shares with a circle of the last frame.
   struct Share {
     int edges, circle;
     std::size_t group;
@@ -55,9 +55,9 @@ class CircleExpert {
   MotionGroups groups_;
   Id next_id_ = 1;
   Result result_;
-  BothKinds<Member> members_;  // of the last frame, by rising edge
+  BothKinds<Member> members_;  // of the last frame, by rising edge id
 
-  // Of the current frame; kept for their memory.
+  // Scratch storage of the current frame; members, so that a frame need not allocate.
   std::vector<MotionGroups::Group> found_;
   std::vector<Share> shares_;
   std::vector<int> circle_of_group_, group_of_circle_;

@@ -17,8 +17,8 @@ Circle mean_circle(const std::vector<Edge>& edges, std::span<const int> group,
     mean.origin += edge.origin;
     mean.speed += edge.speed;
     mean.depth_ratio += edge.depth_ratio;
-    // The deviation mu_r that the paper adds to beta of a rebel is unsigned here, and so widens the
-    // gate (zeta_r) instead of turning the mean.
+    // The paper adds the deviation mu_r to beta of a rebel. It is unsigned here: it widens the gate
+    // (zeta_r) and does not turn the mean.
     direction += unit_vector(edge.angle);
   }
   const double n = static_cast<double>(group.size());

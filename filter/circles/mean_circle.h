@@ -10,9 +10,9 @@
 
 namespace lcs {
 
-/// Where its edges are in the mean, and how they move; it reaches as far as they do. Without id,
+/// Mean place and motion of the edges; the radius reaches the outermost edge. Does not set id,
 /// trust and age.
-/// \param group indices of edges, of which there must be some, of one kind.
+/// \param group indices into `edges`; at least one, all of one kind.
 Circle mean_circle(const std::vector<Edge>& edges, std::span<const int> group,
                    const MotionField& field);
 

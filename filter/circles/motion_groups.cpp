@@ -9,10 +9,10 @@
 namespace lcs {
 namespace {
 
-/// Log odds that what lies at one place is of one body.
+/// Log odds that two edges at one place belong to one body.
 constexpr double kNear = 2;
-/// How much inverse depth changes over a body, as the tangent of its slant to the picture. A depth
-/// that is known worse than to such a share says nothing of a body.
+/// Standard deviation of a body's slope of inverse depth, relative: the tangent of its slant to the
+/// image. Normal edges with a larger relative error of depth are not used.
 constexpr double kSlant = 0.2;
 
 }  // namespace
@@ -22,7 +22,7 @@ MotionGroups::MotionGroups(const Intrinsics& camera, const CircleParameters& par
     : camera_(camera), parameters_(parameters), edge_parameters_(edges) {}
 
 void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& field) {
-  // What the picture shows of a unit vector upwards; nothing where the camera looks straight down.
+  // Image projection of the unit vector upwards; zero if the camera looks straight down.
   const Vec2 up = field.ground() ? Vec2(field.ground()->up_C.head<2>()) : Vec2::Zero();
   const Vec2 axis = up.isZero() ? Vec2(Vec2::UnitY()) : up.normalized();
   const double upward =
@@ -70,7 +70,7 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
 void MotionGroups::link() {
   grid_.build(points_, edge_parameters_.neighbour_reach_px);
   links_.clear();
-  // Each pair is looked at once.
+  // `visit_pairs` visits each pair once.
   make_room(links_, kCrowd / 2 * points_.size());
   grid_.visit_pairs(
       kCrowd, [&](int i) { return kFar * reach_px_[i]; },
@@ -83,8 +83,8 @@ void MotionGroups::link() {
       });
 }
 
-/// Of what is measured to be a body's, with values about as large as `scale`. Velocities may change
-/// by as much over its picture, as where it comes near.
+/// Evidence of a body whose values have the size `scale`. Velocities may vary by their own size
+/// over an approaching body.
 double MotionGroups::body_evidence(const PlaneSums& sums, double scale) const {
   const double slope = (rebel_ ? 1 : kSlant) * scale;
   return sums.evidence({PlaneCoefficients::Zero(), scale, slope}, rebel_ ? 2 : 1);

@@ -1,8 +1,7 @@
 /// \file
-/// Edges in groups, each of what one motion explains better than two: normal ones by the depths of
-/// one plane, rebels by velocities of one plane (`PlaneSums`). What lies close together is likely
-/// to be of one body, and merges, nearest first, where the evidence does not speak against it.
-/// Where the ground is known, it is another thing that a group of normal edges may be.
+/// Splits edges into groups that one motion explains better than two. Normal edges share a plane of
+/// inverse depths, rebels a plane of velocities (`PlaneSums`). Groups merge nearest first, if
+/// proximity and evidence favour one body. A known ground is a second model for normal groups.
 #pragma once
 
 #include <span>
@@ -25,14 +24,14 @@ class MotionGroups {
                const EdgeParameters& edges);
 
   struct Group {
-    std::vector<int>::size_type first, count;  ///< of its edges in `edges()`
-    bool ground;                               ///< it is rather the ground's than a body's
+    std::vector<int>::size_type first, count;  ///< range of its edges in `grouped_`
+    bool ground;                               ///< the ground explains it better than a body does
   };
 
-  /// Groups of those edges that have a corner and, if normal, a depth that is known; of one edge,
-  /// too. Valid until the next call.
+  /// Groups the edges that have a corner and, if normal, a known depth. A group may hold a single
+  /// edge. Valid until the next call.
   const std::vector<Group>& group(const std::vector<Edge>& edges, const MotionField& field);
-  /// Indices of the edges of a group, rising.
+  /// Indices of a group's edges, rising.
   std::span<const int> edges(const Group& group) const {
     return std::span(grouped_).subspan(group.first, group.count);
   }
@@ -43,20 +42,20 @@ class MotionGroups {
   void merge();
   double body_evidence(const PlaneSums& sums, double scale) const;
   double ground_evidence(const PlaneSums& sums) const;
-  /// Of the likelier of the two.
+  /// The larger of the body's and the ground's evidence.
   double evidence(const PlaneSums& sums, double scale) const;
 
   Intrinsics camera_;
   CircleParameters parameters_;
   EdgeParameters edge_parameters_;
 
-  // Of the current call; kept for their memory.
+  // Scratch storage of the current call; members, so that a call need not allocate.
   bool rebel_ = false, ground_known_ = false;
   PlanePrior ground_;
-  std::vector<int> of_edge_;      // of each node
-  std::vector<PlaneSums> sums_;   // of each node, and of the group that a root stands for
-  std::vector<double> reach_px_;  // of each node: within which another is likely of its body
-  std::vector<Vec2> points_;      // of each node: along the horizon, and upwards
+  std::vector<int> of_edge_;      // index of each node's edge
+  std::vector<PlaneSums> sums_;   // of each node; a root holds its group's sums
+  std::vector<double> reach_px_;  // of each node: distance scale to others of its body
+  std::vector<Vec2> points_;      // of each node: coordinates along the horizon and upwards
   PointGrid grid_;
   std::vector<Couple> links_;
   DisjointSets sets_;

@@ -21,8 +21,8 @@ PlaneSums& PlaneSums::operator+=(const PlaneSums& other) {
 }
 
 double PlaneSums::evidence(const PlanePrior& prior, int values) const {
-  // About the middle of the places, for there a level is expected; and less what is expected. There
-  // the level and the slopes have no part of each other.
+  // Relative to the prior mean and to the centroid of the places, where the level's prior holds.
+  // There level and slopes are uncorrelated.
   const double count = squares_(0, 0);
   const Vec2 middle = squares_.block<2, 1>(1, 0) / count;
   const PlaneCoefficients left = products_ - squares_ * prior.mean;

@@ -1,8 +1,8 @@
 /// \file
-/// How well one plane explains what is measured at many places of the picture, by the evidence of
-/// Bayesian linear regression: y = a + B h and noise, h = (x - c) / f, with a normal prior on a and
-/// B about what is expected. The inverse depths of a flat body are such a plane, and so are the
-/// image velocities of a rigid one, to first order.
+/// Evidence (marginal likelihood) that one plane explains measurements at many image places, by
+/// Bayesian linear regression: y = a + B h + noise, h = (x - c) / f, with a normal prior on a and
+/// B. Inverse depths of a flat body form such a plane. So do image velocities of a rigid body, to
+/// first order.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,15 +15,14 @@ namespace lcs {
 /// Coefficients of (1, h) for each of up to two measured values.
 using PlaneCoefficients = Eigen::Matrix<double, 3, 2>;
 
-/// What a plane is expected to be: coefficients, and standard deviations of a at the middle of what
-/// is measured, and of each slope.
+/// Prior of a plane: mean coefficients, standard deviation of the level a at the centroid of the
+/// measurements, and of each slope.
 struct PlanePrior {
   PlaneCoefficients mean = PlaneCoefficients::Zero();
   double level_sigma = 1, slope_sigma = 1;
 };
 
-/// Sums over measurements, all that is needed of them. Additive: those of a group are the sum of
-/// its members'.
+/// Sufficient statistics of measurements. Additive: a group's are the sum of its members'.
 class PlaneSums {
  public:
   PlaneSums() = default;
@@ -32,11 +31,11 @@ class PlaneSums {
 
   PlaneSums& operator+=(const PlaneSums& other);
 
-  /// How large what is measured is: the root of its weighed mean square.
+  /// Weighted root mean square of the measured values.
   double magnitude() const { return std::sqrt(values2_ / squares_(0, 0)); }
 
-  /// ln p(measurements | prior), but for what does not depend on the prior.
-  /// \param values how many are measured at each place, 1 or 2; the second is 0 where it is one.
+  /// ln p(measurements | prior), without the terms that do not depend on the prior.
+  /// \param values number of values at each place, 1 or 2; the second is 0 if there is one.
   double evidence(const PlanePrior& prior, int values) const;
 
  private:

@@ -11,19 +11,19 @@
 namespace lcs {
 namespace {
 
-/// Of a patch, and how far from the border ORB wants its middle.
+/// Side of a patch, and ORB's least distance of a keypoint from the border.
 constexpr int kPatch_px = 31;
-/// Round the picture, so that every corner is as far as that.
+/// Margin added round the picture, so that ORB accepts every corner in it.
 constexpr int kMargin_px = kPatch_px + 1;
 
-/// Those in the picture, as seen in the one with a margin; `class_id` is the corner's index.
+/// Keypoints of the corners in the picture, in padded pixels; `class_id`: corner index.
 std::vector<cv::KeyPoint> keypoints_at(std::span<const Eigen::Vector2f> corners_px,
                                        const Pixels& picture) {
   std::vector<cv::KeyPoint> keypoints;
   keypoints.reserve(corners_px.size());
   for (std::size_t i = 0; i < corners_px.size(); ++i) {
     const Vec2 x = corners_px[i].cast<double>();
-    if (!picture.contain(x)) continue;  // nor is it where it is not a number
+    if (!picture.contain(x)) continue;  // false for NaN too
     keypoints.emplace_back(cv::Point2f(static_cast<float>(std::lround(x.x()) + kMargin_px),
                                        static_cast<float>(std::lround(x.y()) + kMargin_px)),
                            static_cast<float>(kPatch_px), /*angle=*/0.F, /*response=*/0.F,
@@ -32,10 +32,10 @@ std::vector<cv::KeyPoint> keypoints_at(std::span<const Eigen::Vector2f> corners_
   return keypoints;
 }
 
-/// One row of 32 bytes for each.
+/// One row of 32 bytes for each keypoint.
 cv::Mat1b orb_at(const cv::Mat1b& grey, std::vector<cv::KeyPoint>& keypoints) {
   cv::Mat1b framed;
-  // Isolated: of a part of a picture nothing else is looked at.
+  // Isolated: of a region of interest, pixels outside of it are not used.
   cv::copyMakeBorder(grey, framed, kMargin_px, kMargin_px, kMargin_px, kMargin_px,
                      cv::BORDER_REFLECT_101 | cv::BORDER_ISOLATED);
   const auto orb = cv::ORB::create(static_cast<int>(keypoints.size()), /*scaleFactor=*/1.2F,

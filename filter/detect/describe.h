@@ -1,10 +1,9 @@
 /// \file
-/// Signatures of corners by OpenCV: ORB's descriptor (Rublee, Rabaud, Konolige, Bradski, "ORB: an
-/// efficient alternative to SIFT or SURF", ICCV 2011) without its turn and its scales, that is 256
-/// comparisons of brightness in the blurred 31x31 pixels round a corner.
+/// Signatures of corners by OpenCV's ORB descriptor (Rublee, Rabaud, Konolige, Bradski, "ORB: an
+/// efficient alternative to SIFT or SURF", ICCV 2011): 256 comparisons of brightness in the blurred
+/// 31x31 pixels round a corner, without orientation and scales.
 ///
-/// Upright, as a rover's camera hardly rolls, and a descriptor that turns with the corner
-/// distinguishes less.
+/// Upright: a rover's camera hardly rolls, and a rotation-invariant descriptor distinguishes less.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,11 +15,11 @@
 
 namespace lcs {
 
-/// Pure: the same picture and corners give the same bits, on however many threads, and a corner
-/// the same ones whatever other corners there are. Near the border the picture goes on mirrored.
-/// \param corners_px taken at the nearest pixel.
-/// \return one for each corner, in their order; all zero for one that is not finite or not in the
-///   picture.
+/// Pure: the same picture and corners give the same bits on any number of threads. A corner's
+/// signature does not depend on other corners. The picture is mirrored at its border.
+/// \param corners_px in pixels, rounded to the nearest pixel.
+/// \return one signature for each corner, in order; all zero for a corner that is not finite or
+///   outside of the picture.
 std::vector<Signature> describe(const cv::Mat1b& grey, std::span<const Eigen::Vector2f> corners_px);
 
 }  // namespace lcs

@@ -1,6 +1,6 @@
 /// \file
-/// FAST-9 corners (Rosten, Porter & Drummond, "Faster and Better", PAMI 2010) by OpenCV: the chi
-/// that the Line expert begins with.
+/// FAST-9 corners (Rosten, Porter & Drummond, "Faster and Better", PAMI 2010) by OpenCV: the Line
+/// expert's input chi.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,24 +10,24 @@
 
 namespace lcs {
 
-/// Nine contiguous pixels of the circle of 16 brighter or darker than the centre by the threshold,
-/// non-maximum suppression on. Pure: the same image gives the same corners in the same order.
+/// FAST-9: nine contiguous pixels of the circle of 16 are brighter or darker than the centre by the
+/// threshold; non-maximum suppression. Pure: one image always gives the same corners in one order.
 class FastDetector {
  public:
-  /// \param threshold in grey levels, 1 to 254; none: each picture's own (`picture_noise.h`). A
-  ///   contrast of 0.20, as the paper has it, is 51.
+  /// \param threshold in grey levels, 1 to 254; absent: computed for each picture
+  ///   (`picture_noise.h`). The paper's contrast of 0.20 is 51.
   /// \throws std::invalid_argument when out of that range.
   explicit FastDetector(std::optional<int> threshold);
 
-  /// For this picture.
+  /// The threshold used for this picture, grey levels.
   int threshold(const cv::Mat1b& grey) const;
 
   /// \return corners in pixels, row by row from the top, left to right in a row.
   std::vector<Eigen::Vector2f> detect(const cv::Mat1b& grey) const;
-  /// Likewise, by a threshold that is known.
+  /// The same with a given threshold.
   static std::vector<Eigen::Vector2f> detect(const cv::Mat1b& grey, int threshold);
 
-  /// The same corners with OpenCV's score, the highest threshold at which each still is one.
+  /// The same corners with OpenCV's score: the highest threshold that still detects the corner.
   std::vector<cv::KeyPoint> detect_scored(const cv::Mat1b& grey) const;
 
  private:

@@ -17,16 +17,16 @@ namespace {
 
 constexpr int kGrid_px = 8;
 
-/// By row modulo `kGrid_px`: the mean square of how far the step from the row above is from the
-/// steps beside it.
+/// By row modulo `kGrid_px`: mean square of a step between rows minus the mean of the steps before
+/// and after it, half levels clipped at `kMostJump`.
 using Jumps = std::array<double, kGrid_px>;
 
 Jumps jumps(const cv::Mat1b& grey) {
-  constexpr int kMostJump = 48;  // half levels: a sharp edge of the scene should not outweigh all
+  constexpr int kMostJump = 48;  // half levels: limits the weight of sharp edges in the scene
   std::array<std::int64_t, kGrid_px> sums{}, counts{};
   for (int y = 2; y + 1 < grey.rows; ++y) {
     const uchar *before = grey[y - 2], *above = grey[y - 1], *row = grey[y], *below = grey[y + 1];
-    int sum = 0;  // a picture would have to be over 900,000 px wide
+    int sum = 0;  // overflows only in pictures over 900,000 px wide
     for (int x = 0; x < grey.cols; ++x) {
       const int twice = 3 * (row[x] - above[x]) + before[x] - below[x];
       const int jump = std::min(std::abs(twice), kMostJump);
@@ -43,8 +43,8 @@ Jumps jumps(const cv::Mat1b& grey) {
   return means;
 }
 
-/// Of the rows where blocks meet over the largest of others. Any row may be theirs, as a picture
-/// may be cut out of a larger one; the rows beside share its pixels.
+/// Mean square jump at block borders, less the largest elsewhere. The grid may start at any row, as
+/// the picture may be cropped. Adjacent rows share the border's pixels and are left out.
 double excess(const Jumps& jumps) {
   const auto most = static_cast<int>(std::max_element(jumps.begin(), jumps.end()) - jumps.begin());
   double other = 0;
@@ -54,8 +54,8 @@ double excess(const Jumps& jumps) {
   return jumps[static_cast<std::size_t>(most)] - other;
 }
 
-/// The highest threshold at which there still is a corner for every 16x16 pixels.
-/// \return less than `least` where there are fewer at `least` already.
+/// The highest threshold that gives a corner for every 16x16 pixels.
+/// \return 0 if there are fewer already at `least`.
 int crowded_up_to(const cv::Mat1b& grey, int least) {
   constexpr std::size_t kPixelsEach = 256;
   std::vector<cv::KeyPoint> corners = FastDetector(least).detect_scored(grey);
@@ -63,7 +63,7 @@ int crowded_up_to(const cv::Mat1b& grey, int least) {
   if (corners.size() <= enough) return 0;
   const auto last = corners.begin() + static_cast<std::ptrdiff_t>(enough);
   std::nth_element(corners.begin(), last, corners.end(), [](const auto& a, const auto& b) {
-    return a.response > b.response;  // the highest threshold at which it still is a corner
+    return a.response > b.response;  // the highest threshold that still detects the corner
   });
   return static_cast<int>(last->response);
 }
@@ -72,9 +72,9 @@ int crowded_up_to(const cv::Mat1b& grey, int least) {
 
 std::optional<double> noise_levels(const cv::Mat1b& grey) {
   constexpr int kBlock_px = 16, kQuarter_px = kBlock_px / 2;
-  constexpr double kDarkest = 6, kBrightest = 249;  // what is clipped has lost its noise
+  constexpr double kDarkest = 6, kBrightest = 249;  // clipped pixels have no noise
   constexpr std::size_t kFewestBlocks = 8;
-  const cv::Matx13f immerkaer(1, -2, 1);  // both ways
+  const cv::Matx13f immerkaer(1, -2, 1);  // the kernel in x and in y
   cv::Mat1s residual;
   cv::sepFilter2D(grey, residual, CV_16S, immerkaer, immerkaer);
   residual = cv::abs(residual);
@@ -103,14 +103,14 @@ std::optional<double> noise_levels(const cv::Mat1b& grey) {
   }
   std::sort(flat.begin(), flat.end());
   const double median = 0.5 * (flat[(flat.size() - 1) / 2] + flat[flat.size() / 2]);
-  // The operator's weights have a norm of 6; sqrt(pi / 2) takes a mean size to a deviation.
+  // The operator's weights have norm 6; sqrt(pi / 2) converts a mean absolute value to a deviation.
   return std::sqrt(std::numbers::pi / 2) / 6 * median;
 }
 
 double compression_levels(const cv::Mat1b& grey) {
   cv::Mat1b columns;
   cv::transpose(grey, columns);
-  // A fence may repeat itself every 8 pixels, but not both ways.
+  // A fence may repeat every 8 pixels, but only in one direction.
   return std::sqrt(std::max(0.0, std::min(excess(jumps(grey)), excess(jumps(columns)))));
 }
 
@@ -119,7 +119,7 @@ int threshold_of(const cv::Mat1b& grey) {
   const auto levels = [&](double deviation) {
     return static_cast<int>(std::lround(std::clamp(kDeviations * deviation, kLeast, kMost)));
   };
-  constexpr double kMostNoise = 6;  // more is texture: there is no flat place to tell it by
+  constexpr double kMostNoise = 6;  // above it is texture: no block is flat
   const double noise = std::min(noise_levels(grey).value_or(0), kMostNoise);
   const int by_noise = levels(noise);
   const int by_both = levels(std::hypot(noise, compression_levels(grey)));

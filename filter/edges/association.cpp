@@ -10,7 +10,7 @@
 namespace lcs {
 namespace {
 
-/// ln: what is less is lost in rounding.
+/// ln of the least ratio that counts; anything less is lost in rounding.
 const double kNone = std::log(std::numeric_limits<float>::epsilon());
 
 /// ln(1 + e^x).
@@ -36,7 +36,7 @@ double Association::reach_area_px2(double dt_s) const {
   return std::numbers::pi * reach * reach;
 }
 
-/// Density of tracks about a corner.
+/// Density of tracks round a corner, 1/px^2.
 double Association::clutter_ppx2(std::size_t corner) const {
   const double near = parameters_.neighbour_reach_px;
   return crowd_[corner] / (std::numbers::pi * near * near);
@@ -48,8 +48,8 @@ void Association::Share::set(const Vec2& at_px, const Eigen::Matrix2d& covarianc
   ln_most = std::log(share / (2 * std::numbers::pi * std::sqrt(covariance.determinant())));
 }
 
-/// Where this frame may show each track: as a point that stands or moves in the shares of the
-/// belief, or anywhere within reach.
+/// Density of each track in this frame: a static or a moving point, weighted by its belief, or
+/// anywhere within reach.
 void Association::expect(std::span<const Track> predicted, double noise2_px2, double dt_s) {
   const double anywhere = 1 / reach_area_px2(dt_s), wrong = parameters_.turnover(dt_s);
   expected_.clear();
@@ -71,7 +71,7 @@ void Association::expect(std::span<const Track> predicted, double noise2_px2, do
   }
 }
 
-/// Keeps a pair of the corner whose pairs come last, if it is among its likeliest.
+/// Keeps the pair if it is among the likeliest of the last corner in `first_`.
 void Association::offer(const Pair& pair) {
   if (pairs_.size() < first_.back() + kCrowd) {
     pairs_.push_back(pair);
@@ -97,7 +97,7 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
   }
   tracks_.build(places_, std::max(20.0, reach / 2));
   pairs_.clear();
-  // As many as there may ever be of so many corners, so that no later frame asks for more.
+  // Reserves the most pairs that this number of corners can have, so that no later frame allocates.
   pairs_.reserve(chi.size() * kCrowd);
   const auto most = static_cast<Eigen::Index>(chi.size() * kCrowd);
   if (step_x_.size() < most) {
@@ -117,7 +117,7 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
       if (likeness < 0) return;
       const Expected& track = expected_[t];
       const double still = track.still.ln(x), moving = track.moving.ln(x);
-      // Far from both it is worth what it is anywhere.
+      // Far from both predictions only the uniform density is left.
       const double ln_density =
           std::max(still, moving) < kNone + track.ln_anywhere
               ? track.ln_anywhere
@@ -140,9 +140,9 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
   }
 }
 
-/// Weight of a pair with what the voices say of it: ln of the ratio by which each bears it out,
-/// being found again, or not, at even odds.
-/// \return less than `least` where it is known to come to less.
+/// Weight of a pair plus the votes of its neighbours. A vote is ln((1 + ratio) / 2): the neighbour
+/// is detected again at even odds.
+/// \return may stop early with any value below `least`.
 double Association::asked(std::size_t pair, double noise2_px2, double least) const {
   const float x = step_x_[pair], y = step_y_[pair];
   const double unlike = parameters_.step_share * parameters_.step_share;
@@ -152,7 +152,7 @@ double Association::asked(std::size_t pair, double noise2_px2, double least) con
   const auto at_most = [&](const Voice& voice) {
     return voice.weight * std::max(0.0, ln_likest_[voice.corner] - ln_spread);
   };
-  double most = 0;  // that those who are still to be asked may add
+  double most = 0;  // upper bound of the votes still to come
   for (const Voice& voice : voices_) most += at_most(voice);
   double weight = pairs_[pair].weight;
   for (const Voice& voice : voices_) {

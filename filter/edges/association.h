@@ -1,11 +1,10 @@
 /// \file
-/// Which corner is a sighting of which track, one to one.
+/// Assigns corners to tracks, one to one.
 ///
-/// A pair is weighed by its likelihood ratio against clutter: the density of the track's prediction
-/// over the density of corners there, times how much more often signatures that differ so much are
-/// of one place than of two. Its neighbours vote, each by the same ratio for the same step: many
-/// that agree on a step make a chance match unlikely, while a hit among corners that look alike
-/// says little.
+/// A pair's weight is its likelihood ratio against clutter: density of the track's prediction over
+/// density of tracks there, times the likelihood ratio of the signatures. Neighbouring corners vote
+/// with the same ratio for the same step. Many votes for one step make a chance match unlikely. A
+/// vote from corners that look alike counts little.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,39 +24,39 @@ class Association {
  public:
   explicit Association(const EdgeParameters& parameters);
 
-  /// \param predicted tracks, in this frame's pixels.
-  /// \return for each corner of chi the track that it is a sighting of, -1: of none.
+  /// \param predicted tracks, predicted to this frame, in its pixels.
+  /// \return the index of each corner's track, -1: none.
   const std::vector<int>& match(const Chi& chi, std::span<const Track> predicted, double noise2_px2,
                                 double dt_s);
 
-  /// Of the last match: tracks within `neighbour_reach` of a corner, and itself.
+  /// In the last match: 1 + the number of tracks within `neighbour_reach` of a corner.
   int crowd(std::size_t corner) const { return crowd_[corner]; }
-  /// Of the last match: how densely pairs that are none but look as good lie about a corner that
-  /// has a track, by the tracks there and its signature; 0 without signatures.
+  /// In the last match: density of wrong pairs that look as good as the corner's own pair, 1/px^2,
+  /// from the tracks there and its signature; 0 without signatures.
   double chance_ppx2(std::size_t corner) const { return chance_ppx2_[corner]; }
-  /// px: how far a corner may be from where the rotation alone puts it.
+  /// px: largest distance of a corner from its track's rotated place.
   double reach_px(double dt_s) const;
-  /// px^2: of the circle about it.
+  /// px^2: area of the circle with that radius.
   double reach_area_px2(double dt_s) const;
 
  private:
-  /// A corner may be a sighting of a track. The likeliest first.
+  /// A candidate pair of a corner and a track. Sorted by falling weight.
   struct Pair {
-    double weight;  // ln of the ratio of all but the neighbours
+    double weight;  // ln of the likelihood ratio, without votes
     int track;
-    float likeness;  // ln of the ratio that signatures give
+    float likeness;  // ln of the signatures' likelihood ratio
     bool operator<(const Pair& other) const {
       return weight > other.weight || (weight == other.weight && track < other.track);
     }
   };
 
-  /// A neighbour that is asked, and what it counts.
+  /// A neighbouring corner and the weight of its vote.
   struct Voice {
     std::size_t corner;
     double weight;
   };
 
-  /// A normal density times a share; 0 if not set.
+  /// A normal density times a probability; 0 if not set.
   struct Share {
     Vec2 place_px = Vec2::Zero();
     Eigen::Matrix2d precision = Eigen::Matrix2d::Zero();
@@ -70,7 +69,7 @@ class Association {
     }
   };
 
-  /// Where a frame may show a track.
+  /// Density of a track's place in this frame.
   struct Expected {
     Vec2 track_px;
     Share still, moving;
@@ -84,19 +83,19 @@ class Association {
   double asked(std::size_t pair, double noise2_px2, double least) const;
 
   EdgeParameters parameters_;
-  std::array<double, 257> likeness_;  // by the number of bits that differ
+  std::array<double, 257> likeness_;  // ln of the ratio, by the number of differing bits
 
-  // Of the current frame; kept for their memory.
+  // Scratch storage of the current frame; members, so that a frame need not allocate.
   PointGrid tracks_, corners_;
   std::vector<Vec2> places_;
-  std::vector<Signature> signatures_;             // of the tracks
-  std::vector<Expected> expected_;                // of the tracks
+  std::vector<Signature> signatures_;             // of each track
+  std::vector<Expected> expected_;                // of each track
   std::vector<Pair> pairs_;                       // by corner
-  std::vector<std::size_t> first_;                // of each corner's
-  Eigen::ArrayXf step_x_, step_y_, likeness_of_;  // of the pairs, to be looked through at once
+  std::vector<std::size_t> first_;                // index of each corner's first pair
+  Eigen::ArrayXf step_x_, step_y_, likeness_of_;  // of the pairs; arrays for vectorised sums
   std::vector<int> crowd_;                        // of each corner
-  std::vector<double> ln_clutter_;                // of the density of tracks, of each corner
-  std::vector<double> ln_likest_;                 // of its pairs, over that
+  std::vector<double> ln_clutter_;                // of the density of tracks at each corner
+  std::vector<double> ln_likest_;                 // of each corner: largest likeness over clutter
   std::vector<Neighbour> near_;
   std::vector<Voice> voices_;  // nearest first
   struct Match {

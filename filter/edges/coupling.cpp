@@ -11,10 +11,10 @@ namespace lcs {
 
 constexpr double kInfinity_px = std::numeric_limits<double>::infinity();
 
-/// b: what a neighbour has to say that is as far as any.
+/// b: weight of a neighbour at the cut-off distance.
 const double kBeyond = std::exp(-0.5 * kFar * kFar);
 
-/// How much two nodes have to say to each other, whose reaches add as variances do.
+/// Weight of the tie between two nodes. The squares of their reaches add.
 double Coupling::weight(int i, int j, std::span<const Node> nodes, double distance2_px2,
                         double noise2_px2) const {
   const Node &a = nodes[i], &b = nodes[j];
@@ -68,7 +68,7 @@ const std::vector<double>& Coupling::settle(std::span<const Node> nodes, double 
   return beliefs_;
 }
 
-/// How far the nearest `neighbours` lie from each node.
+/// Distance of each node to its `neighbours`-th nearest node.
 void Coupling::find_reaches() {
   reach_px_.clear();
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -79,8 +79,8 @@ void Coupling::find_reaches() {
   }
 }
 
-/// Who tells nothing of itself is what the nearest is that does; of equally near ones the likeliest
-/// to move.
+/// A node without a motion takes the belief of its nearest node with one; of equally near ones the
+/// largest.
 void Coupling::follow(std::span<const Node> nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].tells) continue;

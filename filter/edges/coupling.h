@@ -1,12 +1,12 @@
 /// \file
-/// Lets neighbouring corners support each other: their log odds are coupled as in a mean field,
+/// Couples the log odds of neighbouring corners in a mean field, so that they support each other:
 ///
 ///   m_i = L_i + J [sum_j w_ij tanh(m_j / 2) - b] / [sum_j w_ij + b],
 ///
-/// where w falls with how unlike their motions are and with their distance, in units of r, within
-/// which the nearest `neighbours` lie (Zelnik-Manor, Perona: Self-tuning spectral clustering,
-/// 2004), and b is the weight of a virtual static neighbour at the cut-off distance. MODEL.md (18)
-/// and (19) call w k, and b k_0.
+/// w falls with the difference of their motions and with their distance, in units of r, the
+/// distance of the `neighbours`-th nearest node (Zelnik-Manor, Perona: Self-tuning spectral
+/// clustering, 2004). b is the weight of a virtual static neighbour at the cut-off distance.
+/// MODEL.md (18) and (19) call w k, and b k_0.
 #pragma once
 
 #include <span>
@@ -25,14 +25,14 @@ class Coupling {
   struct Node {
     Vec2 place_px;
     double log_odds;
-    Vec2 step_px;              ///< of a frame, rotation removed
+    Vec2 step_px;              ///< in this frame, rotation removed
     double step_variance_px2;  ///< on one axis
-    bool tells = true;         ///< false: seen once, so that the last three are not known
+    bool tells = true;         ///< false: seen once, so its motion is unknown
   };
 
-  /// \param noise2_px2 variance of a corner's place on an axis.
-  /// \return m of each. A node that tells nothing has the m of the nearest that does, each within
-  /// the other's r; of equally near ones the largest. Else its own log odds.
+  /// \param noise2_px2 variance of a corner's place on an axis, px^2.
+  /// \return m of each node. A node that does not tell takes the m of its nearest node that does,
+  ///   if each lies within the other's r; of equally near ones the largest. Else its own log odds.
   const std::vector<double>& settle(std::span<const Node> nodes, double noise2_px2);
 
  private:
@@ -51,7 +51,7 @@ class Coupling {
     double weight;
   };
   std::vector<Tie> ties_;
-  std::vector<double> sums_, pulls_;  // of each node: weights, and what they pull it by
+  std::vector<double> sums_, pulls_;  // of each node: sum of weights, weighted sum of tanh
   std::vector<double> tanh_, beliefs_;
 };
 

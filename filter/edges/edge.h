@@ -1,5 +1,5 @@
 /// \file
-/// Operations on edges that the default filter and the paper's share.
+/// Operations on edges, shared by the default filter and the paper's filter.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace lcs {
 
-/// Deletes the edges whose trust is below its critical rank, and those outside of the picture.
+/// Deletes edges with trust below the critical rank, and edges outside of the picture.
 void delete_lost(std::vector<Edge>& edges, const Intrinsics& camera, const TrustRanks& trust);
 
-/// Sets the origin, speed and angle of an edge to those of a static point of its depth and place.
+/// Sets origin, speed and angle of an edge to those of a static point at its place and depth.
 void move_as_static(Edge& edge, const Intrinsics& camera, const MotionField& field);
 
 }  // namespace lcs

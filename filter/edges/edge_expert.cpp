@@ -19,7 +19,7 @@ EdgeExpert::EdgeExpert(const Intrinsics& camera, const EdgeParameters& parameter
       coupling_(parameters_),
       velocity_error_(parameters_.ego_share) {}
 
-/// The noise of this frame's corners, by what stood in those before; not less than the parameter.
+/// Estimates the noise of this frame's corners from static tracks of earlier frames.
 void EdgeExpert::estimate_noise(double dt_s) {
   const double least2 = parameters_.noise_px * parameters_.noise_px, n = parameters_.neighbours;
   const double kept = 1 - parameters_.turnover(dt_s);
@@ -57,8 +57,8 @@ void EdgeExpert::predict_tracks(const MotionField& field) {
   }
 }
 
-/// How far corners are from where this motion has their tracks if they stand: those that have a
-/// motion or, where it has not started and none has, those seen once.
+/// Distances of the corners from the static predictions of their tracks. Uses tracks with a motion;
+/// before any track has one (`started` is false), it uses tracks seen once.
 void EdgeExpert::find_residuals(const MotionField& field, const Chi& chi,
                                 const std::vector<int>& track_of, bool started) {
   residuals_.clear();
@@ -91,13 +91,13 @@ Track EdgeExpert::first_seen(const Chi& chi, std::size_t corner) {
   return track;
 }
 
-/// Log odds a frame on: a corner may have changed its kind, or its track may have jumped.
+/// Log odds of a frame later: the corner may have changed its kind, or its track may have jumped.
 double EdgeExpert::faded(double log_odds, double dt_s) const {
   const double turnover = parameters_.turnover(dt_s);
   return lcs::log_odds(chance(log_odds) * (1 - turnover) + parameters_.prior * turnover);
 }
 
-/// Density of a second sighting of what moves (MODEL.md (13)).
+/// Density of a moving point's second sighting (MODEL.md (13)).
 double EdgeExpert::first_step(const Track& track, const Vec2& x_px,
                               const DepthBounds& bounds) const {
   const Vec2 parallax = parallax_px_m(camera_, track.displacement_C_m, track.place_px);
@@ -114,9 +114,8 @@ double EdgeExpert::first_step(const Track& track, const Vec2& x_px,
              : 1 / (kPi * orders * (s2 + (a - segment / 2) * (a - segment / 2)));
 }
 
-/// Takes a sighting in. \param chance_ppx2 `Association::chance_ppx2`.
-/// \return false where neither hypothesis has a place for it, so that it is none: nothing is
-/// changed then.
+/// Updates a track by a sighting. \param chance_ppx2 `Association::chance_ppx2`.
+/// \return false if neither hypothesis explains the sighting; the track is then unchanged.
 bool EdgeExpert::see(Track& track, const Vec2& x_px, double chance_ppx2, const MotionField& field) {
   const DepthBounds bounds = depth_bounds(field, x_px);
   const double turnover = parameters_.turnover(field.dt_s()), right = 1 - turnover;
@@ -133,13 +132,12 @@ bool EdgeExpert::see(Track& track, const Vec2& x_px, double chance_ppx2, const M
   }
   const double still = seen.see(x_px, noise2_px2, bounds);
   if (track.has_motion() && right * std::max(still, moving) < anywhere) return false;
-  // A match may be none: then it may be anywhere, and is likelier where many would look as good.
+  // A wrong match has a uniform density, plus the density of corners that look as good.
   const double none = anywhere + chance_ppx2;
   const double evidence = std::log((right * moving + none) / (right * still + none));
   const double most = lcs::log_odds((1 - turnover) / (1 - turnover + turnover * parameters_.prior));
   track.log_odds = std::clamp(before + evidence, -most, most);
-  // A step of EM: what is left, and what is not known of the place, is noise where the match is
-  // right.
+  // A step of EM: residual and variance of the estimated place are noise, if the match is right.
   const double stands = (1 - chance(before + evidence)) * right * still / (right * still + none);
   noise_sum_px2_ +=
       stands / 2 *
@@ -172,8 +170,8 @@ void EdgeExpert::coast(const MotionField& field) {
   }
 }
 
-/// Beliefs of what is seen. A corner seen for the first time is what the edge nearest to it is;
-/// where none is near nobody knows, and it is not called.
+/// Sets the beliefs of the tracks seen in this frame. A track seen once takes the belief of the
+/// nearest track with a motion, or 0 (pending) if none is near.
 void EdgeExpert::couple(const MotionField& field) {
   nodes_.clear();
   seen_.clear();
@@ -188,7 +186,6 @@ void EdgeExpert::couple(const MotionField& field) {
   for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i]->belief = beliefs[i];
 }
 
-/// The edge of a track.
 Edge EdgeExpert::edge_of(const Track& track, const MotionField& field) const {
   Edge edge;
   edge.id = track.id;
@@ -198,7 +195,7 @@ Edge EdgeExpert::edge_of(const Track& track, const MotionField& field) const {
   edge.depth_ratio = track.as_static.inverse_depth_pm * field.reference_depth_m();
   edge.age = track.age;
   edge.corner = track.corner;
-  // How sure it is, from 0 to 1, of the ranks that there are.
+  // Certainty of the kind, 0 to 1, scaled to ranks of trust.
   const double sure = std::abs(std::tanh(0.5 * track.belief));
   const double ranks = trust_.maximum - trust_.critical;
   edge.trust = trust_.critical + static_cast<int>(std::lround(sure * ranks)) - track.unseen;
@@ -206,7 +203,7 @@ Edge EdgeExpert::edge_of(const Track& track, const MotionField& field) const {
     const Vec2& velocity_pxps = track.as_moving.velocity_pxps;
     edge.speed = velocity_pxps.norm();
     if (edge.speed > 0) edge.angle = angle_of(velocity_pxps);
-    edge.origin = edge.location - field.dt_s() * velocity_pxps;  // so that beta is of now
+    edge.origin = edge.location - field.dt_s() * velocity_pxps;  // so that beta is current
     return edge;
   }
   move_as_static(edge, camera_, field);
@@ -260,8 +257,8 @@ const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& to
     velocity_error_.see(off);
     field = field.corrected(off.turn_rad, off.velocity_mps);
     predict_tracks(field);
-    // In the second frame no depth is known that could contradict the motion, except right after
-    // the motion before was contradicted.
+    // In the second frame no depth is known that could contradict the motion. It is checked only if
+    // the motion of the last frame was contradicted.
     if (started || result_.began_anew) {
       find_residuals(field, chi, track_of, started);
       is_wrong = is_contradicted(residuals_);

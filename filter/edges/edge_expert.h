@@ -1,6 +1,6 @@
 /// \file
-/// Circle expert, first part: edges. Each tracked corner is a static point or moves by itself; an
-/// edge carries the log odds of the latter (filter/MODEL.md).
+/// Circle expert, first part: edges. Each track is a static point or moves by itself; its edge
+/// holds the log odds of moving (filter/MODEL.md).
 #pragma once
 
 #include <span>
@@ -20,7 +20,7 @@ namespace lcs {
 
 class EdgeExpert {
  public:
-  /// \param trust ranks of an edge's trust, which tells how sure its kind is.
+  /// \param trust ranks of an edge's trust, which measures the certainty of its kind.
   EdgeExpert(const Intrinsics& camera, const EdgeParameters& parameters, const TrustRanks& trust);
 
   struct Result {
@@ -58,13 +58,13 @@ class EdgeExpert {
   EdgeParameters parameters_;
   TrustRanks trust_;
   Id next_id_ = 1;
-  double noise2_px2_ = 0;                        // of this frame's corners, by the frames before
-  double noise_sum_px2_ = 0, noise_weight_ = 0;  // seen in these: its sum, and that of the weights
+  double noise2_px2_ = 0;                        // of this frame's corners, from earlier frames
+  double noise_sum_px2_ = 0, noise_weight_ = 0;  // faded sums of squares and of their weights
   Association association_;
   Coupling coupling_;
   VelocityError velocity_error_;
-  std::vector<Track> tracks_;     // of the last frame; those of its corners first, by chi
-  std::vector<Track> predicted_;  // the same, in this frame
+  std::vector<Track> tracks_;     // of the last frame; tracks with a corner first, by chi
+  std::vector<Track> predicted_;  // the same, predicted to this frame
   std::vector<Residual> residuals_;
   std::vector<Coupling::Node> nodes_;
   std::vector<Track*> seen_;  // of each node

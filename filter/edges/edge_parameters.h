@@ -34,7 +34,7 @@ struct EdgeParameters {
   /// px: distance at which a neighbour's weight has fallen to 0.6.
   double neighbour_reach_px = learnt("hypotheses.neighbour_reach");
   double coupling = learnt("hypotheses.coupling");  ///< J: the most log odds that neighbours add
-  int neighbours = 9;                               ///< nearest corners that are asked
+  int neighbours = 9;                               ///< nearest corners that vote
 };
 
 }  // namespace lcs

@@ -1,6 +1,6 @@
 /// \file
-/// Normal densities in the plane, 1/px^2, the normal distribution, and how long what rests on them
-/// is iterated.
+/// Normal densities in the plane, 1/px^2, the normal distribution function, log odds, and the
+/// number of rounds of iterations based on them.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 
 namespace lcs {
 
-/// Rounds after which what is solved by turns is taken to be settled.
+/// Rounds of a fixed-point iteration.
 inline constexpr int kIterations = 5;
 
 inline double gauss(const Vec2& residual, double variance) {
@@ -24,12 +24,12 @@ inline double gauss(const Vec2& residual, const Eigen::Matrix2d& covariance) {
          (2 * std::numbers::pi * std::sqrt(covariance.determinant()));
 }
 
-/// Chance that a standard normal variable is below z.
+/// Probability that a standard normal variable is below z.
 inline double below(double z) {
   return 0.5 * std::erfc(-z / std::numbers::sqrt2);
 }
 
-/// ln(p / (1 - p)), and back.
+/// Log odds ln(p / (1 - p)), and its inverse.
 inline double log_odds(double chance) {
   return std::log(chance / (1 - chance));
 }

@@ -10,15 +10,15 @@
 namespace lcs {
 namespace {
 
-/// Standard deviation of the turn that is told of a frame, on an axis, before anything is seen.
+/// Prior standard deviation of the error of a frame's given rotation, on each axis.
 constexpr double kTurn_rad = 1e-3;
-/// Share of what stood that may leave its place in one frame: more is not the world's doing.
+/// Share of static tracks that may leave their predictions; a larger share contradicts the motion.
 constexpr double kLeave = 0.8;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// px per rad and m/s: the image motion by a small turn and a change of velocity, first order.
+/// px per rad and m/s: derivative of the image motion by a small turn and a change of velocity.
 Eigen::Matrix<double, 2, 6> jacobian(const Intrinsics& camera, const Residual& residual,
                                      double dt_s) {
   const Vec2 h = (residual.place_px - camera.centre_px) / camera.focal_px;
@@ -32,15 +32,15 @@ Eigen::Matrix<double, 2, 6> jacobian(const Intrinsics& camera, const Residual& r
 
 }  // namespace
 
-/// Normal equations, each residual weighed by the chance that it is of a static point, given what
-/// is left of it and how well the fix is known by then.
+/// Iterated weighted least squares. A residual's weight is the probability of a static point, given
+/// the residual and the covariance of the current fix.
 MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
                      std::span<const Residual> residuals,
                      const Eigen::Matrix3d& velocity_covariance) {
   const double dt = told.dt_s();
   const double turn = std::hypot(kTurn_rad, told.unseen_turn_rad());
   const double velocity_variance = velocity_covariance.trace() / 3;
-  Matrix6 prior = Matrix6::Zero();  // not inverted, as it is 0 where nothing can be wrong
+  Matrix6 prior = Matrix6::Zero();  // not inverted: 0 if the motion is exact
   prior.topLeftCorner<3, 3>().diagonal().setConstant(turn * turn);
   prior.bottomRightCorner<3, 3>() = velocity_covariance;
   Matrix6 left_open = prior, covariance = prior;
@@ -50,12 +50,12 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
     Vector6 pull = Vector6::Zero();
     for (const Residual& residual : residuals) {
       const Eigen::Matrix<double, 2, 6> J = jacobian(camera, residual, dt);
-      // How far a change of velocity moves a point is as uncertain as its depth.
+      // The effect of a change of velocity on a point is as uncertain as the point's depth.
       Eigen::Matrix2d S =
           residual.covariance_px2 + residual.by_depth_px * residual.by_depth_px.transpose();
       S.diagonal().array() += camera.focal_px * camera.focal_px * dt * dt * velocity_variance *
                               residual.inverse_depth_variance_pm2;
-      // Along a segment of a million pixels what is known across is lost in rounding.
+      // The precision across a segment of a million pixels is lost in rounding.
       if (!(S.determinant() > 1e-12 * S.trace() * S.trace())) continue;
       const Vec2 left = residual.off_px - J * fix;
       const double stands = residual.stands * gauss(left, S + J * left_open * J.transpose());
@@ -67,7 +67,7 @@ MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
     }
     covariance = (Matrix6::Identity() + prior * information).inverse() * prior;
     fix = covariance * pull;
-    // Where much may be wrong, wrong matches pull it far off at first: by and by it looks less far.
+    // Wrong matches pull the first rounds far off; later rounds search closer.
     left_open = covariance + prior * std::pow(kFar, -2 * (iteration + 1));
   }
   return {fix.head<3>(), fix.tail<3>(), covariance.bottomRightCorner<3, 3>()};

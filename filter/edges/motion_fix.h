@@ -1,7 +1,7 @@
 /// \file
-/// Estimates the error of the told motion from tracks that are likely to be static, by how far each
-/// corner is from where it was expected, across the parallax: along it another depth explains all,
-/// and a depth that was learnt under a wrong motion would confirm that motion.
+/// Estimates the error of the given motion from the residuals of likely static tracks. Residuals
+/// along the parallax count little, as another depth explains them: a depth learnt under a wrong
+/// motion would confirm that motion.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,53 +12,53 @@
 
 namespace lcs {
 
-/// How far a corner is from where its track was expected if it stands.
+/// Distance of a corner from the static prediction of its track.
 struct Residual {
   Vec2 place_px, off_px;
-  Eigen::Matrix2d covariance_px2;  ///< of the latter, by the depth that the track has
-  Vec2 by_depth_px;                ///< what half of the depths that it may have move it by
+  Eigen::Matrix2d covariance_px2;  ///< of `off_px`, at the track's depth
+  Vec2 by_depth_px;                ///< image shift by half of the range of depths
   double inverse_depth_pm = 0, inverse_depth_variance_pm2 = 0;
-  double voice = 1;           ///< what it counts for: those of one body are off together
+  double voice = 1;           ///< weight: tracks of one body are off together
   double stands = 1;          ///< chance that the point is static
-  double otherwise_ppx2 = 0;  ///< density of the corner there if not, times the chance of it
+  double otherwise_ppx2 = 0;  ///< density of the corner if not static, times 1 - `stands`
 };
 
-/// To be added to a motion, in the camera frame of k.
+/// Correction to add to a motion, in the camera frame of k.
 struct MotionFix {
   Eigen::Vector3d turn_rad, velocity_mps;
-  Eigen::Matrix3d velocity_covariance;  ///< of what is left of the latter, (m/s)^2
+  Eigen::Matrix3d velocity_covariance;  ///< of the corrected velocity, (m/s)^2
 };
 
-/// \param velocity_covariance of what is wrong with the told velocity before anything is seen.
+/// \param velocity_covariance prior covariance of the error of `told`'s velocity, (m/s)^2.
 MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
                      std::span<const Residual> residuals,
                      const Eigen::Matrix3d& velocity_covariance);
 
-/// Whether most of what stood, and that half of all, has left the places that this motion gives it,
-/// so that it is the motion that is wrong.
-/// \param residuals under the motion as fixed.
+/// Whether static tracks are at least half of all, and most of them left their predictions: then
+/// the motion is wrong.
+/// \param residuals under the corrected motion.
 bool is_contradicted(std::span<const Residual> residuals);
 
-/// The error of the told velocity. All the while it is as large as the estimator says
-/// (`EgoMotion::velocity_sigma_mps`) and a share of the speed; most of it lasts.
+/// Estimates the lasting error of the given velocity. Its standard deviation is the estimator's
+/// (`EgoMotion::velocity_sigma_mps`), root sum square with a share of the speed.
 class VelocityError {
  public:
-  /// \param share of its speed by which the camera's velocity may be wrong.
+  /// \param share standard deviation of the camera's velocity, as a share of its speed.
   explicit VelocityError(double share) : share_(share) {}
 
-  /// To the next frame.
-  /// \param lasts share of the error that is still the same.
+  /// Predicts the error to the next frame.
+  /// \param lasts share of the error that persists.
   void advance(const MotionField& told, double lasts);
 
-  /// The told field, corrected by the error as far as that is known.
+  /// The given field, corrected by the estimated error.
   MotionField without(const MotionField& told) const {
     return told.corrected(Eigen::Vector3d::Zero(), mean_mps_);
   }
 
-  /// (m/s)^2: of the error that is left in that field's velocity.
+  /// (m/s)^2: covariance of the error that is left in that field's velocity.
   const Eigen::Matrix3d& covariance() const { return covariance_; }
 
-  /// Updates the estimate by the error of that field.
+  /// Adds the correction of that field to the estimate.
   void see(const MotionFix& fix) {
     mean_mps_ += fix.velocity_mps;
     covariance_ = fix.velocity_covariance;
@@ -71,7 +71,7 @@ class VelocityError {
   // In the camera frame of k.
   Eigen::Vector3d mean_mps_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
-  double sigma_mps_ = 0;  // of the whole error, in the last frame
+  double sigma_mps_ = 0;  // of the whole error in the last frame
 };
 
 }  // namespace lcs

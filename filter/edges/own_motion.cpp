@@ -19,7 +19,7 @@ OwnMotion OwnMotion::predicted(const MotionField& field, double acceleration) co
   next.velocity_pxps = velocity_pxps;
   Eigen::Matrix2d F;
   F << 1, dt, 0, 1;
-  // Of a velocity that wanders: its variance at the frame's end, and what that does to the place.
+  // Velocity as a random walk: its variance at the frame's end, and that of the place.
   const double change2 = acceleration * acceleration * dt * dt * velocity_pxps.squaredNorm();
   Eigen::Matrix2d Q;
   Q << dt * dt / 3, dt / 2, dt / 2, 1;

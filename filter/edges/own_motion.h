@@ -1,6 +1,6 @@
 /// \file
-/// A corner as a point that moves by itself: where it is seen and how fast it goes in the image,
-/// the camera's rotation removed. Both axes are alike and share one covariance.
+/// A track as a point that moves by itself: place and velocity in the image, camera rotation
+/// removed. Both axes share one covariance.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,19 +13,19 @@ namespace lcs {
 struct OwnMotion {
   Vec2 place_px = Vec2::Zero();
   Vec2 velocity_pxps = Vec2::Zero();
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of (x, v), the same on either axis
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of (x, v), the same on each axis
 
-  /// Of two sightings, the former one in this frame's pixels.
+  /// From two sightings; `before_px` in this frame's pixels.
   static OwnMotion first(const Vec2& before_px, const Vec2& x_px, double noise2_px2, double dt_s);
 
-  /// One frame on.
-  /// \param acceleration 1/s: share of the velocity by which it may change in a second.
+  /// Predicts it to the next frame.
+  /// \param acceleration 1/s: relative change of the velocity per second.
   OwnMotion predicted(const MotionField& field, double acceleration) const;
 
-  /// Updates a predicted motion by the sighting.
+  /// Kalman update by a sighting.
   void see(const Vec2& x_px, double noise2_px2);
 
-  /// Density of a sighting at `x_px` of a predicted motion, 1/px^2.
+  /// Density of a sighting at `x_px`, given the prediction, 1/px^2.
   double density(const Vec2& x_px, double noise2_px2) const;
 
   /// Variance of a frame's step on one axis, px^2.

@@ -10,15 +10,15 @@
 namespace lcs {
 namespace {
 
-/// Of the height above the ground that is told, by which it may be wrong.
+/// Relative standard deviation of the given height above the ground.
 constexpr double kWrongHeight = 0.1;
-/// Standard deviations of the ground beyond which nothing static is.
+/// No static point lies more than this many standard deviations below the ground.
 constexpr double kFarBelow = 2;
 
-/// Chance of a normal variable between the bounds; never 0, as it is divided by.
+/// Probability of a normal variable between the bounds; never 0, as it is a divisor.
 double mass(double mean, double variance, const DepthBounds& bounds) {
   const double sigma = std::sqrt(variance);
-  // Infinity is a bound as the ground is, and sharp.
+  // Infinite depth (w = 0) is a sharp bound, the ground an uncertain one.
   const double least = std::max(
       -mean / sigma, (bounds.ground_pm - mean) / std::hypot(sigma, bounds.ground_sigma_pm));
   return std::max(1e-12, below((bounds.most_pm - mean) / sigma) - below(least));
@@ -29,8 +29,8 @@ double nearest_pm(const MotionField& field) {
   return field.max_ratio() / field.reference_depth_m();
 }
 
-/// What a velocity that is wrong by a share does to an image motion: by as much along it, and by
-/// half of that across.
+/// Covariance of an image motion under a relative error of the velocity: the error along the
+/// motion, half of it across.
 Eigen::Matrix2d wrong_flow(const Vec2& flow_px, double ego_share) {
   return ego_share * ego_share *
          (0.75 * flow_px * flow_px.transpose() +
@@ -80,11 +80,11 @@ StaticPoint StaticPoint::predicted(const Intrinsics& camera, const MotionField& 
   const Vec2 shift = camera.focal_px * d.head<2>();
   const Vec2 rotated = field.rotated(place_px);
   const Vec2 h = rotated - camera.centre_px;
-  // What the camera passes within a frame comes as near as anything may be; what is turned behind
-  // it has no image, and stays where it was.
+  // A point that the camera passes within the frame is put at z_min. A point turned behind the
+  // camera has no image and keeps its place and inverse depth.
   const double nearest = nearest_pm(field);
   const Vec2 before = (place_px - camera.centre_px) / camera.focal_px;
-  const double Z = field.R_cur_prev().row(2).dot(before.homogeneous());  // in Z before the rotation
+  const double Z = field.R_cur_prev().row(2).dot(before.homogeneous());  // Z after R / Z before
   const double turned = Z > 0 ? std::max(inverse_depth_pm / nearest, Z) : 1;
   const double w = inverse_depth_pm / turned;
   const double nearing = std::max(w / nearest, 1 - w * d.z());
@@ -111,12 +111,12 @@ double StaticPoint::see(const Vec2& x_px, double noise2_px2, const DepthBounds& 
   const Eigen::Vector3d change = gain * residual;
   place_px += change.head<2>();
   inverse_depth_pm += change.z();
-  // Joseph's form, which stays positive however well a place is known.
+  // Joseph's form keeps the covariance positive definite.
   Eigen::Matrix3d kept = Eigen::Matrix3d::Identity();
   kept.leftCols<2>() -= gain;
   covariance = kept * covariance * kept.transpose() + noise2_px2 * gain * gain.transpose();
   const double after = mass(inverse_depth_pm, covariance(2, 2), bounds);
-  // Out of bounds, the likeliest point within them.
+  // If w is out of bounds: the likeliest point within them.
   const double bounded = std::clamp(inverse_depth_pm, bounds.least_pm, bounds.most_pm);
   place_px += covariance.col(2).head<2>() / covariance(2, 2) * (bounded - inverse_depth_pm);
   inverse_depth_pm = bounded;

@@ -15,32 +15,32 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Blocks of the error state.
+// First indices of the blocks of the error state.
 constexpr int kAttitude = 0, kVelocity = 3, kGyroBias = 6, kAccelBias = 9;
 
-// What the given start may be off by.
+// Standard deviations of the given start.
 constexpr double kStartAttitude_rad = 1e-3, kStartVelocity_mps = 1e-2;
 
-// The IMU is silent once it is overdue by as many of its periods. What it then does not see: turns
-// of 0.2 rad/s and accelerations of 2 m/s^2 that last for some tenths of a second.
+// The IMU is silent once it is overdue by this many of its periods. Its unmeasured motion is
+// modelled as turns of 0.2 rad/s and accelerations of 2 m/s^2 for some tenths of a second.
 constexpr int kSilentPeriods = 4;
 constexpr double kUnseenTurn = 0.1;          // rad/s/sqrt(Hz), about the vertical
 constexpr double kUnseenAcceleration = 1.0;  // m/s^2/sqrt(Hz)
 
-// How often wheels begin or cease to slip, and the variance of what they then tell, in those of
-// wheels that grip. Chosen by F1 on 44 yards of `train`, which a third of the rate or twice the
-// variance changed by .003.
+// Rate at which wheels begin or cease to slip, and the variance of odometry in slip, relative to
+// grip. Chosen by F1 on 44 yards of `train`; a third of the rate or twice the variance changed F1
+// by .003.
 constexpr double kSlipRate_ps = 1, kSlipVariance = 2;
-// Once a slip shows, the estimator goes back by this, to twice this.
+// After a slip is detected the estimator goes back by once to twice this time.
 constexpr double kHiddenSlip_s = 0.5;
 
-// Beyond what sensors measure.
+// Beyond the range of any sensor.
 constexpr double kMostRate_radps = 100, kMostForce_mps2 = 2000;
 
-// Variances above this say that nothing is known; more of them would run into infinity.
+// Variances above this mean that nothing is known; the cap prevents overflow.
 constexpr double kMostVariance = 1e12;
 
-/// Signed; times of different clocks may be farther apart than their difference can tell.
+/// Signed seconds, as doubles: an integer difference of times of two clocks may overflow.
 double seconds_from(std::int64_t from_ns, std::int64_t to_ns) {
   return (static_cast<double>(to_ns) - static_cast<double>(from_ns)) * 1e-9;
 }
@@ -49,13 +49,13 @@ void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(std::string("the estimator of ego-motion needs ") + what);
 }
 
-/// Chance that the wheels slip, from that of `since_s` before, by a reading that is off by `miss2`
-/// squared standard deviations of wheels that grip.
+/// Probability of slip after a reading, from its value `since_s` before. `miss2` is the squared
+/// error of the reading, in variances of wheels that grip.
 double slip_after(double slip, double since_s, double miss2) {
   constexpr int kValues = 4;  // velocity and yaw rate
   const double turned = std::clamp(kSlipRate_ps * since_s, 0.0, 0.5);
   const double before = slip * (1 - turned) + (1 - slip) * turned;
-  // ln of the ratio of two normal densities, one of k times the variance of the other
+  // log likelihood ratio of two normals whose variances differ by the factor k
   const double evidence =
       0.5 * (miss2 * (1 - 1 / kSlipVariance) - kValues * std::log(kSlipVariance));
   return before / (before + (1 - before) * std::exp(-evidence));
@@ -126,7 +126,7 @@ std::optional<Fault> EgoMotionEstimator::fault_of(std::int64_t t_ns, const Vecto
   return std::nullopt;
 }
 
-/// Of readings that were integrated before they were known to be in g.
+/// Rescales readings that were integrated before they were found to be in g.
 void EgoMotionEstimator::scale_past(double scale) {
   const Vector3d missed = (scale - 1) * dv_in_g_W_;
   now_.v_WS += missed;
@@ -144,18 +144,18 @@ void EgoMotionEstimator::add_imu(std::int64_t t_ns, const Vector3d& gyro_radps,
   const ImuWatch::Finding finding = watch_.look(gyro_radps, accel_mps2, diagnostics_);
   const Reading reading{t_ns, gyro_radps, finding.accel_scale * accel_mps2};
   if (!last_) {
-    // The start gives the velocity of the rover's origin; the IMU sits on a lever.
+    // The start gives the velocity of the rover's origin; the lever arm adds the IMU's part.
     now_.v_WS += now_.R_WS * gyro_radps.cross(mounting_.R_BS.transpose() * mounting_.p_BS_m);
     last_ = reading;
     heard_ns_ = t_ns;
   }
   if (finding.begins_in_g) scale_past(finding.accel_scale);
-  // Over the interval that ends with this reading both rates are taken to change linearly.
+  // Both rates are interpolated linearly over the interval that ends with this reading.
   last_->gyro = 0.5 * (last_->gyro + reading.gyro);
   last_->accel = 0.5 * (last_->accel + reading.accel);
   if (watch_.in_g() == 0 || watch_.in_g() == ImuWatch::kInG) {
     dv_in_g_W_.setZero();
-  } else {  // the reading before the first of them is in m/s^2
+  } else {  // the reading before the run is in m/s^2
     const Vector3d in_g = was_like_g ? last_->accel : Vector3d(0.5 * reading.accel);
     dv_in_g_W_ += now_.R_WS * in_g * seconds_from(t_ns_, t_ns);
   }
@@ -165,14 +165,14 @@ void EgoMotionEstimator::add_imu(std::int64_t t_ns, const Vector3d& gyro_radps,
   if (finding.believed) heard_ns_ = t_ns;
 }
 
-/// Once a gap, whether it ends or not.
+/// Counts each gap once.
 void EgoMotionEstimator::note_gap(std::int64_t silent_ns) {
   if (in_gap_ || period_ns_ == 0 || silent_ns <= kSilentPeriods * period_ns_) return;
   in_gap_ = true;
   diagnostics_.add(Fault::imu_gap);
 }
 
-/// The shortest time that two intervals in a row had, so that one wrong time does not spoil it.
+/// Period: least value so far of the longer of two successive intervals; robust to a wrong time.
 void EgoMotionEstimator::measure_period(std::int64_t since_ns) {
   if (since_ns <= 0) return;
   note_gap(since_ns);
@@ -270,7 +270,7 @@ void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocit
   const double grip = 1 - slip_;
   const Eigen::Matrix<double, 12, 1> error = grip * whole;
 
-  // The whole history turns with the attitude: a correction is not a motion of this frame.
+  // A correction of attitude is no motion in this frame, so it rotates the history too.
   const Matrix3d correction = exponential(error.segment<3>(kAttitude));
   now_.R_WS = correction * now_.R_WS;
   now_.displacement_W = correction * now_.displacement_W;
@@ -278,7 +278,7 @@ void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocit
   now_.v_WS += error.segment<3>(kVelocity);
   now_.gyro_bias += error.segment<3>(kGyroBias);
   now_.accel_bias += error.segment<3>(kAccelBias);
-  // Joseph form: stays symmetric and positive. Of the two states the mixture.
+  // Joseph form, symmetric and positive; then the mixture of grip and slip.
   const Matrix12 I_KH = Matrix12::Identity() - gain * H;
   now_.covariance =
       (grip * (I_KH * now_.covariance * I_KH.transpose() + gain * gain.transpose() * noise2) +
@@ -287,8 +287,8 @@ void EgoMotionEstimator::add_odometry(std::int64_t t_ns, const Vector3d& velocit
   go_back_if(slipped);
 }
 
-/// What odometry of a slip nobody had seen yet made of the state was wrong, and the attitude and
-/// the biases stay so: back to a state that heard the IMU alone since before.
+/// Undoes odometry that was taken before the slip was detected: it has corrupted attitude and
+/// biases. Returns to an earlier state propagated by the IMU alone.
 void EgoMotionEstimator::go_back_if(bool slipped) {
   if (kept_.empty()) return;
   if (slips()) {
@@ -316,7 +316,7 @@ void EgoMotionEstimator::set_clock(std::int64_t t_ns) {
   if (last_) last_->t_ns = t_ns;
 }
 
-/// What is told with the next frame counts from here.
+/// Starts the interval of the next frame's motion.
 void EgoMotionEstimator::begin_interval(std::int64_t t_ns) {
   last_frame_ns_ = t_ns;
   const auto begin = [&](State& state) {
@@ -328,8 +328,8 @@ void EgoMotionEstimator::begin_interval(std::int64_t t_ns) {
   unseen_turn_rad2_ = 0;
 }
 
-/// Nothing is known of the motion since the last frame; a second such frame that agrees with the
-/// first shows that it is the clock that was set.
+/// Motion is unknown since the last frame. If a second such frame agrees with the first, the clock
+/// was set.
 EgoMotion EgoMotionEstimator::frame_out_of_time(std::int64_t t_ns) {
   EgoMotion motion;
   motion.dt_s = seconds_from(*last_frame_ns_, t_ns);
@@ -351,7 +351,7 @@ EgoMotion EgoMotionEstimator::frame(std::int64_t t_ns) {
     return frame_out_of_time(t_ns);
   }
   wrong_frame_ns_.reset();
-  // The first frame sets the clock if it is not that of the start.
+  // The first frame sets the clock if the start uses another clock.
   if (!last_frame_ns_ && std::abs(seconds_from(t_ns_, t_ns)) > kLongestStep_s) set_clock(t_ns);
   if (last_) note_gap(t_ns - last_->t_ns);
   propagate_to(t_ns);

@@ -14,10 +14,10 @@
 
 namespace lcs {
 
-/// Standard deviation of a turn, about any axis, where for so long no gyro tells of it.
+/// rad: standard deviation of the rotation about each axis after `dt_s` without gyro readings.
 double unseen_turn_rad(double dt_s);
 
-/// Rotations (only) of the sensors, and their lever arms, in the rover's frame B.
+/// Rotations of the sensors and their lever arms, in the rover's frame B. R_BC maps C to B.
 struct Mounting {
   Eigen::Matrix3d R_BC = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_BC_m = Eigen::Vector3d::Zero();
@@ -26,15 +26,15 @@ struct Mounting {
   bool on_ground = false;  ///< the origin of B stays on the ground
 };
 
-/// Noise that the estimator expects; used only to weigh odometry against the IMU.
+/// Expected sensor noise; used only to weight odometry against the IMU.
 struct EgoMotionNoise {
   double gyro_density = 1.7e-4;   ///< rad/s/sqrt(Hz)
   double gyro_walk = 2.0e-5;      ///< rad/s^2/sqrt(Hz)
   double accel_density = 2.0e-3;  ///< m/s^2/sqrt(Hz)
   double accel_walk = 3.0e-3;     ///< m/s^3/sqrt(Hz)
   double odometry_mps = 0.02;     ///< standard deviation of one odometry velocity, per axis
-  double odometry_radps = 0.05;   ///< and of one yaw rate by the wheels
-  /// \name Standard deviation of what each bias may be at the start, per axis.
+  double odometry_radps = 0.05;   ///< standard deviation of a yaw rate by the wheels
+  /// \name Standard deviation of each bias at the start, per axis.
   ///@{
   double gyro_turn_on_bias = 1e-5;   ///< rad/s
   double accel_turn_on_bias = 1e-3;  ///< m/s^2
@@ -42,21 +42,19 @@ struct EgoMotionNoise {
 };
 
 /// Strapdown integration of gyro and accelerometer from a known start, in the world frame W (z up,
-/// gravity along -z), with an error-state Kalman filter on (attitude, velocity, gyro bias,
-/// accelerometer bias) that takes wheel odometry where there is some. Without odometry it is plain
-/// dead reckoning. Where the IMU falls silent its last reading is held, and odometry is believed
-/// more; likewise where it is frozen or saturated.
+/// gravity along -z). An error-state Kalman filter on (attitude, velocity, gyro bias, accelerometer
+/// bias) fuses wheel odometry, if any; else it is dead reckoning. While the IMU is silent, frozen
+/// or saturated, its last reading is held and odometry gets more weight.
 ///
-/// Wheels that slip tell a velocity that is not the rover's. Where odometry has a yaw rate too,
-/// each reading counts by the chance that they grip, as the readings before had it, and as the gyro
-/// and the velocity bear this one out (probabilistic data association, of a Markov chain of two
-/// states). Once a slip shows, the estimator goes back to a state that it had half a second to one
-/// before, brought to now by the IMU alone. Slips in which yaw agrees, as those of both wheels
-/// alike, show later, or not.
+/// Slipping wheels report a wrong velocity. If odometry has a yaw rate, each reading is weighted by
+/// the probability of grip, from earlier readings, the gyro and the velocity (probabilistic data
+/// association, two-state Markov chain). When a slip is detected, the estimator returns to a state
+/// of half a second to one second before, propagated by the IMU alone. Slips with a correct yaw
+/// rate, as when both wheels slip alike, are detected later or not at all.
 ///
-/// Bad readings never throw: they are left out and named. The frames are the clock: one that is
-/// older than the last, or far ahead, has no motion and changes nothing; with a second one that
-/// agrees with it the clock was set, and goes on from there.
+/// Bad readings never throw: they are dropped and counted. Frames define the clock. A frame older
+/// than the last, or far ahead, has no motion and changes nothing. If a second one agrees with it,
+/// the clock was set, and the estimator continues from there.
 class EgoMotionEstimator {
  public:
   struct Start {
@@ -66,32 +64,31 @@ class EgoMotionEstimator {
     double gravity_mps2 = 9.81;
   };
 
-  /// \throws std::invalid_argument for values that are not finite or negative, and for rotations
-  /// that are none.
+  /// \throws std::invalid_argument for negative or non-finite values and invalid rotations.
   EgoMotionEstimator(const Mounting& mounting, const EgoMotionNoise& noise, const Start& start);
 
   /// A reading of the IMU in its frame S. Times do not decrease.
   void add_imu(std::int64_t t_ns, const Eigen::Vector3d& gyro_radps,
                const Eigen::Vector3d& accel_mps2);
 
-  /// Velocity of the rover's origin, in B, from its wheels, and the yaw rate (ccw) by which these
-  /// differ, where they tell it. Integrates up to `t_ns` first.
+  /// Velocity of the rover's origin in B from its wheels, and yaw rate (ccw) from their difference,
+  /// if available. Integrates up to `t_ns` first.
   void add_odometry(std::int64_t t_ns, const Eigen::Vector3d& velocity_B_mps,
                     std::optional<double> yaw_rate_radps = std::nullopt);
 
-  /// Integrates up to a frame's time, and returns the motion since the last frame. Of a frame whose
-  /// time is wrong only the time since the last one is told, negative or above `kLongestStep_s`.
+  /// Integrates up to a frame's time. \return the motion since the last frame; for a frame with a
+  /// wrong time only `dt_s`, negative or above `kLongestStep_s`.
   EgoMotion frame(std::int64_t t_ns);
 
-  /// The ground at the time integrated to: level, through the origin of B. None where that is not
-  /// on the ground, or the camera is not above it.
+  /// The ground at the current time: level, through the origin of B. Absent if that is not on the
+  /// ground, or the camera is not above it.
   std::optional<Ground> ground() const;
 
   const Eigen::Matrix3d& R_WS() const { return now_.R_WS; }
   const Eigen::Vector3d& v_WS_mps() const { return now_.v_WS; }
-  /// Chance that the wheels slipped at the last odometry; 0 where that had no yaw rate.
+  /// Probability of slip at the last odometry reading; 0 if that had no yaw rate.
   double chance_of_slip() const { return slip_; }
-  /// What was wrong with the readings so far.
+  /// Counts of the faults in the readings so far.
   const Diagnostics& diagnostics() const { return diagnostics_; }
 
  private:
@@ -126,28 +123,28 @@ class EgoMotionEstimator {
   Eigen::Vector3d gravity_W_;
   std::int64_t t_ns_;
   State now_;
-  /// It as it was half a second before `kept_ns_` and at that time, by the IMU alone since; none
-  /// where odometry tells no yaw rate.
+  /// States of half a second before `kept_ns_` and at that time, propagated by the IMU alone since;
+  /// empty if odometry has no yaw rate.
   std::vector<State> kept_;
   std::int64_t kept_ns_;
   double slip_ = 0;
-  std::int64_t odometry_ns_;  ///< time of the last one
+  std::int64_t odometry_ns_;  ///< time of the last odometry reading
   struct Reading {
     std::int64_t t_ns;
     Eigen::Vector3d gyro, accel;
   };
   std::optional<Reading> last_;   ///< newest reading
-  std::int64_t heard_ns_ = 0;     ///< time of the newest reading that is believed
+  std::int64_t heard_ns_ = 0;     ///< time of the newest believed reading
   std::int64_t interval_ns_ = 0;  ///< time between the last two readings
-  bool in_gap_ = false;           ///< and it is counted
-  std::int64_t period_ns_ = 0;    ///< shortest that two intervals in a row had so far
+  bool in_gap_ = false;           ///< the current gap has been counted
+  std::int64_t period_ns_ = 0;    ///< least of max(two successive intervals)
   Diagnostics diagnostics_;
   ImuWatch watch_;
-  Eigen::Vector3d dv_in_g_W_ = Eigen::Vector3d::Zero();  ///< integrated while they may be in g
-  std::optional<std::int64_t> wrong_frame_ns_;  ///< of the last frame, where its time was wrong
+  Eigen::Vector3d dv_in_g_W_ = Eigen::Vector3d::Zero();  ///< velocity gained, maybe in g
+  std::optional<std::int64_t> wrong_frame_ns_;           ///< set if the last frame's time was wrong
 
   std::optional<std::int64_t> last_frame_ns_;
-  double unseen_turn_rad2_ = 0;  ///< since the last frame, its variance
+  double unseen_turn_rad2_ = 0;  ///< its variance since the last frame
 };
 
 }  // namespace lcs

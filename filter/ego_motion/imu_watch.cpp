@@ -6,15 +6,15 @@
 namespace lcs {
 namespace {
 
-/// Noise may repeat a reading by chance where steps are coarse, but not all six axes so often.
+/// Coarse quantisation may repeat a reading by chance, but not on all six axes this many times.
 constexpr int kFrozen = 10;
 
-/// An axis at the end of its range says the same size so often, and a larger one never. No sensor's
-/// range ends below these.
+/// A saturated axis repeats its largest magnitude this many times. No sensor's range ends
+/// below these limits.
 constexpr int kSaturated = 5;
 constexpr double kLeastRange_radps = 1.5, kLeastRange_g = 1.5;
 
-/// m/s^2: below it, g and m/s^2 cannot be told apart.
+/// m/s^2: below this gravity, readings in g and in m/s^2 are indistinguishable.
 constexpr double kLeastGravity_mps2 = 3;
 
 }  // namespace

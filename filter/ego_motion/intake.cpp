@@ -6,15 +6,15 @@
 namespace lcs {
 namespace {
 
-/// Shorter than this no time has passed: speeds would be what rounding makes of them.
+/// Shorter steps count as zero time: speeds would be rounding errors.
 constexpr double kShortestStep_s = 1e-6;
 
 constexpr double kMostRate_radps = 1000;
 
-/// Of R R^T from the identity: 0.4 px at the border of a 640 px picture of 75 deg.
+/// Tolerance of R R^T: 0.4 px at the border of a 640 px picture of 75 deg.
 constexpr double kOffRotation = 1e-3;
 
-/// m: a camera outside of this says nothing of the ground.
+/// m: outside of this range the ground is not used.
 constexpr double kLeastHeight_m = 1e-3, kMostHeight_m = 1e4;
 
 std::optional<Fault> fault_of(const EgoMotion& m) {

@@ -1,6 +1,5 @@
 /// \file
-/// Checks the ego-motion that the filter is told, and accepts all of it, all but the ground, or
-/// nothing.
+/// Validates the given ego-motion: accepts it, accepts it without the ground, or rejects it.
 #pragma once
 
 #include <optional>
@@ -10,22 +9,22 @@
 
 namespace lcs {
 
-/// A longer step between two frames starts the filter anew: what it knew is of no use.
+/// s: a longer step between two frames resets the filter.
 inline constexpr double kLongestStep_s = 60;
 
-/// A faster motion is a broken input, not that of a vehicle.
+/// m/s: a faster motion is invalid input.
 inline constexpr double kMostSpeed_mps = 1000;
 
 class Intake {
  public:
-  /// \return the motion; none where it cannot be used, which the diagnostics count.
+  /// \return the motion; absent if unusable. Counts the fault in `diagnostics`.
   std::optional<EgoMotion> take(const EgoMotion& told, Diagnostics& diagnostics);
 
  private:
-  bool is_first_ = true;  ///< nothing came before that time could have passed since
+  bool is_first_ = true;  ///< no frame came before
 };
 
-/// Whether a matrix is a rotation, but for what a few decimals leave.
+/// Whether a matrix is a rotation, up to rounding to a few decimals.
 bool is_rotation(const Eigen::Matrix3d& R);
 
 }  // namespace lcs

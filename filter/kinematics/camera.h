@@ -1,5 +1,5 @@
 /// \file
-/// The camera as the filter sees it: a pinhole with square pixels and no distortion; and its image.
+/// The filter's camera model: a pinhole with square pixels and no distortion.
 ///
 /// Conventions of the whole filter: pixels with x right, y down, (0, 0) at the centre of the
 /// top-left pixel; camera frame C with x right, y down, z forward; angles in radians, wrapped to
@@ -19,12 +19,12 @@ struct Intrinsics {
   int height_px = 0;
 };
 
-/// Of an image.
+/// Size of an image.
 struct Pixels {
   int width_px;
   int height_px;
 
-  /// Whether a location falls on one of them.
+  /// Whether a location falls on a pixel of the image.
   bool contain(const Vec2& x) const {
     return x.x() > -0.5 && x.y() > -0.5 && x.x() < width_px - 0.5 && x.y() < height_px - 0.5;
   }

@@ -1,5 +1,5 @@
 /// \file
-/// The camera's motion between two frames, as the filter takes it.
+/// The camera's motion between two frames: input of the filter.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 namespace lcs {
 
-/// The plane that the vehicle stands on, seen from the camera of frame k.
+/// The ground plane under the vehicle, in the camera frame of k.
 struct Ground {
   Eigen::Vector3d up_C = -Eigen::Vector3d::UnitY();  ///< unit normal, against gravity
   double height_m = 0;                               ///< of the camera above the plane, > 0
@@ -23,10 +23,10 @@ struct EgoMotion {
   /// Mean body rate of the camera over the interval, in the camera frame:
   /// R_cur_prev = exp(-[w] dt).
   Eigen::Vector3d w_C_radps = Eigen::Vector3d::Zero();
-  /// Standard deviation of the rotation about any axis that missing gyro readings cause; 0 where
-  /// no reading is missing.
+  /// rad: standard deviation of the rotation about each axis, due to missing gyro readings; 0 if
+  /// none is missing.
   double unseen_turn_rad = 0;
-  /// Standard deviation of the velocity along any axis, by the estimator: it grows while the IMU
+  /// Standard deviation of the velocity along each axis, by the estimator. It grows while the IMU
   /// is integrated without odometry. 0 where unknown.
   double velocity_sigma_mps = 0;
   /// At frame k; absent where the camera's mounting is unknown.

@@ -1,5 +1,5 @@
 /// \file
-/// Angles that wrap, and the few planar constructions that several experts share.
+/// Angle arithmetic and planar geometry that several experts share.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,9 @@ namespace lcs {
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kDegree = kPi / 180;
 
-/// To (-pi, pi].
+/// Wraps an angle to (-pi, pi].
 inline double wrap_angle(double angle_rad) {
-  if (std::abs(angle_rad) < kPi) return angle_rad;  // as most are
+  if (std::abs(angle_rad) < kPi) return angle_rad;  // the common case
   const double wrapped = std::remainder(angle_rad, 2 * kPi);
   return wrapped <= -kPi ? wrapped + 2 * kPi : wrapped;
 }

@@ -11,7 +11,7 @@
 namespace lcs {
 namespace {
 
-/// No picture has more pixels than an int tells: what is farther is at infinity.
+/// Coordinates beyond the range of int count as infinite.
 const double kInfinity_px = std::numeric_limits<int>::max();
 
 }  // namespace
@@ -56,8 +56,8 @@ MotionField MotionField::corrected(const Eigen::Vector3d& turn_rad,
   return MotionField({.focal_px = focal_px_, .centre_px = centre_px_}, motion, parameters_);
 }
 
-/// What is turned behind the camera has no image, and the first-order models have one for it that
-/// grows without bounds: both stay where they are, out of sight, and will go.
+/// A point turned behind the camera has no image, and the first-order models diverge. Both keep
+/// their place.
 Vec2 MotionField::rotated(const Vec2& x_px) const {
   const Vec2 x = rotated_unbounded(x_px);
   return x.cwiseAbs().maxCoeff() < kInfinity_px ? x : x_px;
@@ -100,7 +100,7 @@ Vec2 MotionField::earlier(const Vec2& x_px, double depth_ratio,
   const Eigen::Vector3d h((x_px.x() - centre_px_.x()) / focal_px_ + w * displacement_C_m.x(),
                           (x_px.y() - centre_px_.y()) / focal_px_ + w * displacement_C_m.y(),
                           1 + w * displacement_C_m.z());
-  // In reverse a near point may have been behind the camera: it was nowhere in the image.
+  // In reverse a near point may have been behind the camera: then it had no image.
   if (h.z() < 1e-3) return Vec2::Constant(-1e6);
   return centre_px_ + focal_px_ * h.head<2>() / h.z();
 }

@@ -1,5 +1,5 @@
 /// \file
-/// Rotations, and the vectors that make them: about the vector's direction by its length, rad.
+/// Rotation vectors (axis times angle, rad) and their matrices.
 #pragma once
 
 #include <Eigen/Core>

@@ -34,8 +34,8 @@ const Chi& LineExpert::collect(std::span<const Eigen::Vector2f> corners_px,
       entries_.push_back({(x - centre_px_).squaredNorm(), x, static_cast<int>(i)});
     }
   }
-  // Mirroring and quarter turns of the image keep the distance from the centre; coordinates order
-  // corners at the same distance, and signatures those at the same place.
+  // The distance from the centre is invariant to mirroring and quarter turns of the image. Ties are
+  // broken by coordinates, then by signatures.
   const auto signature = [&](const Entry& entry) {
     return signatures.empty() ? Signature{} : signatures[static_cast<std::size_t>(entry.source)];
   };

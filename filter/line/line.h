@@ -1,5 +1,5 @@
 /// \file
-/// Line expert: selects and orders the corners of a frame that the filter looks at.
+/// Line expert: selects and orders the corners of a frame for the filter.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,30 +15,30 @@
 namespace lcs {
 
 struct LineParameters {
-  /// Of more corners than these, those nearest to the principal point are used. Bounds the memory.
+  /// Maximum number of corners; those nearest to the principal point are kept. Bounds memory.
   int max_corners = 20000;
 };
 
-/// chi after the Line expert: the corners that the filter looks at, in an order that does not
-/// depend on the caller's (nearest to the principal point first).
+/// chi after the Line expert: the corners that the filter uses, nearest to the principal point
+/// first. The order does not depend on the caller's.
 struct Chi {
   std::vector<Vec2> locations;        ///< px
-  std::vector<int> sources;           ///< index of each in the caller's corners
-  std::vector<Signature> signatures;  ///< of each; empty where the caller gives no signatures
+  std::vector<int> sources;           ///< index of each corner in the caller's list
+  std::vector<Signature> signatures;  ///< of each corner; empty if the caller gives none
 
-  /// A corner at the same place as a corner of chi, whose verdict it gets.
+  /// A corner at the same place as a corner of chi. It gets that corner's verdict.
   struct Repeat {
     int source, of_source;  ///< indices in the caller's corners
   };
   std::vector<Repeat> repeats;
 
-  /// For each of the caller's corners, why it was rejected; `unknown` for those of chi and repeats.
+  /// Reason of rejection for each of the caller's corners; `unknown` for those of chi and repeats.
   std::vector<Reason> rejected;
 
   std::size_t size() const { return locations.size(); }
 };
 
-/// True for x inside a region of psi, border included.
+/// Whether x is inside a region of psi, border included.
 bool contains(const IgnoreRegion& region, const Vec2& x);
 bool inside_any(std::span<const IgnoreRegion> regions, const Vec2& x);
 
@@ -49,7 +49,7 @@ class LineExpert {
         picture_{camera.width_px, camera.height_px},
         max_corners_(static_cast<std::size_t>(parameters.max_corners)) {}
 
-  /// \param signatures one for each corner, or none at all.
+  /// \param signatures one for each corner, or empty.
   /// \param psi corners inside these regions are rejected.
   /// \return valid until the next call.
   const Chi& collect(std::span<const Eigen::Vector2f> corners_px,
@@ -71,9 +71,9 @@ class LineExpert {
 /// Counts the rejected and repeated corners.
 void count_rejected(const Chi& chi, Diagnostics& diagnostics);
 
-/// Sets the verdict and reason of each of the caller's corners: rejected ones are `ignored` inside
-/// psi and `pending` elsewhere, a repeat gets those of the corner at its place.
-/// \param verdicts, reasons of the corners of chi.
+/// Sets verdict and reason of each of the caller's corners. Rejected corners are `ignored` inside
+/// psi and `pending` elsewhere. A repeat gets those of the corner at its place.
+/// \param verdicts, reasons one for each corner of chi.
 void assign_verdicts(const Chi& chi, std::span<const Verdict> verdicts,
                      std::span<const Reason> reasons, FrameResult& result);
 

@@ -1,14 +1,13 @@
 /// \file
-/// Pairs that compete, as two groups that may be merged, or an edge and a corner.
+/// Candidate pairs: two groups that may merge, or an edge and a corner.
 #pragma once
 
 #include <tuple>
 
 namespace lcs {
 
-/// Two things, by their indices, and what it costs to bring them together. Cheapest first, and of
-/// equal ones by a and b: written by hand, as the comparisons of std::pair and std::tuple compare
-/// doubles twice.
+/// Two indices and the cost of pairing them. Sorted by cost, then a, then b. Hand-written, as
+/// comparisons of std::pair and std::tuple compare doubles twice.
 struct Couple {
   Couple(double what_it_costs, int one, int other)
       : cost(static_cast<float>(what_it_costs)), a(one), b(other) {}

@@ -1,5 +1,5 @@
 /// \file
-/// Union-find: which of n things are connected, given connected pairs.
+/// Union-find: connected components of n items, given connected pairs.
 #pragma once
 
 #include <cstddef>
@@ -13,19 +13,19 @@ namespace lcs {
 
 class DisjointSets {
  public:
-  /// n sets of one thing each.
+  /// n sets of one item each.
   void reset(std::size_t n) {
     refill(parent_, n);
     std::iota(parent_.begin(), parent_.end(), 0);
   }
 
-  /// The thing that stands for the set of this one.
+  /// The representative of an item's set.
   int root(int i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
 
-  /// Both sets become one, whose root is that of `into`.
+  /// Merges both sets; the root of `into` remains the root.
   void join(int into, int other) { parent_[root(other)] = root(into); }
 
   std::size_t size() const { return parent_.size(); }
@@ -34,7 +34,7 @@ class DisjointSets {
   std::vector<int> parent_;
 };
 
-/// The members of disjoint sets, in memory that is kept from frame to frame.
+/// The members of disjoint sets; reuses its memory in each frame.
 class SetMembers {
  public:
   void collect(DisjointSets& sets) {
@@ -47,7 +47,7 @@ class SetMembers {
     }
   }
 
-  /// Calls `visit(members)` for each set, by its root; members rise.
+  /// Calls `visit(members)` for each set, by rising root; members rise.
   template <typename Visit>
   void visit(Visit&& visit) {
     for (std::size_t root = 0; root + 2 < first_.size(); ++root) {
@@ -57,7 +57,7 @@ class SetMembers {
   }
 
  private:
-  std::vector<std::size_t> first_;  // of each root in members_, and the end
+  std::vector<std::size_t> first_;  // start of each root's members in members_, and the end
   std::vector<int> members_;
 };
 

@@ -1,6 +1,5 @@
 /// \file
-/// Neighbours of a point among many: a uniform grid that is rebuilt each frame into the same
-/// memory.
+/// Neighbour search in a uniform grid. It is rebuilt each frame in the same memory.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +14,14 @@
 
 namespace lcs {
 
-/// Of the points round one, about as many are looked at, so that the time that a frame takes stays
-/// in proportion to its points.
+/// A search visits about this many points, so that a frame's time is linear in its points.
 inline constexpr std::size_t kCrowd = 60;
 
-/// Standard deviations beyond which nothing is looked for: a hundredth is left there.
+/// Search radius in standard deviations; the normal density's factor there is 0.011.
 inline constexpr double kFar = 3;
 
-/// A point found near another. Nearest first, and of equally near ones the lower index: written by
-/// hand, as the comparisons of std::pair and std::tuple compare doubles twice.
+/// A point found near another. Sorted by distance, then index. Hand-written, as comparisons of
+/// std::pair and std::tuple compare doubles twice.
 struct Neighbour {
   double distance2;  ///< px^2
   int index;
@@ -32,10 +30,10 @@ struct Neighbour {
   }
 };
 
-/// Points are finite; they are referred to by their index.
+/// Points must be finite. They are identified by index.
 class PointGrid {
  public:
-  /// \param cell_px about the radius that will be asked for; cells are a pixel at the least.
+  /// \param cell_px about the search radius, px; raised to at least 1.
   void build(std::span<const Vec2> points, double cell_px) {
     low_ = Vec2::Zero();
     Vec2 high = Vec2::Zero();
@@ -46,13 +44,13 @@ class PointGrid {
         high = high.cwiseMax(x);
       }
     }
-    // Cells grow rather than their number when points lie far apart.
+    // If points lie far apart, cells grow; their number does not.
     cell_px_ = std::max({cell_px, 1.0, (high - low_).maxCoeff() / kMaxSide});
     columns_ = 1 + static_cast<int>((high.x() - low_.x()) / cell_px_);
     rows_ = 1 + static_cast<int>((high.y() - low_.y()) / cell_px_);
 
-    // Counting sort of the points into their cells: first_[c + 1] runs from the start of cell c to
-    // its end, which is where the next one starts.
+    // Counting sort of the points into cells: first_[c + 1] advances from the start of cell c to
+    // its end, which is the start of the next cell.
     refill(first_, static_cast<std::size_t>(columns_) * rows_ + 2);
     refill(cell_of_, points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -66,7 +64,7 @@ class PointGrid {
     }
   }
 
-  /// Calls `visit(index, squared distance)` for each point within `radius_px` of x.
+  /// Calls `visit(index, squared distance)` for each point within `radius_px` of x, px.
   template <typename Visit>
   void visit_within(const Vec2& x, double radius_px, Visit&& visit) const {
     const int c0 = column(x.x() - radius_px), c1 = column(x.x() + radius_px);
@@ -75,10 +73,9 @@ class PointGrid {
       visit_near(first_[cell(c0, r)], first_[cell(c1, r) + 1], x, radius_px * radius_px, visit);
   }
 
-  /// Calls `visit(i, j, squared distance)` once for each two points of which j lies within
-  /// `radius_px(i)` of i, the one that comes first in the grid: where radii differ, what matters
-  /// must lie within both. Where points lie close it looks no farther than about `crowd` of them
-  /// reach.
+  /// Calls `visit(i, j, squared distance)` once for each pair with j within `radius_px(i)` of i,
+  /// where i precedes j in the grid. With unequal radii, check that i is also within that of j. In
+  /// dense areas the radius shrinks to hold about `crowd` points.
   template <typename Radius, typename Visit>
   void visit_pairs(double crowd, Radius&& radius_px, Visit&& visit) const {
     for (int r = 0; r < rows_; ++r) {
@@ -99,8 +96,8 @@ class PointGrid {
     }
   }
 
-  /// px: within which `count` points would lie if those of the cells round x were spread evenly. A
-  /// search within this radius takes a time that does not grow with the density of points.
+  /// px: radius that holds `count` points at the mean density of the cells round x. A search within
+  /// it takes a time that does not depend on the density.
   double crowd_radius(const Vec2& x, double count) const {
     const int c0 = column(x.x() - cell_px_), c1 = column(x.x() + cell_px_);
     const int r0 = row(x.y() - cell_px_), r1 = row(x.y() + cell_px_);
@@ -109,8 +106,8 @@ class PointGrid {
     return 3 * cell_px_ * std::sqrt(count / (std::numbers::pi * static_cast<double>(there)));
   }
 
-  /// The `count` points nearest to x within `radius_px` that `accept(index)` takes, in order. Looks
-  /// at rings of cells about x, and so at a few points only where they lie close.
+  /// Finds the `count` nearest points to x within `radius_px` that `accept(index)` accepts, in
+  /// order. Searches outwards in rings of cells, so it visits few points in dense areas.
   template <typename Accept>
   void nearest(const Vec2& x, double radius_px, std::size_t count, Accept&& accept,
                std::vector<Neighbour>& found) const {
@@ -123,10 +120,10 @@ class PointGrid {
       rank_cells(cell(std::max(from, 0), row), cell(std::min(to, columns_ - 1), row), x,
                  radius_px * radius_px, count, accept, found);
     };
-    // Nothing is settled before the cells next to that of x are seen.
+    // The cell of x and its neighbours are always searched.
     for (int v = r - 1; v <= r + 1; ++v) rank(v, c - 1, c + 1);
     for (int ring = 2; ring <= rings; ++ring) {
-      // All that lies nearer than this has been seen, a hair less for the rounding of cells.
+      // All points nearer than this are ranked; reduced slightly for rounding of cells.
       const double seen_px = (ring - 1) * cell_px_ * (1 - 1e-9);
       if (seen_px > radius_px) return;
       if (found.size() == count && found.back().distance2 < seen_px * seen_px) return;
@@ -153,8 +150,8 @@ class PointGrid {
     return static_cast<int>(std::clamp(cells, 0.0, static_cast<double>(count - 1)));
   }
 
-  /// Visits those of some points placed one after the other that are near x. It sorts them out in
-  /// portions and without a branch, which would often be mispredicted.
+  /// Visits the points of a range of `placed_` within the radius of x. Filters in batches without a
+  /// branch, which would often be mispredicted.
   template <typename Visit>
   void visit_near(std::size_t first, std::size_t last, const Vec2& x, double radius2,
                   Visit&& visit) const {
@@ -171,7 +168,7 @@ class PointGrid {
     }
   }
 
-  /// Inserts the points of some cells of a row into those found.
+  /// Inserts the points of some cells of a row into `found`.
   template <typename Accept>
   void rank_cells(std::size_t first, std::size_t last, const Vec2& x, double farthest2,
                   std::size_t count, Accept&& accept, std::vector<Neighbour>& found) const {
@@ -196,8 +193,8 @@ class PointGrid {
            static_cast<std::size_t>(c);
   }
 
-  std::vector<Placed> placed_;            // cell by cell, in each by index
-  std::vector<std::size_t> first_{0, 0};  // of each cell in placed_, and the end
+  std::vector<Placed> placed_;            // sorted by cell, then by index
+  std::vector<std::size_t> first_{0, 0};  // start of each cell in placed_, and the end
   std::vector<std::size_t> cell_of_;
   Vec2 low_ = Vec2::Zero();
   double cell_px_ = 1;

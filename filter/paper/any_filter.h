@@ -1,5 +1,5 @@
 /// \file
-/// A filter by the name of its preset: `default`, or the paper's `lab` and `cars`.
+/// Selects a filter by its preset's name: `default`, or the paper's `lab` and `cars`.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ std::vector<std::string> preset_names();
 /// \throws std::invalid_argument naming the known presets.
 AnyParameters preset(std::string_view name);
 
-/// As those of `lcs::Parameters`.
+/// Like those of `lcs::Parameters`.
 ///@{
 void set(AnyParameters& parameters, std::string_view key, std::string_view value);
 void validate(const AnyParameters& parameters);
@@ -25,7 +25,7 @@ std::vector<ParameterInfo> describe(const AnyParameters& parameters);
 const FieldParameters& field_of(const AnyParameters& parameters);
 ///@}
 
-/// As `lcs::Filter`.
+/// Like `lcs::Filter`.
 class AnyFilter {
  public:
   AnyFilter(const Intrinsics& camera, const AnyParameters& parameters);

@@ -1,5 +1,5 @@
 /// \file
-/// Couples in the order of their costs, of which taking one mostly rules out many others.
+/// Visits couples in order of cost, where accepting one usually rules out many others.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,12 @@
 
 namespace lcs::paper {
 
-/// Goes through couples, the cheapest first.
+/// Visits couples, cheapest first.
 class CheapestFirst {
  public:
-  /// Calls `settle(couple)` for each in order, but for those of which `is_settled(couple)` says
-  /// that they cannot matter any more. It sorts portions of rising cost, and asks `is_settled`
-  /// first, so that most couples are never sorted. Costs are finite.
+  /// Calls `settle(couple)` for each in order, except those for which `is_settled(couple)` is true.
+  /// Filters and sorts one cost range at a time, so that most couples are never sorted. Costs must
+  /// be finite.
   template <typename IsSettled, typename Settle>
   void visit(std::span<const Couple> couples, IsSettled&& is_settled, Settle&& settle) {
     portion(couples);
@@ -38,7 +38,7 @@ class CheapestFirst {
   }
 
  private:
-  /// Counting sort into portions of equal width, as many as there are couples.
+  /// Counting sort into cost ranges of equal width, as many as there are couples.
   void portion(std::span<const Couple> couples) {
     refill(portions_, couples.size());
     refill(ends_, 1 + couples.size());
@@ -54,14 +54,14 @@ class CheapestFirst {
       return static_cast<std::size_t>((double{couple.cost} - low) * per_cost);
     };
     for (const Couple& couple : couples) ++ends_[portion_of(couple)];
-    // To where each starts, and by what is put there to where it ends.
+    // First the start of each range; placing the couples advances it to the end.
     std::exclusive_scan(ends_.begin(), ends_.end(), ends_.begin(), std::uint32_t{0});
     std::uint32_t index = 0;
     for (const Couple& couple : couples) portions_[ends_[portion_of(couple)]++] = index++;
   }
 
   std::vector<std::uint32_t> portions_;  // indices of couples
-  std::vector<std::uint32_t> ends_;      // of each portion
+  std::vector<std::uint32_t> ends_;      // of each cost range
 };
 
 }  // namespace lcs::paper

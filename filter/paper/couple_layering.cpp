@@ -29,7 +29,7 @@ bool parts(const Circle& between, const Circle& a, const Circle& b) {
          angle_between(angle_of(ab), angle_of(ac));
 }
 
-/// V_b - eps_v <= V_a <= V_b + eps_v, on the ratios V / V_v that layers of one depth share.
+/// V_b - eps_v <= V_a <= V_b + eps_v, on ratios V / V_v, which are equal at equal depth.
 bool CoupleLayering::like_speed(const Circle& a, const Circle& b) const {
   return std::abs(a.depth_ratio - b.depth_ratio) <= parameters_.epsilon_v;
 }
@@ -76,7 +76,7 @@ Square CoupleLayering::mean_square(std::size_t a, const MotionField& field) cons
     step += unit_vector(other.angle) * other.speed;
     square.rebel_circles += other.rebel;
   }
-  // C_a weighs as much as all of C_b together.
+  // C_a has the same weight as all of C_b together.
   const double n = static_cast<double>(partners_.size());
   square.origin = n > 0 ? Vec2(0.5 * (circle.origin + origin / n)) : circle.origin;
   square.speed = n > 0 ? 0.5 * (circle.speed + speed / n) : circle.speed;
@@ -88,7 +88,7 @@ Square CoupleLayering::mean_square(std::size_t a, const MotionField& field) cons
   return square;
 }
 
-/// Circles inside the couple's square that move as it does join C_b.
+/// Adds to C_b the circles inside the couple's square with similar motion.
 void CoupleLayering::add_minor_circles(std::size_t a, double d_t, const MotionField& field) {
   const Square square = mean_square(a, field);
   for (std::size_t c = 0; c < circles_.size(); ++c) {
@@ -103,8 +103,8 @@ void CoupleLayering::add_minor_circles(std::size_t a, double d_t, const MotionFi
   }
 }
 
-/// Couples of circles, furthest first, with what lies inside them; a circle without a partner is a
-/// layer by itself.
+/// Forms couples of circles, furthest first, with the circles inside them. A circle without a
+/// partner is a layer by itself.
 const std::vector<Square>& CoupleLayering::layer(const BothKinds<Circle>& circles,
                                                  const MotionField& field) {
   circles_.clear();
@@ -134,7 +134,7 @@ const std::vector<Square>& CoupleLayering::layer(const BothKinds<Circle>& circle
         add_minor_circles(a, d_t, field);
         break;
       }
-      // d_t = d_t - d_bb', and in any case short of b, so that the search ends.
+      // d_t = d_t - d_bb', limited to the distance of b, so that the search ends.
       const double d_ab = (far.location - circles_[a].location).norm();
       d_t = std::min(d_t - (far.location - parting->location).norm(), d_ab);
     }

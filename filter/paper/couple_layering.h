@@ -1,6 +1,6 @@
 /// \file
-/// Layers as the paper makes them ("Geometric Layering", "Mean Square"): the furthest couple of
-/// like circles, and what lies inside it.
+/// The paper's layers ("Geometric Layering", "Mean Square"): the furthest couple of similar
+/// circles, and the circles inside it.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@
 
 namespace lcs::paper {
 
-/// What parts the couple a, b: a slower circle (farther away) that the segment between their
-/// centres crosses and that lies between them.
+/// Whether a circle separates the couple a, b: it is slower (farther away), lies between them and
+/// crosses the segment between their centres.
 bool parts(const Circle& between, const Circle& a, const Circle& b);
 
 class CoupleLayering {
@@ -33,10 +33,10 @@ class CoupleLayering {
   Intrinsics camera_;
   PaperSquareParameters parameters_;
 
-  // Of the current frame; kept for their memory.
+  // Scratch storage of the current frame; members, so that a frame need not allocate.
   std::vector<Circle> circles_;  // C_n and C_r
   std::vector<char> used_;
-  std::vector<std::size_t> partners_;  // C_b of the couple at hand
+  std::vector<std::size_t> partners_;  // C_b of the current couple
   std::vector<Square> means_;          // S_m
 };
 

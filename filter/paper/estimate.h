@@ -1,14 +1,14 @@
 /// \file
-/// How the paper takes a measurement in.
+/// The paper's update of an estimate by a measurement.
 #pragma once
 
 #include "filter/trust.h"
 
 namespace lcs::paper {
 
-/// The estimate that the paper applies to every property of a landmark or layer,
+/// The paper's estimate of every property of a landmark or layer,
 ///   P^ = ((Tr - Tr_c) P' + P) / ((Tr - Tr_c) + 1):
-/// the more trusted, the slower to follow. Needs Tr >= Tr_c, that is, a living item.
+/// the higher the trust, the slower it follows. Needs Tr >= Tr_c.
 template <typename T>
 T estimate(int trust, const TrustRanks& ranks, const T& predicted, const T& measured) {
   const double weight = trust - ranks.critical;

@@ -5,7 +5,7 @@
 namespace lcs::paper {
 namespace {
 
-/// Of the grid of corners: about as wide as a collector.
+/// Cell size of the grid of corners: about a collector's width.
 constexpr double kCell_px = 32;
 
 }  // namespace
@@ -15,7 +15,7 @@ const Feedback::Regions& Feedback::regions(const std::vector<Circle>& normal_cir
   auto& [ignored, collectors] = regions_;
   ignored.clear();
   collectors.clear();
-  make_room(collectors, normal_circles.capacity());  // every circle may come to collect
+  make_room(collectors, normal_circles.capacity());  // every circle may become a collector
   for (const Circle& circle : normal_circles) {
     if (circle.ignoring) {
       ignored.push_back(
@@ -31,14 +31,14 @@ const Feedback::Regions& Feedback::regions(const std::vector<Circle>& normal_cir
   return regions_;
 }
 
-/// Searches from the collectors, as few corners lie in each.
+/// Searches from the collectors, as each contains few corners.
 const std::vector<int>& Feedback::group(std::span<const Collector> lambda, const Chi& chi) {
   refill(groups_, chi.size(), -1);
   if (lambda.empty()) return groups_;
   grid_.build(chi.locations, kCell_px);
   refill(nearest_, chi.size());
   for (std::size_t c = 0; c < lambda.size(); ++c) {
-    // A hair farther, for the distance is compared and not its square.
+    // Slightly farther: the exact test compares distances, not squares.
     grid_.visit_within(lambda[c].location, 1.001 * lambda[c].radius, [&](int i, double) {
       const double distance = (chi.locations[i] - lambda[c].location).norm();
       if (distance > lambda[c].radius) return;

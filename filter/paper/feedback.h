@@ -1,6 +1,6 @@
 /// \file
-/// What circles and squares hand back to the Line expert: psi, the regions whose corners are not
-/// looked at, and lambda, the collectors that group corners for a trusted circle.
+/// Feedback of circles and squares to the Line expert: psi, regions whose corners are skipped, and
+/// lambda, collectors that group corners for a trusted circle.
 #pragma once
 
 #include <span>
@@ -22,14 +22,14 @@ class Feedback {
     std::vector<Collector> collectors;  ///< lambda
   };
 
-  /// The regions of a frame, by its predicted circles and squares: those that reached Tr_m are
-  /// ignored, the other trusted normal circles collect.
+  /// The regions of a frame, from its predicted circles and squares. Those that reached Tr_m become
+  /// ignored regions; other trusted normal circles become collectors.
   /// \return valid until the next call.
   const Regions& regions(const std::vector<Circle>& normal_circles,
                          const std::vector<Square>& squares);
 
-  /// For each corner of chi the collector that it falls into, -1: none. Of several it is the
-  /// nearest, and of equally near ones the first.
+  /// The index of each corner's collector, -1: none. Overlapping collectors: the nearest one, and
+  /// of equally near ones the first.
   /// \return valid until the next call.
   const std::vector<int>& group(std::span<const Collector> lambda, const Chi& chi);
 
@@ -37,7 +37,7 @@ class Feedback {
   TrustRanks circle_trust_;
   Regions regions_;
   PointGrid grid_;               // of chi
-  std::vector<double> nearest_;  // distance of each corner from its collector
+  std::vector<double> nearest_;  // of each corner: distance from its collector, px
   std::vector<int> groups_;
 };
 

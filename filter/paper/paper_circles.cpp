@@ -42,7 +42,7 @@ const BothKinds<Circle>& PaperCircles::predict(const BothKinds<Circle>& before,
   return predicted_;
 }
 
-/// Like direction, like depth (normal) or like speed (rebel).
+/// Similar direction, and similar depth (normal) or speed (rebel).
 bool PaperCircles::alike(const Edge& a, const Edge& b, const MotionField& field) const {
   if (a.rebel) {
     const double tolerance = parameters_.epsilon_v_r * field.reference_speed(a.location);
@@ -53,8 +53,8 @@ bool PaperCircles::alike(const Edge& a, const Edge& b, const MotionField& field)
          (!field.moving() || within(a.angle, b.angle, parameters_.epsilon_beta_n));
 }
 
-/// The groups C_m: each starts from the most trusted edge that is still free, of those the oldest,
-/// and takes the edges near it that are like it.
+/// The groups C_m: each starts from the most trusted, then oldest, free edge and adds similar edges
+/// near it.
 void PaperCircles::group(const std::vector<Edge>& edges, const MotionField& field) {
   free_.clear();
   points_.clear();
@@ -156,7 +156,7 @@ void PaperCircles::update_kind(const std::vector<Edge>& edges, std::span<const I
     return std::tuple(!a.aligned, -a.overlap, a.distance, a.circle, a.group) <
            std::tuple(!b.aligned, -b.overlap, b.distance, b.circle, b.group);
   });
-  // As long as there could be groups, whose number is steady only when the edges' has long been.
+  // Sized by edges, an upper bound of the number of groups that is steady earlier.
   refill(circle_of_group_, edges.size(), -1);
   refill(matched_, circles.size());
   for (const Pair& pair : pairs_) {
@@ -165,7 +165,7 @@ void PaperCircles::update_kind(const std::vector<Edge>& edges, std::span<const I
     circle_of_group_[pair.group] = static_cast<int>(pair.circle);
     Circle& circle = circles[pair.circle];
     ++circle.age;
-    // Edges that coast in psi carry their circle along, but prove nothing.
+    // Edges that coast in psi keep their circle alive, but are no evidence.
     const bool unseen = inside_any(psi, circle.location);
     const int trust = circle.trust;
     estimate_circle(circle, groups_[pair.group].mean, pair.aligned);
@@ -175,7 +175,7 @@ void PaperCircles::update_kind(const std::vector<Edge>& edges, std::span<const I
     if (matched_[c]) continue;
     ++circles[c].age;
     circles[c].members = 0;
-    // A region that was not looked at had no chance to show its edges.
+    // An ignored region cannot show its edges.
     if (inside_any(psi, circles[c].location)) continue;
     --circles[c].trust;
   }
@@ -191,7 +191,7 @@ void PaperCircles::update_kind(const std::vector<Edge>& edges, std::span<const I
     circles.push_back(circle);
   }
 
-  // Deletion shifts the indices that edges keep.
+  // Deletion shifts circles: update the indices stored in edges.
   refill(kept_, circles.size(), -1);
   std::size_t kept = 0;
   for (std::size_t c = 0; c < circles.size(); ++c) {
@@ -221,7 +221,7 @@ const PaperCircles::Result& PaperCircles::update(const BothKinds<Edge>& edges,
   update_kind(edges.normal, psi, field, circles.normal, of_edges.normal);
   update_kind(edges.rebel, psi, field, circles.rebel, of_edges.rebel);
   if (!ignore_) return result_;
-  // Rebels are never ignored. The trust of an ignored circle falls, so that it is looked at again.
+  // Rebels are never ignored. An ignored circle loses trust, so that it is observed again.
   for (Circle& circle : circles.normal) {
     circle.ignoring = circle.trust >= parameters_.trust.maximum;
     if (circle.ignoring) circle.trust = parameters_.trust.after_ignoring();

@@ -1,6 +1,6 @@
 /// \file
 /// The paper's circles ("Normal Edge Circling", "Rebel Edge Circling"): each starts from a trusted
-/// edge, takes the edges near it of like direction and velocity, and is matched to the predicted
+/// edge, adds nearby edges of similar direction and velocity, and is matched to the predicted
 /// circles by overlap.
 #pragma once
 
@@ -26,14 +26,14 @@ class PaperCircles {
 
   struct Result {
     BothKinds<Circle> circles;
-    BothKinds<int> of_edges;  ///< index of each edge's circle among its kind, -1: in no circle
+    BothKinds<int> of_edges;  ///< index of each edge's circle among its kind, -1: none
   };
 
-  /// Circles of the frame before, moved to where this frame should show them.
+  /// Predicts the circles of the last frame to this one.
   /// \return valid until the next call.
   const BothKinds<Circle>& predict(const BothKinds<Circle>& before, const MotionField& field);
 
-  /// Groups the edges, and matches, estimates, makes and deletes circles of both kinds.
+  /// Groups the edges. Matches, estimates, creates and deletes circles of both kinds.
   /// \return valid until the next call.
   const Result& update(const BothKinds<Edge>& edges, const BothKinds<Circle>& predicted,
                        std::span<const IgnoreRegion> psi, const MotionField& field);
@@ -42,16 +42,16 @@ class PaperCircles {
   /// Mean circle of a group of edges, C_m.
   struct Group {
     Circle mean;
-    std::size_t first = 0, count = 0;  // of its edges in grouped_
+    std::size_t first = 0, count = 0;  // range of its edges in grouped_
   };
 
-  /// An edge that a group may start from.
+  /// An edge from which a group may start.
   struct Seed {
     int trust, age;
-    std::size_t index;  // of free_
+    std::size_t index;  // in free_
   };
 
-  /// A predicted circle and a group that may be it.
+  /// A candidate match of a predicted circle and a group.
   struct Pair {
     double overlap, distance;
     std::size_t circle, group;
@@ -77,16 +77,16 @@ class PaperCircles {
   BothKinds<Circle> predicted_;
   Result result_;
 
-  // Of the current frame; kept for their memory.
+  // Scratch storage of the current frame; members, so that a frame need not allocate.
   PointGrid grid_;
-  std::vector<const Edge*> free_;  // trusted, null: in a group
-  std::vector<Vec2> points_;       // of them
+  std::vector<const Edge*> free_;  // trusted edges; null: already in a group
+  std::vector<Vec2> points_;       // of free_
   std::vector<Seed> seeds_;
   std::vector<int> grouped_;
   std::vector<Group> groups_;
   std::vector<Pair> pairs_;
   std::vector<int> circle_of_group_;
-  std::vector<char> matched_;  // circles
+  std::vector<char> matched_;  // of each circle
   std::vector<int> kept_;      // index of each circle after deletion, -1: deleted
 };
 

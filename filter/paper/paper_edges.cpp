@@ -11,7 +11,7 @@
 namespace lcs::paper {
 namespace {
 
-/// Below this displacement of the reference point a frame says nothing about an edge's depth.
+/// Below this displacement of the reference point a frame gives no depth of an edge.
 constexpr double kLeastDisplacement_px = 0.2;
 
 }  // namespace
@@ -54,7 +54,7 @@ const EdgeLayer& PaperEdges::predict(const EdgeLayer& before, const MotionField&
   copy_over(before.chains, predicted_.chains);
   for (Edge& edge : predicted_.edges.normal) {
     edge.rotated = field.rotated(edge.location);
-    // V~ = (V + V_v) / 2; a camera that stands still teaches nothing.
+    // V~ = (V + V_v) / 2; no depth information while the camera stands still.
     if (field.moving()) edge.depth_ratio = 0.5 * (edge.depth_ratio + 1);
     edge.predicted = field.translated(edge.rotated, edge.depth_ratio);
     edge.origin = field.origin(edge.predicted);
@@ -79,8 +79,8 @@ bool PaperEdges::in_span(const Edge& edge, const Vec2& x, const MotionField& fie
   if (field.direction(edge.rotated).isZero()) {
     return (x - edge.predicted).norm() <= parameters_.corner_noise;
   }
-  // Seen from O_I the corridor widens with the distance; past half a diagonal (an FOE outside the
-  // image) it would let everything in.
+  // The corridor widens with the distance from O_I. It stops widening at half a diagonal, as it
+  // would accept everything for an FOE far outside of the image.
   const Vec2 axis = (edge.predicted - edge.origin).normalized();
   const Vec2 ray = x - edge.origin;
   const double reach = std::min(ray.norm(), 0.5 * std::hypot(camera_.width_px, camera_.height_px));
@@ -109,8 +109,7 @@ double PaperEdges::rebel_reach(const Edge& edge, const MotionField& field) const
                   parameters_.rebel_reach * edge.speed * field.dt_s());
 }
 
-/// zeta_r: near the prediction, and in its direction (delta_v and the deviation mu_r) from its
-/// origin.
+/// zeta_r: near the prediction, and within delta_v plus mu_r of its direction from its origin.
 bool PaperEdges::matches_rebel(const Edge& edge, const Vec2& x, const MotionField& field) const {
   if ((x - edge.predicted).norm() > rebel_reach(edge, field)) return false;
   const Vec2 ray = x - edge.origin;
@@ -119,7 +118,7 @@ bool PaperEdges::matches_rebel(const Edge& edge, const Vec2& x, const MotionFiel
          std::max(2 * parameters_.corner_noise, ray.norm() * std::sin(span));
 }
 
-/// Of all that turned a corner away, the one that came nearest to taking it.
+/// Records the most advanced test among all rejections of a corner.
 void PaperEdges::came_to(int corner, Reason reason) {
   result_.reasons[corner] = std::max(result_.reasons[corner], reason);
 }
@@ -157,8 +156,8 @@ void PaperEdges::assign(const EdgeLayer& predicted, const Chi& chi, const Motion
   assign_one_to_one(normal_edges.size() + rebel_edges.size(), chi.size());
 }
 
-/// Cor of the group's x and y, 1 - rho^2: small when the corners that the landmark was matched
-/// among lie on a line. 1 for fewer than three, which have no correlation to speak of.
+/// Cor of x and y of the group, 1 - rho^2: small if the corners near the prediction lie on a line.
+/// 1 for fewer than three, which have no correlation.
 double PaperEdges::spread(const Edge& edge, const Chi& chi, std::span<const int> groups) const {
   double n = 0, xx = 0, yy = 0, xy = 0;
   Vec2 sum = Vec2::Zero();
@@ -206,7 +205,7 @@ void PaperEdges::update_rebel(Edge& edge, const Vec2& x, const MotionField& fiel
     edge.speed = std::abs(edge.speed + residual / field.dt_s());
   }
   edge.location = estimate(edge.trust, trust_, edge.predicted, x);
-  // mu^_r = |beta~ - beta^|, beta~ seen from the origin to the corner itself.
+  // mu^_r = |beta~ - beta^|, where beta~ is the direction from the origin to the corner.
   edge.mu = std::min(angle_between(angle_of(x - edge.origin), edge.angle), kPi / 4);
   const Vec2 path = edge.location - edge.origin;
   if (!path.isZero()) edge.angle = angle_of(path);
@@ -214,8 +213,8 @@ void PaperEdges::update_rebel(Edge& edge, const Vec2& x, const MotionField& fiel
   result_.reasons[edge.corner] = Reason::rebel_edge;
 }
 
-/// What becomes of the corners that no edge took. By xi_1 a corner belongs to the layer of a normal
-/// edge that lost its own; all others may be rebels, and start normal edges of their own meanwhile.
+/// Starts a new normal edge at each corner that no edge took. The corner also goes to alpha, except
+/// in case xi_1: there it joins the layer of a normal edge that lost its own corner.
 void PaperEdges::classify_rest(const Chi& chi, const MotionField& field) {
   const std::vector<Edge>& normal_edges = result_.layer.edges.normal;
   to_alpha_.assign(chi.size(), 0);
@@ -236,8 +235,8 @@ void PaperEdges::classify_rest(const Chi& chi, const MotionField& field) {
   }
 }
 
-/// By how much a step between two sightings (rotation removed) leaves the images that a static
-/// point at any plausible depth may take, px.
+/// px: distance of a step between two sightings, rotation removed, from the steps of static points
+/// at any plausible depth.
 double PaperEdges::off_field(const Vec2& from, const Vec2& to, const MotionField& field) const {
   return distance_to_segment(to, from, field.translated(from, field.max_ratio()));
 }
@@ -259,8 +258,8 @@ Edge PaperEdges::make_rebel(const Chain& chain, const Vec2& x, const MotionField
   return edge;
 }
 
-/// Rows of two sightings find their third, near the line through them and off the field, and become
-/// rebel edges: one row for a corner, and one for a sighting that rows share.
+/// Extends rows of two sightings by a third, near their line and off the field, to rebel edges: at
+/// most one row per corner and per shared sighting.
 void PaperEdges::complete_chains(const Chi& chi, const MotionField& field) {
   const std::vector<Chain>& chains = result_.layer.chains;
   std::vector<Edge>& rebels = result_.layer.edges.rebel;
@@ -302,8 +301,8 @@ void PaperEdges::complete_chains(const Chi& chi, const MotionField& field) {
   }
 }
 
-/// Rows of one sighting branch into rows of two, and what is left starts rows of one. A row that
-/// found no continuation is gone: it lives three frames at the most.
+/// Extends rows of one sighting to rows of two; the remaining corners start new rows. A row without
+/// a continuation is deleted, so a row lasts at most three frames.
 void PaperEdges::branch_chains(const Chi& chi, const MotionField& field) {
   grown_.clear();
   for (const Chain& chain : result_.layer.chains) {
@@ -351,7 +350,7 @@ const PaperEdges::Result& PaperEdges::update(const EdgeLayer& predicted, const C
     if (edge.corner >= 0) update_rebel(edge, chi.locations[edge.corner], field);
   }
   classify_rest(chi, field);
-  // Sightings at the same time are no chain.
+  // Sightings at the same time form no chain.
   if (field.dt_s() > 0) complete_chains(chi, field);
   if (field.dt_s() > 0 || chains.empty()) {
     branch_chains(chi, field);

@@ -1,6 +1,6 @@
 /// \file
-/// The paper's edges: corners are matched to the predicted edges, classified (xi_1 to xi_5,
-/// zeta_r), and what is left goes to alpha or becomes a new normal edge.
+/// The paper's edges: corners are matched to predicted edges and classified (xi_1 to xi_5, zeta_r).
+/// Unmatched corners go to alpha or become new normal edges.
 #pragma once
 
 #include <span>
@@ -15,15 +15,13 @@
 
 namespace lcs::paper {
 
-/// How a corner stands to a predicted normal edge: inside the span delta_v about its predicted
-/// motion, at a speed that a static point may have, inside its radius mu, and at the prediction or
-/// short of it. The paper's five cases overlap as printed; asked in this order, every corner is one
-/// of them.
+/// Relation of a corner to a predicted normal edge: inside the span delta_v about its motion, at a
+/// speed possible for a static point, inside its radius mu, at the prediction or short of it. The
+/// paper's five cases overlap as printed. Tested in this order, exactly one holds.
 enum class Xi {
   one,    ///< in the span, plausible, outside mu: a further normal edge of the layer
-  two,    ///< in the span, plausible, inside mu, at the prediction or beyond: a match that raises
-          ///< trust
-  three,  ///< the same, but short of the prediction: a match that costs trust
+  two,    ///< in the span, plausible, inside mu, at or beyond the prediction: raises trust
+  three,  ///< the same, but short of the prediction: lowers trust
   four,   ///< in the span, but against the field or too fast for it: to alpha
   five,   ///< outside the span: to alpha
 };
@@ -46,17 +44,17 @@ class PaperEdges {
     std::vector<Reason> reasons;    ///< of each corner of chi
   };
 
-  /// Edges and chains of the frame before, moved to where this frame should show them.
+  /// Predicts edges and chains of the last frame to this one.
   /// \return valid until the next call.
   const EdgeLayer& predict(const EdgeLayer& before, const MotionField& field);
 
-  /// Matches, estimates, updates trust, deletes, and makes new edges.
-  /// \param groups the collector that each corner of chi falls into (`Feedback`).
+  /// Matches, estimates, updates trust, deletes and creates edges.
+  /// \param groups index of the collector of each corner of chi, -1: none (`Feedback`).
   /// \return valid until the next call.
   const Result& update(const EdgeLayer& predicted, const Chi& chi, std::span<const int> groups,
                        std::span<const IgnoreRegion> psi, const MotionField& field);
 
-  /// The case of corner `x` with regard to a predicted normal edge.
+  /// The case of corner `x` for a predicted normal edge.
   Xi classify(const Edge& edge, const Vec2& x, const MotionField& field) const;
 
  private:
@@ -76,14 +74,14 @@ class PaperEdges {
   double off_field(const Vec2& from, const Vec2& to, const MotionField& field) const;
   Edge make_rebel(const Chain& chain, const Vec2& x, const MotionField& field);
 
-  /// Takes pairs_ cheapest first, each edge and each corner once, into the two lists of matches.
+  /// Accepts pairs_ cheapest first, each edge and corner once, into the two lists of matches.
   void assign_one_to_one(std::size_t edges, std::size_t corners);
 
-  /// An edge without a corner follows its prediction. It loses trust for that, unless it lies in a
-  /// region that was not looked at.
+  /// An edge without a corner follows its prediction. It loses trust, unless it lies in an ignored
+  /// region.
   void coast(Edge& edge, std::span<const IgnoreRegion> psi) const;
 
-  /// A normal edge at a corner, with V = depth_ratio * V_v.
+  /// A normal edge at a corner, with speed V = depth_ratio * V_v.
   Edge make_normal(const Vec2& x, double depth_ratio, double mu, const MotionField& field);
 
   Intrinsics camera_;
@@ -93,16 +91,16 @@ class PaperEdges {
   EdgeLayer predicted_;
   Result result_;
 
-  // Of the current frame; kept for their memory.
+  // Scratch storage of the current frame; members, so that a frame need not allocate.
   PointGrid corner_grid_;
-  /// Edges and corners inside their gates, and how badly these fit. Edges are counted normal ones
-  /// first; corners as in chi.
+  /// Pairs of an edge and a corner inside its gate, with their cost. Edge indices count normal
+  /// edges first; corner indices are those of chi.
   std::vector<Couple> pairs_;
   CheapestFirst order_;
   std::vector<int> match_of_edge_, match_of_corner_;  // -1: none
   PointGrid edge_grid_;
   std::vector<Vec2> predictions_;
-  std::vector<char> to_alpha_, to_normal_;  // what becomes of the unmatched corners
+  std::vector<char> to_alpha_, to_normal_;  // next step of each unmatched corner
   std::vector<Chain> grown_;
   std::vector<Neighbour> near_;
 };

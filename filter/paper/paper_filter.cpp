@@ -38,7 +38,7 @@ struct PaperFilter::Impl {
   PaperCircles circle_expert;
   PaperSquares square_expert;
 
-  // Of the frame before.
+  // Of the last frame.
   EdgeLayer edges_before;
   BothKinds<Circle> circles_before;
   std::vector<Square> squares_before;

@@ -1,6 +1,6 @@
 /// \file
-/// The filter as the paper has it, with its rules and tables: presets `lab` and `cars`.
-/// filter/EQUATIONS.md lists each equation and its place in this folder.
+/// The paper's filter with its rules and tables: presets `lab` and `cars`. filter/EQUATIONS.md
+/// lists each equation and its place in this folder.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace lcs::paper {
 
-/// As `lcs::Filter`, with the same guarantees.
+/// Like `lcs::Filter`, with the same guarantees.
 class PaperFilter {
  public:
   explicit PaperFilter(const Intrinsics& camera, const PaperParameters& parameters = {});
@@ -21,7 +21,7 @@ class PaperFilter {
 
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& motion);
 
-  /// \param signatures only order corners at the same place: the paper has no descriptors.
+  /// \param signatures used only to order corners at the same place: the paper has no descriptors.
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,
                           std::span<const Signature> signatures, const EgoMotion& motion);
 

@@ -18,8 +18,7 @@ double side_overlap(double a, double half_a, double b, double half_b) {
   return std::max(0.0, std::min(a + half_a, b + half_b) - std::max(a - half_a, b - half_b));
 }
 
-/// A square with rebels is carried by its own motion; how its size changes is not known before the
-/// circles say so.
+/// Moves a square with rebels by its own motion; its size changes only by measurement.
 void carry_on(Square& square, const MotionField& field) {
   square.angle = field.turned(square.angle, square.location, square.origin);
   square.origin = field.rotated(square.origin);
@@ -28,7 +27,7 @@ void carry_on(Square& square, const MotionField& field) {
   place(square, location, square.half_size);
 }
 
-/// A static square moves away from the focus of expansion, and grows about it.
+/// Moves a static square away from the focus of expansion, and scales it about that.
 void expand(Square& square, const MotionField& field) {
   const Vec2 rotated = field.rotated(square.location);
   place(square, rotated, square.half_size);
@@ -103,7 +102,7 @@ const std::vector<Square>& PaperSquares::update(const BothKinds<Circle>& circles
     matched_[pair.square] = mean_used_[pair.mean] = 1;
     Square& square = squares_[pair.square];
     const Square& mean = means_[pair.mean];
-    // Circles that coast in psi carry their square along, but prove nothing.
+    // Circles that coast in psi keep their square alive, but are no evidence.
     const bool unseen = inside_any(psi, square.location);
     square.location = estimate(square.trust, ranks, square.location, mean.location);
     square.half_size = estimate(square.trust, ranks, square.half_size, mean.half_size);

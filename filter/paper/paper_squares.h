@@ -1,6 +1,6 @@
 /// \file
-/// The paper's squares: circles that belong together ("Geometric Layering", "Mean Square"), matched
-/// to the predicted squares by overlap ("Square Estimation").
+/// The paper's squares: groups of circles ("Geometric Layering", "Mean Square"), matched to the
+/// predicted squares by overlap ("Square Estimation").
 #pragma once
 
 #include <span>
@@ -13,8 +13,8 @@
 
 namespace lcs::paper {
 
-/// Overlap rho_s of two rectangles: the common area in % of the smaller one. Symmetric; 0 for
-/// disjoint ones, 100 where one contains the other, 0 where one has no area.
+/// Overlap rho_s of two rectangles: common area in % of the smaller one. Symmetric; 0 if disjoint,
+/// 100 if one contains the other, 0 if one has no area.
 double overlap_percent(const Square& a, const Square& b);
 
 class PaperSquares {
@@ -23,18 +23,18 @@ class PaperSquares {
   PaperSquares(const Intrinsics& camera, const PaperSquareParameters& parameters, bool ignore)
       : camera_(camera), parameters_(parameters), ignore_(ignore), couples_(camera, parameters) {}
 
-  /// Squares of the frame before, moved to where this frame should show them.
+  /// Predicts the squares of the last frame to this one.
   /// \return valid until the next call.
   const std::vector<Square>& predict(const std::vector<Square>& before, const MotionField& field);
 
-  /// Layers the circles and matches, estimates, makes and deletes squares.
+  /// Layers the circles. Matches, estimates, creates and deletes squares.
   /// \return valid until the next call.
   const std::vector<Square>& update(const BothKinds<Circle>& circles,
                                     const std::vector<Square>& predicted,
                                     std::span<const IgnoreRegion> psi, const MotionField& field);
 
  private:
-  /// A predicted square and a mean one that may be it.
+  /// A candidate match of a predicted and a mean square.
   struct Pair {
     double overlap, distance;
     std::size_t square, mean;
@@ -47,7 +47,7 @@ class PaperSquares {
   Id next_id_ = 1;
   std::vector<Square> predicted_, squares_;
 
-  // Of the current frame; kept for their memory.
+  // Scratch storage of the current frame; members, so that a frame need not allocate.
   std::vector<Square> means_;  // S_m
   std::vector<Pair> pairs_;
   std::vector<char> matched_, mean_used_;  // squares, means

@@ -68,7 +68,7 @@ void set(PaperParameters& parameters, std::string_view key, std::string_view val
 }
 
 void validate(const PaperParameters& parameters) {
-  PaperParameters copy = parameters;  // entries point to what they may change
+  PaperParameters copy = parameters;  // entries hold pointers to non-const
   lcs::validate(entries_of(copy));
   lcs::validate(copy.circle.trust, "circle");
   lcs::validate(copy.square.trust, "square");

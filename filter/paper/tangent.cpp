@@ -6,7 +6,7 @@
 namespace lcs::paper {
 namespace {
 
-/// Denominators below this, in units of the square's size, make the solution worthless.
+/// Denominators below this, in units of the square's size, are treated as singular.
 constexpr double kSingular = 1e-3;
 
 /// Half sizes of the axis-parallel ellipse about `centre` that touches the line from O at `touch`.
@@ -28,7 +28,7 @@ std::optional<Vec2> touching_ellipse(const Vec2& centre, const Vec2& touch, cons
 
 std::optional<std::pair<Vec2, Vec2>> tangent_points(const Extent& ellipse, const Vec2& origin) {
   if (ellipse.half_size.minCoeff() <= 0) return std::nullopt;
-  // On the unit circle: the pole of the polar line of o.
+  // On the unit circle: the chord of contact is the polar of o.
   const Vec2 o = (origin - ellipse.location).cwiseQuotient(ellipse.half_size);
   const double o2 = o.squaredNorm();
   if (o2 <= 1) return std::nullopt;
@@ -46,7 +46,7 @@ std::optional<Extent> predict_by_tangents(const Extent& square, const Vec2& orig
   Extent predicted;
   predicted.location = square.location + travelled_px * (square.location - origin) / to_centre;
   if (to_centre + travelled_px <= 0) return std::nullopt;
-  // Either point serves; the one farther from an axis is the better conditioned.
+  // Uses the touching point that is farther from the axes, as it is better conditioned.
   const auto conditioning = [&](const Vec2& t) {
     return (t - square.location).cwiseAbs().minCoeff();
   };
@@ -54,7 +54,7 @@ std::optional<Extent> predict_by_tangents(const Extent& square, const Vec2& orig
       conditioning(points->first) >= conditioning(points->second) ? points->first : points->second;
   const double to_touch = (touch - origin).norm();
   const double d_r = (to_centre + travelled_px) * to_touch / to_centre - to_touch;
-  // m_t and the two printed equations for L~_t say this, with the sign that leads away from O.
+  // Equals m_t and the two printed equations for L~_t, with the sign that leads away from O.
   const Vec2 moved = touch + d_r * (touch - origin) / to_touch;
   const auto half_size =
       touching_ellipse(predicted.location, moved, origin, square.half_size.maxCoeff());

@@ -1,12 +1,11 @@
 /// \file
-/// Prediction of a square from the tangents to its inscribed ellipse ("Square Estimation").
+/// Predicts a square from the tangents of its inscribed ellipse ("Square Estimation").
 ///
 /// The paper finds the points L_t where lines from the origin O touch the ellipse, moves them along
-/// those lines by d_r, and solves for the ellipse that touches there. With the first case of d_r
-/// (the second contradicts it: the split is printed as a ratio of norms against 0), that is the
-/// homothety about O by s = (|O L| + dr) / |O L|: L~ = O + s (L - O), R~ = s R. The construction is
-/// void where O lies inside the ellipse, and singular where a tangent or its chord is parallel to
-/// an axis; the homothety is the answer everywhere.
+/// those lines by d_r, and solves for the ellipse that touches there. The second case of d_r
+/// contradicts the first: it compares a ratio of norms with 0. The first case is the homothety
+/// about O by s = (|O L| + dr) / |O L|: L~ = O + s (L - O), R~ = s R. The construction fails if O
+/// is inside the ellipse, or a tangent or chord is parallel to an axis; the homothety never fails.
 #pragma once
 
 #include <optional>
@@ -21,15 +20,15 @@ struct Extent {
   Vec2 half_size = Vec2::Zero();  ///< R_s, px
 };
 
-/// The two points where lines through `origin` touch the ellipse; none if it is not outside.
+/// The points where lines through `origin` touch the ellipse; absent unless it is outside.
 std::optional<std::pair<Vec2, Vec2>> tangent_points(const Extent& ellipse, const Vec2& origin);
 
-/// The paper's construction in closed form; none where it is void or singular.
-/// \param travelled_px Delta r: how far L moves away from O (negative: towards it).
+/// The paper's construction in closed form; absent where it fails.
+/// \param travelled_px Delta r: displacement of L away from O (negative: towards it).
 std::optional<Extent> predict_by_tangents(const Extent& square, const Vec2& origin,
                                           double travelled_px);
 
-/// The homothety about `origin`. A square whose centre is the origin stays.
+/// The homothety about `origin`. A square centred on the origin is unchanged.
 Extent predict_by_homothety(const Extent& square, const Vec2& origin, double travelled_px);
 
 }  // namespace lcs::paper

@@ -16,7 +16,7 @@ std::pair<Vec2, Vec2> ConvexHull::box() const {
   return {low, high};
 }
 
-/// From the leftmost point along the upper side to the rightmost, and back along the lower one.
+/// From the leftmost point along the upper side to the rightmost, back along the lower side.
 void ConvexHull::make_chain() {
   std::sort(points_.begin(), points_.end(), [](const Vec2& a, const Vec2& b) {
     return std::tuple(a.x(), a.y()) < std::tuple(b.x(), b.y());
@@ -24,7 +24,7 @@ void ConvexHull::make_chain() {
   points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
   chain_.clear();
   if (chain_.capacity() < points_.size() + 1) chain_.reserve(points_.capacity() + 1);
-  // All turns are clockwise, as the picture is seen.
+  // All turns are clockwise in the picture.
   const auto add = [&](const Vec2& point, std::size_t first) {
     while (chain_.size() >= first + 2 &&
            !(cross(chain_.back() - chain_[chain_.size() - 2], point - chain_.back()) > 0)) {
@@ -36,7 +36,7 @@ void ConvexHull::make_chain() {
   if (points_.size() < 2) return;
   const std::size_t rightmost = chain_.size() - 1;
   for (auto point = points_.rbegin() + 1; point != points_.rend(); ++point) add(*point, rightmost);
-  chain_.pop_back();  // the first again
+  chain_.pop_back();  // the first point, repeated
 }
 
 Outline ConvexHull::outline() {
@@ -47,7 +47,7 @@ Outline ConvexHull::outline() {
     outline.count = static_cast<int>(chain_.size());
     return outline;
   }
-  // Going round both, the farthest vertex of one direction is the last one's or comes behind it.
+  // Directions and vertices turn alike: a repeated farthest vertex is the last or the first one.
   for (int k = 0; k < Outline::kMost; ++k) {
     const Vec2 direction = unit_vector(kPi * (2.0 * k / Outline::kMost - 1));
     const Vec2& farthest = *std::max_element(

@@ -1,5 +1,5 @@
 /// \file
-/// The outline of a square: the convex hull of where its edges are.
+/// The outline of a square: the convex hull of its edges' places.
 #pragma once
 
 #include <utility>
@@ -11,27 +11,25 @@ namespace lcs {
 
 class ConvexHull {
  public:
-  /// Begins a new one.
+  /// Removes all points.
   void clear() { points_.clear(); }
   void add(const Vec2& point) { points_.push_back(point); }
 
-  /// The least and the largest of the box that holds all points, of which there must be some.
+  /// Least and largest corner of the bounding box, px; needs at least one point.
   std::pair<Vec2, Vec2> box() const;
 
-  /// The hull of the points, by Andrew's monotone chain: the same in whatever order they came. Of
-  /// more vertices than an outline has room for it has those that reach farthest in as many
-  /// directions, evenly spread.
+  /// The hull of the points, by Andrew's monotone chain, independent of their order. A hull with
+  /// too many vertices is reduced to those farthest in `kMost` evenly spaced directions.
   Outline outline();
 
  private:
   void make_chain();
 
-  // Kept for their memory.
+  // Scratch storage; members, so that a frame need not allocate.
   std::vector<Vec2> points_, chain_;
 };
 
-/// Moves and stretches a square's box, and its outline with it: each vertex keeps its place within
-/// the box.
+/// Moves and scales a square's box with its outline: each vertex keeps its relative place.
 void place(Square& square, const Vec2& location, const Vec2& half_size);
 
 }  // namespace lcs

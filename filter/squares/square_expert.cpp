@@ -7,8 +7,8 @@
 namespace lcs {
 namespace {
 
-/// The size of a body over the range of its corners: numbers drawn uniformly from an interval span,
-/// in the mean, (count - 1) / (count + 1) of it.
+/// Expected size of a body over the range of its corners: `count` uniform samples of an interval
+/// span (count - 1) / (count + 1) of it on average.
 double beyond(std::ptrdiff_t count) {
   return static_cast<double>(count + 1) /
          static_cast<double>(std::max<std::ptrdiff_t>(count - 1, 1));
@@ -16,7 +16,7 @@ double beyond(std::ptrdiff_t count) {
 
 }  // namespace
 
-/// Sorts the places of edges by their circles.
+/// Sorts the places of edges by circle.
 void SquareExpert::gather(const std::vector<Edge>& edges, const std::vector<int>& circle_of_edge) {
   places_.clear();
   make_room(places_, edges.size());
@@ -27,7 +27,7 @@ void SquareExpert::gather(const std::vector<Edge>& edges, const std::vector<int>
             [](const Place& a, const Place& b) { return a.circle < b.circle; });
 }
 
-/// The squares of circles of one kind.
+/// Appends the squares of circles of one kind.
 void SquareExpert::box(const std::vector<Circle>& circles, const MotionField& field) {
   auto place = places_.begin();
   for (std::size_t c = 0; c < circles.size(); ++c) {

@@ -1,5 +1,5 @@
 /// \file
-/// Square expert: each circle of an object's size becomes a square.
+/// Square expert: each circle of plausible object size becomes a square.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@
 namespace lcs {
 
 struct SquareParameters {
-  double max_size = 5;  ///< m: a larger static body, by its depth, is background and no object
+  double max_size = 5;  ///< m: larger static bodies are background
 };
 
 class SquareExpert {
@@ -26,7 +26,7 @@ class SquareExpert {
                                   const MotionField& field);
 
  private:
-  /// Of an edge of a circle, which is given by its index.
+  /// Place of an edge, with the index of its circle.
   struct Place {
     int circle;
     Vec2 location;
@@ -39,7 +39,7 @@ class SquareExpert {
   SquareParameters parameters_;
   std::vector<Square> squares_;
 
-  // Of the current frame; kept for their memory.
+  // Scratch storage of the current frame; members, so that a frame need not allocate.
   std::vector<Place> places_;
   ConvexHull hull_;
 };

@@ -97,7 +97,7 @@ std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
   while (const std::optional<SeenFrame> seen = see(source, detector, are_signatures_wanted)) {
     for (const Watcher& watcher : watchers) {
       FrameRecord& frame = watcher.recording.frames.emplace_back(seen->record);
-      if (!watcher.detector.wants_signatures()) {  // as alone
+      if (!watcher.detector.wants_signatures()) {  // as in a run of its own
         frame.signatures = {};
         frame.times->describe_ms = 0;
       }

@@ -1,6 +1,6 @@
 /// \file
-/// The loop of a run: observation -> corners and their signatures -> ego-motion -> detector ->
-/// record with truth.
+/// The loop of a run: observation -> corners and signatures -> ego-motion -> detector -> record
+/// with truth.
 #pragma once
 
 #include <functional>
@@ -18,34 +18,34 @@
 
 namespace lcs::bench {
 
-/// Called with every finished frame and its image (BGR), in order. What it throws ends the run.
+/// Called with each finished frame and its image (BGR), in order. An exception ends the run.
 using FrameSink = std::function<void(const FrameRecord&, const cv::Mat3b& image)>;
 
-/// Where the frames of a run come from.
+/// Source of the frames of a run.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// The next frame: its number, time and motions. What this took is added to the frame's times.
-  /// \param image set to what the camera saw, BGR. \return false after the last one.
+  /// The next frame: number, time and motions. Adds the time spent to the frame's times.
+  /// \param image set to the camera's image, BGR. \return false after the last frame.
   virtual bool next(FrameRecord& frame, cv::Mat3b& image) = 0;
 
-  /// Undistorts corners and picture: from the camera that took it to the pinhole that detectors are
-  /// told of. Corners that are not to be judged are left out.
-  /// \return whether the picture was changed.
+  /// Undistorts corners and picture: from the recording camera to the pinhole camera of the
+  /// detectors. Drops corners that are not scored.
+  /// \return whether the picture changed.
   virtual bool straighten(std::vector<Eigen::Vector2f>&, cv::Mat3b&) const { return false; }
 
-  /// Adds the truth of the frame's corners and objects, so far as it is known.
+  /// Adds the truth of the frame's corners and objects, as far as it is known.
   virtual void label(FrameRecord& frame) = 0;
 
   virtual std::optional<sim::Warnings> warnings() const { return std::nullopt; }
-  /// What was wrong with the sensors' readings so far.
+  /// Counts of the faults in the sensors' readings so far.
   virtual Diagnostics diagnostics() const = 0;
 };
 
 class SimulatedFrames : public FrameSource {
  public:
-  /// \param scenario that the simulation was made of. Both are referred to.
+  /// \param scenario of the simulation. Keeps references to both.
   SimulatedFrames(const scenario::Scenario& scenario, sim::Simulation& simulation);
 
   bool next(FrameRecord& frame, cv::Mat3b& image) override;
@@ -53,59 +53,56 @@ class SimulatedFrames : public FrameSource {
   std::optional<sim::Warnings> warnings() const override { return simulation_.warnings(); }
   Diagnostics diagnostics() const override { return ego_motion_.estimator().diagnostics(); }
 
-  /// The whole observation of the last frame.
+  /// The complete observation of the last frame.
   const std::optional<sim::Observation>& observation() const { return observation_; }
 
  private:
   const scenario::Scenario& scenario_;
   sim::Simulation& simulation_;
   EgoMotionFeed ego_motion_;
-  std::optional<sim::Observation> observation_;  ///< the last one
+  std::optional<sim::Observation> observation_;  ///< of the last frame
 };
 
-/// A frame before a detector has seen it.
+/// A frame before detection.
 struct SeenFrame {
   FrameRecord record;  ///< without verdicts and layers
   cv::Mat3b image;     ///< BGR
-  cv::Mat1b grey;      ///< the same: what the corners were found in
+  cv::Mat1b grey;      ///< grey image, input of corner detection
 };
 
-/// The next frame with its corners and what is true of them, and signatures where they are wanted.
-/// \return none after the last one. \throws what the source throws.
+/// The next frame with corners, their truth, and signatures on request.
+/// \return absent after the last frame. \throws the exceptions of the source.
 std::optional<SeenFrame> see(FrameSource& source, const FastDetector& detector,
                              bool are_signatures_wanted);
 
-/// Stores in a frame what a detector says of it.
-/// \param step_ms that the detector took: stored as the time that `step_time` points to, unless
-/// that
-///   is null.
+/// Stores a detector's result in a frame.
+/// \param step_ms time of the detector, ms; stored in the field `step_time` unless that is null.
 void note(const FrameResult& said, double FrameTimes::*step_time, double step_ms,
           FrameRecord& frame);
 
-/// A recording of the scenario without frames yet.
+/// A recording of the scenario, without frames.
 Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulation& simulation);
 
-/// Runs a detector on a frame whose corners are known.
-/// \param frame with corners, motion, and signatures if there are any; gets verdicts, layers and
-///   times.
-/// \param grey,image may be empty for a detector that does not look at them.
+/// Runs a detector on a frame with known corners.
+/// \param frame with corners, motion and optional signatures; receives verdicts, layers and times.
+/// \param grey,image may be empty for a detector that does not use them.
 void ask(Detector& detector, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame);
 
-/// A detector that takes part in a run, and where its results go.
+/// A detector of a run, and the destination of its results.
 struct Watcher {
   Detector& detector;
-  Recording& recording;  ///< gets every frame before the sink does, and in the end the warnings
+  Recording& recording;  ///< receives each frame before the sink does, and finally the warnings
   FrameSink sink;
 };
 
-/// Goes through all frames. Each watcher gets the same frames as it would alone.
-/// \return for each watcher, what was wrong with the sensors' readings and with what its detector
-/// was told. \throws what the source, detectors and sinks throw.
+/// Processes all frames. Each watcher gets the same frames as it would alone.
+/// \return for each watcher, faults in the sensors' readings and in its detector's input.
+/// \throws the exceptions of source, detectors and sinks.
 std::vector<Diagnostics> run(FrameSource& source, const FastDetector& detector,
                              std::span<const Watcher> watchers);
 
-/// Runs the simulation to its end. \param scenario that the simulation was made of.
-/// \return,\throws as above, and sim::PhysicsError.
+/// Runs the simulation to its end. \param scenario of the simulation.
+/// \return,\throws like the function above, and sim::PhysicsError.
 std::vector<Diagnostics> run(const scenario::Scenario& scenario, sim::Simulation& simulation,
                              std::span<const Watcher> watchers);
 /// The same for one detector.

@@ -24,7 +24,7 @@ std::vector<std::string> keys_of(const AnyParameters& parameters) {
   return keys;
 }
 
-/// Why a preset's filter has no parameter of that key, and what to do.
+/// Error message for a key that the preset's filter lacks, with a suggestion.
 std::string unknown_key(const std::string& key, const std::string& own_preset,
                         const std::vector<std::string>& known) {
   std::string others;
@@ -61,7 +61,7 @@ AnyParameters filter_parameters(const scenario::Scenario& scenario) {
     }
     at(setting.source, [&] { set(parameters, setting.key, setting.value); });
   }
-  // Each value is in its range here; together they may still contradict each other.
+  // Each value is in its range here; combinations may still be invalid.
   const scenario::Source& last =
       scenario.filter.empty() ? scenario.filter_preset_source : scenario.filter.back().source;
   at(last, [&] { validate(parameters); });

@@ -1,6 +1,6 @@
 /// \file
-/// What is under test: a detector, which says of each corner of a frame whether it moves by itself.
-/// The LCS filter is one, each comparator another; the bench treats all alike.
+/// Interface of the programs under test. A detector decides for each corner of a frame whether it
+/// moves by itself. The LCS filter and all comparators implement it.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,56 +17,54 @@
 
 namespace lcs::bench {
 
-/// All that a detector is told of a frame.
+/// A detector's input for one frame.
 struct DetectorInput {
   const cv::Mat3b& image;  ///< BGR
-  const cv::Mat1b& grey;   ///< the same: what the corners were found in
+  const cv::Mat1b& grey;   ///< grey image, input of corner detection
   std::span<const Eigen::Vector2f> corners_px;
   const EgoMotion& motion;                     ///< since the last frame
-  std::span<const Signature> signatures = {};  ///< of each corner; none where none are known
-  int index = 0;                               ///< of the frame
-  std::int64_t t_ns = 0;                       ///< its time
+  std::span<const Signature> signatures = {};  ///< of each corner; empty if unknown
+  int index = 0;                               ///< frame number
+  std::int64_t t_ns = 0;                       ///< frame time
 };
 
 class Detector {
  public:
   virtual ~Detector() = default;
 
-  /// \return a verdict for each corner, in the order given, the layers if there are any, and the
-  ///   times of stages. Valid until the next step.
+  /// \return a verdict for each corner, in the order given, layers if any, and times of stages.
+  ///   Valid until the next step.
   virtual const FrameResult& step(const DetectorInput& input) = 0;
 
-  /// Whether signatures are to be made for it, which takes longer than to find the corners.
+  /// Whether it uses signatures, which take longer to compute than corners.
   virtual bool wants_signatures() const { return false; }
 
-  /// The pixels that each square of the last step covers, from a detector that finds them.
+  /// Pixel masks of the last step's squares, if the detector finds masks.
   virtual const SquareMasks& masks() const {
     static const SquareMasks kNone;
     return kNone;
   }
 
-  /// Which of a frame's times the time of a step is; null for verdicts that are only read from a
-  /// file.
+  /// The field of `FrameTimes` for its step time; null if verdicts are only read from a file.
   virtual double FrameTimes::*step_time() const { return &FrameTimes::filter_ms; }
 
-  /// As `DetectorInfo::circles`. Known from the start.
+  /// Like `DetectorInfo::circles`. Known from the start.
   virtual bool gives_circles() const { return true; }
 
-  /// To be called after the last frame. \throws for what had gone wrong until then.
+  /// Call after the last frame. \throws for errors up to then.
   virtual void finish() {}
 
-  /// What was wrong with its input so far, if it checks that.
+  /// Counts of the faults in its input so far, if it checks that.
   virtual Diagnostics diagnostics() const { return {}; }
 
-  /// Remarks for people after the last frame, a line each.
+  /// Human-readable remarks after the last frame, a line each.
   virtual std::vector<std::string> told() const { return {}; }
 };
 
-/// The simulator's camera in the form that the filter and all detectors take.
+/// The simulator's camera as intrinsics for the filter and all detectors.
 Intrinsics intrinsics(const sim::Pinhole& camera);
 
-/// The LCS filter. It sees corners, their signatures if there are any, and ego-motion, never the
-/// image.
+/// The LCS filter. It uses corners, their signatures if any, and ego-motion, never the image.
 class LcsDetector : public Detector {
  public:
   LcsDetector(const Intrinsics& camera, const AnyParameters& parameters)
@@ -82,8 +80,8 @@ class LcsDetector : public Detector {
   AnyFilter filter_;
 };
 
-/// The scenario's preset with its settings on top.
-/// \throws scenario::Error at the line of a preset, key or value that the filter does not take.
+/// The scenario's preset, modified by its settings.
+/// \throws scenario::Error at the line of an unknown preset or key, or an invalid value.
 AnyParameters filter_parameters(const scenario::Scenario& scenario);
 
 }  // namespace lcs::bench

@@ -20,7 +20,7 @@ std::string as_written(const World& world, const std::string& key) {
                               : fmt::format("{}: {}", key, found->second);
 }
 
-/// What the first difference is.
+/// Describes the first difference.
 std::string difference(const World& then, const World& now) {
   for (const World* one : {&then, &now}) {
     for (const auto& [key, text] : *one) {
@@ -49,7 +49,7 @@ void require_same(const fs::path& folder, const Recording& recorded,
   }
   if (recorded.world.empty()) refuse("it does not say what world it is of");
   if (recorded.world != scenario.world) refuse(difference(recorded.world, scenario.world));
-  // Of a recording, pictures that cannot be read have no frames.
+  // The run of a recording lacks frames whose pictures are unreadable.
   if (!scenario.recording && std::ssize(recorded.frames) != scenario.frames) {
     refuse(fmt::format("it has {} frames of {}", recorded.frames.size(), scenario.frames));
   }
@@ -95,7 +95,7 @@ Recording EarlierRun::begin() const {
           .warnings = recorded_.warnings};
 }
 
-/// As large as the camera made it.
+/// Resized to the camera's size.
 cv::Mat3b EarlierRun::image(std::size_t position) const {
   double scale = 1;
   cv::Mat3b picture = pictures_.value().at(position, scale);

@@ -1,7 +1,6 @@
 /// \file
-/// An earlier run of a scenario, which takes the place of a simulation: it has the same corners,
-/// signatures, motions and truth. A detector that needs no pictures finds the same as in a run of
-/// its own, in a fraction of the time.
+/// An earlier run of a scenario replaces a simulation: same corners, signatures, motions and truth.
+/// A detector that needs no pictures gives the same results as in a run of its own, much faster.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +15,8 @@ namespace lcs::bench {
 
 class EarlierRun {
  public:
-  /// \throws std::runtime_error naming the folder: it has no run, a broken one, or one of another
-  ///   scenario, of another seed, or of the scenario as it was before its world changed.
+  /// \throws std::runtime_error naming the folder, if it has no valid run, or a run of another
+  ///   scenario, seed or world.
   EarlierRun(const std::filesystem::path& folder, const scenario::Scenario& scenario,
              const Intrinsics& camera);
 
@@ -27,18 +26,18 @@ class EarlierRun {
   /// Corners, signatures, motions and truth, without verdicts.
   const Recording& recording() const { return recorded_; }
 
-  /// Whether there is a corner without a signature, as when the run had only a comparator: the
-  /// filter then has less to go by than in a run of its own, and may decide otherwise.
+  /// Whether some corner has no signature, as in a run with only a comparator. The filter may then
+  /// decide differently from a run of its own.
   bool lacks_signatures() const;
 
-  /// A recording of the scenario without frames yet.
+  /// A recording of the scenario, without frames.
   Recording begin() const;
 
-  /// Goes through all frames, as `bench::run` does.
-  /// \param with_images whether detector and sink get pictures, which needs `pictures()`: in colour
-  ///   alone, and with the losses of their compression. Else they are empty.
-  /// \return what was wrong with what the detector was told.
-  /// \throws what the detector and the sink throw.
+  /// Processes all frames, like `bench::run`.
+  /// \param with_images whether detector and sink get pictures; needs `pictures()`. Only colour,
+  ///   with losses of compression. Else the pictures are empty.
+  /// \return counts of the faults in the detector's input.
+  /// \throws the exceptions of the detector and the sink.
   Diagnostics run(Detector& detector, Recording& recording, bool with_images,
                   const FrameSink& sink) const;
 

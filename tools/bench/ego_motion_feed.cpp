@@ -6,7 +6,7 @@
 namespace lcs::bench {
 namespace {
 
-/// Odometry without any noise would leave the estimator's gain undefined.
+/// Zero odometry noise would leave the estimator's gain undefined.
 constexpr double kLeastOdometryNoise_mps = 1e-3, kLeastYawNoise_radps = 1e-3;
 
 Mounting mounting_of(const sim::Calibration& calibration) {
@@ -87,7 +87,7 @@ EgoMotion EgoMotionFeed::estimated(const sim::Observation& observation) {
     }
   };
   for (const sim::ImuSample& sample : observation.imu) {
-    add_odometry_before(sample.t_ns);  // of the same moment, the IMU comes first
+    add_odometry_before(sample.t_ns);  // at equal times the IMU comes first
     estimator_.add_imu(sample.t_ns, sample.gyro_radps, sample.accel_mps2);
   }
   add_odometry_before(observation.t_ns + 1);

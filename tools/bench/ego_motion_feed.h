@@ -1,5 +1,5 @@
 /// \file
-/// From an observation's sensor readings, or exact poses, to the motion that a detector is told.
+/// Computes the ego-motion for detectors, from an observation's sensor readings or exact poses.
 #pragma once
 
 #include <optional>
@@ -10,22 +10,22 @@
 
 namespace lcs::bench {
 
-/// Motion between two poses of a camera, `dt_s` > 0 apart.
+/// Motion between two poses of a camera, `dt_s` > 0 apart, s.
 EgoMotion motion_between(const sim::Pose& T_WC_before, const sim::Pose& T_WC_now, double dt_s);
 
 class EgoMotionFeed {
  public:
-  /// The estimator is told the noise that the scenario's sensors have, as a datasheet would.
+  /// The estimator gets the noise of the scenario's sensors, like datasheet values.
   EgoMotionFeed(const scenario::Scenario& scenario, const sim::Calibration& calibration);
 
   struct Motions {
-    EgoMotion told;   ///< from the source that the scenario names
+    EgoMotion told;   ///< from the scenario's source of ego-motion
     EgoMotion exact;  ///< from the poses
   };
-  /// To be called with every observation, in order.
+  /// Call with every observation, in order.
   Motions next(const sim::Observation& observation);
 
-  /// What estimates the motions where the source is the IMU.
+  /// The estimator, used if the source is the IMU.
   const EgoMotionEstimator& estimator() const { return estimator_; }
 
  private:

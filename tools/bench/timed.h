@@ -1,12 +1,12 @@
 /// \file
-/// How long a piece of work takes.
+/// Measures the wall time of a call.
 #pragma once
 
 #include <chrono>
 
 namespace lcs::bench {
 
-/// Runs `work`, and says in `ms` how long it took, also when it throws.
+/// Runs `work` and stores its wall time in `ms`, also if it throws.
 template <class Work>
 decltype(auto) timed(double& ms, Work&& work) {
   using Clock = std::chrono::steady_clock;

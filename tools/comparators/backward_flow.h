@@ -1,10 +1,9 @@
 /// \file
-/// Where the corners of a frame were a baseline ago, by pyramidal Lucas-Kanade (Bouguet, "Pyramidal
-/// Implementation of the Affine Lucas Kanade Feature Detector", 2000; OpenCV's).
+/// Tracks the corners of a frame back to an earlier image by pyramidal Lucas-Kanade (Bouguet,
+/// "Pyramidal Implementation of the Affine Lucas Kanade Feature Detector", 2000; OpenCV's).
 ///
-/// A verdict on a corner is due in the corner's own frame, so the flow runs back from this frame's
-/// corners to the earlier image. Tracking that one's corners ahead, as is common, would end on
-/// points that are nobody's corners.
+/// A verdict belongs to a corner of the current frame, so the flow runs backwards from its corners
+/// to the earlier image. Forward tracking would end at points that are no detected corners.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,12 +18,12 @@
 namespace lcs::comparators {
 
 struct FlowParameters {
-  double baseline_s = kBaseline_s;  ///< to the image that is compared with, about; >= 0
-  int window_px = 15;               ///< side of the window that is matched; odd, >= 3
-  int levels = 4;                   ///< of the pyramid, above the image itself; >= 0
+  double baseline_s = kBaseline_s;  ///< age of the image to compare with, about; >= 0
+  int window_px = 15;               ///< side of the matched window; odd, >= 3
+  int levels = 4;                   ///< pyramid levels above the image itself; >= 0
   int max_iterations = 30;          ///< on each level
-  double least_step_px = 0.01;      ///< at which iterations end
-  double least_eigenvalue = 1e-4;   ///< of the window's gradients, as OpenCV normalises it
+  double least_step_px = 0.01;      ///< iterations end below this step
+  double least_eigenvalue = 1e-4;   ///< of the window's gradients, normalised as in OpenCV
 };
 
 class BackwardFlow {
@@ -32,33 +31,33 @@ class BackwardFlow {
   /// \throws std::invalid_argument for a parameter out of its range.
   explicit BackwardFlow(const FlowParameters& parameters);
 
-  /// To be called with every frame, in order.
-  /// \param grey of this frame; all frames are of one size.
+  /// Call with each frame, in order.
+  /// \param grey image of this frame; all frames have one size.
   /// \param motion since the last frame.
-  /// \return the motion since the image that this frame is compared with; none in the first frame.
+  /// \return the motion since the image to compare with; zero in the first frame.
   const EgoMotion& see(const cv::Mat1b& grey, const EgoMotion& motion);
 
-  /// For the frame that was seen last.
-  /// \param guesses_px where each corner may have been; as many as corners.
-  /// \return where it was; none where it is lost, and for all corners of the first frame. Valid
-  ///   until the next call.
+  /// Tracks the corners of the last frame passed to `see`.
+  /// \param guesses_px expected earlier place of each corner; as many as corners.
+  /// \return earlier place of each corner; absent if lost, and for all corners of the first frame.
+  ///   Valid until the next call.
   std::span<const std::optional<Vec2>> track(std::span<const Eigen::Vector2f> corners_px,
                                              std::span<const Vec2> guesses_px);
 
-  /// What was wrong with the motions that were told.
+  /// Counts of the faults in the given motions.
   const Diagnostics& diagnostics() const { return pyramids_.diagnostics(); }
 
  private:
   using Pyramid = std::vector<cv::Mat>;
   using Points = std::vector<cv::Point2f>;
-  /// `there` holds guesses before, and what was found after.
+  /// `there` holds the guesses on entry and the tracked points on return.
   void lucas_kanade(const Pyramid& from, const Pyramid& to, const Points& here, Points& there,
                     std::vector<unsigned char>& found) const;
 
   FlowParameters parameters_;
   Lookback<Pyramid> pyramids_;
 
-  // Of the current frame; kept for their memory.
+  // Scratch storage of the current frame; members, so that a frame need not allocate.
   Points corners_, before_;
   std::vector<unsigned char> found_;
   std::vector<std::optional<Vec2>> result_;

@@ -23,34 +23,34 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kTick = 50ms;        // between two calls of on_wait
-constexpr auto kPatience = 2s;      // with what was asked to end
-constexpr auto kLastWords = 500ms;  // to write what a process that ends has to say
+constexpr auto kTick = 50ms;        // between calls of on_wait
+constexpr auto kPatience = 2s;      // for a process to exit after a request
+constexpr auto kLastWords = 500ms;  // for the last output of a process that exits
 constexpr std::size_t kMostStderr = 1U << 16U;
-constexpr std::size_t kMostLines = 8;  // of stderr that are told
+constexpr std::size_t kMostLines = 8;  // of stderr in messages
 
 [[noreturn]] void fail(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-/// For a shell, which a single program takes the place of, where it is plain that there is only one:
-/// what it closes is closed then, and its end by a signal is its own.
+/// Prefixes a single command with `exec`, so that it replaces the shell: closing its files and its
+/// death by a signal then become visible directly.
 std::string for_shell(const std::string& command) {
   const bool is_list = command.find_first_of(";&|(){}<>\n!") != std::string::npos;
   const std::string first = command.substr(0, command.find(' '));
   return is_list || first.find('=') != std::string::npos ? command : "exec " + command;
 }
 
-/// Has the kernel end a process group when the last writer of a pipe is gone, however that ended.
-/// \param reads the pipe's end to read from, which the group has inherited.
+/// Makes the kernel end a process group when the last writer of a pipe is gone.
+/// \param reads the pipe's read end, inherited by the group.
 void end_with_writer(int reads, pid_t group) {
   ::fcntl(reads, F_SETSIG, SIGKILL);
   ::fcntl(reads, F_SETOWN, -group);
   ::fcntl(reads, F_SETFL, O_ASYNC);
 }
 
-/// What is written to a process that is gone is an error like any other, and no signal to this one,
-/// in which that means that its own output is gone.
+/// Blocks SIGPIPE: writing to an ended program then fails with an error. The signal remains in use
+/// for this program's own output.
 class WithoutPipeSignal {
  public:
   WithoutPipeSignal() {
@@ -79,7 +79,7 @@ class WithoutPipeSignal {
   bool was_pending_ = false;
 };
 
-/// The beginning of what was said out of turn.
+/// The beginning of an unexpected answer.
 std::string beginning_of(const std::string& text) {
   constexpr std::size_t kMost = 60;
   return fmt::format("'{}'{}", text.substr(0, std::min(text.find('\n'), kMost)),
@@ -112,11 +112,11 @@ DetectorProcess::DetectorProcess(const std::string& command, double timeout_s,
   connect(err_, its_err);
   connect(its_lifeline, lifeline_);
   if (::fcntl(its_lifeline.get(), F_SETFD, 0) != 0)
-    fail("no pipe to the detector can be made");  // it is inherited
+    fail("no pipe to the detector can be made");  // inherited by the program
   for (const Pipe* own : {&in_, &out_, &err_}) {
     if (::fcntl(own->get(), F_SETFL, O_NONBLOCK) != 0) fail("no pipe to the detector can be made");
   }
-  ::fcntl(in_.get(), F_SETPIPE_SZ, 1 << 20);  // pictures go faster; it is no matter if not
+  ::fcntl(in_.get(), F_SETPIPE_SZ, 1 << 20);  // speeds up pictures; may fail
 
   const std::array<std::string, 3> shell{"sh", "-c", for_shell(command)};
   pid_ = process::start_child("/bin/sh", shell, {its_in.get(), its_out.get(), its_err.get()},
@@ -130,7 +130,7 @@ DetectorProcess::~DetectorProcess() {
   if (!has_ended()) end_group(SIGTERM);
   const Clock::time_point deadline = Clock::now() + kPatience;
   while (!has_ended() && Clock::now() < deadline) {
-    // what it says meanwhile must not keep it
+    // drains its output, so that a full pipe does not block it
     std::array<char, 4096> rest{};
     for (const Pipe* pipe : {&out_, &err_}) {
       while (pipe->is_open() && ::read(pipe->get(), rest.data(), rest.size()) > 0) {
@@ -153,7 +153,7 @@ std::string DetectorProcess::ask(std::string_view line, std::span<const unsigned
   while (true) {
     if (in_.is_open()) write_some(line, picture);
     const std::size_t unread = line.size() + picture.size();
-    const bool ended = has_ended();  // and all that it wrote is there
+    const bool ended = has_ended();  // if so, all its output is in the pipe
     read_what_is_there();
     const std::size_t end = answers_.find('\n');
     if (std::min(end, answers_.size()) > most_answer_) {
@@ -220,9 +220,9 @@ std::vector<std::string> DetectorProcess::said() const {
   return lines;
 }
 
-/// Until something can be done, or for a tick.
+/// Waits until a pipe is ready, at most for a tick.
 void DetectorProcess::wait(bool to_write, Clock::time_point deadline) const {
-  const auto descriptor = [](const Pipe& pipe) { return pipe.get(); };  // below 0: not looked at
+  const auto descriptor = [](const Pipe& pipe) { return pipe.get(); };  // poll ignores those < 0
   std::array<pollfd, 3> pipes{{{descriptor(out_), POLLIN, 0},
                                {descriptor(err_), POLLIN, 0},
                                {to_write ? descriptor(in_) : -1, POLLOUT, 0}}};
@@ -235,7 +235,7 @@ void DetectorProcess::wait(bool to_write, Clock::time_point deadline) const {
 void DetectorProcess::read_what_is_there() {
   std::array<char, 65536> some{};
   const auto drain = [&](Pipe& pipe, std::string& text, std::size_t most) {
-    // not for ever where it writes for ever
+    // bounded, in case it writes endlessly
     for (int i = 0; i < 64 && pipe.is_open() && text.size() <= most; ++i) {
       const ssize_t got = ::read(pipe.get(), some.data(), some.size());
       if (got < 0 && errno == EINTR) continue;
@@ -260,7 +260,7 @@ void DetectorProcess::write_some(std::string_view& first, std::string_view& seco
       if (written < 0 && errno == EINTR) continue;
       if (written < 0 && errno == EAGAIN) return;
       if (written < 0) {
-        in_.close();  // nobody reads it
+        in_.close();  // no reader is left
         return;
       }
       part->remove_prefix(static_cast<std::size_t>(written));
@@ -275,7 +275,7 @@ void DetectorProcess::fail_ended() {
         fmt::format("it has closed its {}, and still runs", in_.is_open() ? "output" : "input")));
   }
   reap();
-  constexpr int kOfSignal = 128;  // to which a shell adds the signal that ended its command
+  constexpr int kOfSignal = 128;  // a shell adds the signal's number to it
   const int code = WIFSIGNALED(*status_) ? kOfSignal + WTERMSIG(*status_) : WEXITSTATUS(*status_);
   const bool is_signal = code > kOfSignal && code < kOfSignal + NSIG;
   throw DetectorError(with_stderr(is_signal
@@ -284,7 +284,7 @@ void DetectorProcess::fail_ended() {
                                       : fmt::format("it ended with exit code {}", code)));
 }
 
-/// And for what it has to say until then.
+/// Waits for the program's exit, and reads its output until then.
 void DetectorProcess::wait_for_end(Clock::time_point deadline) {
   bool ended = has_ended();
   while (!ended && Clock::now() < deadline) {
@@ -295,7 +295,7 @@ void DetectorProcess::wait_for_end(Clock::time_point deadline) {
   read_what_is_there();
 }
 
-/// Without taking its id from it, by which its group is ended.
+/// Leaves it unreaped, as its id names the group to end.
 bool DetectorProcess::has_ended() const {
   if (status_) return true;
   siginfo_t info{};
@@ -309,7 +309,7 @@ void DetectorProcess::end_group(int signal) const {
 
 void DetectorProcess::reap() {
   if (status_) return;
-  end_group(SIGKILL);  // those that it started as well
+  end_group(SIGKILL);  // and its children
   int status = 0;
   while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }

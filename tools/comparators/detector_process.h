@@ -1,6 +1,6 @@
 /// \file
-/// A program that is asked line by line: its standard input and output are pipes, and it answers
-/// each question with one line. What it writes to stderr is kept, for what there is to tell.
+/// Runs a program that answers each line of input with one line of output, through pipes on its
+/// standard files. Keeps its stderr for error messages.
 #pragma once
 
 #include <sys/types.h>
@@ -16,44 +16,44 @@
 
 namespace lcs::comparators {
 
-/// What is wrong with a detector that is a program, and what to do about it.
+/// An error of an external detector program, with a remedy.
 class DetectorError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Bytes of a line that answers a frame; and the field of the greeting that asks for more, and how
-/// much it can ask for. Parsed, a line takes thirty times as much.
+/// Default limit of an answer's bytes, the greeting's field that raises it, and the largest limit.
+/// A parsed line takes thirty times as much memory.
 inline constexpr std::size_t kMostAnswer = 1'000'000, kMostAskedAnswer = 16'000'000;
 inline constexpr const char* kAnswerBytes = "answer_bytes";
 
-/// The program and all processes that it starts are in a process group of their own, which is ended
-/// with this object: Ctrl-C does not reach them, and none stays behind.
+/// The program and all its children form their own process group, which is ended with this object.
+/// Ctrl-C does not reach them, and none is left behind.
 class DetectorProcess {
  public:
-  /// \param command for `/bin/sh -c`. All that it starts ends with this process, also where that is
-  ///   ended by SIGKILL, but for what leaves the process group.
-  /// \param timeout_s that the program may take to answer, and to end.
-  /// \param on_wait called some times a second while it is waited for; what it throws ends that.
-  /// \throws std::system_error where no process can be started.
+  /// \param command for `/bin/sh -c`. Its process group is ended with this process, even by
+  ///   SIGKILL; processes that leave the group are not.
+  /// \param timeout_s limit for each answer and for the exit.
+  /// \param on_wait called several times a second while waiting; its exceptions end the wait.
+  /// \throws std::system_error if no process can be started.
   DetectorProcess(const std::string& command, double timeout_s, std::function<void()> on_wait);
   ~DetectorProcess();
   DetectorProcess(const DetectorProcess&) = delete;
   DetectorProcess& operator=(const DetectorProcess&) = delete;
 
-  /// Hands over a line (its end included) and the bytes behind it.
-  /// \return the line that answers it, without its end.
-  /// \throws DetectorError: it ended, closed its input, took too long, or did not read all.
+  /// Sends a line (including its end) and the bytes after it.
+  /// \return the answering line, without its end.
+  /// \throws DetectorError if it ended, closed its input, timed out or did not read everything.
   std::string ask(std::string_view line, std::span<const unsigned char> bytes = {});
 
-  /// Tells it that nothing more comes, and waits for its end.
-  /// \throws DetectorError for another exit code than 0, or an answer that nobody asked for.
+  /// Closes its input and waits for its exit.
+  /// \throws DetectorError for a non-zero exit code or an unexpected answer.
   void finish();
 
-  /// How long a line it may write, without its end; `kMostAnswer` if it was not said.
+  /// Sets the longest line that it may write, without the end; default `kMostAnswer`.
   void allow_answer(std::size_t bytes) { most_answer_ = bytes; }
 
-  /// The last lines that it wrote to stderr.
+  /// The last lines of its stderr.
   std::vector<std::string> said() const;
 
  private:
@@ -73,7 +73,7 @@ class DetectorProcess {
     int descriptor_ = -1;
   };
 
-  Clock::time_point time_is_up() const;  ///< of what is asked now
+  Clock::time_point time_is_up() const;  ///< of the current request
   void wait(bool to_write, Clock::time_point deadline) const;
   void read_what_is_there();
   void write_some(std::string_view& first, std::string_view& second);
@@ -87,12 +87,12 @@ class DetectorProcess {
   double timeout_s_;
   std::function<void()> on_wait_;
   pid_t pid_ = -1;
-  std::optional<int> status_;  ///< of waitpid, once it was called
+  std::optional<int> status_;  ///< of waitpid, once called
   std::size_t most_answer_ = kMostAnswer;
-  Pipe in_, out_, err_;  ///< its
-  Pipe lifeline_;        ///< nothing is written to it
-  std::string answers_;  ///< read, and not asked for yet
-  std::string stderr_;   ///< the last of it
+  Pipe in_, out_, err_;  ///< standard files of the program
+  Pipe lifeline_;        ///< never written to; its end ends the group
+  std::string answers_;  ///< read but not yet requested
+  std::string stderr_;   ///< the last part of it
 };
 
 }  // namespace lcs::comparators

@@ -46,7 +46,7 @@ constexpr std::array<DetectorKind, 4> kDetectors{{
 constexpr DetectorKind kProgram{"program", "a program of yours", false, true, nullptr};
 constexpr DetectorKind kFile{"file", "what a detector has written", false, false, nullptr};
 
-/// Letters of the name of a folder, and of a test.
+/// Checks a name: only characters that are valid in a folder's name and a test's name.
 std::string own_name(const std::string& name) {
   const bool is_plain = !name.empty() && name.front() != '.' &&
                         std::all_of(name.begin(), name.end(), [](unsigned char c) {
@@ -66,7 +66,7 @@ std::string own_name(const std::string& name) {
   return name;
 }
 
-/// Of "python3 mine.py" it is python3.
+/// For "python3 mine.py" it is python3.
 std::string program_name(const std::string& command) {
   const std::size_t begin = command.find_first_not_of(" \t\n");
   if (begin == std::string::npos) return "";
@@ -101,7 +101,7 @@ DetectorSpec spec_of(const std::string& name) {
         found.name, found.name, name.substr(colon + 1)));
   }
   const std::string preset = name.substr(colon + 1);
-  lcs::preset(preset);  // is there one?
+  lcs::preset(preset);  // throws if unknown
   return {name, found, preset};
 }
 
@@ -140,7 +140,7 @@ std::unique_ptr<bench::Detector> make(const DetectorSpec& spec, const DetectorCo
 }
 
 std::vector<std::string> apply_preset(const DetectorSpec& spec, scenario::Scenario& scenario) {
-  bench::filter_parameters(scenario);  // they are valid, whether used or not
+  bench::filter_parameters(scenario);  // throws for invalid settings, even unused ones
   std::vector<std::string> lines;
   if (spec.preset.empty()) return lines;
   const auto leave_out = [&](std::string_view key, const scenario::Source& where) {

@@ -1,5 +1,5 @@
 /// \file
-/// The detectors that a run can be made with, by name.
+/// The detectors available to a run, by name.
 #pragma once
 
 #include <filesystem>
@@ -19,59 +19,59 @@ namespace lcs::comparators {
 
 struct DetectorKind {
   std::string_view name;
-  std::string_view purpose;    ///< one line for people
-  bool layered = false;        ///< as in `bench::DetectorInfo`
-  bool sees_pictures = false;  ///< beside corners and motion
-  /// Null for a detector that is not part of this program. \throws scenario::Error for parameters
-  /// that the detector does not take.
+  std::string_view purpose;    ///< one human-readable line
+  bool layered = false;        ///< as `bench::DetectorInfo::layered`
+  bool sees_pictures = false;  ///< uses pictures besides corners and motion
+  /// Null for an external detector. \throws scenario::Error for parameters that the detector does
+  /// not accept.
   std::unique_ptr<bench::Detector> (*make)(const Intrinsics& camera,
                                            const scenario::Scenario& scenario);
 };
 
-/// All there are, the filter first.
+/// All detectors, the filter first.
 std::span<const DetectorKind> detectors();
 
-/// \throws std::invalid_argument naming those that there are.
+/// \throws std::invalid_argument listing the known names.
 const DetectorKind& detector(std::string_view name);
 
-/// A detector as it is asked for: "klt", the filter with one of its presets, "lcs:lab", any
-/// program, or what somebody's has written to a file.
+/// A requested detector: "klt", the filter with a preset such as "lcs:lab", an external program, or
+/// a file with detections.
 struct DetectorSpec {
-  std::string name;  ///< as it was asked for
+  std::string name;  ///< as requested
   const DetectorKind& detector;
-  std::string preset;  ///< replaces all settings of the filter in a scenario; "": none
-  std::optional<Program> program = {};         ///< to be run
-  std::filesystem::path detections_file = {};  ///< to be read
+  std::string preset;                   ///< replaces all filter settings of a scenario; "": none
+  std::optional<Program> program = {};  ///< external program to run
+  std::filesystem::path detections_file = {};  ///< file with detections to read
 };
 
-/// \throws std::invalid_argument for an unknown detector or preset, naming those that there are,
-///   and for a preset of what has none.
+/// \throws std::invalid_argument for an unknown detector or preset, listing the known ones, and for
+///   a preset of a detector without presets.
 DetectorSpec spec_of(const std::string& name);
 
-/// A detector of the user's. \param name "": taken from the program or the file.
-/// \throws std::invalid_argument for a name that is taken, or no name of a folder.
+/// An external detector. \param name "": taken from the program or the file.
+/// \throws std::invalid_argument for a name in use, or invalid as a folder's name.
 DetectorSpec spec_of_program(const std::string& name, const Program& program);
 DetectorSpec spec_of_file(const std::string& name, const std::filesystem::path& detections_file);
 
-/// What a detector is made for.
+/// Context of a detector's construction.
 struct DetectorContext {
   const Intrinsics& camera;
   const scenario::Scenario& scenario;
-  const bench::Recording* recorded = nullptr;  ///< the frames that will come, where they are known
-  std::function<void()> on_wait = {};          ///< as `DetectorProcess` has it
+  const bench::Recording* recorded = nullptr;  ///< the coming frames, if known
+  std::function<void()> on_wait = {};          ///< as in `DetectorProcess`
 };
 
 /// \throws scenario::Error, DetectorError, std::runtime_error.
 std::unique_ptr<bench::Detector> make(const DetectorSpec& spec, const DetectorContext& context);
 
-/// Replaces a scenario's settings of the filter by its preset, if it has one: what others
-/// are compared with must not change with them. \return a line for each `--set` that has no effect
-/// because of the preset. \throws as `bench::filter_parameters`.
+/// Replaces the scenario's filter settings by the spec's preset, if it has one. A preset for
+/// comparison must not change with them. \return a line for each `--set` without effect because of
+/// the preset. \throws like `bench::filter_parameters`.
 std::vector<std::string> apply_preset(const DetectorSpec& spec, scenario::Scenario& scenario);
 
-/// For frames of an earlier run, which kept its corners, but its pictures compressed at best.
-/// \throws std::invalid_argument for a detector that looks at pictures; not for a program, which is
-///   told that they are compressed.
+/// Checks a detector for an earlier run, which keeps corners, and pictures at best compressed.
+/// \throws std::invalid_argument for a detector that uses pictures; not for a program, as it is
+/// informed that they are compressed.
 void require_corners_suffice(const DetectorSpec& spec);
 
 }  // namespace lcs::comparators

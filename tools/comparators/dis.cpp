@@ -32,7 +32,7 @@ const FrameResult& DisDetector::step(const bench::DetectorInput& input) {
       if (!picture.contain(now)) continue;
       const cv::Vec2f step = to_earlier_(cvRound(now.y()), cvRound(now.x()));
       const Vec2 before = now + Vec2(step[0], step[1]);
-      // Beside the earlier picture there is nothing to be found.
+      // Flow that leaves the earlier picture is lost.
       if (!picture.contain(back.rotated(before))) continue;
       motions_[i] = epipolar_motion(field, parameters_.residual_px, now, before);
     }

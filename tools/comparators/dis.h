@@ -1,9 +1,8 @@
 /// \file
 /// The comparator `dis`: dense flow (Kroeger et al., "Fast Optical Flow using Dense Inverse
-/// Search", 2016; OpenCV's) from this image to the one of a baseline ago, which the camera's
-/// rotation is taken out of first. A static corner's flow must end on the epipolar segment; what
-/// ends elsewhere moves by itself. As `klt`, but that a pixel's flow fits in with that of the
-/// pixels round it.
+/// Search", 2016; OpenCV's) from this image to one a baseline earlier, whose camera rotation is
+/// removed first. A static corner's flow ends on the epipolar segment; other corners move by
+/// themselves. Like `klt`, but a pixel's flow is smoothed with its neighbourhood.
 #pragma once
 
 #include <opencv2/video/tracking.hpp>
@@ -16,8 +15,8 @@
 namespace lcs::comparators {
 
 struct DisParameters {
-  double baseline_s = kBaseline_s;  ///< to the image that is compared with, about; >= 0
-  double residual_px = kStatic_px;  ///< distance from the segment that a static corner may have
+  double baseline_s = kBaseline_s;  ///< age of the image to compare with, about; >= 0
+  double residual_px = kStatic_px;  ///< largest distance of a static corner from the segment
   GroupParameters groups;
 };
 
@@ -34,7 +33,7 @@ class DisDetector : public bench::Detector {
   Lookback<cv::Mat1b> pictures_;
   cv::Ptr<cv::DISOpticalFlow> flow_;
   RebelGroups groups_;
-  cv::Mat1b derotated_;  // of the current frame; kept for their memory
+  cv::Mat1b derotated_;  // scratch storage of the current frame
   cv::Mat2f to_earlier_;
   std::vector<CornerMotion> motions_;
 };

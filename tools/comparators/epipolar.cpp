@@ -21,10 +21,10 @@ EgoMotion turned_back(const EgoMotion& motion) {
 
 double epipolar_distance(const MotionField& field, const Vec2& now_px, const Vec2& before_px) {
   const Eigen::Vector3d displacement_C_m = field.displacement_C_m();
-  // The nearest depth holds in both frames: in reverse, a point was nearer in the earlier one.
+  // z_min holds in both frames: in reverse, the point was nearer in the earlier one.
   const double nearest_ratio = 1 / (1 / field.max_ratio() + std::max(0.0, -displacement_C_m.z()) /
                                                                 field.reference_depth_m());
-  // Nothing is below the ground, if that fell away from its plane by its tilt.
+  // No static point lies below the ground, with slack for its tilt.
   const double ground_ratio = field.ground_ratio(now_px).value_or(0) - field.ground_slack();
   const double farthest_ratio = std::clamp(ground_ratio, 0.0, nearest_ratio);
   return distance_to_segment(before_px, field.earlier(now_px, farthest_ratio, displacement_C_m),

@@ -1,7 +1,7 @@
 /// \file
-/// Where a static point may have been in an earlier picture: on the epipolar segment, its images at
-/// every depth from the nearest to the farthest. The farthest is infinity or, where the ground is
-/// known and the corner lies below the horizon, where its ray meets the ground.
+/// The epipolar segment: possible places of a static point in an earlier picture, from the nearest
+/// to the farthest depth. The farthest is infinity or, below the horizon with a known ground, the
+/// ground's depth on the corner's ray.
 #pragma once
 
 #include "filter/kinematics/motion_field.h"
@@ -9,22 +9,22 @@
 
 namespace lcs::comparators {
 
-/// Distance from the segment that a static corner may have.
+/// Largest distance of a static corner from the segment.
 inline constexpr double kStatic_px = 0.85;
 
-/// The field over an interval, with the exact rotation and with the filter's own bounds on depth:
+/// Motion field over an interval, with exact rotation and the filter's default bounds of depth:
 /// z_min, and the ground with its slack.
 MotionField exact_field(const Intrinsics& camera, const EgoMotion& motion);
 
-/// The rotation of a motion alone, turned round: its `exact_field` takes a location in this frame
-/// to where it lies in the earlier one.
+/// The inverse of a motion's rotation, without translation: its `exact_field` rotates a location of
+/// this frame to the earlier one.
 EgoMotion turned_back(const EgoMotion& motion);
 
-/// Distance from where a corner was (rotation removed) to where a static point could have been.
+/// px: distance of a corner's earlier place (rotation removed) from the epipolar segment.
 double epipolar_distance(const MotionField& field, const Vec2& now_px, const Vec2& before_px);
 
-/// How a corner moved that was at `before_px`, rotation removed: off, if that is more than
-/// `residual_px` off the segment.
+/// Motion of a corner that was at `before_px`, rotation removed. It is off if its distance from the
+/// segment exceeds `residual_px`.
 CornerMotion epipolar_motion(const MotionField& field, double residual_px, const Vec2& now_px,
                              const Vec2& before_px);
 

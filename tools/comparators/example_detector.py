@@ -12,22 +12,22 @@ import sys
 import cv2
 import numpy as np
 
-OFF_PX = 1.0  # from its epipolar line: no static corner is farther
-NEAR_PX = 80  # between corners of one group
-LEAST = 5  # corners of a group
+OFF_PX = 1.0  # largest distance of a static corner from its epipolar line
+NEAR_PX = 80  # largest distance between neighbours in a group
+LEAST = 5  # fewest corners of a group
 
 
 def moves_by_itself(camera, motion, now, before):
     """Whether each corner, tracked from `before` to `now`, is off the line that a static one keeps to."""
     f, c = camera["focal_px"], np.array(camera["centre_px"])
     ray = lambda px: np.c_[(px - c) / f, np.ones(len(px))]
-    turned = ray(before) @ np.reshape(motion["R_cur_prev"], (3, 3)).T  # as if only the camera turned
-    went = np.array(motion["v_C_mps"]) * motion["dt_s"]  # in the camera's frame of now
-    line = np.cross(np.broadcast_to(went, turned.shape), turned)  # static corners have line . ray = 0
+    turned = ray(before) @ np.reshape(motion["R_cur_prev"], (3, 3)).T  # rotated by the camera
+    went = np.array(motion["v_C_mps"]) * motion["dt_s"]  # displacement, current camera frame
+    line = np.cross(np.broadcast_to(went, turned.shape), turned)  # static: line . ray = 0
     length = np.linalg.norm(line[:, :2], axis=1)
     still = np.linalg.norm(now - (turned[:, :2] / turned[:, 2:] * f + c), axis=1)
     off = np.abs(np.sum(line * ray(now), axis=1)) * f / np.maximum(length, 1e-9)
-    return np.where(length > 1e-6, off, still) > OFF_PX  # no line: the camera stands
+    return np.where(length > 1e-6, off, still) > OFF_PX  # no line: the camera stands still
 
 
 def groups_of(points):
@@ -36,7 +36,7 @@ def groups_of(points):
     while left.any():
         group = [int(np.argmax(left))]
         left[group] = False
-        for i in group:  # it grows meanwhile
+        for i in group:  # grows in the loop
             near = np.flatnonzero(left & (np.linalg.norm(points - points[i], axis=1) < NEAR_PX))
             left[near] = False
             group += near.tolist()
@@ -64,10 +64,10 @@ def main():
             for number, group in enumerate(groups_of(corners[off])):
                 members = off[group]
                 low, high = corners[members].min(axis=0), corners[members].max(axis=0)
-                size = high - low + 1  # of pixels, both ends included
+                size = high - low + 1  # px, both ends included
                 radius = np.linalg.norm(corners[members] - (low + high) / 2, axis=1).max()
                 answer["rebel"] += members.tolist()
-                answer["box"].append([number, *low.tolist(), *size.tolist()])  # ids are not kept
+                answer["box"].append([number, *low.tolist(), *size.tolist()])  # ids do not persist
                 answer["circle"].append([*((low + high) / 2).tolist(), float(radius)])
             answer["pending"] = np.flatnonzero(~found).tolist()
         print(json.dumps(answer), flush=True)

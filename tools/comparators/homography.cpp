@@ -28,8 +28,7 @@ const FrameResult& HomographyDetector::step(const bench::DetectorInput& input) {
   }
   cv::Mat1d H;
   if (static_cast<int>(now_.size()) >= parameters_.least_corners) {
-    // Draws from a generator of its own, seeded alike in every call: the same corners give the
-    // same bits.
+    // OpenCV seeds its own generator alike in each call: the same corners give the same bits.
     H = cv::findHomography(before_, now_, cv::RANSAC, parameters_.inlier_px, cv::noArray(),
                            parameters_.max_iterations, parameters_.confidence);
   }
@@ -44,7 +43,7 @@ const FrameResult& HomographyDetector::step(const bench::DetectorInput& input) {
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> by_rows(H[0]);
     const Eigen::Vector3d moved = by_rows * tracked[i]->homogeneous();
     const Vec2 step = guesses_[i] - moved.hnormalized();
-    // A homography far from the truth may take a corner to infinity.
+    // A wrong homography may map a corner to infinity.
     if (step.allFinite()) motions_[i] = {true, step.norm() > parameters_.residual_px, step};
   }
   return groups_.group(input.corners_px, motions_, motion.dt_s);

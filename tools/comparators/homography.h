@@ -1,8 +1,8 @@
 /// \file
-/// The comparator `homography`: the image of a baseline ago is laid over this one by a single
-/// homography, fitted to the tracked corners by RANSAC; what does not fit moves by itself. No IMU;
-/// right for a far or flat world and for a camera that only turns, which is what most published
-/// code for moving cameras assumes.
+/// The comparator `homography`: maps the image of a baseline ago to this one by a single
+/// homography, fitted to the tracked corners by RANSAC. Outliers move by themselves. Uses no IMU.
+/// Valid for a far or flat world and for a camera that only rotates, as most published code for
+/// moving cameras assumes.
 #pragma once
 
 #include "tools/bench/detector.h"
@@ -13,11 +13,11 @@ namespace lcs::comparators {
 
 struct HomographyParameters {
   FlowParameters flow;
-  int least_corners = 8;      ///< tracked, to fit a homography to, >= 4; fewer: nothing is told
-  double inlier_px = 0.7;     ///< RANSAC: distance at which a corner supports a hypothesis
+  int least_corners = 8;      ///< fewest tracked corners for a fit, >= 4; else no corner is off
+  double inlier_px = 0.7;     ///< RANSAC: largest distance of an inlier
   int max_iterations = 2000;  ///< of RANSAC
   double confidence = 0.995;
-  double residual_px = 2;  ///< distance from where the homography takes it that a corner may have
+  double residual_px = 2;  ///< largest distance of a static corner from its mapped place
   GroupParameters groups;
 };
 
@@ -32,7 +32,7 @@ class HomographyDetector : public bench::Detector {
   HomographyParameters parameters_;
   BackwardFlow flow_;
   RebelGroups groups_;
-  std::vector<Vec2> guesses_;  // of the current frame; kept for their memory
+  std::vector<Vec2> guesses_;  // scratch storage of the current frame
   std::vector<cv::Point2d> before_, now_;
   std::vector<CornerMotion> motions_;
 };

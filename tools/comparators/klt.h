@@ -1,10 +1,10 @@
 /// \file
-/// The comparator `klt`: what OpenCV and an IMU give in an afternoon. Each corner is tracked back
-/// to the image of a baseline ago; a static point must have been on the epipolar segment there.
-/// What was elsewhere moves by itself.
+/// The comparator `klt`, a baseline of common methods with OpenCV and an IMU. Each corner is
+/// tracked back to the image of a baseline ago. A static point lies on the epipolar segment there;
+/// other corners move by themselves.
 ///
-/// It is told the same of the camera's motion and of the ground as the filter, remembers images and
-/// nothing else, and so decides on two frames.
+/// It gets the same camera motion and ground as the filter. It stores only images, and so decides
+/// on two frames.
 #pragma once
 
 #include "tools/bench/detector.h"
@@ -16,7 +16,7 @@ namespace lcs::comparators {
 
 struct KltParameters {
   FlowParameters flow;
-  double residual_px = kStatic_px;  ///< distance from the segment that a static corner may have
+  double residual_px = kStatic_px;  ///< largest distance of a static corner from the segment
   GroupParameters groups;
 };
 
@@ -32,7 +32,7 @@ class KltDetector : public bench::Detector {
   KltParameters parameters_;
   BackwardFlow flow_;
   RebelGroups groups_;
-  std::vector<Vec2> guesses_;  // of the current frame; kept for their memory
+  std::vector<Vec2> guesses_;  // scratch storage of the current frame
   std::vector<CornerMotion> motions_;
 };
 

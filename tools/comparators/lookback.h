@@ -1,7 +1,6 @@
 /// \file
-/// The picture that a frame is compared with, and how the camera moved since. At a high frame rate
-/// nothing moves far enough from one frame to the next, so that it is not the last picture but one
-/// of a baseline ago.
+/// The earlier picture that a frame is compared with, and the camera's motion since. It is one of a
+/// baseline ago, as motion between successive frames is too small at high frame rates.
 #pragma once
 
 #include <algorithm>
@@ -16,30 +15,30 @@
 
 namespace lcs::comparators {
 
-/// Longer ones lose the fast movers of the worlds of `train` (README.md); with the last picture
-/// alone, slow ones would be lost at high rates.
+/// s: longer baselines lose the fast movers of the worlds of `train` (README.md); the last picture
+/// alone would lose slow movers at high frame rates.
 inline constexpr double kBaseline_s = 0.055;
 
-/// The motion over two intervals, of which `later` begins where `earlier` ends.
+/// The motion over two successive intervals.
 EgoMotion composed(const EgoMotion& earlier, const EgoMotion& later);
 
-/// The latest pictures, in whatever form they are compared.
+/// The latest pictures, in the form used for comparison.
 template <typename Picture>
 class Lookback {
  public:
-  /// \throws std::invalid_argument for a baseline that is not a time.
+  /// \throws std::invalid_argument for a negative or NaN baseline.
   explicit Lookback(double baseline_s) : baseline_s_(baseline_s) {
     if (!(baseline_s >= 0)) throw std::invalid_argument("a baseline must be 0 s or more");
   }
 
-  /// To be called with every frame, in order. Where the camera's motion since the last one is
-  /// unknown, those before are forgotten.
-  /// \return room for its picture, with what an older one left there.
+  /// Call with each frame, in order. If the camera's motion since the last frame is unknown,
+  /// earlier pictures are dropped.
+  /// \return storage for this frame's picture; still holds an older one.
   Picture& begin(const EgoMotion& told) {
     const std::optional<EgoMotion> motion = intake_.take(told, diagnostics_);
     if (!motion) frames_.clear();
     for (Frame& frame : frames_) frame.since = composed(frame.since, *motion);
-    // The oldest makes room for the newest, once there is another one as old as the baseline.
+    // Reuses the oldest frame once another one is at least as old as the baseline.
     const std::size_t size = frames_.size();
     const bool full =
         size >= kMostFrames || (size >= 2 && frames_[size - 2].since.dt_s >= baseline_s_);
@@ -55,16 +54,16 @@ class Lookback {
     return now.picture;
   }
 
-  /// What `begin` gave room for last.
+  /// The picture that the last `begin` returned.
   const Picture& now() const { return frames_.front().picture; }
 
-  /// The earlier picture whose age is nearest to the baseline; null in the first frame.
+  /// The earlier picture with an age nearest to the baseline; null in the first frame.
   const Picture* earlier() const { return compared_ > 0 ? &frames_[compared_].picture : nullptr; }
 
-  /// The camera's motion since then; none in the first frame.
+  /// The camera's motion since the earlier picture; zero in the first frame.
   const EgoMotion& motion() const { return frames_[compared_].since; }
 
-  /// What was wrong with the motions that were told.
+  /// Counts of the faults in the given motions.
   const Diagnostics& diagnostics() const { return diagnostics_; }
 
  private:
@@ -73,14 +72,14 @@ class Lookback {
 
   struct Frame {
     Picture picture;
-    EgoMotion since;  ///< then
+    EgoMotion since;  ///< motion since this frame
   };
 
   double baseline_s_;
   Intake intake_;
   Diagnostics diagnostics_;
-  std::vector<Frame> frames_;  ///< the newest first
-  std::size_t compared_ = 0;   ///< frame that the newest is compared with; itself: none
+  std::vector<Frame> frames_;  ///< newest first
+  std::size_t compared_ = 0;   ///< index of the frame to compare with; 0: none
 };
 
 }  // namespace lcs::comparators

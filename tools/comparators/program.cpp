@@ -31,12 +31,12 @@ Json parsed(const std::string& line) {
   throw DetectorError(fmt::format("its answer is no object: '{}'; {}", shown, kRemedy));
 }
 
-/// As text of JSON, which is what a row of CSV has for numbers.
+/// JSON text; for numbers it equals the text in CSV.
 std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Adds who and where it was to what goes wrong in `work`.
+/// Adds the detector's name and the place to the errors of `work`.
 template <class Work>
 decltype(auto) at(const std::string& name, const std::string& place, Work&& work) {
   const auto told = [&](const std::exception& error) {
@@ -46,15 +46,15 @@ decltype(auto) at(const std::string& name, const std::string& place, Work&& work
     return work();
   } catch (const DetectorError& error) {
     throw told(error);
-  } catch (const std::invalid_argument& error) {  // of FrameDetections
+  } catch (const std::invalid_argument& error) {  // from FrameDetections
     throw told(error);
   }
 }
 
-/// The values of a row: as text of JSON, but what COCO has of a mask (an object) as its size and
-/// its counts, and its counts' word as it is.
+/// Appends the values of a row as JSON text. A mask in COCO format (an object) gives its size and
+/// its counts; counts given as a string are unquoted.
 void add_values(const Json& json, bool is_mask, std::vector<std::string>& texts, int depth = 0) {
-  constexpr int kOfCounts = 2;  // in an object in a row
+  constexpr int kOfCounts = 2;  // nesting depth of counts in an object in a row
   if (json.is_array() && depth <= (is_mask ? kOfCounts : 0)) {
     for (const Json& value : json) add_values(value, is_mask, texts, depth + 1);
   } else if (is_mask && json.is_object() && depth < kOfCounts) {
@@ -66,7 +66,7 @@ void add_values(const Json& json, bool is_mask, std::vector<std::string>& texts,
   }
 }
 
-/// All rows of one type: each a list of values, or a value alone.
+/// Adds all rows of one type: each a list of values, or a single value.
 void add_rows(const std::string& type, const Json& rows, bench::FrameDetections& detections) {
   if (!rows.is_array()) {
     throw DetectorError(fmt::format("its \"{}\" is no list; give one of rows", type));

@@ -1,6 +1,6 @@
 /// \file
-/// Any program as a detector: it is handed each frame on its standard input, and answers with a
-/// line. Byte by byte in `tools/comparators/PROTOCOL.md`.
+/// An external program as a detector: it gets each frame on its standard input and answers with a
+/// line. The format is specified in `tools/comparators/PROTOCOL.md`.
 #pragma once
 
 #include <cstdint>
@@ -15,29 +15,29 @@
 
 namespace lcs::comparators {
 
-/// Version of the protocol; a program that greets with another one is refused.
+/// Protocol version; programs that greet with another one are rejected.
 inline constexpr int kProtocol = 1;
 
 struct Program {
   std::string command;    ///< for `/bin/sh -c`
-  double timeout_s = 30;  ///< for each answer, and to end
+  double timeout_s = 30;  ///< limit for each answer, and for the exit
 };
 
-/// What a program is told before the first frame.
+/// Data sent to a program before the first frame.
 struct Announced {
   std::string scenario;
   std::uint64_t seed = 0;
-  int frames = 0;  ///< 0: nobody knows
+  int frames = 0;  ///< 0: unknown
   double rate_hz = 0;
   Intrinsics camera;
-  bool compressed = false;  ///< pictures are those that an earlier run kept
+  bool compressed = false;  ///< pictures come from an earlier run
 };
 
 class ProgramDetector : public bench::Detector {
  public:
-  /// Starts the program, tells it what comes, and waits for its greeting.
-  /// \param name for messages. \param on_wait as `DetectorProcess` has it.
-  /// \throws DetectorError for whatever goes wrong with it, naming it and the frame.
+  /// Starts the program, sends the announcement, and waits for its greeting.
+  /// \param name for messages. \param on_wait as in `DetectorProcess`.
+  /// \throws DetectorError for any error of the program, naming it and the frame.
   ProgramDetector(std::string name, const Program& program, const Announced& announced,
                   std::function<void()> on_wait);
 

@@ -1,6 +1,6 @@
 /// \file
-/// From corners that leave the static world to verdicts and boxes: what the comparators share after
-/// each has said by how much.
+/// Turns moving corners into verdicts and boxes. Shared by the comparators, each of which first
+/// measures how far corners deviate from static motion.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,37 +14,36 @@
 
 namespace lcs::comparators {
 
-/// How a corner moved since the picture that its frame is compared with.
+/// Motion of a corner since the earlier picture of its frame.
 struct CornerMotion {
-  bool known = false;  ///< false: it was lost, and nothing is said of it
-  bool off = false;    ///< it does not move as the static world does
-  /// This frame's location less the one there, with what the camera's motion explains for all
-  /// corners alike (its rotation, or a homography) removed.
+  bool known = false;  ///< false: the corner was lost
+  bool off = false;    ///< true: it does not move like the static world
+  /// Step from the earlier place to this one, px, without the camera's common image motion
+  /// (rotation, or a homography).
   Vec2 step_px = Vec2::Zero();
 };
 
 struct GroupParameters {
-  double reach_px = 120;     ///< between two corners of one group
-  double like_px = 2;        ///< by which their steps may differ,
-  double like_share = 0.35;  ///< or by this share of the steps, if that is more
-  int least_corners = 5;  ///< of a group, as of a circle; fewer are taken for tracking gone wrong
-  double least_area_px2 = 250;  ///< of a box
-  double same_overlap = 0.3;    ///< IoU with a box of the last frame from which it is the same one
+  double reach_px = 120;     ///< between two corners of a group
+  double like_px = 2;        ///< largest difference of their steps,
+  double like_share = 0.35;  ///< or this share of the steps, if larger
+  int least_corners = 5;     ///< fewest of a group, like a circle's; fewer count as tracking errors
+  double least_area_px2 = 250;  ///< least area of a box
+  double same_overlap = 0.3;    ///< least IoU with a box of the last frame to keep its id
 };
 
-/// Corners that are off, near each other and of like step, are a group (single linkage); each group
-/// is a circle and, if large enough, a square. Boxes keep their ids from frame to frame by overlap.
+/// Groups corners that are off, near each other and of similar step (single linkage). Each group is
+/// a circle and, if large enough, a square. Boxes keep their ids by overlap.
 class RebelGroups {
  public:
-  /// \throws std::invalid_argument unless reach and least number of corners are above 0.
+  /// \throws std::invalid_argument unless reach and least number of corners are positive.
   explicit RebelGroups(const GroupParameters& parameters);
 
-  /// To be called with every frame, in order.
-  /// \param motions of the corners, as many.
-  /// \param dt_s that the motions took; 0 for none.
-  /// \return a verdict for each corner (`rebel` in a group, `pending` where lost, else `normal`);
-  ///   as layers the corners as edges, the groups as rebel circles and squares. Valid until the
-  ///   next call.
+  /// Call with each frame, in order.
+  /// \param motions one for each corner.
+  /// \param dt_s duration of the motions, s; 0 for none.
+  /// \return a verdict for each corner (`rebel` in a group, `pending` if lost, else `normal`).
+  ///   Layers: corners as edges, groups as rebel circles and squares. Valid until the next call.
   const FrameResult& group(std::span<const Eigen::Vector2f> corners_px,
                            std::span<const CornerMotion> motions, double dt_s);
 
@@ -58,10 +57,10 @@ class RebelGroups {
   std::vector<Square> last_squares_;
   Id next_edge_ = 1, next_circle_ = 1, next_square_ = 1;
 
-  // Of the current frame; kept for their memory.
+  // Scratch storage of the current frame; members, so that a frame need not allocate.
   std::vector<Vec2> points_;
   std::vector<int> corner_of_;  ///< of each point
-  DisjointSets sets_;           ///< of points that move alike
+  DisjointSets sets_;           ///< of points with similar motion
   std::vector<std::vector<int>> members_;
   PointGrid grid_;
   ConvexHull hull_;

@@ -1,5 +1,5 @@
 /// \file
-/// What a detector said in a CSV file (tools/recording/DETECTIONS.md), frame by frame.
+/// Detections read from a CSV file (tools/recording/DETECTIONS.md), frame by frame.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@ namespace lcs::comparators {
 
 class StoredDetections : public bench::Detector {
  public:
-  /// \param sequence whose frames it will be asked of, in order.
-  /// \throws scenario::Error by file and line.
+  /// \param sequence with the frames that will be processed, in order.
+  /// \throws scenario::Error naming file and line.
   StoredDetections(const std::filesystem::path& csv, const bench::Recording& sequence)
       : said_(bench::read_detections(csv, sequence)) {}
 

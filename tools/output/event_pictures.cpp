@@ -9,14 +9,14 @@ namespace lcs::bench {
 namespace {
 
 constexpr int kShownQuality = 72;
-/// Least width of what is cut out, px of the kept picture, and what is left about the object.
+/// Least width of the crop, px of the kept picture, and margins round the object.
 constexpr double kLeastWidth_px = 160, kMargin_px = 14, kMarginShare = 0.25;
 
-// BGR; they differ in lightness and, with the marks' shapes, in more than colour.
+// BGR; they also differ in lightness, and the marks in shape.
 const cv::Scalar kFound{90, 230, 60}, kMissed{0, 150, 255}, kFalse{255, 60, 255},
     kTruth{255, 255, 120}, kShadow{0, 0, 0}, kOutline{255, 255, 255};
 
-/// A view's place in the kept picture, and from pixels of the image to its own.
+/// A view's crop of the kept picture, and the map from image pixels to its pixels.
 struct Cut {
   cv::Rect area;
   double scale = 1;  ///< of the kept picture
@@ -29,7 +29,7 @@ struct Cut {
   }
 };
 
-/// Size in the kept picture of what a view shows.
+/// Size of a view's crop in the kept picture, px.
 cv::Size cut_size(const EventView& view, const cv::Size& kept, double scale) {
   constexpr double kAspect = static_cast<double>(kEventPictureWidth_px) / kEventPictureHeight_px;
   const Vec2 wanted =

@@ -1,5 +1,5 @@
 /// \file
-/// Pictures of events: a crop round what went wrong, with every corner marked by how it counts.
+/// Pictures of events: a crop round each error, with corners marked by their outcome.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace lcs::bench {
 
 inline constexpr int kEventPictureWidth_px = 256, kEventPictureHeight_px = 192;
 
-/// Makes the picture of every view. \param pictures of each of the recording's frames.
+/// Paints the picture of each view. \param pictures one for each frame of the recording.
 void paint_events(const Recording& recording, const FramePictures& pictures,
                   std::vector<Event>& events);
 

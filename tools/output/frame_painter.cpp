@@ -53,7 +53,7 @@ FramePainter::FramePainter(cv::Size image_px, const Recording& run)
 cv::Mat3b FramePainter::paint(const FrameRecord& frame, const cv::Mat3b& image) const {
   SquareOutcomes outcomes;
   if (is_truth_known_) outcomes = square_outcomes(frame);
-  // Pixel edges against pixel centres: the box of pixels l to r-1 has its outermost centres there.
+  // Pixel edges to pixel centres: the outermost centres of pixels l to r-1 are at l and r-1.
   std::vector<TruthBox> truth;
   for (const sim::ObjectTruth& object : frame.object_truth) {
     const auto name = names_.find(object.object);

@@ -16,7 +16,7 @@
 namespace lcs::bench {
 namespace {
 
-/// A JPEG's first and last marker; between them, as OpenCV writes it, there is neither.
+/// A JPEG's first and last marker. OpenCV's JPEG data contain neither in between.
 constexpr std::string_view kJpegStart = "\xff\xd8", kJpegEnd = "\xff\xd9";
 
 constexpr const char* kRecordAgain = "run the scenario with --events again";
@@ -46,7 +46,7 @@ void FramePictures::add(const cv::Mat3b& image) {
 }
 
 FramePictures FramePictures::read(const std::filesystem::path& file, cv::Size image_px) {
-  // 40 kB a picture: of hundreds of thousands of frames.
+  // At 40 kB a picture, enough for hundreds of thousands of frames.
   constexpr scenario::FileKind kMotionJpeg{16 * scenario::kGibibyte, kRecordAgain};
   const std::string bytes = scenario::read_file(file, kMotionJpeg);
   FramePictures pictures;

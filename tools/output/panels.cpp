@@ -11,9 +11,9 @@
 namespace lcs::bench {
 namespace {
 
-constexpr double kDim = 0.75;       // of the image's brightness, so that thin lines stand out
+constexpr double kDim = 0.75;       // brightness of the image, so that thin lines stand out
 constexpr int kFractionBits = 4;    // OpenCV draws at 1/16 px
-constexpr double kDotRadius = 1.6;  // px on the sheet, as all that follow
+constexpr double kDotRadius = 1.6;  // px on the sheet, as the constants below
 constexpr double kPredictedHalf = 2;
 constexpr double kEdgeHalf = 3;
 constexpr int kLayerLine = 2;
@@ -30,12 +30,12 @@ Vec2 scale_of(cv::Size panel, cv::Size image) {
           static_cast<double>(panel.height) / image.height};
 }
 
-/// Scales about the corner of the image, which lies half a pixel off the centre of its first pixel.
+/// Scales about the image's corner, half a pixel from the centre of its first pixel.
 Vec2 scaled(const Vec2& image_point, const Vec2& scale) {
   return ((image_point.array() + 0.5) * scale.array() - 0.5).matrix();
 }
 
-/// Draws in one panel with the image's own coordinates.
+/// Draws in one panel in image coordinates.
 class Pen {
  public:
   Pen(cv::Mat3b panel, cv::Size image)
@@ -45,7 +45,7 @@ class Pen {
     cv::circle(panel_, fixed(place(at)), fixed(kDotRadius), colour, cv::FILLED, cv::LINE_AA,
                kFractionBits);
   }
-  /// Of a size on the sheet, whatever the scale of the image.
+  /// `half` is in px of the sheet, independent of the image's scale.
   void small_square(const Vec2& at, double half, const cv::Scalar& colour) {
     outline(place(at) - Vec2(half, half), place(at) + Vec2(half, half), colour, 1);
   }
@@ -75,11 +75,11 @@ class Pen {
       }
     }
   }
-  /// Below and to the right of a place of the image.
+  /// Below and to the right of an image place.
   void id_of(const Vec2& at, const std::string& text, const cv::Scalar& colour) {
     name(at + (Vec2(4, 15).array() / scale_.array()).matrix(), text, colour);
   }
-  /// Over a place of the image, within the panel; a line or two higher or lower where one is.
+  /// Above an image place, within the panel; moved by up to two lines to avoid other names.
   void name(const Vec2& at, const std::string& text, const cv::Scalar& colour) {
     int below = 0;
     const cv::Size size = cv::getTextSize(text, kFont, kNameSize, 1, &below);
@@ -105,8 +105,7 @@ class Pen {
   }
 
  private:
-  // A layer far outside would overflow OpenCV's fixed point; nothing of it is to be seen from here
-  // on.
+  // Clips far outside of the sheet, as distant layers would overflow OpenCV's fixed point.
   static constexpr double kFarthest = 20000;
 
   Vec2 place(const Vec2& image_point) const { return scaled(image_point, scale_); }
@@ -125,7 +124,7 @@ class Pen {
 
   cv::Mat3b panel_;
   Vec2 scale_;
-  std::vector<cv::Rect> names_;  // where some are
+  std::vector<cv::Rect> names_;  // their boxes
 };
 
 void draw_truth(Pen& pen, std::span<const TruthBox> truth) {
@@ -134,14 +133,14 @@ void draw_truth(Pen& pen, std::span<const TruthBox> truth) {
   }
 }
 
-/// Of what moves; on top of all.
+/// Names of movers, on top of everything.
 void name_movers(Pen& pen, std::span<const TruthBox> truth) {
   for (const TruthBox& box : truth) {
     if (box.moving && !box.name.empty()) pen.name(box.min_px, box.name, colour::kMovingTruth);
   }
 }
 
-/// On top of the layers: a region and the layer that made it often coincide. \return how many.
+/// Drawn over the layers, as a region often coincides with its layer. \return their number.
 std::size_t draw_ignored(Pen& pen, const std::vector<IgnoreRegion>& regions,
                          IgnoreRegion::Shape shape) {
   std::size_t drawn = 0;
@@ -158,7 +157,7 @@ std::size_t draw_ignored(Pen& pen, const std::vector<IgnoreRegion>& regions,
   return drawn;
 }
 
-/// A word of a legend, behind a sample of its colour.
+/// A word of a legend, after a sample of its colour.
 struct Word {
   cv::Scalar colour;
   std::string text;
@@ -169,7 +168,7 @@ using Sample = Word::Sample;
 const Word kMissedWord{colour::kMissed, "missed", Sample::ring};
 const Word kFalseWord{colour::kFalse, "false", Sample::cross};
 
-/// What stands above and below a panel.
+/// Text above and below a panel.
 struct PanelText {
   std::string caption;
   std::vector<Word> legend;
@@ -218,7 +217,7 @@ void write_legend(cv::Mat3b& band, const std::vector<Word>& words) {
   }
 }
 
-/// ", 3 missed, 2 false" of marks; empty where the truth is not known.
+/// ": 5 found, 3 missed, 2 false"; empty if the truth is unknown.
 std::string tally(std::span<const Mark> marks, bool with_missed) {
   if (marks.empty()) return "";
   const auto number = [&](Mark mark) { return std::count(marks.begin(), marks.end(), mark); };

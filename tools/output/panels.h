@@ -1,11 +1,11 @@
 /// \file
-/// The paper's four panels: what each expert made of a frame, drawn over the dimmed image.
+/// The paper's four panels: each expert's result for a frame, over the dimmed image.
 ///
 ///     corners: chi, ignored, lambda    | edges: predicted, normal, rebel
 ///     circles: normal, rebel, psi      | squares: S with their ids and outlines, psi
 ///
-/// Each panel says in words what it shows: counts above the image, a legend below it. Where the
-/// truth is known, what was found, missed and false is marked, and objects have their names.
+/// Each panel has counts above the image and a legend below it. If the truth is known, found,
+/// missed and false items are marked, and objects are named.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,7 +29,7 @@ inline const cv::Scalar kNormalEdge{255, 110, 30};    ///< E_n: small blue squar
 inline const cv::Scalar kRebel{40, 40, 255};          ///< E_r and C_r: red
 inline const cv::Scalar kNormalCircle{60, 220, 60};   ///< C_n: green
 inline const cv::Scalar kSquare{255, 0, 255};         ///< S: magenta
-inline const cv::Scalar kOutline{255, 255, 255};      ///< of its edges: thin white
+inline const cv::Scalar kOutline{255, 255, 255};      ///< of a square's edges: thin white
 inline const cv::Scalar kIgnoreRegion{0, 230, 255};   ///< psi: yellow
 inline const cv::Scalar kMovingTruth{220, 220, 0};    ///< cyan
 inline const cv::Scalar kStaticTruth{150, 150, 150};  ///< grey
@@ -38,16 +38,16 @@ inline const cv::Scalar kFalse{255, 60, 255};         ///< violet crosses
 }  // namespace colour
 ///@}
 
-/// Where an object really is, to be drawn thin beneath the layers. Pixel-centre coordinates.
+/// True box of an object, drawn thin beneath the layers. Pixel-centre coordinates.
 struct TruthBox {
   Vec2 min_px = Vec2::Zero();
   Vec2 max_px = Vec2::Zero();
   bool moving = false;
-  std::string name = {};  ///< written over it; "" for none
-  bool missed = false;    ///< a square should be there and is not
+  std::string name = {};  ///< written above it; "" for none
+  bool missed = false;    ///< its square is missing
 };
 
-/// How a corner, a circle or a square compares with the truth.
+/// Comparison of a corner, circle or square with the truth.
 enum class Mark : std::uint8_t { none, found, missed, wrong };
 
 struct PanelContent {
@@ -56,8 +56,8 @@ struct PanelContent {
   std::span<const Verdict> verdicts;  ///< of each corner
   const Layers& layers;
   std::span<const TruthBox> truth;
-  std::string caption;  ///< of the frame, as "frame 12  1.20 s"; printed over all panels
-  /// \name Of each corner, rebel circle and square; empty where the truth is not known.
+  std::string caption;  ///< of the frame, such as "frame 12  1.20 s"; printed over all panels
+  /// \name Of each corner, rebel circle and square; empty if the truth is unknown.
   ///@{
   std::span<const Mark> corner_marks = {};
   std::span<const Mark> rebel_circle_marks = {};
@@ -71,27 +71,26 @@ enum class Panel { corners, edges, circles, squares };
 class PanelSheet {
  public:
   /// \param image_px size of the camera's image.
-  /// \param panel_px longer side of a panel on the sheet; the image is scaled to it. Sides are
-  /// even,
-  ///   as video codecs want them.
-  /// \throws std::invalid_argument unless all sizes are at least 16.
+  /// \param panel_px longer side of a panel on the sheet, px; the image is scaled to it. Sides are
+  ///   even, for video codecs.
+  /// \throws std::invalid_argument if a size is below 16.
   explicit PanelSheet(cv::Size image_px, int panel_px = 640);
 
-  /// Of the image in a panel, and of the bands over all of it, over each panel and below it.
+  /// Height of the bands over the sheet, over each panel and below each panel.
   static constexpr int kTitle_px = 28, kCaption_px = 22, kLegend_px = 20;
   cv::Size size_px() const {
     return {2 * panel_.width, kTitle_px + 2 * (kCaption_px + panel_.height + kLegend_px)};
   }
 
-  /// Place on the sheet of a pixel of the image, in the given panel.
+  /// Place on the sheet, px, of an image pixel in the given panel.
   Vec2 at(Panel panel, const Vec2& image_point) const;
 
-  /// \throws std::invalid_argument for an image of another size, or verdicts or marks that do not
-  ///   pair with what they are of.
+  /// \throws std::invalid_argument for an image of another size, or if the counts of verdicts or
+  ///   marks do not match.
   cv::Mat3b draw(const PanelContent& content) const;
 
  private:
-  cv::Rect area(Panel panel) const;  ///< of the image in it
+  cv::Rect area(Panel panel) const;  ///< of the image in the panel
 
   cv::Size image_;
   cv::Size panel_;

@@ -1,5 +1,5 @@
 /// \file
-/// The files of a run, written frame by frame, whole or absent in the end.
+/// Writes the files of a run frame by frame; the result is complete or absent.
 #pragma once
 
 #include <filesystem>
@@ -18,32 +18,32 @@
 
 namespace lcs::bench {
 
-/// All files that a run's folder may hold.
+/// All files that the folder of a run may contain.
 ResultNames result_files();
 
-/// What a result holds beside its figures.
+/// Optional contents of a result.
 struct ResultOptions {
-  std::optional<double> video_frames_per_second;  ///< none: no video
-  bool events = false;  ///< where the run went wrong, with pictures, and all pictures
-  /// Pictures of the same frames from an earlier run, so that `events` needs to keep none.
+  std::optional<double> video_frames_per_second;  ///< absent: no video
+  bool events = false;  ///< write the run's errors with pictures, and all pictures
+  /// Pictures of these frames from an earlier run; `events` then stores none.
   const FramePictures* kept = nullptr;
   /// Called with each frame of the video, until it returns false.
   std::function<bool(const cv::Mat3b& sheet)> show = {};
-  /// Writes further files into the folder, when all others are in it and before it takes its place.
+  /// Writes additional files to the folder, after all others and before the commit.
   std::function<void(const std::filesystem::path& folder, const Metrics& metrics)> add_page = {};
 };
 
 class Result {
  public:
-  /// \param run whose frames will come.
-  /// \throws OutputError for a target that cannot be written, or holds something else.
+  /// \param run whose frames will be added.
+  /// \throws OutputError for a target that cannot be written or contains other files.
   Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,
          const ResultOptions& options);
 
-  /// \param image may be empty where no video is made and nothing shown. \throws OutputError
+  /// \param image may be empty if no video is made or shown. \throws OutputError
   void add(const FrameRecord& frame, const cv::Mat3b& image);
 
-  /// Scores the run, and writes what depends on all of it. The folder takes its place when the
+  /// Scores the run and writes the files that depend on all frames. The folder appears when the
   /// output is committed. \throws OutputError
   Metrics finish(const Recording& run);
 

@@ -9,7 +9,7 @@
 namespace lcs::bench {
 namespace {
 
-/// A unit follows the first of the figures that have it.
+/// A unit follows the first of successive figures that share it.
 std::string line(std::string_view head, const Metrics& metrics, bool with_undefined,
                  std::initializer_list<const char*> keys) {
   std::string text = fmt::format("  {:<8}", head);

@@ -1,5 +1,5 @@
 /// \file
-/// The figures of a run as a person reads them, in five seconds.
+/// The figures of a run as a short human-readable table.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace lcs::bench {
 
-/// A line for each of rebels, objects, squares, size, time. "-" for an undefined figure; ends with
-/// a line end.
+/// One line each for rebels, objects, squares, size, time. "-" marks an undefined figure. Ends with
+/// a newline.
 std::string table(const Metrics& metrics);
 
 }  // namespace lcs::bench

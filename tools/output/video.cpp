@@ -9,7 +9,7 @@
 namespace lcs::bench {
 namespace {
 
-/// FFmpeg does not say why a file cannot be written. \throws OutputError where the system does.
+/// FFmpeg does not report why a write fails. \throws OutputError with the system's reason.
 void require_writable(const std::filesystem::path& path) {
   constexpr std::size_t kSome = 1 << 20;
   write_file(path, std::string(kSome, '\0'));
@@ -19,7 +19,7 @@ void require_writable(const std::filesystem::path& path) {
 
 Video::Video(const std::filesystem::path& path, cv::Size size_px, double frames_per_second)
     : path_(path) {
-  // FFmpeg writes to stderr what is reported here anyway. Read once, at its first use.
+  // Silences FFmpeg's messages, as errors are reported here. FFmpeg reads it once, at first use.
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
   for (const auto codec :
        {cv::VideoWriter::fourcc('a', 'v', 'c', '1'), cv::VideoWriter::fourcc('m', 'p', '4', 'v')}) {

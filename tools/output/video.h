@@ -1,5 +1,5 @@
 /// \file
-/// An MP4 file, frame by frame.
+/// Writes an MP4 file frame by frame.
 #pragma once
 
 #include <filesystem>
@@ -14,16 +14,16 @@ inline constexpr const char* kVideoFile = "video.mp4";
 
 class Video {
  public:
-  /// H.264 where this machine's OpenCV can encode it, MPEG-4 part 2 where not.
-  /// \param size_px even in both directions.
-  /// \throws OutputError where neither can be written.
+  /// H.264 if the installed OpenCV can encode it, else MPEG-4 part 2.
+  /// \param size_px even width and height.
+  /// \throws OutputError if neither codec works.
   Video(const std::filesystem::path& path, cv::Size size_px, double frames_per_second);
 
-  /// \param frame of the size given.
+  /// \param frame of size `size_px`.
   void write(const cv::Mat3b& frame);
 
-  /// \throws OutputError when the file is not complete, as when the disk is full: OpenCV itself
-  ///   never says so.
+  /// \throws OutputError if the file is incomplete, for example on a full disk: OpenCV does not
+  ///   report that.
   void close();
 
  private:

@@ -7,12 +7,12 @@
 namespace lcs::bench {
 namespace {
 
-/// As OpenCV hands options to `avformat_open_input`: it reads them each time that it opens a video.
+/// Options that OpenCV passes to `avformat_open_input`; it reads them at each opening.
 constexpr const char* kOptionsVariable = "OPENCV_FFMPEG_CAPTURE_OPTIONS";
 constexpr const char* kOptions =
     "protocol_whitelist;file|format_whitelist;mov,avi,matroska,mpeg,mpegts,flv,asf,ogg";
 
-/// A variable of the environment, for as long as it lives: the process may be somebody else's.
+/// Sets an environment variable for its lifetime, then restores it.
 class Variable {
  public:
   Variable(const char* name, const char* value) : name_(name) {
@@ -37,10 +37,10 @@ class Variable {
 }  // namespace
 
 cv::VideoCapture open_video(const std::filesystem::path& file) {
-  // FFmpeg writes to stderr what is told here anyway. Read once, at its first use.
+  // Silences FFmpeg's messages, as errors are reported here. FFmpeg reads it once, at first use.
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
   const Variable options(kOptionsVariable, kOptions);
-  // A relative name might look like a protocol's.
+  // An absolute path cannot be mistaken for a protocol.
   return cv::VideoCapture(std::filesystem::absolute(file).string(), cv::CAP_FFMPEG);
 }
 

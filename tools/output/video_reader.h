@@ -1,5 +1,5 @@
 /// \file
-/// The one way in which a video is opened.
+/// Opens video files safely; all videos are opened by this function.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,9 @@
 
 namespace lcs::bench {
 
-/// FFmpeg by itself guesses: it draws text as pictures, and follows playlists to other files. Here
-/// it reads only MP4, MOV, AVI, MKV, WebM, MPEG, FLV, ASF and OGG, and no other file.
-/// \return not opened for anything else.
+/// By default FFmpeg guesses formats: it decodes text as pictures, and follows playlists to other
+/// files. This reads only MP4, MOV, AVI, MKV, WebM, MPEG, FLV, ASF and OGG.
+/// \return not opened for any other format.
 cv::VideoCapture open_video(const std::filesystem::path& file);
 
 }  // namespace lcs::bench

@@ -16,7 +16,7 @@
 namespace lcs::preview {
 namespace {
 
-constexpr double kStands_m = 1e-4;  // from one frame to the next
+constexpr double kStands_m = 1e-4;  // m, largest step of a static actor between frames
 
 std::vector<unsigned char> jpeg_of(const cv::Mat3b& image) {
   constexpr int kQuality = 85;
@@ -50,7 +50,7 @@ Mover mover_of(const scenario::Scenario& scenario, const sim::Survey& survey,
   return mover;
 }
 
-/// The same view in no more pixels than are looked at.
+/// The same view with at most `kMostLookPixels` pixels.
 scenario::Scenario looked_at(scenario::Scenario scenario) {
   int &width = scenario.camera.width_px, &height = scenario.camera.height_px;
   const double share = kMostLookPixels / (static_cast<double>(width) * height);

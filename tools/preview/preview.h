@@ -1,6 +1,6 @@
 /// \file
-/// What a scenario is going to be, known without a run: who goes where and when, who is ever seen,
-/// how many corners there are, and what is wrong.
+/// Previews a scenario without a run: paths and times of actors, their visibility, number of
+/// corners, and problems.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,28 +16,28 @@
 
 namespace lcs::preview {
 
-/// How many frames are looked at; the first, the middle one and the last are among them.
+/// Number of frames that are rendered, including the first, the middle and the last one.
 inline constexpr int kLooks = 13;
 
-/// An actor, as far as its way tells.
+/// An actor with its path.
 struct Mover {
   std::string name;
-  int object = 0;                           ///< as in FrameTruth::object
-  std::vector<Eigen::Vector2d> way_m = {};  ///< in W, in each frame
+  int object = 0;                           ///< as FrameTruth::object
+  std::vector<Eigen::Vector2d> way_m = {};  ///< in W, m, one point per frame
   struct Span {
     double from_s = 0, to_s = 0;
   };
-  std::optional<Span> moves = {};  ///< from its first step to its last one; none: it stands
-  double nearest_m = 0;            ///< to the rover, of both origins
+  std::optional<Span> moves = {};  ///< from its first to its last step; absent: it never moves
+  double nearest_m = 0;            ///< least distance to the rover, m, between origins
   double nearest_s = 0;
-  int looks = 0;  ///< in which some of it is seen
+  int looks = 0;  ///< number of looks that show some of it
 };
 
-/// Pixels of a picture that is looked at. Larger cameras are looked through at a smaller size: the
-/// largest one's pictures take gigabytes, and seconds each.
+/// Most pixels of a rendered picture. Larger cameras are rendered at a reduced size, as their
+/// pictures take gigabytes, and seconds each.
 inline constexpr int kMostLookPixels = 2048 * 2048;
 
-/// A frame that was looked at.
+/// A rendered frame.
 struct Look {
   int index = 0;
   cv::Size image_px = {};
@@ -50,13 +50,13 @@ struct Preview {
   std::vector<Look> looks;
   std::vector<std::vector<Eigen::Vector2f>> corners_px;  ///< of each look
   std::vector<Mover> movers;                             ///< by the scenario's actors
-  std::vector<std::string> wrong;  ///< a line each, with what to do; what a run refuses is first
+  std::vector<std::string> wrong;  ///< problems with remedies, those that a run rejects first
 };
 
-/// \param on_frame as of `sim::survey`. \throws as `sim::survey`.
+/// \param on_frame as in `sim::survey`. \throws like `sim::survey`.
 Preview preview(const scenario::Scenario& scenario, const std::function<void(int)>& on_frame = {});
 
-/// One HTML file with its pictures inside. \throws bench::OutputError
+/// Writes one HTML file with embedded pictures. \throws bench::OutputError
 void write_preview(const std::filesystem::path& file, const scenario::Scenario& scenario,
                    const Preview& preview);
 

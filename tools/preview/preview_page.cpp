@@ -40,12 +40,12 @@ i.c0 { border-color: var(--s1); } i.c1 { border-color: var(--s2); } i.c2 { borde
 .wrong li { margin: 0.2rem 0; }
 )";
 
-/// The rover is of the first colour, and movers share the others.
+/// Index of a mover's colour; the rover has its own.
 int colour_of(std::size_t mover) {
   return 1 + static_cast<int>(mover % 4);
 }
 
-/// 1, 2 or 5 times a power of ten, and no less than `least`.
+/// The least of 1, 2 or 5 times a power of ten that is at least `least`.
 double round_number(double least) {
   const double power = std::pow(10, std::floor(std::log10(least)));
   for (const double factor : {1.0, 2.0, 5.0}) {
@@ -99,7 +99,7 @@ class PreviewPage : public report::TextPage {
     add("</header>\n");
   }
 
-  /// What the plan shows of W, m, and how large.
+  /// The region of W that the plan shows, m, and its scale.
   struct Window {
     Eigen::AlignedBox2d box = {};
     double scale = 1;  ///< px of the drawing for a metre
@@ -109,7 +109,7 @@ class PreviewPage : public report::TextPage {
     }
   };
 
-  /// All ways, and what is about them.
+  /// All paths with a margin.
   Window window() const {
     constexpr double kAround_m = 2.5, kWidth_px = 1100, kHeight_px = 640;
     Window w;
@@ -141,12 +141,12 @@ class PreviewPage : public report::TextPage {
         escaped(text));
   }
 
-  /// Where the texts of a drawing are, so that none lies on another or is cut.
+  /// Occupied places of a drawing, so that texts neither overlap nor are cut.
   struct Labels {
-    Eigen::AlignedBox2d room;  ///< the drawing
+    Eigen::AlignedBox2d room;  ///< the drawing's area
     std::vector<Eigen::AlignedBox2d> taken = {};
 
-    /// Takes the place if it is free. \param width_px of a letter.
+    /// Reserves the place if it is free. \param width_px of a letter.
     bool take(const Vector2d& at, const std::string& text, double height, double width_px) {
       const Eigen::AlignedBox2d box(
           at - Vector2d(0, height),
@@ -158,15 +158,15 @@ class PreviewPage : public report::TextPage {
     }
   };
 
-  /// At the first of the sides of a box where there is room; nowhere if there is none. Names try
-  /// all of them, what is not bold the first two.
+  /// Places the text at the first free side of a box, or nowhere. Bold names try all sides, other
+  /// texts the first two.
   void label_beside(Labels& labels, const Eigen::AlignedBox2d& box, const std::string& text,
                     double height, bool bold) {
     const double letter = (bold ? 0.66 : 0.58) * height, gap = 0.4 * height;
     const double left = box.min().x() - letter * static_cast<double>(text.size()) - gap;
     const double right = box.max().x() + gap;
     const double above = box.min().y() - gap, below = box.max().y() + gap + 0.75 * height;
-    // beside a point, as ways lead on above and below it
+    // beside a small box, as paths continue above and below it
     const double start = box.sizes().x() > height ? box.min().x() : right;
     const std::array<Vector2d, 8> sides{{{start, above},
                                          {start, below},
@@ -205,7 +205,7 @@ class PreviewPage : public report::TextPage {
     }
   }
 
-  /// Where a way's times are, no closer than texts have room.
+  /// A time mark on a path; marks are spaced so that texts fit.
   struct Mark {
     Vector2d at;
     double t_s = 0;
@@ -236,7 +236,7 @@ class PreviewPage : public report::TextPage {
     }
   }
 
-  /// Who it is where each way begins, then the times that still have room.
+  /// Writes names at the start of each path, then times where there is room.
   void name_ways(const Window& w, const Vector2d& size_px) {
     constexpr double kText_px = 12;
     Labels labels{{Vector2d::Zero(), size_px}};
@@ -257,7 +257,7 @@ class PreviewPage : public report::TextPage {
     }
   }
 
-  /// What the camera sees to 3 m off.
+  /// The camera's field of view, up to 3 m.
   void view(const Window& w, const sim::Snapshot& snapshot) {
     constexpr double kFar_m = 3;
     const scenario::Camera& camera = scenario_.camera;
@@ -278,7 +278,7 @@ class PreviewPage : public report::TextPage {
         "above\">\n",
         size_px.x(), size_px.y());
     grid(w, size_px);
-    // Ceilings, lamps and what else hangs well above the camera would hide all the rest.
+    // Omits ceilings, lamps and other things well above the camera, which would cover the plan.
     const double above_m = survey_.snapshots.front().T_WC.p.z() + 1;
     std::vector<const sim::Footprint*> prints;
     for (const sim::Footprint& print : survey_.footprints) {
@@ -374,7 +374,7 @@ class PreviewPage : public report::TextPage {
         look.index, time_s(look.index), preview_.corners_px[which].size());
   }
 
-  /// A bar for each look.
+  /// One bar for each look.
   void corners() {
     constexpr double kStep = 60, kHeight = 90;
     std::size_t most = 1;

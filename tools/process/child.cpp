@@ -11,13 +11,13 @@
 namespace lcs::process {
 namespace {
 
-constexpr int kCannotStart = 127;  // as a shell has it
+constexpr int kCannotStart = 127;  // like a shell
 
-/// In the child, up to and with exec; does nothing that a forked process may not.
+/// Runs in the child, up to and including exec; async-signal-safe.
 [[noreturn]] void become(const char* program, char* const* arguments, const StandardFiles& files,
                          const ChildOptions& options, pid_t parent) {
   if (options.own_group) ::setpgid(0, 0);
-  // However the parent ends, none of its children stays behind.
+  // Ends the child when the parent ends for any reason.
   if (::prctl(PR_SET_PDEATHSIG, options.when_parent_ends) != 0 || ::getppid() != parent) {
     ::_exit(kCannotStart);
   }
@@ -45,7 +45,7 @@ pid_t start_child(const char* program, std::span<const std::string> arguments,
   const pid_t child = ::fork();
   if (child == 0) become(program, pointers.data(), files, options, self);
   if (child < 0) throw std::system_error(errno, std::generic_category(), "no process can be started (fork)");
-  if (options.own_group) ::setpgid(child, child);  // by whoever of the two comes first
+  if (options.own_group) ::setpgid(child, child);  // set in both processes, to avoid a race
   return child;
 }
 

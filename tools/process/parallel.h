@@ -1,15 +1,15 @@
 /// \file
-/// Independent pieces of work on all cores. Results belong to the piece, not to the thread, so that
-/// they are the same with any number of cores.
+/// Runs independent tasks on all cores. Results depend on the task, not on the thread, so they are
+/// the same for any number of cores.
 #pragma once
 
 #include <functional>
 
 namespace lcs::process {
 
-/// Calls `work(i)` for each i in [0, count), from several threads, and `tick` after each piece of
-/// the calling thread with the number of pieces since the last call. What either throws ends all,
-/// once the pieces under way are done, and is thrown on.
+/// Calls `work(i)` for each i in [0, count) on several threads. After each task of the calling
+/// thread, calls `tick` with the number of tasks done since the last call. An exception stops new
+/// tasks; it is rethrown after the running ones.
 void for_each_parallel(int count, const std::function<void(int)>& work,
                        const std::function<void(int)>& tick);
 
