@@ -1,6 +1,6 @@
 /// \file
 /// Compatibility layer for MuJoCo 2.2.2 (Debian) to 4.x: the only file that includes MuJoCo and
-/// handles differences between its versions. Only `sim/` includes it.
+/// handles differences between its versions. Product code outside `sim/` must not include it.
 #pragma once
 
 #include <mujoco/mujoco.h>
