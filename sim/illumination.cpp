@@ -50,8 +50,8 @@ float Illumination::lamps(int x, int y, float distance_m) const {
   return lamps_times_m2_(y, x) / (d * d);
 }
 
-/// cos(alpha) of each pixel. On a plane n . X = h the inverse depth w at a pixel with ray r is n .
-/// r / h, so that its slopes give n / h; then cos(alpha) = w / (|n / h| |r|).
+/// cos(alpha) of each pixel. On a plane n . X = h, a pixel with ray r has the inverse depth
+/// w = (n . r) / h. The slopes of w give n / h; then cos(alpha) = w / (|n / h| |r|).
 cv::Mat1f Illumination::facing(const cv::Mat1f& depth_m) const {
   cv::Mat1f cosine(depth_m.size(), 1.F);
   const auto inverse = [&](int x, int y) { return 1 / depth_m(y, x); };

@@ -14,7 +14,7 @@ namespace {
 // Larger silhouettes are measured on a coarser raster.
 constexpr double kMostPixels = 4e6;
 
-constexpr int kRound = 48;  // points per circle: 0.2 % of the radius
+constexpr int kRound = 48;  // points per circle: error 0.2 % of the radius
 constexpr int kRings = 16;  // from pole to pole of an ellipsoid
 
 Eigen::Matrix3Xd box(const double size[3]) {

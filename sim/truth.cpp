@@ -8,7 +8,7 @@
 namespace lcs::sim {
 namespace {
 
-constexpr double kDistinctPx = 1;  // least difference from the static motion of a rebel
+constexpr double kDistinctPx = 1;  // least |u - u_s| of a rebel
 // A body at rest on contacts creeps by nanometres. Smaller motions count as none.
 constexpr double kStill_m = 1e-5;
 constexpr double kStill_rad = 1e-5;
