@@ -20,7 +20,7 @@
 namespace lcs::scenario {
 namespace {
 
-/// No scenario is larger; a picture or a recording given by mistake is.
+/// Larger than any scenario; rejects images and recordings given by mistake.
 constexpr FileKind kScenarioFile{kMebibyte, "give the path of a scenario file (.yaml)"};
 
 Entry* find(Value& map, std::string_view key) {
@@ -29,7 +29,7 @@ Entry* find(Value& map, std::string_view key) {
   return found == map.entries.end() ? nullptr : &*found;
 }
 
-/// Grows the tree as yaml-cpp reads.
+/// Builds the tree from yaml-cpp's events.
 class TreeBuilder : public YAML::EventHandler {
  public:
   explicit TreeBuilder(const Source& where) : first_line_(where) {}
@@ -63,8 +63,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
 
  private:
-  /// A list or map that has begun and not ended; in a map, perhaps with a key that waits for its
-  /// value.
+  /// An unfinished list or map; in a map, possibly with a key that waits for its value.
   struct Open {
     Value value;
     std::optional<Entry> waiting = std::nullopt;
@@ -75,7 +74,7 @@ class TreeBuilder : public YAML::EventHandler {
     return {first_line_.file, first_line_.line == 0 ? 0 : first_line_.line + mark.line};
   }
 
-  /// yaml-cpp says "?" for what is plain and "!" for what is quoted.
+  /// yaml-cpp uses "?" for plain and "!" for quoted scalars.
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) const {
     if (tag.empty() || tag == "?" || tag == "!") return;
     throw Error(at(mark), "YAML tags such as '" + tag + "' are not known here; remove it");
@@ -121,8 +120,8 @@ class TreeBuilder : public YAML::EventHandler {
   Value root_;
 };
 
-/// yaml-cpp takes control characters for ends of file, guesses at other encodings, and explains a
-/// tab in the indentation by what it makes of the text after it.
+/// yaml-cpp treats control characters as ends of file, guesses other encodings, and reports a
+/// misleading error for a tab in the indentation.
 void refuse_bad_text(std::string_view text, const Source& where) {
   Source here = where;
   bool indentation = true;
@@ -168,7 +167,7 @@ Value& item(Value& list, const std::string& part, const std::string& path, const
   return list.items[index];
 }
 
-/// The value under `part`, made when the map lacks it.
+/// The value under `part`; added if the map lacks it.
 Value& child(Value& parent, const std::string& part, const std::string& path, const Source& where) {
   if (parent.kind == Value::Kind::list) return item(parent, part, path, where);
   if (parent.kind == Value::Kind::scalar) {
@@ -200,9 +199,9 @@ void flatten(const Value& value, const std::string& path,
   for (const Entry& entry : value.entries) flatten(entry.value, prefix + entry.key, texts);
 }
 
-constexpr int kOneLine = 1000;  ///< a level at which all is written in one line
+constexpr int kOneLine = 1000;  ///< a level at which everything is in one line
 
-/// How deep lists and maps are nested in it: 0 of a single value.
+/// Nesting depth of lists and maps; 0 for a scalar.
 int height(const Value& value) {
   int inner = -1;
   for (const Value& item : value.items) inner = std::max(inner, height(item));
@@ -210,8 +209,8 @@ int height(const Value& value) {
   return inner + 1;
 }
 
-/// \param level of the maps round it; those of the first two have a line for each key, and so have
-/// deeply nested ones and lists of lists. All others are written in one line.
+/// \param level number of enclosing maps. Maps of the first two levels, deeply nested maps
+/// and nested lists have a line per key or item. All others are in one line.
 void emit(YAML::Emitter& out, const Value& value, int level) {
   switch (value.kind) {
     case Value::Kind::null:
@@ -258,7 +257,7 @@ std::string_view kind_name(Value::Kind kind) {
 
 Value parse_text(const std::string& text, const Source& where) {
   refuse_bad_text(text, where);
-  // yaml-cpp overlooks a quote that is never closed when blanks end the text.
+  // yaml-cpp overlooks an unclosed quote if blanks end the text.
   std::istringstream stream(text.substr(0, text.find_last_not_of(" \t\r\n") + 1));
   TreeBuilder builder(where);
   try {

@@ -1,8 +1,8 @@
 /// \file
-/// A YAML document as a plain tree in which every value knows where it was written.
+/// A YAML document as a plain tree; every value keeps its source line.
 ///
-/// Of YAML, a scenario uses maps, lists and scalars. Anchors, aliases, tags and several documents
-/// in a file are refused, and so are keys given twice.
+/// Scenarios use only YAML's maps, lists and scalars. Anchors, aliases, tags, multiple documents in
+/// a file and duplicate keys are rejected.
 #pragma once
 
 #include <filesystem>
@@ -27,8 +27,8 @@ struct Value {
   Kind kind = Kind::null;
   std::string text;            ///< of a scalar
   std::vector<Value> items;    ///< of a list
-  std::vector<Entry> entries;  ///< of a map, in the order of the file
-  Source where;                ///< for a list or map under a key, where the key is
+  std::vector<Entry> entries;  ///< of a map, in file order
+  Source where;                ///< for a list or map under a key: the key's place
 };
 
 struct Entry {
@@ -37,36 +37,36 @@ struct Entry {
   Value value;
 };
 
-// Behind the entries that a value may hold.
+// Defined after `Entry`, which must be complete.
 inline Value::Value() = default;
 inline Value::Value(Kind kind_, Source where_, std::string text_)
     : kind(kind_), text(std::move(text_)), where(std::move(where_)) {}
 
-/// What a value is, as a message says it: "a list", "a map", "nothing".
+/// A value's kind as cited in messages: "a list", "a map", "nothing".
 std::string_view kind_name(Value::Kind kind);
 
-/// \throws Error when the file cannot be read, is not UTF-8, or is not one YAML document.
+/// \throws Error if the file cannot be read, is not UTF-8, or is not exactly one YAML document.
 Value parse_file(const std::filesystem::path& file);
 
-/// Parses a text as `parse_file` does a file. \param file for messages.
+/// Parses a text like `parse_file` parses a file. \param file cited in messages.
 Value parse_document(const std::string& text, const std::filesystem::path& file);
 
-/// Any value, with the lines counted from `where.line`.
+/// Parses any value; line numbers start at `where.line`.
 Value parse_text(const std::string& text, const Source& where);
 
-/// YAML that reads back as a value, in one line.
+/// YAML of a value in one line; parses to the same value.
 std::string line_of(const Value& value);
-/// YAML of a map that reads back as it, with a line for each key of it and of the maps in it, and
-/// for each item of a list of lists.
+/// YAML of a map; parses to the same map. Each key of it and of its direct submaps has its own
+/// line, and so has each item of a nested list.
 std::string yaml_text(const Value& root);
 
-/// What is written in the tree, by the paths that `apply_set` takes: {"ego.start.0", "-4 m"}. Empty
-/// text for what holds nothing.
+/// The scalars of the tree by their paths as in `apply_set`: {"ego.start.0", "-4 m"}. Empty lists
+/// and maps and nulls have an empty text.
 std::map<std::string, std::string> flattened(const Value& root);
 
-/// Replaces, adds or (with nothing after the '=') removes one value of the tree, in the form that
-/// `--set` has: "ego.speed=0.7 m/s". Lists are addressed by index from 0. What follows "filter." is
-/// one key, dots included. \throws Error naming the assignment.
+/// Applies a `--set` assignment such as "ego.speed=0.7 m/s": replaces, adds or (with an empty
+/// value) removes one value of the tree. Indices into lists count from 0. All text after "filter."
+/// is one key, including dots. \throws Error citing the assignment.
 void apply_set(Value& root, const std::string& assignment);
 
 }  // namespace lcs::scenario

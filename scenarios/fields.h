@@ -1,18 +1,18 @@
 /// \file
-/// Every key of a scenario file. Reading (`load.cpp`), writing (`written.h`), the tables of
-/// README.md and `scenario.schema.json` (both `keys.cpp`) all follow this one list.
+/// The single list of all keys of a scenario file. Reading (`load.cpp`), writing (`written.h`), the
+/// tables of README.md and `scenario.schema.json` (both `keys.cpp`) use it.
 ///
-/// Each `fields` names the keys of one map: it calls `visit(key, member, form)` for each, in the
-/// order in which they are written. A form is needed where the member's type does not tell which
-/// values are taken. Binding all members of the struct by name makes a new member that is forgotten
-/// here fail to compile.
+/// Each `fields` lists the keys of one map: it calls `visit(key, member, form)` for each key in the
+/// order of output. A form is needed where the member's type does not determine the accepted
+/// values. Each `fields` binds all members of the struct by name, so that a new member that is
+/// missing here fails to compile.
 ///
-/// Besides, a visitor has
-///   at_most_one_of({"a", "b"}), exactly_one_of({"a", "b"})   keys that exclude each other
-///   in_place_of("a", {"b", "c"})                             where a is given, b and c are not
+/// A visitor must also have
+///   at_most_one_of({"a", "b"}), exactly_one_of({"a", "b"})   mutually exclusive keys
+///   in_place_of("a", {"b", "c"})                             a excludes b and c
 ///
-/// Some keys have no member of their own (`focal`, `duration`). They are local variables, which
-/// only reading fills.
+/// Some keys have no member of their own (`focal`, `duration`). They are local variables that only
+/// reading fills.
 #pragma once
 
 #include <cmath>
@@ -26,7 +26,7 @@
 
 namespace lcs::scenario {
 
-/// \name `Key::without` of a key that has to be given.
+/// \name `Key::without` of required keys.
 ///@{
 inline constexpr std::string_view kRequired = "required";
 inline constexpr std::string_view kOneOfThese = "one of these is required";
@@ -35,27 +35,27 @@ inline constexpr std::string_view kOneOfThese = "one of these is required";
 struct Key {
   std::string_view name;
   std::string_view meaning;       ///< Markdown, in one line
-  std::string_view without = "";  ///< what holds without the key; "": the member's default
+  std::string_view without = "";  ///< effect of omitting the key; "": the member's default
 };
 
 inline constexpr int kMostFrames = 1'000'000;
 
-/// \name Forms
+/// \name Forms of values
 ///@{
-struct Plain {};  ///< the member's type tells all
-struct Whole {    ///< a whole number
+struct Plain {};  ///< the member's type determines the accepted values
+struct Whole {    ///< a whole number in [low, high]
   std::int64_t low;
   std::int64_t high;
 };
-struct In {  ///< a quantity that is written in another than its base unit
+struct In {  ///< a quantity that is written in a unit other than its base unit
   Quantity quantity;
   std::string_view unit;
 };
-struct Words {  ///< one of them: an enumerator by its number, or a text
+struct Words {  ///< one of the words: an enumerator by its number, or a text
   std::vector<std::string> words;
 };
 template <class Form>
-struct OrWord {  ///< a word stands for an optional member without a value
+struct OrWord {  ///< a word that means an optional member without a value
   Form form;
   std::string_view word;
 };
@@ -63,24 +63,23 @@ struct OwnFileOr {  ///< one of the words, or a file ("rover.xml") for the enume
   std::vector<std::string> words;
   std::filesystem::path& file;
 };
-struct SceneName {  ///< of a scene that ships, or a file ("room.xml")
+struct SceneName {  ///< name of a shipped scene, or a file ("room.xml")
   Source& source;
 };
-struct File {};            ///< that exists
-struct FolderOrFile {};    ///< that exists
-struct StyleOrPicture {};  ///< the name of a texture, or a file ("brick.png")
-struct GroupNames {};      ///< one or more, each once
+struct File {};            ///< must exist
+struct FolderOrFile {};    ///< must exist
+struct StyleOrPicture {};  ///< name of a texture style, or a file ("brick.png")
+struct GroupNames {};      ///< one or more distinct group names
 struct FilterParameters {  ///< any key
   std::string& preset;
   Source& source;
 };
-struct FramesBefore {  ///< a time, for the number of frames before it
+struct FramesBefore {  ///< a duration, converted to the number of frames before its end
   double rate_hz;
 };
 ///@}
 
 // --- the rover
-// ------------------------------------------------------------------------------------
 
 template <class Visit>
 void motion_fields(EgoPhase& phase, std::string_view without, Visit&& visit) {
@@ -126,7 +125,6 @@ void fields(Ego& ego, Visit&& visit) {
 }
 
 // --- its sensors
-// ----------------------------------------------------------------------------------
 
 template <class Visit>
 void fields(Camera::Told& told, Visit&& visit) {
@@ -205,7 +203,6 @@ void fields(Odometry& odometry, Visit&& visit) {
 }
 
 // --- light, weather and the ground
-// ----------------------------------------------------------------
 
 template <class Visit>
 void fields(Image::Headlights& headlights, Visit&& visit) {
@@ -267,7 +264,6 @@ void fields(Ground& ground, Visit&& visit) {
 }
 
 // --- actors
-// ---------------------------------------------------------------------------------------
 
 template <class Visit>
 void fields(Still& still, Visit&& visit) {
@@ -318,7 +314,7 @@ void fields(Trajectory& trajectory, Visit&& visit) {
         waypoints);
   visit({"circle", "it moves round a centre", kOneOfThese}, circle);
   visit.exactly_one_of({"still", "line", "waypoints", "circle"});
-  // The default is `still`: it holds where no other is given.
+  // `still` is the default, which any other given key overrides.
   if (still) trajectory = *still;
   if (line) trajectory = *line;
   if (waypoints) trajectory = *waypoints;
@@ -360,11 +356,10 @@ void fields(Actor& actor, Visit&& visit) {
   visit({"start", "when it starts: both conditions hold", "at once"}, start);
 }
 
-/// The words of `Recorded::Split`, in its order.
+/// The names of `Recorded::Split`, in its order.
 inline constexpr std::array<const char*, 3> kSplits{"train", "validate", "test"};
 
 // --- recorded frames
-// ------------------------------------------------------------------------------
 
 template <class Visit>
 void fields(Recorded& recorded, Visit&& visit) {
@@ -433,7 +428,6 @@ void fields(Recorded& recorded, Visit&& visit) {
 }
 
 // --- the whole
-// ------------------------------------------------------------------------------------
 
 template <class Visit>
 void fields(Origin& origin, Visit&& visit) {
@@ -556,7 +550,7 @@ void fields(Scenario& scenario, Visit&& visit) {
         sweep);
 }
 
-/// A map in a file.
+/// A type that corresponds to a map in a scenario file.
 template <class T>
 concept HasFields = requires(T& object) {
   fields(object, 0);

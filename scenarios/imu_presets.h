@@ -1,6 +1,6 @@
 /// \file
-/// Noise of known IMUs, in Kalibr's units. Sources: the calibration files of EuRoC MAV (ADIS16448)
-/// and TUM-VI (BMI160), and the defaults of the simulator ESIM.
+/// Noise parameters of known IMUs, in Kalibr's units. Sources: the calibration files of EuRoC MAV
+/// (ADIS16448) and TUM-VI (BMI160), and the defaults of the simulator ESIM.
 #pragma once
 
 #include <optional>
@@ -12,10 +12,10 @@
 
 namespace lcs::scenario {
 
-/// "adis16448", "tumvi", "esim", and "ideal", which has no noise.
+/// "adis16448", "tumvi", "esim", and the noise-free "ideal".
 std::vector<std::string> imu_preset_names();
 
-/// The noise of a preset; none for a name that no preset has.
+/// The noise of a preset; absent for an unknown name.
 std::optional<ImuNoise> imu_preset(std::string_view name);
 
 }  // namespace lcs::scenario

@@ -13,7 +13,7 @@ namespace lcs::scenario {
 namespace {
 
 constexpr std::size_t kBlock = 1 << 16;
-/// A frame of 100,000 corners is a tenth of it; a file without line ends is longer.
+/// Ten times a frame of 100,000 corners; only a file without line ends exceeds it.
 constexpr std::size_t kLongestLine = 256 * kMebibyte;
 
 std::string size_text(std::uint64_t bytes) {
@@ -30,10 +30,10 @@ InputFile::InputFile(const std::filesystem::path& file, const FileKind& kind, co
     : file_(file.string()), kind_(kind), where_(where) {
   note_input(file);
   struct stat status = {};
-  // Before it is opened too: that alone wakes up whoever writes to a pipe, or moves a tape.
+  // Check before opening, too: opening alone wakes a pipe's writer, or moves a tape.
   if (::stat(file_.c_str(), &status) != 0) fail(errno);
   check(status);
-  // Without O_NONBLOCK a pipe that has come since would be waited for.
+  // Without O_NONBLOCK, open would block on a pipe created since the check.
   descriptor_ = ::open(file_.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   if (descriptor_ < 0) fail(errno);
   try {
@@ -101,7 +101,7 @@ bool InputFile::fill() {
   buffer_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
   if (got < 0) fail(error);
   read_ += static_cast<std::uint64_t>(got);
-  check_size(read_);  // it may have grown
+  check_size(read_);  // the file may have grown
   return got > 0;
 }
 

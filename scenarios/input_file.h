@@ -1,7 +1,7 @@
 /// \file
-/// The one way in which the program opens a file that it reads. Pipes, devices, sockets and folders
-/// are refused before they are read: they may never end, or wait for ever. So is what is larger
-/// than its kind of file ever is. Memory that runs out is `std::bad_alloc`, never an end of file.
+/// The only way to open an input file. Pipes, devices, sockets and folders are rejected before
+/// reading, because reading might never end. Files beyond the size limit of their kind are
+/// rejected, too. Exhausted memory throws `std::bad_alloc` and is never an end of file.
 #pragma once
 
 #include <sys/stat.h>
@@ -18,34 +18,34 @@ namespace lcs::scenario {
 inline constexpr std::uint64_t kMebibyte = 1 << 20;
 inline constexpr std::uint64_t kGibibyte = 1 << 30;
 
-/// What a file is read as.
+/// A kind of input file.
 struct FileKind {
   std::uint64_t most_bytes;
-  std::string_view remedy;  ///< what to do about a file that cannot be read, as "give ..."
+  std::string_view remedy;  ///< for an unreadable file, for example "give ..."
 };
 
 class InputFile {
  public:
-  /// \throws Error "FILE: what is wrong; what to do"
+  /// \throws Error "FILE: problem; remedy"
   InputFile(const std::filesystem::path& file, const FileKind& kind);
-  /// \param where the file is named, which is blamed for it.
+  /// \param where the place that names the file; errors cite it.
   InputFile(const std::filesystem::path& file, const FileKind& kind, const Source& where);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
-  /// All that has not been read yet. \throws Error
+  /// The bytes not yet read. \throws Error
   std::string bytes();
 
-  /// The next line without its line end, and the first one without a byte order mark.
+  /// Reads the next line without its line end, and without a byte order mark at the file's start.
   /// \return false at the end. \throws Error, also for a line of more than 256 MiB.
   bool next_line(std::string& line);
 
-  /// Where the line is that was read last.
+  /// Place of the last line read.
   Source here() const { return {file_, line_}; }
 
  private:
-  bool fill();  ///< false at the end
+  bool fill();  ///< reads a block; false at the end
   [[noreturn]] void fail(const std::string& what, std::string_view remedy) const;
   [[noreturn]] void fail(int error) const;
   void check(const struct stat& status) const;
@@ -58,10 +58,10 @@ class InputFile {
   int line_ = 0;
   std::uint64_t read_ = 0;
   std::string buffer_;
-  std::size_t used_ = 0;  ///< of the buffer
+  std::size_t used_ = 0;  ///< bytes of the buffer already returned
 };
 
-/// The whole file. \throws Error as `InputFile`.
+/// The content of the whole file. \throws Error as `InputFile`.
 std::string read_file(const std::filesystem::path& file, const FileKind& kind);
 
 }  // namespace lcs::scenario

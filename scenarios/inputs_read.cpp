@@ -16,7 +16,7 @@ std::set<std::filesystem::path>& noted() {
 }  // namespace
 
 void note_input(const std::filesystem::path& path) {
-  std::error_code error;  // a working folder that is gone: the path is told as it is
+  std::error_code error;  // if the working folder is gone, record the path as given
   std::filesystem::path absolute = std::filesystem::absolute(path, error);
   const std::lock_guard lock(mutex);
   noted().insert(error ? path : std::move(absolute));

@@ -1,5 +1,5 @@
 /// \file
-/// Which files and folders this process has read, so that no output takes the place of one.
+/// The files and folders that this process has read, so that no output overwrites an input.
 #pragma once
 
 #include <filesystem>
@@ -7,11 +7,11 @@
 
 namespace lcs::scenario {
 
-/// Every file that `InputFile` opens is noted by that. Whoever reads a folder as a whole notes it.
-/// May be called from any thread.
+/// Records an input. `InputFile` records each file that it opens; code that reads a whole folder
+/// must record it. Thread-safe.
 void note_input(const std::filesystem::path& path);
 
-/// Absolute paths, each once.
+/// Absolute paths without duplicates.
 std::vector<std::filesystem::path> inputs_read();
 
 }  // namespace lcs::scenario

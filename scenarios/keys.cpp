@@ -21,14 +21,14 @@ struct Row {
   std::string takes;
 };
 
-/// What a key takes: in words, as a schema, and the keys of the map that it is.
+/// The accepted values of a key, in words and as a schema, and the keys of its map, if it is a map.
 struct Kind {
   std::string takes;
   Json schema;
   std::vector<Row> rows = {};
 };
 
-/// The number in the schema is in the base unit; a text may have any unit of the dimension.
+/// In the schema, a number is in the base unit; a text may have any unit of the dimension.
 Kind kind_of(const Quantity& quantity, double) {
   const auto [low, high, low_open, high_open] = quantity.range;
   Json number{{"type", "number"}};
@@ -107,7 +107,7 @@ Kind kind_of(const Form& form, const Eigen::Matrix<Number, N, 1>&) {
 template <HasFields T>
 Kind kind_of(Plain, const T& object);
 
-/// Each with the name of its place in the list, as in "phases.N.at".
+/// The rows with the name of their place in a list, for example "phases.N.at".
 std::vector<Row> rows_in(const std::vector<Row>& rows, std::string_view place) {
   std::vector<Row> all;
   for (Row row : rows) {
@@ -231,7 +231,7 @@ struct DescribeFields {
   }
   void at_most_one_of(const Names& keys) { rules.push_back({{"not", {{"required", keys}}}}); }
   void exactly_one_of(const Names& keys) { exactly_one.push_back(keys); }
-  /// Where the key is given, the others must not be, and none of them is required.
+  /// If the key is given, the others are forbidden, and none of them is required.
   void in_place_of(std::string_view key, const Names& others) {
     const auto is_other = [&](std::string_view name) {
       return std::ranges::find(others, name) != others.end();
@@ -278,7 +278,7 @@ Kind kind_of(Plain, const T& object) {
   return kind;
 }
 
-/// In one line where it fits.
+/// Prints in one line if it fits.
 void print(const Json& json, std::size_t indent, std::string& text) {
   const std::string line = json.dump();
   if (json.is_primitive() || json.empty() || indent + line.size() <= 110) {
@@ -297,7 +297,7 @@ void print(const Json& json, std::size_t indent, std::string& text) {
   text += fmt::format("\n{:{}}{}", "", indent, json.is_array() ? "]" : "}");
 }
 
-/// The section whose table has the key, and the key's name there: of "actors.NAME.size" "size".
+/// The section whose table has the key, and the key's name there: "size" for "actors.NAME.size".
 std::pair<std::string_view, std::string_view> place_of(std::string_view key) {
   const std::size_t dot = key.find('.');
   const std::string_view section = key.substr(0, dot);

@@ -1,5 +1,5 @@
 /// \file
-/// The keys of a scenario file for people and for editors, made from `fields.h`.
+/// Documentation of the keys of a scenario file, and its JSON Schema, generated from `fields.h`.
 #pragma once
 
 #include <array>
@@ -8,15 +8,15 @@
 
 namespace lcs::scenario {
 
-/// The keys that README.md has a table of their own for; that of "" has all other keys.
+/// Keys with a separate table in README.md; the table of "" has all other keys.
 inline constexpr std::array<std::string_view, 10> kSections{
     "", "recording", "ego", "camera", "imu", "image", "ground", "odometry", "actors", "criteria"};
 
-/// A table in Markdown: key, meaning, what holds without the key, and the values that it takes.
+/// A Markdown table: key, meaning, effect of omitting the key, and accepted values.
 std::string keys_table(std::string_view section);
 
-/// A JSON Schema (draft-07) of scenario files. It knows every key and the kind of its value. The
-/// loader checks more: ranges of numbers with a unit, times that increase, files that exist.
+/// A JSON Schema (draft-07) of scenario files, with every key and the kind of its value. The loader
+/// also checks ranges of numbers with a unit, the order of times, and that files exist.
 std::string schema_text();
 
 }  // namespace lcs::scenario

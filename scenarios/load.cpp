@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A value that is to be read, the path that messages call it, and the folder of the scenario.
+/// A value to read, its path in messages, and the folder of the scenario.
 struct Item {
   const Value& value;
   std::string path;
@@ -29,7 +29,6 @@ struct Item {
 };
 
 // --- checks of a whole map, after its keys
-// --------------------------------------------------------
 
 template <class T>
 void complete(Reader&, T&) {}
@@ -62,7 +61,7 @@ void complete(Reader& reader, Criterion& criterion) {
   }
 }
 
-/// A body of the scene has a place to begin at, an added shape has none.
+/// Rejects a missing start: only a body of the scene has a default position.
 void require_place(const Actor& actor, const std::string& path) {
   const auto* still = std::get_if<Still>(&actor.trajectory);
   const auto* line = std::get_if<Line>(&actor.trajectory);
@@ -87,7 +86,6 @@ void complete(Reader& reader, Actor& actor) {
 }
 
 // --- values by their type and form
-// ----------------------------------------------------------------
 
 void read_value(const Item& item, const Quantity& quantity, double& out) {
   out = as_quantity(item.value, item.path, quantity);
@@ -182,7 +180,7 @@ void read_value(const Item& item, File, fs::path& out) {
 
 void read_value(const Item& item, FolderOrFile, fs::path& out) {
   out = item.folder / as_text(item.value, item.path);
-  std::error_code none;  // of a name that no file can have
+  std::error_code none;  // for a name that no file can have
   if (!fs::is_directory(out, none) && !fs::is_regular_file(out, none)) {
     throw Error(item.value.where, item.path + ": there is no folder or video " + out.string() +
                                       "; " + path_remedy(item.folder));
@@ -196,9 +194,9 @@ void read_value(const Item& item, StyleOrPicture, std::string& out) {
   out = file_beside(item.value, item.folder, item.path + ": there is no picture ").string();
 }
 
-/// Frames at 0, 1/rate, 2/rate, ... that lie before the end.
+/// Number of frames at 0, 1/rate, 2/rate, ... before the end.
 int frames_before(double duration_s, double rate_hz, const Value& duration) {
-  constexpr double rounding = 1e-6;  // 0.3 s at 10 Hz is 3 frames, whatever 0.3 * 10 is in binary
+  constexpr double rounding = 1e-6;  // 0.3 s at 10 Hz is 3 frames, despite binary rounding
   const double frames = std::ceil(duration_s * rate_hz - rounding);
   if (frames <= kMostFrames) return std::max(1, static_cast<int>(frames));
   throw Error(duration.where, "duration '" + duration.text + "' makes more than " +
@@ -248,7 +246,7 @@ void read_value(const Item& item, Plain, Waypoints& waypoints) {
   read_value(item, Plain{}, waypoints.points);
 }
 
-/// The estimator takes the state at 0 from the first reading: there has to be a reading at 0.
+/// Gaps begin after 0, because the estimator takes its initial state from the reading at 0.
 void read_value(const Item& item, Plain, std::vector<TimeSpan>& gaps) {
   for (const Value& value : as_list(item.value, item.path)) {
     const Item next = item.at(gaps.size(), value);
@@ -287,7 +285,7 @@ void read_value(const Item& item, GroupNames, std::vector<std::string>& groups) 
   }
 }
 
-/// False for nan and inf, as YAML (".inf") or C++ ("inf") write them.
+/// False for nan and inf in the notation of YAML (".inf") or C++ ("inf").
 bool is_finite(std::string_view text) {
   if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
   if (text.starts_with('.')) text.remove_prefix(1);
@@ -297,7 +295,7 @@ bool is_finite(std::string_view text) {
   return !whole || (error == std::errc() && std::isfinite(number));
 }
 
-/// Refuses numbers that are not finite. The filter checks the names and the ranges.
+/// Rejects numbers that are not finite. The filter checks names and ranges.
 void read_value(const Item& item, const FilterParameters& form,
                 std::vector<FilterSetting>& settings) {
   const Reader reader(item.value, item.path);
@@ -316,7 +314,7 @@ void read_value(const Item& item, const FilterParameters& form,
   }
 }
 
-/// Keys that change nothing in a run, and the seed, which is the suite's to vary.
+/// Keys without effect on a run, and the seed, which the suite varies.
 constexpr std::array<std::string_view, 5> not_to_be_swept = {"sweep", "groups", "purpose", "origin",
                                                              "seed"};
 
@@ -346,7 +344,7 @@ SweptKey read_key(const Entry& entry) {
   return swept;
 }
 
-/// Checks the form alone: whether a key is known and takes its values shows when a point is loaded.
+/// Checks the syntax only. Unknown keys and values fail when a point is loaded.
 void read_value(const Item& item, Plain, std::vector<SweptKey>& sweep) {
   const Reader keys(item.value, item.path);
   for (const Entry& entry : item.value.entries) sweep.push_back(read_key(entry));
@@ -357,7 +355,6 @@ void read_value(const Item& item, Plain, std::vector<SweptKey>& sweep) {
 }
 
 // --- maps
-// -----------------------------------------------------------------------------------------
 
 struct ReadFields {
   Reader& reader;
@@ -389,7 +386,7 @@ void read_value(const Item& item, Plain, T& out) {
   complete(reader, out);
 }
 
-/// The command that a phase gives at the later time `at_s`.
+/// The command of a phase at the later time `at_s`.
 EgoPhase carried_on(const EgoPhase& before, double at_s) {
   EgoPhase phase = before;
   phase.at_s = at_s;
@@ -398,7 +395,7 @@ EgoPhase carried_on(const EgoPhase& before, double at_s) {
   return phase;
 }
 
-/// The first phase is the ego's own.
+/// The ego's own keys are the first phase, already in `phases`.
 void read_value(const Item& item, Plain, std::vector<EgoPhase>& phases) {
   for (const Value& value : as_list(item.value, item.path)) {
     const EgoPhase before = phases.back();
@@ -415,7 +412,7 @@ void read_value(const Item& item, Plain, std::vector<EgoPhase>& phases) {
   }
 }
 
-/// Names become names of bodies in the world and parts of `--set` paths.
+/// Actor names are also names of bodies in the world and parts of `--set` paths.
 void check_name(const Entry& entry) {
   const auto is_name_char = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -440,7 +437,7 @@ void read_value(const Item& item, Plain, std::vector<Actor>& actors) {
   }
 }
 
-/// The keys that the sensors' data and the truth depend on, the seed apart.
+/// The keys that determine sensor data and truth, except for the seed.
 std::map<std::string, std::string> world_of(const Value& root) {
   constexpr std::array<std::string_view, 7> kNotOfTheWorld{"purpose", "groups",   "origin", "seed",
                                                            "filter",  "criteria", "sweep"};
@@ -464,7 +461,7 @@ Scenario load(Value root, const std::filesystem::path& file, const LoadOptions& 
   scenario.name = file.stem().string();
   scenario.file = file;
   if (Reader(root, "").find("recording")) {
-    scenario.fast_threshold.reset();  // each camera has its own noise
+    scenario.fast_threshold.reset();  // each camera has its own noise level
   } else {
     scenario.imu.noise = imu_preset(scenario.imu.preset).value();
   }

@@ -33,13 +33,13 @@ bool is_control(std::uint32_t code) {
   return (code < 0x20 && code != '\t' && code != '\n') || (code >= 0x7F && code < 0xA0);
 }
 
-/// Turns the direction of writing, ends a line, or is no character: XML has no place for it.
+/// Changes the direction of writing, ends a line, or is no character, which XML cannot contain.
 bool is_unseen(std::uint32_t code) {
   return code == 0x200E || code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||
          (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF || code == 0xFFFE || code == 0xFFFF;
 }
 
-/// Whether a cut before this byte parts a character.
+/// Whether a cut before this byte would split a UTF-8 character.
 bool is_within(char c) {
   return (static_cast<std::uint8_t>(c) & 0xC0u) == 0x80u;
 }

@@ -1,5 +1,5 @@
 /// \file
-/// Messages as people read them, whatever is quoted in them.
+/// Makes messages printable, whatever text they quote.
 #pragma once
 
 #include <exception>
@@ -8,16 +8,16 @@
 
 namespace lcs::scenario {
 
-/// The text with all escaped (as \x1b) that does not print: what is not UTF-8, control characters
-/// other than tabs and line ends, and those that change the direction of writing.
+/// Escapes (as \x1b) invalid UTF-8, control characters other than tabs and line ends, and
+/// characters that change the direction of writing.
 std::string printable(std::string_view text);
 
-/// `printable` text in one line. Of more than 1000 bytes the middle is left out, as messages end
-/// with what to do.
+/// `printable` text in one line. Beyond 1000 bytes it omits the middle, because messages end with
+/// the remedy.
 std::string one_line(std::string_view text);
 
-/// What an exception says, in one line; of too little memory, files and other calls of the system
-/// also what to do.
+/// An exception's message in one line. For lack of memory, file errors and other system errors it
+/// adds a remedy.
 std::string message_of(const std::exception& error);
 
 }  // namespace lcs::scenario

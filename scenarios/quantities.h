@@ -1,6 +1,6 @@
 /// \file
-/// What the numbers of a scenario may be. The outer bounds are generous: they keep a slip of the
-/// unit (km for m) out of the physics, not a large experiment.
+/// Accepted ranges of a scenario's numbers. The outer bounds are generous: they catch wrong units
+/// (km for m) without limiting large experiments.
 #pragma once
 
 #include "scenarios/reader.h"
@@ -21,7 +21,7 @@ inline constexpr Quantity kFocal{Dimension::pixels, {1, 1e6}};
 inline constexpr Quantity kInPicture{Dimension::pixels, {-100000, 100000}};
 inline constexpr Quantity kCoefficient{Dimension::number, {-1000, 1000}};
 inline constexpr Quantity kAngularRate{Dimension::angular_rate, {-720, 720}};
-/// Of the camera. At the lowest rate ten seconds of physics are computed between two pictures.
+/// Of the camera. At the lowest rate, ten seconds of physics lie between two frames.
 inline constexpr Quantity kCameraRate{Dimension::frequency, {0.1, 1000}};
 inline constexpr Quantity kSensorRate{Dimension::frequency, {0, 10000, true}};
 inline constexpr Quantity kNoiseDensity{Dimension::number, {0, 1000}};

@@ -9,8 +9,8 @@
 namespace lcs::scenario {
 namespace {
 
-/// SI = number * numerator / denominator. A ratio, because 7 / 100 is the double next to 0.07 and
-/// 7 * 0.01 is not.
+/// SI = number * numerator / denominator. A ratio, because 7 / 100 is the double nearest to 0.07,
+/// and 7 * 0.01 is not.
 struct Unit {
   std::string_view name;
   Dimension dimension;
@@ -62,7 +62,7 @@ const Unit* find(std::string_view name) {
   return nullptr;
 }
 
-/// "a speed", as a message says it.
+/// A dimension as cited in messages: "a speed".
 std::string_view noun(Dimension dimension) {
   switch (dimension) {
     case Dimension::number:
@@ -133,7 +133,7 @@ double parse_quantity(std::string_view text, Dimension dimension) {
   const std::string_view trimmed = trim(text);
   double number = 0;
   const char* const end = trimmed.data() + trimmed.size();
-  // from_chars and not strtod: the same in every locale.
+  // from_chars, not strtod: independent of the locale.
   const auto [rest, error] = std::from_chars(trimmed.data(), end, number);
   if (error == std::errc::result_out_of_range) refuse(text, "does not fit a double", dimension);
   if (error != std::errc()) refuse(text, "is not a number", dimension);

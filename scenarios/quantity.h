@@ -8,7 +8,7 @@
 
 namespace lcs::scenario {
 
-/// What a number measures. A number without a unit is in the base unit named here.
+/// Physical dimension. Numbers without a unit are in the base unit given here.
 enum class Dimension {
   number,        ///< no unit
   length,        ///< m
@@ -19,29 +19,29 @@ enum class Dimension {
   angle,         ///< deg
   angular_rate,  ///< deg/s
   illuminance,   ///< lx
-  intensity,     ///< cd, of a lamp
-  pixels,        ///< px, along the picture
+  intensity,     ///< cd, luminous intensity of a lamp
+  pixels,        ///< px, in the image
 };
 
-/// The base unit, "" for a number.
+/// The base unit; "" for `number`.
 std::string_view base_unit(Dimension dimension);
 
-/// A number of base units in SI: radians for degrees, itself for all others.
+/// Converts from base units to SI: degrees to radians; all other base units are SI.
 double to_si(double in_base_unit, Dimension dimension);
 
 /// The SI value of a text such as "0.5 m/s" or "0.5". "7 cm" and "0.07 m" give the same bits.
-/// \throws std::invalid_argument "what is wrong; what to do" for what is not a finite number in a
-///   unit of this dimension.
+/// \throws std::invalid_argument "problem; remedy" unless the text is a finite number in a unit of
+/// this dimension.
 double parse_quantity(std::string_view text, Dimension dimension);
 
 /// The units of a dimension, the base unit first.
 std::vector<std::string_view> units_of(Dimension dimension);
 
-/// An SI value with its unit, as `parse_quantity` reads it, to 12 digits. \param unit of the
+/// An SI value with its unit, to 12 digits, in the format of `parse_quantity`. \param unit of this
 /// dimension; "": its base unit.
 std::string quantity_text(double si, Dimension dimension, std::string_view unit = "");
 
-/// A double in as few digits as bring it back, for messages.
+/// The shortest text that parses to the same double, for messages.
 std::string number_text(double value);
 
 }  // namespace lcs::scenario

@@ -23,7 +23,7 @@ std::string joined(const std::vector<std::string>& words, std::string_view last_
   return text;
 }
 
-/// "did you mean 'speed'?", or all there are.
+/// "did you mean 'speed'?", or the list of all known words.
 std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
   if (const auto near = nearest(word, known)) return "did you mean '" + *near + "'?";
   if (known.empty()) return "remove it";
@@ -36,7 +36,7 @@ void require_scalar(const Value& value, const std::string& path, std::string_vie
               path + " is " + std::string(kind_name(value.kind)) + "; give " + std::string(wanted));
 }
 
-/// \param other what may be given too, as " or auto"; "" for nothing.
+/// \param other alternative, for the message, for example " or auto"; "" without one.
 template <class Integer>
 Integer integer(const Value& value, const std::string& path, Integer low, Integer high,
                 const std::string& other = "") {
@@ -46,7 +46,7 @@ Integer integer(const Value& value, const std::string& path, Integer low, Intege
   Integer number{};
   const char* const end = value.text.data() + value.text.size();
   const auto [rest, error] = std::from_chars(value.text.data(), end, number);
-  // 010 is ten to some and eight to others
+  // 010 is ambiguous: decimal or octal
   const std::size_t first = value.text.starts_with('-');
   const bool is_padded = value.text.size() > first + 1 && value.text[first] == '0';
   if (error != std::errc() || rest != end || is_padded || number < low || number > high) {

@@ -1,13 +1,12 @@
 /// \file
-/// Reads the keys of one YAML map, each in one place with its unit and range, and refuses what is
-/// left.
+/// Reads the keys of one YAML map, each with its unit and range at one place, and rejects all other
+/// keys.
 ///
 ///     Reader reader(value, "ego");
 ///     reader.read("speed", {Dimension::speed, {0, 100}}, speed_mps);  // absent: speed_mps stays
 ///     reader.finish();                                                // unknown or missing keys
 ///
-/// Every key that is asked for is a known one. All functions throw `Error` with the line of the
-/// value.
+/// Every queried key counts as known. All functions throw `Error` with the line of the value.
 #pragma once
 
 #include <concepts>
@@ -24,31 +23,31 @@
 
 namespace lcs::scenario {
 
-/// Numbers that a key takes, in its base unit.
+/// Accepted interval of a number, in its base unit.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  bool low_open = false;  ///< `low` itself is refused
+  bool low_open = false;  ///< excludes `low` itself
   bool high_open = false;
 };
 
-/// What a number means and which ones are taken.
+/// Dimension and accepted range of a number.
 struct Quantity {
   Dimension dimension = Dimension::number;
   Range range;
 };
 
-/// The range in words: "above 0 and at most 100 m/s"; "" for any number.
+/// The range in words: "above 0 and at most 100 m/s"; "" if unbounded.
 std::string range_text(const Quantity& quantity);
 
-/// \name One value.
-/// \param path as in "ego.speed", for the message.
+/// \name Conversions of one value.
+/// \param path for the message, for example "ego.speed".
 ///@{
 double as_quantity(const Value& value, const std::string& path, const Quantity& quantity);
-/// \param other what may be given too, as " or auto".
+/// \param other alternative to a number, for the message, for example " or auto".
 std::int64_t as_integer(const Value& value, const std::string& path, std::int64_t low,
                         std::int64_t high, const std::string& other = "");
-/// The position of the value among `words`. \param other what may be given too, as "a path".
+/// Index of the value in `words`. \param other alternative, for the message, for example "a path".
 std::size_t as_choice(const Value& value, const std::string& path,
                       const std::vector<std::string>& words, const std::string& other = "");
 std::uint64_t as_seed(const Value& value, const std::string& path);
@@ -67,27 +66,27 @@ class Reader {
   /// "ego.speed", for messages about a key.
   std::string path_of(std::string_view key) const;
 
-  /// The value under a key, null when absent.
+  /// The value of a key, or null if absent.
   const Value* find(std::string_view key);
-  /// As `find`, but `finish` complains when it is absent.
+  /// As `find`, but `finish` throws if the key is absent.
   const Value* require(std::string_view key);
-  /// The one of these keys that is given, if any is. A message names first the key that was asked
-  /// for first.
+  /// The key among these that is given, if any. \throws Error if two are given; it names first the
+  /// key that was queried first.
   std::optional<std::string> at_most_one_of(std::vector<std::string_view> keys);
-  /// As `at_most_one_of`, but `finish` complains when all are absent.
+  /// As `at_most_one_of`, but `finish` throws if all are absent.
   std::optional<std::string> exactly_one_of(std::initializer_list<std::string_view> keys);
 
-  /// Replaces `out` when the key is given.
+  /// Sets `out` if the key is given.
   template <class Out>
   requires std::assignable_from<Out&, double>
   void read(std::string_view key, const Quantity& quantity, Out& out) {
     if (const Value* value = find(key)) out = as_quantity(*value, path_of(key), quantity);
   }
 
-  /// `as_choice` of the key's value; none when the key is absent.
+  /// `as_choice` of the key's value; absent if the key is.
   std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& words);
 
-  /// Checks the map as a whole: no key that was not asked for, none missing that was required.
+  /// \throws Error for a key that was not queried, or a required key that is absent.
   void finish() const;
 
  private:

@@ -1,5 +1,5 @@
 /// \file
-/// A scenario as a YAML document: the way back from `load.h`.
+/// Converts a scenario to a YAML document; the inverse of `load.h`.
 #pragma once
 
 #include "scenarios/document.h"
@@ -7,8 +7,8 @@
 
 namespace lcs::scenario {
 
-/// The keys that differ from their defaults, for `yaml_text`. Numbers have 12 digits. Paths stay as
-/// they are; when they are read again, relative ones begin at the file.
+/// The keys that differ from their defaults, for `yaml_text`. Numbers have 12 digits. Paths are
+/// unchanged; a reader resolves relative paths against the file's folder.
 Value document_of(const Scenario& scenario);
 
 }  // namespace lcs::scenario

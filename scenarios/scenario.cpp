@@ -15,7 +15,7 @@ std::string place(const Source& where) {
 }  // namespace
 
 Error::Error(const Source& where, const std::string& what_and_remedy)
-    // As people see it: a NUL would end it.
+    // printable, because a NUL would end the message.
     : std::runtime_error(printable(place(where) + ": " + what_and_remedy)) {}
 
 }  // namespace lcs::scenario

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// " (it has lab, street)", or nothing.
+/// " (it has lab, street)", or empty.
 std::string scenes_in(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code error;
@@ -96,7 +96,7 @@ std::vector<std::string> shadowed_files(const Scenario& scenario) {
     if (!actor.body && actor.shape != Shape::own) names.insert(name_of(actor.shape));
   }
   std::vector<std::string> lines;
-  std::error_code none;  // of files that are not there, which are no others
+  std::error_code none;  // a missing file is no other file
   for (const fs::path& name : names) {
     const fs::path used = scenes_folder() / name, other = shipped_scenes() / name;
     if (!fs::exists(used, none) || !fs::exists(other, none)) continue;
@@ -110,7 +110,7 @@ std::vector<std::string> shadowed_files(const Scenario& scenario) {
 fs::path find_scene(const Value& value, const fs::path& folder) {
   const std::string& text = as_text(value, "scene");
   if (text.ends_with(".xml")) return file_beside(value, folder, "there is no scene file ");
-  std::error_code too_long;  // a name that no file can have
+  std::error_code too_long;  // for a name that no file can have
   const fs::path scenes = scenes_folder();
   const fs::path file = scenes / (text + ".xml");
   if (fs::is_regular_file(file, too_long)) return file;
@@ -121,7 +121,7 @@ fs::path find_scene(const Value& value, const fs::path& folder) {
 
 fs::path file_beside(const Value& value, const fs::path& folder, const std::string& missing) {
   const fs::path file = folder / value.text;
-  std::error_code too_long;  // a name that no file can have
+  std::error_code too_long;  // for a name that no file can have
   if (fs::is_regular_file(file, too_long)) return file;
   throw Error(value.where, missing + file.string() + "; " + path_remedy(folder));
 }

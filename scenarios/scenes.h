@@ -1,6 +1,6 @@
 /// \file
-/// Finds scenes, rovers and actors. A name stands for one that ships with the project, a path for a
-/// file of one's own.
+/// Finds scenes, rovers and actors. A name means a file that ships with the project; a path means a
+/// user's file.
 #pragma once
 
 #include <filesystem>
@@ -12,37 +12,37 @@
 
 namespace lcs::scenario {
 
-/// The folder in the environment's LCS_SCENES, or else that of the scenes that ship.
+/// The folder in the environment variable LCS_SCENES, or else the folder of the shipped scenes.
 std::filesystem::path scenes_folder();
 
-/// Sets the folder of the scenes that ship with the project, where `shipped_folder` cannot find it:
-/// in a module that another program loads. Call it before all other functions here.
+/// Sets the folder of the shipped scenes where `shipped_folder` cannot find it: in a module that
+/// another program loads. Call it before all other functions here.
 void set_shipped_scenes(std::filesystem::path folder);
 
-/// \name The file of a rover or an actor: the scenario's own, if it names one. Else a file such as
-/// "ego/wheeled.xml" is looked for in `scenes_folder()` first and then in the folder that ships, so
-/// that a user's folder need not hold all of them.
+/// \name The file of a rover or an actor: the scenario's own file, if given. Else a file such as
+/// "ego/wheeled.xml" in `scenes_folder()`, or, if absent there, in the shipped folder. So a user's
+/// folder need not have all files.
 ///@{
 std::filesystem::path rover_file(const Ego& ego);
-std::filesystem::path actor_file(const Actor& actor);  ///< of an actor with a shape
+std::filesystem::path actor_file(const Actor& actor);  ///< for an actor with a shape
 ///@}
 
-/// A line for people for each name in the scenario that both LCS_SCENES and the folder that ships
-/// have a file of, saying which one is used.
+/// One line per name in the scenario that exists both in LCS_SCENES and in the shipped folder; says
+/// which file is used.
 std::vector<std::string> shadowed_files(const Scenario& scenario);
 
-/// The file of a scene that is given by name, or by a path that ends in ".xml".
-/// \param folder a relative path starts there.
-/// \throws Error that says where the scene was looked for and which scenes are there.
+/// The file of a scene, given by name or by a path that ends in ".xml".
+/// \param folder base of a relative path.
+/// \throws Error with the searched folders and the scenes there.
 std::filesystem::path find_scene(const Value& value, const std::filesystem::path& folder);
 
-/// The file that a value names. \param folder a relative path starts there.
-/// \param missing begins the message, as "there is no picture ".
-/// \throws Error where there is no such file.
+/// The file that a value names. \param folder base of a relative path.
+/// \param missing start of the message, for example "there is no picture ".
+/// \throws Error if there is no such file.
 std::filesystem::path file_beside(const Value& value, const std::filesystem::path& folder,
                                   const std::string& missing);
 
-/// What a message advises about a missing file. \param folder a relative path starts there.
+/// The remedy in a message about a missing file. \param folder base of a relative path.
 std::string path_remedy(const std::filesystem::path& folder);
 
 }  // namespace lcs::scenario

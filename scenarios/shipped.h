@@ -1,13 +1,13 @@
 /// \file
-/// Where what ships with the program is: scenarios and scenes.
+/// Location of the scenarios and scenes that ship with the program.
 #pragma once
 
 #include <filesystem>
 
 namespace lcs::scenario {
 
-/// `NAME/` of those that were installed with the running program (PREFIX/share/lcs/ for
-/// PREFIX/bin/lcs); of the source tree for a program that was not installed.
+/// The folder `name` of the installation of the running program (PREFIX/share/lcs/ for
+/// PREFIX/bin/lcs), or of the source tree for a program that is not installed.
 std::filesystem::path shipped_folder(const std::filesystem::path& name);
 
 }  // namespace lcs::scenario

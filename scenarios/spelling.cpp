@@ -6,7 +6,7 @@
 namespace lcs::scenario {
 namespace {
 
-/// Letters to insert, remove, replace or swap with their neighbour (optimal string alignment).
+/// Insertions, deletions, replacements and swaps of neighbours (optimal string alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
@@ -37,10 +37,10 @@ std::vector<std::string> nearest_first(std::string_view name, std::vector<std::s
 
 std::optional<std::string> nearest(std::string_view name, const std::vector<std::string>& names) {
   std::optional<std::string> best;
-  // A third of the letters wrong is a misspelling, more is another word.
+  // Up to a third of the letters wrong is a misspelling; beyond that it is another word.
   std::size_t reach = std::max<std::size_t>(1, name.size() / 3) + 1;
   for (const std::string& candidate : names) {
-    // As many letters at least are to insert or remove.
+    // The difference in length is a lower bound of the distance.
     if (candidate.size() + reach <= name.size()) continue;
     if (name.size() + reach <= candidate.size()) continue;
     const std::size_t distance = edit_distance(name, candidate);

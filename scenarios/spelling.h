@@ -1,5 +1,5 @@
 /// \file
-/// Which known name somebody meant.
+/// Finds the intended name for a misspelled one.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace lcs::scenario {
 
-/// `names` by their edit distance from `name`, nearest first; equals keep their order.
+/// `names` by edit distance from `name`, nearest first; the sort is stable.
 std::vector<std::string> nearest_first(std::string_view name, std::vector<std::string> names);
 
-/// The name nearest to `name`, if one is near enough to be a misspelling of it.
+/// The nearest name, if it is near enough for `name` to be a misspelling of it.
 std::optional<std::string> nearest(std::string_view name, const std::vector<std::string>& names);
 
 }  // namespace lcs::scenario

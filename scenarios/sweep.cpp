@@ -7,7 +7,7 @@
 namespace lcs::scenario {
 namespace {
 
-/// A slip, such as a list too many, rather than days of runs.
+/// More points are a mistake, for example an extra list, and would take days.
 constexpr std::size_t kMostPoints = 1000;
 
 std::string assignment(const std::pair<std::string, std::string>& setting) {
@@ -22,7 +22,7 @@ std::string text_of(const SweepPoint& point) {
   return text;
 }
 
-/// The point with this number; the digits of `index` are places in the lists.
+/// The point of this number; its mixed-radix digits index the lists of values.
 SweepPoint point_at(const std::vector<SweptKey>& sweep, std::size_t index) {
   SweepPoint point;
   point.settings.resize(sweep.size());
@@ -41,7 +41,7 @@ Source source_of(const SweptKey& swept, const std::string& text) {
   return swept.source;
 }
 
-/// Loads the point, and says where in the file lies what is wrong with it.
+/// Loads the point; errors cite the value in the file.
 void check(const std::filesystem::path& file, const std::vector<SweptKey>& sweep,
            const SweepPoint& point) {
   LoadOptions options;

@@ -13,14 +13,14 @@
 
 namespace lcs::scenario {
 
-/// A scenario at `settings` is the file loaded with "key=value" of each as `LoadOptions::sets`.
+/// Its scenario is the file loaded with "key=value" of each setting as `LoadOptions::sets`.
 struct SweepPoint {
   std::vector<std::pair<std::string, std::string>> settings;  ///< key, value as YAML text
 };
 
-/// The grid in order; one point without settings for a scenario that sweeps nothing. Each point has
-/// been loaded once, so that none of them is refused later.
-/// \throws Error at the line of the value that its key does not take.
+/// The grid in order; one point without settings if the scenario has no sweep. Each point is loaded
+/// once for a check, so that no point fails later.
+/// \throws Error at the line of a value that its key rejects.
 std::vector<SweepPoint> sweep_points(const std::filesystem::path& file);
 
 }  // namespace lcs::scenario

@@ -1,5 +1,5 @@
 /// \file
-/// Values of a scenario in YAML, by their types and forms. `save.h` writes a scenario as a whole.
+/// Converts values of a scenario to YAML, by type and form. `save.h` converts a whole scenario.
 #pragma once
 
 #include <algorithm>
@@ -23,8 +23,8 @@ inline Value map() {
 /// Adds a key to a map.
 void put(Value& map, std::string_view key, const Value& value);
 
-/// \name A value by its type and form, null where there is nothing to write. Numbers have 12
-/// digits. Paths are written as they are, and when they are read, relative ones begin at the file.
+/// \name A value by its type and form; null if there is nothing to write. Numbers have 12 digits.
+/// Paths are unchanged; a reader resolves relative paths against the file's folder.
 ///@{
 inline Value written(const Quantity& quantity, double number) {
   return scalar(quantity_text(number, quantity.dimension));
@@ -59,7 +59,7 @@ requires std::is_enum_v<Enum> Value written(const OwnFileOr& form, Enum value) {
   return value == Enum::own ? scalar(form.file.string()) : written(Words{form.words}, value);
 }
 inline Value written(const FramesBefore&, int) {
-  return {};  // `frames` says it
+  return {};  // `frames` has the value
 }
 template <class Form, class Number, int N>
 Value written(const Form& form, const Eigen::Matrix<Number, N, 1>& vector) {
@@ -102,7 +102,7 @@ Value written(const OrWord<Form>& form, const std::optional<T>& value) {
 /// Collects the keys of a map.
 struct WriteFields {
   Value& keys;
-  bool is_default = false;  ///< keys that are always to be given are left out
+  bool is_default = false;  ///< omit required keys, which have no default
 
   template <class T, class Form = Plain>
   void operator()(const Key& key, const T& member, const Form& form = {}) const {
@@ -124,7 +124,7 @@ struct WriteFields {
   }
 };
 
-/// Every key that has a value.
+/// All keys that have a value.
 template <HasFields T>
 Value all_keys(T object, bool is_default = false) {
   Value keys = map();
@@ -132,7 +132,7 @@ Value all_keys(T object, bool is_default = false) {
   return keys;
 }
 
-/// The struct that an absent map means, beside these values.
+/// The default of the struct, given its other values: the noise of an IMU depends on its preset.
 template <class T>
 T default_beside(const T&) {
   T standard;
@@ -167,8 +167,8 @@ inline Value written(Plain, const Waypoints& waypoints) {
   return written(Plain{}, waypoints.points);
 }
 
-/// After the first, which is the ego's own. Each key is given, as a phase carries on the one
-/// before.
+/// The phases after the first one, which the ego's own keys define. All keys are written, because
+/// each phase inherits those of the phase before.
 inline Value written(Plain, const std::vector<EgoPhase>& phases) {
   Value items = list({});
   for (std::size_t i = 1; i < phases.size(); ++i) items.items.push_back(all_keys(phases[i]));

@@ -18,7 +18,7 @@ Eigen::Vector2d direction(double heading_rad) {
   return {std::cos(heading_rad), std::sin(heading_rad)};
 }
 
-/// Way along a line; a speed that reaches 0 stays 0.
+/// Distance along a line; the speed stays 0 once it reaches 0.
 double distance(const Line& line, double t) {
   const double a = line.acceleration_mps2;
   if (a < 0) t = std::min(t, -line.speed_mps / a);
@@ -34,8 +34,8 @@ PlanarPose at(const Line& line, const PlanarPose& home, double t) {
   return {line.from_m.value_or(home.position_m) + distance(line, t) * direction(heading), heading};
 }
 
-/// Heading of the leg that ends at waypoint `end`; where the actor pauses, that of the leg before,
-/// or, at the beginning, of the first one that leads anywhere.
+/// Heading of the leg that ends at waypoint `end`. For a pause: of the last moving leg before it,
+/// or, at the beginning, of the first moving leg after it.
 double heading_on(const std::vector<Waypoint>& points, std::size_t end, double home_heading_rad) {
   const auto leg = [&](std::size_t i) {
     return Eigen::Vector2d(points[i].position_m - points[i - 1].position_m);
@@ -53,7 +53,7 @@ PlanarPose at(const Waypoints& waypoints, const PlanarPose& home, double t) {
   const auto& points = waypoints.points;
   const auto later = std::upper_bound(points.begin(), points.end(), t,
                                       [](double s, const Waypoint& p) { return s < p.at_s; });
-  // the leg that t lies on; the first before, and the last after them all
+  // the leg at time t; the first leg before the first waypoint, the last leg after the last one
   const auto end = static_cast<std::size_t>(
       std::clamp<std::ptrdiff_t>(std::distance(points.begin(), later), 1, std::ssize(points) - 1));
   const Waypoint& a = points[end - 1];
@@ -80,7 +80,7 @@ double Trigger::update(std::int64_t t_ns, double ego_distance_m) {
   const double t = 1e-9 * static_cast<double>(t_ns);
   if (!start_s_ && t >= conditions_.at_s) {
     if (!conditions_.ego_within_m) {
-      start_s_ = conditions_.at_s;  // exactly, wherever the steps fall
+      start_s_ = conditions_.at_s;  // exact, independent of the time steps
     } else if (ego_distance_m <= *conditions_.ego_within_m) {
       start_s_ = t;
     }

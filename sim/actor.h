@@ -1,5 +1,5 @@
 /// \file
-/// Where an actor is: the mathematics of trajectories and start triggers, without physics.
+/// Actor kinematics: trajectories and start triggers, without physics.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,23 +10,23 @@
 
 namespace lcs::sim {
 
-/// On the ground plane of W. An actor heads along its x.
+/// A pose on the ground plane of W. The actor's x axis points along its heading.
 struct PlanarPose {
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
   double heading_rad = 0;
 };
 
-/// Where a trajectory is `seconds` after its start trigger (before it: at its first point).
-/// \param home the pose that the scene gives the body, for what the trajectory leaves open.
+/// Pose on a trajectory, `seconds` after its start trigger. Before the trigger: the first point.
+/// \param home the scene's pose of the body; fills in values that the trajectory omits.
 PlanarPose pose_on(const scenario::Trajectory& trajectory, const PlanarPose& home, double seconds);
 
-/// Fires once: at the first call of `update` at which all of its conditions hold.
+/// Fires once, at the first call of `update` at which all its conditions hold.
 class Trigger {
  public:
   explicit Trigger(const scenario::StartTrigger& conditions) : conditions_(conditions) {}
 
-  /// \param t_ns not before that of the last call.
-  /// \return seconds since the trigger fired, negative while it has not.
+  /// \param t_ns must not decrease between calls.
+  /// \return seconds since the trigger fired; -1 before it fired.
   double update(std::int64_t t_ns, double ego_distance_m);
 
  private:

@@ -22,7 +22,7 @@ constexpr double kNear = 0.05;     // m
 constexpr double kLeastFar = 100;  // m
 // Standard deviation of the lens's point spread.
 constexpr double kLensBlur_px = 0.6;
-// Room for what MuJoCo draws besides the geoms of the model.
+// Capacity for MuJoCo's drawables besides the geoms of the model.
 constexpr int kSpareGeoms = 64;
 
 void prepare(mjModel& m, int width_px, int height_px) {
@@ -30,11 +30,11 @@ void prepare(mjModel& m, int width_px, int height_px) {
   m.vis.global.offheight = height_px;
   m.vis.quality.offsamples = 0;
   m.vis.quality.shadowsize = 0;
-  // MuJoCo gives its clipping planes in lengths of the scene
+  // MuJoCo's clipping planes are in multiples of the scene's extent
   const double extent = m.stat.extent;
   m.vis.map.znear = static_cast<float>(kNear / extent);
   m.vis.map.zfar = static_cast<float>(std::max(kLeastFar, 4 * extent) / extent);
-  // a light that moves with the camera is no property of the world
+  // a directional light that moves with the camera is no property of the world
   auto& head = m.vis.headlight;
   for (int c = 0; c < 3; ++c) {
     head.ambient[c] = std::min(1.F, head.ambient[c] + head.diffuse[c] / 2);
@@ -43,8 +43,8 @@ void prepare(mjModel& m, int width_px, int height_px) {
   }
 }
 
-/// Mesa crashes where its memory ends. \throws std::runtime_error where it is limited (ulimit -v)
-/// and is not enough for a first picture, once, at the first renderer of the process.
+/// Mesa crashes when it runs out of memory. \throws std::runtime_error if the memory limit (ulimit
+/// -v) is too small to render an image. Checks at the first renderer of the process only.
 void check_memory(Model& model, int camera, int width_px, int height_px) {
   static std::atomic<bool> checked = false;
   struct rlimit memory = {};
@@ -52,7 +52,7 @@ void check_memory(Model& model, int camera, int width_px, int height_px) {
       checked.exchange(true)) {
     return;
   }
-  constexpr rlim_t kForTheRest = rlim_t{256} << 20;  // what a run takes besides
+  constexpr rlim_t kForTheRest = rlim_t{256} << 20;  // memory for all else in a run
   const Trial trial = try_in_child([&] {
     memory.rlim_cur -= std::min(memory.rlim_cur, kForTheRest);
     ::setrlimit(RLIMIT_AS, &memory);
@@ -143,7 +143,7 @@ struct CameraRenderer::Impl {
     try {
       gl.make_current();
     } catch (const std::runtime_error&) {
-      return;  // what cannot be made current goes with its context
+      return;  // destroying the GL context also frees these resources
     }
     mjr_freeContext(&context);
   }
@@ -160,7 +160,7 @@ struct CameraRenderer::Impl {
   // Read-back is bottom row first.
   std::size_t row(int y) const { return std::size_t(height_px - 1 - y) * width_px; }
 
-  /// \param colour as `mjRND_IDCOLOR` has it: the place in the scene, from 1 on.
+  /// \param colour id colour by `mjRND_IDCOLOR`: index in the scene, from 1.
   int geom_of(int colour) const {
     const int index = colour - 1;
     if (index < 0 || index >= scene.ngeom) return -1;
@@ -180,7 +180,7 @@ void CameraRenderer::update() {
   Impl& s = *impl_;
   mjv_updateScene(&s.model.m(), &s.model.d(), &s.option, &s.perturb, &s.camera, mjCAT_ALL,
                   &s.scene);
-  // a full buffer is only warned of, and then draws a part
+  // with a full buffer MuJoCo only warns, and then renders a part of the scene
   const std::string warning = take_warning();
   if (s.scene.ngeom >= s.scene.maxgeom) {
     throw MujocoError(
@@ -220,7 +220,7 @@ void CameraRenderer::render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom)
     const float* z = s.z.data() + s.row(y);
     float* depth = depth_m[y];
     int* to = geom[y];
-    // pixels beside each other mostly show one geom
+    // neighbouring pixels mostly show the same geom
     int colour = 0, shown = s.geom_of(colour);
     for (int x = 0; x < s.width_px; ++x, id += 3) {
       const int next = id[0] | id[1] << 8 | id[2] << 16;

@@ -1,6 +1,6 @@
 /// \file
-/// What a camera of the model sees: colour, z-depth and the geom under each pixel. Owns MuJoCo's
-/// renderer and the GL context; to be used from the thread that made it.
+/// Renders colour, z-depth and geom ids from a camera of the model. Owns MuJoCo's renderer and the
+/// GL context; use it only from the thread that constructed it.
 #pragma once
 
 #include <memory>
@@ -10,29 +10,28 @@
 
 namespace lcs::sim {
 
-/// Pixels are top row first. Shadows and reflections are never drawn, and the headlight is ambient
-/// only: such things do not move with the surface on which they are seen, so that the truth would
-/// be wrong for a corner on them.
+/// Images are top row first. Shadows, reflections and the headlight's directional part are off:
+/// they move over surfaces, so that the true motion would be wrong for a corner on them.
 class CameraRenderer {
  public:
-  /// Writes the camera's needs (buffer size, clipping planes, lights) into the model first.
-  /// \param model outlives the renderer; textures must be complete, as they are uploaded here.
-  /// \throws std::runtime_error if GL does not start or the image is larger than it can render.
+  /// Writes buffer size, clipping planes and lights into the model.
+  /// \param model must outlive the renderer; its textures must be complete: they are uploaded here.
+  /// \throws std::runtime_error if GL does not start or cannot render images of this size.
   CameraRenderer(Model& model, int camera, int width_px, int height_px);
   ~CameraRenderer();
   CameraRenderer(const CameraRenderer&) = delete;
   CameraRenderer& operator=(const CameraRenderer&) = delete;
 
-  /// Takes over the poses of the model's last forward pass for the renders that follow.
-  /// \throws MujocoError if the scene has more to draw than there is room for.
+  /// Takes the poses of the model's last forward pass for the following renders.
+  /// \throws MujocoError if the scene has more geoms than the render buffer holds.
   void update();
 
   void render_colour(cv::Mat3b& bgr);
-  /// \param depth_m along the optical axis; +inf where there is nothing.
-  /// \param geom id in the model, -1 where there is nothing. Both without multisampling.
+  /// \param depth_m z-depth along the optical axis, m; +inf for the background.
+  /// \param geom geom id in the model, -1 for the background. Both without multisampling.
   void render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom);
 
-  double near_m() const;  ///< what is nearer than this to the camera's plane is not drawn
+  double near_m() const;  ///< z of the near clipping plane
 
  private:
   struct Impl;

@@ -1,6 +1,6 @@
 /// \file
-/// The motion and the sensor readings of a scenario without pictures, for uses that need the rover,
-/// its IMU and its true poses, but no camera. Needs no GL.
+/// The motion and sensor readings of a scenario without images, for uses that need the rover, its
+/// IMU and its true poses. Needs no GL.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,7 @@ class World;
 
 struct Drive {
   Calibration calibration;
-  /// The same bits as `Simulation` gives, but without images, depths, objects and the truth of the
-  /// readings.
+  /// Bitwise equal to those of `Simulation`, but without images, depths, objects and `imu_truth`.
   std::vector<Observation> frames;
 };
 

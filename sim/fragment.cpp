@@ -31,25 +31,25 @@ Vector3d natural_size(xml::Element& root) {
   return {values.at(0), values.at(1), values.at(2)};
 }
 
-/// Factors along the axes of what stands at R in the body.
+/// Scale factors along the axes of a geom with rotation R in the body.
 Vector3d local_factors(const Matrix3d& R, const Vector3d& factor) {
   return (factor.asDiagonal() * R).colwise().norm();
 }
 
-/// Factor of the radius of what is round about an axis: what lies, as a wheel does, must keep
-/// standing on the ground, so it grows with the height; what stands takes the mean of the factors
-/// across.
+/// Scale factor of a radius about an axis. A lying cylinder, for example a wheel, must keep its
+/// contact with the ground and scales with the height. An upright cylinder scales with the
+/// geometric mean of the two horizontal factors.
 double radius_factor(const Vector3d& axis, const Vector3d& factor) {
   return std::abs(axis.z()) < std::sqrt(0.5) ? factor.z() : std::sqrt(factor.x() * factor.y());
 }
 
-/// Scales a fragment's geoms, and what places them, along the axes of its body.
+/// Scales a fragment's geoms and their positions along the axes of its body.
 class Scaling {
  public:
   Scaling(xml::Element& root, const Vector3d& factor)
       : assets_(xml::section(root, "asset")), factor_(factor) {}
 
-  /// \param R of the body's axes in those of the fragment.
+  /// \param R rotation of the body in the fragment.
   void scale_in(xml::Element& body, const Matrix3d& R) {
     for (auto* e = body.FirstChildElement(); e; e = e->NextSiblingElement()) {
       const std::string_view kind = e->Name();
@@ -61,10 +61,10 @@ class Scaling {
   }
 
  private:
-  /// One place, or more, in axes that stand at R.
+  /// Scales one or more positions whose axes have rotation R.
   void scale_places(xml::Element& e, const char* key, const Matrix3d& R) {
     std::vector<double> values = numbers(e, key);
-    if (values.empty() || values.size() % 3 != 0) return;  // MuJoCo tells
+    if (values.empty() || values.size() % 3 != 0) return;  // MuJoCo reports it
     for (std::size_t i = 0; i < values.size(); i += 3) {
       const Eigen::Map<Vector3d> place(values.data() + i);
       const Vector3d scaled = R.transpose() * factor_.cwiseProduct(R * place);
@@ -87,7 +87,7 @@ class Scaling {
       mjcf::set_numbers(geom, "size", {size[0] * radius_factor(along, factor_)});
       return;
     }
-    // what has fewer sizes than its type asks for is for MuJoCo to tell
+    // MuJoCo reports missing sizes
     if (type == "sphere" && !size.empty()) {
       geom.SetAttribute("type", "ellipsoid");
       mjcf::set_numbers(geom, "size",
@@ -101,11 +101,11 @@ class Scaling {
     }
   }
 
-  /// Its asset is scaled, or a copy of it where another geom needs it scaled otherwise.
+  /// Scales the geom's mesh asset, or a copy if another geom needs other factors.
   void scale_mesh(xml::Element& geom, const Vector3d& local) {
     const std::string name = mjcf::effective(geom, "mesh");
     xml::Element* asset = xml::child_named(assets_, "mesh", name);
-    if (!asset) return;  // MuJoCo tells
+    if (!asset) return;  // MuJoCo reports it
     std::vector<Scaled>& copies = meshes_[name];
     auto found = std::find_if(copies.begin(), copies.end(),
                               [&](const Scaled& s) { return s.local.isApprox(local); });
@@ -130,18 +130,18 @@ class Scaling {
   }
 
   struct Scaled {
-    std::string name;  ///< of the asset
-    Vector3d local;    ///< factors, along the axes of the geoms that have it
-    Vector3d natural;  ///< scale that its file gives it
+    std::string name;  ///< of the mesh asset
+    Vector3d local;    ///< scale factors along the axes of its geoms
+    Vector3d natural;  ///< scale in the fragment's file
   };
 
   xml::Element& assets_;
   Vector3d factor_;
-  std::map<std::string, std::vector<Scaled>> meshes_;  ///< by the name that the file gives them
+  std::map<std::string, std::vector<Scaled>> meshes_;  ///< by the mesh name in the file
 };
 
-/// Gives the texture of the material `paint` the name that says what to fill it with. Other
-/// materials keep theirs.
+/// Renames the texture of the material `paint` to the name that selects its content. Other
+/// materials keep their textures.
 void paint_fragment(xml::Element& root, const scenario::Actor& actor) {
   if (actor.texture.empty()) return;
   xml::Element& assets = xml::section(root, "asset");
@@ -177,7 +177,7 @@ void paint_fragment(xml::Element& root, const scenario::Actor& actor) {
   paint->SetAttribute("texture", new_name.c_str());
 }
 
-/// What is put where it is, or follows any command, is not pushed.
+/// Actors and holonomic rovers follow their commands exactly and have no contacts.
 void take_contacts_away(xml::Element& root) {
   xml::for_each(xml::section(root, "worldbody"), [](xml::Element& e) {
     if (!xml::is_kind(e, "geom")) return;
@@ -217,7 +217,7 @@ xml::Document rover_fragment(const scenario::Ego& ego, const xml::Element& scene
   xml::Element& root = *document->RootElement();
   mjcf::make_standalone(root, scene);
   check_rover(root);
-  // its cameras are for a viewer, and one of them may be called as the scenario's will be
+  // the file's cameras are for a viewer; their names may clash with the scenario's camera
   xml::remove_all(root, "camera");
   if (!is_wheeled(root)) take_contacts_away(root);
   xml::prefix_names(root, kEgoPrefix);

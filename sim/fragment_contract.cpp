@@ -29,7 +29,7 @@ Vector3d vector(const Element& e, const char* key, const Vector3d& otherwise) {
   return v.size() == 3 ? Vector3d(v[0], v[1], v[2]) : otherwise;
 }
 
-/// The first element of that kind and name below another; nullptr if there is none.
+/// The first descendant of that kind and name; nullptr if missing.
 Element* find(Element& root, std::string_view kind, const std::string& name) {
   Element* found = nullptr;
   xml::for_each(root, [&](Element& e) {
@@ -53,7 +53,7 @@ void check_sections(Element& root) {
   }
 }
 
-/// The body `base`, alone in the worldbody but for what a viewer shows it by.
+/// Finds the body `base`. Removes lights and cameras beside it, and rejects all other elements.
 Element& check_base(Element& root) {
   Element* worldbody = root.FirstChildElement("worldbody");
   Element* base = worldbody ? xml::child_named(*worldbody, "body", "base") : nullptr;
@@ -96,14 +96,14 @@ void check_size(Element& root) {
                           : std::string("this one does not")));
 }
 
-/// \param where "in 'base'", or the body that it must be in.
+/// \param where "in 'base'", or the required parent body, for the message.
 Element& require(Element& in, const char* kind, const char* name, const std::string& where,
                  const std::string& remedy) {
   if (Element* found = find(in, kind, name)) return *found;
   refuse(in, fmt::format("there is no {} called '{}' {}; give {}", kind, name, where, remedy));
 }
 
-/// An element that is fixed to the body `base`, however deep it is in it.
+/// Rejects an element that can move relative to the body `base`, at any depth.
 void require_fixed(const Element& e, const Element& base) {
   for (const auto* body = e.Parent()->ToElement(); body && body != &base;
        body = body->Parent()->ToElement()) {
@@ -148,7 +148,7 @@ void check_joint(Element& body, const char* name, const char* type, const Vector
   }
 }
 
-/// Slides along the world's x and y first, as the hinge turns what comes after it.
+/// The slides along the world's x and y must precede the hinge, which turns all later joints.
 void check_holonomic(Element& base) {
   check_joint(base, "x", "slide", Vector3d::UnitX());
   check_joint(base, "y", "slide", Vector3d::UnitY());

@@ -1,19 +1,19 @@
 /// \file
-/// Checks that the file of a rover or an actor has what it must have; `scenes/README.md` lists it.
+/// Checks that a rover's or actor's file has all required elements; `scenes/README.md` lists them.
 #pragma once
 
 #include "sim/xml.h"
 
 namespace lcs::sim {
 
-/// Both are given the whole file, made standalone (`sim/mjcf.h`), before its names get a prefix.
-/// \throws scenario::Error at the file's line: what is missing or wrong, and what to do.
+/// Both take the root of the file, after `mjcf::make_standalone`, before names get a prefix.
+/// \throws scenario::Error at the file's line: the missing or wrong element, and the remedy.
 ///@{
 void check_actor(xml::Element& root);
 void check_rover(xml::Element& root);
 ///@}
 
-/// Whether a rover that passed the check drives on wheels; otherwise it is holonomic.
+/// Whether a rover that passed `check_rover` is wheeled; otherwise it is holonomic.
 bool is_wheeled(xml::Element& root);
 
 }  // namespace lcs::sim

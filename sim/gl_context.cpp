@@ -10,14 +10,14 @@
 
 #include "sim/trial.h"
 
-// as gcc and clang say so
+// gcc's and clang's ways to say that AddressSanitizer is on
 #ifdef __has_feature
 #if __has_feature(address_sanitizer)
 #define __SANITIZE_ADDRESS__
 #endif
 #endif
 #ifdef __SANITIZE_ADDRESS__
-// Mesa keeps some hundred bytes of each context until the process ends.
+// Mesa leaks some hundred bytes of each context until the process ends.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libOSMesa";
@@ -27,15 +27,15 @@ extern "C" const char* __lsan_default_suppressions() {
 namespace lcs::sim {
 namespace {
 
-constexpr int kSide = 16;  // px; the least that is sure to work
+constexpr int kSide = 16;  // px; the smallest size that works everywhere
 
 [[noreturn]] void fail(const char* step) {
   throw std::runtime_error(std::string("software GL does not start: ") + step +
                            " failed; install Mesa's off-screen renderer (Debian: libosmesa6)");
 }
 
-/// Mesa ends the program by a signal where it does not have the driver that is asked for.
-/// \throws std::runtime_error once, at the first context of the process.
+/// Mesa ends the program by a signal if it lacks the driver that GALLIUM_DRIVER names.
+/// \throws std::runtime_error. Checks at the first context of the process only.
 void check_driver() {
   static std::atomic<bool> checked = false;
   const char* driver = std::getenv("GALLIUM_DRIVER");

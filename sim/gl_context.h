@@ -7,8 +7,8 @@
 
 namespace lcs::sim {
 
-/// Current in the thread that made it, from construction on. Its own buffer is tiny: MuJoCo renders
-/// into a frame buffer object of its own.
+/// Current in the constructing thread from construction on. Its own buffer is tiny, because MuJoCo
+/// renders into its own frame buffer object.
 class GlContext {
  public:
   /// \throws std::runtime_error with a remedy.
@@ -17,10 +17,10 @@ class GlContext {
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
-  /// Makes it current again, where another one was used in between. \throws std::runtime_error
+  /// Makes the context current again, after another context was. \throws std::runtime_error
   void make_current();
 
-  /// As in "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6".
+  /// For example "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6".
   std::string renderer() const;
 
  private:

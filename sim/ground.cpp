@@ -26,7 +26,7 @@ int points_along(double length_m, double wavelength_m) {
   return static_cast<int>(std::clamp(length_m / wavelength_m * kPointsAWave, 4.0, kMostPoints));
 }
 
-/// Of unit variance.
+/// A sum of plane waves with unit variance.
 class Waves {
  public:
   Waves(double wavelength_m, std::uint64_t seed) {
@@ -53,7 +53,7 @@ class Waves {
   std::array<Wave, kWaves> waves_;
 };
 
-/// From 0 at the edge to 1 within a wavelength of it, without a kink.
+/// Smooth rise from 0 at the edge to 1 at one wavelength from it.
 double rise(double from_edge_m, double wavelength_m) {
   const double t = std::clamp(from_edge_m / wavelength_m, 0.0, 1.0);
   return t * t * (3 - 2 * t);

@@ -1,9 +1,9 @@
 /// \file
-/// Rough ground: a height field over the scene's floor, for wheels to shake on.
+/// Rough ground: a height field over the scene's floor that shakes a wheeled rover.
 ///
 /// The heights are a sum of plane waves with random directions and phases, and lengths of one to
 /// three times the scenario's wavelength. They lie 0 to 4 standard deviations above the floor, 2 on
-/// average, and fall to the floor at the edges. The holonomic rover, which has no contacts, drives
+/// average, and fall to the floor at the edges. The holonomic rover has no contacts and drives
 /// through it.
 #pragma once
 
@@ -16,16 +16,16 @@
 
 namespace lcs::sim {
 
-/// Adds the field, still flat, to a scene; it looks like the scene's first plane.
-/// \param source of the ground's numbers.
+/// Adds the height field, still flat, with the material of the scene's first plane.
+/// \param source the place of the `ground` section in the scenario, for errors.
 void add_ground(xml::Element& scene, const scenario::Ground& ground,
                 const Eigen::Vector2d& ego_start_m, const scenario::Source& source);
 
-/// Raises the bumps in a model of that scene.
+/// Writes the heights into a model of that scene.
 void raise_ground(Model& model, const scenario::Ground& ground, std::uint64_t scenario_seed);
 
-/// Advice on which number to change where wheels have more contacts with the ground than MuJoCo has
-/// room for, as bumps that are short and high for a wheel make them.
+/// Advice on which number to change where the wheels have more contacts with the ground than MuJoCo
+/// can hold. Bumps that are short and high for a wheel cause this.
 std::string less_contact(const scenario::Ground& ground);
 
 }  // namespace lcs::sim

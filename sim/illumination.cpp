@@ -7,16 +7,15 @@
 namespace lcs::sim {
 namespace {
 
-/// Lamps are not points: nearer than this their light grows no more.
+/// Closer than this, the light of the lamps stays constant, because lamps are not points.
 constexpr float kNearest_m = 0.3F;
-/// Reflectance of a wall of fog.
+/// Reflectance of dense fog.
 constexpr float kAirlight = 0.5F;
 constexpr double kKoschmieder = 3.912;  // -log(0.02)
-/// The renderer's own blur, so that light that ends at an edge of the depth ends where the colour
-/// does.
+/// Equal to the renderer's blur, so that light edges at depth steps align with colour edges.
 constexpr double kEdgeBlur_px = 0.6;
 
-/// The slope at b between its neighbours, by the nearer one: the other may lie on another surface.
+/// The slope at b: the smaller difference, as the other neighbour may be on another surface.
 float slope(float a, float b, float c) {
   const float before = b - a;
   const float after = c - b;
@@ -51,8 +50,8 @@ float Illumination::lamps(int x, int y, float distance_m) const {
   return lamps_times_m2_(y, x) / (d * d);
 }
 
-/// cos(alpha) of each pixel. On a plane n . X = h the inverse depth w at a pixel with ray r is
-/// n . r / h, so that n / h follows from its slopes; then cos(alpha) = w / (|n / h| |r|).
+/// cos(alpha) of each pixel. On a plane n . X = h, a pixel with ray r has the inverse depth
+/// w = (n . r) / h. The slopes of w give n / h; then cos(alpha) = w / (|n / h| |r|).
 cv::Mat1f Illumination::facing(const cv::Mat1f& depth_m) const {
   cv::Mat1f cosine(depth_m.size(), 1.F);
   const auto inverse = [&](int x, int y) { return 1 / depth_m(y, x); };
@@ -76,7 +75,7 @@ cv::Mat1f Illumination::facing(const cv::Mat1f& depth_m) const {
 void Illumination::light(cv::Mat3f& picture, const cv::Mat1f& depth_m) const {
   const cv::Mat1f cosine = lamps_times_m2_.empty() ? cv::Mat1f() : facing(depth_m);
   cv::Mat1f lit(picture.size());
-  cv::Mat1f clear(picture.size());  // share that comes through the air
+  cv::Mat1f clear(picture.size());  // transmittance of the air
   for (int y = 0; y < picture.rows; ++y) {
     for (int x = 0; x < picture.cols; ++x) {
       const float distance = depth_m(y, x) * ray_length_(y, x);

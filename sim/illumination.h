@@ -1,19 +1,17 @@
 /// \file
-/// Light and air between the scene and the camera.
+/// Illumination of the scene, and attenuation by air between scene and camera.
 ///
-/// The rendered picture stands for the reflectance of what it shows, lit evenly. A surface at
-/// distance d, an angle theta off the optical axis and turned by alpha from the ray (Lambert), then
-/// is lit by
+/// The rendered image is taken as the reflectance under even light. A surface at distance d, an
+/// angle theta off the optical axis and tilted by alpha from the ray (Lambert), receives the light
 ///
 ///     E = light + I exp(-theta^2 / (2 beam^2)) cos(alpha) / d^2
 ///
-/// and seen through air of extinction beta = 3.912 / visibility (Koschmieder) as
+/// It is seen through air of extinction beta = 3.912 / visibility (Koschmieder) as
 ///
 ///     L = E exp(-beta d) * reflectance + (1 - exp(-beta d)) * airlight
 ///
-/// The lamps sit at the camera: a beam from elsewhere would cast shadows, which do not move with
-/// the surfaces on which they lie, so that the truth would be wrong there. `light` falls alike on
-/// surfaces of every direction.
+/// The lamps are at the camera. A beam from elsewhere would cast shadows; they move over surfaces,
+/// so that the truth would be wrong there. `light` is equal on surfaces of every direction.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -27,12 +25,12 @@ class Illumination {
  public:
   Illumination(const scenario::Image& image, const Pinhole& camera);
 
-  /// \param picture in linear light; \param depth_m along the optical axis, +inf in the sky.
+  /// \param picture in linear light. \param depth_m along the optical axis; +inf for sky.
   void light(cv::Mat3f& picture, const cv::Mat1f& depth_m) const;
 
-  /// Light of the lamps on a surface that faces them, `distance_m` away at a pixel, in daylights.
+  /// Lamp light, in daylights, on a surface that faces the lamps `distance_m` from pixel (x, y).
   float lamps(int x, int y, float distance_m) const;
-  /// The light on the whole scene, in daylights.
+  /// Ambient light, in daylights.
   float ambient() const { return ambient_; }
 
  private:
@@ -41,7 +39,7 @@ class Illumination {
   Pinhole camera_;
   float ambient_;
   float extinction_per_m_;
-  cv::Mat1f ray_length_;      ///< distance along the ray for each metre of depth
+  cv::Mat1f ray_length_;      ///< ray length per metre of z-depth
   cv::Mat1f lamps_times_m2_;  ///< daylights at a distance of 1 m; empty without lamps
 };
 

@@ -9,10 +9,10 @@
 namespace lcs::sim {
 namespace {
 
-/// As many as 16 bits pick from: a frame needs a million normals, and 64 random bits give four.
+/// An index of 16 bits. A frame needs a million normals, and 64 random bits give four indices.
 constexpr std::size_t kNormals = 1 << 16;
 
-/// Mean 0 and variance 1 exactly, up to rounding.
+/// Standard normal samples, shifted and scaled to mean 0 and variance 1 up to rounding.
 std::vector<float> draw_normals(std::uint64_t seed) {
   RandomStream random(seed, "image.normals");
   std::vector<double> drawn(kNormals);

@@ -2,9 +2,9 @@
 /// A camera's sensor: exposure, shot noise, read noise, gain.
 ///
 /// A white surface in daylight fills a pixel in 1 ms. At linear light L and exposure t a pixel
-/// collects n = full_well L t / 1 ms electrons, of which it counts n + sqrt(n + read^2) N(0, 1),
-/// full_well at most: photons come at random, with a variance equal to their number. The gain then
-/// multiplies signal and noise alike. Each colour of each pixel draws its own noise.
+/// collects n = full_well L t / 1 ms electrons and reads n + sqrt(n + read^2) N(0, 1), at most
+/// full_well: photon counts have a variance equal to their mean. The gain multiplies signal and
+/// noise. Each colour channel of each pixel has its own noise.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class ImageSensor {
  public:
   ImageSensor(const scenario::Image& image, std::uint64_t scenario_seed);
 
-  /// The picture of frame `k`, in place, in linear light; still to be clipped at 1.
+  /// Exposes the image of frame `k` in place, in linear light; the result is not yet clipped at 1.
   void expose(cv::Mat3f& picture, int k) const;
 
  private:
@@ -27,7 +27,7 @@ class ImageSensor {
 
   scenario::Image image_;
   std::uint64_t seed_;
-  std::vector<float> normals_;  ///< drawn once and then picked from at random
+  std::vector<float> normals_;  ///< standard normal samples, drawn once; each pixel picks at random
 };
 
 }  // namespace lcs::sim

@@ -1,6 +1,6 @@
 /// \file
 /// Readings of the rover's inertial and wheel sensors. Times are nanoseconds since the start of the
-/// run: sample i of a sensor is at i / rate.
+/// run; sample i of a sensor has time i / rate.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,20 +18,20 @@ struct ImuSample {
   Eigen::Vector3d accel_mps2 = Eigen::Vector3d::Zero();
 };
 
-/// The truth at the time of an IMU reading, also of one that is lost in a gap.
+/// The truth at the time of an IMU reading. Readings that a gap drops have one, too.
 struct ImuTruth {
   std::int64_t t_ns = 0;
   Pose T_WS;
-  Eigen::Vector3d v_WS_mps = Eigen::Vector3d::Zero();         ///< of S, in W
-  Eigen::Vector3d gyro_bias_radps = Eigen::Vector3d::Zero();  ///< in the reading, in S
+  Eigen::Vector3d v_WS_mps = Eigen::Vector3d::Zero();         ///< velocity of S, in W
+  Eigen::Vector3d gyro_bias_radps = Eigen::Vector3d::Zero();  ///< bias of this reading, in S
   Eigen::Vector3d accel_bias_mps2 = Eigen::Vector3d::Zero();  ///< likewise
 };
 
-/// Velocity of the rover's frame B, in B, as its wheels measure it, slip and all.
+/// Velocity of the rover's frame B, in B, as the wheels measure it, including their slip.
 struct OdometrySample {
   std::int64_t t_ns = 0;
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
-  /// ccw, by the difference of the wheels, where they tell it.
+  /// Counter-clockwise, from the difference of the wheels; absent where wheels do not measure it.
   std::optional<double> yaw_rate_radps = std::nullopt;
 };
 

@@ -7,10 +7,10 @@
 ///     b_0 = beta * N(0, 1),   b_k = b_{k-1} + sigma_b * sqrt(dt) * N(0, 1)
 ///
 /// with sigma the noise density, sigma_b the random walk and beta the turn-on bias of
-/// `scenario::ImuNoise`. White noise, walk and turn-on bias of each sensor have a random stream
-/// each, so that changing one figure leaves the numbers drawn for the others as they were.
+/// `scenario::ImuNoise`. White noise, walk and turn-on bias of each sensor have separate random
+/// streams: changing one parameter leaves the numbers drawn for the others unchanged.
 ///
-/// Wheel odometry: a scale drawn once a run, and white noise in x and y of B and in the yaw rate.
+/// Wheel odometry: a scale drawn once per run, and white noise in x and y of B and in the yaw rate.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,16 +23,16 @@
 
 namespace lcs::sim {
 
-/// White noise and a bias that walks, on three axes.
+/// White noise and a random-walk bias on three axes.
 class Noise3 {
  public:
-  /// \throws std::invalid_argument unless the figures are finite and >= 0, and the rate is above 0.
+  /// \throws std::invalid_argument unless the parameters are finite and >= 0, and the rate is > 0.
   Noise3(double density, double random_walk, double turn_on_bias, double rate_hz,
          std::uint64_t seed, std::string_view name);
 
   Eigen::Vector3d corrupt(const Eigen::Vector3d& truth);
 
-  /// b_k of the sample that was corrupted last.
+  /// b_k of the last corrupted sample.
   const Eigen::Vector3d& bias() const { return bias_; }
 
  private:
@@ -46,15 +46,15 @@ class Noise3 {
 
 class ImuNoiseModel {
  public:
-  /// \param name of the IMU; two of them in one run draw different noise.
+  /// \param name of the IMU; two names in one run draw different noise.
   /// \throws std::invalid_argument as for `Noise3`.
   ImuNoiseModel(const scenario::ImuNoise& noise, double rate_hz, std::uint64_t seed,
                 std::string_view name = "imu0");
 
-  /// Samples have to come one by one, a step of 1 / rate apart.
+  /// Samples must be passed in order, without omission, 1 / rate apart.
   ImuSample corrupt(const ImuSample& truth);
 
-  /// \name Biases in the sample that was corrupted last.
+  /// \name Biases of the last corrupted sample.
   ///@{
   const Eigen::Vector3d& gyro_bias_radps() const { return gyro_.bias(); }
   const Eigen::Vector3d& accel_bias_mps2() const { return accel_.bias(); }
@@ -71,7 +71,7 @@ class OdometryNoiseModel {
   OdometryNoiseModel(const scenario::Odometry& odometry, std::uint64_t seed,
                      std::string_view name = "odometry0");
 
-  /// Wheels measure x and y of B, and yaw; z is 0.
+  /// The wheels measure x and y of B and the yaw rate; z is 0.
   OdometrySample corrupt(const OdometrySample& truth);
 
   double scale() const { return scale_; }

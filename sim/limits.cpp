@@ -26,10 +26,10 @@ namespace {
 namespace fs = std::filesystem;
 using xml::Element;
 
-/// The range of an attribute whose value MuJoCo 2.2.2 takes without a check, and whose excess the
-/// trial in a child process (sim/trial.h) does not show.
+/// The range of an attribute that MuJoCo 2.2.2 does not check, and whose excess the trial in a
+/// child process (sim/trial.h) does not reveal.
 struct Limit {
-  std::string_view element, attribute;  // "nuser_*": each that begins so
+  std::string_view element, attribute;  // "nuser_*": all with this prefix
   double least, most;
   const char* reason;
 };
@@ -57,21 +57,21 @@ constexpr Limit kLimits[] = {
 };
 
 // Limits of the compiled model.
-constexpr int kMostTextureSide_px = 8192;  // of software GL
-constexpr int kMostCubeSide_px = 4096;     // likewise
-constexpr int kMostTextures = 1000;        // of MuJoCo's renderer
+constexpr int kMostTextureSide_px = 8192;  // limit of software GL
+constexpr int kMostCubeSide_px = 4096;     // limit of software GL
+constexpr int kMostTextures = 1000;        // limit of MuJoCo's renderer
 constexpr double kMostTextureBytes = 1e9;
-constexpr int kMostHeightFieldSide = 2000;  // points; all of them are drawn in every picture
+constexpr int kMostHeightFieldSide = 2000;  // points; every image draws all of them
 
-constexpr scenario::FileKind kAssetFile{256 * scenario::kMebibyte,  // is read into memory
+constexpr scenario::FileKind kAssetFile{256 * scenario::kMebibyte,  // read into memory
                                         "give a smaller file, of the kind that it is"};
 
-// Attributes whose names begin with these are text, which may have words like "inf" and "nan".
+// Attributes with these prefixes are text, which may contain words like "inf" and "nan".
 constexpr std::array<std::string_view, 17> kTexts = {
     "name", "class", "childclass", "file",   "texture", "material", "mesh",   "hfield",  "joint",
     "site", "body",  "geom",       "target", "objname", "refname",  "tendon", "actuator"};
 
-// Lengths, m: beyond the size of a scene that a camera sees.
+// Lengths, m; limited to the size of a scene that the camera renders.
 constexpr std::array<std::string_view, 7> kLengths = {"pos",    "size",   "fromto", "vertex",
                                                       "refpos", "offset", "spacing"};
 
@@ -80,7 +80,7 @@ constexpr std::array<std::string_view, 4> kNumberLists = {"vertex", "normal", "t
                                                           "vertweight"};
 constexpr std::array<std::string_view, 2> kIndexLists = {"face", "vertid"};
 
-// Attributes whose words may begin with a digit and are no numbers.
+// Attributes whose keywords may begin with a digit.
 constexpr std::array<std::string_view, 2> kKinds = {"type", "gridlayout"};
 
 constexpr std::size_t kMostShown = 40;  // characters of a value, in a message
@@ -99,7 +99,7 @@ std::vector<std::string> words(const std::string& text) {
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// A word as a number, NaN and infinity included; nothing if it does not parse.
+/// Parses a word as a number, including NaN and infinity; empty if it does not parse.
 std::optional<double> number(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0;
@@ -119,7 +119,7 @@ void check_words(const Element& e, std::string_view name, const std::string& tex
     if (is_index && word.find_first_not_of("+-0123456789") != word.npos) {
       complain("which is no integer; correct it");
     }
-    // MuJoCo takes "12abc" for 12; a word like "2d" is a kind
+    // MuJoCo parses "12abc" as 12; "2d" is a keyword
     const bool begins_as_number = word.find_first_of("0123456789") == 0 && !is_one_of(kKinds, name);
     if (!value && (begins_as_number || is_one_of(kNumberLists, name))) {
       complain("which is no number; correct it");
@@ -150,8 +150,8 @@ void check_range(const Element& e, std::string_view name, const std::string& tex
   }
 }
 
-/// The indices in the faces of a Wavefront file. Where one is out of range, MuJoCo takes a vertex
-/// from any place in memory, and the compiled model does not show it.
+/// Checks the indices in the faces of a Wavefront file. MuJoCo reads a vertex from arbitrary memory
+/// for an index out of range, and the compiled model does not show it.
 void check_obj(const Element& e, const fs::path& file) {
   constexpr std::array<std::string_view, 3> kLines = {"v", "vt", "vn"};
   constexpr std::array<const char*, 3> kNames = {"vertex", "texture coordinate", "normal"};
@@ -159,7 +159,7 @@ void check_obj(const Element& e, const fs::path& file) {
   struct Face {
     std::string text;
     int line;
-    std::array<std::size_t, 3> counts;  // above it: negative indices count back from these
+    std::array<std::size_t, 3> counts;  // before the face; negative indices count back from these
   };
   std::vector<Face> faces;
   scenario::InputFile input(file, kAssetFile, xml::source_of(e));
@@ -177,7 +177,7 @@ void check_obj(const Element& e, const fs::path& file) {
         const std::string_view word = rest.substr(0, slash);
         rest.remove_prefix(std::min(slash + 1, rest.size()));
         if (word.empty() && k > 0 && counts[k] == 0) continue;
-        const double index = number(word).value_or(0);  // they begin at 1
+        const double index = number(word).value_or(0);  // indices begin at 1
         const double place = index < 0 ? static_cast<double>(face.counts[k]) + index : index - 1;
         if (place >= 0 && place < static_cast<double>(counts[k])) continue;
         refuse(e, fmt::format("'{}', line {}: '{}' names no {} of the file (there are {}); correct "
@@ -189,7 +189,7 @@ void check_obj(const Element& e, const fs::path& file) {
   }
 }
 
-/// \param file of an asset. MuJoCo would wait for a pipe, and make room for any picture.
+/// \param file of an asset. MuJoCo would block on a pipe, and allocate any image size.
 void check_file(const Element& e, const fs::path& file) {
   const std::string bytes = scenario::InputFile(file, kAssetFile, xml::source_of(e)).bytes();
   const auto size = picture_size(bytes);
@@ -198,14 +198,14 @@ void check_file(const Element& e, const fs::path& file) {
                           "smaller one",
                           file.string(), size->width, size->height, kMostPixels / 1'000'000));
   }
-  // MuJoCo tells the kind by the last three characters
+  // MuJoCo recognises the format by the last three characters
   const std::string name = file.string();
   if (::strcasecmp(name.c_str() + std::max<std::size_t>(name.size(), 3) - 3, "obj") != 0) return;
   if (e.Attribute("face")) refuse(e, "it has a file and faces too; remove one of the two");
   check_obj(e, file);
 }
 
-void require_finite(const char*, const void*, std::int64_t) {}  // all but floats
+void require_finite(const char*, const void*, std::int64_t) {}  // integer arrays
 /// \throws MujocoError
 void require_finite(const char* array, const float* values, std::int64_t count) {
   if (std::all_of(values, values + count, [](float f) { return std::isfinite(f); })) return;

@@ -1,7 +1,7 @@
 /// \file
-/// Limits on a scene that MuJoCo 2.2.2 does not check: numbers that it divides by or loops over,
-/// indices that it follows, sizes that it draws. What makes MuJoCo crash, or take too much memory
-/// or time while it loads, is left to the trial in a child process (sim/trial.h).
+/// Limits on values of a scene that MuJoCo 2.2.2 does not check: divisors, loop counts, indices and
+/// sizes. The trial in a child process (sim/trial.h) finds the values that crash MuJoCo or take too
+/// much memory or time during loading.
 #pragma once
 
 #include "sim/mujoco.h"
@@ -9,15 +9,15 @@
 
 namespace lcs::sim {
 
-/// \param root of a whole document whose files are absolute paths and exist.
-/// \throws scenario::Error at the element beyond a limit, with the limit and its reason.
+/// \param root of a complete document whose files exist and have absolute paths.
+/// \throws scenario::Error at the element that exceeds a limit, with the limit and its reason.
 void check_limits(xml::Element& root);
 
-/// For the child process: what is wrong in the compiled model must not be loaded by its parent.
-/// \throws MujocoError for sizes, indices and numbers that cannot be drawn.
+/// Called by the child process, so that the parent never loads a model that fails this check.
+/// \throws MujocoError for sizes, indices and numbers that cannot be rendered.
 void check_compiled(const mjModel& model);
 
-/// \name Bounds on a scene's size (half of its diagonal), which MuJoCo scales clipping planes by.
+/// \name Bounds on a scene's extent (half of its diagonal), by which MuJoCo scales clipping planes.
 ///@{
 inline constexpr double kLeastExtent_m = 1e-3;
 inline constexpr double kMostExtent_m = 1e6;

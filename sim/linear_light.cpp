@@ -10,7 +10,7 @@ namespace lcs::sim {
 namespace {
 
 constexpr int kCodes = 256;
-/// Fine enough for the curve's steepest part, where a code is 3e-4 wide.
+/// Fine enough for the steepest part of the curve, where a code is 3e-4 wide.
 constexpr int kBins = 1 << 14;
 
 float linear_of(int code) {

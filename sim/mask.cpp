@@ -8,7 +8,7 @@
 namespace lcs::sim {
 namespace {
 
-/// Runs from pixels, one after another.
+/// Builds runs from consecutive pixels.
 class RunWriter {
  public:
   void add(bool inside, std::int64_t pixels) {
@@ -17,7 +17,7 @@ class RunWriter {
     runs_.back() += static_cast<std::uint32_t>(pixels);
     written_ += pixels;
   }
-  /// Pixels outside up to that one.
+  /// Adds pixels outside the mask up to this pixel.
   void skip_to(std::int64_t pixel) { add(false, pixel - written_); }
   Runs take() { return std::move(runs_); }
 

@@ -1,6 +1,6 @@
 /// \file
-/// The pixels that something covers, in COCO's run-length encoding: column by column from the left,
-/// the lengths of runs of pixels, outside and inside in turn. They add up to all pixels.
+/// Masks in COCO's run-length encoding: column by column from the left, alternating lengths of runs
+/// outside and inside. The lengths add up to the number of pixels.
 #pragma once
 
 #include <algorithm>
@@ -14,29 +14,29 @@ namespace lcs::sim {
 using Runs = std::vector<std::uint32_t>;
 
 struct Mask {
-  cv::Rect box;  ///< holds all pixels
-  Runs runs;     ///< of the pixels of the box
+  cv::Rect box;  ///< bounds all pixels of the mask
+  Runs runs;     ///< runs over the pixels of the box
 };
 
-/// Runs of the pixels in a box that hold a number.
-/// \param columns an image, transposed: its rows are columns. \param box in the image.
+/// Runs of the pixels in a box that equal `number`.
+/// \param columns a transposed image: its rows are columns. \param box in the untransposed image.
 Runs runs_of(const cv::Mat1i& columns, const cv::Rect& box, int number);
 
-/// \name A mask in the smallest box that holds it.
+/// \name A mask in its smallest bounding box.
 ///@{
-/// The mask of the pixels that are not 0; empty where there are none.
+/// The mask of the non-zero pixels; empty without such pixels.
 Mask mask_of(const cv::Mat1b& picture);
-/// The mask that runs over a whole picture describe.
-/// \throws std::invalid_argument for runs that do not add up to the picture, and for a mask without
-///   a pixel.
+/// The mask whose runs cover a whole image.
+/// \throws std::invalid_argument if the runs do not add up to the image's pixels, or if the mask is
+/// empty.
 Mask mask_of(std::span<const std::int64_t> runs, const cv::Size& size_px);
 ///@}
 
-/// The same mask in another box that holds its pixels.
+/// The runs of the mask in another box, which must hold all its pixels.
 Runs runs_in(const cv::Rect& box, const Mask& mask);
 
-/// Calls `visit(x, top, bottom)` for each stretch of pixels in a column of the picture, [top,
-/// bottom), from the left and from the top.
+/// Calls `visit(x, top, bottom)` for each vertical run [top, bottom) in image column x, from left
+/// to right and top to bottom.
 template <typename Visit>
 void visit_stretches(const Mask& mask, Visit&& visit) {
   const std::int64_t height = mask.box.height;

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 using xml::Element;
 using xml::is_kind;
 
-/// What a document's compiler says; the last one that says so.
+/// Value of a `<compiler>` attribute; the last `<compiler>` that has it wins.
 std::string compiler(const Element& root, const char* key, const char* otherwise) {
   std::string value = otherwise;
   for (const Element* c = root.FirstChildElement("compiler"); c;
@@ -29,7 +29,7 @@ std::string compiler(const Element& root, const char* key, const char* otherwise
   return value;
 }
 
-/// The defaults of a class; nullptr where there are none.
+/// The defaults of a class; nullptr if missing.
 const Element* class_named(const Element& parent, const std::string& name) {
   for (const Element* d = parent.FirstChildElement("default"); d;
        d = d->NextSiblingElement("default")) {
@@ -56,7 +56,7 @@ Quaterniond from_euler(const std::vector<double>& angles, const std::string& seq
   for (std::size_t i = 0; i < 3; ++i) {
     const int axis = std::tolower(sequence[i]) - 'x';
     const Quaterniond turn(Eigen::AngleAxisd(angles[i], Vector3d::Unit(axis)));
-    q = std::islower(sequence[i]) ? q * turn : turn * q;  // about axes that turn along, or do not
+    q = std::islower(sequence[i]) ? q * turn : turn * q;  // intrinsic, or extrinsic for capitals
   }
   return q;
 }
@@ -70,8 +70,8 @@ Quaterniond from_axes(const std::vector<double>& v) {
   return Quaterniond(R);
 }
 
-/// Replaces the ways of MJCF to say a rotation by its quaternion. What is malformed stays, for
-/// MuJoCo to tell.
+/// Replaces all other rotation attributes by `quat`. Malformed ones stay, so that MuJoCo reports
+/// them.
 void rotate_by_quat(Element& e, double unit_rad, const std::string& sequence) {
   const auto replace = [&](const char* key, std::size_t count, const auto& quaternion) {
     const std::vector<double> v = numbers(xml::attribute(e, key));
@@ -103,7 +103,7 @@ void scale_angles(Element& joint, double factor) {
   }
 }
 
-/// One section of each kind, as a file and what it includes may have several.
+/// Joins sections of one kind, as a file and its includes may have several.
 void join_sections(Element& root) {
   for (const char* kind : {"asset", "worldbody", "actuator", "sensor", "custom"}) {
     Element* first = root.FirstChildElement(kind);
@@ -114,7 +114,7 @@ void join_sections(Element& root) {
   }
 }
 
-/// MuJoCo's own defaults, whatever they are in the document that takes this one in.
+/// MuJoCo's built-in defaults, which the target document's defaults might override.
 struct Default {
   const char *kind, *key, *value;
 };
@@ -130,7 +130,7 @@ constexpr Default kDefaults[] = {
     {"joint", "frictionloss", "0"},
 };
 
-/// Puts the defaults that hold for all of a document into a class, and all of it into that class.
+/// Moves a document's global defaults into a class, and assigns the class to all its elements.
 void give_class(Element& root) {
   Element* all = root.GetDocument()->NewElement("default");
   xml::set_source(*all, xml::source_of(root));
@@ -182,7 +182,7 @@ std::vector<double> numbers(const std::string& text) {
 }
 
 void set_numbers(Element& e, const char* key, const std::vector<double>& values) {
-  std::string text;  // not by fmt::join, of which GCC 13 warns within fmt 9
+  std::string text;  // not by fmt::join, which causes a warning of GCC 13 within fmt 9
   for (const double value : values) {
     text += fmt::format("{}{:.17g}", text.empty() ? "" : " ", value);
   }

@@ -31,7 +31,7 @@ using ModelAndData =
     std::pair<std::unique_ptr<mjModel, ModelDeleter>, std::unique_ptr<mjData, DataDeleter>>;
 
 ModelAndData load(const std::string& mjcf) {
-  // the file system is 2 MB of name tables before version 3
+  // before version 3 the file system is 2 MB of name tables: too large for the stack
   const auto vfs = std::make_unique<mjVFS>();
   mj_defaultVFS(vfs.get());
   const auto release = [](mjVFS* v) { mj_deleteVFS(v); };
@@ -66,7 +66,7 @@ std::string take_warning() {
 
 Model::Model(const std::string& mjcf) {
   install_mujoco_handlers();
-  // MuJoCo holds a lock of its own while it loads: no thread may do so when another one forks
+  // MuJoCo holds its own lock during a load: no other thread may fork then
   static std::mutex loading;
   const std::lock_guard lock(loading);
   const Trial trial = try_in_child([&] { load(mjcf); });
@@ -115,7 +115,7 @@ Pose Model::site_pose(int site) const {
 
 Pose Model::camera_pose(int camera) const {
   Pose T = pose(data_->cam_xpos + 3 * camera, data_->cam_xmat + 9 * camera);
-  // MuJoCo's camera looks along its -z with y up
+  // MuJoCo's camera looks along its -z, with y up
   T.R.col(1) = -T.R.col(1);
   T.R.col(2) = -T.R.col(2);
   return T;

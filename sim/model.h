@@ -13,23 +13,23 @@
 
 namespace lcs::sim {
 
-/// Thrown for what MuJoCo says is wrong with a document, or with how it is used.
+/// An error that MuJoCo reports for a document or for a call.
 class MujocoError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Thrown where MuJoCo crashes on a document, or does not end.
+/// Thrown if MuJoCo crashes on a document or exceeds its time or memory.
 class MujocoCrash : public MujocoError {
  public:
   using MujocoError::MujocoError;
 };
 
 /// Makes MuJoCo throw `MujocoError` where it would print and wait for a key, and keep its warnings
-/// for `take_warning`. Process-wide; called by everything here that uses MuJoCo.
+/// for `take_warning`. Process-wide. All code here that uses MuJoCo calls it.
 void install_mujoco_handlers();
 
-/// The first warning that MuJoCo gave in this thread since the last call; empty if none.
+/// The first warning that MuJoCo gave in this thread since the last call; empty without a warning.
 std::string take_warning();
 
 struct ModelDeleter {
@@ -39,14 +39,14 @@ struct DataDeleter {
   void operator()(mjData* d) const { mj_deleteData(d); }
 };
 
-/// Model and data, always together. Movable; the addresses of `m()` and `d()` do not change.
+/// Model and data, always together. Movable; moving keeps the addresses of `m()` and `d()`.
 class Model {
  public:
   /// Loads the document in a child process first (sim/trial.h), and here only if the child
   /// survives. The child takes 40 ms of processor time for crossing.yaml, as much as the load
   /// itself, out of 1.8 s for `lcs run scenarios/crossing.yaml --quiet --no-video`.
-  /// \param mjcf a whole document; files that it names must be absolute paths.
-  /// \throws MujocoError with MuJoCo's own message; MujocoCrash in plain words.
+  /// \param mjcf a complete document; its file paths must be absolute.
+  /// \throws MujocoError with MuJoCo's message; MujocoCrash with an explanation.
   explicit Model(const std::string& mjcf);
 
   mjModel& m() { return *model_; }
@@ -55,12 +55,12 @@ class Model {
   const mjData& d() const { return *data_; }
 
   bool has(mjtObj type, const std::string& name) const;
-  /// Index of a named element. \throws MujocoError if there is none.
+  /// Index of a named element. \throws MujocoError if it is missing.
   int id(mjtObj type, const std::string& name) const;
-  /// Name of an element, empty where it has none.
+  /// Name of an element; empty for an unnamed element.
   std::string_view name(mjtObj type, int id) const;
 
-  /// \name In W, as of the last forward pass.
+  /// \name Poses in W, as of the last forward pass.
   ///@{
   Pose body_pose(int body) const;
   Pose geom_pose(int geom) const;

@@ -1,6 +1,6 @@
 /// \file
-/// MuJoCo, from Debian's 2.2.2 to 4.x: the one place that includes it, and that knows what changed
-/// in between. Nothing outside `sim/` includes this.
+/// Compatibility layer for MuJoCo 2.2.2 (Debian) to 4.x: the only file that includes MuJoCo and
+/// handles differences between its versions. Product code outside `sim/` must not include it.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -12,7 +12,7 @@
 
 namespace lcs::sim::mj {
 
-/// Puts a file into MuJoCo's virtual file system.
+/// Adds a file to MuJoCo's virtual file system.
 inline void add_to_vfs(mjVFS& vfs, const char* name, const std::string& content) {
 #if mjVERSION_HEADER >= 313
   const int failed = mj_addBufferVFS(&vfs, name, content.data(), static_cast<int>(content.size()));
@@ -25,7 +25,7 @@ inline void add_to_vfs(mjVFS& vfs, const char* name, const std::string& content)
   if (failed) throw std::runtime_error("MuJoCo's virtual file system is full");
 }
 
-/// Bytes of one texture, `channels(m, id)` a pixel, rows top first.
+/// Bytes of one texture: `texture_channels(m, id)` per pixel, top row first.
 inline mjtByte* texture_bytes(mjModel& m, int texture) {
 #if mjVERSION_HEADER >= 321
   return m.tex_data + m.tex_adr[texture];
@@ -43,7 +43,7 @@ inline int texture_channels([[maybe_unused]] const mjModel& m, [[maybe_unused]] 
 }
 
 /// Distance along `direction`, in units of its length, to the nearest visible geom, and that geom;
-/// -1 if there is none.
+/// -1 without a hit.
 inline double ray(const mjModel& m, const mjData& d, const double from[3],
                   const double direction[3], int exclude_body, int& geom) {
   int hit[1] = {-1};
@@ -56,9 +56,9 @@ inline double ray(const mjModel& m, const mjData& d, const double from[3],
   return distance;
 }
 
-/// Calls `found(distance, point, normal)` for each contact that MuJoCo's function for their types
-/// finds between two geoms. What it writes (mjContact, later mjPreContact), and whether the data is
-/// const, is taken from its own type.
+/// Calls `found(distance, point, normal)` for each contact that MuJoCo's collision function finds
+/// between two geoms. The type of `function` determines its output type (mjContact, later
+/// mjPreContact) and whether the data is const.
 template <typename Data, typename Contact, typename Found>
 void collide(int (*function)(const mjModel*, Data*, Contact*, int, int, mjtNum), const mjModel& m,
              const mjData& d, int geom_a, int geom_b, const Found& found) {

@@ -8,14 +8,14 @@
 namespace lcs::sim {
 namespace {
 
-/// Outlines of each object; index 0, the world, has none.
+/// Convex parts of each object; index 0, the world, has none.
 std::vector<ConvexParts> outlines(const World& world) {
   std::vector<ConvexParts> parts(world.objects().size() + 1);
   const mjModel& m = world.model().m();
   for (int geom = 0; geom < m.ngeom; ++geom) {
     const int object = world.object_of_geom(geom);
     if (object <= 0) continue;
-    // as things stand before the first step; a body is rigid
+    // at t = 0; the parts are constant, as bodies are rigid
     const Pose T_OW = world.model().body_pose(world.body_of(object)).inverse();
     const Pose T_OG = T_OW * world.model().geom_pose(geom);
     parts[static_cast<std::size_t>(object)].push_back((T_OG.R * geom_hull(m, geom)).colwise() +

@@ -1,5 +1,5 @@
 /// \file
-/// A world with its camera: gives the same observations as `Simulation`, and access to the world.
+/// A world with its camera: yields the observations of `Simulation`, and gives access to the world.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace lcs::sim {
 
-/// Cannot be moved, and is used from the thread that made it: it holds the GL context.
+/// Not movable. Use it only from the thread that constructed it: it holds the GL context.
 class Observer {
  public:
   /// \throws as `Simulation`.
@@ -22,14 +22,14 @@ class Observer {
 
   const scenario::Scenario& scenario() const { return scenario_; }
   const Calibration& calibration() const { return calibration_; }
-  /// At the time of the frame that comes next.
+  /// The world at the time of the next frame.
   const World& world() const { return world_; }
-  int next_index() const { return next_index_; }  ///< of the frame that comes next
+  int next_index() const { return next_index_; }  ///< of the next frame
 
-  /// The next frame, whatever the scenario's number of them. \throws PhysicsError
+  /// Renders the next frame, even beyond the scenario's number of frames. \throws PhysicsError
   Observation observe();
-  /// Skips the next frame: moves on to the time of the one after it, and keeps the readings until
-  /// then. \throws PhysicsError
+  /// Skips the next frame: advances to the frame after it, and keeps the readings between the two.
+  /// \throws PhysicsError
   void advance();
 
  private:
@@ -42,7 +42,7 @@ class Observer {
   std::vector<ConvexParts> parts_;
   Calibration calibration_;
   Photographer photographer_;
-  Snapshot snapshot_;           ///< at the frame that comes next
+  Snapshot snapshot_;           ///< at the next frame
   std::vector<ImuSample> imu_;  ///< since the last frame
   std::vector<OdometrySample> odometry_;
   std::vector<ImuTruth> imu_truth_;

@@ -19,7 +19,7 @@ struct Box {
   Vector3d half_m = Vector3d::Zero();
 };
 
-/// A box inside of a geom; of a mesh the one round it.
+/// A box inside a geom; for a mesh, its bounding box.
 Box box_in(const Model& model, int geom, const Eigen::Matrix3Xd& hull) {
   const double* s = model.m().geom_size + 3 * geom;
   Box box{model.geom_pose(geom), {s[0], s[1], s[2]}};
@@ -49,7 +49,7 @@ Box box_in(const Model& model, int geom, const Eigen::Matrix3Xd& hull) {
 
 using Triangle = std::array<Vector3d, 3>;
 
-/// Separating axes of a triangle and the box of these half sizes round the origin.
+/// Overlap test of a triangle with a box around the origin, by separating axes.
 bool meets(const Triangle& t, const Vector3d& half) {
   const auto apart_along = [&](const Vector3d& axis) {
     const double reach = half.dot(axis.cwiseAbs());
@@ -68,14 +68,14 @@ bool meets(const Triangle& t, const Vector3d& half) {
   return true;
 }
 
-/// Solid angle that a triangle fills as seen from the origin: positive if its front looks away.
+/// Signed solid angle of a triangle from the origin: positive if its front faces away.
 double solid_angle(const Triangle& t) {
   const double a = t[0].norm(), b = t[1].norm(), c = t[2].norm();
   return 2 * std::atan2(t[0].dot(t[1].cross(t[2])),
                         a * b * c + t[0].dot(t[1]) * c + t[1].dot(t[2]) * a + t[2].dot(t[0]) * b);
 }
 
-/// Whether the surface of a mesh reaches into a box, or is closed and has the box's middle inside.
+/// Whether the surface of a mesh intersects a box, or encloses the box's centre.
 bool solid_meets(const Model& model, int geom, const Box& box) {
   const mjModel& m = model.m();
   const int mesh = m.geom_dataid[geom];
@@ -92,7 +92,7 @@ bool solid_meets(const Model& model, int geom, const Box& box) {
     if (meets(t, box.half_m)) return true;
     angle += solid_angle(t);
   }
-  return angle > 2 * std::numbers::pi;  // of the 4 pi about a point inside, and none outside
+  return angle > 2 * std::numbers::pi;  // 4 pi inside a closed surface, 0 outside
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ const Eigen::Matrix3Xd& Overlap::hull(const Model& model, int geom) {
                                : hulls_.emplace(geom, geom_hull(model.m(), geom)).first->second;
 }
 
-/// By how much two geoms overlap along a direction: no less than they do in depth.
+/// Width of the overlap along a direction: an upper bound of the depth.
 double Overlap::width_m(const Model& model, int geom_a, int geom_b, const Vector3d& direction_W) {
   const auto span = [&](int geom) {
     const Pose T_WG = model.geom_pose(geom);
@@ -129,7 +129,7 @@ Overlap::Place Overlap::of(const Model& model, int geom_a, int geom_b, double le
                 normal = Eigen::Map<const Vector3d>(along);
               });
   if (place.depth_m <= least_depth_m) return {};
-  // What is found for round geoms and hulls is neither always the shortest way out nor one at all.
+  // For round geoms and hulls this normal is not always that of the least depth.
   place.depth_m = width_m(model, geom_a, geom_b, normal);
   for (const int geom : {geom_a, geom_b}) {
     const Eigen::Matrix3d R_WG = model.geom_pose(geom).R;

@@ -1,5 +1,5 @@
 /// \file
-/// How deep two geoms of a model overlap, whether or not they have contacts.
+/// Penetration depth of two geoms of a model, with or without contacts.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,23 +11,22 @@ namespace lcs::sim {
 
 class Overlap {
  public:
-  /// As things stood at the last forward pass.
+  /// An overlap at the last forward pass.
   struct Place {
-    double depth_m = 0;  ///< how far one would have to move to be free of the other; 0: apart
-    Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< of W, in both
+    double depth_m = 0;  ///< least translation that separates the two geoms; 0 if they are apart
+    Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< a point in both geoms, in W
   };
 
-  /// Where two geoms overlap, neither of which may be a plane or a height field. A mesh is its
-  /// surface and what that encloses, not its hull, so that things may stand under a table or in a
-  /// room. Depths of round geoms and of meshes may be too large by some per cent, never too small;
-  /// geoms that are apart have none.
-  /// \param least_depth_m smaller depths count as apart.
+  /// The overlap of two geoms; neither may be a plane or a height field. A mesh is its surface and
+  /// the enclosed volume, not its hull: the space under a table is free. Depths of round geoms and
+  /// meshes may be too large by a few per cent, never too small. Separate geoms have depth 0.
+  /// \param least_depth_m smaller depths count as separate.
   Place of(const Model& model, int geom_a, int geom_b, double least_depth_m);
 
-  /// Whether a geom crosses a plane within its borders, at least so deep on either side.
+  /// The overlap of a geom with a bounded plane: the geom extends that deep to both of its sides.
   Place across(const Model& model, int plane, int geom, double least_depth_m);
 
-  /// Points whose hull is the geom, in the geom's frame; computed once.
+  /// Points whose convex hull is the geom, in the geom's frame; computed once.
   const Eigen::Matrix3Xd& hull(const Model& model, int geom);
 
  private:

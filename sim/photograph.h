@@ -1,7 +1,7 @@
 /// \file
-/// Turns a rendered picture into the camera's, as the section `image` of a scenario says: light and
-/// air, rain, blur and the sensor, in the order in which light meets them, then compression. The
-/// truth stays as it is: a corner on a raindrop counts as what lies behind the drop.
+/// Turns a rendered image into the camera's, by the scenario's section `image`: light and air,
+/// rain, blur and the sensor, then compression. The truth is unchanged: a corner on a raindrop
+/// counts as the surface behind the drop.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ class Photographer {
   Photographer(const scenario::Image& image, const Pinhole& camera, double rate_hz,
                std::uint64_t scenario_seed);
 
-  /// Turns the rendered picture of frame `k` into the camera's. The result depends on the arguments
-  /// alone; frames in order of time are quickest.
+  /// Converts the rendered image of frame `k` in place. The result depends on the arguments alone;
+  /// frames in order of time are fastest.
   void develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k);
 
  private:

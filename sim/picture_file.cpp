@@ -21,13 +21,13 @@ namespace {
 using Size = std::optional<cv::Size2l>;
 using Integer = std::int64_t;
 
-/// 8192 x 8192 pixels of three bytes are 192 MiB before they are compressed.
+/// 8192 x 8192 pixels of three bytes are 192 MiB uncompressed.
 constexpr scenario::FileKind kPictureFile{256 * scenario::kMebibyte, "give a PNG or JPEG picture"};
 
 constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n", kJpeg = "\xff\xd8\xff",
                            kJpegEnd = "\xff\xd9";
 
-/// An unsigned number; bytes behind the end count as 0.
+/// Reads an unsigned number; bytes beyond the end count as 0.
 Integer number_at(std::string_view bytes, std::size_t at, int length, bool big_endian) {
   Integer number = 0;
   for (int i = 0; i < length; ++i) {
@@ -37,14 +37,14 @@ Integer number_at(std::string_view bytes, std::size_t at, int length, bool big_e
   return number;
 }
 
-/// Where a JPEG's frame header is; npos: none comes before the first scan.
+/// Offset of a JPEG's frame header; npos if no frame header precedes the first scan.
 std::size_t jpeg_frame(std::string_view bytes) {
   constexpr int kStuffed = 0x00, kTemporary = 0x01, kFirstFrame = 0xc0, kLastFrame = 0xcf,
                 kHuffmanTables = 0xc4, kExtension = 0xc8, kConditioning = 0xcc, kRestart = 0xd0,
                 kEnd = 0xd9, kScan = 0xda, kFill = 0xff;
   for (std::size_t at = 2; (at = bytes.find('\xff', at)) < bytes.size();) {
     const int marker = static_cast<int>(number_at(bytes, ++at, 1, true));
-    if (marker == kFill) continue;  // the marker is behind it
+    if (marker == kFill) continue;  // the marker follows
     const bool is_frame = marker >= kFirstFrame && marker <= kLastFrame &&
                           marker != kHuffmanTables && marker != kExtension &&
                           marker != kConditioning;
@@ -70,14 +70,14 @@ Size bmp_size(std::string_view bytes) {
     return cv::Size2l(number_at(bytes, 18, 2, false), number_at(bytes, 20, 2, false));
   }
   if (header < kOfWindows) return std::nullopt;
-  const auto side = [&](std::size_t at) {  // below 0 where the rows go down
+  const auto side = [&](std::size_t at) {  // negative for top-down rows
     return std::abs(
         static_cast<Integer>(static_cast<std::int32_t>(number_at(bytes, at, 4, false))));
   };
   return cv::Size2l(side(18), side(22));
 }
 
-/// Two numbers as text, with comments between them.
+/// Image size of a PNM file: two numbers as text, with comments between them.
 Size pnm_size(std::string_view bytes) {
   std::array<Integer, 2> sides{};
   std::size_t at = 2;
@@ -120,13 +120,13 @@ Size tiff_size(std::string_view bytes) {
   return size;
 }
 
-/// What is written to stderr while it lives is kept from it: libpng and libjpeg have no other way
-/// to tell, and it would stand beside our own message. One at a time.
+/// Captures stderr during its lifetime. libpng and libjpeg report only there, and their text would
+/// appear beside our own message. One instance at a time.
 class Overheard {
  public:
   Overheard() : lock_(mutex()) {
     before_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    if (before_ < 0) return;  // it is closed, or there are too many files: then it is not kept
+    if (before_ < 0) return;  // stderr is closed, or too many files are open: capture nothing
     heard_ = ::memfd_create("overheard", MFD_CLOEXEC);
     if (heard_ >= 0) ::dup2(heard_, STDERR_FILENO);
   }
@@ -156,7 +156,7 @@ class Overheard {
   int before_ = -1, heard_ = -1;
 };
 
-/// libjpeg makes up what it cannot read, and says so. Bytes too many at the end do no harm.
+/// libjpeg invents data that it cannot read, and reports it. Excess bytes at the end do no harm.
 bool is_damaged(std::string_view heard) {
   return heard.starts_with("Corrupt JPEG") &&
          heard.find("extraneous bytes before marker 0xd9") == heard.npos;
@@ -185,7 +185,7 @@ cv::Mat decode_picture(std::string_view bytes, int flags) {
         "this is no picture that can be read; give a PNG, JPEG, BMP, TIFF, PGM or "
         "PPM");
   }
-  // Divided: the product of two sides of 32 bits has no room.
+  // divided, because the product of two 32-bit sides may overflow
   if (size->width > 0 && size->height > kMostPixels / size->width) {
     throw PictureError(
         fmt::format("the picture has {} x {} pixels, and can have {} million in "
@@ -194,7 +194,7 @@ cv::Mat decode_picture(std::string_view bytes, int flags) {
   }
   const auto broken = [] { return PictureError("the picture is broken; give a whole one"); };
   if (bytes.starts_with(kJpeg) && bytes.find(kJpegEnd, jpeg_frame(bytes)) == bytes.npos) {
-    throw broken();  // which libjpeg does not tell of bytes in memory
+    throw broken();  // for data in memory libjpeg does not report truncation
   }
   cv::Mat picture;
   const Overheard overheard;

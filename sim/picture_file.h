@@ -1,6 +1,6 @@
 /// \file
-/// Pictures from files. One function decodes them all: it knows their size, and refuses too large a
-/// one, before anything is allocated for the pixels.
+/// Images from files. One function decodes them all. It reads the size from the header and rejects
+/// too large an image before it allocates pixels.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +14,25 @@
 
 namespace lcs::sim {
 
-/// As many as the largest camera has, 8192 x 8192. Decoded to colours they take 200 MB.
+/// The pixels of the largest camera, 8192 x 8192. In colour they take 200 MB.
 inline constexpr std::int64_t kMostPixels = std::int64_t{8192} * 8192;
 
-/// What is wrong with a picture, and what to do.
+/// The fault of an image file, and the remedy.
 class PictureError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What the header of a PNG, JPEG, BMP, PGM, PPM or TIFF says; none for all else. A TIFF is decoded
-/// in tiles or strips: where those are larger than the picture, their size.
+/// The size in the header of a PNG, JPEG, BMP, PGM, PPM or TIFF; absent for other formats. For a
+/// TIFF: the size of its tiles or strips where they exceed the image.
 std::optional<cv::Size2l> picture_size(std::string_view bytes);
 
 /// \param flags of `cv::imdecode`. \return never empty.
-/// \throws PictureError for another format, too many pixels, and a picture that is damaged or cut
-///   off.
+/// \throws PictureError for an unknown format, too many pixels, and a damaged or truncated image.
 cv::Mat decode_picture(std::string_view bytes, int flags);
 
-/// \param where the file is named, which is blamed for it.
-/// \throws scenario::Error for what `scenario::InputFile` or `decode_picture` refuse.
+/// \param where the place that names the file; errors cite it.
+/// \throws scenario::Error for a file that `scenario::InputFile` or `decode_picture` rejects.
 cv::Mat read_picture(const std::filesystem::path& file, const scenario::Source& where, int flags);
 
 }  // namespace lcs::sim

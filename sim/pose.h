@@ -1,12 +1,12 @@
 /// \file
-/// Rigid transforms with their frames in the name, and the pinhole camera.
+/// Rigid transforms, named by their frames, and the pinhole camera.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace lcs::sim {
 
-/// T_AB: takes the coordinates of a point in B to those in A, p_A = R p_B + p.
+/// T_AB maps the coordinates of a point from B to A: p_A = R p_B + p.
 struct Pose {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
@@ -27,11 +27,11 @@ struct Pinhole {
   /// \throws std::invalid_argument unless both sizes are positive and 0 < fovy < pi.
   static Pinhole from_fovy(int width_px, int height_px, double fovy_rad);
 
-  /// Pixel of a point of C with z > 0.
+  /// Pixel of a point x_C with z > 0, in C.
   Eigen::Vector2d project(const Eigen::Vector3d& x_C) const {
     return focal_px * x_C.head<2>() / x_C.z() + centre_px;
   }
-  /// Point of C at z-depth `depth_m` (along the optical axis, not along the ray) seen at a pixel.
+  /// Point in C at z-depth `depth_m` (along the optical axis, not along the ray) on a pixel's ray.
   Eigen::Vector3d back_project(const Eigen::Vector2d& px, double depth_m) const {
     const Eigen::Vector2d xy = (px - centre_px) / focal_px * depth_m;
     return {xy.x(), xy.y(), depth_m};

@@ -15,27 +15,27 @@ namespace {
 constexpr double kNearest_m = 0.3;
 constexpr double kFarthest_m = 3;
 constexpr double kLeast_mm = 1;
-constexpr double kMost_mm = 6;         // larger ones break up
+constexpr double kMost_mm = 6;         // larger drops break up
 constexpr double kDensity = 8000;      // N_0, per m^3 and mm
-constexpr double kMostStreaks = 1e7;   // a frame: seconds of work
+constexpr double kMostStreaks = 1e7;   // per frame: seconds of work
 constexpr double kAperture_m = 0.002;  // of the lens
 constexpr float kSkyInDrop = 0.8F;     // a drop refracts most of the sky: nearly white
-constexpr float kBackscatter = 0.05F;  // of the light of one's own lamps
+constexpr float kBackscatter = 0.05F;  // share of the lamps' light that returns from a drop
 
 // Drops on the window.
 constexpr double kWindow_m = 0.08;
 constexpr double kLeastRadius_m = 0.0008;
 constexpr double kMostRadius_m = 0.004;
 constexpr float kThroughDrop = 0.95F;  // transmission
-constexpr float kWide = 0.45F;         // of the image's height that a drop's radius shows
-constexpr int kShrink = 8;             // of the picture that drops show, which is blurred anyway
+constexpr float kWide = 0.45F;         // share of the image height within a drop's radius
+constexpr int kShrink = 8;             // downscaling of the image in drops, which is blurred anyway
 
-/// Marshall & Palmer's exponent, per mm.
+/// Exponent of Marshall & Palmer's drop-size distribution, 1/mm.
 double decay(double rate_mmph) {
   return 4.1 * std::pow(rate_mmph, -0.21);
 }
 
-/// Atlas, Srivastava & Sekhon.
+/// Fall speed by Atlas, Srivastava & Sekhon, m/s.
 double fall_speed_mps(double diameter_mm) {
   return std::max(0.1, 9.65 - 10.3 * std::exp(-0.6 * diameter_mm));
 }
@@ -68,9 +68,9 @@ cv::Range pixels(double from, double to, int size) {
 
 struct Rain::Streak {
   double distance_m;
-  double x_px, top_px;  ///< of its middle, and where it begins
+  double x_px, top_px;  ///< column of its middle, and row of its upper end
   double width_px, length_px;
-  double share;  ///< of the exposure that it covers a pixel
+  double share;  ///< of the exposure during which it covers a pixel
 };
 
 Rain::Rain(const scenario::Image::Rain& rain, double exposure_s, const Pinhole& camera,
@@ -101,7 +101,7 @@ Rain::Streak Rain::draw_streak(RandomStream& random) const {
   streak.length_px = (fall_m + diameter_m) * px_per_m;
   streak.x_px = random.uniform() * camera_.width_px;
   streak.top_px = random.uniform() * (camera_.height_px + streak.length_px) - streak.length_px;
-  // thinner than the blur and the pixel it fills a part of them
+  // a drop that is narrower than blur and pixel covers a share of them
   const double sharp_px = diameter_m * px_per_m;
   streak.width_px = std::max(1.0, std::hypot(sharp_px, kAperture_m * px_per_m));
   streak.share = std::min(1.0, diameter_m / (fall_m + diameter_m)) * sharp_px / streak.width_px;
@@ -135,7 +135,7 @@ void Rain::add_streaks(cv::Mat3f& picture, const cv::Mat1f& depth_m, const Illum
 Rain::Place Rain::dry_place(int number) const {
   const std::string name = "rain.drop." + std::to_string(number);
   Place place{name, RandomStream(seed_, name), 0, 0};
-  // the first one has lain there for a while
+  // the first drop has already been in place for a while
   place.until_s = rain_.drop_life_s * place.lives.uniform();
   return place;
 }
@@ -156,7 +156,7 @@ std::vector<LensDrop> Rain::lens_drops(double t_s) {
     LensDrop drop;
     drop.centre_px = {static_cast<float>(random.uniform() * camera_.width_px),
                       static_cast<float>(random.uniform() * camera_.height_px)};
-    const double large = random.uniform();  // few are
+    const double large = random.uniform();  // cubed below: large drops are rare
     drop.radius_px = static_cast<float>(
         px_per_m * (kLeastRadius_m + (kMostRadius_m - kLeastRadius_m) * cube(large)));
     drops.push_back(drop);
@@ -173,7 +173,7 @@ void Rain::look_through_drops(cv::Mat3f& picture, double t_s) {
   cv::GaussianBlur(small, small, {}, 1);
   const float to_small_x = static_cast<float>(small.cols) / static_cast<float>(picture.cols);
   const float to_small_y = static_cast<float>(small.rows) / static_cast<float>(picture.rows);
-  // radius of the circle that a point of the window is blurred to
+  // radius of the blur circle of a point on the window
   const auto soft = static_cast<float>(kAperture_m / 2 * camera_.focal_px / kWindow_m);
   const float wide = kWide * static_cast<float>(picture.rows);
   for (const LensDrop& drop : lens_drops(t_s)) {

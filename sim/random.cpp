@@ -6,7 +6,7 @@
 namespace lcs::sim {
 namespace {
 
-/// Finalizer of splitmix64: every bit of the input moves half the bits of the output.
+/// Finalizer of splitmix64: each bit of the input affects about half the bits of the output.
 std::uint64_t mix(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
   x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
@@ -78,7 +78,7 @@ double RandomStream::uniform() {
   return static_cast<double>(bits() >> 11) * 0x1p-53;
 }
 
-/// Box and Muller's pair in Marsaglia's polar form, which needs no sine.
+/// A pair of normals by Marsaglia's polar method, which needs no sine.
 double RandomStream::normal() {
   if (second_normal_) {
     const double normal = *second_normal_;

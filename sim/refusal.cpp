@@ -11,7 +11,7 @@ namespace {
 
 using Origin = xml::Printed::Origin;
 
-/// What helps, by words of MuJoCo's messages; the first that fits.
+/// Remedies by a phrase of MuJoCo's message; the first match applies.
 struct Remedy {
   std::string_view words, remedy;
 };
@@ -85,7 +85,7 @@ std::string remedy_of(std::string_view said) {
   return "correct it";
 }
 
-/// The number behind some words, or 0.
+/// The number after a phrase, or 0.
 int number_behind(std::string_view said, std::string_view words) {
   const std::size_t at = said.rfind(words);
   int number = 0;
@@ -95,7 +95,7 @@ int number_behind(std::string_view said, std::string_view words) {
   return number;
 }
 
-/// What stands between two marks, the first time; empty where they do not.
+/// The text between the first pair of two marks; empty without a match.
 std::string_view between(std::string_view said, std::string_view before, std::string_view behind) {
   const std::size_t begin = said.find(before);
   if (begin == std::string_view::npos) return {};
@@ -104,13 +104,13 @@ std::string_view between(std::string_view said, std::string_view before, std::st
   return end == std::string_view::npos ? std::string_view{} : rest.substr(0, end);
 }
 
-/// The element that is meant: by its line, else by a name that is mentioned.
+/// The element at fault: by its line number, else by a name in the message.
 const Origin* culprit(std::string_view said, const xml::Printed& scene) {
   for (const std::string_view words : {", line = ", ", line "}) {  // MuJoCo 2, 3
     const int line = number_behind(said, words);
     if (const Origin* found = line > 0 ? scene.at_line(line) : nullptr) return found;
   }
-  if (said.find(" in sensor '") != std::string_view::npos) {  // these know no line
+  if (said.find(" in sensor '") != std::string_view::npos) {  // messages on sensors cite no line
     return scene.within("sensor", number_behind(said, ", id = "));
   }
   for (const char* kind : {"texture", "hfield", "skin"}) {
@@ -124,7 +124,7 @@ const Origin* culprit(std::string_view said, const xml::Printed& scene) {
   return nullptr;
 }
 
-/// Takes " (id = 5)" out, which counts what the user did not, and " in geom ''".
+/// Removes " (id = 5)", an index that the user cannot see, and " in geom ''".
 void take_out_numbers(std::string& text) {
   for (std::size_t at; (at = text.find(" (id")) != std::string::npos;) {
     const std::size_t end = text.find(')', at);
@@ -137,7 +137,7 @@ void take_out_numbers(std::string& text) {
   }
 }
 
-/// Without what MuJoCo puts before and behind, and in one line.
+/// The message in one line, without MuJoCo's prefixes and suffixes.
 std::string plain(std::string_view said) {
   for (const std::string_view prefix : {"XML Error", "Error"}) {
     if (!said.starts_with(prefix)) continue;

@@ -1,5 +1,5 @@
 /// \file
-/// Turns what MuJoCo says of a document into one line that names the user's own file, line and
+/// Turns a MuJoCo message about a document into one line that names the user's file, line and
 /// element.
 #pragma once
 
@@ -10,14 +10,13 @@
 
 namespace lcs::sim {
 
-/// \param said MuJoCo's message, which may have several lines and name lines of the composed
-///   document.
-/// \param file the scene's, named where no line is known.
+/// \param said MuJoCo's message; may have several lines and cite lines of the composed document.
+/// \param file the scene's file, cited if the line is unknown.
 scenario::Error refusal(const std::string& said, const xml::Printed& scene,
                         const std::filesystem::path& file);
 
-/// What MuJoCo says, in one line with what to do: "what; what to do".
-/// \param more appended to "what", as " (body 'ball')".
+/// MuJoCo's message in one line, with a remedy: "problem; remedy".
+/// \param more appended to the problem, for example " (body 'ball')".
 std::string in_one_line(const std::string& said, const std::string& more = "");
 
 }  // namespace lcs::sim

@@ -7,14 +7,14 @@
 
 namespace lcs::sim {
 
-/// The rotation by the least angle that turns the direction `from` into `to`. Eigen's own,
-/// `FromTwoVectors`, looks for the axis of half a turn by a decomposition that GCC 13 warns of.
+/// The smallest rotation from direction `from` to `to`. Eigen's own `FromTwoVectors` uses, for half
+/// a turn, a decomposition that GCC 13 warns of.
 inline Eigen::Quaterniond least_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector3d a = from.normalized(), b = to.normalized();
   const double cosine = b.dot(a);
   Eigen::Quaterniond q;
   if (cosine < -1 + Eigen::NumTraits<double>::dummy_precision()) {
-    q.coeffs() << a.cross(a.unitOrthogonal()), 0;  // of z about x, as MuJoCo has it
+    q.coeffs() << a.cross(a.unitOrthogonal()), 0;  // half a turn of z about x, as in MuJoCo
   } else {
     const double twice_w = std::sqrt((1 + cosine) * 2);
     q.coeffs() << a.cross(b) * (1 / twice_w), twice_w * 0.5;

@@ -15,14 +15,14 @@ namespace {
 using Eigen::Vector2d;
 using scenario::Waypoint;
 
-// Beyond these a slip is more likely than a rover: they are the bounds of `ego.acceleration`,
+// Values beyond these are probably mistakes. They equal the bounds of `ego.acceleration`,
 // `ego.yaw_rate` and `ego.speed`.
 constexpr double kFastest_mps = 100;
 constexpr double kHardest_mps2 = 100;
 constexpr double kFastestTurn_radps = 4 * std::numbers::pi;
 
-// A rate that goes up and down as s (1 - s) has so many times its mean at the middle, and at the
-// ends an acceleration of so many times angle / time^2.
+// For a rate profile s (1 - s): the ratio of peak rate to mean rate, and of the acceleration at the
+// ends to angle / time^2.
 constexpr double kPeak = 1.5;
 constexpr double kSteepest = 6;
 
@@ -34,7 +34,7 @@ double direction(const Vector2d& v) {
   return std::atan2(v.y(), v.x());
 }
 
-/// \param is_it what nothing could do, as "drive at 300 m/s (at most 100)".
+/// \param is_it the impossible action, for example "drive at 300 m/s (at most 100)".
 [[noreturn]] void refuse(const scenario::Ego& ego, std::size_t waypoint, const std::string& is_it) {
   throw scenario::Error(
       ego.source, fmt::format("at ego.waypoints.{} the rover would have to {}; give it more time",
@@ -47,7 +47,7 @@ Route::Route(const scenario::Ego& ego) {
   const std::vector<Waypoint>& points = ego.waypoints;
   const std::size_t last = points.size() - 1;
   constexpr double kForever = std::numeric_limits<double>::infinity();
-  // of the leg that begins at a waypoint
+  // of the leg that begins at waypoint i
   const auto time_s = [&](std::size_t i) { return points[i + 1].at_s - points[i].at_s; };
   const auto velocity = [&](std::size_t i) {
     return Vector2d((points[i + 1].position_m - points[i].position_m) / time_s(i));
@@ -72,7 +72,7 @@ Route::Route(const scenario::Ego& ego) {
     changes_.push_back({points[i].at_s - takes_s / 2, points[i].at_s + takes_s / 2, before, after});
   }
 
-  std::size_t arrived = last;  // the waypoint where the last leg that leads anywhere ends
+  std::size_t arrived = last;  // end waypoint of the last leg with a motion
   for (std::size_t i = 0; i < last; ++i) {
     if (velocity(i).isZero(0)) continue;
     if (arrived <= i) {

@@ -1,5 +1,5 @@
 /// \file
-/// The motion of a rover that is given places and times instead of commands.
+/// The motion of a rover that follows waypoints with times instead of velocity commands.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,44 +10,43 @@
 
 namespace lcs::sim {
 
-/// Straight and uniform from each waypoint to the next, with limited accelerations: round each
-/// waypoint velocity and heading take some time to change, half of it before the waypoint and half
-/// behind.
+/// Straight legs at constant speed between waypoints, with limited accelerations: the changes of
+/// velocity and heading are centred in time on the waypoint.
 ///
-/// A change of velocity by dv takes |dv| / 5 m/s^2 (`SmoothCommand` has the limits), so that a bend
-/// is rounded by |dv|^2 / 40 m/s^2: 12 mm for a right angle at 0.5 m/s. The rover looks where it
-/// goes, but turns at no more than 60 deg/s, and so looks aside for a while in a sharp bend;
-/// between two waypoints at one place it turns on the spot. Where the waypoints leave less time
-/// than the limits ask for (half of the shorter leg on either side), the change takes all of that
-/// time and exceeds the limits. If the first waypoint is at time 0, the rover is already moving at
-/// 0; after the last one it stands.
+/// A change of velocity by dv takes |dv| / 5 m/s^2 (`SmoothCommand` has the limits). It rounds a
+/// bend by |dv|^2 / 40 m/s^2: 12 mm for a right angle at 0.5 m/s. The rover faces its direction of
+/// travel but turns at 60 deg/s at most, so that its heading deviates from its path for a while in
+/// a sharp bend. Between two waypoints at one position it turns on the spot. Where the waypoints
+/// leave less time than the limits need (half of the shorter leg on either side), the change takes
+/// all of that time and exceeds the limits. A rover whose first waypoint has time 0 is already
+/// moving at time 0. After the last waypoint the rover is at rest.
 class Route {
  public:
   static constexpr double kMaxYawRate_radps = std::numbers::pi / 3;
 
-  /// \param ego with waypoints.
-  /// \throws scenario::Error at a waypoint that nothing could pass as fast.
+  /// \param ego must have waypoints.
+  /// \throws scenario::Error at a waypoint that needs more than any rover's speed or acceleration.
   explicit Route(const scenario::Ego& ego);
 
   struct Motion {
     Eigen::Vector2d velocity_W_mps;
-    double yaw_rate_radps;  ///< ccw
+    double yaw_rate_radps;  ///< counter-clockwise
   };
   Motion at(double t_s) const;
 
  private:
-  /// An even change from one velocity to another.
+  /// A change of velocity at constant acceleration.
   struct Change {
     double from_s, to_s;
     Eigen::Vector2d before_mps, after_mps;
   };
-  /// A turn by an angle, at a rate that grows from 0 and falls to 0 again.
+  /// A turn whose yaw rate is a parabola in time, 0 at both ends.
   struct Turn {
     double from_s, to_s, by_rad;
   };
 
-  std::vector<Change> changes_;  ///< in order of time, one for each waypoint
-  std::vector<Turn> turns_;      ///< likewise, where the way bends
+  std::vector<Change> changes_;  ///< in order of time, one per waypoint
+  std::vector<Turn> turns_;      ///< in order of time, one per bend
 };
 
 }  // namespace lcs::sim

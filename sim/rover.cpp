@@ -18,7 +18,7 @@ namespace {
 
 using scenario::EgoPhase;
 
-/// Index into qpos and qvel of a joint of the rover.
+/// Indices of a rover joint into qpos and qvel.
 struct Joint {
   int qpos, qvel;
 
@@ -64,7 +64,7 @@ class HolonomicRover : public Rover {
   }
 
  private:
-  /// Of the joints: x and y of W, and yaw.
+  /// Rates of the joints: x and y in W, and yaw.
   std::array<double, 3> joint_rates(const Model& model, std::int64_t t_ns) {
     if (route_) {
       const Route::Motion motion = route_->at(1e-9 * static_cast<double>(t_ns));
@@ -77,12 +77,12 @@ class HolonomicRover : public Rover {
 
   scenario::Ego ego_;
   SmoothCommand command_;
-  std::optional<Route> route_;  ///< in place of the command
+  std::optional<Route> route_;  ///< replaces the command if the ego has waypoints
   std::array<Joint, 3> joints_;
   std::array<int, 3> actuators_;
 };
 
-/// Two driven wheels and two casters on contacts.
+/// Two driven wheels and two casters, with contacts.
 class WheeledRover : public Rover {
  public:
   WheeledRover(const scenario::Scenario& scenario, const Model& model)
@@ -110,7 +110,7 @@ class WheeledRover : public Rover {
     for (int i = 0; i < static_cast<int>(kSettling_s / kSettlingStep_s); ++i) mj_step(&m, &d);
 
     if (d.qpos[base_.qpos + 2] < under.height_m - kSunk_m) refuse_to_fall(model, under.geom);
-    // as it came to rest, but where it shall start, and rolling
+    // settled height, roll and pitch, but the start position and heading, already rolling
     place(d, d.qpos[base_.qpos + 2]);
     const PlanarVelocity v = command_.at(0);
     const Eigen::Vector2d v_W = Eigen::Rotation2Dd(ego_.heading_rad) * v.linear_mps;
@@ -138,7 +138,7 @@ class WheeledRover : public Rover {
   static constexpr double kAbove_m = 1.5;  // below a ceiling, above rough ground
   static constexpr double kSettling_s = 1.0;
   static constexpr double kSettlingStep_s = 0.002;
-  static constexpr double kSunk_m = 0.1;  // its wheels' radius: on the ground it sinks by less
+  static constexpr double kSunk_m = 0.1;  // the wheel radius: a supported rover sinks less
 
   static void check(const scenario::Scenario& scenario) {
     if (!scenario.ego.waypoints.empty()) {
@@ -159,14 +159,14 @@ class WheeledRover : public Rover {
     }
   }
 
-  /// What lies under the start; at height 0 where there is nothing (geom -1).
+  /// The surface below the start; height 0 if there is none (geom -1).
   struct Footing {
     double height_m;
     int geom;
   };
   Footing footing(Model& model) const {
     mjData& d = model.d();
-    place(d, 2 * kAbove_m);  // out of the way
+    place(d, 2 * kAbove_m);  // out of the ray
     mj_kinematics(&model.m(), &d);
     const std::array<double, 3> from = {ego_.start_m.x(), ego_.start_m.y(), kAbove_m};
     const std::array<double, 3> down = {0, 0, -1};
@@ -198,7 +198,7 @@ class WheeledRover : public Rover {
     q[0] = ego_.start_m.x();
     q[1] = ego_.start_m.y();
     q[2] = z;
-    // turn to the heading, keeping what roll and pitch the ground gives
+    // turn to the start heading, but keep the roll and pitch of the ground
     const Eigen::Quaterniond R(q[3], q[4], q[5], q[6]);
     const Eigen::Vector3d x = R * Eigen::Vector3d::UnitX();
     const Eigen::Quaterniond turned(

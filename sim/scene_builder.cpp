@@ -45,7 +45,7 @@ std::vector<std::string> body_names(xml::Element& worldbody) {
                         actor.name, *actor.body, fmt::join(names, ", ")));
 }
 
-/// Takes a body of the scene out of the physics: from now on it is where it is put.
+/// Makes a body of the scene kinematic: the simulation sets its pose.
 void make_mocap(xml::Element& worldbody, const Actor& actor) {
   xml::Element* body = xml::child_named(worldbody, "body", *actor.body);
   if (!actor.texture.empty() || actor.size_m) {
@@ -60,8 +60,8 @@ void make_mocap(xml::Element& worldbody, const Actor& actor) {
   body->SetAttribute("mocap", "true");
 }
 
-/// Adds the sections of a fragment that make up what it is. The rest (its custom size, options and
-/// the look that it has alone in a viewer) is not for the scene.
+/// Adds the sections of a fragment that a scene needs. Its custom size, options and visual settings
+/// are for a viewer only.
 void merge_fragment(xml::Element& scene, const xml::Element& fragment) {
   constexpr std::array<const char*, 5> kParts = {"default", "asset", "worldbody", "actuator",
                                                  "sensor"};
@@ -73,7 +73,7 @@ void merge_fragment(xml::Element& scene, const xml::Element& fragment) {
   }
 }
 
-/// \throws scenario::Error where a shape leaves open what only a body of the scene has.
+/// \throws scenario::Error if the trajectory of an added actor lacks its position.
 void check_placed(const Actor& actor) {
   const auto* line = std::get_if<scenario::Line>(&actor.trajectory);
   const auto* still = std::get_if<scenario::Still>(&actor.trajectory);
@@ -94,7 +94,7 @@ void add_actor(xml::Element& scene, const Actor& actor, ComposedScene& composed)
   const xml::Document fragment = actor_fragment(actor, scene);
   const std::string prefix = actor.name + "/";
   xml::Element& body = base_of(*fragment, prefix);
-  // the object is called as the actor is
+  // the object's name is the actor's name
   body.SetAttribute("name", actor.name.c_str());
   body.SetAttribute("mocap", "true");
   merge_fragment(scene, *fragment->RootElement());
@@ -137,7 +137,7 @@ void add_actors(xml::Element& scene, const Scenario& scenario, ComposedScene& co
   }
 }
 
-/// Axes of a MuJoCo camera (x right, y up, looking along -z) in B.
+/// Axes of a MuJoCo camera (x right, y up, looking along -z) in B, from roll, pitch and yaw.
 Eigen::Matrix3d mujoco_camera_axes(const Eigen::Vector3d& rpy) {
   Eigen::Matrix3d forward;
   forward.col(0) = -Eigen::Vector3d::UnitY();
@@ -166,7 +166,7 @@ void add_ego(xml::Element& scene, const Scenario& scenario) {
   merge_fragment(scene, *fragment->RootElement());
 }
 
-/// What is painted after loading must be known by then.
+/// Rejects procedural textures whose style is unknown, before loading.
 void check_styles(xml::Element& scene) {
   for (auto* assets = scene.FirstChildElement("asset"); assets;
        assets = assets->NextSiblingElement("asset")) {
@@ -183,8 +183,8 @@ void check_styles(xml::Element& scene) {
   }
 }
 
-/// Takes back what would undo the meaning of bodies and names, change the rover's mass, or look for
-/// files elsewhere than where they were found; and keyframes, states without the rover's joints.
+/// Removes compiler settings that change bodies and names, the rover's mass, or the search path of
+/// files. Also removes keyframes, whose states lack the rover's joints.
 void set_compiler(xml::Element& scene) {
   for (auto* c = scene.FirstChildElement("compiler"); c; c = c->NextSiblingElement("compiler")) {
     for (const char* key : {"fusestatic", "discardvisual", "inertiafromgeom", "settotalmass",

@@ -1,10 +1,10 @@
 /// \file
-/// From a scenario to one MJCF document: the scene, the rover's fragment and those of its actors.
+/// Composes one MJCF document from a scenario: the scene and the fragments of rover and actors.
 ///
-/// A scene is plain MJCF. A named body right below its worldbody is an *object*, what a square
-/// should find; geoms right in the worldbody are the setting. A fragment is MJCF too, with one body
-/// called `base` (x forward, z up, origin on the ground below its middle); its names get a prefix,
-/// so that scene, rover and actors cannot clash.
+/// A scene is plain MJCF. A named body directly in its worldbody is an *object*, which a square
+/// should find. Geoms directly in the worldbody are the static setting. A fragment is MJCF with one
+/// body called `base` (x forward, z up, origin on the ground below its middle); its names get a
+/// prefix, so that names of scene, rover and actors cannot clash.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ namespace lcs::sim {
 inline constexpr const char* kEgoBody = "ego/base";
 inline constexpr const char* kCamera = "ego/camera";
 
-/// A texture to fill after loading, with a picture from a file.
+/// A texture to fill from an image file after loading.
 struct PictureTexture {
   std::string texture;
   std::filesystem::path file;
@@ -29,13 +29,13 @@ struct PictureTexture {
 
 struct ComposedScene {
   xml::Printed mjcf;
-  std::vector<std::string> actor_bodies;  ///< of each actor of the scenario, in its order
+  std::vector<std::string> actor_bodies;  ///< body of each actor, in the scenario's order
   std::vector<PictureTexture> pictures;
 };
 
-/// \throws scenario::Error for files that are missing or no MJCF, actors on bodies that the scene
-///   lacks or that another actor has, names used twice, sizes that a shape cannot have, and for
-///   what goes beyond the limits (`sim/limits.h`).
+/// \throws scenario::Error for missing files, files that are not MJCF, actors on bodies that the
+/// scene lacks or another actor moves, duplicate names, impossible sizes of a shape, and values
+/// beyond the limits (`sim/limits.h`).
 ComposedScene compose(const scenario::Scenario& scenario);
 
 }  // namespace lcs::sim

@@ -11,10 +11,10 @@
 namespace lcs::sim {
 namespace {
 
-// Above this many pixels a silhouette is measured on a coarser raster.
+// Larger silhouettes are measured on a coarser raster.
 constexpr double kMostPixels = 4e6;
 
-constexpr int kRound = 48;  // points round a circle: 0.2 % of the radius
+constexpr int kRound = 48;  // points per circle: error 0.2 % of the radius
 constexpr int kRings = 16;  // from pole to pole of an ellipsoid
 
 Eigen::Matrix3Xd box(const double size[3]) {
@@ -37,7 +37,7 @@ Eigen::Matrix3Xd cylinder(double r, double h) {
   return points;
 }
 
-/// An ellipsoid whose halves are drawn apart by h along z (a capsule; 0: whole).
+/// An ellipsoid whose halves are moved apart by h along z (a capsule; 0: an ellipsoid).
 Eigen::Matrix3Xd ellipsoid(const Eigen::Vector3d& radii, double h) {
   Eigen::Matrix3Xd points(3, (kRings + 2) * kRound);
   int n = 0;
@@ -136,7 +136,7 @@ double silhouette_px(const Pinhole& camera, const Pose& T_CO, const ConvexParts&
 
   const double area = double(high.x - low.x + 1) * double(high.y - low.y + 1);
   const float scale = area > kMostPixels ? static_cast<float>(std::sqrt(kMostPixels / area)) : 1.F;
-  // whole pixels, so that the raster stays that of the image
+  // whole pixels, to keep the image's pixel grid
   const cv::Point2f origin(std::floor(low.x), std::floor(low.y));
   cv::Mat1b covered(static_cast<int>((high.y - origin.y) * scale) + 2,
                     static_cast<int>((high.x - origin.x) * scale) + 2, uchar{0});

@@ -50,7 +50,7 @@ void Simulation::skip() {
 }
 
 Versions versions() {
-  // Asked in a child: once this process has drawn, no child of it can try what it has memory for.
+  // In a child: once this process has used GL, its children cannot test the memory limit with GL.
   constexpr std::size_t kLongest = 4096;
   void* const shared =
       ::mmap(nullptr, kLongest, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -61,7 +61,7 @@ Versions versions() {
     const std::string renderer = GlContext().renderer();
     renderer.copy(static_cast<char*>(shared), kLongest - 1);
   });
-  if (!trial.fine) return {mj_versionString(), GlContext().renderer()};  // which says why not
+  if (!trial.fine) return {mj_versionString(), GlContext().renderer()};  // throws with the reason
   return {mj_versionString(), static_cast<const char*>(shared)};
 }
 

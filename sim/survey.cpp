@@ -36,7 +36,7 @@ std::vector<Footprint> footprints(const World& world) {
   return all;
 }
 
-/// Whether a point is in a geom. Not of meshes, which may be rooms.
+/// Whether a point is inside a geom. Always false for meshes, which may be rooms.
 bool is_in(const Model& model, int geom, const Eigen::Vector3d& point_W) {
   const mjModel& m = model.m();
   const Eigen::Vector3d p = model.geom_pose(geom).inverse() * point_W;
@@ -57,7 +57,7 @@ bool is_in(const Model& model, int geom, const Eigen::Vector3d& point_W) {
   }
 }
 
-/// What the camera is in and was not before, a line each.
+/// Appends a line for each geom or object that the camera newly entered.
 void note_inside(const World& world, double t_s, std::set<std::string>& known,
                  std::vector<std::string>& lines) {
   const Model& model = world.model();

@@ -1,6 +1,6 @@
 /// \file
-/// An overview of a scenario without a run: a plan from above, the ways of rover and actors, and a
-/// few of its frames. And its world as a file, for other programs.
+/// A preview of a scenario: a plan from above, the paths of rover and actors, and some of its
+/// frames. Also exports the scenario's world as a file for other programs.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,39 +14,39 @@
 
 namespace lcs::sim {
 
-/// A part of a world from above, at the start: a convex outline in W, counter-clockwise, m.
+/// Plan view of a part of the world at the start: convex outline in W, counter-clockwise, m.
 struct Footprint {
   std::vector<Eigen::Vector2d> outline_m;
   int object = 0;    ///< as in FrameTruth::object: 0 is the setting, -1 the rover
-  double low_m = 0;  ///< its lowest and its highest point
+  double low_m = 0;  ///< z of its lowest and its highest point, in W
   double high_m = 0;
 };
 
 struct Survey {
-  std::vector<Footprint> footprints;  ///< without floors and what is not drawn
+  std::vector<Footprint> footprints;  ///< without floors and invisible geoms
   std::vector<Object> objects;
-  std::vector<int> actors;                  ///< the object that each actor of the scenario is
-  std::vector<Eigen::Vector2d> rover_m;     ///< in W, in each frame
-  std::vector<Snapshot> snapshots;          ///< of each frame
-  std::vector<std::string> wrong_at_start;  ///< what a run refuses, a line each
-  std::vector<std::string> inside;          ///< a line for each thing that the camera gets into
+  std::vector<int> actors;                  ///< object id of each actor of the scenario
+  std::vector<Eigen::Vector2d> rover_m;     ///< in W, per frame
+  std::vector<Snapshot> snapshots;          ///< per frame
+  std::vector<std::string> wrong_at_start;  ///< one line per fault that a run rejects
+  std::vector<std::string> inside;          ///< one line per geom or object that the camera enters
   Warnings warnings;
 };
 
-/// \param looks how many frames to make pictures of, evenly spread from the first to the last.
-/// \param on_look handed each of these.
-/// \param on_frame called after each frame with how many are done; what it throws ends the survey.
-/// \throws what a `Simulation` throws, but for what starts inside of something else.
+/// \param looks number of frames to render, evenly spread from the first to the last.
+/// \param on_look receives each rendered frame.
+/// \param on_frame called after each frame with the count so far; its exceptions end the survey.
+/// \throws as `Simulation`, except for overlaps at the start.
 Survey survey(const scenario::Scenario& scenario, int looks,
               const std::function<void(const Observation&)>& on_look,
               const std::function<void(int)>& on_frame = {});
 
 enum class WorldFormat {
   mjcf,
-  mjb,  ///< MuJoCo's binary, which also holds the painted textures and the bumps of the ground
+  mjb,  ///< MuJoCo's binary; includes painted textures and rough ground
 };
 
-/// The bytes of a file of the world, with rover and actors at the start. \throws as `survey`
+/// The content of a file of the world, with rover and actors at the start. \throws as `survey`
 std::string world_file(const scenario::Scenario& scenario, WorldFormat format);
 
 }  // namespace lcs::sim

@@ -13,7 +13,7 @@ namespace {
 
 using Colour = cv::Vec3b;
 
-/// What a style paints with: whole pixels and grey levels from one stream.
+/// Drawing operations for styles, in whole pixels and grey levels, from one random stream.
 class Brush {
  public:
   Brush(cv::Mat3b& picture, RandomStream random) : picture_(picture), random_(random) {}
@@ -24,7 +24,7 @@ class Brush {
   /// Uniform in [low, high).
   double between(double low, double high) { return low + (high - low) * random_.uniform(); }
 
-  /// A grey, tinted by up to `tint` grey levels a channel.
+  /// A grey, with each channel tinted by up to `tint` grey levels.
   Colour grey(double low, double high, double tint) {
     const double value = between(low, high);
     Colour c;
@@ -36,14 +36,14 @@ class Brush {
 
   void fill(const Colour& c) { picture_.setTo(c); }
 
-  /// Corners as shares of the picture's sides.
+  /// Corners as fractions of the image's sides.
   void rectangle(double left, double top, double right, double bottom, const Colour& c) {
     const cv::Point a(px(left, width()), px(top, height()));
     const cv::Point b(px(right, width()) - 1, px(bottom, height()) - 1);
     if (a.x <= b.x && a.y <= b.y) cv::rectangle(picture_, a, b, c, cv::FILLED);
   }
 
-  /// A rectangle of the given range of sizes, wholly inside the margins.
+  /// A rectangle with sides in the given range, entirely within the margins.
   void rectangle_anywhere(double least, double most, double margin, const Colour& c) {
     const double w = between(least, most);
     const double h = between(least, most);
@@ -70,7 +70,7 @@ class Brush {
   RandomStream random_;
 };
 
-/// A light face with four dark patches, one in each quarter, none touching another.
+/// A light face with four dark patches, one per quarter, without contact.
 void paint_fewrects(Brush& b) {
   b.fill(b.grey(150, 185, 8));
   for (int quarter = 0; quarter < 4; ++quarter) {
@@ -119,7 +119,7 @@ void paint_polygons(Brush& b) {
   }
 }
 
-/// A house front: rows of dark windows with a light bar, tiling without a seam.
+/// A house front: rows of dark windows with a light bar; tiles seamlessly.
 void paint_windows(Brush& b) {
   b.fill(b.grey(165, 195, 12));
   constexpr int kAcross = 4;
@@ -273,11 +273,11 @@ void paint_ornament(Brush& b) {
   }
 }
 
-/// Band-limited noise of low contrast: ground that is not flat grey and has no corners to speak of.
+/// Band-limited noise of low contrast: ground that is not uniform and has few corners.
 void paint_ground(Brush& b) {
   const Colour base = b.grey(105, 125, 4);
   b.fill(base);
-  // a few waves of whole periods: smooth, and tiling without a seam
+  // a few waves of whole periods: smooth, and tiles seamlessly
   struct Wave {
     int across, down;
     double phase, amplitude;
@@ -287,7 +287,7 @@ void paint_ground(Brush& b) {
     w = {static_cast<int>(b.between(-7, 8)), static_cast<int>(b.between(1, 8)),
          b.between(0, 2 * CV_PI), b.between(0.5, 2.5)};
   }
-  // sin(x + y) of each wave by the sines and cosines of its columns and rows
+  // sin(x + y) of each wave, from the sines and cosines of its columns and rows
   cv::Mat1d brightness(b.height(), b.width(), 0.0);
   std::vector<double> sine(static_cast<std::size_t>(b.width())), cosine(sine.size());
   for (const Wave& w : waves) {
@@ -331,8 +331,8 @@ constexpr std::array<Style, 14> kStyles = {{{"bricks", paint_bricks},
                                             {"rects", paint_rects},
                                             {"windows", paint_windows}}};
 
-/// A face of a cube texture as GL stores it, from the picture that shall be seen upright from
-/// outside with z up. GL's convention has y up, hence the turns; top and bottom have no upright.
+/// A face of a cube texture in GL's layout, from an image that appears upright from outside with z
+/// up. The rotations convert from GL's y-up convention; top and bottom have no upright.
 cv::Mat3b as_cube_face(const cv::Mat3b& picture, int face) {
   cv::Mat3b out;
   switch (face) {

@@ -21,7 +21,7 @@
 namespace lcs::sim {
 namespace {
 
-/// What the child says, in memory that both have.
+/// The child's result, in memory shared with the parent.
 struct Report {
   enum class Kind { nothing, fine, refused, no_memory };
   Kind kind = Kind::nothing;
@@ -47,7 +47,7 @@ SharedReport shared_report() {
   return SharedReport(new (memory) Report);
 }
 
-/// Virtual memory in use, bytes. A sanitizer's is some terabytes.
+/// Virtual memory in use, bytes. With a sanitizer it is some terabytes.
 rlim_t memory_in_use() {
   rlim_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -61,7 +61,7 @@ void limit(__rlimit_resource resource, rlim_t most) {
   ::setrlimit(resource, &now);
 }
 
-/// In the child: on its own, and bounded.
+/// In the child: cuts its input and output, and limits its resources.
 void isolate(pid_t parent, const TrialBounds& bounds) {
   if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || ::getppid() != parent) ::_exit(1);
   const int null = ::open("/dev/null", O_RDWR);
@@ -69,7 +69,7 @@ void isolate(pid_t parent, const TrialBounds& bounds) {
   for (const int fatal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGALRM, SIGXCPU}) {
     ::signal(fatal, SIG_DFL);
   }
-  // those are for the parent, which waits until the child has ended and then acts on them
+  // the parent handles these signals after the child has ended
   for (const int sent : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) ::signal(sent, SIG_IGN);
   sigset_t none;
   ::sigemptyset(&none);
@@ -90,7 +90,7 @@ void run(const std::function<void()>& action, Report& report) {
     say(Report::Kind::fine, "");
   } catch (const std::bad_alloc&) {
     say(Report::Kind::no_memory, "");
-  } catch (const std::length_error&) {  // a container longer than the address space
+  } catch (const std::length_error&) {  // a container larger than the address space
     say(Report::Kind::no_memory, "");
   } catch (const std::exception& e) {
     say(Report::Kind::refused, e.what());
@@ -106,7 +106,7 @@ std::string crash_of(int status, const TrialBounds& bounds) {
       return std::to_string(bounds.processor_s) + " s of processor time";
     case SIGALRM:
       return std::to_string(bounds.wall_s) + " s";
-    case SIGKILL:  // by the kernel: for nobody else knows of it
+    case SIGKILL:  // from the kernel's out-of-memory killer; nobody else knows the child
       return "memory";
     default:
       const char* name = ::sigabbrev_np(signal);
@@ -124,7 +124,7 @@ Trial try_in_child(const std::function<void()>& action, const TrialBounds& bound
   if (child == 0) {
     isolate(self, bounds);
     run(action, *report);
-    ::_exit(0);  // neither buffers nor destructors: they are the parent's
+    ::_exit(0);  // without flushing buffers or running destructors, which belong to the parent
   }
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {

@@ -8,11 +8,11 @@
 namespace lcs::sim {
 namespace {
 
-constexpr double kDistinctPx = 1;  // between what is told apart and what is not
-// A body at rest on contacts creeps by nanometres: less than this is no motion.
+constexpr double kDistinctPx = 1;  // least |u - u_s| of a rebel
+// A body at rest on contacts creeps by nanometres. Smaller motions count as none.
 constexpr double kStill_m = 1e-5;
 constexpr double kStill_rad = 1e-5;
-// Points of C nearer than this share of their depth are taken to lie in the camera's plane.
+// Points of C with z below this fraction of their depth count as in the camera's plane.
 constexpr double kInFront = 1e-6;
 
 /// The surface that a corner lies on.
@@ -21,11 +21,11 @@ struct Surface {
   float depth_m = std::numeric_limits<float>::infinity();
 };
 
-/// Calls `visit(pixel, square of its distance)` for the pixels of an image up to `radius_px` to
-/// each side of the one that a corner lies in.
+/// Calls `visit(pixel, squared distance in px^2)` for the image's pixels within `radius_px` columns
+/// and rows of the corner's pixel.
 template <typename Visit>
 void visit_about(const Eigen::Vector2f& corner, int radius_px, cv::Size image_px, Visit&& visit) {
-  // what is farther out, or no number, has no whole pixel that an int could hold
+  // farther or NaN corners could overflow an int
   const double reach_px = radius_px + 1;
   if (!((corner.cast<double>().array() >= -reach_px).all() &&
         corner.x() <= image_px.width + reach_px && corner.y() <= image_px.height + reach_px)) {
@@ -48,10 +48,10 @@ Surface nearest_3x3(const FrameTruth& truth, const Eigen::Vector2f& corner) {
   return nearest;
 }
 
-/// Whether a body that moves is seen within FAST's circle of 16 pixels about a corner.
+/// Whether a moving body is visible within FAST's circle of 16 pixels around a corner.
 bool is_beside_mover(const FrameTruth& truth, const std::vector<char>& moves,
                      const Eigen::Vector2f& corner) {
-  constexpr int kCircle_px2 = 3 * 3 + 1;  // its pixels are 3 to the side and 1 up, and so on
+  constexpr int kCircle_px2 = 3 * 3 + 1;  // its pixels are at (3, 0), (3, 1), (2, 2) and so on
   bool found = false;
   visit_about(corner, 3, truth.object.size(), [&](const cv::Point& pixel, int distance2) {
     const int object = truth.object(pixel);
@@ -76,10 +76,10 @@ double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
   return (p - a - share * ab).norm();
 }
 
-/// Distance of a pixel of k+1 from a segment; +inf if all of it lies behind the camera.
+/// Distance of a pixel at k+1 from a segment; +inf if the whole segment is behind the camera.
 double distance_to(const Pinhole& camera, const StaticSegment& segment, double max_w,
                    const Eigen::Vector2d& p) {
-  // the part in front of the camera: z(w) = h.z + w t.z is linear, so it is one interval
+  // the part in front of the camera is one interval: z(w) = h.z + w t.z is linear
   double first = 0;
   double last = max_w;
   const auto z = [&](double w) { return segment.at(w).z(); };
@@ -134,7 +134,7 @@ CornerTruth label(const Pinhole& camera, const FrameTruth& truth, const std::vec
 }  // namespace
 
 bool moved(const Pose& now, const Pose& next) {
-  // |R - R'| (Frobenius) is sqrt(2) times a small angle between them
+  // |R - R'| (Frobenius) is sqrt(2) times the angle between them, if it is small
   return (next.p - now.p).norm() > kStill_m ||
          (next.R - now.R).norm() > std::sqrt(2.0) * kStill_rad;
 }

@@ -1,6 +1,6 @@
 /// \file
-/// The truth of a frame, and of the corners and objects in it. `tools/scoring/SCORING.md` says
-/// which figures are computed from it.
+/// The true state of a frame, and of its corners and objects. `tools/scoring/SCORING.md` defines
+/// the figures that are computed from it.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,15 +14,14 @@
 
 namespace lcs::sim {
 
-/// A named body of the scene, or an actor: what a square should find. Ids are 1..n, in a fixed
-/// order.
+/// A named body of the scene, or an actor: an object that a square should find. Ids are 1..n, in a
+/// fixed order.
 struct Object {
   int id = 0;
   std::string name;
 };
 
-/// Poses at one moment. `T_WO[id]` is the pose of object `id`; index 0 is the fixed world
-/// (identity).
+/// Poses at one time. `T_WO[id]` is the pose of object `id`; index 0 is the fixed world (identity).
 struct Snapshot {
   Pose T_WC;
   std::vector<Pose> T_WO;
@@ -30,10 +29,10 @@ struct Snapshot {
 
 /// The truth of frame k. Depth and object ids come from a render without multisampling.
 struct FrameTruth {
-  /// z-depth in metres; +inf where there is only sky.
+  /// z-depth in metres; +inf for the sky.
   cv::Mat1f depth_m;
-  /// Per pixel: id of an object, 0 for the fixed setting (floor, walls), -1 for what is no landmark
-  /// (sky, the rover itself).
+  /// Per pixel: id of an object, 0 for the fixed setting (floor, walls), -1 for pixels without a
+  /// landmark (sky, the rover itself).
   cv::Mat1i object;
   Snapshot now;                                         ///< at frame k
   Snapshot next;                                        ///< at frame k+1, also for the last frame
@@ -42,62 +41,60 @@ struct FrameTruth {
 };
 
 enum class Label {
-  none,   ///< the sky or the rover: no landmark, left out of every count
+  none,   ///< on the sky or the rover: no landmark, excluded from every count
   fixed,  ///< its body does not move between k and k+1 ("static")
-  /// Its body moves, but its image by less than 1 px relative to that of a static point.
+  /// Its body moves, but |u - u_s| < 1 px.
   indistinct,
   rebel,  ///< its body moves, and |u - u_s| >= 1 px
 };
 
-/// Whether a body is elsewhere at k+1: by more than 0.01 mm or 0.01 mrad, which is far below what
-/// an image shows and far above the creep of a body that rests on contacts.
+/// Whether a body moves between k and k+1: by more than 0.01 mm or 0.01 mrad. That is far below
+/// what an image resolves and far above the creep of a body that rests on contacts.
 bool moved(const Pose& now, const Pose& next);
 
-/// All motions are from k to k+1. They are NaN for a point that is behind the camera at k+1; a
-/// corner on a moving body is then `indistinct`.
+/// The truth of one corner. Motions are from k to k+1, and NaN for a point behind the camera at
+/// k+1; a corner on a moving body is then `indistinct`.
 struct CornerTruth {
   Label label = Label::none;
   /// A rebel whose u lies within 1 px of the static segment: the images at k+1 of the same corner
-  /// as a fixed point at every depth from `min_depth_m` to infinity. Two frames cannot tell it from
-  /// a static point.
+  /// as a fixed point at every depth from `min_depth_m` to infinity. Two frames cannot distinguish
+  /// it from a static point.
   bool radial = false;
-  /// A fixed corner with the silhouette of a moving body within FAST's circle around it (3 px):
-  /// what FAST sees is the crossing of that body's outline with the background, which moves with
-  /// the outline.
+  /// A fixed corner whose FAST circle (radius 3 px) contains a moving body. FAST then detects the
+  /// crossing of the body's outline with the background, which moves with the outline.
   bool outline = false;
   int object = -1;     ///< as in FrameTruth::object
-  double depth_m = 0;  ///< of the nearest surface in the 3x3 pixels round the corner
-  Eigen::Vector2d motion_px = Eigen::Vector2d::Zero();         ///< u: carried by its body, k to k+1
-  Eigen::Vector2d static_motion_px = Eigen::Vector2d::Zero();  ///< u_s: the same point, fixed in W
+  double depth_m = 0;  ///< of the nearest surface in the 3x3 pixels around the corner
+  Eigen::Vector2d motion_px = Eigen::Vector2d::Zero();         ///< u: its motion, k to k+1
+  Eigen::Vector2d static_motion_px = Eigen::Vector2d::Zero();  ///< u_s: the same if fixed in W
 };
 
-/// \param corners_px in frame k; one outside of the image has label `none`.
-/// \param min_depth_m nearest depth of the static segment (z_min), > 0.
+/// \param corners_px in frame k; a corner outside the image has label `none`.
+/// \param min_depth_m least depth of the static segment (z_min), > 0.
 std::vector<CornerTruth> label_corners(const Pinhole& camera, const FrameTruth& truth,
                                        std::span<const Eigen::Vector2f> corners_px,
                                        double min_depth_m);
 
-/// An object's modal (visible) box and mask, and how much of it is seen.
+/// An object's modal (visible) box and mask, and its visible share.
 struct ObjectTruth {
   int object = 0;
-  /// Pixel edges: [left, right) x [top, bottom), so that the area is (right-left) * (bottom-top).
+  /// Pixel edges: [left, right) x [top, bottom); the area is (right-left) * (bottom-top).
   int left = 0, top = 0, right = 0, bottom = 0;
   int visible_px = 0;  ///< pixels of the mask
-  /// How much of the full silhouette is visible, which includes what lies outside the image; 0
-  /// where the body reaches behind the camera, as its silhouette has no bounds then.
+  /// Visible share of the full silhouette, which extends beyond the image; 0 if the body reaches
+  /// behind the camera, where its silhouette is unbounded.
   double visible_fraction = 0;
   bool moving = false;  ///< its pose at k+1 differs from that at k
-  Runs mask;            ///< its pixels within the box; empty where they are not known
+  Runs mask;            ///< its pixels within the box; empty if unknown
 };
 
-/// The mask of what is seen of an object; without runs where they are not known.
+/// The mask of an object's visible pixels; its runs are empty if unknown.
 inline Mask mask_of(const ObjectTruth& truth) {
   return {cv::Rect(cv::Point(truth.left, truth.top), cv::Point(truth.right, truth.bottom)),
           truth.mask};
 }
 
-/// Boxes, masks and pixel counts of objects 1..count in an image of ids; their other members are
-/// not set.
+/// Boxes, masks and pixel counts of objects 1..count in an image of ids. Other members are not set.
 std::vector<ObjectTruth> modal_boxes(const cv::Mat1i& object, int count);
 
 }  // namespace lcs::sim

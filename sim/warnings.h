@@ -1,6 +1,6 @@
 /// \file
-/// Counts of what hints at a mistake in a scenario, as a rover that tips over. The figures of such
-/// a run are right, but seldom those that its author wanted.
+/// Counts of events that hint at a mistake in a scenario, for example a rover that tips over. The
+/// figures of such a run are right, but its author seldom intended them.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ enum class Warning : std::uint8_t {
 
 struct WarningText {
   const char* word;    ///< as in "warnings.WORD" of metrics.json
-  const char* remedy;  ///< what to do, printed after what happened
+  const char* remedy;  ///< printed after the description of the event
 };
 
 /// In the order of `Warning`.
@@ -38,13 +38,13 @@ constexpr const WarningText& text_of(Warning warning) {
   return kWarnings[static_cast<std::size_t>(warning)];
 }
 
-/// How often each happened, and the first times in words: what, when, where, and what to do.
+/// Count of each kind of event, and its first occurrences in words: event, time, place, remedy.
 class Warnings {
  public:
   struct Met {
     std::int64_t count = 0;
     std::string first;
-    std::vector<std::string> next;  ///< up to `kMostNext`, without what to do
+    std::vector<std::string> next;  ///< up to `kMostNext` descriptions, without remedies
   };
   static constexpr std::size_t kMostNext = 9;
 

@@ -15,23 +15,22 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A hand's breadth of contact that a picture does not show, feet in carpets, wheels that give way:
-// overlaps of less are none.
+// Smaller overlaps are ignored: an image does not show them (feet in carpets, wheels that deform).
 constexpr double kLeastDepth_m = 0.02;
-// Actors keep their height and may step over what rises no higher above their feet: kerbs, stairs,
-// cables.
+// Actors keep their height and may step over obstacles up to this height above their feet (kerbs,
+// stairs, cables).
 constexpr double kStep_m = 0.2;
-// The rover's origin may be as far below a bump between its wheels; and no wheel is larger.
+// The rover's origin may be this far below a bump between its wheels; no wheel is larger.
 constexpr double kSunk_m = 0.1;
-// Floors as far above where the rover started are tables and bridges, which it may be under.
+// Floors this far above the rover's start are tables and bridges, which the rover may be under.
 constexpr double kOverhead_m = 0.5;
-// No rover comes back from there, and no road leads there.
+// No rover recovers from this tilt, and no road is as steep.
 constexpr double kTipped_rad = std::numbers::pi / 4;
-// A wall, as a contact of the wheels shows it: steeper than what they could climb, a step of half
-// their radius.
+// A contact of the wheels with a flatter normal is with a wall. It is steeper than a step of half
+// the wheel radius, which the wheels could climb.
 constexpr double kSteep = 0.5;  // upward part of the normal
-// Who has moved by less since the last look is where it was: the rover and a pedestrian are some
-// tenths of a metre deep.
+// Smaller motions since the last check are ignored: the rover and a pedestrian are some tenths of a
+// metre deep.
 constexpr double kStride_m = 0.05, kStride_rad = 0.1;
 
 bool is_plane(const mjModel& m, int geom) {
@@ -52,7 +51,7 @@ std::string name_of(const Model& model, int geom) {
   return fmt::format("the setting's geom without a name round {}", at_place(model.geom_pose(geom).p));
 }
 
-/// Height of a height field over a place of W, if it reaches there.
+/// Height of a height field at a place in W; absent outside the field.
 std::optional<double> field_m(const Model& model, int geom, const Vector3d& at) {
   const mjModel& m = model.m();
   const int field = m.geom_dataid[geom];
@@ -77,7 +76,7 @@ std::optional<double> field_m(const Model& model, int geom, const Vector3d& at) 
 }  // namespace
 
 bool is_drawn(const mjModel& m, int geom) {
-  constexpr int kGroups = 3;  // that MuJoCo draws if it is not told otherwise
+  constexpr int kGroups = 3;  // that MuJoCo draws by default
   const int material = m.geom_matid[geom];
   const float alpha = material >= 0 ? m.mat_rgba[4 * material + 3] : m.geom_rgba[4 * geom + 3];
   return m.geom_group[geom] < kGroups && alpha > 0;
@@ -116,7 +115,7 @@ Watch::Watch(const Model& model, int rover_body, const std::vector<Named>& objec
       named[static_cast<std::size_t>(std::max(object, 0))].geoms.push_back(geom);
     }
   }
-  if (!std::isfinite(lowest_m_)) lowest_m_ = -lowest_m_;  // nothing to fall below
+  if (!std::isfinite(lowest_m_)) lowest_m_ = -lowest_m_;  // no setting to fall below
   solid_of_geom_.assign(static_cast<std::size_t>(m.ngeom), -1);
   for (Solid& solid : named) add_solid(model, std::move(solid));
   for (Solid& solid : setting) add_solid(model, std::move(solid));
@@ -156,14 +155,14 @@ bool Watch::is_step(const Model& model, const Solid& who, const Solid& what, int
   if (who.kind != Kind::actor || (what.kind != Kind::object && what.kind != Kind::setting)) {
     return false;
   }
-  if (is_plane(model.m(), geom)) return false;  // a wall, as floors are nothing to be met
+  if (is_plane(model.m(), geom)) return false;  // a wall, as the floors are not among the solids
   const Pose T_WG = model.geom_pose(geom);
   const Eigen::RowVectorXd z = T_WG.R.row(2) * overlap_.hull(model, geom);
   const double foot_W_m = model.body_pose(who.body).p.z() + who.foot_m;
   return T_WG.p.z() + z.maxCoeff() < foot_W_m + kStep_m;
 }
 
-/// Where who runs through what, if anywhere: where it is deepest.
+/// The deepest overlap of two solids; depth 0 if they are apart.
 Overlap::Place Watch::meeting(const Model& model, const Solid& who, const Solid& what) {
   const mjModel& m = model.m();
   const auto far = [](const Vector3d& a, const Vector3d& b, double reach) {
@@ -189,7 +188,7 @@ Overlap::Place Watch::meeting(const Model& model, const Solid& who, const Solid&
   return deepest;
 }
 
-/// Calls `found(pair, place)` for the rover or an actor, and whatever it is in and was not before.
+/// Calls `found(pair, place)` for each new overlap of the rover or an actor with another solid.
 template <typename Found>
 void Watch::find_meetings(const Model& model, const Found& found) {
   const auto is_traveller = [&](std::size_t i) {
@@ -249,22 +248,22 @@ void Watch::note_meeting(const Pair& pair, const Vector3d& point, std::int64_t t
   }
 }
 
-/// What wheels on contacts push against does not let them in.
+/// Counts contacts of the wheels with walls: they hinder the wheels from overlapping.
 void Watch::note_contacts(const Model& model, std::int64_t t_ns) {
   const mjData& d = model.d();
   for (int i = 0; i < d.ncon; ++i) {
     const mjContact& contact = d.contact[i];
     const auto solid_of = [&](int geom) { return solid_of_geom_[static_cast<std::size_t>(geom)]; };
     const int a = solid_of(contact.geom1), b = solid_of(contact.geom2);
-    if (a < 0 || b < 0 || (a == 0) == (b == 0)) continue;  // floors are none; the rover is the first
+    if (a < 0 || b < 0 || (a == 0) == (b == 0)) continue;  // floor: -1; rover: 0
     if (std::abs(contact.frame[2]) > kSteep || contact.dist > 0) continue;
     note_meeting({0, static_cast<std::size_t>(std::max(a, b))},
                  Eigen::Map<const Vector3d>(contact.pos), t_ns);
   }
 }
 
-/// Height of the floor under a place of W, or over it for who has fallen; where there is none, the
-/// lowest that the setting has.
+/// Height of the floor below a place in W, or above it for a body that has fallen; outside all
+/// floors, the lowest height of the setting.
 double Watch::floor_m(const Model& model, const Vector3d& at) const {
   std::optional<double> highest_m;
   for (const int geom : floors_) {

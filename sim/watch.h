@@ -1,9 +1,9 @@
 /// \file
-/// Watches a world while it runs, without changing it, and counts what should not happen: bodies
-/// that pass through each other, fall, or tip over.
+/// Monitors a running world, without changing it, and counts physical faults: bodies that pass
+/// through each other, fall, or tip over.
 ///
-/// The holonomic rover and the actors have no contacts, so overlaps are looked for in the geoms
-/// that are drawn. What stands on a floor (a plane that faces up, a height field) may touch it.
+/// The holonomic rover and the actors have no contacts, so the overlaps are those of visible geoms.
+/// Bodies may touch a floor (a plane that faces up, or a height field).
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@
 
 namespace lcs::sim {
 
-/// Whether the camera can see it.
+/// Whether the camera can see the geom.
 bool is_drawn(const mjModel& m, int geom);
 /// A plane that faces up, or a height field.
 bool is_floor(const Model& model, int geom);
@@ -28,7 +28,7 @@ class Watch {
  public:
   enum class Kind { rover, actor, object, setting };
 
-  /// One of the world's objects.
+  /// An object of the world.
   struct Named {
     std::string name;
     int body = 0;
@@ -39,38 +39,38 @@ class Watch {
   Watch(const Model& model, int rover_body, const std::vector<Named>& objects,
         const std::vector<int>& object_of_geom);
 
-  /// Two that overlap.
+  /// An overlap of two solids.
   struct Meeting {
-    int traveller = 0;  ///< the rover (0), or an actor by the object that it is
-    int other = 0;      ///< among all that can be met
+    int traveller = 0;  ///< the rover (0), or an actor's object id
+    int other = 0;      ///< index of the other solid
     Kind kind_b = Kind::setting;
-    std::string a, b;   ///< as in "actor 'car'"
-    std::string where;  ///< as in "(1.20, -0.40) m"
+    std::string a, b;   ///< for example "actor 'car'"
+    std::string where;  ///< for example "(1.20, -0.40) m"
     double depth_m = 0;
   };
-  /// All that overlap now.
+  /// All present overlaps.
   std::vector<Meeting> meetings(const Model& model);
-  /// From now on this overlap is expected: no warning is given of it.
+  /// Suppresses warnings of this overlap from now on.
   void pass_over(const Meeting& meeting);
 
-  /// To be called after every step; checks all overlaps again when something has moved by a few
+  /// Call it after every step. It recomputes all overlaps once anything has moved by a few
   /// centimetres.
   void look(const Model& model, std::int64_t t_ns);
 
   const Warnings& warnings() const { return warnings_; }
 
  private:
-  /// What overlaps are counted of: the rover, an object, a geom of the setting.
+  /// A unit of the overlap check: the rover, an object, or a geom of the setting.
   struct Solid {
     Kind kind = Kind::setting;
     std::string name;
     int body = 0;
-    std::vector<int> geoms = {};  ///< those that are drawn
+    std::vector<int> geoms = {};  ///< visible geoms
     Eigen::Vector3d centre_B = Eigen::Vector3d::Zero();
-    double radius_m = 0;  ///< of a sphere round all of it
-    double foot_m = 0;    ///< its lowest point at the start, over its body's origin
-    bool moves = false;   ///< by itself, or by the physics
-    bool is_low = false;  ///< under the ground, and told
+    double radius_m = 0;  ///< of a bounding sphere around `centre_B`
+    double foot_m = 0;    ///< actors: lowest point at the start, over the body's origin
+    bool moves = false;   ///< as an actor or by the physics
+    bool is_low = false;  ///< below the ground, with a warning given
   };
   using Pair = std::pair<std::size_t, std::size_t>;
 
@@ -88,12 +88,12 @@ class Watch {
 
   std::vector<Solid> solids_;  ///< the rover first
   std::vector<int> solid_of_geom_;
-  std::vector<int> floors_;  ///< planes that face up, and height fields
-  double lowest_m_ = 0;      ///< of the setting
+  std::vector<int> floors_;  ///< geoms that are floors, see `is_floor`
+  double lowest_m_ = 0;      ///< lowest height of the setting
   double start_m_ = 0;       ///< height of the rover at the start
   Overlap overlap_;
   std::set<Pair> met_;
-  std::vector<Pose> last_;  ///< of the solids that move, at the last close look
+  std::vector<Pose> last_;  ///< of the moving solids, at the last overlap check
   bool is_tipped_ = false;
   Warnings warnings_;
 };

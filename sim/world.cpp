@@ -26,17 +26,17 @@ namespace {
 
 constexpr std::int64_t kLongestStep_ns = 2'000'000;
 constexpr double kActorInside_m =
-    0.22;  // less is a graze; a leg of a pedestrian in a crate is deeper
+    0.22;  // less is a graze; the leg of a pedestrian inside a crate is deeper
 
-/// A geom or body of the scene, for what is wrong with it once it is compiled.
+/// Source of a geom or body of the scene, for errors of the compiled model.
 scenario::Source source_of(const scenario::Scenario& scenario, const ComposedScene& composed,
                            std::string_view kind, std::string_view name) {
   const xml::Printed::Origin* origin = name.empty() ? nullptr : composed.mjcf.named(kind, name);
   return origin ? origin->source : scenario::Source{scenario.scene.string(), 0};
 }
 
-/// \throws scenario::Error where the scene is too large or too small for a camera to see it: at the
-/// number that says so, or at what lies farthest.
+/// \throws scenario::Error if the extent of the scene is too large or too small for the camera; the
+/// error cites the farthest geom or its body.
 void check_extent(const scenario::Scenario& scenario, const ComposedScene& composed, Model& model) {
   const mjModel& m = model.m();
   if (m.stat.extent >= kLeastExtent_m && m.stat.extent <= kMostExtent_m) return;
@@ -83,7 +83,7 @@ void fill_textures(Model& model, const scenario::Scenario& scenario,
   }
 }
 
-/// As the scene states it; none if it does not.
+/// The origin that the scene states; absent if it states none.
 std::optional<scenario::Origin> origin_of(const Model& model, const scenario::Source& where) {
   if (!model.has(mjOBJ_TEXT, scenario::kOriginText)) return std::nullopt;
   const mjModel& m = model.m();
@@ -104,7 +104,7 @@ std::optional<scenario::Origin> origin_of(const Model& model, const scenario::So
   return origin;
 }
 
-/// \throws scenario::Error where the scenario states another origin than its scene.
+/// \throws scenario::Error if scenario and scene state different origins.
 std::optional<scenario::Origin> origin_of(const scenario::Scenario& scenario,
                                           const ComposedScene& composed, const Model& model) {
   const auto of_scene =
@@ -127,7 +127,7 @@ Eigen::Quaterniond about_z(double angle_rad) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()));
 }
 
-/// Velocity of an element's frame in W.
+/// Velocity of an element's frame, in W.
 struct Twist {
   Eigen::Vector3d angular, linear;
 };
@@ -138,7 +138,7 @@ Twist velocity(const Model& model, mjtObj type, int id) {
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
-/// " (body 'ball')" where a warning counts degrees of freedom; else empty.
+/// " (body 'ball')" if a warning cites a degree of freedom; else empty.
 std::string body_of_dof(const Model& model, const std::string& warning) {
   for (const std::string words : {"in QVEL at DOF ", "in QACC at DOF "}) {
     const std::size_t at = warning.find(words);
@@ -150,7 +150,7 @@ std::string body_of_dof(const Model& model, const std::string& warning) {
   return "";
 }
 
-/// Whether anything that moves by the physics can touch anything.
+/// Whether a body that moves by the physics can have contacts.
 bool has_contacts(const mjModel& m) {
   if (m.npair > 0) return true;
   for (int geom = 0; geom < m.ngeom; ++geom) {
@@ -202,14 +202,14 @@ World::World(const scenario::Scenario& scenario, const ComposedScene& composed,
   });
 }
 
-/// The physics that the readings rely on, whatever the scene says.
+/// Sets the physics that the readings rely on, and overrides the scene's options.
 void World::set_options(const ComposedScene& composed) {
   mjOption& option = model_.m().opt;
-  // the only one whose accelerometer is the difference of its velocities
+  // the only integrator whose accelerometer is the difference of its velocities
   option.integrator = mjINT_EULER;
   option.disableflags &=
       ~(mjDSBL_SENSOR | mjDSBL_ACTUATION | mjDSBL_CLAMPCTRL | mjDSBL_FILTERPARENT);
-  if (!has_contacts(model_.m())) option.disableflags |= mjDSBL_CONTACT;  // half of the time
+  if (!has_contacts(model_.m())) option.disableflags |= mjDSBL_CONTACT;  // halves the run time
   const mjtNum* g = option.gravity;
   const bool upright = g[0] == 0 && g[1] == 0 && g[2] <= 0;
   if (!upright) {
@@ -274,8 +274,8 @@ void World::find_actors(const ComposedScene& composed) {
   }
 }
 
-/// What starts as nothing could stand is refused; but actors may come out of walls, and one that
-/// grazes something is told with the rest.
+/// Rejects impossible overlaps at the start. Actors may start inside walls; an actor that only
+/// grazes an object gets a warning later.
 void World::begin_watch(const ComposedScene& composed, WrongStart wrong_start) {
   const std::vector<std::string>& bodies = composed.actor_bodies;
   const auto actor_of = [&](int object) {
@@ -346,9 +346,9 @@ void World::guarded(Action action) const {
   }
 }
 
-/// Everything that is read at the present time.
+/// Computes all derived quantities at the present time.
 void World::forward() {
-  // counted in nanoseconds, never summed up in steps
+  // from the nanosecond count, so that no rounding accumulates
   model_.d().time = 1e-9 * static_cast<double>(t_ns_);
   rover_->command(model_, t_ns_);
   move_actors();
@@ -373,7 +373,7 @@ void World::step_to(std::int64_t t_ns) {
   const std::int64_t steps = (span_ns + kLongestStep_ns - 1) / kLongestStep_ns;
   mjModel& m = model_.m();
   m.opt.timestep = 1e-9 * static_cast<double>(span_ns) / static_cast<double>(steps);
-  // counted, as MuJoCo sets its own time back to 0 when it diverges
+  // own count of steps, as MuJoCo resets its time to 0 when it diverges
   for (std::int64_t i = 0; i < steps; ++i) {
     guarded([&] {
       rover_->command(model_, t_ns_);
@@ -393,7 +393,7 @@ void World::read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample
   const mjtNum* readings = model_.d().sensordata;
   if (event_time_ns(imu_count_, scenario_.imu.rate_hz) == t_ns_) {
     ++imu_count_;
-    // drawn in a gap too, so that the readings after it are those of a run without one
+    // draw noise in a gap, too, so that later readings equal those of a run without gaps
     const ImuSample reading =
         imu_noise_.corrupt({t_ns_, Eigen::Map<const Eigen::Vector3d>(readings + gyro_),
                             Eigen::Map<const Eigen::Vector3d>(readings + accelerometer_)});
@@ -414,7 +414,7 @@ void World::read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample
 
 void World::advance_to(std::int64_t t_ns, std::vector<ImuSample>& imu,
                        std::vector<OdometrySample>& odometry, std::vector<ImuTruth>* imu_truth) {
-  read_sensors(imu, odometry, imu_truth);  // those at 0, which no step leads to
+  read_sensors(imu, odometry, imu_truth);  // the readings at time 0, before the first step
   while (t_ns_ < t_ns) {
     step_to(next_event_ns(t_ns));
     read_sensors(imu, odometry, imu_truth);
@@ -438,8 +438,8 @@ std::string World::saved(bool as_mjcf) {
   if (joint >= 0 && m.jnt_type[joint] == mjJNT_FREE) {
     std::copy_n(model_.d().qpos + m.jnt_qposadr[joint], 7, m.qpos0 + m.jnt_qposadr[joint]);
   }
-  if (!has_contacts(m)) m.opt.disableflags &= ~mjDSBL_CONTACT;  // for what is added to it
-  // MuJoCo writes to files alone, and does not notice a full disk. This one is in memory.
+  if (!has_contacts(m)) m.opt.disableflags &= ~mjDSBL_CONTACT;  // for bodies that a user adds
+  // MuJoCo writes only to files, and ignores a full disk. This file is in memory.
   const int file = ::memfd_create("world", MFD_CLOEXEC);
   if (file < 0) throw std::system_error(errno, std::generic_category(), "memfd_create");
   const std::string path = "/proc/self/fd/" + std::to_string(file);

@@ -1,10 +1,10 @@
 /// \file
-/// The physics of a run, without any picture: rover, actors and what else moves, and the readings
+/// The physics of a run, without rendering: rover, actors and other moving bodies, and the readings
 /// of IMU and odometry. Needs no GL.
 ///
-/// Events (frames, readings, phases of the ego) fall on exact times k / rate; the steps between two
-/// of them are equal and at most 2 ms long. Readings at an event are of exactly that time: MuJoCo's
-/// derived quantities are computed anew there.
+/// Events (frames, readings, phases of the ego) have exact times k / rate; the steps between two
+/// events are equal and at most 2 ms long. At each event MuJoCo's derived quantities are
+/// recomputed, so that readings are of exactly that time.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -25,26 +25,25 @@
 
 namespace lcs::sim {
 
-/// Time of event k of something that happens `rate_hz` times a second, from 0.
+/// Time of event k, counted from 0, of a process with `rate_hz` events per second.
 std::int64_t event_time_ns(std::int64_t k, double rate_hz);
 
-/// What becomes of a world in which something starts inside of something else.
+/// How to handle a body that starts inside another body.
 enum class WrongStart {
-  refused,  ///< with scenario::Error
-  told,     ///< by `World::wrong_at_start`, as a preview needs it
+  refused,  ///< throws scenario::Error
+  told,     ///< `World::wrong_at_start` lists it, for previews
 };
 
 class World {
  public:
-  /// Stands at t = 0 afterwards.
-  /// \throws scenario::Error, also where the rover starts inside of anything, an actor inside of an
-  ///   object, or a wheeled rover where nothing holds it; PhysicsError
+  /// Loads the world and sets it to t = 0.
+  /// \throws scenario::Error, also if the rover starts inside anything, an actor starts inside an
+  /// object, or no ground supports a wheeled rover; PhysicsError
   explicit World(const scenario::Scenario& scenario, WrongStart wrong_start = WrongStart::refused);
 
-  /// Moves on to a time, and appends the readings after the last time up to and including this one.
-  /// The very first call, with 0, gives those at 0.
-  /// \param imu_truth is given what is true at each reading of the IMU, if there is one.
-  /// \throws PhysicsError
+  /// Advances to time `t_ns`, and appends the readings after the last time up to and including it.
+  /// The first call, with 0, yields the readings at time 0.
+  /// \param imu_truth if given, receives the truth at each IMU reading. \throws PhysicsError
   void advance_to(std::int64_t t_ns, std::vector<ImuSample>& imu,
                   std::vector<OdometrySample>& odometry,
                   std::vector<ImuTruth>* imu_truth = nullptr);
@@ -54,23 +53,23 @@ class World {
   int camera_id() const { return camera_; }
   double gravity_mps2() const { return gravity_mps2_; }
 
-  /// What the scenario or its scene states; none if neither does.
+  /// The map origin that the scenario or its scene states; absent if neither does.
   const std::optional<scenario::Origin>& origin() const { return origin_; }
 
   const std::vector<Object>& objects() const { return objects_; }
   /// Body of an object; index 0 is the world.
   int body_of(int object) const { return object_bodies_.at(static_cast<std::size_t>(object)); }
-  /// What FrameTruth::object says of a geom.
+  /// The value of FrameTruth::object for pixels of a geom.
   int object_of_geom(int geom) const { return object_of_geom_[static_cast<std::size_t>(geom)]; }
 
   /// The warnings until now, or until the last frame.
   const Warnings& warnings() const { return watch_->warnings(); }
-  /// What starts inside of what: a line each, worded as in the error.
+  /// The overlaps at the start, one line each, worded as in the error.
   const std::vector<std::string>& wrong_at_start() const { return wrong_at_start_; }
 
-  /// The bytes of MJCF, with rover and actors where they are now, or of MuJoCo's binary. To be
-  /// called at t = 0; it changes the model, which must be the one that was made last in this
-  /// process. \throws MujocoError; std::system_error without memory for them.
+  /// The world as MJCF with rover and actors at their present poses, or as MuJoCo's binary. Call it
+  /// at t = 0: it changes the model, which must be the last model made in this process.
+  /// \throws MujocoError; std::system_error if memory is short.
   std::string saved(bool as_mjcf);
 
   Snapshot snapshot() const;
@@ -121,7 +120,7 @@ class World {
   int camera_, base_, imu_site_, accelerometer_, gyro_;
   double gravity_mps2_ = 0;
   std::int64_t t_ns_ = 0;
-  std::int64_t imu_count_ = 0;  ///< readings given out
+  std::int64_t imu_count_ = 0;  ///< number of readings so far
   std::int64_t odometry_count_ = 0;
 };
 

@@ -13,7 +13,7 @@
 namespace lcs::sim::xml {
 namespace {
 
-/// Of MJCF text, vertices of meshes included; of what it names: pictures, meshes, height fields.
+/// Size limits of MJCF text with mesh vertices, and of assets: images, meshes, height fields.
 constexpr scenario::FileKind kModelFile{64 * scenario::kMebibyte, "give the path of an MJCF file"};
 constexpr scenario::FileKind kAssetFile{scenario::kGibibyte, "give a file of the kind that it is"};
 
@@ -21,18 +21,18 @@ namespace fs = std::filesystem;
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLNode;
 
-// Attributes that hold the path of a file.
+// Attributes that contain a file path.
 constexpr std::array<const char*, 7> kFiles = {"file",     "fileright", "fileleft", "fileup",
                                                "filedown", "filefront", "fileback"};
 
-// Attributes that hold the name of another element.
+// Attributes that contain the name of another element.
 constexpr std::array kReferences = {
     "texture", "material",  "class",      "childclass", "mesh",         "hfield",
     "joint",   "site",      "body",       "body1",      "body2",        "geom1",
     "geom2",   "target",    "objname",    "refname",    "tendon",       "actuator",
     "geom",    "cranksite", "slidersite", "refsite",    "jointinparent"};
 
-// Holds "LINE FILE" where an element was written, as no user's attribute is called.
+// Contains "LINE FILE" of an element's source; no user's attribute has this name.
 constexpr const char* kSource = "lcs:source";
 
 [[noreturn]] void fail(const fs::path& file, int line, const std::string& message) {
@@ -42,7 +42,7 @@ constexpr const char* kSource = "lcs:source";
 Document parse(const fs::path& file, const scenario::Source& where) {
   auto document = std::make_unique<XMLDocument>();
   const std::string text = scenario::InputFile(file, kModelFile, where).bytes();
-  if (const std::size_t nul = text.find('\0'); nul != text.npos) {  // tinyxml2 stops there
+  if (const std::size_t nul = text.find('\0'); nul != text.npos) {  // tinyxml2 would stop there
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(nul);
     fail(file, static_cast<int>(std::count(text.begin(), end, '\n')) + 1,
          "there is a NUL byte; is this a text file? remove it");
@@ -64,10 +64,10 @@ Document parse(const fs::path& file, const scenario::Source& where) {
   return document;
 }
 
-/// Where a document's files are looked for.
+/// The folders that a document's file names are relative to.
 struct Folders {
   fs::path base, meshes, textures;
-  bool strip = false;  ///< takes the folders from the names of files
+  bool strip = false;  ///< drop the folders from file names
 };
 
 Folders folders_of(const Element& root, const fs::path& file) {
@@ -97,7 +97,7 @@ void make_absolute(Element& root, const fs::path& file) {
         throw scenario::Error(source_of(e),
                               "file '" + normal + "' is missing; put it there or correct the name");
       }
-      // MuJoCo opens it itself, and would wait for a pipe.
+      // MuJoCo opens the file itself, and would block on a pipe.
       const scenario::InputFile refused_if_unfit(normal, kAssetFile, source_of(e));
       e.SetAttribute(key, normal.c_str());
     }
@@ -107,13 +107,13 @@ void make_absolute(Element& root, const fs::path& file) {
   }
 }
 
-/// \param left of the files that may be included in all.
+/// \param left number of files that may still be included.
 void expand_includes(Element& parent, const fs::path& main_file, const fs::path& file, int depth,
                      int& left) {
-  constexpr int kDeepest = 16;  // a file that includes itself never ends
+  constexpr int kDeepest = 16;  // rejects a file that includes itself
   for (Element* e = parent.FirstChildElement(); e;) {
     Element* next = e->NextSiblingElement();
-    // as MuJoCo has it, which would read <Include> behind our back
+    // case-insensitive like MuJoCo, which would expand <Include> later
     if (::strcasecmp(e->Name(), "include") != 0) {
       expand_includes(*e, main_file, file, depth, left);
       e = next;
@@ -122,7 +122,7 @@ void expand_includes(Element& parent, const fs::path& main_file, const fs::path&
     const scenario::Source here{file.string(), e->GetLineNum()};
     if (depth >= kDeepest) throw scenario::Error(here, "includes are nested too deep");
     if (left-- == 0) throw scenario::Error(here, "more files are included than a scene has");
-    // relative to the main file, as MuJoCo has it
+    // relative to the main file, as in MuJoCo
     const fs::path path = main_file.parent_path() / attribute(*e, "file");
     const Document included = parse(path, here);
     expand_includes(*included->RootElement(), main_file, path, depth + 1, left);
@@ -139,7 +139,7 @@ void expand_includes(Element& parent, const fs::path& main_file, const fs::path&
 
 Document load(const fs::path& file, const scenario::Source& where) {
   Document document = parse(file, where);
-  int left = 1000;  // files that include each other twice would be more than there is room for
+  int left = 1000;  // bounds files that include each other twice
   expand_includes(*document->RootElement(), file, file, 0, left);
   make_absolute(*document->RootElement(), file);
   return document;
@@ -223,7 +223,7 @@ std::string tag(const Element& element) {
 }
 
 Printed::Printed(XMLDocument& document) {
-  std::vector<Origin> origins;  // in the order of the document
+  std::vector<Origin> origins;  // in document order
   for_each(*document.RootElement(), [&](Element& e) {
     const Element* parent = e.Parent()->ToElement();
     origins.push_back(
