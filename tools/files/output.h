@@ -1,6 +1,6 @@
 /// \file
-/// Commands write their results by `Output`: a file or a folder appears as a whole or not at all,
-/// and replaces only files that this program wrote and nobody changed since.
+/// Commands write their results through `Output`: a file or folder appears as a whole or not at
+/// all, and replaces only files that this program wrote and nobody changed since.
 #pragma once
 
 #include <filesystem>
@@ -32,7 +32,7 @@ class FolderLock {
   bool is_of_another_ = false;
 };
 
-/// Paths within a folder of results. A name may start or end with `*`, which stands for anything:
+/// Paths within a folder of results. A name may start or end with `*`, which matches anything:
 /// "runs/*/seed-*/metrics.json".
 using ResultNames = std::vector<std::string>;
 
@@ -77,7 +77,7 @@ class Output {
   /// Where the results will be.
   const std::filesystem::path& target() const { return target_; }
 
-  /// As `commit_all` of this one.
+  /// As `commit_all` for this output alone.
   void commit();
 
  private:
