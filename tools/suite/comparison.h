@@ -46,22 +46,23 @@ struct Comparison {
 
   int count(Change verdict) const;  ///< in `differences`
   std::string note() const;         ///< a caveat if `single_seeds`, else empty
-  /// Regressed where one figure is or a run was lost; else improved where one figure is; else none.
-  /// Nothing for a scenario of which no figure could be compared.
+
+  /// Regressed if a figure is or a run is lost; else improved if a figure is; else none.
+  /// Absent for a scenario without any compared figure.
   std::optional<Change> of_scenario(const std::string& name) const;
   bool has_regressed() const;
 };
 
-/// \param is_wanted which figures. All those of `bench::metrics` but times are compared.
+/// Compares the metrics for which `is_wanted` is true. Times are never compared.
 Comparison compare(const SuiteResult& before, const SuiteResult& after,
                    const std::function<bool(std::string_view metric)>& is_wanted);
 
-/// As a person reads it: what regressed, what improved, what could not be compared, how many
-/// figures were judged.
-/// \param all also what did not change, and figures of which neither way is better.
+/// A report for the user: the regressions, the improvements, the data that could not be compared,
+/// and the number of judged figures.
+/// \param all also unchanged figures and figures that are neutral.
 std::string text_of(const Comparison& comparison, bool all);
 
-/// "0.861 -> 0.612 [-0.270, -0.228]": with the interval of the change, if that is known.
+/// Such as "0.861 -> 0.612 [-0.270, -0.228]", with the interval of the change if it is known.
 std::string change_text(const Difference& difference);
 
 }  // namespace lcs::suite
