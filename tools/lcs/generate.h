@@ -23,8 +23,8 @@ struct GenerateOptions {
   int jobs = 1;                      ///< concurrent processes
   std::string shard;                 ///< "i/n": only this part; "" is all
   std::optional<std::string> group;  ///< with `suite`: as in `SuiteOptions`
-  std::string filter;                ///< likewise
-  int seeds = 1;                     ///< likewise
+  std::string filter;                ///< as in `SuiteOptions`
+  int seeds = 1;                     ///< per scenario, with `suite`
   bool quiet = false;
 };
 
@@ -42,7 +42,7 @@ ExitCode generate_suite(const GenerateOptions& options);
 std::vector<std::string> sequence_command(const GenerateOptions& options,
                                           const std::string& scenario, const std::string& out);
 
-/// i and n of "i/n". \throws std::invalid_argument unless 1 <= i <= n.
+/// Parses "i/n" to i and n. \throws std::invalid_argument unless 1 <= i <= n.
 std::pair<int, int> shard_of(const std::string& text);
 
 }  // namespace lcs::tools

@@ -13,7 +13,7 @@
 namespace lcs::tools {
 
 struct ReplayOptions {
-  std::string path;                              ///< of the recording
+  std::string path;                              ///< folder or video of the recording
   std::map<std::string, std::string> recording;  ///< keys and values of a scenario's `recording`
   std::string ego_motion;                        ///< imu or truth; "": the recording's default
   std::string fast_threshold;                    ///< "": the recording's default

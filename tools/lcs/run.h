@@ -16,7 +16,7 @@
 namespace lcs::tools {
 
 struct RunOptions {
-  std::string scenario;  ///< file
+  std::string scenario;  ///< scenario file
   std::string out;       ///< folder; "" is out/<scenario's name>
   std::optional<std::uint64_t> seed;
   std::vector<std::string> sets;  ///< "key=value"

@@ -16,7 +16,7 @@ namespace lcs::tools {
 struct SuiteOptions {
   std::vector<std::string> paths;    ///< scenario files and folders; empty: the project's own
   std::optional<std::string> group;  ///< absent: all for named paths, else `short`
-  std::string filter;                ///< regular expression for names
+  std::string filter;                ///< regular expression that names must match
   int jobs = 0;                      ///< concurrent runs; 0: one per processor
   std::optional<int> seeds;          ///< per scenario; absent: 3, for worlds 1
   WorldsOptions worlds;              ///< worlds to run instead of scenario files

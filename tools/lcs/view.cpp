@@ -99,7 +99,7 @@ void View::hold() {
   try {
     player_.after_last_frame();
   } catch (const Interrupted&) {
-    // The run is complete; its exit code stands.
+    // The run is complete: ignore the signal.
   }
 }
 

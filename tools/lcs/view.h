@@ -1,5 +1,5 @@
 /// \file
-/// A window that shows a run while it goes on: pause, step, close.
+/// A window that shows a run while it is computed, with keys to pause, step and close.
 #pragma once
 
 #include <chrono>
@@ -42,7 +42,7 @@ class View {
   View(const View&) = delete;
   View& operator=(const View&) = delete;
 
-  /// \param sheet BGR. \return whether the window is still open.
+  /// Shows a frame. \param sheet BGR. \return whether the window is still open.
   bool show(const cv::Mat3b& sheet);
   /// Shows the last frame until a key is pressed or a signal arrives.
   void hold();

@@ -50,7 +50,7 @@ enum class SquareStep : std::uint8_t {
 };
 
 struct EventKindText {
-  const char* word;     ///< in the file
+  const char* word;     ///< in events.json
   const char* meaning;  ///< for the user
 };
 const EventKindText& text_of(EventKind kind);

@@ -62,7 +62,7 @@ std::string shell_line(const std::vector<std::string>& arguments);
 /// Sets the run's criteria and outcome from its figures.
 void judge_run(const std::vector<scenario::Criterion>& criteria, RunResult& run);
 
-/// \return a result for each watcher.
+/// Runs all planned scenarios. \return a result for each watcher.
 std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
                                    const SuiteRunOptions& options);
 

@@ -21,7 +21,7 @@ std::vector<std::string> problems(const SuiteResult& suite);
 /// first seed's.
 std::vector<std::string> warnings(const SuiteResult& suite);
 
-/// "12 passed, 1 failed, 0 errors".
+/// The counts of the runs' outcomes, such as "12 passed, 1 failed, 0 errors".
 std::string totals(const SuiteResult& suite);
 
 }  // namespace lcs::suite
