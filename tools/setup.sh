@@ -1,14 +1,14 @@
-# Sourced by tools/run and tools/test. Brings the machine and build/ up to date:
-#   install_packages PACKAGE...   installs those that are missing, or says how and exits with 2
-#   build_release TARGET...       configures and builds the release preset, or that of $preset
-# Made for Debian 12, and tested on Debian 13 and Ubuntu 24.04 as well (tests/systems).
+# Functions for tools/run and tools/test that install packages and update build/:
+#   install_packages PACKAGE...   installs missing packages, or prints how and exits with 2
+#   build_release TARGET...       configures $preset and builds the targets in build/
+# Made for Debian 12, and also tested on Debian 13 and Ubuntu 24.04 (tests/systems).
 # shellcheck shell=bash
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 
 preset=release  # or ci, in the same folder
 
-# What building and running need. Without --no-install-recommends OpenCV brings a desktop along.
+# Packages for building and running. Without --no-install-recommends OpenCV would pull in a desktop.
 packages=(
   g++ cmake ninja-build pkg-config
   libmujoco-dev libosmesa6-dev libopencv-dev libeigen3-dev
@@ -20,7 +20,7 @@ packages=(
 say() { printf '%s\n' "$*" >&2; }
 
 missing_packages() {
-  # dpkg-query fails on packages that it has never heard of: they are just not in its answer
+  # dpkg-query fails if it does not know a package, but still lists the others
   local package installed
   installed=$(dpkg-query --show --showformat='${Package}=${db:Status-Status} ' "$@" 2>/dev/null) || true
   for package in "$@"; do
@@ -28,7 +28,7 @@ missing_packages() {
   done
 }
 
-# Sets as_root to what runs a command as root, or fails.
+# Sets as_root to a prefix that runs a command as root, or fails.
 find_root() {
   if [[ $EUID -eq 0 ]]; then
     as_root=(env)
@@ -74,8 +74,8 @@ install_packages() {
   fi
 }
 
-# Configures when nothing has yet, when the presets changed, or when the checkout was moved. What else
-# changes, ninja notices by itself.
+# Configures a fresh build folder, and again after the presets changed or the checkout was moved.
+# Ninja detects all other changes itself.
 configure_release() {
   local ninja_file=$root/build/build.ninja cache=$root/build/CMakeCache.txt
   if [[ ! -f $ninja_file ]] || ! grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then

@@ -1,5 +1,5 @@
 /// \file
-/// Text with commas: fields of a line, and numbers of fields. No quotes: no field here needs any.
+/// Comma-separated text: the fields of a line and their numbers. Quoted fields are not supported.
 #pragma once
 
 #include <charconv>
@@ -12,7 +12,7 @@
 
 namespace lcs::bench {
 
-/// Without spaces, tabs and a carriage return at either end.
+/// The text without spaces, tabs and carriage returns at either end.
 inline std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r";
   const std::size_t first = text.find_first_not_of(kBlank);
@@ -20,7 +20,7 @@ inline std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// Fields between commas, trimmed; an empty line has one, which is empty. Views into the line.
+/// The trimmed fields between commas, as views into the line. An empty line has one empty field.
 inline std::vector<std::string_view> fields_of(std::string_view line) {
   std::vector<std::string_view> fields;
   while (true) {
@@ -31,7 +31,7 @@ inline std::vector<std::string_view> fields_of(std::string_view line) {
   }
 }
 
-/// The whole text as a number; none if it is anything else, out of range, or not finite.
+/// The whole text as a number; absent if it is not a number, out of range or not finite.
 template <class Number>
 std::optional<Number> number_in(std::string_view text) {
   Number number{};

@@ -9,7 +9,7 @@ void require_shallow(std::string_view text) {
     const char c = text[i];
     if (c == '\n') ++lines;
     if (c == '"') is_quoted = !is_quoted;
-    if (is_quoted && c == '\\') ++i;  // what it escapes ends no text
+    if (is_quoted && c == '\\') ++i;  // skip the escaped character
     if (is_quoted) continue;
     if (c == '[' || c == '{') ++depth;
     if (c == ']' || c == '}') --depth;

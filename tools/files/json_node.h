@@ -1,5 +1,5 @@
 /// \file
-/// JSON files, read so that what is wrong is told by file and place.
+/// Reads JSON files with error messages that name the file and the place.
 #pragma once
 
 #include <fmt/format.h>
@@ -22,20 +22,20 @@
 
 namespace lcs::bench {
 
-/// Why a text cannot be read as JSON, as "not JSON at byte 12", and how many lines are before that.
+/// A parse error such as "not JSON at byte 12", with the number of lines before it.
 struct JsonError : std::runtime_error {
   JsonError(const std::string& what, int lines_) : std::runtime_error(what), lines(lines_) {}
   int lines;
 };
 
-/// No document of this program is half as deep. Deeper ones overflow the stack where they are
-/// written or destroyed.
+/// Limit of nesting. No document of this program is half as deep. Very deep ones overflow the stack
+/// when they are written or destroyed.
 inline constexpr int kDeepestJson = 64;
 
-/// \throws JsonError for lists and objects that are nested too deep, wherever they are.
+/// \throws JsonError if lists and objects are nested deeper than `kDeepestJson`.
 void require_shallow(std::string_view text);
 
-/// The one way in which JSON is parsed. \throws JsonError
+/// Parses JSON; all code uses this function. \throws JsonError
 template <class Json>
 Json parse_json(std::string_view text) {
   const auto lines_before = [&](std::size_t byte) {
@@ -51,7 +51,7 @@ Json parse_json(std::string_view text) {
   }
 }
 
-/// \param where the text begins. \throws scenario::Error; what follows the ';' is `remedy`.
+/// \param where the text begins. \throws scenario::Error with `remedy` after the ';'.
 template <class Json>
 Json parse_json(std::string_view text, const scenario::Source& where, std::string_view remedy) {
   try {
@@ -62,8 +62,8 @@ Json parse_json(std::string_view text, const scenario::Source& where, std::strin
   }
 }
 
-/// A value that knows where in its file it is. What it is asked for and is not is a
-/// `JsonNode::Error`, as "scenarios[0].seed is not a whole number from 0".
+/// A JSON value with its path in the file. Each getter throws `JsonNode::Error` if the value has
+/// another type, such as "scenarios[0].seed is not a whole number from 0".
 class JsonNode {
  public:
   using Json = nlohmann::ordered_json;
@@ -84,7 +84,7 @@ class JsonNode {
 
   bool has(const char* key) const { return json_.is_object() && json_.contains(key); }
 
-  /// Calls `use(node)` for every item.
+  /// Calls `use(node)` for every item of a list.
   template <class Use>
   void each(const Use& use) const {
     require(json_.is_array(), "a list");
@@ -149,7 +149,7 @@ class JsonNode {
   void require(bool condition, std::string_view what) const {
     if (condition) return;
     const std::string_view place = path_.empty() ? "the file" : std::string_view(path_);
-    // A NUL would end the message.
+    // A NUL byte would end the message.
     throw Error(scenario::printable(fmt::format("{} is not {}", place, what)));
   }
 
@@ -158,8 +158,8 @@ class JsonNode {
   std::string path_;
 };
 
-/// What `use(node)` makes of a file's value.
-/// \throws scenario::Error "FILE: what is wrong; what to do", the latter as `kind` has it.
+/// Parses a file and returns `use(node)` of its root.
+/// \throws scenario::Error "FILE: fault; remedy", with the remedy of `kind`.
 template <class Use>
 std::invoke_result_t<Use, JsonNode> read_json(const std::filesystem::path& file,
                                               const scenario::FileKind& kind, const Use& use) {
@@ -172,7 +172,7 @@ std::invoke_result_t<Use, JsonNode> read_json(const std::filesystem::path& file,
   }
 }
 
-/// Figures, events or settings: a page of them a run. Parsed, it takes ten times as much.
+/// Size limit for files of figures, events or settings. Parsed, they take ten times as much memory.
 inline constexpr std::uint64_t kMostJsonBytes = 256 * scenario::kMebibyte;
 
 }  // namespace lcs::bench

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kAnother = "choose another place, or move it away";
 
-/// Absolute, links resolved but for that of the last name, without a trailing slash.
+/// The absolute path without a trailing slash. Links are resolved except in the last component.
 fs::path resolved(const fs::path& target) {
   std::error_code error;
   fs::path path = fs::absolute(target, error).lexically_normal();
@@ -42,7 +42,7 @@ bool is_within(const fs::path& path, const fs::path& folder) {
          folder.end();
 }
 
-/// Outputs of this process that are under way.
+/// All `Output` objects of this process.
 std::vector<const Output*>& under_way() {
   static std::vector<const Output*> all;
   return all;
@@ -260,7 +260,7 @@ struct Output::Move {
       rename_by(made, place, RENAME_EXCHANGE);
       fail_to("replace", place, problem);
     }
-    const bool is_unknown = error == EINVAL || error == ENOSYS;  // the flag, to the file system
+    const bool is_unknown = error == EINVAL || error == ENOSYS;  // unsupported flag
     if (!is_there && !is_unknown) fail_to("create", place, error);
     if (is_there) rename_or_fail("replace", place, earlier);
     try {

@@ -1,6 +1,6 @@
 /// \file
-/// Commands write their results by `Output`: a file or a folder appears as a whole or not at all,
-/// and replaces only files that this program wrote and nobody changed since.
+/// Commands write their results through `Output`: a file or folder appears as a whole or not at
+/// all, and replaces only files that this program wrote and nobody changed since.
 #pragma once
 
 #include <filesystem>
@@ -32,7 +32,7 @@ class FolderLock {
   bool is_of_another_ = false;
 };
 
-/// Paths within a folder of results. A name may start or end with `*`, which stands for anything:
+/// Paths within a folder of results. A name may start or end with `*`, which matches anything:
 /// "runs/*/seed-*/metrics.json".
 using ResultNames = std::vector<std::string>;
 
@@ -54,8 +54,8 @@ enum class Overwrite {
   any_file        ///< any regular file, as `--force` asks for
 };
 
-/// Results are written into a staging folder beside the target, and moved to the target in the end.
-/// At whatever moment the process is killed, the target is the earlier result or the new one.
+/// Results are written into a staging folder beside the target and finally moved to the target.
+/// Even if the process is killed, the target is either the earlier result or the new one.
 class Output {
  public:
   /// A folder of results. Makes the staging folder, and the folders above it if they are missing.
@@ -67,7 +67,7 @@ class Output {
   /// are written to directly.
   Output(const std::filesystem::path& target, Overwrite overwrite);
 
-  /// Removes what was written, unless it was committed.
+  /// Removes the results, unless they were committed.
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -77,11 +77,11 @@ class Output {
   /// Where the results will be.
   const std::filesystem::path& target() const { return target_; }
 
-  /// As `commit_all` of this one.
+  /// As `commit_all` for this output alone.
   void commit();
 
  private:
-  struct Move;  ///< a new file or folder, its place, and a place for the earlier one
+  struct Move;  ///< a new file or folder, its target, and a path for the earlier one
   friend void commit_all(std::span<Output* const> outputs);
   friend void put_in_place(std::span<Output* const> outputs);
 
@@ -108,7 +108,7 @@ class Output {
   bool committed_ = false;
 };
 
-/// Puts all outputs of a command in their places, or none of them. If there are several, a second
+/// Moves all outputs of a command to their targets, or none of them. If there are several, a second
 /// process moves them, so that a signal or `kill -9` of this process does not interrupt the moves.
 /// \throws OutputError; then every earlier result is still there.
 void commit_all(std::span<Output* const> outputs);

@@ -1,5 +1,5 @@
 /// \file
-/// A file being written, with every error reported.
+/// Writes files and reports every error.
 #pragma once
 
 #include <cstdio>
@@ -12,32 +12,32 @@
 
 namespace lcs::bench {
 
-/// Results cannot be written. The message says why, and what to do.
+/// Results cannot be written. The message states the cause and the remedy.
 class OutputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// \throws OutputError "cannot VERB PATH: why; what to do"
+/// \throws OutputError "cannot VERB PATH: cause; remedy"
 [[noreturn]] void fail_to(std::string_view verb, const std::filesystem::path& path,
                           const std::error_code& error);
 [[noreturn]] void fail_to(std::string_view verb, const std::filesystem::path& path, int error);
 
-/// The first bytes of a regular file, at most so many; "" for anything else, a link included.
+/// The first `bytes` bytes of a regular file; "" for anything else, including a link.
 std::string beginning(const std::filesystem::path& file, std::size_t bytes);
 
-/// Created (or emptied) on construction. Only `close` tells whether all of it was written.
+/// A file, created or emptied on construction. Only `close` ensures that all of it was written.
 class OutputFile {
  public:
   /// \throws OutputError
   explicit OutputFile(const std::filesystem::path& path);
 
-  /// \throws OutputError, as when the disk is full.
+  /// \throws OutputError, for example if the disk is full.
   void write(std::string_view text);
-  /// Hands what was written so far to the system, so that it is there even if this process is
+  /// Passes the buffer to the operating system, so that the data survives if this process is
   /// killed. \throws OutputError
   void flush();
-  /// Writes out what is still buffered. \throws OutputError
+  /// Flushes and closes the file. \throws OutputError
   void close();
 
  private:
@@ -48,7 +48,7 @@ class OutputFile {
   std::unique_ptr<std::FILE, Closer> file_;
 };
 
-/// A whole file at once. \throws OutputError
+/// Writes a whole file. \throws OutputError
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace lcs::bench

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t kDigits = 64;
 constexpr std::size_t kLargestRecord = std::size_t{256} << 20;
 
-/// As sha256sum has it: names with a backslash or a line end are escaped, and such a line begins
-/// with a backslash.
+/// A line in the format of sha256sum: in names, backslashes and line ends are escaped, and such a
+/// line begins with a backslash.
 std::string line_of(const std::string& digest, const std::string& name) {
   std::string escaped;
   for (const char c : name) {
@@ -28,7 +28,7 @@ std::string line_of(const std::string& digest, const std::string& name) {
   return fmt::format("{}{}  {}\n", escaped == name ? "" : "\\", digest, escaped);
 }
 
-/// False for a line that `line_of` does not make.
+/// Parses a line of `line_of`. \return false if its format differs.
 bool read_line(std::string_view line, WrittenFiles& files) {
   const bool is_escaped = line.starts_with('\\');
   if (is_escaped) line.remove_prefix(1);
@@ -80,7 +80,7 @@ void write_record_of_folder(const fs::path& folder) {
     if (entry.is_directory()) continue;
     names.push_back(entry.path().lexically_relative(folder).string());
     if (entry.path().filename() != kRecordName) continue;
-    // The record of a folder within, which was made a moment ago, tells of its files.
+    // Reuse the digests of a nested folder's record, which this command has just written.
     const fs::path within = fs::path(names.back()).parent_path();
     for (const auto& [name, digest] : read_record(entry.path())) {
       files.emplace((within / name).string(), digest);

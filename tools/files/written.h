@@ -13,13 +13,13 @@ namespace lcs::bench {
 
 inline constexpr const char* kRecordName = ".lcs-written";
 
-/// The record's place of a single file.
+/// The path of a single file's record.
 std::filesystem::path record_beside(const std::filesystem::path& file);
 
 /// SHA-256 by path. The paths are relative to the folder of the record.
 using WrittenFiles = std::map<std::string, std::string>;
 
-/// Empty where there is no record, or where it does not parse as a whole.
+/// Reads a record; empty if it is missing or invalid.
 WrittenFiles read_record(const std::filesystem::path& record);
 
 /// Writes the record of all files in a folder and below. \throws OutputError
@@ -27,13 +27,13 @@ void write_record_of_folder(const std::filesystem::path& folder);
 /// Writes the record of one file, beside it. \throws OutputError
 void write_record_of_file(const std::filesystem::path& file);
 
-/// What is wrong with a file, as "was changed since lcs wrote it"; "" where its bytes are those
-/// that this program wrote. \param name of the file in its record.
+/// The fault of a file, such as "was changed since lcs wrote it"; "" if its bytes match the record.
+/// \param name the file's name in the record.
 std::string difference(const WrittenFiles& written, const std::string& name,
                        const std::filesystem::path& file);
 
-/// The first file of a folder's record that is missing or was changed, with what is wrong with it;
-/// "" where there is none. Files that are not in the record do not count.
+/// The first file of a folder's record that is missing or was changed, with its fault; "" if there
+/// is none. Files outside the record are ignored.
 std::string first_difference(const std::filesystem::path& folder);
 
 }  // namespace lcs::bench

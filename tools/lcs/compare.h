@@ -1,5 +1,5 @@
 /// \file
-/// `lcs compare`: what two suites differ in, beyond the noise of their seeds.
+/// `lcs compare`: the differences between two suites beyond the noise of their seeds.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,15 +11,15 @@ namespace lcs::tools {
 
 struct CompareOptions {
   std::string before, after;  ///< suite.json, or its folder
-  std::string metric;         ///< regular expression; "" is any
+  std::string metric;         ///< regular expression; "": every metric
   bool all = false;
 };
 
-/// Adds the sub-command to the program's. \param options are filled in by parsing.
+/// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_compare_command(CLI::App& app, CompareOptions& options);
 
-/// \return kRegressed for a regression. \throws std::runtime_error for what cannot be read or
-///   compared.
+/// \return kRegressed for a regression. \throws std::runtime_error if a suite cannot be read or
+///   the two have no scenario in common.
 ExitCode compare(const CompareOptions& options);
 
 }  // namespace lcs::tools

@@ -1,5 +1,5 @@
 /// \file
-/// The option that chooses a detector.
+/// The command-line options that choose a detector.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,22 +14,22 @@
 
 namespace lcs::tools {
 
-/// What watches, as it is asked for.
+/// The requested detector, from the command line.
 struct DetectorOptions {
-  std::string name;     ///< "": lcs, or what a program or file is called
-  std::string command;  ///< of a program; "" for none
+  std::string name;     ///< "": lcs, or a default name for a program or file
+  std::string command;  ///< of a detector program; "": no program
   double timeout_s = comparators::Program{}.timeout_s;
-  std::string detections;  ///< file; "" for none
+  std::string detections;  ///< CSV file or folder; "": none
 };
 
-/// The options that ask for a program again; none for another detector.
+/// The options that select the same detector program in a child process; empty for other detectors.
 inline std::vector<std::string> arguments_of(const DetectorOptions& options) {
   if (options.command.empty()) return {};
   return {"--detector-command", options.command, "--detector-timeout",
           fmt::format("{} s", options.timeout_s)};
 }
 
-/// \throws std::invalid_argument as `comparators::spec_of` and its like.
+/// \throws std::invalid_argument as the `comparators::spec_of` functions do.
 inline comparators::DetectorSpec spec_of(const DetectorOptions& options) {
   if (!options.command.empty()) {
     return comparators::spec_of_program(options.name, {options.command, options.timeout_s});
@@ -40,7 +40,7 @@ inline comparators::DetectorSpec spec_of(const DetectorOptions& options) {
   return comparators::spec_of(options.name.empty() ? "lcs" : options.name);
 }
 
-/// --detector, with all that there are and what each is, and how to give one's own.
+/// Adds --detector, whose help lists all detectors, --detector-command and --detector-timeout.
 inline void add_detector_option(CLI::App& command, DetectorOptions& options,
                                 const std::string& more = "") {
   std::string about = "What watches; lcs if not given:";
@@ -66,12 +66,12 @@ inline void add_detector_option(CLI::App& command, DetectorOptions& options,
       ->needs(own);
 }
 
-/// What stands behind it where presets are taken.
+/// Further help text of --detector, for commands that accept filter presets.
 inline constexpr const char* kPresetDetector =
     "\nlcs:lab    the filter with the paper's preset, or another, and nothing that scenarios say "
     "of it";
 
-/// --beside of one run, each with a folder of its own.
+/// Adds --beside for a single run: each further detector has its own output folder.
 inline void add_beside_option(CLI::App& command, std::vector<std::string>& beside) {
   command
       .add_option(

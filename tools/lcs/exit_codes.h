@@ -1,15 +1,15 @@
 /// \file
-/// What the command tells its caller.
+/// Exit codes of the `lcs` command.
 #pragma once
 
 namespace lcs::tools {
 
 enum ExitCode : int {
   kFine = 0,
-  kCriterionFailed = 1,  ///< the run is whole, but not what the scenario asks for
-  kRegressed = 1,        ///< of two suites, the second is worse
-  kError = 2,            ///< one message on stderr says what, where, and what to do
-  kInterrupted = 130,    ///< by a signal that asks to end, as shells have it
+  kCriterionFailed = 1,  ///< the run completed but missed a required criterion
+  kRegressed = 1,        ///< the second of two suites is worse
+  kError = 2,            ///< stderr has one message: the error, its place and the remedy
+  kInterrupted = 130,    ///< by a termination signal; 128 + SIGINT, as shells report it
 };
 
 }  // namespace lcs::tools

@@ -70,7 +70,7 @@ scenario::Scenario load(const GenerateOptions& options) {
   return scenario;
 }
 
-/// In the order of the table, each once.
+/// The requested formats in the order of the table, without duplicates.
 std::vector<std::string> formats_of(const GenerateOptions& options) {
   for (const std::string& name : options.formats) sequence::format(name);
   std::vector<std::string> names;
@@ -93,8 +93,8 @@ ExitCode check_complete(const fs::path& folder, bool quiet) {
   return kFine;
 }
 
-/// Parts of one sequence by processes of their own. What one of them could not do is left for
-/// later.
+/// Makes the parts of one sequence in child processes, one part for each job.
+/// \throws std::runtime_error if a process fails.
 void share_frames(const GenerateOptions& options, const sequence::Journal& journal,
                   const std::function<void(int)>& show) {
   std::vector<std::vector<std::string>> commands;
@@ -107,7 +107,7 @@ void share_frames(const GenerateOptions& options, const sequence::Journal& journ
   suite::run_all(
       commands, static_cast<std::size_t>(options.jobs),
       [&](std::size_t place, const suite::Exit& exit) {
-        // The last one has seen the world to its end.
+        // Only the process of the last part simulates the world to its end.
         if (place + 1 == commands.size()) warn(suite::warnings_of(exit));
         if (exit.code != kFine || exit.signal != 0) {
           throw std::runtime_error(suite::complaint_of(exit));
@@ -120,7 +120,7 @@ void share_frames(const GenerateOptions& options, const sequence::Journal& journ
       });
 }
 
-/// Of those who put the sequence together in the end, one at a time.
+/// Waits for the folder's lock, so that only one process assembles the sequence.
 void wait_for_turn(const fs::path& folder, std::optional<bench::FolderLock>& turn) {
   for (bool is_told = false;; is_told = true) {
     turn.emplace(folder);
@@ -227,10 +227,10 @@ ExitCode generate(const GenerateOptions& options) {
   });
   if (journal.is_complete()) return check_complete(journal.folder(), options.quiet);
 
-  if (options.jobs == 1) {  // else its processes tell it
+  if (options.jobs == 1) {  // otherwise the child processes print it
     warn(scenario::shadowed_files(scenario));
   }
-  bench::Recording seen;  // of which nothing but its world matters
+  bench::Recording seen;  // only its warnings are used
   const int frames = range.last - range.first;
   int whole = 0;
   try {

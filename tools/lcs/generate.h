@@ -1,5 +1,5 @@
 /// \file
-/// `lcs generate`: scenarios written out as sequences that other tools read.
+/// `lcs generate`: writes scenarios as sequences of pictures and truth for other tools.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,36 +13,36 @@
 namespace lcs::tools {
 
 struct GenerateOptions {
-  std::vector<std::string> paths;    ///< one scenario file; with `suite` files and folders, or none
-  bool suite = false;                ///< many sequences, one a scenario and seed
+  std::vector<std::string> paths;    ///< one scenario file; with `suite`: files and folders
+  bool suite = false;                ///< one sequence for each scenario and seed
   std::string out;                   ///< folder; "" is data/<scenario's name>, data with `suite`
-  std::vector<std::string> formats;  ///< none: all
+  std::vector<std::string> formats;  ///< empty: all
   std::optional<std::uint64_t> seed;
   std::vector<std::string> sets;     ///< "key=value"
-  int frames = 0;                    ///< 0: as many as the scenario has
-  int jobs = 1;                      ///< processes at a time
+  int frames = 0;                    ///< 0: all frames of the scenario
+  int jobs = 1;                      ///< concurrent processes
   std::string shard;                 ///< "i/n": only this part; "" is all
-  std::optional<std::string> group;  ///< with `suite`: as `lcs suite` has it
-  std::string filter;                ///< likewise
-  int seeds = 1;                     ///< likewise
+  std::optional<std::string> group;  ///< with `suite`: as in `SuiteOptions`
+  std::string filter;                ///< as in `SuiteOptions`
+  int seeds = 1;                     ///< per scenario, with `suite`
   bool quiet = false;
 };
 
-/// Adds the sub-command to the program's. \param options are filled in by parsing.
+/// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_generate_command(CLI::App& app, GenerateOptions& options);
 
 /// \throws scenario::Error, bench::OutputError, sequence::TruthError, sim::PhysicsError,
-///   std::exception; then the frames that are whole are there, and the same command goes on.
+///   std::exception. Complete frames are kept, and the same command resumes after them.
 ExitCode generate(const GenerateOptions& options);
 
-/// The same with `suite`. \return kError if one of the sequences could not be made.
+/// Makes the sequences of a suite. \return kError if a sequence could not be made.
 ExitCode generate_suite(const GenerateOptions& options);
 
-/// The arguments of a process that makes one sequence, or a part of it.
+/// The arguments of a child process that makes one sequence or a part of it.
 std::vector<std::string> sequence_command(const GenerateOptions& options,
                                           const std::string& scenario, const std::string& out);
 
-/// i and n of "i/n". \throws std::invalid_argument unless 1 <= i <= n.
+/// Parses "i/n" to i and n. \throws std::invalid_argument unless 1 <= i <= n.
 std::pair<int, int> shard_of(const std::string& text);
 
 }  // namespace lcs::tools

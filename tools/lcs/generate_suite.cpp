@@ -1,4 +1,4 @@
-// `lcs generate --suite`: every sequence a process of its own.
+// `lcs generate --suite`: makes every sequence in its own process.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -14,11 +14,11 @@ namespace lcs::tools {
 namespace {
 
 struct PlannedSequence {
-  std::string name;  ///< of its folder
+  std::string name;  ///< name of its folder
   std::vector<std::string> command;
 };
 
-/// This part's sequences; broken scenarios are told at once.
+/// The sequences of this shard. Reports broken scenarios on stderr and sets `is_broken`.
 std::vector<PlannedSequence> plan_sequences(const GenerateOptions& options, bool& is_broken) {
   const auto [part, parts] = options.shard.empty() ? std::pair(1, 1) : shard_of(options.shard);
   const std::filesystem::path folder = options.out.empty() ? "data" : options.out;
@@ -36,7 +36,7 @@ std::vector<PlannedSequence> plan_sequences(const GenerateOptions& options, bool
       continue;
     }
     for (const std::uint64_t seed : planned.seeds) {
-      // Dealt out like cards: neighbours are alike in length.
+      // Round robin balances the shards: neighbouring sequences have similar lengths.
       if (static_cast<int>(place++ % static_cast<std::size_t>(parts)) != part - 1) continue;
       GenerateOptions one = options;
       one.sets = planned.sets;

@@ -13,8 +13,8 @@
 namespace lcs::tools {
 namespace {
 
-// Longer than the largest picture takes to draw, and than it takes to tidy up. Results that are
-// being put in place meanwhile survive SIGKILL, too.
+// Longer than rendering the largest picture or cleaning up takes. Results that are being committed
+// when it expires survive, as they survive SIGKILL.
 constexpr unsigned kGrace_s = 20;
 
 volatile std::sig_atomic_t requested = 0;
@@ -25,11 +25,11 @@ void make_note(int signal) {
   if (is_first && signal != SIGPIPE && signal != SIGXFSZ) ::alarm(kGrace_s);
 }
 
-/// Of a wait that nothing ends: the handlers of signals let it go on.
+/// Handler of SIGALRM. Ends a process whose blocking call resumes after signals (SA_RESTART).
 void give_up(int) {
   constexpr std::string_view kText = "lcs: interrupted\n";
   pollfd err{STDERR_FILENO, POLLOUT, 0};
-  const bool is_read = ::poll(&err, 1, 0) == 1;  // else it would be waited for, too
+  const bool is_read = ::poll(&err, 1, 0) == 1;  // otherwise the write could block, too
   if (is_read && ::write(STDERR_FILENO, kText.data(), kText.size()) < 0) ::_exit(kError);
   ::_exit(kInterrupted);
 }
@@ -37,7 +37,7 @@ void give_up(int) {
 void catch_signals() {
   struct sigaction action = {};
   action.sa_handler = make_note;
-  action.sa_flags = SA_RESTART;  // files being written are not to be disturbed
+  action.sa_flags = SA_RESTART;  // signals must not interrupt file writes
   sigemptyset(&action.sa_mask);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGPIPE, SIGXFSZ}) {
     struct sigaction before = {};
@@ -49,7 +49,7 @@ void catch_signals() {
   sigaction(SIGALRM, &action, nullptr);
 }
 
-/// Run by the loader before the initialisers of all libraries, which take tens of milliseconds.
+/// The loader runs this before the libraries' initialisers, which take tens of milliseconds.
 [[gnu::section(".preinit_array"), gnu::used]] void (*const catch_signals_first)() = catch_signals;
 
 }  // namespace

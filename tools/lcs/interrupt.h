@@ -1,5 +1,5 @@
 /// \file
-/// Signals as requests that are honoured between two frames, so that nothing is left half done.
+/// Termination signals are handled between two frames, so that no output is left incomplete.
 #pragma once
 
 #include <stdexcept>
@@ -12,13 +12,13 @@ class Interrupted : public std::runtime_error {
       : std::runtime_error(what) {}
 };
 
-/// Whether a signal has come that `check_interrupted` throws for.
+/// Whether a signal has arrived for which `check_interrupted` throws.
 bool is_interrupted();
 
-/// To be called between two frames. Signals only make a note; but a process that has still not ended
-/// 20 s after one that asks it to end, ends at once, whatever it waits for, as by SIGKILL.
-/// \throws Interrupted if SIGINT, SIGTERM, SIGHUP or SIGXCPU has come since the program started,
-///   bench::OutputError if SIGPIPE or SIGXFSZ has: something could not be written.
+/// To be called between two frames. A signal handler only records the signal. If the process still
+/// runs 20 s after a termination signal, it exits at once without cleanup.
+/// \throws Interrupted if SIGINT, SIGTERM, SIGHUP or SIGXCPU has arrived since the program started;
+///   bench::OutputError if SIGPIPE or SIGXFSZ has arrived: a write failed.
 void check_interrupted();
 
 }  // namespace lcs::tools

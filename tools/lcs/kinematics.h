@@ -1,5 +1,5 @@
 /// \file
-/// `lcs kinematics`: when the kinematics model holds, for a user's own camera and rover.
+/// `lcs kinematics`: the conditions under which the kinematics model holds for a camera and rover.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,7 +11,7 @@
 namespace lcs::tools {
 
 struct KinematicsOptions {
-  std::string config;             ///< scenario file; "": the project's `crossing.yaml`
+  std::string config;             ///< scenario file; "": `crossing.yaml` of this project
   std::vector<std::string> sets;  ///< "key=value"
   std::string out = "out/kinematics";
   double tolerance_px = 1;
@@ -19,11 +19,11 @@ struct KinematicsOptions {
   bool quiet = false;
 };
 
-/// Adds the sub-command to the program's. \param options are filled in by parsing.
+/// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_kinematics_command(CLI::App& app, KinematicsOptions& options);
 
 /// \throws scenario::Error, bench::OutputError, sim::PhysicsError, Interrupted, std::exception;
-///   then there is no new output, and an earlier one is as it was.
+///   then no output is written, and earlier output is unchanged.
 ExitCode kinematics(const KinematicsOptions& options);
 
 }  // namespace lcs::tools

@@ -54,7 +54,7 @@ through its camera and IMU, and the simulator's truth scores what the filter say
 constexpr const char* kNoMemory =
     "not enough memory; raise ulimit -v where it is set, or choose a smaller camera or scene";
 
-/// Shows what has a place on the command line there alone, though it may be named as an option too.
+/// Help formatter that lists positional arguments only once, not among the options too.
 class Help : public CLI::Formatter {
  public:
   std::string make_group(std::string group, bool is_positional,
@@ -111,7 +111,7 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
-    const auto named = app.get_subcommands();  // what was named, if anything
+    const auto named = app.get_subcommands();  // the sub-command in use, if any
     const std::string command = named.empty() ? "" : named.front()->get_name() + " ";
     return fail(fmt::format("{}; see lcs {}--help", error.what(), command));
   }
@@ -124,7 +124,7 @@ int run_command_line(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // The same bits whatever the machine's cores; what OpenCV has to say arrives as an exception.
+  // One thread: results do not depend on the number of cores. OpenCV reports errors by exceptions.
   cv::setNumThreads(0);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   open_standard_descriptors();

@@ -1,6 +1,6 @@
 /// \file
-/// Options that several sub-commands have. Numbers are read as those of a scenario are: all of the
-/// text, in range.
+/// Options shared by several sub-commands. Numbers are parsed as in a scenario file: the whole text
+/// must be a number within the range.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,13 +17,13 @@
 
 namespace lcs::tools {
 
-/// The text behind an option as a value of a scenario.
+/// Converts an option's text to a scenario value.
 inline scenario::Value option_value(const std::string& name, const std::string& text) {
   return {scenario::Value::Kind::scalar, {name, 0}, text};
 }
 
-/// \param name "--seeds". \param out an integer, or an optional one. \throws scenario::Error in
-/// parsing.
+/// \param name such as "--seeds". \param out an integer or an optional of one.
+/// Parsing throws scenario::Error.
 template <class Out>
 CLI::Option* add_integer_option(CLI::App& command, const std::string& name, Out& out,
                                 const std::string& about, std::int64_t low, std::int64_t high) {
@@ -36,7 +36,7 @@ CLI::Option* add_integer_option(CLI::App& command, const std::string& name, Out&
       about);
 }
 
-/// `--seed N`. \param seed a std::uint64_t, or an optional one.
+/// Adds `--seed N`. \param seed a std::uint64_t or an optional of one.
 template <class Seed>
 void add_seed_option(CLI::App& command, Seed& seed,
                      const std::string& about = "Seed, instead of the scenario's") {
@@ -50,7 +50,7 @@ void add_seed_option(CLI::App& command, Seed& seed,
       ->type_name("N");
 }
 
-/// A number that may carry its unit; `out` is in SI, or an optional of that.
+/// Adds an option for a number with or without a unit. \param out in SI units, or an optional.
 template <class Out>
 CLI::Option* add_quantity_option(CLI::App& command, const std::string& name,
                                  const scenario::Quantity& quantity, Out& out,
@@ -63,8 +63,8 @@ CLI::Option* add_quantity_option(CLI::App& command, const std::string& name,
       about);
 }
 
-/// Makes every sub-command refuse an empty value of an option or argument. It is a slip, such as a
-/// shell variable that is not set, and does not mean the same as an option that is not given.
+/// Makes every sub-command reject an empty value of an option or argument. An empty value usually
+/// comes from an unset shell variable and must not be treated like an absent option.
 inline void refuse_empty_options(CLI::App& app) {
   const auto complaint = [](const std::string& text) -> std::string {
     return text.empty() ? "is given without a value; give one, or leave it out" : "";
@@ -76,7 +76,7 @@ inline void refuse_empty_options(CLI::App& app) {
   }
 }
 
-/// One setting behind each `--set`, so that what follows it is not taken for another.
+/// Adds `--set`. It takes one value, so that a positional argument may follow it.
 inline void add_set_option(CLI::App& command, std::vector<std::string>& sets,
                            const std::string& about) {
   command.add_option("--set", sets, about + "; may be repeated")
@@ -84,8 +84,8 @@ inline void add_set_option(CLI::App& command, std::vector<std::string>& sets,
       ->allow_extra_args(false);
 }
 
-/// Key and value of a setting of the filter, as `--set` has it where it is not a scenario's.
-/// \throws std::invalid_argument
+/// Splits "key=value", a filter setting given by `--set`.
+/// \throws std::invalid_argument if there is no '='.
 inline std::pair<std::string, std::string> key_and_value(const std::string& setting) {
   const std::size_t equals = setting.find('=');
   if (equals == std::string::npos) {
@@ -95,18 +95,18 @@ inline std::pair<std::string, std::string> key_and_value(const std::string& sett
   return {setting.substr(0, equals), setting.substr(equals + 1)};
 }
 
-/// The heading in the help of all options that name what is written. Each goes through
-/// `bench::Output`, or `bench::output_path` where a folder grows.
+/// Help heading of all options that name output files. Each such path goes through
+/// `bench::Output`, or through `bench::output_path` for a folder that is filled step by step.
 inline constexpr const char* kOutputs = "Outputs";
 
-/// \param otherwise the folder of the results where none is given.
+/// Adds `--out`. \param otherwise the default folder, named in the help.
 inline void add_out_option(CLI::App& command, std::string& out, const std::string& otherwise) {
   command.add_option("--out", out, "Folder for the results; " + otherwise + " if not given")
       ->type_name("DIR")
       ->group(kOutputs);
 }
 
-/// An option that names a single file, and `--force` beside the first of a command.
+/// Adds an option for a single output file, and `--force` with the first such option of a command.
 inline void add_output_file_option(CLI::App& command, const std::string& name, std::string& out,
                                    bool& force, const std::string& about) {
   command.add_option(name, out, about)->type_name("FILE")->group(kOutputs);
@@ -117,12 +117,12 @@ inline void add_output_file_option(CLI::App& command, const std::string& name, s
       ->group(kOutputs);
 }
 
-/// How a file that is named may be replaced.
+/// Whether an existing output file may be replaced.
 inline bench::Overwrite overwrite(bool force) {
   return force ? bench::Overwrite::any_file : bench::Overwrite::own_or_forced;
 }
 
-/// What a run leaves beside its figures.
+/// Adds the options that choose a run's output files besides its figures.
 inline void add_result_options(CLI::App& command, bool& no_video, bool& events) {
   command.add_flag("--no-video", no_video, "Write no video.mp4");
   command.add_flag("--events", events,

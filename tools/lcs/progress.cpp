@@ -46,7 +46,7 @@ void Progress::show_bar(int done) {
 }
 
 void Progress::show_line(int done) {
-  // A line where another quarter became full.
+  // Prints a line each time another quarter is complete.
   if (done * kLines / total_ > told_ * kLines / total_) {
     print_err("{}: {}/{} {}\n", name_, done, total_, unit_);
   }

@@ -1,5 +1,5 @@
 /// \file
-/// How far a run is, on stderr: a bar on a terminal, a line every quarter elsewhere.
+/// Progress of a run on stderr: a bar on a terminal, otherwise a line at every quarter.
 #pragma once
 
 #include <chrono>
@@ -9,15 +9,15 @@ namespace lcs::tools {
 
 class Progress {
  public:
-  /// \param total of what is to be done, counted in `unit`.
-  /// \param quiet says nothing at all.
+  /// \param total number of `unit`s to process.
+  /// \param quiet prints nothing.
   Progress(std::string name, int total, bool quiet, std::string unit = "frames");
-  /// Wipes the bar.
+  /// Erases the bar.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// \param done so far.
+  /// \param done number of units processed so far.
   void show(int done);
 
  private:

@@ -45,10 +45,10 @@ lcs generate that has truth.jsonl (--formats landmarks, or all) is scored as its
 namespace fs = std::filesystem;
 using scenario::Value;
 
-/// An option that is a key of `recording`; what it takes is the scenario's to check.
+/// An option that is a key of `recording`. The scenario loader checks its value.
 struct KeyOption {
   const char* key;
-  const char* type;  ///< with commas for a list
+  const char* type;  ///< commas denote a list
   const char* about;
 };
 constexpr KeyOption kKeys[] = {
@@ -94,7 +94,7 @@ Value list_of(const std::string& flag, const std::string& text) {
   return list;
 }
 
-/// Behind what is there, or in the place of one of that name.
+/// Sets a key of the map: replaces its value or appends a new entry.
 void put(Value& map, const std::string& key, Value value) {
   const auto found = std::find_if(map.entries.begin(), map.entries.end(),
                                   [&](const scenario::Entry& entry) { return entry.key == key; });
@@ -135,7 +135,7 @@ Value filter_of(const ReplayOptions& options) {
   return filter;
 }
 
-/// What the options say, as a scenario file would.
+/// The options as a scenario document.
 Value document_of(const ReplayOptions& options) {
   Value root(Value::Kind::map, {"lcs replay", 0});
   put(root, "recording", recording_of(options));
@@ -152,15 +152,15 @@ Value document_of(const ReplayOptions& options) {
   return root;
 }
 
-/// That of the folder or video.
+/// The name of the recording's folder, or of its video without the extension.
 std::string name_of(const fs::path& path) {
-  // A trailing slash leaves an empty last part.
+  // A path with a trailing slash has an empty filename.
   const fs::path whole = fs::absolute(path).lexically_normal();
   const fs::path last = whole.has_filename() ? whole : whole.parent_path();
   return (fs::is_directory(last) ? last.filename() : last.stem()).string();
 }
 
-/// Paths of a scenario begin at its file, wherever that is.
+/// Makes all paths absolute, because a scenario's paths are relative to its file.
 void make_absolute(Value& recording) {
   for (scenario::Entry& entry : recording.entries) {
     for (const char* key : {"path", "poses", "imu", "odometry", "mask", "labels"}) {

@@ -1,5 +1,5 @@
 /// \file
-/// `lcs replay`: a detector on a recording, by options in place of a scenario.
+/// `lcs replay`: runs a detector on a recording that options describe instead of a scenario file.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,23 +13,23 @@
 namespace lcs::tools {
 
 struct ReplayOptions {
-  std::string path;                              ///< of the recording
-  std::map<std::string, std::string> recording;  ///< keys of a scenario's `recording`, as given
-  std::string ego_motion;                        ///< imu or truth; "": as the recording has it
-  std::string fast_threshold;                    ///< "": as the recording has it
-  std::string preset;                            ///< "": as the recording has it
-  std::vector<std::string> sets;                 ///< "key=value" of the filter
+  std::string path;                              ///< folder or video of the recording
+  std::map<std::string, std::string> recording;  ///< keys and values of a scenario's `recording`
+  std::string ego_motion;                        ///< imu or truth; "": the recording's default
+  std::string fast_threshold;                    ///< "": the recording's default
+  std::string preset;                            ///< "": the recording's default
+  std::vector<std::string> sets;                 ///< filter settings, "key=value"
   DetectorOptions detector;
-  std::vector<std::string> beside;  ///< as `RunOptions`
+  std::vector<std::string> beside;  ///< as in `RunOptions`
   std::string out;                  ///< folder; "" is out/<name of the recording>
-  std::string write;                ///< file for the scenario, and nothing is run; "": run it
+  std::string write;                ///< scenario file to write instead of running; "": run
   bool force = false;
   bool no_video = false;
   bool events = false;
   bool quiet = false;
 };
 
-/// Adds the sub-command to the program's. \param options are filled in by parsing.
+/// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options);
 
 /// \throws as `run`.

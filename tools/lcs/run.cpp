@@ -98,13 +98,13 @@ Intrinsics camera_of(const scenario::Scenario& scenario) {
       sim::Pinhole::from_fovy(camera.width_px, camera.height_px, camera.fovy_rad));
 }
 
-/// What the detector watches, and where it comes from.
+/// The source of the frames that the detectors process.
 struct Frames {
   Intrinsics camera;
-  bench::Recording recording;                 ///< without frames yet
-  const bench::Recording* earlier = nullptr;  ///< with the frames of an earlier run
+  bench::Recording recording;                 ///< without frames
+  const bench::Recording* earlier = nullptr;  ///< the earlier run's recording; null: none
   const bench::FramePictures* pictures = nullptr;
-  std::vector<std::string> missing = {};  ///< a line for each thing that a run would have made
+  std::vector<std::string> missing = {};  ///< warnings about data that the earlier run lacks
   std::function<std::vector<Diagnostics>(std::span<const bench::Watcher>)> run;
 };
 
@@ -163,18 +163,18 @@ Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
           }};
 }
 
-/// A detector that watches, and where what it says goes.
+/// A detector of this run and the destination of its results.
 struct Watching {
   comparators::DetectorSpec spec;
   std::filesystem::path target;
-  scenario::Scenario scenario;  ///< as it takes it
+  scenario::Scenario scenario;  ///< with this detector's preset applied
   std::vector<std::string> idle_settings = {};
   std::unique_ptr<bench::Detector> detector = {};
   bench::Recording recording = {};
   std::unique_ptr<bench::Result> result = {};
 };
 
-/// The run's own detector and those beside it.
+/// The run's own detector, then those of `--beside`.
 std::vector<Watching> watching(const RunOptions& options, const scenario::Scenario& scenario) {
   std::vector<Watching> all;
   all.push_back({spec_of(options.detector), target_of(options, scenario), scenario});
@@ -188,14 +188,14 @@ std::vector<Watching> watching(const RunOptions& options, const scenario::Scenar
         {comparators::spec_of(beside.substr(0, equals)), beside.substr(equals + 1), scenario});
   }
   for (Watching& one : all) {
-    // whoever reads the filter's settings: what is wrong is told
+    // Throws if the filter's settings are wrong, also for detectors that ignore them.
     one.idle_settings = comparators::apply_preset(one.spec, one.scenario);
     if (!options.recorded.empty()) comparators::require_corners_suffice(one.spec);
   }
   return all;
 }
 
-/// The page of the run, as of a suite of this one.
+/// Writes the report page of the run as a suite with a single run.
 void write_page(const RunOptions& options, const scenario::Scenario& scenario, const Watching& own,
                 const std::filesystem::path& folder, const bench::Metrics& metrics) {
   std::vector<std::string> command{"run", options.scenario, "--seed",
@@ -295,7 +295,7 @@ ExitCode run(const RunOptions& options) {
 }
 
 ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
-  // All that can be wrong with what was asked for is found before any output is begun.
+  // Validate the whole request before any output is begun.
   std::optional<replay::Playback> playback;
   if (scenario.recording) scenario = playback.emplace(scenario).scenario();
   std::vector<Watching> all = watching(options, scenario);

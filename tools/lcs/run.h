@@ -1,5 +1,5 @@
 /// \file
-/// `lcs run`: a scenario simulated, watched by a detector, scored and reported.
+/// `lcs run`: simulates a scenario, runs a detector on its frames, scores it and reports.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,30 +16,30 @@
 namespace lcs::tools {
 
 struct RunOptions {
-  std::string scenario;  ///< file
+  std::string scenario;  ///< scenario file
   std::string out;       ///< folder; "" is out/<scenario's name>
   std::optional<std::uint64_t> seed;
   std::vector<std::string> sets;  ///< "key=value"
-  std::string frames = {};        ///< that many, instead of the scenario's; "" for those
+  std::string frames = {};        ///< number of frames; "": as in the scenario
   DetectorOptions detector;
-  std::vector<std::string> beside;  ///< "detector=folder": others that watch the same frames
-  std::string recorded;  ///< folder of an earlier run to take the frames from; "": simulate
+  std::vector<std::string> beside;  ///< "detector=folder": further detectors on the same frames
+  std::string recorded;  ///< folder of an earlier run that provides the frames; "": simulate
   bool no_video = false;
   bool events = false;
-  bool report = false;  ///< with the events
-  bool view = false;    ///< in a window, while it goes on
+  bool report = false;  ///< write report.html, and with it events.json
+  bool view = false;    ///< show the run in a window
   bool quiet = false;
 };
 
-/// The same for a scenario that is loaded: `options.scenario`, `seed` and `sets` are not looked at.
-/// \throws as `run`.
+/// As `run`, for a loaded scenario: `options.seed` is ignored; `options.scenario`, `sets` and
+/// `frames` only appear in the report. \throws as `run`.
 ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario);
 
-/// Adds the sub-command to the program's. \param options are filled in by parsing.
+/// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_run_command(CLI::App& app, RunOptions& options);
 
 /// \throws scenario::Error, bench::OutputError, sim::PhysicsError, Interrupted, std::exception;
-///   then there is no new output, and an earlier one is as it was.
+///   then no output is written, and earlier output is unchanged.
 ExitCode run(const RunOptions& options);
 
 }  // namespace lcs::tools

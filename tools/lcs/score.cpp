@@ -52,13 +52,13 @@ bench::Recording read_run(const std::filesystem::path& folder) {
         fmt::format("{} is no folder; name one that lcs run has left", folder.string()));
   }
   bench::Recording recording = bench::read_recording(folder);
-  // Recordings may be handed on without: then there are no times.
+  // The file is optional; without it the recording has no times.
   const std::filesystem::path frames_csv = folder / bench::kFramesFile;
   if (std::filesystem::exists(frames_csv)) bench::read_times(frames_csv, recording);
   return recording;
 }
 
-/// Each run's figures anew, in the table that `lcs suite` prints.
+/// Scores every run of a suite again and prints the table of `lcs suite`.
 ExitCode score_suite(const ScoreOptions& options) {
   if (!options.detections.empty() || !options.out.empty() || !options.write_detections.empty()) {
     throw std::invalid_argument(fmt::format(

@@ -1,5 +1,5 @@
 /// \file
-/// `lcs score`: the figures of a run from its files, or of someone else's detector on them.
+/// `lcs score`: computes a run's figures from its files, for its own or another detector.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,14 +11,14 @@ namespace lcs::tools {
 
 struct ScoreOptions {
   std::string sequence;          ///< folder of a run
-  std::string detections;        ///< CSV; "": the run's own detector
+  std::string detections;        ///< CSV file; "": score the run's own detector
   std::string out;               ///< file for the figures; "": none
-  std::string write_detections;  ///< file for the verdicts; "": none
+  std::string write_detections;  ///< CSV file for the verdicts; "": none
   bool force = false;
   bool quiet = false;
 };
 
-/// Adds the sub-command to the program's. \param options are filled in by parsing.
+/// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_score_command(CLI::App& app, ScoreOptions& options);
 
 /// \throws scenario::Error, bench::OutputError, std::exception.

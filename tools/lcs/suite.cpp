@@ -92,7 +92,7 @@ std::size_t jobs_at_once(const SuiteOptions& options) {
   return std::max(1U, std::thread::hardware_concurrency());
 }
 
-/// The earlier suite at the target, if there is one that can be read: it only helps to plan.
+/// The earlier suite at the target, if it is readable. Its times only help to schedule the runs.
 std::optional<suite::SuiteResult> former_suite(const fs::path& target) {
   try {
     return suite::read_suite(target / suite::kSuiteFile);
@@ -108,7 +108,7 @@ ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
   bool is_broken = false;
   for (const suite::PlannedScenario& planned : plan) {
     if (planned.scenario) {
-      const int frames = planned.scenario->frames;  // 0: all that a recording has
+      const int frames = planned.scenario->frames;  // 0: all frames of a recording
       print_out("{:<{}}  {:>4} frames, {} criteria [{}] {}\n", planned.name, longest,
                 frames > 0 ? std::to_string(frames) : "all", planned.scenario->criteria.size(),
                 fmt::join(planned.scenario->groups, ", "), planned.scenario->purpose);
@@ -120,8 +120,8 @@ ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
   return is_broken ? kError : kFine;
 }
 
-/// What is seldom meant, of all scenarios, each once. What is wrong with settings is told by the
-/// runs.
+/// Warnings about likely mistakes in all scenarios, without duplicates. The runs report invalid
+/// settings.
 std::vector<std::string> seldom_meant(const std::vector<suite::PlannedScenario>& plan,
                                       const comparators::DetectorSpec& spec) {
   std::vector<std::string> lines;
@@ -142,7 +142,7 @@ std::vector<std::string> seldom_meant(const std::vector<suite::PlannedScenario>&
   return lines;
 }
 
-/// What changed, worst first, and the verdict last, which is what is seen.
+/// Prints the changes, worst first. The verdict comes last, where the terminal ends.
 void print_changes(const suite::Verdict& verdict, const suite::Comparison& comparison,
                    const std::string& baseline) {
   print_out("Against {}:\n", baseline);
@@ -152,7 +152,7 @@ void print_changes(const suite::Verdict& verdict, const suite::Comparison& compa
   print_out("{}", scenario::printable(suite::text_of(verdict)));
 }
 
-/// The suite's own detector and those beside it, each once.
+/// The suite's own detector and those of `--beside`. \throws std::invalid_argument for duplicates.
 std::set<std::string> names_of_all(const SuiteOptions& options, const std::string& own) {
   std::set<std::string> names{own};
   for (const std::string& name : options.beside) {
@@ -172,12 +172,12 @@ std::vector<scenario::Criterion> criteria_of(const std::vector<suite::PlannedSce
   return all;
 }
 
-/// Of a detector's results, in the suite's folder.
+/// The folder of a detector's results, relative to the suite's folder.
 fs::path part_of(const std::string& detector, const std::string& own) {
   return detector == own ? fs::path() : fs::path("beside") / detector;
 }
 
-/// All that are missing are told at once.
+/// \throws std::runtime_error that lists all missing files of detections.
 void require_detections(const fs::path& folder, const std::vector<suite::PlannedScenario>& plan) {
   if (!fs::is_directory(folder)) {
     throw std::invalid_argument(
@@ -278,7 +278,7 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
 }
 
 ExitCode suite(const SuiteOptions& options) {
-  // What cannot be is told before anything runs.
+  // Validate the request before anything runs.
   const comparators::DetectorSpec spec = tools::spec_of(options.detector);
   const std::string& own = spec.name;
   const std::set<std::string> watching = names_of_all(options, own);
@@ -339,7 +339,7 @@ ExitCode suite(const SuiteOptions& options) {
     }
     return results;
   };
-  // What looks at pictures cannot watch a recording.
+  // Detectors that need pictures cannot use a recording: they simulate in runs of their own.
   std::vector<std::string> beside_own{own}, apart;
   for (const std::string& name : options.beside) {
     const bool looks = comparators::spec_of(name).detector.sees_pictures;

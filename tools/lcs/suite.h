@@ -1,5 +1,5 @@
 /// \file
-/// `lcs suite`: many scenarios with several seeds each, in parallel, told in one table.
+/// `lcs suite`: runs many scenarios with several seeds each in parallel and prints one table.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,29 +14,29 @@
 namespace lcs::tools {
 
 struct SuiteOptions {
-  std::vector<std::string> paths;    ///< scenario files and folders; none: the project's own
-  std::optional<std::string> group;  ///< none: `short` for folders, all for files
-  std::string filter;                ///< regular expression for names
-  int jobs = 0;                      ///< runs at a time; 0: as many as there are processors
-  std::optional<int> seeds;          ///< none: 3, of worlds 1
-  WorldsOptions worlds;              ///< to run in place of scenario files
+  std::vector<std::string> paths;    ///< scenario files and folders; empty: the project's own
+  std::optional<std::string> group;  ///< absent: all for named paths, else `short`
+  std::string filter;                ///< regular expression that names must match
+  int jobs = 0;                      ///< concurrent runs; 0: one per processor
+  std::optional<int> seeds;          ///< per scenario; absent: 3, for worlds 1
+  WorldsOptions worlds;              ///< worlds to run instead of scenario files
   DetectorOptions detector;
   std::vector<std::string> sets;    ///< "key=value"
-  std::vector<std::string> beside;  ///< other detectors to run too
-  std::string recorded;             ///< folder of an earlier suite, for its frames; "": simulate
+  std::vector<std::string> beside;  ///< further detectors on the same frames
+  std::string recorded;             ///< earlier suite's folder, for its frames; "": simulate
   std::string out = "out/suite";    ///< folder
-  std::string baseline;             ///< suite.json, or its folder; "" for none
-  bool fail_on_regression = false;  ///< against the baseline
+  std::string baseline;             ///< suite.json or its folder; "": none
+  bool fail_on_regression = false;  ///< exit with kRegressed if worse than the baseline
   bool worst_first = false;
   bool list = false;
   bool quiet = false;
 };
 
-/// Adds the sub-command to the program's. \param options are filled in by parsing.
+/// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options);
 
-/// \throws bench::OutputError, Interrupted, std::exception; then there is no new suite, and an
-///   earlier one is as it was.
+/// \throws bench::OutputError, Interrupted, std::exception; then no suite is written, and an
+///   earlier suite is unchanged.
 ExitCode suite(const SuiteOptions& options);
 
 }  // namespace lcs::tools

@@ -1,5 +1,5 @@
 /// \file
-/// How far a suite is, on stderr: a line a finished run, and on a terminal one that changes.
+/// Progress of a suite on stderr: a line per finished run, and on a terminal a status line.
 #pragma once
 
 #include <chrono>
@@ -13,14 +13,14 @@ namespace lcs::tools {
 
 class SuiteProgress {
  public:
-  /// \param quiet says nothing at all.
+  /// \param quiet prints nothing.
   explicit SuiteProgress(bool quiet);
-  /// Wipes the line.
+  /// Erases the status line.
   ~SuiteProgress();
   SuiteProgress(const SuiteProgress&) = delete;
   SuiteProgress& operator=(const SuiteProgress&) = delete;
 
-  /// \param detectors that watched, the suite's own first. \param runs what it came to for each.
+  /// \param detectors names, the suite's own first. \param runs the result of each detector.
   void finished(const suite::SuiteProgress& progress, const std::string& scenario,
                 const std::vector<std::string>& detectors,
                 std::span<const suite::RunResult* const> runs);

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 constexpr const char* kFolder = "out/worlds";
 constexpr int kMostWorlds = 100'000;
 
-/// What a run's camera saw; none where it has left no pictures.
+/// Pictures and truth of a run's sampled frames; absent if the run has no pictures.
 std::optional<worlds::Shots> recorded_shots(const fs::path& run, cv::Size image_px) {
   if (!fs::exists(run / bench::kPicturesFile)) return std::nullopt;
   const auto pictures = bench::FramePictures::read(run / bench::kPicturesFile, image_px);
@@ -57,7 +57,7 @@ void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
     cv::Mat3b above;
     try {
       above = sim::read_picture(plan, {plan.string(), 0}, cv::IMREAD_COLOR);
-    } catch (const scenario::Error& error) {  // the runs are worth more than their picture
+    } catch (const scenario::Error& error) {  // keep the runs without this picture
       warn({error.what()});
     }
     const auto bytes = bench::jpeg(worlds::contact_sheet(*shots, above, kColumns), kQuality);
@@ -124,7 +124,7 @@ void add_origins(suite::SuiteResult& result) {
       const scenario::Origin origin =
           scenario::load(scenario.file).origin.value_or(scenario::Origin{});
       scenario.drawn = {origin.family, origin.again, origin.features};
-    } catch (const scenario::Error&) {  // its runs have told it
+    } catch (const scenario::Error&) {  // the runs have reported it
     }
   }
 }

@@ -18,22 +18,22 @@
 namespace lcs::tools {
 namespace {
 
-/// Waits until a block can be written, for there is no end to it where nobody reads a pipe.
-/// \return whether it can: else a signal came first, which does not end a write.
+/// Waits until a block can be written. A write to a pipe that nobody reads would block forever,
+/// even across signals. \return false if a termination signal arrived first.
 bool has_room(int descriptor) {
   constexpr int kTick_ms = 1000;
   while (true) {
     pollfd one{descriptor, POLLOUT, 0};
     const bool is_last = is_interrupted();
     const int ready = ::poll(&one, 1, is_last ? 0 : kTick_ms);
-    if (ready > 0 || (ready < 0 && errno != EINTR)) return true;  // what fails is told by the write
+    if (ready > 0 || (ready < 0 && errno != EINTR)) return true;  // the write reports the error
     if (is_last) return false;
   }
 }
 
 /// \return whether all of it was written.
 bool write(std::FILE* file, std::string_view text) {
-  constexpr std::size_t kBlock = PIPE_BUF;  // a pipe that has room takes so much at once
+  constexpr std::size_t kBlock = PIPE_BUF;  // a pipe with room accepts this many bytes at once
   for (; !text.empty(); text.remove_prefix(std::min(kBlock, text.size()))) {
     if (!has_room(::fileno(file))) return false;
     const std::string_view block = text.substr(0, kBlock);
@@ -42,10 +42,10 @@ bool write(std::FILE* file, std::string_view text) {
   return true;
 }
 
-/// What is still in its buffer. \return whether it was written.
+/// Flushes stdout, or discards its buffer after a signal. \return whether it was written.
 bool flush_out() {
   if (::__fpending(stdout) == 0 || has_room(STDOUT_FILENO)) return std::fflush(stdout) == 0;
-  ::__fpurge(stdout);  // else it is waited for at exit
+  ::__fpurge(stdout);  // otherwise exit would block on it
   return false;
 }
 
@@ -58,7 +58,7 @@ bool flush_out() {
 
 void open_standard_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    // the lowest that is free is taken, which is this one
+    // open() returns the lowest free descriptor, which is this one
     if (::fcntl(descriptor, F_GETFD) < 0) ::open("/dev/null", O_RDWR);
   }
 }
@@ -68,7 +68,7 @@ void write_out(const std::string& text) {
 }
 
 void write_err(const std::string& text) {
-  flush_out();  // in a file that both go to, what came first stands first
+  flush_out();  // keeps the order if stdout and stderr are one file
   write(stderr, text);
 }
 
@@ -82,7 +82,7 @@ void warn(const std::vector<std::string>& lines) {
 
 void finish_out() {
   std::cout.flush();
-  const bool has_failed = std::ferror(stdout) != 0;  // what was to be written then is lost
+  const bool has_failed = std::ferror(stdout) != 0;  // an earlier write failed
   if (!flush_out() || has_failed) fail_out();
 }
 

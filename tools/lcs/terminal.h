@@ -11,19 +11,19 @@
 
 namespace lcs::tools {
 
-/// Opens those of the descriptors 0, 1 and 2 on /dev/null that are closed, so that no file that is
-/// opened later takes their place and what is printed ends in it.
+/// Opens /dev/null on each closed descriptor among 0, 1 and 2. Otherwise a file opened later could
+/// get that descriptor and receive the printed text.
 void open_standard_descriptors();
 
-/// To standard output. \throws bench::OutputError, and Interrupted where nobody reads it and a signal
-/// asks to end.
+/// Writes to standard output. \throws bench::OutputError if the write fails, Interrupted if a
+/// termination signal arrives while nobody reads the output.
 void write_out(const std::string& text);
-/// To standard error; what cannot be written there is lost.
+/// Writes to standard error and ignores failures.
 void write_err(const std::string& text);
 
-/// To standard error: one line that a terminal shows as it is, whatever is quoted in it.
+/// Writes the message to standard error as one printable line (`scenario::one_line`).
 void tell(std::string_view message);
-/// Prints warnings to standard error, a line each.
+/// Prints each warning on a line of standard error.
 void warn(const std::vector<std::string>& lines);
 
 template <class... Args>
@@ -35,7 +35,7 @@ void print_err(fmt::format_string<Args...> format, Args&&... args) {
   write_err(fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// Writes out what is still buffered, by anybody. \throws as `write_out`.
+/// Flushes std::cout and stdout. \throws as `write_out`.
 void finish_out();
 
 }  // namespace lcs::tools

@@ -68,7 +68,7 @@ Exit codes:
   130  interrupted (Ctrl-C): the evaluations so far are kept
 )";
 
-/// Texts of the user in one line; "none" where there are none.
+/// Joins the user's texts into one line; "none" if empty.
 std::string line_of(const std::vector<std::string>& texts) {
   std::string line;
   for (const std::string& text : texts) {
@@ -77,7 +77,7 @@ std::string line_of(const std::vector<std::string>& texts) {
   return line.empty() ? "none" : line;
 }
 
-/// "out/train, 60 runs, corridor_1 to yard_10".
+/// For example "out/train, 60 runs, corridor_1 to yard_10".
 std::string about(std::vector<std::string> names, const tune::Trials& trials) {
   for (std::string& name : names)
     name = (suite::folder_of(name) / "").lexically_normal().parent_path();
@@ -90,7 +90,7 @@ std::string about(std::vector<std::string> names, const tune::Trials& trials) {
                      scenario::one_line(first), scenario::one_line(last));
 }
 
-/// The present numbers, with these settings.
+/// The default parameters with these settings applied.
 Parameters start_of(const std::vector<std::string>& sets) {
   scenario::Scenario settings;
   for (const std::string& setting : sets) {
@@ -100,9 +100,9 @@ Parameters start_of(const std::vector<std::string>& sets) {
   return std::get<Parameters>(bench::filter_parameters(settings));
 }
 
-/// \throws std::invalid_argument where two of the paths lead to one suite.
+/// \throws std::invalid_argument if two paths lead to the same suite.
 void require_different(const TuneOptions& options) {
-  std::map<fs::path, std::string> known;  // by the folder, what it was called
+  std::map<fs::path, std::string> known;  // path as given, by canonical folder
   for (const auto* suites : {&options.suites, &options.validate}) {
     for (const std::string& name : *suites) {
       const fs::path folder = fs::weakly_canonical(suite::folder_of(fs::absolute(name)));
@@ -114,7 +114,7 @@ void require_different(const TuneOptions& options) {
   }
 }
 
-/// What the figures of a journal depend on.
+/// The facts that determine the figures of a journal.
 std::vector<tune::Fact> facts_of(const TuneOptions& options, const tune::Trials& trials,
                                  const tune::SearchOptions& search) {
   constexpr scenario::FileKind kProgram{scenario::kGibibyte, "start lcs by its path"};
@@ -136,7 +136,7 @@ std::vector<std::string> learnt_keys() {
   return keys;
 }
 
-/// Learnt parameters that the search left alone keep their values.
+/// Adds the learnt parameters that were not searched, with their start values.
 tune::Found with_other_learnt(tune::Found found, const Parameters& start) {
   for (const ParameterInfo& info : describe(start)) {
     const auto is_it = [&](const tune::Setting& setting) { return setting.key == info.key; };

@@ -1,5 +1,5 @@
 /// \file
-/// `lcs tune`: the filter's learnt numbers, from recorded runs of `train`.
+/// `lcs tune`: learns the filter's parameters from recorded runs of the split `train`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,7 +13,7 @@ namespace lcs::tools {
 
 struct TuneOptions {
   std::vector<std::string> suites;
-  std::vector<std::string> validate;  ///< likewise
+  std::vector<std::string> validate;  ///< suites on which the result is only stated
   std::vector<std::string> keys;
   std::vector<std::string> sets;
   int evaluations = 300;
@@ -22,10 +22,10 @@ struct TuneOptions {
   bool quiet = false;
 };
 
-/// Adds the sub-command to the program's. \param options are filled in by parsing.
+/// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_tune_command(CLI::App& app, TuneOptions& options);
 
-/// \throws std::exception, Interrupted; then what was evaluated so far is kept.
+/// \throws std::exception. All finished evaluations are kept.
 ExitCode tune(const TuneOptions& options);
 
 }  // namespace lcs::tools

@@ -6,15 +6,15 @@
 
 namespace lcs::tools {
 
-/// This program and the libraries whose version can change a result. Starts GL to ask it.
-/// \throws std::runtime_error when GL will not start.
+/// The versions of this program and of the libraries that affect results. Starts GL to query it.
+/// \throws std::runtime_error if GL does not start.
 std::string version_text();
-/// `version_text` in one line.
+/// `version_text` as one line.
 std::string version_line();
 
-/// This program's version and the commit that it was built from, as "0.1.0 (f2f2c60)", or
-/// "0.1.0 (f2f2c60, changed since)" of files that differ from the commit's; outside a checkout
-/// "unknown" stands for the commit.
+/// This program's version and the commit it was built from, such as "0.1.0 (f2f2c60)", or
+/// "0.1.0 (f2f2c60, changed since)" if the files differ from the commit. Outside a checkout
+/// the commit is "unknown".
 std::string program_text();
 
 }  // namespace lcs::tools

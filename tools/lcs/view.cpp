@@ -13,7 +13,7 @@
 namespace lcs::tools {
 namespace {
 
-constexpr int kPoll_ms = 50;  // for signals, while nobody presses a key
+constexpr int kPoll_ms = 50;  // interval of the checks for signals
 constexpr int kEscape = 27;
 
 bool is_set(const char* variable) {
@@ -21,7 +21,7 @@ bool is_set(const char* variable) {
   return value != nullptr && *value != '\0';
 }
 
-/// OpenCV's window system ends the process where it cannot open a window: it is asked in a child.
+/// Tries to open a window in a child process, because OpenCV ends the process if that fails.
 void require_display(const std::string& title) {
   const bool is_named = is_set("DISPLAY") || is_set("WAYLAND_DISPLAY") || is_set("QT_QPA_PLATFORM");
   if (is_named && sim::try_in_child([&] { cv::namedWindow(title, cv::WINDOW_NORMAL); }).fine) {
@@ -56,7 +56,7 @@ bool Player::after_frame() {
         break;
       case '.':
         paused_ = true;
-        return true;  // one frame further
+        return true;  // advance by one frame
       default:
         break;
     }
@@ -99,7 +99,7 @@ void View::hold() {
   try {
     player_.after_last_frame();
   } catch (const Interrupted&) {
-    // the run is whole
+    // The run is complete: ignore the signal.
   }
 }
 

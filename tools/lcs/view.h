@@ -1,5 +1,5 @@
 /// \file
-/// A window that shows a run while it goes on: pause, step, close.
+/// A window that shows a run while it is computed, with keys to pause, step and close.
 #pragma once
 
 #include <chrono>
@@ -9,22 +9,22 @@
 
 namespace lcs::tools {
 
-/// What keys do to the frames that are shown; knows no window.
+/// Keyboard control of the playback, independent of the window.
 class Player {
  public:
-  /// Shows what is pending and waits for a key for up to so many ms. \return as `cv::waitKey`; -1
-  /// for none, `kClosed` where the window is gone.
+  /// Processes window events and waits up to `wait_ms` for a key. \return as `cv::waitKey`: -1
+  /// without a key; `kClosed` if the window was closed.
   using Keys = std::function<int(int wait_ms)>;
   static constexpr int kClosed = -2;
 
-  /// \param frames_per_second no frame is left behind sooner.
+  /// \param frames_per_second upper limit of the playback rate.
   Player(Keys keys, double frames_per_second);
 
-  /// To be called when a frame is on the screen: comes back when the next one may come.
-  /// \return false where nobody wants to see more.
+  /// To be called after a frame is shown. Blocks until the next frame is due.
+  /// \return false if the user ended the playback.
   bool after_frame();
 
-  /// To be called after the last frame: comes back at any key.
+  /// To be called after the last frame. Blocks until a key is pressed.
   void after_last_frame();
 
  private:
@@ -33,18 +33,18 @@ class Player {
   bool paused_ = false;
 };
 
-/// The window itself. While it waits it throws what `check_interrupted` throws.
+/// The window. While it waits, it may throw the exceptions of `check_interrupted`.
 class View {
  public:
-  /// \throws std::runtime_error where there is no display, with what to do.
+  /// \throws std::runtime_error if there is no display; the message states the remedy.
   View(const std::string& title, double frames_per_second);
   ~View();
   View(const View&) = delete;
   View& operator=(const View&) = delete;
 
-  /// \param sheet BGR. \return whether the window is still open.
+  /// Shows a frame. \param sheet BGR. \return whether the window is still open.
   bool show(const cv::Mat3b& sheet);
-  /// Keeps the last frame until a key, or a signal, ends it.
+  /// Shows the last frame until a key is pressed or a signal arrives.
   void hold();
 
  private:
@@ -53,7 +53,7 @@ class View {
   std::string title_;
   Player player_;
   bool is_open_ = true;
-  bool has_size_ = false;  ///< of the first sheet
+  bool has_size_ = false;  ///< whether the size of the first sheet was applied
 };
 
 }  // namespace lcs::tools

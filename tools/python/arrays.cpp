@@ -25,7 +25,7 @@ py::array array_of(py::handle value, const char* name, const char* expected, con
     throw py::type_error(fmt::format("{} is no array; give {}", name, expected));
   }
   const auto kind = py::cast<std::string>(array.dtype().attr("kind"));
-  // an empty list has no numbers that could be of the wrong kind
+  // An empty list has no numbers, so its dtype does not matter.
   if (array.size() > 0 && std::string_view(kinds).find(kind) == std::string_view::npos) {
     throw py::type_error(
         fmt::format("{} is of {}; give {}", name, text_of(array.dtype()), expected));

@@ -1,7 +1,7 @@
 /// \file
-/// Between the project's values and NumPy's arrays. Arrays that go out are read-only: views of what
-/// they keep alive, or rows of a structured array with the fields that `layers.jsonl` and
-/// `truth.jsonl` have. Arrays that come in are checked here.
+/// Conversion between the project's values and NumPy arrays. Returned arrays are read-only: views
+/// of data that they keep alive, or structured arrays with the fields of `layers.jsonl` and
+/// `truth.jsonl`. Arrays from the user are checked here.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -28,13 +28,13 @@ inline py::array read_only(py::array array) {
   return array;
 }
 
-/// No copy. \param owner of the data, which the array keeps alive.
+/// A view without a copy. \param owner owns the data; the array keeps it alive.
 template <class Number>
 py::array view(const std::vector<py::ssize_t>& shape, const Number* data, py::handle owner) {
   return read_only(py::array_t<Number>(shape, data, owner));
 }
 
-/// No copy, H x W or H x W x C. \param owner of the picture, which the array keeps alive.
+/// A view of a picture, H x W or H x W x C, without a copy. \param owner as above.
 template <class Number, int Channels = 1>
 py::array view(const cv::Mat_<cv::Vec<Number, Channels>>& picture, py::handle owner) {
   const py::ssize_t row = static_cast<py::ssize_t>(picture.step[0]);
@@ -51,7 +51,7 @@ py::array view(const cv::Mat_<Number>& picture, py::handle owner) {
                           reinterpret_cast<const Number*>(picture.data), owner));
 }
 
-/// Copies a matrix of any size, row by row.
+/// Copies a matrix to an array in row-major order; a column vector becomes one-dimensional.
 template <class Derived>
 py::array copy(const Eigen::MatrixBase<Derived>& matrix) {
   using Scalar = typename Derived::Scalar;
@@ -63,13 +63,13 @@ py::array copy(const Eigen::MatrixBase<Derived>& matrix) {
   return read_only(array);
 }
 
-/// Not so are outlines and masks.
+/// Whether a field holds a number; false for outlines and masks.
 template <class Member>
 constexpr bool kIsNumber = !requires(Member & member) {
   member.value;
 };
 
-/// What NumPy has for a field of `bench::fields` that is a number.
+/// The number that NumPy stores for a numeric field of `bench::fields`; an enumerator's is uint8.
 template <class Member>
 auto number_of(const Member& member) {
   if constexpr (requires { member.number; }) {
@@ -81,7 +81,7 @@ auto number_of(const Member& member) {
   }
 }
 
-/// Names, formats and places of the fields of a row.
+/// Names, formats and byte offsets of the fields of a structured array's row.
 class RowFormat {
  public:
   template <class Number>
@@ -97,7 +97,7 @@ class RowFormat {
     return {names_, formats_, offsets_, static_cast<py::ssize_t>(size_)};
   }
 
-  /// The next place for such a number.
+  /// Rounds `place` up to the alignment of `Number`.
   template <class Number>
   static void place_after(std::size_t& place) {
     place = (place + alignof(Number) - 1) / alignof(Number) * alignof(Number);
@@ -108,14 +108,14 @@ class RowFormat {
   std::size_t size_ = 0;
 };
 
-/// Visits what `bench::fields` does, and `rebel`, which files tell by two lists instead.
+/// Visits the fields of `bench::fields` and also `rebel`, which the files encode as separate lists.
 template <class Item, class Visit>
 void all_fields(Item& item, const Visit& visit) {
   if constexpr (requires { item.rebel; }) visit("rebel", item.rebel);
   bench::fields(item, visit);
 }
 
-/// A structured array with a row for each item.
+/// A structured array with one row per item.
 template <class Item>
 py::array rows(std::vector<Item> items) {
   RowFormat format;
@@ -144,13 +144,13 @@ py::array rows(std::vector<Item> items) {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// What came in, as an array. \param expected as "N x 2 numbers, x and y in pixels".
-/// \param kinds NumPy's letters for the kinds of numbers that are taken.
-/// \throws py::type_error for what is no array, or of something else.
+/// Converts `value` to an array. \param expected such as "N x 2 numbers, x and y in pixels".
+/// \param kinds NumPy's letters of the accepted dtype kinds.
+/// \throws py::type_error if `value` is no array or its dtype is of another kind.
 py::array array_of(py::handle value, const char* name, const char* expected, const char* kinds);
 
-/// \param columns 0: a list of N numbers. Anything empty is taken for N = 0.
-/// \throws py::type_error as `array_of`, py::value_error for another shape.
+/// \param columns of the N x columns table; 0: a list of N numbers. An empty list has N = 0.
+/// \throws py::type_error as `array_of`; py::value_error if the shape differs.
 Numbers table_of(py::handle value, const char* name, const char* expected, py::ssize_t columns);
 
 /// \throws as `table_of`.
@@ -168,13 +168,13 @@ Eigen::Matrix<double, Rows, Columns> matrix_of(py::handle value, const char* nam
   return Eigen::Map<const RowMajor>(table.data());
 }
 
-/// N x 2. \throws as `table_of`.
+/// N x 2, x and y in pixels. \throws as `table_of`.
 std::vector<Eigen::Vector2f> points_of(py::handle value, const char* name);
 
-/// N x 32 bytes. \throws as `table_of`.
+/// N x 32 of uint8. \throws as `table_of`.
 std::vector<Signature> signatures_of(py::handle value);
 
-/// N of them. \throws as `table_of`.
+/// N of bool. \throws as `table_of`.
 std::vector<bool> flags_of(py::handle value, const char* name);
 
 }  // namespace lcs::python

@@ -20,7 +20,7 @@ AnyFilter of_scenario(const Scenario& scenario) {
   return {bench::intrinsics(scenario.camera.pinhole), bench::filter_parameters(scenario.full)};
 }
 
-/// As a scenario with these settings has it.
+/// A filter with this camera, preset and settings, validated as those of a scenario.
 AnyFilter of_camera(const Camera& camera, const std::string& preset, const py::object& set) {
   scenario::Scenario settings;
   settings.filter_preset = preset;
@@ -49,7 +49,7 @@ std::shared_ptr<Result> step(AnyFilter& filter, const py::object& corners, const
   return result;
 }
 
-/// \param list of `FrameResult`, of an enumerator a byte.
+/// A view of a list of one-byte enumerators. \param list a member of `FrameResult`.
 template <class Enum>
 py::array codes(const py::object& self, std::vector<Enum> FrameResult::*list) {
   static_assert(sizeof(Enum) == 1);
@@ -65,7 +65,7 @@ py::array rebels(const Result& result) {
   return read_only(flags);
 }
 
-/// Both kinds of edges or circles, the normal ones first.
+/// All edges or circles, the normal ones first, then the rebel ones.
 template <class Item>
 py::array both(const std::vector<Item>& normal, const std::vector<Item>& rebel) {
   std::vector<Item> all = normal;

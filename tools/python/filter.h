@@ -1,5 +1,5 @@
 /// \file
-/// The filter, and what it says of a frame, as Python has them.
+/// The Python classes of the filter and of its result for a frame.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -8,10 +8,10 @@
 
 namespace lcs::python {
 
-/// What the filter says of a frame; never changed once it is made, so that arrays may look at it.
+/// The filter's result for one frame. Immutable, because NumPy arrays are views of it.
 struct Result {
   FrameResult said;
-  double filter_ms = 0;  ///< that it took
+  double filter_ms = 0;  ///< duration of the filter's step
 };
 
 void bind_filter(pybind11::module_& module);

@@ -21,8 +21,8 @@
 namespace lcs::python {
 namespace {
 
-/// Whether this process was forked from one that has simulated: software GL has no threads in it,
-/// and would wait for them forever.
+/// Whether this process was forked after a simulation. Software GL would then wait forever for its
+/// threads, which a fork does not copy.
 bool is_fork() {
   static const pid_t first = ::getpid();
   return ::getpid() != first;
@@ -35,8 +35,8 @@ void require_no_fork() {
       "it; start processes by multiprocessing's \"spawn\", or simulate in these alone");
 }
 
-/// OpenCV on one thread while any of these lives, as in the program. A `cv2` in the same process
-/// may be on the same OpenCV, and gets its threads back.
+/// Restricts OpenCV to one thread while any instance exists, as in the program. Restores the number
+/// of threads afterwards for a `cv2` in the same process.
 class OneThread {
  public:
   OneThread() {
@@ -59,7 +59,7 @@ class OneThread {
 
 // ---- Motion
 
-/// The mean body rate of a rotation over a time, as the bench has it of poses.
+/// The mean angular velocity of a rotation over `dt_s`, camera frame, rad/s; 0 unless dt_s > 0.
 Eigen::Vector3d rate_of(const Eigen::Matrix3d& R_cur_prev, double dt_s) {
   if (!(dt_s > 0)) return Eigen::Vector3d::Zero();
   return bench::motion_between({.R = R_cur_prev}, {}, dt_s).w_C_radps;
@@ -200,9 +200,9 @@ double seconds(std::int64_t t_ns) {
   return static_cast<double>(t_ns) * 1e-9;
 }
 
-/// A structured array of times, vectors and numbers.
-/// \param fields names, and how many numbers each has.
-/// \param put called with an item and where its values go.
+/// A structured array of sensor samples: the time "t" in s, then the fields.
+/// \param fields name and number of float64 values of each field.
+/// \param put called with a sample and the destination of its values.
 template <class Sample, class Put>
 py::array readings(const std::vector<Sample>& samples,
                    const std::vector<std::pair<const char*, int>>& fields, const Put& put) {
@@ -424,7 +424,7 @@ Simulation::Simulation(std::shared_ptr<const Scenario> scenario)
 }
 
 Simulation::~Simulation() {
-  // In another thread GL might still be busy with it, and in a fork it is dead: the memory is lost.
+  // GL may be busy in another thread, and does not work in a fork: leak the memory then.
   if (std::this_thread::get_id() == thread_ && !is_fork()) return;
   static_cast<void>(source_.release());
   static_cast<void>(simulation_.release());
@@ -443,7 +443,7 @@ std::shared_ptr<Frame> Simulation::next() {
   if (!source_) return nullptr;
   auto frame = std::make_shared<Frame>();
   bool is_over = true;
-  struct AtEnd {  // of a frame that throws, too
+  struct AtEnd {  // also if the frame throws
     Simulation& self;
     bool& is_over;
     ~AtEnd() {
@@ -480,7 +480,7 @@ void bind_frame(py::module_& module) {
            py::arg("scenario").none(false))
       .def("__iter__",
            [](const py::object& self) {
-             static_cast<void>(self.cast<const Simulation&>());  // or it is refused
+             static_cast<void>(self.cast<const Simulation&>());  // checks the class
              return self;
            })
       .def("__next__",

@@ -1,5 +1,5 @@
 /// \file
-/// The frames of a scenario, one at a time: the bench's own loop up to where a detector speaks.
+/// The frames of a scenario, one at a time: the bench's own loop up to the detector's step.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -14,36 +14,36 @@
 
 namespace lcs::python {
 
-/// What all frames of a run have in common.
+/// Data shared by all frames of a run.
 struct Run {
   std::shared_ptr<const Scenario> scenario;
-  bench::Recording recording;  ///< without frames; its warnings are those until now
+  bench::Recording recording;  ///< without frames; has the warnings up to now
 };
 
-/// What was seen and what is true. Never changed once it is made, so that arrays may look at it.
+/// A frame's sensor data and truth. Immutable, because NumPy arrays are views of it.
 struct Frame : std::enable_shared_from_this<Frame> {
   std::shared_ptr<const Run> run;
   bench::SeenFrame seen;
-  std::optional<sim::Observation> observation;  ///< none of a recorded frame
+  std::optional<sim::Observation> observation;  ///< absent for a recorded frame
 };
 
-/// What is true of a frame.
+/// The truth of a frame.
 struct Truth {
   std::shared_ptr<const Frame> frame;
 };
 
-/// To be used by the thread that made it, as the world's GL context is.
+/// Usable only in the thread that made it, because the world's GL context belongs to that thread.
 class Simulation {
  public:
-  /// \throws as `sim::Simulation` and `replay::Playback`.
+  /// \throws the exceptions of `sim::Simulation` and `replay::Playback`.
   explicit Simulation(std::shared_ptr<const Scenario> scenario);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// None after the last frame, and after one that failed. \throws as `bench::see`;
-  /// std::runtime_error in another thread, py::error_already_set for a signal, after which it may
-  /// go on.
+  /// \return the next frame; null after the last frame or a failed one.
+  /// \throws as `bench::see`; std::runtime_error in another thread; py::error_already_set after a
+  ///   signal, from which the simulation can continue.
   std::shared_ptr<Frame> next();
 
   const Run& run() const { return *run_; }
@@ -54,9 +54,9 @@ class Simulation {
 
   std::shared_ptr<Run> run_;
   FastDetector detector_;
-  std::unique_ptr<sim::Simulation> simulation_;  ///< null: the frames are recorded
-  std::unique_ptr<bench::FrameSource> source_;   ///< null: it is over
-  bench::SimulatedFrames* simulated_ = nullptr;  ///< the same, if there is a simulation
+  std::unique_ptr<sim::Simulation> simulation_;  ///< null for recorded frames
+  std::unique_ptr<bench::FrameSource> source_;   ///< null after the last frame
+  bench::SimulatedFrames* simulated_ = nullptr;  ///< `source_`, if it simulates
   std::thread::id thread_ = std::this_thread::get_id();
 };
 

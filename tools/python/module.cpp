@@ -19,7 +19,7 @@ namespace py = pybind11;
 
 PyObject* error_type = nullptr;  // lives as long as the process
 
-/// With the text that the program prints behind "lcs: ".
+/// Converts a C++ exception to a Python one, with the text that the program prints after "lcs: ".
 void translate(std::exception_ptr thrown) {
   try {
     std::rethrow_exception(std::move(thrown));
@@ -42,7 +42,7 @@ void translate(std::exception_ptr thrown) {
   }
 }
 
-/// Words by their numbers. \param words empty where a number has none.
+/// Adds an IntEnum. \param words the members' names by number; empty for an unused number.
 template <class Words>
 void add_enumeration(py::module_& module, const char* name, const char* about, const Words& words) {
   py::dict members;

@@ -17,7 +17,7 @@
 namespace lcs::python {
 namespace {
 
-/// As `--seed` takes it.
+/// Parses a seed by the rules of `--seed`; absent for None.
 std::optional<std::uint64_t> seed_of(const py::object& seed) {
   if (seed.is_none()) return std::nullopt;
   const scenario::Value value{scenario::Value::Kind::scalar, {"seed", 0}, py::str(seed)};
@@ -38,7 +38,7 @@ std::shared_ptr<Scenario> made_of(scenario::Scenario asked) {
   }
   made->asked = std::move(asked);
   warn(scenario::shadowed_files(made->full));
-  bench::filter_parameters(made->full);  // is checked here
+  bench::filter_parameters(made->full);  // only to check the settings
   return made;
 }
 
@@ -104,7 +104,7 @@ std::vector<std::string> assignments_of(const py::object& mapping, const std::st
   }
   for (const py::handle item : mapping.attr("items")()) {
     auto [key, value] = py::cast<std::pair<py::object, py::object>>(item);
-    if (py::hasattr(value, "item")) value = value.attr("item")();  // a number of NumPy's
+    if (py::hasattr(value, "item")) value = value.attr("item")();  // a NumPy scalar
     if (!py::isinstance<py::str>(key)) {
       throw py::type_error("a key of set is " + py::cast<std::string>(py::repr(key)) +
                            "; give the name of one");

@@ -1,5 +1,5 @@
 /// \file
-/// A scenario as Python has it: loaded and checked, with what its recording says where it has one.
+/// The Python class of a scenario: loaded and checked, completed by its recording if it has one.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -16,24 +16,24 @@
 
 namespace lcs::python {
 
-/// Pinhole with square pixels, and how often it takes a picture.
+/// Pinhole camera with square pixels and its frame rate.
 struct Camera {
   sim::Pinhole pinhole;
-  double rate_hz = 0;  ///< 0: not known
+  double rate_hz = 0;  ///< 0: unknown
 };
 
 struct Scenario {
-  scenario::Scenario asked;  ///< as it is written
-  scenario::Scenario full;   ///< and as it is run: of a recording, with what that says of itself
+  scenario::Scenario asked;  ///< as in the file
+  scenario::Scenario full;   ///< as it is run: with the recording's own data, if there is one
   Camera camera;
 };
 
-/// "key=value" of each entry of a mapping, as `--set` takes it; none for None.
-/// \param prefix before each key. \throws py::type_error for a value that is no text and no number.
+/// "key=value" of each entry of a mapping, in the form of `--set`; empty for None.
+/// \param prefix of each key. \throws py::type_error for a value that is neither text nor number.
 std::vector<std::string> assignments_of(const pybind11::object& mapping,
                                         const std::string& prefix = "");
 
-/// A UserWarning for each line. \throws py::error_already_set where the user has made them errors.
+/// Issues a UserWarning for each line. \throws py::error_already_set if Python's filters raise it.
 void warn(const std::vector<std::string>& lines);
 
 void bind_scenario(pybind11::module_& module);

@@ -24,14 +24,14 @@
 namespace lcs::python {
 namespace {
 
-/// What somebody's own detector says of a frame.
+/// A user's detector's results for one frame.
 struct Detections {
-  std::optional<std::vector<bool>> rebels;  ///< of each corner; none: of no corner
-  bench::FrameRecord boxes;                 ///< with squares, masks and circles alone
-  cv::Size masks_px;                        ///< of the picture that the masks are of
+  std::optional<std::vector<bool>> rebels;  ///< per corner; absent: no corner is a rebel
+  bench::FrameRecord boxes;                 ///< has only squares, masks and circles
+  cv::Size masks_px;                        ///< size of the masks' picture
 };
 
-/// Adds who it was to what `FrameDetections` refuses.
+/// Prefixes `who` to the message of an exception of `FrameDetections`.
 template <class Add>
 void add_or_refuse(const std::string& who, const Add& add) {
   try {
@@ -41,7 +41,7 @@ void add_or_refuse(const std::string& who, const Add& add) {
   }
 }
 
-/// An array as it is, of any other iterable a list of its first items: it may have no end.
+/// Returns an array unchanged. Of another iterable, which may be endless, lists the first items.
 py::object listed(const py::object& items, py::ssize_t most) {
   if (py::isinstance<py::array>(items)) return items;
   py::list list;
@@ -52,7 +52,7 @@ py::object listed(const py::object& items, py::ssize_t most) {
   return list;
 }
 
-/// \param what boxes or masks.
+/// \param what "boxes" or "masks".
 std::vector<Id> ids_of(const py::object& ids, py::ssize_t count, const char* what) {
   if (ids.is_none() && count == 0) return {};
   if (ids.is_none()) {
@@ -94,7 +94,7 @@ void add_boxes(const py::object& boxes, const py::object& ids, bench::FrameDetec
   }
 }
 
-/// Masks in place of boxes, which are those round them. \return the size of their picture.
+/// Adds masks, whose bounding boxes become the boxes. \return the size of the masks' picture.
 cv::Size add_masks(const py::object& masks, const py::object& ids, bench::FrameDetections& said) {
   constexpr const char* kExpected = "M x H x W bool, which pixels each covers";
   const py::array array = array_of(listed(masks, bench::kMostBoxes + 1), "masks", kExpected, "b");
@@ -137,7 +137,7 @@ void add_circles(const py::object& circles, bench::FrameDetections& said) {
   }
 }
 
-/// Checked but for the picture, which is not known yet.
+/// Checks everything except the fit to the picture, which is not known yet.
 Detections detections_of(const py::object& rebels, const py::object& boxes, const py::object& ids,
                          const py::object& circles, const py::object& masks) {
   Detections detections;
@@ -155,7 +155,7 @@ Detections detections_of(const py::object& rebels, const py::object& boxes, cons
   return detections;
 }
 
-/// Puts them into a frame, checked against its camera.
+/// Adds the detections to a frame's record and checks them against the frame's camera.
 void note(const Detections& detections, const Frame& frame, bench::FrameRecord& record) {
   const auto& [layers, masks] = std::tie(detections.boxes.layers, detections.boxes.masks);
   add_or_refuse(fmt::format("frame {}", record.index), [&] {
@@ -206,7 +206,7 @@ class Scorer {
     recording_.frames.push_back(std::move(record));
   }
 
-  /// In the order of metrics.json.
+  /// The figures in the order of metrics.json.
   py::dict metrics() {
     if (run_) recording_.warnings = run_->recording.warnings;
     py::dict figures;
@@ -245,7 +245,7 @@ class Scorer {
         verdicts, record.index, record.corners_px.size()));
   }
 
-  std::shared_ptr<const Run> run_;  ///< none until a frame is added
+  std::shared_ptr<const Run> run_;  ///< null until a frame is added
   bench::Recording recording_;
 };
 
@@ -268,7 +268,7 @@ void bind_scorer(py::module_& module) {
           "are "
           "checked\n"
           "against the camera by Scorer.add.");
-  // By references: pybind11 takes None for the pointers of member functions.
+  // Lambdas with references, because with member functions pybind11 would accept None as self.
   class_of<Scorer>(module, "Scorer",
                    "Scores a run's frames, one after another, without keeping their pictures.")
       .def(py::init<>())

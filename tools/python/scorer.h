@@ -1,5 +1,5 @@
 /// \file
-/// Figures of whatever a detector said of a run's frames, by the bench's own scorer.
+/// The Python classes that score any detector's results on a run's frames by the bench's scorer.
 #pragma once
 
 #include <pybind11/pybind11.h>

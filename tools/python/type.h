@@ -1,6 +1,6 @@
 /// \file
-/// What all classes of the module have in common: an object holds a value from the moment that it
-/// is there, since it comes from a call of its class or from C++ and in no other way.
+/// Common properties of the module's classes. Every object holds a value from its creation, since
+/// only a call of its class or C++ code can create it.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -9,13 +9,13 @@ namespace lcs::python {
 
 namespace py = pybind11;
 
-/// The metaclass of the module's classes. A call allocates and initialises, without `tp_new`.
+/// The metaclass of the module's classes. Calling a class makes an object without `tp_new`.
 py::handle callable_type();
 
 /// Makes `__new__` raise TypeError.
 void refuse_new(PyHeapTypeObject* type);
 
-/// A class of the module, `lcs.NAME`. None is derived from it.
+/// Makes the final class `lcs.NAME` of the module.
 template <class T, class... Options>
 py::class_<T, Options...> class_of(py::module_& module, const char* name, const char* about) {
   py::class_<T, Options...> made(module, name, about, py::is_final(),
@@ -25,8 +25,8 @@ py::class_<T, Options...> class_of(py::module_& module, const char* name, const 
   return made;
 }
 
-/// From then on no object of another class becomes one of these by its `__class__`. To be called
-/// when all is bound.
+/// Makes the classes immutable, so that assigning `__class__` cannot turn an object into one of
+/// them. To be called after all classes are bound.
 void freeze_classes(const py::module_& module);
 
 }  // namespace lcs::python

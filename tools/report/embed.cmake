@@ -1,11 +1,11 @@
-# cmake -DOUT=FILE.cpp -DHEADER=FILE.h -DNAMESPACE=NAME -DFILES=NAME=FILE,... -P embed.cmake: files as
-# C++, each a string_view of that name, declared by the header.
+# cmake -DOUT=FILE.cpp -DHEADER=FILE.h -DNAMESPACE=NAME -DFILES=NAME=FILE,... -P embed.cmake writes
+# files as C++ definitions of string_views with these names, which the header declares.
 file(WRITE ${OUT}.new "#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\n")
 string(REPLACE "," ";" FILES "${FILES}")
 foreach(entry ${FILES})
   string(REGEX MATCH "^([^=]*)=(.*)$" entry "${entry}")
   set(name ${CMAKE_MATCH_1})
-  # As bytes: text of any length and with any characters.
+  # Written as bytes, which allows any length and any characters.
   file(READ ${CMAKE_MATCH_2} bytes HEX)
   string(LENGTH "${bytes}" size)
   math(EXPR size "${size} / 2")

@@ -1,4 +1,4 @@
-// Lays out the data of a suite, with what plot.js gives it.
+// Lays out the data of a suite with the helpers of plot.js.
 (() => {
 'use strict';
 
@@ -7,7 +7,7 @@ const hasBaseline = data.baseline !== null;
 
 // ---- Numbers
 
-/** A change or a spread, with no more decimals than what it is of; '' where these show nothing. */
+/** A change or spread with the decimals of its figure `of`; '' if it rounds to 0. */
 function digitsBeside(value, of) {
   const text = Math.abs(value).toFixed((digits(of).split('.')[1] || '').length);
   return Number(text) === 0 ? '' : text;
@@ -48,10 +48,10 @@ const COLUMNS = ['rebel.f1', 'rebel.precision', 'rebel.recall', 'rebel.f1_distin
   'size_share', 'time.filter_over_fast'];
 const F1 = data.metrics['rebel.f1'].label;
 
-/** Columns with a figure of some scenario: recordings have no times. */
+/** Columns in which at least one scenario has a figure; recordings have no times. */
 const SHOWN_COLUMNS = COLUMNS.filter((name) => data.scenarios.some((scenario) => scenario.figures[name]));
 
-/** The verdict first; what it is of beneath it. */
+/** The verdict, and below it the suite or run. */
 function head() {
   const count = (number, what) => number + ' ' + what + (number === 1 ? '' : 's');
   const runs = data.scenarios.flatMap((s) => s.runs);
@@ -110,7 +110,7 @@ function groupTable() {
         ...SHOWN_COLUMNS.map((name) => figureCell(name, group.figures[name]))))))));
 }
 
-/** Of a single run. */
+/** The table of a single run. */
 function runTable() {
   return el('div', { class: 'scroll' }, el('table', { id: 'figures' }, headerRow(''), el('tbody', null, el('tr', null,
     el('td'), ...SHOWN_COLUMNS.map((name) => figureCell(name, data.scenarios[0].figures[name]))))));
@@ -120,7 +120,7 @@ function runTable() {
 
 const anchor = (scenario) => 'scenario-' + data.scenarios.indexOf(scenario);
 
-/** To the scenario's section, which it opens. */
+/** A link to the scenario's section, which it opens. */
 function link(scenario) {
   return el('a', { href: '#' + anchor(scenario), title: scenario.purpose, onclick: (event) => {
     event.preventDefault();
@@ -198,7 +198,7 @@ function scenarioTable() {
 
 // ---- Plots
 
-/** Corners of the last five frames together: what the layers take the place of. */
+/** Number of corners in the last five frames: the store that the layers replace. */
 function fiveFrameStore(corners) {
   return corners.map((_, i) => corners.slice(Math.max(0, i - 4), i + 1).reduce((sum, n) => sum + (n || 0), 0));
 }
@@ -207,13 +207,13 @@ let plotted = 0;
 
 function framePlots(run, onPoint) {
   const f = run.frames;
-  // Times have gaps nowhere; the events know frames, which the rows are.
+  // Every row has a time, and an event's frame is the index of a row.
   const time = (frame) => f.t_s[Math.min(Math.max(frame, 0), f.t_s.length - 1)];
   const bands = (run.events || []).filter((event) => event.family !== 'squares').map((event) => ({ from: time(event.first), to: time(event.last),
     kind: event.of > 0 ? 'miss' : 'false' }));
   const common = { x: f.t_s, xName: 's', sync: 'run' + ++plotted, onPoint };
   const was = run.before && run.before.frames;
-  /** A column, and the baseline's beside it. */
+  /** The series of a column, and of the baseline's. */
   const both = (name, style, column) => [{ name, values: f[column], style },
     ...(was ? [{ name: 'before', values: f.t_s.map((_, i) => was[column][i]), style, faint: true }] : [])];
   return el('div', { class: 'plots' },
@@ -228,7 +228,7 @@ function framePlots(run, onPoint) {
       { name: 'store of five frames', values: fiveFrameStore(f.corners), style: 's2', dashed: true }] }));
 }
 
-/** The plots, and the run's video where it has one: pointing at a plot shows that frame. */
+/** The plots and the run's video, if it has one. Pointing at a plot shows that frame. */
 function overTime(run) {
   if (!run.frames || run.frames.t_s.length === 0) return el('p', { class: 'nothing' }, 'The run left no frames.csv.');
   if (data.video_left_out_mb) {
@@ -413,7 +413,7 @@ function sweeps() {
 
 const figureOf = (scenario, name) => (scenario.figures[name] || {}).mean;
 
-/** A swept value without what is the same in all of them, as the lateral part of a place. */
+/** Swept values without the parts that are equal in all of them, such as a constant coordinate. */
 function varying(values) {
   const lists = values.map((text) => (/^\s*\[(.*)\]\s*$/.exec(text) || [null, text])[1].split(',').map((part) => part.trim()));
   const places = lists[0].map((_, i) => i).filter((i) => lists.some((list) => list[i] !== lists[0][i]));
@@ -421,7 +421,7 @@ function varying(values) {
     ? lists.map((list) => list[places[0]]) : values;
 }
 
-/** A number and its unit; null where the text is anything else. */
+/** Parses a number with its unit; null for any other text. */
 function measure(text) {
   const found = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*([^\s\d]\S*)?\s*$/i.exec(text);
   return found ? { value: Number(found[1]), unit: found[2] || '' } : null;
@@ -441,7 +441,7 @@ function sweepPlot(points) {
       series('rebel.f1', 's1'), series('rebel.recall', 's2')] }));
 }
 
-/** Light where nothing is found, deep where all is: readable in black in both themes. */
+/** A cell's colour for a value from 0 (orange) to 1 (green); black text is readable on all. */
 const heat = (value) => `hsl(${Math.round(28 + 110 * value)} 65% ${Math.round(84 - 22 * Math.abs(value - 0.5))}%)`;
 
 function heatMap(points) {
@@ -481,7 +481,7 @@ document.getElementById('page').append(...(data.is_run ? [worst(), runTable(), s
   worst(), groupTable(), scenarioTable(), sweepSection(),
   el('section', null, el('h2', null, 'Each scenario'), ...data.scenarios.map(scenarioSection)),
 ]).filter(Boolean), foot());
-// A link into the page opens what it leads to.
+// Opens the section that the page's address points to.
 const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
 if (target && target.tagName === 'DETAILS') {
   target.open = true;

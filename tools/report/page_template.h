@@ -1,17 +1,17 @@
 /// \file
-/// The page's template and what every page needs: `page.html`, `page.css` and `plot.js` as they lie
-/// beside this file, made part of the program when it is built.
+/// The files of this folder that every page needs, `page.html`, `page.css` and `plot.js`, embedded
+/// in the program at build time.
 #pragma once
 
 #include <string_view>
 
 namespace lcs::report {
 
-extern const std::string_view kPageHtml;  ///< with {{title}}, {{style}}, {{data}} and {{script}}
+extern const std::string_view kPageHtml;  ///< has {{title}}, {{style}}, {{data}} and {{script}}
 extern const std::string_view kPageCss;
-extern const std::string_view kPlotJs;  ///< elements, numbers, plots
+extern const std::string_view kPlotJs;  ///< helpers for elements, numbers and plots
 
-/// uPlot, which draws the plots, as it was published, and its licence.
+/// The plotting library uPlot, unmodified, and its licence.
 extern const std::string_view kUplotJs;
 extern const std::string_view kUplotCss;
 extern const std::string_view kUplotLicence;

@@ -6,7 +6,7 @@
 namespace lcs::report {
 namespace {
 
-/// JSON with every "<" written otherwise: "</script>" would end the element that it stands in.
+/// JSON with every "<" escaped, because "</script>" would end the enclosing element.
 std::string embeddable(std::string_view json) {
   std::string safe;
   safe.reserve(json.size());
@@ -19,7 +19,7 @@ std::string embeddable(std::string_view json) {
   return safe;
 }
 
-/// The template with each {{name}} replaced, once. What is put in is not looked at again.
+/// The template with each {{name}} replaced. Inserted text is not searched for further names.
 std::string html_of(const Page& page) {
   const std::string title = escaped(page.title);
   const std::string data = embeddable(page.data);

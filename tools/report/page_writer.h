@@ -1,6 +1,6 @@
 /// \file
-/// Pages in one file each, which opens from disk and asks the network for nothing: data with the
-/// script that lays it out, or text that needs no script.
+/// Writes HTML pages, each a single file that opens from disk without network access: data with a
+/// script that lays it out, or text without a script.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,24 +12,23 @@
 
 namespace lcs::report {
 
-/// Text as it stands in an element or between quotes of an attribute.
+/// Escapes text for an HTML element or a quoted attribute.
 std::string escaped(std::string_view text);
 
 struct Page {
   std::string_view title;
   std::string_view data;        ///< JSON in UTF-8
-  std::string_view script;      ///< runs after `plot.js`; finds the data in the element `data`
-  std::string_view where_else;  ///< file with the same figures, for a browser without JavaScript
+  std::string_view script;      ///< runs after `plot.js`; reads the data from the element `data`
+  std::string_view where_else;  ///< file with the same figures, named if JavaScript is off
 };
 
-/// Written beside its place, then renamed: the file appears whole or not at all.
-/// \throws bench::OutputError
+/// Writes the page. \throws bench::OutputError
 void write_page(const std::filesystem::path& file, const Page& page);
 
-/// A page without a script, written from its top on.
+/// A page without a script, built from top to bottom.
 class TextPage {
  public:
-  /// \param style CSS behind that of all pages.
+  /// \param style CSS that follows the common CSS.
   TextPage(std::string_view title, std::string_view style);
 
   template <class... Args>

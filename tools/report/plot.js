@@ -1,9 +1,9 @@
-// Elements, numbers and plots for pages. Text from outside goes in as text nodes alone, never as HTML.
+// Elements, numbers and plots for pages. External text is only inserted as text nodes, never as HTML.
 'use strict';
 
 // ---- Elements
 
-/** An element; attributes that are null are left out, children that are null too. */
+/** Makes an element. Attributes and children that are null are omitted. */
 function el(tag, attributes, ...children) {
   return fill(document.createElement(tag), attributes, children);
 }
@@ -44,15 +44,15 @@ const BANDS = { miss: { name: 'missed', style: 's2' }, false: { name: 'false ala
 
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue('--' + name);
 
-/** Places of values that have none beside them, which no line shows. */
+/** Indices of values without neighbouring values, which no line would show. */
 const loneOnes = (values) => values.flatMap((v, i) =>
   v !== null && !isNumber(values[i - 1]) && !isNumber(values[i + 1]) ? [i] : []);
 
 /**
  * x: in ascending order. series: {name, values, style, dashed, faint, spread}; a band is {from, to, kind}.
- * logX and logY: by powers of ten, y from `bottom` up; what is below lies on it.
- * Pointing at the plot reads the values there, in all plots of the same `sync`, and tells `onPoint` the place in x.
- * `pointAt(value of x)` of the figure that is returned does likewise in this plot.
+ * logX and logY: logarithmic scales; y begins at `bottom`, to which lower values are raised.
+ * Pointing at the plot shows the values there, in all plots of the same `sync`, and calls `onPoint` with x's index.
+ * `pointAt(value of x)` of the returned figure points at that value in this plot.
  */
 function plot({ title, x, xName, series, top, bands = [], logX, logY, bottom, sync, onPoint }) {
   const low = x[0], high = x[x.length - 1];
@@ -66,7 +66,7 @@ function plot({ title, x, xName, series, top, bands = [], logX, logY, bottom, sy
     ctx.globalAlpha = 0.2;
     for (const [kind, { style }] of Object.entries(BANDS)) {
       ctx.fillStyle = colour(style);
-      ctx.beginPath();  // one for all, so that bands that overlap are no darker
+      ctx.beginPath();  // one path for all, so that overlapping bands are not darker
       for (const band of bands.filter((b) => b.kind === kind)) {
         const from = valToPos(band.from, 'x', true), to = valToPos(band.to, 'x', true);
         ctx.rect(from - 1, bbox.top, to - from + 2, bbox.height);

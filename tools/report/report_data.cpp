@@ -36,7 +36,7 @@ constexpr std::array<const char*, 3> kOutcomes{"passed", "failed", "error"};
 constexpr std::array<const char*, 3> kFamilies{"rebels", "circles", "squares"};
 constexpr std::array<const char*, 4> kChanges{"improved", "regressed", "moved", "none"};
 
-/// Columns of frames.csv that are plotted.
+/// The plotted columns of frames.csv.
 constexpr std::array<const char*, 10> kColumns{
     "t_s",           "precision", "recall",    "normal_edges", "rebel_edges", "normal_circles",
     "rebel_circles", "squares",   "dimension", "corners"};
@@ -47,7 +47,7 @@ Json json_of(std::optional<double> figure) {
 
 // ---- Figures
 
-/// The words of each metric for the page.
+/// Label and tooltip of each metric for the page.
 Json metrics_json() {
   Json all = Json::object();
   for (const bench::Metric& metric : bench::metrics()) {
@@ -56,7 +56,7 @@ Json metrics_json() {
   return all;
 }
 
-/// The one of a scenario, or a group, and a figure.
+/// Differences by the scenario's or group's name and the metric.
 using DifferenceOf = std::map<std::pair<std::string, std::string>, const suite::Difference*>;
 
 DifferenceOf by_name(const std::vector<suite::Difference>& differences) {
@@ -65,8 +65,8 @@ DifferenceOf by_name(const std::vector<suite::Difference>& differences) {
   return all;
 }
 
-/// What a figure was, by how much it changed, and whether that is real, where the two have it in
-/// common.
+/// Adds the figure's value before, its change and the verdict on it, if both suites have the
+/// figure.
 void add_change(Json& figure, const DifferenceOf& differences, const std::string& owner,
                 const std::string& name) {
   const auto found = differences.find({owner, name});
@@ -121,7 +121,7 @@ Json criteria_of(const RunResult& run) {
   return criteria;
 }
 
-/// To five digits, as the plots have fewer pixels than that; none for an empty cell.
+/// A cell's number with five digits, enough for the pixels of a plot; null for an empty cell.
 Json number_of(std::string_view cell) {
   if (cell.empty()) return nullptr;
   const std::optional<double> number = bench::number_in<double>(cell);
@@ -130,7 +130,7 @@ Json number_of(std::string_view cell) {
 }
 
 Json frames_of(const fs::path& file) {
-  // Some 200 bytes a frame.
+  // A frame takes some 200 bytes.
   constexpr scenario::FileKind kFramesTable{scenario::kGibibyte, "run the suite again"};
   scenario::InputFile input(file, kFramesTable);
   std::string line;
@@ -192,7 +192,7 @@ Json event_json(const bench::Event& event) {
           {"views", views}};
 }
 
-/// A run's frames.csv; null where it left none.
+/// The plotted columns of a run's frames.csv; null if there is no such file.
 Json frames_in(const fs::path& folder) {
   const fs::path file = folder / bench::kFramesFile;
   return fs::exists(file) ? frames_of(file) : Json(nullptr);
@@ -205,8 +205,8 @@ Events events_in(const fs::path& folder) {
   return fs::exists(file) ? Events(bench::read_events(file)) : std::nullopt;
 }
 
-/// Whether two events may be the same one: both missed or both false, of the same family, on the
-/// same object, in frames that overlap.
+/// Whether two events may be the same: both missed or both false, same family, same object, and
+/// overlapping frames.
 bool are_alike(const bench::Event& a, const bench::Event& b) {
   return family_of(a.kind) == family_of(b.kind) &&
          (a.counted_corners > 0) == (b.counted_corners > 0) && a.object_name == b.object_name &&
@@ -218,7 +218,7 @@ bool has_like(const std::vector<bench::Event>& events, const bench::Event& event
                      [&](const bench::Event& other) { return are_alike(event, other); });
 }
 
-/// The baseline's curves, and its events that are gone, without pictures.
+/// The baseline's curves and its vanished events, without pictures. Marks new ones in `events_now`.
 Json before_json(const fs::path& folder, const Events& events, Json& events_now) {
   Json before = {{"frames", nullptr}, {"gone", Json::array()}, {"error", ""}};
   try {
@@ -272,18 +272,18 @@ Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
   return json;
 }
 
-/// Takes pictures away until the rest fits: first those of the least costly events of later seeds,
-/// of rebels, of circles and of squares in turns.
+/// Removes pictures until the rest fits the budget. Pictures of cheap events and later seeds go
+/// first, evenly over the families.
 void keep_to_budget(Json& scenarios, std::size_t budget) {
   struct Strip {
-    std::size_t turn;  // of its event in its run, and of the run in its scenario
+    std::size_t turn;  // rank of the event in its run plus twice the index of the run
     Json* event;
   };
   std::vector<Strip> strips;
   for (Json& scenario : scenarios) {
     for (std::size_t r = 0; r < scenario["runs"].size(); ++r) {
       Json& events = scenario["runs"][r]["events"];
-      std::map<std::string, std::size_t> rank;  // within its family
+      std::map<std::string, std::size_t> rank;  // by family
       for (Json& event : events) {
         strips.push_back({rank[event["family"]]++ + 2 * r, &event});
       }
@@ -335,7 +335,7 @@ Json remarks_of(const suite::Verdict& verdict) {
   return remarks;
 }
 
-/// All but pictures are there whatever the budget is.
+/// The page's data. The budget limits only the pictures.
 Json data_of(const SuiteInFolder& suite, const suite::Verdict& verdict, const Against* against,
              std::size_t budget) {
   const SuiteInFolder* baseline = against ? &against->baseline : nullptr;
@@ -369,7 +369,7 @@ Json data_of(const SuiteInFolder& suite, const suite::Verdict& verdict, const Ag
   return data;
 }
 
-/// Names and messages may hold any bytes, JSON only UTF-8.
+/// The JSON text. Replaces invalid UTF-8, which names and messages may hold.
 std::string text_of(const Json& data) {
   return data.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -1,9 +1,9 @@
 /// \file
-/// The result of a suite as one page: the verdict and what is worst with its reasons, a table of
-/// all scenarios with the change against a baseline, and for each scenario its criteria, its plots
-/// over time, and its misses and false alarms with pictures and reasons. Of a single run likewise,
-/// with its video. HTML, CSS, script, figures and pictures are all in the one file: it opens from
-/// disk and asks the network for nothing.
+/// The report page of a suite: the verdict, the worst scenarios with their reasons, a table of all
+/// scenarios with the changes against a baseline, and for each scenario its criteria, plots over
+/// time, misses and false alarms with pictures and reasons. The page of a single run also has its
+/// video. A page is one file with HTML, CSS, script, figures and pictures. It opens from disk
+/// without network access.
 #pragma once
 
 #include <filesystem>
@@ -15,22 +15,21 @@ namespace lcs::report {
 
 inline constexpr const char* kReportFile = "report.html";
 
-/// What a suite was compared with, and what came of it.
+/// The baseline of a suite, and the comparison with it.
 struct Against {
   const suite::SuiteInFolder& baseline;
   const suite::Comparison& comparison;
 };
 
-/// Written beside its place, then renamed: the file appears whole or not at all. Of each run
-/// frames.csv and events.json are shown where they are there.
+/// Writes the page. It shows the frames.csv and events.json of each run that has them.
 /// \param against null without a baseline.
-/// \throws bench::OutputError; std::runtime_error for a frames.csv or events.json of the suite that
-///   cannot be read, naming it. What is wrong with one of the baseline is told on the page.
+/// \throws bench::OutputError; std::runtime_error that names an unreadable frames.csv or
+///   events.json of the suite. The page itself reports unreadable files of the baseline.
 void write_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite,
                   const suite::Verdict& verdict, const Against* against);
 
 /// Writes the page of the one run in `suite`. A video larger than `kVideoBudget` is only named.
-/// \throws likewise.
+/// \throws as `write_report`.
 void write_run_report(const std::filesystem::path& file, const suite::SuiteInFolder& suite);
 
 }  // namespace lcs::report

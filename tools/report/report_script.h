@@ -1,5 +1,5 @@
 /// \file
-/// `page.js` as it lies beside this file: what lays out a suite's data.
+/// `page.js` of this folder, embedded in the program: the script that lays out a suite's data.
 #pragma once
 
 #include <string_view>

@@ -45,7 +45,7 @@ constexpr std::string_view kColumns[] = {kF1,
                                          "square.recall_50"};
 constexpr std::string_view kCorners = "dimension.corners_mean", kFrames = "frames";
 
-/// The worlds of a family, or one alone.
+/// All worlds of a family, or a single one.
 using Worlds = std::vector<const ScenarioResult*>;
 
 std::vector<double> figures_of(const SuiteResult& by, const Worlds& worlds,
@@ -132,7 +132,7 @@ class WorldsPage : public TextPage {
     add("</tr>\n");
   }
 
-  /// A row a detector.
+  /// Adds a table with a row per detector.
   void table(const Worlds& worlds) {
     add("<div class=\"scroll\"><table>\n<thead><tr><th></th>");
     for (const std::string_view key : kColumns) {
@@ -150,7 +150,7 @@ class WorldsPage : public TextPage {
     add("</tbody></table></div>\n");
   }
 
-  /// What does not depend on the detector.
+  /// Adds a figure that does not depend on the detector, rounded.
   void say(const Worlds& worlds, std::string_view figure, const char* what) {
     const auto mean = bench::mean(figures_of(suite_, worlds, figure));
     if (mean) add("<span>{:.0f} {}</span>", *mean, what);

@@ -1,6 +1,6 @@
 /// \file
-/// The worlds of a suite to look at, family by family: a contact sheet of each, with the figures of
-/// all detectors. Plain HTML, with its pictures in a folder beside it, as there may be thousands.
+/// The page of a suite's worlds, by family: a contact sheet of each world with the figures of all
+/// detectors. Plain HTML; there may be thousands of pictures, so they are in a separate folder.
 #pragma once
 
 #include <filesystem>
@@ -14,12 +14,12 @@ namespace lcs::report {
 inline constexpr const char* kWorldsFile = "worlds.html";
 inline constexpr const char* kSheetsFolder = "worlds";
 
-/// Where the contact sheet of a scenario is in the suite's folder.
+/// The path of a scenario's contact sheet, relative to the suite's folder.
 std::filesystem::path sheet_path(const suite::ScenarioResult& scenario);
 
-/// \param about a line for people on what these worlds are.
-/// \param others the same worlds by other detectors.
-/// \param suite_folder gets the page; sheets are shown where they are there.
+/// \param about a line that describes these worlds to the reader.
+/// \param others results of other detectors on the same worlds.
+/// \param suite_folder receives the page, which shows the sheets that exist there.
 /// \throws bench::OutputError
 void write_worlds_page(const std::filesystem::path& suite_folder, const std::string& about,
                        const suite::SuiteResult& suite, std::span<const suite::SuiteResult> others);

@@ -59,7 +59,7 @@ std::vector<scenario::Criterion> asked_of(const std::string& detector, bool is_o
 
 std::vector<std::string> not_asked(const std::vector<scenario::Criterion>& criteria,
                                    const std::set<std::string>& detectors) {
-  std::map<std::string, std::vector<std::string>> places;  // by detector
+  std::map<std::string, std::vector<std::string>> places;  // by detector's name
   for (const scenario::Criterion& criterion : criteria) {
     if (!criterion.detector.empty() && !detectors.contains(criterion.detector)) {
       places[criterion.detector].push_back(place(criterion.source));

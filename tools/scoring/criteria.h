@@ -1,5 +1,5 @@
 /// \file
-/// Whether a run met what its scenario asks for.
+/// Judges a run's figures by the criteria of its scenario.
 #pragma once
 
 #include <optional>
@@ -12,31 +12,31 @@
 
 namespace lcs::bench {
 
-/// \throws scenario::Error at the line of the first criterion on a metric that does not exist,
-///   naming the nearest one that does.
+/// \throws scenario::Error at the line of the first criterion with an unknown metric; the message
+///   names the most similar known one.
 void require_known_metrics(const std::vector<scenario::Criterion>& criteria);
 
 /// The criteria that apply to a detector of a run. \param is_own whether it is the run's own
-/// detector, to which those apply that name none.
+/// detector; criteria that name no detector apply to it.
 std::vector<scenario::Criterion> asked_of(const std::string& detector, bool is_own,
                                           const std::vector<scenario::Criterion>& criteria);
 
-/// A line for each detector that criteria name and the run does not have, as "not asked: criteria
-/// of klt (crossing.yaml:31, the first of 2); let it watch, by --beside".
+/// A line for each detector of the criteria that the run lacks, such as "not asked: criteria of klt
+/// (crossing.yaml:31, the first of 2); let it watch, by --beside".
 std::vector<std::string> not_asked(const std::vector<scenario::Criterion>& criteria,
                                    const std::set<std::string>& detectors);
 
 struct JudgedCriterion {
   std::string metric;
   std::optional<double> min, max;
-  std::optional<double> value;  ///< undefined meets no bound
+  std::optional<double> value;  ///< absent: undefined, which meets no bound
   bool required = true;
   bool met = false;
-  std::string message;  ///< of a failure, as "crossing.yaml:31: rebel.f1 is 0.41, must be at least
-                        ///< 0.6"; empty where met
+  std::string message;  ///< such as "crossing.yaml:31: rebel.f1 is 0.41, must be at least 0.6";
+                        ///< empty if met
 };
 
-/// All of them, in the scenario's order.
+/// Judges all criteria, in the scenario's order.
 std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& criteria,
                                    const Metrics& metrics);
 

@@ -17,19 +17,19 @@
 namespace lcs::bench {
 namespace {
 
-/// Frames that may lie between two of one event in which nothing is wrong.
+/// Most consecutive frames without an error within one event.
 constexpr int kGap = 2;
-/// False corners closer than this are one group; fewer than `kCornersToFind` are none.
+/// False corners closer than this form a group. Groups of fewer than `kCornersToFind` are dropped.
 constexpr double kGroupReach_px = 40;
-/// How far from its place of before a group is still the same.
+/// Largest distance between a group's boxes in successive frames.
 constexpr double kTrackReach_px = 20;
 constexpr int kViews = 5;
 
-/// A square that shares less with an object has nothing to do with it.
+/// A square and an object with a smaller IoU are unrelated.
 constexpr double kLeastIou = 0.1;
-/// Of a square or an object: it is in the other.
+/// A square or an object with more than this share of its area in the other counts as inside it.
 constexpr double kMostOfIt = 0.5;
-/// Frames of an event of squares, at least.
+/// Least number of frames of a square event.
 constexpr int kLeastFrames = 3;
 
 constexpr std::array<EventKindText, 11> kKinds{{
@@ -55,19 +55,19 @@ constexpr std::array<EventKindText, 4> kSteps{{
 
 using Outcomes = std::vector<std::vector<CornerOutcome>>;
 
-/// What of an event lies in one frame.
+/// The part of an event in one frame.
 struct Part {
-  std::vector<std::size_t> corners;  // what it costs
+  std::vector<std::size_t> corners;  // the missed or false ones
   int counted_corners = 0;
   int circles = 0;
   Box box;
-  bool is_of_squares = false;  // and wrong
+  bool is_of_squares = false;  // whether it is an error of squares
 };
 
-/// By position of the frame in the recording.
+/// Parts by the frame's position in the recording.
 using Parts = std::map<std::size_t, Part>;
 
-/// Pixel centres, ends included.
+/// The object's box in pixel centres, both ends included.
 std::optional<Box> box_in(const FrameRecord& frame, int object) {
   for (const sim::ObjectTruth& truth : frame.object_truth) {
     if (truth.object == object) {
@@ -105,7 +105,7 @@ EventView view_of(const FrameRecord& frame, const Box& box) {
           .jpeg_base64 = ""};
 }
 
-/// Frames of the event, evenly, between the one before it and the one after it.
+/// Evenly spaced frames of the event, preceded and followed by one frame outside it.
 std::vector<EventView> views_of(const Recording& recording, const Event& event,
                                 const Parts& parts) {
   std::vector<EventView> all;
@@ -151,8 +151,8 @@ Event event_of(const Recording& recording, EventKind kind, int object, const Par
   return event;
 }
 
-/// Cuts where more than `kGap` frames pass without a part that `is_bad`; parts between bad ones
-/// stay.
+/// Splits the parts where more than `kGap` frames pass without a part that `is_bad`. Good parts
+/// between bad ones are kept.
 template <class IsBad>
 std::vector<Parts> runs_of(const Parts& parts, IsBad&& is_bad) {
   std::vector<Parts> runs;
@@ -183,7 +183,7 @@ int corners_of(const Parts& parts) {
 
 // ---- Missed
 
-/// Rebel corners of an object that recall counts, frame by frame.
+/// The rebel corners of an object that recall counts, by frame.
 Parts counted_corners(const Recording& recording, const Outcomes& outcomes, int object) {
   Parts parts;
   for (std::size_t k = 0; k < recording.frames.size(); ++k) {
@@ -225,7 +225,7 @@ void find_missed(const Recording& recording, const Outcomes& outcomes, std::vect
 
 // ---- False
 
-/// The false rebels of a frame that are in no list yet, in groups of those near each other.
+/// Groups these corners of a frame: neighbours closer than `kGroupReach_px` share a group.
 std::vector<std::vector<std::size_t>> groups_of(const FrameRecord& frame,
                                                 std::vector<std::size_t> corners) {
   std::vector<std::vector<std::size_t>> groups;
@@ -247,7 +247,7 @@ std::vector<std::vector<std::size_t>> groups_of(const FrameRecord& frame,
   return groups;
 }
 
-/// The moving object whose box is nearest; 0 for none.
+/// The number of the moving object with the nearest box; 0 if nothing moves.
 int nearest_mover(const FrameRecord& frame, const Box& box) {
   int nearest = 0;
   double least = 0;
@@ -259,7 +259,7 @@ int nearest_mover(const FrameRecord& frame, const Box& box) {
   return nearest;
 }
 
-/// A false group, followed through the frames.
+/// A group of false rebels, tracked through the frames.
 struct Track {
   Parts parts;
   const Box& box() const { return parts.rbegin()->second.box; }
@@ -322,7 +322,7 @@ class FalseGroups {
   }
 
  private:
-  /// To the nearest track that is still there, or a new one.
+  /// Appends a part to the nearest recent track, or to a new one.
   void follow(std::size_t position, Part part) {
     Track* nearest = nullptr;
     for (Track& track : tracks_) {
@@ -348,7 +348,7 @@ class FalseGroups {
 
 // ---- Squares
 
-/// Why an object that a square should be on has none.
+/// The reason that an eligible object has no right square.
 EventKind cause_of(const FrameRecord& frame, const std::set<int>& eligible,
                    const sim::ObjectTruth& object) {
   const Box own = box_of(object);
@@ -408,7 +408,7 @@ class SquareEvents {
       if (!outcomes.eligible.contains(object.object)) continue;
       const bool found =
           std::ranges::find(outcomes.right, object.object, &BoxPair::box) != outcomes.right.end();
-      // one that is found may have further squares, which are false
+      // an object with a right square may have further, false ones
       const bool is_doubled =
           found && std::ranges::any_of(frame.layers.squares, [&](auto& square) {
             return wrong.contains(square.id) &&
@@ -475,7 +475,7 @@ class SquareEvents {
     const auto most =
         std::ranges::max_element(kinds, {}, [](const auto& kind) { return kind.second; });
     Event event = event_of(recording_, most->first, object, run);
-    event.counted_corners = 0;  // corners that recall counts
+    event.counted_corners = 0;  // applies to rebel events only
     event.frames = frames;
     event.of_frames = static_cast<int>(run.size());
     event.reasons.clear();
@@ -525,7 +525,7 @@ void EventSums::add(const EventSums& other) {
 }
 
 std::vector<Event> find_square_events(const Recording& recording, std::size_t most) {
-  if (recording.truth != Truth::all) return {};  // of objects nothing is known
+  if (recording.truth != Truth::all) return {};  // the objects are unknown
   SquareEvents squares(recording);
   for (std::size_t k = 0; k < recording.frames.size(); ++k) {
     if (recording.frames[k].index >= kSightings) squares.add_frame(k);
@@ -537,7 +537,7 @@ std::vector<Event> find_square_events(const Recording& recording, std::size_t mo
 }
 
 std::vector<Event> find_events(const Recording& recording, std::size_t most) {
-  if (recording.truth == Truth::unknown) return {};  // nobody can say what was wrong
+  if (recording.truth == Truth::unknown) return {};  // errors are undefined without truth
   const Outcomes outcomes = corner_outcomes(recording);
   std::vector<Event> events;
   find_missed(recording, outcomes, events);
@@ -546,7 +546,7 @@ std::vector<Event> find_events(const Recording& recording, std::size_t most) {
     if (recording.frames[k].index >= kSightings) groups.add_frame(k, outcomes[k]);
   }
   groups.finish(events);
-  const auto rank = [](const Event& event) {  // rebels have no circles
+  const auto rank = [](const Event& event) {  // rebel events have no circles
     return std::tuple(family_of(event.kind), -event.circles, -event.corners);
   };
   std::ranges::stable_sort(events, {}, rank);

@@ -79,7 +79,7 @@ Event event_of(const JsonNode& node) {
         enumerator_of<Reason>(corners, word, static_cast<int>(kReasons.size())),
         corners.natural<int>());
   });
-  if (node.has("steps")) {  // an earlier version's are of rebels alone
+  if (node.has("steps")) {  // absent in files of an earlier version
     event.frames = node["frames"].natural<int>();
     event.of_frames = node["of_frames"].natural<int>();
     node["steps"].each_entry([&](const std::string& word, const JsonNode& corners) {
@@ -109,7 +109,7 @@ void write_events(const std::filesystem::path& file, const std::vector<Event>& e
   };
   Json list = Json::array();
   for (const Event& event : events) list.push_back(json_of(event));
-  // A name may hold any bytes; JSON only UTF-8.
+  // A name may hold any bytes, but JSON must be UTF-8.
   const Json all{{"events", list},
                  {"sums",
                   {{"missed", by_word(sums.missed)},

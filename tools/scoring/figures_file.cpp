@@ -14,7 +14,7 @@
 namespace lcs::bench {
 namespace {
 
-/// A row by the names of its columns, so that header and values cannot part.
+/// A row of named columns, so that header and values always match.
 class Row {
  public:
   template <class Number>
@@ -22,7 +22,7 @@ class Row {
     return add(name, fmt::format("{}", value));
   }
   Row& operator()(const std::string& name, std::optional<double> value) {
-    return add(name, value ? fmt::format("{}", *value) : "");  // shortest that reads back alike
+    return add(name, value ? fmt::format("{}", *value) : "");  // shortest exact form
   }
   const std::string& header() const { return header_; }
   const std::string& values() const { return values_; }

@@ -16,7 +16,7 @@ namespace {
 
 using Figure = std::optional<double>;
 
-constexpr double kRelative = 0.05;  // of figures that are no shares
+constexpr double kRelative = 0.05;  // for figures that are not shares
 
 constexpr Scale kShare{"", Direction::higher, 0.01, 0, 2};
 constexpr Scale kLostShare{"", Direction::lower, 0.01, kRelative, 2};
@@ -94,7 +94,7 @@ std::vector<Metric> rebel_metrics() {
        "share of the movers that are found. A mover is found if 3 or more of its corners are "
        "rebels in a frame from k0 on. Of movers with rebel corners in at least N frames"},
       {"rebel.latency_frames_median", [](auto& s) { return median(s.objects.latencies); },
-       lower("frames", 0.4, 1), "latency",  // the median of an even number has halves
+       lower("frames", 0.4, 1), "latency",  // a median may be half-integer
        "frames from k0 of a mover until it is found. Median over those found: 2 or more by the "
        "paper's rule, which needs N sightings; 0 or 1 are possible by the default"},
       {"rebel.false_objects_per_100_frames",
@@ -189,7 +189,7 @@ std::vector<Metric> square_metrics() {
 
 // ---- Labels
 
-/// Undefined where nobody has labelled a frame.
+/// Undefined if no frame is labelled.
 Figure label_count(const Scores& s, int count) {
   return s.labels.frames > 0 ? Figure(count) : std::nullopt;
 }
@@ -220,7 +220,7 @@ std::vector<Metric> label_metrics() {
 
 // ---- Sizes, ego-motion
 
-/// Corners in the last `length` frames, the current one included, at each frame.
+/// For each frame, the number of corners in the last `length` frames including itself.
 std::vector<double> store_sizes(const Scores& s, std::size_t length) {
   std::vector<double> sizes;
   for (std::size_t k = 0; k < s.corner_counts.size(); ++k) {
@@ -285,7 +285,7 @@ std::vector<Metric> other_metrics() {
 
 // ---- Times
 
-/// Empty where the stage took no time in any frame.
+/// The stage's times over the frames, in ms; empty if the stage took no time in any frame.
 std::vector<double> times_of(const Recording& recording, const Stage& stage) {
   std::vector<double> times;
   if (stage.is_layer && !recording.detector.layered) return times;
@@ -319,7 +319,7 @@ Figure frames_per_second(const Scores& s) {
   return ratio(timed, seconds);
 }
 
-/// Times differ between machines and runs: no direction is better.
+/// Metrics of times. They are neutral, because times differ between machines and runs.
 std::vector<Metric> time_metrics() {
   std::vector<Metric> all;
   for (const Stage& stage : kStages) {
@@ -344,7 +344,7 @@ std::vector<Metric> time_metrics() {
 
 // ---- Warnings
 
-/// A warning is of the world or the told motion, not of the detector: no direction is better.
+/// Metrics of warnings. They are neutral, because warnings do not concern the detector.
 std::vector<Metric> warning_metrics() {
   const std::pair<std::string, std::string> rows[] = {
       {"rover_below_ground",
@@ -417,7 +417,7 @@ const Metric& metric(std::string_view key) {
 
 std::string Metric::number(std::optional<double> value) const {
   if (!value) return "-";
-  // Three digits of a time, whatever its size.
+  // times have three significant digits
   const int digits = scale.unit != "ms" ? scale.decimals : *value < 10 ? 2 : *value < 100 ? 1 : 0;
   return fmt::format("{:.{}f}", *value, digits);
 }

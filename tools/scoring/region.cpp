@@ -42,7 +42,7 @@ Region region_of(std::span<const Vec2> polygon) {
       }
       const double wide = b.x() - a.x();
       const auto y_at = [&](double share) { return a.y() + share * (b.y() - a.y()); };
-      // One that stands upright is in the column with all of its length.
+      // A vertical side lies in the column with its whole length.
       const bool is_upright = std::abs(wide) <= kRim_px;
       const double there = is_upright ? 0 : std::clamp((column - a.x()) / wide, 0.0, 1.0);
       for (const double y : {y_at(there), y_at(is_upright ? 1 : there)}) {

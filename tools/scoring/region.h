@@ -1,5 +1,5 @@
 /// \file
-/// The pixels that an object or a square covers, and how much two such regions overlap.
+/// The pixels that an object or a square covers, and the overlap of two such regions.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct Stretch {
   int column = 0, top = 0, bottom = 0;
 };
 
-/// Ordered by column, and by row within a column; stretches do not touch.
+/// A set of pixels. The stretches are ordered by column, then by row, and do not touch.
 struct Region {
   std::vector<Stretch> stretches;
   std::int64_t pixels = 0;
@@ -24,15 +24,14 @@ struct Region {
 
 Region region_of(const sim::Mask& mask);
 
-/// Pixels whose centre is within or on the rim, to a millionth of a pixel. Of a polygon that is not
-/// convex each column is covered from its uppermost point to its lowest. Pixels farther out than
-/// any picture reaches are left out.
+/// The pixels whose centre lies inside or within 1e-6 px of the rim. A polygon that is not convex
+/// covers each column from its highest to its lowest point. Pixels beyond 2^15 are left out.
 ///@{
 Region region_of(const Outline& outline);
 Region region_of(const Box& box);
 ///@}
 
-/// What a square covers: its mask, if there is none its outline, if there is none its box.
+/// The region of a square: its mask, otherwise its outline, otherwise its box.
 Region region_of(const Square& square, const SquareMasks& masks);
 
 double intersection_over_union(const Region& a, const Region& b);

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kMatch = 0.5;
 
-/// A corner at an outline lies as far outside of what it belongs to (FAST's circle), and hands are
-/// no more exact.
+/// A corner at an outline may lie this far outside of its object (FAST's circle), and labels by
+/// hand are no more exact.
 constexpr double kReach_px = 3;
 
 struct Labelled {
@@ -55,12 +55,12 @@ bool is_off(const Circle& circle, const FrameRecord& frame, const std::vector<La
                       });
 }
 
-/// A stranger's detector does not say of what its boxes are.
+/// Whether the square moves. A square without circles, of a user's detector, counts as moving.
 bool may_move(const Square& square) {
   return square.rebel_circles > 0 || square.circles == 0;
 }
 
-/// How many boxes have a square of their own; places in the lists settle ties.
+/// The number of boxes matched one to one by squares. List positions break ties.
 int count_boxed(const FrameRecord& frame, const std::vector<Labelled>& labels) {
   std::vector<BoxPair> pairs;
   for (std::size_t i = 0; i < labels.size(); ++i) {

@@ -9,7 +9,7 @@
 namespace lcs::bench {
 namespace {
 
-/// In which frames an object is distinct: some corner of it is labelled rebel.
+/// The frames in which an object is distinct: a corner of it is labelled rebel.
 struct Distinct {
   int first = 0;  ///< k0
   int frames = 0;
@@ -48,7 +48,7 @@ RebelCounts counts(CornerOutcome outcome) {
   return counts;
 }
 
-/// Had the verdict been right.
+/// The outcome as if the verdict were right.
 CornerOutcome corrected(CornerOutcome outcome) {
   switch (outcome) {
     case CornerOutcome::false_rebel:
@@ -71,7 +71,7 @@ Difficulty difficulty(const FrameRecord& frame, std::size_t corner) {
   return first ? Difficulty::first_seen : Difficulty::tracked;
 }
 
-/// Corners on an object whose verdict is rebel.
+/// The number of corners on an object with the verdict rebel.
 int rebels_on(const FrameRecord& frame, int object) {
   int rebels = 0;
   for (std::size_t i = 0; i < frame.corner_truth.size(); ++i) {
@@ -80,7 +80,7 @@ int rebels_on(const FrameRecord& frame, int object) {
   return rebels;
 }
 
-/// First frame from k0 on with enough rebel corners on the object.
+/// The first frame from k0 on with `kCornersToFind` rebel corners on the object.
 std::optional<int> found_at(const Recording& recording, int object, int k0) {
   for (const FrameRecord& frame : recording.frames) {
     if (frame.index >= k0 && rebels_on(frame, object) >= kCornersToFind) return frame.index;

@@ -14,7 +14,7 @@
 namespace lcs::bench {
 namespace {
 
-/// \name What makes a truth box one that a square can be asked to find.
+/// \name Conditions for an eligible truth box, which a square should find.
 ///@{
 constexpr int kMinArea_px2 = 400;
 constexpr int kMinCorners = 4;
@@ -30,14 +30,14 @@ bool is_eligible(const sim::ObjectTruth& truth, const FrameRecord& frame) {
          truth.visible_fraction >= kMinVisibleFraction;
 }
 
-/// What squares and objects of one frame have to do with each other, at any threshold.
+/// The overlaps of the squares and objects of one frame, before any threshold.
 struct FrameSquares {
-  std::set<int> eligible;      ///< objects
-  std::vector<BoxPair> pairs;  ///< of eligible objects and squares, one to one, greedy: best first
-  std::vector<BoxPair> best_box;  ///< of each square, among all boxes; object 0 where none overlaps
+  std::set<int> eligible;         ///< objects
+  std::vector<BoxPair> pairs;     ///< one-to-one matches of eligible objects and squares
+  std::vector<BoxPair> best_box;  ///< each square's best among all boxes; object 0: no overlap
 };
 
-/// \param iou of a truth and a square.
+/// \param iou_of returns the IoU of an object's truth and a square.
 template <typename Overlap>
 FrameSquares compare(const FrameRecord& frame, Overlap&& iou_of) {
   FrameSquares result;
@@ -125,7 +125,7 @@ bool are_masks_known(const Recording& recording) {
   });
 }
 
-/// \param pairs by their boxes.
+/// \param pairs matched by their boxes.
 void add_masks(const FrameRecord& frame, const std::vector<BoxPair>& pairs,
                const std::set<int>& moving, SquareScore::Masks& masks) {
   const FrameRegions regions(frame);
@@ -181,7 +181,7 @@ std::optional<double> SquareCounts::precision() const {
 SquareScore score_squares(const Recording& recording) {
   SquareScore score;
   const std::set<int> moving = movers(recording);
-  std::map<int, Id> last_square;  // of each object, where it was last matched
+  std::map<int, Id> last_square;  // by object, its last matched square
   if (are_masks_known(recording)) score.masks.emplace();
   for (const FrameRecord& frame : recording.frames) {
     if (frame.index < kSightings) continue;

@@ -1,5 +1,5 @@
 /// \file
-/// How well squares cover the visible objects.
+/// Scores how well squares cover the visible objects.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,11 @@
 
 namespace lcs::bench {
 
-/// Counts at one threshold of IoU (intersection over union).
+/// Counts at one IoU threshold (intersection over union).
 struct SquareCounts {
   int boxes = 0;    ///< eligible truth boxes
-  int matched = 0;  ///< of these
-  int squares = 0;  ///< right or wrong; those on objects that are not eligible count as neither
+  int matched = 0;  ///< boxes matched by a square
+  int squares = 0;  ///< right and wrong squares; those on ineligible objects are neither
 
   std::optional<double> recall() const;
   std::optional<double> precision() const;
@@ -23,44 +23,44 @@ struct SquareCounts {
 /// A box and a square that overlap.
 struct BoxPair {
   double iou = 0;
-  int box = 0;  ///< its object, or any other number that tells it from other boxes
+  int box = 0;  ///< object number, or any other unique number
   Id square = 0;
 };
 
-/// Matches boxes and squares one to one, greedily, best first. Ids settle ties, so that the order
-/// in which pairs come does not matter.
+/// Matches boxes and squares one to one, greedily by IoU. Ids break ties, so that the result does
+/// not depend on the order of the pairs.
 std::vector<BoxPair> one_to_one(std::vector<BoxPair> pairs);
 
-/// \name When a square is right, and which objects squares should find.
+/// \name The criterion for a right square, and the objects that squares should find.
 ///@{
 inline constexpr double kRightIou = 0.5;
-/// Numbers of a frame's objects that count: large enough, with corners, and visible enough.
+/// Numbers of a frame's eligible objects: large, visible and with corners enough.
 std::set<int> eligible_objects(const FrameRecord& frame);
 ///@}
 
-/// Which squares of a frame are right, and which wrong.
+/// The right and the wrong squares of a frame.
 struct SquareOutcomes {
   std::set<int> eligible;
-  std::vector<BoxPair> right;  ///< pairs at `kRightIou` or over
-  std::vector<Id> wrong;       ///< squares; those that are neither are on no eligible object
+  std::vector<BoxPair> right;  ///< pairs with an IoU of at least `kRightIou`
+  std::vector<Id> wrong;       ///< wrong squares; squares on ineligible objects are in neither
 };
 SquareOutcomes square_outcomes(const FrameRecord& frame);
 
 struct SquareScore {
   SquareCounts at_30, at_50, at_70;
-  /// \name At 0.5, by whether the object moves at any time in the run.
+  /// \name At 0.5, split by whether the object moves at any time in the run.
   ///@{
-  SquareCounts movers_50, static_50;  ///< their `squares` are 0: a wrong square is of neither kind
-  std::vector<double> movers_iou, static_iou;  ///< of matched pairs
+  SquareCounts movers_50, static_50;           ///< `squares` is 0: wrong squares have no object
+  std::vector<double> movers_iou, static_iou;  ///< of the matched pairs
   ///@}
-  int identity_switches = 0;  ///< at 0.5
-  /// The same, with the pixels that squares and objects cover in place of their boxes.
+  int identity_switches = 0;  ///< at an IoU of 0.5
+  /// Scores of the covered pixels instead of the boxes.
   struct Masks {
     SquareCounts at_50;
     /// IoU of the pairs whose boxes match at 0.5.
     std::vector<double> movers_iou, static_iou;
   };
-  std::optional<Masks> masks;  ///< none unless the masks of all objects are known
+  std::optional<Masks> masks;  ///< absent unless the masks of all objects are known
 };
 
 SquareScore score_squares(const Recording& recording);

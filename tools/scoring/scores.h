@@ -1,5 +1,5 @@
 /// \file
-/// The counts and samples that the metrics of a recording are computed from.
+/// The counts and samples from which a recording's metrics are computed.
 #pragma once
 
 #include <vector>
@@ -21,7 +21,7 @@ struct Scores {
   LabelScore labels;
   std::vector<double> corner_counts;  ///< by frame
   std::vector<double> dimensions;     ///< by frame; empty without layers
-  std::vector<double> rotation_errors_mrad, velocity_errors_mps;  ///< of the told motion
+  std::vector<double> rotation_errors_mrad, velocity_errors_mps;  ///< of the estimated motion
   std::vector<Warned> warnings;
 };
 

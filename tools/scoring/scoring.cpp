@@ -35,7 +35,7 @@ std::optional<double> RebelCounts::recall() const {
 std::optional<double> RebelCounts::f1() const {
   const std::optional<double> r = recall();
   if (!r || *r == 0) return r;
-  const double p = precision().value();  // something was found, so something was said
+  const double p = precision().value();  // defined, because recall > 0 implies a TP
   return 2 * p * *r / (p + *r);
 }
 

@@ -1,6 +1,5 @@
 /// \file
-/// The parts of a frame's work whose times are measured, in the order of frames.csv and
-/// metrics.json.
+/// The timed stages of a frame's processing, in the order of frames.csv and metrics.json.
 #pragma once
 
 #include <string>
@@ -10,12 +9,12 @@
 namespace lcs::bench {
 
 struct Stage {
-  const char* name;  ///< "line": column line_ms, metrics time.line_*
+  const char* name;  ///< such as "line": column line_ms, metrics time.line_*
   double FrameTimes::*time_ms;
-  const char* label = "";     ///< in tables
+  const char* label = "";     ///< label in tables
   bool is_layer = false;      ///< undefined for a detector without layers
-  bool is_of_filter = false;  ///< compared with the time of FAST
-  bool is_younger = false;    ///< older tables lack the column
+  bool is_of_filter = false;  ///< its time is also compared with FAST's
+  bool is_younger = false;    ///< optional column, missing in older files
   std::string column() const { return std::string(name) + "_ms"; }
 };
 

@@ -1,5 +1,5 @@
 /// \file
-/// Means, quantiles and ratios. Without any values they are undefined, not 0.
+/// Means, quantiles and ratios. They are undefined, not 0, without values.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace lcs::bench {
 
-/// part / whole; undefined for an empty whole.
+/// part / whole; undefined if whole is 0.
 inline std::optional<double> ratio(double part, double whole) {
   if (whole == 0) return std::nullopt;
   return part / whole;
@@ -21,7 +21,7 @@ inline std::optional<double> mean(const std::vector<double>& values) {
                static_cast<double>(values.size()));
 }
 
-/// Linear between the two nearest ranks (type 7, as NumPy's default). \param q in [0, 1].
+/// Linear interpolation between the nearest ranks (type 7, NumPy's default). \param q in [0, 1].
 inline std::optional<double> quantile(std::vector<double> values, double q) {
   if (values.empty()) return std::nullopt;
   std::sort(values.begin(), values.end());

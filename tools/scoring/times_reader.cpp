@@ -12,7 +12,7 @@
 namespace lcs::bench {
 namespace {
 
-/// The number of columns if the header lacks the name.
+/// The column's index; the number of columns if the header lacks it.
 std::size_t place_of(const std::vector<std::string_view>& header, std::string_view name) {
   return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
 }
@@ -23,7 +23,7 @@ std::size_t column_of(const std::vector<std::string_view>& header, std::string_v
   return place;
 }
 
-/// Nothing if every time is empty. The empty time of a stage that the detector does not have is 0.
+/// A row's times; absent if every time is empty. An empty time of a single stage counts as 0.
 std::optional<FrameTimes> times_in(const std::vector<std::string_view>& header,
                                    const std::vector<std::string_view>& row) {
   FrameTimes times;
@@ -44,7 +44,7 @@ std::optional<FrameTimes> times_in(const std::vector<std::string_view>& header,
 }  // namespace
 
 void read_times(const std::filesystem::path& frames_csv, Recording& recording) {
-  // Some 200 bytes a frame.
+  // A frame takes some 200 bytes.
   constexpr scenario::FileKind kFramesTable{
       scenario::kGibibyte, "run the scenario again, or remove the file to have no times"};
   scenario::InputFile file(frames_csv, kFramesTable);
@@ -75,7 +75,7 @@ void read_times(const std::filesystem::path& frames_csv, Recording& recording) {
       throw std::runtime_error("there are more rows than the recording has frames");
     }
   } catch (const scenario::Error&) {
-    throw;  // the file itself
+    throw;  // it already names the file
   } catch (const std::runtime_error& error) {
     throw scenario::Error({frames_csv.string(), number},
                           fmt::format("{}; {}", error.what(), kFramesTable.remedy));

@@ -21,19 +21,19 @@ constexpr std::string_view kF1 = "rebel.f1", kTime = "time.filter_ms_median",
 constexpr const char* kIntervalLegend =
     "±: 95 % interval of the mean over worlds; ahead: by world, and then the mean\n";
 
-/// A scenario's figure by each detector, the suite's own first.
+/// A scenario's figure for each detector, the suite's own first.
 struct Row {
   std::string name;
   std::vector<double> figures;
 };
 
-/// Means of such figures.
+/// The mean figure of each detector over several scenarios.
 struct MeanRow {
   std::string name;
   std::vector<Interval> means;
 };
 
-/// Scenarios that have the figure by every detector.
+/// A row for each scenario in which the figure is defined for every detector.
 std::vector<Row> rows_of(const SuiteResult& suite, std::span<const SuiteResult> others,
                          std::string_view name) {
   std::vector<Row> rows;
@@ -69,7 +69,7 @@ std::vector<Row> rows_in(const SuiteResult& suite, const std::vector<Row>& rows,
   return in;
 }
 
-/// Over the groups that some of the scenarios are in, and over all.
+/// The means over each group that is not empty and not everything, and over all.
 std::vector<MeanRow> means_of(const SuiteResult& suite, const std::vector<Row>& rows) {
   std::vector<MeanRow> means;
   for (const std::string& group : groups_of(suite)) {
@@ -82,7 +82,7 @@ std::vector<MeanRow> means_of(const SuiteResult& suite, const std::vector<Row>& 
   return means;
 }
 
-/// By how much the suite's own figure is more than each other's, in place of the figures.
+/// Replaces the figures by the suite's own figure minus each detector's.
 std::vector<Row> leads(std::vector<Row> rows) {
   for (Row& row : rows) {
     const double own = row.figures.front();
@@ -91,7 +91,7 @@ std::vector<Row> leads(std::vector<Row> rows) {
   return rows;
 }
 
-/// Where nothing moves there is no F1: what is found is false. Then over all.
+/// Mean false objects in the groups without F1, where nothing moves, and over all.
 std::vector<MeanRow> false_objects(const SuiteResult& suite, std::span<const SuiteResult> others,
                                    const std::vector<Row>& with_f1) {
   const std::vector<Row> rows = rows_of(suite, others, kFalse);
@@ -107,7 +107,7 @@ std::vector<MeanRow> false_objects(const SuiteResult& suite, std::span<const Sui
   return means;
 }
 
-/// Rows of figures below the detectors' names.
+/// Formats rows of figures below a header of the detectors' names.
 class Columns {
  public:
   Columns(std::size_t name_width, std::vector<std::string> names, bool with_intervals)
@@ -162,7 +162,7 @@ class Columns {
   std::string text_;
 };
 
-/// The suite's detector beside the one in a column.
+/// Compares the suite's detector with the detector of a column in one line.
 std::string summary_line(const SuiteResult& suite, const SuiteResult& other,
                          const std::vector<Row>& rows, const std::vector<Row>& times,
                          std::size_t column) {

@@ -1,5 +1,5 @@
 /// \file
-/// A suite beside the same suite with other detectors: a score without a yardstick means nothing.
+/// Tables that compare a suite's detector with other detectors on the same runs.
 #pragma once
 
 #include <span>
@@ -9,20 +9,19 @@
 
 namespace lcs::suite {
 
-/// F1 of rebel corners (mean over seeds), a row a scenario that has it by every detector, and their
-/// means over each group and over all. Then a line for each other detector: in how many scenarios
-/// the suite's is ahead of it, where it is least so, and how long its step takes beside the other's
-/// (mean over scenarios of the ratio of medians).
-/// Over worlds, the means have their 95 % interval, and two more blocks follow: by how much the
-/// suite's detector is ahead of each other one, paired by world; and the false objects where
-/// nothing moves, and in all worlds.
+/// F1 of rebel corners (mean over seeds): a row per scenario with a figure by every detector, and
+/// the means over each group and over all. Then a line per other detector: the number of scenarios
+/// in which the suite's detector is ahead, the scenario with the least lead, and the ratio of the
+/// step times (mean over scenarios of the ratio of medians).
+/// For worlds, the means have 95 % intervals, and two blocks follow: the lead over each other
+/// detector, paired by world; and the false objects in static worlds and in all worlds.
 std::string beside_table(const SuiteResult& suite, std::span<const SuiteResult> others);
 
 inline constexpr const char* kStandingFile = "standing.md";
 
-/// A table in Markdown, a row a detector: means over all scenarios that have the figure (of worlds
-/// with their 95 % interval, `±`) of F1 and recall of rebel corners, of recall of boxes of movers,
-/// and of false objects, and without an interval of the time of a frame. What nobody knows is `-`.
+/// A Markdown table with a row per detector: F1 and recall of rebel corners, recall of movers'
+/// boxes, false objects, and times of a frame. Each is a mean over the scenarios that have the
+/// figure, for worlds (times apart) with the 95 % interval, `±`. An undefined figure is `-`.
 std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult> others);
 
 }  // namespace lcs::suite

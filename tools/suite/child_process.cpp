@@ -23,7 +23,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Runs take seconds.
+/// Short against a run, which takes seconds.
 constexpr auto kPollPeriod = 10ms;
 constexpr auto kPatience = 10s;
 constexpr off_t kMostErr = 1 << 16;
@@ -72,7 +72,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
   err_ = ::memfd_create("stderr", MFD_CLOEXEC);
   if (err_ < 0) throw std::system_error(errno, std::generic_category(), "no process can be started (memfd_create)");
   try {
-    // Not a path that a rebuild may replace meanwhile.
+    // Unlike the program's path, a rebuild does not replace this.
     pid_ = process::start_child("/proc/self/exe", command, {.err = err_},
                                 {.when_parent_ends = SIGTERM});
   } catch (const std::system_error&) {
@@ -116,7 +116,7 @@ struct Running {
   ChildProcess process;
 };
 
-/// All are asked before the first one is waited for.
+/// Requests termination of all children before the destructor waits for the first one.
 class Pool : public std::list<Running> {
  public:
   Pool() = default;

@@ -1,5 +1,5 @@
 /// \file
-/// This program again, as child processes.
+/// Runs this program again in child processes.
 #pragma once
 
 #include <sys/types.h>
@@ -14,47 +14,46 @@ namespace lcs::suite {
 
 /// How a process ended.
 struct Exit {
-  int code = 0;     ///< what it returned, when no signal ended it
-  int signal = 0;   ///< that ended it, or 0
-  std::string err;  ///< what it wrote to stderr, or the last of it when that is long
+  int code = 0;     ///< exit code, if no signal ended the process
+  int signal = 0;   ///< the signal that ended the process, or 0
+  std::string err;  ///< its stderr, or the last 64 KiB
   double wall_s = 0;
 };
 
-/// What went wrong with a process that did not do what it was to do, in its own words if it had
-/// some.
+/// The error message of a failed process: its signal or exit code and its stderr.
 std::string complaint_of(const Exit& exit);
 
-/// What it warned of: its lines that begin so, without that beginning.
+/// The lines of stderr that begin with "warning: ", without that prefix.
 std::vector<std::string> warnings_of(const Exit& exit);
 
-/// One run of this very program. Its stdout is dropped. It is asked to end when the thread ends
-/// that made it, also by SIGKILL.
+/// A run of this program as a child process. Its stdout is discarded. It gets SIGTERM when the
+/// thread that made it ends, even by SIGKILL.
 class ChildProcess {
  public:
-  /// \param arguments after the program's name. \throws std::system_error
+  /// \param arguments without the program's name. \throws std::system_error
   explicit ChildProcess(const std::vector<std::string>& arguments);
-  /// Ends the process if it still runs: asks first, and insists after a while.
+  /// Ends the process if it still runs: by a termination request, after 10 s by SIGKILL.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// How it ended; none while it runs.
+  /// How the process ended; absent while it runs.
   std::optional<Exit> poll();
-  /// Asks it to end, as Ctrl-C would.
+  /// Requests termination by SIGTERM.
   void ask_to_end() const;
 
  private:
   using Clock = std::chrono::steady_clock;
   pid_t pid_ = -1;
-  int err_ = -1;  ///< file without a name that takes its stderr
+  int err_ = -1;  ///< unnamed file (memfd) for its stderr
   Clock::time_point start_ = Clock::now();
   std::optional<Exit> exit_;
 };
 
-/// Runs all commands, `at_once` of them at a time, in order.
-/// \param on_exit called with the place of the command, in the order in which they end.
-/// \param on_tick called some times a second with the places of those that run.
-/// What a callback throws ends the children that run.
+/// Starts all commands in order, `at_once` of them at a time, and waits for them.
+/// \param on_exit called with a command's index when it ends.
+/// \param on_tick called several times a second with the indices of the running commands.
+/// \throws an exception of a callback, after ending the running children.
 void run_all(const std::vector<std::vector<std::string>>& commands, std::size_t at_once,
              const std::function<void(std::size_t, const Exit&)>& on_exit,
              const std::function<void(const std::vector<std::size_t>& running)>& on_tick);

@@ -22,7 +22,7 @@ std::string seed_list(const std::vector<std::uint64_t>& seeds) {
   return fmt::format("{} {}", seeds.size() == 1 ? "seed" : "seeds", fmt::join(seeds, ", "));
 }
 
-/// Seeds of `one` for which `other` has no run.
+/// The seeds of `one` that `other` lacks.
 std::vector<std::uint64_t> seeds_without(const ScenarioResult& one, const ScenarioResult& other) {
   std::vector<std::uint64_t> seeds;
   for (const RunResult& run : one.runs) {
@@ -70,7 +70,7 @@ class Comparer {
     for (const bench::Metric* metric : compared_) compare(before.name, *metric, pairs);
   }
 
-  /// The runs with figures that both have.
+  /// Pairs of runs with the same seed, both with figures.
   std::vector<RunPair> pair_up(const ScenarioResult& before, const ScenarioResult& after) {
     if (const auto seeds = seeds_without(before, after); !seeds.empty()) {
       note("{}: {} only before", before.name, seed_list(seeds));
@@ -100,7 +100,7 @@ class Comparer {
                const std::vector<RunPair>& pairs) {
     std::vector<double> before, after, changes;
     std::vector<std::optional<double>> by_pair;
-    std::vector<std::uint64_t> lost, gained;  // seeds in which the figure is defined on one side
+    std::vector<std::uint64_t> lost, gained;  // seeds with the figure only before, only after
     for (const RunPair& pair : pairs) {
       const std::optional<double> was = figure_of(*pair.before, metric.key);
       const std::optional<double> is = figure_of(*pair.after, metric.key);
@@ -125,8 +125,8 @@ class Comparer {
     result_.single_seeds |= changes.size() == 1;
   }
 
-  /// Worlds are a sample of worlds, whose changes differ; the project's own scenarios are what they
-  /// are, and only the seeds differ: of each seed in turn the mean change over the scenarios.
+  /// Worlds are a random sample, so each world's change is a sample. The project's own scenarios
+  /// are a fixed set, so a sample is the mean change over the scenarios for one seed.
   void compare_group(const std::string& group, const bench::Metric& metric) {
     std::vector<double> before, after;
     std::vector<std::vector<double>> samples;
@@ -154,7 +154,7 @@ class Comparer {
         difference_of(group, metric, *bench::mean(before), *bench::mean(after), changes));
   }
 
-  /// Real is what lies beyond the least change that matters with all of its interval.
+  /// A change is real if its whole interval lies beyond the least change that matters.
   static Difference difference_of(const std::string& name, const bench::Metric& metric,
                                   double before, double after, const std::vector<double>& changes) {
     Difference difference{.scenario = name,

@@ -11,8 +11,8 @@
 namespace lcs::suite {
 
 double student_t_95(int degrees_of_freedom) {
-  // Below ten degrees exactly; from there the expansion in 1 / degrees (Abramowitz and Stegun,
-  // 26.7.5) is as good.
+  // Table values below ten degrees. Above, the expansion in 1 / degrees (Abramowitz and Stegun,
+  // 26.7.5) is accurate enough.
   constexpr std::array<double, 9> kExact{12.7062, 4.3027, 3.1824, 2.7764, 2.5706,
                                          2.4469,  2.3646, 2.3060, 2.2622};
   if (degrees_of_freedom <= static_cast<int>(kExact.size()))

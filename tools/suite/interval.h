@@ -1,5 +1,5 @@
 /// \file
-/// How far a mean can be believed.
+/// Confidence intervals of means.
 #pragma once
 
 #include <optional>
@@ -11,17 +11,17 @@ namespace lcs::suite {
 /// The two-sided 95 % quantile of Student's t. \param degrees_of_freedom >= 1. Error below 0.0005.
 double student_t_95(int degrees_of_freedom);
 
-/// A mean with the interval that holds it at 95 %, if what differs between the values is normal.
+/// A mean with its 95 % confidence interval, which assumes normally distributed values.
 struct Interval {
   double mean = 0;
-  std::optional<double> half;  ///< none: of a single value, whose noise is unknown
+  std::optional<double> half;  ///< half width; absent for a single value, whose noise is unknown
 };
 
-/// \param values at least one.
+/// \param values at least one value.
 Interval interval_of(const std::vector<double>& values);
 
-/// What stands behind a number of so many decimals: "±.05", four columns and more; blank where no
-/// digit of it would show.
+/// The half width after a number with this many decimals: "±.05", padded to at least four columns;
+/// blank if it rounds to zero.
 std::string half_text(double half, int decimals);
 
 }  // namespace lcs::suite

@@ -40,8 +40,8 @@ struct Counts {
   }
 };
 
-/// Without the bounds: a test of another bound has the same history. What still is called like
-/// one before it is counted.
+/// The case's name without the bounds, so that it keeps its history when a bound changes. Repeated
+/// names are numbered.
 std::string name_of(const bench::JudgedCriterion& criterion, std::uint64_t seed,
                     std::map<std::string, int>& times) {
   std::string name = criterion.metric;
@@ -52,7 +52,7 @@ std::string name_of(const bench::JudgedCriterion& criterion, std::uint64_t seed,
   return name + fmt::format(", seed {}", seed);
 }
 
-/// The time of a run is that of its first case, so that sums are right.
+/// Adds a test case. Only the first case of a run has the run's time, so that sums are correct.
 XMLElement& add_case(XMLElement& parent, const ScenarioResult& scenario, const std::string& name,
                      double time_s) {
   XMLElement& element = *parent.InsertNewChildElement("testcase");
@@ -69,7 +69,7 @@ void add_problem(XMLElement& element, const char* kind, const std::string& messa
   problem.SetText(scenario::printable(message).c_str());
 }
 
-/// \param by "" for the suite's own detector, or as "klt: ".
+/// \param by "" for the suite's own detector, else such as "klt: ".
 Counts add_run(XMLElement& parent, const ScenarioResult& scenario, const RunResult& run,
                const std::string& by) {
   Counts counts;
@@ -101,7 +101,7 @@ Counts add_run(XMLElement& parent, const ScenarioResult& scenario, const RunResu
   return counts;
 }
 
-/// Criteria that ask another detector, and its errors where the suite's own has none.
+/// Adds the other detectors' criteria, and their errors if the suite's own run has none.
 Counts add_others(XMLElement& parent, const ScenarioResult& scenario, const RunResult& run,
                   std::span<const SuiteResult> others) {
   Counts counts;
@@ -112,7 +112,7 @@ Counts add_others(XMLElement& parent, const ScenarioResult& scenario, const RunR
     const bool is_error = found->outcome == Outcome::error && run.outcome != Outcome::error;
     if (is_error || !found->criteria.empty()) {
       RunResult untimed = *found;
-      untimed.wall_s = 0;  // the same process
+      untimed.wall_s = 0;  // the own run already counts the process's time
       counts += add_run(parent, scenario, untimed, other.detector + ": ");
     }
   }

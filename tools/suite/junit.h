@@ -1,5 +1,5 @@
 /// \file
-/// A suite's result as JUnit XML, which Jenkins, GitLab and others show.
+/// Writes a suite's result as JUnit XML, for Jenkins, GitLab and others.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +11,11 @@ namespace lcs::suite {
 
 inline constexpr const char* kJunitFile = "junit.xml";
 
-/// A test suite a scenario, a test case a criterion and seed. A run that has no criteria, or failed
-/// before they could be judged, is one case, "runs". `failure` is a criterion that is not met,
-/// `error` a run without figures; a criterion that is not required never fails.
-/// \param others of the same scenarios by other detectors: criteria that ask one are cases with
-///   its name before theirs, as "klt: rebel.f1 min, seed 1".
+/// Writes one test suite per scenario and one test case per criterion and seed. A run without
+/// criteria or without figures is one case, "runs". A `failure` is a required criterion that is not
+/// met, an `error` is a run without figures.
+/// \param others results of other detectors on the same scenarios. The names of their cases begin
+///   with the detector, such as "klt: rebel.f1 min, seed 1".
 /// \throws bench::OutputError
 void write_junit(const std::filesystem::path& file, const SuiteResult& suite,
                  std::span<const SuiteResult> others = {});

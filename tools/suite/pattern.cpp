@@ -8,10 +8,10 @@
 namespace lcs::suite {
 namespace {
 
-/// Of characters, each as often as braces repeat it at most: std::regex calls itself for each.
+/// Limit on characters times repetitions by braces, because std::regex recurses for each.
 constexpr double kMostParts = 1000;
 
-/// No file is called by more, and what a search takes grows with the square.
+/// The longest file name. The time of a search grows with the square of the length.
 constexpr std::size_t kLongestName = 255;
 
 double parts_of(const std::string& text) {
@@ -30,14 +30,14 @@ double parts_of(const std::string& text) {
 }  // namespace
 
 Pattern::Pattern(const std::string& text, std::string_view option, std::string_view example) {
-  // Before it is looked at in any other way.
+  // Check the size before parsing.
   if (static_cast<double>(text.size()) > kMostParts || parts_of(text) > kMostParts) {
     throw std::runtime_error(
         fmt::format("{} {} repeats more than {} characters; give a part of a name, or as '{}'",
                     option, text, kMostParts, example));
   }
   try {
-    // As it is usually searched, it calls itself for each character of a name.
+    // The default matching algorithm would recurse for each character of a name.
     regex_ = std::regex(text, std::regex::ECMAScript | std::regex_constants::__polynomial);
   } catch (const std::regex_error&) {
     throw std::runtime_error(

@@ -1,5 +1,5 @@
 /// \file
-/// Regular expressions that a user gives, for names.
+/// Regular expressions from the user that match names.
 #pragma once
 
 #include <regex>
@@ -8,14 +8,14 @@
 
 namespace lcs::suite {
 
-/// ECMAScript's, without references back to groups, so that none takes for ever.
+/// An ECMAScript regular expression without back-references, so that matching time is bounded.
 class Pattern {
  public:
-  /// \param option that it is given by, as "--filter". \param example of a pattern that fits.
-  /// \throws std::runtime_error for what is no regular expression, or repeats more than 1000 parts.
+  /// \param option the option's name, such as "--filter". \param example a valid pattern.
+  /// \throws std::runtime_error for an invalid expression or one with more than 1000 parts.
   Pattern(const std::string& text, std::string_view option, std::string_view example);
 
-  /// Whether a part of the name's first 255 bytes fits.
+  /// Whether the pattern matches anywhere in the name's first 255 bytes.
   bool is_in(std::string_view name) const;
 
  private:

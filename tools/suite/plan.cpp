@@ -26,10 +26,10 @@ constexpr const char* kDefaultGroup = "short";
 
 struct File {
   fs::path path;
-  bool is_own = false;  ///< of the project's scenarios, and not named
+  bool is_own = false;  ///< from the project's folder, without being named
 };
 
-/// Relative to the current folder for files below it, so that what is written down holds elsewhere.
+/// Makes the paths of files below the current folder relative, so that results are portable.
 fs::path as_people_write(const fs::path& path) {
   std::error_code error;
   const fs::path relative = fs::proximate(path, error);
@@ -54,7 +54,7 @@ void add_folder(const fs::path& folder, std::vector<File>& files) {
   for (const fs::path& path : found) files.push_back({path, is_own});
 }
 
-/// Each once, whatever way it was named.
+/// All scenario files, without duplicates under different names.
 std::vector<File> files_of(std::vector<fs::path> paths) {
   if (paths.empty()) paths.push_back(scenario::shipped_folder("scenarios"));
   std::vector<File> files;
@@ -76,7 +76,7 @@ std::vector<File> files_of(std::vector<fs::path> paths) {
   return once;
 }
 
-/// A value as a part of a name: "0.5 m/s" is "0.5mps", "[4 m, -1.3 m]" is "4m_-1.3m".
+/// Converts a value to a part of a name: "0.5 m/s" to "0.5mps", "[4 m, -1.3 m]" to "4m_-1.3m".
 std::string name_part(const std::string& value) {
   std::string part;
   for (const char c : value) {
@@ -117,7 +117,7 @@ PlannedScenario plan_point(const fs::path& file, const scenario::SweepPoint& poi
   try {
     planned.scenario = scenario::load(file, {.sets = planned.sets, .seed = {}});
     bench::require_known_metrics(planned.scenario->criteria);
-    // nothing in what was recorded is drawn
+    // a recording is the same for every seed
     const int seeds = planned.scenario->recording ? 1 : options.seeds;
     for (int i = 0; i < seeds; ++i) {
       planned.seeds.push_back(planned.scenario->seed + static_cast<std::uint64_t>(i));
@@ -146,7 +146,7 @@ bool is_in_group(const PlannedScenario& planned, const std::string& group) {
   return std::find(groups.begin(), groups.end(), group) != groups.end();
 }
 
-/// Two points of a sweep may read alike; two files may not.
+/// Numbers equal names of a sweep's points. \throws std::runtime_error if two files share a name.
 void make_names_unique(std::vector<PlannedScenario>& all) {
   std::map<std::string, fs::path> first;
   std::map<std::string, int> count;

@@ -1,6 +1,5 @@
 /// \file
-/// Which runs a suite consists of: the scenarios that were asked for, at each point that they
-/// sweep.
+/// The runs of a suite: the requested scenarios at each point of their sweeps.
 #pragma once
 
 #include <cstdint>
@@ -16,33 +15,33 @@
 namespace lcs::suite {
 
 struct PlanOptions {
-  std::vector<std::filesystem::path> paths;  ///< files and folders; none: the project's scenarios
-  /// Only scenarios of this group; "all" is any. None: any, but `short` of the project's own
+  std::vector<std::filesystem::path> paths;  ///< files and folders; empty: the project's own
+  /// Only scenarios of this group; "all": any. Absent: any, but `short` for the project's own
   /// folder.
   std::optional<std::string> group;
-  std::string filter;             ///< regular expression, found anywhere in a name; "" is any
-  std::vector<std::string> sets;  ///< "key=value", for all of them
+  std::string filter;             ///< regular expression that a part of the name matches; "": any
+  std::vector<std::string> sets;  ///< "key=value", for all scenarios
   int seeds = 3;                  ///< >= 1
 };
 
 /// One scenario, at one point of its sweep.
 struct PlannedScenario {
-  std::string name;               ///< unique, fit for a folder
-  std::filesystem::path file;     ///< as a child process is to be given it
-  std::vector<std::string> sets;  ///< those of all, then those of the point
+  std::string name;               ///< unique; usable as a folder name
+  std::filesystem::path file;     ///< the path for the child process
+  std::vector<std::string> sets;  ///< those of `PlanOptions`, then the point's
   std::vector<std::pair<std::string, std::string>> point;  ///< swept keys and values, if any
-  std::optional<scenario::Scenario> scenario;  ///< none: `error` says what is wrong with it
+  std::optional<scenario::Scenario> scenario;              ///< absent: `error` has the reason
   std::string error;
-  std::vector<std::uint64_t> seeds;  ///< one, 0, for an error
+  std::vector<std::uint64_t> seeds;  ///< a single 0 for an error
 };
 
-/// The scenarios to run, by file and then in the order of the sweep. A scenario that is broken is
-/// part of the plan, whatever its group.
-/// \throws std::runtime_error for paths that are not there or hold no scenario, a filter that is no
-///   regular expression, two scenarios of one name, and when nothing is left.
+/// The scenarios to run, by file and then in the order of the sweep. A broken scenario is part of
+/// the plan regardless of its group.
+/// \throws std::runtime_error for paths that are missing or hold no scenario, an invalid filter,
+///   two files with the same scenario name, and an empty plan.
 std::vector<PlannedScenario> plan(const PlanOptions& options);
 
-/// How much work a run is, in frames times pixels; guessed for a recording.
+/// The estimated work of a run, in frames times pixels; a guess for a recording.
 double work(const scenario::Scenario& scenario);
 
 }  // namespace lcs::suite

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Of the file's form; another number is another form.
+/// Version of the file format.
 constexpr int kFormat = 1;
 constexpr std::array<std::string_view, 3> kOutcomes{"passed", "failed", "error"};
 
@@ -57,7 +57,7 @@ Json to_json(const RunResult& run) {
 }
 
 Json to_json(const ScenarioResult& scenario) {
-  Json point = Json::array();  // of pairs: an object would be one key short where a key comes twice
+  Json point = Json::array();  // a list of pairs, because a key may occur twice
   for (const auto& [key, value] : scenario.point) point.push_back(Json::array({key, value}));
   Json runs = Json::array();
   for (const RunResult& run : scenario.runs) runs.push_back(to_json(run));
@@ -171,7 +171,7 @@ void write_suite(const std::filesystem::path& file, const SuiteResult& suite) {
   const Json json{{"format", kFormat},          {"detector", suite.detector},
                   {"sets", suite.sets},         {"version", suite.version},
                   {"recorded", suite.recorded}, {"scenarios", scenarios}};
-  // What a child wrote to stderr need not be UTF-8; JSON is.
+  // A child's stderr may be invalid UTF-8, which JSON forbids.
   bench::write_file(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 

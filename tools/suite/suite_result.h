@@ -1,6 +1,6 @@
 /// \file
-/// What a suite of runs came to: each scenario, with each of its seeds, and what it was asked to
-/// reach. Written as `suite.json`; compared and shown from there alone.
+/// The result of a suite: the figures and criteria of each scenario and seed. It is stored as
+/// `suite.json`, from which alone comparisons and tables are made.
 #pragma once
 
 #include <cstdint>
@@ -21,26 +21,26 @@ inline constexpr const char* kSuiteFile = "suite.json";
 enum class Outcome {
   passed,
   failed,  ///< a required criterion is not met
-  error,   ///< there are no figures: a broken scenario, scene, file or GL
+  error,   ///< no figures: a broken scenario, scene, file or GL
 };
 
 struct RunResult {
   std::uint64_t seed = 0;
   Outcome outcome = Outcome::error;
-  std::string command;     ///< that makes it again, as a shell takes it
-  std::string error;       ///< the command's message, for an error
+  std::string command;     ///< shell command that repeats the run
+  std::string error;       ///< the command's error message
   bench::Metrics metrics;  ///< empty for an error
   std::vector<bench::JudgedCriterion> criteria;
-  std::vector<bench::Warned> warnings;  ///< those that happened
-  std::filesystem::path folder;         ///< of the run's own files, relative to the suite's
+  std::vector<bench::Warned> warnings;  ///< with a count above 0
+  std::filesystem::path folder;         ///< the run's folder, relative to the suite's
   double wall_s = 0;
 };
 
-/// What is known of a scenario that was drawn from a seed, a world (tools/worlds).
+/// How a world (tools/worlds), a scenario from a seed, was drawn.
 struct Drawn {
   std::string family;
-  std::uint64_t again = 0;            ///< times that it could not be drawn, and was drawn again
-  std::vector<std::string> features;  ///< what occurs in it
+  std::uint64_t again = 0;            ///< number of redraws after failed draws
+  std::vector<std::string> features;  ///< such as kinds of objects
 };
 
 /// One scenario, or one point of the grid that it sweeps.
@@ -50,16 +50,16 @@ struct ScenarioResult {
   std::filesystem::path file;
   std::vector<std::string> groups;
   std::vector<std::pair<std::string, std::string>> point;  ///< swept keys and values, as given
-  std::vector<RunResult> runs;                             ///< by seed, in the order asked for
-  std::optional<Drawn> drawn = {};                         ///< of a world
+  std::vector<RunResult> runs;                             ///< one per seed, as ordered
+  std::optional<Drawn> drawn = {};                         ///< only for a world
 };
 
 struct SuiteResult {
-  std::string detector;           ///< as asked for: lcs, lcs:lab, klt and so on
+  std::string detector;           ///< its name: lcs, lcs:lab, klt and so on
   std::vector<std::string> sets;  ///< "key=value", as given
-  std::string version;            ///< of the program
-  /// The earlier suite whose frames were watched, and the program that simulated them; empty where
-  /// this one did.
+  std::string version;            ///< the program's version
+  /// The earlier suite that provided the frames, and the program that simulated them; empty if this
+  /// suite simulated them.
   std::string recorded = {};
   std::vector<ScenarioResult> scenarios;
 };
@@ -67,11 +67,11 @@ struct SuiteResult {
 /// \throws bench::OutputError
 void write_suite(const std::filesystem::path& file, const SuiteResult& suite);
 
-/// The suite's folder. \param path of that, or of its file.
+/// The suite's folder. \param path the folder or its suite.json.
 std::filesystem::path folder_of(const std::filesystem::path& path);
 
-/// \param path of the file, or of the suite's folder.
-/// \throws std::runtime_error naming file and what is wrong with it.
+/// \param path the suite.json or its folder.
+/// \throws std::runtime_error that names the file and the fault.
 SuiteResult read_suite(const std::filesystem::path& path);
 
 }  // namespace lcs::suite

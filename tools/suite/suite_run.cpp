@@ -20,16 +20,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a run of whose kind nothing is known: the order of magnitude is enough.
+/// Rough estimate for runs without any known duration, in s.
 constexpr double kSecondsPerWork = 1e-7;
 
-/// One run: where it belongs, and how long it may take.
+/// One run: its indices in the plan and its estimated duration.
 struct Job {
   std::size_t scenario, run;
   double seconds;
 };
 
-/// A word for a POSIX shell.
+/// Quotes a word for a POSIX shell, if needed.
 std::string quoted(const std::string& word) {
   constexpr std::string_view kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=:,@%+-";
@@ -48,7 +48,7 @@ fs::path folder_of(const PlannedScenario& planned, std::uint64_t seed) {
   return fs::path("runs") / planned.name / fmt::format("seed-{}", seed);
 }
 
-/// What makes a run, wherever its results go. \param is_own whether by the suite's own detector.
+/// The arguments of a run without its outputs. \param is_own whether it is the suite's detector.
 std::vector<std::string> run_of(const PlannedScenario& planned, std::uint64_t seed,
                                 const std::string& detector, bool is_own,
                                 const SuiteRunOptions& options) {
@@ -69,7 +69,7 @@ std::vector<std::string> run_of(const PlannedScenario& planned, std::uint64_t se
   return command;
 }
 
-/// Of a child: the first watcher's run, with the others beside it.
+/// The arguments of a child: the first watcher's run, with the others in `--beside`.
 std::vector<std::string> command_of(const PlannedScenario& planned, std::uint64_t seed,
                                     const SuiteRunOptions& options) {
   const SuiteWatcher& first = options.watchers.front();
@@ -92,7 +92,7 @@ std::optional<double> former_seconds(const std::optional<SuiteResult>& former,
   return run && run->outcome != Outcome::error ? std::optional(run->wall_s) : std::nullopt;
 }
 
-/// Longest first: what is left for the end is short, and all processors are busy until then.
+/// All runs, longest first, so that the processors are busy until shortly before the end.
 std::vector<Job> jobs_of(const std::vector<PlannedScenario>& plan,
                          const std::optional<SuiteResult>& former) {
   std::vector<Job> jobs;
@@ -212,7 +212,7 @@ std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
   std::vector<std::vector<std::string>> commands;
   for (const Job& job : jobs) {
     const PlannedScenario& planned = plan[job.scenario];
-    // Here, as one child would take away a folder that another one is about to use.
+    // Not in the children, because a child may remove an empty folder that another one needs.
     for (const SuiteWatcher& watcher : options.watchers) {
       fs::create_directories(watcher.folder / "runs" / planned.name);
     }
@@ -251,7 +251,7 @@ std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
   };
   run_all(commands, options.jobs, on_exit, on_tick);
 
-  std::error_code ignored;  // folders of scenarios without a single result are left out if they can
+  std::error_code ignored;  // removes folders of scenarios without any result
   for (const SuiteWatcher& watcher : options.watchers) {
     for (const PlannedScenario& planned : plan) {
       fs::remove(watcher.folder / "runs" / planned.name, ignored);

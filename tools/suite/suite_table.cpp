@@ -18,7 +18,7 @@ constexpr std::size_t kWidth = 120;
 
 struct Column {
   const bench::Metric& metric;
-  int width = 4;  ///< of the mean
+  int width = 4;  ///< of the mean, in characters
 };
 const std::vector<Column>& columns() {
   static const std::vector<Column> all{{bench::metric("rebel.precision")},
@@ -35,7 +35,7 @@ const std::vector<Column>& columns() {
   return all;
 }
 constexpr const char* kWorldsLegend = "±, of a group: the 95 % interval of its mean over worlds\n";
-/// Columns of `half_text` where there are at most two decimals.
+/// Width of `half_text` for at most two decimals, in characters.
 constexpr int kSpreadWidth = 4;
 
 class TableText {
@@ -54,7 +54,7 @@ class TableText {
   void header() {
     begin("scenario");
     for (const Column& column : columns()) {
-      // Over the numbers, whose spreads stick out to the right.
+      // Aligns the label with the numbers; the spreads extend to the right.
       const std::size_t numbers = std::max<std::size_t>(column.metric.label.size(), column.width);
       const std::size_t rest = cell_width(column, with_spreads_) - numbers;
       text_ += fmt::format(" {:>{}}{:{}}", column.metric.label, numbers, "", rest);
@@ -109,7 +109,7 @@ class TableText {
   std::string text_;
 };
 
-/// Errors first, then the least F1, then those that have none.
+/// Sort key: errors first, then by F1 upwards, then scenarios without F1.
 double badness_key(const ScenarioResult& scenario) {
   if (outcome_of(scenario) == Outcome::error) return -1;
   const std::optional<Spread> f1 = over_seeds(scenario, "rebel.f1");
@@ -128,10 +128,10 @@ std::string marked(const ScenarioResult& scenario) {
   return scenario.name;
 }
 
-/// A message that several seeds have in common.
+/// A message shared by several seeds.
 struct Repeated {
   std::string key;
-  std::string text;   ///< of the first seed
+  std::string text;   ///< the first seed's message
   std::string seeds;  ///< "1, 3"
 };
 
@@ -210,7 +210,7 @@ std::vector<std::string> problems(const SuiteResult& suite) {
       }
     }
     for (const auto& [key, error, seeds] : run_errors) {
-      // A scenario that could not even be loaded has one run, with no seed of its own.
+      // A scenario that failed to load has a single run with the placeholder seed 0.
       const std::string which = seeds == "0" ? "" : " seed " + seeds;
       errors.push_back(fmt::format("error: {}{}: {}", scenario.name, which, error));
     }

@@ -1,5 +1,5 @@
 /// \file
-/// A suite's result as a person reads it in a terminal.
+/// A suite's result as text for a terminal.
 #pragma once
 
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace lcs::suite {
 
-/// A row a scenario (mean over seeds, and half the spread where it shows), then a row a group, then
-/// what the columns are. At most 120 columns wide; a name that leaves no room has a line of its
-/// own. \param worst_first by F1, errors before all; else as the suite has them.
+/// A row per scenario (mean over seeds and, if it shows, half the range), a row per group, and a
+/// legend. At most 120 columns wide; a long name has a line of its own.
+/// \param worst_first sorts by F1, errors first; otherwise in the suite's order.
 std::string suite_table(const SuiteResult& suite, bool worst_first);
 
-/// Errors and criteria that are not met, a line each; the same error of several seeds once.
+/// A line per error and unmet criterion. Equal messages of several seeds share a line.
 std::vector<std::string> problems(const SuiteResult& suite);
 
-/// What should not have been in a run, a line for each word of a scenario, with its seeds; the
-/// text is that of the first of them.
+/// The runs' warnings, a line per scenario and kind of warning, with the seeds; the text is the
+/// first seed's.
 std::vector<std::string> warnings(const SuiteResult& suite);
 
-/// "12 passed, 1 failed, 0 errors".
+/// The counts of the runs' outcomes, such as "12 passed, 1 failed, 0 errors".
 std::string totals(const SuiteResult& suite);
 
 }  // namespace lcs::suite

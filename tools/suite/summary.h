@@ -1,5 +1,5 @@
 /// \file
-/// A suite's figures in fewer numbers: over the seeds of a scenario, over the scenarios of a group.
+/// Means of a suite's figures over the seeds of a scenario and over the scenarios of a group.
 #pragma once
 
 #include <cstdint>
@@ -12,49 +12,49 @@
 
 namespace lcs::suite {
 
-/// The scenario or run that is asked for; null where there is none.
+/// Finds a scenario or run; null if there is none.
 const ScenarioResult* find(const SuiteResult& suite, const std::string& name);
 const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed);
 
-/// A metric of a run, or `bench::kSizeShare`; none where undefined, unknown, or the run has no figures.
+/// A metric of a run, or `bench::kSizeShare`. Absent if undefined, unknown or without figures.
 std::optional<double> figure_of(const RunResult& run, std::string_view name);
 
 struct Spread {
   double mean = 0;
-  double half = 0;  ///< of the distance between the least and the greatest
-  int count = 0;    ///< seeds that have the figure, >= 1
+  double half = 0;  ///< half the range, (max - min) / 2
+  int count = 0;    ///< number of seeds with the figure, >= 1
 };
 
-/// The spread of a figure over the seeds; none where no seed has it.
+/// The spread of a figure over the seeds; absent if no seed has it.
 std::optional<Spread> over_seeds(const ScenarioResult& scenario, std::string_view name);
 
-/// The mean over the seeds; none where no seed has the figure, or no scenario the name.
+/// The mean over the seeds; absent if no seed has the figure or the scenario is unknown.
 std::optional<double> mean_over_seeds(const SuiteResult& suite, const std::string& scenario,
                                       std::string_view name);
 
-/// The means over seeds of all scenarios of a group that have the figure.
+/// The mean over seeds of each scenario of a group that has the figure.
 std::vector<double> figures_of_group(const SuiteResult& suite, const std::string& group,
                                      std::string_view name);
 
-/// The mean of `figures_of_group`; none where that is empty.
+/// The mean of `figures_of_group`; absent if that is empty.
 std::optional<double> over_group(const SuiteResult& suite, const std::string& group,
                                  std::string_view name);
 
 bool is_in(const ScenarioResult& scenario, const std::string& group);
-/// Scenarios of a group.
+/// The number of scenarios in a group.
 std::int64_t count_in(const SuiteResult& suite, const std::string& group);
 
-/// In the order in which they first appear.
+/// The groups in the order of their first appearance.
 std::vector<std::string> groups_of(const SuiteResult& suite);
 
-/// Whether its scenarios are worlds drawn from seeds, so that they are a sample of such worlds and
-/// their mean has an interval. False for no scenarios.
+/// Whether all scenarios are worlds drawn from seeds: a random sample, whose mean has an interval.
+/// False without scenarios.
 bool is_of_worlds(const SuiteResult& suite);
 
-/// Worlds that could not be drawn at first, and were drawn again.
+/// The number of redraws over all worlds.
 std::int64_t drawn_again(const SuiteResult& suite);
 
-/// The worst of the runs'; `error` for no runs.
+/// The worst outcome of the runs; `error` without runs.
 Outcome outcome_of(const ScenarioResult& scenario);
 Outcome outcome_of(const SuiteResult& suite);
 

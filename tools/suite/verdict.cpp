@@ -18,17 +18,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Figures of a scenario that a remark names; the others are counted.
+/// Limit of figures that a remark names; it only counts the others.
 constexpr std::size_t kMostFigures = 4;
 
-/// So many new corners of a rule, or a twentieth of what there were, explain nothing.
+/// New corners of a rule are not named as a reason up to this many or a twentieth of the earlier.
 constexpr int kLeastNew = 2;
 
 constexpr std::array<const char*, 4> kStandings{"error", "regressed", "failed", "improved"};
 
 // ---- Rules
 
-/// None where the run left no events, or none that can be read: they only explain.
+/// The sums of a run's events; absent if it has none or they are unreadable, as they only explain.
 std::optional<bench::EventSums> events_of(const SuiteInFolder& suite, const RunResult& run) {
   const fs::path file = suite.folder / run.folder / bench::kEventsFile;
   if (run.folder.empty() || !fs::exists(file)) return std::nullopt;
@@ -39,7 +39,7 @@ std::optional<bench::EventSums> events_of(const SuiteInFolder& suite, const RunR
   }
 }
 
-/// \param unit that is counted. \param Cause has a `text_of` with word and meaning.
+/// \param unit the counted unit. \param Cause has a `text_of` with word and meaning.
 template <class Cause>
 void add_rule(const std::map<Cause, int>& after, const std::map<Cause, int>& before,
               bool has_before, const char* what, const char* unit,
@@ -64,7 +64,7 @@ void add_rule(const std::map<Cause, int>& after, const std::map<Cause, int>& bef
                                              text.meaning, after.at(*worst), unit));
 }
 
-/// Of runs that both have, where there is a baseline.
+/// Adds the rules behind the wrong verdicts. With a baseline, counts only runs of both suites.
 void add_rules(const SuiteInFolder& after, const SuiteInFolder* before,
                const ScenarioResult& scenario, std::vector<std::string>& reasons) {
   bench::EventSums now, then;
@@ -86,7 +86,7 @@ void add_rules(const SuiteInFolder& after, const SuiteInFolder* before,
 
 // ---- Criteria
 
-/// As the scenario has them: in each run the same, in order.
+/// Counts of the scenarios' criteria, which are the same in each run and in the same order.
 struct CriteriaCount {
   int met = 0, missed = 0, missed_optional = 0, errors = 0;
 };
@@ -153,7 +153,7 @@ std::string line_of(const SuiteResult& suite, const Comparison* comparison) {
 
 struct Weighed {
   Remark remark;
-  double weight = 0;  // within those of one standing
+  double weight = 0;  // orders remarks of the same standing
 };
 
 void add_changes(const Comparison& comparison, const std::string& scenario, Change verdict,
@@ -164,7 +164,7 @@ void add_changes(const Comparison& comparison, const std::string& scenario, Chan
       found.push_back(&difference);
     }
   }
-  // F1 is what people ask for first, whatever changed by more
+  // F1 comes first, even if another figure changed by more
   const auto weight = [](const Difference* one) {
     return one->metric == "rebel.f1" ? std::numeric_limits<double>::infinity() : one->weight;
   };
@@ -181,9 +181,9 @@ void add_changes(const Comparison& comparison, const std::string& scenario, Chan
   }
 }
 
-/// One that several seeds miss is told once, of the first.
+/// Adds the missed required criteria. A criterion that several seeds miss is stated once.
 void add_missed_criteria(const ScenarioResult& scenario, Weighed& to) {
-  std::map<std::size_t, std::vector<const RunResult*>> missed;  // by the criterion's place
+  std::map<std::size_t, std::vector<const RunResult*>> missed;  // by the criterion's index
   int count = 0;
   for (const RunResult& run : scenario.runs) {
     for (std::size_t i = 0; i < run.criteria.size(); ++i) {
@@ -225,7 +225,7 @@ std::optional<Weighed> weighed(const SuiteInFolder& after, const SuiteInFolder* 
   if (comparison) add_changes(*comparison, scenario.name, Change::regressed, found);
   add_missed_criteria(scenario, found);
   if (found.remark.standing != Standing::improved) {
-    // what is as bad as it was has no new misses
+    // without a regression all misses count, not only new ones
     add_rules(after, change == Change::regressed ? before : nullptr, scenario,
               found.remark.reasons);
   } else {

@@ -1,5 +1,5 @@
 /// \file
-/// A suite in one line, and what is worst in it with the reason, before any table.
+/// The verdict on a suite: one line, and the worst scenarios with their reasons.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace lcs::suite {
 
-/// A suite that was read or made, and where the folders of its runs are.
+/// A suite and the folder that its runs' folders are relative to.
 struct SuiteInFolder {
   const SuiteResult& suite;
   std::filesystem::path folder;
@@ -23,28 +23,28 @@ enum class Standing { error, regressed, failed, improved };  ///< worst first
 struct Remark {
   std::string scenario;
   Standing standing;
-  std::vector<std::string> reasons;  ///< in words, worst first
+  std::vector<std::string> reasons;  ///< texts, worst first
 };
 
 struct Verdict {
-  /// "1 regressed, 0 improved, 42 as before, 1 criterion missed", counted by scenarios; without a
-  /// baseline "43 criteria met, 1 missed".
+  /// Such as "1 regressed, 0 improved, 42 as before, 1 criterion missed", counted by scenarios;
+  /// without a baseline "43 criteria met, 1 missed".
   std::string line;
-  std::string note;             ///< what is to be known of the line; empty for nothing
-  std::vector<Remark> remarks;  ///< worst first; of a scenario with nothing to say none
+  std::string note;             ///< a caveat on the line; may be empty
+  std::vector<Remark> remarks;  ///< worst first; only scenarios with reasons
 };
 
-/// Which figures changed by how much, which criteria are missed, and the rule that took most of the
-/// rebels that are missed or false, or that are so since the baseline: by all events of both where
-/// their runs have them.
-/// \param comparison of the two; both null without a baseline.
+/// States the changed figures, the missed criteria, and the filter's rule behind most of the missed
+/// and false rebels, or behind most of those that are new since the baseline. The rule comes from
+/// all events of the runs, if they have any.
+/// \param before,comparison null without a baseline.
 Verdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
                    const Comparison* comparison);
 
-/// The remarks, the note and, last, the line.
+/// The remarks, the note and, at the end, the line.
 std::string text_of(const Verdict& verdict);
 
-/// The word that people read: "error", "regressed", "failed", "improved".
+/// The word for the user: "error", "regressed", "failed", "improved".
 const char* word_of(Standing standing);
 
 }  // namespace lcs::suite

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSign = "# Written by `lcs tune`: the sets of numbers that it has tried";
 constexpr const char* kRemedy = "choose another folder with --out, or remove the file";
-/// Ends a line that was cut off when it was written.
+/// Appended to an incomplete line.
 constexpr std::string_view kCutOff = " # cut off";
 constexpr std::size_t kCheckDigits = 12;
 constexpr double Worth::*kFigures[] = {&Worth::f1, &Worth::false_moving, &Worth::false_static,
@@ -33,7 +33,7 @@ std::string line_of(const Fact& fact) {
   return fmt::format("# {}: {}\n", fact.name, fact.text);
 }
 
-/// The next line of a text, which loses it; none where no line end is left.
+/// Removes the first line of a text and returns it; absent if there is no line end.
 std::optional<std::string> take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   if (end == text.npos) return std::nullopt;
@@ -42,7 +42,7 @@ std::optional<std::string> take_line(std::string_view& text) {
   return line;
 }
 
-/// All that two heads differ in, as "seed: 1 -> 2".
+/// All differences between two heads, such as "seed: 1 -> 2".
 std::string differences(const std::vector<Fact>& before, const std::vector<Fact>& now) {
   constexpr const char* kNothing = "nothing";
   const auto in = [&](const std::vector<Fact>& facts, const std::string& name) {

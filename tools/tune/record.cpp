@@ -9,13 +9,13 @@ namespace lcs::tune {
 
 namespace {
 
-/// As a shell takes it, in one line whatever its words hold: it is put into a comment of C++.
+/// The command, quoted for a shell, as one line, because it becomes a comment in C++.
 std::string line_of(std::vector<std::string> command) {
   for (std::string& word : command) word = scenario::one_line(word);
   return suite::shell_line(command);
 }
 
-/// Of a table.
+/// Escapes a text for a cell of a Markdown table.
 std::string cell_of(const std::string& text) {
   std::string cell;
   for (const char c : scenario::one_line(text)) cell += c == '|' ? "\\|" : std::string(1, c);

@@ -1,5 +1,5 @@
 /// \file
-/// What a search leaves beside its journal: the preset, and where its numbers come from.
+/// The output files of a search besides its journal: the preset and the record of its origin.
 #pragma once
 
 #include <string>
@@ -14,19 +14,19 @@ inline constexpr const char* kPresetSign = "/// Written by `lcs tune`";
 inline constexpr const char* kRecordFile = "record.md";
 inline constexpr const char* kRecordSign = "# What `lcs tune` found";
 
-/// How the values before and after did on one suite.
+/// The figures of the values before and after the search on one suite.
 struct Stated {
-  std::string suite;  ///< "train: /tmp/train, 60 runs of corridor_1 to yard_10"
+  std::string suite;  ///< such as "out/train, 60 runs, corridor_1 to yard_10"
   Worth before, after;
 };
 
-/// When, by which program and by which command it was done.
+/// Date, program version and command of a search.
 struct Circumstances {
   std::string date, program;
-  std::vector<std::string> command;  ///< its words behind `lcs`
+  std::vector<std::string> command;  ///< its words after `lcs`
 };
 
-/// `filter/learnt.h`: what the preset `default` takes these parameters from.
+/// The text of `filter/learnt.h`, which gives the preset `default` these parameters.
 std::string preset_text(const Found& found, const Circumstances& circumstances);
 
 std::string record_text(const Found& found, const std::vector<Stated>& stated,

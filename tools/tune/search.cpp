@@ -16,12 +16,12 @@
 namespace lcs::tune {
 namespace {
 
-/// How far a value may go from the present one, as a factor.
+/// Largest ratio of a value to the present one.
 constexpr double kReach = 4;
-/// Of the first steps, and of where other seeds start: in logarithms to that base.
+/// Length of the first steps and range of the other seeds' starts, as a logarithm to base `kReach`.
 constexpr double kFirstStep = 0.25;
 
-/// \name The search's scale: 0 is the present value, 1 `kReach` times that.
+/// \name The search's logarithmic scale: 0 is the present value, 1 is `kReach` times that.
 ///@{
 double value_at(const Axis& axis, double z) {
   return std::clamp(axis.start * std::pow(kReach, z), axis.low, axis.high);
@@ -31,7 +31,7 @@ double z_of(const Axis& axis, double value) {
 }
 ///@}
 
-/// That a text begins with, as the filter describes its parameters.
+/// The number at the beginning of a text, such as the filter's description of a parameter.
 double number(std::string_view text) {
   double value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -60,8 +60,8 @@ Axis axis_of(const std::vector<ParameterInfo>& known, const std::string& key) {
   return axis;
 }
 
-/// Three digits are as many as a mean over worlds tells apart; a whole number where the parameter
-/// is one.
+/// The value with three digits, which is all that a mean over worlds resolves; rounded if the
+/// parameter is an integer.
 std::string text_of(const Parameters& parameters, const std::string& key, double value) {
   const std::string text = fmt::format("{:.3g}", value);
   Parameters copy = parameters;
@@ -135,12 +135,12 @@ Found search(const Parameters& start, const SearchOptions& options, const Judge&
   };
 
   std::vector<double> z(axes.size(), 0.0), low, high;
-  worth_at(z);  // the present values come first, whatever the seed
+  worth_at(z);  // evaluate the present values first, for every seed
   std::mt19937_64 draw(options.seed);
   for (std::size_t i = 0; i < axes.size(); ++i) {
     low.push_back(z_of(axes[i], axes[i].low));
     high.push_back(z_of(axes[i], axes[i].high));
-    // The standard library's distributions differ from one to the next.
+    // Not a standard distribution, because these differ between standard libraries.
     const double unit = static_cast<double>(draw() >> 11) * 0x1p-53;
     if (options.seed != 1) z[i] = std::clamp(kFirstStep * (2 * unit - 1), low[i], high[i]);
   }
@@ -154,7 +154,7 @@ Found search(const Parameters& start, const SearchOptions& options, const Judge&
   std::function<double(const std::vector<double>&)> objective = [&](const auto& at) {
     try {
       return worth_at(at);
-    } catch (...) {  // not through a library in C
+    } catch (...) {  // exceptions must not pass through C code
       problem = std::current_exception();
       bobyqa.force_stop();
       return 0.0;
@@ -169,7 +169,7 @@ Found search(const Parameters& start, const SearchOptions& options, const Judge&
     double best = 0;
     bobyqa.optimize(z, best);
   } catch (const nlopt::forced_stop&) {
-  } catch (const nlopt::roundoff_limited&) {  // as close as it comes
+  } catch (const nlopt::roundoff_limited&) {  // converged to machine precision
   }
   if (problem) std::rethrow_exception(problem);
   return found;

@@ -18,20 +18,20 @@
 namespace lcs::tune {
 namespace {
 
-/// The run as a new filter sees it.
+/// The run with the verdicts and circles of a new filter with these parameters.
 bench::Recording asked(const bench::Recording& seen, const Parameters& parameters) {
   Filter filter(seen.camera.value(), parameters);
   bench::Recording said = seen;
   for (bench::FrameRecord& frame : said.frames) {
     const FrameResult& result = filter.step(frame.corners_px, frame.signatures, frame.motion);
     frame.verdicts = result.verdicts;
-    // Edges and squares have no say in these figures.
+    // The figures of `Worth` do not depend on edges and squares.
     frame.layers.rebel_circles = result.layers.rebel_circles;
   }
   return said;
 }
 
-/// Of all files that `bench::read_recording` reads.
+/// SHA-256 over all files that `bench::read_recording` reads.
 std::string digest_of(const std::filesystem::path& run) {
   constexpr scenario::FileKind kRunFile{64 * scenario::kGibibyte, "run the suite again"};
   std::string digests;
@@ -43,7 +43,7 @@ std::string digest_of(const std::filesystem::path& run) {
   return bench::sha256(digests);
 }
 
-/// What says that a run is of the split `test`; "" where nothing does.
+/// The evidence that a run is of the split `test`; "" if there is none.
 std::string why_of_test(const suite::ScenarioResult& scenario, const bench::Recording& run) {
   const worlds::Split& test = worlds::split("test");
   const auto is_of_test = [&](std::uint64_t seed) {
@@ -63,7 +63,7 @@ std::string why_of_test(const suite::ScenarioResult& scenario, const bench::Reco
 Trials::Trials(const std::vector<std::string>& suites) {
   for (const std::string& suite : suites) read(suite);
   if (runs_.empty()) throw std::runtime_error("the suites have no run; name others");
-  // The longest first, so that all cores end together.
+  // Longest first, so that all cores finish at about the same time.
   std::stable_sort(runs_.begin(), runs_.end(), [](const auto& a, const auto& b) {
     const auto corners = [](const bench::Recording& run) {
       std::size_t sum = 0;
