@@ -15,7 +15,8 @@ namespace lcs::kinematics {
 /// nothing at the centre, where the error is of third order, f w^3 / 3; for a roll: |x| w^2 / 2.
 Vec2 second_order_rotation(const Vec2& x_px, const Eigen::Vector3d& w_rad, double focal_px);
 
-/// Angle about an axis at which that error reaches `bound_px` somewhere in the image, rad.
+/// Angle about an axis at which the second-order error reaches `bound_px` somewhere in the image,
+/// rad.
 double first_order_limit_rad(const sim::Pinhole& camera, int axis, double bound_px);
 
 /// Error of the printed rotation to first order, px per rad: its difference from the field.
@@ -54,14 +55,14 @@ struct Drift {
 };
 Drift dead_reckoning_drift(const scenario::ImuNoise& noise, double gravity_mps2, double t_s);
 
-/// Variances, (m/s)^2, of a velocity that odometry of white noise holds, once it has settled: the
+/// Variances, (m/s)^2, of a velocity corrected by odometry with white noise, in steady state: the
 /// Kalman filter of v' = a + n_a, a' = n with n of density q^2 = s_ba^2 + g^2 s_g^2 (both appear as
 /// an unknown acceleration) has P = sqrt(R (s_a^2 + 2 q sqrt(R))), where R = noise^2 / rate, and
-/// the gains k1 = P / R, k2 = q / sqrt(R). The gyro's own random walk is left out: slower, and
+/// the gains k1 = P / R, k2 = q / sqrt(R). The gyro's random walk is neglected: it is slower and
 /// smaller.
 ///
-/// Upwards tilt plays no part, q = s_ba, and wheels read an exact 0: of P that part is missing
-/// which the odometry's noise would make, R (k1^2 + k2) / (2 k1).
+/// Vertically, tilt has no effect (q = s_ba) and wheels read exactly 0, so that P lacks the part of
+/// the odometry's noise, R (k1^2 + k2) / (2 k1).
 struct HeldVelocity {
   double horizontal_mps2 = 0;
   double vertical_mps2 = 0;

@@ -27,7 +27,7 @@ struct PosesFile {
 /// or in another format.
 PosesFile read_poses(const std::filesystem::path& file, Tally& tally);
 
-/// The rotation nearest to a rounded rotation matrix; absent if it is no rotation.
+/// A rotation close to a rounded rotation matrix; absent if it is no rotation.
 std::optional<Eigen::Matrix3d> rotation_of(const Eigen::Matrix3d& R);
 
 /// Up (against gravity) in the poses' world frame, from the given mounting of the camera on a
