@@ -210,7 +210,7 @@ Statement bumps(const Study& study) {
           verdict_on(study, imu.error.rms_px, "told by the IMU")};
 }
 
-/// Until when the error of the velocity costs no more than the tolerance, at the reference depth.
+/// The time until which the velocity error stays within the tolerance, at the reference depth.
 std::string verdict_on_drift(const Study& study, const std::string& imu) {
   const StudyConfig& config = study.config;
   const bool odometry = config.scenario.odometry.enabled;
@@ -230,7 +230,7 @@ std::string verdict_on_drift(const Study& study, const std::string& imu) {
                      field_of(config.filter).reference_depth_m);
 }
 
-/// Of one IMU at the end of the drive.
+/// The statement on one IMU at the end of the drive.
 Statement drift(const Study& study, const std::string& imu) {
   const double end_s = std::floor(study.config.effort.drift_s);
   Statement s{"drift",

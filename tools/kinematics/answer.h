@@ -1,5 +1,5 @@
 /// \file
-/// The answer of a study: for each part of the model its figures beside what theory expects, and
+/// The answer of a study: for each part of the model its figures beside the theoretical ones, and
 /// whether it is within the tolerance.
 #pragma once
 
@@ -11,19 +11,19 @@
 namespace lcs::kinematics {
 
 struct Figure {
-  std::string name;  ///< as "first_order.limit.pan"
+  std::string name;  ///< for example "first_order.limit.pan"
   double value = 0;
   std::string unit;
-  double expected = 0;  ///< by theory; NaN where theory has no formula
+  double expected = 0;  ///< by theory; NaN without a formula
 };
 
 struct Statement {
   std::string topic;  ///< "rotation", "translation", "IMU", "mount", "bumps", "drift"
-  std::string text;   ///< says how the figures were taken
+  std::string text;   ///< describes how the figures were measured
   std::vector<Figure> figures;
-  /// Whether the error stays within `StudyConfig::tolerance_px`, and the error, as "yes: 0.021 px".
+  /// Whether the error is within `StudyConfig::tolerance_px`, and the error, as "yes: 0.021 px".
   std::string verdict;
-  bool is_own = false;  ///< tells of the scenario's own filter and sensors, not of alternatives
+  bool is_own = false;  ///< concerns the scenario's own filter and sensors, not alternatives
 };
 
 std::vector<Statement> answer(const Study& study);
@@ -34,7 +34,7 @@ std::string subject(const StudyConfig& config);
 /// The verdicts on the scenario's own filter and sensors in one line.
 std::string bottom_line(const StudyConfig& config, const std::vector<Statement>& statements);
 
-/// For people, with a heading.
+/// A readable text with a heading.
 std::string text_of(const StudyConfig& config, const std::vector<Statement>& statements);
 
 }  // namespace lcs::kinematics

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRate_hz = 1;  // of the rows
 
-/// Squared errors at one moment.
+/// Squared errors at one time.
 struct Squares {
   double tilt = 0, heading = 0;
   Eigen::Vector3d velocity_B = Eigen::Vector3d::Zero();
@@ -25,8 +25,7 @@ Squares squares_of(const EgoMotionEstimator& estimator, const sim::Observation& 
   const Eigen::Matrix3d R_WB_told = estimator.R_WS() * T_BS.R.transpose();
   const Eigen::AngleAxisd off(R_WB_told * R_WB.transpose());
   const Eigen::Vector3d off_W = off.angle() * off.axis();
-  // The truth is the velocity of the camera, the estimate that of the IMU: both turn with the
-  // rover.
+  // The truth is the camera's velocity, the estimate the IMU's; both points turn with the rover.
   const Eigen::Vector3d w_W = frame.truth.now.T_WC.R * frame.truth.w_C_radps;
   const Eigen::Vector3d v_WS =
       frame.truth.v_WC_mps + w_W.cross(R_WB * (T_BS.p - calibration.T_BC.p));

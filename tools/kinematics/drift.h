@@ -1,6 +1,6 @@
 /// \file
 /// Dead reckoning without pictures: the drift of attitude and velocity on a straight drive from a
-/// known start, with and without odometry, beside the drift that theory expects.
+/// known start, with and without odometry, beside the theoretical drift.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace lcs::kinematics {
 
-/// Root mean squares of the errors of attitude, and of velocity in the rover's frame.
+/// Root mean square errors of attitude, and of velocity in the rover's frame.
 struct DriftErrors {
   double tilt_rad = 0;     ///< about each horizontal axis
   double heading_rad = 0;  ///< about the vertical
@@ -24,10 +24,10 @@ struct DriftRow {
   double t_s = 0;
   int seeds = 0;
   DriftErrors rms;       ///< over the seeds, after `t_s`
-  DriftErrors expected;  ///< by `theory.h`: with odometry that of a filter that has settled
+  DriftErrors expected;  ///< by `theory.h`; with odometry for a settled filter
 };
 
-/// A row for each second.
+/// One row for each second.
 std::vector<DriftRow> drift_rows(const StudyConfig& config, const Tick& tick);
 int drift_pieces(const StudyConfig& config);
 

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array kRates_hz = {1.0, 3.0, 10.0, 30.0};
 constexpr std::array kDepths_m = {2.0, 4.0, 8.0};
 constexpr std::array kRoughness_m = {0.0, 1e-3, 2.5e-3, 5e-3, 10e-3};
-constexpr double kBumpyWay_m = 3.5;  // the rough part of the ground, from its middle on
+constexpr double kBumpyWay_m = 3.5;  // length of the rough ground beyond its centre
 constexpr double kLongestBumps_s = 10;
 
 PointSet coarse_points(const StudyConfig& config) {
@@ -33,7 +33,7 @@ std::vector<double> rates(const StudyConfig& config) {
   return all;
 }
 
-/// The landmarks of each frame of a drive but the first, which has no motion.
+/// The landmarks of each frame of a drive except the first, which has no motion.
 std::vector<std::vector<Landmark>> landmarks_along(const sim::Drive& drive, const PointSet& points,
                                                    const FieldParameters& field) {
   std::vector<std::vector<Landmark>> all;
@@ -45,7 +45,7 @@ std::vector<std::vector<Landmark>> landmarks_along(const sim::Drive& drive, cons
   return all;
 }
 
-/// The error that theory expects, root mean square over the frames.
+/// The theoretical error, root mean square over the frames.
 double expected_rms_px(const StudyConfig& config, const sim::Drive& drive,
                        const std::vector<std::vector<Landmark>>& seen, const scenario::Scenario& s,
                        double rate_hz, bool with_velocity) {

@@ -31,7 +31,7 @@ Predictor::Predictor(const Step& step, const Model& model)
       depth_(model.depth) {}
 
 Vec2 Predictor::operator()(const Landmark& landmark) const {
-  // The field takes the ratio at the end of the interval; the learnt one is of its start.
+  // The field takes the ratio at the end of the interval; the learnt one is from its start.
   const double ratio = depth_ == DepthSource::reference ? 1
                        : depth_ == DepthSource::learnt
                            ? field_.advanced_ratio(landmark.learnt_ratio)

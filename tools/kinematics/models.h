@@ -1,6 +1,6 @@
 /// \file
-/// The nine models that are compared with the truth: three of the rotation, each with three sources
-/// of a landmark's depth. All are the filter's own code (`filter/kinematics/motion_field.h`).
+/// The nine models that are compared with the truth: three rotations, each with three sources of a
+/// landmark's depth. All of them are the filter's code (`filter/kinematics/motion_field.h`).
 ///
 /// A landmark is a static point, seen in frame k-1 and again in frame k. Pixels and frames are
 /// those of `filter/kinematics/camera.h`.
@@ -15,9 +15,9 @@
 
 namespace lcs::kinematics {
 
-/// Where the ratio Z_ref / Z, and so the image speed V = V_v Z_ref / Z, is known from.
+/// Source of the ratio Z_ref / Z, and so of the image speed V = V_v Z_ref / Z.
 enum class DepthSource {
-  reference,  ///< no knowledge: V = V_v, as if all points were at Z_ref
+  reference,  ///< none: V = V_v, as if all points were at Z_ref
   learnt,     ///< the landmark's own motion up to frame k-1
   truth,      ///< the true depth
 };
@@ -43,14 +43,14 @@ struct Landmark {
   double learnt_ratio = 1;  ///< Z_ref / Z in frame k-1, estimated from the earlier motion
 };
 
-/// Camera, its motion as the model is told it, and the filter's parameters of the field.
+/// The camera, its motion as given to the model, and the filter's parameters of the field.
 struct Step {
   Intrinsics camera;
   EgoMotion motion;
   FieldParameters field;
 };
 
-/// Predicts by one model, over one step.
+/// Predicts one step with one model.
 class Predictor {
  public:
   Predictor(const Step& step, const Model& model);

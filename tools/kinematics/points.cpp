@@ -12,10 +12,10 @@
 namespace lcs::kinematics {
 namespace {
 
-constexpr double kNearest_m = 0.05;  // before the camera; nearer ones are not in the image
+constexpr double kNearest_m = 0.05;  // in front of the camera; nearer points are not in the image
 
 bool in_image(const sim::Pinhole& camera, const Vec2& px) {
-  // Written so that NaN is not in it.
+  // The comparisons are false for NaN.
   return px.x() >= -0.5 && px.y() >= -0.5 && px.x() <= camera.width_px - 0.5 &&
          px.y() <= camera.height_px - 0.5;
 }
@@ -24,7 +24,7 @@ Vec2 whole(const Vec2& px) {
   return {std::round(px.x()), std::round(px.y())};
 }
 
-/// Z_ref / Z from the whole-pixel sightings of a point that came to `p_C` by equal steps.
+/// Z_ref / Z from the whole-pixel sightings of a point that reached `p_C` in equal steps.
 double learnt_ratio(const sim::Pinhole& camera, const MotionField& field, const Site& site,
                     const Eigen::Vector3d& displacement_C_m) {
   const Eigen::Vector3d p_C = camera.back_project(site.px, site.depth_m);

@@ -14,7 +14,7 @@ namespace lcs::kinematics {
 namespace {
 
 constexpr int kStillFrames = 5;
-constexpr double kBumps_m = 2.5e-3;  // where the scenario's ground has none of its own
+constexpr double kBumps_m = 2.5e-3;  // if the scenario's ground has none
 
 std::vector<Eigen::Vector2f> corners_of(const FastDetector& detector, const cv::Mat3b& image) {
   cv::Mat1b grey;
@@ -22,7 +22,7 @@ std::vector<Eigen::Vector2f> corners_of(const FastDetector& detector, const cv::
   return detector.detect(grey);
 }
 
-/// The filter's landmarks on fixed ground, with where the truth sees them in the next frame.
+/// The filter's landmarks on fixed objects, with their true positions in the next frame.
 std::vector<Landmark> landmarks_of(const Layers& layers, const sim::Pinhole& camera,
                                    const sim::FrameTruth& truth, double min_depth_m) {
   std::vector<Eigen::Vector2f> places;
@@ -81,8 +81,8 @@ DriveResult rendered_drive(const StudyConfig& config, const std::string& name,
     }
   }
   DriveResult result;
-  std::vector<double> reference_px;  // that theory expects of the reference depth
-  std::vector<Landmark> landmarks;   // of the frame before
+  std::vector<double> reference_px;  // by theory, for the reference depth
+  std::vector<Landmark> landmarks;   // of the previous frame
   const int every = std::max(1, scenario.frames / kStillFrames);
   while (const auto frame = simulation.next()) {
     const bench::EgoMotionFeed::Motions motions = feed.next(*frame);

@@ -1,7 +1,6 @@
 /// \file
-/// The experiments on rendered pictures: drives in which the filter itself tracks corners and
-/// learns their V, and each model's predictions of its landmarks are compared with the simulator's
-/// truth.
+/// Experiments on rendered pictures: the filter tracks corners and learns their V on drives, and
+/// each model's predictions of its landmarks are compared with the simulator's truth.
 #pragma once
 
 #include <functional>
@@ -19,7 +18,7 @@ struct DriveRow {
   std::string told;   ///< source of the motion: "truth", or "imu" as configured
   Model model;
   ErrorSummary error;
-  /// For the reference depth and the true motion V_v t_f |Z_ref / Z - 1|; NaN for others.
+  /// For the reference depth with true motion: V_v t_f |Z_ref / Z - 1|; NaN for others.
   double expected_median_px = 0;
 };
 
@@ -28,12 +27,12 @@ struct DriveResult {
   std::vector<PointSet> still_frames;  ///< some of the frames, for the geometric experiments
 };
 
-/// The landmarks are the filter's normal edges that found a corner in the frame and that lie on
-/// fixed objects. The filter gets the motion from the scenario's own sensors.
+/// Landmarks are the filter's normal edges on fixed objects with a corner in the frame. The
+/// filter's motion comes from the scenario's own sensors.
 DriveResult rendered_drive(const StudyConfig& config, const std::string& name,
                            const scenario::Scenario& scenario, const Tick& tick);
 
-/// The four drives: as configured, straight on, turning by `kTurning_deg` a frame, over bumps.
+/// The four drives: as configured, straight ahead, turning by `kTurning_deg` a frame, over bumps.
 /// Sensors are as configured.
 inline constexpr double kTurning_deg = 1;
 struct NamedDrive {

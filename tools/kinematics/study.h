@@ -25,13 +25,13 @@ struct Study {
   std::vector<DriftRow> drift;
 };
 
-/// The geometric points of the sweeps: over the whole image, from 1 m to 16 m.
+/// Depths of the sweeps' geometric points, which cover the whole image.
 PointSet study_points(const sim::Pinhole& camera);
 
 /// Number of pieces of work in a study.
 int study_pieces(const StudyConfig& config);
 
-/// Deterministic: the same configuration gives the same bits, with any number of cores.
+/// Deterministic: equal configurations give equal bits with any number of cores.
 /// \param tick called from this thread with the number of pieces just done; its exceptions end the
 ///   study.
 /// \throws scenario::Error, sim::PhysicsError, std::runtime_error

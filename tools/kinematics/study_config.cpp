@@ -9,7 +9,7 @@
 namespace lcs::kinematics {
 namespace {
 
-constexpr double kStandInSpeed_mps = 0.5;  // where the scenario's rover stands
+constexpr double kStandInSpeed_mps = 0.5;  // if the scenario's rover is static
 
 }  // namespace
 

@@ -12,7 +12,7 @@
 
 namespace lcs::kinematics {
 
-/// The size of the experiments that take time. All others are the same at any effort.
+/// Size of the experiments that take long. All others do not depend on it.
 struct Effort {
   int drive_frames = 40;  ///< of each rendered drive
   int noise_seeds = 20;   ///< of each IMU at each frame rate
@@ -26,34 +26,34 @@ struct StudyConfig {
   scenario::Scenario scenario;
   AnyParameters filter;
   Effort effort;
-  /// Nominal: the fastest that the scenario commands at the start of a phase.
+  /// Nominal speed: the fastest commanded at the start of a phase of the scenario.
   double speed_mps = 0;
   double tolerance_px = 1;  ///< bound of an end-point error in the verdicts
-  bool stands = false;      ///< the scenario's rover never moves, so that the speed is a stand-in
+  bool stands = false;      ///< the scenario's rover never moves, so the speed is a substitute
   Eigen::Vector3d forward_C = Eigen::Vector3d::UnitZ();  ///< the rover's x in the camera
   sim::Pinhole camera;
 
   double frame_s() const { return 1 / scenario.camera.rate_hz; }
-  /// How far the camera goes in a frame, straight on.
+  /// Distance that the camera travels in a frame, straight ahead.
   Eigen::Vector3d step_C_m() const { return speed_mps * frame_s() * forward_C; }
 };
 
-/// \throws scenario::Error for a filter setting that is not one.
+/// \throws scenario::Error for an invalid filter setting.
 StudyConfig configure(const scenario::Scenario& scenario, const Effort& effort);
 
 /// \name Scenarios made from the configured one.
 ///@{
-/// The holonomic rover goes straight on at the nominal speed, with ideal sensors, and no actors.
+/// The holonomic rover drives straight ahead at nominal speed, with ideal sensors and no actors.
 scenario::Scenario straight_drive(const StudyConfig& config, double duration_s, double rate_hz);
 /// The same on a curve of `yaw_rate_radps`.
 scenario::Scenario curved_drive(const StudyConfig& config, double duration_s, double rate_hz,
                                 double yaw_rate_radps);
-/// The same on wheels, over bumps; 0 is level ground.
+/// The same on wheels, over bumps of this roughness; 0 is level ground.
 scenario::Scenario bumpy_drive(const StudyConfig& config, double duration_s, double rate_hz,
                                double roughness_m);
 ///@}
 
-/// The readings of a drive with ideal sensors, as noisy ones would have given them.
+/// The readings of a drive with ideal sensors, with noise added.
 sim::Drive with_noise(const sim::Drive& ideal, const scenario::Scenario& noisy);
 
 }  // namespace lcs::kinematics

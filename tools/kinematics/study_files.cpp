@@ -18,8 +18,8 @@ constexpr const char* kAnswerText = "answer.txt";
 constexpr const char* kAnswerTable = "answer.csv";
 constexpr const char* kPage = "kinematics.html";
 
-/// Text with commas, without quotes: no cell needs any. Numbers have six significant digits, and an
-/// unknown one is an empty cell.
+/// Comma-separated text without quotes, which no cell needs. Numbers have six significant digits;
+/// unknown ones are empty cells.
 class Csv {
  public:
   explicit Csv(std::string_view columns, std::string_view more_columns = "")

@@ -15,12 +15,12 @@ constexpr std::array kAngles_deg = {0.0, 0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 2.5,
 constexpr std::array kSpeeds_mps = {0.03, 0.1, 0.3, 1.0, 3.0, 10.0};
 constexpr std::array kRates_hz = {1.0, 3.0, 10.0, 30.0};
 constexpr std::array kDepths_m = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
-constexpr double kMostOfDepth = 0.5;  // that a step takes; beyond, little stays in the image
+constexpr double kMostOfDepth = 0.5;  // largest step over depth; beyond it few points stay in view
 constexpr std::array kMount_deg = {0.0, 0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0};
 constexpr double kFoeBin_px = 50;
-constexpr double kSmallestTurn_rad = 1e-5, kTurnStep = 1.2;  // where limits are looked for
+constexpr double kSmallestTurn_rad = 1e-5, kTurnStep = 1.2;  // search for limits
 
-/// Errors of a model on all sets after one motion.
+/// Errors of a model on all point sets after one motion.
 std::vector<double> errors_after(const StudyConfig& config, const std::vector<PointSet>& points,
                                  const sim::Pose& T_CN, double dt_s, const Model& model) {
   std::vector<double> all;
@@ -46,7 +46,7 @@ std::vector<RotationRow> sweep_rotation(const StudyConfig& config,
         const Eigen::Vector3d step_C = drives ? config.step_C_m() : Eigen::Vector3d::Zero();
         for (const RotationModel rotation : kRotations) {
           for (const DepthSource depth : kDepths) {
-            if (!drives && depth != DepthSource::truth) continue;  // depth plays no part
+            if (!drives && depth != DepthSource::truth) continue;  // depth does not matter
             std::vector<double> all;
             for (const double side : {-1.0, 1.0}) {
               append(all,
@@ -82,7 +82,7 @@ double rotation_limit_rad(const PointSet& points, const FieldParameters& field,
     }
     return largest;
   };
-  // Upwards: beyond the first time the points that err most have left the image.
+  // Search upwards: after the first crossing the points with the largest errors leave the image.
   double low = 0, high = kSmallestTurn_rad;
   while (worst(high) <= bound_px) {
     low = high;
@@ -141,7 +141,7 @@ std::vector<FoeRow> sweep_foe_distance(const StudyConfig& config,
   for (double from = 0; from < diagonal_px; from += kFoeBin_px) {
     std::vector<Landmark> there;
     for (const Landmark& landmark : seen) {
-      // Of a focus at infinity all points are equally far: seen from the image's centre.
+      // A focus at infinity is equally far from all points: use the image centre instead.
       const Vec2 focus = field.foe().value_or(config.camera.centre_px);
       const double distance = (field.rotated(landmark.before_px) - focus).norm();
       if (distance >= from && distance < from + kFoeBin_px) there.push_back(landmark);

@@ -11,7 +11,7 @@ double squared(double value) {
   return value * value;
 }
 
-/// Of an error that grows with the distance from the centre.
+/// Largest value of an error that grows with the distance from the centre.
 template <class Error>
 double worst_in_corners(const sim::Pinhole& camera, const Error& error) {
   double worst = 0;
@@ -26,8 +26,8 @@ double worst_in_corners(const sim::Pinhole& camera, const Error& error) {
 }  // namespace
 
 Vec2 second_order_rotation(const Vec2& x_px, const Eigen::Vector3d& w_rad, double focal_px) {
-  // A ray h(e) = h0 + e h1 + e^2 h2 of z = 1 at e = 0 meets the image at h_xy / h_z; its part at
-  // e^2:
+  // A ray h(e) = h0 + e h1 + e^2 h2 with z = 1 at e = 0 meets the image at h_xy / h_z. The e^2
+  // term:
   const Eigen::Vector3d h0(x_px.x() / focal_px, x_px.y() / focal_px, 1);
   const Eigen::Vector3d h1 = -w_rad.cross(h0);
   const Eigen::Vector3d h2 = 0.5 * w_rad.cross(w_rad.cross(h0));
@@ -36,7 +36,7 @@ Vec2 second_order_rotation(const Vec2& x_px, const Eigen::Vector3d& w_rad, doubl
 }
 
 double first_order_limit_rad(const sim::Pinhole& camera, int axis, double bound_px) {
-  // px for a rad^2
+  // px per rad^2
   const double worst = worst_in_corners(camera, [&](const Vec2& x) {
     return second_order_rotation(x, Eigen::Vector3d::Unit(axis), camera.focal_px);
   });

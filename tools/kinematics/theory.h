@@ -1,5 +1,5 @@
 /// \file
-/// Errors that theory expects of the experiments, for the same camera.
+/// Theoretical errors of the experiments, for the same camera.
 #pragma once
 
 #include <span>
@@ -15,28 +15,29 @@ namespace lcs::kinematics {
 /// nothing at the centre, where the error is of third order, f w^3 / 3; for a roll: |x| w^2 / 2.
 Vec2 second_order_rotation(const Vec2& x_px, const Eigen::Vector3d& w_rad, double focal_px);
 
-/// Angle about an axis at which that error reaches `bound_px` somewhere in the image, rad.
+/// Angle about an axis at which the second-order error reaches `bound_px` somewhere in the image,
+/// rad.
 double first_order_limit_rad(const sim::Pinhole& camera, int axis, double bound_px);
 
-/// Error of the printed rotation to first order, px for a rad: its difference to the field.
-/// \param told_sign of the rate that it is told.
+/// Error of the printed rotation to first order, px per rad: its difference from the field.
+/// \param told_sign of the rate given to the model.
 Vec2 printed_slope(const Vec2& x_px, int axis, double focal_px, double told_sign = 1);
 
-/// Columns: displacement, px, of a point for a rad of turning about x, y and z.
+/// Columns: displacement of a point, px per rad of rotation about x, y and z.
 Eigen::Matrix<double, 2, 3> rotation_jacobian(const Vec2& x_px, double focal_px);
 
-/// Columns: displacement, px, of a point at `depth_m` for 1 m/s along x, y and z over `dt_s`.
+/// Columns: displacement of a point at `depth_m`, px per 1 m/s along x, y and z over `dt_s`.
 Eigen::Matrix<double, 2, 3> velocity_jacobian(const Vec2& x_px, double focal_px, double depth_m,
                                               double dt_s);
 
-/// Error to first order, px, root mean square over landmarks, of a camera mounted `error_rad` off
-/// about an axis: step d and turn w are told in other axes, off by d x error and w x error.
+/// First-order error, px, root mean square over landmarks, of a camera mounted `error_rad` off
+/// about an axis: step d and turn w are given in other axes, off by d x error and w x error.
 double mount_rms_px(const sim::Pinhole& camera, const std::vector<Landmark>& landmarks,
                     const Eigen::Vector3d& step_C_m, const Eigen::Vector3d& turn_C_rad, int axis,
                     double error_rad);
 
-/// Angle about an axis at which the printed rotation is off by `bound_px` somewhere in the image,
-/// rad, from its first-order error.
+/// Angle about an axis at which the printed rotation's first-order error reaches `bound_px`
+/// somewhere in the image, rad.
 double printed_limit_rad(const sim::Pinhole& camera, int axis, double bound_px,
                          double told_sign = 1);
 
@@ -54,14 +55,14 @@ struct Drift {
 };
 Drift dead_reckoning_drift(const scenario::ImuNoise& noise, double gravity_mps2, double t_s);
 
-/// Variances, (m/s)^2, of a velocity that odometry of white noise holds, once it has settled: the
+/// Variances, (m/s)^2, of a velocity corrected by odometry with white noise, in steady state: the
 /// Kalman filter of v' = a + n_a, a' = n with n of density q^2 = s_ba^2 + g^2 s_g^2 (both appear as
 /// an unknown acceleration) has P = sqrt(R (s_a^2 + 2 q sqrt(R))), where R = noise^2 / rate, and
-/// the gains k1 = P / R, k2 = q / sqrt(R). The gyro's own random walk is left out: slower, and
+/// the gains k1 = P / R, k2 = q / sqrt(R). The gyro's random walk is neglected: it is slower and
 /// smaller.
 ///
-/// Upwards tilt plays no part, q = s_ba, and wheels read an exact 0: of P that part is missing
-/// which the odometry's noise would make, R (k1^2 + k2) / (2 k1).
+/// Vertically, tilt has no effect (q = s_ba) and wheels read exactly 0, so that P lacks the part of
+/// the odometry's noise, R (k1^2 + k2) / (2 k1).
 struct HeldVelocity {
   double horizontal_mps2 = 0;
   double vertical_mps2 = 0;
@@ -69,26 +70,26 @@ struct HeldVelocity {
 HeldVelocity odometry_held_velocity(const scenario::ImuNoise& noise,
                                     const scenario::Odometry& odometry, double gravity_mps2);
 
-/// Variances, (m/s)^2, of the velocity forwards, to the left and upwards, after driving straight on
-/// for `t_s` from a known start: held by the scenario's odometry, or without it by dead reckoning,
-/// where an error of heading or pitch turns part of the speed aside.
+/// Variances, (m/s)^2, of the velocity forwards, to the left and upwards, after driving straight
+/// ahead for `t_s` from a known start: corrected by the scenario's odometry, or by dead reckoning,
+/// where a heading or pitch error diverts part of the speed.
 Eigen::Vector3d velocity_variance_B(const scenario::Scenario& scenario, double gravity_mps2,
                                     double speed_mps, double t_s);
 
-/// Variance, rad^2, about each horizontal axis, of a tilt where odometry holds the velocity: of
-/// tilt and accelerometer bias only the force that both make, g phi + b, is seen. What is left of
-/// two unknowns of variances V_phi and V_b once their sum is known is V_phi V_b / (g^2 V_phi +
-/// V_b). Their histories differ, which tells a little more: this is about an upper bound.
+/// Variance, rad^2, about each horizontal axis, of a tilt with odometry: tilt and accelerometer
+/// bias are observable only through their common force g phi + b. With prior variances V_phi and
+/// V_b and a known sum, the remaining variance is V_phi V_b / (g^2 V_phi + V_b). Their histories
+/// differ, which helps slightly: this is about an upper bound.
 double odometry_held_tilt(const scenario::ImuNoise& noise, double gravity_mps2, double t_s);
 
-/// Root mean square over landmarks, px, of the errors in one interval that independent errors of
-/// attitude and velocity make. Variances of each axis of C: rad^2, (m/s)^2.
+/// Root mean square over landmarks, px, of the errors in one interval due to independent errors of
+/// attitude and velocity. Variances of each axis of C: rad^2, (m/s)^2.
 double image_rms_px(const sim::Pinhole& camera, const std::vector<Landmark>& landmarks,
                     const Eigen::Vector3d& attitude_rad2, const Eigen::Vector3d& velocity_mps2,
                     double dt_s);
 
-/// Variance, rad^2, of the turn within an interval that a gyro's white noise makes, each axis. The
-/// ends of the interval count half, so that of its n readings n - 1/2 do.
+/// Variance, rad^2, of the turn within an interval due to a gyro's white noise, each axis. The ends
+/// of the interval count half, so that n - 1/2 of its n readings do.
 double gyro_turn_variance(const scenario::ImuNoise& noise, double imu_rate_hz, double dt_s);
 
 }  // namespace lcs::kinematics

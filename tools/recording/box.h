@@ -1,6 +1,6 @@
 /// \file
-/// Boxes in an image, in the coordinates of corners and squares: whole numbers are centres of
-/// pixels.
+/// Axis-aligned boxes in an image, in pixels; whole numbers are pixel centres, as for corners and
+/// squares.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -13,8 +13,8 @@ namespace lcs::bench {
 
 using Box = Eigen::AlignedBox2d;
 
-/// \name Pixel edges against pixel centres: the box of pixels l to r-1 reaches from l - 1/2 to
-/// r - 1/2.
+/// \name Conversion between pixel edges and pixel centres: pixels l to r-1 cover l - 1/2
+/// to r - 1/2.
 ///@{
 inline Box box_of(const sim::ObjectTruth& truth) {
   return {Vec2(truth.left - 0.5, truth.top - 0.5), Vec2(truth.right - 0.5, truth.bottom - 0.5)};
@@ -30,11 +30,11 @@ inline Square square_of(Id id, const Vec2& corner, const Vec2& size) {
   square.half_size = 0.5 * size;
   return square;
 }
-/// The box round a mask.
+/// The bounding box of a mask.
 inline Square square_of(const sim::Mask& mask, Id id) {
   return square_of(id, Vec2(mask.box.x, mask.box.y), Vec2(mask.box.width, mask.box.height));
 }
-/// left, top, right, bottom.
+/// \return left, top, right, bottom as pixel edges.
 inline Eigen::Vector4d edges_of(const Square& square) {
   Eigen::Vector4d edges;
   edges << square.location - square.half_size, square.location + square.half_size;
@@ -46,7 +46,7 @@ inline Box box_of(const Square& square) {
   return {square.location - square.half_size, square.location + square.half_size};
 }
 
-/// Area of the intersection.
+/// Area of the intersection, in square pixels.
 inline double common_px2(const Box& a, const Box& b) {
   return a.intersection(b).sizes().cwiseMax(0).prod();
 }

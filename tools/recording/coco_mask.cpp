@@ -24,10 +24,10 @@ std::string packed_runs(const sim::Runs& runs) {
   return word;
 }
 
-/// Of each number five bits a letter, from '0' on, the lowest first; 32 says that more come, and 16
-/// in the last one that it is below 0. From the fourth on it is the difference to the last but one.
+/// A letter above '0' holds five bits, lowest first; 32 marks a continuation, 16 in the last letter
+/// a negative number. From the fourth on, a number is the difference to the last but one.
 std::vector<std::int64_t> unpacked_runs(std::string_view word) {
-  constexpr int kMostShift = 35;  // of pictures
+  constexpr int kMostShift = 35;  // of an image's runs
   std::vector<std::int64_t> runs;
   std::int64_t number = 0;
   int shift = 0;

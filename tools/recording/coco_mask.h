@@ -1,5 +1,5 @@
 /// \file
-/// The runs of a mask (`sim/mask.h`) packed into one word, as pycocotools writes them.
+/// Packs the run lengths of a mask (`sim/mask.h`) into a string, in pycocotools' format.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace lcs::bench {
 
 std::string packed_runs(const sim::Runs& runs);
 
-/// The numbers in the word, unchecked: they may be negative or not add up. \throws
-/// std::invalid_argument
+/// \return the run lengths, unchecked: they may be negative or have a wrong sum.
+/// \throws std::invalid_argument for a malformed string.
 std::vector<std::int64_t> unpacked_runs(std::string_view word);
 
 }  // namespace lcs::bench

@@ -1,6 +1,6 @@
 /// \file
-/// The verdicts of any detector on the corners of a sequence, and the boxes that it finds, in a CSV
-/// file. `tools/recording/DETECTIONS.md` describes the format.
+/// A CSV file of any detector's verdicts and boxes for the frames of a sequence.
+/// `tools/recording/DETECTIONS.md` describes the format.
 #pragma once
 
 #include <filesystem>
@@ -12,20 +12,19 @@
 namespace lcs::bench {
 
 struct Detections {
-  /// The sequence with the detector's verdicts and boxes in place of what it had; no times.
+  /// The sequence with the file's verdicts and boxes instead of its own; without times.
   Recording recording;
   VerdictCounts counts;
 };
 
-/// \param sequence whose corners and truth the detections are of; its camera is what they are
-///   checked against.
-/// \throws scenario::Error by file and line.
+/// \param sequence provides corners and truth; its camera is used to check the detections.
+/// \throws scenario::Error with file and line.
 Detections read_detections(const std::filesystem::path& csv, const Recording& sequence);
 
 inline constexpr const char* kDetectionsHeader = "frame,type";
 
-/// Writes a recording's verdicts and boxes in the same format. Read again, they give the same
-/// figures of rebels and squares to the last bit. \throws OutputError
+/// Writes a recording's verdicts and boxes in the same format. Reading them back reproduces the
+/// rebel and square metrics to the last bit. \throws OutputError
 void write_detections(const std::filesystem::path& csv, const Recording& recording);
 
 }  // namespace lcs::bench

@@ -23,7 +23,7 @@ class RowReader {
     }
   }
 
-  /// \throws std::invalid_argument, whose message goes behind file and line.
+  /// \throws std::invalid_argument; the caller puts file and line before its message.
   void read(const std::vector<std::string_view>& row) {
     if (row.size() < 2) {
       throw std::invalid_argument("a row begins with FRAME,TYPE; there is one field");

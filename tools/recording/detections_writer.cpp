@@ -11,7 +11,7 @@
 namespace lcs::bench {
 namespace {
 
-/// Of the picture; where the camera is not known, of one that holds the mask and all corners.
+/// The image size; without a camera, the least size that holds the mask and all corners.
 cv::Size size_for(const sim::Mask& mask, const FrameRecord& frame,
                   const std::optional<Intrinsics>& camera) {
   if (camera) return {camera->width_px, camera->height_px};
@@ -58,7 +58,7 @@ void write_detections(const std::filesystem::path& csv, const Recording& recordi
   OutputFile file(csv);
   file.write(fmt::format("{}\n", kDetectionsHeader));
   if (recording.detector.circles && !recording.frames.empty()) {
-    file.write(fmt::format("{},circle\n", recording.frames.front().index));  // should there be none
+    file.write(fmt::format("{},circle\n", recording.frames.front().index));  // there may be none
   }
   for (const FrameRecord& frame : recording.frames) file.write(rows_of(frame, recording.camera));
   file.close();

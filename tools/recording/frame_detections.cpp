@@ -18,10 +18,10 @@
 namespace lcs::bench {
 namespace {
 
-/// \throws std::invalid_argument, whose message goes behind file and line, or the frame.
+/// \throws std::invalid_argument; the caller puts file and line, or the frame, before its message.
 template <class... Arguments>
 [[noreturn]] void refuse(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
-  // A NUL would end the message.
+  // A NUL character would end the message.
   throw std::invalid_argument(
       scenario::printable(fmt::format(text, std::forward<Arguments>(arguments)...)));
 }
@@ -54,7 +54,7 @@ Box widened(const Box& box, double by_px) {
   return {box.min().array() - by_px, box.max().array() + by_px};
 }
 
-/// Numbers, or one word that holds all of them.
+/// Parses a list of numbers, or one COCO string that holds them all.
 std::vector<std::int64_t> counts_in(std::span<const std::string_view> counts) {
   if (counts.size() == 1) return unpacked_runs(counts[0]);
   std::vector<std::int64_t> runs;
@@ -170,11 +170,10 @@ void FrameDetections::require_picture(const cv::Size& size_px) const {
   }
 }
 
-/// \param margin_px round the picture, which the shape has to touch; 0: it has to overlap the
-///   picture.
+/// \param margin_px widens the image, which the shape has to touch; 0: it has to overlap the image.
 void FrameDetections::require_in_picture(const char* what, const Box& shape,
                                          double margin_px) const {
-  constexpr double kMostSides = 10;  // that a shape may reach beyond the picture
+  constexpr double kMostSides = 10;  // longest allowed reach beyond the image, in image sides
   const auto where = [&] {
     const std::string from = fmt::format("{}, {}", shape.min().x(), shape.min().y());
     return shape.min() == shape.max() ? fmt::format("the {} at {}", what, from)
@@ -261,7 +260,7 @@ void FrameDetections::add_square(std::span<const std::string_view> values) {
 }
 
 void FrameDetections::add_square(const Square& square) {
-  constexpr double kThinnest_px = 1;  // that has to overlap the picture; thinner ones touch it
+  constexpr double kThinnest_px = 1;  // thinner squares need only touch the image, not overlap it
   if (square.id > kMostId) {
     refuse("the id is {}; give a whole number up to {}", square.id, kMostId);
   }

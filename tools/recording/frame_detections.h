@@ -1,7 +1,6 @@
 /// \file
-/// What a detector finds in one frame, in the format of `tools/recording/DETECTIONS.md`, whether it
-/// comes from a file, from a running program or from Python. All of it is checked here, against the
-/// camera's picture and against limits.
+/// One frame's detections in the format of `tools/recording/DETECTIONS.md`, from a file, a running
+/// program or Python. All of them are checked here against the image size and fixed limits.
 #pragma once
 
 #include <cstddef>
@@ -18,59 +17,57 @@
 
 namespace lcs::bench {
 
-/// A verdict by place counts for a corner within this distance. Other corner detectors place the
-/// same corner up to so far from where FAST does (SCORING.md).
+/// Largest distance between a verdict given by position and its corner. Other corner detectors
+/// place the same corner up to this far from FAST's position (SCORING.md).
 inline constexpr double kCornerReach_px = 2;
 
-/// \name Limits of what one frame has.
+/// \name Limits per frame.
 ///@{
 inline constexpr std::size_t kMostBoxes = 1000;  ///< each is compared with all objects, by pixels
 inline constexpr std::size_t kMostCircles = 10000;  ///< each is compared with all objects
 inline constexpr std::size_t kMostPlaces = 20000;   ///< each is compared with all corners
 ///@}
 
-/// The largest id: JSON's readers keep whole numbers up to this one.
+/// The largest id: JSON readers keep integers exactly up to this value.
 inline constexpr Id kMostId = (Id{1} << 53) - 1;
 
-/// The longest side of a mask where the camera is not known.
+/// The longest side of a mask if the camera is unknown.
 inline constexpr int kMostSide_px = 1 << 14;
 
-/// How many verdicts there were, and how many of those by place were left out, as they belong to no
-/// corner.
+/// The number of verdicts, and of those by position that were dropped because they match no corner.
 struct VerdictCounts {
   int verdicts = 0;
   int without_corner = 0;  ///< no corner within reach
-  int repeated = 0;        ///< only corners that have a verdict already
+  int repeated = 0;        ///< all corners within reach have a verdict already
   int corners() const { return verdicts - without_corner - repeated; }
   VerdictCounts& operator+=(const VerdictCounts& other);
 };
 
-/// A line for people for each kind that was left out.
+/// One readable line for each kind of dropped verdict.
 std::vector<std::string> lines_of(const VerdictCounts& counts);
 
-/// Each way to add something throws std::invalid_argument, saying what to give instead, for what
-/// cannot be in the frame; nothing was added then.
+/// Each `add` function throws std::invalid_argument for an item that cannot be in the frame. The
+/// message says how to correct it, and nothing is added.
 class FrameDetections {
  public:
-  /// \param frame with its corners, which all get the verdict `normal`, and nothing else.
-  /// \param camera of the frame; none where it is not known.
+  /// \param frame contains its corners only; all of them get the verdict `normal`.
+  /// \param camera of the frame; absent if unknown.
   FrameDetections(FrameRecord& frame, const std::optional<Intrinsics>& camera);
 
-  /// \param type a verdict, "box", "mask", "square" or "circle". \param values its fields, as text.
+  /// \param type a verdict, "box", "mask", "square" or "circle". \param values its text fields.
   void add(std::string_view type, std::span<const std::string_view> values);
 
-  /// \param corner left, top; \param size width, height: pixel edges.
+  /// \param corner left, top; \param size width, height: pixel edges, in pixels.
   void add_box(Id id, const Vec2& corner, const Vec2& size);
-  /// \param mask of a picture of `size_px`.
+  /// \param mask within an image of `size_px`.
   void add_mask(Id id, sim::Mask mask, const cv::Size& size_px);
   void add_square(const Square& square);
   void add_circle(const Vec2& location, double radius);
 
-  /// Assigns the verdicts by place to corners, one to one, nearest pair first. To be called once,
-  /// last.
+  /// Assigns verdicts by position to corners, one to one, nearest pair first. Call it once, last.
   VerdictCounts finish();
 
-  /// Whether "circle" came up, even for a frame without circles.
+  /// Whether a "circle" row was given, also one that reports a frame without circles.
   bool gives_circles() const { return gives_circles_; }
 
  private:

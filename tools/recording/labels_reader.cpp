@@ -20,7 +20,7 @@ constexpr scenario::FileKind kLabelsFile{
 constexpr double kFarthest_px = 1e6;
 constexpr int kMostPictures = 100'000'000;
 
-/// \throws std::invalid_argument, whose message goes behind the place.
+/// \throws std::invalid_argument; the caller puts the place before its message.
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument(what);
 }
@@ -33,7 +33,7 @@ LabelledBox box_of(int id, double left, double top, double width, double height)
   return {.id = id, .left = left, .top = top, .right = left + width, .bottom = top + height};
 }
 
-/// Ids that a picture has already.
+/// The object ids that each image has already.
 class Ids {
  public:
   void add(const std::string& picture, int id) {
@@ -58,7 +58,7 @@ class MotRow {
             fmt::format("{} is '{}', which is no number", what, fields_[field]));
     return *number;
   }
-  /// Some write them as 3.0.
+  /// Parses an integer; some files write 3.0 for 3.
   int whole(std::size_t field, const char* what, int least, int most) const {
     const double value = number(field, what);
     require(value == std::floor(value) && value >= least && value <= most,
@@ -99,7 +99,7 @@ Labels read_mot(const std::filesystem::path& file) {
   return labels;
 }
 
-/// What images are called elsewhere may have folders before it.
+/// COCO file names may begin with folders.
 std::string file_name_of(const std::string& path) {
   return path.substr(path.find_last_of('/') + 1);
 }
@@ -147,7 +147,7 @@ Labels read_coco(const std::filesystem::path& file) {
   });
 }
 
-/// The first character that is none of blanks and line ends, with the byte order mark left out.
+/// The first character other than blanks and line ends; a byte order mark is skipped.
 char first_of(const std::filesystem::path& file) {
   scenario::InputFile input(file, kLabelsFile);
   for (std::string line; input.next_line(line);) {

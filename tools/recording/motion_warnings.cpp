@@ -14,14 +14,14 @@ namespace {
 
 using Pixel = Eigen::Vector2i;
 
-constexpr std::size_t kFewestCorners = 20;  // that a whole picture is judged by
-constexpr int kSame_px = 1;                 // along x and y, of corners that are the same
+constexpr std::size_t kFewestCorners = 20;  // fewest corners for judging an image
+constexpr int kSame_px = 1;  // largest offset in x and y between the same corner in two frames
 
 Pixel pixel_of(const Eigen::Vector2f& corner) {
   return {static_cast<int>(std::lround(corner.x())), static_cast<int>(std::lround(corner.y()))};
 }
 
-/// Where the corners of a picture are.
+/// A pixel map of an image's corners.
 class Places {
  public:
   explicit Places(std::span<const Eigen::Vector2f> corners) {
@@ -39,8 +39,8 @@ class Places {
     }
   }
 
-  /// Share of pixels, moved by a vector, that are corners; those that leave the picture are not
-  /// counted. 0 where half of them do.
+  /// Share of `pixels` that lie on corners after a shift by `by`; those shifted out of the image
+  /// are left out. 0 if half of them or more are.
   double share(std::span<const Pixel> pixels, const Pixel& by) const {
     std::size_t inside = 0, met = 0;
     for (const Pixel& pixel : pixels) {
@@ -65,7 +65,7 @@ class Places {
   std::vector<std::uint8_t> has_corner_;
 };
 
-/// As many as suffice, spread evenly over the list and so over the picture.
+/// A sample of corners, spread evenly over the list and so over the image.
 std::vector<Pixel> some(std::span<const Eigen::Vector2f> corners) {
   constexpr std::size_t kMost = 100;
   const std::size_t step = std::max<std::size_t>(1, corners.size() / kMost);
@@ -74,8 +74,7 @@ std::vector<Pixel> some(std::span<const Eigen::Vector2f> corners) {
   return chosen;
 }
 
-/// Whether nearly all corners are where they were; where corners are so dense that this says
-/// nothing, they are not.
+/// Whether nearly all corners kept their place. False where corners are too dense to decide.
 bool stands(const FrameRecord& before, const FrameRecord& now) {
   constexpr double kNearlyAll = 0.6, kTimesChance = 2;
   if (std::min(before.corners_px.size(), now.corners_px.size()) < kFewestCorners) return false;
@@ -86,7 +85,7 @@ bool stands(const FrameRecord& before, const FrameRecord& now) {
   return share >= kNearlyAll && share >= kTimesChance * chance;
 }
 
-/// Whether most corners have moved by one vector, 3 px or longer.
+/// Whether most corners have moved by one vector of at least 3 px.
 bool shifted(const FrameRecord& before, const FrameRecord& now) {
   constexpr int kReach_px = 48, kLeast_px = 3;
   constexpr double kMost = 0.5, kTimesOther = 1.6;
@@ -108,7 +107,7 @@ bool shifted(const FrameRecord& before, const FrameRecord& now) {
   return best >= kMost && best >= kTimesOther * std::max(still, sum / vectors);
 }
 
-/// No turn is told, and no motion to the side, which looks like one where all is far.
+/// No turn is estimated and hardly any sideways motion, which looks like a turn in a distant scene.
 bool goes_straight(const EgoMotion& told) {
   constexpr double kNoTurn_rad = 5e-4;
   const double side = told.v_C_mps.head<2>().norm();

@@ -1,7 +1,6 @@
 /// \file
-/// The recording of a run: what the detector found and what was true, frame by frame. Scores are
-/// computed from it alone, in the same way for a live run, a stored one, and any other detector's
-/// output.
+/// The recording of a run: detections and truth, frame by frame. Scores are computed from it alone,
+/// in the same way for a live run, a stored run and any other detector's output.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,85 +23,85 @@
 
 namespace lcs::bench {
 
-/// Sightings that a rebel needs (the paper's N): warm-up, and the floor of latency plus one.
+/// Sightings needed for a rebel verdict (N in the paper): the warm-up, and one more than the least
+/// latency.
 inline constexpr int kSightings = 3;
 
-/// Wall times of one frame. The only part of a recording that differs between two runs. 0 for what
-/// was not done, as when the corners are those of an earlier run.
+/// Wall times of one frame; the only part of a recording that differs between two equal runs. 0 for
+/// steps that were not run, for example if the corners come from an earlier run.
 struct FrameTimes {
   double simulate_ms = 0;  ///< physics and rendering
-  double detect_ms = 0;    ///< `cv::FAST` on this frame: the yardstick
+  double detect_ms = 0;    ///< `cv::FAST` on this frame: the reference time
   double describe_ms = 0;  ///< signatures of its corners
   double line_ms = 0;
   double circle_ms = 0;
   double square_ms = 0;
-  double filter_ms = 0;   ///< whole step
-  double process_ms = 0;  ///< likewise of a detector that is a process, the transfer to it included
+  double filter_ms = 0;   ///< the filter's whole step
+  double process_ms = 0;  ///< whole step of a detector in another process, transfer included
   double truth_ms = 0;    ///< labelling of the corners
 };
 
-/// The pixels that squares cover, by the squares' ids, from a detector that finds them.
+/// The pixels of squares, by square id, from a detector that provides them.
 using SquareMasks = std::map<Id, sim::Mask>;
 
 struct FrameRecord {
   int index = 0;
   std::int64_t t_ns = 0;
-  std::vector<Eigen::Vector2f> corners_px;  ///< chi
-  std::vector<Signature> signatures;        ///< of each corner; empty where none were made
+  std::vector<Eigen::Vector2f> corners_px;  ///< chi, in pixels
+  std::vector<Signature> signatures;        ///< of each corner; empty if not computed
   std::vector<Verdict> verdicts;            ///< of each corner
-  std::vector<Reason> reasons;              ///< of each verdict; empty where none are given
+  std::vector<Reason> reasons;              ///< of each verdict; empty if not given
   Layers layers;
   SquareMasks masks;
-  EgoMotion motion;                            ///< since the last frame, as the detector was told
-  EgoMotion true_motion;                       ///< likewise, from the exact poses
+  EgoMotion motion;       ///< since the previous frame, as given to the detector
+  EgoMotion true_motion;  ///< since the previous frame, from the exact poses
   std::vector<sim::CornerTruth> corner_truth;  ///< of each corner
   std::vector<sim::ObjectTruth> object_truth;
-  /// All that moves in the frame, if somebody labelled it.
+  /// All moving objects in the frame, if it was labelled.
   std::optional<std::vector<LabelledBox>> labels;
-  std::optional<FrameTimes> times;  ///< none in a recording that was stored
+  std::optional<FrameTimes> times;  ///< absent in a stored recording
 };
 
-/// How much of the truth is known, and so what can be scored.
+/// How much of the truth is known, and therefore can be scored.
 enum class Truth : std::uint8_t {
-  all,            ///< that of every corner and object, as in a simulation
-  nothing_moves,  ///< every corner is fixed; nothing is known of objects
-  unknown,        ///< nothing but `FrameRecord::labels`, if there are any
+  all,            ///< known for every corner and object, as in a simulation
+  nothing_moves,  ///< every corner is fixed; the objects are unknown
+  unknown,        ///< only `FrameRecord::labels`, if present
 };
 
 /// The detector whose verdicts a recording holds.
 struct DetectorInfo {
   std::string name = "lcs";
-  /// It is the filter: the layers are all that it keeps of former frames, so that their size is a
-  /// figure. False for comparators and other detectors, whose layers only carry their results.
+  /// It is the filter: its layers are its whole memory, so their size is a metric. False for
+  /// comparators and other detectors, whose layers only hold their results.
   bool layered = true;
-  /// It groups rebels into circles, from which false objects are counted. False for a detector that
-  /// has not given any.
+  /// It groups rebels into circles, from which false objects are counted. False for a detector
+  /// without circles.
   bool circles = true;
 };
 
 struct Recording {
   std::string scenario;
   std::uint64_t seed = 0;
-  /// `scenario::Scenario::world`, to tell whether the scenario's world has changed since; empty
-  /// where there is none.
+  /// `scenario::Scenario::world`, to detect later changes of the scenario's world; empty if there
+  /// is no scenario world.
   std::map<std::string, std::string> world;
-  /// The world that the frames are of: its family and seed; none if it is not known.
+  /// Family and seed of the frames' world; absent if unknown.
   std::optional<scenario::Origin> origin = {};
   DetectorInfo detector;
-  std::optional<Intrinsics> camera = {};  ///< as detectors are told of it
+  std::optional<Intrinsics> camera = {};  ///< as given to detectors
   Truth truth = Truth::all;
   std::vector<sim::Object> objects;
   std::vector<FrameRecord> frames;  ///< by index
-  /// The simulation's warnings in the whole run; none where nothing was simulated.
+  /// The simulation's warnings in the whole run; absent without a simulation.
   std::optional<sim::Warnings> warnings = {};
 };
 
-/// Sets the truth of a frame's corners from what is known without a simulation.
-/// \param frame with its corners. \param truth not `all`.
+/// Sets the truth of a frame's corners where no simulation provides it.
+/// \param frame contains its corners. \param truth not `all`.
 void set_corner_truth(Truth truth, FrameRecord& frame);
 
-/// The recording without the detector's verdicts, layers and times: what there was to see, and the
-/// truth.
+/// Copies the detector's input and the truth, without verdicts, layers and times.
 Recording without_detections(const Recording& recording);
 
 }  // namespace lcs::bench

@@ -1,5 +1,5 @@
 /// \file
-/// The fields of everything that a recording stores, by name: one list for writing and for reading.
+/// The stored fields of a recording by name: one list for both writing and reading.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace lcs::bench {
 
-/// \name Words for enumerators, in the order of their declaration.
+/// \name Names of enumerators, in the order of their declaration.
 ///@{
 inline constexpr std::array<const char*, 4> kVerdicts{"ignored", "pending", "normal", "rebel"};
 inline constexpr std::array<const char*, 4> kLabels{"none", "fixed", "indistinct", "rebel"};
@@ -43,26 +43,26 @@ inline const auto& names_of(IgnoreRegion::Shape) {
 }
 ///@}
 
-/// \name Numbers that need not be finite: JSON knows only finite ones, and null stands for the
-/// other.
+/// \name Numbers that may be non-finite. JSON has finite numbers only; null represents the other
+/// value.
 ///@{
-struct OrInfinite {  ///< +inf, as the depth of the sky
+struct OrInfinite {  ///< +inf, for example the depth of the sky
   double& number;
 };
-struct OrNan {  ///< NaN, as the motion of a point that leaves the camera's front
+struct OrNan {  ///< NaN, for example the motion of a point that moves behind the camera
   double& number;
 };
 ///@}
 
-/// A shape (an outline, a mask), which tables of numbers leave out. Older files lack it.
+/// A shape (an outline, a mask), which numeric tables omit. Older files lack it.
 template <class T>
 struct Form {
   T& value;
 };
 template <class T>
-Form(T&) -> Form<T>;  // clang before 17 deduces no aggregate's argument by itself
+Form(T&) -> Form<T>;  // clang before 17 does not deduce an aggregate's argument by itself
 
-/// A corner with its verdict and the rule that settled it, as `layers.jsonl` has them.
+/// A corner with its verdict and the rule that decided it, as in `layers.jsonl`.
 struct CornerRow {
   double x = 0;
   double y = 0;
@@ -70,28 +70,28 @@ struct CornerRow {
   Reason reason = Reason::unknown;
 };
 
-/// A corner's place.
+/// A corner's position, in pixels.
 struct Place {
   double x = 0;
   double y = 0;
 };
 
-/// What a square covers, within a box of pixel edges.
+/// The pixels of a square, within a bounding box of pixel edges.
 struct MaskRow {
   Id square = 0;
   int left = 0, top = 0, right = 0, bottom = 0;
   sim::Runs mask;
 };
 
-/// A row of alpha, with as many sightings as it has.
+/// A row of alpha, with only its valid sightings.
 struct ChainRow {
   std::vector<Vec2> sightings;
   double off_field_px = 0;
 };
 
-// Each `fields` calls visit(name, member) with a reference to the member, or one of the above, for
-// every stored field, in file order. Binding all members by name makes a new one that is forgotten
-// here fail to compile.
+// Each `fields` calls visit(name, member) for every stored field in file order; the member is a
+// reference or one of the wrappers above. The bindings name all members, so that a new member
+// missing here fails to compile.
 
 template <class Visit>
 void fields(CornerRow& corner, Visit&& visit) {

@@ -24,15 +24,15 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Of a picture; nothing is as large, and nothing overflows below it.
+/// The longest image side; larger than any image, and small enough for sums not to overflow.
 constexpr int kLongest_px = 1 << 20;
 
-/// \throws std::runtime_error, whose message goes behind the place.
+/// \throws std::runtime_error; the caller puts the place before its message.
 void require(bool condition, const char* what) {
   if (!condition) throw std::runtime_error(fmt::format("is not {}", what));
 }
 
-/// Calls `use`; what it refuses is told with its place, as ".corners.x[3] is not a number".
+/// Calls `use`; prefixes its errors with their place, as ".corners.x[3] is not a number".
 template <class Use>
 void within(const std::string& place, const Use& use) {
   try {
@@ -90,7 +90,7 @@ void read(const Json& json, Enum& value) {
   const auto found = std::find(names.begin(), names.end(), text);
   if (found == names.end() || text.empty()) {
     throw std::runtime_error(
-        scenario::printable(fmt::format("is the unknown word '{}'", text)));  // a NUL ends it
+        scenario::printable(fmt::format("is the unknown word '{}'", text)));  // NUL would end it
   }
   value = static_cast<Enum>(found - names.begin());
 }
@@ -116,7 +116,7 @@ void read(const Json& list, Form<Outline> outline) {
   std::copy(points.begin(), points.end(), outline.value.places.begin());
 }
 
-/// COCO's word; whether the runs make up their box is for `require_mask`.
+/// Reads COCO's run-length string; `read_masks` checks that the runs fill the box.
 void read(const Json& json, Form<sim::Runs> runs) {
   std::string word;
   read(json, word);
@@ -131,13 +131,13 @@ void read(const Json& json, Form<sim::Runs> runs) {
   }
 }
 
-/// Of a field, where a file has no column of it.
+/// Whether a file may lack the column of such a field.
 template <class Value>
 constexpr bool kMayLack = false;
 template <class Value>
 constexpr bool kMayLack<Form<Value>> = true;
 
-/// A member of an object.
+/// Reads a member of an object.
 template <class... Out>
 void read_member(const Json& json, const char* key, Out&&... out) {
   const Json& value = member(json, key);
@@ -193,7 +193,7 @@ std::vector<Item> read_columns(const Json& json, const char* key) {
   return items;
 }
 
-/// The runs of a mask add up to its box.
+/// Checks that the runs of each mask add up to its box.
 template <class Item>
 std::vector<Item> read_masks(const Json& json, const char* key, bool may_lack) {
   std::vector<Item> items = read_columns<Item>(json, key);
@@ -344,11 +344,11 @@ void read_header(const Json& json, Recording& recording) {
   recording.objects = read_columns<sim::Object>(json, "objects");
 }
 
-// A hundred kB a frame: of hundreds of thousands of frames.
+// About 100 kB a frame, for hundreds of thousands of frames.
 constexpr scenario::FileKind kRecordingFile{64 * scenario::kGibibyte,
                                             "name the folder of a whole run, or run it again"};
 
-/// Hands on one parsed line after the other, and says where it was when something is wrong.
+/// Passes one parsed line after the other to its user, and adds file and line to errors.
 class LineReader {
  public:
   explicit LineReader(const std::filesystem::path& path) : file_(path, kRecordingFile) {}
@@ -449,7 +449,7 @@ std::vector<std::vector<sim::ObjectTruth>> read_object_truth(const std::filesyst
                                                              std::span<const int> frames) {
   LineReader truth(folder / kTruthFile);
   std::vector<std::vector<sim::ObjectTruth>> objects;
-  int next = -1;  // the header
+  int next = -1;  // the header line
   for (const int frame : frames) {
     if (frame < next) {
       objects.push_back(objects.back());

@@ -17,8 +17,8 @@
 namespace lcs::bench {
 namespace {
 
-// By hand: a frame has thousands of numbers, and a JSON tree of them costs more than the
-// filter does.
+// Written by hand: a frame has thousands of numbers, and building a JSON tree of them costs more
+// than the filter.
 
 template <class Number>
 void append_digits(std::string& out, Number number) {
@@ -63,7 +63,7 @@ void append(std::string& out, OrNan value) {
   }
 }
 void append(std::string& out, const std::string& text) {
-  // A file's name may hold any bytes; JSON only UTF-8.
+  // A file name may hold any bytes; JSON holds UTF-8 only.
   out += nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 template <class Enum>
@@ -104,7 +104,7 @@ void append_key(std::string& out, std::string_view key) {
   out += "\":";
 }
 
-/// Appends and says which field it was where that fails.
+/// Appends a value; adds the field's name to the error if that fails.
 template <class Value>
 void append_named(std::string& out, std::string_view list, std::string_view name,
                   const Value& value) {
@@ -115,7 +115,7 @@ void append_named(std::string& out, std::string_view list, std::string_view name
   }
 }
 
-/// "list":{"id":[..],"x":[..]}, one array for each field.
+/// Appends "list":{"id":[..],"x":[..]}, one array for each field.
 template <class Item>
 void append_columns(std::string& out, std::string_view list, const std::vector<Item>& items) {
   std::vector<std::string> columns;
@@ -153,7 +153,7 @@ void append_array(std::string& out, std::string_view list, std::string_view name
   out += ']';
 }
 
-/// Matrices row by row.
+/// Writes matrices row by row.
 void append_motion(std::string& out, std::string_view name, const EgoMotion& motion) {
   const Eigen::Matrix3d by_rows = motion.R_cur_prev.transpose();
   append_key(out, name);
@@ -194,7 +194,7 @@ std::vector<CornerRow> corner_rows(const FrameRecord& frame) {
   return rows;
 }
 
-/// Two digits for each byte in memory, whose order thus is the maker's on any machine.
+/// Writes two digits for each byte in memory order, which is the same on any machine.
 void append(std::string& out, const std::vector<Signature>& signatures) {
   constexpr std::string_view kDigits = "0123456789abcdef";
   out += '"';

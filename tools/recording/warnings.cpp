@@ -65,7 +65,7 @@ void write_warnings(const std::filesystem::path& path, const std::vector<Warned>
   for (const Warned& warned : warnings) {
     if (warned.count) json[warned.word] = {{"count", *warned.count}, {"first", warned.text}};
   }
-  // A body may be called by any bytes; JSON is UTF-8.
+  // A body's name may hold any bytes; JSON holds UTF-8 only.
   write_file(path, json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
 }
 

@@ -1,6 +1,6 @@
 /// \file
-/// Warnings that come with the figures of a run: those of the simulation (`sim/warnings.h`),
-/// pictures with hardly a corner, and in recordings an implausible motion (`motion_warnings.h`).
+/// Warnings reported with the metrics of a run: those of the simulation (`sim/warnings.h`), images
+/// with too few corners, and in recordings an implausible motion (`motion_warnings.h`).
 #pragma once
 
 #include <cstdint>
@@ -16,28 +16,28 @@ namespace lcs::bench {
 
 inline constexpr const char* kWarningsFile = "warnings.json";
 
-/// Fewer corners in a frame are too few: a match needs other corners round it to support it.
+/// The least number of corners in a frame: a match needs neighbouring corners to support it.
 inline constexpr int kFewCorners = 10;
 
 struct Warned {
   std::string word;                   ///< "warnings.WORD" is the metric
-  std::optional<std::int64_t> count;  ///< none: not checked in this run
-  std::string text;                   ///< the first time, in words, and what to do; empty for none
+  std::optional<std::int64_t> count;  ///< absent: not checked in this run
+  std::string text;                   ///< first occurrence and remedy; empty if it did not occur
 };
 
-/// One for each word, in a fixed order.
+/// One entry for each warning, in a fixed order.
 std::vector<Warned> warnings_of(const Recording& recording);
 
-/// A line for people for each that happened.
+/// One readable line for each warning that occurred.
 std::vector<std::string> lines_of(const std::vector<Warned>& warnings);
 
-/// All of them, by word. \throws OutputError
+/// Writes all checked warnings, by name. \throws OutputError
 void write_warnings(const std::filesystem::path& path, const std::vector<Warned>& warnings);
 
-/// What was written there. \throws scenario::Error naming file and what is wrong with it.
+/// Reads a file of `write_warnings`. \throws scenario::Error with the file and its fault.
 std::vector<Warned> read_warnings(const std::filesystem::path& path);
 
-/// The warnings that the simulation gave in a run; none where the run's folder has no such file.
+/// The simulation's warnings in a run; absent if the run's folder has no such file.
 /// \throws as `read_warnings`.
 std::optional<sim::Warnings> world_warnings(const std::filesystem::path& folder);
 

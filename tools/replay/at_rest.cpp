@@ -16,13 +16,13 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::int64_t kPart_ns = 250'000'000;
-constexpr std::size_t kFewestParts = 4;  // a second
+constexpr std::size_t kFewestParts = 4;  // one second
 
-/// More than the biases and the noise of any sensor that is worth to be heard.
+/// Upper limits on bias and noise of a usable sensor.
 constexpr double kMostBias_radps = 0.1, kMostBias_mps2 = 0.6;
 constexpr double kMostNoise_radps = 0.05, kMostNoise_mps2 = 0.5;
 
-/// Means of parts of what stands differ by their noise, and no more than by these.
+/// Means of parts at rest differ by at most these deviations of their noise, or these changes.
 constexpr double kDeviations = 5, kLeastChange_radps = 2e-3, kLeastChange_mps2 = 0.03;
 
 struct Part {
@@ -59,7 +59,7 @@ std::vector<Part> parts_of(std::span<const sim::ImuSample> readings) {
     const auto end = std::find_if(readings.begin(), readings.end(),
                                   [&](const sim::ImuSample& r) { return r.t_ns >= end_ns; });
     const auto count = static_cast<std::size_t>(end - readings.begin());
-    if (end == readings.end()) break;  // not a whole one
+    if (end == readings.end()) break;  // incomplete part
     parts.push_back(part_of(readings.first(count)));
     readings = readings.subspan(count);
   }
@@ -82,7 +82,7 @@ bool is_same(const Part& a, const Part& b) {
          within(b.accel - a.accel, a.accel_noise, kLeastChange_mps2);
 }
 
-/// How many parts from the first one on are alike.
+/// Number of consecutive parts at rest, from the first one on.
 std::size_t still_parts(const std::vector<Part>& parts, double gravity_mps2) {
   std::size_t still = 0;
   while (still < parts.size() && is_noise(parts[still], gravity_mps2) &&

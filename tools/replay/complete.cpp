@@ -1,4 +1,4 @@
-// What a layout says of a recording, completed by what the user says.
+// Completes a layout's data by the user's input.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -25,7 +25,7 @@ using Eigen::Vector3d;
 
 constexpr const char* kNoTimes = "when its pictures were taken (fps)";
 
-/// \return whether the times of frames are known, or only their order.
+/// \return whether the frames' times are known, not only their order.
 bool set_times(const scenario::Recorded& asked, Recorded& recorded) {
   if (recorded.timed) {
     if (!asked.fps) return true;
@@ -37,7 +37,7 @@ bool set_times(const scenario::Recorded& asked, Recorded& recorded) {
   return fps.has_value();
 }
 
-/// Those that are asked for.
+/// Keeps the requested frames.
 void choose(const scenario::Recorded& asked, int most, std::vector<RecordedFrame>& frames) {
   const auto every = static_cast<std::size_t>(asked.every);
   std::erase_if(frames, [&](const RecordedFrame& frame) { return frame.number % every != 0; });
@@ -58,7 +58,7 @@ void leave_out_without_pose(std::size_t poses, Recorded& recorded) {
   std::erase_if(frames, [&](const auto& frame) { return frame.number >= poses; });
 }
 
-/// Of line k for picture k, as KITTI has them, and TUM's where nobody else says the time.
+/// Pose k belongs to picture k: in KITTI's format, and in TUM's for pictures without times.
 std::vector<PosesMotion::CameraPose> poses_by_number(const PosesFile& file, Recorded& recorded) {
   leave_out_without_pose(file.lines.size(), recorded);
   std::vector<PosesMotion::CameraPose> poses;
@@ -71,8 +71,8 @@ std::vector<PosesMotion::CameraPose> poses_by_number(const PosesFile& file, Reco
   return poses;
 }
 
-/// TUM's by their times; the first one belongs to the first picture where pictures have a clock of
-/// their own.
+/// TUM poses belong to pictures by time; if the pictures have their own clock, the first pose
+/// belongs to the first picture.
 std::vector<PosesMotion::CameraPose> poses_by_time(const PosesFile& file, bool own_clock) {
   std::vector<PosesMotion::CameraPose> poses;
   for (const auto& line : file.lines) {
@@ -86,7 +86,7 @@ std::vector<PosesMotion::CameraPose> poses_by_time(const PosesFile& file, bool o
 void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& recorded) {
   const PosesFile file = read_poses(*asked.poses, recorded.tally);
   const bool by_number = !file.timed || !times_known;
-  if (!times_known && !file.timed) return;  // and so it is told that there are no times
+  if (!times_known && !file.timed) return;  // the missing times are reported elsewhere
   if (!times_known) {
     if (file.lines.size() != recorded.frames.size()) {
       recorded.lacks.push_back(
@@ -105,7 +105,7 @@ void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& 
   if (!times_known) {
     sort_by_time(recorded.frames, "pictures", asked.poses->string(), recorded.tally);
   }
-  // KITTI's world is its first camera.
+  // KITTI's world frame is that of the first camera.
   const auto level = file.timed ? std::nullopt : std::optional(Vector3d(0, -1, 0));
   const auto up_W = up_of_world(asked, poses.front().T_WC, level);
   auto motion = std::make_unique<PosesMotion>(std::move(poses), up_W);
@@ -114,8 +114,8 @@ void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& 
   recorded.motion = std::move(motion);
 }
 
-/// By a time at rest, if it is said or seen: biases out, upright. A speed at the start says that
-/// there is none.
+/// Removes biases and tilt by a given or detected time at rest. A non-zero start speed rules out an
+/// undeclared one.
 void calibrate_at_rest(const scenario::Recorded& asked, SensorReadings& readings,
                        sim::Calibration& calibration, Tally& tally) {
   if (!asked.at_rest_s && asked.speed_mps.value_or(0) != 0) return;
@@ -129,7 +129,7 @@ void calibrate_at_rest(const scenario::Recorded& asked, SensorReadings& readings
   tell_rest(*rest, tally);
 }
 
-/// The IMU's axes are the vehicle's, which starts upright.
+/// The IMU's axes are those of the vehicle, which starts upright.
 void move_by_imu(const scenario::Recorded& asked, Recorded& recorded) {
   SensorReadings readings;
   readings.imu = read_imu_csv(*asked.imu, recorded.tally);
@@ -168,7 +168,7 @@ void set_motion(const scenario::Recorded& asked, bool times_known, Recorded& rec
 
 void require_lens(const Lens& lens) {
   const auto is_within = [](double number, double low, double high) {
-    return number >= low && number <= high;  // and no NaN
+    return number >= low && number <= high;  // false for NaN
   };
   constexpr double kMostFocal_px = 1e6, kMostCentre_px = 1e5;
   const bool is_lens = is_within(lens.fu_px, 1, kMostFocal_px) &&
@@ -207,8 +207,8 @@ void set_lens(const scenario::Recorded& asked, Recorded& recorded) {
   require_lens(lens);
 }
 
-/// The world that pictures are of, by the sequence of `lcs generate` or the run that they lie in,
-/// whatever layout they are read as. None where they lie in neither.
+/// The world of the pictures, according to the generated sequence or run whose folder holds them,
+/// in any layout. Absent if they are in neither.
 std::optional<scenario::Origin> origin_of(const std::filesystem::path& pictures) {
   namespace fs = std::filesystem;
   constexpr int kMostAbove = 4;  // mav0/cam0/data is three below its sequence

@@ -1,4 +1,4 @@
-// EuRoC ASL: mav0/ with cam0, imu0 and, for the start, a truth; a sequence of `lcs generate` too.
+// EuRoC ASL: mav0/ with cam0, imu0 and optionally a truth for the start; also from `lcs generate`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 
 constexpr const char* kTruth = "state_groundtruth_estimate0";
 constexpr double kGravity_mps2 = 9.81;
-// At the start a recording without a truth is taken to stand still for as long as this.
+// A recording without truth is assumed to be at rest for this time at its start.
 constexpr std::int64_t kStill_ns = 500'000'000;
 
 /// The folder that holds cam0: DIR/mav0, or DIR itself.
@@ -60,7 +60,7 @@ Lens lens_of(const sim::Pinhole& camera, const fs::path& settings) {
           .source = {settings.string(), 0}};
 }
 
-/// Where dead reckoning begins, and the biases that are known there.
+/// Start of dead reckoning, with the biases known there.
 struct Start {
   std::int64_t t_ns = 0;
   sim::Pose T_WS;
@@ -69,8 +69,8 @@ struct Start {
   Vector3d accel_bias_mps2 = Vector3d::Zero();
 };
 
-/// At rest, upright as the accelerometer says: for as long as it is said or seen to be, or else for
-/// a moment.
+/// A start at rest, upright according to the accelerometer, for the given or detected time at rest,
+/// or else for `kStill_ns`.
 Start start_at_rest(const std::vector<sim::ImuSample>& imu, std::int64_t t_ns,
                     std::optional<double> at_rest_s, Tally& tally) {
   const auto first = std::lower_bound(
@@ -115,8 +115,8 @@ Start start_by_truth(const std::vector<TrueState>& truth, std::int64_t t_ns) {
           state.accel_bias_mps2};
 }
 
-/// What a generated sequence says in `lcs.json` it says again in each sensor.yaml, for other
-/// readers. One of the two that was edited is not overlooked.
+/// A generated sequence repeats `lcs.json` in each sensor.yaml for other readers. Throws if an edit
+/// made the two differ.
 void require_same(const fs::path& mav, const sequence::ReplaySettings& exact) {
   const auto is_same = [](double said, double number) {
     constexpr double kRounding = 1e-9;
@@ -160,7 +160,7 @@ void require_same(const fs::path& mav, const sequence::ReplaySettings& exact) {
   read("imu0", {}, [&](const SensorYaml& said, const auto& require) {
     if (!said.noise) return;
     for (const auto& [key, member] : sequence::kImuNoise) {
-      if (!said.keys.contains(key)) continue;  // turn-on biases, which Kalibr does not know
+      if (!said.keys.contains(key)) continue;  // turn-on biases, which Kalibr lacks
       require((*said.noise).*member == exact.scenario.imu.noise.*member, key);
     }
   });
@@ -168,7 +168,7 @@ void require_same(const fs::path& mav, const sequence::ReplaySettings& exact) {
   read(kTruth, {}, nothing_else);
 }
 
-/// As a generated sequence says it: the bits of the run.
+/// Sets the motion of a generated sequence from its own settings: the same bits as in the run.
 void move_as_run(const fs::path& mav, const sequence::ReplaySettings& exact, Recorded& recorded) {
   SensorReadings readings;
   readings.imu = read_imu_csv(mav / "imu0" / "data.csv", recorded.tally);
@@ -196,7 +196,7 @@ void move_as_run(const fs::path& mav, const sequence::ReplaySettings& exact, Rec
       std::make_unique<SensorMotion>(recorded.settings, exact.calibration, std::move(readings));
 }
 
-/// By what EuRoC's own files say. The body is the frame B.
+/// Sets the motion from EuRoC's own files. The body frame is B.
 void move_by_files(const fs::path& mav, const sim::Pose& T_BC, bool exact_motion,
                    std::optional<double> at_rest_s, Recorded& recorded) {
   std::vector<TrueState> truth;
@@ -221,7 +221,7 @@ void move_by_files(const fs::path& mav, const sim::Pose& T_BC, bool exact_motion
   calibration.T_BS = imu.T_BS;
   calibration.T_BC = T_BC;
   calibration.gravity_mps2 = kGravity_mps2;
-  // The truth is of the body; it may begin later than the pictures do.
+  // The truth is of the body; it may begin after the first picture.
   std::int64_t first_ns = std::max(recorded.frames.front().t_ns, readings.imu.front().t_ns);
   if (!truth.empty()) first_ns = std::max(first_ns, truth.front().t_ns);
   keep_within(first_ns, readings.imu.back().t_ns + kBehindReadings_ns,
@@ -239,7 +239,7 @@ void move_by_files(const fs::path& mav, const sim::Pose& T_BC, bool exact_motion
     }
   }
 
-  // Everything before the start is past; times count from it.
+  // Readings before the start are dropped; times count from it.
   begin_at(start.t_ns, readings);
   for (sim::ImuSample& sample : readings.imu) {
     sample.gyro_radps -= start.gyro_bias_radps;
@@ -274,7 +274,7 @@ Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion) {
     recorded.settings = exact.scenario;
     if (exact_motion) recorded.settings.ego_motion = scenario::EgoMotionSource::truth;
     recorded.lens = lens_of(exact.calibration.camera, settings_file);
-    // The truth is of motions from each picture to the next.
+    // The truth holds motions from each picture to the next.
     const fs::path truth_file = asked.path / sequence::kTruthFile;
     if (asked.every == 1 && fs::exists(truth_file)) {
       recorded.truth = bench::read_seen(truth_file);

@@ -1,5 +1,5 @@
 /// \file
-/// Sorts readings, poses and pictures by time, and keeps each time once.
+/// Sorts readings, poses and pictures by time, and removes duplicate times.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,8 +12,8 @@
 
 namespace lcs::replay {
 
-/// Sorts items that have a `t_ns`, and removes all but the first of those with the same time;
-/// counts both in `tally`. \param plural of the items, as "poses". \param source of the table.
+/// Sorts items by `t_ns`, and removes all but the first of those with the same time; counts both in
+/// `tally`. \param plural of the items, as "poses". \param source name of the table.
 template <class Timed>
 void sort_by_time(std::vector<Timed>& items, const std::string& plural, const std::string& source,
                   Tally& tally) {

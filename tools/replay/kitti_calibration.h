@@ -1,5 +1,5 @@
 /// \file
-/// Calibrations as KITTI has them: "NAME: numbers" a line.
+/// KITTI's calibration files: one "NAME: numbers" a line.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,19 +15,19 @@ namespace lcs::replay {
 
 class KittiCalibration {
  public:
-  /// Lines without a name are those of P0, P1, ... \throws scenario::Error if it cannot be read.
+  /// Lines without a name are called P0, P1, ... \throws scenario::Error if it cannot be read.
   explicit KittiCalibration(const std::filesystem::path& file);
 
-  /// \name Of a line. \throws scenario::Error unless it is there and has as many numbers.
+  /// \name Access to a line. \throws scenario::Error if it is missing or has another length.
   ///@{
   const std::vector<double>& numbers(const std::string& name, std::size_t count) const;
-  /// \throws scenario::Error, too, for what is no rotation.
+  /// \throws scenario::Error also for a matrix that is no rotation.
   Eigen::Matrix3d rotation(const std::string& name) const;
-  /// The transform in the lines R and T.
+  /// The transform of the lines R and T.
   sim::Pose pose() const;
-  /// K of the projection [K | K t] of rectified pictures.
+  /// K of the projection [K | K t] of rectified pictures, in pixels.
   Lens lens(const std::string& name) const;
-  /// t of that projection: takes points from the common rectified frame to the camera.
+  /// t of that projection: transforms points from the common rectified frame to the camera.
   sim::Pose beside(const std::string& name) const;
   ///@}
 

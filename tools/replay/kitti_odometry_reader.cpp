@@ -1,5 +1,5 @@
 // KITTI odometry: image_0/ to image_3/, calib.txt, times.txt and, for some sequences, poses of
-// camera 0, beside the pictures or as the benchmark has them, in poses/NN.txt for sequences/NN/.
+// camera 0, beside the pictures or, as in the benchmark, in poses/NN.txt for sequences/NN/.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr const char* kCameras[] = {"image_0", "image_2", "image_1", "image_3"};
 constexpr std::string_view kPrefix = "image_";
 
-/// The first there is if none is named; "" for none.
+/// The named camera, or else the first one present; "" if none is.
 std::string camera_in(const scenario::Recorded& asked) {
   if (!asked.camera.empty()) return asked.camera;
   for (const char* name : kCameras) {
@@ -28,7 +28,7 @@ std::string camera_in(const scenario::Recorded& asked) {
   return "";
 }
 
-/// Line k is of picture k.
+/// Line k belongs to picture k.
 void read_times(const fs::path& file, Recorded& recorded) {
   const TextTable table = read_table(file, ' ');
   std::vector<RecordedFrame> timed;
@@ -49,7 +49,7 @@ void read_times(const fs::path& file, Recorded& recorded) {
   put_in_order(recorded.frames, file, recorded.tally);
 }
 
-/// Beside the pictures, or where the benchmark has them; "" for neither.
+/// The poses beside the pictures, or at the benchmark's place; "" if in neither.
 fs::path poses_of(const fs::path& folder) {
   const fs::path whole = fs::absolute(folder).lexically_normal();
   const fs::path name = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
@@ -60,7 +60,7 @@ fs::path poses_of(const fs::path& folder) {
   return "";
 }
 
-/// Line k is of picture k, and camera 0's; y of its world points down.
+/// Line k is the pose of camera 0 at picture k; y of its world frame points down.
 void read_motion(const scenario::Recorded& asked, const fs::path& file, const sim::Pose& T_C0C,
                  Recorded& recorded) {
   const PosesFile poses = read_poses(file, recorded.tally);
@@ -103,7 +103,7 @@ Recorded read_kitti_odometry(const scenario::Recorded& asked, bool) {
   recorded.lens = calibration.lens(projection);
   const fs::path poses = poses_of(asked.path);
   if (motion_is_asked(asked) || poses.empty()) return recorded;
-  // Without times and a rate it will be refused, but not for its motion.
+  // Without times and a rate it will be rejected later, for that reason.
   if (!recorded.timed) time_by(asked.fps.value_or(1), recorded);
   read_motion(asked, poses, calibration.beside(projection).inverse(), recorded);
   return recorded;

@@ -1,4 +1,4 @@
-// KITTI raw: image_0X/ and oxts/ of one drive; the calibration files lie in the folder of the date.
+// KITTI raw: image_0X/ and oxts/ of one drive; the date's folder holds the calibration files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,10 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
-/// A state of 30 numbers.
+/// A state has 30 numbers.
 constexpr scenario::FileKind kSmallText{scenario::kMebibyte, "give the file as KITTI has it"};
 
-/// Line k is of item k; none where a line is no time.
+/// Line k belongs to item k; absent if malformed.
 std::vector<std::optional<std::int64_t>> read_times(const fs::path& file, Tally& tally) {
   const TextTable table = read_table(file, ' ');
   std::vector<std::optional<std::int64_t>> times;
@@ -37,7 +37,7 @@ std::vector<std::optional<std::int64_t>> read_times(const fs::path& file, Tally&
   return times;
 }
 
-/// 30 numbers a file: lat lon alt roll pitch yaw vn ve vf vl vu ...; the world is east, north, up.
+/// 30 numbers a file: lat lon alt roll pitch yaw vn ve vf vl vu ...; world frame east, north, up.
 std::vector<NavigationState> read_oxts(const fs::path& folder, Tally& tally) {
   constexpr std::size_t kNumbers = 30;
   enum Column : std::size_t { kRoll = 3, kPitch, kYaw, kNorth, kEast, kUp = 10 };
@@ -53,7 +53,7 @@ std::vector<NavigationState> read_oxts(const fs::path& folder, Tally& tally) {
         if (const auto number = bench::number_in<double>(word)) numbers.push_back(*number);
       }
     } catch (const scenario::Error&) {
-      numbers.clear();  // and so it is counted
+      numbers.clear();  // an empty list is counted as a fault below
     }
     if (numbers.size() != kNumbers || !is_speed(numbers[kEast], numbers[kNorth], numbers[kUp])) {
       tally.add("states of the navigation unit are missing or cannot be read", file.string());
@@ -71,8 +71,8 @@ struct Camera {
   sim::Pose T_BC;
 };
 
-/// Of the rectified pictures ("sync"): P_rect is [K | K t] of the camera in the rectified frame of
-/// camera 0.
+/// Calibration of the rectified pictures ("sync"): P_rect is [K | K t] of the camera, in the
+/// rectified frame of camera 0.
 std::optional<Camera> read_calibration(const fs::path& drive, const std::string& number) {
   for (const fs::path& folder : {drive, fs::absolute(drive / "..").lexically_normal()}) {
     if (!fs::exists(folder / "calib_cam_to_cam.txt")) continue;
@@ -89,7 +89,7 @@ std::optional<Camera> read_calibration(const fs::path& drive, const std::string&
   return std::nullopt;
 }
 
-/// image_00 to image_03; the first there is if none is named.
+/// The named camera, or else the first one present of image_00 to image_03.
 std::string camera_in(const scenario::Recorded& asked) {
   if (!asked.camera.empty()) return asked.camera;
   for (const char* name : {"image_02", "image_00", "image_03", "image_01"}) {
@@ -98,7 +98,7 @@ std::string camera_in(const scenario::Recorded& asked) {
   return "image_02";
 }
 
-/// As KITTI has them, or, in smaller copies, as JPEG.
+/// PNG as in KITTI, or JPEG as in smaller copies.
 fs::path picture_of(const fs::path& data, std::size_t number) {
   const fs::path png = data / fmt::format("{:010}.png", number);
   const fs::path jpeg = data / fmt::format("{:010}.jpg", number);

@@ -103,7 +103,7 @@ EgoMotion NavigationMotion::at(std::int64_t t_ns) {
   const NavigationState now = state_at(t_ns);
   EgoMotion motion;
   if (last_) {
-    // The velocity is linear between the states on the way.
+    // The velocity is linear between consecutive states.
     Eigen::Vector3d moved_m = Eigen::Vector3d::Zero();
     NavigationState from = *last_;
     const auto add_until = [&](const NavigationState& to) {

@@ -1,5 +1,5 @@
 /// \file
-/// How a recording tells the camera's motion from one frame to the next.
+/// Sources of the camera's motion from frame to frame of a recording.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,23 +18,23 @@ class MotionSource {
  public:
   virtual ~MotionSource() = default;
 
-  /// Motion since the last frame; of the first one all 0. Times increase.
+  /// Motion since the previous frame; all 0 for the first one. Times must increase.
   virtual EgoMotion at(std::int64_t t_ns) = 0;
 
-  /// Where up is at the last frame, against gravity, seen from the camera; none where nobody knows.
+  /// Up (against gravity) at the last frame, in camera coordinates; absent if unknown.
   virtual std::optional<Eigen::Vector3d> up_C() const { return std::nullopt; }
 
-  /// The exact motion to the last frame; none where it is not known.
+  /// The exact motion to the last frame; absent if unknown.
   virtual std::optional<EgoMotion> exact() const { return std::nullopt; }
 
-  /// What was wrong with the readings that it was told from so far.
+  /// Counts of the faults in its readings so far.
   virtual Diagnostics diagnostics() const { return {}; }
 };
 
-/// Straight ahead along the optical axis; how it turns nobody tells.
+/// Constant velocity along the optical axis; the rotation is unknown.
 class SteadyMotion : public MotionSource {
  public:
-  /// \param mount_rpy_rad of the camera on what stands upright; none: not known.
+  /// \param mount_rpy_rad of the camera on an upright vehicle; absent: unknown.
   SteadyMotion(double speed_mps, const std::optional<Eigen::Vector3d>& mount_rpy_rad);
   EgoMotion at(std::int64_t t_ns) override;
   std::optional<Eigen::Vector3d> up_C() const override { return up_C_; }
@@ -45,7 +45,7 @@ class SteadyMotion : public MotionSource {
   std::optional<std::int64_t> last_ns_;
 };
 
-/// What was recorded of a rover's sensors, by time.
+/// The recorded readings of a rover's sensors, by time.
 struct SensorReadings {
   std::vector<sim::ImuSample> imu;
   std::vector<sim::OdometrySample> odometry;
@@ -56,16 +56,16 @@ struct SensorReadings {
   std::vector<CameraPose> poses;  ///< exact, at frames
 };
 
-/// Leaves out what was before a time, and counts the rest from there.
+/// Removes readings before a time, and counts the remaining times from it.
 void begin_at(std::int64_t t_ns, SensorReadings& readings);
 
-/// Dead reckoning from IMU and odometry, as a run has it (or exact poses where the settings ask for
-/// them): the same readings give the same bits.
+/// Dead reckoning from IMU and odometry, or exact poses if the settings ask for them. The same
+/// readings give the same bits as in a run.
 class SensorMotion : public MotionSource {
  public:
   SensorMotion(const scenario::Scenario& settings, const sim::Calibration& calibration,
                SensorReadings readings);
-  /// \throws std::runtime_error where exact poses are asked for and there is none at this time.
+  /// \throws std::runtime_error if exact poses are requested and none has this time.
   EgoMotion at(std::int64_t t_ns) override;
   std::optional<Eigen::Vector3d> up_C() const override;
   std::optional<EgoMotion> exact() const override { return exact_; }
@@ -77,23 +77,23 @@ class SensorMotion : public MotionSource {
   SensorReadings readings_;
   std::size_t imu_ = 0, odometry_ = 0, pose_ = 0;  ///< the next to be used
   bench::EgoMotionFeed feed_;
-  bool had_pose_ = true;  ///< the last frame, or there was none
+  bool had_pose_ = true;  ///< the last frame had a pose, or there was no frame
   std::optional<EgoMotion> exact_;
 };
 
-/// Attitude and velocity as a navigation unit tells them, in its own time.
+/// Attitude and velocity from a navigation unit, at its own times.
 struct NavigationState {
   std::int64_t t_ns = 0;
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
   Eigen::Vector3d v_WB_mps = Eigen::Vector3d::Zero();
 };
 
-/// Differences of attitude, and velocity integrated; linear between two states.
+/// Attitude differences and integrated velocity; linear between two states.
 class NavigationMotion : public MotionSource {
  public:
   /// \param states by time, at least two.
   NavigationMotion(std::vector<NavigationState> states, const sim::Pose& T_BC);
-  /// Beyond the first and last state those are held.
+  /// Before the first and after the last state, that state is held.
   EgoMotion at(std::int64_t t_ns) override;
   std::optional<Eigen::Vector3d> up_C() const override;
 
@@ -108,15 +108,15 @@ class NavigationMotion : public MotionSource {
   std::optional<NavigationState> last_;
 };
 
-/// Differences of a camera's poses; linear between two of them.
+/// Differences of camera poses; linear between two poses.
 class PosesMotion : public MotionSource {
  public:
   using CameraPose = SensorReadings::CameraPose;
 
-  /// \param poses by time, each time once, at least one.
-  /// \param up_W against gravity in the world of the poses, if that is known.
+  /// \param poses by time, without duplicate times, at least one.
+  /// \param up_W up (against gravity) in the poses' world frame, if known.
   PosesMotion(std::vector<CameraPose> poses, const std::optional<Eigen::Vector3d>& up_W);
-  /// Beyond the first and last pose those are held.
+  /// Before the first and after the last pose, that pose is held.
   EgoMotion at(std::int64_t t_ns) override;
   std::optional<Eigen::Vector3d> up_C() const override;
 

@@ -26,8 +26,8 @@ bool is_picture(const fs::path& file) {
   return kKinds.contains(kind);
 }
 
-/// Digits of the last number in the name without its leading zeros: compared by length, then by
-/// text, they compare as numbers of any size.
+/// The last number in the name, without leading zeros. Comparing length first, then text, compares
+/// such numbers of any size.
 std::string last_number(const fs::path& file) {
   const std::string stem = file.stem().string();
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };

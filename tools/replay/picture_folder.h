@@ -1,5 +1,5 @@
 /// \file
-/// Pictures from files, and a folder of them as a sequence of frames.
+/// Reads pictures from files, and a folder of pictures as a sequence of frames.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +10,17 @@
 
 namespace lcs::replay {
 
-/// Pictures that are all of one size.
+/// Reads pictures of one common size.
 class PictureReader {
  public:
-  /// \param demosaic OpenCV's colour conversion for raw pictures of one channel, if they are.
+  /// \param demosaic OpenCV's colour conversion if the pictures are raw, with one channel.
   explicit PictureReader(std::optional<int> demosaic = {}) : demosaic_(demosaic) {}
 
-  /// The picture, BGR, or nothing for one that is not there, cannot be read, or is of another size
-  /// than those before it; `skipped` then says why.
+  /// \return the BGR picture; absent if the file is missing, unreadable or of another size than
+  /// those before it. `skipped` then gives the reason.
   std::optional<cv::Mat3b> read(const std::filesystem::path& file);
 
-  /// One line for each picture that was skipped.
+  /// One line for each skipped picture.
   const std::vector<std::string>& skipped() const { return skipped_; }
 
  private:
@@ -29,11 +29,11 @@ class PictureReader {
   cv::Size size_;
 };
 
-/// The pictures of a folder (PNG, JPEG, BMP, TIFF, PGM, PPM), by the last number in their names,
-/// then by name: frame2.png comes before frame10.png.
+/// The pictures of a folder (PNG, JPEG, BMP, TIFF, PGM, PPM), sorted by the last number in their
+/// names, then by name: frame2.png precedes frame10.png.
 class PictureFolder {
  public:
-  /// \throws std::runtime_error for a folder that cannot be read, or holds no picture.
+  /// \throws std::runtime_error for a folder that cannot be read or has no picture.
   explicit PictureFolder(const std::filesystem::path& folder);
 
   std::size_t size() const { return files_.size(); }

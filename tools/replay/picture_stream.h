@@ -1,5 +1,5 @@
 /// \file
-/// The pictures of a recording's frames, from files or from a video.
+/// The pictures of a recording's frames, from files or a video.
 #pragma once
 
 #include <filesystem>
@@ -18,11 +18,11 @@ class PictureStream {
  public:
   explicit PictureStream(const Recorded& recorded);
 
-  /// The picture of a frame, BGR; frames come in rising order. Nothing for one that cannot be used;
-  /// `skipped` then says why.
+  /// \param frame later in the recording than those before it.
+  /// \return the BGR picture; absent if unusable. `skipped` then gives the reason.
   std::optional<cv::Mat3b> read(const RecordedFrame& frame);
 
-  /// One line for each picture that was skipped.
+  /// One line for each skipped picture.
   const std::vector<std::string>& skipped() const;
 
  private:
@@ -31,7 +31,7 @@ class PictureStream {
   std::filesystem::path video_;  ///< empty: the pictures are files
   PictureReader files_;
   cv::VideoCapture capture_;
-  std::size_t next_ = 0;  ///< picture of the video
+  std::size_t next_ = 0;  ///< index of the next picture in the video
   bool has_ended_ = false;
   cv::Size size_;
   std::vector<std::string> skipped_;  ///< of the video

@@ -1,5 +1,4 @@
-// Pictures with nothing but what the user knows of them: a folder, a video, a sequence of
-// MOTChallenge.
+// Pictures that the user describes: a folder, a video, a sequence of MOTChallenge.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +25,7 @@ constexpr scenario::FileKind kVideo{
 
 constexpr const char* kSequenceInfo = "seqinfo.ini";
 
-/// "key=value" of a section [Sequence].
+/// Reads "key=value" lines of a section [Sequence].
 std::map<std::string, std::string> read_info(const fs::path& file) {
   constexpr scenario::FileKind kInfo{scenario::kMebibyte, "give the file as MOTChallenge has it"};
   scenario::InputFile input(file, kInfo);
@@ -41,7 +40,7 @@ std::map<std::string, std::string> read_info(const fs::path& file) {
   return info;
 }
 
-/// None for what is no rate.
+/// Absent for an invalid rate.
 std::optional<double> rate_in(std::string_view text) {
   const auto number = bench::number_in<double>(text);
   constexpr double kFastest_hz = 10000;
@@ -101,8 +100,8 @@ Recorded read_video(const scenario::Recorded& asked, bool) {
   };
   const double count = video.isOpened() ? video.get(cv::CAP_PROP_FRAME_COUNT) : 0;
   if (!(count >= 1)) refuse("is no video that says how many pictures it has");
-  // All frames are listed before the first one is read. The shortest has its place in the file, its
-  // length and a few bits.
+  // All frames are listed before the first one is read. The shortest one takes its place in the
+  // file, its length and a few bits.
   constexpr double kMostPictures = 1e7, kLeastBytes = 8;
   const auto bytes = static_cast<double>(fs::file_size(asked.path));
   if (count > std::min(kMostPictures, bytes / kLeastBytes)) {

@@ -40,7 +40,7 @@ Playback::Playback(const scenario::Scenario& asked)
   if (asked.recording->labels) labels_ = bench::read_labels(*asked.recording->labels);
 }
 
-/// What a generated sequence says of how its run was watched.
+/// Takes the detection settings of a generated sequence's run.
 void Playback::take_settings() {
   const scenario::Scenario& own = recorded_.settings;
   if (!scenario_.world.contains("corners.threshold")) {
@@ -116,7 +116,7 @@ bool Playback::next(bench::FrameRecord& frame, cv::Mat3b& image) {
   while (next_ < recorded_.frames.size()) {
     const RecordedFrame& recorded = recorded_.frames[next_++];
     std::optional<cv::Mat3b> picture = pictures_.read(recorded);
-    if (!picture) continue;  // its time passes
+    if (!picture) continue;  // its time still passes
     image = *picture;
     frame.index = index_++;
     frame.t_ns = recorded.t_ns;
@@ -142,7 +142,7 @@ bool Playback::straighten(std::vector<Eigen::Vector2f>& corners_px, cv::Mat3b& i
   return true;
 }
 
-/// Of corners by their places: with another threshold there may be others.
+/// Matches corners by position: another threshold gives other corners.
 void Playback::label_by_truth(const RecordedFrame& recorded, bench::FrameRecord& frame) {
   frame.corner_truth.assign(frame.corners_px.size(), {});
   corners_ += static_cast<int>(frame.corners_px.size());
@@ -182,7 +182,7 @@ void Playback::label(bench::FrameRecord& frame) {
 
 Diagnostics Playback::diagnostics() const {
   Diagnostics diagnostics = recorded_.motion->diagnostics();
-  diagnostics.forget(Fault::imu_gap);  // told by what read it, with its place
+  diagnostics.forget(Fault::imu_gap);  // reported by its reader, with the place
   return diagnostics;
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// The frames of a recording in place of a simulation's, for the bench's own loop.
+/// Feeds the frames of a recording, instead of simulated ones, to the bench's loop.
 #pragma once
 
 #include <cstddef>
@@ -18,16 +18,16 @@ namespace lcs::replay {
 
 class Playback : public bench::FrameSource {
  public:
-  /// Reads all but the pictures, of which it looks at the first one.
-  /// \throws scenario::Error for what cannot be read or is not known, std::runtime_error.
+  /// Reads everything except the pictures, of which it decodes only the first one.
+  /// \throws scenario::Error for unreadable or missing input, std::runtime_error.
   explicit Playback(const scenario::Scenario& asked);
 
-  /// As it was asked for, with what the recording says of the filter and the corners where that
-  /// does not, and the frames and their rate as they are.
+  /// The given scenario, completed by the recording's settings of filter and corners, with the
+  /// actual number of frames and frame rate.
   const scenario::Scenario& scenario() const { return scenario_; }
   const sim::Pinhole& camera() const { return rectifier_->camera(); }
 
-  /// A recording of the scenario without frames yet.
+  /// A recording of the scenario, still without frames.
   bench::Recording begin() const;
 
   bool next(bench::FrameRecord& frame, cv::Mat3b& image) override;
@@ -35,9 +35,9 @@ class Playback : public bench::FrameSource {
   void label(bench::FrameRecord& frame) override;
   Diagnostics diagnostics() const override;
 
-  /// Pictures that could not be used so far.
+  /// Number of unusable pictures so far.
   std::size_t skipped() const { return next_ - static_cast<std::size_t>(index_); }
-  /// What was not as it should be so far, and what is not known: a line for people each.
+  /// The faults and missing inputs so far: one readable line each.
   std::vector<std::string> told() const;
 
  private:
@@ -51,12 +51,12 @@ class Playback : public bench::FrameSource {
   PictureStream pictures_;
   std::optional<Rectifier> rectifier_;
   bench::Truth truth_;     ///< of corners
-  std::map<std::string, const bench::FrameRecord*> truth_of_;  ///< by picture, where all is known
-  int corners_ = 0, untold_ = 0;  ///< that were met, and those of which no truth is known
-  bench::Labels labels_;   ///< of movers, where there are some
-  cv::Mat1b mask_;         ///< empty, or not 0 where nobody looks
+  std::map<std::string, const bench::FrameRecord*> truth_of_;  ///< by picture, if all is known
+  int corners_ = 0, untold_ = 0;  ///< seen so far, and those without truth
+  bench::Labels labels_;   ///< of moving objects, if present
+  cv::Mat1b mask_;         ///< empty, or non-zero at ignored pixels
   std::size_t next_ = 0;   ///< of the recorded frames
-  int index_ = 0;          ///< of the frame that comes next
+  int index_ = 0;          ///< of the next frame
   bool grounded_ = false;  ///< the last frame has a ground
 };
 

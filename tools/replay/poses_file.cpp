@@ -15,9 +15,9 @@ namespace lcs::replay {
 namespace {
 
 constexpr std::size_t kTumFields = 8, kKittiFields = 12;
-/// Poses are printed with as few digits as these, or are the result of a calculation in floats.
+/// Tolerance for poses with few digits, or computed in single precision.
 constexpr double kTolerance = 1e-2;
-/// Farther from its world's origin nothing has digits left.
+/// Farther from the origin, a position has no precise digits left.
 constexpr double kFarthest_m = 1e9;
 
 bool is_place(const Eigen::Vector3d& p) {

@@ -8,7 +8,7 @@ namespace lcs::replay {
 namespace {
 
 constexpr double kLeastCovered = 0.1;
-/// Polynomials of a lens fold back behind their edge, where no corner has one place.
+/// Largest round-trip error: beyond its edge a distortion polynomial folds back and is ambiguous.
 constexpr double kAstray_px = 0.1;
 
 }  // namespace
@@ -39,7 +39,7 @@ Rectifier::Rectifier(const Lens& lens, cv::Size size_px)
   }
 }
 
-/// Pixels that have a place in the picture that was taken, as a share of all.
+/// Share of the pinhole's pixels that lie within the original picture.
 double Rectifier::covered() const {
   int inside = 0;
   for (int y = 0; y < map_x_.rows; ++y) {
@@ -63,7 +63,7 @@ std::vector<cv::Point2f> Rectifier::straight(const std::vector<cv::Point2f>& ben
   return points;
 }
 
-/// Where the lens sees what the pinhole sees at a place.
+/// Original positions of pinhole positions.
 std::vector<cv::Point2f> Rectifier::bent(const std::vector<cv::Point2f>& straight) const {
   std::vector<cv::Point2f> points;
   if (is_equidistant_) {
@@ -92,14 +92,14 @@ void Rectifier::rectify(std::vector<Eigen::Vector2f>& corners_px) const {
     const bool is_seen = px.x >= 0 && px.y >= 0 &&
                          px.x <= static_cast<float>(camera_.width_px - 1) &&
                          px.y <= static_cast<float>(camera_.height_px - 1);
-    const bool is_one_ray = cv::norm(back[i] - taken[i]) < kAstray_px;  // no NaN
+    const bool is_one_ray = cv::norm(back[i] - taken[i]) < kAstray_px;  // false for NaN
     if (is_seen && is_one_ray) corners_px.emplace_back(px.x, px.y);
   }
 }
 
 void Rectifier::rectify(double& left, double& top, double& right, double& bottom) const {
   if (is_pinhole()) return;
-  constexpr double kEdge = 0.5;  // of a pixel, from its centre
+  constexpr double kEdge = 0.5;  // distance of a pixel edge from its centre
   std::vector<cv::Point2f> outline;
   for (const double x : {left, 0.5 * (left + right), right}) {
     for (const double y : {top, 0.5 * (top + bottom), bottom}) {

@@ -1,7 +1,7 @@
 /// \file
-/// From any lens to a pinhole with square pixels, which is what detectors know. Corners are found
-/// in the picture as it was taken, and taken to where the pinhole would have seen them, to the
-/// digit; only for those who look at pictures is the picture itself straightened, which blurs it.
+/// Converts any lens to a pinhole with square pixels, as detectors assume. Corners are found in the
+/// original picture and then moved to their exact pinhole positions. The picture itself, which
+/// rectification blurs, is rectified only for detectors and viewers that need it.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,19 +15,19 @@ namespace lcs::replay {
 
 class Rectifier {
  public:
-  /// \throws scenario::Error for a distortion that no lens has.
+  /// \throws scenario::Error for an implausible distortion.
   Rectifier(const Lens& lens, cv::Size size_px);
 
-  /// The pinhole: the lens's principal point, and the mean of its focal lengths.
+  /// The pinhole has the lens's principal point and the mean of its focal lengths.
   const sim::Pinhole& camera() const { return camera_; }
 
-  /// A lens without distortion and with square pixels, which leaves all as it is, bit by bit.
+  /// The lens has no distortion and square pixels; rectification then changes no bit.
   bool is_pinhole() const { return map_x_.empty(); }
 
-  /// Leaves out corners that the pinhole does not see, or that the lens has no straight ray for.
+  /// Removes corners outside the pinhole's picture, and those without a unique ray.
   void rectify(std::vector<Eigen::Vector2f>& corners_px) const;
   void rectify(cv::Mat3b& picture) const;
-  /// Replaces a box, given by pixel edges, by the box round its rectified outline.
+  /// Replaces a box, in pixel edges, by the bounding box of its rectified outline.
   void rectify(double& left, double& top, double& right, double& bottom) const;
 
  private:
@@ -39,7 +39,7 @@ class Rectifier {
   cv::Matx33d from_, to_;
   cv::Mat coefficients_;
   sim::Pinhole camera_;
-  cv::Mat map_x_, map_y_;  ///< empty for a lens that is a pinhole
+  cv::Mat map_x_, map_y_;  ///< empty for a pinhole lens
 };
 
 }  // namespace lcs::replay

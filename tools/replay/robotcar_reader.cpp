@@ -1,5 +1,5 @@
-// Oxford RobotCar: mono_*/ and stereo/*/ with raw pictures, <camera>.timestamps, gps/ins.csv. Its
-// calibration is not part of a recording.
+// Oxford RobotCar: mono_*/ and stereo/*/ with raw pictures, <camera>.timestamps, gps/ins.csv. A
+// recording has no calibration.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr std::int64_t kMicrosecond_ns = 1000;
 
 struct CameraKind {
   const char* name;
-  int demosaic;  ///< OpenCV names a pattern by its second row: its BG is what others call RGGB
+  int demosaic;  ///< OpenCV names a pattern by its second row: its BG is RGGB elsewhere
   bool looks_ahead;
 };
 constexpr CameraKind kCameras[] = {
@@ -32,7 +32,7 @@ constexpr CameraKind kCameras[] = {
     {"mono_left", cv::COLOR_BayerBG2BGR, false},    {"mono_right", cv::COLOR_BayerBG2BGR, false},
 };
 
-/// stereo/centre has stereo.timestamps.
+/// For example stereo.timestamps for stereo/centre.
 fs::path list_of(const fs::path& folder, const CameraKind& camera) {
   const std::string name = camera.name;
   return folder / (name.substr(0, name.find('/')) + ".timestamps");
@@ -68,8 +68,8 @@ const CameraKind& camera_of(const scenario::Recorded& asked) {
   return *found;
 }
 
-/// From the unit's axes (north, east, down; ahead, right, down) to ours (east, north, up; ahead,
-/// left, up).
+/// Converts from the unit's axes (north, east, down; ahead, right, down) to ours (east, north, up;
+/// ahead, left, up).
 std::vector<NavigationState> read_ins(const fs::path& file, Tally& tally) {
   const TextTable table = read_table(file, ',');
   if (table.header.empty()) {

@@ -22,14 +22,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A time and the numbers of the columns that were asked for.
+/// A time and the numbers of the requested columns.
 struct NumberRow {
   std::int64_t t_ns = 0;
   std::vector<double> numbers;
 };
 
-/// \param names of columns, for tables with a header; without one they follow the time in order.
-/// \param last of one more, in rows that have it.
+/// \param names of columns in a header; without one they follow the time in this order.
+/// \param last name of an optional further column.
 std::vector<NumberRow> read_numbers(const std::filesystem::path& file,
                                     std::span<const char* const> names, Tally& tally,
                                     std::optional<std::string_view> last = std::nullopt) {
@@ -70,7 +70,7 @@ Vector3d vector_at(const NumberRow& row, std::size_t first) {
   return {row.numbers[first], row.numbers[first + 1], row.numbers[first + 2]};
 }
 
-/// The upper one of the two in the middle of an even number. \pre there is one
+/// The upper median for an even number of values. \pre not empty
 template <typename T>
 T median(std::vector<T> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -78,8 +78,8 @@ T median(std::vector<T> values) {
   return *middle;
 }
 
-/// At rest or driving, an accelerometer shows gravity more than anything else.
-/// \throws std::runtime_error where it shows it in g.
+/// Gravity dominates an accelerometer's readings, at rest and in motion.
+/// \throws std::runtime_error if the readings are in g.
 void check_units(const std::vector<sim::ImuSample>& samples, const std::filesystem::path& file) {
   std::vector<double> sizes;
   for (const sim::ImuSample& sample : samples) sizes.push_back(sample.accel_mps2.norm());
@@ -144,7 +144,7 @@ std::vector<TrueState> read_truth_csv(const std::filesystem::path& file, Tally& 
       "p_RS_R_x",   "p_RS_R_y",   "p_RS_R_z",   "q_RS_w",    "q_RS_x",     "q_RS_y",
       "q_RS_z",     "v_RS_R_x",   "v_RS_R_y",   "v_RS_R_z",  "b_w_RS_S_x", "b_w_RS_S_y",
       "b_w_RS_S_z", "b_a_RS_S_x", "b_a_RS_S_y", "b_a_RS_S_z"};
-  constexpr double kUnit = 1e-2;  // how far from 1 the length of a rounded quaternion may be
+  constexpr double kUnit = 1e-2;  // largest error in the length of a rounded quaternion
   std::vector<TrueState> states;
   for (const NumberRow& row : read_numbers(file, kNames, tally)) {
     TrueState& truth = states.emplace_back();

@@ -1,7 +1,6 @@
 /// \file
-/// Tables of sensors as EuRoC's ASL has them: IMU, truth, pictures. Rows that cannot be read are
-/// left out, rows out of order are sorted, times that come twice are used once; all of it is
-/// counted.
+/// Sensor tables in EuRoC's ASL format: IMU, truth, pictures. Unreadable rows are left out, rows
+/// out of order sorted, and duplicate times used once; all of this is counted.
 #pragma once
 
 #include <filesystem>
@@ -14,13 +13,13 @@
 
 namespace lcs::replay {
 
-/// \throws std::runtime_error if the file cannot be read, or holds no reading.
+/// \throws std::runtime_error if the file is unreadable or has no reading.
 std::vector<sim::ImuSample> read_imu_csv(const std::filesystem::path& file, Tally& tally);
 
-/// Yaw rates are those of a fifth column, where there is one.
+/// Yaw rates are in an optional fifth column.
 std::vector<sim::OdometrySample> read_odometry_csv(const std::filesystem::path& file, Tally& tally);
 
-/// Exact poses of the camera, as `lcs generate` writes them.
+/// Exact poses of the camera, as written by `lcs generate`.
 std::vector<SensorReadings::CameraPose> read_pose_csv(const std::filesystem::path& file,
                                                       Tally& tally);
 
@@ -33,7 +32,7 @@ struct TrueState {
 };
 std::vector<TrueState> read_truth_csv(const std::filesystem::path& file, Tally& tally);
 
-/// Counts the gaps between readings that are longer than four of their usual periods.
+/// Counts gaps between readings that exceed four of their usual periods.
 void count_gaps(const std::vector<sim::ImuSample>& samples, Tally& tally);
 
 }  // namespace lcs::replay

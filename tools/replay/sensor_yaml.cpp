@@ -21,7 +21,7 @@ using scenario::Value;
 constexpr scenario::FileKind kSensorFile{scenario::kMebibyte,
                                          "give a sensor.yaml with Kalibr's keys"};
 
-// Generous: they keep out what no camera or IMU has.
+// Generous limits, which exclude impossible cameras and IMUs only.
 constexpr Quantity kOfTransform{Dimension::number, {-10000, 10000}};
 constexpr Quantity kRate{Dimension::frequency, {0, 100000, true}};
 constexpr Quantity kFocal_px{Dimension::number, {1, 1000000}};
@@ -30,7 +30,7 @@ constexpr Quantity kCoefficient{Dimension::number, {-1000, 1000}};
 constexpr Quantity kNoise{Dimension::number, {0, 1000}};
 constexpr int kMostPixels = 65536;
 
-/// Kalibr leaves out "%YAML:1.0" lines, OpenCV's FileStorage insists on them; YAML takes no colon.
+/// Comments out "%YAML:1.0": OpenCV's FileStorage requires it, YAML does not allow its colon.
 std::string without_directive(std::string text) {
   if (text.starts_with("%YAML:")) text.front() = '#';
   return text;
@@ -48,7 +48,7 @@ void append_numbers(const Value& list, const std::string& path, const Quantity& 
 }
 
 sim::Pose read_pose(const Value& value) {
-  // EuRoC has {cols, rows, data}, Kalibr's own files a list of rows.
+  // EuRoC has {cols, rows, data}, Kalibr a list of rows.
   std::vector<double> flat;
   if (value.kind == Value::Kind::map) {
     Reader reader(value, "T_BS");
@@ -145,7 +145,7 @@ SensorYaml read_sensor_yaml(const std::filesystem::path& file) {
   if (yaml.kind != Value::Kind::map) {
     throw Error(top, "this is no map of keys; " + std::string(kSensorFile.remedy));
   }
-  // Other keys than these are other people's.
+  // Further keys may be present; they are ignored.
   Reader reader(yaml, "");
   SensorYaml sensor;
   for (const scenario::Entry& entry : yaml.entries) sensor.keys[entry.key] = entry.where;

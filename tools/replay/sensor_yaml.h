@@ -1,5 +1,5 @@
 /// \file
-/// `sensor.yaml` as EuRoC's ASL has it, with Kalibr's keys.
+/// `sensor.yaml` in EuRoC's ASL format, with Kalibr's keys.
 #pragma once
 
 #include <filesystem>
@@ -18,10 +18,10 @@ struct SensorYaml {
   std::optional<double> rate_hz;
   std::optional<Lens> lens;                           ///< of a camera
   std::optional<scenario::ImuNoise> noise;            ///< of an IMU; turn-on biases are 0
-  std::map<std::string, scenario::Source> keys = {};  ///< those at the top, and where they are
+  std::map<std::string, scenario::Source> keys = {};  ///< top-level keys and their places
 };
 
-/// \throws scenario::Error by file and line.
+/// \throws scenario::Error with file and line.
 SensorYaml read_sensor_yaml(const std::filesystem::path& file);
 
 }  // namespace lcs::replay

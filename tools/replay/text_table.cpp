@@ -24,7 +24,7 @@ std::vector<std::string> split(std::string_view line, char separator) {
   return fields;
 }
 
-/// "#timestamp [ns]" is "timestamp".
+/// A column's name: "timestamp" for "#timestamp [ns]".
 std::string name_of(std::string_view field) {
   const std::size_t unit = field.find('[');
   std::string_view name = bench::trimmed(field.substr(0, unit));
@@ -56,7 +56,7 @@ std::size_t TextTable::column(std::string_view name, std::size_t otherwise) cons
 }
 
 TextTable read_table(const std::filesystem::path& file, char separator) {
-  // An hour of an IMU at 1 kHz is 400 MB.
+  // An hour of a 1 kHz IMU takes 400 MB.
   constexpr scenario::FileKind kSensorTable{scenario::kGibibyte,
                                             "give a table of rows, as the layout has it"};
   scenario::InputFile input(file, kSensorTable);

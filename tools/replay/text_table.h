@@ -1,6 +1,5 @@
 /// \file
-/// Text files of rows, as other people's tools leave them: any line ends, spaces round fields, a
-/// header or none.
+/// Text tables from other tools: any line ends, spaces round fields, an optional header.
 #pragma once
 
 #include <filesystem>
@@ -25,14 +24,14 @@ struct TextTable {
   /// "file:line"
   std::string at(const Row& row) const;
 
-  /// Place of the column called `name`, or `otherwise` where there is no header.
+  /// Index of the column called `name`, or `otherwise` without a header.
   /// \throws std::runtime_error if there is a header without it.
   std::size_t column(std::string_view name, std::size_t otherwise) const;
 };
 
 /// Skips empty lines. A first line that does not begin with a number is the header; further lines
 /// that begin with '#' are skipped.
-/// \param separator ',' or ' ', which stands for any number of spaces and tabs.
+/// \param separator ',', or ' ' for any number of spaces and tabs.
 /// \throws scenario::Error if the file cannot be read.
 TextTable read_table(const std::filesystem::path& file, char separator);
 

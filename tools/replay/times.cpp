@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kNanosecondsASecond = 1e9;
 
-/// Three texts with a separator between them.
+/// Three texts with separators between them.
 struct Parts {
   std::string_view first, second, third;
 };
@@ -62,7 +62,7 @@ std::optional<std::int64_t> seconds_in(std::string_view text) {
   const std::size_t point = text.find('.');
   const std::string_view fraction = point == text.npos ? "" : text.substr(point + 1);
   if (is_digits(text.substr(0, point)) && (fraction.empty() || is_digits(fraction))) {
-    // not by a double, which has no nanoseconds left so long after 1970
+    // not through a double, whose precision at such times is above a nanosecond
     std::string digits(fraction.substr(0, kDigits));
     digits.resize(kDigits, '0');
     const auto seconds = time_in(text.substr(0, point), kSecond_ns);

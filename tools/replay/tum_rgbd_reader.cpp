@@ -1,5 +1,5 @@
-// TUM RGB-D: rgb.txt lists pictures with their times, groundtruth.txt has poses of the colour
-// camera in a world with z up. Its calibration is not in a recording.
+// TUM RGB-D: rgb.txt lists pictures with their times, groundtruth.txt the poses of the colour
+// camera in a world frame with z up. A recording has no calibration.
 #include "tools/replay/in_order.h"
 #include "tools/replay/poses_file.h"
 #include "tools/replay/text_table.h"

@@ -1,4 +1,4 @@
-// Boxes and masks as COCO has them: one JSON file, ids from 1, pixels from 0.
+// Boxes and masks in COCO's format: one JSON file, ids from 1, pixels from 0.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

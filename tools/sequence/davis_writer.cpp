@@ -1,4 +1,4 @@
-// Masks as DAVIS has them: indexed PNG.
+// Masks in DAVIS's format: indexed PNG.
 #include <fmt/format.h>
 
 #include <vector>
@@ -9,8 +9,8 @@
 namespace lcs::sequence {
 namespace {
 
-/// DAVIS's and Pascal VOC's: the bits of an index, three at a time, become the high bits of a
-/// colour.
+/// The palette of DAVIS and Pascal VOC: each three bits of an index set the next lower bits of the
+/// three colours, from the highest on.
 std::vector<Rgb> palette() {
   std::vector<Rgb> colours(256);
   for (unsigned int index = 0; index < colours.size(); ++index) {

@@ -1,4 +1,4 @@
-// Depth along the optical axis as KITTI stores it: 16-bit PNG, 256 to the metre.
+// Depth along the optical axis in KITTI's format: 16-bit PNG, 256 codes per metre.
 #include <fmt/format.h>
 
 #include "tools/sequence/depth_code.h"

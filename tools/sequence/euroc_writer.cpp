@@ -1,5 +1,5 @@
-// EuRoC ASL: pictures, IMU and truth under mav0/. The body is the IMU, as in EuRoC's own sequences:
-// T_BS of imu0 and of the truth is the identity.
+// EuRoC ASL: pictures, IMU and truth under mav0/. The body frame is the IMU, as in EuRoC's own
+// sequences: T_BS of imu0 and of the truth is the identity.
 #include <fmt/format.h>
 
 #include <span>
@@ -26,7 +26,7 @@ constexpr const char* kOdometryHeader =
     "#timestamp [ns],v_RB_B_x [m s^-1],v_RB_B_y [m s^-1],v_RB_B_z [m s^-1],"
     "w_RB_B_z [rad s^-1]\n";
 
-/// One by one: of `fmt::join` over numbers GCC 13 warns within fmt 9, as in sim/mjcf.cpp.
+/// A loop, because GCC 13 warns within fmt 9 about `fmt::join` of numbers, as in sim/mjcf.cpp.
 std::string numbers(std::span<const double> values, const char* separator) {
   std::string text;
   for (const double value : values) {

@@ -1,5 +1,5 @@
-// Optical flow: KITTI's 16-bit PNG and Middlebury's .flo, of the whole motion and of the camera's
-// own part of it.
+// Optical flow in KITTI's 16-bit PNG and Middlebury's .flo: the full motion, and the camera's part
+// of it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 class FlowWriter : public Writer {
  public:
   void write(const FrameView& frame, FrameOutput& output) const override {
-    if (frame.motion == nullptr) return;  // nothing follows the last frame
+    if (frame.motion == nullptr) return;  // the last frame has no successor
     const int k = frame.now.index;
     const auto add = [&](const char* kind, const cv::Mat2f& motion, const cv::Mat1b& seen) {
       output.files.push_back({fmt::format("{}/kitti/{:06}.png", kind, k),

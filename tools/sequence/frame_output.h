@@ -1,6 +1,6 @@
 /// \file
-/// What one frame adds to a generated sequence: files of its own, and rows of files that grow with
-/// every frame.
+/// The output of one frame in a generated sequence: its own files, and rows of the files that all
+/// frames share.
 #pragma once
 
 #include <map>
@@ -9,14 +9,14 @@
 
 namespace lcs::sequence {
 
-/// A file that belongs to one frame alone. Paths are relative to the sequence's folder.
+/// A file of one frame only. Paths are relative to the sequence's folder.
 struct FrameFile {
   std::string path;
   std::string bytes;
-  std::string same_as;  ///< path of a file of this frame that it is another name of; no bytes then
+  std::string same_as;  ///< path of an identical file of this frame; `bytes` is empty then
 };
 
-/// Rows of one frame by the name of the stream that they belong to.
+/// Rows of one frame by stream name.
 using Rows = std::map<std::string, std::string>;
 
 struct FrameOutput {
@@ -24,11 +24,11 @@ struct FrameOutput {
   Rows rows;
 };
 
-/// A piece of a document: text as it stands, or the rows of all frames in order.
+/// A piece of a document: fixed text, or the rows of all frames in order.
 struct Part {
   std::string text = {};
-  std::string stream = {};     ///< "" for text
-  std::string separator = {};  ///< between the rows of two frames that have some
+  std::string stream = {};     ///< "" for fixed text
+  std::string separator = {};  ///< between the rows of two frames, if neither is empty
 };
 
 /// A file of the whole sequence.

@@ -33,7 +33,7 @@ std::vector<std::unique_ptr<Writer>> writers_of(const SequenceInfo& info,
   return writers;
 }
 
-/// Checks a frame and writes it.
+/// Checks and writes a frame.
 class FrameMaker {
  public:
   FrameMaker(const SequenceInfo& info, const GenerateOptions& options, const Journal& journal)
@@ -71,7 +71,7 @@ class FrameMaker {
   bool has_flow_ = false;
 };
 
-/// A document that is given the rows of one frame after the other.
+/// A document that collects the rows of one frame after the other.
 class GrowingDocument {
  public:
   explicit GrowingDocument(Document document)
@@ -92,7 +92,7 @@ class GrowingDocument {
     for (std::size_t i = 0; i < rows_.size(); ++i) text += document_.parts[i].text + rows_[i];
     return text;
   }
-  /// Nothing was ever added to what rows are added to.
+  /// Whether the document has streams, but no rows.
   bool is_empty() const {
     bool takes_rows = false;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -132,7 +132,7 @@ FrameRange part_of(int count, int i, int n) {
   return {share(i - 1), share(i)};
 }
 
-/// Of a file that the sequence is made of.
+/// Hash of an input file of the sequence.
 std::string sha256_of(const std::filesystem::path& file) {
   return bench::sha256(read_file(file));
 }
@@ -181,7 +181,7 @@ sim::Warnings generate_frames(const scenario::Scenario& scenario, const Generate
   }
   journal.require_unwritten(later, *missing.begin());
   const FrameMaker maker(info, options, journal);
-  std::optional<sim::Observation> last;  // waits for its next frame
+  std::optional<sim::Observation> last;  // until its next frame is simulated
   const auto make = [&](const sim::Observation& now, const sim::Observation* next) {
     maker.make(now, next);
     on_frame(++whole);

@@ -31,7 +31,7 @@ constexpr const char* kJournal = ".generate";
 constexpr const char* kPlan = "plan.json";
 constexpr const char* kUnfinished = ".partial";
 
-/// The first difference of two plans, for people; "" if there is none.
+/// A readable line on the first difference of two plans; "" if they are equal.
 std::string difference(const Json& there, const Json& asked) {
   for (const auto& [key, value] : asked.items()) {
     if (!there.contains(key) || there.at(key) != value) {
@@ -94,7 +94,7 @@ void Journal::take_over(const std::string& plan) {
                     folder_.string(), differs));
   }
   complete_ = is_finished;
-  if (is_finished && fs::exists(folder_ / kJournal)) close();  // a killed process began to
+  if (is_finished && fs::exists(folder_ / kJournal)) close();  // a killed process began to close it
 }
 
 fs::path Journal::plan_file() const {
@@ -114,7 +114,7 @@ bool Journal::is_whole(int frame) const {
       return fs::exists(path) && fs::file_size(path) == file.bytes;
     });
   } catch (const std::exception&) {
-    return false;  // it is made again
+    return false;  // an unreadable record: the frame is made again
   }
 }
 
@@ -170,7 +170,7 @@ void Journal::require_own(const fs::path& within, std::string_view bytes) const 
 void Journal::require_unwritten(const std::vector<fs::path>& within, int frame) const {
   for (const fs::path& path : within) {
     if (!fs::exists(fs::symlink_status(folder_ / path))) continue;
-    // Another process may have finished the sequence since.
+    // Another process may have finished the sequence meanwhile.
     if (is_whole(frame) || !fs::exists(plan_file())) return;
     refuse_to_replace(folder_ / path, "is not a file that lcs has written");
   }
@@ -204,7 +204,7 @@ void Journal::link_or_copy(const fs::path& from, const fs::path& to, std::string
   fs::create_directories((folder_ / to).parent_path(), error);
   fs::remove(folder_ / to, error);
   fs::create_hard_link(folder_ / from, folder_ / to, error);
-  if (error) write(to, bytes);  // a file system without links
+  if (error) write(to, bytes);  // for file systems without links
 }
 
 void Journal::close() const {

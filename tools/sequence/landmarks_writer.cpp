@@ -1,4 +1,4 @@
-// The truth of every corner, as the scores of a run take it: a row for each FAST corner.
+// The truth of every FAST corner, as used by the scores of a run: one row each.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -13,7 +13,7 @@
 namespace lcs::sequence {
 
 namespace fs = std::filesystem;
-// Keys in the order in which people read them.
+// Keys in a readable order.
 using Json = nlohmann::ordered_json;
 
 std::string manifest_text(const std::string& plan, const Agreements& checks,
@@ -43,7 +43,7 @@ nlohmann::json plan_in_manifest(const fs::path& manifest) {
 }
 
 std::vector<std::string> damage(const fs::path& folder) {
-  // A file of each kind a frame: for a million of them.
+  // One file of each kind per frame, for a million frames.
   constexpr scenario::FileKind kManifestDocument{4 * scenario::kGibibyte,
                                                  "remove the folder to make the sequence anew"};
   std::vector<std::string> damaged;

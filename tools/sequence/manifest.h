@@ -1,6 +1,6 @@
 /// \file
-/// `manifest.json`: of what a sequence was made, by what, and the SHA-256 of each of its files. It
-/// is the last file that is written.
+/// `manifest.json`: the inputs and the generator of a sequence, and the SHA-256 of each of its
+/// files. It is written last.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace lcs::sequence {
 
 inline constexpr const char* kManifestFile = "manifest.json";
 
-/// \param plan as `Journal` takes it.
+/// \param plan as for `Journal`.
 std::string manifest_text(const std::string& plan, const Agreements& checks,
                           std::vector<FileRecord> files);
 
@@ -24,8 +24,8 @@ nlohmann::json read_plan(const std::filesystem::path& file);
 /// The plan of a finished sequence; not an object if the file is not a manifest. \throws as above.
 nlohmann::json plan_in_manifest(const std::filesystem::path& manifest);
 
-/// Files that are missing or are not what the manifest says, with what is wrong.
-/// \throws std::runtime_error for a manifest that cannot be read.
+/// Missing or changed files of a sequence, each with its fault.
+/// \throws std::runtime_error for an unreadable manifest.
 std::vector<std::string> damage(const std::filesystem::path& folder);
 
 }  // namespace lcs::sequence

@@ -1,4 +1,4 @@
-// Boxes and tracks as MOTChallenge has them: frames, ids and pixels from 1.
+// Boxes and tracks in MOTChallenge's format: frames, ids and pixels from 1.
 #include <fmt/format.h>
 
 #include "tools/sequence/objects.h"

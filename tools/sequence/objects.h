@@ -1,5 +1,5 @@
 /// \file
-/// Objects as data sets have them: a mask of ids, and what kind of thing each is.
+/// Objects in the formats of data sets: a mask of ids, and the category of each object.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -10,20 +10,20 @@
 
 namespace lcs::sequence {
 
-/// \name Pixels of a mask, as DAVIS has them: 0 is the fixed setting and the sky, 1..253 objects.
+/// \name Pixel values of a mask, as in DAVIS: 0 is the static scene and the sky, 1..253 objects.
 ///@{
-inline constexpr unsigned char kVoid = 254;  ///< the rover itself: to be left out of any count
+inline constexpr unsigned char kVoid = 254;  ///< the rover itself: excluded from all counts
 inline constexpr int kMostObjects = 253;
 ///@}
 
-/// \throws std::out_of_range for an id that a mask has no room for.
+/// \throws std::out_of_range for an id above `kMostObjects`.
 cv::Mat1b object_mask(const sim::FrameTruth& truth);
 
 struct ObjectKind {
   std::string category;  ///< pedestrian, car, box, cylinder; object for all others
   int coco = 0;          ///< category_id
   int mot = 0;           ///< MOTChallenge's class: 1 pedestrian, 3 car, 8 distractor for the others
-  bool moves = false;    ///< an actor that is given a motion
+  bool moves = false;    ///< an actor with a motion
 };
 
 ObjectKind kind_of(const scenario::Scenario& scenario, const sim::Object& object);

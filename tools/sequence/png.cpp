@@ -15,13 +15,13 @@ namespace {
 // "Portable Network Graphics (PNG) Specification", W3C.
 constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
 enum ColourType : char { kGrey = 0, kColour = 2, kIndexed = 3 };
-constexpr int kLevel = 1;  // the next ones take longer and are hardly smaller
+constexpr int kLevel = 1;  // higher levels take longer and hardly compress better
 
 void append_big_endian(std::string& to, std::uint32_t number) {
   for (const int shift : {24, 16, 8, 0}) to += static_cast<char>(number >> shift & 0xff);
 }
 
-/// Length, type, data, and a check sum of the last two.
+/// Appends length, type, data, and a checksum of type and data.
 void append_chunk(std::string& to, std::string_view type, std::string_view data) {
   append_big_endian(to, static_cast<std::uint32_t>(data.size()));
   const std::size_t begin = to.size();
@@ -36,11 +36,11 @@ std::string header(const cv::Mat& image, ColourType colour) {
   append_big_endian(data, static_cast<std::uint32_t>(image.rows));
   data += image.depth() == CV_16U ? '\x10' : '\x08';
   data += static_cast<char>(colour);
-  data.append(3, '\0');  // compression and filter as all have them, not interlaced
+  data.append(3, '\0');  // the standard compression and filter method, not interlaced
   return data;
 }
 
-/// A row as the format has it: big-endian, red first.
+/// Converts a row to the file format: big-endian, red first.
 void lay_out(const cv::Mat& image, int y, std::vector<unsigned char>& row) {
   if (image.type() == CV_8UC3) {
     const cv::Vec3b* from = image.ptr<cv::Vec3b>(y);
@@ -58,7 +58,7 @@ void lay_out(const cv::Mat& image, int y, std::vector<unsigned char>& row) {
   }
 }
 
-/// Each row: the filter, then the differences that it leaves.
+/// Each row of the result: the filter's code, then the filtered bytes.
 std::vector<unsigned char> filtered(const cv::Mat& image, PngFilter filter) {
   const std::size_t pixel = image.elemSize();
   std::vector<unsigned char> row(static_cast<std::size_t>(image.cols) * pixel), above(row.size());

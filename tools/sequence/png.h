@@ -1,6 +1,6 @@
 /// \file
-/// Pictures as the bytes of PNG files, compressed by libdeflate: two to three times as fast as
-/// OpenCV's writer or libpng by zlib, and smaller, and with a palette where one is asked for.
+/// PNG encoder with libdeflate: two to three times as fast as OpenCV's writer or libpng with zlib,
+/// with smaller files, and with optional palettes.
 #pragma once
 
 #include <array>
@@ -13,19 +13,19 @@ namespace lcs::sequence {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-/// What the rows of a picture are compressed by.
+/// PNG's filter for each row before compression.
 enum class PngFilter : unsigned char {
   none = 0,  ///< large areas of one value
   sub = 1,   ///< differences from the pixel to the left
   up = 2,    ///< differences from the pixel above
 };
 
-/// \param image 8 or 16 bits, 1 channel, or 3 in the order red, green, blue (8 bits: blue, green,
-/// red, as OpenCV has pictures).
+/// \param image 8 or 16 bits; 1 channel, or 3 in the order red, green, blue (8 bits: blue, green,
+///   red, as in OpenCV).
 /// \throws std::invalid_argument for any other image, std::bad_alloc.
 std::string encode_png(const cv::Mat& image, PngFilter filter);
 
-/// An indexed picture: each pixel is a place in the palette. \throws as `encode_png`.
+/// An indexed image: each pixel is an index into the palette. \throws as `encode_png`.
 std::string encode_png(const cv::Mat1b& indices, std::span<const Rgb> palette);
 
 }  // namespace lcs::sequence

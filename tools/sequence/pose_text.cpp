@@ -24,7 +24,7 @@ std::array<double, 16> matrix_of(const sim::Pose& pose) {
 }
 
 sim::Pose pose_of(const std::array<double, 16>& matrix) {
-  constexpr double kTolerance = 1e-6;  // matrices of calibrations are printed with 7 digits or more
+  constexpr double kTolerance = 1e-6;  // calibration matrices are printed with 7 digits or more
   sim::Pose pose;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {

@@ -14,7 +14,7 @@
 namespace lcs::sequence {
 namespace {
 
-// Keys in the order in which people read them.
+// Keys in a readable order.
 using Json = nlohmann::ordered_json;
 using Node = bench::JsonNode;
 
@@ -25,7 +25,7 @@ constexpr const char* kFromPicture = "auto";
 Json vector_json(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
-/// Beyond it dead reckoning has no digits left.
+/// Larger values leave dead reckoning without precise digits.
 constexpr double kMost = 1e6;
 
 void require_moderate(const Node& node, std::span<const double> numbers) {
@@ -44,7 +44,7 @@ int pixels_in(const Node& node) {
   return pixels;
 }
 
-/// Its range is the detector's to check.
+/// Parses a corner threshold; the detector checks its range.
 std::optional<int> threshold_in(const Node& node) {
   if (node.is_text(kFromPicture)) return std::nullopt;
   return node.natural<int>();
@@ -106,7 +106,7 @@ void read_scenario(const Node& node, const std::string& file, scenario::Scenario
   }
   scenario.odometry.enabled = node["odometry"].flag();
   scenario.odometry.noise_mps = not_negative_in(node["odometry_noise_mps"]);
-  if (node.has("odometry_yaw_noise_radps")) {  // sequences of before had no yaw rate
+  if (node.has("odometry_yaw_noise_radps")) {  // older sequences lack the yaw rate
     scenario.odometry.yaw_noise_radps = not_negative_in(node["odometry_yaw_noise_radps"]);
   }
   scenario.fast_threshold = threshold_in(node["fast_threshold"]);
@@ -126,7 +126,7 @@ std::string settings_text(const scenario::Scenario& scenario, const sim::Calibra
   for (const auto& [key, member] : kImuNoise) noise[key] = scenario.imu.noise.*member;
   Json filter = Json::object();
   for (const scenario::FilterSetting& setting : scenario.filter) {
-    filter[setting.key] = setting.value;  // of a key that is set twice the last one holds
+    filter[setting.key] = setting.value;  // the last setting of a key holds
   }
   Json json = {
       {"scenario", scenario.name},
@@ -167,7 +167,7 @@ ReplaySettings read_settings(const std::filesystem::path& file) {
     read_scenario(node, file.string(), settings.scenario);
     read_calibration(node, settings.calibration);
     settings.start_ns = node["start_ns"].whole();
-    const auto most_ns = std::numeric_limits<std::int64_t>::max() / 2;  // any two have a difference
+    const auto most_ns = std::numeric_limits<std::int64_t>::max() / 2;  // differences fit
     const bool is_time = settings.start_ns >= -most_ns && settings.start_ns <= most_ns;
     node["start_ns"].require(is_time, "a time");
     return settings;

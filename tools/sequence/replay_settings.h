@@ -1,8 +1,8 @@
 /// \file
-/// `lcs.json` of a generated sequence: what a replay needs beyond the other files for the very bits
-/// of the run. That is how the detectors were set, and the mounting and the start in the rover's
-/// own frame: the same poses as `sensor.yaml` and the truth have them, but a product of rounded
-/// matrices does not give its factors back.
+/// `lcs.json` of a generated sequence: the additional inputs with which a replay reproduces the
+/// bits of the run. They are the detector settings, and the mounting and the start in the rover's
+/// own frame. `sensor.yaml` and the truth have the same poses, but only as products of rounded
+/// matrices.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@
 namespace lcs::sequence {
 
 inline constexpr const char* kSettingsFile = "lcs.json";
-/// What a replay is scored by (`bench::read_seen`), times as the pictures' names have them.
+/// The truth that scores a replay (`bench::read_seen`), with the times in the pictures' names.
 inline constexpr const char* kTruthFile = "truth.jsonl";
 
-/// What an IMU's noise is called in it, and as far as Kalibr knows it in `sensor.yaml`.
+/// The keys of IMU noise, here and (if Kalibr has them) in `sensor.yaml`.
 inline constexpr std::pair<const char*, double scenario::ImuNoise::*> kImuNoise[] = {
     {"gyroscope_noise_density", &scenario::ImuNoise::gyroscope_noise_density},
     {"gyroscope_random_walk", &scenario::ImuNoise::gyroscope_random_walk},
@@ -30,18 +30,18 @@ inline constexpr std::pair<const char*, double scenario::ImuNoise::*> kImuNoise[
     {"accelerometer_turn_on_bias_mps2", &scenario::ImuNoise::accelerometer_turn_on_bias_mps2}};
 
 struct ReplaySettings {
-  /// Name, origin, seed, rates, noise, odometry, detection and filter of the scenario; the rest is
-  /// left as it is by default.
+  /// Name, origin, seed, rates, noise, odometry, detection and filter of the scenario; the rest has
+  /// default values.
   scenario::Scenario scenario;
   sim::Calibration calibration;
-  std::int64_t start_ns = 0;  ///< time 0 of the run, in the sequence's own time
+  std::int64_t start_ns = 0;  ///< the run's time 0, in the sequence's time
 };
 
-/// \param origin the world that the pictures are of, as the simulation has it.
+/// \param origin the world of the pictures, from the simulation.
 std::string settings_text(const scenario::Scenario& scenario, const sim::Calibration& calibration,
                           const std::optional<scenario::Origin>& origin);
 
-/// \throws std::runtime_error naming file and key.
+/// \throws std::runtime_error with file and key.
 ReplaySettings read_settings(const std::filesystem::path& file);
 
 }  // namespace lcs::sequence

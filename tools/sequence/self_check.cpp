@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 
 constexpr double kMostFlowError_px = 0.05;
 constexpr int kFlowStride = 4;
-// Second differences of inverse depth on a flat surface: 0 but for the rounding of the depth buffer
-// (24 bits between 0 and 1 / near) and of a float.
+// Limits on second differences of inverse depth on a flat surface: 0 up to the rounding of the
+// depth buffer (24 bits between 0 and 1 / near) and of a float.
 constexpr double kFlatAbsolute = 6e-6;  // 1/m
 constexpr double kFlatRelative = 2e-5;
 constexpr double kDeviations = 6;
@@ -39,7 +39,7 @@ Vector2d decoded(const cv::Vec3w& code) {
   return {(code[0] - zero) / scale, (code[1] - zero) / scale};
 }
 
-/// Inverse depth between pixels of a flat surface, on which it is linear.
+/// Interpolated inverse depth on a flat surface, where it is linear; absent if not flat.
 std::optional<double> flat_inverse_depth(const sim::FrameTruth& truth, const Vector2d& px) {
   const int x = static_cast<int>(px.x()), y = static_cast<int>(px.y());
   if (x < 1 || y < 1 || x + 2 >= truth.depth_m.cols || y + 2 >= truth.depth_m.rows) return {};
@@ -70,7 +70,7 @@ struct State {
   Vector3d v_WS_mps;
 };
 
-/// Over one step, with rates that change linearly.
+/// Integrates attitude and velocity over one step by its mid rates.
 State integrate(const State& from, const Vector3d& gyro, const Vector3d& accel, double gravity,
                 double dt_s) {
   const auto turn = [](const Vector3d& angle) {
@@ -89,7 +89,7 @@ Agreement check_flow(const sim::Pinhole& camera, const sim::Observation& now,
                      const sim::Observation& next, const cv::Mat2f& motion_px,
                      const cv::Mat1b& seen) {
   const sim::Pose T_CW = now.truth.now.T_WC.inverse();
-  std::vector<sim::Pose> T_CN;  // back, for each body
+  std::vector<sim::Pose> T_CN;  // from the next camera to this one, for each body
   for (std::size_t id = 0; id < now.truth.now.T_WO.size(); ++id) {
     const sim::Pose back = now.truth.now.T_WO[id] * next.truth.now.T_WO[id].inverse();
     T_CN.push_back(T_CW * (back * next.truth.now.T_WC));
@@ -137,7 +137,7 @@ void check_masks(int frame, const cv::Mat1b& mask, std::span<const sim::ObjectTr
                object.object, object.left, object.right, object.top, object.bottom, seen.left,
                seen.right, seen.top, seen.bottom);
     }
-    seen.visible_px = 0;  // accounted for
+    seen.visible_px = 0;  // matched
   }
   for (const sim::ObjectTruth& object : in_mask) {
     if (object.visible_px > 0) {
@@ -150,7 +150,7 @@ void check_masks(int frame, const cv::Mat1b& mask, std::span<const sim::ObjectTr
 Agreement check_imu(const scenario::Imu& imu, double gravity_mps2, const sim::Observation& frame) {
   Agreement agreement;
   const std::vector<sim::ImuTruth>& truth = frame.imu_truth;
-  // A gap leaves fewer readings than there are states.
+  // Skips a gap, which has fewer readings than there are states.
   if (truth.size() < 2 || frame.imu.size() != truth.size()) return agreement;
 
   State state{truth.front().T_WS.R, truth.front().v_WS_mps};
@@ -169,7 +169,7 @@ Agreement check_imu(const scenario::Imu& imu, double gravity_mps2, const sim::Ob
                       gravity_mps2, static_cast<double>(truth[i].t_ns - truth[i - 1].t_ns) * 1e-9);
   }
   const double span_s = static_cast<double>(truth.back().t_ns - truth.front().t_ns) * 1e-9;
-  // What rounding leaves of a still, noiseless IMU.
+  // Rounding errors of a static, noiseless IMU.
   constexpr double kRounding = 1e-9;
   const double most_rad = kRounding +
                           kDeviations * imu.noise.gyroscope_noise_density * std::sqrt(span_s) +

@@ -1,7 +1,7 @@
 /// \file
-/// Truth that agrees with itself: what is about to be written of a frame is held against what is
-/// known of it in other ways. A disagreement is a fault of the simulator or of a writer, and ends
-/// the generation.
+/// Consistency checks of the truth: compares each frame's data, before it is written, with
+/// independent sources. A disagreement is a fault of the simulator or of a writer, and ends the
+/// generation.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class TruthError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// How well two accounts of a thing agree, over what was compared.
+/// The agreement of two sources, over all comparisons.
 struct Agreement {
   double worst = 0;
   std::int64_t compared = 0;
@@ -34,27 +34,27 @@ struct Agreement {
   }
 };
 
-/// Two ways from a pixel to where its surface goes and back: there by the flow as the file has it,
-/// back by the depth that was rendered of the next frame, the poses, and the motion of the body
-/// that is seen there. On every fourth pixel of every fourth row that is marked as seen, where the
-/// depth round its goal is that of one flat surface, so that it can be told between pixels. \return
-/// distances between where one began and where one is again, px. \throws TruthError beyond 0.05 px.
+/// Follows the flow in its file encoding from a pixel to the next frame, and returns to this frame
+/// by the depth rendered there, the poses and the motion of the body there. It checks the seen
+/// pixels of every fourth row and column, if the depth round the goal is that of a flat surface and
+/// so can be interpolated. \return distances between start and end, px. \throws TruthError beyond
+/// 0.05 px.
 Agreement check_flow(const sim::Pinhole& camera, const sim::Observation& now,
                      const sim::Observation& next, const cv::Mat2f& motion_px,
                      const cv::Mat1b& seen);
 
-/// Boxes against masks: each object's box and number of pixels as they are in the mask, and every
-/// pixel of the mask is some object's. \param mask ids of objects; those over `count` are none.
+/// Compares boxes with masks: each object's box and pixel count must match the mask, and each
+/// object in the mask must have a box. \param mask ids of objects; ids over `count` are ignored.
 /// \throws TruthError
 void check_masks(int frame, const cv::Mat1b& mask, std::span<const sim::ObjectTruth> objects,
                  int count);
 
-/// The IMU's readings less their bias, integrated over the frame, against the poses: as shares of
-/// what noise (six standard deviations) and the time between readings (half of it, times all
-/// changes of the signal) allow for. Not over gaps. \throws TruthError beyond 1.
+/// Integrates the IMU's readings less their bias over the frame, and compares them with the poses.
+/// \return differences as shares of the limit: noise (six standard deviations) plus half a reading
+/// period times all signal changes. Skips gaps. \throws TruthError beyond 1.
 Agreement check_imu(const scenario::Imu& imu, double gravity_mps2, const sim::Observation& frame);
 
-/// Times on their grid, in order, and readings between the last frame and this one.
+/// Checks that times are on their grid and in order, and readings between the last and this frame.
 /// \throws TruthError
 void check_times(const scenario::Scenario& scenario, const sim::Observation& frame);
 

@@ -9,13 +9,13 @@ namespace lcs::sequence {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-// As in sim/truth.cpp: nearer than this share of their depth, points lie in the camera's plane.
+// As in sim/truth.cpp: a point nearer than this share of its depth is in the camera plane.
 constexpr double kInFront = 1e-6;
-// By how much the depth of a point that is seen may leave what was rendered round it: the depth
-// buffer's own resolution at far distances.
+// Tolerated relative deviation of a visible point's depth from the rendered depths round it: the
+// resolution of the depth buffer at far distances.
 constexpr float kDepthSlack = 2e-3F;
 
-/// Of one body, from the camera at k to the camera at k+1.
+/// Motion of one body's points from the camera at k to the camera at k+1.
 struct Carrier {
   sim::Pose T_NC;
   bool moves = false;
@@ -34,7 +34,7 @@ std::vector<Carrier> carriers_of(const sim::FrameTruth& truth) {
   return carriers;
 }
 
-/// What was rendered at k+1.
+/// The rendered frame k+1.
 struct NextView {
   const cv::Mat1f& depth_m;
   const cv::Mat1i& object;
@@ -42,14 +42,14 @@ struct NextView {
   bool holds(double x, double y) const {
     return x >= 0 && y >= 0 && x <= depth_m.cols - 1 && y <= depth_m.rows - 1;
   }
-  /// Whether the surface of `id` at depth z is what is seen at a place: one of the four pixels
-  /// round it shows that body, and the depth lies between theirs.
+  /// Whether the surface of `id` at depth z is visible at a position: one of the four pixels round
+  /// it shows that body, and the depth lies between theirs.
   bool shows(double x, double y, float z, int id) const {
     const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
     const auto is_within = [z](float least, float most) {
       return z >= least * (1 - kDepthSlack) && z <= most * (1 + kDepthSlack);
     };
-    // Mostly one of the four tells all.
+    // Usually the upper left pixel suffices.
     if (const float here = depth_m(y0, x0); object(y0, x0) == id && is_within(here, here)) {
       return true;
     }
@@ -78,7 +78,7 @@ TrueFlow true_flow(const sim::Pinhole& camera, const sim::FrameTruth& truth,
   TrueFlow field{cv::Mat2f(size), cv::Mat2f(size), cv::Mat1b(size), cv::Mat1b(size)};
   const double f = camera.focal_px, cx = camera.centre_px.x(), cy = camera.centre_px.y();
 
-  // Along a row the ray turned by a body's rotation grows by the same amount from pixel to pixel.
+  // Along a row, a body's rotated ray changes by a constant step per pixel.
   std::vector<Eigen::Vector3d> row_start(carriers.size()), step(carriers.size());
   for (int y = 0; y < size.height; ++y) {
     for (std::size_t id = 0; id < carriers.size(); ++id) {
@@ -97,7 +97,7 @@ TrueFlow true_flow(const sim::Pinhole& camera, const sim::FrameTruth& truth,
       seen[x] = ego_seen[x] = 0;
       const bool is_sky = std::isinf(depth[x]);
       if (object[x] < 0 && !is_sky) continue;
-      // The point over its depth, so that infinity is a number like others.
+      // Divides the point by its depth, so that infinity needs no special case.
       const double w = is_sky ? 0 : 1 / static_cast<double>(depth[x]);
       const auto move = [&](std::size_t id, cv::Vec2f& motion, unsigned char& is_seen,
                             bool is_real) {

@@ -1,4 +1,4 @@
-// Trajectories as TUM's RGB-D benchmark has them: t x y z qx qy qz qw.
+// Trajectories in the format of TUM's RGB-D benchmark: t x y z qx qy qz qw.
 #include <fmt/format.h>
 
 #include "tools/sequence/pose_text.h"

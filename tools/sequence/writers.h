@@ -1,5 +1,5 @@
 /// \file
-/// The writers, one a format; each is in a file of its own.
+/// The writers, one for each format and each in its own file.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace lcs::sequence {
 
-/// The pictures and their list, which belong to every sequence.
+/// Writes the pictures and their list, which every sequence has.
 class PictureWriter : public Writer {
  public:
   void write(const FrameView& frame, FrameOutput& output) const override;

@@ -1,5 +1,5 @@
 /// \file
-/// Random choices of a world, each from the project's own generator (sim/random.h).
+/// A world's random choices, from the project's own generator (sim/random.h).
 #pragma once
 
 #include <array>
@@ -18,15 +18,15 @@ class Draw {
   Draw(std::uint64_t seed, std::string_view name) : random_(seed, name) {}
 
   double between(double low, double high) { return low + (high - low) * random_.uniform(); }
-  /// Both above 0; each factor is as likely as any other.
+  /// Log-uniform; both limits are above 0.
   double scaled(double low, double high);
-  /// Both included.
+  /// Uniform integer; both limits are included.
   int whole(int low, int high) {
     return low + static_cast<int>(random_.bits() % static_cast<std::uint64_t>(high - low + 1));
   }
   bool chance(double share) { return random_.uniform() < share; }
   double sign() { return chance(0.5) ? 1 : -1; }
-  /// Between the two, or between their negatives.
+  /// Uniform between the limits, with a random sign.
   double either(double low, double high) {
     const double size = between(low, high);
     return sign() * size;

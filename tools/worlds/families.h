@@ -1,5 +1,5 @@
 /// \file
-/// The layouts: what a place of a family is built of, where the rover goes, what moves there.
+/// Layouts of the families: the parts of a place, the rover's lane, and the traffic.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace lcs::worlds {
 
-/// The fixed parts of a place stand when a layout is returned; `furnish` puts what must not be in
-/// the way of rover and movers, once these are known.
+/// A returned layout already has its fixed parts; `furnish` adds those that must not block rover
+/// and movers, once their paths are known.
 struct Layout {
   Lane lane;
   Traffic traffic;
@@ -25,21 +25,21 @@ Layout lay_out_street(Kit& kit);
 Layout lay_out_yard(Kit& kit);
 Layout lay_out_garage(Kit& kit);
 
-/// \name What several layouts have.
+/// \name Shared by several layouts.
 ///@{
-/// Up to that many things at drawn places of a rectangle, where there is room.
+/// Places up to `count` things at random free positions of a rectangle.
 void scatter(Kit& kit, const std::vector<std::string>& kinds, int count,
              const Eigen::Vector2d& low_m, const Eigen::Vector2d& high_m, double gap_m = 0.15);
-/// Bare, or with a texture.
+/// A plain colour or a texture.
 int wall_surface(Kit& kit);
 int floor_surface(Kit& kit, const std::vector<Style>& styles);
-/// A grey, or nearly.
+/// A grey, possibly with a slight tint.
 int pale(Kit& kit, double low, double high);
-/// Four walls round x and y from -half to half, and a ceiling.
+/// Four walls at x and y of +-half, and a ceiling.
 void enclose(Kit& kit, const Eigen::Vector2d& half_m, double height_m);
-/// Grass, or leaves and stones, that lie about where nothing goes; or none. For `furnish`.
+/// Randomly adds grass, or leaves and stones, off the paths. Call it in `furnish`.
 void maybe_strew(Kit& kit, const Eigen::Vector2d& low_m, const Eigen::Vector2d& high_m);
-/// Shadows on the floor, or none.
+/// Randomly adds shadows on the floor.
 void maybe_shadows(Kit& kit, const Eigen::Vector2d& low_m, const Eigen::Vector2d& high_m);
 ///@}
 

@@ -1,4 +1,4 @@
-// A corridor: doors on both sides, closed or open, passages that cross it, pipes and boards.
+// A corridor: open and closed doors on both sides, crossing passages, pipes and boards.
 #include <algorithm>
 #include <numbers>
 
@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// A door in its frame, flush with a wall along x whose room is towards -y.
+/// A door in its frame, flush with a wall along x; the room is towards -y.
 Parts door(Kit& kit, int leaf, int frame) {
   Draw& d = kit.draw;
   Parts parts{
@@ -53,7 +53,7 @@ Layout lay_out_corridor(Kit& kit) {
   kit.wall({x1, -y1}, {x0, -y1}, height, behind);
   kit.wall({x0, y1}, {x1, y1}, height, behind);
 
-  // passages go through both walls; doors and what is between them are each side's own
+  // passages go through both walls; doors and the spaces between differ from side to side
   std::vector<std::pair<double, double>> passages;
   for (double x = x0 + d.between(3, 5); x < x1 - 3; x += d.between(3.5, 8)) {
     if (d.chance(0.75)) passages.emplace_back(x, x + d.between(1.3, 2.4));
@@ -68,7 +68,7 @@ Layout lay_out_corridor(Kit& kit) {
     double from = x0;
     for (std::size_t i = 0; i <= passages.size(); ++i) {
       const double to = i < passages.size() ? passages[i].first : x1;
-      // doors stand out of the wall a little
+      // doors protrude slightly from the wall
       for (double x = from + d.between(0.8, 2); x < to - 0.8; x += d.between(1.8, 4)) {
         kit.fix({door(kit, leaf, frame),
                  {x, side * (half_width - 0.01)},
@@ -83,7 +83,7 @@ Layout lay_out_corridor(Kit& kit) {
       kit.wall({end, std::max(y, far)}, {end, std::min(y, far)}, height, behind);
       from = end;
     }
-    if (d.chance(0.5)) {  // a pipe, or a tray of cables
+    if (d.chance(0.5)) {  // a pipe or cable tray
       const double z = height - d.between(0.12, 0.3), y = side * (half_width - 0.12);
       kit.world.setting.push_back(
           kit.bar({{x0, y, z}, {x1, y, z}, d.between(0.02, 0.07), kit.plain()}));

@@ -1,4 +1,4 @@
-// A garage: a low hall with pillars, bays with cars, pipes and beams below the ceiling.
+// A garage: a low hall with pillars, bays with cars, and pipes and beams below the ceiling.
 #include <numbers>
 
 #include "tools/worlds/families.h"
@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 Layout lay_out_garage(Kit& kit) {
   Draw& d = kit.draw;
-  const double aisle = d.between(2.4, 3.2), bay = d.between(4.6, 5.2);  // half; depth
+  const double aisle = d.between(2.4, 3.2), bay = d.between(4.6, 5.2);  // half width; depth
   const Vector2d half(d.between(9, 15), aisle + bay);
   const double height = d.between(2.2, 3);
   kit.plainness = d.between(0.2, 0.6);
@@ -45,7 +45,7 @@ Layout lay_out_garage(Kit& kit) {
                                     kit.surface({Style::lettering})}));
       }
       kit.stand("pillar", pillar, {x, side * (aisle + 0.3)}, 0);
-      for (const double part : {0.0, 0.5}) {  // the lines of the bays
+      for (const double part : {0.0, 0.5}) {  // bay markings
         if (kit.ground({x + part * pitch, 0}) > 0) continue;
         kit.decal({x + part * pitch, side * (aisle + bay / 2 + 0.2)}, 0, {0.1, bay - 0.6}, white);
       }

@@ -1,4 +1,4 @@
-// A room: furniture along its walls, pictures on them, lamps and things in the middle.
+// A room: furniture and pictures along its walls, lamps, and things in the middle.
 #include <numbers>
 
 #include "tools/worlds/families.h"
@@ -43,7 +43,7 @@ Layout lay_out_room(Kit& kit) {
         return std::pair(Vector2d(-half.x() + off, along * half.y()), std::numbers::pi / 2);
     }
   };
-  // windows, posters and boards: parts of the walls
+  // windows, posters and boards are parts of the walls
   for (int i = d.whole(0, 7); i > 0; --i) {
     const double w = d.between(0.4, 1.4), h = d.between(0.3, 1.1);
     const int face = d.chance(0.3) ? kit.plain({0.75, 0.85, 0.95}, 1, 0.2)

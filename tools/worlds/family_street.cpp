@@ -1,4 +1,4 @@
-// A street: fronts, pavements with kerbs, parked cars, lamps and trees; it may climb ahead.
+// A street: facades, pavements with kerbs, parked cars, lamps and trees; it may rise ahead.
 #include <numbers>
 
 #include "tools/worlds/families.h"
@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 Layout lay_out_street(Kit& kit) {
   Draw& d = kit.draw;
-  const double road = d.between(3, 4.5), pavement = d.between(1.5, 3);  // halves; one side
+  const double road = d.between(3, 4.5), pavement = d.between(1.5, 3);  // half width; one side
   const double back = -8, front = d.between(25, 45);
   kit.plainness = d.between(0.1, 0.45);
   kit.world.has_sky = true;
@@ -38,7 +38,7 @@ Layout lay_out_street(Kit& kit) {
     kit.world.setting.push_back(kit.block({{front - back, pavement, kerb},
                                            {(front + back) / 2, side * (road + pavement / 2), 0},
                                            slabs}));
-    // fronts of houses, a wall, or a hedge
+    // facades, a wall or a hedge
     double x = back;
     while (x < front) {
       const double w = d.between(5, 11);
@@ -51,7 +51,7 @@ Layout lay_out_street(Kit& kit) {
         kit.fix({{kit.block({{w, 3, h + 1}, {0, 0, -0.5}, face})},
                  {x + w / 2, y + side * (1.5 + deep * d.between(0, 1))},
                  0});
-        if (d.chance(0.7)) {  // a door, and what hangs over it
+        if (d.chance(0.7)) {  // a door, and a sign above it
           const int leaf = kit.plain();
           kit.fix({{kit.block({{1, 0.08, 2.1}, {0, 0, kerb}, leaf})},
                    {x + w * d.between(0.3, 0.7), y + side * 0.03},
@@ -81,7 +81,7 @@ Layout lay_out_street(Kit& kit) {
     const double height = d.between(3, 8);
     kit.wall(behind - side * ahead, behind + side * ahead, height, kit.plain());
   }
-  if (d.chance(0.7)) {  // the line in the middle
+  if (d.chance(0.7)) {  // the centre line
     const int white = kit.plain({0.85, 0.85, 0.83});
     for (double x = back; x < std::min(flat, front) - 1; x += 3) {
       kit.decal({x, 0}, 0, {1.2, 0.12}, white);

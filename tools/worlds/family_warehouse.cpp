@@ -1,4 +1,4 @@
-// A warehouse: an aisle between racks that are loaded, with passages across it.
+// A warehouse: an aisle between loaded racks, with crossing passages.
 #include <numbers>
 
 #include "tools/worlds/families.h"
@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 Layout lay_out_warehouse(Kit& kit) {
   Draw& d = kit.draw;
-  const double aisle = d.between(1.3, 2.3);  // half of it
+  const double aisle = d.between(1.3, 2.3);  // half width
   const double depth = d.between(0.8, 1.1), bay = d.between(2.2, 2.9), rack = d.between(2.4, 5);
   const int bays = d.whole(3, 6), boards = d.whole(2, 4);
   const double margin = d.between(2.5, 4);
@@ -23,7 +23,7 @@ Layout lay_out_warehouse(Kit& kit) {
                                 Style::fractal}),
             half);
   enclose(kit, half, height);
-  // the lines of the aisle
+  // the aisle's markings
   const int line = kit.plain({0.85, 0.75, 0.15});
   for (const double side : {-1.0, 1.0}) {
     kit.decal({0, side * (aisle - 0.12)}, 0, {2 * half.x() - 2, 0.08}, line);

@@ -1,4 +1,4 @@
-// A yard or park: grass and gravel, uneven under wheels, trees and bushes, fences, a bank.
+// A yard or park: grass and gravel, uneven ground, trees and bushes, fences, a bank.
 #include <numbers>
 
 #include "tools/worlds/families.h"
@@ -48,7 +48,7 @@ Layout lay_out_yard(Kit& kit) {
     kit.world.scenario.ground = bumps;
     kit.tag("uneven_ground");
   }
-  // what is round it: a fence of posts and rails, a hedge, a wall, the side of a house
+  // its border: a fence of posts and rails, a hedge, a wall, or the side of a house
   for (int i = 0; i < 4; ++i) {
     const bool across = i < 2;
     const double length = 2 * (across ? half.x() : half.y());

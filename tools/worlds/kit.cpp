@@ -16,11 +16,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr std::size_t kMostTextures = 16;
-// How much of it lies on the surfaces of a world; by recordings (README.md).
+// Weathering of a world's surfaces, fitted to recordings (README.md).
 constexpr double kLeastWeather_levels = 4, kMostWeather_levels = 55;
-constexpr double kPhotographs = 0.4;  // share of surfaces, where there are pictures
+constexpr double kPhotographs = 0.4;  // share of surfaces, if pictures are given
 
-/// Metres that a picture of a style spans, least and most.
+/// Least and greatest width in metres that a picture of a style spans.
 std::pair<double, double> span_of(Style style) {
   switch (style) {
     case Style::concrete:
@@ -42,7 +42,7 @@ std::pair<double, double> span_of(Style style) {
   }
 }
 
-/// To whole millimetres, as files have them, so that like things share a mesh.
+/// Rounds to millimetres as in the files, so that equal parts share a mesh.
 double rounded(double value) {
   return std::round(value * 1000) / 1000;
 }
@@ -106,7 +106,7 @@ int Kit::add_surface(Style style, bool is_wide, bool is_cube) {
   material.cube = is_cube;
   material.bold = style != Style::plain && style != Style::concrete;
   material.texture = static_cast<int>(world.textures.size());
-  // a stream of its own: what a picture shows does not move what stands in the world
+  // a separate random stream, so that the texture does not change the layout
   Draw brush(world.seed,
              fmt::format("texture/{}/{}/{}", world.family, world.attempt, material.texture));
   const int pixels = material.side_m > 1.5 ? 512 : 256;
@@ -268,7 +268,7 @@ Box Kit::box_at(const Parts& parts, const Vector2d& at_m, double heading_rad) co
   Box box = bounds(parts);
   box.centre_m = at_m;
   box.heading_rad = heading_rad;
-  // the lowest under it, so that nothing hangs in the air
+  // the lowest ground under it, so that no part floats
   double height = ground(at_m);
   for (const double x : {-1.0, 1.0}) {
     for (const double y : {-1.0, 1.0}) {
@@ -281,7 +281,7 @@ Box Kit::box_at(const Parts& parts, const Vector2d& at_m, double heading_rad) co
 }
 
 Eigen::Quaterniond Kit::attitude(const Box& box) const {
-  constexpr double kLong_m = 0.45, kStep_m = 0.05;  // what is shorter stands upright on a slope
+  constexpr double kLong_m = 0.45, kStep_m = 0.05;  // shorter things stand upright on a slope
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(box.heading_rad, Vector3d::UnitZ()));
   if (box.half_m.maxCoeff() < kLong_m) return turn;
   const auto slope = [&](const Vector2d& along) {
@@ -356,7 +356,7 @@ void Kit::floor(int material, const Vector2d& half_m) {
 void Kit::ramp(double from_x_m, double length_m, double width_m, double slope_rad, int material) {
   tag("slope");
   const double rise = std::tan(slope_rad);
-  // a wedge, so that its texture lies on the slope as it lies on the floor
+  // a wedge, so that its texture lies on the slope as on the floor
   Part part = slice({{{0, -0.2}, {length_m, -0.2}, {length_m, length_m * rise}, {0, 0}},
                      width_m,
                      {from_x_m, 0, 0},
@@ -369,7 +369,7 @@ void Kit::ramp(double from_x_m, double length_m, double width_m, double slope_ra
 }
 
 void Kit::decal(const Vector2d& at_m, double heading_rad, const Vector2d& size_m, int material) {
-  // each a little higher than the last, so that none fights with another for a pixel
+  // slightly different heights avoid z-fighting
   const double lift = 0.003 + 0.0005 * (decals_++ % 8);
   fix({{block({{size_m.x(), size_m.y(), 0.001}, {0, 0, lift}, material})},
        at_m,

@@ -1,6 +1,6 @@
 /// \file
-/// What layouts build a world with: surfaces, parts, things that stand somewhere, and the plan from
-/// above that keeps them apart.
+/// Tools for building layouts: surfaces, parts, placed things, and the plan view that keeps them
+/// apart.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,43 +20,43 @@ namespace lcs::worlds {
 
 using Parts = std::vector<Part>;
 
-/// The box round some parts of a world, which is symmetric about their origin.
+/// The bounding box of some parts of a world, symmetric about their origin.
 Box bounds(const World& world, const Parts& parts);
 
 class Kit {
  public:
-  /// \param pictures files to take surfaces from, among others; may be empty.
+  /// \param pictures files used for some of the surfaces; may be empty.
   Kit(std::string_view family, std::uint64_t seed, int attempt, std::vector<std::string> pictures);
 
   Draw draw;
   World world;
-  std::vector<Box> solids;     ///< all that stands or hangs
-  std::vector<Box> kept_free;  ///< where the rover and the movers go
+  std::vector<Box> solids;     ///< all standing and hanging things
+  std::vector<Box> kept_free;  ///< paths of the rover and the movers
   /// Height of the ground.
   std::function<double(const Eigen::Vector2d&)> ground = [](const auto&) { return 0.0; };
-  double ceiling_m = 100;  ///< its height; far up where there is none
-  double plainness = 0;    ///< share of things that have no texture
+  double ceiling_m = 100;  ///< its height; large without a ceiling
+  double plainness = 0;    ///< share of things without texture
 
   void tag(std::string_view feature) { world.features.emplace(feature); }
 
-  /// \name Materials, by their place in `world.materials`.
+  /// \name Materials, by index into `world.materials`.
   ///@{
   int plain(const Eigen::Vector3d& rgb, double alpha = 1, double emission = 0);
-  int plain();  ///< of a drawn colour
-  /// One of the styles; a world has only so many pictures, and then uses them again.
+  int plain();  ///< of a random colour
+  /// A surface of one of the styles. At the limit of pictures per world it reuses one.
   int surface(const std::vector<Style>& styles);
-  /// A surface for floors and walls, which are tiled with it: always a picture of its own.
+  /// A tiled surface for floors and walls, always with its own picture.
   int wide_surface(const std::vector<Style>& styles);
-  /// For a thing: a surface or, in a share of `plainness`, a plain colour.
+  /// For a thing: a surface or, with probability `plainness`, a plain colour.
   int paint(const std::vector<Style>& styles);
   int paint();  ///< of any style
   ///@}
 
-  /// \name Parts. Each takes one braced list, whose values are drawn in the order in which they
-  /// stand there, whatever the compiler.
+  /// \name Parts. Each takes one braced list, so that its random values are drawn in the order
+  /// written with any compiler.
   ///@{
   struct Block {
-    Eigen::Vector3d size_m, foot_m;  ///< places are those of the middle of the foot
+    Eigen::Vector3d size_m, foot_m;  ///< positions are those of the foot's centre
     int material = 0;
     double heading_rad = 0;
   };
@@ -98,21 +98,21 @@ class Kit {
     int material = 0;
   };
   Part prism(const Prism& prism);
-  /// A prism whose polygon stands upright along x and z, as wide as its height along y.
+  /// A prism with an upright polygon (along x and z), whose height is its width along y.
   Part slice(const Prism& prism);
   Part chips(const std::vector<Chip>& chips, int material);
   ///@}
 
   Box bounds(const Parts& parts) const { return worlds::bounds(world, parts); }
-  /// The same where a body stands.
+  /// The bounding box of parts that are placed as a body.
   Box box_at(const Parts& parts, const Eigen::Vector2d& at_m, double heading_rad) const;
-  /// How it stands there: upright or, where it is long, as the ground lies.
+  /// The attitude of a box placed there: upright or, if it is long, along the ground's slope.
   Eigen::Quaterniond attitude(const Box& box) const;
 
-  /// Whether nothing of it has a texture that corners could be found in.
+  /// Whether it has no texture with corners.
   bool is_bare(const Parts& parts) const;
 
-  /// Puts an object of a new name that begins with `kind`, whatever is there.
+  /// Places an object, even where it overlaps others; its new name begins with `kind`.
   void stand(const std::string& kind, const Parts& parts, const Eigen::Vector2d& at_m,
              double heading_rad);
   struct Standing {
@@ -122,7 +122,7 @@ class Kit {
     double heading_rad;
     double gap_m = 0.05;
   };
-  /// Puts an object where nothing is within `gap_m`. \return whether the place was free.
+  /// Places an object unless another one is within `gap_m`. \return whether it was placed.
   bool try_stand(const Standing& standing);
   struct Fixture {
     Parts parts;
@@ -130,16 +130,16 @@ class Kit {
     double heading_rad;
     bool in_the_way = true;
   };
-  /// Puts a part of the setting, whatever is there.
+  /// Places a part of the static scene, even where it overlaps others.
   void fix(const Fixture& fixture);
-  /// A wall as a part of the setting, from one point to another, on the left of the line.
+  /// A wall of the static scene between two points, on the left of the line.
   void wall(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m, double height_m,
             int material, double foot_m = 0, double thickness_m = 0.1);
-  /// A level floor that wheels feel, of these half sizes.
+  /// A level floor with wheel contact, of these half sizes.
   void floor(int material, const Eigen::Vector2d& half_m);
-  /// Ground that rises from x = `from_x_m` on, as wide as `width_m` about y = 0.
+  /// Ground that rises from x = `from_x_m` on, with width `width_m` about y = 0.
   void ramp(double from_x_m, double length_m, double width_m, double slope_rad, int material);
-  /// A dark patch on the floor, as of the shadow of something that is not there.
+  /// A dark patch on the floor, like the shadow of an absent object.
   void shadow(const Eigen::Vector2d& at_m);
   /// A flat mark on the floor.
   void decal(const Eigen::Vector2d& at_m, double heading_rad, const Eigen::Vector2d& size_m,

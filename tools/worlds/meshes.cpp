@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// Four corners, counter-clockwise from outside, flat.
+/// Adds a flat quad; corners are counter-clockwise from outside.
 void add_quad(Mesh& mesh, const std::array<Vector3d, 4>& corners,
               const std::array<Vector2d, 4>& texture) {
   const Vector3d normal = (corners[2] - corners[0]).cross(corners[3] - corners[1]).normalized();
@@ -23,7 +23,7 @@ void add_quad(Mesh& mesh, const std::array<Vector3d, 4>& corners,
   mesh.triangles.push_back({first, first + 2, first + 3});
 }
 
-/// A flat face as a fan about a point that sees all of it.
+/// Adds a flat face as a fan about a point from which the whole face is visible.
 void add_fan(Mesh& mesh, const Vector3d& middle, const std::vector<Vector3d>& rim,
              const Vector3d& normal, double side_m) {
   const int first = static_cast<int>(mesh.vertices.size());
@@ -57,7 +57,7 @@ std::vector<Vector3d> ring(double radius_m, double z_m, int around) {
 Mesh box_mesh(const Vector3d& size_m, double side_m) {
   Mesh mesh;
   const double x = size_m.x() / 2, y = size_m.y() / 2, z = size_m.z();
-  // each side is seen upright from outside: along it to the right, and up
+  // texture coordinates run to the right and up, as seen from outside
   const auto side = [&](const Vector3d& left, const Vector3d& right) {
     const double along = (right - left).norm() / side_m, up = z / side_m;
     const Vector3d h(0, 0, z);
@@ -107,7 +107,7 @@ Mesh turned_mesh(const std::vector<Vector2d>& profile_m, double side_m, int arou
       std::max_element(profile_m.begin(), profile_m.end(),
                        [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x(); })
           ->x();
-  // whole pictures round it, so that they meet
+  // a whole number of pictures round it, so that they meet
   const double pictures = std::max(1.0, std::round(kTurn * widest / side_m));
   double up = 0;
   for (std::size_t i = 0; i + 1 < profile_m.size(); ++i) {
@@ -141,7 +141,7 @@ Mesh turned_mesh(const std::vector<Vector2d>& profile_m, double side_m, int arou
 
 Mesh lump_mesh(const Vector3d& radii_m, double bumps, double side_m, Draw& draw) {
   constexpr int kAround = 18, kRings = 10;
-  // three plane waves over the sphere: smooth, and the same where it closes
+  // plane waves over the sphere are smooth and periodic
   struct Wave {
     Vector3d along;
     double phase;

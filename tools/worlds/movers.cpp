@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 constexpr double kPi = std::numbers::pi;
 constexpr double kRoverGap_m = 0.12, kGap_m = 0.08;
 constexpr int kTries = 120;
-constexpr int kLeastSeen = 14;  // frames; ten by the truth are promised
+constexpr int kLeastSeen = 14;  // frames; the promise is ten by the truth
 constexpr double kLeastHeight_px = 14;
 
 double to_cm(double value) {
@@ -28,7 +28,7 @@ Vector2d to_cm(const Vector2d& v) {
 
 enum class Path { across, slanting, coming, going, pacing, overtaking, shuttle, circle };
 
-/// A moment and a place in view that a path leads through.
+/// A frame and a visible point that a path leads through.
 struct Meeting {
   std::size_t frame = 0;
   Vector2d at_m = Vector2d::Zero();
@@ -44,7 +44,7 @@ class Planner {
     focal_px_ = s_.camera.height_px / 2.0 / std::tan(s_.camera.fovy_rad / 2);
   }
 
-  /// One try; whether the mover is free and seen is for others to say.
+  /// Plans one candidate; the caller checks that it is free and visible.
   bool plan(Mover& mover) {
     const Box box = kit_.bounds(mover.parts);
     const double radius = box.half_m.norm();
@@ -55,7 +55,7 @@ class Planner {
                          Path::circle});
     const double fastest = std::min(traffic_.fastest_mps, speed_in_view(meeting.distance_m));
     double speed = d_.scaled(std::min(0.15, fastest), fastest);
-    if (d_.chance(0.15)) {  // as fast as can be, and so to and fro: else it were gone
+    if (d_.chance(0.15)) {  // close to the largest speed; back and forth to stay in view
       path = Path::shuttle;
       speed = fastest * d_.between(0.7, 1);
     }
@@ -110,7 +110,7 @@ class Planner {
  private:
   double end_s() const { return way_.frames.back().t_s; }
 
-  /// Half a picture a frame.
+  /// Speed of an image motion of half the picture width a frame.
   double speed_in_view(double distance_m) const {
     return 0.5 * s_.camera.width_px / focal_px_ * distance_m * s_.camera.rate_hz;
   }
@@ -143,12 +143,12 @@ class Planner {
   }
 
   bool may_be(Box box, const Vector2d& at, double level) const {
-    if (std::abs(kit_.ground(at) - level) > 0.02) return false;  // its height does not change
+    if (std::abs(kit_.ground(at) - level) > 0.02) return false;  // movers keep their height
     box.centre_m = at;
     for (const double x : {-1.0, 1.0}) {
       for (const double y : {-1.0, 1.0}) {
         const Vector2d corner = point_of(box, x, y, 0).head<2>();
-        const double above = kit_.ground(corner) - level;  // into a slope it would sink
+        const double above = kit_.ground(corner) - level;  // it would sink into a slope
         if (above > 0.005 || above < -0.06) return false;
       }
     }
@@ -157,7 +157,7 @@ class Planner {
     return is_inside(box) && least_gap_m(box, kit_.solids) > kGap_m;
   }
 
-  /// How far it may go from the meeting, at most `most_m`.
+  /// Length of the free path from the meeting, at most `most_m`.
   double free_way(const Box& box, const Vector2d& from, double heading, double most_m) const {
     constexpr double kStep_m = 0.1;
     const double level = kit_.ground(from);
@@ -169,7 +169,7 @@ class Planner {
     return way;
   }
 
-  /// On a line through the meeting, as far as it is free: it stands before that and after it.
+  /// Plans a straight free path through the meeting; the mover rests before and after it.
   bool plan_straight(Mover& mover, const Meeting& meeting, Box box, double heading, double speed,
                      bool back_and_forth) {
     box.heading_rad = heading;
@@ -189,7 +189,7 @@ class Planner {
       for (int i = 0; i <= legs; ++i) {
         path.points.push_back({to_cm(std::max(0.01, leg_s)) * i, i % 2 ? until : from});
       }
-    } else if (d_.chance(0.25)) {  // starts or stops slowly: legs of rising speed
+    } else if (d_.chance(0.25)) {  // starts or stops slowly: legs of increasing or decreasing speed
       const bool stops = d_.chance(0.5);
       constexpr int kLegs = 6;
       for (int i = 0; i <= kLegs; ++i) {
@@ -207,7 +207,7 @@ class Planner {
   }
 
   bool plan_circle(Mover& mover, const Meeting& meeting, const Box& box, double speed) {
-    constexpr double kInwards_mps2 = 1.5;  // what stays upright as it turns
+    constexpr double kInwards_mps2 = 1.5;  // greatest lateral acceleration without tipping
     const double radius = to_cm(d_.between(0.5, std::min(3.0, 0.5 * meeting.distance_m + 0.5)));
     speed = std::min(speed, std::sqrt(kInwards_mps2 * radius));
     const double angle = d_.between(-kPi, kPi);
@@ -236,9 +236,9 @@ class Planner {
 };
 
 struct Sight {
-  int points = 0;  ///< of 27 that are in the picture and not hidden
-  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;  ///< of those before the camera
-  bool before = false;  ///< another mover that is nearer hides a part of it
+  int points = 0;  ///< of 27, in the picture and not occluded
+  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;  ///< of those in front of the camera
+  bool before = false;                                        ///< a nearer mover hides part of it
 };
 
 constexpr int kLeastPoints = 5;

@@ -1,5 +1,5 @@
 /// \file
-/// What moves in a world: paths that are free, and seen.
+/// The movers of a world, on free and visible paths.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@
 
 namespace lcs::worlds {
 
-/// What a layout lets move, and where.
+/// The movers of a layout, and their area.
 struct Traffic {
   std::vector<std::string> kinds;               ///< of things (things.h)
-  Eigen::Vector2d low_m{-5, -5}, high_m{5, 5};  ///< corners of the ground that is theirs
+  Eigen::Vector2d low_m{-5, -5}, high_m{5, 5};  ///< corners of their area
   double fastest_mps = 2;
-  double farthest_m = 8;  ///< from the camera, in the middle of its way
+  double farthest_m = 8;  ///< from the camera, halfway along its path
   int most = 4;
 };
 
@@ -29,15 +29,15 @@ struct Mover {
   Box box_at(const Kit& kit, double t_s) const;
 };
 
-/// Draws movers one by one, each free of what stands already, of the rover and of each other.
-/// \return fewer than were asked for where no free path was found.
+/// Draws movers one by one, each clear of static things, of the rover and of other movers.
+/// \return fewer than `count` if no free path was found.
 std::vector<Mover> draw_movers(Kit& kit, const Way& way, const Traffic& traffic, int count);
 
-/// Frames of the run in which a mover moves and can be seen, by the plan.
+/// Number of the run's frames in which a mover moves and is visible, by the plan.
 int frames_seen(const Kit& kit, const Way& way, const std::vector<Mover>& movers,
                 std::size_t which);
 
-/// Puts them into the scene and the scenario, and tells what they show.
+/// Adds the movers to scene and scenario, and tags the world's features that they show.
 void add_movers(Kit& kit, const Way& way, const std::vector<Mover>& movers);
 
 }  // namespace lcs::worlds

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Of half the box, along a direction.
+/// Half extent of a box along a direction.
 double reach(const Box& box, const Vector2d& along) {
   const Vector2d ahead = towards(box.heading_rad), left(-ahead.y(), ahead.x());
   return box.half_m.x() * std::abs(along.dot(ahead)) + box.half_m.y() * std::abs(along.dot(left));

@@ -1,5 +1,5 @@
 /// \file
-/// Who stands where, on the plan from above: what overlaps, how near things come, what hides what.
+/// Geometry of the plan view: overlaps, gaps and occlusions.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,25 +8,25 @@
 
 namespace lcs::worlds {
 
-/// An upright box about its heading.
+/// An upright box, rotated by its heading.
 struct Box {
   Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d half_m = Eigen::Vector2d::Zero();  ///< along its heading, and across
   double heading_rad = 0;
-  double foot_m = 0, head_m = 0;  ///< heights of its lower and upper end
+  double foot_m = 0, head_m = 0;  ///< heights of its bottom and top
 };
 
-/// Free space between two boxes, seen from above; at most the true one, and below 0 where they
-/// overlap. Boxes over each other are as far apart as can be.
+/// Horizontal distance of two boxes: at most the true one, and below 0 for an overlap. Infinite
+/// for boxes one above the other.
 double gap_m(const Box& a, const Box& b);
 
-/// Whether a straight line goes through a box.
+/// Whether the line segment intersects the box.
 bool is_between(const Box& box, const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m);
 
-/// The point of a box that lies at these shares, from -1 to 1, of its sides.
+/// The point at these fractions, from -1 to 1, of a box's half sizes.
 Eigen::Vector3d point_of(const Box& box, double ahead, double left, double up);
 
-/// Least gap to any of them; infinite without any.
+/// Least gap to any of the boxes; infinite without boxes.
 double least_gap_m(const Box& box, const std::vector<Box>& others);
 
 inline Eigen::Vector2d towards(double heading_rad) {

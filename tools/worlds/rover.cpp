@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 using scenario::EgoPhase;
 constexpr double kStep_s = 0.005;
 
-/// To decimals that a file has, so that what is planned is what is simulated.
+/// Rounds to a file's decimals, so that plan and simulation agree.
 double to(double value, double step) {
   return std::round(value / step) * step;
 }
@@ -25,7 +25,7 @@ double to(double value, double step) {
 void draw_camera(Kit& kit, const Lane& lane) {
   Draw& d = kit.draw;
   scenario::Camera& camera = kit.world.scenario.camera;
-  // most are small: the whole of a split is to run in minutes
+  // most are small, so that a whole split runs in minutes
   constexpr std::array<std::array<int, 2>, 13> kSizes{{{320, 240},
                                                        {320, 240},
                                                        {424, 240},
@@ -58,13 +58,13 @@ void draw_camera(Kit& kit, const Lane& lane) {
   }
 }
 
-/// Never without noise.
+/// Draws the image properties; noise is always present.
 void draw_image(Kit& kit) {
   Draw& d = kit.draw;
   scenario::Image image;
   image.noise = {.full_well_e = to(d.scaled(2000, 20000), 10), .read_e = to(d.scaled(2, 12), 0.1)};
   if (d.chance(0.4)) image.blur_px = to(d.between(0.2, 1.0), 0.01);
-  // less light on the sensor, and a gain that makes up for it, more or less
+  // less light on the sensor, and a gain that roughly compensates
   const double light = d.scaled(0.3, 1);
   image.exposure_s = to(light * scenario::Image::kDaylightExposure_s, 1e-5);
   image.gain = to(d.between(0.75, 1.15) / light, 0.01);
@@ -179,7 +179,7 @@ Way draw_rover(Kit& kit, const Lane& lane) {
                             Kind::aside, Kind::brake, Kind::weave});
   const double fastest = std::clamp(0.9 * lane.length_m / duration_s, 0.25, lane.fastest_mps);
   s.ego.phases = phases_of(d, kind, duration_s, fastest, lane.is_rough);
-  // backwards it needs the lane behind it, and aside the width of it
+  // it needs free lane behind it if it drives backwards, and beside it if sideways
   const double direction = s.ego.phases.front().direction_rad;
   const bool backwards = std::abs(direction) > 100 * kDegree;
   s.ego.heading_rad = to(lane.heading_rad / kDegree + d.between(-8, 8), 0.1) * kDegree;
@@ -189,7 +189,7 @@ Way draw_rover(Kit& kit, const Lane& lane) {
   const Vector2d start = lane.start_m + turned({along, across}, lane.heading_rad);
   s.ego.start_m = {to(start.x(), 0.01), to(start.y(), 0.01)};
   Way way;
-  for (;;) {  // slower, until it stays in its lane
+  for (;;) {  // reduces the speed until it stays in its lane
     for (EgoPhase& phase : s.ego.phases) {
       phase.at_s = to(phase.at_s, 0.01);
       phase.speed_mps = to(phase.speed_mps, 0.001);

@@ -1,6 +1,5 @@
 /// \file
-/// The rover of a world: its camera and sensors, and how it goes along the lane that a layout has
-/// left free for it.
+/// The rover of a world: its camera, its sensors, and its path along the layout's free lane.
 #pragma once
 
 #include <vector>
@@ -9,7 +8,7 @@
 
 namespace lcs::worlds {
 
-/// Where the rover may go: from `start_m` on along `heading_rad`, so far and so far to each side.
+/// The rover's free lane: from `start_m` along `heading_rad`, with length and half width.
 struct Lane {
   Eigen::Vector2d start_m = Eigen::Vector2d::Zero();
   double heading_rad = 0;
@@ -17,30 +16,30 @@ struct Lane {
   double half_width_m = 1;
   double fastest_mps = 1.5;
   double highest_camera_m = 1.6;
-  bool is_rough = false;  ///< takes wheels
+  bool is_rough = false;  ///< has wheel contact
 };
 
-/// Where the rover is at a moment.
+/// The rover's pose at a time.
 struct Stand {
   double t_s = 0;
   Eigen::Vector2d at_m = Eigen::Vector2d::Zero();
   double heading_rad = 0;
 };
 
-/// The rover's way through its lane, as the commands have it.
+/// The rover's path through its lane, from the commands.
 struct Way {
-  std::vector<Stand> frames;  ///< one each
+  std::vector<Stand> frames;  ///< one for each frame
   Box box_of(const scenario::Camera& camera, const Stand& stand) const;
 };
 
-/// As the simulator smooths the commands.
+/// The path of the commands, with the simulator's smoothing.
 Way way_of(const scenario::Scenario& scenario);
 
-/// Draws camera, sensors and commands into the world's scenario.
+/// Draws camera, sensors and commands of the world's scenario.
 Way draw_rover(Kit& kit, const Lane& lane);
 
-/// Where a point is seen from a stand: x and y in pixels and its depth in metres, which may be
-/// negative.
+/// Projects a point into the camera at a stand: x and y in pixels and its depth in metres, which
+/// may be negative.
 Eigen::Vector3d seen_at(const scenario::Camera& camera, const Stand& stand, double ground_m,
                         const Eigen::Vector3d& point_m);
 Eigen::Vector3d camera_at(const scenario::Camera& camera, const Stand& stand, double ground_m);

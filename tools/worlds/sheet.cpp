@@ -30,7 +30,7 @@ void write_on(cv::Mat3b& tile, const std::string& text, const cv::Point& at) {
   }
 }
 
-/// As large as it fits, in the middle.
+/// Scales the picture to fit, centred.
 void paint_shot(const Shot& shot, cv::Mat3b tile) {
   const double zoom = std::min(static_cast<double>(tile.cols) / shot.picture.cols,
                                static_cast<double>(tile.rows) / shot.picture.rows);
@@ -39,7 +39,7 @@ void paint_shot(const Shot& shot, cv::Mat3b tile) {
   cv::Mat3b inside = tile(cv::Rect(corner, size));
   cv::resize(shot.picture, inside, size, 0, 0, zoom < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
   const double scale = shot.scale * zoom;
-  for (const bool moving : {false, true}) {  // what moves on top
+  for (const bool moving : {false, true}) {  // movers on top
     for (const sim::ObjectTruth& object : shot.objects) {
       if (object.moving != moving) continue;
       cv::rectangle(inside, {cvRound(object.left * scale), cvRound(object.top * scale)},
@@ -50,7 +50,7 @@ void paint_shot(const Shot& shot, cv::Mat3b tile) {
   write_on(inside, fmt::format("frame {}", shot.frame), {6, size.height - 8});
 }
 
-/// What stands in a world, seen from above.
+/// Static parts of a world, in plan view.
 std::vector<Box> walls_of(const World& world) {
   std::vector<Box> boxes;
   for (const Part& part : world.setting) {
@@ -60,7 +60,7 @@ std::vector<Box> walls_of(const World& world) {
     own.rotation.setIdentity();
     Box box = bounds(world, {own});
     const double foot = box.foot_m + part.position_m.z();
-    if (foot > 1.2 || box.head_m - box.foot_m < 0.2) continue;  // ceilings and marks
+    if (foot > 1.2 || box.head_m - box.foot_m < 0.2) continue;  // ceilings and floor marks
     const Vector2d ahead = (part.rotation * Eigen::Vector3d::UnitX()).head<2>();
     box.centre_m = part.position_m.head<2>();
     box.heading_rad = std::atan2(ahead.y(), ahead.x());
@@ -85,7 +85,7 @@ const scenario::Actor* actor_of(const World& world, const Body& body) {
   return found == actors.end() ? nullptr : &*found;
 }
 
-/// Where a mover is in each frame.
+/// Positions of a mover in each frame.
 std::vector<Vector2d> path_of(const scenario::Actor& actor, const Box& at_rest, const Way& way) {
   std::vector<Vector2d> path;
   for (const Stand& stand : way.frames) {
@@ -96,7 +96,7 @@ std::vector<Vector2d> path_of(const scenario::Actor& actor, const Box& at_rest, 
   return path;
 }
 
-/// On round numbers of metres, as long as a fifth of the tile at the most.
+/// Draws a scale bar of a round length, at most a fifth of the tile.
 void paint_scale(cv::Mat3b& tile, double pixels_per_m) {
   double length_m = 0.1;
   for (const double next_m : {0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {

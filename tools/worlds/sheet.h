@@ -1,5 +1,5 @@
 /// \file
-/// A world at a glance: first, middle and last picture with the truth's boxes, and the plan.
+/// An overview of a world: first, middle and last picture with the truth's boxes, and the plan.
 #pragma once
 
 #include <array>
@@ -12,28 +12,28 @@
 
 namespace lcs::worlds {
 
-/// From above, by the commands alone: what stands, the rover's way with what it sees at first and
-/// at last (blue), and the movers' (magenta).
+/// Plan view from the commands: static things, the rover's path with its first and last field of
+/// view (blue), and the movers' paths (magenta).
 cv::Mat3b plan(const World& world);
 
-/// A frame, as the camera or a recording has it.
+/// A frame of the camera or of a recording.
 struct Shot {
   int frame = 0;
   cv::Mat3b picture;
-  double scale = 1;  ///< pixels of the picture for one of the camera's image
+  double scale = 1;  ///< picture pixels per camera pixel
   std::vector<sim::ObjectTruth> objects;
 };
 using Shots = std::array<Shot, 3>;
 
-/// Which frames those are.
+/// The indices of the first, middle and last frame.
 std::array<int, 3> frames_shown(int frames);
 
-/// \param plan may be empty. \param columns that pictures and plan stand in.
-/// What moves has boxes in magenta, what stands in green.
+/// Draws magenta boxes round movers, green ones round static objects.
+/// \param plan may be empty. \param columns of the sheet's grid.
 cv::Mat3b contact_sheet(const Shots& shots, const cv::Mat3b& plan, int columns);
 
-/// The shots of a simulation. \param scenario the file of a world, of three frames or more.
-/// \throws what a simulation throws.
+/// The shots of a simulation. \param scenario file of a world with at least three frames.
+/// \throws the simulation's exceptions.
 Shots simulated_shots(const std::filesystem::path& scenario);
 
 }  // namespace lcs::worlds

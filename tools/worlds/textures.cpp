@@ -20,7 +20,7 @@ uchar level(double value) {
   return static_cast<uchar>(std::clamp(std::floor(value + 0.5), 0.0, 255.0));
 }
 
-/// A grey between the two, tinted by up to `tint` levels a channel.
+/// A random grey between the limits, tinted by up to `tint` levels per channel.
 Colour colour(Draw& draw, double low, double high, double tint) {
   const double grey = draw.between(low, high);
   Colour c;
@@ -38,7 +38,7 @@ Colour mixed(const Colour& a, const Colour& b, double share) {
   return c;
 }
 
-/// Random values at `across` x `down` places, smooth in between, without a seam.
+/// Periodic noise: random values at `across` x `down` points, smoothly interpolated.
 cv::Mat1f smooth_noise(Draw& draw, int side, int across, int down) {
   cv::Mat1f at(down, across);
   for (float& value : at) value = static_cast<float>(draw.between(-1, 1));
@@ -66,7 +66,7 @@ cv::Mat1f smooth_noise(Draw& draw, int side, int across, int down) {
   return noise;
 }
 
-/// Mean 0, deviation 1.
+/// Scales to mean 0 and standard deviation 1.
 void standardise(cv::Mat1f& values) {
   double mean = 0, squares = 0;
   for (const float value : values) mean += value;
@@ -76,7 +76,7 @@ void standardise(cv::Mat1f& values) {
   for (float& value : values) value = static_cast<float>((value - mean) / deviation);
 }
 
-/// Octaves of that, each at `keep` of the one before; mean 0, deviation 1.
+/// Octaves of smooth noise with weights 1, `keep`, `keep`^2, ...; mean 0, standard deviation 1.
 cv::Mat1f fractal_noise(Draw& draw, int side, int cells, double keep, int stretch = 1) {
   cv::Mat1f sum(side, side, 0.F);
   float weight = 1;
@@ -90,7 +90,7 @@ cv::Mat1f fractal_noise(Draw& draw, int side, int cells, double keep, int stretc
   return sum;
 }
 
-/// Adds as many levels times a value that there is for each pixel.
+/// Adds `levels` times the pixel's value in `by` to each pixel.
 void lighten(cv::Mat3b& picture, const cv::Mat1f& by, double levels) {
   for (int y = 0; y < picture.rows; ++y) {
     for (int x = 0; x < picture.cols; ++x) {
@@ -99,13 +99,13 @@ void lighten(cv::Mat3b& picture, const cv::Mat1f& by, double levels) {
   }
 }
 
-/// Lightens and darkens by noise, whose deviation is of `least` to `most` levels.
+/// Adds brightness noise with a standard deviation between `least` and `most` levels.
 void dirty(cv::Mat3b& picture, Draw& draw, int cells, double keep, double least, double most) {
   const cv::Mat1f noise = fractal_noise(draw, picture.cols, cells, keep);
   lighten(picture, noise, draw.between(least, most));
 }
 
-/// Draws the same at all places where it would come in again from the other side.
+/// Draws at all periodic copies of the position, so that the picture tiles.
 template <class DrawAt>
 void without_seam(int side, DrawAt draw_at) {
   for (const int dy : {-side, 0, side}) {
@@ -113,15 +113,15 @@ void without_seam(int side, DrawAt draw_at) {
   }
 }
 
-/// Discs that lie over each other, few large and many small, with what lies on them cut off: the
-/// model of natural pictures of Lee, Mumford & Huang ("Occlusion Models for Natural Images", IJCV
-/// 2001). It looks alike from near and from afar, and has edges where 1/f noise has none.
+/// Overlapping discs, few large and many small: the model of natural images of Lee, Mumford & Huang
+/// ("Occlusion Models for Natural Images", IJCV 2001). It looks alike from near and from afar, and
+/// has edges, which 1/f noise lacks.
 cv::Mat1f dead_leaves(Draw& draw, int side) {
   constexpr double kSmallest_px = 0.7;
   const double largest_px = side / 6.0;
   cv::Mat1f leaves(side, side, 0.F);
   for (int i = side * side / 9; i > 0; --i) {
-    const double share = draw.between(1e-6, 1);  // as many as their radius to the power -3
+    const double share = draw.between(1e-6, 1);  // their number goes with radius^-3
     const int r = static_cast<int>(std::min(largest_px, kSmallest_px / std::sqrt(share)) + 0.5);
     const cv::Point at{draw.whole(0, side - 1), draw.whole(0, side - 1)};
     const double value = draw.normal();
@@ -231,7 +231,7 @@ void paint_wood(cv::Mat3b& p, Draw& draw) {
   if (draw.chance(0.5)) cv::transpose(p, p);
 }
 
-/// \param bond how far every other row is shifted, in bricks.
+/// \param bond shift of every other row, in bricks.
 void paint_courses(cv::Mat3b& p, Draw& draw, int rows, int columns, double bond,
                    const Colour& joint, const std::vector<Colour>& tones, double vary) {
   const int side = p.cols;

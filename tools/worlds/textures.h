@@ -1,6 +1,6 @@
 /// \file
-/// Pictures for surfaces. They share nothing with those of `sim/texture.h`: what the filter was
-/// developed with is not what it is measured with. Each repeats without a seam where it is tiled.
+/// Pictures for surfaces. They share nothing with `sim/texture.h`, so that development and
+/// evaluation use different textures. All of them tile without a seam.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -13,38 +13,38 @@
 namespace lcs::worlds {
 
 enum class Style {
-  plain,       ///< one colour, nearly
+  plain,       ///< nearly one colour
   fractal,     ///< 1/f noise between two colours
-  concrete,    ///< the same at low contrast, with stains and pores
-  lettering,   ///< printed matter: words, numbers, rules
+  concrete,    ///< low-contrast 1/f noise, with stains and pores
+  lettering,   ///< printed matter: words, numbers, lines
   wood,        ///< planks with grain
   bricks,      ///< in bond, with mortar
   tiles,       ///< in a grid, with grout
-  stripes,     ///< bars, upright, lying or slanting
-  grille,      ///< a lattice before a dark ground
+  stripes,     ///< vertical, horizontal or slanted bars
+  grille,      ///< a lattice in front of a dark ground
   corrugated,  ///< sheet metal in waves
-  foliage,     ///< leaves over each other
-  worn,        ///< paint that chipped and was scratched
+  foliage,     ///< overlapping leaves
+  worn,        ///< chipped and scratched paint
   speckle,     ///< terrazzo, asphalt, granite
   facade,      ///< windows in rows
 };
 
-/// For messages and names of files.
+/// Name for messages and files.
 std::string_view name_of(Style style);
 
-/// Whether a style looks alike from every side, so that it may be put round an object in any way.
+/// Whether a style looks the same in all directions, and so fits an object in any orientation.
 bool is_isotropic(Style style);
 
-/// A square picture, BGR, top row first.
+/// \return a square BGR picture.
 cv::Mat3b paint(Style style, int side_px, Draw& draw);
 
-/// Lightens and darkens a picture at all sizes alike, as wear, dirt, grain and small shadows do, so
-/// that there is something to be seen from near and from afar. \param levels deviation, grey
-/// levels.
+/// Changes the brightness of a picture equally at all scales, like wear, dirt, grain and small
+/// shadows, so that it has detail from near and from afar.
+/// \param levels standard deviation, in grey levels.
 void weather(cv::Mat3b& picture, double levels, Draw& draw);
 
-/// A part of one of the pictures of a folder.
-/// \throws std::runtime_error for a picture that cannot be read.
+/// A random section of one of the picture files.
+/// \throws std::runtime_error for an unreadable picture.
 cv::Mat3b photograph(const std::vector<std::string>& files, int side_px, Draw& draw);
 
 /// Pictures (.png, .jpg, .jpeg, .bmp) of a folder, by name. \throws std::runtime_error without any.

@@ -57,7 +57,7 @@ Parts cone(Kit& k) {
           k.turned({{{r * .46, 0}, {r * .12, h * .35}}, {0, 0, 0.03 + h * .65}, red})};
 }
 
-/// Walks or stands: rigid, with its legs apart.
+/// A rigid walking or standing person with legs apart.
 Parts person(Kit& k) {
   const double h = k.draw.between(1.5, 1.9), s = h / 1.75;
   const int coat = k.paint(kCloth), trousers = k.paint(kCloth), skin = k.plain({0.75, 0.58, 0.47});
@@ -79,7 +79,7 @@ Parts person(Kit& k) {
              coat}),
       k.ball({{0.1 * s, 0.085 * s, 0.125 * s}, {0, 0, 1.62 * s}, skin}),
       k.ball({{0.105 * s, 0.09 * s, 0.08 * s}, {-0.015 * s, 0, 1.69 * s}, k.plain()})};
-  if (k.draw.chance(0.3)) {  // something carried
+  if (k.draw.chance(0.3)) {  // a carried object
     parts.push_back(k.block({{0.2 * s, 0.32 * s, 0.42 * s}, {-0.28 * s, 0, 0.95 * s}, k.paint()}));
   }
   return parts;
@@ -111,7 +111,7 @@ Parts cart(Kit& k) {
   return on_wheels(k, parts, l * .38, w * .4, r, 0.03);
 }
 
-/// A side view drawn out to its width; windows are slabs that stand out a little.
+/// An extruded side view; windows are slabs that protrude slightly.
 Parts car(Kit& k) {
   const double l = k.draw.between(3.4, 4.6), h = k.draw.between(1.35, 1.65), w = 1.75;
   const double r = 0.31;
@@ -212,7 +212,7 @@ Parts cupboard(Kit& k) {
   const int knob = k.plain();
   Parts parts{k.block({size, {0, 0, 0}, face})};
   const int doors = k.draw.whole(1, 3);
-  for (int i = 0; i < doors; ++i) {  // doors that stand out, with gaps and knobs
+  for (int i = 0; i < doors; ++i) {  // protruding doors, with gaps and knobs
     const double w = size.x() / doors, x = -size.x() / 2 + (i + 0.5) * w;
     parts.push_back(k.block({{w - 0.03, 0.02, size.z() - 0.1}, {x, -size.y() / 2, 0.06}, face}));
     parts.push_back(
@@ -238,7 +238,7 @@ Parts plant(Kit& k) {
                   k.surface(kLeaves)})};
 }
 
-/// Leaves that stand off what is painted with them, light ones and dark ones; or none.
+/// Randomly adds light and dark leaves that stand off a surface.
 void add_leaves(Kit& k, Parts& parts, const Vector3d& middle_m, const Vector3d& radii_m) {
   if (!k.draw.chance(0.6)) return;
   const double size = k.draw.scaled(0.03, 0.12);
@@ -424,7 +424,7 @@ Parts barrier(Kit& k) {
           k.block({{0.5, 0.06, 0.05}, {0, l * .42, 0}, leg})};
 }
 
-/// A low machine with a mast, as another rover.
+/// A low robot with a mast, like another rover.
 Parts robot(Kit& k) {
   const double r = k.draw.between(0.18, 0.35), h = k.draw.between(0.15, 0.5);
   Parts parts{
@@ -435,7 +435,7 @@ Parts robot(Kit& k) {
   return parts;
 }
 
-/// A truck with a mast and a fork, loaded or not.
+/// A truck with mast and fork, sometimes loaded.
 Parts forklift(Kit& k) {
   const int body = k.draw.chance(0.5) ? k.plain({0.85, 0.65, 0.1}) : k.paint(kMetal);
   const int iron = k.plain({0.2, 0.2, 0.22});
@@ -480,7 +480,7 @@ Parts bicycle(Kit& k) {
   return parts;
 }
 
-/// A load on a hook: hangs, and moves.
+/// A load on a hook: it hangs and may move.
 Parts load(Kit& k) {
   const double s = k.draw.between(0.3, 0.8), foot = k.draw.between(0.4, 1.3);
   const double hook = foot + s * .4;
@@ -560,7 +560,7 @@ Thing shelf(Kit& kit, const Vector3d& size_m, int boards, bool is_rack) {
     const double foot = !is_rack || i > 0 ? z + thick : 0;
     const double room = step - thick - 0.08;
     double x = -size_m.x() / 2 + post + 0.02;
-    while (x < size_m.x() / 2 - post - 0.05) {  // a row of what lies there
+    while (x < size_m.x() / 2 - post - 0.05) {  // a row of goods
       const double w = is_rack ? kit.draw.between(0.4, 1.1) : kit.draw.between(0.04, 0.3);
       if (x + w > size_m.x() / 2 - post) break;
       const double h = room * kit.draw.between(0.4, 1),

@@ -1,5 +1,5 @@
 /// \file
-/// Things that stand, hang and move about: each a handful of parts about the point where it stands.
+/// Standing, hanging and moving things: each consists of a few parts about its origin.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@ struct Thing {
   Parts parts;
 };
 
-/// A thing of a kind, of drawn size and surfaces. \throws std::invalid_argument for no such kind.
+/// A thing with random size and surfaces. \throws std::invalid_argument for an unknown kind.
 Thing make_thing(Kit& kit, const std::string& kind);
 
-/// \name Of a given size.
+/// \name Things of a given size.
 ///@{
 Thing carton(Kit& kit, const Eigen::Vector3d& size_m);
-/// Boards between uprights, with what lies on them; length along x.
+/// Boards between uprights, with goods on them; length along x.
 Thing shelf(Kit& kit, const Eigen::Vector3d& size_m, int boards, bool is_rack);
-/// What hangs from a ceiling of that height.
+/// A thing that hangs from a ceiling of that height.
 Thing hanging(Kit& kit, double ceiling_m, double foot_m);
 ///@}
 

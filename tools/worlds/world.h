@@ -1,5 +1,5 @@
 /// \file
-/// A world as it was drawn, before it is written as a scenario and a scene.
+/// A drawn world, before it is written as a scenario and a scene.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -27,13 +27,13 @@ struct Material {
   double alpha = 1;
   double emission = 0;
   int texture = -1;   ///< -1: none
-  double side_m = 1;  ///< that a picture spans
-  bool fits = false;  ///< a picture spans a side of what it is put on, whatever its size
-  bool cube = false;  ///< put round primitives from all sides
-  bool bold = true;   ///< has corners to be seen
+  double side_m = 1;  ///< spanned by a picture
+  bool fits = false;  ///< a picture spans a side of the part, of any size
+  bool cube = false;  ///< mapped onto primitives from all sides
+  bool bold = true;   ///< has detectable corners
 };
 
-/// A geom in the frame of its body; MuJoCo's sizes.
+/// A geom in its body frame, with MuJoCo's sizes.
 struct Part {
   enum class Shape { box, cylinder, capsule, ellipsoid, plane, mesh } shape = Shape::box;
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
@@ -41,7 +41,7 @@ struct Part {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   int material = 0;
   int mesh = -1;
-  bool is_solid = false;  ///< wheels feel it
+  bool is_solid = false;  ///< has wheel contact
 };
 
 /// An object of the scene.
@@ -55,7 +55,7 @@ struct Body {
 struct World {
   std::string family;
   std::uint64_t seed = 0;
-  int attempt = 0;                 ///< worlds of this seed that were thrown away before this one
+  int attempt = 0;                 ///< number of rejected worlds of this seed before this one
   std::set<std::string> features;  ///< of `all_features` (worlds.h)
   std::vector<Texture> textures;
   std::vector<Material> materials;
@@ -64,10 +64,10 @@ struct World {
   std::vector<Body> bodies;
   bool has_sky = false;
   Eigen::Vector3d sky{0.6, 0.7, 0.85};
-  double ambient = 0.5;  ///< light from everywhere
-  double diffuse = 0.4;  ///< from a direction
+  double ambient = 0.5;  ///< omnidirectional light
+  double diffuse = 0.4;  ///< directional light
   double extent_m = 10;
-  /// Everything but the paths of files.
+  /// Complete except for the paths of files.
   scenario::Scenario scenario;
 };
 

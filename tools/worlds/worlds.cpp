@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kMostAttempts = 200;
-constexpr int kStillSeen = 12;  // frames of a mover that must be left, furniture and all
+constexpr int kStillSeen = 12;  // least frames of a visible mover after furnishing
 constexpr double kNear_m = 0.8;
 
 struct Family {
@@ -35,7 +35,7 @@ const Family& family_of(const std::string& name) {
                                           fmt::join(families(), ", ")));
 }
 
-/// Where rover and movers go, at every quarter of a frame.
+/// Marks the paths of rover and movers as kept free, at every quarter of a frame.
 void keep_ways_free(Kit& kit, const Way& way, const std::vector<Mover>& movers) {
   const scenario::Camera& camera = kit.world.scenario.camera;
   constexpr double kRoom_m = 0.1, kLeastStep_m = 0.05;
@@ -58,7 +58,7 @@ void keep_ways_free(Kit& kit, const Way& way, const std::vector<Mover>& movers) 
   }
 }
 
-/// Something small right before the camera or beside the way, if there is room.
+/// Places a small thing close to the camera's path or beside it, if there is room.
 void put_near(Kit& kit, const Way& way) {
   const scenario::Camera& camera = kit.world.scenario.camera;
   for (int i = 0; i < 40; ++i) {
@@ -74,7 +74,7 @@ void put_near(Kit& kit, const Way& way) {
   }
 }
 
-/// Whether anything that stands comes nearer than that to the camera, in the picture.
+/// Whether a static thing is visible within `kNear_m` of the camera.
 bool shows_near(const Kit& kit, const Way& way) {
   const scenario::Camera& camera = kit.world.scenario.camera;
   for (const Stand& stand : way.frames) {
@@ -105,7 +105,7 @@ bool is_way_free(const Kit& kit, const Way& way) {
   });
 }
 
-/// Whether it came to something.
+/// Tries to build a world. \return whether it succeeded.
 bool attempt(Kit& kit, const Family& family, bool with_movers) {
   const Layout layout = family.lay_out(kit);
   const Way way = draw_rover(kit, layout.lane);
@@ -118,7 +118,7 @@ bool attempt(Kit& kit, const Family& family, bool with_movers) {
   keep_ways_free(kit, way, movers);
   if (kit.draw.chance(0.4)) put_near(kit, way);
   layout.furnish();
-  if (!with_movers || kit.draw.chance(0.5)) {  // what moves elsewhere stands here
+  if (!with_movers || kit.draw.chance(0.5)) {  // things that move in other worlds are static here
     scatter(kit, layout.traffic.kinds, kit.draw.whole(1, 3), layout.traffic.low_m,
             layout.traffic.high_m);
   }

@@ -1,4 +1,4 @@
-// A world as files: a scene in MJCF with its textures and meshes, and a scenario in YAML.
+// Writes a world: an MJCF scene with textures and meshes, and a YAML scenario.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// With decimals enough for a tenth of a millimetre, and none to spare.
+/// Formats with the decimals for a tenth of a millimetre, without trailing zeros.
 std::string number(double value) {
   std::string text = fmt::format("{:.4f}", value);
   while (text.ends_with('0')) text.pop_back();
@@ -77,7 +77,7 @@ std::string scene_text(const World& world) {
                       scenario::kOriginText, world.family, world.seed);
   text += "  <compiler meshdir=\"meshes\" texturedir=\"textures\"/>\n";
   text += fmt::format("  <statistic extent=\"{}\" center=\"0 0 1\"/>\n", number(world.extent_m));
-  // round primitives with as many faces as the meshes have: the renderer's time goes with them
+  // few faces on round primitives, as on the meshes, because they cost rendering time
   text += fmt::format(
       "  <visual>\n    <headlight ambient=\"{0} {0} {0}\" diffuse=\"0 0 0\" specular=\"0 0 0\"/>\n"
       "    <quality numslices=\"16\" numstacks=\"8\"/>\n  </visual>\n",
