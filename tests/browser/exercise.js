@@ -42,7 +42,7 @@
       // The plots follow the video's position.
       plots.dispatchEvent(new MouseEvent('mouseleave'));
       video.currentTime = 0.01;
-      video.dispatchEvent(new Event('seeked'));  // the decoder runs in real time, not in virtual time
+      video.dispatchEvent(new Event('seeked'));  // the decoder ignores virtual time
       const first = () => [...plots.querySelectorAll('.u-legend tr:first-child .u-value')].map((cell) => cell.textContent);
       await until(() => first().every((text) => text === '0'));
       expect('the plots follow the video', first().every((text) => text === '0'));

@@ -3,8 +3,7 @@
 // Mutates valid inputs of the program at random for SECONDS, and runs the program on each. Exits
 // with 1 if a run crashed, hung, took too much memory, refused without one line of explanation, or
 // left files behind. Each finding is kept in found/KIND-SEED-NUMBER in the start folder: the
-// inputs,
-// and the command in `command.txt`.
+// inputs, and the command in `command.txt`.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <signal.h>

@@ -145,8 +145,7 @@ TEST_F(Process, ALimitOfMemoryThatIsEnoughStopsNoCommand) {
 }
 
 /// Whether a process handles a signal itself. It does not until `main`, while the loader runs,
-/// which
-/// may take long.
+/// which may take long.
 bool catches(pid_t process, int signal) {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");
   for (std::string line; std::getline(status, line);) {

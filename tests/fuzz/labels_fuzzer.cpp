@@ -1,6 +1,5 @@
 // Labelled boxes in the formats of MOTChallenge or COCO: read as valid boxes, or refused by an
-// error
-// that names the file.
+// error that names the file.
 #include <cmath>
 
 #include "scenarios/scenario.h"

@@ -269,8 +269,7 @@ TEST_P(Panels, LayersFarOutsideTheImageLeaveNoTrace) {
     const Vec2 corner = sheet_.at(panel, {-0.5, -0.5});
     const cv::Rect image(static_cast<int>(corner.x() + 1), static_cast<int>(corner.y() + 1),
                          bare.cols / 2 - 1, (bare.rows - kBands_px) / 2 - 1);
-    if (panel == Panel::squares)
-      continue;  // the id of an item out of view is drawn at the edge
+    if (panel == Panel::squares) continue;  // the id of an item out of view is drawn at the edge
     EXPECT_EQ(cv::norm(bare(image), drawn(image), cv::NORM_INF), 0);
   }
 }

@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
 # Usage: run.sh SOURCE BUILD WORK CMAKE findpackage|addsubdirectory|program
 #
-# Uses the project from outside: by find_package from a folder where BUILD was installed and which
-# was
-# then moved, or as a subdirectory of another project; or runs the installed program.
+# Uses the project from outside: by find_package from a folder where BUILD was installed and then
+# moved, or as a subdirectory of another project; or runs the installed program.
 set -euo pipefail
 source=$1 build=$2 work=$3/$5 cmake=$4
 project=$source/tests/outside/project

@@ -2,9 +2,8 @@
 # Usage: install.sh SOURCE WORK LCS
 #
 # Installs SOURCE/tools/python by pip in a fresh virtual environment, as its README says, and runs
-# its
-# tests with the installed package from another folder; LCS is the program for comparing the bits.
-# Exits with 77, skipped, if pip cannot download its build requirements.
+# its tests with the installed package from another folder; LCS is the program for comparing the
+# bits. Exits with 77, skipped, if pip cannot download its build requirements.
 set -euo pipefail
 source=$1 work=$2 lcs=$3
 
