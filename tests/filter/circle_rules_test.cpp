@@ -255,7 +255,7 @@ TEST_F(CircleMatch, TheAngleOfARebelCircleIsThatOfItsEdges) {
   EXPECT_NEAR(layers.rebel_circles.front().angle, 1.4, 1e-9);
 }
 
-/// An edge without a group has no fixed place; the circles are the same in any order of edges.
+/// The circles are the same in any order of the edges.
 TEST(Circles, DoNotDependOnTheOrderOfTheEdges) {
   Random random(3);
   std::vector<Edge> edges;

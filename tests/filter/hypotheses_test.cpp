@@ -623,7 +623,7 @@ TEST(Coupling, WhoTellsNothingIsWhatTheNearestIsThatDoesOfEquallyNearOnesTheLike
     EXPECT_EQ(m[3], m[1]);
     EXPECT_EQ(m[4], std::max(m[0], m[1]));
   }
-  // Many new nodes and one known node that is not among the nearest of the farthest: no belief.
+  // One known node, then a row of new ones: the last ones have no known node among their nearest.
   std::vector<Coupling::Node> nodes = {node(0, 20)};
   for (int i = 1; i <= 2 * kUsual.neighbours; ++i) nodes.push_back(silent(10 * i, 240));
   const std::vector<double> m = coupling.settle(nodes, kNoise2_px2);
@@ -695,7 +695,7 @@ TEST(MotionFix, FindsWhatTheToldMotionIsOffByAmongWrongMatches) {
   }
 }
 
-/// Every other match is wrong, by an offset as large as that of the turn.
+/// Every other match is wrong, by an offset that a turn of this size could cause.
 TEST(MotionFix, FindsALargeTurnThatNoGyroSawAmongWrongMatches) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);

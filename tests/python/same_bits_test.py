@@ -183,7 +183,7 @@ class SameBits(unittest.TestCase):
         detections = out.parent / "masks.csv"
         with open(detections, "w", newline="") as file:
             table = csv.writer(file)
-            table.writerow([0, "circle"])  # of which there is none
+            table.writerow([0, "circle"])  # no circles
 
             def said():
                 for frame in lcs.simulate(lcs.Scenario(scenario_file, set=SETTINGS, seed=SEED)):

@@ -66,7 +66,7 @@ TEST(Ground, HasTheRoughnessAskedForAndIsLevelAtItsEdges) {
       }
       EXPECT_GE(z, 0);
       EXPECT_LE(z, 0.04);
-      // inside the margin of one wavelength, 8 points
+      // skips the margin of one wavelength, 8 points
       if (row < 8 || column < 8 || row >= rows - 8 || column >= columns - 8) continue;
       ++inner;
       sum += z;

@@ -31,7 +31,7 @@ TEST_F(WorldCommand, WritesAScenarioThatRunsLikeAnyOther) {
   EXPECT_EQ(
       bench::entries(folder_.path() / "mine"),
       (std::set<std::string>{"corridor_4.yaml", "scene.xml", "plan.png", "textures", "meshes"}));
-  fs::rename(folder_.path() / "mine", folder_.path() / "moved");  // no file has its path
+  fs::rename(folder_.path() / "mine", folder_.path() / "moved");  // no file has the path
   const CommandResult ran =
       run({"run", "moved/corridor_4.yaml", "--no-video", "--set", "frames=4"});
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
