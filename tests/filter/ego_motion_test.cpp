@@ -149,7 +149,7 @@ TEST(EgoMotion, OdometryHoldsTheDriftOfABiasedImu) {
     told_sigma[way] = estimator.frame(30'000'000'000).velocity_sigma_mps;
   }
   EXPECT_GT(error[alone], 0.5);  // 30 s of these biases
-  // The reported sigma shows the error; its bound is ten times that expected of a correct IMU.
+  // The reported sigma shows the error, although this IMU is over ten times worse than assumed.
   EXPECT_GT(told_sigma[alone], 0.2);
   for (const int way : {with_velocity, with_yaw_rate}) {
     EXPECT_LT(error[way], 0.01);  // a third of the speed, from 2 cm/s of odometry noise assumed

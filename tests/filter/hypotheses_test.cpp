@@ -313,7 +313,7 @@ TEST(OwnMotion, FollowsAVelocityUnderARotationAndGrowsSurer) {
 
 // ---- Association
 
-/// A static track after one sighting, with the certainty of `first` sightings.
+/// A static track at `x`, px, after one sighting.
 Track track_at(const Vec2& x, const Signature& signature = {}) {
   const MotionField still(vga(), steady_motion(Vector3d::Zero(), Vector3d::Zero(), kDt_s), {});
   Track track;
