@@ -11,7 +11,7 @@
 namespace lcs::bench {
 namespace {
 
-/// Any detector will do: this one calls every corner a rebel and keeps what it was told.
+/// A minimal detector: it calls every corner a rebel and stores its inputs.
 class Alarmist : public Detector {
  public:
   const FrameResult& step(const DetectorInput& input) override {
@@ -68,7 +68,7 @@ TEST_F(BenchTest, RunsAnyDetectorThroughTheWholeLoop) {
     EXPECT_EQ(frame.times.value().line_ms, 1.25);
     EXPECT_GT(frame.times.value().detect_ms, 0);
   }
-  // The rover drives at 0.5 m/s along the optical axis; the IMU knows it to a few per cent.
+  // The rover drives at 0.5 m/s along the optical axis; the IMU estimates it to a few per cent.
   EXPECT_NEAR(recording_.frames.back().motion.v_C_mps.z(), 0.5, 0.05);
   EXPECT_NEAR(recording_.frames.back().true_motion.v_C_mps.z(), 0.5, 0.005);
   EXPECT_FALSE(std::equal(detector_.images()[0].begin(), detector_.images()[0].end(),
@@ -138,7 +138,7 @@ TEST(FilterParameters, AreThePresetWithTheScenariosSettingsOnTop) {
   EXPECT_THROW(load({"filter.preset=best"}), scenario::Error);
   EXPECT_THROW(load({"filter.circle.mu_0=17"}), scenario::Error);
   EXPECT_THROW(load({"filter.circle.gap=wide"}), scenario::Error);
-  // Each in its range, and out of order together.
+  // Each value is in its range, but their order is wrong.
   EXPECT_THROW(load({"filter.circle.Tr_c=9", "filter.circle.Tr_m=5"}), scenario::Error);
 }
 

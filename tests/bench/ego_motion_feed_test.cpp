@@ -11,7 +11,7 @@ namespace {
 using Eigen::AngleAxisd;
 using Eigen::Vector3d;
 
-/// Camera looks along the rover's x: its z forward, its x to the right, its y down.
+/// The camera looks along the rover's x: its z is forward, its x right, its y down.
 sim::Pose camera_mount() {
   sim::Pose T_BC;
   T_BC.R << 0, 0, 1, -1, 0, 0, 0, -1, 0;
@@ -19,7 +19,7 @@ sim::Pose camera_mount() {
   return T_BC;
 }
 
-/// A rover that drives in a circle: all that its sensors see is known in closed form.
+/// A rover that drives in a circle: all sensor readings are known in closed form.
 struct CircularDrive {
   double speed_mps = 0.5;
   double yaw_rate_radps = 0.3;
@@ -29,7 +29,7 @@ struct CircularDrive {
     return {AngleAxisd(yaw, Vector3d::UnitZ()).matrix(),
             {radius * std::sin(yaw), radius * (1 - std::cos(yaw)), 0}};
   }
-  /// At the rover's origin: the centripetal acceleration to its left, and gravity.
+  /// At the rover's origin: centripetal acceleration to its left, and gravity.
   sim::ImuSample imu(std::int64_t t_ns) const {
     return {t_ns, {0, 0, yaw_rate_radps}, {0, speed_mps * yaw_rate_radps, 9.81}};
   }
@@ -91,7 +91,7 @@ TEST(EgoMotionFeed, TheFirstFrameHasNoMotion) {
 }
 
 TEST(EgoMotionFeed, AnIdealImuTellsTheMotionThatThePosesHad) {
-  // Trapezoids over 5 ms of a motion on a circle are exact to far below a micrometre a frame.
+  // On a circle, trapezoids over 5 ms are exact to far below a micrometre per frame.
   const CircularDrive drive;
   EgoMotionFeed feed(with_source(scenario::EgoMotionSource::imu), drive.calibration());
   feed.next(drive.observation(0));
@@ -112,7 +112,7 @@ TEST(EgoMotionFeed, AnIdealImuTellsTheMotionThatThePosesHad) {
 TEST(EgoMotionFeed, WhatIsNotSaidToStayOnTheGroundHasNone) {
   const CircularDrive drive;
   sim::Calibration calibration = drive.calibration();
-  calibration.on_ground = false;  // a drone, or an IMU alone
+  calibration.on_ground = false;  // a drone, or an IMU without a vehicle
   EgoMotionFeed feed(with_source(scenario::EgoMotionSource::imu), calibration);
   const EgoMotionFeed::Motions motions = feed.next(drive.observation(0));
   EXPECT_FALSE(motions.told.ground);
@@ -168,7 +168,7 @@ struct BrakingDrive {
   }
 };
 
-/// Largest error of the velocity told, m/s, where the IMU says nothing from 0.9 s to 1.7 s.
+/// Largest error of the estimated velocity, m/s, when the IMU is silent from 0.9 s to 1.7 s.
 double error_through_a_gap(bool odometry) {
   CircularDrive at_rest;
   sim::Calibration calibration = at_rest.calibration();
@@ -200,7 +200,7 @@ double error_through_a_gap(bool odometry) {
 }
 
 TEST(EgoMotionFeed, WhileTheImuIsSilentItsLastReadingIsHeld) {
-  // On a circle rate and force stay as they are in the rover, so that holding them is exact.
+  // On a circle, rate and force are constant in the rover's frame, so holding them is exact.
   const CircularDrive drive;
   EgoMotionFeed feed(with_source(scenario::EgoMotionSource::imu), drive.calibration());
   for (int k = 0; k <= 30; ++k) {
@@ -214,8 +214,8 @@ TEST(EgoMotionFeed, WhileTheImuIsSilentItsLastReadingIsHeld) {
 }
 
 TEST(EgoMotionFeed, OdometryTellsOfTheBrakingThatASilentImuDoesNotSee) {
-  EXPECT_NEAR(error_through_a_gap(false), 0.3, 0.02);  // all of it
-  EXPECT_LT(error_through_a_gap(true), 0.03);          // a tenth
+  EXPECT_NEAR(error_through_a_gap(false), 0.3, 0.02);  // the whole change of speed
+  EXPECT_LT(error_through_a_gap(true), 0.03);          // a tenth of it
 }
 
 }  // namespace

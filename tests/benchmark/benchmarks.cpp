@@ -1,6 +1,6 @@
 /// \file
-/// `lcs_benchmarks`: how long each part takes, beside what it should be measured against: cv::FAST,
-/// the comparator klt, and a loop that renders and does nothing else.
+/// `lcs_benchmarks`: time of each part beside its reference: cv::FAST, the comparator klt, and a
+/// loop that only renders.
 #include <benchmark/benchmark.h>
 
 #include <ctime>
@@ -33,10 +33,10 @@
 namespace lcs::bench {
 namespace {
 
-/// Frames before the filter has anything to compare, and edges are as many as they stay.
+/// Frames until the filter has tracks to compare and a steady number of edges.
 constexpr std::size_t kWarmUpFrames = 6;
 
-/// klt needs the pictures themselves, and some seconds a frame for the largest.
+/// klt needs the pictures themselves, and some seconds per frame at the largest sizes.
 constexpr int kMostForKlt = 2000;
 
 std::string scenario_file(const std::string& scene) {
@@ -49,7 +49,7 @@ const Footage& footage(const std::string& scene) {
   return (found != known.end() ? found : known.emplace(scene, scenario_file(scene)).first)->second;
 }
 
-/// The last one is kept: benchmarks of one stream follow each other.
+/// Keeps the last stream: benchmarks of one stream run consecutively.
 const Stream& stream(const std::string& scene, int corners) {
   static std::pair<std::string, int> key;
   static std::unique_ptr<Stream> last;
@@ -73,13 +73,13 @@ double seconds_by(clockid_t clock, Work&& work) {
   return now() - start;
 }
 
-/// Time that this thread had a core to itself: on a busy machine the wall clock says how busy.
+/// CPU time of this thread, s: wall time would include the load of the machine.
 template <typename Work>
 double cpu_seconds(Work&& work) {
   return seconds_by(CLOCK_THREAD_CPUTIME_ID, std::forward<Work>(work));
 }
 
-/// For rendering, which the driver does in threads of its own.
+/// Wall time, s, for rendering, which the driver does in its own threads.
 template <typename Work>
 double wall_seconds(Work&& work) {
   return seconds_by(CLOCK_MONOTONIC, std::forward<Work>(work));
@@ -133,7 +133,7 @@ void filter(benchmark::State& state, const std::string& scene, int corners) {
     ++k;
   }
   state.counters["corners"] = of.mean_corners();
-  // The filter times its experts by the wall clock: their shares of what the thread's clock says.
+  // The filter times its experts by the wall clock; this gives their shares of the thread's time.
   const double share_ms = 1000 * total_s / static_cast<double>(state.iterations()) /
                           (sum.line_ms + sum.circle_ms + sum.square_ms);
   state.counters["line_ms"] = share_ms * sum.line_ms;
@@ -156,7 +156,7 @@ void klt(benchmark::State& state, const std::string& scene, int corners) {
   step(0);
   std::size_t k = 0;
   for (auto _ : state) {
-    // Back to the start goes by one long step, which is not timed.
+    // The return to the start is one long step, which is not timed.
     if (++k == of.size()) {
       step(0);
       k = 1;
@@ -203,7 +203,7 @@ void simulate(benchmark::State& state, const std::string& scene) {
   }
 }
 
-/// The least that a picture takes: no physics, no depth, no truth.
+/// Minimum for a picture: no physics, no depth, no truth.
 void render(benchmark::State& state, const std::string& scene) {
   const scenario::Scenario scenario = scenario::load(scenario_file(scene));
   sim::World world(scenario);
@@ -218,7 +218,7 @@ void render(benchmark::State& state, const std::string& scene) {
   }
 }
 
-/// Else what other settings cost would be told against something else.
+/// Checks that both renderers agree, so that the costs of settings share one reference.
 bool is_of_the_project(const RawRenderer& renderer, sim::World& world, const cv::Size& size_px) {
   sim::CameraRenderer reference(world.model(), world.camera_id(), size_px.width, size_px.height);
   cv::Mat3b expected;
@@ -229,7 +229,7 @@ bool is_of_the_project(const RawRenderer& renderer, sim::World& world, const cv:
   return cv::norm(picture, expected, cv::NORM_INF) == 0;
 }
 
-/// A frame's renders, with other settings than the project's.
+/// The renders of a frame, with settings that differ from the project's.
 void settings(benchmark::State& state, const std::string& scene, const RenderSettings& chosen) {
   const scenario::Scenario scenario = scenario::load(scenario_file(scene));
   sim::World world(scenario);
@@ -275,10 +275,10 @@ void add_all() {
 }  // namespace lcs::bench
 
 int main(int argc, char** argv) {
-  cv::setNumThreads(1);  // as the filter runs: ratios are of work, not of cores
+  cv::setNumThreads(1);  // like the filter: ratios compare work, not cores
   lcs::bench::add_all();
   benchmark::Initialize(&argc, argv);
-  // What is left is the file of the page.
+  // The remaining argument is the file of the page.
   if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
     std::cerr << "lcs_benchmarks: unknown argument " << argv[1]
               << "; give the file for the page, and see --help for the options\n";

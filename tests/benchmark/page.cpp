@@ -22,12 +22,12 @@ namespace {
 constexpr const char* kScenes[] = {"lab", "street"};
 constexpr int kCorners[] = {100, 200, 700, 2000, 5000, 10000, 20000};
 
-/// The targets, and the range that the growth is taken over.
+/// The targets, and the lower end of the range for the growth.
 constexpr double kMostOfFast = 2, kMostOfKlt = 0.1, kMostGrowth = 1.15;
 constexpr int kTargetCorners = 700, kGrowthFrom = 200;
 
-/// Columns of times: FAST, klt, signatures, the filter, its three experts. The first of those that
-/// are held against FAST.
+/// Columns of times: FAST, klt, signatures, the filter, its three experts. The first column with a
+/// ratio to FAST.
 constexpr std::size_t kTimes = 7, kOverFast = 2, kFilter = 3;
 
 using Growth = std::vector<std::pair<double, double>>;  ///< corners, ms
@@ -66,7 +66,7 @@ std::string machine() {
       threads ? fmt::format(" with LP_NUM_THREADS={}", threads) : "", cv::getVersionString());
 }
 
-/// Slope of the line through (log x, log y) that fits best; none of fewer than two points.
+/// Slope of the best-fit line through (log x, log y); empty for fewer than two points.
 std::optional<double> exponent(const Growth& points) {
   if (points.size() < 2) return std::nullopt;
   double mx = 0, my = 0, xx = 0, xy = 0;

@@ -1,6 +1,6 @@
 /// \file
-/// The report of a run of benchmarks: what was measured, in which ratios, whether the targets are
-/// met, and with what. One HTML page that needs nothing beside it.
+/// The report of a benchmark run: the measurements, their ratios, the targets, and the machine. One
+/// self-contained HTML page.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -12,7 +12,7 @@
 
 namespace lcs::bench {
 
-/// Prints as Google Benchmark does, and keeps what is printed for the page.
+/// Prints like Google Benchmark and keeps the results for the page.
 class PageReporter : public benchmark::ConsoleReporter {
  public:
   PageReporter() : ConsoleReporter(OO_Tabular) {}
@@ -25,17 +25,17 @@ class PageReporter : public benchmark::ConsoleReporter {
   void write(const std::filesystem::path& page) const;
 
  private:
-  /// The quickest of a benchmark's repetitions: what else runs on the machine only adds.
+  /// The fastest repetition of a benchmark: other load on the machine only adds time.
   struct Measured {
     double ms = 0;
     std::map<std::string, double> counters;
   };
 
-  /// Whether anything was measured whose name begins so.
+  /// Whether any measured name begins with `prefix`.
   bool any(const std::string& prefix) const;
   std::optional<double> ms(const std::string& name) const;
   std::optional<double> counter(const std::string& name, const char* key) const;
-  /// Appends what the filter should reach to `targets`.
+  /// Appends the filter's targets to `targets`.
   std::string filter_table(const std::string& scene, std::string& targets) const;
   std::string simulation_table(const std::string& scene) const;
   std::string settings_table(const std::string& scene) const;

@@ -15,9 +15,9 @@ namespace lcs::bench {
 namespace {
 
 constexpr int kDefaultShadowSize = 4096;  // MuJoCo's, texels
-constexpr int kSpareGeoms = 64;           // for what is drawn besides the model's
+constexpr int kSpareGeoms = 64;           // for geoms that the model does not contain
 
-/// All that the project's renderer writes into a model, and then the settings.
+/// Applies all that the project's renderer writes into a model, and then the settings.
 void prepare(sim::World& world, const cv::Size& size_px, const RenderSettings& settings) {
   mjModel& m = world.model().m();
   const sim::CameraRenderer prepares(world.model(), world.camera_id(), size_px.width,
@@ -84,7 +84,7 @@ struct RawRenderer::Impl {
     }
   }
 
-  /// No shadow is in what is read of these.
+  /// Depth and ids need no shadows.
   void draw_truth() {
     if (settings.truth == TruthRenders::none) return;
     const bool apart = settings.truth == TruthRenders::apart;

@@ -1,6 +1,6 @@
 /// \file
-/// What `sim::CameraRenderer` renders, by the same calls of MuJoCo and with settings to choose:
-/// what each of the project's choices saves is measured with this.
+/// Renders like `sim::CameraRenderer`, by the same calls of MuJoCo but with selectable settings. It
+/// measures the saving by each of the project's choices.
 #pragma once
 
 #include <memory>
@@ -10,19 +10,19 @@
 
 namespace lcs::bench {
 
-/// What is rendered for the truth.
+/// Renders for the truth.
 enum class TruthRenders {
   none,
   together,  ///< depth and ids from one render
-  apart,     ///< from one each
+  apart,     ///< one render for each
 };
 
-/// As the project has them, unless changed.
+/// The defaults are the project's.
 struct RenderSettings {
-  int samples = 0;       ///< a pixel
+  int samples = 0;       ///< per pixel
   bool shadows = false;  ///< of all lights, with MuJoCo's default resolution
   TruthRenders truth = TruthRenders::together;
-  bool read_back = true;  ///< else only waits until all is drawn
+  bool read_back = true;  ///< if false, only waits until all is drawn
 
   bool operator==(const RenderSettings&) const = default;
 };
@@ -47,18 +47,18 @@ inline constexpr NamedRenderSettings kRenderSettings[] = {
 
 class RawRenderer {
  public:
-  /// Of the world's camera, as things stand. \param world outlives the renderer, and is changed as
-  /// the settings need it: it should be the renderer's own.
-  /// \throws std::runtime_error where GL cannot do what the settings ask for.
+  /// Renders the world's camera in its current state. \param world must outlive the renderer, which
+  /// changes it for the settings: use a world of its own.
+  /// \throws std::runtime_error if GL does not support the settings.
   RawRenderer(sim::World& world, const cv::Size& size_px, const RenderSettings& settings);
   ~RawRenderer();
   RawRenderer(const RawRenderer&) = delete;
   RawRenderer& operator=(const RawRenderer&) = delete;
 
-  /// One frame, with all that `sim::CameraRenderer` does in `update`.
+  /// Renders one frame, with all steps of `sim::CameraRenderer::update`.
   void render();
 
-  /// The colour of the last frame before the lens blurs it, as `sim::CameraRenderer` does it.
+  /// The colour of the last frame before the lens blur, as `sim::CameraRenderer` renders it.
   cv::Mat3b picture() const;
 
  private:

@@ -19,7 +19,7 @@ cv::Mat1b grey_of(const cv::Mat3b& image) {
   return grey;
 }
 
-/// A window of the size of the camera's picture on endless tiles of another one.
+/// A window of the size of the camera's picture, filled with copies of `tile`.
 template <typename Pixel>
 cv::Mat_<Pixel> tiled(const cv::Mat_<Pixel>& tile, const Intrinsics& camera) {
   cv::Mat_<Pixel> window(camera.height_px, camera.width_px);

@@ -1,11 +1,11 @@
 /// \file
-/// Recorded pictures of a scene, and streams of as many corners as are asked for from them.
+/// Recorded pictures of a scene, and streams with a requested number of corners made from them.
 ///
-/// A picture of 640x480 shows some hundred corners. The streams keep that density and change the
-/// picture's size: the recorded picture, repeated to all sides, is seen through a window that shows
-/// the number of corners asked for on average. The camera moves sideways and does not turn, so that
-/// all that is static moves alike in all tiles, and a stream is what a larger camera would see of a
-/// world that repeats itself. Where tiles meet, corners come and go as at an image's border.
+/// A picture of 640x480 has some hundred corners. The streams keep that density and change the
+/// picture's size: the recorded picture is repeated to all sides, and a window shows the requested
+/// number of corners on average. The camera moves sideways without turning, so all static points
+/// move equally in all tiles, and a stream equals the picture of a larger camera in a periodic
+/// world. Where tiles meet, corners appear and vanish as at an image's border.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,20 +20,20 @@
 
 namespace lcs::bench {
 
-/// A scenario as the camera and the IMU see it, rendered once.
+/// The pictures and motions of a scenario, rendered once.
 struct Footage {
   explicit Footage(const std::string& scenario_file);
 
   scenario::Scenario scenario;
   Intrinsics camera;
   std::vector<cv::Mat3b> images;   ///< BGR
-  std::vector<EgoMotion> motions;  ///< since the frame before
+  std::vector<EgoMotion> motions;  ///< since the previous frame
   double corners_per_px = 0;       ///< mean
 };
 
 class Stream {
  public:
-  /// \param footage outlives the stream. \param corners a frame, on average.
+  /// \param footage must outlive the stream. \param corners mean number per frame.
   Stream(const Footage& footage, int corners);
 
   std::size_t size() const { return corners_px_.size(); }
@@ -45,7 +45,7 @@ class Stream {
   const EgoMotion& motion(std::size_t frame) const { return footage_->motions[frame]; }
   double mean_corners() const;
 
-  /// Made anew with each call: they are large.
+  /// Computed anew in each call, because they are large.
   cv::Mat3b image(std::size_t frame) const;
   cv::Mat1b grey(std::size_t frame) const;
 

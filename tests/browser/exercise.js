@@ -1,4 +1,4 @@
-// Uses the page as a person would, and leaves what it found in an element for run.sh to read.
+// Operates the page like a user, and writes the faults into an element for run.sh to read.
 (async () => {
   const faults = window.faultsOnLoad;
   const expect = (what, is) => { if (!is) faults.push(what); };
@@ -39,10 +39,10 @@
       }
       await until(() => video.currentTime > 0.8 * video.duration);
       expect('pointing shows the frame', video.currentTime > 0.8 * video.duration);
-      // Where the video is, the plots are.
+      // The plots follow the video's position.
       plots.dispatchEvent(new MouseEvent('mouseleave'));
       video.currentTime = 0.01;
-      video.dispatchEvent(new Event('seeked'));  // the decoder lives in real time, not in the budget's
+      video.dispatchEvent(new Event('seeked'));  // the decoder ignores virtual time
       const first = () => [...plots.querySelectorAll('.u-legend tr:first-child .u-value')].map((cell) => cell.textContent);
       await until(() => first().every((text) => text === '0'));
       expect('the plots follow the video', first().every((text) => text === '0'));
@@ -52,10 +52,10 @@
     const rows = () => [...table.tBodies[0].rows];
     const names = () => rows().map((row) => row.dataset.scenario);
 
-    // The table has a row a scenario, with the figures that it was given.
+    // The table has one row per scenario, with the scenario's figures.
     expect('a row a scenario', rows().length === data.scenarios.length && rows().length >= 2);
 
-    // What is worst is told before the tables, and leads to its section.
+    // The worst results precede the tables and link to their sections.
     expect('regressions are told', data.baseline === null || data.remarks.some((r) => r.standing === 'regressed'));
     for (const remark of document.querySelectorAll('#worst .remark')) {
       const link = remark.querySelector('a');
@@ -64,7 +64,7 @@
         document.querySelector(link.getAttribute('href')).open);
     }
 
-    // Headings sort, first upwards, then downwards; figures that are not defined stay last.
+    // Headings sort, first upwards, then downwards; undefined figures stay last.
     const headings = [...table.tHead.rows[0].cells];
     for (const heading of headings) {
       const metric = heading.dataset.metric;
@@ -82,7 +82,7 @@
       }
     }
 
-    // The filter leaves what it names.
+    // The filter keeps only matching rows.
     const filter = document.getElementById('filter');
     const look = (text) => {
       filter.value = text;
@@ -95,13 +95,13 @@
     expect('the filter finds nothing', look('no such scenario') === 0);
     expect('the filter lets all back', look('') === rows().length);
 
-    // Changes are there with a baseline, and only then.
+    // Changes appear only with a baseline.
     const changes = [...document.querySelectorAll('#scenarios .change')].filter((c) => c.textContent !== '');
     expect('changes against the baseline', (changes.length > 0) === (data.baseline !== null));
     expect('changes are coloured', data.baseline === null || document.querySelector('.change.good, .change.bad'));
     expect('a button sorts by change', (document.getElementById('by-change') !== null) === (data.baseline !== null));
 
-    // A name opens its section; it has plots, the command, and pictures that show.
+    // A name opens its section, which has plots, the command, and visible pictures.
     let pictures = 0;
     for (const row of rows()) {
       row.querySelector('a').click();

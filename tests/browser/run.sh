@@ -23,14 +23,14 @@ rm -rf "$work"
 mkdir -p "$work"
 suite() {
   "$lcs" suite "$scenarios/approaching.yaml" "$scenarios/lab.yaml" --seeds 2 --set frames=20 --quiet \
-    "$@" || [[ $? -eq 1 ]]  # criteria are not what is tested here
+    "$@" || [[ $? -eq 1 ]]  # failed criteria do not matter here
 }
 suite --out "$work/first"
 suite --out "$work/second" --set filter.preset=lab \
   --baseline "$work/first/suite.json"
 "$lcs" run "$scenarios/crossing.yaml" --frames 12 --report --quiet --out "$work/run" || [[ $? -eq 1 ]]
 
-# browse PAGE: what the page is after it was used, on stdout.
+# browse PAGE: prints the page's DOM after its use on stdout.
 browse() {
   "$chromium" --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run \
     --disable-background-networking --disable-component-update --disable-sync \
@@ -41,7 +41,7 @@ browse() {
 for name in first second run; do
   report=$work/$name/report.html
   [[ -s $report ]] || fail "$name left no report.html"
-  # A copy with a listener before all else and the exercise after it.
+  # A copy of the page with a listener before everything else and the exercise at the end.
   used=$work/$name.html
   awk -v exercise="$here/exercise.js" '
     /^<head>$/ {

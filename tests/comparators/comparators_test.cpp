@@ -128,8 +128,8 @@ INSTANTIATE_TEST_SUITE_P(
                     motion({0, 0, 1}, {0, 0, 0}), motion({0, 0, -1}, {0, 0.3, 0}),
                     motion({1, 0, 0}, {0, 0, 0}), motion({0.4, -0.1, 0.9}, {0.1, 0.3, -0.2})));
 
-/// Where the point that is seen at `now_px` at a depth was in the frame before, rotation removed:
-/// by the definition of the motion, not by the field.
+/// Previous place of the point at `now_px` and a depth, rotation removed, px: computed from the
+/// definition of the motion, not by the field.
 Vec2 earlier(const EgoMotion& motion, const Vec2& now_px, double depth_m,
              const Eigen::Vector3d& own_motion_C_m = Eigen::Vector3d::Zero()) {
   const Eigen::Vector3d now = kCamera.back_project(now_px, depth_m);
@@ -139,7 +139,7 @@ Vec2 earlier(const EgoMotion& motion, const Vec2& now_px, double depth_m,
 TEST_P(EgoMotions, StaticPointsLieOnTheSegmentAtEveryDepthFromTheNearest) {
   const MotionField field = field_of(GetParam());
   for (const Vec2& x : {Vec2(160, 120), Vec2(20, 30), Vec2(300, 110), Vec2(159.5, 239)}) {
-    // In reverse the point was nearer in the frame before: the nearest depth holds there as well.
+    // In reverse the point was nearer in the previous frame, where the minimum depth holds as well.
     const double nearest_m = 0.8 + std::max(0.0, -GetParam().v_C_mps.z() * GetParam().dt_s);
     for (const double depth_m : {nearest_m, 1.0, 3.0, 10.0, 1e3, 1e9}) {
       EXPECT_LT(epipolar_distance(field, x, earlier(GetParam(), x, depth_m)), 1e-6)
@@ -149,7 +149,7 @@ TEST_P(EgoMotions, StaticPointsLieOnTheSegmentAtEveryDepthFromTheNearest) {
 }
 
 TEST_P(EgoMotions, APointThatMovesAcrossTheFieldIsAsFarFromTheSegmentAsItMoved) {
-  // 5 cm at 3 m, at right angles to the field's direction there.
+  // 5 cm at 3 m, perpendicular to the field's direction there.
   const MotionField field = field_of(GetParam());
   const Vec2 x(250, 60);
   const Vec2 along = field.moving() ? field.direction(x) : Vec2(1, 0);
@@ -183,12 +183,12 @@ TEST(EpipolarDistance, NothingStaticIsFartherThanTheGroundWhereThatIsKnown) {
   EXPECT_LT(distance(below, 20), 1e-9);
   constexpr double kHeight_m = 1;
   ahead.ground = Ground{.up_C = {0, -1, 0}, .height_m = kHeight_m};
-  // Straight ahead: where the ray of a row has come down by the camera's height.
+  // Straight ahead: depth at which the ray of a row meets the ground.
   const double ground_m = kCamera.focal_px * kHeight_m / (below.y() - kCamera.centre_px.y());
   for (const double share : {0.5, 0.9, 1.0}) EXPECT_LT(distance(below, share * ground_m), 1e-9);
   const double beyond_px = (earlier(ahead, below, 20) - earlier(ahead, below, ground_m)).norm();
   ASSERT_GT(beyond_px, 2);
-  // But for what the ground may fall away by.
+  // Up to the tolerance for sloping ground.
   EXPECT_GT(distance(below, 20), 0.9 * beyond_px);
   EXPECT_LE(distance(below, 20), beyond_px);
   for (const double depth_m : {1.0, 20.0, 1e9}) EXPECT_LT(distance(above, depth_m), 1e-9);
@@ -203,11 +203,11 @@ TEST(EpipolarDistance, OfGroundThatIsNearerThanTheNearestDepthIsThatFromItsEnd) 
   EXPECT_NEAR(epipolar_distance(field_of(back), x, nearest + Vec2(0, 3)), 3, 1e-9);
 }
 
-// ---- Detectors on pictures drawn for the purpose: a plane at 3 m, seen by a camera that moves.
+// ---- Detectors on synthetic pictures: a plane at 3 m before a moving camera.
 
 constexpr double kPlane_m = 3;
 
-/// Boxes of random grey: many corners, and no two alike.
+/// Boxes of random grey: many corners, all different.
 cv::Mat1b texture() {
   cv::Mat1b picture(2 * kHeight, 2 * kWidth, uchar{120});
   cv::RNG random(3);
@@ -224,7 +224,7 @@ cv::Matx33d matx(const Eigen::Matrix3d& m) {
   return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};
 }
 
-/// What the camera sees of the plane after a motion: points of the first view go to
+/// Picture of the plane after a motion: points of the first view map to
 /// K (R - R t n' / d) K^-1 x, with the camera's way t in the first frame.
 cv::Mat1b view(const EgoMotion& motion) {
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity(), to_picture = Eigen::Matrix3d::Identity();
@@ -247,8 +247,8 @@ cv::Point pixel(const Eigen::Vector2f& px) {
 
 const cv::Rect kMover(200, 60, 60, 60);
 
-/// Another piece of texture, pasted at the mover's place and shifted; what is on it by parts of a
-/// pixel besides.
+/// Pastes another piece of texture at the mover's place plus `shift`; `slid` moves its content by
+/// parts of a pixel.
 void paste_mover(cv::Mat1b& seen, cv::Point shift, cv::Point2d slid = {}) {
   cv::Mat1b piece;
   const cv::Matx23d from(1, 0, 30 - slid.x, 0, 1, 30 - slid.y);
@@ -290,8 +290,8 @@ TEST_P(DetectorTest, InAStillWorldNothingIsARebelHoweverTheCameraMoves) {
     const auto corners = corners_of(now);
     const FrameResult said = step(*detector, now, corners, ego);
     ASSERT_GT(corners.size(), 100u);
-    // What has just come into sight, at the border, has no place in the last image: any may be
-    // found.
+    // Corners that just entered at the border have no place in the last image: any verdict
+    // is valid.
     constexpr int kBorder = 20;
     const cv::Rect inner(kBorder, kBorder, kWidth - 2 * kBorder, kHeight - 2 * kBorder);
     int rebels = 0, normal = 0, all = 0;
@@ -326,7 +326,7 @@ TEST_P(DetectorTest, AMoverAcrossTheFieldIsFoundAndBoxed) {
   }
   ASSERT_GT(inside, 10);
   ASSERT_GT(far, 100);
-  // A few windows on its outline see more of the ground than of the mover.
+  // A few windows on the outline cover more of the ground than of the mover.
   EXPECT_GT(found, 0.7 * inside);
   EXPECT_EQ(false_alarms, 0);
   double best = 0;
@@ -372,7 +372,7 @@ TEST_P(DetectorTest, AtAHighRateAMoverIsFoundThatMovesLittleFromFrameToFrame) {
   int inside = 0, found = 0;
   for (int k = 0; k < kFrames; ++k) {
     cv::Mat1b seen = view({});
-    // 0.8 px a frame, less than a corner must be off by.
+    // 0.8 px a frame, less than the minimum offset of a corner.
     paste_mover(seen, {0, 0}, {-0.8 * k, 0});
     EgoMotion still;
     still.dt_s = k == 0 ? 0 : kFastFrame_s;
@@ -398,7 +398,7 @@ TEST_P(DetectorOnGroundTest, WhatIsSeenBelowTheGroundMovesByItself) {
   const cv::Mat1b before = view({}), now = view(ego);
   const auto corners = corners_of(now);
   for (const bool known : {false, true}) {
-    // So low a camera would not see the plane 3 m ahead through the ground, from the horizon down.
+    // At this height the ground would hide the plane at 3 m, from the horizon down.
     if (known) ego.ground = Ground{.up_C = {0, -1, 0}, .height_m = 0.4};
     const auto detector = make();
     step(*detector, before, corners_of(before), {});
@@ -448,7 +448,7 @@ TEST_P(DetectorTest, CornersOnTexturelessGreyAreLostOrStandNoRebels) {
   }
   step(*detector, grey, corners, {});
   const FrameResult said = step(*detector, grey, corners, motion({0, 0, 1}, {0, 0, 0}));
-  // Dense flow has an answer everywhere: here, that nothing moved.
+  // Dense flow has a value everywhere: here, zero motion.
   const bool dense = GetParam() == std::string("dis");
   EXPECT_EQ(share(said.verdicts, dense ? Verdict::normal : Verdict::pending), 1);
 }
@@ -543,7 +543,7 @@ TEST(Detectors, RefuseParametersOutOfTheirRange) {
 
 TEST(BackwardFlow, FindsWhereCornersWere) {
   cv::Mat1b before = view({}), now = before.clone();
-  paste_mover(now, {0, 0});  // covers what was there
+  paste_mover(now, {0, 0});  // covers the old place
   const auto corners = FastDetector(20).detect(now);
   std::vector<Vec2> guesses;
   for (const Eigen::Vector2f& px : corners) guesses.push_back(px.cast<double>() + Vec2(2, -1));
@@ -567,7 +567,7 @@ TEST(BackwardFlow, FindsWhereCornersWere) {
 
 class GroupsTest : public testing::Test {
  protected:
-  /// A row of corners 20 px apart from `first`, that all move by `step`.
+  /// Adds a row of corners 20 px apart from `first` that all move by `step`.
   void row(Vec2 first, int count, Vec2 step) {
     for (int i = 0; i < count; ++i) {
       // Zigzag, so that the box has an area.
@@ -603,7 +603,7 @@ TEST_F(GroupsTest, CornersFarApartOrOfUnlikeStepAreNot) {
   row({100, 100}, 5, {4, 0});
   row({100, 260}, 5, {4, 0});  // farther than the reach of 120
   row({500, 100}, 5, {4, 0});
-  row({505, 105}, 5, {-4, 0});  // among the former
+  row({505, 105}, 5, {-4, 0});  // among the first row
   EXPECT_EQ(group().layers.squares.size(), 4u);
 }
 
@@ -629,7 +629,7 @@ TEST_F(GroupsTest, ABoxKeepsItsIdWhileItOverlapsItself) {
   ASSERT_EQ(group().layers.squares.size(), 2u);
   const Id left = group().layers.squares[0].id, right = group().layers.squares[1].id;
   EXPECT_NE(left, right);
-  // The left one moves on, the right one jumps, and they come in the other order.
+  // The left group moves on, the right one jumps, and their order is swapped.
   clear();
   row({400, 100}, 5, {0, 4});
   row({108, 102}, 5, {4, 0});
@@ -640,7 +640,7 @@ TEST_F(GroupsTest, ABoxKeepsItsIdWhileItOverlapsItself) {
   EXPECT_NE(said.layers.squares[0].id, right);
 }
 
-// ---- What they reach
+// ---- Performance
 
 /// Measured on the whole scenario: klt 0.85, homography 0.85, less a margin for another OpenCV.
 TEST(Yardstick, OnTheCrossingBothAreWorthComparingWith) {

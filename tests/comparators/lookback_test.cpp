@@ -19,7 +19,7 @@ EgoMotion step_of(double dt_s, const Eigen::Vector3d& v_C_mps = {0, 0, 1}) {
   return motion;
 }
 
-/// A camera that turns and goes, never twice alike.
+/// A camera that turns and moves, with a different pose in each frame.
 sim::Pose pose(int k) {
   const Eigen::Vector3d axis = Eigen::Vector3d(1, 2 + 0.3 * k, -1 + 0.5 * k).normalized();
   return {Eigen::AngleAxisd(0.2 + 0.05 * k * k, axis).toRotationMatrix(),
@@ -61,7 +61,7 @@ class Shown {
   void show(int frames, double rate_hz) {
     for (int k = 0; k < frames; ++k) show(number == 0 ? EgoMotion() : step_of(1 / rate_hz));
   }
-  /// How many frames ago the picture is that the last one is compared with.
+  /// Age, in frames, of the picture that the last one is compared with.
   int frames_back() const { return number - 1 - *lookback.earlier(); }
 
   Lookback<int> lookback;

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Usage: run.sh SOURCE WORK CMAKE LCS
 #
-# Builds SOURCE without optimisation in WORK, and compares what it says of some scenarios with what
-# LCS, the optimised program, says: the same bytes.
+# Builds SOURCE without optimisation in WORK and runs some scenarios. The output must equal that of
+# LCS, the optimised program, byte for byte.
 set -euo pipefail
 source=$1 work=$2 cmake=$3 lcs=$4
 frames=20
@@ -16,7 +16,7 @@ for scenario in crossing suite/crossing_street suite/night_rain suite/imu_gap; d
   for program in "$lcs" "$work/build/lcs"; do
     [[ $program == "$lcs" ]] && out=$work/release || out=$work/debug
     rm -rf "$out"
-    # Criteria are of the whole run.
+    # Criteria apply to the whole run.
     "$program" run "$source/scenarios/$scenario.yaml" --set frames=$frames --set 'criteria=[]' \
       --no-video --quiet --out "$out"
   done

@@ -1,4 +1,4 @@
-// Keeps BAD_INPUT.md true: every row says what the input gets, and names tests that exist.
+// Checks BAD_INPUT.md: each row states the result of the input and names existing tests.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -20,7 +20,7 @@ std::vector<std::smatch> matches(const std::string& text, const std::regex& patt
   return {std::sregex_iterator(text.begin(), text.end(), pattern), {}};
 }
 
-/// As the sources name them: "Suite.Test" in C++, "test_..." in Python.
+/// Test names as in the sources: "Suite.Test" in C++, "test_..." in Python.
 std::set<std::string> tests_in_the_tree() {
   const std::regex definition(R"(\nTEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\))");
   const std::regex in_python(R"(\n    def (test_\w+)\()");

@@ -1,6 +1,6 @@
 // Every file is opened by scenarios/input_file.h, every picture decoded by sim/picture_file.h,
-// every video opened by tools/output/video_reader.h and all JSON parsed by tools/files/json_node.h:
-// their limits hold for all that is read. Nothing opens a file in another way.
+// every video opened by tools/output/video_reader.h and all JSON parsed by tools/files/json_node.h,
+// so that their limits apply to all input. No other code opens a file.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 const fs::path kSources = fs::path(LCS_TESTS_DIR).parent_path();
 
-/// What reads a file or decodes bytes, and the files that may use it.
+/// Calls that read a file or decode bytes, and the files that may use them.
 const std::map<std::string, std::set<std::string>> kWays{
     {R"(ifstream|std::fstream|basic_filebuf|std::filebuf|freopen|fopen\([^;]*"r|FileStorage)",
      {"sim/trial.cpp"}},  // /proc/self/statm
@@ -27,8 +27,8 @@ const std::map<std::string, std::set<std::string>> kWays{
       "sim/trial.cpp",                // /dev/null
       "tools/lcs/terminal.cpp",       // /dev/null
       "tools/process/child.cpp",      // /dev/null
-      "tools/files/output_file.cpp",  // what it is about to replace
-      "tools/files/sha256.cpp",       // what it wrote
+      "tools/files/output_file.cpp",  // the file to be replaced
+      "tools/files/sha256.cpp",       // its own output
       "tools/files/output.cpp",       // a folder, a pipe to write to
       "tools/tune/journal.cpp"}},     // to append
     {R"(imread|imdecode)",
@@ -40,7 +40,7 @@ const std::map<std::string, std::set<std::string>> kWays{
     {R"([Jj]son::(parse|accept|sax_parse))", {"tools/files/json_node.h"}},
 };
 
-/// Without comments, which may name what they forbid.
+/// Code without comments, because comments may name forbidden calls.
 std::string code_of(const fs::path& file) {
   std::istringstream lines(lcs::bench::read(file));
   std::string code;

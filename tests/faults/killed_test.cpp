@@ -1,7 +1,7 @@
-// What `kill -9` leaves at any moment: nothing half-written is mistaken for whole, nothing stays
-// behind, and the next run ends with the bytes of one that was never stopped.
+// State after `kill -9` at any moment: a partial result never passes for a whole one, nothing is
+// left behind, and the next run gives the same bytes as an uninterrupted one.
 //
-// LCS_KILLS says how many moments; few if it is not set.
+// LCS_KILLS sets the number of moments; the default is small.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -48,7 +48,7 @@ class Killed : public testing::Test {
   CommandResult run(const std::vector<std::string>& arguments) const {
     return run_lcs(arguments, {.folder = home_.path()});
   }
-  /// At a moment of the time that the whole takes, or a little after.
+  /// Kills the command at a random moment within 1.1 times its usual duration.
   void run_and_kill(const std::vector<std::string>& arguments, Seconds whole) {
     Command command(arguments, {.folder = home_.path()});
     std::this_thread::sleep_for(1.1 * whole * static_cast<double>(random_()) /
@@ -65,7 +65,7 @@ class Killed : public testing::Test {
     return Clock::now() - start;
   }
 
-  /// Whether a process is at work on a result.
+  /// Whether a process is writing a result.
   bool has_locked_folder() const {
     for (const auto& entry : fs::directory_iterator(home_.path())) {
       const bool is_staging = entry.path().string().find(".partial-") != std::string::npos;
@@ -80,7 +80,7 @@ class Killed : public testing::Test {
   static void expect_gone(const std::vector<pid_t>& processes) {
     const Clock::time_point deadline = Clock::now() + std::chrono::seconds(20);
     for (const pid_t process : processes) {
-      // Nobody is left to collect it but the system: a zombie is gone as well.
+      // Only the system can collect it now: a zombie counts as ended.
       while (is_running(process) && Clock::now() < deadline) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
       }
@@ -128,7 +128,7 @@ TEST_F(Killed, RunBesideLeavesBothResultsOldOrBothNew) {
   const Seconds whole = time(with_seed(0));
   for (int i = 1; i <= kills(); ++i) {
     run_and_kill(with_seed(i), whole);
-    // The process that puts both in their places ends by itself.
+    // The process that renames both outputs ends by itself.
     while (has_locked_folder()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const std::uint64_t own = read_recording(home_.path() / "own").seed;
     EXPECT_EQ(read_recording(home_.path() / "beside").seed, own);
@@ -160,7 +160,7 @@ TEST_F(Killed, GenerateGoesOnToTheSameBytes) {
   EXPECT_TRUE(bytes_in(home_.path() / "stopped") == expected);
 }
 
-/// The lines of a text that end otherwise, each with its line end.
+/// The lines of a text that do not end with `end`, each with its line end.
 std::string without_lines_that_end(const std::string& text, const std::string& end) {
   std::istringstream lines(text);
   std::string rest;
@@ -170,7 +170,7 @@ std::string without_lines_that_end(const std::string& text, const std::string& e
   return rest;
 }
 
-/// The numbers that `lcs tune` found, without when it found them.
+/// The numbers that `lcs tune` found, without the date.
 std::string numbers_in(const fs::path& preset) {
   const std::string text = read(preset);
   return text.substr(text.find("#pragma once"));

@@ -1,9 +1,9 @@
 // Usage: mutants KIND SECONDS [SEED]
 //
-// Changes valid inputs of the program at random, for so long, and runs the program on each. Exits
-// with 1 where a run crashed, did not end, took too much memory, refused without one line that says
-// so, or left something behind. What was found is kept in found/KIND-SEED-NUMBER in the folder that
-// this was started in: the inputs, and the command in `command.txt`.
+// Mutates valid inputs of the program at random for SECONDS, and runs the program on each. Exits
+// with 1 if a run crashed, hung, took too much memory, refused without one line of explanation, or
+// left files behind. Each finding is kept in found/KIND-SEED-NUMBER in the start folder: the
+// inputs, and the command in `command.txt`.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <signal.h>
@@ -40,7 +40,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kLongest = 60s;
 constexpr std::size_t kMostPeak = std::size_t{2} << 30;
-/// With the address space of all libraries and threads; for the machine's sake.
+/// Includes the address space of all libraries and threads; protects the machine.
 constexpr std::size_t kMostMemory = std::size_t{12} << 30;
 
 std::size_t below(Random& random, std::size_t end) {
@@ -65,7 +65,7 @@ bool is_of_word(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
-/// The stretch of such letters round a place, or behind it; an empty one at the end.
+/// The range of letters for which `is` holds, at or after a place; empty at the end.
 template <class Is>
 std::pair<std::size_t, std::size_t> stretch(const std::string& text, std::size_t at, Is is) {
   while (at < text.size() && !is(text[at])) ++at;
@@ -187,25 +187,25 @@ void mutate(std::string& text, Random& random) {
     case 10:
       text.erase(at, 1 + below(random, 40));
       break;
-    case 11:  // a number a little off
+    case 11:  // a number changed slightly
       if (number_size > 0) text[number] = static_cast<char>('0' + below(random, 10));
       break;
     case 12:  // a bit
       if (!text.empty()) text[at] = static_cast<char>(text[at] ^ (1 << below(random, 8)));
       break;
-    case 13:  // many of the same
+    case 13:  // many copies
       for (int i = 0; i < 8 && text.size() < 4'000'000; ++i) {
         text.insert(line, text.substr(line, line_size));
       }
       break;
-    default:  // bytes of anything
+    default:  // random bytes
       for (std::size_t i = below(random, 20) + 1; i > 0; --i) {
         text.insert(below(random, text.size() + 1), 1, static_cast<char>(random()));
       }
   }
 }
 
-/// Another thing in a file's place.
+/// Replaces a file by something else.
 void replace(const fs::path& file, const std::vector<fs::path>& others, Random& random) {
   const fs::path other = others[below(random, others.size())];
   const std::string bytes = read_bytes(other);
@@ -236,7 +236,7 @@ void replace(const fs::path& file, const std::vector<fs::path>& others, Random& 
 // ---- Inputs
 
 struct Input {
-  /// Files of a folder that are changed, and whole folders of them.
+  /// Files of a folder that are mutated, and whole folders of them.
   std::vector<fs::path> changed;
   /// Ways to run the program in the folder.
   std::vector<Arguments> commands;
@@ -338,7 +338,7 @@ Input detections(const fs::path& folder) {
                               "--no-video", "--out", "out"})}};
 }
 
-/// Asks for what `answer` reads from a file.
+/// Asks a detector process; `answer` reads its answers from a file.
 Input answers(const fs::path& folder) {
   make(folder, joined(kCrossing, {"--out", "run", "--quiet", "--events"}));
   write_bytes(
@@ -366,7 +366,7 @@ Input journal(const fs::path& folder) {
   return {{"tuned/evaluations.csv"}, {joined(tune, {"4"}), joined(tune, {"3"})}};
 }
 
-/// One that was killed in the middle, and one that is whole.
+/// One partial sequence, from a killed process, and one complete sequence.
 Input sequence(const fs::path& folder) {
   const auto generate = [](const char* out) {
     return joined({"generate", (kScenarios / "crossing.yaml").string(), "--formats",
@@ -391,7 +391,7 @@ const std::map<std::string_view, Input (*)(const fs::path&)> kInputs{
     {"suite", suite},       {"recording", recording}, {"detections", detections},
     {"answers", answers},   {"journal", journal},     {"sequence", sequence}};
 
-/// As a detector: the lines of a file, one for each picture, whatever they are.
+/// Acts as a detector: returns the lines of a file unchecked, one per picture.
 int answer(const char* file) {
   std::ifstream answers(file);
   std::string line, header;
@@ -406,9 +406,9 @@ int answer(const char* file) {
   return 0;
 }
 
-// ---- What has to hold
+// ---- Invariants
 
-/// All paths below a folder, with what files hold.
+/// All paths below a folder, with the bytes of files.
 std::map<std::string, std::string> state(const fs::path& folder) {
   std::map<std::string, std::string> paths;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -418,7 +418,7 @@ std::map<std::string, std::string> state(const fs::path& folder) {
   return paths;
 }
 
-/// What is wrong with how a run ended; "" where nothing is.
+/// The fault in the way that a run ended; "" if there is none.
 std::string wrong(const CommandResult& result, const std::map<std::string, std::string>& before,
                   const std::map<std::string, std::string>& after) {
   if (result.exit_code < 0 || result.exit_code > 2) {
@@ -447,7 +447,7 @@ class Folders {
  public:
   Folders(const fs::path& home, const Input& input) : input_(input), home_(home) {}
 
-  /// A copy of the valid inputs with one file changed. \return what was done to it.
+  /// Copies the valid inputs and changes one file. \return a description of the change.
   std::string change(const fs::path& work, Random& random) const {
     fs::remove_all(work);
     fs::copy(home_, work, fs::copy_options::recursive);
@@ -485,7 +485,7 @@ int hunt(const std::string& kind, std::chrono::seconds time, std::uint64_t seed)
   const fs::path home = folder.path() / "valid", work = folder.path() / "work";
   fs::create_directory(home);
   const Input input = kInputs.at(kind)(home);
-  for (const Arguments& arguments : input.commands) {  // else nothing would be tried
+  for (const Arguments& arguments : input.commands) {  // otherwise no mutant would be tried
     fs::copy(home, work, fs::copy_options::recursive);
     make(work, arguments);
     fs::remove_all(work);

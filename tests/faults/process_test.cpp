@@ -1,4 +1,4 @@
-// What a process is given by its surroundings: descriptors, limits, signals, numbers as text.
+// Environment of a process: descriptors, limits, signals, numbers as text.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -144,8 +144,8 @@ TEST_F(Process, ALimitOfMemoryThatIsEnoughStopsNoCommand) {
   }
 }
 
-/// Whether a process has taken a signal into its own hands. Until `main` it has not: the loader is
-/// at work, for as long as the machine takes.
+/// Whether a process handles a signal itself. It does not until `main`, while the loader runs,
+/// which may take long.
 bool catches(pid_t process, int signal) {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");
   for (std::string line; std::getline(status, line);) {
@@ -173,7 +173,7 @@ TEST_F(Process, ASignalInItsFirstMomentsLeavesNothing) {
   EXPECT_GT(ended_by_itself, 0);
 }
 
-/// A pipe that is full, and that nobody reads.
+/// A full pipe without a reader.
 class FullPipe {
  public:
   explicit FullPipe(const fs::path& path) {
@@ -195,7 +195,7 @@ class FullPipe {
   int reads_ = -1, writes_ = -1;
 };
 
-/// Whether it waits in the kernel, and for a second.
+/// Whether the process sleeps in the kernel for a second.
 bool is_asleep(pid_t process) {
   for (int i = 0; i < 10; ++i) {
     if (state_of(std::to_string(process)).state != 'S') return false;
@@ -224,7 +224,7 @@ TEST_F(Process, ASignalEndsAnyWaitAtLast) {
   const FullPipe pipe(home() / "pipe");
   CommandOptions full = options();
   full.out = home() / "pipe";
-  Command command({"--help"}, full);  // which the library that reads the command line writes
+  Command command({"--help"}, full);  // written by the library that parses the command line
   for (int i = 0; i < 5000 && !is_asleep(command.pid()); ++i) std::this_thread::sleep_for(10ms);
   ASSERT_TRUE(command.is_running());
   command.send(SIGTERM);

@@ -99,9 +99,9 @@ TEST_F(OutputTest, AnEarlierResultStaysWhenTheNextOneFails) {
   EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
 }
 
-// ---- What killed processes left
+// ---- Remains of killed processes
 
-/// A process that is killed while it writes to a target: all that it made stays.
+/// A process that is killed while it writes to a target, so that all its files remain.
 class Abandoned : public OutputTest {
  protected:
   static fs::path abandon(const fs::path& target, const ResultNames& files,
@@ -184,14 +184,14 @@ TEST_F(Abandoned, SuitesGoWithTheRunsThatWereUnderWayInThem) {
 
 TEST_F(Abandoned, AnEarlierResultOnItsWayOutIsPutBack) {
   const fs::path left = abandon(top_ / "run", kFiles, write_metrics);
-  fs::create_directory(left / "out");  // as where two folders cannot be exchanged at once
+  fs::create_directory(left / "out");  // as if two folders could not be exchanged atomically
   write(left / "out" / "metrics.json", "by lcs: old");
   { const Output folder(top_ / "run", kFiles); }
   EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
   EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: old");
 }
 
-// ---- What is not replaced
+// ---- Targets that are not replaced
 
 TEST_F(OutputTest, AFolderOfTheSameNamesByAnotherProgramIsRefused) {
   const std::string mine = R"({"detector": "mine", "rebel.f1": 0.9})";
@@ -200,7 +200,7 @@ TEST_F(OutputTest, AFolderOfTheSameNamesByAnotherProgramIsRefused) {
   EXPECT_NE(refusal(top_ / "run").find("metrics.json is not a file that lcs has written"),
             std::string::npos);
   EXPECT_EQ(read(top_ / "run" / "metrics.json"), mine);
-  // Neither does a record that tells of other bytes help.
+  // A record of other bytes does not help either.
   write(top_ / "run" / ".lcs-written", std::string(64, '0') + "  metrics.json\n");
   EXPECT_NE(refusal(top_ / "run").find("metrics.json was changed"), std::string::npos);
   write(top_ / "run" / ".lcs-written", "by lcs\n");
@@ -262,15 +262,15 @@ TEST_F(OutputTest, FilesOfAnotherKindOfResultAreForeign) {
   EXPECT_EQ(read(top_ / "run" / "metrics.json"), "by lcs: old");
 }
 
-/// How folders are exchanged on the file system of the test.
+/// How the test's file system exchanges folders.
 enum class Exchange { works, is_unknown, comes_late };
 Exchange exchange = Exchange::works;
-fs::path late;  ///< what somebody writes just then
+fs::path late;  ///< a file written by another process meanwhile
 
 }  // namespace
 }  // namespace lcs::bench
 
-/// In place of the C library's.
+/// Replaces the C library's function.
 extern "C" int renameat2(int, const char* from, int, const char* to, unsigned flags) {
   using namespace lcs::bench;
   if (exchange == Exchange::comes_late) std::ofstream(late) << "precious";
@@ -536,7 +536,7 @@ TEST_F(Abandoned, AFolderThatWasJustBegunIsTakenAway) {
 
 class Together : public OutputTest {
  protected:
-  /// Two folders and a file, which all say the same.
+  /// Two folders and a file with the same content.
   void make(const std::string& text) {
     make(text, [] {});
   }
@@ -614,12 +614,12 @@ TEST_F(Together, AreAllOldOrAllNewWhenTheProcessIsKilledAtAnyMoment) {
     char end = 0;
     EXPECT_EQ(::read(ready[0], &end, 1), 0);  // returns where the commit begins
     ::close(ready[0]);
-    // Most in the middle of the commit, and some after it also on a machine that is busy.
+    // Most kills hit the middle of the commit; some come after it, even on a busy machine.
     std::this_thread::sleep_for(
         std::chrono::microseconds(random() % (i % 5 == 0 ? 200'000 : 4000)));
     ::kill(process, SIGKILL);
     ::waitpid(process, nullptr, 0);
-    // The second process of the commit may still be at work: it holds the locks.
+    // The second process of the commit may still be running: it holds the locks.
     const auto is_busy = [&] {
       for (const auto& entry : fs::directory_iterator(top_)) {
         if (entry.path().string().find(".partial-") == std::string::npos) continue;

@@ -1,6 +1,6 @@
-/// The paper's formulas as they are printed, where the print cannot be meant: each test transcribes
-/// one (the rotation is `RotationModel::as_printed` of the filter) and shows what is wrong with it,
-/// beside the form that is used. `filter/EQUATIONS.md` names them row by row.
+/// The paper's formulas as printed, where the print contains an error. Each test transcribes one
+/// formula (the rotation is `RotationModel::as_printed`) and shows its error beside the form that
+/// the filter uses. `filter/EQUATIONS.md` lists them row by row.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -29,7 +29,7 @@ double angle_between_rays(const Vec2& a, const Vec2& b, double f) {
 }
 
 /// A rotation keeps the angles between all rays, whatever the signs of its axes. The printed field
-/// changes them at first order, about every axis; the one used does only at second order.
+/// changes them at first order about every axis, the field in use only at second order.
 TEST(AsPrinted, TheRotationIsNoRotationInAnyConventionOfSigns) {
   const double f = vga().focal_px, step = 1e-4;
   FieldParameters first_order, as_printed;
@@ -53,7 +53,7 @@ TEST(AsPrinted, TheRotationIsNoRotationInAnyConventionOfSigns) {
       printed = std::max(printed, change(print.rotated(a + c) - c, print.rotated(b + c) - c));
       used = std::max(used, change(field.rotated(a + c) - c, field.rotated(b + c) - c));
     }
-    EXPECT_GT(printed, 0.1);  // rad of error for a rad of turning
+    EXPECT_GT(printed, 0.1);  // rad of error per rad of rotation
     EXPECT_LT(used, 10 * step);
   }
 }
@@ -68,8 +68,8 @@ Circle disc(const Vec2& at, double radius, double depth_ratio) {
   return circle;
 }
 
-/// |beta_tl| <= |beta_m|, with beta_tl = asin(R_b / d_ab) and beta_m by the law of cosines: the
-/// print parts a couple by circles that do not lie between it, and not by those that do.
+/// |beta_tl| <= |beta_m|, with beta_tl = asin(R_b / d_ab) and beta_m by the law of cosines: as
+/// printed, a couple is parted by circles that do not lie between its two, not by those that do.
 TEST(AsPrinted, ThePartingConditionHasItsInequalityTheWrongWayRound) {
   const Circle a = disc({100, 100}, 20, 1), b = disc({300, 100}, 20, 1);
   const auto printed = [&](const Circle& c) {
@@ -119,8 +119,8 @@ bool touches_farther_than_its_centre(const Tangent& t) {
   return t.to_touch > 1.05 * t.to_centre;
 }
 
-/// dL_y/dL_x = (O_y - L_ty)/(L_tx - L_sx): the slope of the line from O has O_x - L_tx below.
-/// Together with the differential of the ellipse the latter gives the printed tangent condition.
+/// dL_y/dL_x = (O_y - L_ty)/(L_tx - L_sx) as printed; the line from O needs O_x - L_tx below it.
+/// That slope and the differential of the ellipse give the printed tangent condition.
 TEST(AsPrinted, TheSlopeOfTheTangentLineHasTheWrongDenominator) {
   Random random(2);
   for (int i = 0; i < 200; ++i) {
@@ -151,7 +151,7 @@ double d_r_case_2_simplified(const Tangent& t) {
   return (t.to_centre + t.travelled) * t.to_centre / t.to_touch - t.to_centre;
 }
 
-/// R~ as printed, absolute values left out: nothing if one is needed.
+/// R~ as printed without absolute values; empty if an absolute value is needed.
 std::optional<Vec2> printed_half_size(const Tangent& t, double d_r) {
   const Vec2 centre =
       t.square.location + t.travelled * (t.square.location - t.origin) / t.to_centre;
@@ -175,7 +175,7 @@ TEST(AsPrinted, TheFirstCaseOfTheTravelledDistanceIsTheHomothetyForEveryEllipse)
 }
 
 /// The second case contradicts itself (its simplification inverts 1/cos(gamma)), and neither form
-/// is the expansion. Its subtrahend should be |O L_t|: then both cases are one.
+/// is the expansion. With |O L_t| as the subtrahend, both cases become one formula.
 TEST(AsPrinted, TheSecondCaseOfTheTravelledDistanceIsNotTheHomothety) {
   Random random(4);
   for (int i = 0; i < 100; ++i) {
@@ -192,8 +192,8 @@ TEST(AsPrinted, TheSecondCaseOfTheTravelledDistanceIsNotTheHomothety) {
 }
 
 /// L~_ty = L_ty + (d_r^2 / (m_t^2 + 1))^(1/2), L~_tx = L_tx + m_t (L_ty - L~_ty): the root loses
-/// the direction, and x goes against y, off the line. With m_t (L~_ty - L_ty), and the root's sign
-/// the one that leads away from O, it is L_t + d_r (L_t - O) / |L_t - O|.
+/// the direction, and x has the wrong sign, so the point leaves the line. With m_t (L~_ty - L_ty)
+/// and the root's sign leading away from O, it is L_t + d_r (L_t - O) / |L_t - O|.
 TEST(AsPrinted, ThePredictedTangentPointLeavesTheTangentLine) {
   Random random(6);
   for (int i = 0; i < 200; ++i) {
@@ -215,7 +215,7 @@ TEST(AsPrinted, ThePredictedTangentPointLeavesTheTangentLine) {
 
 // ----------------------------------------------------------------------------------------- overlap
 
-/// |min - max| of two disjoint squares is their gap, and counts as an overlap.
+/// |min - max| of two disjoint squares is their gap, but the print counts it as an overlap.
 TEST(AsPrinted, TheOverlapOfDisjointSquaresIsTheirGap) {
   Square a, b;
   a.location = {50, 50};

@@ -1,4 +1,4 @@
-/// The conditions of "Normal Edge Circling" and "Rebel Edge Circling", each at its bounds.
+/// The conditions of "Normal Edge Circling" and "Rebel Edge Circling", each tested at its bounds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ std::vector<Circle> circles_of(std::vector<Edge> edges) {
   return layers.normal_circles.empty() ? layers.rebel_circles : layers.normal_circles;
 }
 
-// Three edges each, at one place up to a little.
+// Three copies of an edge, at most 1 px apart.
 std::vector<Edge> three(const Edge& edge) {
   std::vector<Edge> edges(3, edge);
   edges[1].location += Vec2(1, 0);
@@ -57,7 +57,7 @@ TEST(EdgeCondition, DirectionsMayDifferByEpsilonBetaAndNoMore) {
   }
 }
 
-/// |V'| <= |V| + eps V_v is printed with one side only; then it would matter which edge is first.
+/// The print bounds |V'| <= |V| + eps V_v on one side only; the result would depend on edge order.
 TEST(EdgeCondition, VelocitiesMayDifferByEpsilonVWhicheverEdgeIsChosenFirst) {
   for (const int slow_trust : {3, 5}) {  // the most trusted edge is the chosen one
     const auto found = [&](double difference) {
@@ -84,7 +84,7 @@ TEST(EdgeCondition, RebelsVelocitiesAreBoundLikewise) {
   }
 }
 
-/// V itself grows with the distance from the focus; V / V_v is what edges of one depth share.
+/// V grows with the distance from the focus; edges of one depth have equal V / V_v.
 TEST(EdgeCondition, EdgesOfOneDepthAreAlikeThoughTheirSpeedsAreNot) {
   const Vec2 o = vga().centre_px;
   const std::vector<Edge> edges = {normal(o + Vec2(8, 0)), normal(o + Vec2(25, 0)),
@@ -120,7 +120,7 @@ TEST(MeanCircle, IsTheMeanOfItsEdgesAndHoldsThem) {
     ASSERT_EQ(found.size(), 1u);
     EXPECT_TRUE(found[0].location.isApprox(location, 1e-9));
     EXPECT_NEAR(found[0].speed, speed, 1e-9);
-    // The circular mean, which for a small fan is the plain one to third order.
+    // The circular mean equals the plain mean to third order for a small fan of angles.
     EXPECT_NEAR(angle_between(found[0].angle, heading + turn), 0, 0.02);
     for (const Edge& edge : edges) {
       EXPECT_LE((edge.location - found[0].location).norm(), found[0].radius);
@@ -140,7 +140,7 @@ struct CircleMatch : ::testing::Test {
     c.trust = kRanks.standard;
     return c;
   }
-  /// Trust of the predicted circle afterwards, and whether it took the edges.
+  /// Trust of the predicted circle after the frame, and whether it took the edges.
   std::pair<int, bool> after(const Circle& circle, std::vector<Edge> edges) {
     layers = {};
     const bool rebels = edges.front().rebel;
@@ -154,14 +154,14 @@ struct CircleMatch : ::testing::Test {
   Layers layers;
 };
 
-/// Five edges in a row of which `inside` lie in the disc of radius 20 about (400, 200).
+/// Five edges in a row; `inside` of them lie in the disc of radius 20 px about (400, 200).
 std::vector<Edge> row_of_five(int inside) {
   std::vector<Edge> edges;
   for (int i = 0; i < 5; ++i) edges.push_back(normal({i < inside ? 415 - 2.0 * i : 421 + i, 200}));
   return edges;
 }
 
-/// "< rho_c" is printed for what is called a minimum.
+/// The print has "< rho_c", although the text calls rho_c a minimum.
 TEST_F(CircleMatch, NeedsTheLeastOverlapAndTakesItExactly) {
   EXPECT_FALSE(after(predicted({400, 200}, 20), row_of_five(1)).second);  // 20 %
   EXPECT_TRUE(after(predicted({400, 200}, 20), row_of_five(2)).second);   // 40 %: rho_c
@@ -177,7 +177,7 @@ TEST_F(CircleMatch, NeedsALikeVelocity) {
   }
 }
 
-/// Printed with one side only: V_m <= V_c + eps_v,r V_v.
+/// The print bounds one side only: V_m <= V_c + eps_v,r V_v.
 TEST_F(CircleMatch, RebelsNeedALikeVelocityOnEitherSide) {
   const double v_v = ahead().reference_speed({400, 200});
   const auto taken = [&](double predicted_speed, double found_speed) {
@@ -244,7 +244,7 @@ TEST_F(CircleMatch, WhatHasLeftTheImageIsDeleted) {
   }
 }
 
-/// beta^ of a rebel circle is the mean of its edges, whatever its trust.
+/// beta^ of a rebel circle is the mean angle of its edges, whatever its trust.
 TEST_F(CircleMatch, TheAngleOfARebelCircleIsThatOfItsEdges) {
   Circle circle = predicted({400, 200}, 20);
   circle.rebel = true;
@@ -255,7 +255,7 @@ TEST_F(CircleMatch, TheAngleOfARebelCircleIsThatOfItsEdges) {
   EXPECT_NEAR(layers.rebel_circles.front().angle, 1.4, 1e-9);
 }
 
-/// What is no group of edges has no place: the circles are the same in whatever order edges come.
+/// The circles are the same in any order of the edges.
 TEST(Circles, DoNotDependOnTheOrderOfTheEdges) {
   Random random(3);
   std::vector<Edge> edges;
@@ -263,7 +263,7 @@ TEST(Circles, DoNotDependOnTheOrderOfTheEdges) {
     edges.push_back(
         normal({random.uniform(0, 639), random.uniform(0, 479)}, random.uniform(0.5, 1.5)));
     edges.back().trust = 3 + i % 3;
-    edges.back().age = i;  // no two alike, so that none is first by its place in the list only
+    edges.back().age = i;  // no two edges equal, so none is first only by its place in the list
   }
   const auto centres = [](const std::vector<Circle>& circles) {
     std::vector<std::pair<double, double>> list;
@@ -276,7 +276,7 @@ TEST(Circles, DoNotDependOnTheOrderOfTheEdges) {
   const auto backward = centres(circles_of(edges));
   ASSERT_GT(forward.size(), 3u);
   ASSERT_EQ(forward.size(), backward.size());
-  for (std::size_t i = 0; i < forward.size(); ++i) {  // sums run in another order
+  for (std::size_t i = 0; i < forward.size(); ++i) {  // sums are added in another order
     EXPECT_NEAR(forward[i].first, backward[i].first, 1e-9);
     EXPECT_NEAR(forward[i].second, backward[i].second, 1e-9);
   }

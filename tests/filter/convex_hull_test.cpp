@@ -28,7 +28,7 @@ double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// How far a point is outside; below 0 inside.
+/// Distance of a point outside the outline, px; negative inside.
 double outside(const Outline& outline, const Vec2& point) {
   const auto vertices = outline.vertices();
   double most = -1e9;
@@ -39,7 +39,7 @@ double outside(const Outline& outline, const Vec2& point) {
   return most;
 }
 
-/// Whether each turn is clockwise, which is a positive cross product where y points down.
+/// Whether each turn is clockwise: a positive cross product, since y points down.
 bool is_convex(const Outline& outline) {
   const auto v = outline.vertices();
   for (std::size_t i = 0; i < v.size(); ++i) {
@@ -49,7 +49,7 @@ bool is_convex(const Outline& outline) {
   return true;
 }
 
-/// Whole pixels, as corners are: many on a line, some twice.
+/// Whole pixels, like corners: many are collinear, and some occur twice.
 std::vector<Vec2> pixels(Random& random, int count, double size) {
   std::vector<Vec2> points;
   for (int i = 0; i < count; ++i) {
@@ -100,7 +100,7 @@ TEST(ConvexHull, IsTheSameInWhateverOrderPointsCome) {
   }
 }
 
-/// Mirrored and by a quarter turn: the same vertices, from another one on.
+/// Mirroring and a quarter turn give the same vertices with another start vertex.
 TEST(ConvexHull, IsMirroredAndTurnedWithThePicture) {
   Random random(3);
   const auto by_place = [](std::vector<Vec2> points) {
@@ -136,7 +136,7 @@ TEST(ConvexHull, OfMoreVerticesThanThereIsRoomForItHasThoseThatReachFarthest) {
   const Outline outline = hull_of(circle);
   EXPECT_EQ(outline.count, Outline::kMost);
   EXPECT_TRUE(is_convex(outline));
-  // An arc of 1/32 of a circle is 0.5 % of its radius higher than its chord.
+  // An arc of 1/32 of a circle rises above its chord by 0.5 % of the radius.
   for (const Vec2& point : circle) EXPECT_LE(outside(outline, point), 0.6);
   ConvexHull hull;
   double left = 1e9;
@@ -158,7 +158,7 @@ TEST(Place, MovesAndStretchesTheOutlineWithItsBox) {
   EXPECT_EQ(square.half_size, Vec2(10, 10));
   EXPECT_EQ(list_of(square.outline), (std::vector<Vec2>{{90, 45}, {100, 40}, {110, 50}, {94, 60}}));
   place(square, {100, 50}, {0, 10});
-  place(square, {0, 0}, {3, 10});  // of no width there is nothing to stretch
+  place(square, {0, 0}, {3, 10});  // with zero width there is nothing to stretch
   for (const Vec2& vertex : square.outline.vertices()) EXPECT_EQ(vertex.x(), 0);
 }
 

@@ -19,7 +19,7 @@
 namespace lcs {
 namespace {
 
-/// Dots of one pixel: each has the whole circle of 16 against it.
+/// Dots of one pixel: all 16 pixels of FAST's circle differ from each.
 cv::Mat1b dots(uchar ground, uchar dot) {
   cv::Mat1b image(100, 120, ground);
   image(30, 40) = dot;
@@ -47,7 +47,7 @@ TEST(FastDetector, RefusesAThresholdThatIsNoContrast) {
   EXPECT_NO_THROW(FastDetector(254));
 }
 
-/// Tilted boards of many greys, with nothing in them that repeats itself; without noise.
+/// Tilted boards of many greys, without repeating patterns and without noise.
 cv::Mat1b boards() {
   cv::RNG random(7);
   cv::Mat1b picture(480, 640, uchar{120});
@@ -79,7 +79,7 @@ cv::Mat1b compressed(const cv::Mat1b& picture, int quality) {
   return cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
 }
 
-/// Root mean square of what compression has changed within FAST's circle about corners.
+/// Root mean square of the changes by compression within FAST's circles about corners.
 double changed_levels(const cv::Mat1b& before, const cv::Mat1b& after) {
   double squares = 0;
   int pixels = 0;
@@ -110,7 +110,7 @@ TEST(Noise, IsUnknownWhereAllIsBlackOrWhite) {
 }
 
 TEST(Compression, IsMeasuredByTheGridThatItLeaves) {
-  const cv::Mat1b clean = noisy(boards(), 2);  // as any camera has it
+  const cv::Mat1b clean = noisy(boards(), 2);  // the noise of any camera
   EXPECT_LT(compression_levels(clean), 1);
   double last = 1;
   for (const int quality : {80, 60, 40, 20}) {
@@ -120,7 +120,7 @@ TEST(Compression, IsMeasuredByTheGridThatItLeaves) {
     EXPECT_GT(levels, 0.5 * truth) << quality;
     EXPECT_LT(levels, 1.5 * truth) << quality;
     last = levels;
-    // what is cut out of a larger picture has its grid elsewhere
+    // a crop of a larger picture has its block grid elsewhere
     const cv::Mat1b cut = picture(cv::Rect(5, 3, 600, 400));
     EXPECT_NEAR(compression_levels(cut), levels, 0.2 * levels) << quality;
   }
@@ -144,7 +144,7 @@ TEST(Threshold, FollowsCompressionWhereCornersAreMany) {
     const cv::Point at(random.uniform(0, 640), random.uniform(0, 480));
     cv::circle(gravel, at, random.uniform(1, 5), cv::Scalar(random.uniform(30, 220)), cv::FILLED);
   }
-  gravel.rowRange(0, 120).setTo(150);  // a sky: of gravel alone no noise can be told
+  gravel.rowRange(0, 120).setTo(150);  // a sky, because noise cannot be estimated from gravel alone
   EXPECT_EQ(threshold_of(gravel), 20);
   const std::size_t enough = gravel.total() / 256;
   int last = 20;
@@ -155,7 +155,7 @@ TEST(Threshold, FollowsCompressionWhereCornersAreMany) {
     EXPECT_GE(threshold, last) << quality;
     EXPECT_LE(threshold, std::max(20.0, most + 1)) << quality;
     EXPECT_GE(FastDetector(threshold).detect(picture).size(), enough) << quality;
-    // and it goes as far as either lets it
+    // the threshold goes as far as either condition allows
     const bool ends_there = FastDetector(threshold + 2).detect(picture).size() < enough + 100;
     EXPECT_TRUE(ends_there || threshold >= most - 1) << quality << " has " << threshold;
     last = std::min(threshold, 40);
@@ -168,7 +168,7 @@ TEST(Threshold, FollowsWhatIsNotOfTheScene) {
   EXPECT_EQ(threshold_of(noisy(boards(), 1)), 20);
   EXPECT_NEAR(threshold_of(noisy(boards(), 4)), 32, 4);
   EXPECT_EQ(threshold_of(noisy(boards(), 8)), 48) << "what is more is taken for texture";
-  // boards have far fewer corners than one for every 16x16 px: compression does not take them
+  // boards have fewer than one corner per 16x16 px, so compression does not raise the threshold
   const cv::Mat1b both = compressed(noisy(boards(), 4), 40);
   EXPECT_GT(compression_levels(both), 4);
   EXPECT_LT(threshold_of(both), 32) << "and it has less noise";
@@ -181,7 +181,7 @@ TEST(Threshold, FollowsWhatIsNotOfTheScene) {
 
 using Corners = std::vector<Eigen::Vector2f>;
 
-/// Rectangles of all greys over each other: full of corners, none like another.
+/// Overlapping rectangles of all greys: many corners, all different.
 cv::Mat1b clutter(int width_px, int height_px) {
   std::mt19937 random(5);
   const auto below = [&](int end) {
@@ -244,7 +244,7 @@ TEST(Describe, MovesWithThePictureByWholePixels) {
       const Eigen::Vector2f there =
           x - Eigen::Vector2f(static_cast<float>(shift.x), static_cast<float>(shift.y));
       const auto is_inside = [&](const Eigen::Vector2f& place) {
-        // of a patch of 31 pixels, turned in no way, and the blur of 7
+        // inside the margin of the unrotated patch of 31 px and the blur of 7 px
         return place.x() >= 19 && place.y() >= 19 && place.x() < 301 && place.y() < 221;
       };
       if (!is_inside(x) || !is_inside(there)) continue;
@@ -263,8 +263,8 @@ TEST(Describe, OfAPartOfAPictureLooksAtNothingElse) {
   EXPECT_EQ(describe(part, corners), describe(part.clone(), corners));
 }
 
-/// By OpenCV's own call, which leaves out what is near the border and turns by the angle it finds
-/// or is given: 0 here.
+/// Reference: OpenCV's own call. It drops corners near the border and rotates by the found or
+/// given angle, here 0.
 TEST(Describe, IsOrbsDescriptorUpright) {
   const cv::Mat1b picture = clutter(320, 240);
   std::vector<cv::KeyPoint> keypoints;

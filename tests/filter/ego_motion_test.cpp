@@ -48,7 +48,7 @@ Vector3d force_S(const Path& path, const Mounting& m, double t) {
 
 Mounting mounting() {
   Mounting m;
-  m.R_BC << 0, 0, 1, -1, 0, 0, 0, -1, 0;  // looks along B's x
+  m.R_BC << 0, 0, 1, -1, 0, 0, 0, -1, 0;  // the camera looks along B's x
   m.p_BC_m = {0.2, 0.03, 0.4};
   m.R_BS = rotation({0.1, -0.2, 0.3});
   m.p_BS_m = {-0.1, 0.05, 0.1};
@@ -88,13 +88,13 @@ void expect_exact(const Path& path, double frame_hz, double rotation_rad, double
     EXPECT_LT((motion.v_C_mps * motion.dt_s - displacement).norm(), displacement_m)
         << "frame " << k;
     EXPECT_NEAR(motion.dt_s, 1 / frame_hz, 1e-9);
-    // The mean body rate and the rotation say the same.
+    // The mean body rate and the rotation agree.
     EXPECT_TRUE(rotation(-motion.w_C_radps * motion.dt_s).isApprox(motion.R_cur_prev, 1e-9));
   }
 }
 
-// Tolerances: the trapezoid over 5 ms errs by its third-order term, which for these paths is below
-// 1e-6 of the motion a frame, and over 2 s adds up to below a tenth of a millimetre a frame.
+// Tolerances: the trapezoid over 5 ms errs by its third-order term. For these paths that is below
+// 1e-6 of the motion per frame, and over 2 s it adds up to less than 0.1 mm per frame.
 
 TEST(EgoMotion, StraightAndAcceleratingIsExact) {
   expect_exact({[](double) { return Matrix3d::Identity(); },
@@ -121,7 +121,7 @@ TEST(EgoMotion, ACurveWithRollAndPitchIsFollowed) {
 }
 
 TEST(EgoMotion, FramesBetweenReadingsAreCarriedOn) {
-  // 30 frames/s against 200 readings/s: frames fall between readings, held for at most 5 ms.
+  // 30 frames/s and 200 readings/s: frames fall between readings, which are held for at most 5 ms.
   expect_exact({[](double t) {
                   return rotation({0, 0, 0.3 * t});
                 },
@@ -149,7 +149,7 @@ TEST(EgoMotion, OdometryHoldsTheDriftOfABiasedImu) {
     told_sigma[way] = estimator.frame(30'000'000'000).velocity_sigma_mps;
   }
   EXPECT_GT(error[alone], 0.5);  // 30 s of these biases
-  // It says so; more than ten times of what it expects of an IMU is wrong with this one.
+  // The reported sigma shows the error, although this IMU is over ten times worse than assumed.
   EXPECT_GT(told_sigma[alone], 0.2);
   for (const int way : {with_velocity, with_yaw_rate}) {
     EXPECT_LT(error[way], 0.01);  // a third of the speed, from 2 cm/s of odometry noise assumed
@@ -157,8 +157,8 @@ TEST(EgoMotion, OdometryHoldsTheDriftOfABiasedImu) {
   }
 }
 
-/// From 2 to 5 s one wheel has no grip: the rover turns away, by up to 0.3 rad/s, and slides, by up
-/// to 0.15 m/s, while its wheels tell that it goes straight ahead at 0.3 m/s as before.
+/// From 2 to 5 s one wheel has no grip: the rover turns by up to 0.3 rad/s and slides by up to
+/// 0.15 m/s, while its wheels still report straight motion at 0.3 m/s.
 Path sliding() {
   const auto bump = [](double t) {
     const double s = std::clamp((t - 2) / 3, 0.0, 1.0);
@@ -171,8 +171,8 @@ Path sliding() {
 }
 
 struct Slide {
-  double off_mps = 0;                       ///< mean error of the velocity in it,
-  double slips_in_it = 0, slips_after = 0;  ///< and of the chance that the wheels slip
+  double off_mps = 0;                       ///< mean error of the velocity during the slide,
+  double slips_in_it = 0, slips_after = 0;  ///< and of the probability of wheel slip
 };
 
 Slide slide(bool tells_yaw_rate) {
@@ -201,11 +201,11 @@ Slide slide(bool tells_yaw_rate) {
 }
 
 TEST(EgoMotion, WheelsThatSlipAreNotBelieved) {
-  // Who is not told the yaw rate follows the wheels, and takes what the IMU says against them for
+  // Without a yaw rate the estimator follows the wheels and attributes the IMU's contradiction to
   // its bias.
   const Slide blind = slide(false), told = slide(true);
   EXPECT_GT(blind.off_mps, 0.08);
-  // In the middle it is as turned as it gets and turns no more: there the wheels are believed again
+  // In the middle of the slide the yaw rate passes zero; there the wheels are trusted again
   // for some readings.
   EXPECT_LT(told.off_mps, blind.off_mps / 3);
   EXPECT_GT(told.slips_in_it, 0.8);
@@ -214,7 +214,7 @@ TEST(EgoMotion, WheelsThatSlipAreNotBelieved) {
 }
 
 TEST(EgoMotion, ACorrectionIsNoMotionOfTheFrame) {
-  // Odometry that disagrees turns the attitude; the frame's rotation stays the gyro's.
+  // Disagreeing odometry corrects the attitude; the frame's rotation still comes from the gyro.
   const Path path{[](double) { return Matrix3d::Identity(); },
                   [](double t) { return Vector3d(1.0 * t, 0, 0); }};
   const Mounting m = mounting();
@@ -241,7 +241,7 @@ TEST(EgoMotion, BadReadingsAreDroppedAndCounted) {
   const Vector3d up = force_S(path, m, 0);
   estimator.add_imu(0, Vector3d::Zero(), up);
   estimator.add_imu(10'000'000, Vector3d::Zero(), up);
-  estimator.add_imu(5'000'000, Vector3d::Zero(), up);  // older than the last
+  estimator.add_imu(5'000'000, Vector3d::Zero(), up);  // older than the last reading
   estimator.add_imu(15'000'000, Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()), up);
   estimator.add_odometry(20'000'000, Vector3d::Constant(std::numeric_limits<double>::infinity()));
   EXPECT_EQ(estimator.diagnostics().count(Fault::imu_out_of_order), 1);

@@ -1,4 +1,4 @@
-/// Keeps `filter/EQUATIONS.md` true: every row of its tables names code and tests, and they exist.
+/// Checks `filter/EQUATIONS.md`: each row of its tables names code and tests, and they exist.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -14,8 +14,8 @@ namespace {
 
 const std::filesystem::path kFilter = LCS_FILTER_SOURCE_DIR;
 
-/// Names of all tests of this program, without the instantiation and parameter of those that have
-/// any.
+/// Names of all tests of this program, without the instantiation and parameter of parameterised
+/// tests.
 std::set<std::string> test_names() {
   std::set<std::string> names;
   const auto& program = *::testing::UnitTest::GetInstance();
@@ -36,7 +36,7 @@ struct Row {
   std::vector<std::string> cells;
 };
 
-/// Rows of the tables of the equations: those with five columns, their headings left out.
+/// Rows of the tables of equations: rows of five columns, without the headings.
 std::vector<Row> rows() {
   std::ifstream file(kFilter / "EQUATIONS.md");
   std::vector<Row> found;

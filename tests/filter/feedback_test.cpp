@@ -1,4 +1,4 @@
-/// What the Circle and Square experts hand back to the Line expert: psi and lambda.
+/// Feedback of the Circle and Square experts to the Line expert: psi and lambda.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -64,7 +64,7 @@ TEST(Psi, IsADiscOfACircleAndARectangleOfASquare) {
   EXPECT_EQ(static_cast<int>(psi[1].shape), 2);
   EXPECT_TRUE(contains(psi[0], {114, 114}));
   EXPECT_FALSE(contains(psi[0], {115, 115}));
-  // R_psi are half sizes: the rectangle is the square itself.
+  // R_psi are half sizes: the rectangle equals the square.
   EXPECT_TRUE(contains(psi[1], {340, 210}));
   EXPECT_FALSE(contains(psi[1], {341, 200}));
   EXPECT_FALSE(contains(psi[1], {300, 211}));
@@ -126,7 +126,7 @@ TEST(Psi, IsMadeByNormalCirclesAndSquaresAtTheirMaximumAndByNoRebel) {
   for (const Square& square : rebels.squares) EXPECT_FALSE(square.ignoring);
 }
 
-/// A static world of trackable points, all near the reference depth.
+/// A static world of points, all near the reference depth.
 World steady_world(std::uint64_t seed) {
   World world;
   Random random(seed);
@@ -136,8 +136,8 @@ World steady_world(std::uint64_t seed) {
   return world;
 }
 
-/// Trust after the fall takes two frames of evidence to come back to the maximum; the frame that is
-/// not looked at is none.
+/// After the drop, trust needs two frames of evidence to return to the maximum; the ignored frame
+/// gives no evidence.
 TEST(Psi, LastsOneFrameAndReturnsAfterTwoOthersAtTheEarliest) {
   for (const char* name : {"lab", "cars"}) {
     SCOPED_TRACE(name);
@@ -169,7 +169,7 @@ TEST(Psi, LastsOneFrameAndReturnsAfterTwoOthersAtTheEarliest) {
 TEST(Psi, InsideItALayerNeitherGainsNorLosesTrust) {
   const PaperParameters p;
   Layers layers;
-  for (int i = 0; i < 5; ++i) {  // edges that coast in psi, as alike as can be
+  for (int i = 0; i < 5; ++i) {  // edges that coast in psi, nearly equal
     Edge edge;
     edge.location = Vec2(500, 240) + 8 * unit_vector(i);
     edge.origin = vga().centre_px;
@@ -190,7 +190,7 @@ TEST(Psi, InsideItALayerNeitherGainsNorLosesTrust) {
   CircleSteps(p.circle).update(layers, ahead());
   SquareSteps(p.square).update(layers, ahead());
   ASSERT_EQ(layers.normal_circles.size(), 2u);
-  EXPECT_EQ(layers.normal_circles[0].members, 5);  // by what its edges are predicted to do
+  EXPECT_EQ(layers.normal_circles[0].members, 5);  // counted by the predictions of its edges
   EXPECT_EQ(layers.normal_circles[1].members, 0);
   for (const Circle& c : layers.normal_circles) EXPECT_EQ(c.trust, p.circle.trust.standard);
   ASSERT_EQ(layers.squares.size(), 2u);
@@ -213,8 +213,8 @@ TEST(Psi, IsNeverAppliedWhenSwitchedOff) {
   }
 }
 
-/// lambda and psi are those of the frame before, moved on: nothing in the first frame, and lambda
-/// from the second on.
+/// lambda and psi come from the previous frame, moved on: both are empty in the first frame, and
+/// lambda exists from the second on.
 TEST(Lambda, AppearsInTheFrameAfterItsCircles) {
   World world = steady_world(3);
   const EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), 0.1);
@@ -224,7 +224,7 @@ TEST(Lambda, AppearsInTheFrameAfterItsCircles) {
   EXPECT_FALSE(filter.step(world.corners(), motion).layers.collectors.empty());
 }
 
-/// The paper's dimensionality counts what the experts hold.
+/// The paper's dimensionality counts the items of all experts.
 TEST(Dimensionality, CountsEdgesCirclesAndSquares) {
   Layers layers;
   layers.normal_edges.resize(1);

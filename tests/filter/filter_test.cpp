@@ -30,7 +30,7 @@ using testing::sparse_world;
 using testing::steady_motion;
 using testing::World;
 
-/// From the rim of an outline; of an empty one 0.
+/// Distance from the rim of an outline, px; 0 for an empty outline.
 double distance_from(const Outline& outline, const Vec2& point) {
   const auto vertices = outline.vertices();
   double nearest = vertices.empty() ? 0 : std::numeric_limits<double>::infinity();
@@ -97,8 +97,8 @@ TEST(SignatureDistance, IsTheNumberOfBitsThatDiffer) {
   EXPECT_EQ(distance(all, some), 252);
 }
 
-/// Compares the layers of a filter with those of one that sees the world transformed.
-/// \param pixel moves a pixel; \param turn a vector of the camera.
+/// Compares the layers of a filter with those of a filter that gets the transformed world.
+/// \param pixel transforms a pixel; \param turn transforms a vector of the camera frame.
 void expect_equivariant(const AnyParameters& parameters, const Intrinsics& other_camera,
                         const std::function<Vec2(const Vec2&)>& pixel, const Eigen::Matrix3d& turn,
                         const std::optional<Ground>& ground) {
@@ -120,7 +120,7 @@ void expect_equivariant(const AnyParameters& parameters, const Intrinsics& other
     const FrameResult& a = straight.step(frames[k], motion);
     const FrameResult& b = transformed.step(corners, turned);
     ASSERT_EQ(a.verdicts, b.verdicts) << "frame " << k;
-    // Sums run in another order on both sides.
+    // The two filters add their sums in different orders.
     const auto expect_same_points = [&](const auto& from, const auto& to, const char* what) {
       ASSERT_EQ(from.size(), to.size()) << what << ", frame " << k;
       for (const auto& item : from) {
@@ -136,7 +136,7 @@ void expect_equivariant(const AnyParameters& parameters, const Intrinsics& other
     expect_same_points(a.layers.normal_circles, b.layers.normal_circles, "normal circles");
     expect_same_points(a.layers.rebel_circles, b.layers.rebel_circles, "rebel circles");
     expect_same_points(a.layers.squares, b.layers.squares, "squares");
-    // Vertices that are nearly on a line may be one's alone.
+    // Nearly collinear vertices may exist in one outline only.
     for (const Square& square : a.layers.squares) {
       const bool found =
           std::any_of(b.layers.squares.begin(), b.layers.squares.end(), [&](const Square& other) {
@@ -149,7 +149,7 @@ void expect_equivariant(const AnyParameters& parameters, const Intrinsics& other
   }
 }
 
-/// Some of the scene's points lie below it, and others hang above it.
+/// Some of the scene's points lie below the ground, others above it.
 const std::optional<Ground> kGrounds[] = {
     std::nullopt, Ground{.up_C = Vector3d(0.1, -1, 0.05).normalized(), .height_m = 0.8}};
 
@@ -196,7 +196,7 @@ TEST_P(FilterWith, ASparseStaticWorldIsTrackedAndItsDepthsAreLearnt) {
     result = &filter.step(world.corners(), k == 0 ? EgoMotion{} : motion);
     if (k < 11) world.advance(motion);
   }
-  // Edges with a corner are nearly all trusted, and sit on a corner.
+  // Nearly all edges with a corner are trusted, and they lie on their corner.
   const auto corners = world.corners();
   const auto& edges = result->layers.normal_edges;
   ASSERT_GT(edges.size(), corners.size() / 2);
@@ -204,8 +204,8 @@ TEST_P(FilterWith, ASparseStaticWorldIsTrackedAndItsDepthsAreLearnt) {
       std::count_if(edges.begin(), edges.end(), [](const Edge& edge) { return edge.corner >= 0; });
   const auto looked_at = std::count_if(result->verdicts.begin(), result->verdicts.end(),
                                        [](Verdict v) { return v != Verdict::ignored; });
-  // The paper's V~ = (V + V_v)/2 puts landmarks away from Z_ref beside their corners for good, and
-  // xi_3 costs those that it overshoots their trust: under its rule part of them come and go.
+  // The paper's V~ = (V + V_v)/2 keeps landmarks away from Z_ref beside their corners, and xi_3
+  // costs trust where it overshoots: under the paper's rule some of them come and go.
   const double share = std::holds_alternative<Parameters>(parameters()) ? 0.95 : 0.5;
   EXPECT_GT(static_cast<double>(supported), share * static_cast<double>(looked_at));
   for (const Edge& edge : edges) {
@@ -357,7 +357,7 @@ TEST_P(FilterWith, RecoversAfterTenFramesWithoutCorners) {
   const auto frames = record(scene, 24);
   AnyFilter filter(scene.world.camera, parameters());
   AnyFilter fresh(scene.world.camera, parameters());
-  // Corners that are explained: matched to a normal edge, or ignored as well known.
+  // Explained corners: matched to a normal edge, or ignored as well known.
   const auto explained = [](const FrameResult& result) {
     return std::count_if(result.verdicts.begin(), result.verdicts.end(),
                          [](Verdict v) { return v == Verdict::normal || v == Verdict::ignored; });

@@ -1,4 +1,4 @@
-/// Edges that one motion explains, the circles that they are, and the squares of these.
+/// Edges that share one motion, their circles, and the squares of these circles.
 #include "filter/circles/motion_groups.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using testing::ahead;
 using testing::steady_motion;
 using testing::vga;
 
-/// A grid of normal edges, `depth_m` away and known to about 1 %.
+/// A grid of normal edges at `depth_m`, with a depth error of about 1 %.
 void add_patch(Layers& layers, const Vec2& low, const Vec2& high, double depth_m,
                double spacing_px = 10) {
   for (double y = low.y(); y <= high.y(); y += spacing_px) {
@@ -54,7 +54,7 @@ void add_rebels(Layers& layers, const Vec2& low, const Vec2& high, const Vec2& v
   }
 }
 
-/// The default's circles and squares of one frame after the other.
+/// The default circle and square experts, run frame after frame.
 struct Experts {
   CircleExpert circles{vga(), {}, {}};
   SquareExpert squares{vga(), {}};
@@ -79,8 +79,8 @@ std::vector<Square> squares_of(Layers layers, const MotionField& field = ahead()
   return layers.squares;
 }
 
-/// Against the density of the normal distribution that the measurements have, level and slopes
-/// integrated out: the two differ by what does not depend on the prior.
+/// Compared with the normal density of the measurements, level and slopes integrated out: the two
+/// differ by a term that does not depend on the prior.
 TEST(PlaneEvidence, IsTheDensityOfAllMeasurements) {
   testing::Random random(1);
   constexpr int kPoints = 7;
@@ -114,7 +114,7 @@ TEST(PlaneEvidence, IsTheDensityOfAllMeasurements) {
   EXPECT_NEAR(sums.evidence(one, 2) - sums.evidence(other, 2), density(one) - density(other), 1e-9);
 }
 
-/// What a square spans whose corners span `half_size`: as much more as `count` of them leave out.
+/// Extent of a square whose corners span `half_size`, extended for the gaps of `count` corners.
 Vec2 spanned(const Vec2& half_size, std::size_t count) {
   const auto n = static_cast<double>(count);
   return half_size * (n + 1) / (n - 1);
@@ -144,7 +144,7 @@ TEST(Groups, ADistanceParts) {
   EXPECT_EQ(squares_of(layers).size(), 2u);
 }
 
-/// Of inverse depth that is linear in the picture, from `near_m` at its left to `far_m`.
+/// A wall whose inverse depth is linear in the picture, from `near_m` at its left to `far_m`.
 void add_wall(Layers& layers, double near_m, double far_m) {
   for (double x = 50; x <= 600; x += 10) {
     const double share = (x - 50) / 550;
@@ -152,8 +152,8 @@ void add_wall(Layers& layers, double near_m, double far_m) {
   }
 }
 
-/// Each neighbour is near the next, and its ends are far apart in depth: it is one thing, and too
-/// large for an object.
+/// Each neighbour is near the next, but the ends differ greatly in depth: it is one object, too
+/// large for a square.
 TEST(Groups, AWallSeenAtASlantIsOneAndNoSquare) {
   Layers layers;
   add_wall(layers, 4, 9);
@@ -172,7 +172,7 @@ TEST(Groups, WhatStandsBeforeAWallIsNoneOfIt) {
   EXPECT_TRUE(squares_of(layers)[0].location.isApprox(Vec2(321, 200)));
 }
 
-/// However it lies in the picture, the ground that is known is no circle, and what stands on it is
+/// In any position in the picture, the known ground forms no circle, and an object on it forms
 /// one.
 TEST(Groups, TheGroundIsNoCircle) {
   const Ground ground{.height_m = 0.45};
@@ -185,7 +185,7 @@ TEST(Groups, TheGroundIsNoCircle) {
   experts.update(layers, ahead(ground));
   EXPECT_TRUE(layers.normal_circles.empty());
 
-  // Its foot is 2 m away, on row 333.
+  // The object's foot is 2 m away, on row 333.
   add_patch(layers, {303, 203}, {353, 333}, 2);
   experts.update(layers, ahead(ground));
   ASSERT_EQ(layers.squares.size(), 1u);
@@ -220,7 +220,7 @@ TEST(Groups, FewEdgesThinGroupsAndUnseenRebelsMakeNoSquare) {
   Layers layers;
   add_patch(layers, {100, 100}, {200, 100}, 3);  // on a line
   add_patch(layers, {300, 300}, {330, 310}, 3);
-  layers.normal_edges.resize(layers.normal_edges.size() - 2);  // six, one less than it takes
+  layers.normal_edges.resize(layers.normal_edges.size() - 2);  // six, one fewer than needed
   add_rebels(layers, {300, 100}, {340, 140}, {80, 0});
   for (Edge& edge : layers.rebel_edges) edge.corner = -1;
   EXPECT_TRUE(squares_of(layers).empty());
@@ -238,10 +238,10 @@ TEST(Groups, AnObjectIsOneBeforeADenseBackground) {
   EXPECT_EQ(std::ranges::count_if(squares_of(layers), is_object), 1);
 }
 
-/// Bodies are tall before gaps are wide: head and feet are one, neighbours are two.
+/// Reach is larger upwards than sideways: head and feet are one body, two neighbours are two.
 TEST(Groups, ReachFartherUpwardsThanAcross) {
   const double gap = 3.5 * CircleParameters{}.gap_m * vga().focal_px / 4;
-  for (const double roll : {0.0, 0.5}) {  // upwards is where the ground is not
+  for (const double roll : {0.0, 0.5}) {  // upwards is away from the ground
     const Eigen::Rotation2Dd turned(roll);
     const auto count = [&](const Vec2& offset) {
       Layers layers;
@@ -259,7 +259,7 @@ TEST(Groups, ReachFartherUpwardsThanAcross) {
   }
 }
 
-/// As many metres are more pixels.
+/// The same distance in metres is more pixels at a small depth.
 TEST(Groups, ReachFartherWhereTheyAreNear) {
   for (const double depth : {2.0, 8.0}) {
     Layers layers;
@@ -268,7 +268,7 @@ TEST(Groups, ReachFartherWhereTheyAreNear) {
   }
 }
 
-// 200 px wide, and as many metres as its depth makes of them.
+// 200 px wide; the width in metres depends on the depth.
 TEST(Groups, WhatIsLargerThanAnObjectMayBeIsBackground) {
   const double limit_m = SquareParameters{}.max_size * vga().focal_px / 200;
   for (const double share : {0.9, 1.1}) {
@@ -287,7 +287,7 @@ TEST(Groups, EdgesWithoutParallaxAreLeftOut) {
   EXPECT_TRUE(squares_of(layers).empty());
 }
 
-/// Wherever they come to: a circle is known by its edges, and its square with it.
+/// A circle is recognised by its edges wherever they move, and so is its square.
 TEST(Groups, GoOnWithTheMostOfTheirEdges) {
   Layers layers;
   add_patch(layers, {100, 100}, {140, 140}, 3);
@@ -298,7 +298,7 @@ TEST(Groups, GoOnWithTheMostOfTheirEdges) {
 
   for (Edge& edge : layers.normal_edges) edge.location.x() += 300;
   layers.normal_edges.erase(layers.normal_edges.begin(), layers.normal_edges.begin() + 10);
-  add_patch(layers, {100, 100}, {140, 140}, 3);  // others, where it was
+  add_patch(layers, {100, 100}, {140, 140}, 3);  // other edges at the old place
   for (std::size_t i = 0; i < layers.normal_edges.size(); ++i) {
     layers.normal_edges[i].id = i + 11;
   }
@@ -309,7 +309,7 @@ TEST(Groups, GoOnWithTheMostOfTheirEdges) {
   EXPECT_EQ(layers.squares[0].age, 1);
   EXPECT_EQ(layers.squares[1].age, 0);
 
-  // Without edges it is gone at once.
+  // Without edges the circle vanishes at once.
   layers.normal_edges.clear();
   experts.update(layers, ahead());
   EXPECT_TRUE(layers.squares.empty());

@@ -1,4 +1,4 @@
-/// Edges told by two hypotheses: each part of `filter/edges/` alone, then the rule as a whole.
+/// Edges with two hypotheses: each part of `filter/edges/` alone, then the whole rule.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -42,12 +42,12 @@ constexpr double kDt_s = 0.1;
 
 const EdgeParameters kUsual = EdgeParameters{};
 
-/// Of a sighting, were there no bounds on depth.
+/// Density of a sighting without bounds on depth, 1/px^2.
 double density(const StaticPoint& point, const Vec2& x_px, double noise2_px2) {
   return gauss(x_px - point.place_px, point.spread(noise2_px2));
 }
 
-/// Images of a point, frame by frame, and its 1/Z in the last.
+/// Images of a point in each frame, px, and its 1/Z in the last frame.
 struct Seen {
   std::vector<Vec2> places;
   double inverse_depth_pm = 0;
@@ -67,7 +67,7 @@ Seen watch(const Vec2& px, double depth, const EgoMotion& motion, int frames) {
 template <int N>
 void expect_covariance(const Eigen::Matrix<double, N, N>& C) {
   EXPECT_TRUE(C.isApprox(C.transpose(), 1e-9)) << C;
-  // The scales of its axes differ by orders of magnitude: of the correlations, not of it.
+  // The axes differ in scale by orders of magnitude, so the correlations are checked.
   const Eigen::Matrix<double, N, 1> scale = C.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::Matrix<double, N, N> correlations = scale.asDiagonal() * C * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> solver(correlations);
@@ -103,8 +103,8 @@ TEST(StaticPoint, LearnsTheDepthOfWhatItSeesWhateverTheMotion) {
           point.see(x, kNoise2_px2, depth_bounds(field, x));
           expect_covariance<3>(point.covariance);
         }
-        // Half a standard deviation of what the filter itself says it does not know: what is left
-        // is of the first guess, the middle of the bounds, which the sightings outweigh.
+        // Half a standard deviation of the filter's own uncertainty: the rest comes from the
+        // first guess, the middle of the bounds, which the sightings outweigh.
         EXPECT_NEAR(point.inverse_depth_pm, seen.inverse_depth_pm,
                     0.5 * std::sqrt(point.covariance(2, 2)));
         EXPECT_LT(std::sqrt(point.covariance(2, 2)), 0.15) << "it has learnt";
@@ -115,8 +115,8 @@ TEST(StaticPoint, LearnsTheDepthOfWhatItSeesWhateverTheMotion) {
   }
 }
 
-/// Of a camera that goes sideways places are linear in 1/Z, so that all sightings at once give the
-/// same as one after the other.
+/// For a camera that moves sideways, places are linear in 1/Z, so the fit to all sightings at once
+/// equals the sequential result.
 TEST(StaticPoint, IsTheLeastSquaresFitWhereThatIsLinear) {
   const double d = 0.05;
   const EgoMotion motion = steady_motion({d / kDt_s, 0, 0}, Vector3d::Zero(), kDt_s);
@@ -129,7 +129,7 @@ TEST(StaticPoint, IsTheLeastSquaresFitWhereThatIsLinear) {
                                              field.displacement_C_m(), kNoise2_px2);
   const double middle = point.inverse_depth_pm, variance = point.covariance(2, 2);
   EXPECT_NEAR(middle, 0.5 * (bounds.least_pm + bounds.most_pm), 1e-12);
-  // Sums of the slope s of x over 1/Z and of x, by 1/variance.
+  // Sums of the slope s of x over 1/Z, and of x, weighted by 1/variance.
   double n = 1, s = 0, ss = 0, x = start.x(), sx = 0;
   for (std::size_t k = 1; k < seen.places.size(); ++k) {
     const Vec2 noisy = seen.places[k] + random.vector(0.6).head<2>();
@@ -155,7 +155,7 @@ TEST(StaticPoint, IsLikeliestWhereItIsExpected) {
     EXPECT_LT(near, there);
     EXPECT_LT(density(point, point.place_px + 2 * aside, kNoise2_px2), near);
   }
-  // A density: it sums to one. Of steps of 1 px as the noise is no finer.
+  // A density sums to one. Steps of 1 px suffice because the noise is no finer.
   double sum = 0;
   for (int v = -80; v <= 80; ++v) {
     for (int u = -80; u <= 80; ++u) sum += density(point, point.place_px + Vec2(u, v), kNoise2_px2);
@@ -163,7 +163,7 @@ TEST(StaticPoint, IsLikeliestWhereItIsExpected) {
   EXPECT_NEAR(sum, 1, 0.01);
 }
 
-/// Beside what the normal distribution alone says of the place.
+/// Bounds apply in addition to the normal distribution of the place.
 TEST(StaticPoint, IsNotNearerThanItMayBeNorBehindTheGround) {
   EgoMotion motion = steady_motion({1, 0, 0}, Vector3d::Zero(), kDt_s);
   motion.ground = Ground{.up_C = {0, -1, 0}, .height_m = 0.8};
@@ -173,7 +173,7 @@ TEST(StaticPoint, IsNotNearerThanItMayBeNorBehindTheGround) {
   const double ground = (px.y() - vga().centre_px.y()) / vga().focal_px / 0.8;
   EXPECT_NEAR(bounds.most_pm, 1 / FieldParameters{}.nearest_depth_m, 1e-12) << "at z_min";
   EXPECT_NEAR(bounds.ground_pm, ground, 1e-12);
-  // It may fall away by 0.015 rad, and the height be wrong by a tenth.
+  // The ground may slope by 0.015 rad, and the height may be wrong by a tenth.
   const double sigma = std::hypot(0.015 / 0.8, 0.1 * ground);
   EXPECT_NEAR(bounds.ground_sigma_pm, sigma, 1e-12);
   EXPECT_NEAR(bounds.least_pm, ground - 2 * sigma, 1e-12);
@@ -188,7 +188,7 @@ TEST(StaticPoint, IsNotNearerThanItMayBeNorBehindTheGround) {
     return bounded / unbounded;
   };
   EXPECT_GT(share(0.5 * (bounds.least_pm + bounds.most_pm)), 0.99);
-  // A frame shows 1/Z to 0.6 px of 42 px m, and the bounds' place in it to as much: 0.02 1/m.
+  // One frame gives 1/Z to 0.6 px of 42 px m, and the bounds' place to the same: 0.02 1/m.
   EXPECT_GT(share(bounds.most_pm - 0.1), 0.99);
   EXPECT_LT(share(bounds.most_pm + 0.1), 1e-3);
   EXPECT_LT(share(3 * bounds.most_pm), 1e-3);
@@ -197,7 +197,7 @@ TEST(StaticPoint, IsNotNearerThanItMayBeNorBehindTheGround) {
   EXPECT_LT(share(0), 1e-3);
 }
 
-/// But Z is along the axis, and changes as that turns.
+/// Z is measured along the optical axis, so it changes when the camera turns.
 TEST(StaticPoint, AStandingCameraSaysNothingOfDepth) {
   for (const Vector3d& turn : {Vector3d(0, 0, 0), Vector3d(0.02, -0.1, 0.05)}) {
     const EgoMotion motion = steady_motion(Vector3d::Zero(), turn, kDt_s);
@@ -216,7 +216,7 @@ TEST(StaticPoint, AStandingCameraSaysNothingOfDepth) {
       const Vec2 x = testing::project(world.camera, x_C);
       if (k > 0) point = point.predicted(vga(), field, kUsual.ego_share);
       point.see(x + random.vector(1).head<2>(), kNoise2_px2, bounds);
-      // The axis that is turned about is as sure as the place: 1 px of 400, of 0.01 rad a frame.
+      // The depth error follows the axis error: 1 px of 400, of 0.01 rad per frame.
       EXPECT_NEAR(point.inverse_depth_pm * x_C.z(), 1, 1e-3);
       EXPECT_NEAR(std::sqrt(point.covariance(2, 2)) / point.inverse_depth_pm, sigma, 1e-9);
       EXPECT_TRUE(point.covariance.topRightCorner(2, 1).isZero(0));
@@ -256,7 +256,7 @@ TEST(StaticPoint, IsFiniteWhereTheCameraTurnsAway) {
 
 // ---- A motion of its own
 
-/// Without acceleration it is the line through all sightings.
+/// Without acceleration the fit is the line through all sightings.
 TEST(OwnMotion, IsTheLeastSquaresFitOfAConstantVelocity) {
   const MotionField field(vga(), steady_motion(Vector3d::Zero(), Vector3d::Zero(), kDt_s), {});
   Random random(3);
@@ -299,13 +299,13 @@ TEST(OwnMotion, FollowsAVelocityUnderARotationAndGrowsSurer) {
               motion.density(places[k] - Vec2(1, 0), kNoise2_px2));
     motion.see(places[k], kNoise2_px2);
     expect_covariance<2>(motion.covariance);
-    // What it may change by in a frame is added each time: it falls to a balance, about which it
-    // swings by less than a hundredth.
+    // Process noise is added in each frame: the variance falls to a steady state and oscillates
+    // about it by less than 1 %.
     EXPECT_LT(motion.covariance(1, 1), variance * 1.01);
     variance = motion.covariance(1, 1);
   }
-  // The velocity wanders by q = 45 px^2/s^2 a frame, and a step tells it to r = 72: of the two the
-  // balance lies below the latter.
+  // The velocity variance grows by q = 45 px^2/s^2 per frame, and a step measures it with r = 72:
+  // the steady state lies below r.
   EXPECT_LT(variance, kNoise2_px2 * 2 / (kDt_s * kDt_s));
   EXPECT_LT(motion.covariance(0, 0), kNoise2_px2) << "more than a sighting tells";
   EXPECT_LT((motion.velocity_pxps - velocity).norm(), 1e-9);
@@ -313,7 +313,7 @@ TEST(OwnMotion, FollowsAVelocityUnderARotationAndGrowsSurer) {
 
 // ---- Association
 
-/// A track that was seen once and stood, and stays as sure of it as `first` sightings are.
+/// A static track at `x`, px, after one sighting.
 Track track_at(const Vec2& x, const Signature& signature = {}) {
   const MotionField still(vga(), steady_motion(Vector3d::Zero(), Vector3d::Zero(), kDt_s), {});
   Track track;
@@ -343,7 +343,7 @@ std::vector<int> match(const EdgeParameters& parameters, const Chi& chi,
   return Association(parameters).match(chi, tracks, kNoise2_px2, kDt_s);
 }
 
-/// Corners that jittered, came and went, some of them of a group that moved.
+/// Corners with jitter that appear and vanish; some belong to a moving group.
 struct Crowd {
   explicit Crowd(std::uint64_t seed) {
     Random random(seed);
@@ -403,7 +403,7 @@ std::vector<int> matched_by_formula(const EdgeParameters& parameters, const Chi&
     });
     return static_cast<double>(1 + about) / (kPi * near * near);
   };
-  std::vector<std::tuple<double, int, int>> best;  // of each corner: -weight, corner, track
+  std::vector<std::tuple<double, int, int>> best;  // per corner: -weight, corner, track
   for (std::size_t c = 0; c < chi.size(); ++c) {
     std::vector<std::pair<double, std::size_t>> others;
     for (std::size_t o = 0; o < chi.size(); ++o) {
@@ -501,9 +501,9 @@ TEST(Association, WhatNeighboursAgreeOnGoesBeforeANearerChanceMatch) {
     tracks.push_back(track_at(x));
     corners.push_back(x + Vec2(22, 5));
   }
-  corners.push_back(group[0] + Vec2(1, 1));  // a chance match of the first
+  corners.push_back(group[0] + Vec2(1, 1));  // a chance match of the first corner
   EdgeParameters parameters = kUsual;
-  parameters.step_share = 0.1;  // they move as one
+  parameters.step_share = 0.1;  // they move as one group
   const auto asked = match(parameters, chi_of(corners), tracks);
   for (int c = 0; c < 9; ++c) EXPECT_EQ(asked[c], c);
   EXPECT_EQ(asked[9], -1);
@@ -533,7 +533,7 @@ Coupling::Node node(double x, double log_odds, const Vec2& step = Vec2::Zero()) 
   return {{x, 240}, log_odds, step, 0};
 }
 
-/// It is rather a chance than a body.
+/// An isolated mover is more likely a chance match than a body.
 TEST(Coupling, ANodeThatNoneMovesLikeHasTheWholeWorldAgainstIt) {
   const std::vector<Coupling::Node> nodes = {node(100, 1.5), node(300, -4, {20, 0}),
                                              node(500, 0.2, {-20, 0})};
@@ -551,20 +551,20 @@ TEST(Coupling, OfTwoNodesIsTheSumByHand) {
   parameters.coupling = 8;
   parameters.step_share = 0.1;
   parameters.neighbour_reach_px = 25;
-  // Either is at the rim of the other's reach, w = exp(-1/2 25^2 / (25^2 + 25^2)) = 0.7788, and
-  // what is beyond counts for exp(-1/2 3^2) = 0.0111, a share of 0.0281 against both: the first is
-  // sure, so that the second has -1 + 8 (1 - 0.0281), and the first 20 + 8 (0.9859 tanh(6.775 / 2)
+  // Each node is at the rim of the other's reach, w = exp(-1/2 25^2 / (25^2 + 25^2)) = 0.7788. The
+  // far field counts for exp(-1/2 3^2) = 0.0111, a share of 0.0281 against both. The first is
+  // certain, so the second has -1 + 8 (1 - 0.0281), and the first 20 + 8 (0.9859 tanh(6.775 / 2)
   // - 0.0141).
   Coupling coupling(parameters);
   std::vector<double> m = coupling.settle(std::vector{node(100, 20), node(125, -1)}, kNoise2_px2);
   EXPECT_NEAR(m[0], 27.7570, 1e-3);
   EXPECT_NEAR(m[1], 6.7750, 1e-3);
-  // 6 px apart in their steps, of which 0.6^2 + (0.1 * 6)^2 = 0.72 px^2 is nothing: more than three
-  // standard deviations, so that there is no tie.
+  // The steps differ by 6 px; 0.6^2 + (0.1 * 6)^2 = 0.72 px^2 is tolerated. This is more than three
+  // standard deviations, so there is no coupling.
   m = coupling.settle(std::vector{node(100, 20), node(125, -1, {6, 0})}, kNoise2_px2);
   EXPECT_EQ(m[1], -1 - 8);
-  // Between one that is sure to move, w = exp(-1/2 25^2 / (50^2 + 25^2)) = 0.9048, and one as sure
-  // to stand whose step is 1 px off, w = 0.9048 exp(-1/2 / 0.37) = 0.2343:
+  // Between a certain mover, w = exp(-1/2 25^2 / (50^2 + 25^2)) = 0.9048, and an equally certain
+  // static node whose step is 1 px off, w = 0.9048 exp(-1/2 / 0.37) = 0.2343:
   // -1 + 8 (0.9048 - 0.2343 - 0.0111) / 1.1502.
   m = coupling.settle(std::vector{node(100, 20), node(125, -1), node(150, -20, {1, 0})},
                       kNoise2_px2);
@@ -590,7 +590,7 @@ TEST(Coupling, TwoSureNodesAmongAnotherMotionKeepTheirOwn) {
   for (std::size_t i = 2; i < m.size(); ++i) EXPECT_LT(m[i], -6);
 }
 
-/// Nearer or farther, as densely as the corners lie: all is in units of that.
+/// Lengths scale with the spacing of the corners, so density does not matter.
 TEST(Coupling, IsTheSameForAnyDensityOfCorners) {
   Random random(7);
   std::vector<Coupling::Node> nodes, dense;
@@ -623,7 +623,7 @@ TEST(Coupling, WhoTellsNothingIsWhatTheNearestIsThatDoesOfEquallyNearOnesTheLike
     EXPECT_EQ(m[3], m[1]);
     EXPECT_EQ(m[4], std::max(m[0], m[1]));
   }
-  // Many that are new and one that is none of the nearest to those farthest from it: nobody knows.
+  // One known node, then a row of new ones: the last ones have no known node among their nearest.
   std::vector<Coupling::Node> nodes = {node(0, 20)};
   for (int i = 1; i <= 2 * kUsual.neighbours; ++i) nodes.push_back(silent(10 * i, 240));
   const std::vector<double> m = coupling.settle(nodes, kNoise2_px2);
@@ -631,10 +631,10 @@ TEST(Coupling, WhoTellsNothingIsWhatTheNearestIsThatDoesOfEquallyNearOnesTheLike
   EXPECT_EQ(m.back(), 0);
 }
 
-// ---- What the told motion is off by
+// ---- Error of the given motion
 
-/// A camera that goes ahead is told a motion that is off by a turn and by a velocity. Static points
-/// all over the picture, and by how far each misses where it was expected.
+/// A camera moves ahead; its given motion has an error in turn and velocity. Static points cover
+/// the picture, each with its offset from the expected place.
 struct Misled {
   MotionField told, truth;
   std::vector<Residual> residuals;
@@ -660,7 +660,7 @@ struct Misled {
     return motion;
   }
 
-  /// px: the most that a field differs from the true one across the parallax.
+  /// Largest distance of a field from the true one across the parallax, px.
   double worst_across(const MotionField& field) const {
     double worst = 0;
     for (const Residual& residual : residuals) {
@@ -673,7 +673,7 @@ struct Misled {
   }
 };
 
-/// (m/s)^2, of the told velocity: 2 cm/s on each axis.
+/// Covariance of the given velocity, (m/s)^2: 2 cm/s on each axis.
 const Eigen::Matrix3d kWrong = 4e-4 * Eigen::Matrix3d::Identity();
 
 TEST(MotionFix, FindsWhatTheToldMotionIsOffByAmongWrongMatches) {
@@ -689,13 +689,13 @@ TEST(MotionFix, FindsWhatTheToldMotionIsOffByAmongWrongMatches) {
     const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
     const double after = misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps));
     EXPECT_GT(before, 0.6);
-    // The worst of 200 places. A turn and a velocity aside look alike where depths are, and each
-    // residual counts as one of twenty of a body, so that what is told holds the fix back.
+    // The worst of 200 places. A turn and a sideways velocity look alike at known depths, and each
+    // residual counts as one of twenty of a body, so the prior limits the fix.
     EXPECT_LT(after, before / 2);
   }
 }
 
-/// Every other match is wrong, and may be right by a turn as large as that.
+/// Every other match is wrong, by an offset that a turn of this size could cause.
 TEST(MotionFix, FindsALargeTurnThatNoGyroSawAmongWrongMatches) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
@@ -705,12 +705,12 @@ TEST(MotionFix, FindsALargeTurnThatNoGyroSawAmongWrongMatches) {
       misled.residuals[i].off_px = Vec2(50, -100) + 50 * random.vector(1).head<2>();
     }
     const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
-    // It is linear in the turn.
+    // The fix is linear in the turn.
     EXPECT_LT((fix.turn_rad - turn).norm(), 1e-3 + turn.squaredNorm() / 2) << "seed " << seed;
   }
 }
 
-/// As a depth that was learnt under a wrong motion would have it.
+/// As if a depth had been learnt under a wrong motion.
 TEST(MotionFix, TakesNothingFromWhatADepthExplains) {
   Random random(6);
   Misled misled(Vector3d::Zero(), Vector3d::Zero(), 200, random);
@@ -734,7 +734,7 @@ TEST(MotionFix, TakesLittleFromWhatIsKnownToMove) {
   EXPECT_LT(misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps)), 0.3);
 }
 
-/// By as much as they are sure of, in the place of a least number of them.
+/// The fix grows with the certainty of the residuals; no minimum number is required.
 TEST(MotionFix, SaysNothingWhereNobodyTellsAndMoreTheMoreTell) {
   Random random(8);
   double turn = 0;
@@ -753,7 +753,7 @@ TEST(MotionFix, SaysNothingWhereNobodyTellsAndMoreTheMoreTell) {
   EXPECT_GT(turn, 5e-4);
 }
 
-/// What is known to move says nothing of it.
+/// Known movers give no information about the motion.
 TEST(MotionFix, IsContradictedWhereMoreLeaveThanFourFifths) {
   Random random(9);
   EXPECT_FALSE(is_contradicted({}));
@@ -766,13 +766,13 @@ TEST(MotionFix, IsContradictedWhereMoreLeaveThanFourFifths) {
   }
 }
 
-/// A camera whose told velocity is off by the same in each frame, of which the corners show half.
+/// A camera whose given velocity has a constant error; the corners show half of it.
 struct Drifting {
   explicit Drifting(double told_sigma_mps, const Vector3d& rate_radps = Vector3d::Zero())
       : motion(steady_motion({0, 0, 1}, rate_radps, kDt_s)) {
     motion.velocity_sigma_mps = told_sigma_mps;
   }
-  /// What is told and believed of a frame that is really `error_mps` faster.
+  /// Remaining velocity error, m/s, when each frame is really `error_mps` faster than given.
   Vector3d left_after(int frames, const Vector3d& error_mps) {
     for (int k = 0; k < frames; ++k) {
       const MotionField told(vga(), motion, {});
@@ -815,7 +815,7 @@ TEST(VelocityErrors, AreForgottenOnceTheEstimatorKnowsBetter) {
   Drifting drifting(0.2);
   const Vector3d off(0.1, -0.05, 0.02);
   drifting.left_after(10, off);
-  drifting.motion.velocity_sigma_mps = 0.002;  // the wheels were heard
+  drifting.motion.velocity_sigma_mps = 0.002;  // the wheels were read
   EXPECT_LT(drifting.left_after(1, Vector3d::Zero()).norm(), 0.02 * off.norm());
 }
 
@@ -833,7 +833,7 @@ TEST(VelocityErrors, AreForgottenByTheShareThatDoesNotLast) {
 }
 
 TEST(VelocityErrors, StayInTheWorldWhileTheCameraTurns) {
-  Drifting drifting(0.2, {0, 0, 0.5 * kPi / kDt_s});  // a quarter a frame
+  Drifting drifting(0.2, {0, 0, 0.5 * kPi / kDt_s});  // a quarter turn per frame
   drifting.left_after(1, {0.1, 0, 0});
   const MotionField told(vga(), drifting.motion, {});
   drifting.error.advance(told, 1);
@@ -843,7 +843,7 @@ TEST(VelocityErrors, StayInTheWorldWhileTheCameraTurns) {
 
 // ---- The rule
 
-/// As FAST finds them: on whole pixels.
+/// Whole pixels, as FAST returns them.
 Corners rounded(Corners corners) {
   for (Vector2f& x : corners) x = x.array().round();
   return corners;
@@ -875,7 +875,7 @@ TEST(HypothesisEdges, AStaticWorldOfWholePixelsIsSilent) {
   }
 }
 
-/// No track has a motion by then; a turn of 4 mrad is 1.7 px, and most of the first steps are less.
+/// No track has a motion yet; a turn of 4 mrad is 1.7 px, more than most of the first steps.
 TEST(HypothesisEdges, AFirstTurnThatIsToldWrongIsSeenByTheCorners) {
   for (const Vector3d& turn_rad :
        {Vector3d(4e-3, 0, 0), Vector3d(0, -4e-3, 0), Vector3d(2e-3, 2e-3, 4e-3)}) {
@@ -893,7 +893,7 @@ TEST(HypothesisEdges, AFirstTurnThatIsToldWrongIsSeenByTheCorners) {
   }
 }
 
-/// As where poses jump, or stand for some frames.
+/// As when poses jump, or freeze for some frames.
 TEST(HypothesisEdges, BeginAnewWhereTheToldMotionIsNotTheCameras) {
   const EgoMotion motion = steady_motion({0.6, 0, 0.5}, {0.01, 0.05, -0.02}, kDt_s);
   struct Wrong {
@@ -925,7 +925,7 @@ TEST(HypothesisEdges, BeginAnewWhereTheToldMotionIsNotTheCameras) {
   }
 }
 
-/// It has been parked till then.
+/// The object was parked until then.
 TEST(HypothesisEdges, WhatFillsHalfOfThePictureMayDriveOff) {
   World world = sparse_world(5, 30);
   const EgoMotion motion = steady_motion({0, 0, 0.5}, {0, 0.05, 0}, kDt_s);
@@ -946,7 +946,7 @@ TEST(HypothesisEdges, WhatFillsHalfOfThePictureMayDriveOff) {
   EXPECT_EQ(filter.diagnostics().total(), 0);
 }
 
-/// As on a pole in the wind: each frame is turned by up to 10 mrad, 4 px, and no gyro sees it.
+/// As on a pole in the wind: each frame turns by up to 10 mrad, 4 px, undetected by any gyro.
 TEST(HypothesisEdges, AStandingCameraMayShake) {
   const World still = sparse_world(5, 30);
   EgoMotion told = steady_motion(Vector3d::Zero(), Vector3d::Zero(), kDt_s);
@@ -979,7 +979,7 @@ TEST(HypothesisEdges, CornersThatJitterBeforeAStandingCameraStand) {
   }
 }
 
-/// As another detector's may be, or another camera's: at first 0.35 px are taken for noise.
+/// As with another detector or camera: the filter first assumes a noise of 0.35 px.
 TEST(HypothesisEdges, CornersOfAnyExactnessStandBeforeACameraThatDrives) {
   for (const double half_px : {0.0, 1.0, 2.0, 4.0}) {
     World world = sparse_world(8, 40);
@@ -1001,8 +1001,8 @@ TEST(HypothesisEdges, CornersOfAnyExactnessStandBeforeACameraThatDrives) {
   }
 }
 
-/// A background, and twelve corners close together that cross it, before a camera that drives or
-/// stands; with signatures and without.
+/// A background, and twelve close corners that cross it, before a moving or standing camera, with
+/// and without signatures.
 TEST(HypothesisEdges, APatchThatCrossesIsCalledAndTheBackgroundIsNot) {
   for (const double speed_mps : {0.0, 0.3}) {
     for (const bool looks : {false, true}) {
@@ -1024,8 +1024,8 @@ TEST(HypothesisEdges, APatchThatCrossesIsCalledAndTheBackgroundIsNot) {
         if (k < 3) continue;
         const std::size_t patch = corners.size() - 12;
         EXPECT_GE(rebels(result, patch, corners.size()), 10);
-        // The patch hides nothing here: what shows through it, or beside it for the first time, may
-        // be taken for a part of it.
+        // The patch does not occlude here: background inside it, or beside it for the first time,
+        // may be taken for a part of it.
         EXPECT_LE(rebels(result, 0, patch), 2);
         for (std::size_t i = 0; i < patch; ++i) {
           const bool apart = std::all_of(corners.begin() + static_cast<std::ptrdiff_t>(patch),
@@ -1041,7 +1041,7 @@ TEST(HypothesisEdges, APatchThatCrossesIsCalledAndTheBackgroundIsNot) {
 }
 
 TEST(HypothesisEdges, ACornerThatNobodyKnowsIsNotCalled) {
-  // First frames, and later a corner that comes on by itself.
+  // First frames, and later a new corner far from all others.
   Filter filter(vga());
   const EgoMotion motion = steady_motion({0, 0, 0.3}, Vector3d::Zero(), kDt_s);
   for (int k = 0; k < 3; ++k) {
@@ -1053,7 +1053,7 @@ TEST(HypothesisEdges, ACornerThatNobodyKnowsIsNotCalled) {
 }
 
 TEST(HypothesisEdges, ACornerSeenOnceIsWhatTheNearestEdgeIs) {
-  // Five cross by 8 px a frame before a standing camera, towards five that stand.
+  // Five cross by 8 px a frame before a standing camera, towards five static ones.
   const Corners moving = {{200, 200}, {209, 197}, {204, 211}, {219, 206}, {213, 217}};
   const Corners standing = {{269, 206}, {278, 199}, {284, 210}, {275, 217}, {290, 204}};
   const Vector2f by_a_mover(255, 206), by_what_stands(265, 206), halfway(260, 206),
@@ -1104,7 +1104,7 @@ TEST(HypothesisEdges, SayTheSameAgainAndWhateverTheOrderOfTheCorners) {
 TEST(HypothesisEdges, ForgetAllWhereTheyStartAnew) {
   Scene scene(6);
   const auto frames = record(scene, 12);
-  // Time that stands still, and motion that nobody knows.
+  // A time step of zero, and an unknown time step.
   for (const double dt_s : {0.0, std::nan("")}) {
     Filter used(vga()), fresh(vga());
     std::ptrdiff_t found = 0;
@@ -1121,7 +1121,7 @@ TEST(HypothesisEdges, ForgetAllWhereTheyStartAnew) {
       ASSERT_EQ(result.layers.normal_edges.size(), expected.layers.normal_edges.size());
       for (std::size_t i = 0; i < expected.layers.normal_edges.size(); ++i)
         EXPECT_EQ(result.layers.normal_edges[i].speed, expected.layers.normal_edges[i].speed);
-      if (std::isnan(dt_s)) expect_same(result, expected, k);  // circles and squares, too
+      if (std::isnan(dt_s)) expect_same(result, expected, k);  // circles and squares are equal, too
       if (k > 6) continue;
       EXPECT_TRUE(result.layers.normal_edges.empty() && result.layers.rebel_edges.empty());
       for (const Reason reason : result.reasons) EXPECT_EQ(reason, Reason::first_sighting);

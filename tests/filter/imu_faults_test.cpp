@@ -1,5 +1,5 @@
-/// An IMU, wheels and clocks that are out of order: nothing throws, each fault is named and
-/// counted, what is known stays finite, and wheels bring the motion back within a stated number of
+/// An IMU, wheels and clocks with faults: nothing throws, each fault is named and counted, all
+/// results stay finite, and wheels restore the motion within a stated number of
 /// frames.
 #include <gtest/gtest.h>
 
@@ -24,13 +24,13 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kGravity_mps2 = 9.81;
 constexpr std::int64_t kImuStep_ns = 5'000'000, kFrameStep_ns = 100'000'000;
 constexpr int kReadingsAFrame = kFrameStep_ns / kImuStep_ns;
-/// Frames of the drive, of which those from kFirstBad to kLastBad have the fault.
+/// Frames of the drive; those from kFirstBad to kLastBad have the fault.
 constexpr int kFrames = 60, kFirstBad = 21, kLastBad = 25;
 
-/// Frames after the last bad one, at the most, until the motion is as good as ever.
+/// Maximum number of frames after the last bad one until the motion is correct again.
 constexpr int kRecovered = 3;
 
-/// Of a rover on a circle, with the noise that the estimator expects.
+/// A rover on a circle, with the noise that the estimator expects.
 constexpr double kSpeed_mps = 0.5, kYawRate_radps = 0.3;
 
 struct Sample {
@@ -43,7 +43,7 @@ struct Speed {
   Vector3d v_B_mps = Vector3d::Zero();
 };
 
-/// What happens between two frames, and when the second one comes.
+/// The readings between two frames, and the time of the second frame.
 struct Interval {
   int frame;
   std::int64_t t_ns;
@@ -71,7 +71,7 @@ Interval interval(int frame, Random& random) {
   return made;
 }
 
-/// The camera at the rover's origin, which looks ahead.
+/// A camera at the rover's origin that looks ahead.
 Mounting mounting() {
   Mounting m;
   m.R_BC << 0, 0, 1, -1, 0, 0, 0, -1, 0;
@@ -79,7 +79,7 @@ Mounting mounting() {
 }
 
 struct Outcome {
-  /// Of each frame.
+  /// One entry per frame.
   std::vector<double> velocity_error_mps, rotation_error_rad, unseen_turn_rad;
   Diagnostics diagnostics;
 
@@ -93,7 +93,7 @@ struct Outcome {
   }
 };
 
-/// A drive in which `spoil` has its way with each of the bad intervals.
+/// A drive in which `spoil` changes each of the bad intervals.
 Outcome drive(const std::function<void(Interval&)>& spoil, bool in_all = false) {
   EgoMotionEstimator estimator(mounting(), {},
                                {.t_ns = 0,
@@ -105,7 +105,7 @@ Outcome drive(const std::function<void(Interval&)>& spoil, bool in_all = false) 
   for (int k = 0; k < kFrames; ++k) {
     Interval now = interval(k, random);
     if (in_all || (k >= kFirstBad && k <= kLastBad)) spoil(now);
-    // Of one moment the IMU comes first.
+    // At equal times the IMU reading comes first.
     std::size_t wheel = 0;
     for (const Sample& sample : now.imu) {
       for (; wheel < now.wheels.size() && now.wheels[wheel].t_ns < sample.t_ns; ++wheel) {
@@ -179,7 +179,7 @@ TEST(ImuFaults, AFrozenImuIsTakenForASilentOne) {
 }
 
 TEST(ImuFaults, ASaturatedAccelerometerIsNamedAndWheelsAreBelieved) {
-  // A blow of 0.5 s that the sensor, of 2 g, cannot show: 19.6 m/s^2 forwards all the time.
+  // A blow of 0.5 s beyond the sensor's range of 2 g: it reads 19.6 m/s^2 forwards throughout.
   const Outcome outcome =
       drive(each([&](Sample& s) { s.accel_mps2.x() = std::min(19.6, s.accel_mps2.x() + 30); }));
   EXPECT_EQ(outcome.diagnostics.count(Fault::imu_saturated), kBadReadings - 4);
@@ -198,8 +198,8 @@ TEST(ImuFaults, GapsAreCountedAndBridged) {
   EXPECT_EQ(outcome.diagnostics.count(Fault::imu_gap), 1);
   EXPECT_EQ(outcome.diagnostics.total(), 1);
   EXPECT_LE(outcome.recovered_after(), kRecovered);
-  // 0.1 rad/s/sqrt(Hz) over 80 ms, for silence is noticed after 20 ms; over 100 ms; and over the
-  // 5 ms before the next reading.
+  // 0.1 rad/s/sqrt(Hz) over 80 ms, because silence is detected after 20 ms; over 100 ms; and over
+  // the 5 ms before the next reading.
   for (int k = 0; k < kFrames; ++k) {
     const double unheard_s = k == kFirstBad                   ? 0.08
                              : k > kFirstBad && k <= kLastBad ? 0.1
@@ -268,7 +268,7 @@ TEST(ImuFaults, AnAccelerometerInGIsRecognisedByGravityAndTakenTimesIt) {
 }
 
 TEST(ImuFaults, OnTheMoonReadingsOfItsGravityAreNotTakenForG) {
-  // Where gravity is 1.62 m/s^2, a size of 1 says nothing of units.
+  // Where gravity is 1.62 m/s^2, a magnitude near 1 does not indicate the unit g.
   EgoMotionEstimator estimator(mounting(), {}, {.gravity_mps2 = 1.62});
   for (int i = 0; i < 100; ++i) {
     estimator.add_imu(i * kImuStep_ns, {0, 0, 1e-6 * i}, {0, 0, 1.3});
@@ -302,7 +302,7 @@ TEST(ImuFaults, WheelsThatMeasureNothingAreLeftOut) {
   }
 }
 
-/// All times of an interval, as by a clock that is off.
+/// Shifts all times of an interval, as a wrong clock does.
 void shift(Interval& now, std::int64_t by_ns) {
   now.t_ns += by_ns;
   for (Sample& sample : now.imu) sample.t_ns += by_ns;

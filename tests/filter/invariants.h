@@ -1,5 +1,5 @@
 /// \file
-/// What holds after every step of the filter, whatever it was fed: shared by tests and fuzzers.
+/// Invariants after every step of the filter, for any input; shared by tests and fuzzers.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +43,7 @@ inline bool is_finite(const Square& s) {
          finite({s.speed, s.depth_ratio, s.angle}) && s.half_size.minCoeff() >= 0;
 }
 
-/// As wide and high as its square, and convex, but for rounding.
+/// Whether the outline is convex and as wide and high as its square, up to rounding.
 inline bool is_outline(const Square& square) {
   const auto vertices = square.outline.vertices();
   if (vertices.empty()) return true;
@@ -63,7 +63,7 @@ inline bool is_outline(const Square& square) {
          (0.5 * (high - low) - square.half_size).norm() <= rounding;
 }
 
-/// The first thing that is wrong with what the filter said of `corners` corners, if any.
+/// The first violated invariant in the result for `corners` corners, if any.
 inline std::optional<std::string> violation(const FrameResult& result, std::size_t corners,
                                             const Intrinsics& camera,
                                             const AnyParameters& parameters) {

@@ -1,5 +1,5 @@
 /// \file
-/// Trusted edges and circles as the field `ahead` moves them.
+/// Trusted edges and circles, moved by the field `ahead`.
 #pragma once
 
 #include "filter/kinematics/geometry.h"
@@ -8,7 +8,7 @@
 
 namespace lcs::testing {
 
-/// What is static at `at`. \param depth_ratio of the reference depth to its depth.
+/// A static item at `at`, px. \param depth_ratio reference depth divided by the item's depth.
 template <class Item>
 Item item(const Vec2& at, double depth_ratio) {
   Item item;
@@ -32,7 +32,7 @@ inline Circle circle(const Vec2& at, double radius, double depth_ratio = 1) {
   return circle;
 }
 
-/// An edge or a circle that moves by itself, from where it was first seen 50 px away.
+/// An edge or a circle with its own motion, first detected 50 px away.
 template <class Item>
 Item moved(Item item, double angle, double speed) {
   item.rebel = true;

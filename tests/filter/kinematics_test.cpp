@@ -1,4 +1,4 @@
-/// What the camera's own motion does to everything that is stored from frame to frame.
+/// Effect of the camera's own motion on all state that is kept from frame to frame.
 #include <gtest/gtest.h>
 
 #include "filter/kinematics/geometry.h"
@@ -23,7 +23,7 @@ Vec2 middle_pixel(Random& random) {
   return {random.uniform(150, 490), random.uniform(120, 360)};
 }
 
-/// Something at a random place that came from `origin` in a straight line.
+/// An item at a random place that came from `origin` in a straight line.
 template <typename Item>
 Item from_origin(Random& random) {
   Item item;
@@ -102,7 +102,7 @@ TEST_P(Rotation, MovesEveryStoredLocationAndEveryOriginOfItsOwn) {
   }
 }
 
-/// beta(k-1) is calculated anew from L(k-1) and O(k-1), once these have been moved.
+/// beta(k-1) is recomputed from L(k-1) and O(k-1) after these have been moved.
 TEST_P(Rotation, TurnsTheDirectionsOfRebels) {
   Random random(2);
   for (int i = 0; i < 50; ++i) {
@@ -124,7 +124,7 @@ TEST_P(Rotation, TurnsTheDirectionsOfRebels) {
 }
 
 TEST_P(Rotation, CarriesARebelOnInItsTurnedDirection) {
-  // A roll of 90 degrees within the frame: what went right goes up.
+  // A roll of 90 degrees within the frame: a motion to the right becomes a motion upwards.
   const MotionField field = [&] {
     EgoMotion motion = steady_motion(Vector3d::Zero(), {0, 0, kPi / 2}, 1);
     return MotionField(vga(), motion, {});
@@ -146,7 +146,7 @@ TEST(Kinematics, WhileStillTheOriginIsThePrincipalPoint) {
   EXPECT_EQ(still.origin({100, 50}), vga().centre_px);
 }
 
-/// A drift below the still speed is none: static layers keep place, size and depth.
+/// A drift below the still speed counts as none: static layers keep place, size and depth.
 TEST(Kinematics, WhileStillStaticLayersStay) {
   const MotionField still(vga(), steady_motion({0, 0, 0.004}, Vector3d::Zero(), 0.1), {});
   Circle circle;
@@ -166,7 +166,7 @@ TEST(Kinematics, WhileStillStaticLayersStay) {
   EXPECT_EQ(layers.normal_circles[0].depth_ratio, 1);
 }
 
-/// What turns behind the camera has no image; it stays finite and where it was.
+/// An item that turns behind the camera has no image; it stays finite and in place.
 TEST(Kinematics, WhatTurnsBehindTheCameraStaysWhereItWas) {
   const MotionField field(vga(), steady_motion(Vector3d::Zero(), {0, 3.1, 0}, 1), {});
   for (const Vec2& x : {Vec2(10, 20), Vec2(320, 240), Vec2(630, 470)}) {
@@ -174,7 +174,7 @@ TEST(Kinematics, WhatTurnsBehindTheCameraStaysWhereItWas) {
   }
 }
 
-/// Camera that drives and turns, and static patches of known depth.
+/// A camera that drives and turns, and static patches of known depth.
 struct Driving : ::testing::Test {
   Random random{3};
   FieldParameters parameters;
@@ -234,12 +234,12 @@ TEST_F(Driving, ANormalSquareGoesAndGrowsAboutTheFocusOfNow) {
     square.location = c.before;
     square.half_size = {30, 15};
     square.depth_ratio = c.ratio_before;
-    square.origin = vga().centre_px;  // where the FOE was a frame ago
+    square.origin = vga().centre_px;  // where the FOE was in the previous frame
     Layers layers;
     layers.squares = {square};
     SquareSteps().predict(layers, field);
     EXPECT_LT((layers.squares[0].location - c.now).norm(), 1e-6) << c.before.transpose();
-    // The stand-in for an FOE at infinity, 100 focal lengths off, grows a square by that little.
+    // The stand-in for an FOE at infinity, 100 focal lengths away, adds this small growth.
     EXPECT_TRUE(
         layers.squares[0].half_size.isApprox(Vec2(30, 15) * c.growth, field.foe() ? 1e-6 : 2e-3));
     EXPECT_EQ(layers.squares[0].origin, field.origin(field.rotated(c.before)));
@@ -281,8 +281,8 @@ TEST_F(Driving, TheOriginOfNormalLandmarksIsTheFocus) {
   }
 }
 
-/// "Velocities of the Circle and Square experts are always updated with new vehicle velocity": what
-/// is kept is V / V_v.
+/// "Velocities of the Circle and Square experts are always updated with new vehicle velocity": the
+/// state keeps V / V_v.
 TEST_F(Driving, WhenTheVehicleChangesItsSpeedStaticLayersDo) {
   Circle circle;
   circle.location = {450, 300};

@@ -41,7 +41,7 @@ TEST(LineExpert, HandsOnTheSignaturesOfTheCornersItLooksAtInTheirOrder) {
   std::vector<Eigen::Vector2f> corners;
   std::vector<Signature> signatures;
   for (std::uint64_t i = 0; i < 60; ++i) {
-    // A part outside of the picture, and inside of psi.
+    // Some lie outside of the picture, and some inside of psi.
     corners.emplace_back(random.uniform(-60, 639), random.uniform(0, 479));
     signatures.push_back({i, i << 40, ~i, 7});
   }

@@ -1,5 +1,5 @@
-/// The filter's memory, by an allocator that counts: none is asked for once the scene is as busy as
-/// it gets, and what it holds is bounded by the picture's size and `line.max_corners`.
+/// The filter's memory, measured by a counting allocator: no allocation once the scene is at its
+/// busiest, and a total bounded by the picture's size and `line.max_corners`.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,8 +16,8 @@ struct Heap {
   std::size_t allocations = 0, bytes = 0, peak_bytes = 0;
 } heap;
 
-/// In front of each block, so that its size is known when it is given back; as large as keeps the
-/// block aligned.
+/// Precedes each block and holds its size for the deallocation; its own size keeps the block
+/// aligned.
 constexpr std::size_t kHeader = alignof(std::max_align_t);
 
 }  // namespace
@@ -55,11 +55,11 @@ using testing::World;
 
 using Corners = std::vector<Vector2f>;
 
-/// Frames after which `busy_frames` repeat.
+/// Number of frames after which `busy_frames` repeat.
 constexpr std::size_t kPeriod = 80;
 
-/// A wall that passes sideways, a pattern that repeats every 160 px, and on it a group that moves
-/// on its own; a tenth of the corners is missing at a time. `count` of them.
+/// `count` corners: a wall that passes sideways, a pattern that repeats every 160 px, and on it a
+/// group with its own motion. A tenth of the corners is missing at a time.
 std::vector<Corners> busy_frames(int count, std::size_t frames) {
   Random random(1);
   struct Corner {
@@ -88,7 +88,7 @@ EgoMotion sideways() {
   return steady_motion({0.15, 0, 0}, Vector3d::Zero(), 0.1);  // 2 px a frame at 3 m
 }
 
-/// On a level ground 1.5 m below the camera: the wall's foot is in sight.
+/// On level ground 1.5 m below the camera: the wall's foot is visible.
 EgoMotion sideways_on_ground() {
   EgoMotion ego = sideways();
   ego.ground = Ground{.up_C = {0, -1, 0}, .height_m = 1.5};
@@ -110,7 +110,7 @@ void expect_none_in_the_end(const EgoMotion& ego) {
     }
   }
   EXPECT_EQ(in_the_end, 0U);
-  // All of the filter was at work.
+  // All parts of the filter were at work.
   EXPECT_GT(rebels, 10 * kPeriod);
   EXPECT_GT(squares, kPeriod / 2);
 }
@@ -123,7 +123,7 @@ TEST(Memory, ASteadySceneOnAKnownGroundAsksForNone) {
   expect_none_in_the_end(sideways_on_ground());
 }
 
-/// What the filter holds at the most, with as many corners as are offered.
+/// Peak memory of the filter, bytes, with `offered` corners.
 std::size_t peak_bytes(const Intrinsics& camera, const char* max_corners, int offered) {
   const std::vector<Corners> frames = busy_frames(offered, 40);
   Parameters parameters;
@@ -138,10 +138,10 @@ std::size_t peak_bytes(const Intrinsics& camera, const char* max_corners, int of
 }
 
 TEST(Memory, IsBoundedByTheMostCornersAndHowCloseTheyLie) {
-  // Measured: 8.2 kB for each corner that is looked at, while its pairs are moved to more room.
+  // Measured: 8.2 kB for each processed corner, while its pairs move to a larger buffer.
   EXPECT_LT(peak_bytes(vga(), "300", 300), 300 * 9500);
-  // Ten times as close each has more about it; those that are not
-  // looked at cost what is said of each, and their place in the queue.
+  // At ten times the density each corner has more neighbours; an unprocessed
+  // corner costs its verdict and its place in the queue.
   EXPECT_LT(peak_bytes(vga(), "300", 3000), 300 * 12500 + 2700 * 120);
 }
 

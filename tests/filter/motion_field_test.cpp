@@ -30,7 +30,7 @@ TEST(MotionField, HomographyIsTheExactRotationWhateverTheDepth) {
   }
 }
 
-/// A first-order model is off by the square of the angle: half the angle, a quarter of the error.
+/// The error of a first-order model is quadratic: half the angle, a quarter of the error.
 TEST(MotionField, FirstOrderRotationErrsByTheSquareOfTheAngle) {
   Random random(2);
   FieldParameters first_order;
@@ -135,7 +135,7 @@ TEST(MotionField, SidewaysFlowsInParallel) {
   EXPECT_FALSE(field.foe());
   for (const Vec2& x : {Vec2(10, 10), Vec2(600, 20), Vec2(320, 470)}) {
     EXPECT_TRUE(field.direction(x).isApprox(Vec2(-1, 0)));
-    // Directions about the stand-in for the focus are those of the flow.
+    // Directions about the stand-in for the focus equal those of the flow.
     EXPECT_TRUE((x - field.origin(x)).normalized().isApprox(Vec2(-1, 0)));
   }
 }
@@ -153,7 +153,7 @@ TEST(MotionField, CorrectedIsTheFieldOfTheOtherMotion) {
   const double dt = 0.1;
   const Vector3d turn(1e-3, -2e-3, 5e-4);
   const MotionField told(vga(), steady_motion(v, w, dt), {});
-  // Small turns add up to second order: 1e-5 rad, times the focal length.
+  // Small turns add up, except for second-order terms: 1e-5 rad, times the focal length.
   const MotionField other(vga(), steady_motion(v + more, w + turn / dt, dt), {});
   const MotionField corrected = told.corrected(turn, more);
   for (int i = 0; i < 50; ++i) {

@@ -1,4 +1,4 @@
-/// The numbers of the default filter are counted, and MODEL.md says where each comes from.
+/// The default filter's numbers are counted, and MODEL.md states the origin of each.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path kFilter = LCS_FILTER_SOURCE_DIR;
 
-/// Keys of the default filter's parameters that are numbers.
+/// Keys of the default filter's numeric parameters.
 std::set<std::string> keys() {
   std::set<std::string> keys;
   const Parameters parameters;
@@ -27,8 +27,8 @@ std::set<std::string> keys() {
   return keys;
 }
 
-/// "edges/coupling.cpp kFar": constants of the rooms that `default` runs, but for the estimator of
-/// ego-motion, which is not the filter's model but a sensor's.
+/// "edges/coupling.cpp kFar": constants of the folders that `default` runs, without the ego-motion
+/// estimator, which models a sensor and is no part of the filter's model.
 std::set<std::string> constants() {
   const std::regex constant(
       R"(constexpr (?:double|int|float|std::size_t) ((?:k\w+ = [-\d.e]+(?:, )?)+))");
@@ -52,7 +52,7 @@ std::set<std::string> constants() {
   return found;
 }
 
-/// Fewer is better: whoever takes one away lowers the bound.
+/// Fewer is better: lower the bound after removing a number.
 TEST(Numbers, AreNoMoreThanTheyWere) {
   EXPECT_LE(keys().size(), 26u);
   EXPECT_LE(constants().size(), 12u);

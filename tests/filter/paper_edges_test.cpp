@@ -59,7 +59,7 @@ TEST_F(Classified, ShortOfThePredictionIsThree) {
 }
 
 TEST_F(Classified, BeyondTheRadiusAtASpeedOfANearPointIsOne) {
-  // 26 px further than predicted: 36 px in all, as a point at 150 * 0.2 / 36 = 0.83 m would.
+  // 26 px beyond the prediction: 36 px in all, the flow of a point at 150 * 0.2 / 36 = 0.83 m.
   EXPECT_EQ(at(26, 0), Xi::one);
 }
 
@@ -69,7 +69,7 @@ TEST_F(Classified, AgainstTheFieldIsFourInsideTheRadiusToo) {
 }
 
 TEST_F(Classified, FasterThanTheNearestPointIsFour) {
-  EXPECT_EQ(at(40, 0), Xi::four);  // 50 px a frame: 0.6 m, nearer than the 0.8 m that are plausible
+  EXPECT_EQ(at(40, 0), Xi::four);  // 50 px a frame: 0.6 m, below the plausible 0.8 m
 }
 
 TEST_F(Classified, OutsideTheSpanIsFive) {
@@ -79,7 +79,7 @@ TEST_F(Classified, OutsideTheSpanIsFive) {
   EXPECT_EQ(at(-400, 0), Xi::five);  // beyond the FOE, on the other side
 }
 
-/// The paper's rule on a sparse world with one point that runs towards the FOE.
+/// The paper's rule on a sparse world with one point that moves towards the FOE.
 TEST(Alpha, APointAgainstTheFieldIsARebelOnItsThirdSightingNotBeforeAndNotAfter) {
   for (const double speed : {5.0, 12.0, 30.0}) {  // px a frame
     SCOPED_TRACE(speed);
@@ -111,8 +111,8 @@ TEST(Alpha, ARadialIncomerNearerThanAnyStaticPointIsFoundByItsSpeedAlone) {
   PaperParameters parameters;
   parameters.ignore = false;
   PaperFilter filter(world.camera, parameters);
-  // Towards the camera's image plane at 4 m/s: away from the FOE, as a static point would go, but
-  // as fast as one at 0.55 m, when 0.8 m is the nearest that is plausible.
+  // Towards the camera's image plane at 4 m/s: away from the FOE, like a static point, but as fast
+  // as a point at 0.55 m; the nearest plausible depth is 0.8 m.
   world.add({420, 240}, 5, {0, 0, -4});
   bool found = false;
   for (int k = 0; k < 5; ++k) {

@@ -1,4 +1,4 @@
-/// The paper's estimates and initial values, each against the formula worked out here by hand, over
+/// The paper's estimates and initial values, each compared with the formula evaluated here, for
 /// random landmarks, corners and motions.
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ Edge edge_with_radius(double mu) {
   return edge;
 }
 
-/// A random normal edge under a random motion of the camera, and the frame that comes.
+/// A random normal edge under a random motion of the camera, and the next frame.
 struct NormalEstimates : ::testing::Test {
   struct Case {
     Edge edge;
@@ -77,7 +77,7 @@ struct NormalEstimates : ::testing::Test {
       c.ratio = 0.5 * (edge.depth_ratio + 1);
       c.step = field.reference_speed(c.rotated) * 0.1;
       c.predicted = c.rotated + c.ratio * c.step * c.along;
-      // A frame that says something of the depth, away from the FOE.
+      // A frame with depth information, away from the FOE.
       if (c.step > 3 && (c.rotated - field.origin(c.rotated)).norm() > 60) return c;
     }
   }
@@ -122,7 +122,7 @@ TEST_F(NormalEstimates, TheLocationIsWeighedByTheTrustOfTheFrameBefore) {
 TEST_F(NormalEstimates, TheVelocityIsThePredictedOnePlusTheSignedResidual) {
   for (int i = 0; i < 200; ++i) {
     Case c = any();
-    c.edge.trust = std::max(c.edge.trust, kRanks.standard);  // it may fall short, and lives on
+    c.edge.trust = std::max(c.edge.trust, kRanks.standard);  // it may fall short and still survive
     const double ahead = random.uniform(-std::min(4.0, c.ratio * c.step), 3);
     const Edge edge = after(c, ahead, random.uniform(-3, 3));
     EXPECT_NEAR(edge.depth_ratio, std::abs(c.ratio + ahead / c.step), 1e-9);
@@ -158,7 +158,7 @@ TEST_F(NormalEstimates, TrustRisesAtThePredictionAndFallsShortOfItAndWithoutACor
     if (c.ratio * c.step > 4) {
       EXPECT_EQ(after(c, -3, 0).trust, c.edge.trust - 1);
     }
-    // Out of its radius, out of its span, against the field: the edge goes without.
+    // Outside its radius, outside its span, or against the field: the edge gets no corner.
     EXPECT_EQ(after(c, 0, c.edge.mu + 1, Verdict::pending).trust, c.edge.trust - 1);
     EXPECT_EQ(after(c, -c.ratio * c.step - 3, 0, Verdict::pending).trust, c.edge.trust - 1);
   }
@@ -204,15 +204,15 @@ TEST_F(NormalEstimates, CorWidensTheRadiusWhereTheGroupLiesOnALine) {
     xy += (o.x() - sx) * (o.y() - sy);
   }
   EXPECT_NEAR(radius(spread, 7), 0.5 * (off / (1 - xy * xy / (xx * yy)) + 20), 1e-9);
-  EXPECT_NEAR(radius(spread, 3), 0.5 * (off + 20), 1e-9);  // corners of another group say nothing
+  EXPECT_NEAR(radius(spread, 3), 0.5 * (off + 20), 1e-9);  // other groups have no influence
   const std::vector<Vec2> line = {{0, 0}, {12, 12}, {-8, -8}, {10, 10}};
   EXPECT_DOUBLE_EQ(radius(line, 7), kLab.mu_max);                      // Cor = 0
   EXPECT_NEAR(radius({{0, 0}, {12, 12}}, 7), 0.5 * (off + 20), 1e-9);  // two have no correlation
 }
 
-/// What V~ = (V + V_v)/2 and V^ = V~ +- |residual|/t_f come to together: the residual settles at
-/// (w+1)/(w+2) |V - V_v| t_f, w = Tr - Tr_c, and V^ beside V, by 2(w+1)/(w+2) of its distance from
-/// V_v. Only at Tr = Tr_c is it V.
+/// Fixed point of V~ = (V + V_v)/2 and V^ = V~ +- |residual|/t_f: the residual settles at
+/// (w+1)/(w+2) |V - V_v| t_f, w = Tr - Tr_c, and V^ differs from V by 2(w+1)/(w+2) of V's distance
+/// from V_v. Only at Tr = Tr_c does V^ equal V.
 TEST(PaperVelocity, SettlesBesideTheTrueOneTheMoreSoTheMoreTrusted) {
   const EgoMotion motion = steady_motion({-0.5, 0, 0}, Vector3d::Zero(), 0.05);
   const MotionField field(vga(), motion, FieldParameters{});
@@ -234,7 +234,7 @@ TEST(PaperVelocity, SettlesBesideTheTrueOneTheMoreSoTheMoreTrusted) {
   }
 }
 
-/// Frames that the edges of one corner lived, which goes right at a steady `ratio` of V_v.
+/// Lifetimes, in frames, of the edges of one corner that moves right at a steady `ratio` of V_v.
 std::vector<int> lives(double ratio) {
   const MotionField field = to_the_right();
   const double step_px = field.reference_speed({300, 240}) * 0.1;  // 7 px
@@ -248,21 +248,21 @@ std::vector<int> lives(double ratio) {
       if (edge.corner >= 0) lived.back() = edge.age + 1;
     }
   }
-  lived.pop_back();  // the last one's end is not seen
+  lived.pop_back();  // the last one's end is not observed
   return lived;
 }
 
-/// What follows for landmarks away from Z_ref. A farther one falls short by more than a corner's
-/// noise for good, which costs trust (xi_3) until it is gone; it never lives to gain any.
+/// Consequence for landmarks away from Z_ref. A farther one falls short by more than a corner's
+/// noise in each frame, which costs trust (xi_3) until it is gone; it never gains any.
 TEST(PaperVelocity, AFartherLandmarkFallsShortUntilItsTrustIsGone) {
   const int most = kRanks.initial_normal() - kRanks.critical + 2;
   const std::vector<int> lived = lives(0.4);
   ASSERT_GT(lived.size(), 10u);
   for (const int frames : lived) EXPECT_LE(frames, most);
-  EXPECT_TRUE(lives(1.0).empty());  // one edge for all the way
+  EXPECT_TRUE(lives(1.0).empty());  // one edge all the way
 }
 
-/// A nearer one is overtaken by its radius: mu^ settles on |V_v - V~| t_f, the residual itself.
+/// A nearer one outgrows its radius: mu^ settles at |V_v - V~| t_f, the residual itself.
 TEST(PaperVelocity, ANearerLandmarkOutgrowsItsRadiusNowAndThen) {
   const std::vector<int> lived = lives(2.0);
   ASSERT_FALSE(lived.empty());
@@ -290,8 +290,8 @@ TEST(NormalEdge, StartsAtTheVehiclesSpeedFromTheFocusWithMu0) {
   }
 }
 
-/// xi_1: the corner becomes a further normal edge and no candidate, while the edge it lies ahead of
-/// loses trust.
+/// xi_1: the corner becomes another normal edge and no candidate, and the edge behind it loses
+/// trust.
 TEST(Xi, OneMakesAFurtherNormalEdgeAndNoCandidate) {
   const MotionField field = to_the_right();
   const Edge edge = edge_with_radius(4);
@@ -313,7 +313,7 @@ TEST(Xi, FourAndFiveGoToAlpha) {
   const Vec2 predicted = field.translated(edge.location, 1);
   const Vec2 against = edge.location - Vec2(5, 0);  // inside mu: 12 px short of the prediction
   ASSERT_LT((against - predicted).norm(), edge.mu);
-  // 9 degrees of the 400 px up to which the span widens are 63 px.
+  // 9 degrees over the 400 px up to which the span widens are 63 px.
   for (const Vec2& x : {against, Vec2(predicted + Vec2(0, 80))}) {
     Layers layers;
     layers.normal_edges = {edge};
@@ -361,7 +361,7 @@ TEST(Xi, TheSpanWidensUpToHalfADiagonal) {
 /// Two edges predicted on either side of one corner, on the line of the flow.
 struct Competing : ::testing::Test {
   const MotionField field = to_the_right();
-  /// Whether the edge predicted at `first` from the corner gets it, or the one at `second`.
+  /// Whether the edge predicted at `first`, relative to the corner, wins against `second`.
   bool first_wins(const Vec2& first, int first_trust, const Vec2& second, int second_trust) {
     const Vec2 corner(400, 240), back = field.translated(corner, 1) - corner;
     Layers layers;
@@ -387,14 +387,14 @@ TEST_F(Competing, TheNearestEdgeGetsTheCornerUnlessAnotherIsTrustedEnoughMore) {
 }
 
 TEST_F(Competing, AMatchThatRaisesTrustComesBeforeOneThatCostsIt) {
-  // The first is overshot by 3 px (xi_3), the second fallen short of by 4 (xi_2).
+  // The first prediction overshoots by 3 px (xi_3), the second falls 4 px short (xi_2).
   EXPECT_FALSE(first_wins({3, 0}, 4, {-4, 0}, 4));
   EXPECT_TRUE(first_wins({3, 0}, 4, {-5, 0}, 4));
 }
 
 // ------------------------------------------------------------------------------------------- alpha
 
-/// A camera that turns on the spot: all that moves otherwise is a rebel.
+/// A camera that turns on the spot: every other motion is a rebel's.
 MotionField turning(const Vector3d& w) {
   return {vga(), steady_motion(Vector3d::Zero(), w, 0.1), FieldParameters{}};
 }
@@ -408,7 +408,7 @@ TEST(RebelInitial, ValuesAreThoseOfTheThreeSightings) {
     const MotionField field = turning(random.vector(0.2));
     const Vec2 a(random.uniform(200, 440), random.uniform(150, 330));
     const double heading = random.uniform(-kPi, kPi), length = random.uniform(8, 25);
-    // Where a point would be seen that moves so in an image that does not turn.
+    // Image of a point that moves in this way in an image without rotation.
     const Vec2 b_of_1 = a + length * unit_vector(heading);
     const Vec2 b = field.rotated(b_of_1);
     const Vec2 a2 = field.rotated(field.rotated(a)), b2 = field.rotated(b);
@@ -432,7 +432,7 @@ TEST(RebelInitial, ValuesAreThoseOfTheThreeSightings) {
   }
 }
 
-/// Three sightings of a corner that goes `first` and then `second`.
+/// Whether a corner that moves by `first` and then by `second` becomes a rebel.
 bool becomes_rebel(const Vec2& first, const Vec2& second) {
   EdgeSteps experts;
   Layers layers;
@@ -447,11 +447,11 @@ TEST(Alpha, ABendBeyondMuROrAChangeOfSpeedEndsARow) {
   const double length = 40, limit = kLab.alpha_deviation;
   const auto bent = [&](double turn) { return Vec2(length * unit_vector(turn)); };
   EXPECT_TRUE(becomes_rebel({length, 0}, {length, 0}));
-  // Two equal steps with a turn between them bend the line through the first and last by half of
-  // it.
+  // Two equal steps with a turn between them bend the line from first to last by half of
+  // the turn.
   EXPECT_TRUE(becomes_rebel({length, 0}, bent(0.33)));
-  // At this reach the bend of 20 degrees is not what limits a row of two equal steps: it is the
-  // gate.
+  // At this reach the bend of 20 degrees does not limit a row of two equal steps; the gate
+  // does.
   EXPECT_FALSE(becomes_rebel({length, 0}, bent(2 * limit + 0.05)));
   EXPECT_FALSE(becomes_rebel({length, 0}, bent(-2 * limit - 0.05)));
   EXPECT_TRUE(becomes_rebel({length, 0}, {length * (1 + 0.9 * kLab.alpha_stretch), 0}));
@@ -460,7 +460,7 @@ TEST(Alpha, ABendBeyondMuROrAChangeOfSpeedEndsARow) {
   EXPECT_FALSE(becomes_rebel({kLab.alpha_reach + 1, 0}, {kLab.alpha_reach + 1, 0}));
 }
 
-/// In the presets the gate of `alpha_stretch` is the tighter one; where it is wide, mu_r decides.
+/// In the presets the gate of `alpha_stretch` is tighter; where it is wide, mu_r decides.
 TEST(Alpha, TheBendOfTheLineIsAtMostMuR) {
   PaperParameters p;
   p.edge.alpha_stretch = 1;
@@ -477,7 +477,7 @@ TEST(Alpha, TheBendOfTheLineIsAtMostMuR) {
   }
 }
 
-/// A row of two sightings and the corners that come: how many rebels.
+/// Number of rebels after rows of two sightings get the new corners.
 std::size_t rebels_after(const std::vector<Chain>& chains, const std::vector<Vec2>& corners,
                          const MotionField& field) {
   EdgeSteps experts;
@@ -557,7 +557,7 @@ TEST(Alpha, ARowBranchesIntoEveryCornerNearAndTheRightOneBecomesTheRebel) {
   step(experts, layers, {candidates[1] + Vec2(15, 1)}, standing());
   ASSERT_EQ(layers.rebel_edges.size(), 1u);
   EXPECT_NEAR(layers.rebel_edges[0].angle, std::atan2(1, 30), 1e-12);
-  // Rows that found no third corner are gone.
+  // Rows without a third corner are deleted.
   for (const Chain& chain : layers.chains) EXPECT_EQ(chain.count, 1);
 }
 
@@ -626,7 +626,7 @@ TEST_F(RebelEstimates, FollowTheFormulasWithTheirOwnSpeedAndOrigin) {
   }
 }
 
-/// zeta_r: near the prediction, and inside the span and the deviation seen from the origin.
+/// zeta_r: near the prediction, and inside the span and the deviation about the origin.
 TEST_F(RebelEstimates, WhatIsOutOfReachOrOutOfTheirSpanIsNotTheirs) {
   for (int i = 0; i < 200; ++i) {
     Case c = any();
@@ -643,7 +643,7 @@ TEST_F(RebelEstimates, WhatIsOutOfReachOrOutOfTheirSpanIsNotTheirs) {
       EXPECT_EQ(after(c, c.predicted + (half_width + 0.5) * across, Verdict::pending).trust,
                 c.edge.trust - 1);
     }
-    // A rebel that deviated in the last frame is looked for as much farther aside.
+    // A rebel that deviated in the last frame is searched for that much farther aside.
     c.edge.mu = 0.2;
     const double wider = from_origin * std::tan(kLab.delta_v + c.edge.mu);
     if (half_width + 1 < std::min(reach, wider)) {

@@ -40,7 +40,7 @@ TEST(Parameters, LabCarriesTheTableOfThePaper) {
   EXPECT_NEAR(p.square.epsilon_beta_2, 35 * kDegree, 1e-12);
   EXPECT_NEAR(p.square.epsilon_beta_s, 20 * kDegree, 1e-12);
   EXPECT_NEAR(p.square.epsilon_beta, 20 * kDegree, 1e-12);
-  EXPECT_DOUBLE_EQ(p.circle.epsilon_v_n, 0.40);  // printed as 40, of V_v: read as per cent
+  EXPECT_DOUBLE_EQ(p.circle.epsilon_v_n, 0.40);  // printed as 40 of V_v: taken as per cent
   EXPECT_DOUBLE_EQ(p.circle.epsilon_v_r, 1.00);
   EXPECT_DOUBLE_EQ(p.square.epsilon_v, 0.7);
   EXPECT_DOUBLE_EQ(p.square.epsilon_v_s, 0.7);
@@ -148,7 +148,7 @@ TEST(Parameters, ValidationChecksValuesThatWereSetInCode) {
   EXPECT_NE(refusal([&] { validate(p); }).find("square.max_size"), std::string::npos);
 }
 
-/// Value by value, so that a changed default is noticed here.
+/// Lists each value, so that a changed default fails here.
 TEST(Parameters, DefaultConstructedOnesAreThePresetDefault) {
   std::map<std::string, std::string> values;
   for (const ParameterInfo& info : describe(Parameters{})) values[info.key] = info.value;

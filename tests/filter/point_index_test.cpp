@@ -127,7 +127,7 @@ TEST(PointGrid, VisitsEachPairWithinTheRadiusOfItsFirstOnce) {
         const double distance = (points[i] - points[j]).norm();
         const int times = visits.contains({i, j}) ? visits[{i, j}] : 0;
         ASSERT_LE(times, 1);
-        // Which of them comes first is the grid's affair.
+        // The grid decides which of the two comes first.
         if (distance <= std::min(radius(i), radius(j))) {
           ASSERT_EQ(times, 1);
         } else if (distance > std::max(radius(i), radius(j))) {
@@ -141,7 +141,7 @@ TEST(PointGrid, VisitsEachPairWithinTheRadiusOfItsFirstOnce) {
       1e6, [](int) { return 100; }, [](int, int, double) { FAIL(); });
 }
 
-/// Points spread evenly, as far apart as on a chequered floor.
+/// Points on a regular grid with a spacing of `apart_px`.
 std::vector<Vec2> even_points(double apart_px) {
   std::vector<Vec2> points;
   for (double y = 0; y < 480; y += apart_px) {
@@ -183,7 +183,7 @@ TEST(CheapestFirst, SettlesInOrderWhatIsNotSettledYet) {
   Random random(9);
   CheapestFirst order;
   for (const int count : {0, 1, 7, 500}) {
-    // With equal costs among them, and one that is far dearer than all others.
+    // Some costs are equal, and one is far higher than all others.
     std::vector<Couple> couples;
     for (int i = 0; i < count; ++i) {
       const int a = static_cast<int>(random.uniform(0, 60)), b = 100 + i % 40;

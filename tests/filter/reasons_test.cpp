@@ -1,5 +1,5 @@
-/// Each reason in the smallest situation that it stands for. The camera stands still where nothing
-/// else is said, so that a static corner stays where it is.
+/// Each reason in the smallest situation that causes it. The camera is at rest unless stated, so a
+/// static corner keeps its place.
 #include "filter/reason.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ Corners shifted(Corners corners, double x) {
   return corners;
 }
 
-/// Irregular, so that no shift but the true one brings many of them together.
+/// Irregular, so that only the true shift matches many of them.
 const Corners kFive = {{200, 200}, {209, 197}, {204, 211}, {219, 206}, {213, 217}};
 
 class Frames {
@@ -43,7 +43,7 @@ class Frames {
   explicit Frames(const char* preset_name) : Frames(preset(preset_name)) {}
   explicit Frames(const AnyParameters& parameters) : filter_(vga(), parameters) {}
 
-  /// The next frame. \return reasons of its corners.
+  /// Runs the next frame. \return the reasons of its corners.
   std::vector<Reason> see(const Corners& corners, double dt_s = kDt_s, double speed_mps = 0) {
     const EgoMotion motion = steady_motion({0, 0, speed_mps}, Vector3d::Zero(), dt_s);
     const FrameResult& result = filter_.step(corners, motion);
@@ -111,7 +111,7 @@ TEST(Reasons, OfACornerInsideARegionThatIsNotLookedAt) {
   EXPECT_GT(inside, 0);
 }
 
-/// What may be said of a corner with each verdict; a frame has no other pairs.
+/// The reasons allowed with each verdict; a frame has no other pairs.
 TEST(Reasons, GoWithTheirVerdicts) {
   const std::set<Reason> of_rebels = {Reason::rebel_edge, Reason::inherited, Reason::alpha_third};
   const std::set<Reason> of_normals = {Reason::normal_edge, Reason::xi_2, Reason::xi_3};
@@ -166,7 +166,7 @@ TEST(PaperReasons, ACornerAloneStartsARowOfAlphaAndIsMatchedThen) {
 }
 
 TEST(PaperReasons, ACornerOutsideTheSpanOfTheEdgeNearIt) {
-  // Alpha reaches less far than mu, or the corner would be the second of a row.
+  // Alpha reaches less far than mu; otherwise the corner would be the second of a row.
   AnyParameters parameters = preset("lab");
   set(parameters, "circle.alpha_reach", "5");
   Frames frames(parameters);
@@ -174,8 +174,8 @@ TEST(PaperReasons, ACornerOutsideTheSpanOfTheEdgeNearIt) {
   expect_all(frames, frames.see({{100, 110}}), Reason::xi_5, Verdict::pending);
 }
 
-/// One edge 150 px right of the FOE, for which a static point at the reference depth of 3 m makes
-/// 10 px a frame: the camera moves 0.2 m. Alpha reaches 1 px, so that it has no say.
+/// One edge 150 px right of the FOE, where a static point at the reference depth of 3 m moves 10 px
+/// per frame: the camera moves 0.2 m. Alpha reaches only 1 px, so it has no effect.
 class NearAnEdge : public ::testing::Test {
  protected:
   NearAnEdge() : frames_(with_short_alpha()) { frames_.see({at(0)}, 0.2, 1); }
@@ -221,7 +221,7 @@ TEST(PaperReasons, ThreeSightingsInLineMakeARebelEdge) {
 }
 
 TEST(PaperReasons, AThirdSightingOffTheLineBreaksTheRow) {
-  // 3 px from where the line goes, and 22 deg off it.
+  // 3 px from the line's prediction, and 22 deg off its direction.
   Frames frames("lab");
   frames.see({{100, 100}});
   frames.see({{104, 100}});
@@ -229,7 +229,7 @@ TEST(PaperReasons, AThirdSightingOffTheLineBreaksTheRow) {
 }
 
 TEST(PaperReasons, AThirdSightingWhereAStaticPointMayBeBreaksTheRow) {
-  // Twice as fast as the reference: a point at half its depth. Edges that reach 5 px do not take
+  // Twice as fast as the reference: a point at half its depth. Edges with a reach of 5 px miss
   // it.
   AnyParameters parameters = preset("lab");
   set(parameters, "circle.mu_0", "5");

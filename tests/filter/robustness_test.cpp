@@ -1,5 +1,5 @@
-/// Bad data in flight: nothing throws, all of it is counted and named, what is known stays finite,
-/// and the filter is as good as new a stated number of frames later.
+/// Bad data during a run: nothing throws, all faults are counted and named, results stay finite,
+/// and the filter recovers fully within a stated number of frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -111,7 +111,7 @@ TEST(BadDataOfAnyKind, RebelsAreFoundAgainInTheFrameAfterTheLastBadMotion) {
   EXPECT_EQ(filter.diagnostics().total(), 4);
 }
 
-/// Corners that are none, each with what it is.
+/// Invalid corners, each with its fault.
 const std::vector<std::pair<Vector2f, Fault>>& no_corners() {
   static const std::vector<std::pair<Vector2f, Fault>> corners = {
       {{kNanF, 100}, Fault::corner_not_finite},   {{100, -kInfF}, Fault::corner_not_finite},
@@ -161,7 +161,7 @@ TEST_P(BadData, ACornerThatComesTwiceCountsOnceAndBothGetItsVerdict) {
     for (std::size_t i = 0; i < count; ++i) {
       EXPECT_EQ(result.verdicts[i], result.verdicts[count + i]);
       EXPECT_EQ(result.reasons[i], result.reasons[count + i]);
-      repeated += result.verdicts[i] != Verdict::ignored;  // nobody looked at those
+      repeated += result.verdicts[i] != Verdict::ignored;  // ignored ones were not processed
     }
     result.verdicts.resize(count);
     result.reasons.resize(count);
@@ -171,14 +171,14 @@ TEST_P(BadData, ACornerThatComesTwiceCountsOnceAndBothGetItsVerdict) {
   EXPECT_EQ(filter.diagnostics().total(), repeated);
 }
 
-/// Of the moving corners of a scene, which come last.
+/// Number of rebels among the moving corners of a scene, which come last.
 long found(const FrameResult& result) {
   return std::count(result.verdicts.end() - 20, result.verdicts.end(), Verdict::rebel);
 }
 
 TEST(BadDataOfAnyKind, AHundredThousandCornersAreBoundedAndForgottenWhenTheyHaveCoasted) {
-  // As many as a third of all pixels: most are turned away, and those that are looked at are
-  // everywhere, so that chance explains every motion.
+  // A third of all pixels: most corners are rejected, and the processed ones are everywhere,
+  // so that chance explains every motion.
   Random random(24);
   Corners flood;
   for (int i = 0; i < 100'000; ++i) {
@@ -217,7 +217,7 @@ TEST_P(BadData, ATimeThatStandsStillIsCountedAndForgottenThreeFramesLater) {
   AnyFilter filter(scene.world.camera, parameters()), without(scene.world.camera, parameters());
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const EgoMotion motion = k == 0 ? EgoMotion{} : scene.motion;
-    if (k == 6) {  // a picture that comes three times
+    if (k == 6) {  // the same picture three times
       for (int i = 0; i < 2; ++i) {
         const FrameResult& same = filter.step(frames[5], EgoMotion{});
         ASSERT_EQ(violation(same, frames[5].size(), scene.world.camera, parameters()),
@@ -303,7 +303,7 @@ TEST(BadDataOfAnyKind, ACameraThatIsNoneIsRefused) {
   refuses([](Intrinsics& c) { c.height_px = 0; });
 }
 
-/// The ends of each range, and each word, of what is not refused beside the other parameters.
+/// Both ends of each range, and each word, if valid together with the other parameters.
 TEST_P(BadData, TheFilterWorksAtBothEndsOfEveryRange) {
   int tried = 0;
   for (const ParameterInfo& info : describe(parameters())) {

@@ -1,4 +1,4 @@
-/// Whether two filters say the same of a frame, to the bit.
+/// Whether two filters give bitwise equal results for a frame.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace lcs::testing {
 
-/// All but the ids, which go on where they were in a filter that starts anew.
+/// Compares all but the ids, which continue in a filter that restarts.
 inline void expect_same(const FrameResult& a, const FrameResult& b, std::size_t frame) {
   ASSERT_EQ(a.verdicts, b.verdicts) << "frame " << frame;
   ASSERT_EQ(a.reasons, b.reasons) << "frame " << frame;

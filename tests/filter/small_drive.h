@@ -1,5 +1,5 @@
 /// \file
-/// Whether the filter works with given parameters: shared by tests and fuzzers.
+/// Checks that the filter works with given parameters; shared by tests and fuzzers.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace lcs::testing {
 
-/// Eight frames of a camera that drives over a known ground, past points at several depths of which
-/// some move. \return what was wrong in one of them, if anything.
+/// Eight frames of a camera that drives over known ground, past points at several depths, some of
+/// which move. \return the first violation, if any.
 inline std::optional<std::string> violation_on_a_small_drive(const AnyParameters& parameters) {
   World world;
   world.camera = {90, {79.5, 59.5}, 160, 120};

@@ -37,7 +37,7 @@ std::vector<Square> squares_of(std::vector<Circle> circles,
   return layers.squares;
 }
 
-/// Two circles of one depth near each other whose directions differ by `turn`.
+/// Number of squares of two close circles of one depth whose directions differ by `turn`.
 std::size_t couples_at(double angle, double turn) {
   Circle a = circle({400, 200}, 10), b = circle({430, 200}, 10);
   a.angle = angle;
@@ -101,7 +101,7 @@ TEST(Couple, IsTheFurthestOneNearerThanTheStartOfDt) {
 
 // --------------------------------------------------------------------------------------------- d_t
 
-/// asin(R_b' / d_ab') >= beta_m says that the segment from a to b meets the disc of b'.
+/// asin(R_b' / d_ab') >= beta_m means that the segment from a to b meets the disc of b'.
 TEST(PartingCondition, IsThatTheSegmentCrossesASlowerCircle) {
   Random random(1);
   int crossing = 0;
@@ -127,7 +127,7 @@ TEST(PartingCondition, CircleOfLikeSpeedDoesNotPartACouple) {
 }
 
 TEST(PartingCondition, LeavesTheCirclesBeyondTheReducedDtOut) {
-  // a, a near partner, then a far wall (slow), then two more of a's depth behind it.
+  // a, a near partner, then a far wall (slow), then two circles of a's depth behind it.
   const auto found =
       squares_of({circle({350, 240}, 8, 2), circle({400, 240}, 8, 2), circle({480, 240}, 25, 0.4),
                   circle({560, 240}, 8, 2), circle({620, 240}, 8, 2)});
@@ -139,7 +139,7 @@ TEST(PartingCondition, LeavesTheCirclesBeyondTheReducedDtOut) {
   }
 }
 
-/// d_t = d_t - d_bb': from 300 px to 170, which also leaves out what lies within d_ab off the line.
+/// d_t = d_t - d_bb': from 300 px to 170, which also excludes partners within d_ab off the line.
 TEST(PartingCondition, ReducesDtByTheDistanceOfThePartingCircleFromB) {
   const Vec2 a_px(100, 100);
   PaperSquareParameters p = kLab;
@@ -161,7 +161,7 @@ TEST(PartingCondition, ReducesDtByTheDistanceOfThePartingCircleFromB) {
 TEST(MeanSquare, HasTheExtentsOfItsCirclesAndWeighsAAsMuchAsAllOfB) {
   Random random(2);
   for (int i = 0; i < 100; ++i) {
-    // a and the furthest of b on a ray, and a minor circle between them.
+    // a and the furthest b on a ray, and a minor circle between them.
     const double angle = random.uniform(-kPi, kPi);
     const Vec2 o = vga().centre_px, along = unit_vector(angle);
     std::vector<Circle> circles;
@@ -169,7 +169,7 @@ TEST(MeanSquare, HasTheExtentsOfItsCirclesAndWeighsAAsMuchAsAllOfB) {
       circles.push_back(circle(o + r * along, random.uniform(3, 12), random.uniform(1, 1.3)));
       circles.back().origin = o + Vec2(random.uniform(-1, 1), random.uniform(-1, 1));
     }
-    circles[0].trust = 5;  // it is asked first: C_a
+    circles[0].trust = 5;  // processed first: C_a
     const auto found = squares_of(circles);
     ASSERT_EQ(found.size(), 1u);
     const Square& s = found[0];
@@ -187,7 +187,7 @@ TEST(MeanSquare, HasTheExtentsOfItsCirclesAndWeighsAAsMuchAsAllOfB) {
                 half(circles[0].depth_ratio, circles[1].depth_ratio, circles[2].depth_ratio), 1e-9);
     const Vec2 origin = 0.5 * (circles[0].origin + 0.5 * (circles[1].origin + circles[2].origin));
     EXPECT_TRUE(s.origin.isApprox(origin, 1e-9));
-    // beta of a static square is that of the flow at its own centre.
+    // beta of a static square is the direction of the flow at its own centre.
     EXPECT_NEAR(angle_between(s.angle, angle_of(s.location - o)), 0, 1e-9);
   }
 }
@@ -204,7 +204,7 @@ TEST(MeanSquare, OfRebelsGoesWhereTheyGoAcrossPlusMinus180Degrees) {
 
 TEST(MinorCircle, JoinsWhenInsideAtOneVelocityAndAligned) {
   // A couple on the diagonal from the focus, and a minor circle in their square, beside the line
-  // between them (a slower one on it would part them).
+  // between them (a slower circle on that line would part them).
   const Vec2 o = vga().centre_px;
   const std::vector<Circle> couple = {circle(o + Vec2(40, 40), 8), circle(o + Vec2(160, 160), 8)};
   const auto members = [&](const Circle& minor) {
@@ -230,12 +230,12 @@ TEST(MinorCircle, JoinsWhenInsideAtOneVelocityAndAligned) {
     other.depth_ratio = 1 + sign * 0.71;
     EXPECT_EQ(members(other).circles, 2);
   }
-  // Outside, though near and alike.
+  // Outside, though near and similar.
   EXPECT_EQ(members(circle(o + Vec2(100, 180), 5)).circles, 2);
 }
 
 TEST(MinorCircle, MustBeNearerThanDt) {
-  // It lies in the extent of b, beyond its centre.
+  // The circle lies in the extent of b, beyond b's centre.
   std::vector<Circle> circles = {circle({400, 240}, 5), circle({500, 240}, 30),
                                  circle({525, 240}, 2)};
   circles[0].trust = 5;
@@ -277,7 +277,7 @@ TEST(Layers, SquaresDoNotDependOnTheOrderOfTheCircles) {
   for (int i = 0; i < 40; ++i) {
     circles.push_back(circle({random.uniform(0, 640), random.uniform(0, 480)},
                              random.uniform(5, 20), random.uniform(0.3, 3)));
-    circles.back().members = 3 + i;  // no two alike, so that none is first by its place only
+    circles.back().members = 3 + i;  // no two equal, so none is first only by its place
   }
   const auto sorted = [](const std::vector<Square>& squares) {
     std::vector<std::tuple<double, double, double, double>> list;
@@ -309,7 +309,7 @@ struct SquareMatch : ::testing::Test {
     s.trust = kRanks.standard;
     return s;
   }
-  /// Trust of the predicted square afterwards, and whether it took the circle.
+  /// Trust of the predicted square after the frame, and whether it took the circle.
   std::pair<int, bool> after(const Square& square) {
     layers = {};
     layers.squares = {square};
@@ -321,7 +321,7 @@ struct SquareMatch : ::testing::Test {
   Layers layers;
 };
 
-/// The second bound on beta is printed "- eps".
+/// The print has "- eps" as the second bound on beta.
 TEST_F(SquareMatch, DirectionCountsOnBothSidesAndAcrossPlusMinus180Degrees) {
   for (const double turn : {-19.0, -1.0, 0.0, 1.0, 19.0, -21.0, 21.0, 180.0}) {
     SCOPED_TRACE(turn);
@@ -374,7 +374,7 @@ TEST_F(SquareMatch, LocationAndSizeAreEstimatedByTheTrustOfTheFrameBefore) {
     square.angle += random.uniform(-0.3, 0.3);
     square.speed = 1;
     square.origin = {1, 1};
-    square.rebel_circles = 1;  // it was a rebel's before
+    square.rebel_circles = 1;  // it belonged to a rebel before
     ASSERT_TRUE(after(square).second);
     const Square& now = layers.squares.front();
     const double w = square.trust - kRanks.critical;

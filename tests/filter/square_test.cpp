@@ -46,20 +46,20 @@ TEST(Overlap, IsZeroForDisjointFullForContainedAndZeroWithoutArea) {
   EXPECT_DOUBLE_EQ(overlap_percent(big, square({60, 40}, {10, 5})), 100);
   EXPECT_DOUBLE_EQ(overlap_percent(big, big), 100);
   EXPECT_DOUBLE_EQ(overlap_percent(big, square({150, 50}, {40, 40})), 0);
-  // A gap in both axes would turn into an area if its sign were lost.
+  // A gap in both axes would become a positive area without its signs.
   EXPECT_DOUBLE_EQ(overlap_percent(big, square({150, 150}, {40, 40})), 0);
   EXPECT_DOUBLE_EQ(overlap_percent(big, square({50, 50}, {0, 10})), 0);
 }
 
 TEST(Overlap, IsTheShareOfTheSmaller) {
-  // Half of the small one sticks out.
+  // Half of the small square sticks out.
   EXPECT_DOUBLE_EQ(overlap_percent(square({0, 0}, {100, 100}), square({100, 0}, {10, 10})), 50);
 }
 
 TEST(Parting, OnlyASlowerCircleOnTheSegmentParts) {
   const Circle a = circle({100, 100}, 20, 1.0), b = circle({300, 100}, 20, 1.0);
   EXPECT_TRUE(parts(circle({200, 105}, 20, 0.3), a, b));   // farther away, and in between
-  EXPECT_FALSE(parts(circle({200, 105}, 20, 1.5), a, b));  // nearer: it hides them, not they it
+  EXPECT_FALSE(parts(circle({200, 105}, 20, 1.5), a, b));  // nearer: it occludes them
   EXPECT_FALSE(parts(circle({200, 150}, 20, 0.3), a, b));  // beside the segment
   EXPECT_FALSE(parts(circle({340, 100}, 20, 0.3), a, b));  // behind b
   EXPECT_FALSE(parts(circle({60, 100}, 20, 0.3), a, b));   // behind a
@@ -113,7 +113,7 @@ TEST_F(Layering, MinorCirclesInsideJoinAndTheLastCircleIsASquareToo) {
 }
 
 TEST(SquarePrediction, IsTheHomothetyOfAStaticPatch) {
-  // The patch is a rectangle at a constant depth: its edges are where its corners project to.
+  // The patch is a rectangle at constant depth: its edges are the projections of its corners.
   const double depth = 4, dt = 0.1;
   const Vector3d v(0.05, -0.02, 0.6);
   const MotionField field(vga(), steady_motion(v, Vector3d::Zero(), dt), FieldParameters{});

@@ -36,7 +36,7 @@ TEST(Tangents, PointsLieOnTheEllipseAndTheirLinesTouchIt) {
     ++tried;
     for (const Vec2& touch : {points->first, points->second}) {
       EXPECT_NEAR(ellipse_value(extent, touch), 1, 1e-9);
-      for (const double beside : {-0.05, 0.05}) {  // anywhere else on the line is outside
+      for (const double beside : {-0.05, 0.05}) {  // any other point on the line is outside
         EXPECT_GT(ellipse_value(extent, touch + beside * (touch - origin)), 1);
       }
     }
@@ -62,7 +62,7 @@ TEST(Tangents, ConstructionIsTheHomothetyAboutTheOriginWhereDefined) {
 }
 
 TEST(Tangents, HoldForAWideEllipseCloseToTheOrigin) {
-  // |O L_t| > |O L|: the second case of d_r as printed, which would not be a homothety.
+  // |O L_t| > |O L|: the printed second case of d_r, which would not be a homothety.
   const Extent extent{{320, 300}, {150, 20}};
   const Vec2 origin(300, 240);
   const auto points = tangent_points(extent, origin);
@@ -83,8 +83,8 @@ TEST(Tangents, AreVoidWhenTheOriginIsInsideAndTheHomothetyStillHolds) {
 }
 
 TEST(Tangents, AreSingularWhenATangentIsParallelToAnAxis) {
-  // Both tangents from straight above touch symmetrically; a circle seen from (r, 0) off has one
-  // that is vertical, and only the other one serves.
+  // Both tangents from straight above touch symmetrically. From (r, 0) off, one tangent of a circle
+  // is vertical, and only the other one is usable.
   const Extent circle{{320, 240}, {50, 50}};
   const Vec2 origin(370, 0);  // the line x = 370 touches at (370, 240)
   const auto predicted = predict_by_tangents(circle, origin, 12);
@@ -103,7 +103,7 @@ TEST(Tangents, ASquareOnItsOriginStays) {
   EXPECT_TRUE(predict_by_homothety(extent, {320, 240}, 7).location.isApprox(extent.location));
 }
 
-/// In reverse a square nears its origin; a step that would take it beyond ends there.
+/// In reverse a square nears its origin; a step beyond the origin ends there.
 TEST(Tangents, NothingIsPredictedBeyondTheOrigin) {
   const Extent extent{{400, 300}, {30, 20}};
   const Vec2 origin(320, 240);  // 100 px off

@@ -1,4 +1,4 @@
-/// A turn that no gyro saw is taken from the corners of what stands still.
+/// A turn that the gyro missed is estimated from the corners of static points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using testing::World;
 
 constexpr double kSigma_rad = 0.03;
 
-/// Rebels among 150 static corners, in the worst of four frames in which the turn is not told.
+/// Rebels among 150 static corners, in the worst of four frames whose turn is not given.
 int most_false_rebels(std::uint64_t seed, double pan_radps, double unseen_turn_rad) {
   Scene scene(seed);
   Filter filter(scene.world.camera);
@@ -50,8 +50,8 @@ int most_false_rebels(std::uint64_t seed, double pan_radps, double unseen_turn_r
   return most;
 }
 
-/// At the centre of the picture 5 px a frame, and 20, by which most of these corners, which have no
-/// signatures, are not found again: then few are called, told or not.
+/// At the picture's centre 5 px a frame, and 20. At 20 px most of these corners, which have no
+/// signatures, are not matched again; then few are called rebels in either case.
 TEST(UnseenTurn, DoesNotMakeTheWorldARebelWhereItIsToldThatThereMayBeOne) {
   for (const double pan_radps : {0.12, 0.48}) {
     double told = 0, untold = 0;  // means over scenes, which differ by as much as 8 to 37

@@ -74,7 +74,7 @@ inline Eigen::Vector3d back_project(const Intrinsics& camera, const Vec2& px, do
   return {xy.x(), xy.y(), depth};
 }
 
-/// What a point looks like in a frame: bits of its own, of which one in ten is wrong each time.
+/// Signature of a point in a frame: its own bits, of which a random tenth is flipped each time.
 inline Signature signature_of(std::size_t point, std::uint64_t frame) {
   Random own(point), wrong(1000003 * (frame + 1) + point);
   Signature signature{};
@@ -87,11 +87,11 @@ inline Signature signature_of(std::size_t point, std::uint64_t frame) {
   return signature;
 }
 
-/// Points in the coordinates of the camera, carried along from frame to frame.
+/// Points in the camera frame, moved along from frame to frame.
 struct World {
   struct Point {
-    Eigen::Vector3d x_C;                                   ///< now
-    Eigen::Vector3d velocity_C = Eigen::Vector3d::Zero();  ///< of its own, in the camera's axes
+    Eigen::Vector3d x_C;                                   ///< m, now
+    Eigen::Vector3d velocity_C = Eigen::Vector3d::Zero();  ///< its own, in the camera's axes
   };
   Intrinsics camera = vga();
   std::vector<Point> points;
@@ -100,7 +100,7 @@ struct World {
     points.push_back({back_project(camera, px, depth), velocity_C});
   }
 
-  /// The camera makes `motion`: X(k) = R (X(k-1) + own motion) - displacement.
+  /// Moves the camera by `motion`: X(k) = R (X(k-1) + own motion) - displacement.
   void advance(const EgoMotion& motion) {
     for (Point& point : points) {
       point.x_C = motion.R_cur_prev * (point.x_C + point.velocity_C * motion.dt_s) -
@@ -109,7 +109,7 @@ struct World {
     }
   }
 
-  /// Images of the points that are in front and inside, in the order of the points.
+  /// Images of the points that are in front and inside, px, in the order of the points.
   std::vector<Eigen::Vector2f> corners() const {
     std::vector<Eigen::Vector2f> seen;
     for (const Point& point : points) {
@@ -118,7 +118,7 @@ struct World {
     return seen;
   }
 
-  /// Of the same points.
+  /// Signatures of the same points as `corners`.
   std::vector<Signature> signatures(std::uint64_t frame) const {
     std::vector<Signature> seen;
     for (std::size_t i = 0; i < points.size(); ++i) {

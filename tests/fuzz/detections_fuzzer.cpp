@@ -1,5 +1,5 @@
-// Someone else's detections in CSV, of a camera that is known and of one that is not: read, and the
-// same once more when written and read again; or refused by an error that names file and line.
+// Foreign detections in CSV, with known and with unknown camera: read, and unchanged after writing
+// and reading again; or refused by an error that names file and line.
 #include "scenarios/scenario.h"
 #include "tests/fuzz/input.h"
 #include "tools/recording/box.h"

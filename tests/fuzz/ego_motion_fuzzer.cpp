@@ -1,4 +1,4 @@
-// The estimator of ego-motion, fed arbitrary readings at arbitrary times, and the filter behind it.
+// The ego-motion estimator with arbitrary readings at arbitrary times, and the filter behind it.
 #include <array>
 
 #include "filter/ego_motion/estimator.h"
@@ -17,7 +17,7 @@ const Intrinsics kCamera{90, {79.5, 59.5}, 160, 120};
 constexpr std::int64_t kStep_ns = 5'000'000;
 constexpr int kMostEvents = 4000;
 
-/// Mostly the next step.
+/// Usually the next time step.
 std::int64_t next_time(Bytes& bytes, std::int64_t t_ns) {
   static constexpr std::array<std::int64_t, 10> kTempting = {
       0,

@@ -1,5 +1,5 @@
-// The filter, fed arbitrary corners, times and ego-motion: it never throws, all that it holds is
-// finite and of bounded size, and its counts agree.
+// The filter with arbitrary corners, times and ego-motion: it never throws, its state is finite and
+// bounded in size, and its counts agree.
 #include <deque>
 #include <numeric>
 #include <string>
@@ -20,7 +20,7 @@ constexpr int kMostFrames = 60;
 
 using Corners = std::vector<Eigen::Vector2f>;
 
-/// The corners of the frame before, carried on by one step, and some more.
+/// The corners of the previous frame, moved by one step, and some new ones.
 void next_corners(Bytes& bytes, Corners& corners) {
   const std::uint8_t how = bytes.byte();
   if (how & 1) corners.clear();
@@ -88,7 +88,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     // A corner makes a normal edge, and may make a rebel edge in its place.
     fuzz::require(result.layers.normal_edges.size() <= offered, "edges come of corners");
     fuzz::require(result.layers.rebel_edges.size() <= 2 * offered, "rebel edges come of corners");
-    // A row of one sighting each, which branches into so many of two.
+    // A row with one sighting per corner, which branches into several rows of two sightings.
     const auto branches = static_cast<std::size_t>(paper ? 1 + paper->edge.alpha_branches : 0);
     fuzz::require(result.layers.chains.size() <= branches * offered, "alpha comes of corners");
   }

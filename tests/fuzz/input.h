@@ -1,6 +1,6 @@
 /// \file
-/// What fuzzers share: bytes taken one after the other, numbers that tempt, texts as files, and a
-/// way to say that something does not hold.
+/// Shared parts of the fuzzers: bytes read in sequence, numbers at edge cases, texts as files, and
+/// the failure of an invariant.
 #pragma once
 
 #include <unistd.h>
@@ -20,7 +20,7 @@
 
 namespace lcs::fuzz {
 
-/// Ends the program, as libFuzzer has it.
+/// Aborts the program, as libFuzzer expects.
 [[noreturn]] inline void fail(const std::string& what) {
   std::fprintf(stderr, "does not hold: %s\n", what.c_str());
   std::abort();
@@ -29,7 +29,7 @@ inline void require(bool holds, const char* what) {
   if (!holds) fail(what);
 }
 
-/// Bytes of an input from its start; 0 for ever behind its end.
+/// The bytes of an input in sequence; 0 after its end.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : rest_(data, size) {}
@@ -45,7 +45,7 @@ class Bytes {
     const unsigned low = byte(), high = byte();
     return static_cast<std::int16_t>(low | high << 8);
   }
-  /// Mostly within a few times `unit`; one in 32 is a number that tempts.
+  /// Usually within a few times `unit`; one in 32 is an edge case.
   double number(double unit) {
     const std::uint8_t kind = byte();
     if (kind < 248) return unit * (static_cast<double>(word()) / 8192);
@@ -74,7 +74,7 @@ class Bytes {
   std::span<const std::uint8_t> rest_;
 };
 
-/// A folder of its own for each process, where RAM is used for files if there is any.
+/// A separate folder for each process, in RAM if possible.
 inline const std::filesystem::path& work_folder() {
   struct Folder {
     Folder() {
@@ -106,8 +106,8 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Makes a folder of those sections of an input that have the name of one of these files. A section
-/// follows a line "=== NAME".
+/// Writes those sections of an input whose name is one of `files` into a folder. A section follows
+/// a line "=== NAME".
 inline void write_sections(const std::filesystem::path& folder, std::span<const char* const> files,
                            std::string_view text) {
   namespace fs = std::filesystem;

@@ -1,5 +1,5 @@
-// Boxes that somebody labelled, as MOTChallenge or COCO have them: read, and what was read is
-// boxes; or refused by an error that names the file.
+// Labelled boxes in the formats of MOTChallenge or COCO: read as valid boxes, or refused by an
+// error that names the file.
 #include <cmath>
 
 #include "scenarios/scenario.h"
@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (!boxes) continue;
       fuzz::require(labels.pictures() > 0, "a labelled picture is counted");
       for (const bench::LabelledBox& box : *boxes) {
-        // of a million pixels a thin box may have no width left in a double
+        // at a million pixels the width of a thin box may round to zero
         fuzz::require(box.right >= box.left && box.bottom >= box.top && box.id >= -1,
                       "boxes are boxes");
         fuzz::require(std::isfinite(box.left + box.top + box.right + box.bottom), "of numbers");

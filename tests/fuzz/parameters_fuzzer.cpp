@@ -1,4 +1,4 @@
-// Parameters of the filter as text, "key=value" a line: refused, or the filter works with them.
+// Filter parameters as text, one "key=value" per line: refused, or the filter works with them.
 #include <stdexcept>
 
 #include "tests/filter/small_drive.h"
@@ -23,13 +23,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         set(parameters, key, value);
       }
     } catch (const std::invalid_argument&) {
-      // A wrong line leaves the parameters as they are.
+      // A wrong line does not change the parameters.
     }
   }
   try {
     validate(parameters);
   } catch (const std::invalid_argument&) {
-    return 0;  // each is in its range, but not beside the others
+    return 0;  // each is in its range, but the combination is invalid
   }
   if (const auto what = testing::violation_on_a_small_drive(parameters)) fuzz::fail(*what);
   return 0;

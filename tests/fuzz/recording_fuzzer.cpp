@@ -1,6 +1,6 @@
-// A recording of any layout but a video's, with poses or an IMU beside it: it is read and its
-// motion told for every picture, or it is refused by an error. An input holds the files of the
-// recording, each behind a line "=== NAME".
+// A recording of any layout but video, with poses or an IMU: it is read and the motion is estimated
+// for every picture, or it is refused by an error. An input holds the files of the recording, each
+// after a line "=== NAME".
 #include <stdexcept>
 
 #include "tests/fuzz/input.h"
@@ -11,10 +11,10 @@ namespace {
 using namespace lcs;
 namespace fs = std::filesystem;
 
-/// Pictures that are told the motion of, at the most: what it takes grows with their number.
+/// Maximum number of pictures with motion: the time grows with their number.
 constexpr std::size_t kMostFrames = 200;
 
-/// The files that the readers look at.
+/// The files that the readers open.
 constexpr const char* kFiles[] = {
     "mav0/cam0/data.csv",
     "mav0/cam0/sensor.yaml",
@@ -54,7 +54,7 @@ constexpr const char* kFiles[] = {
     "asked_odometry.csv",
 };
 
-/// What the user says: what is there, and by the bits of a byte.
+/// The user's scenario: from the existing files and the bits of a byte.
 scenario::Scenario asked(const fs::path& folder, std::uint8_t bits) {
   scenario::Scenario scenario;
   if (bits & 1) scenario.ego_motion = scenario::EgoMotionSource::truth;
@@ -79,7 +79,7 @@ scenario::Scenario asked(const fs::path& folder, std::uint8_t bits) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const fs::path folder = fuzz::work_folder() / "recording";
-  // One byte first: what the user asks for.
+  // The first byte selects the user's options.
   const std::uint8_t options = size > 0 ? data[0] : 0;
   fuzz::write_sections(folder, kFiles, fuzz::text_of(data, size));
   try {

@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     for (const fs::path& input : inputs_in(argv[i])) {
       std::printf("%s\n", input.c_str());
-      std::fflush(stdout);  // the one that crashes is the last
+      std::fflush(stdout);  // the last name printed is the crashing input
       std::ifstream stream(input, std::ios::binary);
       const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
       LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());

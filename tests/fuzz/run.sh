@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Usage: run.sh SOURCE BUILD CMAKE [SECONDS [FUZZER]...]
 #
-# Builds the fuzzers with clang and lets each run for SECONDS (20) from the inputs that are stored
-# here. Exits with 1 when one of them finds a crash, a hang or a growing memory, and leaves the input
-# in BUILD/found; with 77, skipped, where there is no clang with its fuzzer.
+# Builds the fuzzers with clang and runs each for SECONDS (20) from the stored inputs. Exits with 1
+# if one finds a crash, a hang or growing memory, and leaves the input in BUILD/found; with 77,
+# skipped, without a clang that has libFuzzer.
 set -euo pipefail
 source=$1 build=$2 cmake=$3 seconds=${4:-20}
 shift $(($# < 4 ? $# : 4))
@@ -25,7 +25,7 @@ fi
 mkdir -p "$build/found"
 status=0
 for name in "${fuzzers[@]}"; do
-  # New inputs go to the first folder and stay there for the next time.
+  # New inputs go to the first folder and remain there for the next run.
   grown=$build/grown/$name
   mkdir -p "$grown"
   inputs=("$grown" "$here/corpus/$name")

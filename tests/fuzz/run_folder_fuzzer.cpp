@@ -1,6 +1,6 @@
 // The folder of a run, or of a suite: its files are read, or refused by an error that names one of
-// them; and what was read is scored, and is the same when written and read again. An input holds
-// the files, each behind a line "=== NAME".
+// them. A folder that is read is scored, and is unchanged after writing and reading again. An input
+// holds the files, each after a line "=== NAME".
 #include <cmath>
 #include <stdexcept>
 
@@ -64,7 +64,7 @@ void decode(const bench::FramePictures& pictures, std::size_t i) {
     double scale = 1;
     fuzz::require(!pictures.at(i, scale).empty(), "a picture has pixels");
   } catch (const std::runtime_error&) {
-    // it is broken
+    // the folder is invalid
   }
 }
 

@@ -1,5 +1,5 @@
-// A scene's MJCF, put together with a rover, an actor and rough ground: it is loaded and driven in
-// for a moment, or refused by an error of one line that begins with a file's name.
+// A scene's MJCF, combined with a rover, an actor and rough ground: it is loaded and driven in
+// briefly, or refused by an error of one line that begins with a file's name.
 #include <tinyxml2.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 using namespace lcs;
 namespace fs = std::filesystem;
 
-/// What scenes of the corpus name: files of each kind, well-formed.
+/// Well-formed files of each kind, which the scenes of the corpus name.
 const fs::path& scene_folder() {
   static const fs::path folder = [] {
     fs::path made = fuzz::work_folder() / "scene";
@@ -70,7 +70,7 @@ void drive(const scenario::Scenario& s, bool looks) {
   world.advance_to(50'000'000, imu, odometry);
 }
 
-/// One change that keeps the document well-formed.
+/// A change that keeps the document well-formed.
 class Mutation {
  public:
   Mutation(tinyxml2::XMLDocument& document, unsigned seed) : document_(document), random_(seed) {

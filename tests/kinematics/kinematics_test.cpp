@@ -1,4 +1,4 @@
-// The experiments of `lcs kinematics` piece by piece: against theory, and against the simulator.
+// The experiments of `lcs kinematics`, each against theory and against the simulator.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -40,7 +40,7 @@ double largest(const std::vector<double>& values) {
   return *std::max_element(values.begin(), values.end());
 }
 
-/// Every landmark's error under one model, after one exact motion.
+/// Error of every landmark under one model after one exact motion, px.
 std::vector<double> errors_after(const PointSet& points, const sim::Pose& T_CN,
                                  const Model& model) {
   const FieldParameters field;
@@ -49,7 +49,7 @@ std::vector<double> errors_after(const PointSet& points, const sim::Pose& T_CN,
 
 // ---- Rotation
 
-/// What is left after the second order shrinks with the third: by 8 for half the angle.
+/// The remainder after the second order is of third order: half the angle gives an eighth.
 TEST(KinematicsTheory, SecondOrderIsWhatTheFirstOrderFieldLacks) {
   const PointSet points = geometric_points(vga(), kDepths_m);
   for (const Vector3d& axis :
@@ -71,12 +71,12 @@ TEST(KinematicsTheory, SecondOrderIsWhatTheFirstOrderFieldLacks) {
       }
       return worst;
     };
-    // The worst point may be another one, as points leave the image: 8 within a few percent.
+    // The worst point may change as points leave the image: 8 within a few percent.
     EXPECT_NEAR(left(0.01) / left(0.005), 8, 0.4) << axis.transpose();
   }
 }
 
-/// There x (1 + t^2) w^2 and y (1/2 + t^2) w^2 vanish, and f tan(w) - f w = f w^3 / 3 is left.
+/// There x (1 + t^2) w^2 and y (1/2 + t^2) w^2 vanish; f tan(w) - f w = f w^3 / 3 remains.
 TEST(KinematicsTheory, AtTheCentrePanningErrsAtThirdOrderAlone) {
   const double f = vga().focal_px;
   EXPECT_EQ(second_order_rotation({0, 0}, {0, 1, 0}, f).norm(), 0);
@@ -99,11 +99,11 @@ TEST(KinematicsTheory, AtTheCentrePanningErrsAtThirdOrderAlone) {
   EXPECT_NEAR(error.at(0), f * std::pow(angle, 3) / 3, 0.02 * error.at(0));  // next: w^5 * 2/15
 }
 
-/// The print's own transcription here, beside the one that the filter has.
+/// A transcription of the print here, beside the filter's.
 TEST(KinematicsTheory, ThePrintedRotationIsOffAtFirstOrder) {
   const PointSet points = geometric_points(vga(), kDepths_m);
   for (int axis = 0; axis < 3; ++axis) {
-    const double angle = 1e-4;  // of the second order 1e-4 are left
+    const double angle = 1e-4;  // second order contributes 1e-4
     const sim::Pose T_CN = turned(axis, angle);
     const auto seen = landmarks(points, T_CN, {});
     const auto off =
@@ -124,7 +124,7 @@ TEST(KinematicsSweep, TheLimitOfFirstOrderIsTheoryS) {
       const double theory = first_order_limit_rad(camera, axis, 1);
       const double measured = rotation_limit_rad(points, {}, RotationModel::first_order, axis, 1);
       EXPECT_NEAR(measured / theory, 1, 0.05) << fovy_deg << " deg, " << axis_name(axis);
-      // By the square: a quarter of the error at half the angle.
+      // Quadratic: half the angle gives a quarter of the error.
       const double quarter = rotation_limit_rad(points, {}, RotationModel::first_order, axis, 0.25);
       EXPECT_NEAR(measured / quarter, 2, 0.05);
     }
@@ -150,8 +150,8 @@ TEST(KinematicsModels, HomographyAndTrueDepthAreExactForAnyMotion) {
   }
 }
 
-/// At the row's own frame rate: at another one a short step would be slower than the speed below
-/// which the filter takes the camera to stand still.
+/// At the row's own frame rate: at another rate a short step would be slower than the filter's
+/// still speed.
 TEST(KinematicsSweep, EveryStepIsExactWithTheTrueDepthWhateverTheConfiguredRate) {
   const auto rows = sweep_translation(config_with({"camera.rate=1 Hz"}), {});
   ASSERT_GT(rows.size(), 200u);
@@ -180,9 +180,9 @@ TEST(KinematicsModels, TheReferenceDepthErrsByTheDifferenceOfInverseDepths) {
   }
 }
 
-/// Two sightings are rounded by up to half a pixel each way; their difference is that of
-/// kLearningSteps steps, so that one step is off by at most sqrt(2) / kLearningSteps px, and a
-/// little more as the point comes nearer.
+/// Two sightings are each rounded by up to half a pixel. Their difference covers kLearningSteps
+/// steps, so one step errs by at most sqrt(2) / kLearningSteps px, and a little more as the point
+/// approaches.
 TEST(KinematicsModels, WhatIsLearntIsGoodForAFractionOfAPixel) {
   const PointSet points = geometric_points(vga(), std::array{3.0, 8.0});
   const sim::Pose T_CN{Eigen::Matrix3d::Identity(), {0, 0, 0.05}};
@@ -193,7 +193,7 @@ TEST(KinematicsModels, WhatIsLearntIsGoodForAFractionOfAPixel) {
 
 // ---- Rendered points
 
-/// Two ways to the same truth: the simulator's label of a corner, and the pinhole on its depth.
+/// Two independent truths: the simulator's label of a corner, and the pinhole with its depth.
 TEST(KinematicsPoints, TheDepthOfTwoSightingsIsFound) {
   const FieldParameters parameters;
   const Step step = step_to(vga(), {}, 0.1, parameters);
@@ -225,7 +225,7 @@ TEST(KinematicsPoints, TheSimulatorAndThePinholeAgreeOnRenderedCorners) {
 
 // ---- Mount
 
-/// The estimator with a wrong mount, on a drive that turns, says what `seen_by_wrong_mount` says.
+/// The estimator with a wrong mount, on a curved drive, agrees with `seen_by_wrong_mount`.
 TEST(KinematicsMount, AWrongMountTurnsWhatTheEstimatorTells) {
   const StudyConfig config = config_with();
   const sim::Drive drive = sim::drive(curved_drive(config, 1, 10, 0.3));
@@ -249,7 +249,7 @@ TEST(KinematicsMount, AWrongMountTurnsWhatTheEstimatorTells) {
 
 // ---- Noise
 
-/// The readings of one ideal drive, made noisy, are the bits that the simulator would have given.
+/// One ideal drive with added noise has the same bits as the simulator's noisy readings.
 TEST(KinematicsNoise, IsTheSimulatorSOwnForTheSameSeed) {
   const StudyConfig config = config_with();
   scenario::Scenario noisy = straight_drive(config, 1, 10);
@@ -282,7 +282,7 @@ TEST(KinematicsNoise, AnOwnImuIsTriedBeforeThePresets) {
   EXPECT_EQ(with_own.front().name, "own");
 }
 
-/// Results belong to the seed, not to the thread: twice the same bits.
+/// Results depend on the seed, not on the thread: two runs give the same bits.
 TEST(KinematicsNoise, ItsRowsAreTheSameInEveryRun) {
   const StudyConfig config = config_with({"imu.rate=50 Hz"}, {.noise_seeds = 2});
   const auto once = imu_rows(config, [](int) {}), again = imu_rows(config, [](int) {});
@@ -327,7 +327,7 @@ TEST(KinematicsConfig, ARoverThatStandsIsGivenASpeedAndTheAnswerSaysSo) {
   EXPECT_NE(subject(config).find("in place of standing"), std::string::npos);
 }
 
-/// A camera that looks to the left sees the rover's forward step go to its right.
+/// In a camera that looks to the left, the rover's forward step points to the right.
 TEST(KinematicsConfig, TheStepIsInTheAxesOfTheMountedCamera) {
   const StudyConfig left = config_with({"camera.rotation=[0 deg, 0 deg, 90 deg]"});
   EXPECT_TRUE(left.forward_C.isApprox(Vector3d(1, 0, 0), 1e-9));

@@ -2,8 +2,7 @@
 # Usage: run.sh SOURCE WORK CMAKE MAJOR WHEEL
 #
 # Downloads the newest WHEEL of MuJoCo MAJOR (it has the headers and the library), builds SOURCE
-# against it in WORK, and runs a few frames. Exits with 77, skipped, when the download is not
-# possible here.
+# with it in WORK, and runs a few frames. Exits with 77, skipped, if the download fails.
 set -euo pipefail
 source=$1 work=$2 cmake=$3 major=$4 wheel=$5
 frames=5
@@ -17,7 +16,7 @@ fail() {
   exit 1
 }
 
-# The wheel for this machine, or a reason why there is none.
+# Downloads the wheel for this machine, or skips with the reason.
 download() {
   python3 -m pip --version >/dev/null 2>&1 ||
     skip "the download needs pip (Debian: python3-pip, which tools/test --all installs)"

@@ -8,11 +8,11 @@
 namespace lcs::bench {
 namespace {
 
-/// Of captions and legends.
+/// Height of title, captions and legends.
 constexpr int kBands_px =
     PanelSheet::kTitle_px + 2 * (PanelSheet::kCaption_px + PanelSheet::kLegend_px);
 
-/// A frame with an empty filter, to be filled.
+/// A frame with an empty filter, which tests fill.
 struct Scene {
   cv::Mat3b image = cv::Mat3b(480, 640, {80, 80, 80});
   std::vector<Eigen::Vector2f> corners;
@@ -40,8 +40,8 @@ double difference(const cv::Vec3b& pixel, const cv::Scalar& colour) {
   return largest;
 }
 
-/// Whether a colour is to be seen at a place of the image, or a pixel beside it. Lines are
-/// smoothed, so a pixel need only come near (a quarter of the range) to the colour.
+/// Whether a colour is visible at a place of the image, or at an adjacent pixel. Lines are
+/// smoothed, so a pixel only needs to be near the colour (a quarter of the range).
 bool shows(const cv::Mat3b& drawn, const PanelSheet& sheet, Panel panel, Vec2 at,
            const cv::Scalar& colour) {
   const Vec2 place = sheet.at(panel, at);
@@ -57,7 +57,7 @@ bool shows(const cv::Mat3b& drawn, const PanelSheet& sheet, Panel panel, Vec2 at
   return false;
 }
 
-/// Whether nothing but the background is there and in the pixels around.
+/// Whether the place and the pixels around it show only the background.
 bool is_bare(const cv::Mat3b& drawn, const PanelSheet& sheet, Panel panel, Vec2 at) {
   const Vec2 place = sheet.at(panel, at);
   const cv::Mat3b around =
@@ -117,7 +117,7 @@ TEST(PanelSheet, RefusesAnotherImageAndCornersWithoutVerdicts) {
 
 TEST(PanelSheet, PutsAPixelOfTheImageAtTheSamePlaceOfEveryPanel) {
   const PanelSheet sheet({1280, 960});
-  // Half the size: the image's corner, half a pixel off its first pixel's centre, stays put.
+  // Half the size: the image's corner, half a pixel off its first pixel's centre, keeps its place.
   constexpr int kTop = PanelSheet::kTitle_px + PanelSheet::kCaption_px;
   constexpr int kBelow = kTop + 480 + PanelSheet::kLegend_px + PanelSheet::kCaption_px;
   EXPECT_TRUE(sheet.at(Panel::corners, {-0.5, -0.5}).isApprox(Vec2(-0.5, kTop - 0.5)));
@@ -132,7 +132,7 @@ class Panels : public testing::TestWithParam<cv::Size> {
   PanelSheet sheet_;
   Scene scene_;
 };
-// At the sheet's own scale, drawn smaller, and drawn larger.
+// At the sheet's own scale, reduced, and enlarged.
 INSTANTIATE_TEST_SUITE_P(Cameras, Panels,
                          testing::Values(cv::Size(640, 480), cv::Size(1280, 960),
                                          cv::Size(400, 300)));
@@ -264,13 +264,12 @@ TEST_P(Panels, LayersFarOutsideTheImageLeaveNoTrace) {
   scene_.layers.squares = {square};
   scene_.layers.collectors = {{.location = {kFar, kFar}, .radius = 10}};
   const cv::Mat3b drawn = scene_.draw(sheet_);
-  // In the images; the captions count them.
+  // Only in the images, because the captions contain counts.
   for (const Panel panel : kAllPanels) {
     const Vec2 corner = sheet_.at(panel, {-0.5, -0.5});
     const cv::Rect image(static_cast<int>(corner.x() + 1), static_cast<int>(corner.y() + 1),
                          bare.cols / 2 - 1, (bare.rows - kBands_px) / 2 - 1);
-    if (panel == Panel::squares)
-      continue;  // the id of one that is not to be seen stands at its edge
+    if (panel == Panel::squares) continue;  // the id of an item out of view is drawn at the edge
     EXPECT_EQ(cv::norm(bare(image), drawn(image), cv::NORM_INF), 0);
   }
 }

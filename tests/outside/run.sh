@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Usage: run.sh SOURCE BUILD WORK CMAKE findpackage|addsubdirectory|program
 #
-# Uses the project from outside: by find_package from a folder where BUILD was installed and which was
-# then moved, or as a part of another project; or runs the program that was installed.
+# Uses the project from outside: by find_package from a folder where BUILD was installed and then
+# moved, or as a subdirectory of another project; or runs the installed program.
 set -euo pipefail
 source=$1 build=$2 work=$3/$5 cmake=$4
 project=$source/tests/outside/project
@@ -12,7 +12,7 @@ fail() {
   exit 1
 }
 
-# Whoever looks for the folder that was installed to finds nothing.
+# Moves the installation, so that the original folder no longer exists.
 install() {
   "$cmake" --install "$build" --prefix "$work/first" "$@" >"$work/install.log"
   mv "$work/first" "$work/prefix"
@@ -47,7 +47,7 @@ case $5 in
     cp prefix/share/lcs/scenarios/{crossing,of_the_installed}.yaml
     "$lcs" suite --group all --list >list.txt
     grep -q '^of_the_installed ' list.txt || fail "its suite is not of the scenarios installed"
-    # A scene that is read from SOURCE would not be missed here.
+    # Detects a program that reads its scene from SOURCE.
     rm -r prefix/share/lcs/scenes/ego
     ! "$lcs" run prefix/share/lcs/scenarios/crossing.yaml --no-video --out none 2>error.txt ||
       fail "the run does without the rover that was installed"

@@ -536,7 +536,7 @@ class Scores(unittest.TestCase):
             scorer = lcs.Scorer()
             with self.assertRaisesRegex(ValueError, "^frame 0: .*" + told):
                 scorer.add(frame, lcs.Detections(**bad))
-            scorer.add(frame, lcs.Detections())  # it counted for nothing
+            scorer.add(frame, lcs.Detections())  # the failed call was not counted
         lcs.Scorer().add(frame, lcs.Detections(boxes=[[-10, -10, 5, 5]], ids=[1], circles=[[320, 485, 10]]))
         lcs.Scorer().add(frame, lcs.Detections(masks=whole[:, ::-1, ::-1], ids=[1]))
 

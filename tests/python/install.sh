@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Usage: install.sh SOURCE WORK LCS
 #
-# Installs SOURCE/tools/python by pip in a fresh virtual environment, as its README says, and runs its
-# tests with what was installed, from another folder; LCS is the program that the bits are compared
-# with. Exits with 77, skipped, where pip cannot download what it builds with.
+# Installs SOURCE/tools/python by pip in a fresh virtual environment, as its README says, and runs
+# its tests with the installed package from another folder; LCS is the program for comparing the
+# bits. Exits with 77, skipped, if pip cannot download its build requirements.
 set -euo pipefail
 source=$1 work=$2 lcs=$3
 
@@ -27,7 +27,7 @@ if ! venv/bin/pip install --disable-pip-version-check --retries 1 --timeout 30 "
   exit 1
 fi
 
-# A scene that is read from SOURCE would not be missed here.
+# Detects a package that reads its scene from SOURCE.
 installed=$(venv/bin/python -c 'import lcs; print(lcs.SCENARIOS.parent)')
 [[ $installed == "$work"/venv/* && -f $installed/scenes/lab.xml && -f $installed/py.typed ]] || {
   printf 'FAILED: the installed package is not whole: %s\n' "$installed"

@@ -18,7 +18,7 @@ class Readme(unittest.TestCase):
         namespace = {}
         here = os.getcwd()
         with tempfile.TemporaryDirectory() as elsewhere:
-            os.chdir(elsewhere)  # where nothing of the project is
+            os.chdir(elsewhere)  # outside the project
             try:
                 for block in blocks:
                     lines_before = text[: block.start(1)].count("\n")

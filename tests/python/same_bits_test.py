@@ -183,13 +183,13 @@ class SameBits(unittest.TestCase):
         detections = out.parent / "masks.csv"
         with open(detections, "w", newline="") as file:
             table = csv.writer(file)
-            table.writerow([0, "circle"])  # of which there is none
+            table.writerow([0, "circle"])  # no circles
 
             def said():
                 for frame in lcs.simulate(lcs.Scenario(scenario_file, set=SETTINGS, seed=SEED)):
                     ids = frame.truth.objects["object"].tolist()
                     masks = np.array([frame.truth.object_ids == object_id for object_id in ids])
-                    masks[:, :, ::4] = False  # every fourth column is not seen
+                    masks[:, :, ::4] = False  # every fourth column is hidden
                     seen = masks.any(axis=(1, 2))
                     masks, ids = masks[seen], np.array(ids)[seen]
                     for object_id, mask in zip(ids, masks):

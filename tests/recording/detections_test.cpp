@@ -43,7 +43,7 @@ Recording sequence() {
   return recording_of(frames);
 }
 
-/// The same, of a camera of 96 x 48 pixels.
+/// The same sequence from a camera of 96 x 48 pixels.
 Recording seen_by_a_camera() {
   Recording recording = sequence();
   recording.camera =
@@ -100,7 +100,7 @@ TEST_F(DetectionsTest, NameCornersByPlaceOrByIndex) {
 }
 
 TEST_F(DetectionsTest, CountVerdictsThatAreOnNoCornerOrOnOneThatHasOne) {
-  // 2 px is within reach, 2.01 is not; of two rows for one corner the nearer holds.
+  // 2 px is within reach, 2.01 px is not; of two rows for one corner the nearer one is used.
   const Detections said = detections(
       "3,rebel,32,20\n3,rebel,52.01,20\n3,rebel,400,300\n"
       "3,pending,30,20.1\n4,rebel,1\n4,normal,30,20\n");
@@ -128,7 +128,7 @@ TEST_F(DetectionsTest, OfTwoCornersInReachTakeTheNearerThatIsFree) {
   EXPECT_EQ(verdicts("0,rebel,10.3,10\n"), (std::vector{Verdict::normal, Verdict::rebel}));
   EXPECT_EQ(verdicts("0,rebel,10.3,10\n0,pending,10.3,10\n"),
             (std::vector{Verdict::pending, Verdict::rebel}));
-  // Whatever the order of rows, the nearest pair is matched first.
+  // The nearest pair is matched first, in any order of rows.
   for (const char* text :
        {"0,rebel,10.2,10\n0,pending,10.6,10\n", "0,pending,10.6,10\n0,rebel,10.2,10\n"}) {
     EXPECT_EQ(verdicts(text), (std::vector{Verdict::rebel, Verdict::pending})) << text;
@@ -161,7 +161,7 @@ TEST_F(DetectionsTest, BoxesArePixelEdgesAsThoseOfTheTruth) {
 }
 
 TEST_F(DetectionsTest, MasksAreTheBoxesThatHoldThem) {
-  // Of 48 x 96 pixels: the words and boxes (left, top, width, height) are those of pycocotools.
+  // Masks of 48 x 96 pixels: strings and boxes (left, top, width, height) from pycocotools.
   const std::pair<const char*, Eigen::Vector4d> masks[] = {
       {"Zn0n0b00000000000000000000000000000000000000000000000000000000000000000000000000"
        "0000fe1",
@@ -174,7 +174,7 @@ TEST_F(DetectionsTest, MasksAreTheBoxesThatHoldThem) {
       {R"(e]1110;0S40\N0nM0R10\O0\O0P30K0_N0b20jL070h10aM0^O0j00g00gN0l00\O0e20]N)"
        "0e30QK0:0]40P10iK0b40WK0N0af0",
        {30, 6, 50, 35}},
-      {"147,2,4459", {3, 3, 1, 2}},  // in numbers: 3 columns of 48, 3 pixels, 2 of the mask
+      {"147,2,4459", {3, 3, 1, 2}},  // as numbers: 3 columns of 48, 3 pixels, 2 of the mask
   };
   for (const auto& [word, box] : masks) {
     const Square square =
@@ -185,7 +185,7 @@ TEST_F(DetectionsTest, MasksAreTheBoxesThatHoldThem) {
     const SquareMasks said =
         detections(fmt::format("3,mask,7,48,96,{}", word)).recording.frames[3].masks;
     ASSERT_EQ(said.size(), 1u);
-    // The word again: what is left of it in its box is all of it.
+    // The string again: the mask's runs within its box cover the whole mask.
     if (std::string_view(word).find(',') == std::string_view::npos) {
       EXPECT_EQ(packed_runs(sim::runs_in(cv::Rect(0, 0, 96, 48), said.at(7))), word);
     }
@@ -193,7 +193,7 @@ TEST_F(DetectionsTest, MasksAreTheBoxesThatHoldThem) {
 }
 
 TEST_F(DetectionsTest, CirclesCountForFalseObjects) {
-  // One over the mover, one on empty ground, in three frames after the warm-up.
+  // One circle on the mover, one on empty ground, in three frames after the warm-up.
   std::string rows;
   for (int k = 3; k < 6; ++k) rows += fmt::format("{0},circle,40,25,5\n{0},circle,200,200,5\n", k);
   EXPECT_EQ(value(score(detections(rows).recording), "rebel.false_objects_per_100_frames"), 100);
@@ -206,7 +206,7 @@ TEST_F(DetectionsTest, WithoutCirclesFalseObjectsAreUnknownAndNotNone) {
   EXPECT_FALSE(silent.recording.detector.circles);
   for (const char* figure : kFigures)
     EXPECT_FALSE(value(score(silent.recording), figure)) << figure;
-  // A row without values says that there are none.
+  // A row without values means that there are no circles.
   const Detections none = detections(rebels + "0,circle\n");
   EXPECT_TRUE(none.recording.detector.circles);
   EXPECT_EQ(value(score(none.recording), "rebel.false_objects_per_100_frames"), 0);
@@ -387,7 +387,7 @@ TEST_F(DetectionsTest, AFileThatCannotBeReadIsNamed) {
   }
 }
 
-/// Awkward places and sizes, so that a bit lost on the way shows.
+/// Random places and sizes with many digits, so that a lost bit is detected.
 Recording awkward() {
   std::mt19937_64 random(5);
   const auto number = [&](double low, double high) {
@@ -418,7 +418,7 @@ Recording awkward() {
       frame.record().layers.squares.push_back(square);
       frame.rebel_circle({number(0, 300), number(0, 100)}, number(0, 40));
     }
-    Square& thin = frame.record().layers.squares.emplace_back();  // of corners one below the other
+    Square& thin = frame.record().layers.squares.emplace_back();  // of corners in one column
     thin.id = 9;
     thin.location = {number(60, 70), number(50, 60)};
     thin.half_size = {0, number(20, 30)};
@@ -453,7 +453,7 @@ TEST_P(StoredDetectionsTest, ReadAgainHaveTheSameFiguresToTheLastBit) {
   }
 }
 
-/// A field of a row as nobody should write it, and as some do.
+/// A field of a row, often an invalid or unusual one.
 std::string tempting(std::mt19937& random) {
   static constexpr const char* kTempting[] = {"0",
                                               "-0",
@@ -512,7 +512,7 @@ std::string any_row(std::mt19937& random) {
                      random() % 16 == 0 ? tempting(random) : "96", before, inside, after);
 }
 
-/// Figures that are the same to the bit, and finite.
+/// Requires bitwise equal and finite figures.
 void expect_same(const Metrics& before, const Metrics& after, const std::string& rows) {
   ASSERT_EQ(before.size(), after.size());
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -525,7 +525,7 @@ void expect_same(const Metrics& before, const Metrics& after, const std::string&
 TEST_F(DetectionsTest, AnyRowIsRefusedOrKeptStoredReadAndScoredAlike) {
   std::mt19937 random(57);
   Recording frames = seen_by_a_camera();
-  for (FrameRecord& frame : frames.frames) {  // of which masks are known, and corners enough
+  for (FrameRecord& frame : frames.frames) {  // with known masks and enough corners
     frame.object_truth[0].mask = {0, 1200};
     for (sim::CornerTruth& corner : frame.corner_truth) corner.object = 1;
   }
@@ -571,7 +571,7 @@ TEST_F(DetectionsTest, TheDocumentsRowsAreRead) {
   ASSERT_EQ(said.recording.frames[0].layers.squares.size(), 1u);
   const Square& box = said.recording.frames[0].layers.squares[0];
   EXPECT_EQ(box.location - box.half_size, Vec2(199.5, 179.5));
-  // Its rows follow from its program: the names of the columns, and the order of the fields.
+  // The rows follow from the document's program: its column names and field order.
   for (const char* part : {R"("rebel", x, y, sep=",")", R"("box", 1, 200, 180, 100, 120, sep=",")",
                            R"(frame["corners"]["x"])", R"(frame["index"])"}) {
     EXPECT_NE(document.find(part), std::string::npos) << part;

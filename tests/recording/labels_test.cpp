@@ -1,5 +1,5 @@
-// Boxes of what moves, drawn by people: as MOTChallenge and COCO have them, and what is scored by
-// them.
+// Boxes of moving objects, drawn by people, in the formats of MOTChallenge and COCO, and the
+// scores against them.
 #include "tools/recording/labels.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ class LabelsFile : public testing::Test {
     std::ofstream(path_, std::ios::binary) << text;
     return read_labels(path_);
   }
-  /// What is wrong with it, behind the folder's name.
+  /// The error message after the folder's name.
   std::string refusal(const std::string& text) const {
     const std::string what = refusal_of<scenario::Error>([&] { labels(text); });
     EXPECT_TRUE(what.starts_with(folder_.path().string())) << what;
@@ -124,8 +124,8 @@ LabelledBox labelled(double left, double top, double right, double bottom, bool 
   return {.id = -1, .left = left, .top = top, .right = right, .bottom = bottom, .ignored = ignored};
 }
 
-/// After the warm-up two labelled frames and one that is not: a box with three rebels of which one
-/// is 3 px outside, one with two, an ignored one with a rebel, and rebels elsewhere.
+/// After the warm-up two labelled frames and one without labels: a box with three rebels, one of
+/// them 3 px outside, one with two, an ignored one with a rebel, and rebels elsewhere.
 Recording labelled_recording() {
   std::vector<FrameRecord> frames;
   for (int k = 0; k < 6; ++k) {
@@ -142,11 +142,11 @@ Recording labelled_recording() {
         .rebel_circle({300, 130}, 60);  // ignored; over no corner of a box
     frames.push_back(frame);
     frames.back().layers.squares[0].circles = frames.back().layers.squares[0].rebel_circles = 1;
-    frames.back().layers.squares[1].circles = 3;  // stands
+    frames.back().layers.squares[1].circles = 3;  // static
   }
   const std::vector<LabelledBox> boxes{labelled(100, 100, 150, 150), labelled(200, 100, 250, 150),
                                        labelled(300, 300, 320, 320, true)};
-  frames[1].labels = boxes;  // of the warm-up
+  frames[1].labels = boxes;  // in the warm-up
   frames[3].labels = boxes;
   frames[5].labels.emplace();  // nothing moves in it
   Recording recording = recording_of(std::move(frames));
@@ -160,9 +160,9 @@ TEST(ScoreLabels, CountsWhatIsOnAndOffThem) {
   EXPECT_EQ(value(metrics, "labels.boxes"), 2);
   EXPECT_EQ(value(metrics, "labels.found"), 0.5) << "two corners do not find one";
   EXPECT_EQ(value(metrics, "labels.boxed_50"), 0.5) << "a square that stands boxes no mover";
-  // of the first frame (400, 20) and (153.6, 100); of the second all eight
+  // in the first frame (400, 20) and (153.6, 100); in the second all eight
   EXPECT_EQ(value(metrics, "labels.rebels_off_per_frame"), (2 + 8) / 2.0);
-  // of the first frame those at (400, 20) and (300, 130), of the second all five
+  // in the first frame those at (400, 20) and (300, 130), in the second all five
   EXPECT_EQ(value(metrics, "labels.circles_off_per_100_frames"), 100 * (2 + 5) / 2.0);
 }
 

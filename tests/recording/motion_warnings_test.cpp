@@ -1,4 +1,4 @@
-// What is told of recordings whose motion cannot be the camera's.
+// Warnings about recordings whose motion cannot be the camera's.
 #include "tools/recording/motion_warnings.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 using Points = std::vector<Eigen::Vector2f>;
 
-/// Corners anywhere in a picture of 640x480.
+/// Corners at random places in a picture of 640x480.
 Points scattered(int count, unsigned seed) {
   std::mt19937 random(seed);
   Points points;
@@ -39,7 +39,7 @@ Recording moving(int frames, const std::function<Eigen::Vector2f(const Eigen::Ve
     frame.t_ns = 100'000'000LL * k;
     frame.motion = told;
     frame.motion.dt_s = k > 0 ? 0.1 : 0;
-    // a quarter of the corners is found in one frame only
+    // a quarter of the corners occurs in one frame only
     frame.corners_px = points;
     const Points others = scattered(130, 100 + static_cast<unsigned>(k));
     frame.corners_px.insert(frame.corners_px.end(), others.begin(), others.end());
@@ -49,7 +49,7 @@ Recording moving(int frames, const std::function<Eigen::Vector2f(const Eigen::Ve
     set_corner_truth(recording.truth, frame);
     for (Eigen::Vector2f& point : points) {
       point = next(point);
-      point.x() -= 640 * std::floor(point.x() / 640);  // what leaves comes in again
+      point.x() -= 640 * std::floor(point.x() / 640);  // re-enters on the other side
       point.y() -= 480 * std::floor(point.y() / 480);
     }
   }
@@ -58,7 +58,7 @@ Recording moving(int frames, const std::function<Eigen::Vector2f(const Eigen::Ve
 
 const auto kStill = [](const Eigen::Vector2f& x) { return x; };
 const auto kPan = [](const Eigen::Vector2f& x) { return Eigen::Vector2f(x.x() + 14, x.y() - 3); };
-/// Ahead, past things at any depth.
+/// Motion ahead, past points at any depth.
 const auto kAhead = [](const Eigen::Vector2f& x) {
   const Eigen::Vector2f away = x - Eigen::Vector2f(319.5F, 239.5F);
   const float nearness =
@@ -77,7 +77,7 @@ EgoMotion turning(double rate_radps) {
   return motion;
 }
 
-/// The words of those that are told, with a space behind each.
+/// The keywords of the given warnings, with a space after each.
 std::string told(const Recording& recording) {
   std::string words;
   for (const MotionWarning& warning : motion_warnings(recording)) {

@@ -23,7 +23,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Fills every field with a value of its own, awkward numbers among them.
+/// Fills every field with a different value, including numbers with many digits.
 class Filler {
  public:
   void operator()(const char*, double& number) { number = awkward(); }
@@ -39,7 +39,7 @@ class Filler {
     outline.value.count = static_cast<int>(random_() % 4);
     for (Vec2& vertex : outline.value.vertices()) vertex = {awkward(), awkward()};
   }
-  void operator()(const char*, Form<sim::Runs>) {}  // none, for the box is any
+  void operator()(const char*, Form<sim::Runs>) {}  // empty, because the box is arbitrary
   void operator()(const char*, sim::Label& label) {
     label = static_cast<sim::Label>(random_() % 4);
   }
@@ -89,7 +89,7 @@ class Filler {
 FrameRecord full_frame(Filler& filler, int index) {
   FrameRecord frame;
   frame.index = index;
-  frame.t_ns = 9'007'199'254'740'993 + index;  // no double holds it
+  frame.t_ns = 9'007'199'254'740'993 + index;  // not representable in a double
   for (int i = 0; i < 6; ++i) {
     frame.corners_px.emplace_back(static_cast<float>(i) + 0.1f, 1.0f / static_cast<float>(i + 3));
     frame.verdicts.push_back(static_cast<Verdict>(i % 4));
@@ -138,7 +138,7 @@ void write(const Recording& recording, const std::filesystem::path& folder) {
   writer.close();
 }
 
-/// Of a recording whose truth makes sense, so that all figures are defined.
+/// A recording with consistent truth, so that all figures are defined.
 Recording scorable() {
   std::vector<FrameRecord> frames;
   for (int k = 0; k < 9; ++k) {
@@ -172,7 +172,7 @@ TEST(RecordingIo, EveryFieldComesBackToTheSameBits) {
     EXPECT_EQ(back.objects[i].id, recording.objects[i].id);
     EXPECT_EQ(back.objects[i].name, recording.objects[i].name);
   }
-  // Every number is written in a form that stands for one double only, so equal lines are equal
+  // The written form of every number denotes one double only, so equal lines mean equal
   // bits.
   ASSERT_EQ(back.frames.size(), recording.frames.size());
   for (std::size_t k = 0; k < back.frames.size(); ++k) {
@@ -261,7 +261,7 @@ TEST(RecordingIo, ReasonsThatADetectorDoesNotGiveAreUnknown) {
             std::vector<Reason>(2, Reason::unknown));
 }
 
-/// Of an object that is wider below, and of a square.
+/// An object that is wider below, and a square.
 FrameRecord masked() {
   FrameMaker frame(0);
   frame.object(1, {5, 3, 8, 5}, true).square(4, {5, 3, 7, 5}).square(9, {0, 0, 4, 4});
@@ -279,7 +279,7 @@ TEST(RecordingIo, MasksComeBackAndAreWordsOfCoco) {
   ASSERT_EQ(back.masks.size(), 1u);
   EXPECT_EQ(back.masks.at(4).box, cv::Rect(5, 3, 2, 2));
   EXPECT_EQ(back.masks.at(4).runs, (sim::Runs{0, 1, 2, 1}));
-  // By pycocotools' encode.
+  // From pycocotools' encode.
   EXPECT_EQ(nlohmann::json::parse(truth_line(back)).at("objects").at("mask"),
             nlohmann::json{"141"});
   EXPECT_EQ(nlohmann::json::parse(layers_line(back)).at("masks"),
@@ -300,7 +300,7 @@ TEST(RecordingIo, LongMasksArePackedAsTheyAreUnpacked) {
   }
 }
 
-/// Their figures by masks are unknown, all others as they were.
+/// Their figures by masks are unknown, all others unchanged.
 TEST(RecordingIo, RecordingsFromBeforeThereWereOutlinesAndMasksAreRead) {
   std::vector<FrameRecord> frames = scorable().frames;
   for (FrameRecord& frame : frames) {
@@ -393,7 +393,7 @@ TEST(RecordingIo, AMotionThatIsInfiniteAndADepthThatIsNanAreRefused) {
   EXPECT_THROW(truth_line(deep), std::invalid_argument);
 }
 
-// ---- What is wrong with a file is told by file and line.
+// ---- Faults of a file are reported by file and line.
 
 class BrokenRecording : public testing::Test {
  protected:
@@ -482,7 +482,7 @@ TEST_F(BrokenRecording, SignaturesThatAreNotOneForEachCorner) {
   EXPECT_NO_THROW(read_recording(folder_.path()));
   const std::string wrong =
       "signatures is not 64 hexadecimal digits for each corner; name the folder of a whole run";
-  edit(kLayersFile, 2, "\"signatures\":\"00", "\"signatures\":\"");  // a byte too few
+  edit(kLayersFile, 2, "\"signatures\":\"00", "\"signatures\":\"");  // one byte too few
   expect_error("layers.jsonl:2: " + wrong);
   edit(kLayersFile, 2, "\"signatures\":\"", "\"signatures\":\"0000");  // one too many
   expect_error("layers.jsonl:2: " + wrong);

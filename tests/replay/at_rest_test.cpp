@@ -1,4 +1,4 @@
-// What is told by an IMU that stands.
+// Warnings from an IMU at rest.
 #include "tools/replay/at_rest.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ const Vector3d kGyroBias(5e-3, -3e-3, 8e-3);
 const Vector3d kTilted =
     Eigen::AngleAxisd(0.3, Vector3d::UnitY()) * Vector3d(0, 0, kGravity + 0.05);
 
-/// At 200 Hz; it stands for so long, and then speeds up and turns.
+/// Readings at 200 Hz: at rest for `still_s`, then with acceleration and rotation.
 std::vector<sim::ImuSample> readings(double still_s, double seconds = 4) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;

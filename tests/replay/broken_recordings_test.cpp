@@ -1,4 +1,4 @@
-// Recordings as they come: each fault is handled, counted and told.
+// Faulty recordings: each fault is handled, counted and reported.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -35,7 +35,7 @@ std::string joined(const std::vector<std::string>& lines, const std::string& end
   return text;
 }
 
-/// A sequence that was generated, spoiled anew by each test.
+/// A generated sequence, which each test damages anew.
 class BrokenRecording : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -68,7 +68,7 @@ class BrokenRecording : public testing::Test {
 
   inline static std::unique_ptr<bench::TemporaryFolder> original_;
   const bench::TemporaryFolder home_;
-  std::string whole_;  ///< layers of the replay of what is not broken
+  std::string whole_;  ///< layers of the replay of the intact sequence
 };
 
 TEST_F(BrokenRecording, LineEndsAndSpacesInHeadersMakeNoDifference) {

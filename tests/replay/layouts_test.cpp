@@ -1,4 +1,4 @@
-// Layouts of data sets, written by hand for a vehicle whose motion is known in closed form.
+// Layouts of data sets, written here for a vehicle whose motion is known in closed form.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ void expect_circle(Recorded& recorded, double dt_s) {
     EXPECT_NEAR(motion.w_C_radps.x(), 0, 1e-5);
     EXPECT_NEAR(motion.w_C_radps.z(), 0, 1e-5);
     EXPECT_NEAR(motion.v_C_mps.z(), Circle::kSpeed_mps, Circle::kSpeed_mps * turn * turn / 2);
-    // Seen from where it looks in the end, it came from half the turn to the right.
+    // In the final camera frame, the mean velocity is turned by half the angle.
     EXPECT_NEAR(motion.v_C_mps.x(), Circle::kSpeed_mps * turn / 2, 1e-3);
     EXPECT_NEAR(motion.v_C_mps.y(), 0, 1e-9);
   }
@@ -61,7 +61,7 @@ std::string kitti_time(double t) {
 
 class Layouts : public testing::Test {
  protected:
-  /// A drive of KITTI raw at 10 Hz; states on the frames.
+  /// A KITTI raw drive at 10 Hz whose states are at the frames' times.
   fs::path kitti(int frames) {
     const fs::path drive = home_.path() / "2011_09_26" / "drive_0001_sync";
     std::string times;
@@ -94,8 +94,8 @@ TEST_F(Layouts, KittiRawGivesTheMotionOfItsNavigationUnit) {
 TEST_F(Layouts, KittiRawTakesItsCalibrationFromTheFolderOfTheDate) {
   const fs::path drive = kitti(3);
   const fs::path date = drive.parent_path();
-  // Axes as KITTI's: the scanner ahead, left, up; the camera right, down, ahead. The second camera
-  // is 0.06 m to the left of the first, P[3] = f * 0.06.
+  // Axes as in KITTI: scanner ahead, left, up; camera right, down, ahead. The second camera is
+  // 0.06 m to the left of the first, P[3] = f * 0.06.
   write(date / "calib_cam_to_cam.txt",
         "calib_time: 09-Jan-2012 13:57:47\nS_rect_02: 1242 375\n"
         "R_rect_00: 1 0 0 0 1 0 0 0 1\n"
@@ -106,8 +106,8 @@ TEST_F(Layouts, KittiRawTakesItsCalibrationFromTheFolderOfTheDate) {
   ASSERT_TRUE(recorded.lens);
   EXPECT_EQ(recorded.lens->fu_px, 700);
   EXPECT_EQ(recorded.lens->cv_px, 180);
-  // The camera is off the unit by its lever: in a turn to the left a point ahead moves to the left
-  // too, and one to the left of the centre line is slower.
+  // The camera has a lever arm to the unit: in a turn to the left a point ahead of it moves left,
+  // too, and a point left of the centre line is slower.
   recorded.motion->at(recorded.frames[0].t_ns);
   const EgoMotion motion = recorded.motion->at(recorded.frames[1].t_ns);
   const double ahead = 0.8 + 0.27, left = -0.3 + 0.06;
@@ -168,7 +168,7 @@ TEST_F(Layouts, RobotCarGivesTheMotionOfItsInertialUnitFromNorthEastDown) {
 
 TEST_F(Layouts, RawPicturesOfRobotCarHaveTheirColours) {
   const std::pair<const char*, std::array<int, 4>> patterns[] = {
-      {"stereo/centre", {1, 0, 2, 1}},  // G B / R G, as places in BGR
+      {"stereo/centre", {1, 0, 2, 1}},  // G B / R G, as indices of BGR
       {"mono_rear", {2, 1, 1, 0}},      // R G / G B
   };
   for (const auto& [camera, pattern] : patterns) {
@@ -225,17 +225,17 @@ TEST(Rectifier, TakesCornersToWhereAPinholeSeesThem) {
     EXPECT_NEAR(corners[0].y(), 119.5, 0.01);
     EXPECT_NEAR(corners[1].x(), 99.5, 0.01);
   }
-  // What the pinhole's picture of that size does not show is left out.
+  // Points outside of the pinhole's picture of that size are dropped.
   std::vector<Eigen::Vector2f> outside{{319, 119.5}};
   Rectifier(barrel, size).rectify(outside);
   EXPECT_TRUE(outside.empty());
-  // Behind the place where the polynomial turns back, one place in the picture has no one ray.
+  // Beyond the radius at which the polynomial turns back, a pixel has no unique ray.
   const Lens folded{
       200, 200, 159.5, 119.5, Lens::Distortion::radial_tangential, {-0.6, 0, 0, 0, 0}};
   std::vector<Eigen::Vector2f> no_ray{{319, 119.5}, {170, 120}};
   Rectifier(folded, size).rectify(no_ray);
   EXPECT_EQ(no_ray.size(), 1u);
-  // A box becomes the one round its outline.
+  // A box becomes the bounding box of its mapped outline.
   double left = 89, top = 109, right = 280, bottom = 131;
   Rectifier(barrel, size).rectify(left, top, right, bottom);
   EXPECT_NEAR(right, 300, 1);
@@ -251,7 +251,7 @@ TEST(Rectifier, LeavesAPinholeAloneAndStraightensABarrel) {
   Rectifier(pinhole, size).rectify(same);
   EXPECT_EQ(cv::norm(same, picture, cv::NORM_INF), 0);
 
-  // A dot where a point at 45 degrees to the right falls through a lens with k1 = -0.1: at
+  // A dot at the image of a point at 45 degrees to the right through a lens with k1 = -0.1: at
   // f r (1 + k1 r^2) = 180 px from the centre instead of 200.
   const Lens barrel{200, 200, 99.5, 119.5, Lens::Distortion::radial_tangential, {-0.1, 0, 0, 0}};
   cv::Mat3b dot(size, cv::Vec3b(0, 0, 0));

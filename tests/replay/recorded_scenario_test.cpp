@@ -1,5 +1,5 @@
-// Scenarios whose frames are recorded, in layouts that are written here by their public
-// description: a camera that drives past a wall, and that is read back by its poses, its IMU or its
+// Scenarios with recorded frames, in layouts written here after their public description: a camera
+// drives past a wall, and the recording is replayed with its poses, its IMU or its
 // speed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ using Eigen::Vector3d;
 constexpr int kFrames = 4;
 constexpr double kDt_s = 0.1, kSpeed_mps = 2, kYawRate_radps = 0.2;
 
-/// What a camera sees that goes on by 4 px a frame.
+/// Picture of a scene that moves by 4 px per frame.
 cv::Mat3b view(int frame) {
   cv::Mat3b picture(120, 160, cv::Vec3b(190, 190, 190));
   for (int row = 0; row < 3; ++row) {
@@ -48,8 +48,8 @@ cv::Mat3b view(int frame) {
   return picture;
 }
 
-/// T_WC of frame k, and of what is beyond it: ahead along z of a world whose y points down, turning
-/// to the left.
+/// T_WC of frame k, for any k: the camera moves ahead along z of a world whose y points down, and
+/// turns to the left.
 sim::Pose pose(double k) {
   const double turn = -kYawRate_radps * kDt_s * k;  // about y, which points down
   return {Eigen::AngleAxisd(turn, Vector3d::UnitY()).toRotationMatrix(),
@@ -65,7 +65,7 @@ std::string kitti_line(const sim::Pose& pose) {
   return line;
 }
 
-/// In a world with z up, as TUM's is.
+/// A TUM line, in a world with z up.
 std::string tum_line(double t_s, const sim::Pose& pose) {
   Eigen::Matrix3d R_up_down;
   R_up_down << 0, 0, 1, -1, 0, 0, 0, -1, 0;
@@ -120,7 +120,7 @@ Seen all_of(Playback& playback) {
   }
 }
 
-/// By pictures of frames and the motion of `pose`.
+/// Requires the pictures of the frames and the motion of `pose`.
 void expect_drive(const Seen& seen, int every = 1) {
   ASSERT_EQ(seen.frames.size(), static_cast<std::size_t>(kFrames / every));
   for (std::size_t k = 0; k < seen.frames.size(); ++k) {
@@ -155,7 +155,7 @@ TEST_F(RecordedScenario, OfKittiOdometryHasItsTimesItsPosesAndItsGround) {
   std::string times;
   for (int k = 0; k < kFrames; ++k) times += fmt::format("{:e}\n", kDt_s * k);
   write(folder / "times.txt", times);
-  write(home() / "poses" / "07.txt", poses(false));  // where the benchmark has them
+  write(home() / "poses" / "07.txt", poses(false));  // where the benchmark stores them
   Playback drive = playback("path: sequences/07, camera_height: 165 cm");
   EXPECT_EQ(drive.camera().focal_px, 700);
   EXPECT_EQ(drive.camera().centre_px, Eigen::Vector2d(80, 60));
@@ -163,7 +163,7 @@ TEST_F(RecordedScenario, OfKittiOdometryHasItsTimesItsPosesAndItsGround) {
   expect_drive(seen);
   expect_ground(seen, 1.65, {0, -1, 0});
 
-  // Camera 1 is 0.1 m to the right of camera 0, and so goes faster ahead in a turn to the left.
+  // Camera 1 is 0.1 m to the right of camera 0, so it is faster in a turn to the left.
   draw(folder / "image_1", "{:06}.png");
   Playback right = playback("path: sequences/07, camera: image_1");
   const Seen from_right = all_of(right);
@@ -228,7 +228,7 @@ TEST_F(RecordedScenario, OfAVideoHasItsPicturesAtItsRateOrAtTheUsers) {
             std::string::npos);
 }
 
-/// Writes a number of 32 bits behind a word, in each place where it is.
+/// Writes a 32-bit number `behind` bytes after each occurrence of a word.
 std::string with_number(std::string bytes, const std::string& word, std::size_t behind,
                         std::uint32_t number) {
   std::size_t at = bytes.find(word);
@@ -261,7 +261,7 @@ TEST_F(RecordedScenario, OfAVideoThatSaysMoreThanItsFileHoldsIsRefused) {
               std::string::npos)
         << told;
   }
-  // A few more than there are cannot be told from the header: they are told once.
+  // A slightly wrong count is not detectable from the header: it is reported once.
   write(file,
         with_number(with_number(whole, "avih", kFramesOfFile, 100), "strh", kFramesOfStream, 100));
   Playback longer = playback(recording);
@@ -272,7 +272,7 @@ TEST_F(RecordedScenario, OfAVideoThatSaysMoreThanItsFileHoldsIsRefused) {
             1);
   EXPECT_NE(longer.told()[0].find("skipped: picture 4 of"), std::string::npos) << longer.told()[0];
   EXPECT_NE(longer.told()[0].find("cannot be read, and none after it"), std::string::npos);
-  // FFmpeg goes by the size in the pictures, which are JPEG, and not by that in the file's header.
+  // FFmpeg uses the size in the JPEG pictures, not that in the file's header.
   write(file, with_number(with_number(whole, "strf", 8, 32'000), "strf", 12, 32'000));
   EXPECT_NO_THROW(playback(recording));
   std::string huge = whole;
@@ -357,7 +357,7 @@ TEST_F(RecordedScenario, OfPicturesWithPosesTakesTheirTimesOrTheUsersRate) {
   expect_drive(all_of(by_rate));
   Playback by_line = playback("path: pictures, poses: kitti.txt, focal: 300, fps: 10, every: 2");
   expect_drive(all_of(by_line), 2);
-  // Fewer poses than pictures, each at its place.
+  // Fewer poses than pictures, each pose at its picture.
   write(home() / "kitti.txt", poses(false, 2));
   Playback fewer = playback("path: pictures, poses: kitti.txt, focal: 300, fps: 10");
   EXPECT_EQ(all_of(fewer).frames.size(), 2u);
@@ -407,7 +407,7 @@ TEST_F(RecordedScenario, GroundIsWhereTheMountSaysThatItIs) {
   expect_ground(seen, 0.5, looking_down);
   EXPECT_NEAR(seen.frames[3].motion.v_C_mps.z(), 2, 1e-3);
 
-  // By the mount on a vehicle that is upright at the first pose, whatever the world of the poses.
+  // From the mount on a vehicle that is upright at the first pose, in any world of the poses.
   write(home() / "poses.txt", poses(true));
   Playback posed = playback(pictures + ", poses: poses.txt, mount: [0, 10 deg, 0]");
   const Seen moved = all_of(posed);
@@ -498,7 +498,7 @@ TEST_F(RecordedScenario, IsRunAndRecordedAndComparedAsAnyOther) {
   EXPECT_EQ(bench::read(home() / "first" / bench::kLayersFile),
             bench::read(home() / "again" / bench::kLayersFile));
 
-  // One run, whatever the number of seeds.
+  // One run for any number of seeds.
   result = lcs({"suite", file, "--seeds", "3", "--out", home() / "suite"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(fs::exists(home() / "suite/runs/drive/seed-1"));

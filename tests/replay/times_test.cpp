@@ -1,4 +1,4 @@
-// Calendar times of recordings, against days counted by hand.
+// Calendar times of recordings, compared with days counted by hand.
 #include "tools/replay/times.h"
 
 #include <gtest/gtest.h>
@@ -11,11 +11,11 @@ namespace {
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kDay_ns = 86'400 * kSecond_ns;
 
-/// Of midnight.
+/// Time of midnight of a date, ns.
 std::optional<std::int64_t> day(std::string_view date) {
   return calendar_time_in(date, "00:00:00");
 }
-/// Of a day whose midnight is 0.
+/// Time of day, ns, on the day whose midnight is 0.
 std::optional<std::int64_t> clock(std::string_view text) {
   return calendar_time_in("1970-01-01", text);
 }

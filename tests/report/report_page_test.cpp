@@ -74,7 +74,7 @@ bench::Event event_with(int corners, std::size_t picture_bytes) {
 
 class Report : public testing::Test {
  protected:
-  /// A run's folder, with these events.
+  /// A run's folder with the given events.
   fs::path run_folder(const std::string& name, const std::vector<bench::Event>& events) {
     const fs::path relative = fs::path("runs") / name;
     fs::create_directories(folder_.path() / relative);
@@ -84,7 +84,7 @@ class Report : public testing::Test {
   }
   /// The baseline's runs are in "before".
   suite::SuiteInFolder in_folder(const SuiteResult& suite) const { return {suite, folder_.path()}; }
-  /// Hands `use` the verdict, and what the suite was compared with.
+  /// Calls `use` with the verdict and the baseline.
   template <class Use>
   auto judged(const SuiteResult& suite, const SuiteResult* baseline, const Use& use) const {
     if (!baseline) return use(suite::verdict_of(in_folder(suite), nullptr, nullptr), nullptr);
@@ -115,7 +115,7 @@ class Report : public testing::Test {
   const TemporaryFolder folder_;
 };
 
-/// The page without what stands in its script and style elements, which is no markup.
+/// The page without the content of its script and style elements, which is no markup.
 std::string markup(std::string html) {
   for (const std::string name : {"script", "style"}) {
     for (std::size_t open = html.find('<' + name); open != html.npos;
@@ -147,14 +147,14 @@ TEST_F(Report, IsWellFormedWhateverNamesHold) {
   tinyxml2::XMLDocument document;
   ASSERT_EQ(document.Parse(markup(html).c_str()), tinyxml2::XML_SUCCESS) << document.ErrorStr();
   EXPECT_NE(html.find("<title>lcs suite: a&lt;b&gt;&amp;"), html.npos);
-  // Two elements end with </script>: the data and the script. No name adds one.
+  // Two elements end with </script>: the data and the script. No name adds another one.
   std::size_t ends = 0;
   for (std::size_t at = html.find("</script>"); at != html.npos;
        at = html.find("</script>", at + 1)) {
     ++ends;
   }
   EXPECT_EQ(ends, 2u);
-  // The same, but for the byte that is no UTF-8.
+  // The same name, except for the byte that is invalid UTF-8.
   const std::string name = data_of(html).at("scenarios")[0].at("name");
   EXPECT_EQ(name, kNasty.substr(0, kNasty.size() - 1) + "\xef\xbf\xbd");
 }
@@ -184,13 +184,13 @@ TEST_F(Report, OfWorldsIsWellFormedAndHasEachWithTheFiguresOfAllDetectors) {
     EXPECT_NE(html.find(part), html.npos) << part;
   }
   EXPECT_EQ(html.find("<script"), html.npos);
-  EXPECT_EQ(html.find("<img"), html.rfind("<img"));  // there is but one sheet
+  EXPECT_EQ(html.find("<img"), html.rfind("<img"));  // there is only one sheet
 }
 
 TEST_F(Report, AsksTheNetworkForNothing) {
   const std::string html = page(suite_of({scenario_with("one", {run_with(1, 0.8)})}));
   std::string rest = html;
-  // The name of a vocabulary, and where uPlot says that it is from, which are never fetched.
+  // The name of a vocabulary and the origin of uPlot, which are never fetched.
   for (const std::string name :
        {"http://www.w3.org/2000/svg", "https://github.com/leeoniya/uPlot"}) {
     rest.erase(rest.find(name), name.size());
@@ -234,7 +234,7 @@ TEST_F(Report, SetsTheBaselineBesideScenariosOfTheSameName) {
 }
 
 TEST_F(Report, AChangeIsOfTheSeedsAndScenariosThatBothHave) {
-  // Seed by seed nothing changed, though each has a seed and a scenario that the other has not.
+  // Nothing changed per seed, though each suite has a seed and a scenario of its own.
   const SuiteResult now = suite_of({scenario_with("both", {run_with(1, 0.5), run_with(2, 0.9)}),
                                     scenario_with("now", {run_with(1, 0.1)})});
   const SuiteResult before =
@@ -248,13 +248,13 @@ TEST_F(Report, AChangeIsOfTheSeedsAndScenariosThatBothHave) {
   EXPECT_EQ(all.at("groups").at(0)["figures"]["rebel.f1"].at("change"), 0);
   EXPECT_FALSE(all["scenarios"][1]["figures"]["rebel.f1"].contains("change"));
 
-  // With no seed in common there is nothing to set beside.
+  // Without a common seed there is no comparison.
   const SuiteResult other = suite_of({scenario_with("both", {run_with(7, 0.2)})});
   EXPECT_FALSE(data(now, &other)["scenarios"][0]["figures"]["rebel.f1"].contains("before"));
 }
 
 TEST_F(Report, CallsAChangeRealWhereACompareDoes) {
-  // By 0.1 on average, once within the noise of seeds and once beyond it.
+  // A change of 0.1 on average, once within the noise of seeds and once beyond it.
   const SuiteResult before =
       suite_of({scenario_with("noisy", {run_with(1, 0.7), run_with(2, 0.7)}),
                 scenario_with("sure", {run_with(1, 0.7), run_with(2, 0.7)})});
@@ -354,7 +354,7 @@ TEST_F(Report, SetsTheBaselinesCurvesBesideAndTellsNewEventsFromThoseThatAreGone
   EXPECT_EQ(run["before"]["gone"][0].at("object"), "car");
   EXPECT_TRUE(run["before"]["gone"][0].at("views").empty());
 
-  // What is wrong with a baseline is told, and the suite is still shown.
+  // A faulty baseline is reported, and the suite is still shown.
   std::ofstream(folder_.path() / "before" / "runs" / "one" / bench::kFramesFile) << "frame\n";
   const json told = data(now, &before)["scenarios"][0]["runs"][0];
   EXPECT_NE(told["before"].at("error").get<std::string>().find("has no column"), std::string::npos);
@@ -390,7 +390,7 @@ TEST_F(Report, OfARunHasItsVideoWithin) {
   EXPECT_EQ(all.at("video"), "ZmlsbQ==");
   EXPECT_EQ(all.at("is_run"), true);
   EXPECT_EQ(all.at("verdict"), "1 criterion met, 0 missed");
-  // One that is too large for a page is named.
+  // A video that is too large for a page is named.
   fs::resize_file(folder_.path() / bench::kVideoFile, kVideoBudget + 1'000'000);
   const json large = json::parse(run_report_data(in_folder(suite)));
   EXPECT_FALSE(large.contains("video"));
@@ -431,7 +431,7 @@ TEST_F(Report, KeepsThePicturesOfTheCostliestEventsWithinItsBudget) {
   EXPECT_TRUE(kept(0, 2));
   EXPECT_FALSE(kept(1, 0));
   EXPECT_EQ(all["scenarios"][0]["runs"][1]["events"][0].at("left_out"), true);
-  EXPECT_EQ(all["scenarios"][0]["runs"][1]["events"].size(), 3u);  // told, without pictures
+  EXPECT_EQ(all["scenarios"][0]["runs"][1]["events"].size(), 3u);  // listed, without pictures
 }
 
 TEST_F(Report, ASuiteOfFortyScenariosStaysSmall) {

@@ -1,4 +1,4 @@
-// Every mistake in a scenario ends in one message: where, what is wrong, what to do.
+// Every error in a scenario gives one message: its place, the fault, and the remedy.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::string name_of(const testing::TestParamInfo<Mistake>& test) {
   return test.param.name;
 }
 
-/// After the three lines of the smallest scenario: line 4 is the first.
+/// A mistake after the three lines of the smallest scenario: line 4 is the first.
 Mistake added(const std::string& name, const std::string& lines, const std::string& message) {
   return {name, smallest + lines, "test.yaml:" + message};
 }
@@ -385,7 +385,7 @@ TEST(Refused, AMissingSceneSaysWhereItWasLookedFor) {
   ASSERT_EQ(unsetenv("LCS_SCENES"), 0);
 }
 
-// In these the middle of the message is yaml-cpp's.
+// The middle of these messages comes from yaml-cpp.
 TEST(Refused, WhatIsNotYamlWithItsLine) {
   const auto expect_not_yaml = [](const std::string& text, int line) {
     const std::string message = refusal(text);

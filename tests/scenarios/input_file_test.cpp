@@ -1,4 +1,4 @@
-// What the program reads is a file, of a size that it may have, and told where it is not.
+// Each input must be a regular file of an allowed size; other inputs are reported.
 #include "scenarios/input_file.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
 TEST(InputFile, WhatMayNeverEndIsRefusedBeforeItIsRead) {
   const ScenarioFolder folder;
   const std::filesystem::path pipe = folder.path() / "pipe", socket = folder.path() / "socket";
-  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);  // nobody will ever write to it
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);  // no process ever writes to it
   EXPECT_EQ(refusal(pipe),
             pipe.string() +
                 ": this is a pipe, which may never end; write what comes out of it to "
@@ -90,7 +90,7 @@ TEST(InputFile, HasItsLinesWhateverEndsTheLastOneAndWithoutAByteOrderMark) {
   EXPECT_EQ(lines_of(folder.write("a", "one\ntwo\n")), (Lines{"one", "two"}));
   EXPECT_EQ(lines_of(folder.write("a", "\xef\xbb\xbfone\n\xef\xbb\xbftwo\n")),
             (Lines{"one", "\xef\xbb\xbftwo"}));
-  // Longer than what is read at a time, and across its ends.
+  // Longer than the read buffer, with lines across its ends.
   Lines lines;
   std::string text;
   for (std::size_t i = 0; i < 7; ++i) {
@@ -100,7 +100,7 @@ TEST(InputFile, HasItsLinesWhateverEndsTheLastOneAndWithoutAByteOrderMark) {
   EXPECT_EQ(lines_of(folder.write("a", text)), lines);
 }
 
-#ifndef __SANITIZE_ADDRESS__  // which wants memory of its own
+#ifndef __SANITIZE_ADDRESS__  // which needs its own memory
 TEST(InputFileDeathTest, MemoryThatRunsOutIsNoEndOfFile) {
   const ScenarioFolder folder;
   const auto large = folder.write("large", "");

@@ -1,4 +1,4 @@
-// The list of keys (scenarios/fields.h): all of it can be written, and the files that follow it do.
+// The list of keys (scenarios/fields.h): every key can be written, and derived files match it.
 #include "scenarios/keys.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path kScenarios = fs::path(LCS_SOURCE_DIR) / "scenarios";
 
-/// A file that differs is written as it should be, to be put in place.
+/// Writes the correct content of a differing file into the build folder, for copying.
 void expect_file(const std::string& name, const std::string& right) {
   if (bench::read(kScenarios / name) == right) return;
   const fs::path made = fs::path(LCS_BUILD_DIR) / name;
@@ -102,7 +102,7 @@ std::map<std::string, std::string> read_and_written(const std::string& text) {
   return flattened(parse_text(yaml_text(document_of(load_text(text))), {"written", 1}));
 }
 
-/// What a file would have, but for the names of files, which are those that were found.
+/// The keys of a file without file names, because these are resolved paths.
 std::map<std::string, std::string> without_files(std::map<std::string, std::string> keys) {
   for (const char* key : {"scene", "recording.path"}) keys.erase(key);
   return keys;

@@ -471,7 +471,7 @@ TEST(Load, WhatLcsScenesPutsBeforeTheProjectsOwnIsTold) {
   const std::vector<std::string> of_both = shadowed_files(wheeled);
   const Scenario by_path = load(file, {.sets = {"scene=room.xml"}, .seed = {}});
   EXPECT_TRUE(shadowed_files(by_path).empty());
-  // the project's own by another name is no other
+  // the project's own scenes under another path are the same
   std::filesystem::create_directory_symlink(own, folder.path() / "same");
   ASSERT_EQ(setenv("LCS_SCENES", (folder.path() / "same").c_str(), 1), 0);
   EXPECT_TRUE(shadowed_files(load(file)).empty());
@@ -563,7 +563,7 @@ TEST(Shipped, EveryScenarioOfTheSuiteHasASizeAndANameOfItsOwn) {
   EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
 }
 
-// The first block of YAML in scenarios/README.md is what a newcomer copies.
+// Newcomers copy the first block of YAML in scenarios/README.md.
 TEST(Shipped, TheFirstScenarioOfTheReadmeLoads) {
   std::ifstream stream(std::filesystem::path(LCS_SOURCE_DIR) / "scenarios/README.md");
   const std::string readme{std::istreambuf_iterator<char>(stream), {}};

@@ -1,4 +1,4 @@
-// A message is one clean line, whatever is quoted in it.
+// A message is one clean line, whatever it quotes.
 #include "scenarios/message.h"
 
 #include <gtest/gtest.h>

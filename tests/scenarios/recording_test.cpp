@@ -1,4 +1,4 @@
-// The `recording` of a scenario, in place of a scene.
+// The `recording` of a scenario, instead of a scene.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace lcs::scenario {
 namespace {
 
-/// A scenario of a folder with a file of each kind beside it.
+/// A folder with a scenario and a file of each kind.
 class RecordingKeys : public testing::Test {
  protected:
   RecordingKeys() {

@@ -1,5 +1,5 @@
 /// \file
-/// Scenario files written for a test, in a folder that goes with it.
+/// Scenario files for a test, in a folder that is deleted afterwards.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace lcs::scenario {
 
-/// A folder with a scene in it, and room for scenario files.
+/// A folder with a scene, in which tests write scenario files.
 class ScenarioFolder : public bench::TemporaryFolder {
  public:
   ScenarioFolder() { write("room.xml", "<mujoco/>"); }
@@ -25,7 +25,7 @@ class ScenarioFolder : public bench::TemporaryFolder {
   }
 };
 
-/// The smallest scenario there is; tests put lines after it, which begin at line 4.
+/// The smallest scenario; tests append lines, which begin at line 4.
 inline const std::string smallest = "scene: room.xml\nframes: 3\nego: {speed: 0.5}\n";
 
 inline Scenario load_text(const std::string& text, const LoadOptions& options = {}) {
@@ -41,7 +41,7 @@ inline std::string without_folder(std::string message, const ScenarioFolder& fol
   return message;
 }
 
-/// The message that a text is refused with, without the folder's name.
+/// The error message for a text, without the folder's name.
 inline std::string refusal(const std::string& text, const LoadOptions& options = {}) {
   const ScenarioFolder folder;
   const auto file = folder.write("test.yaml", text);

@@ -15,7 +15,7 @@ std::vector<SweepPoint> points_of(const std::string& lines) {
   return sweep_points(folder.write("test.yaml", smallest + lines));
 }
 
-/// The message that a sweep is refused with, without the folder's name. Its lines begin at 4.
+/// The error message for a sweep, without the folder's name. The lines begin at line 4.
 std::string sweep_refusal(const std::string& lines) {
   const ScenarioFolder folder;
   const auto file = folder.write("test.yaml", smallest + lines);

@@ -35,7 +35,7 @@ FrameMaker frame_of(int index, int missed, Reason reason = Reason::normal_edge) 
   return frame;
 }
 
-/// The wall's corners are called rebels.
+/// Calls `corners` of the wall's corners rebels.
 void accuse(FrameMaker& frame, int corners, Eigen::Vector2f shift = {0, 0}) {
   for (int i = 0; i < corners; ++i) {
     frame.record().corners_px[kCorners + i] += shift;
@@ -44,7 +44,7 @@ void accuse(FrameMaker& frame, int corners, Eigen::Vector2f shift = {0, 0}) {
   }
 }
 
-/// The corners missed in a frame, by its index.
+/// A recording with `missed(k)` missed corners in frame k.
 template <class Missed>
 Recording recording_with(Missed&& missed) {
   std::vector<FrameRecord> frames;
@@ -268,7 +268,7 @@ cv::Mat3b decoded(const std::string& text) {
 TEST(EventPictures, ShowTheMissedCornersInTheCutAroundTheObject) {
   const Recording recording = recording_with([](int) { return kCorners; });
   for (const int width : {640, 1280}) {
-    // The same places, whatever the size that pictures are kept at.
+    // The places are the same at any stored size of pictures.
     SCOPED_TRACE(width);
     FramePictures pictures;
     for (int k = 0; k < kFrames; ++k) {
@@ -279,7 +279,7 @@ TEST(EventPictures, ShowTheMissedCornersInTheCutAroundTheObject) {
     const EventView& view = events.at(0).views.at(2);
     const cv::Mat3b picture = decoded(view.jpeg_base64);
     ASSERT_EQ(picture.size(), cv::Size(kEventPictureWidth_px, kEventPictureHeight_px));
-    // Grey but for the box and the corners: orange is there, magenta and green are not.
+    // Grey except for the box and the corners: orange occurs, magenta and green do not.
     int orange = 0, magenta = 0, green = 0;
     for (const cv::Vec3b& px : picture) {
       orange += px[2] > 150 && px[2] - px[0] > 60 && px[1] > 90;
@@ -289,7 +289,7 @@ TEST(EventPictures, ShowTheMissedCornersInTheCutAroundTheObject) {
     EXPECT_GT(orange, 20);
     EXPECT_EQ(magenta, 0);
     EXPECT_EQ(green, 0);
-    // The object's centre is the picture's.
+    // The object is centred in the picture.
     const cv::Vec3b left_of_box = picture(96, 4);
     EXPECT_NEAR(left_of_box[0], 128, 8);
   }
@@ -378,7 +378,7 @@ TEST(Base64, IsThatOfTheStandard) {  // RFC 4648, section 10
 
 constexpr PixelBox kCrate{300, 100, 380, 180}, kBeside{390, 100, 470, 180};
 
-/// Frames with two crates and what `squares` puts on them.
+/// Events of frames with two crates and the squares added by `squares`.
 template <class Squares>
 std::vector<Event> square_events(Squares&& squares) {
   std::vector<FrameRecord> frames;
@@ -406,7 +406,7 @@ TEST(SquareEvents, ObjectsWithTheirSquaresHaveNone) {
 TEST(SquareEvents, SayWhatIsWrongInHowManyFrames) {
   const struct {
     EventKind kind;
-    std::vector<PixelBox> squares;  // on the first crate, and on the second if they reach there
+    std::vector<PixelBox> squares;  // on the first crate, and on the second if they reach that far
     std::size_t events;
   } cases[] = {
       {EventKind::square_missed, {kBeside}, 1},
@@ -426,7 +426,7 @@ TEST(SquareEvents, SayWhatIsWrongInHowManyFrames) {
     SCOPED_TRACE(text_of(each.kind).word);
     ASSERT_EQ(events.size(), each.events);
     EXPECT_EQ(events[0].kind, each.kind);
-    EXPECT_EQ(events[0].object_name, "mover");  // as the first object of these recordings is called
+    EXPECT_EQ(events[0].object_name, "mover");  // the name of the first object of these recordings
     EXPECT_EQ(events[0].frames, 10);
     EXPECT_EQ(events[0].of_frames, 10);
     EXPECT_EQ(events[0].first_frame, 5);
@@ -452,7 +452,7 @@ TEST(SquareEvents, TellHowFarTheObjectsCornersCame) {
     Circle circle;
     circle.location = {340, 140};  // in no square
     layers.normal_circles = {circle};
-    for (const int corner : {0, 1, 2}) {  // of the four of the first crate
+    for (const int corner : {0, 1, 2}) {  // three of the four on the first crate
       Edge edge;
       edge.corner = corner;
       edge.circle = corner == 0 ? -1 : 0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSide = 40;
 
-/// Pixel by pixel.
+/// Reference: pixel by pixel.
 struct Oracle {
   cv::Mat1b pixels = cv::Mat1b(kSide, kSide, uchar{0});
 
@@ -44,7 +44,7 @@ class Regions : public testing::Test {
   double number(double least, double most) {
     return std::uniform_real_distribution<>(least, most)(random_);
   }
-  /// Half of them of whole pixels, as corners are.
+  /// Half of the outlines have whole pixels as vertices, like corners.
   Outline outline(int points) {
     const bool whole = random_() % 2 == 0;
     ConvexHull hull;
@@ -93,7 +93,7 @@ TEST_F(Regions, OfOutlinesBoxesAndMasksOverlapAsPixelByPixel) {
   }
 }
 
-/// Corners sit on an object's outermost pixels, whose centres are the rim of the outline.
+/// Corners lie on an object's outermost pixels, whose centres form the rim of the outline.
 TEST_F(Regions, AnOutlineThroughTheCornersOfABoxOfPixelsCoversAllOfThem) {
   ConvexHull hull;
   for (const Vec2& corner : {Vec2(10, 20), Vec2(19, 20), Vec2(19, 24), Vec2(10, 24)}) {

@@ -114,7 +114,7 @@ TEST(RebelCorners, APerfectDetectorScoresOne) {
 }
 
 TEST(RebelCorners, ADetectorThatCallsEverythingRebelHasThePrecisionOfChance) {
-  // After 3 frames of warm-up 7 are left: 7 * 5 rebels among 7 * (5 + 15).
+  // After 3 frames of warm-up 7 remain: 7 * 5 rebels among 7 * (5 + 15).
   const Metrics metrics = score(frames(10, [](FrameMaker& frame) {
     frame.corners(5, Verdict::rebel, Label::rebel, 1).corners(15, Verdict::rebel, Label::fixed);
   }));
@@ -127,7 +127,7 @@ TEST(RebelCorners, ADetectorThatCallsEverythingRebelHasThePrecisionOfChance) {
 }
 
 TEST(RebelCorners, TheWarmUpIsLeftOut) {
-  // Wrong in every way before frame 3, right from then on.
+  // All verdicts wrong before frame 3, correct from then on.
   const Metrics metrics = score(frames(6, [](FrameMaker& frame) {
     const bool warm = frame.record().index >= 3;
     frame.corners(4, warm ? Verdict::rebel : Verdict::normal, Label::rebel, 1)
@@ -235,7 +235,7 @@ TEST(RebelCorners, FixedOnesAtOutlinesAreLeftOutOfTheClearFiguresAlone) {
 }
 
 TEST(RebelCorners, EachKindOfErrorCostsWhatRightVerdictsOnItWouldGain) {
-  // Of 8 rebels half are found; 3 calls are false: precision 4/7, recall 4/8, F1 8/15.
+  // Half of 8 rebels are found; 3 calls are false: precision 4/7, recall 4/8, F1 8/15.
   const auto maker = [](bool with_reasons) {
     return [=](FrameMaker& frame) {
       frame.corners(4, Verdict::rebel, Label::rebel, 1)
@@ -256,7 +256,7 @@ TEST(RebelCorners, EachKindOfErrorCostsWhatRightVerdictsOnItWouldGain) {
   EXPECT_DOUBLE_EQ(get(metrics, "rebel.f1"), f1);
   EXPECT_NEAR(get(metrics, "rebel.f1_lost_outline"), 8.0 / 14 - f1, 1e-12);
   EXPECT_NEAR(get(metrics, "rebel.f1_lost_radial"), 12.0 / 17 - f1, 1e-12);
-  // One that is missed, and of the two that are inherited the one that is at no outline.
+  // One missed rebel, and of the two inherited ones the one at no outline.
   EXPECT_NEAR(get(metrics, "rebel.f1_lost_first_seen"), 10.0 / 15 - f1, 1e-12);
   EXPECT_NEAR(get(metrics, "rebel.f1_lost_tracked"), 10.0 / 15 - f1, 1e-12);
 
@@ -305,7 +305,7 @@ TEST(RebelCorners, TheCountsOfFramesAddUpToTheFiguresOfTheRun) {
 // ---- Rebel objects
 
 TEST(RebelObjects, AnObjectIsFoundWhenThreeOfItsCornersAreRebelsAndLatencyCountsFromItsFirst) {
-  // Distinct from frame 4; two rebels on it at 5 and 6 are not enough, three at 7 are.
+  // Distinct from frame 4; two rebels on it at 5 and 6 are too few, three at 7 suffice.
   const Metrics metrics = score(frames(12, [](FrameMaker& frame) {
     const int k = frame.record().index;
     const Label label = k >= 4 ? Label::rebel : Label::fixed;
@@ -381,7 +381,7 @@ TEST(RebelObjects, ACircleIsFalseUnlessAMovingCornerIsInItOrItsCentreInAMoversBo
 }
 
 TEST(RebelObjects, CircleRecallIsTheShareOfMoversSeenWithACirclesCentreInTheirBox) {
-  // Seen or not in frames 3 to 7; before, all are.
+  // Detected or not in frames 3 to 7; all are detected before.
   const auto recall = [](int corners, bool moving,
                          const std::function<void(FrameMaker&)>& circles) {
     return value(score(frames(8,
@@ -416,7 +416,7 @@ TEST(RebelObjects, FalseCirclesAreCountedPerHundredFramesAfterTheWarmUp) {
 
 // ---- Squares
 
-/// Four frames of which the last alone counts.
+/// Score of four frames, of which only the last counts.
 Metrics score_one(const std::function<void(FrameMaker&)>& fill) {
   return score(frames(4, fill));
 }
@@ -437,7 +437,7 @@ TEST(Squares, IntersectionOverUnionIsTakenInPixelEdges) {
 }
 
 TEST(Squares, ThresholdsAreInclusive) {
-  // Half of the box exactly.
+  // Exactly half of the box.
   const Metrics metrics = score_one([](FrameMaker& frame) {
     frame.corners(4, Verdict::normal, Label::fixed, 2)
         .object(2, kBox, false)
@@ -498,7 +498,7 @@ TEST(Squares, ASquareOnAnObjectThatIsNotEligibleIsNeitherRightNorWrong) {
   const Metrics metrics = score_one([](FrameMaker& frame) {
     frame.corners(4, Verdict::normal, Label::fixed, 2)
         .object(2, kBox, false)
-        .object(1, {300, 100, 340, 150}, true, 0.2)  // mostly hidden
+        .object(1, {300, 100, 340, 150}, true, 0.2)  // mostly occluded
         .square(1, kBox)
         .square(2, {300, 100, 340, 150});
   });
@@ -507,7 +507,7 @@ TEST(Squares, ASquareOnAnObjectThatIsNotEligibleIsNeitherRightNorWrong) {
 }
 
 TEST(Squares, ASquareFarFromTheObjectThatIsNotEligibleIsWrong) {
-  // 24 / 56 of it: at 0.3 it is on the hidden object, at 0.5 it is on nothing.
+  // An IoU of 24 / 56: at 0.3 it matches the occluded object, at 0.5 nothing.
   const Metrics metrics = score_one([](FrameMaker& frame) {
     frame.corners(4, Verdict::normal, Label::fixed, 2)
         .object(2, kBox, false)
@@ -532,8 +532,8 @@ TEST(Squares, ASecondSquareOnOneObjectIsWrong) {
 }
 
 TEST(Squares, MatchingIsGreedyByIou) {
-  // The square lies on object 2 (IoU 1) and also overlaps object 1; greedy takes the best pair
-  // first and leaves object 1 without.
+  // The square lies on object 2 (IoU 1) and also overlaps object 1; greedy matching takes the best
+  // pair first and leaves object 1 unmatched.
   const Metrics metrics = score_one([](FrameMaker& frame) {
     frame.corners(4, Verdict::normal, Label::fixed, 1)
         .corners(4, Verdict::normal, Label::fixed, 2)
@@ -562,7 +562,7 @@ TEST(Squares, WithoutObjectsEverySquareIsWrongAndRecallUndefined) {
 }
 
 TEST(Squares, MoversAndStaticObjectsAreScoredApartByWhatTheyDoInTheWholeRun) {
-  // Object 1 moves in frame 0 only, and is a mover for the whole run.
+  // Object 1 moves only in frame 0, but counts as a mover for the whole run.
   const Metrics metrics = score(frames(5, [](FrameMaker& frame) {
     const int k = frame.record().index;
     frame.corners(4, Verdict::normal, Label::fixed, 1)
@@ -578,8 +578,8 @@ TEST(Squares, MoversAndStaticObjectsAreScoredApartByWhatTheyDoInTheWholeRun) {
   EXPECT_DOUBLE_EQ(get(metrics, "square.mean_iou_static"), 32.0 / 48);
 }
 
-/// Two truths that fill their boxes; one square covers its own but for a corner, the other, whose
-/// box is as good, leaves out more than half.
+/// Two truths that fill their boxes. One square covers its truth except a corner; the other, whose
+/// box is as good, covers less than half.
 TEST(Squares, ByMasksAreJudgedByThePixelsOfTheirOutlines) {
   const auto outlined = [](FrameMaker& frame, std::initializer_list<Vec2> vertices) {
     Outline& outline = frame.record().layers.squares.back().outline;
@@ -608,7 +608,7 @@ TEST(Squares, ByMasksAreJudgedByThePixelsOfTheirOutlines) {
                           get(metrics, "square.mask_mean_iou_static")));
   EXPECT_DOUBLE_EQ(get(metrics, "square.mask_recall_50"), 0.5);
   EXPECT_DOUBLE_EQ(get(metrics, "square.mask_precision_50"), 0.5);
-  // A detector's own mask goes before; of one object's truth unknown nothing is.
+  // A detector's own mask has priority; an unknown truth of one object makes the figure undefined.
   const Metrics by_mask = score_one([&](FrameMaker& frame) {
     fill(frame);
     frame.record().masks[2] = {cv::Rect(300, 100, 40, 40), {0, 1200, 400}};
@@ -641,7 +641,7 @@ TEST(Squares, AnIdentitySwitchIsAnotherSquareOnTheSameObjectAlsoAfterAGap) {
 // ---- Size, ego-motion, time
 
 TEST(Dimensions, AreCountedBesideStoresOfCorners) {
-  // 1, 2, .. 10 corners; one square more than there are frames before.
+  // 1, 2, .. 10 corners; each frame has one square more than the one before.
   const Metrics metrics = score(frames(10, [](FrameMaker& frame) {
     const int k = frame.record().index;
     frame.corners(k + 1, Verdict::normal, Label::fixed);
@@ -649,13 +649,13 @@ TEST(Dimensions, AreCountedBesideStoresOfCorners) {
     frame.rebel_circle({1, 1}, 1);
     frame.record().layers.normal_edges.resize(2);
     frame.record().layers.ignored.resize(50);     // no part of the paper's dimensionality
-    frame.record().layers.collectors.resize(50);  // nor this
+    frame.record().layers.collectors.resize(50);  // nor are these
   }));
   EXPECT_DOUBLE_EQ(get(metrics, "frames"), 10);
   EXPECT_DOUBLE_EQ(get(metrics, "dimension.corners_mean"), 5.5);
   EXPECT_DOUBLE_EQ(get(metrics, "dimension.mean"), 5.5 + 1 + 2);
   EXPECT_DOUBLE_EQ(get(metrics, "dimension.max"), 13);
-  // Stores: 1 3 6 10 15 20 25 30 35 40; 1 3 6 10 15 21 28 36 44 52; 1 3 6 .. 55.
+  // Stored: 1 3 6 10 15 20 25 30 35 40; 1 3 6 10 15 21 28 36 44 52; 1 3 6 .. 55.
   EXPECT_DOUBLE_EQ(get(metrics, "dimension.five_frame_mean"), 18.5);
   EXPECT_DOUBLE_EQ(get(metrics, "dimension.eight_frame_mean"), 21.6);
   EXPECT_DOUBLE_EQ(get(metrics, "dimension.accumulative"), 22);
@@ -663,7 +663,7 @@ TEST(Dimensions, AreCountedBesideStoresOfCorners) {
 }
 
 TEST(Edges, AreRematchedWhereTheSameOneHasACornerInTheNextFrame) {
-  // Ids 1 2 3 in every frame, of which 3 never has a corner, and 2 has none in the last.
+  // Ids 1 2 3 in every frame; 3 never has a corner, and 2 has none in the last frame.
   const Metrics metrics = score(frames(3, [](FrameMaker& frame) {
     const int k = frame.record().index;
     for (const Id id : {1u, 2u, 3u}) {
@@ -697,7 +697,7 @@ TEST(Times, AreQuantilesOverFramesAndRatiosToFastOnTheSameFrame) {
     times.describe_ms = 2 * k;      // 0, 2, 4
     times.line_ms = 4 - k;          // 4, 3, 2: ratios 4, 1.5, 0.67
     times.filter_ms = 10 * k;       // 0, 10, 20
-    times.simulate_ms = 7 - 2 * k;  // makes (7 + 5 + 3) + (1 + 2 + 3) + 6 + 30 + 9 = 66 ms in all
+    times.simulate_ms = 7 - 2 * k;  // total (7 + 5 + 3) + (1 + 2 + 3) + 6 + 30 + 9 = 66 ms
     times.truth_ms = 3;
     frame.record().times = times;
   }));

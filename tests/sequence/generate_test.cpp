@@ -1,4 +1,4 @@
-// `lcs generate` from its command line to its files, read back by OpenCV and by hand.
+// `lcs generate` from its command line to its files, read by OpenCV and by code of the test.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -40,7 +40,7 @@ using bench::run_lcs;
 
 const std::string kCrossing = LCS_SCENARIOS_DIR "/crossing.yaml";
 constexpr int kFrames = 4;
-// Long enough before for both movers to be in view from the first frame on.
+// A start far enough back that both movers are in view from the first frame on.
 const std::vector<std::string> kSets{"ego.start=[-3 m, 0 m]"};
 
 std::vector<std::vector<std::string>> rows_of(const fs::path& csv) {
@@ -70,7 +70,7 @@ std::vector<std::string> arguments(std::vector<std::string> more) {
   return all;
 }
 
-/// One sequence for all tests, and the simulation that it must tell of.
+/// One sequence for all tests, and the simulation that it must match.
 class Generated : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -324,7 +324,7 @@ TEST_F(Generated, MasksOfCocoAndDavisAreTheObjectsPixelByPixel) {
       EXPECT_EQ(a["bbox"], (std::vector{truth.left, truth.top, truth.right - truth.left,
                                         truth.bottom - truth.top}));
       EXPECT_EQ(a["area"], truth.visible_px);
-      // Runs down the columns, of what is not the object and what is.
+      // Runs down the columns, alternating between background and object.
       int place = 0, wrong = 0;
       bool is_object = false;
       for (const int length : a["segmentation"]["counts"].get<std::vector<int>>()) {
@@ -336,7 +336,7 @@ TEST_F(Generated, MasksOfCocoAndDavisAreTheObjectsPixelByPixel) {
       }
       EXPECT_EQ(place, static_cast<int>(object.total()));
       EXPECT_EQ(wrong, 0);
-      // One colour an object in DAVIS's palette: the same everywhere on it.
+      // Each object has one colour of DAVIS's palette, constant over its area.
       cv::Mat1b is_truth;
       cv::compare(object, truth.object, is_truth, cv::CMP_EQ);
       cv::Scalar mean, deviation;
@@ -364,7 +364,7 @@ TEST_F(Generated, TheSameAgainIsCheckedAndLeftAlone) {
   EXPECT_EQ(bytes_in(folder()), before);
 }
 
-// ---- What is refused
+// ---- Refused commands
 
 class Generate : public testing::Test {
  protected:
@@ -445,9 +445,9 @@ TEST_F(Generate, DamageToAFinishedSequenceIsFound) {
   EXPECT_NE(result.err.find("000001.png has other bytes"), std::string::npos) << result.err;
 }
 
-// ---- Stopping, going on, parts
+// ---- Stopping, resuming, parts
 
-/// The same sequence, made in one go.
+/// The same sequence, generated in one run.
 class GenerateInParts : public Generate {
  protected:
   std::map<std::string, std::string> in_one_go() {
@@ -472,7 +472,7 @@ TEST_F(GenerateInParts, AKilledRunGoesOnToTheSameBytes) {
       EXPECT_EQ(stopped.exit_code, 130);
       EXPECT_NE(stopped.err.find("goes on from there"), std::string::npos) << stopped.err;
     }
-    // What a stroke of bad luck may leave: a file that is not finished, and one that is too short.
+    // Remains of an interruption: a partial file, and a truncated one.
     bench::write(folder() / ".generate/4711.partial", "half");
     bench::write(folder() / "my.partial", "precious");
     fs::resize_file(folder() / "depth/000000.png", 100);

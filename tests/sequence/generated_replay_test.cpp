@@ -1,4 +1,4 @@
-// A sequence that was generated, replayed, gives what a run of its scenario gives.
+// Replaying a generated sequence gives the results of a run of its scenario.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -77,7 +77,7 @@ TEST_P(GeneratedReplayOf, HasEveryBitOfTheRun) {
       << "motion, corners, signatures, verdicts and layers, as text";
 }
 
-/// Figures but for times and for what the world tells.
+/// Figures except times and those that the world determines.
 std::map<std::string, std::optional<double>> figures_of(const fs::path& run) {
   std::map<std::string, std::optional<double>> figures;
   for (const auto& [name, figure] : bench::read_metrics(run / "metrics.json")) {
@@ -103,7 +103,7 @@ TEST_F(GeneratedReplay, OfAComparatorHasTheVerdictsAndTheFiguresOfItsRun) {
   EXPECT_TRUE(figures.at("ego.rotation_error_mrad_median"));
   EXPECT_EQ(figures_of(home_.path() / "replay"), figures);
 
-  // Corners that nobody has the truth of count for nothing, and are told.
+  // Corners without truth are not counted, and are reported.
   const CommandResult fainter = replay({"--fast-threshold", "15"});
   ASSERT_EQ(fainter.exit_code, 0) << fainter.err;
   EXPECT_NE(fainter.err.find(" corners are none of those whose truth truth.jsonl has, and count"),
@@ -111,7 +111,7 @@ TEST_F(GeneratedReplay, OfAComparatorHasTheVerdictsAndTheFiguresOfItsRun) {
       << fainter.err;
   EXPECT_NEAR(figures_of(home_.path() / "replay").at("truth.fixed_corners").value_or(0),
               figures.at("truth.fixed_corners").value(), 0.1 * *figures.at("truth.fixed_corners"));
-  // Of every other picture motions are others.
+  // With every other picture the motions differ, so the truth does not apply.
   ASSERT_EQ(replay({"--every", "2"}).exit_code, 0);
   EXPECT_FALSE(figures_of(home_.path() / "replay").at("truth.rebel_corners"));
   std::ofstream(home_.path() / "sequence" / kTruthFile) << "{\"objects\":3}\n";
@@ -140,7 +140,7 @@ TEST_F(GeneratedReplay, OfFilesThatContradictEachOtherIsRefusedAtTheLine) {
     SCOPED_TRACE(std::string(edit.sensor) + " " + edit.key);
     const fs::path file = mav / edit.sensor / "sensor.yaml";
     const std::string before = read_file(file);
-    // A pose is moved by a metre.
+    // Moves a pose by a metre.
     const std::size_t start = before.find(edit.line ? edit.key : "data: ");
     ASSERT_NE(start, std::string::npos);
     std::string text = before;
@@ -179,9 +179,9 @@ TEST_F(GeneratedReplay, ByEurocsOwnFilesAloneIsTheSameToTheNoise) {
     for (std::size_t k = 1; k < run.frames.size(); ++k) {
       const EgoMotion& a = run.frames[k].true_motion;
       const EgoMotion& b = replayed.frames[k].motion;
-      // The truth's own file knows the biases at the start, so that noise is left: of 1.7e-4
-      // rad/s/sqrt(Hz) on three axes in 0.1 s 1.3e-4 in the norm of the matrix, in its standard
-      // deviation. An axis or frame mistaken for another shows as 0.04 or more, at 0.3 rad/s.
+      // The truth's file contains the initial biases, so only noise remains: 1.7e-4 rad/s/sqrt(Hz)
+      // on three axes gives a standard deviation of 1.3e-4 in the norm of the matrix over 0.1 s. A
+      // swapped axis or frame gives 0.04 or more, at 0.3 rad/s.
       EXPECT_LT((a.R_cur_prev - b.R_cur_prev).norm(), 6e-4) << source;
       EXPECT_LT((a.v_C_mps - b.v_C_mps).norm(), 0.01) << source;
       EXPECT_EQ(a.dt_s, b.dt_s);

@@ -1,4 +1,4 @@
-// What was written, read back by OpenCV, which reads by libpng.
+// Written files, read back by OpenCV with libpng.
 #include "tools/sequence/png.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ cv::Mat decode(const std::string& bytes, int flags) {
 }
 
 cv::Mat noise(int type, double most) {
-  cv::Mat image(37, 53, type);  // a size that nothing divides
+  cv::Mat image(37, 53, type);  // a prime size
   cv::RNG random(7);
   random.fill(image, cv::RNG::UNIFORM, 0, most);
   return image;

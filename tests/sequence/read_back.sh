@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Usage: read_back.sh LCS SCENARIOS WORK
 #
-# Generates a sequence, installs evo, pycocotools and TrackEval in a folder of their own, and reads the
-# sequence with them. Then makes a small data set by GNU parallel, as the documentation has it. Exits
-# with 77, skipped, when the tools cannot be downloaded here.
+# Generates a sequence, installs evo, pycocotools and TrackEval in a separate folder, and reads the
+# sequence with them. Then makes a small data set with GNU parallel, as in the documentation. Exits
+# with 77, skipped, if the tools cannot be downloaded.
 set -euo pipefail
 lcs=$1 scenarios=$2 work=$3
 here=$(dirname "${BASH_SOURCE[0]}")
@@ -18,7 +18,7 @@ fail() {
   exit 1
 }
 
-# Releases of TrackEval before 1.3 use names that NumPy 1.24 took away.
+# Releases of TrackEval before 1.3 use names that NumPy 1.24 removed.
 install_tools() {
   python3 -m venv "$work/venv" 2>/dev/null ||
     skip "the tools need a virtual environment (Debian: python3-venv, which tools/test --all installs)"

@@ -1,5 +1,5 @@
-// The truth of real frames agrees with itself; each of the faults that users of generators complain
-// of is found.
+// The truth of real frames is consistent; each typical fault of generators is
+// detected.
 #include "tools/sequence/self_check.h"
 
 #include <gtest/gtest.h>
@@ -155,7 +155,7 @@ TEST_F(SelfCheck, TimesOutOfStepAreFound) {
   now_.t_ns += 1;
   EXPECT_THROW(check_times(scenario_, now_), TruthError);
   now_ = right;
-  now_.imu_truth.back().t_ns += 5'000'000;  // a reading from after the frame
+  now_.imu_truth.back().t_ns += 5'000'000;  // a reading after the frame
   EXPECT_THROW(check_times(scenario_, now_), TruthError);
   now_ = right;
   now_.imu_truth[3].t_ns += 1;  // off the grid

@@ -1,9 +1,9 @@
-// How fast sequences are generated, beside a bare loop of rendering and reading back on the same
-// scene, in one run:
+// Speed of generating sequences, compared with a bare loop of rendering and reading back on the
+// same scene, in one run:
 //
-//     ninja -C build generate_throughput && build/tests/sequence/generate_throughput [FRAMES]
+// ninja -C build generate_throughput && build/tests/sequence/generate_throughput [FRAMES]
 //
-// Time is that of the processor, so that others on the machine do not count: what a core can do.
+// Measured in processor time per core, so that other load on the machine does not count.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -52,7 +52,7 @@ double generate_s(const scenario::Scenario& scenario, std::vector<std::string> f
   const sequence::GenerateOptions options{std::move(formats), {}, "throughput"};
   const std::string plan = sequence::plan_of(scenario, options);
   sequence::Journal journal(folder.path() / "sequence", plan);
-  // From the first frame that is whole to the last; it starts no renderer in between.
+  // From the first complete frame to the last; no renderer starts in between.
   double first = 0;
   sequence::generate_frames(scenario, options, journal, {0, scenario.frames}, [&](int whole) {
     if (whole == 1) first = processor_s();

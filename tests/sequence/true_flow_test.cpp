@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// A camera that looks at a wall, before which stands a panel.
+/// A camera that looks at a wall with a panel before it.
 struct PanelBeforeWall {
   static constexpr float kWall_m = 4, kPanel_m = 2;
   static constexpr int kLeft = 40, kRight = 60;
@@ -24,7 +24,7 @@ struct PanelBeforeWall {
   cv::Mat1f next_depth;
   cv::Mat1i next_object;
 
-  /// \param ego_m,panel_m by which each moves to the right until the next frame.
+  /// \param ego_m,panel_m displacement of each to the right until the next frame, m.
   PanelBeforeWall(double ego_m, double panel_m) {
     truth.now.T_WO.resize(2);
     truth.next.T_WO.resize(2);
@@ -49,7 +49,7 @@ struct PanelBeforeWall {
 TEST(TrueFlow, OfAPanelBeforeAWallIsWhatThePinholeSays) {
   const PanelBeforeWall scene(0.1, 0.3);
   const TrueFlow field = scene.field();
-  // f t / z, by hand: the panel moves with 0.3 - 0.1 m at 2 m, the rest with -0.1 m.
+  // f t / z: the panel moves by 0.3 - 0.1 m at 2 m, the rest by -0.1 m.
   EXPECT_NEAR(field.full_px(40, 50)[0], 100 * 0.2 / 2, 1e-5);
   EXPECT_NEAR(field.ego_px(40, 50)[0], -100 * 0.1 / 2, 1e-5);
   EXPECT_NEAR(field.full_px(40, 20)[0], -100 * 0.1 / 4, 1e-5);
@@ -58,7 +58,7 @@ TEST(TrueFlow, OfAPanelBeforeAWallIsWhatThePinholeSays) {
 }
 
 TEST(TrueFlow, MarksWhatIsHiddenInTheNextFrameAndWhatLeavesThePicture) {
-  const PanelBeforeWall scene(0, 0.2);  // the panel moves by 10 px, the wall not at all
+  const PanelBeforeWall scene(0, 0.2);  // the panel moves by 10 px, the wall stays
   const TrueFlow field = scene.field();
   EXPECT_EQ(field.seen(40, 50), 1) << "the panel itself";
   EXPECT_EQ(field.seen(40, 20), 1) << "wall far from it";
@@ -81,7 +81,7 @@ TEST(TrueFlow, OfTheSkyIsTheRotationAloneAndOfTheRoverThereIsNone) {
   }
   for (cv::Mat1i* object : {&scene.truth.object, &scene.next_object}) {
     object->rowRange(0, 10) = -1;
-    object->rowRange(70, 80) = -1;  // the rover, at a depth of its own
+    object->rowRange(70, 80) = -1;  // the rover, at its own depth
   }
   const TrueFlow field = scene.field();
   const double angle = std::atan2(50 - 49.5, 100);
@@ -102,7 +102,7 @@ TEST(TrueFlow, OfPointsBehindTheNextCameraIsUndefined) {
 }
 
 TEST(TrueFlow, OfRenderedFramesIsTheTruthOfCornersThere) {
-  // The truth of corners is other code, over other algebra, with a test against exact rays.
+  // The truth of corners uses other code and algebra, and is tested against exact rays.
   const scenario::Scenario scenario = scenario::load(LCS_SCENARIOS_DIR "/crossing.yaml");
   sim::Simulation simulation(scenario);
   for (int k = 0; k < 20; ++k) simulation.skip();  // until both movers are in view
@@ -112,7 +112,7 @@ TEST(TrueFlow, OfRenderedFramesIsTheTruthOfCornersThere) {
   std::vector<Eigen::Vector2f> places;
   for (int y = 1; y < camera.height_px - 1; y += 3) {
     for (int x = 1; x < camera.width_px - 1; x += 3) {
-      // Corners take the nearest of 3x3 pixels: only where that is the pixel itself.
+      // Corners take the nearest of 3x3 pixels: use only places where that is the pixel itself.
       double nearest = 0;
       cv::minMaxLoc(now->truth.depth_m(cv::Rect(x - 1, y - 1, 3, 3)), &nearest);
       if (nearest == now->truth.depth_m(y, x)) places.emplace_back(x, y);
@@ -123,7 +123,7 @@ TEST(TrueFlow, OfRenderedFramesIsTheTruthOfCornersThere) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (truth[i].label == sim::Label::none) continue;
     const cv::Point at(static_cast<int>(places[i].x()), static_cast<int>(places[i].y()));
-    // A float of some hundred pixels has 1e-5 px.
+    // A float of some hundred pixels has a resolution of 1e-5 px.
     EXPECT_NEAR(field.full_px(at)[0], truth[i].motion_px.x(), 1e-4);
     EXPECT_NEAR(field.full_px(at)[1], truth[i].motion_px.y(), 1e-4);
     EXPECT_NEAR(field.ego_px(at)[0], truth[i].static_motion_px.x(), 1e-4);

@@ -96,7 +96,7 @@ TEST(Trajectory, CircleKeepsItsRadiusAndHeadsAlongTheTangent) {
       const PlanarPose p = pose_on(circle, kHome, t);
       EXPECT_NEAR((p.position_m - circle.centre_m).norm(), 2, kExact);
       const Vector2d v = (pose_on(circle, kHome, t + kStep).position_m - p.position_m) / kStep;
-      // the difference quotient is off by half the centripetal acceleration times the step
+      // the difference quotient errs by half the centripetal acceleration times the step
       EXPECT_NEAR((v - 0.8 * Vector2d(std::cos(p.heading_rad), std::sin(p.heading_rad))).norm(), 0,
                   1e-6);
     }

@@ -1,5 +1,5 @@
-// Corners as the detector finds them in the project's scenes: how many, whether they are found
-// again, and whether the truth of their motion is what an independent detector sees.
+// Corners of the detector in the project's scenes: their number, their repeatability, and whether
+// the true motion agrees with an independent detector.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ using test::scenario_in;
 
 constexpr double kMinDepth = 0.5;
 
-/// The paper's run through the lab: 3 cm/s and 0.05 cm/s^2, a frame a second.
+/// The paper's run through the lab: 3 cm/s and 0.05 cm/s^2, one frame per second.
 scenario::Scenario slow_lab() {
   auto s = scenario_in("lab", 0.03, 37);
   s.ego.phases[0].acceleration_mps2 = 0.0005;
@@ -100,10 +100,10 @@ struct Share {
 
 struct Repeatability {
   Share off_edges, at_edges, movers;
-  std::vector<double> error_px;  ///< of fixed corners that are found again
+  std::vector<double> error_px;  ///< of fixed corners that are detected again
 };
 
-/// Corners of each frame, moved by their true motion, against those of the next: found again
+/// Moves the corners of each frame by their true motion and matches them to the next frame's
 /// within 1.5 px.
 Repeatability repeatability(const scenario::Scenario& s) {
   constexpr double kReach = 1.5;
@@ -145,8 +145,8 @@ Repeatability repeatability(const scenario::Scenario& s) {
   return r;
 }
 
-// Textures probed one by one repeat by 0.87 (few rectangles) to 0.78 (bricks) off depth edges at 1
-// cm a frame; drawers, boards and labels come near the first, windows (0.81) to the second.
+// Repeatability of single textures off depth edges, at 1 cm per frame: 0.87 (few rectangles) to
+// 0.78 (bricks); drawers, boards and labels are near the first, windows (0.81) near the second.
 TEST(Corners, OfTheLabAreFoundAgain) {
   const Repeatability slow = repeatability(slow_lab());
   EXPECT_GE(slow.off_edges.value(), 0.84);
@@ -163,7 +163,7 @@ TEST(Corners, OfTheStreetAreFoundAgain) {
 TEST(Corners, OfMoversAreFoundAgain) {
   const Repeatability r = repeatability(fast_lab());
   EXPECT_GE(r.off_edges.value(), 0.79);
-  // limbs against changing ground: half a mover's corners lie at depth edges
+  // limbs before changing ground: half of a mover's corners lie at depth edges
   EXPECT_GE(r.movers.value(), 0.64);
 }
 
@@ -171,8 +171,8 @@ struct Tracked {
   std::vector<double> fixed_px, rebel_px;  ///< |detector - truth|
 };
 
-/// Truth against pyramidal Lucas-Kanade, off depth edges, where a window shows one motion. Tracks
-/// that do not lead back to where they began are the detector's own mistakes.
+/// Truth against pyramidal Lucas-Kanade, off depth edges, where a window contains one motion.
+/// Tracks that do not lead back to their start are the detector's errors.
 Tracked against_tracker(const scenario::Scenario& s) {
   Simulation simulation(s);
   Tracked result;
@@ -213,8 +213,8 @@ Tracked against_tracker(const scenario::Scenario& s) {
   return result;
 }
 
-// The project promises 0.5 px at the median; a detector on clean images is good to some hundredths,
-// so that a truth half a pixel off, or a frame late, would show at 0.15.
+// The project promises a median of 0.5 px. A detector on clean images errs by some hundredths, so
+// a truth that is half a pixel off, or a frame late, exceeds 0.15.
 TEST(TrueMotion, OfFixedCornersInTheLabIsWhatADetectorSees) {
   const Tracked t = against_tracker(slow_lab());
   ASSERT_GT(t.fixed_px.size(), 1000u);

@@ -1,4 +1,4 @@
-// What happens where GL fails: OSMesa itself, but for the calls that are told to fail.
+// Behaviour when GL fails: uses OSMesa itself, except for the calls that a test makes fail.
 #include <GL/osmesa.h>
 #include <dlfcn.h>
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Function* next(const char* name) {
 
 }  // namespace
 
-// The program's own come before the library's.
+// The linker takes the program's symbols before the library's.
 extern "C" OSMesaContext OSMesaCreateContextExt(GLenum format, GLint depth_bits, GLint stencil_bits,
                                                 GLint accumulator_bits, OSMesaContext shared) {
   if (fails_to_create) return nullptr;
@@ -45,7 +45,7 @@ namespace {
 class GlFailure : public testing::Test {
  protected:
   ~GlFailure() override { fails_to_create = fails_to_make_current = false; }
-  /// What starting GL says.
+  /// The error message of starting GL.
   static std::string refusal() {
     return bench::refusal_of<std::runtime_error>([] { GlContext(); });
   }
@@ -67,7 +67,7 @@ TEST_F(GlFailure, AtTheStartOfASimulationIsAnErrorOfTheMachine) {
 }
 
 TEST_F(GlFailure, ADriverThatMesaLacksIsNamedInsteadOfACrash) {
-  // in a process of its own, as Mesa looks for its driver once
+  // in a separate process, because Mesa chooses its driver only once
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto with_driver = [](const char* driver) {
     ::setenv("GALLIUM_DRIVER", driver, 1);
@@ -79,7 +79,7 @@ TEST_F(GlFailure, ADriverThatMesaLacksIsNamedInsteadOfACrash) {
   EXPECT_EXIT(with_driver("softpipe"), testing::ExitedWithCode(0), "^nothing was refused$");
 }
 
-// Of two renderers the one that is not current has to become so, to draw and to let go.
+// A renderer that is not current must become current to draw and to release its context.
 TEST_F(GlFailure, BetweenFramesIsAnErrorAndTheRendererStillLetsGo) {
   World world(test::scenario_in("lab", 0, 1)), other_world(test::scenario_in("lab", 0, 1));
   std::optional<CameraRenderer> renderer(std::in_place, world.model(), world.camera_id(), 64, 48);

@@ -1,4 +1,4 @@
-// Bumps on the floor: what they are like, and what wheels and camera make of them.
+// Bumps on the floor: their statistics, and their effect on wheels and camera.
 
 #include "sim/ground.h"
 
@@ -39,7 +39,7 @@ std::vector<double> heights(World& world) {
   return h;
 }
 
-/// Greatest angle of the camera's up against the world's, over a run.
+/// Largest angle between the camera's up and the world's over a run, rad.
 double greatest_tilt_rad(const scenario::Scenario& s) {
   Simulation simulation(s);
   double greatest = 0;
@@ -66,14 +66,14 @@ TEST(Ground, HasTheRoughnessAskedForAndIsLevelAtItsEdges) {
       }
       EXPECT_GE(z, 0);
       EXPECT_LE(z, 0.04);
-      // beyond the rise of one wavelength, 8 points
+      // skips the margin of one wavelength, 8 points
       if (row < 8 || column < 8 || row >= rows - 8 || column >= columns - 8) continue;
       ++inner;
       sum += z;
       squares += z * z;
     }
   }
-  // some 50 independent bumps: the deviation is known to a tenth, and clipping takes 4 % off it
+  // about 50 independent bumps: the deviation is known to 10 %, and clipping reduces it by 4 %
   const double mean = sum / inner;
   EXPECT_NEAR(mean, 0.02, 0.004);
   EXPECT_NEAR(std::sqrt(squares / inner - mean * mean), 0.01, 0.002);
@@ -106,7 +106,7 @@ TEST(Ground, DoesNotStopTheRover) {
   EXPECT_NEAR((last - first).x(), 0.4 * 1.1, 0.08);
 }
 
-/// What driving on such bumps says.
+/// The error message of driving on such bumps.
 std::string refusal_of(double roughness_m, double wavelength_m) {
   auto s = rough(roughness_m);
   s.ground->wavelength_m = wavelength_m;

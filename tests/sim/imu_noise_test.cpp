@@ -18,7 +18,7 @@ namespace {
 
 using scenario::ImuNoise;
 
-/// Plain numbers, axis by axis: in a build with sanitizers Eigen's vectors would take minutes.
+/// Plain numbers per axis: Eigen's vectors would take minutes in a build with sanitizers.
 using Series = std::array<std::vector<double>, 3>;
 
 struct Recording {
@@ -26,7 +26,7 @@ struct Recording {
   Series accel;
 };
 
-/// What the model makes of an IMU at rest that says nothing.
+/// Readings of the model for an IMU at rest with zero input.
 Recording record(const ImuNoise& noise, double rate_hz, int samples, std::uint64_t seed = 1) {
   ImuNoiseModel model(noise, rate_hz, seed);
   Recording recording;
@@ -68,12 +68,12 @@ struct Densities {
 };
 
 // The Allan deviation over M = T / tau independent clusters has a relative standard deviation of
-// about 1 / sqrt(2 M), and with three axes M is three times that. The lengths below keep it at 3 %
-// or less where a figure is read off, so that the 10 % asked for are more than three of them.
+// about 1 / sqrt(2 M); three axes triple M. The lengths below keep it at 3 % or less at each
+// figure, so that the tolerance of 10 % is more than three standard deviations.
 
-/// Recovers both figures of one sensor from variance(tau) = white^2 / tau + walk^2 tau / 3, read at
-/// two taus a decade below and above where both terms are equal, so that each is ruled by one of
-/// them, 100 to 1. The longest tau, 1,000 samples, fits into the recording 260 times.
+/// Estimates both figures of one sensor from variance(tau) = white^2 / tau + walk^2 tau / 3 at two
+/// taus, a decade below and above the tau of equal terms, so that one term dominates each by
+/// 100 to 1. The longest tau, 1,000 samples, fits into the recording 260 times.
 Densities measure(const ImuNoise& noise, double white, double walk, Series Recording::*sensor,
                   std::uint64_t seed) {
   const double equal_s = std::sqrt(3.0) * white / walk;
@@ -88,7 +88,7 @@ Densities measure(const ImuNoise& noise, double white, double walk, Series Recor
   return {std::sqrt(squares[0]), std::sqrt(squares[1])};
 }
 
-/// Slope of the Allan deviation between 0.3 s and 10 s at 200 Hz, in decades a decade.
+/// Slope of the Allan deviation between 0.3 s and 10 s at 200 Hz, in decades per decade.
 double slope(const Series& series) {
   const double decades = std::log10(2000.0 / 60.0);
   return std::log10(allan_variance(series, 2000) / allan_variance(series, 60)) / 2 / decades;
@@ -123,8 +123,8 @@ TEST(ImuNoise, RandomWalkAloneHasItsFigureAtThreeSecondsAndSlopePlusHalf) {
   check(recording.accel, noise.accelerometer_random_walk);
 }
 
-/// In units of their own figures all IMUs draw the same numbers from one seed: each has its own
-/// here.
+/// In units of their own figures all IMUs draw the same numbers from one seed, so each has its own
+/// seed here.
 using NameAndSeed = std::pair<std::string, std::uint64_t>;
 class ImuNoisePreset : public testing::TestWithParam<NameAndSeed> {};
 
@@ -163,7 +163,7 @@ TEST(ImuNoise, IdealChangesNothing) {
 }
 
 TEST(ImuNoise, TheBiasItTellsIsTheOneInTheSample) {
-  ImuNoise noise;  // no white noise: what is added is the bias
+  ImuNoise noise;  // no white noise: only the bias is added
   noise.gyroscope_random_walk = 1e-3;
   noise.accelerometer_random_walk = 1e-2;
   ImuNoiseModel model(noise, 100, 3);

@@ -1,4 +1,4 @@
-// The IMU against figures from physics. All with ideal sensors: their noise has a test of its own.
+// The IMU against figures from physics, with ideal sensors: their noise has its own test.
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ TEST(Imu, FeelsTheGravityOfTheScene) {
   EXPECT_NEAR(read(world, 0).at(0).accel_mps2.z(), 1.62, 1e-9);
 }
 
-// A point at r from the axis of a turn at w is accelerated by w^2 r towards it.
+// A point at distance r from the axis of a turn at w is accelerated by w^2 r towards the axis.
 TEST(Imu, OnALeverArmUnderConstantRotationReadsTheCentripetalAcceleration) {
   auto s = scenario_in_mjcf(floor_with(""), 0, 1);
   constexpr double kRate = 1.5;
@@ -78,18 +78,18 @@ TEST(Imu, OnACircleReadsSpeedTimesTurnRateToTheLeft) {
   s.ego.phases[0].yaw_rate_radps = 0.4;
   World world(s);
   for (const ImuSample& sample : read(world, 2 * kSecond)) {
-    if (sample.t_ns < kSecond / 10) continue;  // the base takes up its lag of 4 ms
-    // the lag turns the force by w tau = 1.6 mrad, and shows the gyro's in full
+    if (sample.t_ns < kSecond / 10) continue;  // the base settles its lag of 4 ms
+    // the lag turns the force by w tau = 1.6 mrad, and affects the gyro in full
     EXPECT_NEAR((sample.accel_mps2 - Vector3d(0, 0.2, kGravity)).norm(), 0, 2e-3);
   }
 }
 
 struct Integrated {
-  Vector3d velocity_mps;  ///< from the readings, gravity taken off
+  Vector3d velocity_mps;  ///< from the readings, without gravity
   Vector3d truth_mps;
 };
 
-/// Sums R a dt over the steps of a reading each, with the attitude of the truth at each reading.
+/// Sums R a dt with one step per reading, using the true attitude at each reading.
 Integrated integrate(World& world, double rate_hz, double seconds) {
   const double dt = 1 / rate_hz;
   const Vector3d before = world.v_WB_mps();
@@ -103,8 +103,8 @@ Integrated integrate(World& world, double rate_hz, double seconds) {
   return {before + sum, world.v_WB_mps()};
 }
 
-// At 500 Hz each reading stands for one step, and Euler's integrator makes it the difference of the
-// velocities but for roundings.
+// At 500 Hz each reading covers one step, and with Euler's integrator it equals the difference of
+// the velocities up to rounding.
 TEST(Imu, IntegratesToTheVelocityExactlyWhereEachReadingIsAStep) {
   auto s = scenario_in_mjcf(floor_with(""), 0.2, 1);
   s.ego.phases = {{.speed_mps = 0.2, .acceleration_mps2 = 0.4, .yaw_rate_radps = 0.5},
@@ -115,8 +115,8 @@ TEST(Imu, IntegratesToTheVelocityExactlyWhereEachReadingIsAStep) {
   EXPECT_NEAR((v.velocity_mps - v.truth_mps).norm(), 0, 1e-9);
 }
 
-// At 200 Hz it samples: a jump from 1 m/s to 0 comes out right to 2 %, half a reading at 5 m/s^2
-// and more at both ends of it.
+// At 200 Hz it samples: a jump from 1 m/s to 0 is correct to 2 %, half a reading at 5 m/s^2 and
+// more at both ends.
 TEST(Imu, IntegratesToTheVelocityAcrossAJumpOfTheCommand) {
   auto s = scenario_in_mjcf(floor_with(""), 1, 1);
   s.ego.phases = {{.speed_mps = 1}, {.at_s = 0.5, .speed_mps = 0}};
@@ -134,13 +134,13 @@ TEST(Imu, OnWheelsIntegratesToTheVelocity) {
   World world(s);
   const Integrated v = integrate(world, 500, 2);
   const Vector3d lever = world.T_WS().p - world.T_WB().p;
-  // B and S differ by the lever arm: 0.2 m above each other, on a rover that pitches by little
+  // B and S differ by the lever arm: 0.2 m vertically, on a rover that pitches little
   EXPECT_NEAR((v.velocity_mps - v.truth_mps).norm(), 0, 0.01) << lever.transpose();
 }
 
 TEST(Imu, ReadingsFallOnWholeMultiplesOfThePeriod) {
   auto s = scenario_in_mjcf(floor_with(""), 0.5, 1);
-  s.imu.rate_hz = 300;  // a period that no decimal fraction of a second is
+  s.imu.rate_hz = 300;  // a period that is no decimal fraction of a second
   World world(s);
   const std::vector<ImuSample> imu = read(world, 10 * kSecond);
   ASSERT_EQ(imu.size(), 3001u);

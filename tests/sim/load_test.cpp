@@ -1,5 +1,5 @@
-// Errors of a scene are told in one line that names the user's own file and line. MuJoCo's crashes,
-// and memory or time without end, are errors like any other.
+// Each error of a scene is one line with the user's own file and line. MuJoCo's crashes, and
+// excessive memory or time, are errors like any other.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::scenario_error;
 
-/// A scene whose parts have lines of their own, in a folder for the files that it names.
+/// A scene whose parts have separate lines, in a folder with the files that it names.
 class SceneFile : public testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder_); }
@@ -47,7 +47,7 @@ class SceneFile : public testing::Test {
   void write(const std::string& name, const std::string& content) const {
     std::ofstream(folder_ / name, std::ios::binary) << content;
   }
-  /// What loading says, without a word of a library on stderr.
+  /// The error message of loading; the libraries must write nothing to stderr.
   static std::string refusal(const scenario::Scenario& s) {
     testing::internal::CaptureStderr();
     const std::string message = scenario_error([&] { World world(s); });
@@ -73,7 +73,7 @@ class SceneFile : public testing::Test {
 
 constexpr const char* kCorners = "vertex='0 0 0 1 0 0 0 1 0 0 0 1'";
 
-/// A file of MuJoCo's binary formats.
+/// Content of a file in one of MuJoCo's binary formats.
 std::string bytes(const std::vector<std::int32_t>& integers, const std::vector<float>& numbers,
                   const std::vector<std::int32_t>& more) {
   std::string content(4 * (integers.size() + numbers.size() + more.size()), '\0');
@@ -108,7 +108,7 @@ TEST_F(SceneRefused, InAnIncludedFileNamesThatFile) {
   write("part.xml", "<mujoco>\n\n<geom type='box'/></mujoco>");
   expect_at((folder_ / "part.xml").string() + ":3: ",
             refusal(scenario({.world = "<include file='part.xml'/>"})), {"<geom>", "sizes"});
-  // MuJoCo would find the file by itself, and none of what is in it would have been looked at
+  // MuJoCo would find the file by itself, and its content would be unchecked
   expect_at((folder_ / "part.xml").string() + ":3: ",
             refusal(scenario({.world = "<Include file='part.xml'/>"})), {"<geom>", "sizes"});
   write("picture.xml", "<mujoco>\n<asset>\n<texture name='t' file='no.png'/></asset></mujoco>");
@@ -189,7 +189,7 @@ TEST_F(SceneRefused, ForIndicesBeyondTheVertices) {
   const auto expect_refused = [&](const std::string& asset) {
     const std::string message = refusal(scenario({.asset = asset}));
     expect_at(scene_.string() + ":", message, {});
-    // before MuJoCo sees that the index is wrong, it may have written to its place
+    // MuJoCo may write to a wrong index before it detects the index
     const bool is_told = message.find("vertex index out of range") != std::string::npos;
     EXPECT_TRUE(is_told || message.find("MuJoCo crashes") != std::string::npos) << message;
   };
@@ -254,11 +254,11 @@ TEST_F(SceneRefused, ForTexturesThatAreTooLargeNamingThemAndNotTheCamera) {
          {"<texture name=\"t\">", "width is 20000", "8192"});
   expect({.asset = builtin("type='2d' width='65536' height='65536'")}, 4, {"65536"});
   expect({.asset = builtin("type='cube' width='2147483647'")}, 4, {"2147483647"});
-  // a header is enough to know
+  // the header suffices for the check
   write("a.png",
         std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\xea\x60\0\0\xea\x60\x08\x02\0\0\0", 29));
   expect({.asset = "<texture name='t' type='2d' file='a.png'/>"}, 4, {"60000 x 60000"});
-  // of MuJoCo's own format, whose sizes it multiplies in an int: this makes 0 bytes
+  // MuJoCo's own format, whose sizes it multiplies in an int: this makes 0 bytes
   write("a.bin", bytes({65536, 65536}, {}, {}));
   expect({.asset = "<texture name='t' type='2d' file='a.bin'/>"}, 4,
          {"<texture name=\"t\">", "65536 x 65536", "8192 x 8192"});
@@ -275,7 +275,7 @@ TEST_F(SceneRefused, ForASizeThatNoCameraSees) {
   for (const char* extent : {"0", "1e-30", "-3", "1e30"}) {
     expect({.top = std::string("<statistic extent='") + extent + "'/>"}, 2, {"extent", extent});
   }
-  // MuJoCo works it out where the scene does not say it
+  // MuJoCo computes it if the scene does not give it
   expect({.world = "<body name='far' pos='900000 900000 900000'><geom size='900000'/></body>"}, 7,
          {"'far'", "1e+06 m"});
 }
@@ -283,7 +283,7 @@ TEST_F(SceneRefused, ForASizeThatNoCameraSees) {
 const pid_t kThisProcess = ::getpid();
 
 TEST_F(SceneRefused, WhereMujocoCrashesAndTheProgramLivesOn) {
-  // as it would by something that no check knows of
+  // simulates a crash that no check prevents
   mju_user_malloc = [](std::size_t size) {
     if (::getpid() != kThisProcess) ::raise(SIGSEGV);
     return std::malloc(size);
@@ -305,7 +305,7 @@ TEST_F(SceneRefused, WhereMemoryEnds) {
 }
 
 TEST_F(SceneRefused, NotForAKeyframeOfItsOwn) {
-  // it knows nothing of the rover's joints
+  // a keyframe of the scene does not cover the rover's joints
   EXPECT_NO_THROW(World(scenario({.end = "<keyframe><key qpos='1 2 3'/></keyframe>"})));
 }
 

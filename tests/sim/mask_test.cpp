@@ -11,7 +11,7 @@
 namespace lcs::sim {
 namespace {
 
-/// Blots, thin lines and single pixels, touching the rim at times.
+/// Blots, thin lines and single pixels, sometimes at the rim.
 cv::Mat1b any_picture(std::mt19937& random, const cv::Size& size) {
   cv::Mat1b picture(size, 0);
   const auto at = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };

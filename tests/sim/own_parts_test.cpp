@@ -1,5 +1,5 @@
-// Rovers and actors of one's own files: what works, and what each breach of the contract is told
-// as.
+// Rovers and actors from the user's files: valid ones, and the message for each breach of the
+// contract.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ using test::scenario_in_mjcf;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
-/// A folder for files, each part of which has a line of its own.
+/// A folder for files whose parts have separate lines.
 class OwnPart : public testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder_); }
@@ -49,7 +49,7 @@ class OwnPart : public testing::Test {
 
   static scenario::Scenario on_floor() { return scenario_in_mjcf(floor_with(""), 0.5, 1); }
 
-  /// What loading says of the file: it must begin with it and the line.
+  /// The error message of loading must begin with the file and the line.
   static void expect_refused(const scenario::Scenario& s, const fs::path& file, int line,
                              const std::vector<std::string>& words) {
     testing::internal::CaptureStderr();
@@ -174,7 +174,7 @@ TEST_F(OwnActor, OfSeveralPartsAMeshAndATextureBesideItIsAnObjectThatMoves) {
 
 TEST_F(OwnActor, IsScaledWithAllThatIsInIt) {
   write("fork.obj", kObj);
-  // everything stands turned: the mesh reaches 1 m along y, z and x of the actor, from (0, .1, .2);
+  // all frames are rotated: the mesh reaches 1 m along y, z and x of the actor, from (0, .1, .2);
   // one mesh twice in different attitudes; sizes, types and meshes come from classes
   auto s = on_floor();
   s.actors = {own_actor(
@@ -188,7 +188,7 @@ TEST_F(OwnActor, IsScaledWithAllThatIsInIt) {
                 "<geom class='fork' pos='0 .1 .2'/>"
                 "<geom class='block' pos='.5 0 .3'/>"}))};
   const auto [low, high] = extent(World(s));
-  s.actors[0].size_m = Vector3d(2, 1.5, 4);  // of 1, 0.5, 1: twice, three, four times
+  s.actors[0].size_m = Vector3d(2, 1.5, 4);  // from 1, 0.5, 1: times two, three, four
   const auto [scaled_low, scaled_high] = extent(World(s));
   EXPECT_NEAR((scaled_low - low.cwiseProduct(Vector3d(2, 3, 4))).norm(), 0, 1e-5)
       << low.transpose() << " to " << scaled_low.transpose();
@@ -215,7 +215,7 @@ TEST_F(OwnActor, MeansTheSameInASceneOfOtherAnglesAndDefaults) {
     s.actors = {own_actor("truck", truck)};
     return World(s);
   };
-  // alone, as MuJoCo itself reads it
+  // alone, as MuJoCo itself loads it
   install_mujoco_handlers();
   std::array<char, 1000> said{};
   const std::unique_ptr<mjModel, ModelDeleter> alone(
@@ -238,7 +238,7 @@ TEST_F(OwnActor, MeansTheSameInASceneOfOtherAnglesAndDefaults) {
       ++parts;
     }
     EXPECT_EQ(parts, alone->ngeom);
-    // and the scene is as it was: its floor is seen as it says
+    // and the scene is unchanged: its floor keeps its colour
     EXPECT_EQ(m.geom_rgba[1], .5f);
   }
 }
@@ -397,7 +397,7 @@ class OwnRover : public OwnPart {
   void expect(const Parts& parts, int line, const std::vector<std::string>& words) const {
     expect_refused(scenario(parts), folder_ / "rover.xml", line, words);
   }
-  /// Where it is after two seconds.
+  /// Pose after two seconds.
   static Pose driven(const scenario::Scenario& s) {
     World world(s);
     std::vector<ImuSample> imu;
@@ -426,7 +426,7 @@ TEST_F(OwnRover, IsNotBrakedByTheFloorThatItsFileLetsItTouch) {
 TEST_F(OwnRover, DrivesOnWheelsWhereItHasTheActuatorsForThem) {
   auto s = scenario(wheeled());
   EXPECT_NEAR(driven(s).p.x(), 1, 0.06) << "a twentieth is slip";
-  // in a scene whose geoms have no contacts by default, too
+  // also in a scene whose geoms have no contacts by default
   std::string mjcf = floor_with("");
   mjcf.insert(mjcf.find("<statistic"), "<default><geom contype='0' conaffinity='0'/></default>");
   mjcf.insert(mjcf.find("type=\"plane\""), "contype='1' conaffinity='1' ");

@@ -1,4 +1,4 @@
-// What the camera makes of a picture: each effect by the law that it follows.
+// Camera effects on a picture: each is compared with its physical law.
 
 #include "sim/photograph.h"
 
@@ -192,7 +192,7 @@ TEST(Photograph, NoiseIsTheSeedsAndTheFramesOwn) {
 }
 
 TEST(Photograph, TheVarianceOfShotNoiseIsTheNumberOfElectrons) {
-  // n electrons of 1000 have variance n: in linear light L, of L / 1000. 76,800 pixels give it to
+  // n electrons of 1000 have variance n: in linear light L, L / 1000. 76,800 pixels give it to
   // 0.5 %; codes are 0.002 to 0.008 wide here, which adds less than 1 %.
   for (const int code : {100, 140, 180}) {
     const cv::Vec2d noise = moments(photograph(noisy(1000, 0), grey(code), wall_at(3)));
@@ -203,7 +203,7 @@ TEST(Photograph, TheVarianceOfShotNoiseIsTheNumberOfElectrons) {
 }
 
 TEST(Photograph, ReadNoiseIsThereInTheDarkAndGainMagnifiesIt) {
-  // 40 e- of 4000 are 0.01; what falls below 0 is clipped, which leaves half of a normal:
+  // 40 e- of 4000 are 0.01. Values below 0 are clipped, which leaves half of a normal distribution:
   // variance (1/2 - 1/(2 pi)) sigma^2.
   Image image = noisy(4000, 40);
   image.gain = 4;
@@ -217,7 +217,7 @@ Image rainy(double rate_mmph, int drops) {
   return image;
 }
 
-/// Left dark, right light: drops show in both halves.
+/// Left dark, right light: drops are visible in both halves.
 cv::Mat3b halves() {
   cv::Mat3b picture = grey(60);
   picture.colRange(160, 320) = cv::Vec3b(200, 200, 200);
@@ -236,7 +236,7 @@ TEST(Photograph, DropsOnTheLensStayWhereTheyAreFromFrameToFrame) {
   Rain rain(*rainy(0, 20).rain, 1e-3, camera(), 1);
   const std::vector<LensDrop> first = rain.lens_drops(0);
   ASSERT_EQ(first.size(), 20u);
-  // lives last 4 s in the mean and 2 s at least: in 0.1 s one or two may go, in 20 s all have gone
+  // lives last 4 s on average and at least 2 s: in 0.1 s one or two end, in 20 s all
   const auto staying = [&](double t_s) {
     const std::vector<LensDrop> later = rain.lens_drops(t_s);
     int count = 0;
@@ -300,7 +300,7 @@ TEST(Photograph, ADropShowsTheSceneUpsideDown) {
     for (const LensDrop& drop : Rain(*image.rain, 1e-3, camera(), seed).lens_drops(0)) {
       const cv::Point centre(drop.centre_px);
       const int off = static_cast<int>(drop.radius_px / 2);
-      // near the horizon, so that it shows both sides of it
+      // near the horizon, so that the drop refracts both sides of it
       if (off < 3 || std::abs(centre.y - 120) > 15 || std::abs(centre.x - 160) > 150) continue;
       ++seen;
       EXPECT_GT(wet(centre.y + off, centre.x)[0], wet(centre.y - off, centre.x)[0]);
@@ -363,7 +363,7 @@ TEST(Photograph, ARunHasTheNoiseOfARealSensorUnlessToldOtherwise) {
   cv::subtract(grey, expected, difference, cv::noArray(), CV_32F);
   cv::Scalar mean, deviation;
   cv::meanStdDev(difference, mean, deviation);
-  EXPECT_NEAR(mean[0], 0, 0.2);  // clipped at black and white, and seen through a curve
+  EXPECT_NEAR(mean[0], 0, 0.2);  // clipped at black and white, and mapped by a curve
   EXPECT_GT(deviation[0], 0.7);  // grey levels; machine vision and street recordings have 0.5 to 2
   EXPECT_LT(deviation[0], 1.2);
 }

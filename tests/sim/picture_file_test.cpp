@@ -1,4 +1,4 @@
-// Sizes of pictures against those that OpenCV wrote, and what is refused before it is decoded.
+// Sizes read from headers against OpenCV's, and pictures that are rejected before decoding.
 #include "sim/picture_file.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ cv::Mat3b drawn(int width, int height) {
   return picture;
 }
 
-/// One of each kind, of one size.
+/// One picture of each format, all of one size.
 std::map<std::string, std::string> pictures(int width, int height) {
   const cv::Mat3b colours = drawn(width, height);
   cv::Mat1b grey;
@@ -94,7 +94,7 @@ TEST(Picture, OfTooManyPixelsIsRefusedByItsHeader) {
   }
   huge["bmp"] = all["bmp"];
   put(huge["bmp"], 18, kSide, 4, false);
-  put(huge["bmp"], 22, -kSide, 4, false);  // with rows that go down
+  put(huge["bmp"], 22, -kSide, 4, false);  // with rows from top to bottom
   huge["ppm"] = "P6\n# of a camera\n32000 # wide\n32000\n255\n" + std::string(100, 'x');
   huge["pbm"] = "P4 32000 32000\n" + std::string(100, 'x');
   for (const auto& [kind, bytes] : huge) {
@@ -106,7 +106,7 @@ TEST(Picture, OfTooManyPixelsIsRefusedByItsHeader) {
             std::string::npos);
 }
 
-/// The place of a tag's value in a TIFF of OpenCV.
+/// Byte offset of a tag's value in a TIFF of OpenCV.
 std::size_t value_of(const std::string& tiff, std::uint16_t tag) {
   const auto number = [&](std::size_t at, int length) {
     std::size_t value = 0;
@@ -129,7 +129,7 @@ TEST(Picture, OfAsManyPixelsInAStripIsRefusedLikewise) {
        {std::pair{kColumns, "4000000 x 21"}, std::pair{kRowsOfStrip, "37 x 4000000"}}) {
     std::string bytes = pictures(37, 21)["tiff"];
     const std::size_t value = value_of(bytes, tag);
-    put(bytes, value - 6, 4, 2, false);  // a number of 32 bits
+    put(bytes, value - 6, 4, 2, false);  // a 32-bit number
     put(bytes, value, 4'000'000, 4, false);
     EXPECT_NE(refusal(bytes).find(side), std::string::npos) << refusal(bytes);
   }

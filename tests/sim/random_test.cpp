@@ -24,7 +24,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return sum / static_cast<double>(a.size());
 }
 
-// The known answers that Random123 is distributed with (kat_vectors, philox4x32 with 10 rounds).
+// The known answers distributed with Random123 (kat_vectors, philox4x32 with 10 rounds).
 TEST(Philox, GivesTheKnownAnswersOfItsAuthors) {
   EXPECT_EQ(philox4x32({0, 0, 0, 0}, {0, 0}),
             (Block{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
@@ -73,9 +73,9 @@ TEST(RandomStream, NormalFollowsTheNormalDistribution) {
     const double cdf = std::erfc(-x[i] / std::numbers::sqrt2) / 2;
     largest_gap = std::max({largest_gap, std::abs(cdf - i / 1e6), std::abs(cdf - (i + 1) / 1e6)});
   }
-  // Kolmogorov and Smirnov: exceeded by one sample in 10,000.
+  // Kolmogorov-Smirnov: exceeded by one sample in 10,000.
   EXPECT_LT(largest_gap, 2.23 / std::sqrt(n));
-  // The tails reach as far as those of a million normals do: P(|x| > 4.4) = 1e-5.
+  // The tails reach as far as those of a million normals: P(|x| > 4.4) = 1e-5.
   EXPECT_LT(x.front(), -4.4);
   EXPECT_GT(x.back(), 4.4);
 }
@@ -90,7 +90,7 @@ TEST(RandomStream, NeighboursInASequenceAreIndependent) {
   }
 }
 
-// The promise is the same bits on every machine, so the bits are written here.
+// The promise is the same bits on every machine, so the bits are constants here.
 TEST(RandomStream, GivesTheseBitsOnEveryMachine) {
   RandomStream stream(1, "imu0.gyro.white");
   EXPECT_EQ(stream.bits(), 0x800489ba8e4ed8f7u);

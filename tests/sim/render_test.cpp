@@ -1,4 +1,4 @@
-// What the renderer says against rays cast through the model, which know nothing of GL.
+// The renderer against rays cast through the model without GL.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ struct Hit {
   int geom = -1;
 };
 
-/// Along the ray of a pixel. Directions have z-depth 1, so that the distance is the z-depth.
+/// Casts the ray of a pixel. Directions have z-depth 1, so the distance is the z-depth.
 Hit cast(const World& world, const Pinhole& camera, int x, int y) {
   const Pose T_WC = world.snapshot().T_WC;
   const Vector3d direction = T_WC.R * camera.back_project({x, y}, 1);
@@ -44,7 +44,7 @@ struct Agreement {
   int pixels = 0, same_geom = 0, hits = 0, same_depth = 0;
 };
 
-/// On every seventh pixel of every fifth row.
+/// Compares every seventh pixel of every fifth row.
 Agreement compare(const scenario::Scenario& s) {
   World world(s);
   const Pinhole camera =
@@ -70,9 +70,9 @@ Agreement compare(const scenario::Scenario& s) {
 }
 
 void expect_agreement(const Agreement& a) {
-  // rays and GL may part on pixels that an edge runs through to the last digit: allowed 0.5 %
+  // rays and GL may differ on pixels that an edge crosses: 0.5 % are allowed
   EXPECT_GE(a.same_geom, 0.995 * a.pixels);
-  // and where they see the same geom, the depth is right everywhere
+  // and where both hit the same geom, the depths agree
   EXPECT_EQ(a.same_depth, a.hits);
   EXPECT_GT(a.hits, a.pixels / 2) << "a view of something";
   testing::Test::RecordProperty("pixels", a.pixels);
@@ -105,13 +105,13 @@ TEST(Render, AgreesWithRaysForACameraThatIsTiltedAndMountedAside) {
   expect_agreement(compare(s));
 }
 
-/// Middle of the pixels that a mask marks.
+/// Centroid of the pixels of a mask.
 Vector2d centroid(const cv::Mat1b& mask) {
   const cv::Moments m = cv::moments(mask, true);
   return {m.m10 / m.m00, m.m01 / m.m00};
 }
 
-// Small balls off the middle, so that a flipped or swapped axis, or half a pixel, shows.
+// Small balls off the centre, so that a flipped or swapped axis, or half a pixel, is detected.
 TEST(Render, APointLandsOnThePixelThatThePinholeSays) {
   const std::vector<Vector3d> targets = {
       {4, 1.4, 1.2}, {5, -2.1, 0.2}, {6, 2.0, 0.1}, {3, -0.5, 1.1}};
@@ -123,7 +123,7 @@ TEST(Render, APointLandsOnThePixelThatThePinholeSays) {
              "'><geom type='sphere' size='.05' rgba='1 .1 .1 1'/></body>";
   }
   std::string mjcf = floor_with(balls);
-  // evenly lit, so that the middle of a ball's colour is the middle of the ball
+  // even light, so that the centroid of a ball's colour is the ball's centre
   mjcf.insert(mjcf.find("<worldbody>"), "<visual><headlight ambient='1 1 1'/></visual>");
   mjcf.erase(mjcf.find("<light"), mjcf.find("<geom name=\"floor\"") - mjcf.find("<light"));
   Simulation simulation(scenario_in_mjcf(mjcf, 0, 1));
@@ -135,9 +135,9 @@ TEST(Render, APointLandsOnThePixelThatThePinholeSays) {
     cv::Mat1b mask;
     cv::compare(o.truth.object, simulation.objects()[i].id, mask, cv::CMP_EQ);
     ASSERT_GT(cv::countNonZero(mask), 20) << "ball " << i << " is not where it is expected";
-    // pixels are counted whole: the middle of some 50 of them is good to a quarter
+    // pixels are counted whole: the centroid of some 50 is exact to a quarter
     EXPECT_NEAR((centroid(mask) - expected).norm(), 0, 0.25) << "ball " << i;
-    // the colour image is that of the ids: the ball is redder than anything around
+    // the colour image matches the ids: the ball is redder than its surroundings
     std::vector<cv::Mat1b> bgr;
     cv::split(o.image, bgr);
     cv::Mat1b red;
@@ -217,7 +217,7 @@ TEST(Render, TwoRenderersInOneProcessDoNotDisturbEachOther) {
   EXPECT_EQ(cv::norm(alone, beside, cv::NORM_INF), 0) << "after the other one is gone";
 }
 
-/// A string along `n` sites, of which each piece is one thing to draw.
+/// A tendon through `n` sites; MuJoCo draws each piece separately.
 std::string string_of(int n) {
   std::string sites, tendon = "<tendon><spatial width='.01'>";
   for (int i = 0; i < n; ++i) {

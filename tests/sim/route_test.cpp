@@ -1,4 +1,4 @@
-// A rover that is given places and times: where it truly is then, and how it gets there.
+// A rover with waypoints and times: its true places at these times, and its path.
 #include "sim/route.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(Route, TheRoverIsAtEachWaypointAtItsTime) {
   World world(along(kTour));
   for (const Waypoint& point : kTour) {
     advance(world, point.at_s);
-    // a bend is rounded by |dv|^2 / 40 m/s^2: by 20 mm where it turns round at 0.4 and 0.5 m/s
+    // a corner is rounded by |dv|^2 / 40 m/s^2: by 20 mm at the reversal from 0.4 to 0.5 m/s
     EXPECT_LT(distance(world, point.position_m), 0.023) << "at " << point.at_s << " s";
   }
   advance(world, 24);
@@ -103,7 +103,7 @@ TEST(Route, TheImuFeelsNoJump) {
   }
 }
 
-// As a planner or a recording has them: a circle of 1 m radius, ten places a second.
+// As from a planner or a recording: a circle of 1 m radius, ten waypoints per second.
 TEST(Route, ManyNearWaypointsAreACurve) {
   std::vector<Waypoint> circle;
   for (int k = 0; k <= 120; ++k) {

@@ -34,7 +34,7 @@ TEST(CommandedVelocity, FollowsThePhaseThatBeganLast) {
       {.at_s = 0.7, .speed_mps = 0.4, .direction_rad = pi / 2, .yaw_rate_radps = 0.1}};
   EXPECT_EQ(commanded_velocity(phases, 0).linear_mps, Vector2d(1, 0));
   EXPECT_NEAR(commanded_velocity(phases, kSecond / 2).linear_mps.x(), 0.75, 1e-12);
-  // a phase begins at its time to the nanosecond, however that is rounded in seconds
+  // a phase begins at its time to the nanosecond, despite rounding in seconds
   EXPECT_EQ(commanded_velocity(phases, 699'999'999).yaw_rate_radps, 0);
   EXPECT_EQ(commanded_velocity(phases, 700'000'000).yaw_rate_radps, 0.1);
   EXPECT_NEAR(commanded_velocity(phases, kSecond).linear_mps.y(), 0.4, 1e-12);
@@ -72,8 +72,8 @@ TEST(HolonomicRover, StartsWhereItIsToldAlreadyMoving) {
               1e-12);
 }
 
-// The probe behind the base's gains found 0.9 mm/s and 0.24 mrad/s; a first-order lag of 4 ms
-// behind a velocity that turns at 0.3 rad/s is v w tau = 0.6 mm/s of these.
+// A measurement of the base's gains gave 0.9 mm/s and 0.24 mrad/s; a first-order lag of 4 ms
+// behind a velocity that turns at 0.3 rad/s accounts for v w tau = 0.6 mm/s.
 TEST(HolonomicRover, FollowsItsCommandAlongASidewaysTurn) {
   auto s = scenario_in_mjcf(floor_with(""), 0.5, 1);
   s.ego.phases = {{.speed_mps = 0.5,
@@ -169,7 +169,7 @@ TEST(WheeledRover, StartsSettledAndRolling) {
   s.ego.heading_rad = -0.8;
   World world(s);
   const Pose start = world.T_WB();
-  // soft contacts give by less than a millimetre
+  // soft contacts yield by less than a millimetre
   EXPECT_NEAR((start.p - Vector3d(1, 2, 0)).norm(), 0, 1e-3);
   EXPECT_NEAR(std::atan2(start.R(1, 0), start.R(0, 0)), -0.8, 1e-6);
   EXPECT_NEAR((start.R.transpose() * world.v_WB_mps()).x(), 0.5, 1e-9);
@@ -197,7 +197,7 @@ TEST(WheeledRover, DrivesOnTheFloorsOfTheProjectsScenes) {
   }
 }
 
-// A scene's defaults are for the scene: a rover in it keeps its mass, its joints and its contacts.
+// A scene's defaults must not change the rover's mass, joints and contacts.
 TEST(Rovers, DriveAlikeWhateverTheDefaultsOfTheSceneAre) {
   std::string mjcf = floor_with("");
   mjcf.insert(mjcf.find("<statistic"),

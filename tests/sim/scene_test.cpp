@@ -1,4 +1,4 @@
-// What is right and what is wrong with scenes and actors, as a user meets it.
+// Valid and invalid scenes and actors from the user's point of view.
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -69,7 +69,7 @@ TEST(Scene, AMovedBodyStaysTheObjectThatItWas) {
   std::vector<ImuSample> imu;
   std::vector<OdometrySample> odometry;
   world.advance_to(2'000'000'000, imu, odometry);
-  // along the line, and at the height that the scene gives it
+  // along the line, at the height from the scene
   EXPECT_NEAR((world.snapshot().T_WO.at(1).p - Vector3d(2, 1, 0.5)).norm(), 0, 1e-9);
   EXPECT_EQ(world.snapshot().T_WO.at(2).p, Vector3d(3, 1, 0.5));
 }
@@ -96,7 +96,7 @@ TEST(Scene, AnActorOnABodyThatTheSceneLacksNamesTheNearest) {
   auto s = scenario_in_mjcf(floor_with(kTwoBodies), 0, 1);
   s.actors = {moving_body("thief", "statu")};
   expect_error(s, {"test.yaml:7", "'statu'", "statue"});
-  s.actors = {moving_body("statue", "statu")};  // called as the body that is meant
+  s.actors = {moving_body("statue", "statu")};  // has the name of the intended body
   expect_error(s, {"test.yaml:7", "'statu'", "lacks", "statue"});
   s.scene = scenario_in_mjcf(floor_with(""), 0, 1).scene;
   expect_error(s, {"test.yaml:7", "no named body"});
@@ -269,7 +269,7 @@ TEST(Scene, ABodyThatCanMoveNeedsANameAndMovesAsOne) {
       {"'wing'"});
 }
 
-/// Extent of a body's geoms along x, y, z of a body that stands at the origin heading along x.
+/// Extent of an actor's geoms along its x, y, z, m, when it stands at the origin heading along x.
 Vector3d extent(const scenario::Actor& actor) {
   auto s = scenario_in_mjcf(floor_with(""), 0, 1);
   s.actors = {actor};
@@ -289,7 +289,7 @@ Vector3d extent(const scenario::Actor& actor) {
 }
 
 TEST(ActorShape, HasTheNaturalSizeThatItStates) {
-  // sizes in the fragments' `size`; rounded limbs are given to a centimetre or two
+  // sizes in the fragments' `size`; rounded limbs are exact to a centimetre or two
   const auto actor = [](Shape shape) { return line_actor("a", shape, {6, 0}, 0, 0); };
   EXPECT_NEAR((extent(actor(Shape::box)) - Vector3d(0.5, 0.5, 0.5)).norm(), 0, 1e-9);
   EXPECT_NEAR((extent(actor(Shape::cylinder)) - Vector3d(0.5, 0.5, 0.8)).norm(), 0, 1e-3);
@@ -305,7 +305,7 @@ TEST(ActorShape, IsScaledToTheSizeAskedFor) {
   for (const auto& [shape, size] : asked) {
     scenario::Actor actor = line_actor("a", shape, {6, 0}, 0, 0);
     actor.size_m = size;
-    // what is round stays round where the factors differ: within 3 % of the whole
+    // round parts stay round where the factors differ: within 3 % of the whole
     EXPECT_LT(((extent(actor) - size).cwiseQuotient(size)).cwiseAbs().maxCoeff(), 0.04)
         << extent(actor).transpose();
   }
@@ -334,7 +334,7 @@ TEST(ActorShape, TextureIsAStyleOrAPictureAndElseAnError) {
 }
 
 TEST(ActorShape, APictureIsShownUprightAndNotMirrored) {
-  // white, its upper left quarter blue, as a box before the camera must show it on its face
+  // white, with a blue upper left quarter, which a box before the camera must show on its face
   cv::Mat3b picture(64, 64, cv::Vec3b(255, 255, 255));
   picture(cv::Rect(0, 0, 32, 32)).setTo(cv::Vec3b(255, 0, 0));
   const std::string file = testing::TempDir() + "/quarter.png";
@@ -373,7 +373,7 @@ TEST(ActorShape, AnUnknownOneIsRefused) {
   EXPECT_THROW(World world(s), std::invalid_argument);
 }
 
-// What is painted later is plain there, but the file is whole.
+// Textures painted later are plain there, but the file is complete.
 TEST(Scene, EachFileLoadsAloneAsAViewerLoadsIt) {
   install_mujoco_handlers();
   const std::filesystem::path scenes = std::filesystem::path(LCS_SOURCE_DIR) / "scenes";
@@ -399,7 +399,7 @@ TEST(Scene, ActorsOfOneShapeDoNotClash) {
   EXPECT_NO_THROW(load(s));
 }
 
-// A scene made for a viewer says other things of the simulation too; the readings need their own.
+// A scene made for a viewer sets other options too; the sensors need the simulation's own.
 TEST(Scene, OptionsOfASceneDoNotSpoilTheSensors) {
   std::string mjcf = floor_with("");
   mjcf.insert(mjcf.find("<statistic"),
@@ -433,8 +433,8 @@ TEST(Physics, WhatFallsThroughTheFloorIsOutOfSightAndTheRunGoesOn) {
 }
 
 TEST(Physics, ADivergingModelEndsTheRunWithTheSimulatedTime) {
-  // a ball on a spring with k h^2 / m = 4.4 at steps of 5/3 ms: beyond 4 each swing outdoes the
-  // last the last
+  // a ball on a spring with k h^2 / m = 4.4 at steps of 5/3 ms: beyond 4 each swing exceeds
+  // the last
   const std::string unstable =
       "<body name='ball' pos='0 3 2'><joint type='slide' axis='0 0 1' stiffness='160000' "
       "springref='.01'/><geom size='.1' mass='.1'/></body>";
@@ -449,7 +449,7 @@ TEST(Physics, ADivergingModelEndsTheRunWithTheSimulatedTime) {
 }
 
 TEST(Physics, WhatTheEngineGivesUpOnIsToldWithTheSimulatedTime) {
-  // no memory for a step: the engine's own error, where divergence is a warning
+  // too little memory for a step: an error of the engine, whereas divergence is a warning
   std::string mjcf =
       floor_with("<body name='ball' pos='3 0 1'><freejoint/><geom size='.1'/></body>");
   mjcf.insert(mjcf.find("<statistic"), "<size nstack='300'/>");

@@ -18,7 +18,7 @@ using std::numbers::pi;
 const Pinhole kCamera = Pinhole::from_fovy(640, 480, 60 * test::kDegree);
 constexpr double kNear = 0.05;
 
-/// Outline of a single geom of MuJoCo's, in the frame that its attributes are given in.
+/// Outline of a single MuJoCo geom, in the frame of its attributes.
 ConvexParts geom(const std::string& attributes, const std::string& assets = "") {
   Model model("<mujoco><asset>" + assets + "</asset><worldbody><geom " + attributes +
               "/></worldbody></mujoco>");

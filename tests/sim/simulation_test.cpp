@@ -1,4 +1,4 @@
-// Whole runs as their users see them.
+// Whole runs through the public interface.
 
 #include "sim/simulation.h"
 
@@ -20,7 +20,7 @@ using test::line_actor;
 using test::scenario_in;
 using test::scenario_in_mjcf;
 
-/// FNV-1a over all that a run hands out.
+/// FNV-1a over all outputs of a run.
 class Fingerprint {
  public:
   void add(const void* data, std::size_t size) {
@@ -89,7 +89,7 @@ TEST(Simulation, TwoRunsOfOneScenarioGiveTheSameBits) {
   }
 }
 
-/// All that needs no camera, without one.
+/// A run without camera has all outputs that need none.
 TEST(Simulation, ADriveWithoutPicturesHasTheSameMotionsAndReadings) {
   for (const auto drives : {scenario::Drive::holonomic, scenario::Drive::wheeled}) {
     const scenario::Scenario s = busy(drives);
@@ -269,7 +269,7 @@ TEST(Simulation, WhatIsToldOfTheMountDiffersFromItAndThePictureDoesNot) {
   EXPECT_EQ(a.truth.now.T_WC.p, b.truth.now.T_WC.p);
 }
 
-// The camera's own velocity and rate against differences of its poses over 5 ms.
+// The camera's velocity and rate against differences of its poses over 5 ms.
 TEST(Simulation, VelocityAndRateOfTheCameraAreThoseOfItsPoses) {
   auto s = scenario_in_mjcf(floor_with(""), 0.5, 6);
   s.ego.phases[0].yaw_rate_radps = 0.6;
@@ -313,7 +313,7 @@ TEST(ObjectTruth, HasTheModalBoxOfItsPixels) {
   }
 }
 
-// Alone and wholly in view, the silhouette computed must be the one rendered.
+// For an actor alone and fully in view, the computed silhouette must equal the rendered one.
 TEST(ObjectTruth, AnUnoccludedShapeIsWhollyVisible) {
   for (const Shape shape : {Shape::box, Shape::cylinder, Shape::pedestrian, Shape::car}) {
     auto s = scenario_in_mjcf(floor_with(""), 0, 1);
@@ -326,7 +326,7 @@ TEST(ObjectTruth, AnUnoccludedShapeIsWhollyVisible) {
 }
 
 TEST(ObjectTruth, HalfHiddenIsHalfVisible) {
-  // a screen before the left half of a board; both flat and at nearly one depth
+  // a screen before the left half of a board; both flat and at nearly the same depth
   const auto s = scenario_in_mjcf(
       floor_with("<body name='board' pos='5 0 1'><geom type='box' size='.01 .6 .4'/></body>"
                  "<geom type='box' pos='4.9 1 1' size='.01 1 1'/>"),
@@ -337,7 +337,7 @@ TEST(ObjectTruth, HalfHiddenIsHalfVisible) {
 }
 
 TEST(ObjectTruth, HalfOutsideOfTheImageIsHalfVisible) {
-  // the border of the image is at 320 / f = 0.770 of the depth; the board stands across it
+  // the image border is at 320 / f = 0.770 of the depth; the board crosses it
   const double border = 4.79 * (320 / 415.692);
   const auto s = scenario_in_mjcf(floor_with("<body name='board' pos='5 " + std::to_string(border) +
                                              " 1'><geom type='box' size='.01 .6 .4'/></body>"),
@@ -419,13 +419,13 @@ TEST(Simulation, TellsTheTruthOfTheImuAtEachOfItsReadings) {
   ASSERT_EQ(o->imu_truth.size(), 20u) << "of 200 Hz in 0.1 s, the gap included";
   EXPECT_EQ(o->imu.size(), 14u);
   EXPECT_EQ(o->imu_truth.back().t_ns, o->t_ns);
-  // The IMU is mounted to what the camera is mounted to.
+  // The IMU is mounted on the same body as the camera.
   const Pose T_WB = o->truth.now.T_WC * simulation.calibration().T_BC.inverse();
   const Pose T_WS = T_WB * simulation.calibration().T_BS;
   EXPECT_LT((T_WS.p - o->imu_truth.back().T_WS.p).norm(), 1e-12);
   EXPECT_LT((T_WS.R - o->imu_truth.back().T_WS.R).norm(), 1e-12);
   EXPECT_NEAR(o->imu_truth.back().v_WS_mps.x(), 0.5, 1e-3);
-  // Without white noise and walk a still gyro reads its bias.
+  // Without white noise and random walk a gyro at rest reads its bias.
   EXPECT_LT((o->imu.back().gyro_radps - o->imu_truth.back().gyro_bias_radps).norm(), 1e-3);
   EXPECT_GT(o->imu_truth.back().gyro_bias_radps.norm(), 1e-2);
 }

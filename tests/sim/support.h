@@ -1,5 +1,5 @@
 /// \file
-/// Scenarios for tests: typed values, so that nothing of YAML is in the way.
+/// Scenarios for tests, as typed values instead of YAML.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,17 +21,17 @@ inline constexpr double kDegree = std::numbers::pi / 180;
 /// in a scene of the project.
 scenario::Scenario scenario_in(const std::string& scene, double speed_mps, int frames);
 
-/// The same in a scene that is given as MJCF; written to a file that lives as long as the test.
+/// The same in a scene given as MJCF, written to a file that exists as long as the test.
 scenario::Scenario scenario_in_mjcf(const std::string& mjcf, double speed_mps, int frames);
 
-/// A flat floor for rovers to drive on, and nothing else, with `more` put into its worldbody.
+/// MJCF of a flat floor, with `more` put into its worldbody.
 std::string floor_with(const std::string& more);
 
 /// An actor of a shape on a straight line.
 scenario::Actor line_actor(const std::string& name, scenario::Shape shape,
                            const Eigen::Vector2d& from_m, double heading_rad, double speed_mps);
 
-/// Corners as the detector finds them: FAST-9 with non-maximum suppression.
+/// FAST-9 corners with non-maximum suppression, px.
 std::vector<Eigen::Vector2f> fast_corners(const cv::Mat3b& image, int threshold = 20);
 
 template <typename Action>
@@ -39,7 +39,7 @@ std::string scenario_error(const Action& action) {
   return bench::refusal_of<scenario::Error>(action);
 }
 
-/// The PhysicsError of a drive that takes so long.
+/// Message of the PhysicsError of a drive until `until_ns`.
 std::string physics_error(const scenario::Scenario& scenario, std::int64_t until_ns);
 
 double median(std::vector<double> values);

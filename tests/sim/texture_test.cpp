@@ -48,7 +48,7 @@ TEST(Texture, TheStyleIsReadFromTheNameBehindAnyPrefix) {
   EXPECT_EQ(procedural_style(""), "");
 }
 
-// A texture that repeats must go on at its border as it does inside.
+// A repeating texture must be as continuous across its border as inside.
 TEST(Texture, GroundRepeatsWithoutASeam) {
   const cv::Mat3b ground = painted("ground", 3);
   double inside = 0;

@@ -1,4 +1,4 @@
-// A child process that tries what may crash: what its parent learns, and what it keeps for itself.
+// A child process for operations that may crash: its report to the parent, and its isolation.
 #include "sim/trial.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST(Trial, HasMemoryForSoMuch) {
 }
 
 TEST(Trial, LeavesNothingBehind) {
-  // what waits in a buffer is written once, by the parent; what the child writes never is
+  // buffered output is written once, by the parent; the child's output is discarded
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   std::printf("once");

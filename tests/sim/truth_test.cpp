@@ -1,4 +1,4 @@
-// Labels of corners on frames made by hand: what is in the image is known to the last digit.
+// Labels of corners on synthetic frames, whose content is known exactly.
 
 #include "sim/truth.h"
 
@@ -44,7 +44,7 @@ TEST(LabelCorners, IsFixedOnABodyThatStays) {
   EXPECT_FALSE(c.radial);
   EXPECT_EQ(c.object, 1);
   EXPECT_EQ(c.depth_m, 4);
-  // by hand: x = (u - c) / f * z, moved by the camera's way
+  // by hand: x = (u - c) / f * z, minus the camera's displacement
   const Vector3d x = kCamera.back_project(corner.cast<double>(), 4) - t.next.T_WC.p;
   const Vector2d expected = kCamera.project(x) - corner.cast<double>();
   EXPECT_NEAR((c.motion_px - expected).norm(), 0, 1e-9);
@@ -118,21 +118,21 @@ TEST(LabelCorners, BelongsToTheNearestOfTheNinePixels) {
 
 TEST(LabelCorners, AFixedCornerIsAtAnOutlineWhereFastsCircleReachesAMover) {
   FrameTruth t = wall(0);
-  t.object(200, 303) = 1;  // of a body behind the wall's corner: the surface beside it is the wall
+  t.object(200, 303) = 1;  // of a body behind the wall's corner: the adjacent surface is the wall
   t.next.T_WO[1].p = {0, 0.2, 0};
   for (const Vector2f& corner : {Vector2f(300, 200), Vector2f(300, 199), Vector2f(301, 202)})
     EXPECT_TRUE(label(t, corner).outline) << corner.transpose();
   for (const Vector2f& corner : {Vector2f(299, 200), Vector2f(300, 198), Vector2f(301, 203)})
     EXPECT_FALSE(label(t, corner).outline) << corner.transpose();
   EXPECT_EQ(label(t, {300, 200}).label, Label::fixed);
-  // not beside one that stands, nor beside the sky
+  // not beside a static body, nor beside the sky
   t.object(200, 303) = 2;
   EXPECT_FALSE(label(t, {300, 200}).outline);
   t.object(200, 303) = -1;
   EXPECT_FALSE(label(t, {300, 200}).outline);
-  // what is on the mover itself is no outline of it, be it distinct or not
+  // a corner on the mover itself is no outline of it, whether distinct or not
   EXPECT_FALSE(label(wall(1), {300, 200}).outline);
-  // and at the border of the picture there is only what is in it
+  // and at the border of the picture only pixels inside count
   FrameTruth border = wall(0);
   border.object(0, 0) = 1;
   border.next.T_WO[1].p = {0, 0.2, 0};
@@ -142,7 +142,7 @@ TEST(LabelCorners, AFixedCornerIsAtAnOutlineWhereFastsCircleReachesAMover) {
 TEST(LabelCorners, ABodyComingHeadOnIsRadial) {
   FrameTruth t = wall();
   t.next.T_WC.p = {0, 0, 0.2};
-  t.next.T_WO[1].p = {0, 0, -1};  // as a point at smaller depth would seem to come
+  t.next.T_WO[1].p = {0, 0, -1};  // as if a point at smaller depth approached
   const CornerTruth c = label(t, {500, 400});
   EXPECT_EQ(c.label, Label::rebel);
   EXPECT_TRUE(c.radial);
@@ -151,8 +151,8 @@ TEST(LabelCorners, ABodyComingHeadOnIsRadial) {
 TEST(LabelCorners, ABodyComingFasterThanTheNearestDepthExplainsIsNotRadial) {
   FrameTruth t = wall();
   t.next.T_WC.p = {0, 0, 0.2};
-  // carried to 4 - 0.2 - 2.6 = 1.2 m: magnified 3.3 times, a fixed point needs Z = 0.2 / (1 -
-  // 1/3.33) = 0.286 m for that
+  // moved to 4 - 0.2 - 2.6 = 1.2 m: magnified 3.3 times; a fixed point would need Z = 0.2 / (1 -
+  // 1/3.33) = 0.286 m
   t.next.T_WO[1].p = {0, 0, -2.6};
   EXPECT_FALSE(label(t, {500, 400}).radial);
   EXPECT_TRUE(label(t, {500, 400}, 0.28).radial) << "with z_min below that depth";
@@ -173,7 +173,7 @@ TEST(LabelCorners, TheStaticSegmentEndsInTheIdealPointUnderRotation) {
   FrameTruth t = wall();
   t.next.T_WC.R = Eigen::AngleAxisd(0.05, Vector3d::UnitY()).toRotationMatrix();
   t.next.T_WC.p = {0, 0, 0.2};
-  // to infinity, or as near as makes no difference
+  // practically to infinity
   const Vector2f corner(420, 300);
   const Vector3d p = kCamera.back_project(corner.cast<double>(), 4);
   t.next.T_WO[1].p = 1000 * p - p;
@@ -200,7 +200,7 @@ TEST(LabelCorners, APointBehindTheCameraAtTheNextFrameHasNoMotion) {
   EXPECT_FALSE(std::isnan(flown_past.static_motion_px.x()));
 }
 
-// The part of the static segment that the camera passes is cut off, the rest is still there.
+// The part of the static segment that the camera passes is cut off, the rest remains.
 TEST(LabelCorners, TheStaticSegmentOfACameraThatDrivesFarIsARay) {
   FrameTruth t = wall();
   t.next.T_WC.p = {0, 0, 2};        // points nearer than 2 m are passed

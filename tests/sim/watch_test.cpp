@@ -1,4 +1,4 @@
-/// What the watch over a world tells, and that it tells nothing where nothing is wrong.
+/// Warnings of the watch over a world, and no warnings in a correct world.
 #include "sim/watch.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ using test::scenario_in_mjcf;
 constexpr const char* kCrate =
     "<body name='crate' pos='2 0 .3'><geom type='box' size='.3 .3 .3'/></body>";
 
-/// Of a drive to the last frame.
+/// Warnings of a drive to the last frame.
 Warnings driven(const scenario::Scenario& scenario) {
   World world(scenario);
   std::vector<ImuSample> imu;
@@ -100,7 +100,7 @@ TEST(Watch, ActorsStepOverKerbsAndTheRoverDoesNot) {
   expect_told(driven(scenario), Warning::rover_collisions, "the setting's geom 'kerb'");
 }
 
-/// A table of one mesh, a board on two boards, so that its hull is a solid block.
+/// A table as one mesh, a board on two boards, so that its hull is a solid block.
 std::string table() {
   struct Board {
     Eigen::Vector3d low, high;

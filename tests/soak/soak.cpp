@@ -1,8 +1,8 @@
 // Usage: soak SCENARIO FRAMES
 //
-// Drives the filter for very long: the corners of a scenario, seen once, pass forth and back, and
-// each time another twentieth of them is missing and another tenth a pixel off. Exits with 1 if the
-// memory or the layers grow, or anything is wrong with them; times are told and no more.
+// Runs the filter for very long: the corners of a scenario, recorded once, pass forth and back,
+// each time without a random twentieth and with another tenth a pixel off. Exits with 1 if the
+// memory or the layers grow, or violate an invariant; times are only printed.
 #include <fmt/format.h>
 #include <malloc.h>
 
@@ -25,17 +25,17 @@ using namespace lcs;
 using Corners = std::vector<Eigen::Vector2f>;
 
 constexpr int kSeenFrames = 40;
-/// Parts of the drive, of which each is told of and the first is to warm up.
+/// Parts of the drive; each is reported, and the first is for warm-up.
 constexpr int kParts = 10;
-/// By how much the last part may have more than the second: other corners are missing by chance.
+/// Allowed growth from the second part to the last: the missing corners are random.
 constexpr double kMostGrowth = 1.05;
 
 struct Seen {
   Corners corners;
-  EgoMotion forth, back;  ///< from the frame before, and from the next one
+  EgoMotion forth, back;  ///< from the previous frame, and from the next one
 };
 
-/// The motion that takes a frame back to the one before.
+/// The motion from a frame back to the previous one.
 EgoMotion reversed(const EgoMotion& motion, const std::optional<Ground>& ground_before) {
   EgoMotion back = motion;
   back.R_cur_prev = motion.R_cur_prev.transpose();
@@ -70,7 +70,7 @@ std::vector<Seen> see(const scenario::Scenario& scenario, Intrinsics& camera) {
   return recorder.seen;
 }
 
-/// splitmix64 of a corner's place in the drive.
+/// splitmix64 hash of a corner's place in the drive.
 std::uint64_t chance(std::uint64_t frame, std::uint64_t corner) {
   std::uint64_t z = frame * 0x9e3779b97f4a7c15ULL + corner * 0xd1b54a32d192ed03ULL;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -88,7 +88,7 @@ void perturb(const Corners& seen, std::uint64_t frame, Corners& corners) {
   }
 }
 
-/// The most that there was in a part of the drive.
+/// Maxima over a part of the drive.
 struct Part {
   std::size_t heap_bytes = 0, items = 0, corners = 0;
   double frame_ms = 0;  ///< mean
@@ -98,7 +98,7 @@ int drive(const std::vector<Seen>& seen, const Intrinsics& camera, int frames) {
   const Parameters parameters;
   Filter filter(camera, parameters);
   Corners corners;
-  corners.reserve(100'000);  // none of the growth is the driver's
+  corners.reserve(100'000);  // so that the driver itself does not grow
   std::array<Part, kParts> parts;
   const int turn = static_cast<int>(seen.size()) - 1;
   for (int p = 0, k = 0; p < kParts; ++p) {

@@ -15,7 +15,7 @@ Comparison compare_all(const SuiteResult& before, const SuiteResult& after) {
   return compare(before, after, [](std::string_view) { return true; });
 }
 
-/// One scenario, one figure.
+/// Compares suites with one scenario and one figure.
 Comparison compare_values(const Values& before, const Values& after,
                           const std::string& metric = "rebel.f1") {
   return compare_all(suite_with({scenario_with("near", metric, before)}),
@@ -30,7 +30,7 @@ bool names(const Comparison& comparison, const std::string& what) {
 // ---- The statistics
 
 TEST(StudentT, AgreesWithTheTables) {
-  // Two-sided 95 %, as printed in any table.
+  // Two-sided 95 %, from a printed table.
   const std::pair<int, double> table[] = {{1, 12.706}, {2, 4.303},  {4, 2.776},  {9, 2.262},
                                           {10, 2.228}, {15, 2.131}, {30, 2.042}, {1000, 1.962}};
   for (const auto& [degrees, t] : table) EXPECT_NEAR(student_t_95(degrees), t, 0.0006) << degrees;
@@ -56,7 +56,7 @@ TEST(Compare, TheSameSuiteTwiceHasNoChange) {
 }
 
 TEST(Compare, AClearGainIsFoundThoughSeedsDifferByMore) {
-  // 0.1 more in each seed, while the seeds lie 0.4 apart: pairs tell, means alone would not.
+  // 0.1 more in each seed, while the seeds differ by 0.4: significant in pairs, not in the means.
   const Comparison comparison = compare_values({0.3, 0.7, 0.5}, {0.40, 0.81, 0.60});
   const Difference& difference = comparison.differences.at(0);
   EXPECT_EQ(difference.verdict, Change::improved);
@@ -76,7 +76,7 @@ TEST(Compare, LessIsBetterWhereLowerIs) {
 }
 
 TEST(Compare, ADifferenceWithinTheNoiseOfSeedsIsNone) {
-  // +0.05 on average, by -0.05, 0.05 and 0.15.
+  // +0.05 on average, from -0.05, 0.05 and 0.15.
   EXPECT_EQ(compare_values({0.5, 0.5, 0.5}, {0.45, 0.55, 0.65}).differences.at(0).verdict,
             Change::none);
 }
@@ -84,7 +84,7 @@ TEST(Compare, ADifferenceWithinTheNoiseOfSeedsIsNone) {
 TEST(Compare, ACertainButTinyDifferenceIsNone) {
   EXPECT_EQ(compare_values({0.5, 0.6, 0.7}, {0.501, 0.601, 0.701}).differences.at(0).verdict,
             Change::none);
-  // The interval has to lie beyond what matters, not only its middle: 0.012 +- 0.005.
+  // The whole interval must lie beyond the margin, not only its middle: 0.012 +- 0.005.
   EXPECT_EQ(compare_values({0.5, 0.5, 0.5}, {0.510, 0.512, 0.514}).differences.at(0).verdict,
             Change::none);
 }
@@ -134,7 +134,7 @@ TEST(Compare, AScenarioIsAsItsWorstFigure) {
 }
 
 TEST(Compare, AGroupChangesSeedBySeedAsItsScenariosAreNoSample) {
-  // Scenarios differ in how they change by far more than seeds do.
+  // Scenarios differ in their change by far more than seeds do.
   const auto with = [](const Values& near, const Values& far) {
     return suite_with(
         {scenario_with("near", "rebel.f1", near), scenario_with("far", "rebel.f1", far)});
@@ -163,7 +163,7 @@ TEST(Compare, AGroupOfWorldsChangesWorldByWorld) {
   EXPECT_EQ(comparison.groups[0].verdict, Change::none);
 }
 
-// ---- What cannot be compared
+// ---- Incomparable suites
 
 TEST(Compare, AScenarioOfOneSideIsNamed) {
   const ScenarioResult both = scenario_with("both", "rebel.f1", {0.5, 0.5});
@@ -211,7 +211,7 @@ TEST(Compare, ARunThatEndsWithAnErrorNowIsNamedAndIsARegression) {
   EXPECT_FALSE(gained.has_regressed());
 }
 
-// ---- In words
+// ---- Text output
 
 TEST(ComparisonText, TellsWhatRegressedAndImprovedWithTheInterval) {
   const SuiteResult before = suite_with({scenario_with("near", "rebel.f1", {0.5, 0.5}),

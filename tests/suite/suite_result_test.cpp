@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Every field has a value of its own, and not its default.
+/// Every field has a distinct value that differs from its default.
 SuiteResult full_suite() {
   SuiteResult suite = suite_with({scenario_with("near<&\"", "rebel.f1", {0.1, 1.0 / 3}),
                                   scenario_with("far", "rebel.f1", {std::nullopt})});
@@ -130,8 +130,8 @@ TEST_F(SuiteFile, ThatIsNotJsonIsNamedWithThePlace) {
 
 struct Damage {
   const char* name;
-  const char* pointer;  ///< to what is replaced
-  Json value;           ///< discarded: taken away
+  const char* pointer;  ///< to the replaced value
+  Json value;           ///< discarded: removed
   const char* said;
 };
 

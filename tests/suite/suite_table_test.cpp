@@ -33,7 +33,7 @@ ScenarioResult broken(const std::string& name) {
   return result;
 }
 
-/// Columns as a terminal counts them.
+/// Number of columns on a terminal.
 std::size_t columns(const std::string& line) {
   return static_cast<std::size_t>(
       std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; }));

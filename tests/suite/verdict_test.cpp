@@ -37,7 +37,7 @@ TEST(Verdict, CountsScenariosAgainstABaselineAndCriteriaInOneLine) {
   SuiteResult after = with(0.6, 0.4);
   EXPECT_EQ(verdict_against({after, {}}, {before, {}}).line,
             "1 regressed, 1 improved, 1 as before");
-  // Missed with both seeds, it is still one criterion.
+  // A criterion missed with both seeds counts once.
   for (RunResult& run : after.scenarios[2].runs) {
     run.criteria = {criterion(false), criterion(true), criterion(false, false)};
     run.outcome = Outcome::failed;
@@ -92,7 +92,7 @@ TEST(Verdict, TheWorstComesFirstWithItsReasons) {
 
 class VerdictOnRules : public testing::Test {
  protected:
-  /// A suite whose one run has such events, in a folder of that name.
+  /// A suite with one run with these events, in a folder called `name`.
   SuiteResult suite(const std::string& name, double f1, const std::vector<bench::Event>& events) {
     SuiteResult made = suite_with({scenario_with("near", "rebel.f1", {f1})});
     made.scenarios[0].runs[0].folder = "run";

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Usage: run.sh SUITE SOURCE WORK [TEST-OPTION]...
 #
-# Installs another system into WORK/SUITE, copies SOURCE into it and has tools/test build and test it
-# there: run.sh trixie . /tmp/systems. SUITE is one of Debian's, or noble, which is Ubuntu 24.04.
-# What is there stays for the next time. Exits with 77, skipped, where that cannot be done here.
+# Installs another system into WORK/SUITE, copies SOURCE into it and runs tools/test there: run.sh
+# trixie . /tmp/systems. SUITE is one of Debian's, or noble, which is Ubuntu 24.04. The installation
+# remains for the next run. Exits with 77, skipped, if this is not possible.
 set -euo pipefail
 suite=$1 source=$2 root=$3/$1
 shift 3
@@ -19,7 +19,7 @@ unshare --mount true 2>/dev/null || skip "this machine allows no mounts"
 
 options=(--variant=minbase --include=ca-certificates) from=()
 if [[ $suite == noble ]]; then
-  # debootstrap has one script for all of Ubuntu's releases, under the name of an old one.
+  # debootstrap has one script for all of Ubuntu's releases, under an old release's name.
   options+=(--components=main,universe)
   from=(http://archive.ubuntu.com/ubuntu gutsy)
 fi
@@ -39,7 +39,7 @@ mkdir -p "$root/lcs"
 find "$root/lcs" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
 tar -C "$source" --exclude='./build*' --exclude=./out --exclude=./.git -c . | tar -C "$root/lcs" -x
 
-# The mounts are this process's own and end with it.
+# The mounts are private to this process and end with it.
 unshare --mount --pid --fork bash -euc '
   mount --rbind /dev "$0/dev"
   mount -t proc proc "$0/proc"

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Usage: run.sh SOURCE BUILD [PATH]
 #
-# Runs clang-tidy with the checks of .clang-tidy over what BUILD compiles of PATH, a folder or a file
-# of SOURCE: filter, sim, scenarios and tools when none is named. Exits with 1 on any finding, or when
-# there is nothing to look at; with 77, skipped, where there is no clang-tidy.
+# Runs clang-tidy with the checks of .clang-tidy over the files of PATH that BUILD compiles. PATH is
+# a folder or a file of SOURCE; default: filter, sim, scenarios and tools. Exits with 1 on any
+# finding or without files; with 77, skipped, without clang-tidy.
 #
-# Version 14 alone, for each version finds other things.
+# Version 14 only, because the findings differ between versions.
 set -euo pipefail
 source=$(realpath "$1") build=$(realpath "$2") path=${3:-(filter|sim|scenarios|tools)}
 
@@ -14,7 +14,7 @@ if ! command -v run-clang-tidy-14 >/dev/null; then
   exit 77
 fi
 
-# `$` at the end would be of the path; what begins like it in another folder is another path.
+# Without (/|\$), a path would also match longer names that begin with it.
 files="^$(sed 's/[][\.*^$+?(){}|]/\\&/g' <<<"$source")/$path(/|\$)"
 log=$build/Testing/clang-tidy.log
 mkdir -p "${log%/*}"

@@ -16,7 +16,7 @@
 namespace lcs::bench {
 namespace {
 
-/// In the child, up to and with exec; does nothing that a forked process may not.
+/// Runs in the child up to exec; uses only calls that are safe after fork.
 [[noreturn]] void become(const char* const* arguments, const CommandOptions& options,
                          const char* out, const char* err) {
   const int flags = O_WRONLY | O_CREAT | O_TRUNC;
@@ -28,13 +28,13 @@ namespace {
     const rlimit both{*most, *most};
     ::setrlimit(what, &both);
   };
-  if (options.obeys_permissions) {  // where this is not root it is so already
+  if (options.obeys_permissions) {  // without root the permissions apply anyway
     ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE);
     ::prctl(PR_CAPBSET_DROP, CAP_DAC_READ_SEARCH);
   }
   limit(RLIMIT_FSIZE, options.largest_file);
   limit(RLIMIT_AS, options.most_memory);
-  // A sanitized build is not to add to stderr which of the known leaks it saw.
+  // A sanitized build must not list suppressed leaks on stderr.
   ::setenv("LSAN_OPTIONS", "print_suppressions=0", /*overwrite=*/0);
   ::closefrom(STDERR_FILENO + 1);
   for (const int descriptor : options.closed) ::close(descriptor);

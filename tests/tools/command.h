@@ -12,26 +12,26 @@
 namespace lcs::bench {
 
 struct CommandResult {
-  int exit_code = -1;  ///< 128 + signal when it was killed by one
+  int exit_code = -1;  ///< 128 + signal if killed by a signal
   std::string out;
   std::string err;
-  std::size_t peak_bytes = 0;  ///< of memory that it, or a child that it waited for, held at a time
+  std::size_t peak_bytes = 0;  ///< peak memory of it or of a child that it waited for
 };
 
 struct CommandOptions {
-  std::filesystem::path folder;                  ///< that it runs in
+  std::filesystem::path folder;                  ///< working folder
   std::optional<std::size_t> largest_file = {};  ///< bytes; writing more fails, as on a full disk
-  std::optional<std::size_t> open_files = {};    ///< descriptors, the three standard ones included
+  std::optional<std::size_t> open_files = {};    ///< descriptors, including the three standard ones
   std::vector<int> closed = {};                  ///< of the standard descriptors
-  std::filesystem::path out = {};                ///< for standard output, in place of `out`
-  std::optional<std::size_t> most_memory = {};   ///< bytes, as `ulimit -v` has it in kB
-  bool obeys_permissions = false;                ///< of files, as all users but root do
+  std::filesystem::path out = {};                ///< standard output, instead of `out`
+  std::optional<std::size_t> most_memory = {};   ///< bytes; `ulimit -v` takes kB
+  bool obeys_permissions = false;                ///< of files, as for all users but root
 };
 
-/// Started on construction; waited for at the latest on destruction.
+/// Starts on construction; waits for the end on destruction at the latest.
 class Command {
  public:
-  /// \param arguments after the program's name.
+  /// \param arguments without the program's name.
   Command(const std::vector<std::string>& arguments, const CommandOptions& options);
   ~Command();
   Command(const Command&) = delete;
@@ -46,7 +46,7 @@ class Command {
   /// Whether it has ended. \param flags of `wait4`.
   bool collect(int flags);
 
-  std::filesystem::path capture_;  ///< folder with what it printed
+  std::filesystem::path capture_;  ///< folder with its output
   pid_t pid_ = -1;
   std::optional<int> status_;
   std::size_t peak_bytes_ = 0;

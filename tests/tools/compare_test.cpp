@@ -14,7 +14,7 @@ using bench::CommandResult;
 
 class CompareCommand : public testing::Test {
  protected:
-  /// A suite's folder with one scenario and one figure.
+  /// Writes a suite's folder with one scenario and one figure.
   void suite(const std::string& name, const std::vector<std::optional<double>>& values,
              const std::string& scenario = "near") {
     std::filesystem::create_directories(folder_.path() / name);

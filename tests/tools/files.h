@@ -1,5 +1,5 @@
 /// \file
-/// Files that a test writes, and what a command left behind.
+/// Files for tests, and the files that a command left.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,20 +13,20 @@
 
 namespace lcs::bench {
 
-/// A file's bytes; the test fails where there is no such file.
+/// A file's bytes; the test fails if the file does not exist.
 inline std::string read(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   EXPECT_TRUE(file) << path;
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Makes the folders above it, too, where they are missing.
+/// Writes a file, creating its folders if necessary.
 inline void write(const std::filesystem::path& path, const std::string& bytes) {
   std::filesystem::create_directories(path.parent_path());
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// Names of what lies in a folder, but for the records of written files (tools/files/written.h).
+/// Names of a folder's entries, without the records of written files (tools/files/written.h).
 inline std::set<std::string> entries(const std::filesystem::path& folder) {
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -35,7 +35,7 @@ inline std::set<std::string> entries(const std::filesystem::path& folder) {
   return names;
 }
 
-/// Of all files in a folder and in those within it, by their path in it.
+/// Bytes of all files in a folder, recursively, by relative path.
 inline std::map<std::string, std::string> bytes_in(const std::filesystem::path& folder) {
   std::map<std::string, std::string> bytes;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

@@ -1,4 +1,4 @@
-// `lcs kinematics` from outside: its files, its answer figure by figure, and what can go wrong.
+// `lcs kinematics` from outside: its files, each figure of its answer, and its errors.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -34,7 +34,7 @@ struct Figure {
   std::optional<double> expected;
 };
 
-/// Answers each figure by its name, once, and keeps what was not asked for.
+/// Returns each figure once by its name, and keeps the rest.
 class Answer {
  public:
   explicit Answer(const std::string& csv) {
@@ -58,7 +58,7 @@ class Answer {
     figures_.erase(found);
     return figure;
   }
-  /// Measured is what theory expects, within a share.
+  /// Requires that the measured value equals the expected one within a share.
   void expect(const std::string& name, double share) {
     const Figure figure = take(name);
     ASSERT_TRUE(figure.expected) << name;
@@ -74,8 +74,8 @@ class Answer {
   std::map<std::string, Figure> figures_;
 };
 
-/// The whole study of the default camera. Every figure of the answer is held against theory or a
-/// bound, and none is left over.
+/// The whole study of the default camera. Every figure of the answer is compared with theory or a
+/// bound.
 TEST_F(Kinematics, EveryFigureOfTheAnswerIsBorneOut) {
   const CommandResult result = run({"--quick", "--tolerance", "0.3", "--out", "study"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -88,7 +88,7 @@ TEST_F(Kinematics, EveryFigureOfTheAnswerIsBorneOut) {
                                    "drift.csv"}));
   const std::string text = read(study / "answer.txt");
   EXPECT_NE(result.out.find(text), std::string::npos);
-  // Verdicts are of the tolerance that was asked for, at the scenario's own frame rate and IMU.
+  // Verdicts use the requested tolerance and the scenario's own frame rate and IMU.
   EXPECT_NE(text.find("\nwithin 0.3 px: rotation, IMU, mount, drift; beyond: translation ("),
             std::string::npos)
       << text;
@@ -97,7 +97,7 @@ TEST_F(Kinematics, EveryFigureOfTheAnswerIsBorneOut) {
   Answer answer(read(study / "answer.csv"));
 
   for (const std::string axis : {"pan", "tilt", "roll"}) {
-    // Second order; the third is a share of w x/f = 0.03 of it.
+    // Second order; the third order is a share of w x/f = 0.03 of it.
     answer.expect("first_order.limit." + axis, 0.05);
     // First order; the second is a share of half the angle, below 0.004 rad, and of y^2/f^2.
     answer.expect("as_printed.limit." + axis, 0.03);
@@ -107,18 +107,18 @@ TEST_F(Kinematics, EveryFigureOfTheAnswerIsBorneOut) {
   EXPECT_LT(answer.take("homography.worst").value, 1e-10);
   EXPECT_LT(answer.take("translation.truth.worst").value, 1e-10);
 
-  // The reference depth errs by V_v t_f |Z_ref/Z - 1|: the simulator's depths say how much.
+  // The reference depth errs by V_v t_f |Z_ref/Z - 1|, computed from the simulator's depths.
   answer.expect("translation.reference.median", 1e-6);
   const double reference_p95 = answer.take("translation.reference.p95").value;
-  // Corners are in whole pixels (0.29 px each way, root mean square, and two sightings); a median
-  // beyond that would be the filter's. Its tail are corners at outlines, that took another depth.
+  // Corners are in whole pixels (0.29 px each way, root mean square, and two sightings); a larger
+  // median would be the filter's error. Its tail are corners at outlines, with another depth.
   EXPECT_LT(answer.take("translation.learnt.median").value, 0.29 * std::sqrt(2.0));
   EXPECT_LT(answer.take("translation.learnt.p95").value, reference_p95);
 
-  // 5 seeds, 100 frames and 3 axes: a root mean square of 1500 draws is good to 1/sqrt(3000) = 2 %.
+  // 5 seeds, 100 frames, 3 axes: a root mean square of 1500 draws is exact to 1/sqrt(3000) = 2 %.
   answer.expect("imu.rotation.rms", 0.06);
-  // The velocity drifts on from frame to frame: 5 seeds and 2 axes are 1/sqrt(20) = 22 %; 2 of
-  // these.
+  // The velocity drifts from frame to frame: 5 seeds and 2 axes give 1/sqrt(20) = 22 %; the bound
+  // is twice that.
   answer.expect("imu.dead_reckoning.rms", 0.45);
   answer.expect("imu.odometry.rms", 0.45);
 
@@ -130,29 +130,29 @@ TEST_F(Kinematics, EveryFigureOfTheAnswerIsBorneOut) {
   EXPECT_LT(answer.take("mount.roll.rms").value, 1e-10);  // the step is along the axis
   answer.expect("mount.foe_shift", 1e-6);                 // f tan(1 deg)
 
-  // Turns of up to 4 deg: the next order is a share of that, 0.07 rad, at the edge.
+  // Turns of up to 4 deg: the next order is a share of 0.07 rad at the edge.
   answer.expect("bumps.none.rms", 0.05);
   answer.expect("bumps.first_order.rms", 0.1);
   EXPECT_LT(answer.take("bumps.homography.rms").value, 1e-10);
   EXPECT_GT(answer.take("bumps.turn.p95").value, 1) << "deg: the ground is rough";
-  // What the IMU's 200 readings a second lose of the shaking (0.7 px), and the velocity where the
-  // wheels slip on the bumps and are not believed: less than an eighth of what it was.
+  // The IMU's 200 readings per second miss part of the shaking (0.7 px), and wheels that slip on
+  // the bumps are not trusted: less than an eighth of the former error.
   EXPECT_LT(answer.take("bumps.imu.rms").value, 9.4 / 8);
 
   for (const std::string imu : {"adis16448", "tumvi", "esim"}) {
     const std::string of = "drift." + imu + ".";
-    // 25 seeds: a root mean square is good to 1/sqrt(50) = 14 %; 2.5 of these. Tilt has two axes.
+    // 25 seeds: an RMS value is exact to 1/sqrt(50) = 14 %; 2.5 times that. Tilt has two axes.
     for (const char* what : {"forward", "lateral", "vertical", "heading", "odometry.heading"}) {
       answer.expect(of + what, 0.35);
     }
     answer.expect(of + "tilt", 0.25);
-    // Likewise; the gyro's random walk and the start are left out of the expectation, 10 % more.
+    // Likewise; the expectation omits the gyro's random walk and the start, 10 % more.
     for (const char* what : {"odometry.forward", "odometry.lateral", "odometry.vertical"}) {
       answer.expect(of + what, 0.4);
     }
-    answer.expect(of + "odometry.tilt", 0.5);  // about a bound
+    answer.expect(of + "odometry.tilt", 0.5);  // relative to a bound
   }
-  // Without noise nothing drifts but by the odometry: its scale, 0.5 % of the speed in the mean.
+  // Without noise only odometry causes drift: its scale, 0.5 % of the mean speed.
   for (const char* what : {"forward", "lateral", "vertical"}) {
     EXPECT_LT(answer.take(std::string("drift.ideal.") + what).value, 1e-6) << what;
   }
@@ -201,7 +201,7 @@ TEST_F(Kinematics, AFolderWithSomethingElseIsLeftAlone) {
 
 TEST_F(Kinematics, AnInterruptLeavesNothing) {
   Command command({"kinematics", "--quick", "--out", "study"}, {.folder = folder_.path()});
-  // Once its folder is begun it is at work.
+  // The command is at work once its folder exists.
   for (int i = 0; i < 600 && fs::is_empty(folder_.path()); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }

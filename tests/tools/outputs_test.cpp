@@ -1,5 +1,5 @@
-// Every option of every command that names what is written, as the program's own help lists them:
-// whatever it names, no byte of anybody else is lost.
+// Every option of every command that names an output, as listed by the program's own help: no byte
+// of a foreign file is lost, whatever the option names.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -38,7 +38,7 @@ actors:
   walker: {shape: box, trajectory: {line: {from: [3 m, -1 m], heading: 90 deg, speed: 1 m/s}}}
 )";
 
-/// An option that names what is written.
+/// An option that names an output.
 struct Option {
   std::string command, name, type;
   bool is_file() const { return type == "FILE"; }
@@ -64,7 +64,7 @@ std::vector<Listed> listed(const std::string& help) {
   return all;
 }
 
-/// Options that name what is read. Any other option that takes a path has to be an output.
+/// Options that name inputs. Any other option with a path must be an output.
 const std::set<std::string> kInputs{"run --recorded",     "run --detections", "suite --recorded",
                                     "suite --detections", "suite --baseline", "score --detections",
                                     "replay --poses",     "replay --imu",     "replay --odometry",
@@ -127,7 +127,7 @@ class Outputs : public testing::Test {
     return all;
   }
 
-  /// A short use of the command, without the option.
+  /// A short call of the command without the option.
   static Arguments use_of(const Option& option) {
     static const std::map<std::string, Arguments> uses{
         {"run", {"run", "scenarios/mine.yaml", "--no-video", "--quiet"}},
@@ -157,7 +157,7 @@ class Outputs : public testing::Test {
   CommandResult lcs(const Arguments& arguments) const {
     return run_lcs(arguments, {.folder = home_.path()});
   }
-  /// The command is refused with one line, and everything is as it was.
+  /// The command is refused with one line, and all files are unchanged.
   void expect_refused(const Arguments& arguments, const CommandOptions& options) const {
     const auto before = bytes_in(home_.path());
     const CommandResult result = run_lcs(arguments, options);
@@ -174,7 +174,7 @@ class Outputs : public testing::Test {
   void expect_refused(const Arguments& arguments) const {
     expect_refused(arguments, {.folder = home_.path()});
   }
-  /// Also where a file may be replaced by force.
+  /// Also with the option that replaces files.
   void expect_refused_even_by_force(const Option& option, const std::string& target) const {
     Arguments arguments = naming(option, target);
     expect_refused(arguments);
@@ -220,7 +220,7 @@ TEST_F(Outputs, TakeTheirPlaceAndThatOfTheirOwnEarlierOnes) {
 }
 
 TEST_F(Outputs, TakeNoForeignFilesPlace) {
-  // These are what users write, too, and what this program looks for.
+  // Users have such files, too, and this program looks for them.
   write(home_.path() / "mine.csv", "frame,type\n0,rebel,1\n");
   write(home_.path() / "mine.json", R"({"rebel.f1": 0.9, "detector": "mine"})");
   write(home_.path() / "mine.html", "<!DOCTYPE html>\n<html lang=\"en\">\n");
@@ -249,7 +249,7 @@ TEST_F(Outputs, TakeNoForeignFoldersPlace) {
   for (const Option& option : options()) {
     SCOPED_TRACE(option.key());
     for (const char* folder : {"mine", "edited", "more"}) {
-      // A folder of tune takes in what is missing.
+      // `lcs tune` adds missing files to its own folder.
       if (option.command == "tune" && std::string(folder) != "mine") continue;
       expect_refused_even_by_force(option, folder);
     }
@@ -292,7 +292,7 @@ TEST_F(Outputs, AreNoInputsNorLieInsideOrRoundThem) {
       expect_refused_even_by_force(option, input);
     }
   }
-  // Own results that are read.
+  // The program's own results that are read.
   expect_refused({"run", "scenarios/mine.yaml", "--recorded", "run", "--no-video", "--out", "run"});
   expect_refused(
       {"run", "scenarios/mine.yaml", "--recorded", "run", "--no-video", "--beside", "lcs:lab=run"});
@@ -336,11 +336,11 @@ TEST_F(Outputs, OnAFullDiskLeaveNothing) {
     SCOPED_TRACE(option.key());
     if (option.command == "kinematics") continue;  // takes long before it writes
     const auto before = entries(home_.path());
-    // A generated sequence and a search keep what they have.
+    // A generated sequence and a search keep their existing files.
     const bool grows = option.command == "generate" || option.command == "tune";
     const CommandOptions full{.folder = home_.path(), .largest_file = 300};
     if (option.key() == "replay --write") {
-      // Its file is as short as the message, which has to go into a file of the test.
+      // The file is as short as the message, which goes to another file of the test.
     } else if (!grows) {
       expect_refused(naming(option, "place"), full);
       EXPECT_EQ(entries(home_.path()), before);

@@ -31,7 +31,7 @@ using bench::read;
 using Json = nlohmann::json;
 using namespace std::chrono_literals;
 
-/// One that has OpenCV; "" where there is none.
+/// A Python with OpenCV; "" if there is none.
 std::string python() {
   static const std::string found = [] {
     for (const std::string name : {"python3", "/usr/bin/python3"}) {
@@ -42,8 +42,8 @@ std::string python() {
   return found;
 }
 
-/// Does what the protocol asks for, and says nothing of any corner; what it does otherwise is told
-/// by its argument.
+/// Follows the protocol with empty answers; its argument selects a deviation from the
+/// protocol.
 constexpr const char* kProgram = R"(
 import json, os, signal, sys, time
 mode = sys.argv[1]
@@ -109,7 +109,7 @@ class OwnDetector : public testing::Test {
  protected:
   void SetUp() override {
     if (python().empty()) {
-      // as tools/test looks for it
+      // in the same places as tools/test
       std::cout << "SKIPPED: there is no python3 with OpenCV (Debian: python3-opencv)\n";
       GTEST_SKIP();
     }
@@ -165,7 +165,7 @@ TEST_F(OwnDetector, IsToldWhatTheFilterIsAndSeesEachPicture) {
     const Json& frame = told[k + 1];
     EXPECT_EQ(frame["t_ns"], layers[k]["t_ns"]);
     EXPECT_EQ(frame["told_motion"], layers[k]["told_motion"]) << "to the last bit";
-    if (k > 0) {  // in the first one there is none
+    if (k > 0) {  // the first frame has no motion
       EXPECT_NE(frame["told_motion"]["v_C_mps"], truth[k + 1]["true_motion"]["v_C_mps"])
           << "never the exact one";
     }
@@ -231,7 +231,7 @@ TEST_F(OwnDetector, ThatDoesNotKeepToTheProtocolEndsTheRunWithOneMessageAndNoOut
        "frame 3: its answer '{\"index\": 3, \"box\": [[1, NaN, 2, 3, 4]]}': not JSON at byte 26"},
       {"mask", "frame 3: the mask's counts do not add up to 240 x 320 pixels"},
       {"circle", "frame 3: it gives circles, and has not said \"circles\": true in its greeting"},
-      {"twice", "frame 4: it"},  // before it was asked, or with the index of the last one
+      {"twice", "frame 4: it"},  // before the request, or with the index of the last one
       {"skips", "frame 3: its answer has the index 4"},
       {"dies", "frame 3: it ended with exit code 1; it wrote to stderr: no more | Traceback"},
       {"killed", "frame 3: it was ended by signal 11 (Segmentation fault)"},
@@ -314,7 +314,7 @@ TEST_F(OwnDetector, ThatIsNotThereOrBadlyNamedIsToldBeforeAnyOutput) {
 TEST_F(OwnDetector, LeavesNoProcessBehindHoweverTheRunEnds) {
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
     Command command(run_arguments("hangs"), {.folder = folder_.path()});
-    std::vector<pid_t> children;  // the scene is tried in one, too
+    std::vector<pid_t> children;  // the scene is also tried in a child
     const auto has_program = [&] {
       children = bench::children_of(command.pid());
       return std::any_of(children.begin(), children.end(), [](pid_t child) {
@@ -343,7 +343,7 @@ TEST_F(OwnDetector, MayAskForLongerAnswersInItsGreeting) {
   EXPECT_EQ(frame.verdicts.front(), Verdict::rebel);
 }
 
-/// All processes of a word in their command line.
+/// All processes with a word in their command line.
 std::vector<pid_t> processes_with(const std::string& word) {
   std::vector<pid_t> found;
   for (const auto& entry : fs::directory_iterator("/proc")) {
@@ -407,7 +407,7 @@ TEST_F(OwnDetector, ThatFailsInOneRunOfASuiteLeavesTheOthers) {
   EXPECT_EQ(bench::value(result.scenarios.at(1).runs.at(0).metrics, "rebel.recall"), 0);
 }
 
-/// Figures but for times.
+/// Figures except times.
 std::map<std::string, std::optional<double>> figures_of(const suite::RunResult& run) {
   std::map<std::string, std::optional<double>> figures;
   for (const auto& [name, figure] : run.metrics) {
@@ -458,7 +458,7 @@ TEST_F(OwnDetector, TheExampleHasTheSameFiguresByItsProgramAndByFilesOverASuite)
   EXPECT_NE(lcs({"score", "asked"}).out.find("near"), std::string::npos);
   EXPECT_EQ(lcs({"compare", "asked", "said"}).exit_code, 0);
 
-  // As it is in a run of its own; of recorded frames it sees what compression has left.
+  // As in a separate run; recorded frames are compressed, so their results differ.
   const CommandResult live = lcs({"run", "scenarios/near.yaml", "--out", "live", "--no-video",
                                   "--quiet", "--detector", "lk", "--detector-command", example});
   EXPECT_EQ(live.exit_code, 0) << live.err;
@@ -487,7 +487,7 @@ TEST_F(OwnDetector, FilesOfDetectionsThatAreMissingAreAllNamedBeforeAnythingRuns
   EXPECT_NE(
       said({"--recorded", "frames", "--detections", "none"}).find("--detections none is no folder"),
       std::string::npos);
-  // A row that is none is an error of its run, by file and line.
+  // An invalid row is an error of its run, by file and line.
   for (const char* file : {"far/seed-1.csv", "near/seed-1.csv"}) {
     fs::create_directories((folder_.path() / "csv" / file).parent_path());
     std::ofstream(folder_.path() / "csv" / file) << "";

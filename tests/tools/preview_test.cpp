@@ -1,4 +1,4 @@
-// `lcs preview`: what it finds wrong, what is on its page, and that the world it writes is one.
+// `lcs preview`: the faults that it finds, the content of its page, and the world that it writes.
 #include "tools/preview/preview.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using bench::CommandResult;
 using bench::read;
 
-/// A crate beside the rover's way, and a box that goes by.
+/// A crate beside the rover's way, and a box that passes.
 constexpr const char* kScene =
     "<mujoco><worldbody><light pos='0 0 5'/><geom name='floor' type='plane' size='20 20 .1'/>"
     "<geom name='pillar' type='box' pos='8 0 1' size='.3 .3 1' rgba='.2 .2 .2 1'/>"
@@ -46,7 +46,7 @@ class PreviewCommand : public testing::Test {
   scenario::Scenario load(const std::vector<std::string>& sets = {}) const {
     return scenario::load(folder_.path() / "mine.yaml", {.sets = sets, .seed = {}});
   }
-  /// All that is wrong, in one text.
+  /// All faults in one text.
   std::string wrong(const std::vector<std::string>& sets) const {
     std::string all;
     for (const std::string& line : preview(load(sets)).wrong) all += line + "\n";
@@ -64,7 +64,7 @@ TEST_F(PreviewCommand, TellsWhoGoesWhereAndWhoIsSeen) {
   EXPECT_NEAR(walker.moves->to_s, 1.9, 1e-9);  // the last of 20 frames at 10 Hz
   EXPECT_NEAR((walker.way_m.back() - Eigen::Vector2d(3, 0.9)).norm(), 0, 1e-6);
   EXPECT_NEAR((p.survey.rover_m.back() - Eigen::Vector2d(0.95, 0)).norm(), 0, 1e-3);
-  // at 1.6 s they are (0.8, 0) and (3, 0.6): from then on the distance is that of the last frames
+  // at 1.6 s they are at (0.8, 0) and (3, 0.6); the last frames give the nearest distance
   EXPECT_LT(walker.nearest_m, 2.3);
   EXPECT_EQ(walker.looks, kLooks);
   EXPECT_EQ(p.corners_px.size(), static_cast<std::size_t>(kLooks));

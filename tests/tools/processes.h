@@ -1,5 +1,5 @@
 /// \file
-/// Which processes there are.
+/// The running processes.
 #pragma once
 
 #include <sys/types.h>
@@ -13,7 +13,7 @@
 
 namespace lcs::bench {
 
-/// Of a process: its state as one letter, and its parent; the state is 0 when it is gone.
+/// State of a process as one letter, and its parent; the state is 0 after its end.
 struct ProcessState {
   char state = 0;
   pid_t parent = 0;
@@ -29,19 +29,19 @@ inline ProcessState state_of(const std::string& process) {
   return state;
 }
 
-/// One that has ended but that nobody has waited for is not running.
+/// Whether a process runs; a zombie does not.
 inline bool is_running(pid_t process) {
   const char state = state_of(std::to_string(process)).state;
   return state != 0 && state != 'Z';
 }
 
-/// Its program and arguments, each ended by a NUL; empty when it is gone.
+/// Its program and arguments, each ended by a NUL; empty after its end.
 inline std::string command_line_of(pid_t process) {
   std::ifstream file(std::filesystem::path("/proc") / std::to_string(process) / "cmdline");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The children of a process that still run.
+/// The running children of a process.
 inline std::vector<pid_t> children_of(pid_t parent) {
   std::vector<pid_t> children;
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {

@@ -1,5 +1,5 @@
 /// \file
-/// Recordings made by hand, whose figures can be told with pencil and paper.
+/// Synthetic recordings whose figures can be computed by hand.
 #pragma once
 
 #include <vector>
@@ -50,13 +50,13 @@ class FrameMaker {
     frame_.object_truth.push_back(truth);
     return *this;
   }
-  /// What is seen of the last object: all pixels of its box.
+  /// Makes all pixels of the last object's box visible.
   FrameMaker& full() {
     sim::ObjectTruth& truth = frame_.object_truth.back();
     truth.mask = {0, static_cast<std::uint32_t>(truth.visible_px)};
     return *this;
   }
-  /// A square that covers exactly these pixels.
+  /// Adds a square that covers exactly these pixels.
   FrameMaker& square(Id id, PixelBox box) {
     Square square;
     square.id = id;

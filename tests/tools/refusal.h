@@ -1,5 +1,5 @@
 /// \file
-/// What something is refused with.
+/// The message of an expected error.
 #pragma once
 
 #include <exception>

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr double kFocal_px = 300, kSpeed_mps = 0.2, kFps = 5;
 
-/// What a camera sees that drives towards a wall of dark patches, `depth_m` away in the first
+/// Picture from a camera that drives towards a wall of dark patches, `depth_m` away in the first
 /// frame.
 cv::Mat1b wall(int frame, double depth_m = 3) {
   cv::Mat1b image(240, 320, 200);
@@ -37,7 +37,7 @@ cv::Mat1b wall(int frame, double depth_m = 3) {
                     {px(x + 0.08, 159.5), px(y + 0.06, 119.5)}, cv::Scalar(30), cv::FILLED);
     }
   }
-  // Ideal edges have corners of equal strength side by side, which suppress each other.
+  // Ideal edges have adjacent corners of equal strength, which suppress each other.
   cv::GaussianBlur(image, image, {}, 0.8);
   return image;
 }

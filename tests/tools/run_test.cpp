@@ -35,13 +35,13 @@ std::ptrdiff_t lines(const std::string& text) {
 
 class Run : public testing::Test {
  protected:
-  /// In an empty folder of its own, where a default output would land.
+  /// Runs in a separate empty folder, where default outputs go.
   CommandResult run(std::vector<std::string> arguments,
                     std::optional<std::size_t> largest_file = {}) {
     arguments.insert(arguments.begin(), "run");
     return run_lcs(arguments, {.folder = folder_.path(), .largest_file = largest_file});
   }
-  /// The quickest run that there is.
+  /// Arguments of the fastest possible run.
   static std::vector<std::string> brief(std::vector<std::string> more = {}) {
     std::vector<std::string> arguments{kScenarios / "crossing.yaml", "--set", "frames=4",
                                        "--no-video"};
@@ -55,7 +55,7 @@ class Run : public testing::Test {
   const TemporaryFolder folder_;
 };
 
-// ---- A run that is fine
+// ---- A successful run
 
 class ShippedScenario : public Run, public testing::WithParamInterface<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenarios, ShippedScenario,
@@ -85,7 +85,7 @@ TEST_P(ShippedScenario, LeavesWholeFilesThatAgreeWithEachOther) {
     EXPECT_EQ(frame.signatures.size(), frame.corners_px.size()) << "frame " << frame.index;
   }
 
-  // Scored again from its files, the run has the same figures to the last bit, times apart.
+  // Scored again from its files, the run has bitwise equal figures, except times.
   const nlohmann::json stored = metrics(fs::path("out") / name);
   for (const auto& [metric, figure] : score(recording)) {
     ASSERT_TRUE(stored.contains(metric)) << metric;
@@ -138,7 +138,7 @@ TEST_F(Run, TwoProcessesWriteTheSameLayersAndTruthToTheByte) {
 }
 
 TEST_F(Run, WhatShouldNotBeInItsWorldIsToldAndARecordingTellsTheSame) {
-  // The box starts a second's way before the rover.
+  // The box starts one second's drive ahead of the rover.
   const std::vector<std::string> into{
       "--set", "ego.speed=2 m/s", "--set",
       "actors.crossing_box.trajectory.line={from: [-3 m, 0 m], heading: 90 deg, speed: 0}"};
@@ -157,7 +157,7 @@ TEST_F(Run, WhatShouldNotBeInItsWorldIsToldAndARecordingTellsTheSame) {
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_NE(again.err.find("warning: the rover runs into actor 'crossing_box'"), std::string::npos);
   EXPECT_EQ(metrics("b")["warnings.rover_collisions"].get<int>(), 1);
-  fs::remove(folder_.path() / "a" / "warnings.json");  // as of an earlier program
+  fs::remove(folder_.path() / "a" / "warnings.json");  // like a run of an earlier version
   ASSERT_EQ(with({"--recorded", "a", "--out", "c"}).exit_code, 0);
   EXPECT_TRUE(metrics("c")["warnings.rover_collisions"].is_null());
 }
@@ -211,7 +211,7 @@ TEST_F(Run, AFilterSettingReachesTheFilter) {
 }
 
 TEST_F(Run, EventsAreWrittenWithPicturesAndChangeNothingElse) {
-  // Frames in which the movers come: the first that count are missed.
+  // Frames in which the movers appear: the first counted ones are missed.
   const std::vector<std::string> some{kScenarios / "approaching.yaml", "--set", "frames=16",
                                       "--no-video"};
   const auto with = [&](std::vector<std::string> more) {
@@ -233,11 +233,11 @@ TEST_F(Run, EventsAreWrittenWithPicturesAndChangeNothingElse) {
     for (const auto& [step, corners] : event.steps) explained += corners;
     EXPECT_EQ(explained, event.corners);
     EXPECT_EQ(event.frames > 0, family_of(event.kind) == EventFamily::squares);
-    // before, in and after it; at an end of the run one of them is not there
+    // before, in and after the event; at an end of the run one of them does not exist
     const bool is_at_an_end = event.first_frame == 0 || event.last_frame == 15;
     EXPECT_GE(event.views.size(), is_at_an_end ? 2u : 3u);
     for (const EventView& view : event.views) {
-      EXPECT_EQ(view.jpeg_base64.rfind("/9j/", 0), 0u);  // how every JPEG begins
+      EXPECT_EQ(view.jpeg_base64.rfind("/9j/", 0), 0u);  // start of every JPEG
     }
     missed += event.counted_corners > 0 ? event.corners : 0;
   }
@@ -288,7 +288,7 @@ TEST_F(Run, TwoIntoOneFolderAtATimeLeaveOneOfThemWhole) {
 
 class Again : public Run {
  protected:
-  /// Frames in which the movers come, so that there is something to say of them.
+  /// Frames in which the movers appear, so that there are events.
   CommandResult approaching(std::vector<std::string> more) {
     more.insert(more.begin(), {kScenarios / "approaching.yaml", "--set", "frames=16", "--quiet"});
     return run(more);
@@ -296,7 +296,7 @@ class Again : public Run {
   std::string file(const fs::path& result, const char* name) {
     return read(folder_.path() / result / name);
   }
-  /// Everything but times.
+  /// Compares everything except times.
   void expect_same(const fs::path& one, const fs::path& other) {
     for (const char* name : {kLayersFile, kTruthFile, kEventsFile}) {
       EXPECT_TRUE(file(one, name) == file(other, name)) << name;
@@ -322,7 +322,7 @@ TEST_F(Again, TheFilterSaysWhatItWouldSayInARunOfItsOwn) {
   EXPECT_FALSE(file("first", kLayersFile) == file("live", kLayersFile))
       << "the setting does not show";
   expect_same("live", "again");
-  // What was not done took no time.
+  // Skipped stages took no time.
   const nlohmann::json times = metrics("again");
   EXPECT_TRUE(times["time.filter_ms_median"].is_number());
   for (const char* stage :
@@ -330,7 +330,7 @@ TEST_F(Again, TheFilterSaysWhatItWouldSayInARunOfItsOwn) {
         "time.truth_ms_median", "time.filter_over_fast"}) {
     EXPECT_TRUE(times[stage].is_null()) << stage;
   }
-  // A run that was made so is a recording, too.
+  // A run from recorded frames is a recording, too.
   ASSERT_EQ(
       approaching({"--events", "--no-video", "--recorded", "again", "--out", "more"}).exit_code, 0);
   expect_same("first", "more");
@@ -397,7 +397,7 @@ TEST_F(Again, ARecordingOfAnythingElseIsRefusedWithTheFirstDifference) {
        "it has no corners.threshold, and now there is corners.threshold: 30");
   says(refusal({"--detector", "klt"}), "klt looks at the pictures");
 
-  // Who watches and judges may change, and what is for people.
+  // Detector settings, criteria and descriptions may change.
   for (const char* setting : {"filter.circle.gap=0.3", "criteria=[{metric: frames, min: 4}]",
                               "purpose=another", "groups=[long]"}) {
     EXPECT_EQ(run(brief({"--recorded", "first", "--out", "again", "--set", setting})).exit_code, 0)
@@ -436,7 +436,7 @@ TEST_F(Again, ABrokenRecordingIsToldWithItsFile) {
       "picture 0 has 32000 x 32000 pixels, and one of a camera of 640 x 480 has 640 x 480; run");
   fs::remove(first / kPicturesFile);
 
-  // As a program left it that did not say it yet.
+  // As written by a version without this entry.
   const std::size_t world = truth.find(",\"world\":{"), end = truth.find('}', world);
   ASSERT_NE(world, std::string::npos);
   rewrite(kTruthFile, truth.substr(0, world) + truth.substr(end + 1));
@@ -569,7 +569,7 @@ TEST_F(Run, ADiskThatFillsUpIsToldInOneLineAndLeavesNothingBehind) {
 }
 
 TEST_F(Run, AVideoThatTheDiskCannotHoldIsToldLikewise) {
-  // All other files of so short a run fit, or the message would name one of them.
+  // All other files of so short a run are within the limit, so the message names this one.
   const CommandResult result =
       run({kCrossing, "--set", "frames=2", "--set", "corners.threshold=100", "--quiet"}, 20'000);
   EXPECT_EQ(result.exit_code, 2);
@@ -592,7 +592,7 @@ TEST_P(RunInterrupted, LeavesTheEarlierResultAsItWasAndExitsWith130) {
   const std::string before = read(folder_.path() / "out" / "crossing" / kLayersFile);
 
   Command command({"run", kCrossing, "--set", "frames=1000"}, {.folder = folder_.path()});
-  // Once a staging folder stands beside the result, the run is under way.
+  // The run is under way once a staging folder exists beside the result.
   while (command.is_running() && entries(folder_.path() / "out").size() < 2) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

@@ -1,4 +1,4 @@
-// `lcs score` from its command line, on what `lcs run` leaves.
+// `lcs score` from its command line, on the output of `lcs run`.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>

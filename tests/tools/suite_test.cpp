@@ -29,7 +29,7 @@ using bench::read;
 
 class Suite : public testing::Test {
  protected:
-  /// A run of a small image, with all that is particular to it.
+  /// Writes a scenario with a small image and additional keys.
   void scenario(const std::string& name, const std::string& more = "", int frames = 4) {
     fs::create_directories(folder_.path() / "scenarios");
     std::ofstream(folder_.path() / "scenarios" / (name + ".yaml"))
@@ -44,7 +44,7 @@ class Suite : public testing::Test {
   SuiteResult result(const fs::path& out = "out/suite") {
     return read_suite(folder_.path() / out / kSuiteFile);
   }
-  /// As `lcs run` leaves it.
+  /// The folder of a run.
   fs::path run_folder(const ScenarioResult& scenario, std::size_t place) {
     return folder_.path() / "out" / "suite" / scenario.runs.at(place).folder;
   }
@@ -178,13 +178,13 @@ TEST_F(Suite, ASweepIsOneScenarioAPoint) {
             "'camera.rate=5 Hz'");
 }
 
-/// Without what a clock says.
+/// The result without times.
 nlohmann::ordered_json timeless(const fs::path& file) {
   auto json = nlohmann::ordered_json::parse(read(file));
   for (auto& scenario : json["scenarios"]) {
     for (auto& run : scenario["runs"]) {
       run.erase("wall_s");
-      run.erase("command");  // of frames of an earlier one it is another
+      run.erase("command");  // a run of recorded frames has another command
       auto& metrics = run["metrics"];
       for (auto metric = metrics.begin(); metric != metrics.end();) {
         const bool is_time = metric.key().starts_with("time.") || metric.key().starts_with("sim.");
@@ -212,7 +212,7 @@ TEST_F(Suite, OnTheFramesOfAnEarlierOneItHasTheFiguresOfOneThatSimulates) {
   figures["recorded"] = "";
   EXPECT_EQ(figures, timeless(folder_.path() / "live" / kSuiteFile));
 
-  // A run that the earlier one does not have is an error, and the others still run.
+  // A run that is missing in the earlier suite is an error, and the others still run.
   const CommandResult more =
       run({"--seeds", "3", "--filter", "near", "--out", "more", "--recorded", "first"});
   EXPECT_EQ(more.exit_code, 2);
@@ -223,7 +223,7 @@ TEST_F(Suite, OnTheFramesOfAnEarlierOneItHasTheFiguresOfOneThatSimulates) {
 }
 
 TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
-  // The first criterion is the filter's; it does not judge the others, which are not layered.
+  // The first criterion applies to the filter, not to the other detectors, which have no layers.
   scenario("near",
            "criteria:\n  - {metric: dimension.mean, min: 1}\n"
            "  - {metric: frames, max: 7, detector: klt}\n"
@@ -259,7 +259,7 @@ TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
                 frames(read(run_folder(result().scenarios[0], 1) / "truth.jsonl")))
         << "not the same frames";
   }
-  // It is an earlier suite like any other.
+  // It can be used like any earlier suite.
   EXPECT_EQ(run({"--seeds", "1"}).exit_code, 0) << "klt is not asked";
   EXPECT_FALSE(fs::exists(out_ / "beside"));
 }
@@ -339,7 +339,7 @@ TEST_F(Suite, ABaselineShowsWhatChangedAndOneThatCannotBeReadIsToldBeforeAnythin
   EXPECT_NE(same.out.find("\n0 regressed, 0 improved, 1 as before\n"), std::string::npos)
       << same.out;
 
-  // A suite that was better: what is as it was has regressed from it.
+  // A better earlier suite: an unchanged result has regressed from it.
   const fs::path better = folder_.path() / "better";
   fs::copy(folder_.path() / "before", better, fs::copy_options::recursive);
   SuiteResult suite = read_suite(better);
@@ -501,11 +501,11 @@ TEST(JUnit, EscapesWhatXmlCannotHold) {
                                  "\xc3\xa9\nmore");
 }
 
-// ---- What can happen to the processes
+// ---- Failures of processes
 
 class SuiteProcesses : public Suite {
  protected:
-  /// A suite of runs that would take minutes, once two of them are under way.
+  /// A suite whose runs would take minutes, once two of them are under way.
   std::unique_ptr<bench::Command> begin_endless() {
     for (const char* name : {"a", "b", "c"}) scenario(name, "", 100'000);
     auto command = std::make_unique<bench::Command>(
@@ -546,7 +546,7 @@ TEST_F(SuiteProcesses, AChildThatCrashesIsAnErrorThatNamesTheSignal) {
   ASSERT_TRUE(command->is_running());
   while (command->is_running()) {
     for (const pid_t child : children_of(command->pid())) {
-      // Not a child of the leak sanitizer, which looks as its parent does.
+      // Not a child of the leak sanitizer, whose command line equals its parent's.
       const bool is_run = bench::command_line_of(child).find("--events") != std::string::npos;
       if (is_run) ::kill(child, SIGKILL);
     }

@@ -1,5 +1,5 @@
 /// \file
-/// Suite results made by hand.
+/// Synthetic suite results.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ inline RunResult run_with(std::uint64_t seed, bench::Metrics metrics) {
   return run;
 }
 
-/// One scenario with one metric, a value a seed, seeds from 1.
+/// One scenario with one metric, one value per seed, seeds from 1.
 inline ScenarioResult scenario_with(const std::string& name, const std::string& metric,
                                     const std::vector<std::optional<double>>& values) {
   ScenarioResult scenario;

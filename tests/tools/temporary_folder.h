@@ -1,5 +1,5 @@
 /// \file
-/// A folder that is gone when the test is over.
+/// A folder that is deleted at the end of the test.
 #pragma once
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-// `lcs run --view`: what keys do, and what becomes of it with and without a display.
+// `lcs run --view`: the effect of keys, and its behaviour with and without a display.
 #include "tools/lcs/view.h"
 
 #include <gtest/gtest.h>
@@ -22,8 +22,8 @@ using bench::CommandResult;
 
 constexpr int kNone = -1;
 
-/// Plays frames while it is given one key after the other. \return frames that came, and whether
-/// the player wants more.
+/// Plays frames while it gets one key after the other. \return the number of frames, and whether
+/// the player continues.
 std::pair<int, bool> frames_under(const std::vector<int>& keys) {
   std::size_t next = 0;
   int frames = 0;
@@ -42,11 +42,11 @@ std::pair<int, bool> frames_under(const std::vector<int>& keys) {
 }
 
 TEST(Player, PausesStepsAndCloses) {
-  // a frame takes 1 ms, and each look at the keys 2
+  // a frame takes 1 ms, and each key query 2 ms
   EXPECT_EQ(frames_under({kNone, kNone, kNone}), std::pair(3, true));
-  // held by the first key until it is pressed again
+  // paused by the first key until it is pressed again
   EXPECT_EQ(frames_under({' ', kNone, kNone, ' ', kNone}), std::pair(2, true));
-  // each dot lets one frame by, and then it is held
+  // each dot advances one frame, and then playback pauses
   EXPECT_EQ(frames_under({'.', kNone, '.', kNone, kNone, ' '}), std::pair(3, true));
   EXPECT_EQ(frames_under({kNone, 'q', kNone}), std::pair(2, false));
   EXPECT_EQ(frames_under({' ', 27, kNone}), std::pair(1, false));
@@ -79,7 +79,7 @@ TEST_F(ViewCommand, WithoutADisplayOneLineSaysSo) {
 }
 
 TEST_F(ViewCommand, TheLastFrameStaysWhenAllIsWritten) {
-  setenv("QT_QPA_PLATFORM", "offscreen", 1);  // a display of Qt's own, which nobody sees
+  setenv("QT_QPA_PLATFORM", "offscreen", 1);  // Qt's own invisible display
   Command running(command(), {.folder = folder_.path()});
   const std::filesystem::path metrics = folder_.path() / "out" / "metrics.json";
   for (int i = 0; i < 600 && !std::filesystem::exists(metrics); ++i) {
@@ -89,7 +89,7 @@ TEST_F(ViewCommand, TheLastFrameStaysWhenAllIsWritten) {
   EXPECT_TRUE(running.is_running());
   running.send(SIGTERM);
   const CommandResult result = running.wait();
-  EXPECT_LE(result.exit_code, 1) << result.err;  // 1: a criterion is of another camera
+  EXPECT_LE(result.exit_code, 1) << result.err;  // 1: a criterion is for another camera
   EXPECT_NE(result.out.find("rebels"), std::string::npos) << result.out;
 }
 

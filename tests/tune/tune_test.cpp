@@ -1,5 +1,5 @@
-/// The filter's numbers are learnt by a search that finds what is better, goes on where it was, and
-/// never looks at what figures are stated on.
+/// A search learns the filter's numbers: it finds better values, resumes where it stopped, and
+/// never reads the data that published figures use.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -40,7 +40,7 @@ double number(const Parameters& parameters, const std::string& key) {
   throw std::out_of_range(key);
 }
 
-/// As if the best were half of the first, twice the second and the present third.
+/// Best at half of the first number, twice the second and the present third.
 struct Hill {
   Worth operator()(const Parameters& parameters) {
     if (++calls == fails_at) throw std::runtime_error("the power failed");
@@ -98,7 +98,7 @@ TEST(Search, FindsTheTopWithinAFewPercentAndTriesNoMoreThanAsked) {
   EXPECT_EQ(std::stod(found.after[2].value), number(start, kKeys[2])) << "a whole number";
 }
 
-/// The rows that were cut off left out.
+/// The journal without truncated rows.
 std::string whole_rows(const std::string& journal) {
   std::stringstream lines(journal);
   std::string whole;
@@ -118,7 +118,7 @@ TEST(Search, GoesOnWhereItWasWithTheSameEnd) {
   EXPECT_THROW(climb(journal, broken), std::runtime_error);
   {
     std::ofstream torn(journal, std::ios::app);
-    torn << "0.015,1";  // as a line is where a disk was full
+    torn << "0.015,1";  // like a line at the end of a full disk
   }
   const std::string before = bench::read(journal);
   Hill rest;
@@ -279,7 +279,7 @@ TEST(Search, RefusesWhatIsNoNumberAboveNought) {
   }
 }
 
-/// The command on a suite of one short run.
+/// The command on a suite with one short run.
 class TuneCommand : public testing::Test {
  protected:
   void SetUp() override { make_suite({}); }
@@ -291,7 +291,7 @@ class TuneCommand : public testing::Test {
                                        "--quiet"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const auto made = bench::run_lcs(arguments, {folder_.path()});
-    ASSERT_LE(made.exit_code, 1) << made.err;  // of 16 frames no criterion is asked
+    ASSERT_LE(made.exit_code, 1) << made.err;  // the criteria do not apply to 16 frames
   }
   fs::path suite() const { return folder_.path() / "suite"; }
   fs::path out() const { return folder_.path() / "tune"; }
@@ -362,7 +362,7 @@ TEST_F(TuneCommand, RefusesAJournalOfOtherRunsOrOfAnotherProgramAndLeavesItAsItW
   refused({"--seed", "2"}, "seed: 1 -> 2");
   refused({"--set", "hypotheses.coupling=10"}, "settings: none -> hypotheses.coupling=10");
 
-  // A program that is a byte longer.
+  // A program that is one byte longer.
   const fs::path rebuilt = folder_.path() / "lcs", said = folder_.path() / "said";
   fs::copy_file(LCS_PROGRAM, rebuilt);
   std::ofstream(rebuilt, std::ios::app) << "x";
@@ -375,7 +375,7 @@ TEST_F(TuneCommand, RefusesAJournalOfOtherRunsOrOfAnotherProgramAndLeavesItAsItW
       << bench::read(said);
   EXPECT_EQ(bench::read(out() / kJournalFile), before);
 
-  // The suite made anew with another speed.
+  // The suite generated again with another speed.
   const fs::path old = folder_.path() / "old";
   fs::rename(suite(), old);
   make_suite({"--set", "ego.speed=0.4 m/s"});
@@ -383,7 +383,7 @@ TEST_F(TuneCommand, RefusesAJournalOfOtherRunsOrOfAnotherProgramAndLeavesItAsItW
   fs::remove_all(suite());
   fs::rename(old, suite());
   EXPECT_EQ(tune(command).exit_code, 0) << "all is as it was";
-  // What only a byte of a file says differs, too.
+  // A difference in a single byte counts, too.
   for (const char* name : {"layers.jsonl", "truth.jsonl", "camera.json"}) {
     const fs::path file =
         suite() / suite::read_suite(suite()).scenarios.front().runs.front().folder / name;
@@ -508,7 +508,7 @@ TEST_F(TuneCommand, NamesOfSuitesCannotLeaveTheCommentsOfThePreset) {
 }
 
 TEST_F(TuneCommand, CountsTheFalseCornersOfRecordingsInWhichNothingMoves) {
-  // What moves in the scenario is said to stand, so that there are some.
+  // A recording with movers is declared `nothing_moves`, so that there are false corners.
   const fs::path frames = folder_.path() / "frames", recorded = folder_.path() / "recorded";
   const auto drawn = bench::run_lcs({"generate", LCS_SCENARIOS_DIR "/crossing.yaml", "--set",
                                      "frames=16", "--out", frames.string(), "--quiet"},

@@ -31,7 +31,7 @@ TEST_F(WorldCommand, WritesAScenarioThatRunsLikeAnyOther) {
   EXPECT_EQ(
       bench::entries(folder_.path() / "mine"),
       (std::set<std::string>{"corridor_4.yaml", "scene.xml", "plan.png", "textures", "meshes"}));
-  fs::rename(folder_.path() / "mine", folder_.path() / "moved");  // nothing knows where it was made
+  fs::rename(folder_.path() / "mine", folder_.path() / "moved");  // no file has the path
   const CommandResult ran =
       run({"run", "moved/corridor_4.yaml", "--no-video", "--set", "frames=4"});
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
@@ -155,7 +155,7 @@ TEST_F(WorldCommand, ASuiteOfWorldsLeavesAPageToLookAtAndSaysWhatTheSplitIsFor) 
                            "report.html#scenario-1", "runs/corridor_2000001/seed-2000001/"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part;
   }
-  // It is an earlier suite like any other.
+  // It can be used like any earlier suite.
   fs::create_directory(folder_.path() / "scenarios");
   std::ofstream(folder_.path() / "scenarios" / "near.yaml")
       << "purpose: near\nscene: lab\nframes: 2\nego: {start: [-4 m, 0 m], speed: 0.5 m/s}\n"
@@ -166,7 +166,7 @@ TEST_F(WorldCommand, ASuiteOfWorldsLeavesAPageToLookAtAndSaysWhatTheSplitIsFor) 
   EXPECT_FALSE(fs::exists(out / "worlds"));
 }
 
-/// A world of `test`, and one of `train` that shows that it is the split that is refused.
+/// A world of `test`, and one of `train` to show that only the split is refused.
 class WorldOfSplit : public WorldCommand, public testing::WithParamInterface<std::uint64_t> {
  protected:
   WorldOfSplit() {
@@ -195,7 +195,7 @@ class WorldOfSplit : public WorldCommand, public testing::WithParamInterface<std
         << way << ": " << tuned.err;
     EXPECT_FALSE(fs::exists(folder_.path() / "t")) << way;
   }
-  /// The world's YAML without the lines that begin so, as another file beside it.
+  /// Copies the world's YAML without the lines that begin with `begins` to a file beside it.
   void copy_without(const std::vector<std::string>& begins, const std::string& name,
                     const std::string& added = "") {
     std::istringstream lines(bench::read(world()));
@@ -233,7 +233,7 @@ TEST_P(WorldOfSplit, StaysOneOfItInAnotherScenarioAndASceneOfItsOwn) {
   make_suite("other");
   expect_refused_or_not("another scenario");
   bench::write(folder_.path() / "w" / "own.xml",
-               "<mujoco><include file='scene.xml'/></mujoco>");  // its textures lie beside it
+               "<mujoco><include file='scene.xml'/></mujoco>");  // its textures are there
   bench::write(folder_.path() / "other" / "drive.yaml",
                "scene: ../w/own.xml\nframes: 4\nego: {start: [0 m, 0 m], speed: 0.3 m/s}\n"
                "camera: {size: [160, 120]}\n");
@@ -260,7 +260,7 @@ TEST_P(WorldOfSplit, StaysOneOfItAsARecording) {
                "nothing_moves: true}\n");
   make_suite("recorded");
   expect_refused_or_not("pictures of a sequence");
-  // A sequence that is older than the statement of its origin.
+  // A sequence from before the entry of the origin.
   const fs::path settings = folder_.path() / "seq" / "lcs.json";
   std::string text = bench::read(settings);
   const std::size_t at = text.find(",\n  \"origin\"");

@@ -1,4 +1,4 @@
-// Worlds as they are drawn and written, and as the simulator's truth sees them.
+// Drawn and written worlds, compared with the simulator's truth.
 #include "tools/worlds/worlds.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ fs::path written(const World& world, const bench::TemporaryFolder& folder) {
   return folder.path() / (name_of(world) + ".yaml");
 }
 
-/// A world with movers and a small picture, of each family.
+/// One world of each family with movers and a small picture.
 std::vector<World> small_ones() {
   std::map<std::string, World> found;
   for (const World& world : sixty()) {
@@ -229,7 +229,7 @@ TEST(Worlds, MoversAreSeenTenFramesOrMoreByTheTruthAndRunIntoNothing) {
   }
 }
 
-/// By the simulator's poses, the rover's and the movers'.
+/// According to the simulator's poses of the rover and the movers.
 TEST(Worlds, MoversAreFreeOfTheRoverOfWhatStandsAndOfEachOther) {
   int movers = 0;
   for (const World& world : sixty()) {
@@ -265,7 +265,7 @@ TEST(Worlds, MoversAreFreeOfTheRoverOfWhatStandsAndOfEachOther) {
   }
 }
 
-/// The plan has the way that the rover goes: by the commands, and by the simulator's physics.
+/// The plan shows the rover's path: from the commands, and from the simulator's physics.
 TEST(Sheet, TheWayOnThePlanIsTheRoversOwn) {
   for (const World& world : small_ones()) {
     const bench::TemporaryFolder folder;
@@ -304,7 +304,7 @@ TEST(Sheet, HasBoxesWhereTheTruthHasThemAtAnyScaleOfThePicture) {
   std::tie(mover.left, mover.top, mover.right, mover.bottom) = std::tuple{200, 100, 300, 200};
   std::tie(thing.left, thing.top, thing.right, thing.bottom) = std::tuple{400, 300, 600, 400};
   mover.moving = true;
-  for (const double scale : {1.0, 0.5, 0.25}) {  // of an image of 960 x 720, two pixels for one
+  for (const double scale : {1.0, 0.5, 0.25}) {  // scales of an image of 960 x 720
     Shots shots;
     for (Shot& shot : shots) {
       shot.picture = cv::Mat3b(cvRound(720 * scale), cvRound(960 * scale), cv::Vec3b(9, 9, 9));
@@ -371,8 +371,8 @@ TEST(Worlds, PicturesOfAFolderAreSurfacesAndChangeNothingElse) {
   }
 }
 
-/// Where a picture meets the next one it differs from it no more than its own columns from each
-/// other.
+/// Adjacent columns across the border between two copies differ no more than columns
+/// inside.
 TEST(Textures, RepeatWithoutASeam) {
   for (const Style style : {Style::fractal, Style::concrete, Style::foliage, Style::speckle,
                             Style::worn, Style::plain}) {

@@ -1,4 +1,4 @@
-// Finds four bright dots, and what they look like.
+// Detects four bright dots and computes their descriptors.
 #include <cstdio>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Drives past a wall of corners, some of which go sideways by themselves, and says who was found.
+// Drives past a wall of corners, some of which move sideways, and prints the detected rebels.
 #include <cstdio>
 #include <vector>
 
