@@ -333,10 +333,9 @@ TEST_F(TuneCommand, StatesTheSuitesFiguresAndWritesAPresetThatItsRecordExplains)
     EXPECT_NE(preset_text.find(std::string("{\"") + key + "\", "), std::string::npos)
         << key << " is learnt, whether it was searched for or not";
   }
-  EXPECT_NE(
-      preset_text.find("{\"hypotheses.coupling\", " +
-                       fmt::format("{}", number(Parameters{}, "hypotheses.coupling")) + "}"),
-      std::string::npos)
+  EXPECT_NE(preset_text.find("{\"hypotheses.coupling\", " +
+                             fmt::format("{}", number(Parameters{}, "hypotheses.coupling")) + "}"),
+            std::string::npos)
       << "what was left alone keeps its value";
 
   const auto more = tune({"--keys", "hypotheses.prior", "--evaluations", "6"});

@@ -7,9 +7,8 @@
 namespace lcs::comparators {
 
 MotionField exact_field(const Intrinsics& camera, const EgoMotion& motion) {
-  FieldParameters parameters;
-  parameters.rotation = RotationModel::homography;
-  return {camera, motion, parameters};
+  constexpr double kNearest_m = 0.8;  // a static point is not nearer (README.md)
+  return {camera, motion, {.rotation = RotationModel::homography, .nearest_depth_m = kNearest_m}};
 }
 
 EgoMotion turned_back(const EgoMotion& motion) {
