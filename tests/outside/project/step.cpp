@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "filter/filter.h"
+#include "filter/paper/paper_filter.h"
 
 int main() {
   const lcs::Intrinsics camera{300, {159.5, 119.5}, 320, 240};
@@ -15,6 +16,7 @@ int main() {
   motion.dt_s = 0.1;
   motion.v_C_mps = {0, 0, 0.5};
   lcs::Filter filter(camera);
+  lcs::paper::PaperFilter paper(camera);
   std::size_t found = 0, false_rebels = 0;
   for (int k = 0; k < 10; ++k) {
     std::vector<Eigen::Vector2f> corners_px;
@@ -25,7 +27,9 @@ int main() {
           camera.focal_px * points_m[i].head<2>() / points_m[i].z() + camera.centre_px;
       corners_px.push_back(px.cast<float>());
     }
-    const lcs::FrameResult& result = filter.step(corners_px, k > 0 ? motion : lcs::EgoMotion{});
+    const lcs::EgoMotion since_last = k > 0 ? motion : lcs::EgoMotion{};
+    paper.step(corners_px, since_last);
+    const lcs::FrameResult& result = filter.step(corners_px, since_last);
     found = false_rebels = 0;
     for (std::size_t i = 0; i < corners_px.size(); ++i) {
       if (result.verdicts[i] == lcs::Verdict::rebel) ++(i < walls ? false_rebels : found);
