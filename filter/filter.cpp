@@ -6,6 +6,7 @@
 #include <string>
 
 #include "filter/circles/circle_expert.h"
+#include "filter/edges/edge.h"
 #include "filter/edges/edge_expert.h"
 #include "filter/ego_motion/intake.h"
 #include "filter/kinematics/motion_field.h"
@@ -41,14 +42,6 @@ struct Filter::Impl {
   SquareExpert square_expert;
   FrameResult result;
 };
-
-namespace {
-
-void set_circles(const std::vector<int>& circle_of_edge, std::vector<Edge>& edges) {
-  for (std::size_t i = 0; i < edges.size(); ++i) edges[i].circle = circle_of_edge[i];
-}
-
-}  // namespace
 
 const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_px,
                                       std::span<const Signature> signatures,

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "filter/edges/edge.h"
 #include "filter/ego_motion/intake.h"
 #include "filter/matching/refill.h"
 #include "filter/paper/feedback.h"
@@ -52,10 +53,6 @@ template <typename T>
 void copy_both(const BothKinds<T>& from, BothKinds<T>& to) {
   copy_over(from.normal, to.normal);
   copy_over(from.rebel, to.rebel);
-}
-
-void set_circles(const std::vector<int>& circle_of_edge, std::vector<Edge>& edges) {
-  for (std::size_t i = 0; i < edges.size(); ++i) edges[i].circle = circle_of_edge[i];
 }
 
 }  // namespace
