@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -120,7 +121,9 @@ void check_words(const Element& e, std::string_view name, const std::string& tex
       complain("which is no integer; correct it");
     }
     // MuJoCo parses "12abc" as 12; "2d" is a keyword
-    const bool begins_as_number = word.find_first_of("0123456789") == 0 && !is_one_of(kKinds, name);
+    const std::size_t first = std::min(word.find_first_not_of("+-."), word.size() - 1);
+    const bool begins_as_number =
+        std::isdigit(static_cast<unsigned char>(word[first])) && !is_one_of(kKinds, name);
     if (!value && (begins_as_number || is_one_of(kNumberLists, name))) {
       complain("which is no number; correct it");
     }

@@ -241,9 +241,12 @@ TEST_F(SceneRefused, ForMoreThanTheLimitsAllow) {
 
 TEST_F(SceneRefused, ForMoreThanMemoryHolds) {
   for (const char* size : {"njmax", "nconmax", "nstack", "nuser_geom"}) {
-    const std::string top = std::string("<size ") + size + "='2000000000'/>";
-    expect_at(scene_.string() + ": ", refusal(scenario({.top = top})), {" memory", "make"});
+    for (const char* count : {"2000000000", "50x"}) {
+      const std::string top = std::string("<size ") + size + "='" + count + "'/>";
+      expect({.top = top}, 2, {"<size>", size + std::string(" is ") + count, "can be -1 to"});
+    }
   }
+  expect({.top = "<option gravity='0 0 -9.81m'/>"}, 2, {"gravity has '-9.81m'", "no number"});
 }
 
 TEST_F(SceneRefused, ForTexturesThatAreTooLargeNamingThemAndNotTheCamera) {
