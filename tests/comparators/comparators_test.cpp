@@ -71,12 +71,12 @@ TEST(DetectorSpec, APresetStandsAloneWhateverTheScenarioAndSettingsSay) {
 
   scenario::Scenario with_lab = plain;
   apply_preset(spec_of("lcs:lab"), with_lab);
-  scenario::Scenario set = scenario::load(
-      file, {.sets = {"filter.hypotheses.prior=0.1", "filter.preset=cars"}, .seed = {}});
+  scenario::Scenario set =
+      scenario::load(file, {.sets = {"filter.circle.mu_0=20", "filter.preset=cars"}, .seed = {}});
   EXPECT_EQ(apply_preset(spec_of("lcs:lab"), set),
             (std::vector<std::string>{
                 "filter.preset has no effect with lcs:lab, which is the preset alone",
-                "filter.hypotheses.prior has no effect with lcs:lab, which is the preset "
+                "filter.circle.mu_0 has no effect with lcs:lab, which is the preset "
                 "alone"}));
   for (const scenario::Scenario& each : {with_lab, set}) {
     const auto infos = describe(bench::filter_parameters(each)), lab = describe(preset("lab"));
