@@ -395,6 +395,15 @@ TEST_F(Generate, AFolderThatHoldsSomethingElseIsRefusedAndLeftAsItIs) {
   EXPECT_EQ(files_in(folder()), std::set<std::string>{"thesis.tex"});
 }
 
+TEST_F(Generate, SettingsThatTheFilterDoesNotTakeAreRefusedBeforeTheFolderIsMade) {
+  for (const char* setting : {"filter.gap=1", "filter.circle.mu_0=20", "filter.circle.gap=wide"}) {
+    const CommandResult result = generate({"--out", folder(), "--set", setting});
+    EXPECT_EQ(result.exit_code, 2) << setting;
+    EXPECT_NE(result.err.find(std::string("--set ") + setting), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(folder()));
+  }
+}
+
 TEST_F(Generate, AnotherSequenceIsRefusedAndToldApart) {
   ASSERT_EQ(generate({"--out", folder(), "--formats", "depth", "--quiet"}).exit_code, 0);
   const auto before = bytes_in(folder());

@@ -216,6 +216,7 @@ ExitCode generate(const GenerateOptions& options) {
         "--jobs shares the frames of a scenario, and so does --shard; give one of them");
   }
   const scenario::Scenario scenario = load(options);
+  bench::filter_parameters(scenario);  // a sequence keeps them for its replay: they must be valid
   const sequence::GenerateOptions what{formats_of(options), options.sets, program_text()};
   const bool is_part = !options.shard.empty();
   const auto [part, parts] = is_part ? shard_of(options.shard) : std::pair(1, 1);
