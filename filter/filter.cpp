@@ -6,12 +6,11 @@
 #include <string>
 
 #include "filter/circles/circle_expert.h"
-#include "filter/edges/edge.h"
 #include "filter/edges/edge_expert.h"
 #include "filter/ego_motion/intake.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/line/line.h"
-#include "filter/matching/refill.h"
+#include "filter/set_layers.h"
 #include "filter/squares/square_expert.h"
 #include "filter/stopwatch.h"
 
@@ -69,14 +68,7 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
   result.times.square_ms = watch.lap_ms();
 
   assign_verdicts(chi, verdicts, reasons, result);
-  Layers& layers = result.layers;
-  copy_over(edges.normal, layers.normal_edges);
-  copy_over(edges.rebel, layers.rebel_edges);
-  set_circles(circles.of_edges.normal, layers.normal_edges);
-  set_circles(circles.of_edges.rebel, layers.rebel_edges);
-  copy_over(circles.circles.normal, layers.normal_circles);
-  copy_over(circles.circles.rebel, layers.rebel_circles);
-  copy_over(squares, layers.squares);
+  set_layers(edges, circles.circles, circles.of_edges, squares, result.layers);
   return result;
 }
 

@@ -18,8 +18,4 @@ void move_as_static(Edge& edge, const Intrinsics& camera, const MotionField& fie
   edge.angle = angle_of(along.isZero() ? Vec2(edge.location - camera.centre_px) : along);
 }
 
-void set_circles(const std::vector<int>& circle_of_edge, std::vector<Edge>& edges) {
-  for (std::size_t i = 0; i < edges.size(); ++i) edges[i].circle = circle_of_edge[i];
-}
-
 }  // namespace lcs

@@ -16,7 +16,4 @@ void delete_lost(std::vector<Edge>& edges, const Intrinsics& camera, const Trust
 /// Sets origin, speed and angle of an edge to those of a static point at its place and depth.
 void move_as_static(Edge& edge, const Intrinsics& camera, const MotionField& field);
 
-/// \param circle_of_edge index of each edge's circle among its kind, -1: in no circle.
-void set_circles(const std::vector<int>& circle_of_edge, std::vector<Edge>& edges);
-
 }  // namespace lcs

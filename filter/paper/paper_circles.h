@@ -38,6 +38,12 @@ class PaperCircles {
   const Result& update(const BothKinds<Edge>& edges, const BothKinds<Circle>& predicted,
                        std::span<const IgnoreRegion> psi, const MotionField& field);
 
+  /// The result of the last update; empty before the first.
+  const Result& last() const { return result_; }
+
+  /// Empties the result of the last update.
+  void forget() { result_ = {}; }
+
  private:
   /// Mean circle of a group of edges, C_m.
   struct Group {

@@ -54,6 +54,12 @@ class PaperEdges {
   const Result& update(const EdgeLayer& predicted, const Chi& chi, std::span<const int> groups,
                        std::span<const IgnoreRegion> psi, const MotionField& field);
 
+  /// The result of the last update; empty before the first.
+  const Result& last() const { return result_; }
+
+  /// Empties the result of the last update.
+  void forget() { result_ = {}; }
+
   /// The case of corner `x` for a predicted normal edge.
   Xi classify(const Edge& edge, const Vec2& x, const MotionField& field) const;
 

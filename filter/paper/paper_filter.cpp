@@ -2,13 +2,13 @@
 
 #include <optional>
 
-#include "filter/edges/edge.h"
 #include "filter/ego_motion/intake.h"
 #include "filter/matching/refill.h"
 #include "filter/paper/feedback.h"
 #include "filter/paper/paper_circles.h"
 #include "filter/paper/paper_edges.h"
 #include "filter/paper/paper_squares.h"
+#include "filter/set_layers.h"
 #include "filter/stopwatch.h"
 
 namespace lcs::paper {
@@ -38,24 +38,8 @@ struct PaperFilter::Impl {
   PaperEdges edge_expert;
   PaperCircles circle_expert;
   PaperSquares square_expert;
-
-  // Of the last frame.
-  EdgeLayer edges_before;
-  BothKinds<Circle> circles_before;
-  std::vector<Square> squares_before;
-
   FrameResult result;
 };
-
-namespace {
-
-template <typename T>
-void copy_both(const BothKinds<T>& from, BothKinds<T>& to) {
-  copy_over(from.normal, to.normal);
-  copy_over(from.rebel, to.rebel);
-}
-
-}  // namespace
 
 const FrameResult& PaperFilter::Impl::step(std::span<const Eigen::Vector2f> corners_px,
                                            std::span<const Signature> signatures,
@@ -63,14 +47,15 @@ const FrameResult& PaperFilter::Impl::step(std::span<const Eigen::Vector2f> corn
   Stopwatch watch;
   const std::optional<EgoMotion> motion = intake.take(told, diagnostics);
   if (!motion) {
-    edges_before = {};
-    circles_before = {};
-    squares_before = {};
+    edge_expert.forget();
+    circle_expert.forget();
+    square_expert.forget();
   }
   const MotionField field(camera, motion.value_or(EgoMotion{}), parameters.field);
-  const EdgeLayer& predicted_edges = edge_expert.predict(edges_before, field);
-  const BothKinds<Circle>& predicted_circles = circle_expert.predict(circles_before, field);
-  const std::vector<Square>& predicted_squares = square_expert.predict(squares_before, field);
+  const EdgeLayer& predicted_edges = edge_expert.predict(edge_expert.last().layer, field);
+  const BothKinds<Circle>& predicted_circles =
+      circle_expert.predict(circle_expert.last().circles, field);
+  const std::vector<Square>& predicted_squares = square_expert.predict(square_expert.last(), field);
 
   const auto& [psi, lambda] = feedback.regions(predicted_circles.normal, predicted_squares);
   const Chi& chi = line.collect(corners_px, signatures, psi);
@@ -87,20 +72,9 @@ const FrameResult& PaperFilter::Impl::step(std::span<const Eigen::Vector2f> corn
       square_expert.update(circles.circles, predicted_squares, psi, field);
   result.times.square_ms = watch.lap_ms();
 
-  copy_both(edges.layer.edges, edges_before.edges);
-  copy_over(edges.layer.chains, edges_before.chains);
-  copy_both(circles.circles, circles_before);
-  copy_over(squares, squares_before);
-
   assign_verdicts(chi, edges.verdicts, edges.reasons, result);
   Layers& layers = result.layers;
-  copy_over(edges.layer.edges.normal, layers.normal_edges);
-  copy_over(edges.layer.edges.rebel, layers.rebel_edges);
-  set_circles(circles.of_edges.normal, layers.normal_edges);
-  set_circles(circles.of_edges.rebel, layers.rebel_edges);
-  copy_over(circles.circles.normal, layers.normal_circles);
-  copy_over(circles.circles.rebel, layers.rebel_circles);
-  copy_over(squares, layers.squares);
+  set_layers(edges.layer.edges, circles.circles, circles.of_edges, squares, layers);
   copy_over(psi, layers.ignored);
   copy_over(lambda, layers.collectors);
   copy_over(edges.layer.chains, layers.chains);

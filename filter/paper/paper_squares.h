@@ -33,6 +33,12 @@ class PaperSquares {
                                     const std::vector<Square>& predicted,
                                     std::span<const IgnoreRegion> psi, const MotionField& field);
 
+  /// The result of the last update; empty before the first.
+  const std::vector<Square>& last() const { return squares_; }
+
+  /// Empties the result of the last update.
+  void forget() { squares_.clear(); }
+
  private:
   /// A candidate match of a predicted and a mean square.
   struct Pair {
