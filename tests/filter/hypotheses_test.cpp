@@ -609,7 +609,7 @@ TEST(Coupling, IsTheSameForAnyDensityOfCorners) {
   for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_NEAR(m_dense[i], m[i], 1e-9) << i;
 }
 
-TEST(Coupling, WhoTellsNothingIsWhatTheNearestIsThatDoesOfEquallyNearOnesTheLikelierToMove) {
+TEST(Coupling, ANodeWithoutMotionTakesTheBeliefOfItsNearestNodeWithMotion) {
   Coupling coupling(kUsual);
   const auto silent = [](double x, double y) {
     return Coupling::Node{{x, y}, 0, Vec2::Zero(), 0, false};

@@ -304,7 +304,7 @@ TEST(RebelCorners, TheCountsOfFramesAddUpToTheFiguresOfTheRun) {
 
 // ---- Rebel objects
 
-TEST(RebelObjects, AnObjectIsFoundWhenThreeOfItsCornersAreRebelsAndLatencyCountsFromItsFirst) {
+TEST(RebelObjects, AnObjectIsFoundByThreeRebelsAndLatencyCountsFromItsFirstFrame) {
   // Distinct from frame 4; two rebels on it at 5 and 6 are too few, three at 7 suffice.
   const Metrics metrics = score(frames(12, [](FrameMaker& frame) {
     const int k = frame.record().index;

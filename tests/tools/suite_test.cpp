@@ -330,7 +330,7 @@ TEST_F(Suite, ADetectorReachesEveryRunAndIsWrittenDown) {
   EXPECT_EQ(result().detector, "klt");
 }
 
-TEST_F(Suite, ABaselineShowsWhatChangedAndOneThatCannotBeReadIsToldBeforeAnythingRuns) {
+TEST_F(Suite, ABaselineShowsChangesAndAnUnreadableOneIsRefusedBeforeAnyRun) {
   scenario("near");
   ASSERT_EQ(run({"--seeds", "1", "--out", "before"}).exit_code, 0);
   const CommandResult same =

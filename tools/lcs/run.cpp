@@ -168,7 +168,7 @@ struct Watching {
   comparators::DetectorSpec spec;
   std::filesystem::path target;
   scenario::Scenario scenario;  ///< with this detector's preset applied
-  std::vector<std::string> idle_settings = {};
+  std::vector<std::string> settings_without_effect = {};
   std::unique_ptr<bench::Detector> detector = {};
   bench::Recording recording = {};
   std::unique_ptr<bench::Result> result = {};
@@ -189,7 +189,7 @@ std::vector<Watching> watching(const RunOptions& options, const scenario::Scenar
   }
   for (Watching& one : all) {
     // Throws if the filter's settings are wrong, also for detectors that ignore them.
-    one.idle_settings = comparators::apply_preset(one.spec, one.scenario);
+    one.settings_without_effect = comparators::apply_preset(one.spec, one.scenario);
     if (!options.recorded.empty()) comparators::require_corners_suffice(one.spec);
   }
   return all;
@@ -337,7 +337,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
         one.target, one.recording, cv::Size(frames.camera.width_px, frames.camera.height_px), what);
   }
   warn(scenario::shadowed_files(scenario));
-  warn(own.idle_settings);
+  warn(own.settings_without_effect);
   std::set<std::string> names;
   for (const Watching& one : all) names.insert(one.spec.name);
   warn(bench::not_asked(scenario.criteria, names));
