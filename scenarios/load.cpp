@@ -144,7 +144,9 @@ void read_value(const Item& item, const Form& form, Eigen::Matrix<Number, N, 1>&
 
 template <class T, class Form>
 void read_value(const Item& item, const Form& form, std::optional<T>& out) {
-  read_value(item, form, out.emplace());
+  T value{};
+  read_value(item, form, value);
+  out = std::move(value);
 }
 
 template <class T, class Form>
