@@ -6,10 +6,12 @@
 #include <string>
 
 #include "filter/circles/circle_expert.h"
+#include "filter/comers/comers.h"
 #include "filter/edges/edge_expert.h"
 #include "filter/ego_motion/intake.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/line/line.h"
+#include "filter/matching/refill.h"
 #include "filter/set_layers.h"
 #include "filter/squares/square_expert.h"
 #include "filter/stopwatch.h"
@@ -23,13 +25,15 @@ struct Filter::Impl {
         line(c, p.line),
         edge_expert(c, p.edge, p.circle.trust),
         circle_expert(c, p.circle, p.edge),
+        comers(c, p.comers, p.circle, p.edge),
         square_expert(c, p.square) {
     validate(c);
     validate(p);
   }
 
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,
-                          std::span<const Signature> signatures, const EgoMotion& told);
+                          std::span<const Signature> signatures, const EgoMotion& told,
+                          GapView* view);
 
   Intrinsics camera;
   Parameters parameters;
@@ -38,18 +42,20 @@ struct Filter::Impl {
   LineExpert line;
   EdgeExpert edge_expert;
   CircleExpert circle_expert;
+  Comers comers;
   SquareExpert square_expert;
   FrameResult result;
 };
 
 const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_px,
                                       std::span<const Signature> signatures,
-                                      const EgoMotion& told) {
+                                      const EgoMotion& told, GapView* view) {
   Stopwatch watch;
   std::optional<EgoMotion> motion = intake.take(told, diagnostics);
   if (!motion) {
     edge_expert.forget();
     circle_expert.forget();
+    comers.forget();
     motion.emplace();
   }
   if (!parameters.ground) motion->ground.reset();
@@ -59,16 +65,35 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
   count_rejected(chi, diagnostics);
   result.times.line_ms = watch.lap_ms();
 
-  const auto& [edges, verdicts, reasons, began_anew] = edge_expert.step(chi, field);
-  if (began_anew) diagnostics.add(Fault::motion_contradicted);
-  const CircleExpert::Result& circles = circle_expert.step(edges, field);
+  const EdgeExpert::Result& tracked = edge_expert.step(chi, field);
+  if (tracked.began_anew) diagnostics.add(Fault::motion_contradicted);
+  assign_verdicts(chi, tracked.verdicts, tracked.reasons, result);
+  const BothKinds<Edge>* edges = &tracked.edges;
+  const CircleExpert::Result* circles = &circle_expert.step(*edges, field);
+  result.gaps.reset();
+  if (view != nullptr) {
+    if (tracked.began_anew) {
+      comers.forget();
+      motion->dt_s = 0;  // it is wrong
+    }
+    view->begin(*motion);
+    result.gaps.emplace();
+    const Comers::Result* found =
+        comers.step(*edges, *circles, corners_px, result.reasons, field, *view);
+    if (found != nullptr) {
+      edges = &found->edges;
+      circles = &found->circles;
+      *result.gaps = found->gaps;
+      assign_rebels(chi, found->called, Reason::comer, result);
+      assign_rebels(chi, found->inherited, Reason::inherited, result);
+    }
+  }
   result.times.circle_ms = watch.lap_ms();
 
-  const std::vector<Square>& squares = square_expert.step(edges, circles, field);
+  const std::vector<Square>& squares = square_expert.step(*edges, *circles, field);
   result.times.square_ms = watch.lap_ms();
 
-  assign_verdicts(chi, verdicts, reasons, result);
-  set_layers(edges, circles.circles, circles.of_edges, squares, result.layers);
+  set_layers(*edges, circles->circles, circles->of_edges, squares, result.layers);
   return result;
 }
 
@@ -80,13 +105,14 @@ Filter& Filter::operator=(Filter&&) noexcept = default;
 
 const FrameResult& Filter::step(std::span<const Eigen::Vector2f> corners_px,
                                 const EgoMotion& motion) {
-  return impl_->step(corners_px, {}, motion);
+  return impl_->step(corners_px, {}, motion, nullptr);
 }
 
 const FrameResult& Filter::step(std::span<const Eigen::Vector2f> corners_px,
-                                std::span<const Signature> signatures, const EgoMotion& motion) {
-  validate(corners_px, signatures);
-  return impl_->step(corners_px, signatures, motion);
+                                std::span<const Signature> signatures, const EgoMotion& motion,
+                                GapView* view) {
+  if (!signatures.empty()) validate(corners_px, signatures);
+  return impl_->step(corners_px, signatures, motion, view);
 }
 
 const Diagnostics& Filter::diagnostics() const {

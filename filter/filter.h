@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 
+#include "filter/comers/gap.h"
 #include "filter/diagnostics.h"
 #include "filter/frame_result.h"
 #include "filter/kinematics/camera.h"
@@ -34,11 +35,14 @@ class Filter {
   /// \return the filter's own storage: valid until the next step.
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& motion);
 
-  /// \param signatures one for each corner, in their order.
+  /// \param signatures one for each corner, in their order; empty if unknown.
+  /// \param view looks at this frame's picture for the filter; null: no bodies that approach at
+  ///   constant speed are found.
   /// \throws std::invalid_argument if the counts of signatures and corners differ; the filter is
   ///   then unchanged.
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,
-                          std::span<const Signature> signatures, const EgoMotion& motion);
+                          std::span<const Signature> signatures, const EgoMotion& motion,
+                          GapView* view = nullptr);
 
   /// Counts of the faults in the data so far.
   const Diagnostics& diagnostics() const;

@@ -2,8 +2,10 @@
 /// A filter's result for one frame.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "filter/comers/gap.h"
 #include "filter/layers.h"
 #include "filter/reason.h"
 
@@ -21,6 +23,8 @@ struct FrameResult {
   std::vector<Verdict> verdicts;  ///< one for each corner, in the caller's order
   std::vector<Reason> reasons;    ///< of each verdict; empty if the detector gives none
   StageTimes times;
+  /// The gaps that the filter has asked for, with the answers; absent without a `GapView`.
+  std::optional<std::vector<GapSeen>> gaps;
 };
 
 }  // namespace lcs

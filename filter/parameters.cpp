@@ -31,6 +31,9 @@ std::vector<Entry> entries_of(Parameters& p) {
       {"circle.upward", "", "", 0.01, 100, &p.circle.upward},
       {"circle.roughness", "", "", 0, 10, &p.circle.roughness},
       {"circle.min_width", "", "px", 0, 1000, &p.circle.min_width},
+      {"comers.hanging", "", "", 1e-09, 1, &p.comers.hanging},
+      {"comers.count_power", "", "", 0, 2, &p.comers.count_power},
+      {"comers.memory", "", "", 1, 1000, &p.comers.memory},
       {"square.max_size", "", "m", 0, 10000, &p.square.max_size},
   };
   all.insert(all.end(), own.begin(), own.end());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "filter/circles/circle_parameters.h"
+#include "filter/comers/comers.h"
 #include "filter/edges/edge_parameters.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/line/line.h"
@@ -23,6 +24,7 @@ struct Parameters {
   LineParameters line;
   EdgeParameters edge;
   CircleParameters circle;
+  ComerParameters comers;
   SquareParameters square;
 };
 

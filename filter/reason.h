@@ -23,6 +23,9 @@ enum class Reason : std::uint8_t {
   normal_edge,
   rebel_edge,
 
+  // The default filter: the corner has a track that moves as a static point would.
+  comer,
+
   // The default filter: the corner has no track with a motion.
   inherited,
   first_sighting,
@@ -51,7 +54,7 @@ struct ReasonText {
 };
 
 /// In the order of `Reason`, each with the verdict that it implies.
-inline constexpr std::array<ReasonText, 22> kReasons{{
+inline constexpr std::array<ReasonText, 23> kReasons{{
     {"unknown", "no reason given"},
     {"not_finite", "its place is not a number"},                                         // pending
     {"outside", "outside of the picture"},                                               // pending
@@ -60,6 +63,7 @@ inline constexpr std::array<ReasonText, 22> kReasons{{
     {"no_time", "no time has passed since the frame before"},                            // pending
     {"normal_edge", "taken by a normal edge"},                                           // normal
     {"rebel_edge", "taken by a rebel edge"},                                             // rebel
+    {"comer", "of a circle that floats above the ground as a body does that approaches"},  // rebel
     {"inherited", "likely a rebel by those round it"},                                   // rebel
     {"first_sighting", "in no frame before, and not among rebels"},                      // pending
     {"alpha_first", "near no edge and on no row of alpha: starts one"},                  // pending

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 namespace lcs {
 
@@ -20,6 +21,12 @@ struct TrustRanks {
   int initial_square() const { return standard; }
   /// After an ignorance region, a layer is observed for two frames before it can make another.
   int after_ignoring() const { return std::max(maximum - 2, critical); }
+
+  /// From critical to maximum, by the certainty of a decision with these log odds.
+  int of_certainty(double log_odds) const {
+    const double sure = std::abs(std::tanh(0.5 * log_odds));
+    return critical + static_cast<int>(std::lround(sure * (maximum - critical)));
+  }
 
   int raised(int trust) const { return std::min(trust + 1, maximum); }
   bool alive(int trust) const { return trust >= critical; }

@@ -157,7 +157,7 @@ void read_value(const Item& item, const OrWord<Form>& form, std::optional<T>& ou
     out = static_cast<T>(as_integer(item.value, item.path, form.form.low, form.form.high,
                                     " or " + std::string(form.word)));
   } else {
-    read_value(item, form.form, out.emplace());
+    read_value(item, form.form, out);
   }
 }
 

@@ -11,9 +11,6 @@ namespace {
 
 /// Log odds that two edges at one place belong to one body.
 constexpr double kNear = 2;
-/// Standard deviation of a body's slope of inverse depth, relative: the tangent of its slant to the
-/// image. Normal edges with a larger relative error of depth are not used.
-constexpr double kSlant = 0.2;
 
 }  // namespace
 
@@ -39,8 +36,7 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
   make_room(points_, seen);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const Edge& edge = edges[i];
-    if (edge.corner < 0 || (!edge.rebel && !(edge.depth_ratio_sigma < kSlant * edge.depth_ratio)))
-      continue;
+    if (edge.corner < 0 || (!edge.rebel && !has_depth(edge))) continue;
     const Vec2 h = (edge.location - camera_.centre_px) / camera_.focal_px;
     Vec2 value;
     double sigma = 0;

@@ -18,6 +18,15 @@
 
 namespace lcs {
 
+/// Standard deviation of a body's slope of inverse depth, relative: the tangent of its slant to the
+/// image.
+inline constexpr double kSlant = 0.2;
+
+/// Whether a normal edge's depth is known well enough to group it.
+inline bool has_depth(const Edge& edge) {
+  return edge.depth_ratio_sigma < kSlant * edge.depth_ratio;
+}
+
 class MotionGroups {
  public:
   MotionGroups(const Intrinsics& camera, const CircleParameters& parameters,

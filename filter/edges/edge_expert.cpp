@@ -195,10 +195,7 @@ Edge EdgeExpert::edge_of(const Track& track, const MotionField& field) const {
   edge.depth_ratio = track.as_static.inverse_depth_pm * field.reference_depth_m();
   edge.age = track.age;
   edge.corner = track.corner;
-  // Certainty of the kind, 0 to 1, scaled to ranks of trust.
-  const double sure = std::abs(std::tanh(0.5 * track.belief));
-  const double ranks = trust_.maximum - trust_.critical;
-  edge.trust = trust_.critical + static_cast<int>(std::lround(sure * ranks)) - track.unseen;
+  edge.trust = trust_.of_certainty(track.belief) - track.unseen;
   if (edge.rebel) {
     const Vec2& velocity_pxps = track.as_moving.velocity_pxps;
     edge.speed = velocity_pxps.norm();

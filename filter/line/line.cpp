@@ -78,6 +78,17 @@ void count_rejected(const Chi& chi, Diagnostics& diagnostics) {
   diagnostics.add(Fault::corner_repeated, static_cast<std::int64_t>(chi.repeats.size()));
 }
 
+namespace {
+
+void repeat_verdicts(const Chi& chi, FrameResult& result) {
+  for (const Chi::Repeat& repeat : chi.repeats) {
+    result.verdicts[repeat.source] = result.verdicts[repeat.of_source];
+    result.reasons[repeat.source] = result.reasons[repeat.of_source];
+  }
+}
+
+}  // namespace
+
 void assign_verdicts(const Chi& chi, std::span<const Verdict> verdicts,
                      std::span<const Reason> reasons, FrameResult& result) {
   copy_over(chi.rejected, result.reasons);
@@ -89,10 +100,16 @@ void assign_verdicts(const Chi& chi, std::span<const Verdict> verdicts,
     result.verdicts[chi.sources[c]] = verdicts[c];
     result.reasons[chi.sources[c]] = reasons[c];
   }
-  for (const Chi::Repeat& repeat : chi.repeats) {
-    result.verdicts[repeat.source] = result.verdicts[repeat.of_source];
-    result.reasons[repeat.source] = result.reasons[repeat.of_source];
+  repeat_verdicts(chi, result);
+}
+
+void assign_rebels(const Chi& chi, std::span<const int> corners, Reason reason,
+                   FrameResult& result) {
+  for (const int c : corners) {
+    result.verdicts[c] = Verdict::rebel;
+    result.reasons[c] = reason;
   }
+  repeat_verdicts(chi, result);
 }
 
 }  // namespace lcs

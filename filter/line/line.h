@@ -77,4 +77,8 @@ void count_rejected(const Chi& chi, Diagnostics& diagnostics);
 void assign_verdicts(const Chi& chi, std::span<const Verdict> verdicts,
                      std::span<const Reason> reasons, FrameResult& result);
 
+/// Makes corners, and their repeats, rebels. \param corners indices in the caller's list.
+void assign_rebels(const Chi& chi, std::span<const int> corners, Reason reason,
+                   FrameResult& result);
+
 }  // namespace lcs

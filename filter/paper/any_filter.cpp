@@ -44,10 +44,14 @@ AnyFilter::AnyFilter(const Intrinsics& camera, const AnyParameters& parameters)
           parameters)) {}
 
 const FrameResult& AnyFilter::step(std::span<const Eigen::Vector2f> corners_px,
-                                   std::span<const Signature> signatures, const EgoMotion& motion) {
-  return std::visit(
-      [&](auto& f) -> const FrameResult& { return f.step(corners_px, signatures, motion); },
-      filter_);
+                                   std::span<const Signature> signatures, const EgoMotion& motion,
+                                   GapView* view) {
+  if (auto* own = std::get_if<Filter>(&filter_)) {
+    return own->step(corners_px, signatures, motion, view);
+  }
+  auto& paper = std::get<paper::PaperFilter>(filter_);
+  if (signatures.empty()) return paper.step(corners_px, motion);
+  return paper.step(corners_px, signatures, motion);
 }
 
 const FrameResult& AnyFilter::step(std::span<const Eigen::Vector2f> corners_px,

@@ -25,13 +25,14 @@ std::vector<ParameterInfo> describe(const AnyParameters& parameters);
 const FieldParameters& field_of(const AnyParameters& parameters);
 ///@}
 
-/// Like `lcs::Filter`.
+/// Like `lcs::Filter`. The paper's filter uses no `view`.
 class AnyFilter {
  public:
   AnyFilter(const Intrinsics& camera, const AnyParameters& parameters);
 
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,
-                          std::span<const Signature> signatures, const EgoMotion& motion);
+                          std::span<const Signature> signatures, const EgoMotion& motion,
+                          GapView* view = nullptr);
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& motion);
   const Diagnostics& diagnostics() const;
 

@@ -59,6 +59,7 @@ void note(const FrameResult& said, double FrameTimes::*step_time, double step_ms
   frame.verdicts = said.verdicts;
   frame.reasons = said.reasons;
   frame.layers = said.layers;
+  frame.gaps = said.gaps;
   if (step_time == nullptr) return;
   FrameTimes times = frame.times.value_or(FrameTimes{});
   times.*step_time = step_ms;
@@ -82,7 +83,8 @@ void ask(Detector& detector, const cv::Mat3b& image, const cv::Mat1b& grey, Fram
   double step_ms = 0;
   const FrameResult& said = timed(step_ms, [&]() -> const FrameResult& {
     return detector.step(
-        {image, grey, frame.corners_px, frame.motion, frame.signatures, frame.index, frame.t_ns});
+        {image, grey, frame.corners_px, frame.motion, frame.signatures, frame.index, frame.t_ns,
+         frame.gaps ? &*frame.gaps : nullptr});
   });
   note(said, detector.step_time(), step_ms, frame);
   frame.masks = detector.masks();

@@ -16,6 +16,24 @@ Intrinsics intrinsics(const sim::Pinhole& camera) {
           .height_px = camera.height_px};
 }
 
+std::optional<double> StoredGaps::evidence(const Gap& gap) {
+  const auto box = [](const Gap& of) {
+    const Vec2 a = of.at(0, 0), b = of.at(of.columns, of.rows);
+    return cv::Rect2d(cv::Point2d(a.x(), a.y()), cv::Point2d(b.x(), b.y()));
+  };
+  constexpr double kShared = 0.5;  // least overlap of two gaps with one answer, over their union
+  double most = kShared;
+  std::optional<double> answer;
+  for (const GapSeen& seen : *gaps_) {
+    const double both = (box(seen.gap) & box(gap)).area();
+    const double share = both / (box(seen.gap).area() + box(gap).area() - both);
+    if (share <= most) continue;
+    most = share;
+    answer = seen.evidence;
+  }
+  return answer;
+}
+
 namespace {
 
 std::vector<std::string> keys_of(const AnyParameters& parameters) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "filter/detect/gap_picture.h"
 #include "filter/paper/any_filter.h"
 #include "scenarios/scenario.h"
 #include "sim/pose.h"
@@ -26,6 +27,8 @@ struct DetectorInput {
   std::span<const Signature> signatures = {};  ///< of each corner; empty if unknown
   int index = 0;                               ///< frame number
   std::int64_t t_ns = 0;                       ///< frame time
+  /// What an earlier run has seen in gaps, in place of a picture; null: unknown.
+  const std::vector<GapSeen>* gaps = nullptr;
 };
 
 class Detector {
@@ -64,20 +67,42 @@ class Detector {
 /// The simulator's camera as intrinsics for the filter and all detectors.
 Intrinsics intrinsics(const sim::Pinhole& camera);
 
-/// The LCS filter. It uses corners, their signatures if any, and ego-motion, never the image.
+/// Gaps that an earlier run has looked at. A gap that the run did not ask for gets the answer of the
+/// one with which it shares the most.
+class StoredGaps : public GapView {
+ public:
+  void show(const std::vector<GapSeen>& gaps) { gaps_ = &gaps; }
+  void begin(const EgoMotion&) override {}
+  std::optional<double> evidence(const Gap& gap) override;
+
+ private:
+  const std::vector<GapSeen>* gaps_ = nullptr;
+};
+
+/// The LCS filter. It uses corners, their signatures if any, and ego-motion; of the image only the
+/// gaps below circles.
 class LcsDetector : public Detector {
  public:
   LcsDetector(const Intrinsics& camera, const AnyParameters& parameters)
-      : filter_(camera, parameters) {}
+      : filter_(camera, parameters), picture_(camera) {}
   const FrameResult& step(const DetectorInput& input) override {
-    if (input.signatures.empty()) return filter_.step(input.corners_px, input.motion);
-    return filter_.step(input.corners_px, input.signatures, input.motion);
+    GapView* view = nullptr;
+    if (!input.grey.empty()) {
+      picture_.show(input.grey);
+      view = &picture_;
+    } else if (input.gaps != nullptr) {
+      stored_.show(*input.gaps);
+      view = &stored_;
+    }
+    return filter_.step(input.corners_px, input.signatures, input.motion, view);
   }
   bool wants_signatures() const override { return true; }
   Diagnostics diagnostics() const override { return filter_.diagnostics(); }
 
  private:
   AnyFilter filter_;
+  GapPicture picture_;
+  StoredGaps stored_;
 };
 
 /// The scenario's preset, modified by its settings.

@@ -25,6 +25,7 @@ Recording without_detections(const Recording& recording) {
     frame.t_ns = given.t_ns;
     frame.corners_px = given.corners_px;
     frame.signatures = given.signatures;
+    frame.gaps = given.gaps;
     frame.motion = given.motion;
     frame.true_motion = given.true_motion;
     frame.corner_truth = given.corner_truth;

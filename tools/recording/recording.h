@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "filter/comers/gap.h"
 #include "filter/kinematics/camera.h"
 #include "filter/kinematics/ego_motion.h"
 #include "filter/layers.h"
@@ -53,6 +54,8 @@ struct FrameRecord {
   std::vector<Reason> reasons;              ///< of each verdict; empty if not given
   Layers layers;
   SquareMasks masks;
+  /// Answers of the picture to the filter; absent if it did not look at pictures.
+  std::optional<std::vector<GapSeen>> gaps;
   EgoMotion motion;       ///< since the previous frame, as given to the detector
   EgoMotion true_motion;  ///< since the previous frame, from the exact poses
   std::vector<sim::CornerTruth> corner_truth;  ///< of each corner

@@ -182,6 +182,21 @@ void fields(Square& square, Visit&& visit) {
 }
 
 template <class Visit>
+void fields(GapSeen& seen, Visit&& visit) {
+  auto& [gap, evidence] = seen;
+  auto& [circle, place_px, across, columns, rows, inverse_depth_pm] = gap;
+  visit("circle", circle);
+  visit("x", place_px.x());
+  visit("y", place_px.y());
+  visit("across_x", across.x());
+  visit("across_y", across.y());
+  visit("columns", columns);
+  visit("rows", rows);
+  visit("inverse_depth_pm", inverse_depth_pm);
+  visit("evidence", evidence);
+}
+
+template <class Visit>
 void fields(IgnoreRegion& region, Visit&& visit) {
   auto& [shape, location, size] = region;
   visit("shape", shape);

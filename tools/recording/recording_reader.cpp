@@ -296,6 +296,7 @@ void read_layers(const Json& json, FrameRecord& frame) {
   layers.normal_circles = read_columns<Circle>(json, "normal_circles");
   layers.rebel_circles = read_columns<Circle>(json, "rebel_circles");
   layers.squares = read_columns<Square>(json, "squares");
+  if (json.contains("gaps")) frame.gaps = read_columns<GapSeen>(json, "gaps");
   layers.ignored = read_columns<IgnoreRegion>(json, "ignored");
   layers.collectors = read_columns<Collector>(json, "collectors");
   layers.chains = chains_of(read_columns<ChainRow>(json, "chains"));

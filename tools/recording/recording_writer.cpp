@@ -298,6 +298,7 @@ std::string layers_line(const FrameRecord& frame) {
     append_columns(out, "normal_circles", layers.normal_circles);
     append_columns(out, "rebel_circles", layers.rebel_circles);
     append_columns(out, "squares", layers.squares);
+    if (frame.gaps) append_columns(out, "gaps", *frame.gaps);
     append_columns(out, "ignored", layers.ignored);
     append_columns(out, "collectors", layers.collectors);
     append_columns(out, "chains", chain_rows(layers.chains));
