@@ -6,12 +6,11 @@
 #include <string>
 
 #include "filter/circles/circle_expert.h"
-#include "filter/comers/comers.h"
 #include "filter/edges/edge_expert.h"
 #include "filter/ego_motion/intake.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/line/line.h"
-#include "filter/matching/refill.h"
+#include "filter/radial/radial_movers.h"
 #include "filter/set_layers.h"
 #include "filter/squares/square_expert.h"
 #include "filter/stopwatch.h"
@@ -25,7 +24,7 @@ struct Filter::Impl {
         line(c, p.line),
         edge_expert(c, p.edge, p.circle.trust),
         circle_expert(c, p.circle, p.edge),
-        comers(c, p.comers, p.circle, p.edge),
+        radial(c, p.comers, p.circle, p.edge),
         square_expert(c, p.square) {
     validate(c);
     validate(p);
@@ -42,7 +41,7 @@ struct Filter::Impl {
   LineExpert line;
   EdgeExpert edge_expert;
   CircleExpert circle_expert;
-  Comers comers;
+  RadialMovers radial;
   SquareExpert square_expert;
   FrameResult result;
 };
@@ -55,7 +54,7 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
   if (!motion) {
     edge_expert.forget();
     circle_expert.forget();
-    comers.forget();
+    radial.forget();
     motion.emplace();
   }
   if (!parameters.ground) motion->ground.reset();
@@ -71,23 +70,21 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
   const BothKinds<Edge>* edges = &tracked.edges;
   const CircleExpert::Result* circles = &circle_expert.step(*edges, field);
   result.gaps.reset();
-  if (view != nullptr) {
-    if (tracked.began_anew) {
-      comers.forget();
-      motion->dt_s = 0;  // it is wrong
-    }
-    view->begin(*motion);
-    result.gaps.emplace();
-    const Comers::Result* found =
-        comers.step(*edges, *circles, corners_px, result.reasons, field, *view);
-    if (found != nullptr) {
-      edges = &found->edges;
-      circles = &found->circles;
-      *result.gaps = found->gaps;
-      assign_rebels(chi, found->called, Reason::comer, result);
-      assign_rebels(chi, found->inherited, Reason::inherited, result);
-    }
+  if (tracked.began_anew) {
+    radial.forget();
+    motion->dt_s = 0;  // it is wrong
   }
+  if (view != nullptr) view->begin(*motion);
+  const Relabel::Result* moved =
+      radial.step(*edges, *circles, corners_px, result.reasons, field, view);
+  if (moved != nullptr) {
+    edges = &moved->edges;
+    circles = &moved->circles;
+    assign_rebels(chi, moved->came, Reason::comer, result);
+    assign_rebels(chi, moved->went, Reason::goer, result);
+    assign_rebels(chi, radial.comers().inherited, Reason::inherited, result);
+  }
+  if (view != nullptr) result.gaps = radial.comers().gaps;
   result.times.circle_ms = watch.lap_ms();
 
   const std::vector<Square>& squares = square_expert.step(*edges, *circles, field);

@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "filter/comers/gap.h"
+#include "filter/radial/gap.h"
 #include "filter/diagnostics.h"
 #include "filter/frame_result.h"
 #include "filter/kinematics/camera.h"

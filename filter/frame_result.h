@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "filter/comers/gap.h"
+#include "filter/radial/gap.h"
 #include "filter/layers.h"
 #include "filter/reason.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "filter/circles/circle_parameters.h"
-#include "filter/comers/comers.h"
+#include "filter/radial/comers.h"
 #include "filter/edges/edge_parameters.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/line/line.h"

@@ -23,8 +23,9 @@ enum class Reason : std::uint8_t {
   normal_edge,
   rebel_edge,
 
-  // The default filter: the corner has a track that moves as a static point would.
+  // The default filter: the corner has a track that moves as a static point does.
   comer,
+  goer,
 
   // The default filter: the corner has no track with a motion.
   inherited,
@@ -54,7 +55,7 @@ struct ReasonText {
 };
 
 /// In the order of `Reason`, each with the verdict that it implies.
-inline constexpr std::array<ReasonText, 23> kReasons{{
+inline constexpr std::array<ReasonText, 24> kReasons{{
     {"unknown", "no reason given"},
     {"not_finite", "its place is not a number"},                                         // pending
     {"outside", "outside of the picture"},                                               // pending
@@ -63,7 +64,8 @@ inline constexpr std::array<ReasonText, 23> kReasons{{
     {"no_time", "no time has passed since the frame before"},                            // pending
     {"normal_edge", "taken by a normal edge"},                                           // normal
     {"rebel_edge", "taken by a rebel edge"},                                             // rebel
-    {"comer", "of a circle that floats above the ground as a body does that approaches"},  // rebel
+    {"comer", "of a body that floats above the ground, as one does that approaches"},    // rebel
+    {"goer", "of a body that stands on rebels below the ground's bound"},                // rebel
     {"inherited", "likely a rebel by those round it"},                                   // rebel
     {"first_sighting", "in no frame before, and not among rebels"},                      // pending
     {"alpha_first", "near no edge and on no row of alpha: starts one"},                  // pending

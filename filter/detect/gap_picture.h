@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "filter/comers/gap.h"
+#include "filter/radial/gap.h"
 #include "filter/kinematics/camera.h"
 
 namespace lcs {

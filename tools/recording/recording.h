@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "filter/comers/gap.h"
+#include "filter/radial/gap.h"
 #include "filter/kinematics/camera.h"
 #include "filter/kinematics/ego_motion.h"
 #include "filter/layers.h"
