@@ -1,5 +1,6 @@
 #include "filter/filter.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -33,10 +34,12 @@ struct Filter::Impl {
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,
                           std::span<const Signature> signatures, const EgoMotion& told,
                           GapView* view);
+  EgoMotion as_before(const EgoMotion& told) const;
 
   Intrinsics camera;
   Parameters parameters;
   Intake intake;
+  EgoMotion last;  ///< the motion used for the last frame; without time if none was
   Diagnostics diagnostics;
   LineExpert line;
   EdgeExpert edge_expert;
@@ -45,6 +48,17 @@ struct Filter::Impl {
   SquareExpert square_expert;
   FrameResult result;
 };
+
+/// The motion of the last frame, over the time of the told one.
+EgoMotion Filter::Impl::as_before(const EgoMotion& told) const {
+  EgoMotion motion = last;
+  motion.dt_s = told.dt_s;
+  Eigen::AngleAxisd turn(last.R_cur_prev);
+  turn.angle() *= told.dt_s / last.dt_s;
+  motion.R_cur_prev = turn.toRotationMatrix();
+  motion.ground = told.ground;
+  return motion;
+}
 
 const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_px,
                                       std::span<const Signature> signatures,
@@ -58,22 +72,28 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
     motion.emplace();
   }
   if (!parameters.ground) motion->ground.reset();
-  const MotionField field(camera, *motion, parameters.field);
+  const MotionField told_field(camera, *motion, parameters.field);
 
   const Chi& chi = line.collect(corners_px, signatures, {});
   count_rejected(chi, diagnostics);
   result.times.line_ms = watch.lap_ms();
 
-  const EdgeExpert::Result& tracked = edge_expert.step(chi, field);
-  if (tracked.began_anew) diagnostics.add(Fault::motion_contradicted);
+  std::optional<MotionField> held;
+  if (last.dt_s > 0) held.emplace(camera, as_before(*motion), parameters.field);
+  const EdgeExpert::Result& tracked = edge_expert.step(chi, told_field, held ? &*held : nullptr);
+  if (tracked.motion != UsedMotion::told) diagnostics.add(Fault::motion_contradicted);
+  if (tracked.motion == UsedMotion::held) {
+    *motion = as_before(*motion);
+  } else if (tracked.motion == UsedMotion::none) {
+    radial.forget();
+    motion->dt_s = 0;
+  }
+  const MotionField& field = tracked.motion == UsedMotion::held ? *held : told_field;
+  last = *motion;
   assign_verdicts(chi, tracked.verdicts, tracked.reasons, result);
   const BothKinds<Edge>* edges = &tracked.edges;
   const CircleExpert::Result* circles = &circle_expert.step(*edges, field);
   result.gaps.reset();
-  if (tracked.began_anew) {
-    radial.forget();
-    motion->dt_s = 0;  // it is wrong
-  }
   if (view != nullptr) view->begin(*motion);
   const Relabel::Result* moved =
       radial.step(*edges, *circles, corners_px, result.reasons, field, view);

@@ -34,7 +34,8 @@ void EdgeExpert::forget() {
   tracks_.clear();
   predicted_.clear();
   velocity_error_.forget();
-  result_.began_anew = false;
+  is_confirmed_ = false;
+  result_.motion = UsedMotion::told;
   noise_sum_px2_ = noise_weight_ = 0;
 }
 
@@ -209,7 +210,7 @@ Edge EdgeExpert::edge_of(const Track& track, const MotionField& field) const {
 }
 
 void EdgeExpert::decide(const Chi& chi, const MotionField& field) {
-  auto& [edges, verdicts, reasons, began_anew] = result_;
+  auto& [edges, verdicts, reasons, motion] = result_;
   edges.normal.clear();
   edges.rebel.clear();
   refill(verdicts, chi.size(), Verdict::pending);
@@ -239,34 +240,108 @@ void EdgeExpert::decide(const Chi& chi, const MotionField& field) {
   }
 }
 
-const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& told) {
-  velocity_error_.advance(told, 1 - parameters_.turnover(told.dt_s()));
-  predict_tracks(velocity_error_.without(told));
+/// Predicts the tracks and assigns the corners to them. \return the track of each corner.
+const std::vector<int>& EdgeExpert::follow(const MotionField& field, const Chi& chi) {
+  velocity_error_.advance(field, 1 - parameters_.turnover(field.dt_s()));
+  predict_tracks(velocity_error_.without(field));
+  return association_.match(chi, predicted_, noise2_px2_, field.dt_s());
+}
+
+/// Whether the camera rather goes on as in the last frame than moves as predicted: of the static
+/// tracks that tell the two motions apart, most are nearer to where the last motion puts them.
+bool EdgeExpert::is_held(const MotionField& held, const Chi& chi,
+                         const std::vector<int>& track_of) const {
+  const MotionField field = velocity_error_.without(held);
+  int count = 0;
+  double all = 0, nearer = 0;
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    if (track_of[c] < 0) continue;
+    const Track& before = tracks_[track_of[c]];
+    if (!before.has_motion()) continue;
+    const StaticPoint& told = predicted_[track_of[c]].as_static;
+    const StaticPoint other = before.as_static.predicted(camera_, field, parameters_.ego_share);
+    const Eigen::Matrix2d S = told.spread(noise2_px2_) + other.spread(noise2_px2_);
+    const auto distance2 = [&](const Vec2& off) { return off.dot(S.inverse() * off); };
+    if (!(distance2(told.place_px - other.place_px) > kFar * kFar)) continue;
+    const Vec2& x = chi.locations[c];
+    const double voice = (1 - chance(before.belief)) / association_.crowd(c);
+    ++count;
+    all += voice;
+    if (distance2(x - other.place_px) < distance2(x - told.place_px)) nearer += voice;
+  }
+  return count >= parameters_.neighbours && nearer > 0.5 * all;
+}
+
+/// Whether the depths were learnt by a wrong motion: more tracks leave their predictions than move
+/// or jump to other corners, and most of these would be static, had they been seen in the last frame
+/// only.
+bool EdgeExpert::is_depth_wrong(const MotionField& field, const Chi& chi,
+                                const std::vector<int>& track_of) const {
+  double all = 0, leave = 0, stand = 0;
+  const auto distance2 = [&](const StaticPoint& point, const Vec2& x) {
+    return (x - point.place_px).dot(point.spread(noise2_px2_).inverse() * (x - point.place_px));
+  };
+  for (std::size_t c = 0; c < chi.size(); ++c) {
+    if (track_of[c] < 0) continue;
+    const Track& track = predicted_[track_of[c]];
+    const Vec2& x = chi.locations[c];
+    if (!track.has_motion()) continue;
+    const double voice = 1.0 / association_.crowd(c);
+    all += voice;
+    if (distance2(track.as_static, x) < kFar * kFar) continue;
+    leave += voice;
+    const StaticPoint once = StaticPoint::seen_once(track.place_px, camera_, field,
+                                                    field.displacement_C_m(), noise2_px2_);
+    if (distance2(once, x) < kFar * kFar) stand += voice;
+  }
+  const double usual = parameters_.prior + parameters_.turnover(field.dt_s());
+  return leave > usual * all && stand > 0.5 * leave;
+}
+
+const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& told,
+                                           const MotionField* held) {
+  const bool is_after_none = result_.motion == UsedMotion::none;
   if (!(told.dt_s() > 0)) forget();
   estimate_noise(told.dt_s());
-  const std::vector<int>& track_of = association_.match(chi, predicted_, noise2_px2_, told.dt_s());
-  MotionField field = velocity_error_.without(told);
-  bool is_wrong = false;
-  if (!predicted_.empty()) {
-    const bool started = std::ranges::any_of(predicted_, &Track::has_motion);
-    find_residuals(field, chi, track_of, started);
+  const VelocityError before = velocity_error_;
+  const bool started = std::ranges::any_of(tracks_, &Track::has_motion);
+  const MotionField* given = &told;
+  UsedMotion motion = UsedMotion::told;
+  const std::vector<int>* track_of = &follow(told, chi);
+  if (started && held != nullptr && is_held(*held, chi, *track_of)) {
+    motion = is_confirmed_ ? UsedMotion::held : UsedMotion::none;
+    velocity_error_ = before;
+    given = held;
+    track_of = &follow(*held, chi);
+  }
+  if (started && !is_confirmed_ && is_depth_wrong(velocity_error_.without(*given), chi, *track_of)) {
+    motion = UsedMotion::none;
+  }
+  MotionField field = velocity_error_.without(*given);
+  if (!predicted_.empty() && motion != UsedMotion::none) {
+    find_residuals(field, chi, *track_of, started);
     const MotionFix off = motion_fix(camera_, field, residuals_, velocity_error_.covariance());
     velocity_error_.see(off);
     field = field.corrected(off.turn_rad, off.velocity_mps);
     predict_tracks(field);
     // In the second frame no depth is known that could contradict the motion. It is checked only if
     // the motion of the last frame was contradicted.
-    if (started || result_.began_anew) {
-      find_residuals(field, chi, track_of, started);
-      is_wrong = is_contradicted(residuals_);
+    if (started || is_after_none) {
+      find_residuals(field, chi, *track_of, started);
+      if (is_contradicted(residuals_)) motion = UsedMotion::none;
     }
-    if (is_wrong) forget();
   }
-  result_.began_anew = is_wrong;
+  const bool is_wrong = motion == UsedMotion::none;
+  if (is_wrong) {
+    forget();
+  } else if (started) {
+    is_confirmed_ = true;
+  }
+  result_.motion = motion;
   tracks_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
-    if (track_of[c] >= 0 && !is_wrong) {
-      Track& track = predicted_[track_of[c]];
+    if ((*track_of)[c] >= 0 && !is_wrong) {
+      Track& track = predicted_[(*track_of)[c]];
       track.corner = static_cast<int>(c);
       if (see(track, chi.locations[c], association_.chance_ppx2(c), field)) {
         if (!chi.signatures.empty()) track.signature = chi.signatures[c];

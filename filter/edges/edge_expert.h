@@ -3,6 +3,7 @@
 /// holds the log odds of moving (filter/MODEL.md).
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,13 @@
 
 namespace lcs {
 
+/// The motion that a frame's edges are made with.
+enum class UsedMotion : std::uint8_t {
+  told,
+  held,  ///< that of the last frame goes on: the corners contradict the told one
+  none,  ///< the corners contradict the told motion, and all tracks were dropped
+};
+
 class EdgeExpert {
  public:
   /// \param trust ranks of an edge's trust, which measures the certainty of its kind.
@@ -27,15 +35,15 @@ class EdgeExpert {
     BothKinds<Edge> edges;          ///< by rising id
     std::vector<Verdict> verdicts;  ///< of each corner of chi
     std::vector<Reason> reasons;    ///< of each corner of chi
-    /// The corners contradicted the given motion, and all tracks were dropped.
-    bool began_anew = false;
+    UsedMotion motion = UsedMotion::told;
   };
 
   /// Predicts the tracks of the frame before, assigns the corners to them, and updates their
   /// beliefs.
   /// \param told the motion field of the given ego-motion since the frame before.
+  /// \param held that of the motion of the last frame, over the same time; null: unknown.
   /// \return valid until the next call.
-  const Result& step(const Chi& chi, const MotionField& told);
+  const Result& step(const Chi& chi, const MotionField& told, const MotionField* held = nullptr);
 
   /// Drops all tracks.
   void forget();
@@ -43,6 +51,10 @@ class EdgeExpert {
  private:
   void estimate_noise(double dt_s);
   void predict_tracks(const MotionField& field);
+  const std::vector<int>& follow(const MotionField& field, const Chi& chi);
+  bool is_held(const MotionField& held, const Chi& chi, const std::vector<int>& track_of) const;
+  bool is_depth_wrong(const MotionField& field, const Chi& chi,
+                      const std::vector<int>& track_of) const;
   void find_residuals(const MotionField& field, const Chi& chi, const std::vector<int>& track_of,
                       bool started);
   Track first_seen(const Chi& chi, std::size_t corner);
@@ -68,6 +80,8 @@ class EdgeExpert {
   std::vector<Residual> residuals_;
   std::vector<Coupling::Node> nodes_;
   std::vector<Track*> seen_;  // of each node
+  /// Depths were confirmed by a motion that they were not made with.
+  bool is_confirmed_ = false;
   Result result_;
 };
 
