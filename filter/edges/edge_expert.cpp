@@ -272,29 +272,30 @@ bool EdgeExpert::is_held(const MotionField& held, const Chi& chi,
   return count >= parameters_.neighbours && nearer > 0.5 * all;
 }
 
-/// Whether the depths were learnt by a wrong motion: more tracks leave their predictions than move
-/// or jump to other corners, and most of these would be static, had they been seen in the last frame
-/// only.
-bool EdgeExpert::is_depth_wrong(const MotionField& field, const Chi& chi,
+/// Whether the first motion, by which all depths are known, was wrong: more tracks leave their
+/// predictions than move or jump to other corners, and most of these would be static had they been
+/// seen in the last frame only.
+bool EdgeExpert::is_first_wrong(const MotionField& told, const Chi& chi,
                                 const std::vector<int>& track_of) const {
   double all = 0, leave = 0, stand = 0;
-  const auto distance2 = [&](const StaticPoint& point, const Vec2& x) {
-    return (x - point.place_px).dot(point.spread(noise2_px2_).inverse() * (x - point.place_px));
-  };
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (track_of[c] < 0) continue;
     const Track& track = predicted_[track_of[c]];
-    const Vec2& x = chi.locations[c];
     if (!track.has_motion()) continue;
+    const Vec2& x = chi.locations[c];
     const double voice = 1.0 / association_.crowd(c);
     all += voice;
-    if (distance2(track.as_static, x) < kFar * kFar) continue;
+    const Vec2 off = x - track.as_static.place_px;
+    const Eigen::Matrix2d S = track.as_static.spread(noise2_px2_);
+    if (!(off.dot(S.inverse() * off) > kFar * kFar)) continue;
     leave += voice;
-    const StaticPoint once = StaticPoint::seen_once(track.place_px, camera_, field,
-                                                    field.displacement_C_m(), noise2_px2_);
-    if (distance2(once, x) < kFar * kFar) stand += voice;
+    const DepthBounds bounds = depth_bounds(told, x);
+    const Vec2 parallax = parallax_px_m(camera_, told.displacement_C_m(), track.place_px);
+    const double off_px = distance_to_segment(x - track.place_px, bounds.least_pm * parallax,
+                                              bounds.most_pm * parallax);
+    if (off_px * off_px < kFar * kFar * 2 * noise2_px2_) stand += voice;
   }
-  const double usual = parameters_.prior + parameters_.turnover(field.dt_s());
+  const double usual = parameters_.prior + parameters_.turnover(told.dt_s());
   return leave > usual * all && stand > 0.5 * leave;
 }
 
@@ -314,9 +315,7 @@ const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& to
     given = held;
     track_of = &follow(*held, chi);
   }
-  if (started && !is_confirmed_ && is_depth_wrong(velocity_error_.without(*given), chi, *track_of)) {
-    motion = UsedMotion::none;
-  }
+  if (started && !is_confirmed_ && is_first_wrong(told, chi, *track_of)) motion = UsedMotion::none;
   MotionField field = velocity_error_.without(*given);
   if (!predicted_.empty() && motion != UsedMotion::none) {
     find_residuals(field, chi, *track_of, started);
