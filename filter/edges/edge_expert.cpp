@@ -272,11 +272,17 @@ bool EdgeExpert::is_held(const MotionField& held, const Chi& chi,
   return count >= parameters_.neighbours && nearer > 0.5 * all;
 }
 
-/// Whether the first motion, by which all depths are known, was wrong: more tracks leave their
-/// predictions than move or jump to other corners, and most of these would be static had they been
-/// seen in the last frame only.
-bool EdgeExpert::is_first_wrong(const MotionField& told, const Chi& chi,
+/// Whether the first motion, by which all depths are known, was wrong: the camera's velocity differs
+/// from it, more tracks leave their predictions than move or jump to other corners, and most of
+/// these would be static had they been seen in the last frame only.
+/// \param first over the same time as `told`.
+bool EdgeExpert::is_first_wrong(const MotionField& told, const MotionField& first, const Chi& chi,
                                 const std::vector<int>& track_of) const {
+  const double most_m = std::max(told.displacement_C_m().norm(), first.displacement_C_m().norm());
+  const double sigma_m =
+      std::hypot(parameters_.ego_share * most_m, told.velocity_sigma_mps() * told.dt_s());
+  const Eigen::Vector3d change_m = told.displacement_C_m() - first.displacement_C_m();
+  if (!(change_m.norm() > kFar * sigma_m)) return false;
   double all = 0, leave = 0, stand = 0;
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (track_of[c] < 0) continue;
@@ -315,7 +321,8 @@ const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& to
     given = held;
     track_of = &follow(*held, chi);
   }
-  if (started && !is_confirmed_ && is_first_wrong(told, chi, *track_of)) motion = UsedMotion::none;
+  const bool is_first_tested = started && !is_confirmed_ && held != nullptr;
+  if (is_first_tested && is_first_wrong(told, *held, chi, *track_of)) motion = UsedMotion::none;
   MotionField field = velocity_error_.without(*given);
   if (!predicted_.empty() && motion != UsedMotion::none) {
     find_residuals(field, chi, *track_of, started);

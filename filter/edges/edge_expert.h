@@ -53,7 +53,7 @@ class EdgeExpert {
   void predict_tracks(const MotionField& field);
   const std::vector<int>& follow(const MotionField& field, const Chi& chi);
   bool is_held(const MotionField& held, const Chi& chi, const std::vector<int>& track_of) const;
-  bool is_first_wrong(const MotionField& told, const Chi& chi,
+  bool is_first_wrong(const MotionField& told, const MotionField& first, const Chi& chi,
                       const std::vector<int>& track_of) const;
   void find_residuals(const MotionField& field, const Chi& chi, const std::vector<int>& track_of,
                       bool started);
