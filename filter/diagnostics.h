@@ -59,7 +59,7 @@ inline constexpr std::array<FaultText, 23> kFaults{{
     {"motion_no_rotation",
      "ego-motions have a matrix that is no rotation: the filter started anew"},
     {"motion_contradicted",
-     "ego-motions put most of what stood where it is not: the filter started anew"},
+     "ego-motions contradict the picture: the one before was kept, or the filter started anew"},
     {"ground_unusable", "ego-motions have a ground that is none: it is not used"},
     {"imu_not_finite", "readings of the IMU are no numbers: left out"},
     {"imu_too_large", "readings of the IMU are over 100 rad/s or 2000 m/s^2: left out"},

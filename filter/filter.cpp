@@ -61,8 +61,8 @@ EgoMotion Filter::Impl::as_before(const EgoMotion& told) const {
 }
 
 const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_px,
-                                      std::span<const Signature> signatures,
-                                      const EgoMotion& told, GapView* view) {
+                                      std::span<const Signature> signatures, const EgoMotion& told,
+                                      GapView* view) {
   Stopwatch watch;
   std::optional<EgoMotion> motion = intake.take(told, diagnostics);
   if (!motion) {
@@ -121,14 +121,14 @@ Filter::Filter(Filter&&) noexcept = default;
 Filter& Filter::operator=(Filter&&) noexcept = default;
 
 const FrameResult& Filter::step(std::span<const Eigen::Vector2f> corners_px,
-                                const EgoMotion& motion) {
-  return impl_->step(corners_px, {}, motion, nullptr);
+                                const EgoMotion& motion, GapView* view) {
+  return impl_->step(corners_px, {}, motion, view);
 }
 
 const FrameResult& Filter::step(std::span<const Eigen::Vector2f> corners_px,
                                 std::span<const Signature> signatures, const EgoMotion& motion,
                                 GapView* view) {
-  if (!signatures.empty()) validate(corners_px, signatures);
+  validate(corners_px, signatures);
   return impl_->step(corners_px, signatures, motion, view);
 }
 

@@ -6,12 +6,12 @@
 #include <memory>
 #include <span>
 
-#include "filter/radial/gap.h"
 #include "filter/diagnostics.h"
 #include "filter/frame_result.h"
 #include "filter/kinematics/camera.h"
 #include "filter/kinematics/ego_motion.h"
 #include "filter/parameters.h"
+#include "filter/radial/gap.h"
 #include "filter/signature.h"
 
 namespace lcs {
@@ -32,12 +32,13 @@ class Filter {
 
   /// \param corners_px of this frame, pixels.
   /// \param motion since the last frame.
-  /// \return the filter's own storage: valid until the next step.
-  const FrameResult& step(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& motion);
-
-  /// \param signatures one for each corner, in their order; empty if unknown.
   /// \param view looks at this frame's picture for the filter; null: no bodies that approach at
   ///   constant speed are found.
+  /// \return the filter's own storage: valid until the next step.
+  const FrameResult& step(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& motion,
+                          GapView* view = nullptr);
+
+  /// \param signatures one for each corner, in their order.
   /// \throws std::invalid_argument if the counts of signatures and corners differ; the filter is
   ///   then unchanged.
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,

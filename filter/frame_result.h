@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "filter/radial/gap.h"
 #include "filter/layers.h"
+#include "filter/radial/gap.h"
 #include "filter/reason.h"
 
 namespace lcs {

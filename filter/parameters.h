@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "filter/circles/circle_parameters.h"
-#include "filter/radial/comers.h"
 #include "filter/edges/edge_parameters.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/line/line.h"
+#include "filter/radial/comers.h"
 #include "filter/squares/square_expert.h"
 
 namespace lcs {

@@ -10,8 +10,8 @@ namespace lcs {
 namespace {
 
 constexpr double kBlur_px = 1;
-constexpr std::size_t kPictures = 6;   // that are kept
-constexpr double kParallax_px = 2;     // between ground and body, from which a picture is early enough
+constexpr std::size_t kPictures = 6;  // that are kept
+constexpr double kParallax_px = 2;  // between ground and body, from which a picture is early enough
 constexpr double kSigma_levels = 6;    // standard deviation of a warped picture's error
 constexpr double kMost = 4;            // log likelihood that a pixel can lose
 constexpr double kContour_levels = 4;  // least gradient of a contour, grey levels a pixel

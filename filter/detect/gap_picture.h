@@ -1,13 +1,13 @@
 /// \file
-/// Looks at gaps below circles in the camera's pictures: does the gap move as the ground does, or as
-/// the body of the circle?
+/// Looks at gaps below circles in the camera's pictures: does the gap move as the ground does, or
+/// as the body of the circle?
 #pragma once
 
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "filter/radial/gap.h"
 #include "filter/kinematics/camera.h"
+#include "filter/radial/gap.h"
 
 namespace lcs {
 
@@ -22,8 +22,8 @@ class GapPicture : public GapView {
 
   void begin(const EgoMotion& motion) override;
 
-  /// Warps an earlier picture to this frame, once as the ground moves and once as the body does, and
-  /// compares both with the present picture, row by row. Rows without a contour count for the
+  /// Warps an earlier picture to this frame, once as the ground moves and once as the body does,
+  /// and compares both with the present picture, row by row. Rows without a contour count for the
   /// ground: a body without any is rare.
   std::optional<double> evidence(const Gap& gap) override;
 

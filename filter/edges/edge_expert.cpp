@@ -272,10 +272,10 @@ bool EdgeExpert::is_held(const MotionField& held, const Chi& chi,
   return count >= parameters_.neighbours && nearer > 0.5 * all;
 }
 
-/// Whether the first motion, by which all depths are known, was wrong: the camera's velocity differs
-/// from it, more tracks leave their predictions than move or jump to other corners, and most of
-/// these would be static had they been seen in the last frame only.
-/// \param first over the same time as `told`.
+/// Whether the first motion, by which all depths are known, was wrong: the camera's velocity
+/// differs from it, more tracks leave their predictions than move or jump to other corners, and
+/// most of these would be static had they been seen in the last frame only. \param first over the
+/// same time as `told`.
 bool EdgeExpert::is_first_wrong(const MotionField& told, const MotionField& first, const Chi& chi,
                                 const std::vector<int>& track_of) const {
   const double most_m = std::max(told.displacement_C_m().norm(), first.displacement_C_m().norm());

@@ -10,6 +10,8 @@ namespace {
 constexpr double kShortestStep_s = 1e-6;
 
 constexpr double kMostRate_radps = 1000;
+/// As a standard deviation it says already that nothing is known.
+constexpr double kMostTurn_rad = 1000;
 
 /// Tolerance of R R^T: 0.4 px at the border of a 640 px picture of 75 deg.
 constexpr double kOffRotation = 1e-3;
@@ -19,13 +21,14 @@ constexpr double kLeastHeight_m = 1e-3, kMostHeight_m = 1e4;
 
 std::optional<Fault> fault_of(const EgoMotion& m) {
   if (!std::isfinite(m.dt_s) || !m.R_cur_prev.allFinite() || !m.v_C_mps.allFinite() ||
-      !m.w_C_radps.allFinite() || !std::isfinite(m.unseen_turn_rad) ||
-      !std::isfinite(m.velocity_sigma_mps)) {
+      !m.w_C_radps.allFinite() || !(m.unseen_turn_rad >= 0 && m.velocity_sigma_mps >= 0) ||
+      !std::isfinite(m.unseen_turn_rad) || !std::isfinite(m.velocity_sigma_mps)) {
     return Fault::motion_not_finite;
   }
   if (m.dt_s < 0) return Fault::time_back;
   if (m.dt_s > kLongestStep_s) return Fault::time_jump;
-  if (!(m.v_C_mps.norm() <= kMostSpeed_mps && m.w_C_radps.norm() <= kMostRate_radps)) {
+  if (!(m.v_C_mps.norm() <= kMostSpeed_mps && m.w_C_radps.norm() <= kMostRate_radps &&
+        m.velocity_sigma_mps <= kMostSpeed_mps && m.unseen_turn_rad <= kMostTurn_rad)) {
     return Fault::motion_too_fast;
   }
   if (!is_rotation(m.R_cur_prev)) return Fault::motion_no_rotation;

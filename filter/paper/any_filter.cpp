@@ -46,18 +46,18 @@ AnyFilter::AnyFilter(const Intrinsics& camera, const AnyParameters& parameters)
 const FrameResult& AnyFilter::step(std::span<const Eigen::Vector2f> corners_px,
                                    std::span<const Signature> signatures, const EgoMotion& motion,
                                    GapView* view) {
-  if (auto* own = std::get_if<Filter>(&filter_)) {
-    return own->step(corners_px, signatures, motion, view);
+  if (auto* paper = std::get_if<paper::PaperFilter>(&filter_)) {
+    return paper->step(corners_px, signatures, motion);
   }
-  auto& paper = std::get<paper::PaperFilter>(filter_);
-  if (signatures.empty()) return paper.step(corners_px, motion);
-  return paper.step(corners_px, signatures, motion);
+  return std::get<Filter>(filter_).step(corners_px, signatures, motion, view);
 }
 
 const FrameResult& AnyFilter::step(std::span<const Eigen::Vector2f> corners_px,
-                                   const EgoMotion& motion) {
-  return std::visit([&](auto& f) -> const FrameResult& { return f.step(corners_px, motion); },
-                    filter_);
+                                   const EgoMotion& motion, GapView* view) {
+  if (auto* paper = std::get_if<paper::PaperFilter>(&filter_)) {
+    return paper->step(corners_px, motion);
+  }
+  return std::get<Filter>(filter_).step(corners_px, motion, view);
 }
 
 const Diagnostics& AnyFilter::diagnostics() const {

@@ -33,7 +33,8 @@ class AnyFilter {
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,
                           std::span<const Signature> signatures, const EgoMotion& motion,
                           GapView* view = nullptr);
-  const FrameResult& step(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& motion);
+  const FrameResult& step(std::span<const Eigen::Vector2f> corners_px, const EgoMotion& motion,
+                          GapView* view = nullptr);
   const Diagnostics& diagnostics() const;
 
  private:

@@ -114,8 +114,8 @@ void Comers::believe(std::span<const GroundEdge> seen, const CircleExpert::Resul
     double before = 0;
     for (const int i : members) before += beliefs_[i].log_odds;
     before /= static_cast<double>(members.size());
-    const double now = log_odds(edge_.prior) + evidence(circles.circles.normal[c].id, members, seen,
-                                                        field, ground, view);
+    const double now = log_odds(edge_.prior) +
+                       evidence(circles.circles.normal[c].id, members, seen, field, ground, view);
     const double belief = before + (now - before) / parameters_.memory;
     for (const int i : members) result_.odds[i] = beliefs_[i].log_odds = belief;
   }

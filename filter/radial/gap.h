@@ -13,8 +13,8 @@ namespace lcs {
 /// A grid of places, a pixel apart, along and across the ground's direction upwards in the picture.
 struct Gap {
   Id circle = 0;
-  Vec2 place_px = Vec2::Zero();   ///< first place of the first row: its highest one
-  Vec2 across = Vec2::UnitX();    ///< unit vector of a row
+  Vec2 place_px = Vec2::Zero();  ///< first place of the first row: its highest one
+  Vec2 across = Vec2::UnitX();   ///< unit vector of a row
   int columns = 0, rows = 0;
   double inverse_depth_pm = 0;  ///< of the circle
 

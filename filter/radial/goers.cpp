@@ -39,7 +39,8 @@ void Goers::join(int circle, const std::vector<Edge>& rebels,
     if (!(flow_px.norm() > 0)) continue;
     apparent_pm_.push_back(flow_px.dot(step_px) / flow_px.squaredNorm());
     across_px_.push_back(std::abs(cross(flow_px, step_px)) / flow_px.norm());
-    const Place& place = front_.emplace_back(ground.along(edge.location), ground.down(edge.location));
+    const Place& place =
+        front_.emplace_back(ground.along(edge.location), ground.down(edge.location));
     left = std::min(left, place.x());
     right = std::max(right, place.x());
     second = std::max(second, std::min(lowest, place.y()));  // the lowest may be a shadow's
@@ -67,9 +68,8 @@ void Goers::join(int circle, const std::vector<Edge>& rebels,
     const GroundEdge& edge = seen[i];
     const double apparent = std::max(W, 0.0);
     const Eigen::Vector3d sigmas(edge.sigma_pm, spread, circle_.roughness * apparent);
-    const bool is_candidate = edge.is_seen && result_.circle[i] < 0 &&
-                              edge.along > left - gap && edge.along < right + gap &&
-                              edge.down < second &&
+    const bool is_candidate = edge.is_seen && result_.circle[i] < 0 && edge.along > left - gap &&
+                              edge.along < right + gap && edge.down < second &&
                               edge.sigma_pm < circle_.roughness * foot_pm &&
                               std::abs(edge.inverse_depth_pm - apparent) < 2 * sigmas.norm() &&
                               edge.inverse_depth_pm + 2 * edge.sigma_pm < foot_pm - sigma;
@@ -79,9 +79,8 @@ void Goers::join(int circle, const std::vector<Edge>& rebels,
     next_.clear();
     std::erase_if(near_, [&](int i) {
       const Place place(seen[i].along, seen[i].down);
-      const bool is_reached = std::ranges::any_of(front_, [&](const Place& from) {
-        return (from - place).squaredNorm() < gap * gap;
-      });
+      const bool is_reached = std::ranges::any_of(
+          front_, [&](const Place& from) { return (from - place).squaredNorm() < gap * gap; });
       if (!is_reached) return false;
       result_.circle[i] = circle;
       result_.odds[i] = odds;

@@ -1,8 +1,8 @@
 /// \file
 /// Goers: bodies that go away or keep pace. Seen as static, such a body is farther than the ground
-/// on which it stands. Its lower edges are below the ground's bound (3) and become rebels; its upper
-/// ones move as distant static points do. They join the circle of the lower ones (filter/MODEL.md,
-/// "Goers").
+/// on which it stands. Its lower edges are below the ground's bound (3) and become rebels; its
+/// upper ones move as distant static points do. They join the circle of the lower ones
+/// (filter/MODEL.md, "Goers").
 #pragma once
 
 #include <span>

@@ -82,9 +82,8 @@ Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulat
 void ask(Detector& detector, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame) {
   double step_ms = 0;
   const FrameResult& said = timed(step_ms, [&]() -> const FrameResult& {
-    return detector.step(
-        {image, grey, frame.corners_px, frame.motion, frame.signatures, frame.index, frame.t_ns,
-         frame.gaps ? &*frame.gaps : nullptr});
+    return detector.step({image, grey, frame.corners_px, frame.motion, frame.signatures,
+                          frame.index, frame.t_ns, frame.gaps ? &*frame.gaps : nullptr});
   });
   note(said, detector.step_time(), step_ms, frame);
   frame.masks = detector.masks();

@@ -67,8 +67,8 @@ class Detector {
 /// The simulator's camera as intrinsics for the filter and all detectors.
 Intrinsics intrinsics(const sim::Pinhole& camera);
 
-/// Gaps that an earlier run has looked at. A gap that the run did not ask for gets the answer of the
-/// one with which it shares the most.
+/// Gaps that an earlier run has looked at. A gap that the run did not ask for gets the answer of
+/// the one with which it shares the most.
 class StoredGaps : public GapView {
  public:
   void show(const std::vector<GapSeen>& gaps) { gaps_ = &gaps; }
@@ -94,6 +94,7 @@ class LcsDetector : public Detector {
       stored_.show(*input.gaps);
       view = &stored_;
     }
+    if (input.signatures.empty()) return filter_.step(input.corners_px, input.motion, view);
     return filter_.step(input.corners_px, input.signatures, input.motion, view);
   }
   bool wants_signatures() const override { return true; }

@@ -83,6 +83,11 @@ bool EarlierRun::lacks_signatures() const {
       [](const FrameRecord& frame) { return frame.signatures.size() < frame.corners_px.size(); });
 }
 
+bool EarlierRun::lacks_gaps() const {
+  return std::ranges::any_of(recorded_.frames,
+                             [](const FrameRecord& frame) { return !frame.gaps; });
+}
+
 Recording EarlierRun::begin() const {
   return {.scenario = recorded_.scenario,
           .seed = recorded_.seed,

@@ -30,6 +30,10 @@ class EarlierRun {
   /// decide differently from a run of its own.
   bool lacks_signatures() const;
 
+  /// Whether the run did not look at gaps below circles, as one with only a comparator. The filter
+  /// then finds no bodies that approach at constant speed.
+  bool lacks_gaps() const;
+
   /// A recording of the scenario, without frames.
   Recording begin() const;
 

@@ -148,6 +148,12 @@ Frames recorded(const RunOptions& options, const scenario::Scenario& scenario,
                     "alone; leave out --recorded to have them made",
                     options.recorded));
   }
+  if (earlier->lacks_gaps()) {
+    missing.push_back(fmt::format(
+        "{} does not say what the filter saw below circles, so that bodies that approach "
+        "at constant speed are not found; leave out --recorded to have it looked at",
+        options.recorded));
+  }
   return {.camera = camera,
           .recording = earlier->begin(),
           .earlier = &earlier->recording(),

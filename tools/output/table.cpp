@@ -33,6 +33,12 @@ std::string table(const Metrics& metrics) {
   text += line("rebels", metrics, true,
                {"rebel.precision", "rebel.recall", "rebel.f1", "rebel.f1_clear",
                 "rebel.f1_distinct", "rebel.recall_radial"});
+  constexpr double kPoor = 0.7;
+  if (value(metrics, "rebel.f1").value_or(1) < kPoor) {
+    text += line("F1 lost", metrics, true,
+                 {"rebel.f1_lost_radial", "rebel.f1_lost_outline", "rebel.f1_lost_first_seen",
+                  "rebel.f1_lost_tracked"});
+  }
   text += line("objects", metrics, true,
                {"truth.rebel_objects", "rebel.object_recall", "rebel.latency_frames_median",
                 "rebel.false_objects_per_100_frames"});

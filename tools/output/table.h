@@ -8,7 +8,9 @@
 
 namespace lcs::bench {
 
-/// One line each for rebels, objects, squares, size, time. "-" marks an undefined figure. Ends with
+/// One line each for rebels, objects, squares, size, time, and for how F1 was lost where it is
+/// poor.
+/// "-" marks an undefined figure. Ends with
 /// a newline.
 std::string table(const Metrics& metrics);
 

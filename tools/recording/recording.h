@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "filter/radial/gap.h"
 #include "filter/kinematics/camera.h"
 #include "filter/kinematics/ego_motion.h"
 #include "filter/layers.h"
+#include "filter/radial/gap.h"
 #include "filter/reason.h"
 #include "filter/signature.h"
 #include "scenarios/scenario.h"
