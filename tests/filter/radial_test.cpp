@@ -54,7 +54,8 @@ struct Drive {
     motion.ground = Ground{.up_C = {0, -1, 0}, .height_m = kHeight_m};
   }
 
-  /// Share of the body's corners that are rebels after these frames, and the number of others.
+  /// Share of the body's corners that are rebels after these frames, and the number of other
+  /// corners that are called comers or goers.
   struct Found {
     double of_body;
     std::ptrdiff_t others;
@@ -72,10 +73,11 @@ struct Drive {
       found.others = 0;
       for (std::size_t i = 0; i < world.points.size(); ++i) {
         if (!world.image(world.points[i])) continue;
+        const Reason reason = result.reasons[c];
         const bool is_rebel = result.verdicts[c++] == Verdict::rebel;
         own += i >= body;
         rebels += i >= body && is_rebel;
-        found.others += i < body && is_rebel;
+        found.others += i < body && (reason == Reason::comer || reason == Reason::goer);
       }
       found.of_body =
           static_cast<double>(rebels) / static_cast<double>(std::max<std::ptrdiff_t>(own, 1));

@@ -121,7 +121,7 @@ class SameBits(unittest.TestCase):
 
         def said():
             for frame in lcs.simulate(scenario):
-                result = lcs_filter.step(frame.corners, frame.motion, frame.signatures)
+                result = lcs_filter.step(frame.corners, frame.motion, frame.signatures, picture=frame.grey)
                 self.assert_layers(frame, result, layers[frame.index])
                 self.assert_truth(frame, truth[frame.index])
                 frames.append(frame.index)

@@ -72,6 +72,20 @@ std::vector<Signature> signatures_of(py::handle value) {
   return signatures;
 }
 
+cv::Mat1b grey_of(py::handle value) {
+  constexpr const char* kExpected = "height x width of uint8";
+  const py::array array = array_of(value, "picture", kExpected, "u");
+  if (array.itemsize() != 1) {
+    throw py::type_error(
+        fmt::format("picture is of {}; give {}", text_of(array.dtype()), kExpected));
+  }
+  if (array.ndim() != 2) refuse_shape(array, "picture", kExpected);
+  const py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast> grey(array);
+  cv::Mat1b copy(static_cast<int>(grey.shape(0)), static_cast<int>(grey.shape(1)));
+  std::memcpy(copy.data, grey.data(), static_cast<std::size_t>(grey.nbytes()));
+  return copy;
+}
+
 std::vector<bool> flags_of(py::handle value, const char* name) {
   constexpr const char* kExpected = "N of bool, one for each corner";
   const py::array array = array_of(value, name, kExpected, "b");

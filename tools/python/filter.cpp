@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "filter/detect/gap_picture.h"
 #include "tools/bench/detector.h"
 #include "tools/bench/timed.h"
 #include "tools/python/arrays.h"
@@ -16,12 +17,20 @@
 namespace lcs::python {
 namespace {
 
-AnyFilter of_scenario(const Scenario& scenario) {
+/// A filter and the pictures in which it looks at gaps.
+struct PictureFilter {
+  PictureFilter(const Intrinsics& camera, const AnyParameters& parameters)
+      : filter(camera, parameters), pictures(camera) {}
+  AnyFilter filter;
+  GapPicture pictures;
+};
+
+PictureFilter of_scenario(const Scenario& scenario) {
   return {bench::intrinsics(scenario.camera.pinhole), bench::filter_parameters(scenario.full)};
 }
 
 /// A filter with this camera, preset and settings, validated as those of a scenario.
-AnyFilter of_camera(const Camera& camera, const std::string& preset, const py::object& set) {
+PictureFilter of_camera(const Camera& camera, const std::string& preset, const py::object& set) {
   scenario::Scenario settings;
   settings.filter_preset = preset;
   settings.filter_preset_source = {"preset", 0};
@@ -33,17 +42,24 @@ AnyFilter of_camera(const Camera& camera, const std::string& preset, const py::o
   return {bench::intrinsics(camera.pinhole), bench::filter_parameters(settings)};
 }
 
-std::shared_ptr<Result> step(AnyFilter& filter, const py::object& corners, const EgoMotion& motion,
-                             const py::object& signatures) {
+std::shared_ptr<Result> step(PictureFilter& own, const py::object& corners, const EgoMotion& motion,
+                             const py::object& signatures, const py::object& picture) {
+  AnyFilter& filter = own.filter;
   const std::vector<Eigen::Vector2f> corners_px = points_of(corners, "corners");
+  GapView* view = nullptr;
+  if (!picture.is_none()) {
+    own.pictures.show(grey_of(picture));
+    view = &own.pictures;
+  }
   auto result = std::make_shared<Result>();
   if (signatures.is_none()) {
-    result->said = bench::timed(
-        result->filter_ms, [&]() -> const FrameResult& { return filter.step(corners_px, motion); });
+    result->said = bench::timed(result->filter_ms, [&]() -> const FrameResult& {
+      return filter.step(corners_px, motion, view);
+    });
   } else {
     const std::vector<Signature> given = signatures_of(signatures);
     result->said = bench::timed(result->filter_ms, [&]() -> const FrameResult& {
-      return filter.step(corners_px, given, motion);
+      return filter.step(corners_px, given, motion, view);
     });
   }
   return result;
@@ -150,7 +166,7 @@ void bind_result(py::module_& module) {
 
 void bind_filter(py::module_& module) {
   bind_result(module);
-  class_of<AnyFilter>(
+  class_of<PictureFilter>(
       module, "Filter",
       "The Line-Circle-Square filter. The same corners, signatures and motions give the same bits.")
       .def(py::init(&of_scenario), py::arg("scenario"),
@@ -162,14 +178,18 @@ void bind_filter(py::module_& module) {
           "filter/parameters.cpp: {\"circle.gap\": 0.3}; angles in degrees.\n"
           "Raises Error for what is no preset, key or value, ValueError for a camera that is none.")
       .def("step", &step, py::arg("corners"), py::arg("motion"), py::arg("signatures") = py::none(),
+           py::kw_only(), py::arg("picture") = py::none(),
            "The next frame.\n\n"
            "corners: N x 2, x and y in pixels; motion: since the last frame; signatures: N x 32 "
-           "uint8.\n"
+           "uint8;\n"
+           "picture: height x width uint8, grey, without distortion. Bodies that approach at "
+           "constant speed are\n"
+           "found only with pictures, and only by the preset default.\n"
            "Raises TypeError or ValueError for arrays that are none of these, and is then as if "
            "the frame had\n"
            "not been given. Bad numbers never raise: they are left out, see diagnostics.")
       .def_property_readonly(
-          "diagnostics", [](const AnyFilter& f) { return f.diagnostics().lines(); },
+          "diagnostics", [](const PictureFilter& f) { return f.filter.diagnostics().lines(); },
           "What was wrong with the data so far, a line for each kind.");
 }
 

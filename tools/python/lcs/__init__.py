@@ -5,7 +5,7 @@
     scenario = lcs.Scenario(lcs.SCENARIOS / "crossing.yaml", set={"ego.speed": "0.7 m/s"}, seed=7)
     lcs_filter = lcs.Filter(scenario)
     metrics = lcs.score(
-        (frame, lcs_filter.step(frame.corners, frame.motion, frame.signatures))
+        (frame, lcs_filter.step(frame.corners, frame.motion, frame.signatures, picture=frame.grey))
         for frame in lcs.simulate(scenario)
     )
     print(metrics["rebel.f1"])

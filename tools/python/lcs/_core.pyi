@@ -240,7 +240,12 @@ class Filter:
         self, camera: Camera, preset: str = "default", *, set: _Settings = None
     ) -> None: ...
     def step(
-        self, corners: ArrayLike, motion: Motion, signatures: Optional[ArrayLike] = None
+        self,
+        corners: ArrayLike,
+        motion: Motion,
+        signatures: Optional[ArrayLike] = None,
+        *,
+        picture: Optional[ArrayLike] = None,
     ) -> Result: ...
     @property
     def diagnostics(self) -> list[str]: ...
