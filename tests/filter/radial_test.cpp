@@ -32,15 +32,15 @@ class Answer : public GapView {
 };
 
 /// A camera 0.5 m above a ground of points drives ahead at 0.3 m/s. A flat body of 0.4 m x 0.6 m is
-/// in front of it.
+/// in front of it. No points are behind the body, as it would not hide them.
 struct Drive {
   Drive(double body_m, double body_speed_mps, double foot_m = 0) {
     Random random(7);
     for (int i = 0; i < 400; ++i) {
-      const double depth_m = random.uniform(1.2, 9);
-      world.points.push_back({{random.uniform(-0.8, 0.8) * depth_m, kHeight_m, depth_m}});
+      const double side = i % 2 == 0 ? 1 : -1, depth_m = random.uniform(1.2, 9);
+      world.points.push_back({{side * random.uniform(0.2, 0.8) * depth_m, kHeight_m, depth_m}});
     }
-    for (int i = 0; i < 150; ++i) {  // walls at both sides, as points hide nothing
+    for (int i = 0; i < 150; ++i) {  // walls
       const double side = i % 2 == 0 ? 1 : -1;
       world.points.push_back(
           {{side * random.uniform(2.5, 8), kHeight_m - random.uniform(0, 5), 11}});
