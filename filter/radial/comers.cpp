@@ -26,6 +26,7 @@ double median(std::vector<double>& values) {
 /// Log likelihood ratio of a circle: it comes / it stands or hangs; 0 if nothing can be told.
 double Comers::evidence(Id circle, std::span<const int> members, std::span<const GroundEdge> seen,
                         const MotionField& field, const GroundView& ground, GapView& view) {
+  if (parameters_.hanging >= 1) return 0;  // nothing could speak for a comer
   depths_pm_.clear();
   double foot = -std::numeric_limits<double>::infinity(), top = -foot, left = -foot, right = foot;
   for (const int i : members) {

@@ -39,20 +39,22 @@ class Reason(IntEnum):
     NO_TIME = 5
     NORMAL_EDGE = 6
     REBEL_EDGE = 7
-    INHERITED = 8
-    FIRST_SIGHTING = 9
-    ALPHA_FIRST = 10
-    XI_5 = 11
-    XI_4 = 12
-    OUTBID = 13
-    XI_1 = 14
-    ALPHA_SECOND = 15
-    ALPHA_BEND = 16
-    ALPHA_ON_FIELD = 17
-    ALPHA_TAKEN = 18
-    ALPHA_THIRD = 19
-    XI_3 = 20
-    XI_2 = 21
+    COMER = 8
+    GOER = 9
+    INHERITED = 10
+    FIRST_SIGHTING = 11
+    ALPHA_FIRST = 12
+    XI_5 = 13
+    XI_4 = 14
+    OUTBID = 15
+    XI_1 = 16
+    ALPHA_SECOND = 17
+    ALPHA_BEND = 18
+    ALPHA_ON_FIELD = 19
+    ALPHA_TAKEN = 20
+    ALPHA_THIRD = 21
+    XI_3 = 22
+    XI_2 = 23
 
 @final
 class Camera:
