@@ -34,7 +34,7 @@ struct Filter::Impl {
   const FrameResult& step(std::span<const Eigen::Vector2f> corners_px,
                           std::span<const Signature> signatures, const EgoMotion& told,
                           GapView* view);
-  EgoMotion as_before(const EgoMotion& told) const;
+  EgoMotion last_motion_over(const EgoMotion& told) const;
 
   Intrinsics camera;
   Parameters parameters;
@@ -49,9 +49,10 @@ struct Filter::Impl {
   FrameResult result;
 };
 
-/// The motion of the last frame, over the time of the told one.
-EgoMotion Filter::Impl::as_before(const EgoMotion& told) const {
+/// The motion of the last frame, over the time of the told one; without meaning if there was none.
+EgoMotion Filter::Impl::last_motion_over(const EgoMotion& told) const {
   EgoMotion motion = last;
+  if (!(last.dt_s > 0)) return motion;
   motion.dt_s = told.dt_s;
   Eigen::AngleAxisd turn(last.R_cur_prev);
   turn.angle() *= told.dt_s / last.dt_s;
@@ -78,33 +79,38 @@ const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_p
   count_rejected(chi, diagnostics);
   result.times.line_ms = watch.lap_ms();
 
+  const EgoMotion as_before = last_motion_over(*motion);
   std::optional<MotionField> held;
-  if (last.dt_s > 0) held.emplace(camera, as_before(*motion), parameters.field);
+  if (last.dt_s > 0) held.emplace(camera, as_before, parameters.field);
   const EdgeExpert::Result& tracked = edge_expert.step(chi, told_field, held ? &*held : nullptr);
   if (tracked.motion != UsedMotion::told) diagnostics.add(Fault::motion_contradicted);
-  if (tracked.motion == UsedMotion::held) {
-    *motion = as_before(*motion);
+  const bool is_held = tracked.motion == UsedMotion::held;
+  if (is_held) {
+    *motion = as_before;
   } else if (tracked.motion == UsedMotion::none) {
     radial.forget();
     motion->dt_s = 0;
   }
-  const MotionField& field = tracked.motion == UsedMotion::held ? *held : told_field;
+  const MotionField& field = is_held ? *held : told_field;
   last = *motion;
   assign_verdicts(chi, tracked.verdicts, tracked.reasons, result);
   const BothKinds<Edge>* edges = &tracked.edges;
   const CircleExpert::Result* circles = &circle_expert.step(*edges, field);
   result.gaps.reset();
-  if (view != nullptr) view->begin(*motion);
-  const Relabel::Result* moved =
+  if (view != nullptr) {
+    view->begin(*motion);
+    result.gaps.emplace();
+  }
+  const auto& [moved, came] =
       radial.step(*edges, *circles, corners_px, result.reasons, field, view);
+  if (came != nullptr) *result.gaps = came->gaps;
   if (moved != nullptr) {
     edges = &moved->edges;
     circles = &moved->circles;
     assign_rebels(chi, moved->came, Reason::comer, result);
     assign_rebels(chi, moved->went, Reason::goer, result);
-    assign_rebels(chi, radial.comers().inherited, Reason::inherited, result);
+    if (came != nullptr) assign_rebels(chi, came->inherited, Reason::inherited, result);
   }
-  if (view != nullptr) result.gaps = radial.comers().gaps;
   result.times.circle_ms = watch.lap_ms();
 
   const std::vector<Square>& squares = square_expert.step(*edges, *circles, field);

@@ -261,21 +261,20 @@ bool EdgeExpert::is_held(const MotionField& held, const Chi& chi,
     const StaticPoint& told = predicted_[track_of[c]].as_static;
     const StaticPoint other = before.as_static.predicted(camera_, field, parameters_.ego_share);
     const Eigen::Matrix2d S = told.spread(noise2_px2_) + other.spread(noise2_px2_);
-    const auto distance2 = [&](const Vec2& off) { return off.dot(S.inverse() * off); };
-    if (!(distance2(told.place_px - other.place_px) > kFar * kFar)) continue;
+    if (!(distance2(told.place_px - other.place_px, S) > kFar * kFar)) continue;
     const Vec2& x = chi.locations[c];
     const double voice = (1 - chance(before.belief)) / association_.crowd(c);
     ++count;
     all += voice;
-    if (distance2(x - other.place_px) < distance2(x - told.place_px)) nearer += voice;
+    if (distance2(x - other.place_px, S) < distance2(x - told.place_px, S)) nearer += voice;
   }
   return count >= parameters_.neighbours && nearer > 0.5 * all;
 }
 
 /// Whether the first motion, by which all depths are known, was wrong: the camera's velocity
 /// differs from it, more tracks leave their predictions than move or jump to other corners, and
-/// most of these would be static had they been seen in the last frame only. \param first over the
-/// same time as `told`.
+/// most of these would be static had they been seen in the last frame only.
+/// \param first the first motion, over the same time as `told`.
 bool EdgeExpert::is_first_wrong(const MotionField& told, const MotionField& first, const Chi& chi,
                                 const std::vector<int>& track_of) const {
   const double most_m = std::max(told.displacement_C_m().norm(), first.displacement_C_m().norm());
@@ -291,9 +290,8 @@ bool EdgeExpert::is_first_wrong(const MotionField& told, const MotionField& firs
     const Vec2& x = chi.locations[c];
     const double voice = 1.0 / association_.crowd(c);
     all += voice;
-    const Vec2 off = x - track.as_static.place_px;
-    const Eigen::Matrix2d S = track.as_static.spread(noise2_px2_);
-    if (!(off.dot(S.inverse() * off) > kFar * kFar)) continue;
+    const StaticPoint& point = track.as_static;
+    if (!(distance2(x - point.place_px, point.spread(noise2_px2_)) > kFar * kFar)) continue;
     leave += voice;
     const DepthBounds bounds = depth_bounds(told, x);
     const Vec2 parallax = parallax_px_m(camera_, told.displacement_C_m(), track.place_px);

@@ -19,8 +19,13 @@ inline double gauss(const Vec2& residual, double variance) {
   return std::exp(-0.5 * residual.squaredNorm() / variance) / (2 * std::numbers::pi * variance);
 }
 
+/// Square of the distance in standard deviations (Mahalanobis).
+inline double distance2(const Vec2& residual, const Eigen::Matrix2d& covariance) {
+  return residual.dot(covariance.inverse() * residual);
+}
+
 inline double gauss(const Vec2& residual, const Eigen::Matrix2d& covariance) {
-  return std::exp(-0.5 * residual.dot(covariance.inverse() * residual)) /
+  return std::exp(-0.5 * distance2(residual, covariance)) /
          (2 * std::numbers::pi * std::sqrt(covariance.determinant()));
 }
 

@@ -7,18 +7,13 @@
 #include "filter/circles/motion_groups.h"
 #include "filter/edges/gauss.h"
 #include "filter/matching/refill.h"
+#include "filter/radial/median.h"
 
 namespace lcs {
 namespace {
 
 bool is_known(const Edge& edge) {
   return edge.corner >= 0 && has_depth(edge);
-}
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

@@ -2,25 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "filter/edges/gauss.h"
 #include "filter/edges/static_point.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/matching/refill.h"
+#include "filter/radial/median.h"
 
 namespace lcs {
-namespace {
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace
-
 /// Joins normal edges to a rebel circle that moves as a static body below the ground would.
 void Goers::join(int circle, const std::vector<Edge>& rebels,
                  const std::vector<int>& circle_of_rebel, std::span<const GroundEdge> seen,

@@ -14,6 +14,12 @@ namespace lcs {
 
 class RadialMovers {
  public:
+  struct Result {
+    /// The edges and circles with those of radial movers among the rebels; null: there are none.
+    const Relabel::Result* moved = nullptr;
+    const Comers::Result* came = nullptr;  ///< null: comers were not searched for
+  };
+
   RadialMovers(const Intrinsics& camera, const ComerParameters& comers,
                const CircleParameters& circle, const EdgeParameters& edge)
       : camera_(camera),
@@ -23,16 +29,13 @@ class RadialMovers {
 
   /// \param corners_px,reasons of the frame, in the caller's order.
   /// \param view null: comers are not searched for.
-  /// \return the edges and circles with those of radial movers among the rebels; valid until the
-  ///   next call. Null without a ground, or while the camera stands still or looks straight down.
-  const Relabel::Result* step(const BothKinds<Edge>& edges, const CircleExpert::Result& circles,
-                              std::span<const Eigen::Vector2f> corners_px,
-                              std::span<const Reason> reasons, const MotionField& field,
-                              GapView* view);
+  /// \return valid until the next call. Nothing is found without a ground, or while the camera
+  ///   stands still or looks straight down.
+  Result step(const BothKinds<Edge>& edges, const CircleExpert::Result& circles,
+              std::span<const Eigen::Vector2f> corners_px, std::span<const Reason> reasons,
+              const MotionField& field, GapView* view);
 
-  /// Of the last step.
-  const Comers::Result& comers() const { return came_; }
-
+  /// Drops what is known of earlier frames.
   void forget() { comers_.forget(); }
 
  private:
@@ -41,7 +44,6 @@ class RadialMovers {
   Comers comers_;
   Goers goers_;
   Relabel relabel_;
-  Comers::Result came_;
   std::vector<GroundEdge> seen_;
   std::vector<double> odds_;
   std::vector<int> joined_;

@@ -20,7 +20,7 @@ class Relabel {
     std::vector<int> came, went;
   };
 
-  /// \param odds of each normal edge: log odds that it moves; those above 0 become rebels. The
+  /// \param odds of each normal edge: log odds that it moves. Those above 0 become rebels. The
   /// edges
   ///   of a normal circle agree, unless they join another circle.
   /// \param joined of each normal edge: the rebel circle that it joins, or -1.

@@ -8,10 +8,8 @@
 
 namespace lcs::bench {
 
-/// One line each for rebels, objects, squares, size, time, and for how F1 was lost where it is
-/// poor.
-/// "-" marks an undefined figure. Ends with
-/// a newline.
+/// One line each for rebels, objects, squares, size and time, and below an F1 of 0.7 for how F1 was
+/// lost. "-" marks an undefined figure. Ends with a newline.
 std::string table(const Metrics& metrics);
 
 }  // namespace lcs::bench

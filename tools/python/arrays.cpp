@@ -17,6 +17,12 @@ std::string text_of(py::handle value) {
       fmt::format("{} has the shape {}; give {}", name, text_of(array.attr("shape")), expected));
 }
 
+/// \throws py::type_error for an array of larger numbers than bytes.
+void require_bytes(const py::array& array, const char* name, const char* expected) {
+  if (array.itemsize() == 1) return;
+  throw py::type_error(fmt::format("{} is of {}; give {}", name, text_of(array.dtype()), expected));
+}
+
 }  // namespace
 
 py::array array_of(py::handle value, const char* name, const char* expected, const char* kinds) {
@@ -61,10 +67,7 @@ std::vector<Signature> signatures_of(py::handle value) {
   constexpr py::ssize_t kBytes = sizeof(SignatureBytes);
   const py::array array = array_of(value, "signatures", kExpected, "u");
   if (array.size() == 0) return {};
-  if (array.itemsize() != 1) {
-    throw py::type_error(
-        fmt::format("signatures is of {}; give {}", text_of(array.dtype()), kExpected));
-  }
+  require_bytes(array, "signatures", kExpected);
   if (array.ndim() != 2 || array.shape(1) != kBytes) refuse_shape(array, "signatures", kExpected);
   const py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast> table(array);
   std::vector<Signature> signatures(static_cast<std::size_t>(table.shape(0)));
@@ -75,10 +78,7 @@ std::vector<Signature> signatures_of(py::handle value) {
 cv::Mat1b grey_of(py::handle value) {
   constexpr const char* kExpected = "height x width of uint8";
   const py::array array = array_of(value, "picture", kExpected, "u");
-  if (array.itemsize() != 1) {
-    throw py::type_error(
-        fmt::format("picture is of {}; give {}", text_of(array.dtype()), kExpected));
-  }
+  require_bytes(array, "picture", kExpected);
   if (array.ndim() != 2) refuse_shape(array, "picture", kExpected);
   const py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast> grey(array);
   cv::Mat1b copy(static_cast<int>(grey.shape(0)), static_cast<int>(grey.shape(1)));
