@@ -12,7 +12,7 @@
 #include "filter/edges/edge_parameters.h"
 #include "filter/kinematics/motion_field.h"
 #include "filter/line/line.h"
-#include "filter/radial/comers.h"
+#include "filter/radial/comer_parameters.h"
 #include "filter/squares/square_expert.h"
 
 namespace lcs {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <utility>
 
 namespace lcs {
 namespace {
@@ -55,46 +56,79 @@ void GapPicture::begin(const EgoMotion& motion) {
     }
   }
   now_ = cv::Mat1b();  // the earlier one is kept
-  if (shown_.empty()) return earlier_.clear();
-  cv::GaussianBlur(shown_, now_, {}, kBlur_px);
-  shown_ = cv::Mat1b();
+  const cv::Mat1b shown = std::exchange(shown_, cv::Mat1b());
+  if (shown.empty() || !ground_) return earlier_.clear();
+  cv::GaussianBlur(shown, now_, {}, kBlur_px);
 }
 
-/// Place in the earlier picture of a point that is now at x_px. Far outside if it was behind.
-Vec2 GapPicture::before(const Earlier& earlier, const Vec2& x_px, double inverse_depth_pm) const {
-  const Vec2 h = (x_px - camera_.centre_px) / camera_.focal_px;
-  const Eigen::Vector3d X = earlier.R * h.homogeneous() + inverse_depth_pm * earlier.t_m;
-  if (!(X.z() > 1e-3)) return Vec2::Constant(-1e6);
-  return camera_.centre_px + camera_.focal_px * X.hnormalized();
+namespace {
+
+/// The row of an earlier picture that a row of this picture would come from, if all points on it
+/// had one inverse depth.
+class EarlierRow {
+ public:
+  EarlierRow(const GapPicture::Earlier& earlier, const Intrinsics& camera, const Vec2& first_px,
+             const Vec2& across, double inverse_depth_pm)
+      : camera_(camera),
+        first_(earlier.R * ((first_px - camera.centre_px) / camera.focal_px).homogeneous() +
+               inverse_depth_pm * earlier.t_m),
+        step_(earlier.R.leftCols<2>() * across / camera.focal_px) {}
+
+  /// Place of a column, px. Far outside if it was behind.
+  Vec2 at(int column) const {
+    const Eigen::Vector3d X = first_ + column * step_;
+    if (!(X.z() > 1e-3)) return Vec2::Constant(-1e6);
+    return camera_.centre_px + camera_.focal_px * X.hnormalized();
+  }
+
+ private:
+  const Intrinsics& camera_;
+  Eigen::Vector3d first_, step_;
+};
+
+/// Whether the gradient at the pixel of a place is that of a contour; not at the border.
+bool has_contour(const cv::Mat1b& picture, const Vec2& x) {
+  const int c = static_cast<int>(x.x() + 0.5), r = static_cast<int>(x.y() + 0.5);
+  if (c < 1 || r < 1 || c + 1 >= picture.cols || r + 1 >= picture.rows) return false;
+  const double across = picture(r, c + 1) - picture(r, c - 1);
+  const double down = picture(r + 1, c) - picture(r - 1, c);
+  return std::hypot(across, down) >= 2 * kContour_levels;
 }
+
+}  // namespace
 
 std::optional<double> GapPicture::evidence(const Gap& gap) {
-  if (earlier_.empty() || !ground_) return std::nullopt;
-  const auto ground_pm = [&](const Vec2& x) {
-    const Vec2 h = (x - camera_.centre_px) / camera_.focal_px;
-    return std::max(0.0, -ground_->up_C.dot(h.homogeneous()) / ground_->height_m);
+  if (earlier_.empty()) return std::nullopt;
+  const auto earlier_row = [&](const Earlier& earlier, int row, bool is_ground) {
+    const Vec2 first = gap.at(0, row);
+    // A row lies along the horizon: the ground's inverse depth is the same all along it.
+    const double ground_pm =
+        ground_->inverse_depth_pm((first - camera_.centre_px) / camera_.focal_px);
+    return EarlierRow(earlier, camera_, first, gap.across,
+                      is_ground ? std::max(0.0, ground_pm) : gap.inverse_depth_pm);
   };
-  const Vec2 middle = gap.at(gap.columns / 2, gap.rows / 2);
-  const auto parallax_px = [&](const Earlier& earlier) {
-    return (before(earlier, middle, gap.inverse_depth_pm) -
-            before(earlier, middle, ground_pm(middle)))
-        .norm();
+  const auto is_early = [&](const Earlier& earlier) {
+    const auto place = [&](bool is_ground) {
+      return earlier_row(earlier, gap.rows / 2, is_ground).at(gap.columns / 2);
+    };
+    return (place(true) - place(false)).norm() > kParallax_px;
   };
-  auto early = std::ranges::find_if(
-      earlier_, [&](const Earlier& earlier) { return parallax_px(earlier) > kParallax_px; });
+  auto early = std::ranges::find_if(earlier_, is_early);
   if (early == earlier_.end()) --early;
 
   double sum = 0;
   int rows = 0;
   for (int row = 0; row < gap.rows; ++row) {
+    const EarlierRow body = earlier_row(*early, row, false),
+                     ground = earlier_row(*early, row, true);
     double ratio = 0;
     bool is_bare = true;
     int pixels = 0;
     for (int column = 0; column < gap.columns; ++column) {
       const Vec2 x = gap.at(column, row);
       const double now = sample(now_, x);
-      const double as_body = sample(early->blurred, before(*early, x, gap.inverse_depth_pm));
-      const double as_ground = sample(early->blurred, before(*early, x, ground_pm(x)));
+      const double as_body = sample(early->blurred, body.at(column));
+      const double as_ground = sample(early->blurred, ground.at(column));
       if (now < 0 || as_body < 0 || as_ground < 0) continue;
       ++pixels;
       const auto loss = [&](double seen) {
@@ -102,11 +136,7 @@ std::optional<double> GapPicture::evidence(const Gap& gap) {
         return std::min(0.5 * off * off, kMost);
       };
       ratio += loss(as_body) - loss(as_ground);
-      if (!is_bare) continue;
-      const double right = sample(now_, x + Vec2::UnitX()), left = sample(now_, x - Vec2::UnitX());
-      const double below = sample(now_, x + Vec2::UnitY()), above = sample(now_, x - Vec2::UnitY());
-      if (std::min({right, left, below, above}) < 0) continue;
-      is_bare = std::hypot(right - left, below - above) < 2 * kContour_levels;
+      is_bare = is_bare && !has_contour(now_, x);
     }
     if (pixels == 0) continue;
     ++rows;

@@ -27,7 +27,6 @@ class GapPicture : public GapView {
   /// ground: a body without any is rare.
   std::optional<double> evidence(const Gap& gap) override;
 
- private:
   /// A picture of an earlier frame. A point X of this frame is at `R X + t` there, m.
   struct Earlier {
     cv::Mat1b blurred;
@@ -35,8 +34,7 @@ class GapPicture : public GapView {
     Eigen::Vector3d t_m;
   };
 
-  Vec2 before(const Earlier& earlier, const Vec2& x_px, double inverse_depth_pm) const;
-
+ private:
   Intrinsics camera_;
   cv::Mat1b shown_;
   cv::Mat1b now_;                 // blurred

@@ -325,8 +325,7 @@ const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& to
   if (!predicted_.empty() && motion != UsedMotion::none) {
     find_residuals(field, chi, *track_of, started);
     const MotionFix off = motion_fix(camera_, field, residuals_, velocity_error_.covariance());
-    velocity_error_.see(off);
-    field = field.corrected(off.turn_rad, off.velocity_mps);
+    field = field.corrected(off.turn_rad, velocity_error_.see(off));
     predict_tracks(field);
     // In the second frame no depth is known that could contradict the motion. It is checked only if
     // the motion of the last frame was contradicted.

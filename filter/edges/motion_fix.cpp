@@ -97,4 +97,12 @@ void VelocityError::advance(const MotionField& told, double lasts) {
   sigma_mps_ = sigma;
 }
 
+Eigen::Vector3d VelocityError::see(const MotionFix& fix) {
+  const Eigen::Vector3d before_mps = mean_mps_;
+  mean_mps_ += fix.velocity_mps;
+  covariance_ = fix.velocity_covariance;
+  if (mean_mps_.norm() > kFar * sigma_mps_) mean_mps_.setZero();
+  return mean_mps_ - before_mps;
+}
+
 }  // namespace lcs

@@ -58,11 +58,10 @@ class VelocityError {
   /// (m/s)^2: covariance of the error that is left in that field's velocity.
   const Eigen::Matrix3d& covariance() const { return covariance_; }
 
-  /// Adds the correction of that field to the estimate.
-  void see(const MotionFix& fix) {
-    mean_mps_ += fix.velocity_mps;
-    covariance_ = fix.velocity_covariance;
-  }
+  /// Adds the correction of that field to the estimate. An error of more than `kFar` standard
+  /// deviations is the motion of a body that fills the picture: then the given velocity is right.
+  /// \return the correction of that field that is believed.
+  Eigen::Vector3d see(const MotionFix& fix);
 
   void forget() { *this = VelocityError(share_); }
 

@@ -11,6 +11,12 @@ namespace lcs {
 struct Ground {
   Eigen::Vector3d up_C = -Eigen::Vector3d::UnitY();  ///< unit normal, against gravity
   double height_m = 0;                               ///< of the camera above the plane, > 0
+
+  /// 1/m: inverse depth of the plane at image coordinates h = (x - centre) / focal length; negative
+  /// above the horizon.
+  double inverse_depth_pm(const Eigen::Vector2d& h) const {
+    return -(up_C.head<2>().dot(h) + up_C.z()) / height_m;
+  }
 };
 
 /// Motion of the camera from frame k-1 to frame k.

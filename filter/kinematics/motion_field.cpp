@@ -107,9 +107,7 @@ Vec2 MotionField::earlier(const Vec2& x_px, double depth_ratio,
 
 std::optional<double> MotionField::ground_ratio(const Vec2& x_px) const {
   if (!ground_) return std::nullopt;
-  Eigen::Vector3d ray;
-  ray << (x_px - centre_px_) / focal_px_, 1;
-  return -parameters_.reference_depth_m * ground_->up_C.dot(ray) / ground_->height_m;
+  return parameters_.reference_depth_m * ground_->inverse_depth_pm((x_px - centre_px_) / focal_px_);
 }
 
 double MotionField::advanced_ratio(double depth_ratio) const {

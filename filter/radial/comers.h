@@ -12,17 +12,12 @@
 #include "filter/kinematics/motion_field.h"
 #include "filter/layers.h"
 #include "filter/matching/point_grid.h"
+#include "filter/radial/comer_parameters.h"
 #include "filter/radial/gap.h"
 #include "filter/radial/ground_view.h"
 #include "filter/reason.h"
 
 namespace lcs {
-
-struct ComerParameters {
-  double hanging = 0.003;    ///< share of static circles that hang free; 1 switches the rule off
-  double count_power = 0.3;  ///< power of the number of edges in the evidence of an empty gap
-  double memory = 2;         ///< frames over which the log odds of a circle fade
-};
 
 class Comers {
  public:

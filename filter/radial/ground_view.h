@@ -23,8 +23,7 @@ class GroundView {
 
   /// Fall of the ray of a place, per unit of depth.
   double down(const Vec2& x_px) const {
-    const Vec2 h = ray(x_px);
-    return -(ground_.up_C.head<2>().dot(h) + ground_.up_C.z());
+    return ground_.height_m * ground_.inverse_depth_pm(ray(x_px));
   }
   /// The same to the right.
   double along(const Vec2& x_px) const { return across_.dot(ray(x_px)); }
