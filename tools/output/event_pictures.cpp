@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kShownQuality = 72;
 /// Least width of the crop, px of the kept picture, and margins round the object.
+constexpr int kDiamond_px = 12;  // of a radial corner
 constexpr double kLeastWidth_px = 160, kMargin_px = 14, kMarginShare = 0.25;
 
 // BGR; they also differ in lightness, and the marks in shape.
@@ -50,7 +51,7 @@ Cut cut_out(const EventView& view, const cv::Size& size, const cv::Size& kept, d
           scale};
 }
 
-/// Missed: a ring. Found: a dot. False: a cross. Others: a faint point.
+/// Missed: a ring. Found: a dot. False: a cross.
 void mark(cv::Mat3b& picture, cv::Point at, CornerOutcome outcome) {
   constexpr int kReach = 3;
   const auto cross = [&](const cv::Scalar& colour, int width) {
@@ -107,7 +108,12 @@ cv::Mat3b paint(const FrameRecord& frame, const std::vector<CornerOutcome>& outc
   for (const CornerOutcome last : {CornerOutcome::found_early, CornerOutcome::found,
                                    CornerOutcome::false_rebel, CornerOutcome::missed}) {
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
-      if (outcomes[i] == last) mark(picture, cut.at(frame.corners_px[i].cast<double>()), last);
+      if (outcomes[i] != last) continue;
+      const cv::Point at = cut.at(frame.corners_px[i].cast<double>());
+      if (frame.corner_truth[i].radial) {
+        cv::drawMarker(picture, at, kTruth, cv::MARKER_DIAMOND, kDiamond_px, 1, cv::LINE_AA);
+      }
+      mark(picture, at, last);
     }
   }
   return picture;

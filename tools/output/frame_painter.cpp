@@ -77,8 +77,13 @@ cv::Mat3b FramePainter::paint(const FrameRecord& frame, const cv::Mat3b& image) 
                        .caption = fmt::format("{}  frame {}  {:.2f} s", scenario_, frame.index,
                                               static_cast<double>(frame.t_ns) * 1e-9)};
   std::vector<Mark> corners, circles, squares;
+  std::vector<Vec2> radial_px;
   if (is_truth_known_) {
     content.corner_marks = corners = corner_marks(frame);
+    for (std::size_t i = 0; i < frame.corner_truth.size(); ++i) {
+      if (frame.corner_truth[i].radial) radial_px.push_back(frame.corners_px[i].cast<double>());
+    }
+    content.radial_px = radial_px;
     content.rebel_circle_marks = circles = circle_marks(frame);
     content.square_marks = squares = square_marks(frame, outcomes);
   }

@@ -18,6 +18,7 @@ constexpr double kPredictedHalf = 2;
 constexpr double kEdgeHalf = 3;
 constexpr int kLayerLine = 2;
 constexpr double kMarkReach = 4.5;
+constexpr double kDiamondReach = 7;
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 constexpr double kTextSize = 0.42, kNameSize = 0.4, kTitleSize = 0.5;
 
@@ -74,6 +75,13 @@ class Pen {
                  kFractionBits);
       }
     }
+  }
+  void diamond(const Vec2& at, const cv::Scalar& colour) {
+    std::vector<cv::Point> points;
+    for (const Vec2& side : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) {
+      points.push_back(fixed(place(at) + kDiamondReach * side));
+    }
+    cv::polylines(panel_, points, true, colour, 1, cv::LINE_AA, kFractionBits);
   }
   /// Below and to the right of an image place.
   void id_of(const Vec2& at, const std::string& text, const cv::Scalar& colour) {
@@ -161,12 +169,13 @@ std::size_t draw_ignored(Pen& pen, const std::vector<IgnoreRegion>& regions,
 struct Word {
   cv::Scalar colour;
   std::string text;
-  enum class Sample : std::uint8_t { fill, line, ring, cross } sample = Sample::fill;
+  enum class Sample : std::uint8_t { fill, line, ring, cross, diamond } sample = Sample::fill;
 };
 using Sample = Word::Sample;
 
 const Word kMissedWord{colour::kMissed, "missed", Sample::ring};
 const Word kFalseWord{colour::kFalse, "false", Sample::cross};
+const Word kRadialWord{colour::kMovingTruth, "radial", Sample::diamond};
 
 /// Text above and below a panel.
 struct PanelText {
@@ -209,6 +218,9 @@ void write_legend(cv::Mat3b& band, const std::vector<Word>& words) {
         break;
       case Sample::cross:
         cv::drawMarker(band, middle, word.colour, cv::MARKER_TILTED_CROSS, 8, 2, cv::LINE_AA);
+        break;
+      case Sample::diamond:
+        cv::drawMarker(band, middle, word.colour, cv::MARKER_DIAMOND, 10, 1, cv::LINE_AA);
         break;
     }
     x += kSample + kGap;
@@ -258,6 +270,7 @@ PanelText draw_edges(Pen& pen, const PanelContent& content) {
   for (const Edge& edge : layers.rebel_edges) {
     pen.small_square(edge.location, kEdgeHalf, colour::kRebel);
   }
+  for (const Vec2& at : content.radial_px) pen.diamond(at, colour::kMovingTruth);
   for (std::size_t i = 0; i < content.corner_marks.size(); ++i) {
     pen.mark(content.corners_px[i].cast<double>(), content.corner_marks[i]);
   }
@@ -269,6 +282,7 @@ PanelText draw_edges(Pen& pen, const PanelContent& content) {
   if (!content.corner_marks.empty()) {
     text.legend.insert(text.legend.end(), {kMissedWord, kFalseWord});
   }
+  if (!content.radial_px.empty()) text.legend.push_back(kRadialWord);
   return text;
 }
 

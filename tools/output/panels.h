@@ -63,6 +63,7 @@ struct PanelContent {
   std::span<const Mark> rebel_circle_marks = {};
   std::span<const Mark> square_marks = {};
   ///@}
+  std::span<const Vec2> radial_px = {};  ///< places of the rebels that are radial
 };
 
 enum class Panel { corners, edges, circles, squares };

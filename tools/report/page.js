@@ -271,7 +271,7 @@ function overTime(run) {
 function headline(event) {
   const frames = event.first === event.last ? 'frame ' + event.first : 'frames ' + event.first + ' to ' + event.last;
   const cost = event.family === 'squares' ? event.frames + (event.of_frames ? ' of ' + event.of_frames : '') + ' frames'
-    : event.of > 0 ? event.corners + ' of ' + event.of + ' corners missed'
+    : event.of > 0 ? event.corners + ' of ' + event.of + ' corners missed' + (event.radial ? ', ' + event.radial + ' of them radial' : '')
     : (event.circles ? event.circles + ' circle' + (event.circles > 1 ? 's' : '') + (event.corners ? ' with ' : '') : '')
       + (event.corners || !event.circles ? event.corners + ' false corners' : '');
   return (event.object ? event.object + ': ' : '') + event.meaning + ', ' + frames + ': ' + cost;
@@ -312,7 +312,8 @@ function eventList(run) {
   const mark = (style, sign, text) => el('span', null, el('i', { class: style, 'aria-hidden': 'true' }, sign), text);
   return el('div', null,
     el('div', { class: 'marks' }, mark('m1', '○', 'missed (orange ring)'), mark('m2', '●', 'found (green dot)'),
-      mark('m3', '×', 'false (magenta cross)'), mark('m4', '□', 'where a mover really is (thin box)')),
+      mark('m3', '×', 'false (magenta cross)'), mark('m4', '□', 'where a mover really is (thin box)'),
+      mark('m4', '◇', 'radial: its image moves as that of a static point may (diamond)')),
     ...Object.entries(FAMILIES).map(([family, [title, note]]) => {
       const events = run.events.filter((event) => event.family === family);
       return events.length === 0 ? null : el('section', null, el('h4', null, title),

@@ -184,6 +184,7 @@ Json event_json(const bench::Event& event) {
           {"object", event.object_name},
           {"corners", event.corners},
           {"of", event.counted_corners},
+          {"radial", event.radial_corners},
           {"circles", event.circles},
           {"family", kFamilies[static_cast<std::size_t>(family_of(event.kind))]},
           {"frames", event.frames},

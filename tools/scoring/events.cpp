@@ -145,6 +145,9 @@ Event event_of(const Recording& recording, EventKind kind, int object, const Par
     event.corners += static_cast<int>(part.corners.size());
     event.counted_corners += part.counted_corners;
     event.circles += part.circles;
+    const auto& truth = recording.frames[position].corner_truth;
+    event.radial_corners += static_cast<int>(std::ranges::count_if(
+        part.corners, [&](std::size_t corner) { return truth[corner].radial; }));
   }
   event.reasons = reasons_of(recording, parts);
   event.views = views_of(recording, event, parts);

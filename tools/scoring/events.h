@@ -73,7 +73,8 @@ struct Event {
   int corners = 0;  ///< cost: number of missed or false corners
   /// The object's corners in these frames that recall counts; 0 for false rebels.
   int counted_corners = 0;
-  int circles = 0;  ///< cost of a circle event: circles with no mover under them
+  int radial_corners = 0;  ///< those of `corners` that are radial (`sim::CornerTruth::radial`)
+  int circles = 0;         ///< cost of a circle event: circles with no mover under them
   std::vector<std::pair<Reason, int>> reasons;  ///< with corner counts, most frequent first
   std::vector<EventView> views;                 ///< up to five, in order of time
   /// \name Square events. Their `corners` counts those in `steps`, or those in a false square.

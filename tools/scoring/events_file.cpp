@@ -30,6 +30,7 @@ Json json_of(const Event& event) {
                {"object_name", event.object_name},
                {"corners", event.corners},
                {"of", event.counted_corners},
+               {"radial", event.radial_corners},
                {"circles", event.circles},
                {"frames", event.frames},
                {"of_frames", event.of_frames},
@@ -73,6 +74,8 @@ Event event_of(const JsonNode& node) {
   event.object_name = node["object_name"].text();
   event.corners = node["corners"].natural<int>();
   event.counted_corners = node["of"].natural<int>();
+  // Absent in files of an earlier version, as the steps are.
+  if (node.has("radial")) event.radial_corners = node["radial"].natural<int>();
   event.circles = node["circles"].natural<int>();
   node["reasons"].each_entry([&](const std::string& word, const JsonNode& corners) {
     event.reasons.emplace_back(
