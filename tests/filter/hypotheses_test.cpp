@@ -841,6 +841,27 @@ TEST(VelocityErrors, StayInTheWorldWhileTheCameraTurns) {
   EXPECT_GT(std::abs(known.y()), 10 * std::abs(known.x()));
 }
 
+TEST(VelocityErrors, OfMoreThanThreeDeviationsAreNotBelieved) {
+  constexpr double kSigma_mps = 0.1;
+  EgoMotion motion = steady_motion({0, 0, 1}, {0, 0, 0}, kDt_s);
+  motion.velocity_sigma_mps = kSigma_mps;
+  const MotionField told(vga(), motion, {});
+  VelocityError error(0);
+  const MotionFix fix{
+      Vector3d::Zero(), {0.9 * kSigma_mps, 0, 0}, 1e-4 * Eigen::Matrix3d::Identity()};
+  const auto known_mps = [&] {
+    return ((error.without(told).displacement_C_m() - told.displacement_C_m()) / kDt_s).eval();
+  };
+  for (int k = 1; k <= 3; ++k) {  // up to 2.7 deviations
+    error.advance(told, 1);
+    EXPECT_LT((error.see(fix) - fix.velocity_mps).norm(), 1e-12);
+    EXPECT_NEAR(known_mps().norm(), k * 0.9 * kSigma_mps, 1e-9);
+  }
+  error.advance(told, 1);
+  EXPECT_LT((error.see(fix) + 3 * fix.velocity_mps).norm(), 1e-9) << "back to the told velocity";
+  EXPECT_LT(known_mps().norm(), 1e-9);
+}
+
 // ---- The rule
 
 /// Whole pixels, as FAST returns them.

@@ -82,6 +82,18 @@ TEST(Events, AnObjectThatIsNeverFoundIsOneOverAllFramesThatCount) {
   EXPECT_EQ(event.reasons, (decltype(event.reasons){{Reason::normal_edge, event.corners}}));
 }
 
+TEST(Events, CountTheRadialCornersAmongTheMissedOnes) {
+  Recording recording = recording_with([](int) { return kCorners; });
+  EXPECT_EQ(find_events(recording).at(0).radial_corners, 0);
+  for (FrameRecord& frame : recording.frames) {
+    for (sim::CornerTruth& truth : frame.corner_truth) {
+      truth.radial = truth.label == sim::Label::rebel;
+    }
+  }
+  const Event event = find_events(recording).at(0);
+  EXPECT_EQ(event.radial_corners, event.corners);
+}
+
 TEST(Events, AnObjectThatIsFoundAtLastIsLate) {
   const auto events = find_events(recording_with([](int k) { return all_until(9, k); }));
   ASSERT_EQ(events.size(), 1u);
@@ -335,6 +347,7 @@ TEST(EventsFile, ComesBackAsItWas) {
     EXPECT_EQ(back[i].object_name, events[i].object_name);
     EXPECT_EQ(back[i].corners, events[i].corners);
     EXPECT_EQ(back[i].counted_corners, events[i].counted_corners);
+    EXPECT_EQ(back[i].radial_corners, events[i].radial_corners);
     EXPECT_EQ(back[i].circles, events[i].circles);
     EXPECT_EQ(back[i].reasons, events[i].reasons);
     ASSERT_EQ(back[i].views.size(), events[i].views.size());
