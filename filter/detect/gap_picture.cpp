@@ -30,39 +30,6 @@ double sample(const cv::Mat1b& picture, const Vec2& x) {
   return (1 - v) * ((1 - u) * upper[0] + u * upper[1]) + v * ((1 - u) * lower[0] + u * lower[1]);
 }
 
-}  // namespace
-
-void GapPicture::show(const cv::Mat1b& grey) {
-  if (grey.cols != camera_.width_px || grey.rows != camera_.height_px) {
-    throw std::invalid_argument("the picture has " + std::to_string(grey.cols) + " x " +
-                                std::to_string(grey.rows) + " pixels, the camera " +
-                                std::to_string(camera_.width_px) + " x " +
-                                std::to_string(camera_.height_px));
-  }
-  shown_ = grey;
-}
-
-void GapPicture::begin(const EgoMotion& motion) {
-  ground_ = motion.ground;
-  if (!(motion.dt_s > 0)) {
-    earlier_.clear();
-  } else if (!now_.empty()) {
-    if (earlier_.size() == kPictures) earlier_.pop_back();
-    earlier_.insert(earlier_.begin(), {now_, Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()});
-    const Eigen::Matrix3d R = motion.R_cur_prev.transpose();
-    for (Earlier& earlier : earlier_) {
-      earlier.R = earlier.R * R;
-      earlier.t_m += earlier.R * (motion.v_C_mps * motion.dt_s);
-    }
-  }
-  now_ = cv::Mat1b();  // the earlier one is kept
-  const cv::Mat1b shown = std::exchange(shown_, cv::Mat1b());
-  if (shown.empty() || !ground_) return earlier_.clear();
-  cv::GaussianBlur(shown, now_, {}, kBlur_px);
-}
-
-namespace {
-
 /// The row of an earlier picture that a row of this picture would come from, if all points on it
 /// had one inverse depth.
 class EarlierRow {
@@ -97,21 +64,49 @@ bool has_contour(const cv::Mat1b& picture, const Vec2& x) {
 
 }  // namespace
 
+void GapPicture::show(const cv::Mat1b& grey) {
+  if (grey.cols != camera_.width_px || grey.rows != camera_.height_px) {
+    throw std::invalid_argument("the picture has " + std::to_string(grey.cols) + " x " +
+                                std::to_string(grey.rows) + " pixels, the camera " +
+                                std::to_string(camera_.width_px) + " x " +
+                                std::to_string(camera_.height_px));
+  }
+  shown_ = grey;
+}
+
+void GapPicture::begin(const EgoMotion& motion) {
+  ground_ = motion.ground;
+  if (!(motion.dt_s > 0)) {
+    earlier_.clear();
+  } else if (!now_.empty()) {
+    if (earlier_.size() == kPictures) earlier_.pop_back();
+    earlier_.insert(earlier_.begin(), {now_, Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()});
+    const Eigen::Matrix3d R = motion.R_cur_prev.transpose();
+    for (Earlier& earlier : earlier_) {
+      earlier.R = earlier.R * R;
+      earlier.t_m += earlier.R * (motion.v_C_mps * motion.dt_s);
+    }
+  }
+  now_ = cv::Mat1b();  // the earlier one is kept
+  const cv::Mat1b shown = std::exchange(shown_, cv::Mat1b());
+  if (shown.empty() || !ground_) return earlier_.clear();
+  cv::GaussianBlur(shown, now_, {}, kBlur_px);
+}
+
 std::optional<double> GapPicture::evidence(const Gap& gap) {
   if (earlier_.empty()) return std::nullopt;
-  const auto earlier_row = [&](const Earlier& earlier, int row, bool is_ground) {
-    const Vec2 first = gap.at(0, row);
-    // A row lies along the horizon: the ground's inverse depth is the same all along it.
-    const double ground_pm =
-        ground_->inverse_depth_pm((first - camera_.centre_px) / camera_.focal_px);
-    return EarlierRow(earlier, camera_, first, gap.across,
-                      is_ground ? std::max(0.0, ground_pm) : gap.inverse_depth_pm);
+  // A row lies along the horizon: the ground's inverse depth is the same all along it.
+  const auto ground_pm = [&](int row) {
+    const Vec2 h = (gap.at(0, row) - camera_.centre_px) / camera_.focal_px;
+    return std::max(0.0, ground_->inverse_depth_pm(h));
+  };
+  const auto row_of = [&](const Earlier& earlier, int row, double inverse_depth_pm) {
+    return EarlierRow(earlier, camera_, gap.at(0, row), gap.across, inverse_depth_pm);
   };
   const auto is_early = [&](const Earlier& earlier) {
-    const auto place = [&](bool is_ground) {
-      return earlier_row(earlier, gap.rows / 2, is_ground).at(gap.columns / 2);
-    };
-    return (place(true) - place(false)).norm() > kParallax_px;
+    const int row = gap.rows / 2, column = gap.columns / 2;
+    const Vec2 as_body = row_of(earlier, row, gap.inverse_depth_pm).at(column);
+    return (row_of(earlier, row, ground_pm(row)).at(column) - as_body).norm() > kParallax_px;
   };
   auto early = std::ranges::find_if(earlier_, is_early);
   if (early == earlier_.end()) --early;
@@ -119,8 +114,8 @@ std::optional<double> GapPicture::evidence(const Gap& gap) {
   double sum = 0;
   int rows = 0;
   for (int row = 0; row < gap.rows; ++row) {
-    const EarlierRow body = earlier_row(*early, row, false),
-                     ground = earlier_row(*early, row, true);
+    const EarlierRow body = row_of(*early, row, gap.inverse_depth_pm);
+    const EarlierRow ground = row_of(*early, row, ground_pm(row));
     double ratio = 0;
     bool is_bare = true;
     int pixels = 0;

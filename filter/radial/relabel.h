@@ -21,8 +21,7 @@ class Relabel {
   };
 
   /// \param odds of each normal edge: log odds that it moves. Those above 0 become rebels. The
-  /// edges
-  ///   of a normal circle agree, unless they join another circle.
+  ///   edges of a normal circle agree, unless they join another circle.
   /// \param joined of each normal edge: the rebel circle that it joins, or -1.
   /// \return valid until the next call.
   const Result& step(const BothKinds<Edge>& edges, const CircleExpert::Result& circles,

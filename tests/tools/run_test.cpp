@@ -334,10 +334,13 @@ TEST_F(Again, TheFilterSaysWhatItWouldSayInARunOfItsOwn) {
         "time.truth_ms_median", "time.filter_over_fast"}) {
     EXPECT_TRUE(times[stage].is_null()) << stage;
   }
-  // A run from recorded frames is a recording, too.
   ASSERT_EQ(
       approaching({"--events", "--no-video", "--recorded", "first", "--out", "same"}).exit_code, 0);
   expect_same("first", "same");
+  // A run from recorded frames is a recording, too.
+  ASSERT_EQ(
+      approaching({"--events", "--no-video", "--recorded", "same", "--out", "more"}).exit_code, 0);
+  expect_same("first", "more");
 }
 
 TEST_F(Again, AVideoIsOfThePicturesThatWereKept) {

@@ -9,8 +9,8 @@ namespace lcs::bench {
 namespace {
 
 constexpr int kShownQuality = 72;
+constexpr int kDiamond_px = 12;  ///< of a radial corner
 /// Least width of the crop, px of the kept picture, and margins round the object.
-constexpr int kDiamond_px = 12;  // of a radial corner
 constexpr double kLeastWidth_px = 160, kMargin_px = 14, kMarginShare = 0.25;
 
 // BGR; they also differ in lightness, and the marks in shape.
