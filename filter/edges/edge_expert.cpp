@@ -26,6 +26,7 @@ void EdgeExpert::estimate_noise(double dt_s) {
   noise_sum_px2_ *= kept;
   noise_weight_ *= kept;
   const double weight = n + noise_weight_;
+  last_noise2_px2_ = noise2_px2_;
   noise2_px2_ = least2;
   if (weight > 0) noise2_px2_ = std::max(least2, (n * least2 + noise_sum_px2_) / weight);
 }
@@ -48,7 +49,8 @@ void EdgeExpert::predict_tracks(const MotionField& field) {
     next.displacement_C_m = field.R_cur_prev() * track.displacement_C_m + field.displacement_C_m();
     if (!track.has_motion()) {
       next.as_static =
-          StaticPoint::seen_once(next.place_px, camera_, field, next.displacement_C_m, noise2_px2_);
+          StaticPoint::seen_once(next.place_px, camera_, field, next.displacement_C_m,
+                                 last_noise2_px2_);
     } else {
       next.as_static = track.as_static.predicted(camera_, field, parameters_.ego_share);
       next.as_moving = track.as_moving.predicted(field, parameters_.turnover_ps);

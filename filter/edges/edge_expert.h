@@ -71,6 +71,7 @@ class EdgeExpert {
   TrustRanks trust_;
   Id next_id_ = 1;
   double noise2_px2_ = 0;                        // of this frame's corners, from earlier frames
+  double last_noise2_px2_ = 0;                   // of the last frame's corners, likewise
   double noise_sum_px2_ = 0, noise_weight_ = 0;  // faded sums of squares and of their weights
   Association association_;
   Coupling coupling_;
