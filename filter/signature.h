@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace lcs {
 
@@ -28,5 +29,17 @@ inline int distance(const Signature& a, const Signature& b) {
   sum = (sum & 0x00ff00ff00ff00ff) + ((sum >> 8) & 0x00ff00ff00ff00ff);
   return static_cast<int>((sum * 0x0001000100010001) >> 48);
 }
+
+/// One of a list of signatures, and its distance.
+struct Alike {
+  int place, bits;
+};
+
+/// Finds the signatures of a list that are at most `most_bits` from one, by the machine's own
+/// instruction for it where it has one.
+/// \param found room for as many as `many`.
+/// \return how many were found.
+std::size_t find_alike(const Signature& one, std::span<const Signature> many, int most_bits,
+                       std::span<Alike> found);
 
 }  // namespace lcs

@@ -90,13 +90,18 @@ double MotionGroups::ground_evidence(const PlaneSums& sums) const {
   return sums.evidence(ground_, 1);
 }
 
-double MotionGroups::evidence(const PlaneSums& sums, double scale) const {
+/// The larger of the body's and the ground's evidence. \param ground the ground's, if it is known.
+double MotionGroups::evidence(const PlaneSums& sums, double scale, double ground) const {
   const double body = body_evidence(sums, scale);
-  return ground_known_ ? std::max(body, ground_evidence(sums)) : body;
+  return ground_known_ ? std::max(body, ground) : body;
 }
 
 void MotionGroups::merge() {
   sets_.reset(points_.size());
+  refill(of_ground_, points_.size());
+  if (ground_known_) {
+    for (std::size_t i = 0; i < sums_.size(); ++i) of_ground_[i] = ground_evidence(sums_[i]);
+  }
   std::sort(links_.begin(), links_.end());
   for (const Couple& link : links_) {
     const int a = sets_.root(link.a), b = sets_.root(link.b);
@@ -104,11 +109,13 @@ void MotionGroups::merge() {
     PlaneSums both = sums_[a];
     both += sums_[b];
     const double scale = both.magnitude();
-    const double gain = evidence(both, scale) - evidence(sums_[a], scale) -
-                        evidence(sums_[b], scale) + kNear - link.cost;
+    const double ground = ground_known_ ? ground_evidence(both) : 0;
+    const double gain = evidence(both, scale, ground) - evidence(sums_[a], scale, of_ground_[a]) -
+                        evidence(sums_[b], scale, of_ground_[b]) + kNear - link.cost;
     if (!(gain > 0)) continue;
     sets_.join(a, b);
     sums_[a] = both;
+    of_ground_[a] = ground;
   }
 }
 

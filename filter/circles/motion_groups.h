@@ -51,8 +51,7 @@ class MotionGroups {
   void merge();
   double body_evidence(const PlaneSums& sums, double scale) const;
   double ground_evidence(const PlaneSums& sums) const;
-  /// The larger of the body's and the ground's evidence.
-  double evidence(const PlaneSums& sums, double scale) const;
+  double evidence(const PlaneSums& sums, double scale, double ground) const;
 
   Intrinsics camera_;
   CircleParameters parameters_;
@@ -61,10 +60,11 @@ class MotionGroups {
   // Scratch storage of the current call; members, so that a call need not allocate.
   bool rebel_ = false, ground_known_ = false;
   PlanePrior ground_;
-  std::vector<int> of_edge_;      // index of each node's edge
-  std::vector<PlaneSums> sums_;   // of each node; a root holds its group's sums
-  std::vector<double> reach_px_;  // of each node: distance scale to others of its body
-  std::vector<Vec2> points_;      // of each node: coordinates along the horizon and upwards
+  std::vector<int> of_edge_;       // index of each node's edge
+  std::vector<PlaneSums> sums_;    // of each node; a root holds its group's sums
+  std::vector<double> of_ground_;  // ground_evidence of these sums
+  std::vector<double> reach_px_;   // of each node: distance scale to others of its body
+  std::vector<Vec2> points_;       // of each node: coordinates along the horizon and upwards
   PointGrid grid_;
   std::vector<Couple> links_;
   DisjointSets sets_;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "filter/edges/gauss.h"
+#include "filter/kinematics/geometry.h"
 #include "filter/matching/refill.h"
 
 namespace lcs {
@@ -24,6 +25,7 @@ double softplus(double x) {
 Association::Association(const EdgeParameters& parameters) : parameters_(parameters) {
   for (int bits = 0; bits <= 256; ++bits) {
     likeness_[bits] = (parameters_.bits_even - bits) * parameters_.bits_weight;
+    if (likeness_[bits] >= 0) most_bits_ = bits;
   }
 }
 
@@ -33,19 +35,19 @@ double Association::reach_px(double dt_s) const {
 
 double Association::reach_area_px2(double dt_s) const {
   const double reach = reach_px(dt_s);
-  return std::numbers::pi * reach * reach;
+  return kPi * reach * reach;
 }
 
 /// Density of tracks round a corner, 1/px^2.
 double Association::clutter_ppx2(std::size_t corner) const {
   const double near = parameters_.neighbour_reach_px;
-  return crowd_[corner] / (std::numbers::pi * near * near);
+  return crowd_[corner] / (kPi * near * near);
 }
 
 void Association::Share::set(const Vec2& at_px, const Eigen::Matrix2d& covariance, double share) {
   place_px = at_px;
   precision = covariance.inverse();
-  ln_most = std::log(share / (2 * std::numbers::pi * std::sqrt(covariance.determinant())));
+  ln_most = std::log(share / (2 * kPi * std::sqrt(covariance.determinant())));
 }
 
 /// Density of each track in this frame: a static or a moving point, weighted by its belief, or
@@ -90,12 +92,11 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
   const double near = parameters_.neighbour_reach_px;
   const bool looks = !chi.signatures.empty();
   places_.clear();
+  for (const Track& track : predicted) places_.push_back(track.place_px);
+  tracks_.build(places_, near);
   signatures_.clear();
-  for (const Track& track : predicted) {
-    places_.push_back(track.place_px);
-    signatures_.push_back(track.signature);
-  }
-  tracks_.build(places_, std::max(20.0, reach / 2));
+  for (const int t : tracks_.order()) signatures_.push_back(predicted[t].signature);
+  refill(alike_, predicted.size());
   pairs_.clear();
   // Reserves the most pairs that this number of corners can have, so that no later frame allocates.
   pairs_.reserve(chi.size() * kCrowd);
@@ -110,19 +111,25 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
   for (std::size_t c = 0; c < chi.size(); ++c) {
     const Vec2& x = chi.locations[c];
     int round = 1;
-    tracks_.visit_within(x, std::max(near, reach), [&](int t, double apart2) {
-      round += apart2 <= near * near;
-      if (apart2 > reach * reach) return;
-      const double likeness = looks ? likeness_[distance(chi.signatures[c], signatures_[t])] : 0.0;
-      if (likeness < 0) return;
-      const Expected& track = expected_[t];
-      const double still = track.still.ln(x), moving = track.moving.ln(x);
-      // Far from both predictions only the uniform density is left.
-      const double ln_density =
-          std::max(still, moving) < kNone + track.ln_anywhere
-              ? track.ln_anywhere
-              : std::log(std::exp(still) + std::exp(moving) + track.anywhere_ppx2);
-      offer({ln_density + likeness, t, static_cast<float>(likeness)});
+    tracks_.visit_within(x, near, [&](int, double) { ++round; });
+    tracks_.visit_runs(x, reach, [&](std::size_t first, std::size_t last) {
+      std::size_t count = last - first;
+      if (looks) {
+        count = find_alike(chi.signatures[c], {&signatures_[first], count}, most_bits_, alike_);
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        const double likeness = looks ? likeness_[alike_[i].bits] : 0.0;
+        const int t = tracks_.order()[first + (looks ? alike_[i].place : i)];
+        const Expected& track = expected_[t];
+        if ((track.track_px - x).squaredNorm() > reach * reach) continue;
+        const double still = track.still.ln(x), moving = track.moving.ln(x);
+        // Far from both predictions only the uniform density is left.
+        const double ln_density =
+            std::max(still, moving) < kNone + track.ln_anywhere
+                ? track.ln_anywhere
+                : std::log(std::exp(still) + std::exp(moving) + track.anywhere_ppx2);
+        offer({ln_density + likeness, t, static_cast<float>(likeness)});
+      }
     });
     crowd_.push_back(round);
     const double ln_clutter = ln_clutter_.emplace_back(std::log(clutter_ppx2(c)));
@@ -147,17 +154,14 @@ double Association::asked(std::size_t pair, double noise2_px2, double least) con
   const float x = step_x_[pair], y = step_y_[pair];
   const double unlike = parameters_.step_share * parameters_.step_share;
   const double variance = 4 * noise2_px2 + unlike * (x * x + y * y);
-  const double ln_spread = std::log(2 * std::numbers::pi * variance);
+  const double ln_spread = std::log(2 * kPi * variance);
   const auto per_px2 = static_cast<float>(-0.5 / variance);
-  const auto at_most = [&](const Voice& voice) {
-    return voice.weight * std::max(0.0, ln_likest_[voice.corner] - ln_spread);
-  };
   double most = 0;  // upper bound of the votes still to come
-  for (const Voice& voice : voices_) most += at_most(voice);
+  for (const Voice& voice : voices_) most += voice.at_most(ln_spread);
   double weight = pairs_[pair].weight;
   for (const Voice& voice : voices_) {
     if (weight + most < least) break;
-    most -= at_most(voice);
+    most -= voice.at_most(ln_spread);
     const std::size_t first = first_[voice.corner], count = first_[voice.corner + 1] - first;
     double agrees = kNone;  // ln
     if (count > 0) {
@@ -172,28 +176,31 @@ double Association::asked(std::size_t pair, double noise2_px2, double least) con
   return weight;
 }
 
-const std::vector<int>& Association::match(const Chi& chi, std::span<const Track> predicted,
-                                           double noise2_px2, double dt_s) {
+const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& around,
+                                           std::span<const Track> predicted, double noise2_px2,
+                                           double dt_s) {
   refill(track_of_, chi.size(), -1);
   refill(chance_ppx2_, chi.size());
   if (predicted.empty() || chi.size() == 0) return track_of_;
   expect(predicted, noise2_px2, dt_s);
   find_pairs(chi, predicted, dt_s);
   const double near = parameters_.neighbour_reach_px;
-  corners_.build(chi.locations, near);
+  const double ln_least = std::log(2 * kPi * 4 * noise2_px2);  // least spread, without a step
   matches_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (first_[c] == first_[c + 1]) continue;
-    corners_.nearest(
-        chi.locations[c], kFar * near, static_cast<std::size_t>(parameters_.neighbours),
-        [&](int other) { return other != static_cast<int>(c); }, near_);
     voices_.clear();
-    for (const Neighbour& other : near_) {
+    for (const Neighbour& other : around.of(c)) {
+      if (other.distance2 > kFar * near * kFar * near) break;
       voices_.push_back({static_cast<std::size_t>(other.index),
-                         std::exp(-0.5 * other.distance2 / (near * near))});
+                         std::exp(-0.5 * other.distance2 / (near * near)),
+                         ln_likest_[static_cast<std::size_t>(other.index)]});
     }
     Match best{0, static_cast<int>(c), -1, 0};
+    double most = 0;  // that the voices can add to any pair
+    for (const Voice& voice : voices_) most += voice.at_most(ln_least);
     for (std::size_t p = first_[c]; p < first_[c + 1]; ++p) {
+      if (pairs_[p].weight + most < best.weight) break;
       const double weight = asked(p, noise2_px2, best.weight);
       if (weight > best.weight || (weight == best.weight && pairs_[p].track < best.track)) {
         best = {weight, best.corner, pairs_[p].track, likeness_of_[p]};

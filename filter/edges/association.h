@@ -8,12 +8,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include "filter/edges/edge_parameters.h"
+#include "filter/edges/neighbourhood.h"
 #include "filter/edges/track.h"
 #include "filter/line/line.h"
 #include "filter/matching/point_grid.h"
@@ -24,10 +26,11 @@ class Association {
  public:
   explicit Association(const EdgeParameters& parameters);
 
+  /// \param around the corners' neighbours, which vote.
   /// \param predicted tracks, predicted to this frame, in its pixels.
   /// \return the index of each corner's track, -1: none.
-  const std::vector<int>& match(const Chi& chi, std::span<const Track> predicted, double noise2_px2,
-                                double dt_s);
+  const std::vector<int>& match(const Chi& chi, const Neighbourhood& around,
+                                std::span<const Track> predicted, double noise2_px2, double dt_s);
 
   /// In the last match: 1 + the number of tracks within `neighbour_reach` of a corner.
   int crowd(std::size_t corner) const { return crowd_[corner]; }
@@ -54,6 +57,10 @@ class Association {
   struct Voice {
     std::size_t corner;
     double weight;
+    double ln_likest;
+
+    /// The most that it can add to a pair. \param ln_spread of the area where it can agree, px^2.
+    double at_most(double ln_spread) const { return weight * std::max(0.0, ln_likest - ln_spread); }
   };
 
   /// A normal density times a probability; 0 if not set.
@@ -84,11 +91,13 @@ class Association {
 
   EdgeParameters parameters_;
   std::array<double, 257> likeness_;  // ln of the ratio, by the number of differing bits
+  int most_bits_ = -1;                // with a likeness of at least 0
 
   // Scratch storage of the current frame; members, so that a frame need not allocate.
-  PointGrid tracks_, corners_;
+  PointGrid tracks_;
   std::vector<Vec2> places_;
-  std::vector<Signature> signatures_;             // of each track
+  std::vector<Signature> signatures_;             // of the tracks in the order of the grid
+  std::vector<Alike> alike_;                      // to a corner's signature
   std::vector<Expected> expected_;                // of each track
   std::vector<Pair> pairs_;                       // by corner
   std::vector<std::size_t> first_;                // index of each corner's first pair
@@ -96,8 +105,7 @@ class Association {
   std::vector<int> crowd_;                        // of each corner
   std::vector<double> ln_clutter_;                // of the density of tracks at each corner
   std::vector<double> ln_likest_;                 // of each corner: largest likeness over clutter
-  std::vector<Neighbour> near_;
-  std::vector<Voice> voices_;  // nearest first
+  std::vector<Voice> voices_;                     // nearest first
   struct Match {
     double weight;
     int corner, track;

@@ -28,18 +28,17 @@ double Coupling::weight(int i, int j, std::span<const Node> nodes, double distan
   return exponent < kFar * kFar ? std::exp(-0.5 * exponent) : 0;
 }
 
-const std::vector<double>& Coupling::settle(std::span<const Node> nodes, double noise2_px2) {
-  places_.clear();
+const std::vector<double>& Coupling::settle(std::span<const Node> nodes,
+                                            const Neighbourhood& around, double noise2_px2) {
   beliefs_.clear();
-  for (const Node& node : nodes) {
-    places_.push_back(node.place_px);
-    beliefs_.push_back(node.log_odds);
+  reach_px_.clear();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    beliefs_.push_back(nodes[i].log_odds);
+    reach_px_.push_back(around.reach_px(i));
   }
-  grid_.build(places_, parameters_.neighbour_reach_px);
-  find_reaches();
   ties_.clear();
   refill(sums_, nodes.size());
-  grid_.visit_pairs(
+  around.grid().visit_pairs(
       kInfinity_px, [&](int i) { return kFar * reach_px_[i]; },
       [&](int i, int j, double apart2) {
         if (!nodes[i].tells || !nodes[j].tells) return;
@@ -64,28 +63,17 @@ const std::vector<double>& Coupling::settle(std::span<const Node> nodes, double 
       beliefs_[i] += parameters_.coupling * (pulls_[i] - kBeyond) / (sums_[i] + kBeyond);
     }
   }
-  follow(nodes);
+  follow(nodes, around.grid());
   return beliefs_;
-}
-
-/// Distance of each node to its `neighbours`-th nearest node.
-void Coupling::find_reaches() {
-  reach_px_.clear();
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    grid_.nearest(
-        places_[i], kInfinity_px, static_cast<std::size_t>(parameters_.neighbours),
-        [&](int other) { return other != static_cast<int>(i); }, found_);
-    reach_px_.push_back(found_.empty() ? 0 : std::sqrt(found_.back().distance2));
-  }
 }
 
 /// A node without a motion takes the belief of its nearest node with one; of equally near ones the
 /// largest.
-void Coupling::follow(std::span<const Node> nodes) {
+void Coupling::follow(std::span<const Node> nodes, const PointGrid& grid) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].tells) continue;
     double least2 = kInfinity_px;
-    grid_.visit_within(places_[i], reach_px_[i], [&](int j, double apart2) {
+    grid.visit_within(nodes[i].place_px, reach_px_[i], [&](int j, double apart2) {
       if (!nodes[j].tells || apart2 > least2 || apart2 > reach_px_[j] * reach_px_[j]) return;
       beliefs_[i] = apart2 < least2 ? beliefs_[j] : std::max(beliefs_[i], beliefs_[j]);
       least2 = apart2;

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "filter/edges/edge_parameters.h"
+#include "filter/edges/neighbourhood.h"
 #include "filter/kinematics/camera.h"
-#include "filter/matching/point_grid.h"
 
 namespace lcs {
 
@@ -30,21 +30,19 @@ class Coupling {
     bool tells = true;         ///< false: seen once, so its motion is unknown
   };
 
+  /// \param around the neighbours of the nodes' places.
   /// \param noise2_px2 variance of a corner's place on an axis, px^2.
   /// \return m of each node. A node that does not tell takes the m of its nearest node that does,
   ///   if each lies within the other's r; of equally near ones the largest. Else its own log odds.
-  const std::vector<double>& settle(std::span<const Node> nodes, double noise2_px2);
+  const std::vector<double>& settle(std::span<const Node> nodes, const Neighbourhood& around,
+                                    double noise2_px2);
 
  private:
-  void find_reaches();
-  void follow(std::span<const Node> nodes);
+  void follow(std::span<const Node> nodes, const PointGrid& grid);
   double weight(int i, int j, std::span<const Node> nodes, double distance2_px2,
                 double noise2_px2) const;
 
   EdgeParameters parameters_;
-  PointGrid grid_;
-  std::vector<Vec2> places_;
-  std::vector<Neighbour> found_;
   std::vector<double> reach_px_;  // of each node
   struct Tie {
     int a, b;

@@ -185,7 +185,7 @@ void EdgeExpert::couple(const MotionField& field) {
     nodes_.push_back({track.place_px, track.log_odds, track.as_moving.velocity_pxps * dt,
                       track.as_moving.step_variance_px2(dt), track.has_motion()});
   }
-  const std::vector<double>& beliefs = coupling_.settle(nodes_, noise2_px2_);
+  const std::vector<double>& beliefs = coupling_.settle(nodes_, around_, noise2_px2_);
   for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i]->belief = beliefs[i];
 }
 
@@ -246,7 +246,7 @@ void EdgeExpert::decide(const Chi& chi, const MotionField& field) {
 const std::vector<int>& EdgeExpert::follow(const MotionField& field, const Chi& chi) {
   velocity_error_.advance(field, 1 - parameters_.turnover(field.dt_s()));
   predict_tracks(velocity_error_.without(field));
-  return association_.match(chi, predicted_, noise2_px2_, field.dt_s());
+  return association_.match(chi, around_, predicted_, noise2_px2_, field.dt_s());
 }
 
 /// Whether the camera rather goes on as in the last frame than moves as predicted: of the static
@@ -309,6 +309,7 @@ const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& to
                                            const MotionField* held) {
   const bool is_after_none = result_.motion == UsedMotion::none;
   if (!(told.dt_s() > 0)) forget();
+  around_.build(chi.locations, parameters_.neighbour_reach_px, parameters_.neighbours);
   estimate_noise(told.dt_s());
   const VelocityError before = velocity_error_;
   const bool started = std::ranges::any_of(tracks_, &Track::has_motion);

@@ -59,18 +59,36 @@ class PointGrid {
     }
     for (std::size_t c = 2; c < first_.size(); ++c) first_[c] += first_[c - 1];
     refill(placed_, points.size());
+    refill(order_, points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-      placed_[first_[cell_of_[i] + 1]++] = {points[i], static_cast<int>(i)};
+      const std::size_t place = first_[cell_of_[i] + 1]++;
+      placed_[place] = {points[i], static_cast<int>(i)};
+      order_[place] = static_cast<int>(i);
+    }
+  }
+
+  /// Index of each point in the order of the cells: places in it are what `visit_runs` visits.
+  std::span<const int> order() const { return order_; }
+
+  /// Calls `visit(first, last)` for ranges of places in `order()` that hold all points within
+  /// `radius_px` of x, px, and few others.
+  template <typename Visit>
+  void visit_runs(const Vec2& x, double radius_px, Visit&& visit) const {
+    const int bottom = row(x.y() + radius_px);
+    for (int r = row(x.y() - radius_px); r <= bottom; ++r) {
+      const double half_px = half_chord(x.y(), radius_px, r);
+      const std::size_t first = first_[cell(column(x.x() - half_px), r)];
+      const std::size_t last = first_[cell(column(x.x() + half_px), r) + 1];
+      if (first < last) visit(first, last);
     }
   }
 
   /// Calls `visit(index, squared distance)` for each point within `radius_px` of x, px.
   template <typename Visit>
   void visit_within(const Vec2& x, double radius_px, Visit&& visit) const {
-    const int c0 = column(x.x() - radius_px), c1 = column(x.x() + radius_px);
-    const int r0 = row(x.y() - radius_px), r1 = row(x.y() + radius_px);
-    for (int r = r0; r <= r1; ++r)
-      visit_near(first_[cell(c0, r)], first_[cell(c1, r) + 1], x, radius_px * radius_px, visit);
+    visit_runs(x, radius_px, [&](std::size_t first, std::size_t last) {
+      visit_near(first, last, x, radius_px * radius_px, visit);
+    });
   }
 
   /// Calls `visit(i, j, squared distance)` once for each pair with j within `radius_px(i)` of i,
@@ -87,11 +105,13 @@ class PointGrid {
           visit_near(first, last, x, radius * radius,
                      [&](int j, double distance2) { visit(here.index, j, distance2); });
         };
-        const int left = column(x.x() - radius), right = column(x.x() + radius);
         const int bottom = row(x.y() + radius);
-        visit_from(i + 1, first_[cell(right, r) + 1]);
-        for (int below = r + 1; below <= bottom; ++below)
-          visit_from(first_[cell(left, below)], first_[cell(right, below) + 1]);
+        visit_from(i + 1, first_[cell(column(x.x() + radius), r) + 1]);
+        for (int below = r + 1; below <= bottom; ++below) {
+          const double half = half_chord(x.y(), radius, below);
+          visit_from(first_[cell(column(x.x() - half), below)],
+                     first_[cell(column(x.x() + half), below) + 1]);
+        }
       }
     }
   }
@@ -188,12 +208,25 @@ class PointGrid {
     }
   }
 
+  /// px: half the width of a circle round height y where it reaches farthest into a row of cells.
+  double half_chord(double y, double radius_px, int row) const {
+    const double top = low_.y() + row * cell_px_;
+    // The first and last rows hold all that lies beyond. Reduced slightly for rounding of cells.
+    const double off = row > 0 && y < top                      ? top - y
+                       : row < rows_ - 1 && y > top + cell_px_ ? y - top - cell_px_
+                                                               : 0;
+    const double inside_px = off * (1 - 1e-9) - 1e-9 * cell_px_;
+    return inside_px > 0 ? std::sqrt(std::max(0.0, radius_px * radius_px - inside_px * inside_px))
+                         : radius_px;
+  }
+
   std::size_t cell(int c, int r) const {
     return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(c);
   }
 
   std::vector<Placed> placed_;            // sorted by cell, then by index
+  std::vector<int> order_;                // the indices of placed_
   std::vector<std::size_t> first_{0, 0};  // start of each cell in placed_, and the end
   std::vector<std::size_t> cell_of_;
   Vec2 low_ = Vec2::Zero();

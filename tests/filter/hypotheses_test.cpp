@@ -340,7 +340,9 @@ Signature with_bits(int bits) {
 
 std::vector<int> match(const EdgeParameters& parameters, const Chi& chi,
                        const std::vector<Track>& tracks) {
-  return Association(parameters).match(chi, tracks, kNoise2_px2, kDt_s);
+  Neighbourhood around;
+  around.build(chi.locations, parameters.neighbour_reach_px, parameters.neighbours);
+  return Association(parameters).match(chi, around, tracks, kNoise2_px2, kDt_s);
 }
 
 /// Corners with jitter that appear and vanish; some belong to a moving group.
@@ -533,16 +535,24 @@ Coupling::Node node(double x, double log_odds, const Vec2& step = Vec2::Zero()) 
   return {{x, 240}, log_odds, step, 0};
 }
 
+std::vector<double> settle(std::span<const Coupling::Node> nodes,
+                           const EdgeParameters& parameters = kUsual) {
+  std::vector<Vec2> places;
+  for (const Coupling::Node& node : nodes) places.push_back(node.place_px);
+  Neighbourhood around;
+  around.build(places, parameters.neighbour_reach_px, parameters.neighbours);
+  return Coupling(parameters).settle(nodes, around, kNoise2_px2);
+}
+
 /// An isolated mover is more likely a chance match than a body.
 TEST(Coupling, ANodeThatNoneMovesLikeHasTheWholeWorldAgainstIt) {
   const std::vector<Coupling::Node> nodes = {node(100, 1.5), node(300, -4, {20, 0}),
                                              node(500, 0.2, {-20, 0})};
-  Coupling coupling(kUsual);
-  std::vector<double> m = coupling.settle(nodes, kNoise2_px2);
+  std::vector<double> m = settle(nodes);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     EXPECT_DOUBLE_EQ(m[i], nodes[i].log_odds - kUsual.coupling);
   }
-  m = coupling.settle(std::span(nodes).first(1), kNoise2_px2);
+  m = settle(std::span(nodes).first(1));
   EXPECT_DOUBLE_EQ(m[0], nodes[0].log_odds - kUsual.coupling);
 }
 
@@ -555,19 +565,17 @@ TEST(Coupling, OfTwoNodesIsTheSumByHand) {
   // far field counts for exp(-1/2 3^2) = 0.0111, a share of 0.0281 against both. The first is
   // certain, so the second has -1 + 8 (1 - 0.0281), and the first 20 + 8 (0.9859 tanh(6.775 / 2)
   // - 0.0141).
-  Coupling coupling(parameters);
-  std::vector<double> m = coupling.settle(std::vector{node(100, 20), node(125, -1)}, kNoise2_px2);
+  std::vector<double> m = settle(std::vector{node(100, 20), node(125, -1)}, parameters);
   EXPECT_NEAR(m[0], 27.7570, 1e-3);
   EXPECT_NEAR(m[1], 6.7750, 1e-3);
   // The steps differ by 6 px; 0.6^2 + (0.1 * 6)^2 = 0.72 px^2 is tolerated. This is more than three
   // standard deviations, so there is no coupling.
-  m = coupling.settle(std::vector{node(100, 20), node(125, -1, {6, 0})}, kNoise2_px2);
+  m = settle(std::vector{node(100, 20), node(125, -1, {6, 0})}, parameters);
   EXPECT_EQ(m[1], -1 - 8);
   // Between a certain mover, w = exp(-1/2 25^2 / (50^2 + 25^2)) = 0.9048, and an equally certain
   // static node whose step is 1 px off, w = 0.9048 exp(-1/2 / 0.37) = 0.2343:
   // -1 + 8 (0.9048 - 0.2343 - 0.0111) / 1.1502.
-  m = coupling.settle(std::vector{node(100, 20), node(125, -1), node(150, -20, {1, 0})},
-                      kNoise2_px2);
+  m = settle(std::vector{node(100, 20), node(125, -1), node(150, -20, {1, 0})}, parameters);
   EXPECT_NEAR(m[1], 3.5869, 1e-3);
 }
 
@@ -576,7 +584,7 @@ TEST(Coupling, ADoubtfulNodeAmongSureOnesTakesTheirs) {
     std::vector<Coupling::Node> nodes = {node(300, theirs > 0 ? -1 : 1, {10, 0})};
     for (const double aside : {-20, -12, 9, 17})
       nodes.push_back(node(300 + aside, theirs, {10.3, 0}));
-    const std::vector<double> m = Coupling(kUsual).settle(nodes, kNoise2_px2);
+    const std::vector<double> m = settle(nodes);
     EXPECT_GT(m[0] * theirs, 0);
     EXPECT_GT(std::abs(m[0]), 4);
   }
@@ -585,7 +593,7 @@ TEST(Coupling, ADoubtfulNodeAmongSureOnesTakesTheirs) {
 TEST(Coupling, TwoSureNodesAmongAnotherMotionKeepTheirOwn) {
   std::vector<Coupling::Node> nodes = {node(300, 5, {10, 0}), node(304, 5, {10, 0})};
   for (const double aside : {-20, -12, 9, 17}) nodes.push_back(node(300 + aside, -6));
-  const std::vector<double> m = Coupling(kUsual).settle(nodes, kNoise2_px2);
+  const std::vector<double> m = settle(nodes);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_GT(m[i], 5 + 0.9 * kUsual.coupling);
   for (std::size_t i = 2; i < m.size(); ++i) EXPECT_LT(m[i], -6);
 }
@@ -603,22 +611,19 @@ TEST(Coupling, IsTheSameForAnyDensityOfCorners) {
     dense.push_back(nodes.back());
     dense.back().place_px /= 8;
   }
-  Coupling coupling(kUsual);
-  const std::vector<double> m = coupling.settle(nodes, kNoise2_px2);
-  const std::vector<double> m_dense = coupling.settle(dense, kNoise2_px2);
+  const std::vector<double> m = settle(nodes);
+  const std::vector<double> m_dense = settle(dense);
   for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_NEAR(m_dense[i], m[i], 1e-9) << i;
 }
 
 TEST(Coupling, ANodeWithoutMotionTakesTheBeliefOfItsNearestNodeWithMotion) {
-  Coupling coupling(kUsual);
   const auto silent = [](double x, double y) {
     return Coupling::Node{{x, y}, 0, Vec2::Zero(), 0, false};
   };
   for (const double sign : {1.0, -1.0}) {
     const std::vector<double> m =
-        coupling.settle(std::vector{node(300, 20 * sign, {9, 0}), node(320, -20 * sign),
-                                    silent(309, 240), silent(311, 250), silent(310, 235)},
-                        kNoise2_px2);
+        settle(std::vector{node(300, 20 * sign, {9, 0}), node(320, -20 * sign), silent(309, 240),
+                           silent(311, 250), silent(310, 235)});
     EXPECT_EQ(m[2], m[0]);
     EXPECT_EQ(m[3], m[1]);
     EXPECT_EQ(m[4], std::max(m[0], m[1]));
@@ -626,7 +631,7 @@ TEST(Coupling, ANodeWithoutMotionTakesTheBeliefOfItsNearestNodeWithMotion) {
   // One known node, then a row of new ones: the last ones have no known node among their nearest.
   std::vector<Coupling::Node> nodes = {node(0, 20)};
   for (int i = 1; i <= 2 * kUsual.neighbours; ++i) nodes.push_back(silent(10 * i, 240));
-  const std::vector<double> m = coupling.settle(nodes, kNoise2_px2);
+  const std::vector<double> m = settle(nodes);
   EXPECT_EQ(m[1], m[0]);
   EXPECT_EQ(m.back(), 0);
 }
