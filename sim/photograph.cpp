@@ -2,9 +2,10 @@
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <vector>
 
 #include "sim/linear_light.h"
+#include "sim/media.h"
+#include "sim/picture_file.h"
 
 namespace lcs::sim {
 
@@ -29,9 +30,7 @@ void Photographer::develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k) 
   sensor_.expose(light, k);
   to_codes(light, picture);
   if (jpeg_quality_) {
-    std::vector<uchar> bytes;
-    cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, *jpeg_quality_});
-    cv::imdecode(bytes, cv::IMREAD_COLOR, &picture);
+    media().imdecode(encode_jpeg(picture, *jpeg_quality_), cv::IMREAD_COLOR).copyTo(picture);
   }
 }
 

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "scenarios/input_file.h"
+#include "sim/media.h"
 
 namespace lcs::sim {
 namespace {
@@ -199,13 +200,21 @@ cv::Mat decode_picture(std::string_view bytes, int flags) {
   cv::Mat picture;
   const Overheard overheard;
   try {
-    picture = cv::imdecode(
+    picture = media().imdecode(
         cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data())), flags);
   } catch (const cv::Exception& error) {
     if (error.code == cv::Error::StsNoMem) throw;
   }
   if (picture.empty() || is_damaged(overheard.text())) throw broken();
   return picture;
+}
+
+std::vector<unsigned char> encode_jpeg(const cv::Mat& picture, int quality) {
+  std::vector<unsigned char> bytes;
+  if (!media().imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, quality})) {
+    throw std::runtime_error("OpenCV cannot write JPEG");
+  }
+  return bytes;
 }
 
 cv::Mat read_picture(const std::filesystem::path& file, const scenario::Source& where, int flags) {

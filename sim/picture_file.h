@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "scenarios/scenario.h"
 
@@ -30,6 +31,9 @@ std::optional<cv::Size2l> picture_size(std::string_view bytes);
 /// \param flags of `cv::imdecode`. \return never empty.
 /// \throws PictureError for an unknown format, too many pixels, and a damaged or truncated image.
 cv::Mat decode_picture(std::string_view bytes, int flags);
+
+/// \param quality 0 to 100. \throws std::runtime_error if OpenCV cannot write JPEG.
+std::vector<unsigned char> encode_jpeg(const cv::Mat& picture, int quality);
 
 /// \param where the place that names the file; errors cite it.
 /// \throws scenario::Error for a file that `scenario::InputFile` or `decode_picture` rejects.

@@ -32,9 +32,11 @@ const std::map<std::string, std::set<std::string>> kWays{
       "tools/files/output.cpp",       // a folder, a pipe to write to
       "tools/tune/journal.cpp"}},     // to append
     {R"(imread|imdecode)",
-     {"sim/picture_file.cpp", "sim/picture_file.h", "sim/photograph.cpp"}},  // its own bytes
-    {R"(VideoCapture[\s(>&]*[a-z]*\()", {"tools/output/video_reader.cpp"}},
-    {R"(\.open\()", {"tools/output/video.cpp"}},  // to write
+     {"sim/media.h", "sim/media_module.cpp",                                 // what the others call
+      "sim/picture_file.cpp", "sim/picture_file.h", "sim/photograph.cpp"}},  // its own bytes
+    {R"(VideoCapture[\s(>&]*[a-z]*\()", {"sim/media.h", "sim/media_module.cpp"}},
+    {R"(media\(\)\.read_video)", {"tools/output/video_reader.cpp"}},
+    {R"(\.open\()", {}},
     {R"(LoadFile|mj_loadModel|mj_parse)", {}},
     {R"(mj_loadXML)", {"sim/model.cpp"}},  // text in memory
     {R"([Jj]son::(parse|accept|sax_parse))", {"tools/files/json_node.h"}},

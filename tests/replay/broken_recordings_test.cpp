@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
-#include <opencv2/imgcodecs.hpp>
 
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
+#include "tests/tools/pictures.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/recorded.h"
@@ -96,8 +96,8 @@ TEST_F(BrokenRecording, RowsOutOfOrderAreSortedAndRowsThatComeTwiceAreUsedOnce) 
   const CommandResult result = replay();
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(layers() == whole_);
-  for (const char* told :
-       {"2 tables are not in the order", "1 pictures have the time of", "1 rows have the time of"}) {
+  for (const char* told : {"2 tables are not in the order", "1 pictures have the time of",
+                           "1 rows have the time of"}) {
     EXPECT_NE(result.err.find(told), std::string::npos) << told << "\n" << result.err;
   }
 }
@@ -169,11 +169,12 @@ TEST_F(BrokenRecording,
   fs::remove(pictures() / picture(2));
   const std::string whole = read(pictures() / picture(4));
   write(pictures() / picture(4), whole.substr(0, whole.size() / 2));
-  cv::imwrite((pictures() / picture(5)).string(), cv::Mat3b(100, 100, cv::Vec3b(1, 2, 3)));
+  bench::write_picture(pictures() / picture(5), cv::Mat3b(100, 100, cv::Vec3b(1, 2, 3)));
   const CommandResult result = replay();
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find(picture(2) + " is missing"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find(picture(4) + ": the picture is broken"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find(picture(4) + ": the picture is broken"), std::string::npos)
+      << result.err;
   EXPECT_NE(result.err.find(picture(5) + " is 100x100"), std::string::npos) << result.err;
   EXPECT_NE(result.out.find("5 pictures, 3 skipped"), std::string::npos) << result.out;
   const bench::Recording left = recording();

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "tests/tools/files.h"
+#include "tests/tools/pictures.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/replay/navigation.h"
@@ -182,7 +182,7 @@ TEST_F(Layouts, RawPicturesOfRobotCarHaveTheirColours) {
     const fs::path run = home_.path() / "run";
     const std::string name = std::string(camera).substr(0, std::string(camera).find('/'));
     fs::create_directories(run / camera);
-    cv::imwrite((run / camera / "10.png").string(), raw);
+    bench::write_picture(run / camera / "10.png", raw);
     write(run / (name + ".timestamps"), "10 1\n20 1\n");
     write(run / "gps/ins.csv",
           "timestamp,velocity_north,velocity_east,velocity_down,roll,pitch,yaw\n"

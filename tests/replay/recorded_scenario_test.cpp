@@ -10,13 +10,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
 #include "scenarios/load.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
+#include "tests/tools/pictures.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
@@ -81,7 +81,7 @@ class RecordedScenario : public testing::Test {
   void draw(const fs::path& folder, const std::string& format, int first = 0) const {
     fs::create_directories(folder);
     for (int k = 0; k < kFrames; ++k) {
-      cv::imwrite((folder / fmt::format(fmt::runtime(format), first + k)).string(), view(k));
+      bench::write_picture(folder / fmt::format(fmt::runtime(format), first + k), view(k));
     }
   }
   fs::path scenario_file(const std::string& recording, const std::string& more = "") const {
@@ -209,10 +209,8 @@ TEST_F(RecordedScenario, OfMotChallengeHasItsRateAndMovesAsTheUserSays) {
 TEST_F(RecordedScenario, OfAVideoHasItsPicturesAtItsRateOrAtTheUsers) {
   const std::string file = (home() / "road.avi").string();
   {
-    cv::VideoWriter video(file, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10,
-                          {160, 120});
-    ASSERT_TRUE(video.isOpened());
-    for (int k = 0; k < kFrames; ++k) video.write(view(k));
+    const auto video = bench::new_video(file, "MJPG", 10, {160, 120});
+    for (int k = 0; k < kFrames; ++k) video->write(view(k));
   }
   write(home() / "poses.txt", poses(true));
   Playback drive = playback("path: road.avi, poses: poses.txt, focal: 300");
@@ -244,9 +242,8 @@ std::string with_number(std::string bytes, const std::string& word, std::size_t 
 TEST_F(RecordedScenario, OfAVideoThatSaysMoreThanItsFileHoldsIsRefused) {
   const fs::path file = home() / "road.avi";
   {
-    cv::VideoWriter video(file.string(), cv::CAP_FFMPEG,
-                          cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10, {160, 120});
-    for (int k = 0; k < kFrames; ++k) video.write(view(k));
+    const auto video = bench::new_video(file, "MJPG", 10, {160, 120});
+    for (int k = 0; k < kFrames; ++k) video->write(view(k));
   }
   const std::string recording = "path: road.avi, speed: 0, focal: 300", whole = bench::read(file);
   ASSERT_NO_THROW(playback(recording));
@@ -289,9 +286,8 @@ TEST_F(RecordedScenario, OfAVideoThatSaysMoreThanItsFileHoldsIsRefused) {
 
 TEST_F(RecordedScenario, OfWhatFfmpegOnlyTakesForAVideoIsRefused) {
   {
-    cv::VideoWriter video((home() / "real.ts").string(), cv::CAP_FFMPEG,
-                          cv::VideoWriter::fourcc(2, 0, 0, 0), 25, {160, 120});
-    for (int k = 0; k < 20; ++k) video.write(view(k % kFrames));
+    const auto video = bench::new_video(home() / "real.ts", "\2\0\0", 25, {160, 120});
+    for (int k = 0; k < 20; ++k) video->write(view(k % kFrames));
   }
   const std::string playlist =
       "#EXTM3U\n#EXT-X-VERSION:3\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\nreal.ts\n#EXT-X-ENDLIST\n";
@@ -311,7 +307,7 @@ TEST_F(RecordedScenario, OfWhatFfmpegOnlyTakesForAVideoIsRefused) {
               std::string::npos)
         << told;
   }
-  cv::imwrite((home() / "one.png").string(), view(0));
+  bench::write_picture(home() / "one.png", view(0));
   EXPECT_NE(refusal("path: one.png, speed: 0, focal: 300").find("one.png is no video"),
             std::string::npos);
 }
@@ -439,7 +435,7 @@ TEST_F(RecordedScenario, WhatCannotBeIsRefusedWithItsPlace) {
   write(home() / "poses.txt", "# t x y z\n1 0 0 0 0 0 0 7\n");
   EXPECT_NE(refusal(pictures + "poses: poses.txt").find("poses.txt: holds no pose"),
             std::string::npos);
-  cv::imwrite((home() / "mask.png").string(), cv::Mat1b(20, 20, uchar{255}));
+  bench::write_picture(home() / "mask.png", cv::Mat1b(20, 20, uchar{255}));
   EXPECT_NE(refusal(pictures + "speed: 0, mask: mask.png").find("mask.png is of 20 x 20 pixels"),
             std::string::npos);
   write(home() / "mask.png", "not a picture");
@@ -465,7 +461,7 @@ TEST_F(RecordedScenario, CornersOfTheVehicleItselfAreLeftOut) {
   draw(home() / "pictures", "{}.png");
   cv::Mat1b mask(120, 160, uchar{0});
   mask.rowRange(60, 120) = 255;
-  cv::imwrite((home() / "mask.png").string(), mask);
+  bench::write_picture(home() / "mask.png", mask);
   Playback masked = playback("path: pictures, fps: 10, focal: 300, speed: 0, mask: mask.png");
   std::vector<Eigen::Vector2f> corners{{10, 20}, {10, 59.4F}, {10, 60}, {159, 119}};
   cv::Mat3b image = view(0);

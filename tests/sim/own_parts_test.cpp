@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "sim/silhouette.h"
 #include "sim/world.h"
 #include "tests/sim/support.h"
+#include "tests/tools/pictures.h"
 
 namespace lcs::sim {
 namespace {
@@ -152,7 +152,7 @@ constexpr const char* kObj =
 TEST_F(OwnActor, OfSeveralPartsAMeshAndATextureBesideItIsAnObjectThatMoves) {
   fs::create_directories(folder_ / "meshes");
   write("meshes/fork.obj", kObj);
-  cv::imwrite((folder_ / "wood.png").string(), cv::Mat3b(8, 8, cv::Vec3b(40, 90, 160)));
+  bench::write_picture(folder_ / "wood.png", cv::Mat3b(8, 8, cv::Vec3b(40, 90, 160)));
   auto s = on_floor();
   s.actors = {own_actor(
       "truck", file({.top = "<compiler meshdir='meshes'/>",
@@ -251,7 +251,7 @@ TEST_F(OwnActor, SeveralOfOneFileStandBesideEachOtherEachInItsOwnColours) {
             .inside = "<geom type='box' pos='0 0 .25' size='.5 .25 .25' material='paint'/>"
                       "<geom type='box' pos='0 0 .75' size='.5 .25 .25' material='other'/>"});
   const auto picture = [&](const std::string& name, const cv::Vec3b& bgr) {
-    cv::imwrite((folder_ / name).string(), cv::Mat3b(8, 8, bgr));
+    bench::write_picture(folder_ / name, cv::Mat3b(8, 8, bgr));
     return (folder_ / name).string();
   };
   auto s = on_floor();

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <regex>
 #include <set>
@@ -17,6 +16,7 @@
 
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
+#include "tests/tools/pictures.h"
 #include "tests/tools/temporary_folder.h"
 
 namespace lcs::bench {
@@ -84,7 +84,7 @@ class Outputs : public testing::Test {
     for (int i = 0; i < 4; ++i) {
       cv::Mat1b picture(48, 64, static_cast<uchar>(90));
       picture(cv::Rect(10 + i, 10, 20, 20)) = 200;
-      cv::imwrite((home / "pictures" / fmt::format("{}.png", i)).string(), picture);
+      bench::write_picture(home / "pictures" / fmt::format("{}.png", i), picture);
     }
     for (const Arguments& arguments :
          {Arguments{"run", "scenarios/mine.yaml", "--out", "run", "--no-video", "--quiet"},

@@ -7,10 +7,10 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "tests/tools/command.h"
+#include "tests/tools/pictures.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/figures_file.h"
@@ -50,7 +50,7 @@ struct Replay : testing::Test {
   void draw(int frames) const {
     for (int k = 0; k < frames; ++k) {
       // Numbers without leading zeros: by name, 10 would come before 2.
-      cv::imwrite((pictures() / ("view" + std::to_string(k + 1) + ".png")).string(), wall(k));
+      bench::write_picture(pictures() / ("view" + std::to_string(k + 1) + ".png"), wall(k));
     }
   }
   CommandResult replay(std::vector<std::string> more = {}) const {
@@ -101,7 +101,7 @@ TEST_F(Replay, TheSamePicturesGiveTheSameBytes) {
 
 TEST_F(Replay, SkipsAndNamesWhatItCannotUseAndLetsItsTimePass) {
   draw(6);
-  cv::imwrite((pictures() / "view3.png").string(), cv::Mat1b(100, 100, 20));
+  bench::write_picture(pictures() / "view3.png", cv::Mat1b(100, 100, 20));
   std::ofstream(pictures() / "view4.png") << "not a picture";
   std::ofstream(pictures() / "notes.txt") << "neither named nor looked at";
   const CommandResult result = replay({"--no-video"});
@@ -151,7 +151,7 @@ TEST_F(Replay, MistakesAreToldInOneLineBeforeAnyOutput) {
 
 TEST_F(Replay, PicturesWithoutCornersHaveNoFiguresRatherThanWrongOnes) {
   for (int k = 0; k < 3; ++k) {
-    cv::imwrite((pictures() / (std::to_string(k) + ".png")).string(), cv::Mat1b(60, 80, 90));
+    bench::write_picture(pictures() / (std::to_string(k) + ".png"), cv::Mat1b(60, 80, 90));
   }
   const CommandResult result = replay({"--no-video"});
   ASSERT_EQ(result.exit_code, 0) << result.err;

@@ -7,15 +7,16 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
-#include <opencv2/videoio.hpp>
 #include <set>
 #include <thread>
 
+#include "sim/picture_file.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/output/frame_pictures.h"
 #include "tools/output/video.h"
+#include "tools/output/video_reader.h"
 #include "tools/recording/recording_io.h"
 #include "tools/recording/warnings.h"
 #include "tools/scoring/events.h"
@@ -100,11 +101,11 @@ TEST_P(ShippedScenario, LeavesWholeFilesThatAgreeWithEachOther) {
     }
   }
 
-  cv::VideoCapture video((out / "video.mp4").string(), cv::CAP_FFMPEG);
-  ASSERT_TRUE(video.isOpened());
+  const auto video = open_video(out / "video.mp4");
+  ASSERT_TRUE(video->isOpened());
   cv::Mat picture;
   int pictures = 0;
-  while (video.read(picture)) ++pictures;
+  while (video->read(picture)) ++pictures;
   EXPECT_EQ(pictures, kFrames);
 }
 
@@ -346,10 +347,10 @@ TEST_F(Again, TheFilterSaysWhatItWouldSayInARunOfItsOwn) {
 TEST_F(Again, AVideoIsOfThePicturesThatWereKept) {
   ASSERT_EQ(approaching({"--events", "--no-video", "--out", "first"}).exit_code, 0);
   ASSERT_EQ(approaching({"--recorded", "first", "--out", "again"}).exit_code, 0);
-  cv::VideoCapture video((folder_.path() / "again" / kVideoFile).string(), cv::CAP_FFMPEG);
+  const auto video = open_video(folder_.path() / "again" / kVideoFile);
   cv::Mat picture;
   int pictures = 0;
-  for (; video.read(picture); ++pictures) {
+  for (; video->read(picture); ++pictures) {
     EXPECT_GT(cv::mean(picture)[0], 20) << "frame " << pictures << " is black";
   }
   EXPECT_EQ(pictures, 16);
@@ -436,7 +437,8 @@ TEST_F(Again, ABrokenRecordingIsToldWithItsFile) {
   refused("pictures.mjpeg has 8 pictures of 4 frames");
   rewrite(kPicturesFile, "");
   refused("pictures.mjpeg has 0 pictures of 4 frames");
-  const std::vector<unsigned char> small = jpeg(cv::Mat3b(120, 160, cv::Vec3b(9, 9, 9)), 90);
+  const std::vector<unsigned char> small =
+      sim::encode_jpeg(cv::Mat3b(120, 160, cv::Vec3b(9, 9, 9)), 90);
   rewrite(kPicturesFile, std::string(small.begin(), small.end()) + pictures);
   refused("picture 0 has 160 x 120 pixels, and one of a camera of 640 x 480 has 640 x 480; run");
   const std::size_t frame = pictures.find("\xff\xc0");

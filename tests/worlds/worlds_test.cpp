@@ -1,5 +1,6 @@
 // Drawn and written worlds, compared with the simulator's truth.
 #include "tools/worlds/worlds.h"
+#include "tests/tools/pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,6 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <set>
 #include <tuple>
 
@@ -352,7 +352,7 @@ TEST(Worlds, SplitsAreDisjointAndSpreadOverTheFamilies) {
 TEST(Worlds, PicturesOfAFolderAreSurfacesAndChangeNothingElse) {
   const bench::TemporaryFolder folder;
   cv::Mat3b red(60, 90, cv::Vec3b(0, 0, 255));
-  cv::imwrite((folder.path() / "red.png").string(), red);
+  bench::write_picture(folder.path() / "red.png", red);
   const World painted = draw_world({"room", 5});
   const World photographed = draw_world({"room", 5}, pictures_in(folder.path().string()));
   int photographs = 0;

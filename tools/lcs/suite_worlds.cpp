@@ -60,7 +60,7 @@ void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
     } catch (const scenario::Error& error) {  // keep the runs without this picture
       warn({error.what()});
     }
-    const auto bytes = bench::jpeg(worlds::contact_sheet(*shots, above, kColumns), kQuality);
+    const auto bytes = sim::encode_jpeg(worlds::contact_sheet(*shots, above, kColumns), kQuality);
     bench::write_file(folder / report::sheet_path(scenario),
                       {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     return;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <opencv2/highgui.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "sim/media.h"
 #include "sim/trial.h"
 #include "tools/lcs/interrupt.h"
 
@@ -24,7 +24,8 @@ bool is_set(const char* variable) {
 /// Tries to open a window in a child process, because OpenCV ends the process if that fails.
 void require_display(const std::string& title) {
   const bool is_named = is_set("DISPLAY") || is_set("WAYLAND_DISPLAY") || is_set("QT_QPA_PLATFORM");
-  if (is_named && sim::try_in_child([&] { cv::namedWindow(title, cv::WINDOW_NORMAL); }).fine) {
+  if (is_named &&
+      sim::try_in_child([&] { sim::windows().named_window(title, cv::WINDOW_NORMAL); }).fine) {
     return;
   }
   throw std::runtime_error(
@@ -72,25 +73,26 @@ void Player::after_last_frame() {
 View::View(const std::string& title, double frames_per_second)
     : title_(title), player_([this](int wait_ms) { return key(wait_ms); }, frames_per_second) {
   require_display(title_);
-  cv::namedWindow(title_, cv::WINDOW_NORMAL | cv::WINDOW_KEEPRATIO | cv::WINDOW_GUI_NORMAL);
+  sim::windows().named_window(title_,
+                              cv::WINDOW_NORMAL | cv::WINDOW_KEEPRATIO | cv::WINDOW_GUI_NORMAL);
 }
 
 View::~View() {
-  if (is_open_) cv::destroyAllWindows();
+  if (is_open_) sim::windows().destroy_all();
 }
 
 int View::key(int wait_ms) const {
   check_interrupted();
-  const int key = cv::waitKey(wait_ms);
-  const bool is_there = cv::getWindowProperty(title_, cv::WND_PROP_VISIBLE) > 0;
+  const int key = sim::windows().wait_key(wait_ms);
+  const bool is_there = sim::windows().property(title_, cv::WND_PROP_VISIBLE) > 0;
   return is_there ? key : Player::kClosed;
 }
 
 bool View::show(const cv::Mat3b& sheet) {
-  if (!std::exchange(has_size_, true)) cv::resizeWindow(title_, sheet.size());
-  cv::imshow(title_, sheet);
+  if (!std::exchange(has_size_, true)) sim::windows().resize(title_, sheet.size());
+  sim::windows().show(title_, sheet);
   is_open_ = player_.after_frame();
-  if (!is_open_) cv::destroyAllWindows();
+  if (!is_open_) sim::windows().destroy_all();
   return is_open_;
 }
 

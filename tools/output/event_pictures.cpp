@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/picture_file.h"
 #include "tools/scoring/score_rebels.h"
 
 namespace lcs::bench {
@@ -133,7 +134,8 @@ void paint_events(const Recording& recording, const FramePictures& pictures,
       double scale = 1;
       const cv::Mat3b kept = pictures.at(position, scale);
       const Cut cut = cut_out(view, cut_size(view, kept.size(), scale), kept.size(), scale);
-      const auto bytes = jpeg(paint(*frame, outcomes[position], kept, cut, event), kShownQuality);
+      const auto bytes =
+          sim::encode_jpeg(paint(*frame, outcomes[position], kept, cut, event), kShownQuality);
       view.jpeg_base64 = base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
   }

@@ -30,19 +30,11 @@ double kept_scale(int image_width_px) {
 
 }  // namespace
 
-std::vector<unsigned char> jpeg(const cv::Mat3b& image, int quality) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, quality})) {
-    throw std::runtime_error("OpenCV cannot write JPEG");
-  }
-  return bytes;
-}
-
 void FramePictures::add(const cv::Mat3b& image) {
   scale_ = kept_scale(image.cols);
   cv::Mat3b kept = image;
   if (scale_ < 1) cv::resize(image, kept, {}, scale_, scale_, cv::INTER_AREA);
-  jpegs_.push_back(jpeg(kept, kKeptQuality));
+  jpegs_.push_back(sim::encode_jpeg(kept, kKeptQuality));
 }
 
 FramePictures FramePictures::read(const std::filesystem::path& file, cv::Size image_px) {

@@ -8,9 +8,6 @@
 
 namespace lcs::bench {
 
-/// \param quality of JPEG, up to 100. \throws std::runtime_error if it cannot be encoded.
-std::vector<unsigned char> jpeg(const cv::Mat3b& image, int quality);
-
 inline constexpr const char* kPicturesFile = "pictures.mjpeg";
 
 /// The images of a run, kept compressed until its events are known. Wider images are scaled down to

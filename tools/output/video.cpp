@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "sim/media.h"
 #include "tools/output/video_reader.h"
 
 namespace lcs::bench {
@@ -21,9 +22,9 @@ Video::Video(const std::filesystem::path& path, cv::Size size_px, double frames_
     : path_(path) {
   // Silences FFmpeg's messages, as errors are reported here. FFmpeg reads it once, at first use.
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
-  for (const auto codec :
-       {cv::VideoWriter::fourcc('a', 'v', 'c', '1'), cv::VideoWriter::fourcc('m', 'p', '4', 'v')}) {
-    if (writer_.open(path.string(), cv::CAP_FFMPEG, codec, frames_per_second, size_px)) return;
+  for (const char* const codec : {"avc1", "mp4v"}) {
+    writer_ = sim::media().write_video(path.string(), codec, frames_per_second, size_px);
+    if (writer_->isOpened()) return;
   }
   require_writable(path);
   throw OutputError(fmt::format(
@@ -32,14 +33,14 @@ Video::Video(const std::filesystem::path& path, cv::Size size_px, double frames_
 }
 
 void Video::write(const cv::Mat3b& frame) {
-  writer_.write(frame);
+  writer_->write(frame);
   ++frames_;
 }
 
 void Video::close() {
-  writer_.release();
-  const cv::VideoCapture written = open_video(path_);
-  if (!written.isOpened() || static_cast<int>(written.get(cv::CAP_PROP_FRAME_COUNT)) != frames_) {
+  writer_->release();
+  const auto written = open_video(path_);
+  if (!written->isOpened() || static_cast<int>(written->get(cv::CAP_PROP_FRAME_COUNT)) != frames_) {
     require_writable(path_);
     throw OutputError(fmt::format(
         "{} did not become whole; make room there, choose another folder with --out, or use "

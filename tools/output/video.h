@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -28,7 +29,7 @@ class Video {
 
  private:
   std::filesystem::path path_;
-  cv::VideoWriter writer_;
+  std::unique_ptr<cv::VideoWriter> writer_;
   int frames_ = 0;
 };
 

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "sim/media.h"
+
 namespace lcs::bench {
 namespace {
 
@@ -36,12 +38,12 @@ class Variable {
 
 }  // namespace
 
-cv::VideoCapture open_video(const std::filesystem::path& file) {
+std::unique_ptr<cv::VideoCapture> open_video(const std::filesystem::path& file) {
   // Silences FFmpeg's messages, as errors are reported here. FFmpeg reads it once, at first use.
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
   const Variable options(kOptionsVariable, kOptions);
   // An absolute path cannot be mistaken for a protocol.
-  return cv::VideoCapture(std::filesystem::absolute(file).string(), cv::CAP_FFMPEG);
+  return sim::media().read_video(std::filesystem::absolute(file).string());
 }
 
 }  // namespace lcs::bench

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <opencv2/videoio.hpp>
 
 namespace lcs::bench {
@@ -10,6 +11,6 @@ namespace lcs::bench {
 /// By default FFmpeg guesses formats: it decodes text as pictures, and follows playlists to other
 /// files. This reads only MP4, MOV, AVI, MKV, WebM, MPEG, FLV, ASF and OGG.
 /// \return not opened for any other format.
-cv::VideoCapture open_video(const std::filesystem::path& file);
+std::unique_ptr<cv::VideoCapture> open_video(const std::filesystem::path& file);
 
 }  // namespace lcs::bench

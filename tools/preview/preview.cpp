@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <variant>
 
 #include "filter/detect/fast.h"
+#include "sim/picture_file.h"
 #include "tools/recording/warnings.h"
 
 namespace lcs::preview {
@@ -20,9 +20,7 @@ constexpr double kStands_m = 1e-4;  // m, largest step of a static actor between
 
 std::vector<unsigned char> jpeg_of(const cv::Mat3b& image) {
   constexpr int kQuality = 85;
-  std::vector<unsigned char> jpeg;
-  cv::imencode(".jpg", image, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality});
-  return jpeg;
+  return sim::encode_jpeg(image, kQuality);
 }
 
 Mover mover_of(const scenario::Scenario& scenario, const sim::Survey& survey,

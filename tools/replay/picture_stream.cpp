@@ -25,10 +25,10 @@ std::optional<cv::Mat3b> PictureStream::read_video(const RecordedFrame& frame) {
     return std::nullopt;
   };
   if (has_ended_) return std::nullopt;
-  for (; next_ <= frame.number && !has_ended_; ++next_) has_ended_ = !capture_.grab();
+  for (; next_ <= frame.number && !has_ended_; ++next_) has_ended_ = !capture_->grab();
   if (has_ended_) return skip("cannot be read, and none after it");
   cv::Mat picture;
-  if (!capture_.retrieve(picture) || picture.type() != CV_8UC3) return skip("cannot be read");
+  if (!capture_->retrieve(picture) || picture.type() != CV_8UC3) return skip("cannot be read");
   if (size_.empty()) size_ = picture.size();
   if (picture.size() != size_) return skip("is of another size than those before it");
   return cv::Mat3b(picture.clone());

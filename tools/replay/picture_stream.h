@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 #include <optional>
@@ -30,7 +31,7 @@ class PictureStream {
 
   std::filesystem::path video_;  ///< empty: the pictures are files
   PictureReader files_;
-  cv::VideoCapture capture_;
+  std::unique_ptr<cv::VideoCapture> capture_;
   std::size_t next_ = 0;  ///< index of the next picture in the video
   bool has_ended_ = false;
   cv::Size size_;

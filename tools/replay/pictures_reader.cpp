@@ -93,12 +93,12 @@ bool is_video(const fs::path& file) {
 
 Recorded read_video(const scenario::Recorded& asked, bool) {
   const scenario::InputFile no_pipe(asked.path, kVideo, asked.source);
-  const cv::VideoCapture video = bench::open_video(asked.path);
+  const auto video = bench::open_video(asked.path);
   const auto refuse = [&](const std::string& what) {
     throw scenario::Error(asked.source,
                           fmt::format("{} {}; {}", asked.path.string(), what, kVideo.remedy));
   };
-  const double count = video.isOpened() ? video.get(cv::CAP_PROP_FRAME_COUNT) : 0;
+  const double count = video->isOpened() ? video->get(cv::CAP_PROP_FRAME_COUNT) : 0;
   if (!(count >= 1)) refuse("is no video that says how many pictures it has");
   // All frames are listed before the first one is read. The shortest one takes its place in the
   // file, its length and a few bits.
@@ -108,8 +108,8 @@ Recorded read_video(const scenario::Recorded& asked, bool) {
     refuse(fmt::format("says that it has {:.0f} pictures, and one of {:.0f} bytes can have {:.0f}",
                        count, bytes, std::min(kMostPictures, bytes / kLeastBytes)));
   }
-  const double width = video.get(cv::CAP_PROP_FRAME_WIDTH);
-  const double height = video.get(cv::CAP_PROP_FRAME_HEIGHT);
+  const double width = video->get(cv::CAP_PROP_FRAME_WIDTH);
+  const double height = video->get(cv::CAP_PROP_FRAME_HEIGHT);
   if (width * height > static_cast<double>(sim::kMostPixels)) {
     refuse(fmt::format("has pictures of {:.0f} x {:.0f} pixels, and can have {} million in all",
                        width, height, sim::kMostPixels / 1'000'000));
@@ -117,7 +117,7 @@ Recorded read_video(const scenario::Recorded& asked, bool) {
   Recorded recorded;
   recorded.video = asked.path;
   recorded.timed = false;
-  recorded.fps = rate_in(fmt::format("{}", video.get(cv::CAP_PROP_FPS)));
+  recorded.fps = rate_in(fmt::format("{}", video->get(cv::CAP_PROP_FPS)));
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     recorded.frames.push_back({0, {}, i});
   }

@@ -1,0 +1,41 @@
+/// \file
+/// OpenCV's codecs and windows, loaded when they are first used. With what they link themselves
+/// (GDAL, FFmpeg, GTK) they are most of the time in which a program starts.
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <opencv2/highgui.hpp>
+#include <opencv2/videoio.hpp>
+#include <string>
+#include <vector>
+
+namespace lcs::sim {
+
+/// Functions of OpenCV's imgcodecs and videoio. The objects' virtual functions need no linking.
+struct Media {
+  bool (*imencode)(const cv::String& extension, cv::InputArray picture, std::vector<uchar>& bytes,
+                   const std::vector<int>& parameters);
+  cv::Mat (*imdecode)(cv::InputArray bytes, int flags);
+  /// By FFmpeg; not opened if it cannot. \param codec four characters.
+  std::unique_ptr<cv::VideoCapture> (*read_video)(const std::string& file);
+  std::unique_ptr<cv::VideoWriter> (*write_video)(const std::string& file, const char* codec,
+                                                  double frames_per_second,
+                                                  const cv::Size& size_px);
+};
+
+/// Functions of OpenCV's highgui.
+struct Windows {
+  decltype(&cv::namedWindow) named_window;
+  decltype(&cv::destroyAllWindows) destroy_all;
+  decltype(&cv::waitKey) wait_key;
+  decltype(&cv::getWindowProperty) property;
+  void (*resize)(const cv::String& title, const cv::Size& size_px);
+  void (*show)(const cv::String& title, cv::InputArray picture);
+};
+
+/// \throws std::runtime_error if the library that this program was installed with is not there.
+const Media& media();
+const Windows& windows();
+
+}  // namespace lcs::sim
