@@ -42,11 +42,16 @@ case $5 in
     install
     [[ ! -e prefix/lcs ]] || fail "the Python package is installed with the program"
     lcs=$work/prefix/bin/lcs
-    "$lcs" run prefix/share/lcs/scenarios/crossing.yaml --set frames=3 --no-video --out out
-    [[ -s out/metrics.json ]] || fail "the run left no metrics.json"
+    "$lcs" run prefix/share/lcs/scenarios/crossing.yaml --set frames=3 --out out
+    [[ -s out/metrics.json && -s out/video.mp4 ]] || fail "the run left no metrics.json or no video.mp4"
     cp prefix/share/lcs/scenarios/{crossing,of_the_installed}.yaml
     "$lcs" suite --group all --list >list.txt
     grep -q '^of_the_installed ' list.txt || fail "its suite is not of the scenarios installed"
+    # Detects a program that loads its codecs from BUILD.
+    mv prefix/lib*/lcs prefix/codecs 2>/dev/null || mv prefix/lib/*/lcs prefix/codecs
+    ! "$lcs" run prefix/share/lcs/scenarios/crossing.yaml --set frames=3 --out none 2>error.txt ||
+      fail "the run does without the codecs that were installed"
+    grep -q 'cannot load liblcs_media.so' error.txt || fail "something else is missing: $(cat error.txt)"
     # Detects a program that reads its scene from SOURCE.
     rm -r prefix/share/lcs/scenes/ego
     ! "$lcs" run prefix/share/lcs/scenarios/crossing.yaml --no-video --out none 2>error.txt ||
