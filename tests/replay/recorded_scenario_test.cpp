@@ -286,7 +286,7 @@ TEST_F(RecordedScenario, OfAVideoThatSaysMoreThanItsFileHoldsIsRefused) {
 
 TEST_F(RecordedScenario, OfWhatFfmpegOnlyTakesForAVideoIsRefused) {
   {
-    const auto video = bench::new_video(home() / "real.ts", "\2\0\0", 25, {160, 120});
+    const auto video = bench::new_video(home() / "real.ts", "mpg2", 25, {160, 120});
     for (int k = 0; k < 20; ++k) video->write(view(k % kFrames));
   }
   const std::string playlist =
