@@ -68,6 +68,7 @@ void MotionGroups::link() {
   links_.clear();
   // `visit_pairs` visits each pair once.
   make_room(links_, kCrowd / 2 * points_.size());
+  make_room(sorted_, kCrowd / 2 * points_.size());
   grid_.visit_pairs(
       kCrowd, [&](int i) { return kFar * reach_px_[i]; },
       [&](int i, int j, double apart2_px2) {
@@ -102,7 +103,7 @@ void MotionGroups::merge() {
   if (ground_known_) {
     for (std::size_t i = 0; i < sums_.size(); ++i) of_ground_[i] = ground_evidence(sums_[i]);
   }
-  std::sort(links_.begin(), links_.end());
+  sort_couples(links_, sorted_);
   for (const Couple& link : links_) {
     const int a = sets_.root(link.a), b = sets_.root(link.b);
     if (a == b) continue;

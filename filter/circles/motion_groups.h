@@ -67,6 +67,7 @@ class MotionGroups {
   std::vector<Vec2> points_;       // of each node: coordinates along the horizon and upwards
   PointGrid grid_;
   std::vector<Couple> links_;
+  std::vector<Couple> sorted_;  // scratch storage
   DisjointSets sets_;
   SetMembers members_;
   std::vector<int> grouped_;
