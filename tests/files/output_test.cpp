@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -67,6 +68,20 @@ TEST_F(OutputTest, NothingIsLeftWhenItIsNotCommitted) {
   } catch (const std::runtime_error&) {
   }
   EXPECT_TRUE(entries(top_).empty()) << "the folders made above the target are gone too";
+}
+
+/// Between the making of a staging folder and its lock it looks like that of a killed process.
+TEST_F(OutputTest, BeginsWhileAnotherProcessTidiesUp) {
+  const fs::path target = top_ / "out";
+  std::atomic<bool> stops = false;
+  std::thread other([&] {
+    while (!stops) remove_abandoned(target, kFiles, true);
+  });
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_NO_THROW(write(Output(target, kFiles).staging() / "metrics.json", "begun")) << i;
+  }
+  stops = true;
+  other.join();
 }
 
 TEST_F(OutputTest, FoldersAboveTheTargetThatWereThereStay) {

@@ -195,6 +195,11 @@ FolderLock::FolderLock(const fs::path& folder)
     : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)) {
   is_held_ = file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) == 0;
   is_of_another_ = file_ >= 0 && !is_held_ && errno == EWOULDBLOCK;
+  // Until it was locked, its holder may have removed it, and another have made one of its name.
+  struct stat locked {
+  }, named{};
+  is_held_ = is_held_ && ::fstat(file_, &locked) == 0 && ::lstat(folder.c_str(), &named) == 0 &&
+             locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
 }
 
 FolderLock::~FolderLock() {
@@ -417,8 +422,8 @@ void Output::make_parents() {
 }
 
 /// Takes the first free name: another process may have had the same number, or the user may have a
-/// file of that name. Tries again if another process took the new folder for an abandoned one
-/// before it was locked.
+/// file of that name. Tries again if another process took the new folder for an abandoned one, and
+/// may have removed it, before it was locked.
 void Output::make_staging() {
   std::error_code error;
   for (int attempt = 0; !lock_; ++attempt) {
@@ -427,7 +432,7 @@ void Output::make_staging() {
     if (attempt > 0) own_ += fmt::format("-{}", attempt);
     if (fs::create_directory(own_, error)) lock_.emplace(own_);
     if (error) fail_to("create", own_, error);
-    if (lock_ && !lock_->is_held() && lock_->is_of_another()) lock_.reset();
+    if (lock_ && (lock_->is_of_another() || !fs::exists(own_))) lock_.reset();
   }
   write_file(own_ / kMarker, marker_text(own_.filename().string()));
   staging_ = own_ / kIn;
