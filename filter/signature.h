@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -18,16 +19,9 @@ using SignatureBytes = std::array<std::uint8_t, sizeof(Signature)>;
 
 /// Hamming distance, 0 to 256.
 inline int distance(const Signature& a, const Signature& b) {
-  // Byte-parallel sums: on the x86-64 baseline std::popcount is a function call.
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::uint64_t x = a[i] ^ b[i];
-    x -= (x >> 1) & 0x5555555555555555;
-    x = (x & 0x3333333333333333) + ((x >> 2) & 0x3333333333333333);
-    sum += (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0f;
-  }
-  sum = (sum & 0x00ff00ff00ff00ff) + ((sum >> 8) & 0x00ff00ff00ff00ff);
-  return static_cast<int>((sum * 0x0001000100010001) >> 48);
+  int bits = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) bits += std::popcount(a[i] ^ b[i]);
+  return bits;
 }
 
 /// One of a list of signatures, and its distance.

@@ -95,7 +95,9 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
   for (const Track& track : predicted) places_.push_back(track.place_px);
   tracks_.build(places_, near);
   signatures_.clear();
-  for (const int t : tracks_.order()) signatures_.push_back(predicted[t].signature);
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
+    signatures_.push_back(predicted[tracks_.index_at(i)].signature);
+  }
   refill(alike_, predicted.size());
   pairs_.clear();
   // Reserves the most pairs that this number of corners can have, so that no later frame allocates.
@@ -119,7 +121,7 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
       }
       for (std::size_t i = 0; i < count; ++i) {
         const double likeness = looks ? likeness_[alike_[i].bits] : 0.0;
-        const int t = tracks_.order()[first + (looks ? alike_[i].place : i)];
+        const int t = tracks_.index_at(first + (looks ? alike_[i].place : i));
         const Expected& track = expected_[t];
         if ((track.track_px - x).squaredNorm() > reach * reach) continue;
         const double still = track.still.ln(x), moving = track.moving.ln(x);
@@ -147,13 +149,17 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
   }
 }
 
+/// Variance on an axis of the difference between the steps of neighbours on one body.
+double Association::step_variance_px2(double noise2_px2, double step2_px2) const {
+  return 4 * noise2_px2 + parameters_.step_share * parameters_.step_share * step2_px2;
+}
+
 /// Weight of a pair plus the votes of its neighbours. A vote is ln((1 + ratio) / 2): the neighbour
 /// is detected again at even odds.
 /// \return may stop early with any value below `least`.
 double Association::asked(std::size_t pair, double noise2_px2, double least) const {
   const float x = step_x_[pair], y = step_y_[pair];
-  const double unlike = parameters_.step_share * parameters_.step_share;
-  const double variance = 4 * noise2_px2 + unlike * (x * x + y * y);
+  const double variance = step_variance_px2(noise2_px2, x * x + y * y);
   const double ln_spread = std::log(2 * kPi * variance);
   const auto per_px2 = static_cast<float>(-0.5 / variance);
   double most = 0;  // upper bound of the votes still to come
@@ -185,7 +191,8 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
   expect(predicted, noise2_px2, dt_s);
   find_pairs(chi, predicted, dt_s);
   const double near = parameters_.neighbour_reach_px;
-  const double ln_least = std::log(2 * kPi * 4 * noise2_px2);  // least spread, without a step
+  // The least that a vote can spread: without a step.
+  const double ln_least = std::log(2 * kPi * step_variance_px2(noise2_px2, 0));
   matches_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (first_[c] == first_[c + 1]) continue;

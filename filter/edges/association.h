@@ -87,6 +87,7 @@ class Association {
   void find_pairs(const Chi& chi, std::span<const Track> predicted, double dt_s);
   void offer(const Pair& pair);
   double clutter_ppx2(std::size_t corner) const;
+  double step_variance_px2(double noise2_px2, double step2_px2) const;
   double asked(std::size_t pair, double noise2_px2, double least) const;
 
   EdgeParameters parameters_;

@@ -73,7 +73,7 @@ class EdgeExpert {
   double noise2_px2_ = 0;                        // of this frame's corners, from earlier frames
   double last_noise2_px2_ = 0;                   // of the last frame's corners, likewise
   double noise_sum_px2_ = 0, noise_weight_ = 0;  // faded sums of squares and of their weights
-  Neighbourhood around_;  // of this frame's corners
+  Neighbourhood around_;                         // of this frame's corners
   Association association_;
   Coupling coupling_;
   VelocityError velocity_error_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -16,10 +17,10 @@ class Neighbourhood {
   /// \param count neighbours of each point, fewer if there are fewer points.
   void build(std::span<const Vec2> points, double cell_px, int count) {
     grid_.build(points, cell_px);
+    make_room(first_, points.size() + 1);
+    make_room(nearest_, points.size() * static_cast<std::size_t>(count));
     first_.assign(1, 0);
     nearest_.clear();
-    make_room(nearest_, points.size() * static_cast<std::size_t>(count));
-    make_room(first_, points.size() + 1);
     for (std::size_t i = 0; i < points.size(); ++i) {
       grid_.nearest(
           points[i], std::numeric_limits<double>::infinity(), static_cast<std::size_t>(count),

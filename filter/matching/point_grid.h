@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "filter/kinematics/camera.h"
@@ -59,26 +60,21 @@ class PointGrid {
     }
     for (std::size_t c = 2; c < first_.size(); ++c) first_[c] += first_[c - 1];
     refill(placed_, points.size());
-    refill(order_, points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const std::size_t place = first_[cell_of_[i] + 1]++;
-      placed_[place] = {points[i], static_cast<int>(i)};
-      order_[place] = static_cast<int>(i);
+      placed_[first_[cell_of_[i] + 1]++] = {points[i], static_cast<int>(i)};
     }
   }
 
-  /// Index of each point in the order of the cells: places in it are what `visit_runs` visits.
-  std::span<const int> order() const { return order_; }
+  /// Index of the point at a place in the order of the cells.
+  int index_at(std::size_t place) const { return placed_[place].index; }
 
-  /// Calls `visit(first, last)` for ranges of places in `order()` that hold all points within
-  /// `radius_px` of x, px, and few others.
+  /// Calls `visit(first, last)` for ranges of places in the order of the cells that hold all points
+  /// within `radius_px` of x, px, and few others.
   template <typename Visit>
   void visit_runs(const Vec2& x, double radius_px, Visit&& visit) const {
     const int bottom = row(x.y() + radius_px);
     for (int r = row(x.y() - radius_px); r <= bottom; ++r) {
-      const double half_px = half_chord(x.y(), radius_px, r);
-      const std::size_t first = first_[cell(column(x.x() - half_px), r)];
-      const std::size_t last = first_[cell(column(x.x() + half_px), r) + 1];
+      const auto [first, last] = run(x, radius_px, r);
       if (first < last) visit(first, last);
     }
   }
@@ -106,11 +102,10 @@ class PointGrid {
                      [&](int j, double distance2) { visit(here.index, j, distance2); });
         };
         const int bottom = row(x.y() + radius);
-        visit_from(i + 1, first_[cell(column(x.x() + radius), r) + 1]);
+        visit_from(i + 1, run(x, radius, r).second);
         for (int below = r + 1; below <= bottom; ++below) {
-          const double half = half_chord(x.y(), radius, below);
-          visit_from(first_[cell(column(x.x() - half), below)],
-                     first_[cell(column(x.x() + half), below) + 1]);
+          const auto [first, last] = run(x, radius, below);
+          visit_from(first, last);
         }
       }
     }
@@ -208,16 +203,19 @@ class PointGrid {
     }
   }
 
-  /// px: half the width of a circle round height y where it reaches farthest into a row of cells.
-  double half_chord(double y, double radius_px, int row) const {
-    const double top = low_.y() + row * cell_px_;
+  /// The places in a row of cells that hold its points within `radius_px` of x, and few others.
+  std::pair<std::size_t, std::size_t> run(const Vec2& x, double radius_px, int row) const {
+    const double y = x.y(), top = low_.y() + row * cell_px_;
     // The first and last rows hold all that lies beyond. Reduced slightly for rounding of cells.
     const double off = row > 0 && y < top                      ? top - y
                        : row < rows_ - 1 && y > top + cell_px_ ? y - top - cell_px_
                                                                : 0;
     const double inside_px = off * (1 - 1e-9) - 1e-9 * cell_px_;
-    return inside_px > 0 ? std::sqrt(std::max(0.0, radius_px * radius_px - inside_px * inside_px))
-                         : radius_px;
+    const double half_px =  // of the chord where the circle reaches farthest into the row
+        inside_px > 0 ? std::sqrt(std::max(0.0, radius_px * radius_px - inside_px * inside_px))
+                      : radius_px;
+    return {first_[cell(column(x.x() - half_px), row)],
+            first_[cell(column(x.x() + half_px), row) + 1]};
   }
 
   std::size_t cell(int c, int r) const {
@@ -226,7 +224,6 @@ class PointGrid {
   }
 
   std::vector<Placed> placed_;            // sorted by cell, then by index
-  std::vector<int> order_;                // the indices of placed_
   std::vector<std::size_t> first_{0, 0};  // start of each cell in placed_, and the end
   std::vector<std::size_t> cell_of_;
   Vec2 low_ = Vec2::Zero();

@@ -1,6 +1,5 @@
 // Drawn and written worlds, compared with the simulator's truth.
 #include "tools/worlds/worlds.h"
-#include "tests/tools/pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -17,6 +16,7 @@
 #include "sim/mujoco.h"
 #include "sim/simulation.h"
 #include "tests/tools/files.h"
+#include "tests/tools/pictures.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/worlds/kit.h"
 #include "tools/worlds/meshes.h"
