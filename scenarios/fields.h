@@ -48,7 +48,7 @@ struct Whole {    ///< a whole number in [low, high]
   std::int64_t high;
 };
 struct In {  ///< a quantity that is written in a unit other than its base unit
-  Quantity quantity;
+  input::Quantity quantity;
   std::string_view unit;
 };
 struct Words {  ///< one of the words: an enumerator by its number, or a text
@@ -64,7 +64,7 @@ struct OwnFileOr {  ///< one of the words, or a file ("rover.xml") for the enume
   std::filesystem::path& file;
 };
 struct SceneName {  ///< name of a shipped scene, or a file ("room.xml")
-  Source& source;
+  input::Source& source;
 };
 struct File {};            ///< must exist
 struct FolderOrFile {};    ///< must exist
@@ -72,7 +72,7 @@ struct StyleOrPicture {};  ///< name of a texture style, or a file ("brick.png")
 struct GroupNames {};      ///< one or more distinct group names
 struct FilterParameters {  ///< any key
   std::string& preset;
-  Source& source;
+  input::Source& source;
 };
 struct FramesBefore {  ///< a duration, converted to the number of frames before its end
   double rate_hz;
@@ -349,7 +349,7 @@ void fields(Actor& actor, Visit&& visit) {
         size_m, kSize);
   visit({"texture",
          "of a shape, for its material `paint`: a style of procedural texture (`rects`, `bricks`, "
-         "`windows` and others of `sim/texture.cpp`), or a `.png` file, relative to this one",
+         "`windows` and others of `sim/scene/texture.cpp`), or a `.png` file, relative to this one",
          "the shape's own"},
         texture, StyleOrPicture{});
   visit({"trajectory", "how the actor moves", kRequired}, trajectory);

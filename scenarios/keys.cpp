@@ -29,20 +29,21 @@ struct Kind {
 };
 
 /// In the schema, a number is in the base unit; a text may have any unit of the dimension.
-Kind kind_of(const Quantity& quantity, double) {
+Kind kind_of(const input::Quantity& quantity, double) {
   const auto [low, high, low_open, high_open] = quantity.range;
   Json number{{"type", "number"}};
   if (std::isfinite(low)) number[low_open ? "exclusiveMinimum" : "minimum"] = low;
   if (std::isfinite(high)) number[high_open ? "exclusiveMaximum" : "maximum"] = high;
   std::string units;
-  for (const char c : fmt::format("{}", fmt::join(units_of(quantity.dimension), "|"))) {
+  for (const char c : fmt::format("{}", fmt::join(input::units_of(quantity.dimension), "|"))) {
     if (c == '^') units += '\\';
     units += c;
   }
   const std::string pattern =
       fmt::format("^ *{}([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][+-]?[0-9]+)?{} *$", low < 0 ? "-?" : "",
                   units.empty() ? "" : fmt::format(" *({})?", units));
-  return {range_text(quantity), {{"anyOf", {number, {{"type", "string"}, {"pattern", pattern}}}}}};
+  return {input::range_text(quantity),
+          {{"anyOf", {number, {{"type", "string"}, {"pattern", pattern}}}}}};
 }
 
 Kind kind_of(const In& form, double number) {
@@ -198,7 +199,7 @@ Json given(std::string_view key) {
 
 /// Collects the keys of a map.
 struct DescribeFields {
-  const Value& defaults;
+  const input::Value& defaults;
   Kind& kind;
   Json properties = Json::object();
   Names required = {};
@@ -207,9 +208,9 @@ struct DescribeFields {
 
   std::string without(const Key& key) const {
     if (!key.without.empty()) return std::string(key.without);
-    for (const Entry& entry : defaults.entries) {
-      if (entry.key == key.name && entry.value.kind != Value::Kind::map) {
-        return fmt::format("`{}`", line_of(entry.value));
+    for (const input::Entry& entry : defaults.entries) {
+      if (entry.key == key.name && entry.value.kind != input::Value::Kind::map) {
+        return fmt::format("`{}`", input::line_of(entry.value));
       }
     }
     return "";
@@ -270,7 +271,7 @@ struct DescribeFields {
 template <HasFields T>
 Kind kind_of(Plain, const T& object) {
   Kind kind{"a map", {}};
-  const Value defaults = all_keys(object);
+  const input::Value defaults = all_keys(object);
   T visited = object;
   DescribeFields describe{.defaults = defaults, .kind = kind};
   fields(visited, describe);

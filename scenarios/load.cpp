@@ -6,11 +6,11 @@
 #include <cmath>
 #include <system_error>
 
-#include "scenarios/document.h"
 #include "scenarios/fields.h"
-#include "scenarios/inputs_read.h"
-#include "scenarios/reader.h"
 #include "scenarios/scenes.h"
+#include "tools/input/document.h"
+#include "tools/input/inputs_read.h"
+#include "tools/input/reader.h"
 
 namespace lcs::scenario {
 namespace {
@@ -19,11 +19,11 @@ namespace fs = std::filesystem;
 
 /// A value to read, its path in messages, and the folder of the scenario.
 struct Item {
-  const Value& value;
+  const input::Value& value;
   std::string path;
   const fs::path& folder;
 
-  Item at(std::size_t index, const Value& item) const {
+  Item at(std::size_t index, const input::Value& item) const {
     return {item, path + "." + std::to_string(index), folder};
   }
 };
@@ -31,33 +31,35 @@ struct Item {
 // --- checks of a whole map, after its keys
 
 template <class T>
-void complete(Reader&, T&) {}
+void complete(input::Reader&, T&) {}
 
-void complete(Reader& reader, Ego& ego) {
+void complete(input::Reader& reader, Ego& ego) {
   if (ego.waypoints.empty()) return;
   ego.start_m = ego.waypoints.front().position_m;
   const auto elsewhere = std::ranges::find_if(
       ego.waypoints, [&](const Waypoint& point) { return point.position_m != ego.start_m; });
   if (elsewhere == ego.waypoints.end()) {
-    throw Error(reader.find("waypoints")->where,
-                reader.path_of("waypoints") +
-                    " lead nowhere: all are one place; make one of them another, or give start "
-                    "and heading for a rover that stands");
+    throw input::Error(
+        reader.find("waypoints")->where,
+        reader.path_of("waypoints") +
+            " lead nowhere: all are one place; make one of them another, or give start "
+            "and heading for a rover that stands");
   }
   const Eigen::Vector2d way = elsewhere->position_m - ego.start_m;
   ego.heading_rad = std::atan2(way.y(), way.x());
 }
 
-void complete(Reader&, Imu& imu) {
+void complete(input::Reader&, Imu& imu) {
   if (imu.noise != imu_preset(imu.preset)) imu.preset = "custom";
 }
 
-void complete(Reader& reader, Criterion& criterion) {
+void complete(input::Reader& reader, Criterion& criterion) {
   if (!criterion.min && !criterion.max) {
-    throw Error(criterion.source, reader.path() + " has no bound; give min, max or both");
+    throw input::Error(criterion.source, reader.path() + " has no bound; give min, max or both");
   }
   if (criterion.min && criterion.max && *criterion.min > *criterion.max) {
-    throw Error(criterion.source, reader.path() + " has its min above its max; exchange them");
+    throw input::Error(criterion.source,
+                       reader.path() + " has its min above its max; exchange them");
   }
 }
 
@@ -70,73 +72,75 @@ void require_place(const Actor& actor, const std::string& path) {
   if (line && !line->heading_rad) missing = "line.heading";
   if (line && !line->from_m) missing = "line.from";
   if (missing.empty()) return;
-  throw Error(actor.source, path + " has a shape of its own and so needs trajectory." + missing +
-                                "; add it (only a body of the scene has a place there)");
+  throw input::Error(actor.source, path + " has a shape of its own and so needs trajectory." +
+                                       missing +
+                                       "; add it (only a body of the scene has a place there)");
 }
 
-void complete(Reader& reader, Actor& actor) {
+void complete(input::Reader& reader, Actor& actor) {
   if (!actor.body) return require_place(actor, reader.path());
   for (const char* key : {"size", "texture"}) {
-    const Value* value = reader.find(key);
+    const input::Value* value = reader.find(key);
     if (!value) continue;
-    throw Error(value->where, reader.path_of(key) +
-                                  " is given for a body of the scene, which has its own; "
-                                  "remove it, or give 'shape' in place of 'body'");
+    throw input::Error(value->where, reader.path_of(key) +
+                                         " is given for a body of the scene, which has its own; "
+                                         "remove it, or give 'shape' in place of 'body'");
   }
 }
 
 // --- values by their type and form
 
-void read_value(const Item& item, const Quantity& quantity, double& out) {
-  out = as_quantity(item.value, item.path, quantity);
+void read_value(const Item& item, const input::Quantity& quantity, double& out) {
+  out = input::as_quantity(item.value, item.path, quantity);
 }
 
 void read_value(const Item& item, const In& form, double& out) {
-  out = as_quantity(item.value, item.path, form.quantity);
+  out = input::as_quantity(item.value, item.path, form.quantity);
 }
 
 template <std::integral T>
 void read_value(const Item& item, const Whole& form, T& out) {
-  out = static_cast<T>(as_integer(item.value, item.path, form.low, form.high));
+  out = static_cast<T>(input::as_integer(item.value, item.path, form.low, form.high));
 }
 
 void read_value(const Item& item, Plain, std::uint64_t& seed) {
-  seed = as_seed(item.value, item.path);
+  seed = input::as_seed(item.value, item.path);
 }
 
 void read_value(const Item& item, Plain, bool& out) {
-  out = as_choice(item.value, item.path, {"false", "true"}) == 1;
+  out = input::as_choice(item.value, item.path, {"false", "true"}) == 1;
 }
 
 void read_value(const Item& item, Plain, std::string& out) {
-  out = as_text(item.value, item.path);
+  out = input::as_text(item.value, item.path);
 }
 
 void read_value(const Item& item, const Words& form, std::string& out) {
-  out = form.words[as_choice(item.value, item.path, form.words)];
+  out = form.words[input::as_choice(item.value, item.path, form.words)];
 }
 
 template <class Enum>
 requires std::is_enum_v<Enum>
 void read_value(const Item& item, const Words& form, Enum& out) {
-  out = static_cast<Enum>(as_choice(item.value, item.path, form.words));
+  out = static_cast<Enum>(input::as_choice(item.value, item.path, form.words));
 }
 
 template <class Enum>
 requires std::is_enum_v<Enum>
 void read_value(const Item& item, const OwnFileOr& form, Enum& out) {
-  const Value& value = item.value;
-  if (value.kind == Value::Kind::scalar && value.text.ends_with(".xml")) {
+  const input::Value& value = item.value;
+  if (value.kind == input::Value::Kind::scalar && value.text.ends_with(".xml")) {
     out = Enum::own;
     form.file = file_beside(value, item.folder, item.path + ": there is no file ");
   } else {
-    out = static_cast<Enum>(as_choice(value, item.path, form.words, "the path of an .xml file"));
+    out = static_cast<Enum>(
+        input::as_choice(value, item.path, form.words, "the path of an .xml file"));
   }
 }
 
 template <class Number, int N, class Form>
 void read_value(const Item& item, const Form& form, Eigen::Matrix<Number, N, 1>& out) {
-  const std::vector<Value>& list = as_list(item.value, item.path, N);
+  const std::vector<input::Value>& list = input::as_list(item.value, item.path, N);
   for (std::size_t i = 0; i < list.size(); ++i) {
     read_value(item.at(i, list[i]), form, out[static_cast<Eigen::Index>(i)]);
   }
@@ -151,11 +155,11 @@ void read_value(const Item& item, const Form& form, std::optional<T>& out) {
 
 template <class T, class Form>
 void read_value(const Item& item, const OrWord<Form>& form, std::optional<T>& out) {
-  if (item.value.kind == Value::Kind::scalar && item.value.text == form.word) {
+  if (item.value.kind == input::Value::Kind::scalar && item.value.text == form.word) {
     out.reset();
   } else if constexpr (std::is_same_v<Form, Whole>) {
-    out = static_cast<T>(as_integer(item.value, item.path, form.form.low, form.form.high,
-                                    " or " + std::string(form.word)));
+    out = static_cast<T>(input::as_integer(item.value, item.path, form.form.low, form.form.high,
+                                           " or " + std::string(form.word)));
   } else {
     read_value(item, form.form, out);
   }
@@ -163,7 +167,7 @@ void read_value(const Item& item, const OrWord<Form>& form, std::optional<T>& ou
 
 template <class T, class Form>
 void read_value(const Item& item, const Form& form, std::vector<T>& out) {
-  for (const Value& value : as_list(item.value, item.path)) {
+  for (const input::Value& value : input::as_list(item.value, item.path)) {
     const Item next = item.at(out.size(), value);
     read_value(next, form, out.emplace_back());
   }
@@ -175,72 +179,72 @@ void read_value(const Item& item, const SceneName& form, fs::path& out) {
 }
 
 void read_value(const Item& item, File, fs::path& out) {
-  as_text(item.value, item.path);
+  input::as_text(item.value, item.path);
   out = file_beside(item.value, item.folder, item.path + ": there is no file ");
-  note_input(out);
+  input::note_input(out);
 }
 
 void read_value(const Item& item, FolderOrFile, fs::path& out) {
-  out = item.folder / as_text(item.value, item.path);
+  out = item.folder / input::as_text(item.value, item.path);
   std::error_code none;  // for a name that no file can have
   if (!fs::is_directory(out, none) && !fs::is_regular_file(out, none)) {
-    throw Error(item.value.where, item.path + ": there is no folder or video " + out.string() +
-                                      "; " + path_remedy(item.folder));
+    throw input::Error(item.value.where, item.path + ": there is no folder or video " +
+                                             out.string() + "; " + path_remedy(item.folder));
   }
-  note_input(out);
+  input::note_input(out);
 }
 
 void read_value(const Item& item, StyleOrPicture, std::string& out) {
-  out = as_text(item.value, item.path);
+  out = input::as_text(item.value, item.path);
   if (!out.ends_with(".png")) return;
   out = file_beside(item.value, item.folder, item.path + ": there is no picture ").string();
 }
 
 /// Number of frames at 0, 1/rate, 2/rate, ... before the end.
-int frames_before(double duration_s, double rate_hz, const Value& duration) {
+int frames_before(double duration_s, double rate_hz, const input::Value& duration) {
   constexpr double rounding = 1e-6;  // 0.3 s at 10 Hz is 3 frames, despite binary rounding
   const double frames = std::ceil(duration_s * rate_hz - rounding);
   if (frames <= kMostFrames) return std::max(1, static_cast<int>(frames));
-  throw Error(duration.where, "duration '" + duration.text + "' makes more than " +
-                                  std::to_string(kMostFrames) + " frames; shorten it");
+  throw input::Error(duration.where, "duration '" + duration.text + "' makes more than " +
+                                         std::to_string(kMostFrames) + " frames; shorten it");
 }
 
 void read_value(const Item& item, const FramesBefore& form, int& frames) {
-  const double duration_s = as_quantity(item.value, item.path, kDuration);
+  const double duration_s = input::as_quantity(item.value, item.path, kDuration);
   frames = frames_before(duration_s, form.rate_hz, item.value);
 }
 
 void read_value(const Item& item, Plain, Recorded::Distortion& out) {
-  Value list = item.value;
+  input::Value list = item.value;
   std::string path = item.path;
-  if (list.kind == Value::Kind::map) {
-    Reader reader(item.value, path);
-    const Value* coefficients = reader.require("equidistant");
+  if (list.kind == input::Value::Kind::map) {
+    input::Reader reader(item.value, path);
+    const input::Value* coefficients = reader.require("equidistant");
     reader.finish();
     list = *coefficients;
     path = reader.path_of("equidistant");
     out.equidistant = true;
   }
-  as_list(list, path, out.equidistant ? 4 : 5);
+  input::as_list(list, path, out.equidistant ? 4 : 5);
   read_value(Item{list, path, item.folder}, kCoefficient, out.coefficients);
 }
 
 void read_value(const Item& item, Plain, std::vector<Waypoint>& points) {
-  for (const Value& value : as_list(item.value, item.path)) {
+  for (const input::Value& value : input::as_list(item.value, item.path)) {
     const Item next = item.at(points.size(), value);
-    const std::vector<Value>& triple = as_list(value, next.path, 3);
-    const Waypoint point{as_quantity(triple[0], next.path + ".0", kTime),
-                         {as_quantity(triple[1], next.path + ".1", kPosition),
-                          as_quantity(triple[2], next.path + ".2", kPosition)}};
+    const std::vector<input::Value>& triple = input::as_list(value, next.path, 3);
+    const Waypoint point{input::as_quantity(triple[0], next.path + ".0", kTime),
+                         {input::as_quantity(triple[1], next.path + ".1", kPosition),
+                          input::as_quantity(triple[2], next.path + ".2", kPosition)}};
     if (!points.empty() && point.at_s <= points.back().at_s) {
-      throw Error(value.where, next.path + " is at '" + triple[0].text +
-                                   "', not after the one before; make the times increase");
+      throw input::Error(value.where, next.path + " is at '" + triple[0].text +
+                                          "', not after the one before; make the times increase");
     }
     points.push_back(point);
   }
   if (points.size() < 2) {
-    throw Error(item.value.where,
-                item.path + " has fewer than two waypoints; give two or more [time, x, y]");
+    throw input::Error(item.value.where,
+                       item.path + " has fewer than two waypoints; give two or more [time, x, y]");
   }
 }
 
@@ -250,14 +254,14 @@ void read_value(const Item& item, Plain, Waypoints& waypoints) {
 
 /// Gaps begin after 0, because the estimator takes its initial state from the reading at 0.
 void read_value(const Item& item, Plain, std::vector<TimeSpan>& gaps) {
-  for (const Value& value : as_list(item.value, item.path)) {
+  for (const input::Value& value : input::as_list(item.value, item.path)) {
     const Item next = item.at(gaps.size(), value);
-    const std::vector<Value>& pair = as_list(value, next.path, 2);
-    const TimeSpan gap{as_quantity(pair[0], next.path + ".0", kDuration),
-                       as_quantity(pair[1], next.path + ".1", kDuration)};
+    const std::vector<input::Value>& pair = input::as_list(value, next.path, 2);
+    const TimeSpan gap{input::as_quantity(pair[0], next.path + ".0", kDuration),
+                       input::as_quantity(pair[1], next.path + ".1", kDuration)};
     if (gap.to_s <= gap.from_s || (!gaps.empty() && gap.from_s < gaps.back().to_s)) {
-      throw Error(value.where, next.path + " is [" + pair[0].text + ", " + pair[1].text +
-                                   "]; make the times increase, from each gap to the next");
+      throw input::Error(value.where, next.path + " is [" + pair[0].text + ", " + pair[1].text +
+                                          "]; make the times increase, from each gap to the next");
     }
     gaps.push_back(gap);
   }
@@ -271,19 +275,21 @@ bool is_name(const std::string& text) {
 
 void read_value(const Item& item, GroupNames, std::vector<std::string>& groups) {
   groups.clear();
-  for (const Value& value : as_list(item.value, item.path)) {
-    const std::string& group = as_text(value, item.at(groups.size(), value).path);
+  for (const input::Value& value : input::as_list(item.value, item.path)) {
+    const std::string& group = input::as_text(value, item.at(groups.size(), value).path);
     if (!is_name(group)) {
-      throw Error(value.where, "the group '" + group +
-                                   "' has other characters than a-z, 0-9, '_' and '-'; rename it");
+      throw input::Error(
+          value.where,
+          "the group '" + group + "' has other characters than a-z, 0-9, '_' and '-'; rename it");
     }
     if (std::ranges::count(groups, group) > 0) {
-      throw Error(value.where, "groups has '" + group + "' twice; remove one");
+      throw input::Error(value.where, "groups has '" + group + "' twice; remove one");
     }
     groups.push_back(group);
   }
   if (groups.empty()) {
-    throw Error(item.value.where, "groups is an empty list; give one or more, or remove the key");
+    throw input::Error(item.value.where,
+                       "groups is an empty list; give one or more, or remove the key");
   }
 }
 
@@ -300,17 +306,17 @@ bool is_finite(std::string_view text) {
 /// Rejects numbers that are not finite. The filter checks names and ranges.
 void read_value(const Item& item, const FilterParameters& form,
                 std::vector<FilterSetting>& settings) {
-  const Reader reader(item.value, item.path);
-  for (const Entry& entry : item.value.entries) {
+  const input::Reader reader(item.value, item.path);
+  for (const input::Entry& entry : item.value.entries) {
     const std::string path = reader.path_of(entry.key);
-    const std::string& text = as_text(entry.value, path);
+    const std::string& text = input::as_text(entry.value, path);
     if (entry.key == "preset") {
       form.preset = text;
       form.source = entry.value.where;
       continue;
     }
     if (!is_finite(text)) {
-      throw Error(entry.value.where, path + ": '" + text + "' is not finite; give a number");
+      throw input::Error(entry.value.where, path + ": '" + text + "' is not finite; give a number");
     }
     settings.push_back({entry.key, text, entry.value.where});
   }
@@ -320,51 +326,52 @@ void read_value(const Item& item, const FilterParameters& form,
 constexpr std::array<std::string_view, 5> not_to_be_swept = {"sweep", "groups", "purpose", "origin",
                                                              "seed"};
 
-SweptKey read_key(const Entry& entry) {
+SweptKey read_key(const input::Entry& entry) {
   const std::string path = "sweep." + entry.key;
   if (std::count(not_to_be_swept.begin(), not_to_be_swept.end(), entry.key) > 0) {
-    throw Error(entry.where, path + " cannot be swept; " +
-                                 (entry.key == "seed" ? "the number of seeds is the suite's option"
-                                                      : "remove it"));
+    throw input::Error(
+        entry.where,
+        path + " cannot be swept; " +
+            (entry.key == "seed" ? "the number of seeds is the suite's option" : "remove it"));
   }
   SweptKey swept{entry.key, {}, entry.where};
-  for (const Value& value : as_list(entry.value, path)) {
+  for (const input::Value& value : input::as_list(entry.value, path)) {
     const std::string index = std::to_string(swept.values.size());
-    if (value.kind == Value::Kind::null) {
-      throw Error(value.where, path + "." + index + " is nothing; give a value");
+    if (value.kind == input::Value::Kind::null) {
+      throw input::Error(value.where, path + "." + index + " is nothing; give a value");
     }
-    const std::string text = line_of(value);
+    const std::string text = input::line_of(value);
     const auto same = [&](const SweptKey::Value& other) { return other.text == text; };
     if (std::any_of(swept.values.begin(), swept.values.end(), same)) {
-      throw Error(value.where, path + " has '" + text + "' twice; remove one");
+      throw input::Error(value.where, path + " has '" + text + "' twice; remove one");
     }
     swept.values.push_back({text, value.where});
   }
   if (swept.values.empty()) {
-    throw Error(entry.where, path + " is an empty list; give one or more values");
+    throw input::Error(entry.where, path + " is an empty list; give one or more values");
   }
   return swept;
 }
 
 /// Checks the syntax only. Unknown keys and values fail when a point is loaded.
 void read_value(const Item& item, Plain, std::vector<SweptKey>& sweep) {
-  const Reader keys(item.value, item.path);
-  for (const Entry& entry : item.value.entries) sweep.push_back(read_key(entry));
+  const input::Reader keys(item.value, item.path);
+  for (const input::Entry& entry : item.value.entries) sweep.push_back(read_key(entry));
   if (sweep.empty()) {
-    throw Error(item.value.where,
-                "sweep is an empty map; give keys, as in {ego.speed: [0.2, 0.4]}");
+    throw input::Error(item.value.where,
+                       "sweep is an empty map; give keys, as in {ego.speed: [0.2, 0.4]}");
   }
 }
 
 // --- maps
 
 struct ReadFields {
-  Reader& reader;
+  input::Reader& reader;
   const fs::path& folder;
 
   template <class T, class Form = Plain>
   void operator()(const Key& key, T& member, const Form& form = {}) const {
-    const Value* value =
+    const input::Value* value =
         key.without == kRequired ? reader.require(key.name) : reader.find(key.name);
     if (value) read_value(Item{*value, reader.path_of(key.name), folder}, form, member);
   }
@@ -381,7 +388,7 @@ struct ReadFields {
 
 template <HasFields T>
 void read_value(const Item& item, Plain, T& out) {
-  Reader reader(item.value, item.path);
+  input::Reader reader(item.value, item.path);
   if constexpr (requires { out.source; }) out.source = reader.where();
   fields(out, ReadFields{reader, item.folder});
   reader.finish();
@@ -399,39 +406,40 @@ EgoPhase carried_on(const EgoPhase& before, double at_s) {
 
 /// The ego's own keys are the first phase, already in `phases`.
 void read_value(const Item& item, Plain, std::vector<EgoPhase>& phases) {
-  for (const Value& value : as_list(item.value, item.path)) {
+  for (const input::Value& value : input::as_list(item.value, item.path)) {
     const EgoPhase before = phases.back();
     const Item next = item.at(phases.size() - 1, value);
-    Reader reader(value, next.path);
+    input::Reader reader(value, next.path);
     double at_s = before.at_s;
     reader.read("at", kTime, at_s);
     read_value(next, Plain{}, phases.emplace_back(carried_on(before, at_s)));
     if (at_s > before.at_s) continue;
-    const Value& at = *reader.find("at");
-    throw Error(at.where, reader.path_of("at") + " is '" + at.text +
-                              "', not after the phase before (" + number_text(before.at_s) +
-                              " s); make the times increase");
+    const input::Value& at = *reader.find("at");
+    throw input::Error(
+        at.where, reader.path_of("at") + " is '" + at.text + "', not after the phase before (" +
+                      input::number_text(before.at_s) + " s); make the times increase");
   }
 }
 
 /// Actor names are also names of bodies in the world and parts of `--set` paths.
-void check_name(const Entry& entry) {
+void check_name(const input::Entry& entry) {
   const auto is_name_char = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   };
   if (entry.key == "ego") {
-    throw Error(entry.where, "an actor is called 'ego', which is the rover's name; rename it");
+    throw input::Error(entry.where,
+                       "an actor is called 'ego', which is the rover's name; rename it");
   }
   if (std::all_of(entry.key.begin(), entry.key.end(), is_name_char)) return;
-  throw Error(entry.where,
-              "the actor's name '" + entry.key +
-                  "' has other characters than letters, digits, '_' and '-'; rename it");
+  throw input::Error(entry.where,
+                     "the actor's name '" + entry.key +
+                         "' has other characters than letters, digits, '_' and '-'; rename it");
 }
 
 void read_value(const Item& item, Plain, std::vector<Actor>& actors) {
-  const Reader names(item.value, item.path);
-  for (const Entry& entry : item.value.entries) {
+  const input::Reader names(item.value, item.path);
+  for (const input::Entry& entry : item.value.entries) {
     check_name(entry);
     Actor& actor = actors.emplace_back();
     actor.name = entry.key;
@@ -440,29 +448,29 @@ void read_value(const Item& item, Plain, std::vector<Actor>& actors) {
 }
 
 /// The keys that determine sensor data and truth, except for the seed.
-std::map<std::string, std::string> world_of(const Value& root) {
+std::map<std::string, std::string> world_of(const input::Value& root) {
   constexpr std::array<std::string_view, 7> kNotOfTheWorld{"purpose", "groups",   "origin", "seed",
                                                            "filter",  "criteria", "sweep"};
-  Value world(Value::Kind::map, root.where);
-  for (const Entry& entry : root.entries) {
+  input::Value world(input::Value::Kind::map, root.where);
+  for (const input::Entry& entry : root.entries) {
     if (std::find(kNotOfTheWorld.begin(), kNotOfTheWorld.end(), entry.key) == kNotOfTheWorld.end())
       world.entries.push_back(entry);
   }
-  return flattened(world);
+  return input::flattened(world);
 }
 
 }  // namespace
 
 Scenario load(const std::filesystem::path& file, const LoadOptions& options) {
-  return load(parse_file(file), file, options);
+  return load(input::parse_file(file), file, options);
 }
 
-Scenario load(Value root, const std::filesystem::path& file, const LoadOptions& options) {
-  for (const std::string& assignment : options.sets) apply_set(root, assignment);
+Scenario load(input::Value root, const std::filesystem::path& file, const LoadOptions& options) {
+  for (const std::string& assignment : options.sets) input::apply_set(root, assignment);
   Scenario scenario;
   scenario.name = file.stem().string();
   scenario.file = file;
-  if (Reader(root, "").find("recording")) {
+  if (input::Reader(root, "").find("recording")) {
     scenario.fast_threshold.reset();  // each camera has its own noise level
   } else {
     scenario.imu.noise = imu_preset(scenario.imu.preset).value();

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/document.h"
 #include "scenarios/scenario.h"
+#include "tools/input/document.h"
 
 namespace lcs::scenario {
 
@@ -25,6 +25,7 @@ Scenario load(const std::filesystem::path& file, const LoadOptions& options = {}
 
 /// Checks and converts a document that is already parsed. \param file its stem names the scenario,
 /// its folder is the base of relative paths; it need not exist.
-Scenario load(Value root, const std::filesystem::path& file, const LoadOptions& options = {});
+Scenario load(input::Value root, const std::filesystem::path& file,
+              const LoadOptions& options = {});
 
 }  // namespace lcs::scenario

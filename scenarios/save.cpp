@@ -4,13 +4,13 @@
 
 namespace lcs::scenario {
 
-void put(Value& map, std::string_view key, const Value& value) {
-  Entry& entry = map.entries.emplace_back();
+void put(input::Value& map, std::string_view key, const input::Value& value) {
+  input::Entry& entry = map.entries.emplace_back();
   entry.key = key;
   entry.value = value;
 }
 
-Value document_of(const Scenario& scenario) {
+input::Value document_of(const Scenario& scenario) {
   return written(Plain{}, scenario);
 }
 

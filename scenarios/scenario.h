@@ -16,30 +16,18 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "tools/input/error.h"
+
 namespace lcs::scenario {
-
-/// Source of a value, for errors that appear only later (a body that the scene lacks) but must cite
-/// its line.
-struct Source {
-  std::string file;  ///< or an assignment such as "--set ego.speed=1"
-  int line = 0;      ///< from 1; 0 means the whole file, or an assignment
-};
-
-/// The user's error message: "file:line: problem; remedy", without the line if it is unknown.
-class Error : public std::runtime_error {
- public:
-  Error(const Source& where, const std::string& what_and_remedy);
-};
 
 enum class Drive {
   holonomic,  ///< planar base that follows any velocity command at once, as the paper assumes
   wheeled,    ///< two driven wheels and two casters with contacts; rough ground shakes the camera
-  own,        ///< from a file; its actuators determine which of the two it is (`sim/fragment.h`)
+  own,  ///< from a file; its actuators determine which of the two it is (`sim/scene/fragment.h`)
 };
 
 /// The ego's command from `at_s` until the next phase begins.
@@ -59,15 +47,15 @@ struct Waypoint {
 };
 
 struct Ego {
-  Source source;
+  input::Source source;
   Drive drive = Drive::holonomic;
   std::filesystem::path drive_file;  ///< for `Drive::own`: MJCF file, exists
   Eigen::Vector2d start_m = Eigen::Vector2d::Zero();
   double heading_rad = 0;
   std::vector<EgoPhase> phases;  ///< at least one; the first has time 0, times increase
   /// Replace all phases. At least two, not all at one position; times increase from 0 or later. The
-  /// rover starts at the first waypoint, heading to the next different one; `sim/route.h` describes
-  /// its motion.
+  /// rover starts at the first waypoint, heading to the next different one; `sim/world/route.h`
+  /// describes its motion.
   std::vector<Waypoint> waypoints;
 };
 
@@ -88,7 +76,8 @@ struct Camera {
   } told;
 };
 
-/// Kalibr's noise model with a turn-on bias, see `sim/imu_noise.h`. With all 0 the IMU is ideal.
+/// Kalibr's noise model with a turn-on bias, see `sim/imu/imu_noise.h`. With all 0 the IMU is
+/// ideal.
 struct ImuNoise {
   double gyroscope_noise_density = 0;      ///< rad/s/sqrt(Hz)
   double gyroscope_random_walk = 0;        ///< rad/s^2/sqrt(Hz)
@@ -131,9 +120,9 @@ enum class EgoMotionSource {
   truth,  ///< exact poses, for experiments that state this
 };
 
-/// The imaging of the scene; `sim/photograph.h` has the model. The defaults only add sensor noise
-/// to the rendered image, in which a white surface in daylight is white. Without noise they leave
-/// the image unchanged.
+/// The imaging of the scene; `sim/camera/photograph.h` has the model. The defaults only add sensor
+/// noise to the rendered image, in which a white surface in daylight is white. Without noise they
+/// leave the image unchanged.
 struct Image {
   static constexpr double kDaylight_lx = 10000;  ///< overcast day
   static constexpr double kDaylightExposure_s = 1e-3;
@@ -207,7 +196,7 @@ enum class Shape { box, cylinder, pedestrian, car, own };
 
 struct Actor {
   std::string name;
-  Source source;
+  input::Source source;
   std::optional<std::string>
       body;  ///< moves this body of the scene; absent: adds an actor of `shape`
   Shape shape = Shape::box;
@@ -233,7 +222,7 @@ struct Recorded {
   };
   enum class Split { train, validate, test };
 
-  Source source;
+  input::Source source;
   std::filesystem::path path;  ///< a folder or a video file; exists
   std::string format;          ///< of `kRecordingFormats`; "": detected
   std::string camera;          ///< name of a camera; "": the layout's first
@@ -261,7 +250,7 @@ struct Recorded {
 struct FilterSetting {
   std::string key;    ///< for example "circle.mu_0"
   std::string value;  ///< as written
-  Source source;
+  input::Source source;
 };
 
 /// A bound on a metric of the run. A failed required criterion makes the command exit with 1.
@@ -270,7 +259,7 @@ struct Criterion {
   std::optional<double> min;
   std::optional<double> max;
   bool required = true;
-  Source source;
+  input::Source source;
   std::string detector = {};  ///< name in the run of the tested detector; "": the run's own
 };
 
@@ -278,17 +267,17 @@ struct Criterion {
 struct SweptKey {
   struct Value {
     std::string text;
-    Source source;
+    input::Source source;
   };
   std::string key;  ///< for example "ego.speed"
   std::vector<Value> values;
-  Source source;
+  input::Source source;
 };
 
 /// The generated world (`lcs world`) that a scene was made from. It identifies the world across
 /// scene names, run seeds, scenarios and image sequences.
 struct Origin {
-  Source source = {};
+  input::Source source = {};
   std::string family = {};  ///< "room"
   std::uint64_t seed = 0;   ///< the generator's seed; a run may have another seed
   std::uint64_t again = 0;  ///< number of worlds of this seed that were rejected before this one
@@ -313,7 +302,7 @@ struct Scenario {
   /// then keep their defaults.
   std::optional<Recorded> recording;
   std::filesystem::path scene;  ///< MJCF file, exists
-  Source scene_source;
+  input::Source scene_source;
   std::optional<Origin> origin;  ///< as stated in the scenario file; the scene may state one, too
   std::uint64_t seed = 1;  ///< of all random streams: textures, IMU noise, odometry and others
   int frames = 0;          ///< > 0; for a recording: the most, and 0 for all of its frames
@@ -329,7 +318,7 @@ struct Scenario {
   std::optional<Ground> ground;  ///< absent: the scene's own ground
   std::vector<Actor> actors;
   std::string filter_preset;  ///< "": the filter's default
-  Source filter_preset_source;
+  input::Source filter_preset_source;
   std::vector<FilterSetting> filter;
   std::vector<Criterion> criteria;
   /// The keys that determine sensor data and truth, except for the seed, as written: {"ego.speed",

@@ -7,8 +7,8 @@
 #include <system_error>
 #include <utility>
 
-#include "scenarios/reader.h"
 #include "scenarios/shipped.h"
+#include "tools/input/reader.h"
 
 namespace lcs::scenario {
 
@@ -107,23 +107,24 @@ std::vector<std::string> shadowed_files(const Scenario& scenario) {
   return lines;
 }
 
-fs::path find_scene(const Value& value, const fs::path& folder) {
-  const std::string& text = as_text(value, "scene");
+fs::path find_scene(const input::Value& value, const fs::path& folder) {
+  const std::string& text = input::as_text(value, "scene");
   if (text.ends_with(".xml")) return file_beside(value, folder, "there is no scene file ");
   std::error_code too_long;  // for a name that no file can have
   const fs::path scenes = scenes_folder();
   const fs::path file = scenes / (text + ".xml");
   if (fs::is_regular_file(file, too_long)) return file;
-  throw Error(value.where, "there is no scene '" + text + "' at " + file.string() +
-                               "; give the name of a scene in that folder" + scenes_in(scenes) +
-                               " or a path that ends in .xml");
+  throw input::Error(value.where, "there is no scene '" + text + "' at " + file.string() +
+                                      "; give the name of a scene in that folder" +
+                                      scenes_in(scenes) + " or a path that ends in .xml");
 }
 
-fs::path file_beside(const Value& value, const fs::path& folder, const std::string& missing) {
+fs::path file_beside(const input::Value& value, const fs::path& folder,
+                     const std::string& missing) {
   const fs::path file = folder / value.text;
   std::error_code too_long;  // for a name that no file can have
   if (fs::is_regular_file(file, too_long)) return file;
-  throw Error(value.where, missing + file.string() + "; " + path_remedy(folder));
+  throw input::Error(value.where, missing + file.string() + "; " + path_remedy(folder));
 }
 
 std::string path_remedy(const fs::path& folder) {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/document.h"
 #include "scenarios/scenario.h"
+#include "tools/input/document.h"
 
 namespace lcs::scenario {
 
@@ -34,12 +34,12 @@ std::vector<std::string> shadowed_files(const Scenario& scenario);
 /// The file of a scene, given by name or by a path that ends in ".xml".
 /// \param folder base of a relative path.
 /// \throws Error with the searched folders and the scenes there.
-std::filesystem::path find_scene(const Value& value, const std::filesystem::path& folder);
+std::filesystem::path find_scene(const input::Value& value, const std::filesystem::path& folder);
 
 /// The file that a value names. \param folder base of a relative path.
 /// \param missing start of the message, for example "there is no picture ".
 /// \throws Error if there is no such file.
-std::filesystem::path file_beside(const Value& value, const std::filesystem::path& folder,
+std::filesystem::path file_beside(const input::Value& value, const std::filesystem::path& folder,
                                   const std::string& missing);
 
 /// The remedy in a message about a missing file. \param folder base of a relative path.

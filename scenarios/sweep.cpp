@@ -34,7 +34,7 @@ SweepPoint point_at(const std::vector<SweptKey>& sweep, std::size_t index) {
   return point;
 }
 
-Source source_of(const SweptKey& swept, const std::string& text) {
+input::Source source_of(const SweptKey& swept, const std::string& text) {
   for (const SweptKey::Value& value : swept.values) {
     if (value.text == text) return value.source;
   }
@@ -48,15 +48,17 @@ void check(const std::filesystem::path& file, const std::vector<SweptKey>& sweep
   for (const auto& setting : point.settings) options.sets.push_back(assignment(setting));
   try {
     load(file, options);
-  } catch (const Error& error) {
+  } catch (const input::Error& error) {
     const std::string_view message = error.what();
     for (std::size_t i = 0; i < sweep.size(); ++i) {
       const std::string prefix = "--set " + options.sets[i] + ": ";
       if (!message.starts_with(prefix)) continue;
-      throw Error(source_of(sweep[i], point.settings[i].second),
-                  "sweep." + sweep[i].key + ": " + std::string(message.substr(prefix.size())));
+      throw input::Error(
+          source_of(sweep[i], point.settings[i].second),
+          "sweep." + sweep[i].key + ": " + std::string(message.substr(prefix.size())));
     }
-    throw Error(sweep.front().source, "sweep, at " + text_of(point) + ": " + std::string(message));
+    throw input::Error(sweep.front().source,
+                       "sweep, at " + text_of(point) + ": " + std::string(message));
   }
 }
 
@@ -68,8 +70,9 @@ std::vector<SweepPoint> sweep_points(const std::filesystem::path& file) {
   for (const SweptKey& swept : sweep) {
     count *= swept.values.size();
     if (count > kMostPoints) {
-      throw Error(sweep.front().source, "sweep has more than " + std::to_string(kMostPoints) +
-                                            " points; shorten its lists");
+      throw input::Error(
+          sweep.front().source,
+          "sweep has more than " + std::to_string(kMostPoints) + " points; shorten its lists");
     }
   }
   std::vector<SweepPoint> points;

@@ -4,121 +4,121 @@
 
 #include <algorithm>
 
-#include "scenarios/document.h"
 #include "scenarios/fields.h"
+#include "tools/input/document.h"
 
 namespace lcs::scenario {
 
-inline Value scalar(std::string text) {
-  return {Value::Kind::scalar, {}, std::move(text)};
+inline input::Value scalar(std::string text) {
+  return {input::Value::Kind::scalar, {}, std::move(text)};
 }
-inline Value list(std::vector<Value> items) {
-  Value value(Value::Kind::list, {});
+inline input::Value list(std::vector<input::Value> items) {
+  input::Value value(input::Value::Kind::list, {});
   value.items = std::move(items);
   return value;
 }
-inline Value map() {
-  return {Value::Kind::map, {}};
+inline input::Value map() {
+  return {input::Value::Kind::map, {}};
 }
 /// Adds a key to a map.
-void put(Value& map, std::string_view key, const Value& value);
+void put(input::Value& map, std::string_view key, const input::Value& value);
 
 /// \name A value by its type and form; null if there is nothing to write. Numbers have 12 digits.
 /// Paths are unchanged; a reader resolves relative paths against the file's folder.
 ///@{
-inline Value written(const Quantity& quantity, double number) {
-  return scalar(quantity_text(number, quantity.dimension));
+inline input::Value written(const input::Quantity& quantity, double number) {
+  return scalar(input::quantity_text(number, quantity.dimension));
 }
-inline Value written(const In& form, double number) {
-  return scalar(quantity_text(number, form.quantity.dimension, form.unit));
+inline input::Value written(const In& form, double number) {
+  return scalar(input::quantity_text(number, form.quantity.dimension, form.unit));
 }
 template <std::integral T>
-Value written(const Whole&, T number) {
+input::Value written(const Whole&, T number) {
   return scalar(std::to_string(number));
 }
-inline Value written(Plain, std::uint64_t seed) {
+inline input::Value written(Plain, std::uint64_t seed) {
   return scalar(std::to_string(seed));
 }
-inline Value written(Plain, bool value) {
+inline input::Value written(Plain, bool value) {
   return scalar(value ? "true" : "false");
 }
 template <class Form>
-Value written(const Form&, const std::string& text) {
-  return text.empty() ? Value{} : scalar(text);
+input::Value written(const Form&, const std::string& text) {
+  return text.empty() ? input::Value{} : scalar(text);
 }
 template <class Form>
-Value written(const Form&, const std::filesystem::path& path) {
+input::Value written(const Form&, const std::filesystem::path& path) {
   return written(Plain{}, path.string());
 }
 template <class Enum>
-requires std::is_enum_v<Enum> Value written(const Words& form, Enum value) {
+requires std::is_enum_v<Enum> input::Value written(const Words& form, Enum value) {
   return scalar(form.words[static_cast<std::size_t>(value)]);
 }
 template <class Enum>
-requires std::is_enum_v<Enum> Value written(const OwnFileOr& form, Enum value) {
+requires std::is_enum_v<Enum> input::Value written(const OwnFileOr& form, Enum value) {
   return value == Enum::own ? scalar(form.file.string()) : written(Words{form.words}, value);
 }
-inline Value written(const FramesBefore&, int) {
+inline input::Value written(const FramesBefore&, int) {
   return {};  // `frames` has the value
 }
 template <class Form, class Number, int N>
-Value written(const Form& form, const Eigen::Matrix<Number, N, 1>& vector) {
-  Value items = list({});
+input::Value written(const Form& form, const Eigen::Matrix<Number, N, 1>& vector) {
+  input::Value items = list({});
   for (const Number number : vector) items.items.push_back(written(form, number));
   return items;
 }
-inline Value written(Plain, const Recorded::Distortion& distortion) {
-  Value numbers = list({});
+inline input::Value written(Plain, const Recorded::Distortion& distortion) {
+  input::Value numbers = list({});
   for (const double k : distortion.coefficients) numbers.items.push_back(written(kCoefficient, k));
   if (!distortion.equidistant) return numbers;
-  Value fisheye = map();
+  input::Value fisheye = map();
   put(fisheye, "equidistant", numbers);
   return fisheye;
 }
-inline Value written(Plain, const Waypoint& point) {
+inline input::Value written(Plain, const Waypoint& point) {
   return list({written(kTime, point.at_s), written(kPosition, point.position_m.x()),
                written(kPosition, point.position_m.y())});
 }
-inline Value written(Plain, const TimeSpan& span) {
+inline input::Value written(Plain, const TimeSpan& span) {
   return list({written(kTime, span.from_s), written(kTime, span.to_s)});
 }
 template <HasFields T>
-Value written(Plain, const T& object);
+input::Value written(Plain, const T& object);
 template <class Form, class T>
-Value written(const Form& form, const std::vector<T>& values);
-inline Value written(Plain, const Waypoints& waypoints);
+input::Value written(const Form& form, const std::vector<T>& values);
+inline input::Value written(Plain, const Waypoints& waypoints);
 template <class Form, class T>
-Value written(const Form& form, const std::optional<T>& value) {
+input::Value written(const Form& form, const std::optional<T>& value) {
   if (!value) return {};
-  Value inner = written(form, *value);
-  return inner.kind == Value::Kind::null ? map() : inner;
+  input::Value inner = written(form, *value);
+  return inner.kind == input::Value::Kind::null ? map() : inner;
 }
 template <class Form, class T>
-Value written(const OrWord<Form>& form, const std::optional<T>& value) {
+input::Value written(const OrWord<Form>& form, const std::optional<T>& value) {
   return value ? written(form.form, value) : scalar(std::string(form.word));
 }
 ///@}
 
 /// Collects the keys of a map.
 struct WriteFields {
-  Value& keys;
+  input::Value& keys;
   bool is_default = false;  ///< omit required keys, which have no default
 
   template <class T, class Form = Plain>
   void operator()(const Key& key, const T& member, const Form& form = {}) const {
     const bool is_required = key.without == kRequired;
     if (is_default && (is_required || key.without == kOneOfThese)) return;
-    Value value = written(form, member);
-    if (value.kind == Value::Kind::null && is_required) value = map();
-    if (value.kind != Value::Kind::null) put(keys, key.name, value);
+    input::Value value = written(form, member);
+    if (value.kind == input::Value::Kind::null && is_required) value = map();
+    if (value.kind != input::Value::Kind::null) put(keys, key.name, value);
   }
   void at_most_one_of(std::initializer_list<std::string_view>) const {}
   void exactly_one_of(std::initializer_list<std::string_view>) const {}
   void in_place_of(std::string_view key, std::initializer_list<std::string_view> others) const {
-    const bool is_given =
-        std::ranges::any_of(keys.entries, [&](const Entry& entry) { return entry.key == key; });
+    const bool is_given = std::ranges::any_of(
+        keys.entries, [&](const input::Entry& entry) { return entry.key == key; });
     if (!is_given) return;
-    std::erase_if(keys.entries, [&](const Entry& entry) {
+    std::erase_if(keys.entries, [&](const input::Entry& entry) {
       return std::ranges::find(others, entry.key) != others.end();
     });
   }
@@ -126,8 +126,8 @@ struct WriteFields {
 
 /// All keys that have a value.
 template <HasFields T>
-Value all_keys(T object, bool is_default = false) {
-  Value keys = map();
+input::Value all_keys(T object, bool is_default = false) {
+  input::Value keys = map();
   fields(object, WriteFields{keys, is_default});
   return keys;
 }
@@ -146,59 +146,60 @@ inline Imu default_beside(const Imu& imu) {
 
 /// The keys that differ from their defaults.
 template <HasFields T>
-Value written(Plain, const T& object) {
-  Value keys = all_keys(object);
-  const Value standard = all_keys(default_beside(object), true);
-  std::erase_if(keys.entries, [&](const Entry& entry) {
-    return std::ranges::any_of(standard.entries, [&](const Entry& other) {
-      return other.key == entry.key && line_of(other.value) == line_of(entry.value);
+input::Value written(Plain, const T& object) {
+  input::Value keys = all_keys(object);
+  const input::Value standard = all_keys(default_beside(object), true);
+  std::erase_if(keys.entries, [&](const input::Entry& entry) {
+    return std::ranges::any_of(standard.entries, [&](const input::Entry& other) {
+      return other.key == entry.key && input::line_of(other.value) == input::line_of(entry.value);
     });
   });
-  return keys.entries.empty() ? Value{} : keys;
+  return keys.entries.empty() ? input::Value{} : keys;
 }
 
 template <class Form, class T>
-Value written(const Form& form, const std::vector<T>& values) {
-  Value items = list({});
+input::Value written(const Form& form, const std::vector<T>& values) {
+  input::Value items = list({});
   for (const T& value : values) items.items.push_back(written(form, value));
-  return values.empty() ? Value{} : items;
+  return values.empty() ? input::Value{} : items;
 }
-inline Value written(Plain, const Waypoints& waypoints) {
+inline input::Value written(Plain, const Waypoints& waypoints) {
   return written(Plain{}, waypoints.points);
 }
 
 /// The phases after the first one, which the ego's own keys define. All keys are written, because
 /// each phase inherits those of the phase before.
-inline Value written(Plain, const std::vector<EgoPhase>& phases) {
-  Value items = list({});
+inline input::Value written(Plain, const std::vector<EgoPhase>& phases) {
+  input::Value items = list({});
   for (std::size_t i = 1; i < phases.size(); ++i) items.items.push_back(all_keys(phases[i]));
-  return items.items.empty() ? Value{} : items;
+  return items.items.empty() ? input::Value{} : items;
 }
-inline Value written(Plain, const std::vector<Actor>& actors) {
-  Value names = map();
+inline input::Value written(Plain, const std::vector<Actor>& actors) {
+  input::Value names = map();
   for (const Actor& actor : actors) {
     put(names, actor.name, written(Plain{}, actor));
   }
-  return actors.empty() ? Value{} : names;
+  return actors.empty() ? input::Value{} : names;
 }
-inline Value written(const FilterParameters& form, const std::vector<FilterSetting>& settings) {
-  Value keys = map();
+inline input::Value written(const FilterParameters& form,
+                            const std::vector<FilterSetting>& settings) {
+  input::Value keys = map();
   if (!form.preset.empty()) put(keys, "preset", scalar(form.preset));
   for (const FilterSetting& setting : settings) {
     put(keys, setting.key, scalar(setting.value));
   }
-  return keys.entries.empty() ? Value{} : keys;
+  return keys.entries.empty() ? input::Value{} : keys;
 }
-inline Value written(Plain, const std::vector<SweptKey>& sweep) {
-  Value keys = map();
+inline input::Value written(Plain, const std::vector<SweptKey>& sweep) {
+  input::Value keys = map();
   for (const SweptKey& swept : sweep) {
-    Value values = list({});
+    input::Value values = list({});
     for (const SweptKey::Value& value : swept.values) {
-      values.items.push_back(parse_text(value.text, value.source));
+      values.items.push_back(input::parse_text(value.text, value.source));
     }
     put(keys, swept.key, values);
   }
-  return sweep.empty() ? Value{} : keys;
+  return sweep.empty() ? input::Value{} : keys;
 }
 
 }  // namespace lcs::scenario

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace lcs::sim {
 

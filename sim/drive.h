@@ -18,7 +18,7 @@ struct Drive {
   std::vector<Observation> frames;
 };
 
-/// \throws scenario::Error, PhysicsError
+/// \throws input::Error, PhysicsError
 Drive drive(const scenario::Scenario& scenario);
 
 /// The calibration of a world at t = 0.

@@ -28,7 +28,7 @@ Photographer photographer_of(const scenario::Scenario& s, const Pinhole& camera)
   try {
     return {s.image, camera, s.camera.rate_hz, s.seed};
   } catch (const std::invalid_argument& error) {
-    throw scenario::Error({s.file.string(), 0}, error.what());
+    throw input::Error({s.file.string(), 0}, error.what());
   }
 }
 

@@ -6,11 +6,11 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "sim/camera_renderer.h"
-#include "sim/photograph.h"
-#include "sim/silhouette.h"
+#include "sim/camera/camera_renderer.h"
+#include "sim/camera/photograph.h"
 #include "sim/simulation.h"
-#include "sim/world.h"
+#include "sim/truth/silhouette.h"
+#include "sim/world/world.h"
 
 namespace lcs::sim {
 

@@ -5,17 +5,17 @@
 #include <memory>
 #include <string>
 
-#include "sim/gl_context.h"
+#include "sim/camera/gl_context.h"
 #include "sim/observer.h"
-#include "sim/trial.h"
+#include "sim/scene/trial.h"
 
 namespace lcs::sim {
 
 const scenario::Scenario& require_scene(const scenario::Scenario& scenario) {
   if (!scenario.recording) return scenario;
-  throw scenario::Error(scenario.recording->source,
-                        "these are recorded frames, and there is no world to simulate; give a "
-                        "scenario with a scene");
+  throw input::Error(scenario.recording->source,
+                     "these are recorded frames, and there is no world to simulate; give a "
+                     "scenario with a scene");
 }
 
 struct Simulation::Impl : Observer {

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
-#include "sim/imu.h"
+#include "sim/imu/imu.h"
 #include "sim/pose.h"
-#include "sim/truth.h"
-#include "sim/warnings.h"
+#include "sim/truth/truth.h"
+#include "sim/world/warnings.h"
 
 namespace lcs::sim {
 
@@ -47,7 +47,7 @@ class PhysicsError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// \throws scenario::Error for a scenario of recorded frames: it has no world to simulate.
+/// \throws input::Error for a scenario of recorded frames: it has no world to simulate.
 const scenario::Scenario& require_scene(const scenario::Scenario& scenario);
 
 /// Owns the world and the GL context; use it only from the thread that constructed it. Two runs of
@@ -55,7 +55,7 @@ const scenario::Scenario& require_scene(const scenario::Scenario& scenario);
 class Simulation {
  public:
   /// Loads and checks everything, so that no fault of the scenario can appear later.
-  /// \throws scenario::Error for a fault of the scenario (a body that the scene lacks),
+  /// \throws input::Error for a fault of the scenario (a body that the scene lacks),
   /// std::runtime_error for a fault of the machine (GL that does not start).
   explicit Simulation(const scenario::Scenario& scenario);
   ~Simulation();

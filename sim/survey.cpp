@@ -8,8 +8,8 @@
 #include <set>
 
 #include "sim/observer.h"
-#include "sim/silhouette.h"
-#include "sim/watch.h"
+#include "sim/truth/silhouette.h"
+#include "sim/world/watch.h"
 
 namespace lcs::sim {
 namespace {

@@ -135,11 +135,11 @@ TEST(FilterParameters, AreThePresetWithTheScenariosSettingsOnTop) {
   };
   EXPECT_EQ(mu_0({"filter.preset=lab"}), paper::PaperParameters{}.edge.mu_0);
   EXPECT_EQ(mu_0({"filter.preset=lab", "filter.circle.mu_0=17"}), 17);
-  EXPECT_THROW(load({"filter.preset=best"}), scenario::Error);
-  EXPECT_THROW(load({"filter.circle.mu_0=17"}), scenario::Error);
-  EXPECT_THROW(load({"filter.circle.gap=wide"}), scenario::Error);
+  EXPECT_THROW(load({"filter.preset=best"}), input::Error);
+  EXPECT_THROW(load({"filter.circle.mu_0=17"}), input::Error);
+  EXPECT_THROW(load({"filter.circle.gap=wide"}), input::Error);
   // Each value is in its range, but their order is wrong.
-  EXPECT_THROW(load({"filter.circle.Tr_c=9", "filter.circle.Tr_m=5"}), scenario::Error);
+  EXPECT_THROW(load({"filter.circle.Tr_c=9", "filter.circle.Tr_m=5"}), input::Error);
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "sim/camera_renderer.h"
-#include "sim/gl_context.h"
-#include "sim/mujoco.h"
+#include "sim/camera/camera_renderer.h"
+#include "sim/camera/gl_context.h"
+#include "sim/scene/mujoco.h"
 
 namespace lcs::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace lcs::bench {
 

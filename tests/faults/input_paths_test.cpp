@@ -1,6 +1,7 @@
-// Every file is opened by scenarios/input_file.h, every picture decoded by sim/picture_file.h,
-// every video opened by tools/output/video_reader.h and all JSON parsed by tools/files/json_node.h,
-// so that their limits apply to all input. No other code opens a file.
+// Every file is opened by tools/input/input_file.h, every picture decoded by
+// sim/pictures/picture_file.h, every video opened by tools/output/video_reader.h and all JSON
+// parsed by tools/files/json_node.h, so that their limits apply to all input. No other code opens a
+// file.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -21,10 +22,10 @@ const fs::path kSources = fs::path(LCS_TESTS_DIR).parent_path();
 /// Calls that read a file or decode bytes, and the files that may use them.
 const std::map<std::string, std::set<std::string>> kWays{
     {R"(ifstream|std::fstream|basic_filebuf|std::filebuf|freopen|fopen\([^;]*"r|FileStorage)",
-     {"sim/trial.cpp"}},  // /proc/self/statm
+     {"sim/scene/trial.cpp"}},  // /proc/self/statm
     {R"(::open(at)?\()",
-     {"scenarios/input_file.cpp",
-      "sim/trial.cpp",                // /dev/null
+     {"tools/input/input_file.cpp",
+      "sim/scene/trial.cpp",          // /dev/null
       "tools/lcs/terminal.cpp",       // /dev/null
       "tools/process/child.cpp",      // /dev/null
       "tools/files/output_file.cpp",  // the file to be replaced
@@ -32,13 +33,14 @@ const std::map<std::string, std::set<std::string>> kWays{
       "tools/files/output.cpp",       // a folder, a pipe to write to
       "tools/tune/journal.cpp"}},     // to append
     {R"(imread|imdecode)",
-     {"sim/media.h", "sim/media_module.cpp",                                 // what the others call
-      "sim/picture_file.cpp", "sim/picture_file.h", "sim/photograph.cpp"}},  // its own bytes
-    {R"(VideoCapture[\s(>&]*[a-z]*\()", {"sim/media.h", "sim/media_module.cpp"}},
+     {"sim/pictures/media.h", "sim/pictures/media_module.cpp",  // what the others call
+      "sim/pictures/picture_file.cpp", "sim/pictures/picture_file.h",
+      "sim/camera/photograph.cpp"}},  // its own bytes
+    {R"(VideoCapture[\s(>&]*[a-z]*\()", {"sim/pictures/media.h", "sim/pictures/media_module.cpp"}},
     {R"(media\(\)\.read_video)", {"tools/output/video_reader.cpp"}},
     {R"(\.open\()", {}},
     {R"(LoadFile|mj_loadModel|mj_parse)", {}},
-    {R"(mj_loadXML)", {"sim/model.cpp"}},  // text in memory
+    {R"(mj_loadXML)", {"sim/scene/model.cpp"}},  // text in memory
     {R"([Jj]son::(parse|accept|sax_parse))", {"tools/files/json_node.h"}},
 };
 

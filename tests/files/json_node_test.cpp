@@ -46,8 +46,8 @@ TEST(ParseJson, BracketsInTextsNestNothing) {
 TEST(ParseJson, ToldOfAFileNamesItsLine) {
   const TemporaryFolder folder;
   write(folder.path() / "a.json", "{\"a\": 1,\n\n \"b\": " + lists(100'000) + "}");
-  const std::string told = refusal_of<scenario::Error>([&] {
-    read_json(folder.path() / "a.json", {scenario::kMebibyte, "give another"},
+  const std::string told = refusal_of<input::Error>([&] {
+    read_json(folder.path() / "a.json", {input::kMebibyte, "give another"},
               [](const JsonNode&) { return 0; });
   });
   EXPECT_NE(told.find("a.json:3: lists and objects are nested"), std::string::npos) << told;

@@ -20,11 +20,11 @@
 #include <set>
 #include <thread>
 
-#include "scenarios/inputs_read.h"
 #include "tests/tools/files.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/files/sha256.h"
+#include "tools/input/inputs_read.h"
 
 namespace lcs::bench {
 namespace {
@@ -421,8 +421,8 @@ TEST_F(OutputTest, AnInputIsNoOutputNorIsWhatLiesInsideOrRoundIt) {
   make_result(top_ / "recording", "old");
   write(top_ / "drive" / "poses.txt", "0 0 0");
   const auto before = bytes_in(top_);
-  scenario::note_input(top_ / "recording");
-  scenario::note_input(top_ / "drive" / "poses.txt");
+  input::note_input(top_ / "recording");
+  input::note_input(top_ / "drive" / "poses.txt");
   for (const char* target : {"recording", "recording/deep/run", "drive", ".", "drive/poses.txt"}) {
     EXPECT_NE(refusal(top_ / target).find("which is read"), std::string::npos)
         << target << ": " << refusal(top_ / target);

@@ -72,7 +72,7 @@ void read(const std::filesystem::path& file, const bench::Recording& recording) 
       fuzz::require(a.layers.squares.size() == b.layers.squares.size(), "and boxes do");
       fuzz::require(a.layers.rebel_circles.size() == b.layers.rebel_circles.size(), "and circles");
     }
-  } catch (const scenario::Error& error) {
+  } catch (const input::Error& error) {
     fuzz::require(std::string_view(error.what()).find("detections.csv:") != std::string_view::npos,
                   "an error names file and line");
   }

@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         fuzz::require(std::isfinite(box.left + box.top + box.right + box.bottom), "of numbers");
       }
     }
-  } catch (const scenario::Error& error) {
+  } catch (const input::Error& error) {
     fuzz::require(std::string_view(error.what()).starts_with(file.string() + ":"),
                   "an error begins with the file");
   }

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "scenarios/message.h"
 #include "tests/fuzz/input.h"
+#include "tools/input/message.h"
 #include "tools/output/frame_pictures.h"
 #include "tools/recording/recording_io.h"
 #include "tools/scoring/events.h"
@@ -30,7 +30,7 @@ void read_or_be_refused(const fs::path& folder, Read read) {
   try {
     read();
   } catch (const std::runtime_error& error) {
-    const std::string said = scenario::message_of(error);
+    const std::string said = input::message_of(error);
     fuzz::require(said.starts_with(folder.native()), "a refusal begins with the file");
     fuzz::require(said.find('\n') == said.npos, "a refusal is one line");
   }

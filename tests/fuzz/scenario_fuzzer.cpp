@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require(scenario.frames > 0, "a scenario has frames");
     fuzz::require(scenario.camera.width_px > 0 && scenario.camera.rate_hz > 0,
                   "a scenario has a camera");
-  } catch (const scenario::Error& error) {
+  } catch (const input::Error& error) {
     fuzz::require(std::string_view(error.what()).size() > 8, "an error says something");
   }
   return 0;

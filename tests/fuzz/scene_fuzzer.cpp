@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "scenarios/scenes.h"
-#include "sim/camera_renderer.h"
-#include "sim/world.h"
+#include "sim/camera/camera_renderer.h"
+#include "sim/world/world.h"
 #include "tests/fuzz/input.h"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size)
@@ -182,7 +182,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string said;
   try {
     drive(scenario_in(scene, sum), sum % 16 < 4);
-  } catch (const scenario::Error& error) {
+  } catch (const input::Error& error) {
     said = error.what();
     const bool is_own = said.starts_with(fuzz::work_folder().string());
     if (!is_own && !said.starts_with(scenario::scenes_folder().string())) {

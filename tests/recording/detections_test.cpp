@@ -58,7 +58,7 @@ class DetectionsTest : public testing::Test {
     return read_detections(path_, of);
   }
   std::string error(const std::string& text, const Recording& of = sequence()) {
-    const std::string message = refusal_of<scenario::Error>([&] { detections(text, of); });
+    const std::string message = refusal_of<input::Error>([&] { detections(text, of); });
     const std::string where = path_.string() + ":";
     EXPECT_TRUE(message.starts_with(where)) << message;
     return message.substr(std::min(where.size(), message.size()));
@@ -381,7 +381,7 @@ TEST_F(DetectionsTest, AByteOrderMarkIsNotRead) {
 TEST_F(DetectionsTest, AFileThatCannotBeReadIsNamed) {
   for (const std::filesystem::path& path : {folder_.path() / "none.csv", folder_.path()}) {
     const bool is_folder = path == folder_.path();
-    EXPECT_EQ(refusal_of<scenario::Error>([&] { read_detections(path, sequence()); }),
+    EXPECT_EQ(refusal_of<input::Error>([&] { read_detections(path, sequence()); }),
               fmt::format("{}: {}; name a CSV file of detections", path.string(),
                           is_folder ? "this is a folder" : "there is no such file"));
   }
@@ -534,7 +534,7 @@ TEST_F(DetectionsTest, AnyRowIsRefusedOrKeptStoredReadAndScoredAlike) {
     std::string rows;
     for (int i = 0; i < 30; ++i) {
       const std::string row = any_row(random) + '\n';
-      if (refusal_of<scenario::Error>([&] { detections(rows + row, frames); }) ==
+      if (refusal_of<input::Error>([&] { detections(rows + row, frames); }) ==
           "nothing was refused") {
         rows += row;
         ++kept;

@@ -27,7 +27,7 @@ class LabelsFile : public testing::Test {
   }
   /// The error message after the folder's name.
   std::string refusal(const std::string& text) const {
-    const std::string what = refusal_of<scenario::Error>([&] { labels(text); });
+    const std::string what = refusal_of<input::Error>([&] { labels(text); });
     EXPECT_TRUE(what.starts_with(folder_.path().string())) << what;
     return what.substr(std::min(folder_.path().string().size() + 1, what.size()));
   }
@@ -116,8 +116,8 @@ TEST_F(LabelsFile, WhatIsNoneIsRefusedAtItsLine) {
   for (const auto& [text, expected] : cases) {
     EXPECT_NE(refusal(text).find(expected), std::string::npos) << refusal(text) << "\n" << text;
   }
-  EXPECT_THROW(read_labels(folder_.path() / "nowhere.txt"), scenario::Error);
-  EXPECT_THROW(read_labels(folder_.path()), scenario::Error) << "a folder";
+  EXPECT_THROW(read_labels(folder_.path() / "nowhere.txt"), input::Error);
+  EXPECT_THROW(read_labels(folder_.path()), input::Error) << "a folder";
 }
 
 LabelledBox labelled(double left, double top, double right, double bottom, bool ignored = false) {

@@ -124,7 +124,7 @@ TEST_F(Layouts, KittiRawRefusesACalibrationThatTurnsNothing) {
   for (const char* R : {"0 -1 0 0 0 61 1 0 0", "1 0 0 0 1 0 0 0 -1", "0 0 0 0 0 0 0 0 0"}) {
     write(date / "calib_velo_to_cam.txt", fmt::format("R: {}\nT: 0 -0.08 -0.27\n", R));
     const std::string told =
-        bench::refusal_of<scenario::Error>([&] { read_kitti(asked(drive), false); });
+        bench::refusal_of<input::Error>([&] { read_kitti(asked(drive), false); });
     EXPECT_NE(told.find("calib_velo_to_cam.txt"), told.npos) << R << ": " << told;
     EXPECT_NE(told.find("R is no rotation"), told.npos) << R << ": " << told;
   }
@@ -201,7 +201,7 @@ TEST_F(Layouts, RawPicturesOfRobotCarHaveTheirColours) {
 
 TEST_F(Layouts, AFolderOfNothingKnownIsToldSo) {
   fs::create_directories(home_.path() / "empty");
-  EXPECT_THROW(layout_of(asked(home_.path() / "empty")), scenario::Error);
+  EXPECT_THROW(layout_of(asked(home_.path() / "empty")), input::Error);
 }
 
 TEST_F(Layouts, HaveTheNamesThatScenariosTake) {

@@ -4,9 +4,9 @@
 
 #include <ostream>
 
-#include "scenarios/spelling.h"
 #include "tests/scenarios/scenario_file.h"
 #include "tests/tools/refusal.h"
+#include "tools/input/spelling.h"
 
 namespace lcs::scenario {
 namespace {

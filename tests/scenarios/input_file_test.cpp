@@ -1,5 +1,5 @@
 // Each input must be a regular file of an allowed size; other inputs are reported.
-#include "scenarios/input_file.h"
+#include "tools/input/input_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,5 +1,5 @@
 // A message is one clean line, whatever it quotes.
-#include "scenarios/message.h"
+#include "tools/input/message.h"
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,15 @@ TEST(Message, WhatDoesNotShowIsEscaped) {
   EXPECT_EQ(printable("caf\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80"),
             "caf\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80");
   EXPECT_EQ(printable(std::string_view("\x1b[2J\x00|\x7f|\r", 9)), "\\x1b[2J\\x00|\\x7f|\\x0d");
-  EXPECT_EQ(printable("\xc2\x9b" "31m"), "\\x9b31m") << "a control character of two bytes";
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "31m"),
+            "\\x9b31m")
+      << "a control character of two bytes";
   EXPECT_EQ(printable("a\xff\xc3"), "a\\xff\\xc3") << "no UTF-8";
-  EXPECT_EQ(printable("\xe2\x80\xae" "b"), "\\u202eb") << "from right to left";
+  EXPECT_EQ(printable("\xe2\x80\xae"
+                      "b"),
+            "\\u202eb")
+      << "from right to left";
   EXPECT_EQ(printable("a\tb\nc"), "a\tb\nc");
 }
 
@@ -39,8 +45,8 @@ TEST(Message, IsOneLineThatEndsWithTheRemedy) {
 TEST(Message, OfALibrarySaysWhatToDo) {
   EXPECT_EQ(message_of(std::runtime_error("a: b; c\n")), "a: b; c");
   EXPECT_NE(message_of(std::bad_alloc()).find("not enough memory; "), std::string::npos);
-  const std::filesystem::filesystem_error error(
-      "status", "dir/x", std::make_error_code(std::errc::permission_denied));
+  const std::filesystem::filesystem_error error("status", "dir/x",
+                                                std::make_error_code(std::errc::permission_denied));
   EXPECT_EQ(message_of(error), "dir/x: Permission denied; check the name and its permissions");
   const auto of_system = [](std::errc why, const char* what) {
     return message_of(std::system_error(std::make_error_code(why), what));

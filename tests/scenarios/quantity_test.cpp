@@ -1,4 +1,4 @@
-#include "scenarios/quantity.h"
+#include "tools/input/quantity.h"
 
 #include <gtest/gtest.h>
 

@@ -49,7 +49,7 @@ TEST(Criteria, AnUnknownMetricIsRefusedAtItsLineWithTheNearestOne) {
   EXPECT_NO_THROW(require_known_metrics({criterion("rebel.f1", 0.6, {})}));
   const std::vector<scenario::Criterion> criteria{criterion("rebel.f1", 0.6, {}),
                                                   criterion("rebel.recal", 0.6, {})};
-  EXPECT_EQ(refusal_of<scenario::Error>([&] { require_known_metrics(criteria); }),
+  EXPECT_EQ(refusal_of<input::Error>([&] { require_known_metrics(criteria); }),
             "crossing.yaml:31: no metric is called 'rebel.recal'; did you mean 'rebel.recall'?");
 }
 

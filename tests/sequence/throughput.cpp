@@ -12,8 +12,8 @@
 #include <filesystem>
 
 #include "scenarios/load.h"
-#include "sim/camera_renderer.h"
-#include "sim/world.h"
+#include "sim/camera/camera_renderer.h"
+#include "sim/world/world.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/sequence/generator.h"
 #include "tools/sequence/writer.h"

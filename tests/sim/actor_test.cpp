@@ -1,4 +1,4 @@
-#include "sim/actor.h"
+#include "sim/world/actor.h"
 
 #include <gtest/gtest.h>
 

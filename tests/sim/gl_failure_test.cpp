@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <optional>
 
-#include "sim/camera_renderer.h"
-#include "sim/gl_context.h"
-#include "sim/world.h"
+#include "sim/camera/camera_renderer.h"
+#include "sim/camera/gl_context.h"
+#include "sim/world/world.h"
 #include "tests/sim/support.h"
 #include "tests/tools/refusal.h"
 

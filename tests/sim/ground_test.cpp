@@ -1,6 +1,6 @@
 // Bumps on the floor: their statistics, and their effect on wheels and camera.
 
-#include "sim/ground.h"
+#include "sim/scene/ground.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sim/simulation.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 #include "tests/sim/support.h"
 
 namespace lcs::sim {

@@ -1,4 +1,4 @@
-#include "sim/imu_noise.h"
+#include "sim/imu/imu_noise.h"
 
 #include <gtest/gtest.h>
 

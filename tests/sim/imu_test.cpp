@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 #include "tests/sim/support.h"
 
 namespace lcs::sim {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 #include "tests/sim/support.h"
 
 namespace lcs::sim {

@@ -1,4 +1,4 @@
-#include "sim/mask.h"
+#include "sim/truth/mask.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "sim/truth.h"
+#include "sim/truth/truth.h"
 
 namespace lcs::sim {
 namespace {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "scenarios/load.h"
-#include "sim/silhouette.h"
-#include "sim/world.h"
+#include "sim/truth/silhouette.h"
+#include "sim/world/world.h"
 #include "tests/sim/support.h"
 #include "tests/tools/pictures.h"
 

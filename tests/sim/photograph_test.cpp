@@ -1,6 +1,6 @@
 // Camera effects on a picture: each is compared with its physical law.
 
-#include "sim/photograph.h"
+#include "sim/camera/photograph.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "sim/linear_light.h"
+#include "sim/camera/linear_light.h"
 #include "sim/simulation.h"
 #include "tests/sim/support.h"
 

@@ -1,5 +1,5 @@
 // Sizes read from headers against OpenCV's, and pictures that are rejected before decoding.
-#include "sim/picture_file.h"
+#include "sim/pictures/picture_file.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "sim/camera_renderer.h"
-#include "sim/world.h"
+#include "sim/camera/camera_renderer.h"
+#include "sim/world/world.h"
 #include "tests/sim/support.h"
 #include "tests/tools/refusal.h"
 

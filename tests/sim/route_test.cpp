@@ -1,12 +1,12 @@
 // A rover with waypoints and times: its true places at these times, and its path.
-#include "sim/route.h"
+#include "sim/world/route.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 #include "tests/sim/support.h"
 
 namespace lcs::sim {

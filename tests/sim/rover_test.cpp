@@ -1,11 +1,11 @@
-#include "sim/rover.h"
+#include "sim/world/rover.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 #include "tests/sim/support.h"
 
 namespace lcs::sim {

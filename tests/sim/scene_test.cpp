@@ -10,8 +10,8 @@
 #include <fstream>
 #include <optional>
 
-#include "sim/silhouette.h"
-#include "sim/world.h"
+#include "sim/truth/silhouette.h"
+#include "sim/world/world.h"
 #include "tests/sim/support.h"
 #include "tests/tools/pictures.h"
 

@@ -1,4 +1,4 @@
-#include "sim/silhouette.h"
+#include "sim/truth/silhouette.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/model.h"
+#include "sim/scene/model.h"
 #include "tests/sim/support.h"
 
 namespace lcs::sim {

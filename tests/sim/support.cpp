@@ -7,7 +7,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace lcs::sim::test {
 

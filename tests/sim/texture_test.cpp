@@ -1,4 +1,4 @@
-#include "sim/texture.h"
+#include "sim/scene/texture.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Labels of corners on synthetic frames, whose content is known exactly.
 
-#include "sim/truth.h"
+#include "sim/truth/truth.h"
 
 #include <gtest/gtest.h>
 

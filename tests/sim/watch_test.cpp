@@ -1,11 +1,11 @@
 /// Warnings of the watch over a world, and no warnings in a correct world.
-#include "sim/watch.h"
+#include "sim/world/watch.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "sim/overlap.h"
-#include "sim/world.h"
+#include "sim/world/overlap.h"
+#include "sim/world/world.h"
 #include "tests/sim/support.h"
 
 namespace lcs::sim {
@@ -41,8 +41,7 @@ const std::vector<std::int64_t> kNone(kWarnings.size(), 0);
 
 void expect_told(const Warnings& warnings, Warning warning, const std::string& part) {
   EXPECT_EQ(warnings.of(warning).count, 1);
-  EXPECT_NE(warnings.of(warning).first.find(part), std::string::npos)
-      << warnings.of(warning).first;
+  EXPECT_NE(warnings.of(warning).first.find(part), std::string::npos) << warnings.of(warning).first;
 }
 
 TEST(Watch, TellsOnceWhatTheRoverRunsIntoWithTimeAndPlace) {
@@ -78,8 +77,7 @@ TEST(Watch, TellsActorsThatPassThroughThingsAndTheRover) {
   const Warnings warnings = driven(scenario);
   expect_told(warnings, Warning::rover_collisions, "the rover runs into actor 'car'");
   EXPECT_EQ(warnings.of(Warning::actor_collisions).count, 3);  // walker, car; crate
-  EXPECT_NE(warnings.of(Warning::actor_collisions).first.find("object 'crate'"),
-            std::string::npos);
+  EXPECT_NE(warnings.of(Warning::actor_collisions).first.find("object 'crate'"), std::string::npos);
 }
 
 TEST(Watch, TellsAnActorThatPassesThroughAWallThatIsAPlane) {
@@ -107,8 +105,9 @@ std::string table() {
   };
   std::string vertices, faces;
   int first = 0;
-  for (const Board& board : {Board{{-.5, -.6, .9}, {.5, .6, 1}}, Board{{-.5, -.6, 0}, {.5, -.5, .89}},
-                             Board{{-.5, .5, 0}, {.5, .6, .89}}}) {
+  for (const Board& board :
+       {Board{{-.5, -.6, .9}, {.5, .6, 1}}, Board{{-.5, -.6, 0}, {.5, -.5, .89}},
+        Board{{-.5, .5, 0}, {.5, .6, .89}}}) {
     for (int i = 0; i < 8; ++i) {
       vertices += fmt::format("{} {} {} ", i & 1 ? board.high.x() : board.low.x(),
                               i & 2 ? board.high.y() : board.low.y(),
@@ -120,10 +119,11 @@ std::string table() {
     }
     first += 8;
   }
-  return fmt::format("<body name='table' pos='2 0 0'><geom type='mesh' mesh='table'/></body>"
-                     "</worldbody><asset><mesh name='table' vertex='{}' face='{}'/></asset>"
-                     "<worldbody>",
-                     vertices, faces);
+  return fmt::format(
+      "<body name='table' pos='2 0 0'><geom type='mesh' mesh='table'/></body>"
+      "</worldbody><asset><mesh name='table' vertex='{}' face='{}'/></asset>"
+      "<worldbody>",
+      vertices, faces);
 }
 
 TEST(Watch, AMeshIsItsSurfaceAndNotItsHull) {

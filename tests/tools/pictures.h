@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/media.h"
+#include "sim/pictures/media.h"
 #include "tests/tools/files.h"
 
 namespace lcs::bench {

@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "scenarios/load.h"
-#include "sim/model.h"
-#include "sim/picture_file.h"
+#include "sim/pictures/picture_file.h"
+#include "sim/scene/model.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"

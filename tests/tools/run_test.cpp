@@ -10,7 +10,7 @@
 #include <set>
 #include <thread>
 
-#include "sim/picture_file.h"
+#include "sim/pictures/picture_file.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"

@@ -13,7 +13,7 @@
 
 #include "scenarios/load.h"
 #include "sim/drive.h"
-#include "sim/mujoco.h"
+#include "sim/scene/mujoco.h"
 #include "sim/simulation.h"
 #include "tests/tools/files.h"
 #include "tests/tools/pictures.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "scenarios/spelling.h"
+#include "tools/input/spelling.h"
 
 namespace lcs::bench {
 
@@ -52,7 +52,7 @@ std::string unknown_key(const std::string& key, const std::string& own_preset,
   }
   if (others.empty()) {
     return fmt::format("the filter has no parameter '{}'; the nearest is '{}'", key,
-                       scenario::nearest_first(key, known).front());
+                       input::nearest_first(key, known).front());
   }
   return fmt::format(
       "the filter of preset {} has no parameter '{}', which is of {}; choose one of these by "
@@ -63,11 +63,11 @@ std::string unknown_key(const std::string& key, const std::string& own_preset,
 }  // namespace
 
 AnyParameters filter_parameters(const scenario::Scenario& scenario) {
-  const auto at = [](const scenario::Source& source, auto&& use) {
+  const auto at = [](const input::Source& source, auto&& use) {
     try {
       return use();
     } catch (const std::invalid_argument& error) {
-      throw scenario::Error(source, error.what());
+      throw input::Error(source, error.what());
     }
   };
   const std::string name = scenario.filter_preset.empty() ? "default" : scenario.filter_preset;
@@ -75,12 +75,12 @@ AnyParameters filter_parameters(const scenario::Scenario& scenario) {
   const std::vector<std::string> known = keys_of(parameters);
   for (const scenario::FilterSetting& setting : scenario.filter) {
     if (std::find(known.begin(), known.end(), setting.key) == known.end()) {
-      throw scenario::Error(setting.source, unknown_key(setting.key, name, known));
+      throw input::Error(setting.source, unknown_key(setting.key, name, known));
     }
     at(setting.source, [&] { set(parameters, setting.key, setting.value); });
   }
   // Each value is in its range here; combinations may still be invalid.
-  const scenario::Source& last =
+  const input::Source& last =
       scenario.filter.empty() ? scenario.filter_preset_source : scenario.filter.back().source;
   at(last, [&] { validate(parameters); });
   return parameters;

@@ -107,7 +107,7 @@ class LcsDetector : public Detector {
 };
 
 /// The scenario's preset, modified by its settings.
-/// \throws scenario::Error at the line of an unknown preset or key, or an invalid value.
+/// \throws input::Error at the line of an unknown preset or key, or an invalid value.
 AnyParameters filter_parameters(const scenario::Scenario& scenario);
 
 }  // namespace lcs::bench

@@ -15,7 +15,7 @@
 #include <thread>
 #include <utility>
 
-#include "scenarios/message.h"
+#include "tools/input/message.h"
 #include "tools/process/child.h"
 
 namespace lcs::comparators {

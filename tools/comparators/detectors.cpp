@@ -143,7 +143,7 @@ std::vector<std::string> apply_preset(const DetectorSpec& spec, scenario::Scenar
   bench::filter_parameters(scenario);  // throws for invalid settings, even unused ones
   std::vector<std::string> lines;
   if (spec.preset.empty()) return lines;
-  const auto leave_out = [&](std::string_view key, const scenario::Source& where) {
+  const auto leave_out = [&](std::string_view key, const input::Source& where) {
     if (!where.file.starts_with("--set ")) return;
     lines.push_back(
         fmt::format("filter.{} has no effect with {}, which is the preset alone", key, spec.name));

@@ -22,7 +22,7 @@ struct DetectorKind {
   std::string_view purpose;    ///< one human-readable line
   bool layered = false;        ///< as `bench::DetectorInfo::layered`
   bool sees_pictures = false;  ///< uses pictures besides corners and motion
-  /// Null for an external detector. \throws scenario::Error for parameters that the detector does
+  /// Null for an external detector. \throws input::Error for parameters that the detector does
   /// not accept.
   std::unique_ptr<bench::Detector> (*make)(const Intrinsics& camera,
                                            const scenario::Scenario& scenario);
@@ -61,7 +61,7 @@ struct DetectorContext {
   std::function<void()> on_wait = {};          ///< as in `DetectorProcess`
 };
 
-/// \throws scenario::Error, DetectorError, std::runtime_error.
+/// \throws input::Error, DetectorError, std::runtime_error.
 std::unique_ptr<bench::Detector> make(const DetectorSpec& spec, const DetectorContext& context);
 
 /// Replaces the scenario's filter settings by the spec's preset, if it has one. A preset for

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "scenarios/message.h"
 #include "tools/files/json_node.h"
+#include "tools/input/message.h"
 #include "tools/recording/recording_io.h"
 
 namespace lcs::comparators {
@@ -20,7 +20,7 @@ using Json = nlohmann::json;
 constexpr std::string_view kIndex = "index", kCircle = "circle", kMask = "mask";
 
 Json parsed(const std::string& line) {
-  const std::string shown = scenario::one_line(std::string_view(line).substr(0, 200));
+  const std::string shown = input::one_line(std::string_view(line).substr(0, 200));
   constexpr const char* kRemedy = "write one object of JSON in a line, and nothing else";
   try {
     Json json = bench::parse_json<Json>(line);
@@ -104,7 +104,7 @@ void ProgramDetector::greet(const Announced& announced) {
   if (protocol == greeting.end() || *protocol != kProtocol) {
     throw DetectorError(fmt::format(
         "it does not say {{\"protocol\": {0}}}, but '{1}'; speak protocol {0} (PROTOCOL.md)",
-        kProtocol, scenario::one_line(text_of(greeting).substr(0, 200))));
+        kProtocol, input::one_line(text_of(greeting).substr(0, 200))));
   }
   if (const auto circles = greeting.find("circles"); circles != greeting.end()) {
     if (!circles->is_boolean()) {

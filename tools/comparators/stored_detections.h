@@ -14,7 +14,7 @@ namespace lcs::comparators {
 class StoredDetections : public bench::Detector {
  public:
   /// \param sequence with the frames that will be processed, in order.
-  /// \throws scenario::Error naming file and line.
+  /// \throws input::Error naming file and line.
   StoredDetections(const std::filesystem::path& csv, const bench::Recording& sequence)
       : said_(bench::read_detections(csv, sequence)) {}
 

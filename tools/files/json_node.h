@@ -17,8 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "scenarios/input_file.h"
-#include "scenarios/message.h"
+#include "tools/input/input_file.h"
+#include "tools/input/message.h"
 
 namespace lcs::bench {
 
@@ -51,14 +51,14 @@ Json parse_json(std::string_view text) {
   }
 }
 
-/// \param where the text begins. \throws scenario::Error with `remedy` after the ';'.
+/// \param where the text begins. \throws input::Error with `remedy` after the ';'.
 template <class Json>
-Json parse_json(std::string_view text, const scenario::Source& where, std::string_view remedy) {
+Json parse_json(std::string_view text, const input::Source& where, std::string_view remedy) {
   try {
     return parse_json<Json>(text);
   } catch (const JsonError& error) {
-    throw scenario::Error({where.file, where.line + error.lines},
-                          fmt::format("{}; {}", error.what(), remedy));
+    throw input::Error({where.file, where.line + error.lines},
+                       fmt::format("{}; {}", error.what(), remedy));
   }
 }
 
@@ -150,7 +150,7 @@ class JsonNode {
     if (condition) return;
     const std::string_view place = path_.empty() ? "the file" : std::string_view(path_);
     // A NUL byte would end the message.
-    throw Error(scenario::printable(fmt::format("{} is not {}", place, what)));
+    throw Error(input::printable(fmt::format("{} is not {}", place, what)));
   }
 
  private:
@@ -159,20 +159,20 @@ class JsonNode {
 };
 
 /// Parses a file and returns `use(node)` of its root.
-/// \throws scenario::Error "FILE: fault; remedy", with the remedy of `kind`.
+/// \throws input::Error "FILE: fault; remedy", with the remedy of `kind`.
 template <class Use>
 std::invoke_result_t<Use, JsonNode> read_json(const std::filesystem::path& file,
-                                              const scenario::FileKind& kind, const Use& use) {
+                                              const input::FileKind& kind, const Use& use) {
   const auto json =
-      parse_json<JsonNode::Json>(scenario::read_file(file, kind), {file.string(), 1}, kind.remedy);
+      parse_json<JsonNode::Json>(input::read_file(file, kind), {file.string(), 1}, kind.remedy);
   try {
     return use(JsonNode(json, ""));
   } catch (const JsonNode::Error& error) {
-    throw scenario::Error({file.string(), 0}, fmt::format("{}; {}", error.what(), kind.remedy));
+    throw input::Error({file.string(), 0}, fmt::format("{}; {}", error.what(), kind.remedy));
   }
 }
 
 /// Size limit for files of figures, events or settings. Parsed, they take ten times as much memory.
-inline constexpr std::uint64_t kMostJsonBytes = 256 * scenario::kMebibyte;
+inline constexpr std::uint64_t kMostJsonBytes = 256 * input::kMebibyte;
 
 }  // namespace lcs::bench

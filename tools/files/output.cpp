@@ -15,9 +15,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "scenarios/inputs_read.h"
-#include "scenarios/message.h"
 #include "tools/files/written.h"
+#include "tools/input/inputs_read.h"
+#include "tools/input/message.h"
 
 namespace lcs::bench {
 namespace {
@@ -166,7 +166,7 @@ void in_second_process(const std::function<void()>& work) {
     try {
       work();
     } catch (const std::exception& error) {
-      problem = scenario::message_of(error);
+      problem = input::message_of(error);
     }
     // A message is shorter than the buffer of a pipe, so that this does not wait.
     const ssize_t written = ::write(ends[1], problem.data(), problem.size());
@@ -237,7 +237,7 @@ fs::path output_path(const fs::path& named) {
     throw OutputError(
         fmt::format("{} is a link, which is not followed; name the place itself", named.string()));
   }
-  for (const fs::path& input : scenario::inputs_read()) {
+  for (const fs::path& input : input::inputs_read()) {
     const fs::path read = fs::weakly_canonical(input, error);
     if (is_within(read, path)) {
       throw OutputError(fmt::format("{} {} {}, which is read; choose another place", named.string(),

@@ -3,7 +3,7 @@
 ///
 /// Two kinds: *geometric* points, an image grid at each of several depths, whose truth is the
 /// pinhole projection; and *rendered* points, the FAST corners of a rendered frame with MuJoCo's
-/// depth, whose truth is the simulator's (`sim/truth.h`).
+/// depth, whose truth is the simulator's (`sim/truth/truth.h`).
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "sim/pose.h"
-#include "sim/truth.h"
+#include "sim/truth/truth.h"
 #include "tools/kinematics/models.h"
 
 namespace lcs::kinematics {

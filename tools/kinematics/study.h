@@ -34,7 +34,7 @@ int study_pieces(const StudyConfig& config);
 /// Deterministic: equal configurations give equal bits with any number of cores.
 /// \param tick called from this thread with the number of pieces just done; its exceptions end the
 ///   study.
-/// \throws scenario::Error, sim::PhysicsError, std::runtime_error
+/// \throws input::Error, sim::PhysicsError, std::runtime_error
 Study carry_out(const StudyConfig& config, const Tick& tick);
 
 }  // namespace lcs::kinematics

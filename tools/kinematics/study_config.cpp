@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/imu_noise.h"
+#include "sim/imu/imu_noise.h"
 #include "tools/bench/detector.h"
 
 namespace lcs::kinematics {

@@ -38,7 +38,7 @@ struct StudyConfig {
   Eigen::Vector3d step_C_m() const { return speed_mps * frame_s() * forward_C; }
 };
 
-/// \throws scenario::Error for an invalid filter setting.
+/// \throws input::Error for an invalid filter setting.
 StudyConfig configure(const scenario::Scenario& scenario, const Effort& effort);
 
 /// \name Scenarios made from the configured one.

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "scenarios/message.h"
+#include "tools/input/message.h"
 #include "tools/lcs/terminal.h"
 #include "tools/suite/comparison.h"
 #include "tools/suite/pattern.h"
@@ -33,8 +33,8 @@ Exit codes:
 void print_suite(const char* when, const std::string& path, const suite::SuiteResult& suite) {
   print_out(
       "{} {}: {}\n", when, path,
-      scenario::one_line(fmt::format("{}{}{}", suite.detector, suite.sets.empty() ? "" : " with ",
-                                     fmt::join(suite.sets, ", "))));
+      input::one_line(fmt::format("{}{}{}", suite.detector, suite.sets.empty() ? "" : " with ",
+                                  fmt::join(suite.sets, ", "))));
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ ExitCode compare(const CompareOptions& options) {
   }
   print_suite("before", options.before, before);
   print_suite("after ", options.after, after);
-  print_out("{}", scenario::printable(suite::text_of(comparison, options.all)));
+  print_out("{}", input::printable(suite::text_of(comparison, options.all)));
   print_out("{}\n", suite::verdict_of({after, {}}, nullptr, &comparison).line);
   return comparison.has_regressed() ? kRegressed : kFine;
 }

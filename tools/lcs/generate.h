@@ -31,7 +31,7 @@ struct GenerateOptions {
 /// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_generate_command(CLI::App& app, GenerateOptions& options);
 
-/// \throws scenario::Error, bench::OutputError, sequence::TruthError, sim::PhysicsError,
+/// \throws input::Error, bench::OutputError, sequence::TruthError, sim::PhysicsError,
 ///   std::exception. Complete frames are kept, and the same command resumes after them.
 ExitCode generate(const GenerateOptions& options);
 

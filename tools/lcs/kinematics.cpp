@@ -47,7 +47,7 @@ Exit codes:
   130  interrupted (Ctrl-C): likewise
 )";
 
-constexpr scenario::Quantity kTolerance{scenario::Dimension::pixels, {0, 1000, true}};
+constexpr input::Quantity kTolerance{input::Dimension::pixels, {0, 1000, true}};
 
 }  // namespace
 

@@ -22,7 +22,7 @@ struct KinematicsOptions {
 /// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_kinematics_command(CLI::App& app, KinematicsOptions& options);
 
-/// \throws scenario::Error, bench::OutputError, sim::PhysicsError, Interrupted, std::exception;
+/// \throws input::Error, bench::OutputError, sim::PhysicsError, Interrupted, std::exception;
 ///   then no output is written, and earlier output is unchanged.
 ExitCode kinematics(const KinematicsOptions& options);
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/message.h"
+#include "tools/input/message.h"
 #include "tools/lcs/compare.h"
 #include "tools/lcs/exit_codes.h"
 #include "tools/lcs/generate.h"
@@ -140,6 +140,6 @@ int main(int argc, char** argv) {
   } catch (const cv::Exception& error) {
     return fail(error.code == cv::Error::StsNoMem ? kNoMemory : error.what());
   } catch (const std::exception& error) {
-    return fail(lcs::scenario::message_of(error));
+    return fail(lcs::input::message_of(error));
   }
 }

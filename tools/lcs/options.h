@@ -12,26 +12,26 @@
 #include <utility>
 #include <vector>
 
-#include "scenarios/reader.h"
 #include "tools/files/output.h"
+#include "tools/input/reader.h"
 
 namespace lcs::tools {
 
 /// Converts an option's text to a scenario value.
-inline scenario::Value option_value(const std::string& name, const std::string& text) {
-  return {scenario::Value::Kind::scalar, {name, 0}, text};
+inline input::Value option_value(const std::string& name, const std::string& text) {
+  return {input::Value::Kind::scalar, {name, 0}, text};
 }
 
 /// \param name such as "--seeds". \param out an integer or an optional of one.
-/// Parsing throws scenario::Error.
+/// Parsing throws input::Error.
 template <class Out>
 CLI::Option* add_integer_option(CLI::App& command, const std::string& name, Out& out,
                                 const std::string& about, std::int64_t low, std::int64_t high) {
   return command.add_option_function<std::string>(
       name,
       [=, &out](const std::string& text) {
-        out = static_cast<int>(
-            scenario::as_integer(option_value(name, text), "the number", low, high));
+        out =
+            static_cast<int>(input::as_integer(option_value(name, text), "the number", low, high));
       },
       about);
 }
@@ -44,7 +44,7 @@ void add_seed_option(CLI::App& command, Seed& seed,
       .add_option_function<std::string>(
           "--seed",
           [&seed](const std::string& text) {
-            seed = scenario::as_seed(option_value("--seed", text), "the seed");
+            seed = input::as_seed(option_value("--seed", text), "the seed");
           },
           about)
       ->type_name("N");
@@ -53,12 +53,12 @@ void add_seed_option(CLI::App& command, Seed& seed,
 /// Adds an option for a number with or without a unit. \param out in SI units, or an optional.
 template <class Out>
 CLI::Option* add_quantity_option(CLI::App& command, const std::string& name,
-                                 const scenario::Quantity& quantity, Out& out,
+                                 const input::Quantity& quantity, Out& out,
                                  const std::string& about) {
   return command.add_option_function<std::string>(
       name,
       [=, &out](const std::string& text) {
-        out = scenario::as_quantity(option_value(name, text), "the number", quantity);
+        out = input::as_quantity(option_value(name, text), "the number", quantity);
       },
       about);
 }

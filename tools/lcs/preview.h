@@ -25,7 +25,7 @@ struct PreviewOptions {
 /// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_preview_command(CLI::App& app, PreviewOptions& options);
 
-/// \throws scenario::Error, bench::OutputError, std::exception; then no page is written.
+/// \throws input::Error, bench::OutputError, std::exception; then no page is written.
 ExitCode preview(const PreviewOptions& options);
 
 }  // namespace lcs::tools

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "scenarios/message.h"
+#include "tools/input/message.h"
 #include "tools/lcs/terminal.h"
 
 namespace lcs::tools {
@@ -19,7 +19,7 @@ constexpr const char* kWipe = "\r\x1b[K";
 }  // namespace
 
 Progress::Progress(std::string name, int total, bool quiet, std::string unit)
-    : name_(scenario::one_line(name)),
+    : name_(input::one_line(name)),
       total_(total),
       unit_(std::move(unit)),
       style_(quiet                     ? Style::none

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "scenarios/document.h"
 #include "scenarios/load.h"
 #include "tools/files/csv.h"
 #include "tools/files/output.h"
+#include "tools/input/document.h"
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/run.h"
@@ -43,7 +43,7 @@ lcs generate that has truth.jsonl (--formats landmarks, or all) is scored as its
 )";
 
 namespace fs = std::filesystem;
-using scenario::Value;
+using input::Value;
 
 /// An option that is a key of `recording`. The scenario loader checks its value.
 struct KeyOption {
@@ -97,11 +97,11 @@ Value list_of(const std::string& flag, const std::string& text) {
 /// Sets a key of the map: replaces its value or appends a new entry.
 void put(Value& map, const std::string& key, Value value) {
   const auto found = std::find_if(map.entries.begin(), map.entries.end(),
-                                  [&](const scenario::Entry& entry) { return entry.key == key; });
+                                  [&](const input::Entry& entry) { return entry.key == key; });
   if (found != map.entries.end()) {
     found->value = std::move(value);
   } else {
-    const scenario::Source where = value.where;
+    const input::Source where = value.where;
     map.entries.push_back({key, where, std::move(value)});
   }
 }
@@ -162,7 +162,7 @@ std::string name_of(const fs::path& path) {
 
 /// Makes all paths absolute, because a scenario's paths are relative to its file.
 void make_absolute(Value& recording) {
-  for (scenario::Entry& entry : recording.entries) {
+  for (input::Entry& entry : recording.entries) {
     for (const char* key : {"path", "poses", "imu", "odometry", "mask", "labels"}) {
       if (entry.key == key) entry.value.text = fs::absolute(entry.value.text).lexically_normal();
     }
@@ -170,10 +170,10 @@ void make_absolute(Value& recording) {
 }
 
 void write_scenario(Value document, bench::Output&& file) {
-  for (scenario::Entry& entry : document.entries) {
+  for (input::Entry& entry : document.entries) {
     if (entry.key == "recording") make_absolute(entry.value);
   }
-  bench::write_file(file.staging(), scenario::yaml_text(document) + "\n");
+  bench::write_file(file.staging(), input::yaml_text(document) + "\n");
   file.commit();
 }
 

@@ -38,7 +38,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario);
 /// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_run_command(CLI::App& app, RunOptions& options);
 
-/// \throws scenario::Error, bench::OutputError, sim::PhysicsError, Interrupted, std::exception;
+/// \throws input::Error, bench::OutputError, sim::PhysicsError, Interrupted, std::exception;
 ///   then no output is written, and earlier output is unchanged.
 ExitCode run(const RunOptions& options);
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "scenarios/message.h"
 #include "tools/files/output.h"
+#include "tools/input/message.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
@@ -125,9 +125,9 @@ ExitCode score(const ScoreOptions& options) {
   bench::commit_all(outputs);
   if (!options.quiet) {
     print_out("{}\n{}",
-              scenario::one_line(fmt::format("{} by {}: {} frames, seed {}", recording.scenario,
-                                             recording.detector.name, recording.frames.size(),
-                                             recording.seed)),
+              input::one_line(fmt::format("{} by {}: {} frames, seed {}", recording.scenario,
+                                          recording.detector.name, recording.frames.size(),
+                                          recording.seed)),
               bench::table(metrics));
   }
   return kFine;

@@ -21,7 +21,7 @@ struct ScoreOptions {
 /// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_score_command(CLI::App& app, ScoreOptions& options);
 
-/// \throws scenario::Error, bench::OutputError, std::exception.
+/// \throws input::Error, bench::OutputError, std::exception.
 ExitCode score(const ScoreOptions& options);
 
 }  // namespace lcs::tools

@@ -11,13 +11,13 @@
 #include <thread>
 #include <utility>
 
-#include "scenarios/inputs_read.h"
-#include "scenarios/message.h"
 #include "scenarios/scenes.h"
 #include "tools/bench/detector.h"
 #include "tools/comparators/detectors.h"
 #include "tools/files/output.h"
 #include "tools/files/output_file.h"
+#include "tools/input/inputs_read.h"
+#include "tools/input/message.h"
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
@@ -136,7 +136,7 @@ std::vector<std::string> seldom_meant(const std::vector<suite::PlannedScenario>&
     try {
       scenario::Scenario scenario = *planned.scenario;
       add(comparators::apply_preset(spec, scenario));
-    } catch (const scenario::Error&) {
+    } catch (const input::Error&) {
     }
   }
   return lines;
@@ -147,9 +147,9 @@ void print_changes(const suite::Verdict& verdict, const suite::Comparison& compa
                    const std::string& baseline) {
   print_out("Against {}:\n", baseline);
   for (const std::string& what : comparison.incomparable) {
-    print_out("not compared: {}\n", scenario::printable(what));
+    print_out("not compared: {}\n", input::printable(what));
   }
-  print_out("{}", scenario::printable(suite::text_of(verdict)));
+  print_out("{}", input::printable(suite::text_of(verdict)));
 }
 
 /// The suite's own detector and those of `--beside`. \throws std::invalid_argument for duplicates.
@@ -184,7 +184,7 @@ void require_detections(const fs::path& folder, const std::vector<suite::Planned
         fmt::format("--detections {} is no folder; name one that holds {} for each run",
                     folder.string(), suite::detections_of("SCENARIO", 1).string()));
   }
-  scenario::note_input(folder);
+  input::note_input(folder);
   std::vector<std::string> missing;
   for (const suite::PlannedScenario& planned : plan) {
     if (!planned.scenario) continue;

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "scenarios/message.h"
+#include "tools/input/message.h"
 #include "tools/lcs/terminal.h"
 #include "tools/scoring/metrics.h"
 #include "tools/suite/summary.h"
@@ -77,7 +77,7 @@ void SuiteProgress::show(const suite::SuiteProgress& progress) {
   std::string line = fmt::format("[{}/{}]", progress.done, progress.total);
   if (progress.left_s) line += fmt::format(" {:.0f} s left,", *progress.left_s);
   line += fmt::format(" running {}", fmt::join(progress.running, ", "));
-  line = scenario::one_line(line);
+  line = input::one_line(line);
   print_err("{}", line.substr(0, terminal_width() - 1));
   std::fflush(stderr);
   is_shown_ = true;

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "scenarios/load.h"
-#include "sim/picture_file.h"
+#include "sim/pictures/picture_file.h"
 #include "tools/files/output_file.h"
 #include "tools/files/written.h"
 #include "tools/lcs/interrupt.h"
@@ -57,7 +57,7 @@ void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
     cv::Mat3b above;
     try {
       above = sim::read_picture(plan, {plan.string(), 0}, cv::IMREAD_COLOR);
-    } catch (const scenario::Error& error) {  // keep the runs without this picture
+    } catch (const input::Error& error) {  // keep the runs without this picture
       warn({error.what()});
     }
     const auto bytes = sim::encode_jpeg(worlds::contact_sheet(*shots, above, kColumns), kQuality);
@@ -124,7 +124,7 @@ void add_origins(suite::SuiteResult& result) {
       const scenario::Origin origin =
           scenario::load(scenario.file).origin.value_or(scenario::Origin{});
       scenario.drawn = {origin.family, origin.again, origin.features};
-    } catch (const scenario::Error&) {  // the runs have reported it
+    } catch (const input::Error&) {  // the runs have reported it
     }
   }
 }

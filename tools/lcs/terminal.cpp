@@ -11,8 +11,8 @@
 #include <cstdio>
 #include <iostream>
 
-#include "scenarios/message.h"
 #include "tools/files/output_file.h"
+#include "tools/input/message.h"
 #include "tools/lcs/interrupt.h"
 
 namespace lcs::tools {
@@ -73,7 +73,7 @@ void write_err(const std::string& text) {
 }
 
 void tell(std::string_view message) {
-  write_err(scenario::one_line(message) + '\n');
+  write_err(input::one_line(message) + '\n');
 }
 
 void warn(const std::vector<std::string>& lines) {

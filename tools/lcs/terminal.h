@@ -21,7 +21,7 @@ void write_out(const std::string& text);
 /// Writes to standard error and ignores failures.
 void write_err(const std::string& text);
 
-/// Writes the message to standard error as one printable line (`scenario::one_line`).
+/// Writes the message to standard error as one printable line (`input::one_line`).
 void tell(std::string_view message);
 /// Prints each warning on a line of standard error.
 void warn(const std::vector<std::string>& lines);

@@ -13,11 +13,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "scenarios/input_file.h"
-#include "scenarios/message.h"
 #include "tools/bench/detector.h"
 #include "tools/files/output.h"
 #include "tools/files/sha256.h"
+#include "tools/input/input_file.h"
+#include "tools/input/message.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
@@ -72,7 +72,7 @@ Exit codes:
 std::string line_of(const std::vector<std::string>& texts) {
   std::string line;
   for (const std::string& text : texts) {
-    line += (line.empty() ? "" : " ") + scenario::one_line(text);
+    line += (line.empty() ? "" : " ") + input::one_line(text);
   }
   return line.empty() ? "none" : line;
 }
@@ -87,7 +87,7 @@ std::string about(std::vector<std::string> names, const tune::Trials& trials) {
     last = std::max(last, run.scenario);
   }
   return fmt::format("{}, {} runs, {} to {}", line_of(names), trials.runs().size(),
-                     scenario::one_line(first), scenario::one_line(last));
+                     input::one_line(first), input::one_line(last));
 }
 
 /// The default parameters with these settings applied.
@@ -117,10 +117,10 @@ void require_different(const TuneOptions& options) {
 /// The facts that determine the figures of a journal.
 std::vector<tune::Fact> facts_of(const TuneOptions& options, const tune::Trials& trials,
                                  const tune::SearchOptions& search) {
-  constexpr scenario::FileKind kProgram{scenario::kGibibyte, "start lcs by its path"};
+  constexpr input::FileKind kProgram{input::kGibibyte, "start lcs by its path"};
   std::vector<tune::Fact> facts{
       {"program", fmt::format("{}, SHA-256 {}", program_text(),
-                              bench::sha256(scenario::read_file("/proc/self/exe", kProgram)))},
+                              bench::sha256(input::read_file("/proc/self/exe", kProgram)))},
       {"recordings", fmt::format("SHA-256 {}", trials.digest())},
       {"suites", about(options.suites, trials)},
       {"settings", line_of(options.sets)}};

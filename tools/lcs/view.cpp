@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim/media.h"
-#include "sim/trial.h"
+#include "sim/pictures/media.h"
+#include "sim/scene/trial.h"
 #include "tools/lcs/interrupt.h"
 
 namespace lcs::tools {

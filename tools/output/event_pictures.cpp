@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "sim/picture_file.h"
+#include "sim/pictures/picture_file.h"
 #include "tools/scoring/score_rebels.h"
 
 namespace lcs::bench {

@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
-#include "scenarios/input_file.h"
-#include "sim/picture_file.h"
+#include "sim/pictures/picture_file.h"
 #include "tools/files/output_file.h"
+#include "tools/input/input_file.h"
 
 namespace lcs::bench {
 namespace {
@@ -39,8 +39,8 @@ void FramePictures::add(const cv::Mat3b& image) {
 
 FramePictures FramePictures::read(const std::filesystem::path& file, cv::Size image_px) {
   // At 40 kB a picture, enough for hundreds of thousands of frames.
-  constexpr scenario::FileKind kMotionJpeg{16 * scenario::kGibibyte, kRecordAgain};
-  const std::string bytes = scenario::read_file(file, kMotionJpeg);
+  constexpr input::FileKind kMotionJpeg{16 * input::kGibibyte, kRecordAgain};
+  const std::string bytes = input::read_file(file, kMotionJpeg);
   FramePictures pictures;
   pictures.scale_ = kept_scale(image_px.width);
   const cv::Size2l expected(cvRound(image_px.width * pictures.scale_),
@@ -48,14 +48,14 @@ FramePictures FramePictures::read(const std::filesystem::path& file, cv::Size im
   for (std::size_t start = 0; start < bytes.size();) {
     const std::size_t end = bytes.find(kJpegEnd, start);
     if (bytes.compare(start, kJpegStart.size(), kJpegStart) != 0 || end == std::string::npos) {
-      throw scenario::Error({file.string(), 0}, "not a JPEG picture at byte " +
-                                                    std::to_string(start) + "; " + kRecordAgain);
+      throw input::Error({file.string(), 0}, "not a JPEG picture at byte " + std::to_string(start) +
+                                                 "; " + kRecordAgain);
     }
     const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(start);
     const std::size_t length = end + kJpegEnd.size() - start;
     const auto size = sim::picture_size({bytes.data() + start, length}).value_or(cv::Size2l());
     if (size != expected) {
-      throw scenario::Error(
+      throw input::Error(
           {file.string(), 0},
           fmt::format(
               "picture {} has {} x {} pixels, and one of a camera of {} x {} has {} x {}; {}",

@@ -15,7 +15,7 @@ inline constexpr const char* kPicturesFile = "pictures.mjpeg";
 class FramePictures {
  public:
   /// Reads a file of `write`. \param image_px size of the run's images.
-  /// \throws scenario::Error naming the file and its fault, also for pictures whose size differs
+  /// \throws input::Error naming the file and its fault, also for pictures whose size differs
   ///   from that made by `add`.
   static FramePictures read(const std::filesystem::path& file, cv::Size image_px);
   /// Writes Motion JPEG: concatenated pictures. \throws OutputError

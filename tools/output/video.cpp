@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "sim/media.h"
+#include "sim/pictures/media.h"
 #include "tools/output/video_reader.h"
 
 namespace lcs::bench {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "sim/media.h"
+#include "sim/pictures/media.h"
 
 namespace lcs::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "filter/detect/fast.h"
-#include "sim/picture_file.h"
+#include "sim/pictures/picture_file.h"
 #include "tools/recording/warnings.h"
 
 namespace lcs::preview {

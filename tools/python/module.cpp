@@ -4,7 +4,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "scenarios/message.h"
+#include "tools/input/message.h"
 #include "tools/python/filter.h"
 #include "tools/python/frame.h"
 #include "tools/python/scenario.h"
@@ -33,12 +33,12 @@ void translate(std::exception_ptr thrown) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::invalid_argument& error) {
-    PyErr_SetString(PyExc_ValueError, scenario::message_of(error).c_str());
+    PyErr_SetString(PyExc_ValueError, input::message_of(error).c_str());
   } catch (const cv::Exception& error) {
     PyErr_SetString(error.code == cv::Error::StsNoMem ? PyExc_MemoryError : error_type,
-                    scenario::message_of(error).c_str());
+                    input::message_of(error).c_str());
   } catch (const std::exception& error) {
-    PyErr_SetString(error_type, scenario::message_of(error).c_str());
+    PyErr_SetString(error_type, input::message_of(error).c_str());
   }
 }
 

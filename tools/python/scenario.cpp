@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "scenarios/load.h"
-#include "scenarios/reader.h"
 #include "scenarios/scenes.h"
 #include "tools/bench/detector.h"
+#include "tools/input/reader.h"
 #include "tools/python/arrays.h"
 #include "tools/python/type.h"
 #include "tools/replay/playback.h"
@@ -20,8 +20,8 @@ namespace {
 /// Parses a seed by the rules of `--seed`; absent for None.
 std::optional<std::uint64_t> seed_of(const py::object& seed) {
   if (seed.is_none()) return std::nullopt;
-  const scenario::Value value{scenario::Value::Kind::scalar, {"seed", 0}, py::str(seed)};
-  return scenario::as_seed(value, "the seed");
+  const input::Value value{input::Value::Kind::scalar, {"seed", 0}, py::str(seed)};
+  return input::as_seed(value, "the seed");
 }
 
 std::shared_ptr<Scenario> made_of(scenario::Scenario asked) {
@@ -49,7 +49,7 @@ std::shared_ptr<Scenario> from_file(const std::filesystem::path& file, const py:
 
 std::shared_ptr<Scenario> from_yaml(const std::string& text, const std::filesystem::path& file,
                                     const py::object& set, const py::object& seed) {
-  return made_of(scenario::load(scenario::parse_document(text, file), file,
+  return made_of(scenario::load(input::parse_document(text, file), file,
                                 {.sets = assignments_of(set), .seed = seed_of(seed)}));
 }
 

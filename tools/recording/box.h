@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "filter/layers.h"
-#include "sim/truth.h"
+#include "sim/truth/truth.h"
 #include "tools/recording/labels.h"
 
 namespace lcs::bench {

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "scenarios/message.h"
+#include "tools/input/message.h"
 
 namespace lcs::bench {
 
@@ -34,7 +34,7 @@ std::vector<std::int64_t> unpacked_runs(std::string_view word) {
   for (const char letter : word) {
     const int bits = letter - '0';
     if (bits < 0 || bits > 63 || shift >= kMostShift) {
-      throw std::invalid_argument(scenario::printable(fmt::format(
+      throw std::invalid_argument(input::printable(fmt::format(
           "the mask's counts have '{}' where none can be; give COCO's word or its numbers",
           letter)));
     }

@@ -1,5 +1,5 @@
 /// \file
-/// Packs the run lengths of a mask (`sim/mask.h`) into a string, in pycocotools' format.
+/// Packs the run lengths of a mask (`sim/truth/mask.h`) into a string, in pycocotools' format.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/mask.h"
+#include "sim/truth/mask.h"
 
 namespace lcs::bench {
 

@@ -18,7 +18,7 @@ struct Detections {
 };
 
 /// \param sequence provides corners and truth; its camera is used to check the detections.
-/// \throws scenario::Error with file and line.
+/// \throws input::Error with file and line.
 Detections read_detections(const std::filesystem::path& csv, const Recording& sequence);
 
 inline constexpr const char* kDetectionsHeader = "frame,type";

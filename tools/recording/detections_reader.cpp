@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "scenarios/input_file.h"
-#include "scenarios/message.h"
 #include "tools/files/csv.h"
+#include "tools/input/input_file.h"
+#include "tools/input/message.h"
 #include "tools/recording/detections.h"
 
 namespace lcs::bench {
@@ -45,7 +45,7 @@ class RowReader {
     const std::optional<int> index = number_in<int>(text);
     if (!index) {
       throw std::invalid_argument(
-          scenario::printable(fmt::format("the frame is '{}'; give its number", text)));
+          input::printable(fmt::format("the frame is '{}'; give its number", text)));
     }
     const auto found = frames_.find(*index);
     if (found != frames_.end()) return found->second;
@@ -65,9 +65,9 @@ class RowReader {
 
 Detections read_detections(const std::filesystem::path& csv, const Recording& sequence) {
   // A thousand rows for each of a million frames.
-  constexpr scenario::FileKind kDetectionsTable{64 * scenario::kGibibyte,
-                                                "name a CSV file of detections"};
-  scenario::InputFile file(csv, kDetectionsTable);
+  constexpr input::FileKind kDetectionsTable{64 * input::kGibibyte,
+                                             "name a CSV file of detections"};
+  input::InputFile file(csv, kDetectionsTable);
   Detections detections;
   detections.recording = without_detections(sequence);
   detections.recording.detector = {.name = csv.stem().string(), .layered = false};
@@ -84,7 +84,7 @@ Detections read_detections(const std::filesystem::path& csv, const Recording& se
     try {
       reader.read(row);
     } catch (const std::invalid_argument& error) {
-      throw scenario::Error(file.here(), error.what());
+      throw input::Error(file.here(), error.what());
     }
   }
   reader.finish(detections);

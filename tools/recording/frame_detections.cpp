@@ -10,8 +10,8 @@
 #include <tuple>
 #include <utility>
 
-#include "scenarios/message.h"
 #include "tools/files/csv.h"
+#include "tools/input/message.h"
 #include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_fields.h"
 
@@ -23,7 +23,7 @@ template <class... Arguments>
 [[noreturn]] void refuse(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
   // A NUL character would end the message.
   throw std::invalid_argument(
-      scenario::printable(fmt::format(text, std::forward<Arguments>(arguments)...)));
+      input::printable(fmt::format(text, std::forward<Arguments>(arguments)...)));
 }
 
 double number(std::string_view text, const char* what) {

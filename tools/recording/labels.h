@@ -53,7 +53,7 @@ class Labels {
 /// `image_id`, `bbox` and, where objects are tracked, `track_id`. Boxes with 1 for `iscrowd` are
 /// ignored. Every listed image was labelled.
 ///
-/// \throws scenario::Error with file and line (COCO: the entry), and the remedy.
+/// \throws input::Error with file and line (COCO: the entry), and the remedy.
 Labels read_labels(const std::filesystem::path& file);
 
 }  // namespace lcs::bench

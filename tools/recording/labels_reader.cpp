@@ -5,17 +5,17 @@
 #include <stdexcept>
 #include <utility>
 
-#include "scenarios/input_file.h"
-#include "scenarios/message.h"
 #include "tools/files/csv.h"
 #include "tools/files/json_node.h"
+#include "tools/input/input_file.h"
+#include "tools/input/message.h"
 #include "tools/recording/labels.h"
 
 namespace lcs::bench {
 namespace {
 
-constexpr scenario::FileKind kLabelsFile{
-    256 * scenario::kMebibyte, "give boxes as gt.txt of MOTChallenge has them, or COCO's JSON"};
+constexpr input::FileKind kLabelsFile{
+    256 * input::kMebibyte, "give boxes as gt.txt of MOTChallenge has them, or COCO's JSON"};
 
 constexpr double kFarthest_px = 1e6;
 constexpr int kMostPictures = 100'000'000;
@@ -84,7 +84,7 @@ void read_mot_row(std::string_view line, Labels& labels, Ids& ids) {
 }
 
 Labels read_mot(const std::filesystem::path& file) {
-  scenario::InputFile input(file, kLabelsFile);
+  input::InputFile input(file, kLabelsFile);
   Labels labels;
   Ids ids;
   for (std::string line; input.next_line(line);) {
@@ -92,8 +92,8 @@ Labels read_mot(const std::filesystem::path& file) {
     try {
       read_mot_row(line, labels, ids);
     } catch (const std::invalid_argument& error) {
-      throw scenario::Error(input.here(), scenario::printable(fmt::format("{}; {}", error.what(),
-                                                                          kLabelsFile.remedy)));
+      throw input::Error(input.here(),
+                         input::printable(fmt::format("{}; {}", error.what(), kLabelsFile.remedy)));
     }
   }
   return labels;
@@ -149,11 +149,11 @@ Labels read_coco(const std::filesystem::path& file) {
 
 /// The first character other than blanks and line ends; a byte order mark is skipped.
 char first_of(const std::filesystem::path& file) {
-  scenario::InputFile input(file, kLabelsFile);
+  input::InputFile input(file, kLabelsFile);
   for (std::string line; input.next_line(line);) {
     if (!trimmed(line).empty()) return trimmed(line).front();
   }
-  throw scenario::Error({file.string(), 0}, fmt::format("is empty; {}", kLabelsFile.remedy));
+  throw input::Error({file.string(), 0}, fmt::format("is empty; {}", kLabelsFile.remedy));
 }
 
 }  // namespace

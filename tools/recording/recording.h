@@ -17,9 +17,9 @@
 #include "filter/reason.h"
 #include "filter/signature.h"
 #include "scenarios/scenario.h"
-#include "sim/mask.h"
-#include "sim/truth.h"
-#include "sim/warnings.h"
+#include "sim/truth/mask.h"
+#include "sim/truth/truth.h"
+#include "sim/world/warnings.h"
 #include "tools/recording/labels.h"
 
 namespace lcs::bench {

@@ -8,7 +8,7 @@
 #include "filter/kinematics/ego_motion.h"
 #include "filter/layers.h"
 #include "filter/reason.h"
-#include "sim/truth.h"
+#include "sim/truth/truth.h"
 #include "tools/recording/recording.h"
 
 namespace lcs::bench {

@@ -10,10 +10,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "scenarios/input_file.h"
-#include "scenarios/inputs_read.h"
-#include "scenarios/message.h"
 #include "tools/files/json_node.h"
+#include "tools/input/input_file.h"
+#include "tools/input/inputs_read.h"
+#include "tools/input/message.h"
 #include "tools/recording/coco_mask.h"
 #include "tools/recording/recording_fields.h"
 #include "tools/recording/recording_io.h"
@@ -90,7 +90,7 @@ void read(const Json& json, Enum& value) {
   const auto found = std::find(names.begin(), names.end(), text);
   if (found == names.end() || text.empty()) {
     throw std::runtime_error(
-        scenario::printable(fmt::format("is the unknown word '{}'", text)));  // NUL would end it
+        input::printable(fmt::format("is the unknown word '{}'", text)));  // NUL would end it
   }
   value = static_cast<Enum>(found - names.begin());
 }
@@ -346,8 +346,8 @@ void read_header(const Json& json, Recording& recording) {
 }
 
 // About 100 kB a frame, for hundreds of thousands of frames.
-constexpr scenario::FileKind kRecordingFile{64 * scenario::kGibibyte,
-                                            "name the folder of a whole run, or run it again"};
+constexpr input::FileKind kRecordingFile{64 * input::kGibibyte,
+                                         "name the folder of a whole run, or run it again"};
 
 /// Passes one parsed line after the other to its user, and adds file and line to errors.
 class LineReader {
@@ -367,11 +367,11 @@ class LineReader {
   bool skip() { return file_.next_line(text_); }
   [[noreturn]] void fail(std::string_view what) const {
     if (what.starts_with('.')) what.remove_prefix(1);
-    throw scenario::Error(file_.here(), fmt::format("{}; {}", what, kRecordingFile.remedy));
+    throw input::Error(file_.here(), fmt::format("{}; {}", what, kRecordingFile.remedy));
   }
 
  private:
-  scenario::InputFile file_;
+  input::InputFile file_;
   std::string text_;
 };
 
@@ -379,7 +379,7 @@ class LineReader {
 
 Recording read_recording(const std::filesystem::path& folder) {
   Recording recording;
-  scenario::note_input(folder);
+  input::note_input(folder);
   LineReader layers(folder / kLayersFile);
   LineReader truth(folder / kTruthFile);
   const bool has_header = truth.next([&](const Json& json) { read_header(json, recording); });

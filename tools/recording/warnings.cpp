@@ -70,8 +70,8 @@ void write_warnings(const std::filesystem::path& path, const std::vector<Warned>
 }
 
 std::vector<Warned> read_warnings(const std::filesystem::path& path) {
-  constexpr scenario::FileKind kWarningsDocument{scenario::kMebibyte,
-                                                 "name the folder of a whole run, or run it again"};
+  constexpr input::FileKind kWarningsDocument{input::kMebibyte,
+                                              "name the folder of a whole run, or run it again"};
   return read_json(path, kWarningsDocument, [](const JsonNode& node) {
     std::vector<Warned> all;
     node.each_entry([&](const std::string& word, const JsonNode& warned) {

@@ -1,6 +1,6 @@
 /// \file
-/// Warnings reported with the metrics of a run: those of the simulation (`sim/warnings.h`), images
-/// with too few corners, and in recordings an implausible motion (`motion_warnings.h`).
+/// Warnings reported with the metrics of a run: those of the simulation (`sim/world/warnings.h`),
+/// images with too few corners, and in recordings an implausible motion (`motion_warnings.h`).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/warnings.h"
+#include "sim/world/warnings.h"
 #include "tools/recording/recording.h"
 
 namespace lcs::bench {
@@ -34,7 +34,7 @@ std::vector<std::string> lines_of(const std::vector<Warned>& warnings);
 /// Writes all checked warnings, by name. \throws OutputError
 void write_warnings(const std::filesystem::path& path, const std::vector<Warned>& warnings);
 
-/// Reads a file of `write_warnings`. \throws scenario::Error with the file and its fault.
+/// Reads a file of `write_warnings`. \throws input::Error with the file and its fault.
 std::vector<Warned> read_warnings(const std::filesystem::path& path);
 
 /// The simulation's warnings in a run; absent if the run's folder has no such file.

@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "sim/imu.h"
+#include "sim/imu/imu.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {

@@ -29,8 +29,8 @@ constexpr const char* kNoTimes = "when its pictures were taken (fps)";
 bool set_times(const scenario::Recorded& asked, Recorded& recorded) {
   if (recorded.timed) {
     if (!asked.fps) return true;
-    throw scenario::Error(asked.source,
-                          "the recording itself says when its pictures were taken; remove fps");
+    throw input::Error(asked.source,
+                       "the recording itself says when its pictures were taken; remove fps");
   }
   const std::optional<double> fps = asked.fps ? asked.fps : recorded.fps;
   if (fps) time_by(*fps, recorded);
@@ -98,8 +98,8 @@ void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& 
   }
   auto poses = by_number ? poses_by_number(file, recorded) : poses_by_time(file, !recorded.timed);
   if (poses.empty()) {
-    throw scenario::Error({asked.poses->string(), 0},
-                          "none of the poses belongs to a picture; give a line for each picture");
+    throw input::Error({asked.poses->string(), 0},
+                       "none of the poses belongs to a picture; give a line for each picture");
   }
   sort_by_time(poses, "poses", asked.poses->string(), recorded.tally);
   if (!times_known) {
@@ -176,10 +176,10 @@ void require_lens(const Lens& lens) {
                        is_within(lens.cu_px, -kMostCentre_px, kMostCentre_px) &&
                        is_within(lens.cv_px, -kMostCentre_px, kMostCentre_px);
   if (is_lens) return;
-  throw scenario::Error(
-      lens.source, fmt::format("a focal length of {}, {} px and a principal point at {}, {} px "
-                               "are those of no camera; correct the calibration, or give focal",
-                               lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px));
+  throw input::Error(lens.source,
+                     fmt::format("a focal length of {}, {} px and a principal point at {}, {} px "
+                                 "are those of no camera; correct the calibration, or give focal",
+                                 lens.fu_px, lens.fv_px, lens.cu_px, lens.cv_px));
 }
 
 void set_lens(const scenario::Recorded& asked, Recorded& recorded) {
@@ -257,14 +257,14 @@ Recorded read_recorded(const scenario::Scenario& scenario) {
   }
   set_lens(asked, recorded);
   if (!recorded.lacks.empty()) {
-    throw scenario::Error(asked.source,
-                          fmt::format("{} does not say {}; give these keys of recording, or the "
-                                      "options of lcs replay",
-                                      asked.path.string(), fmt::join(recorded.lacks, ", and ")));
+    throw input::Error(asked.source,
+                       fmt::format("{} does not say {}; give these keys of recording, or the "
+                                   "options of lcs replay",
+                                   asked.path.string(), fmt::join(recorded.lacks, ", and ")));
   }
   choose(asked, scenario.frames, recorded.frames);
   if (recorded.frames.empty()) {
-    throw scenario::Error(asked.source, "no picture is left; give a smaller every");
+    throw input::Error(asked.source, "no picture is left; give a smaller every");
   }
   return recorded;
 }

@@ -129,8 +129,8 @@ void require_same(const fs::path& mav, const sequence::ReplaySettings& exact) {
     const auto require = [&](bool same, const char* key) {
       if (same) return;
       const auto at = said.keys.find(key);
-      throw scenario::Error(
-          at == said.keys.end() ? scenario::Source{file.string(), 0} : at->second,
+      throw input::Error(
+          at == said.keys.end() ? input::Source{file.string(), 0} : at->second,
           fmt::format(
               "{0} is not as {1} of the sequence says; generate the sequence again, or take "
               "{1} away to replay it by its other files alone",
@@ -176,10 +176,10 @@ void move_as_run(const fs::path& mav, const sequence::ReplaySettings& exact, Rec
     const fs::path file = mav / "odometry0" / "data.csv";
     readings.odometry = read_odometry_csv(file, recorded.tally);
     if (readings.odometry.empty()) {
-      throw scenario::Error({file.string(), 0},
-                            fmt::format("holds no reading of the odometry that {} says there is; "
-                                        "generate the sequence again",
-                                        sequence::kSettingsFile));
+      throw input::Error({file.string(), 0},
+                         fmt::format("holds no reading of the odometry that {} says there is; "
+                                     "generate the sequence again",
+                                     sequence::kSettingsFile));
     }
   }
   const fs::path poses = mav / "cam0" / "pose.csv";
@@ -262,8 +262,8 @@ Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion) {
   const std::string camera = asked.camera.empty() ? "cam0" : asked.camera;
   const fs::path camera_folder = mav / camera;
   if (!fs::exists(camera_folder / "data.csv")) {
-    throw scenario::Error(asked.source, fmt::format("{} is not there; name another camera",
-                                                    (camera_folder / "data.csv").string()));
+    throw input::Error(asked.source, fmt::format("{} is not there; name another camera",
+                                                 (camera_folder / "data.csv").string()));
   }
   Recorded recorded;
   recorded.frames = read_frames(camera_folder, recorded.tally);

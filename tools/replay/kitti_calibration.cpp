@@ -6,20 +6,20 @@
 #include <cmath>
 #include <sstream>
 
-#include "scenarios/input_file.h"
 #include "tools/files/csv.h"
+#include "tools/input/input_file.h"
 #include "tools/replay/poses_file.h"
 
 namespace lcs::replay {
 namespace {
 
-constexpr scenario::FileKind kCalibration{scenario::kMebibyte, "give the file as KITTI has it"};
+constexpr input::FileKind kCalibration{input::kMebibyte, "give the file as KITTI has it"};
 constexpr std::size_t kProjection = 12;
 
 }  // namespace
 
 KittiCalibration::KittiCalibration(const std::filesystem::path& file) : file_(file) {
-  scenario::InputFile input(file, kCalibration);
+  input::InputFile input(file, kCalibration);
   int unnamed = 0;
   for (std::string line; input.next_line(line);) {
     if (bench::trimmed(line).empty()) continue;
@@ -36,9 +36,8 @@ const std::vector<double>& KittiCalibration::numbers(const std::string& name,
                                                      std::size_t count) const {
   const auto found = values_.find(name);
   if (found == values_.end() || found->second.size() != count) {
-    throw scenario::Error(
-        {file_.string(), 0},
-        fmt::format("{} is missing, or is not {} numbers; {}", name, count, kCalibration.remedy));
+    throw input::Error({file_.string(), 0}, fmt::format("{} is missing, or is not {} numbers; {}",
+                                                        name, count, kCalibration.remedy));
   }
   return found->second;
 }
@@ -47,8 +46,8 @@ Eigen::Matrix3d KittiCalibration::rotation(const std::string& name) const {
   const auto R = rotation_of(
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers(name, 9).data()));
   if (!R) {
-    throw scenario::Error({file_.string(), 0},
-                          fmt::format("{} is no rotation; {}", name, kCalibration.remedy));
+    throw input::Error({file_.string(), 0},
+                       fmt::format("{} is no rotation; {}", name, kCalibration.remedy));
   }
   return *R;
 }

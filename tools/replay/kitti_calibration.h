@@ -15,13 +15,13 @@ namespace lcs::replay {
 
 class KittiCalibration {
  public:
-  /// Lines without a name are called P0, P1, ... \throws scenario::Error if it cannot be read.
+  /// Lines without a name are called P0, P1, ... \throws input::Error if it cannot be read.
   explicit KittiCalibration(const std::filesystem::path& file);
 
-  /// \name Access to a line. \throws scenario::Error if it is missing or has another length.
+  /// \name Access to a line. \throws input::Error if it is missing or has another length.
   ///@{
   const std::vector<double>& numbers(const std::string& name, std::size_t count) const;
-  /// \throws scenario::Error also for a matrix that is no rotation.
+  /// \throws input::Error also for a matrix that is no rotation.
   Eigen::Matrix3d rotation(const std::string& name) const;
   /// The transform of the lines R and T.
   sim::Pose pose() const;

@@ -70,8 +70,8 @@ void read_motion(const scenario::Recorded& asked, const fs::path& file, const si
     at_frames.push_back({frame.t_ns, poses.lines[frame.number]->T_WC * T_C0C});
   }
   if (at_frames.empty()) {
-    throw scenario::Error({file.string(), 0},
-                          "none of the poses belongs to a picture; give a line for each picture");
+    throw input::Error({file.string(), 0},
+                       "none of the poses belongs to a picture; give a line for each picture");
   }
   const auto up_W = up_of_world(asked, at_frames.front().T_WC, Eigen::Vector3d(0, -1, 0));
   auto motion = std::make_unique<PosesMotion>(std::move(at_frames), up_W);
@@ -91,8 +91,8 @@ bool is_kitti_odometry(const fs::path& folder) {
 Recorded read_kitti_odometry(const scenario::Recorded& asked, bool) {
   const std::string camera = camera_in(asked);
   if (!camera.starts_with(kPrefix) || !fs::is_directory(asked.path / camera)) {
-    throw scenario::Error(asked.source, fmt::format("{} is not there; name a camera, as image_0",
-                                                    (asked.path / camera).string()));
+    throw input::Error(asked.source, fmt::format("{} is not there; name a camera, as image_0",
+                                                 (asked.path / camera).string()));
   }
   Recorded recorded;
   recorded.frames = frames_in(asked.path / camera);

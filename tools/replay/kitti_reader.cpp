@@ -8,8 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "scenarios/input_file.h"
 #include "tools/files/csv.h"
+#include "tools/input/input_file.h"
 #include "tools/replay/kitti_calibration.h"
 #include "tools/replay/navigation.h"
 #include "tools/replay/recorded.h"
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
 /// A state has 30 numbers.
-constexpr scenario::FileKind kSmallText{scenario::kMebibyte, "give the file as KITTI has it"};
+constexpr input::FileKind kSmallText{input::kMebibyte, "give the file as KITTI has it"};
 
 /// Line k belongs to item k; absent if malformed.
 std::vector<std::optional<std::int64_t>> read_times(const fs::path& file, Tally& tally) {
@@ -48,11 +48,11 @@ std::vector<NavigationState> read_oxts(const fs::path& folder, Tally& tally) {
     const fs::path file = folder / "data" / fmt::format("{:010}.txt", i);
     std::vector<double> numbers;
     try {
-      std::istringstream words(scenario::read_file(file, kSmallText));
+      std::istringstream words(input::read_file(file, kSmallText));
       for (std::string word; words >> word;) {
         if (const auto number = bench::number_in<double>(word)) numbers.push_back(*number);
       }
-    } catch (const scenario::Error&) {
+    } catch (const input::Error&) {
       numbers.clear();  // an empty list is counted as a fault below
     }
     if (numbers.size() != kNumbers || !is_speed(numbers[kEast], numbers[kNorth], numbers[kUp])) {
@@ -117,8 +117,8 @@ Recorded read_kitti(const scenario::Recorded& asked, bool) {
   const std::string name = camera_in(asked);
   const fs::path camera_folder = asked.path / name;
   if (!name.starts_with("image_") || !fs::is_directory(camera_folder)) {
-    throw scenario::Error(asked.source, fmt::format("{} is not there; name a camera, as image_02",
-                                                    camera_folder.string()));
+    throw input::Error(asked.source, fmt::format("{} is not there; name a camera, as image_02",
+                                                 camera_folder.string()));
   }
   Recorded recorded;
   fs::path clock = camera_folder / "timestamps.txt";

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "sim/picture_file.h"
+#include "sim/pictures/picture_file.h"
 
 namespace lcs::replay {
 namespace {
@@ -73,7 +73,7 @@ std::optional<cv::Mat3b> PictureReader::read(const fs::path& file) {
   try {
     picture = sim::read_picture(file, {file.string(), 0},
                                 demosaic_ ? cv::IMREAD_GRAYSCALE : cv::IMREAD_COLOR);
-  } catch (const scenario::Error& refused) {
+  } catch (const input::Error& refused) {
     return skip(refused.what());
   }
   if (size_.empty()) size_ = picture.size();

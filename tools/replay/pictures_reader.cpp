@@ -7,9 +7,9 @@
 #include <opencv2/videoio.hpp>
 #include <stdexcept>
 
-#include "scenarios/input_file.h"
-#include "sim/picture_file.h"
+#include "sim/pictures/picture_file.h"
 #include "tools/files/csv.h"
+#include "tools/input/input_file.h"
 #include "tools/output/video_reader.h"
 #include "tools/replay/picture_folder.h"
 #include "tools/replay/recorded.h"
@@ -19,16 +19,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr scenario::FileKind kVideo{
-    64 * scenario::kGibibyte,
+constexpr input::FileKind kVideo{
+    64 * input::kGibibyte,
     "give a whole MP4, MOV, AVI, MKV, WebM, MPEG, FLV, ASF or OGG, or its pictures in a folder"};
 
 constexpr const char* kSequenceInfo = "seqinfo.ini";
 
 /// Reads "key=value" lines of a section [Sequence].
 std::map<std::string, std::string> read_info(const fs::path& file) {
-  constexpr scenario::FileKind kInfo{scenario::kMebibyte, "give the file as MOTChallenge has it"};
-  scenario::InputFile input(file, kInfo);
+  constexpr input::FileKind kInfo{input::kMebibyte, "give the file as MOTChallenge has it"};
+  input::InputFile input(file, kInfo);
   std::map<std::string, std::string> info;
   for (std::string line; input.next_line(line);) {
     const std::size_t equals = line.find('=');
@@ -92,11 +92,11 @@ bool is_video(const fs::path& file) {
 }
 
 Recorded read_video(const scenario::Recorded& asked, bool) {
-  const scenario::InputFile no_pipe(asked.path, kVideo, asked.source);
+  const input::InputFile no_pipe(asked.path, kVideo, asked.source);
   const auto video = bench::open_video(asked.path);
   const auto refuse = [&](const std::string& what) {
-    throw scenario::Error(asked.source,
-                          fmt::format("{} {}; {}", asked.path.string(), what, kVideo.remedy));
+    throw input::Error(asked.source,
+                       fmt::format("{} {}; {}", asked.path.string(), what, kVideo.remedy));
   };
   const double count = video->isOpened() ? video->get(cv::CAP_PROP_FRAME_COUNT) : 0;
   if (!(count >= 1)) refuse("is no video that says how many pictures it has");

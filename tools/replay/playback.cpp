@@ -5,8 +5,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
-#include "scenarios/message.h"
-#include "sim/picture_file.h"
+#include "sim/pictures/picture_file.h"
+#include "tools/input/message.h"
 #include "tools/sequence/replay_settings.h"
 
 namespace lcs::replay {
@@ -63,16 +63,16 @@ void Playback::look_at_first_picture() {
   }
   const scenario::Recorded& asked = scenario_.recording.value();
   if (!first) {
-    throw scenario::Error(
+    throw input::Error(
         asked.source,
         fmt::format("none of the pictures in {} can be read (the first: {}); give a recording with "
                     "its pictures",
-                    asked.path.string(), scenario::one_line(pictures.skipped().front())));
+                    asked.path.string(), input::one_line(pictures.skipped().front())));
   }
   Lens& lens = recorded_.lens.value();
   const cv::Size size_px = first->size();
   if (lens.width_px > 0 && size_px != cv::Size(lens.width_px, lens.height_px)) {
-    throw scenario::Error(
+    throw input::Error(
         lens.source,
         fmt::format("the calibration is of {} x {} pixels, and the pictures have {} x {}; give "
                     "that of these pictures, or focal",
@@ -89,11 +89,11 @@ void Playback::read_mask() {
   const auto& file = scenario_.recording->mask;
   if (!file) return;
   constexpr double kWhite = 127;
-  const scenario::Source& where = scenario_.recording->source;
+  const input::Source& where = scenario_.recording->source;
   const cv::Mat grey = sim::read_picture(*file, where, cv::IMREAD_GRAYSCALE);
   const cv::Size size_px(camera().width_px, camera().height_px);
   if (grey.size() != size_px) {
-    throw scenario::Error(
+    throw input::Error(
         where, fmt::format("the mask {} is of {} x {} pixels, and the pictures have {} x {}; give "
                            "one of that size, white where the vehicle itself is seen",
                            file->string(), grey.cols, grey.rows, size_px.width, size_px.height));

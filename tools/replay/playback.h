@@ -19,7 +19,7 @@ namespace lcs::replay {
 class Playback : public bench::FrameSource {
  public:
   /// Reads everything except the pictures, of which it decodes only the first one.
-  /// \throws scenario::Error for unreadable or missing input, std::runtime_error.
+  /// \throws input::Error for unreadable or missing input, std::runtime_error.
   explicit Playback(const scenario::Scenario& asked);
 
   /// The given scenario, completed by the recording's settings of filter and corners, with the
@@ -50,14 +50,14 @@ class Playback : public bench::FrameSource {
   Recorded recorded_;
   PictureStream pictures_;
   std::optional<Rectifier> rectifier_;
-  bench::Truth truth_;     ///< of corners
+  bench::Truth truth_;                                         ///< of corners
   std::map<std::string, const bench::FrameRecord*> truth_of_;  ///< by picture, if all is known
   int corners_ = 0, untold_ = 0;  ///< seen so far, and those without truth
-  bench::Labels labels_;   ///< of moving objects, if present
-  cv::Mat1b mask_;         ///< empty, or non-zero at ignored pixels
-  std::size_t next_ = 0;   ///< of the recorded frames
-  int index_ = 0;          ///< of the next frame
-  bool grounded_ = false;  ///< the last frame has a ground
+  bench::Labels labels_;          ///< of moving objects, if present
+  cv::Mat1b mask_;                ///< empty, or non-zero at ignored pixels
+  std::size_t next_ = 0;          ///< of the recorded frames
+  int index_ = 0;                 ///< of the next frame
+  bool grounded_ = false;         ///< the last frame has a ground
 };
 
 }  // namespace lcs::replay

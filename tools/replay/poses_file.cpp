@@ -72,7 +72,7 @@ PosesFile read_poses(const std::filesystem::path& file, Tally& tally) {
     const std::size_t fields = table.rows.front().fields.size();
     poses.timed = fields == kTumFields;
     if (fields != kTumFields && fields != kKittiFields) {
-      throw scenario::Error(
+      throw input::Error(
           {file.string(), table.rows.front().line},
           fmt::format("a pose has 8 numbers (TUM: t x y z qx qy qz qw) or 12 (KITTI: three rows of "
                       "a matrix), and this has {}; give a file of one of these",
@@ -88,8 +88,8 @@ PosesFile read_poses(const std::filesystem::path& file, Tally& tally) {
     any |= line.has_value();
   }
   if (any) return poses;
-  throw scenario::Error({file.string(), 0},
-                        "holds no pose; give a line of 8 numbers (TUM) or 12 (KITTI) for each");
+  throw input::Error({file.string(), 0},
+                     "holds no pose; give a line of 8 numbers (TUM) or 12 (KITTI) for each");
 }
 
 std::optional<Eigen::Vector3d> up_of_world(const scenario::Recorded& asked,

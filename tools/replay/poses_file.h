@@ -23,7 +23,7 @@ struct PosesFile {
   bool timed = false;  ///< "t x y z qx qy qz qw" instead of the three rows of a matrix
 };
 
-/// Counts unreadable lines. \throws scenario::Error for a file that is unreadable, without a pose,
+/// Counts unreadable lines. \throws input::Error for a file that is unreadable, without a pose,
 /// or in another format.
 PosesFile read_poses(const std::filesystem::path& file, Tally& tally);
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "scenarios/inputs_read.h"
+#include "tools/input/inputs_read.h"
 #include "tools/replay/in_order.h"
 #include "tools/replay/picture_folder.h"
 
@@ -50,15 +50,15 @@ const std::vector<Layout>& layouts() {
 
 const Layout& layout_of(const scenario::Recorded& asked) {
   std::string names;
-  scenario::note_input(asked.path);
+  input::note_input(asked.path);
   for (const Layout& layout : layouts()) {
     if (asked.format.empty() ? layout.fits(asked.path) : asked.format == layout.name) return layout;
     names += fmt::format("{}{}", names.empty() ? "" : ", ", layout.name);
   }
-  throw scenario::Error(
-      asked.source, fmt::format("{} holds no pictures, and is none of the other layouts that are "
-                                "known ({}); tools/replay/README.md says what each holds",
-                                asked.path.string(), names));
+  throw input::Error(asked.source,
+                     fmt::format("{} holds no pictures, and is none of the other layouts that are "
+                                 "known ({}); tools/replay/README.md says what each holds",
+                                 asked.path.string(), names));
 }
 
 bool motion_is_asked(const scenario::Recorded& asked) {
@@ -76,8 +76,8 @@ void put_in_order(std::vector<RecordedFrame>& frames, const std::filesystem::pat
                   Tally& tally) {
   sort_by_time(frames, "pictures", list.string(), tally);
   if (frames.empty()) {
-    throw scenario::Error({list.string(), 0},
-                          "lists no picture with a time; give a row for each picture");
+    throw input::Error({list.string(), 0},
+                       "lists no picture with a time; give a row for each picture");
   }
 }
 

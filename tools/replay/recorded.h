@@ -41,7 +41,7 @@ struct Lens {
   std::vector<double> coefficients;  ///< in OpenCV's order
   bool centred = false;              ///< the principal point is the centre of the picture
   int width_px = 0, height_px = 0;   ///< picture size of the calibration; 0: unknown
-  scenario::Source source = {};      ///< place to name if the picture size differs
+  input::Source source = {};         ///< place to name if the picture size differs
 };
 
 struct RecordedFrame {
@@ -88,12 +88,12 @@ struct Layout {
 const std::vector<Layout>& layouts();
 
 /// The layout named by `asked.format`, or else the first one that fits.
-/// \throws scenario::Error if none fits.
+/// \throws input::Error if none fits.
 const Layout& layout_of(const scenario::Recorded& asked);
 
 /// Reads the layout with the user's values in place of its own: the selected frames with their
 /// times, a lens or at least a focal length, and a motion.
-/// \throws scenario::Error; one message lists all missing inputs.
+/// \throws input::Error; one message lists all missing inputs.
 Recorded read_recorded(const scenario::Scenario& asked);
 
 /// Whether the user provides the camera's motion.
@@ -126,7 +126,7 @@ void time_by(double fps, Recorded& recorded);
 std::vector<RecordedFrame> frames_in(const std::filesystem::path& folder);
 
 /// Sorts frames by time, and removes all but the first of those with the same time; counts both.
-/// \param list file of the frames. \throws scenario::Error if it has none.
+/// \param list file of the frames. \throws input::Error if it has none.
 void put_in_order(std::vector<RecordedFrame>& frames, const std::filesystem::path& list,
                   Tally& tally);
 

@@ -33,9 +33,9 @@ Rectifier::Rectifier(const Lens& lens, cv::Size size_px)
                                 map_x_, map_y_);
   }
   if (!(covered() >= kLeastCovered)) {
-    throw scenario::Error(lens.source,
-                          "by its intrinsics and distortion the lens sees less than a tenth of its "
-                          "own picture; correct them");
+    throw input::Error(lens.source,
+                       "by its intrinsics and distortion the lens sees less than a tenth of its "
+                       "own picture; correct them");
   }
 }
 

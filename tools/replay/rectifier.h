@@ -15,7 +15,7 @@ namespace lcs::replay {
 
 class Rectifier {
  public:
-  /// \throws scenario::Error for an implausible distortion.
+  /// \throws input::Error for an implausible distortion.
   Rectifier(const Lens& lens, cv::Size size_px);
 
   /// The pinhole has the lens's principal point and the mean of its focal lengths.

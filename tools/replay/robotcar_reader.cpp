@@ -58,7 +58,7 @@ const CameraKind& camera_of(const scenario::Recorded& asked) {
       std::find_if(std::begin(kCameras), std::end(kCameras),
                    [&](const CameraKind& each) { return each.name == asked.camera; });
   if (found == std::end(kCameras)) {
-    throw scenario::Error(
+    throw input::Error(
         asked.source,
         fmt::format("the camera is '{}'; give stereo/left, stereo/centre, stereo/right, "
                     "mono_left, mono_right or "

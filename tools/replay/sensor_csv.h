@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "sim/imu.h"
+#include "sim/imu/imu.h"
 #include "tools/replay/motion_source.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"

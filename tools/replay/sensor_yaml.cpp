@@ -5,21 +5,20 @@
 #include <stdexcept>
 #include <string>
 
-#include "scenarios/input_file.h"
-#include "scenarios/reader.h"
+#include "tools/input/input_file.h"
+#include "tools/input/reader.h"
 #include "tools/sequence/pose_text.h"
 
 namespace lcs::replay {
 namespace {
 
-using scenario::Dimension;
-using scenario::Error;
-using scenario::Quantity;
-using scenario::Reader;
-using scenario::Value;
+using input::Dimension;
+using input::Error;
+using input::Quantity;
+using input::Reader;
+using input::Value;
 
-constexpr scenario::FileKind kSensorFile{scenario::kMebibyte,
-                                         "give a sensor.yaml with Kalibr's keys"};
+constexpr input::FileKind kSensorFile{input::kMebibyte, "give a sensor.yaml with Kalibr's keys"};
 
 // Generous limits, which exclude impossible cameras and IMUs only.
 constexpr Quantity kOfTransform{Dimension::number, {-10000, 10000}};
@@ -38,11 +37,11 @@ std::string without_directive(std::string text) {
 
 void append_numbers(const Value& list, const std::string& path, const Quantity& quantity,
                     std::vector<double>& numbers) {
-  for (const Value& item : scenario::as_list(list, path)) {
+  for (const Value& item : input::as_list(list, path)) {
     if (item.kind == Value::Kind::list) {
       append_numbers(item, path, quantity, numbers);
     } else {
-      numbers.push_back(scenario::as_quantity(item, path, quantity));
+      numbers.push_back(input::as_quantity(item, path, quantity));
     }
   }
 }
@@ -60,8 +59,8 @@ sim::Pose read_pose(const Value& value) {
   }
   std::array<double, 16> matrix{};
   if (flat.size() != matrix.size()) {
-    throw Error(value.where, "T_BS has " + std::to_string(flat.size()) +
-                                 " numbers; give 16, row by row");
+    throw Error(value.where,
+                "T_BS has " + std::to_string(flat.size()) + " numbers; give 16, row by row");
   }
   std::copy(flat.begin(), flat.end(), matrix.begin());
   try {
@@ -81,8 +80,9 @@ void read_distortion(Reader& reader, Lens& lens) {
       is_equidistant ? Lens::Distortion::equidistant : Lens::Distortion::radial_tangential;
   const Value* list = reader.find("distortion_coefficients");
   if (!list) {
-    throw Error(reader.where(), "there are no distortion_coefficients for the distortion_model; "
-                                "give four, or 'distortion_model: none'");
+    throw Error(reader.where(),
+                "there are no distortion_coefficients for the distortion_model; "
+                "give four, or 'distortion_model: none'");
   }
   append_numbers(*list, "distortion_coefficients", kCoefficient, lens.coefficients);
   const std::size_t count = lens.coefficients.size();
@@ -99,19 +99,19 @@ Lens read_lens(Reader& reader, const Value& intrinsics) {
   Lens lens;
   lens.source = intrinsics.where;
   reader.choice("camera_model", {"pinhole"});
-  const std::vector<Value>& list = scenario::as_list(intrinsics, "intrinsics", 4);
+  const std::vector<Value>& list = input::as_list(intrinsics, "intrinsics", 4);
   const auto number = [&](std::size_t i, const Quantity& quantity) {
-    return scenario::as_quantity(list[i], "intrinsics." + std::to_string(i), quantity);
+    return input::as_quantity(list[i], "intrinsics." + std::to_string(i), quantity);
   };
   lens.fu_px = number(0, kFocal_px);
   lens.fv_px = number(1, kFocal_px);
   lens.cu_px = number(2, kCentre_px);
   lens.cv_px = number(3, kCentre_px);
   if (const Value* size = reader.find("resolution")) {
-    const std::vector<Value>& pair = scenario::as_list(*size, "resolution", 2);
+    const std::vector<Value>& pair = input::as_list(*size, "resolution", 2);
     const auto pixels = [&](std::size_t i) {
       return static_cast<int>(
-          scenario::as_integer(pair[i], "resolution." + std::to_string(i), 1, kMostPixels));
+          input::as_integer(pair[i], "resolution." + std::to_string(i), 1, kMostPixels));
     };
     lens.width_px = pixels(0);
     lens.height_px = pixels(1);
@@ -139,16 +139,15 @@ scenario::ImuNoise read_noise(Reader& reader) {
 }  // namespace
 
 SensorYaml read_sensor_yaml(const std::filesystem::path& file) {
-  const scenario::Source top{file.string(), 1};
-  const Value yaml = scenario::parse_text(
-      without_directive(scenario::read_file(file, kSensorFile)), top);
+  const input::Source top{file.string(), 1};
+  const Value yaml = input::parse_text(without_directive(input::read_file(file, kSensorFile)), top);
   if (yaml.kind != Value::Kind::map) {
     throw Error(top, "this is no map of keys; " + std::string(kSensorFile.remedy));
   }
   // Further keys may be present; they are ignored.
   Reader reader(yaml, "");
   SensorYaml sensor;
-  for (const scenario::Entry& entry : yaml.entries) sensor.keys[entry.key] = entry.where;
+  for (const input::Entry& entry : yaml.entries) sensor.keys[entry.key] = entry.where;
   if (const Value* pose = reader.find("T_BS")) sensor.T_BS = read_pose(*pose);
   reader.read("rate_hz", kRate, sensor.rate_hz);
   if (const Value* intrinsics = reader.find("intrinsics")) {

@@ -16,12 +16,12 @@ namespace lcs::replay {
 struct SensorYaml {
   sim::Pose T_BS;
   std::optional<double> rate_hz;
-  std::optional<Lens> lens;                           ///< of a camera
-  std::optional<scenario::ImuNoise> noise;            ///< of an IMU; turn-on biases are 0
-  std::map<std::string, scenario::Source> keys = {};  ///< top-level keys and their places
+  std::optional<Lens> lens;                        ///< of a camera
+  std::optional<scenario::ImuNoise> noise;         ///< of an IMU; turn-on biases are 0
+  std::map<std::string, input::Source> keys = {};  ///< top-level keys and their places
 };
 
-/// \throws scenario::Error with file and line.
+/// \throws input::Error with file and line.
 SensorYaml read_sensor_yaml(const std::filesystem::path& file);
 
 }  // namespace lcs::replay

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "scenarios/input_file.h"
 #include "tools/files/csv.h"
+#include "tools/input/input_file.h"
 
 namespace lcs::replay {
 namespace {
@@ -47,19 +47,19 @@ std::size_t TextTable::column(std::string_view name, std::size_t otherwise) cons
   if (header.empty()) return otherwise;
   const auto found = std::find(header.begin(), header.end(), name);
   if (found == header.end()) {
-    throw scenario::Error({file.string(), 1},
-                          fmt::format("the header names no column {}; give each column the name "
-                                      "that the layout has for it",
-                                      name));
+    throw input::Error({file.string(), 1},
+                       fmt::format("the header names no column {}; give each column the name "
+                                   "that the layout has for it",
+                                   name));
   }
   return static_cast<std::size_t>(found - header.begin());
 }
 
 TextTable read_table(const std::filesystem::path& file, char separator) {
   // An hour of a 1 kHz IMU takes 400 MB.
-  constexpr scenario::FileKind kSensorTable{scenario::kGibibyte,
-                                            "give a table of rows, as the layout has it"};
-  scenario::InputFile input(file, kSensorTable);
+  constexpr input::FileKind kSensorTable{input::kGibibyte,
+                                         "give a table of rows, as the layout has it"};
+  input::InputFile input(file, kSensorTable);
   TextTable table{file, {}, {}};
   for (std::string text; input.next_line(text);) {
     const std::string_view line = bench::trimmed(text);

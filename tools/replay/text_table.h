@@ -32,7 +32,7 @@ struct TextTable {
 /// Skips empty lines. A first line that does not begin with a number is the header; further lines
 /// that begin with '#' are skipped.
 /// \param separator ',', or ' ' for any number of spaces and tabs.
-/// \throws scenario::Error if the file cannot be read.
+/// \throws input::Error if the file cannot be read.
 TextTable read_table(const std::filesystem::path& file, char separator);
 
 }  // namespace lcs::replay

@@ -16,9 +16,8 @@ constexpr const char* kTruth = "groundtruth.txt";
 void read_motion(const scenario::Recorded& asked, const fs::path& file, Recorded& recorded) {
   const PosesFile file_poses = read_poses(file, recorded.tally);
   if (!file_poses.timed) {
-    throw scenario::Error(
-        {file.string(), 0},
-        "its poses have no times; give them as TUM has them, or poses of your own");
+    throw input::Error({file.string(), 0},
+                       "its poses have no times; give them as TUM has them, or poses of your own");
   }
   std::vector<PosesMotion::CameraPose> poses;
   for (const auto& line : file_poses.lines) {

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "scenarios/input_file.h"
 #include "tools/files/csv.h"
 #include "tools/files/json_node.h"
+#include "tools/input/input_file.h"
 #include "tools/output/video.h"
 #include "tools/scoring/events.h"
 #include "tools/scoring/figures_file.h"
@@ -131,8 +131,8 @@ Json number_of(std::string_view cell) {
 
 Json frames_of(const fs::path& file) {
   // A frame takes some 200 bytes.
-  constexpr scenario::FileKind kFramesTable{scenario::kGibibyte, "run the suite again"};
-  scenario::InputFile input(file, kFramesTable);
+  constexpr input::FileKind kFramesTable{input::kGibibyte, "run the suite again"};
+  input::InputFile input(file, kFramesTable);
   std::string line;
   input.next_line(line);
   const std::string header_line = line;
@@ -140,8 +140,8 @@ Json frames_of(const fs::path& file) {
   Json columns = Json::object();
   for (const char* name : kColumns) {
     if (std::find(header.begin(), header.end(), name) == header.end()) {
-      throw scenario::Error({file.string(), 1},
-                            fmt::format("has no column {}; {}", name, kFramesTable.remedy));
+      throw input::Error({file.string(), 1},
+                         fmt::format("has no column {}; {}", name, kFramesTable.remedy));
     }
     columns[name] = Json::array();
   }
@@ -154,8 +154,7 @@ Json frames_of(const fs::path& file) {
       try {
         column->push_back(number_of(cells[i]));
       } catch (const std::invalid_argument& error) {
-        throw scenario::Error(input.here(),
-                              fmt::format("{}; {}", error.what(), kFramesTable.remedy));
+        throw input::Error(input.here(), fmt::format("{}; {}", error.what(), kFramesTable.remedy));
       }
     }
   }
@@ -389,8 +388,8 @@ std::string run_report_data(const SuiteInFolder& suite) {
   if (fs::exists(video) && fs::file_size(video) > kVideoBudget) {
     data["video_left_out_mb"] = fs::file_size(video) / 1'000'000;
   } else if (fs::exists(video)) {
-    constexpr scenario::FileKind kVideo{kVideoBudget, "run the scenario again"};
-    data["video"] = bench::base64(scenario::read_file(video, kVideo));
+    constexpr input::FileKind kVideo{kVideoBudget, "run the scenario again"};
+    data["video"] = bench::base64(input::read_file(video, kVideo));
   }
   return text_of(data);
 }

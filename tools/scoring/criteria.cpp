@@ -8,13 +8,13 @@
 #include <map>
 #include <optional>
 
-#include "scenarios/spelling.h"
+#include "tools/input/spelling.h"
 #include "tools/scoring/metrics.h"
 
 namespace lcs::bench {
 namespace {
 
-std::string place(const scenario::Source& source) {
+std::string place(const input::Source& source) {
   return source.line > 0 ? fmt::format("{}:{}", source.file, source.line) : source.file;
 }
 
@@ -40,11 +40,11 @@ void require_known_metrics(const std::vector<scenario::Criterion>& criteria) {
   }
   for (const scenario::Criterion& criterion : criteria) {
     if (std::find(names.begin(), names.end(), criterion.metric) != names.end()) continue;
-    const std::optional<std::string> near = scenario::nearest(criterion.metric, names);
-    throw scenario::Error(criterion.source,
-                          fmt::format("no metric is called '{}'; {}", criterion.metric,
-                                      near ? fmt::format("did you mean '{}'?", *near)
-                                           : "tools/scoring/SCORING.md names them all"));
+    const std::optional<std::string> near = input::nearest(criterion.metric, names);
+    throw input::Error(criterion.source,
+                       fmt::format("no metric is called '{}'; {}", criterion.metric,
+                                   near ? fmt::format("did you mean '{}'?", *near)
+                                        : "tools/scoring/SCORING.md names them all"));
   }
 }
 

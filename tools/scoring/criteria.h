@@ -12,7 +12,7 @@
 
 namespace lcs::bench {
 
-/// \throws scenario::Error at the line of the first criterion with an unknown metric; the message
+/// \throws input::Error at the line of the first criterion with an unknown metric; the message
 ///   names the most similar known one.
 void require_known_metrics(const std::vector<scenario::Criterion>& criteria);
 

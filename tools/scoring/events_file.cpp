@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr scenario::FileKind kEventsDocument{kMostJsonBytes, "run the scenario again"};
+constexpr input::FileKind kEventsDocument{kMostJsonBytes, "run the scenario again"};
 
 Json json_of(const EventView& view) {
   return {{"frame", view.frame},
@@ -23,20 +23,13 @@ Json json_of(const EventView& view) {
 }
 
 Json json_of(const Event& event) {
-  Json json = {{"kind", text_of(event.kind).word},
-               {"first_frame", event.first_frame},
-               {"last_frame", event.last_frame},
-               {"object", event.object},
-               {"object_name", event.object_name},
-               {"corners", event.corners},
-               {"of", event.counted_corners},
-               {"radial", event.radial_corners},
-               {"circles", event.circles},
-               {"frames", event.frames},
-               {"of_frames", event.of_frames},
-               {"reasons", Json::object()},
-               {"steps", Json::object()},
-               {"views", Json::array()}};
+  Json json = {{"kind", text_of(event.kind).word}, {"first_frame", event.first_frame},
+               {"last_frame", event.last_frame},   {"object", event.object},
+               {"object_name", event.object_name}, {"corners", event.corners},
+               {"of", event.counted_corners},      {"radial", event.radial_corners},
+               {"circles", event.circles},         {"frames", event.frames},
+               {"of_frames", event.of_frames},     {"reasons", Json::object()},
+               {"steps", Json::object()},          {"views", Json::array()}};
   for (const auto& [reason, corners] : event.reasons) {
     json["reasons"][lcs::text_of(reason).word] = corners;
   }

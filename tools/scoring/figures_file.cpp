@@ -76,7 +76,7 @@ void write_metrics(const std::filesystem::path& path, const Metrics& metrics) {
 }
 
 Metrics read_metrics(const std::filesystem::path& path) {
-  constexpr scenario::FileKind kMetricsDocument{kMostJsonBytes, "run the scenario again"};
+  constexpr input::FileKind kMetricsDocument{kMostJsonBytes, "run the scenario again"};
   return read_json(path, kMetricsDocument, [](const JsonNode& node) {
     Metrics metrics;
     node.each_entry([&](const std::string& name, const JsonNode& figure) {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/mask.h"
+#include "sim/truth/mask.h"
 #include "tools/recording/box.h"
 #include "tools/recording/recording.h"
 

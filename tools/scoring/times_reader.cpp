@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "scenarios/input_file.h"
 #include "tools/files/csv.h"
+#include "tools/input/input_file.h"
 #include "tools/scoring/figures_file.h"
 #include "tools/scoring/stages.h"
 
@@ -45,9 +45,9 @@ std::optional<FrameTimes> times_in(const std::vector<std::string_view>& header,
 
 void read_times(const std::filesystem::path& frames_csv, Recording& recording) {
   // A frame takes some 200 bytes.
-  constexpr scenario::FileKind kFramesTable{
-      scenario::kGibibyte, "run the scenario again, or remove the file to have no times"};
-  scenario::InputFile file(frames_csv, kFramesTable);
+  constexpr input::FileKind kFramesTable{
+      input::kGibibyte, "run the scenario again, or remove the file to have no times"};
+  input::InputFile file(frames_csv, kFramesTable);
   std::string header_line, line;
   file.next_line(header_line);
   const std::vector<std::string_view> header = fields_of(header_line);
@@ -74,11 +74,11 @@ void read_times(const std::filesystem::path& frames_csv, Recording& recording) {
     if (file.next_line(line)) {
       throw std::runtime_error("there are more rows than the recording has frames");
     }
-  } catch (const scenario::Error&) {
+  } catch (const input::Error&) {
     throw;  // it already names the file
   } catch (const std::runtime_error& error) {
-    throw scenario::Error({frames_csv.string(), number},
-                          fmt::format("{}; {}", error.what(), kFramesTable.remedy));
+    throw input::Error({frames_csv.string(), number},
+                       fmt::format("{}; {}", error.what(), kFramesTable.remedy));
   }
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
-#include "sim/warnings.h"
+#include "sim/world/warnings.h"
 #include "tools/sequence/journal.h"
 
 namespace lcs::sequence {
@@ -37,8 +37,8 @@ std::string plan_of(const scenario::Scenario& scenario, const GenerateOptions& o
 /// \return the simulation's warnings up to the last missing frame; empty if none was missing.
 /// \throws TruthError, sim::PhysicsError, bench::OutputError
 sim::Warnings generate_frames(const scenario::Scenario& scenario, const GenerateOptions& options,
-                     const Journal& journal, FrameRange range,
-                     const std::function<void(int)>& on_frame);
+                              const Journal& journal, FrameRange range,
+                              const std::function<void(int)>& on_frame);
 
 /// Writes the files that need all frames, the manifest last, and closes the journal.
 /// \return readable lines: the sequence's contents, and its empty files.

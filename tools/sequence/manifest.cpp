@@ -44,8 +44,8 @@ nlohmann::json plan_in_manifest(const fs::path& manifest) {
 
 std::vector<std::string> damage(const fs::path& folder) {
   // One file of each kind per frame, for a million frames.
-  constexpr scenario::FileKind kManifestDocument{4 * scenario::kGibibyte,
-                                                 "remove the folder to make the sequence anew"};
+  constexpr input::FileKind kManifestDocument{4 * input::kGibibyte,
+                                              "remove the folder to make the sequence anew"};
   std::vector<std::string> damaged;
   bench::read_json(folder / kManifestFile, kManifestDocument, [&](const bench::JsonNode& node) {
     node["files"].each_entry([&](const std::string& path, const bench::JsonNode& record) {

@@ -18,7 +18,7 @@ inline constexpr const char* kManifestFile = "manifest.json";
 std::string manifest_text(const std::string& plan, const Agreements& checks,
                           std::vector<FileRecord> files);
 
-/// The JSON of a plan, or of a manifest. \throws scenario::Error
+/// The JSON of a plan, or of a manifest. \throws input::Error
 nlohmann::json read_plan(const std::filesystem::path& file);
 
 /// The plan of a finished sequence; not an object if the file is not a manifest. \throws as above.

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "scenarios/scenario.h"
-#include "sim/truth.h"
+#include "sim/truth/truth.h"
 
 namespace lcs::sequence {
 

@@ -159,8 +159,8 @@ std::string settings_text(const scenario::Scenario& scenario, const sim::Calibra
 }
 
 ReplaySettings read_settings(const std::filesystem::path& file) {
-  constexpr scenario::FileKind kSettingsDocument{
-      scenario::kMebibyte,
+  constexpr input::FileKind kSettingsDocument{
+      input::kMebibyte,
       "correct it, or take it away to replay the sequence by its other files alone"};
   return bench::read_json(file, kSettingsDocument, [&](const Node& node) {
     ReplaySettings settings;

@@ -9,7 +9,7 @@ namespace lcs::sequence {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-// As in sim/truth.cpp: a point nearer than this share of its depth is in the camera plane.
+// As in sim/truth/truth.cpp: a point nearer than this share of its depth is in the camera plane.
 constexpr double kInFront = 1e-6;
 // Tolerated relative deviation of a visible point's depth from the rendered depths round it: the
 // resolution of the depth buffer at far distances.

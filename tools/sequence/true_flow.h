@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "sim/truth.h"
+#include "sim/truth/truth.h"
 
 namespace lcs::sequence {
 

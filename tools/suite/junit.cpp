@@ -7,8 +7,8 @@
 #include <map>
 #include <string>
 
-#include "scenarios/message.h"
 #include "tools/files/output_file.h"
+#include "tools/input/message.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::suite {
@@ -17,7 +17,7 @@ namespace {
 using tinyxml2::XMLElement;
 
 void set(XMLElement& element, const char* name, const std::string& value) {
-  element.SetAttribute(name, scenario::printable(value).c_str());
+  element.SetAttribute(name, input::printable(value).c_str());
 }
 
 struct Counts {
@@ -65,8 +65,8 @@ XMLElement& add_case(XMLElement& parent, const ScenarioResult& scenario, const s
 
 void add_problem(XMLElement& element, const char* kind, const std::string& message) {
   XMLElement& problem = *element.InsertNewChildElement(kind);
-  set(problem, "message", scenario::one_line(message.substr(0, message.find('\n'))));
-  problem.SetText(scenario::printable(message).c_str());
+  set(problem, "message", input::one_line(message.substr(0, message.find('\n'))));
+  problem.SetText(input::printable(message).c_str());
 }
 
 /// \param by "" for the suite's own detector, else such as "klt: ".
@@ -95,7 +95,7 @@ Counts add_run(XMLElement& parent, const ScenarioResult& scenario, const RunResu
       add_problem(element, "failure", criterion.message);
     } else {
       element.InsertNewChildElement("system-out")
-          ->SetText(scenario::printable("missed (not required): " + criterion.message).c_str());
+          ->SetText(input::printable("missed (not required): " + criterion.message).c_str());
     }
   }
   return counts;

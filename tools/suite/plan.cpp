@@ -8,11 +8,11 @@
 #include <set>
 #include <stdexcept>
 
-#include "scenarios/inputs_read.h"
 #include "scenarios/load.h"
-#include "scenarios/message.h"
 #include "scenarios/shipped.h"
 #include "scenarios/sweep.h"
+#include "tools/input/inputs_read.h"
+#include "tools/input/message.h"
 #include "tools/scoring/criteria.h"
 #include "tools/suite/pattern.h"
 
@@ -38,7 +38,7 @@ fs::path as_people_write(const fs::path& path) {
 
 void add_folder(const fs::path& folder, std::vector<File>& files) {
   std::vector<fs::path> found;
-  scenario::note_input(folder);
+  input::note_input(folder);
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.is_regular_file() && entry.path().extension() == ".yaml") {
       found.push_back(as_people_write(entry.path()));
@@ -124,7 +124,7 @@ PlannedScenario plan_point(const fs::path& file, const scenario::SweepPoint& poi
     }
     return planned;
   } catch (const std::exception& error) {
-    return broken(file, planned.name, scenario::message_of(error));
+    return broken(file, planned.name, input::message_of(error));
   }
 }
 
@@ -135,7 +135,7 @@ std::vector<PlannedScenario> plan_file(const fs::path& file, const PlanOptions& 
       all.push_back(plan_point(file, point, options));
     }
   } catch (const std::exception& error) {
-    return {broken(file, file.stem().string(), scenario::message_of(error))};
+    return {broken(file, file.stem().string(), input::message_of(error))};
   }
   return all;
 }

@@ -9,9 +9,9 @@
 #include <set>
 #include <string_view>
 
-#include "scenarios/inputs_read.h"
 #include "tools/files/json_node.h"
 #include "tools/files/output_file.h"
+#include "tools/input/inputs_read.h"
 
 namespace lcs::suite {
 namespace {
@@ -181,11 +181,11 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
 }
 
 SuiteResult read_suite(const std::filesystem::path& path) {
-  constexpr scenario::FileKind kSuiteDocument{
+  constexpr input::FileKind kSuiteDocument{
       bench::kMostJsonBytes, "name the folder of a suite, or its suite.json; lcs suite makes one"};
   std::error_code error;
   const bool is_folder = std::filesystem::is_directory(path, error);
-  if (is_folder) scenario::note_input(path);
+  if (is_folder) input::note_input(path);
   return bench::read_json(is_folder ? path / kSuiteFile : path, kSuiteDocument, suite_of);
 }
 

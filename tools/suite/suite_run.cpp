@@ -6,7 +6,7 @@
 #include <chrono>
 #include <numeric>
 
-#include "scenarios/message.h"
+#include "tools/input/message.h"
 #include "tools/output/result.h"
 #include "tools/scoring/criteria.h"
 #include "tools/scoring/figures_file.h"
@@ -156,7 +156,7 @@ void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteWat
     judge_run(bench::asked_of(watcher.detector, watcher.is_own, planned.scenario->criteria), run);
   } catch (const std::exception& error) {
     run.outcome = Outcome::error;
-    run.error = scenario::message_of(error);
+    run.error = input::message_of(error);
   }
 }
 

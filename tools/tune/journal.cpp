@@ -9,11 +9,11 @@
 #include <string_view>
 #include <system_error>
 
-#include "scenarios/input_file.h"
-#include "scenarios/message.h"
 #include "tools/files/csv.h"
 #include "tools/files/output_file.h"
 #include "tools/files/sha256.h"
+#include "tools/input/input_file.h"
+#include "tools/input/message.h"
 
 namespace lcs::tune {
 namespace {
@@ -101,12 +101,12 @@ Journal::~Journal() {
 }
 
 void Journal::refuse(int line, const std::string& what) const {
-  throw scenario::Error({path_.string(), line}, fmt::format("{}; {}", what, kRemedy));
+  throw input::Error({path_.string(), line}, fmt::format("{}; {}", what, kRemedy));
 }
 
 void Journal::read(const std::vector<Fact>& facts) {
-  constexpr scenario::FileKind kJournal{scenario::kGibibyte, kRemedy};
-  const std::string all = scenario::read_file(path_, kJournal);
+  constexpr input::FileKind kJournal{input::kGibibyte, kRemedy};
+  const std::string all = input::read_file(path_, kJournal);
   std::string_view text = all;
   if (take_line(text) != kSign) refuse(1, "this is no journal of lcs tune");
   std::vector<Fact> before;
@@ -137,7 +137,7 @@ void Journal::read(const std::vector<Fact>& facts) {
 
 void Journal::read_row(const std::string& row, int line) {
   const auto refuse_row = [&](const std::string& what) {
-    refuse(line, fmt::format("the row '{}' {}", scenario::one_line(row), what));
+    refuse(line, fmt::format("the row '{}' {}", input::one_line(row), what));
   };
   const auto cells = bench::fields_of(row);
   if (cells.size() != columns_) {
@@ -148,8 +148,7 @@ void Journal::read_row(const std::string& row, int line) {
   const std::size_t keys = columns_ - 1 - std::size(kFigures);
   for (std::size_t i = 0; i + 1 < columns_; ++i) {
     const auto number = bench::number_in<double>(cells[i]);
-    if (!number)
-      refuse_row(fmt::format("has '{}', which is no number", scenario::one_line(cells[i])));
+    if (!number) refuse_row(fmt::format("has '{}', which is no number", input::one_line(cells[i])));
     if (i < keys) {
       values.emplace_back(cells[i]);
     } else {

@@ -29,7 +29,7 @@ class Journal {
   /// Opens or creates the file. A last line without a line end, left by a kill or a full disk, is
   /// ignored; the next row marks it as cut off.
   /// \param facts about the search. \param keys of the searched parameters.
-  /// \throws scenario::Error with file and line, before anything is written: the file is not a
+  /// \throws input::Error with file and line, before anything is written: the file is not a
   ///   regular file, not a journal, has different facts (the message lists each with both texts),
   ///   or has a row with a wrong checksum. bench::OutputError
   Journal(const std::filesystem::path& file, const std::vector<Fact>& facts,

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "scenarios/message.h"
+#include "tools/input/message.h"
 #include "tools/suite/suite_run.h"
 
 namespace lcs::tune {
@@ -11,14 +11,14 @@ namespace {
 
 /// The command, quoted for a shell, as one line, because it becomes a comment in C++.
 std::string line_of(std::vector<std::string> command) {
-  for (std::string& word : command) word = scenario::one_line(word);
+  for (std::string& word : command) word = input::one_line(word);
   return suite::shell_line(command);
 }
 
 /// Escapes a text for a cell of a Markdown table.
 std::string cell_of(const std::string& text) {
   std::string cell;
-  for (const char c : scenario::one_line(text)) cell += c == '|' ? "\\|" : std::string(1, c);
+  for (const char c : input::one_line(text)) cell += c == '|' ? "\\|" : std::string(1, c);
   return cell;
 }
 

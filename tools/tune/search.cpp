@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "scenarios/spelling.h"
+#include "tools/input/spelling.h"
 
 namespace lcs::tune {
 namespace {
@@ -46,7 +46,7 @@ Axis axis_of(const std::vector<ParameterInfo>& known, const std::string& key) {
     for (const ParameterInfo& info : known) names.push_back(info.key);
     throw std::invalid_argument(
         fmt::format("--keys: the filter has no parameter '{}'; the nearest is '{}'", key,
-                    scenario::nearest_first(key, std::move(names)).front()));
+                    input::nearest_first(key, std::move(names)).front()));
   }
   const std::size_t to = found->range.find(" to ");
   Axis axis{key, number(found->value), 0, 0};

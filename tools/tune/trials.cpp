@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "filter/filter.h"
-#include "scenarios/input_file.h"
 #include "tools/files/sha256.h"
+#include "tools/input/input_file.h"
 #include "tools/process/parallel.h"
 #include "tools/recording/recording_io.h"
 #include "tools/recording/warnings.h"
@@ -33,12 +33,12 @@ bench::Recording asked(const bench::Recording& seen, const Parameters& parameter
 
 /// SHA-256 over all files that `bench::read_recording` reads.
 std::string digest_of(const std::filesystem::path& run) {
-  constexpr scenario::FileKind kRunFile{64 * scenario::kGibibyte, "run the suite again"};
+  constexpr input::FileKind kRunFile{64 * input::kGibibyte, "run the suite again"};
   std::string digests;
   for (const char* name :
        {bench::kLayersFile, bench::kTruthFile, bench::kCameraFile, bench::kWarningsFile}) {
     const bool is_there = std::filesystem::exists(run / name);
-    digests += is_there ? bench::sha256(scenario::read_file(run / name, kRunFile)) : "none";
+    digests += is_there ? bench::sha256(input::read_file(run / name, kRunFile)) : "none";
   }
   return bench::sha256(digests);
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/actor.h"
+#include "sim/world/actor.h"
 
 namespace lcs::worlds {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "scenarios/imu_presets.h"
 #include "sim/pose.h"
-#include "sim/rover.h"
+#include "sim/world/rover.h"
 
 namespace lcs::worlds {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "scenarios/load.h"
-#include "sim/actor.h"
 #include "sim/simulation.h"
+#include "sim/world/actor.h"
 #include "tools/worlds/kit.h"
 #include "tools/worlds/rover.h"
 #include "tools/worlds/worlds.h"

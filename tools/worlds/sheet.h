@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "sim/truth.h"
+#include "sim/truth/truth.h"
 #include "tools/worlds/world.h"
 
 namespace lcs::worlds {

@@ -8,8 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "scenarios/inputs_read.h"
-#include "sim/picture_file.h"
+#include "sim/pictures/picture_file.h"
+#include "tools/input/inputs_read.h"
 
 namespace lcs::worlds {
 namespace {
@@ -473,7 +473,7 @@ std::vector<std::string> pictures_in(const std::string& folder) {
   namespace fs = std::filesystem;
   std::vector<std::string> files;
   std::error_code error;
-  scenario::note_input(folder);
+  input::note_input(folder);
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::string extension = entry.path().extension().string();
     constexpr std::array<std::string_view, 4> kKnown{".png", ".jpg", ".jpeg", ".bmp"};

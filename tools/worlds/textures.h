@@ -1,5 +1,5 @@
 /// \file
-/// Pictures for surfaces. They share nothing with `sim/texture.h`, so that development and
+/// Pictures for surfaces. They share nothing with `sim/scene/texture.h`, so that development and
 /// evaluation use different textures. All of them tile without a seam.
 #pragma once
 

@@ -144,7 +144,7 @@ std::string scenario_text(const World& world) {
   origin.again = static_cast<std::uint64_t>(world.attempt);
   origin.features = {world.features.begin(), world.features.end()};
   return fmt::format("# Written by `lcs world {} --seed {}`.\n{}\n", world.family, world.seed,
-                     scenario::yaml_text(scenario::document_of(s)));
+                     input::yaml_text(scenario::document_of(s)));
 }
 
 }  // namespace

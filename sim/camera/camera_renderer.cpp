@@ -1,0 +1,238 @@
+#include "sim/camera/camera_renderer.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/camera/gl_context.h"
+#include "sim/scene/refusal.h"
+#include "sim/scene/trial.h"
+
+namespace lcs::sim {
+namespace {
+
+constexpr double kNear = 0.05;     // m
+constexpr double kLeastFar = 100;  // m
+// Standard deviation of the lens's point spread.
+constexpr double kLensBlur_px = 0.6;
+// Capacity for MuJoCo's drawables besides the geoms of the model.
+constexpr int kSpareGeoms = 64;
+
+void prepare(mjModel& m, int width_px, int height_px) {
+  m.vis.global.offwidth = width_px;
+  m.vis.global.offheight = height_px;
+  m.vis.quality.offsamples = 0;
+  m.vis.quality.shadowsize = 0;
+  // MuJoCo's clipping planes are in multiples of the scene's extent
+  const double extent = m.stat.extent;
+  m.vis.map.znear = static_cast<float>(kNear / extent);
+  m.vis.map.zfar = static_cast<float>(std::max(kLeastFar, 4 * extent) / extent);
+  // a directional light that moves with the camera is no property of the world
+  auto& head = m.vis.headlight;
+  for (int c = 0; c < 3; ++c) {
+    head.ambient[c] = std::min(1.F, head.ambient[c] + head.diffuse[c] / 2);
+    head.diffuse[c] = 0;
+    head.specular[c] = 0;
+  }
+}
+
+/// Mesa crashes when it runs out of memory. \throws std::runtime_error if the memory limit (ulimit
+/// -v) is too small to render an image. Checks at the first renderer of the process only.
+void check_memory(Model& model, int camera, int width_px, int height_px) {
+  static std::atomic<bool> checked = false;
+  struct rlimit memory = {};
+  if (::getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY ||
+      checked.exchange(true)) {
+    return;
+  }
+  constexpr rlim_t kForTheRest = rlim_t{256} << 20;  // memory for all else in a run
+  const Trial trial = try_in_child([&] {
+    memory.rlim_cur -= std::min(memory.rlim_cur, kForTheRest);
+    ::setrlimit(RLIMIT_AS, &memory);
+    CameraRenderer renderer(model, camera, width_px, height_px);
+    cv::Mat3b picture;
+    cv::Mat1f depth;
+    cv::Mat1i geoms;
+    renderer.update();
+    renderer.render_colour(picture);
+    renderer.render_depth_and_geoms(depth, geoms);
+  });
+  if (trial.fine) return;
+  checked = false;
+  throw std::runtime_error(fmt::format(
+      "software GL draws no picture of {}x{} with {} MB of memory ({}); raise ulimit -v, "
+      "or choose a smaller camera size",
+      width_px, height_px, memory.rlim_cur >> 20,
+      trial.crash.empty() ? trial.refused : trial.crash));
+}
+
+}  // namespace
+
+struct CameraRenderer::Impl {
+  Model& model;
+  int width_px, height_px;
+  GlContext gl;
+  mjvScene scene;
+  mjvOption option;
+  mjvPerturb perturb;
+  mjvCamera camera;
+  mjrContext context;
+  std::vector<unsigned char> rgb;
+  std::vector<float> z;
+
+  Impl(Model& model_, int camera_id, int width_px_, int height_px_)
+      : model(model_), width_px(width_px_), height_px(height_px_) {
+    prepare(model.m(), width_px, height_px);
+    mjv_defaultScene(&scene);
+    mjr_defaultContext(&context);
+    mjv_defaultOption(&option);
+    mjv_defaultPerturb(&perturb);
+    mjv_defaultCamera(&camera);
+    std::fill(std::begin(option.sitegroup), std::end(option.sitegroup), mjtByte{0});
+    camera.type = mjCAMERA_FIXED;
+    camera.fixedcamid = camera_id;
+    try {
+      start();
+    } catch (...) {
+      release();
+      throw;
+    }
+  }
+  ~Impl() { release(); }
+
+  void start() {
+    mjv_makeScene(&model.m(), &scene, static_cast<int>(model.m().ngeom) + kSpareGeoms);
+    scene.flags[mjRND_SHADOW] = 0;
+    scene.flags[mjRND_REFLECTION] = 0;
+    scene.flags[mjRND_FOG] = 0;
+    scene.flags[mjRND_HAZE] = 0;
+    std::string problem;
+    try {
+      mjr_makeContext(&model.m(), &context, mjFONTSCALE_100);
+      mjr_setBuffer(mjFB_OFFSCREEN, &context);
+    } catch (const MujocoError& e) {
+      problem = e.what();
+    }
+    if (problem.empty()) problem = take_warning();
+    const mjrRect buffer = problem.empty() ? mjr_maxViewport(&context) : mjrRect{0, 0, 0, 0};
+    if (context.currentBuffer != mjFB_OFFSCREEN || buffer.width < width_px ||
+        buffer.height < height_px) {
+      const bool is_picture = problem.empty() || problem.find("ffscreen") != std::string::npos;
+      throw std::runtime_error(
+          is_picture
+              ? fmt::format("software GL does not render images of {}x{} ({}); choose a smaller "
+                            "camera size",
+                            width_px, height_px, problem)
+              : fmt::format("software GL does not take the scene ({}); choose fewer or smaller "
+                            "textures and meshes",
+                            problem));
+    }
+    rgb.resize(std::size_t(width_px) * height_px * 3);
+    z.resize(std::size_t(width_px) * height_px);
+  }
+
+  void release() {
+    mjv_freeScene(&scene);
+    try {
+      gl.make_current();
+    } catch (const std::runtime_error&) {
+      return;  // destroying the GL context also frees these resources
+    }
+    mjr_freeContext(&context);
+  }
+
+  mjrRect viewport() const { return {0, 0, width_px, height_px}; }
+
+  void render(float* depth) {
+    gl.make_current();
+    mjr_setBuffer(mjFB_OFFSCREEN, &context);
+    mjr_render(viewport(), &scene, &context);
+    mjr_readPixels(rgb.data(), depth, viewport(), &context);
+  }
+
+  // Read-back is bottom row first.
+  std::size_t row(int y) const { return std::size_t(height_px - 1 - y) * width_px; }
+
+  /// \param colour id colour by `mjRND_IDCOLOR`: index in the scene, from 1.
+  int geom_of(int colour) const {
+    const int index = colour - 1;
+    if (index < 0 || index >= scene.ngeom) return -1;
+    const mjvGeom& drawn = scene.geoms[index];
+    return drawn.objtype == mjOBJ_GEOM ? drawn.objid : -1;
+  }
+};
+
+CameraRenderer::CameraRenderer(Model& model, int camera, int width_px, int height_px) {
+  check_memory(model, camera, width_px, height_px);
+  impl_ = std::make_unique<Impl>(model, camera, width_px, height_px);
+}
+
+CameraRenderer::~CameraRenderer() = default;
+
+void CameraRenderer::update() {
+  Impl& s = *impl_;
+  mjv_updateScene(&s.model.m(), &s.model.d(), &s.option, &s.perturb, &s.camera, mjCAT_ALL,
+                  &s.scene);
+  // with a full buffer MuJoCo only warns, and then renders a part of the scene
+  const std::string warning = take_warning();
+  if (s.scene.ngeom >= s.scene.maxgeom) {
+    throw MujocoError(
+        fmt::format("the scene has more to draw than {} geoms and pieces of tendons; "
+                    "give its tendons fewer sites",
+                    s.scene.maxgeom));
+  }
+  if (!warning.empty()) throw MujocoError(in_one_line(warning));
+}
+
+void CameraRenderer::render_colour(cv::Mat3b& bgr) {
+  Impl& s = *impl_;
+  s.render(nullptr);
+  bgr.create(s.height_px, s.width_px);
+  for (int y = 0; y < s.height_px; ++y) {
+    const unsigned char* from = s.rgb.data() + 3 * s.row(y);
+    cv::Vec3b* to = bgr[y];
+    for (int x = 0; x < s.width_px; ++x, from += 3) to[x] = {from[2], from[1], from[0]};
+  }
+  cv::GaussianBlur(bgr, bgr, {}, kLensBlur_px);
+}
+
+void CameraRenderer::render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom) {
+  Impl& s = *impl_;
+  s.scene.flags[mjRND_SEGMENT] = 1;
+  s.scene.flags[mjRND_IDCOLOR] = 1;
+  s.render(s.z.data());
+  s.scene.flags[mjRND_SEGMENT] = 0;
+  s.scene.flags[mjRND_IDCOLOR] = 0;
+
+  depth_m.create(s.height_px, s.width_px);
+  geom.create(s.height_px, s.width_px);
+  const float n = s.scene.camera[0].frustum_near;
+  const float f = s.scene.camera[0].frustum_far;
+  for (int y = 0; y < s.height_px; ++y) {
+    const unsigned char* id = s.rgb.data() + 3 * s.row(y);
+    const float* z = s.z.data() + s.row(y);
+    float* depth = depth_m[y];
+    int* to = geom[y];
+    // neighbouring pixels mostly show the same geom
+    int colour = 0, shown = s.geom_of(colour);
+    for (int x = 0; x < s.width_px; ++x, id += 3) {
+      const int next = id[0] | id[1] << 8 | id[2] << 16;
+      if (next != colour) shown = s.geom_of(colour = next);
+      to[x] = shown;
+      depth[x] = to[x] < 0 ? std::numeric_limits<float>::infinity() : n * f / (f - z[x] * (f - n));
+    }
+  }
+}
+
+double CameraRenderer::near_m() const {
+  return impl_->scene.camera[0].frustum_near;
+}
+
+}  // namespace lcs::sim

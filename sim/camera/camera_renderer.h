@@ -1,0 +1,41 @@
+/// \file
+/// Renders colour, z-depth and geom ids from a camera of the model. Owns MuJoCo's renderer and the
+/// GL context; use it only from the thread that constructed it.
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+
+#include "sim/scene/model.h"
+
+namespace lcs::sim {
+
+/// Images are top row first. Shadows, reflections and the headlight's directional part are off:
+/// they move over surfaces, so that the true motion would be wrong for a corner on them.
+class CameraRenderer {
+ public:
+  /// Writes buffer size, clipping planes and lights into the model.
+  /// \param model must outlive the renderer; its textures must be complete: they are uploaded here.
+  /// \throws std::runtime_error if GL does not start or cannot render images of this size.
+  CameraRenderer(Model& model, int camera, int width_px, int height_px);
+  ~CameraRenderer();
+  CameraRenderer(const CameraRenderer&) = delete;
+  CameraRenderer& operator=(const CameraRenderer&) = delete;
+
+  /// Takes the poses of the model's last forward pass for the following renders.
+  /// \throws MujocoError if the scene has more geoms than the render buffer holds.
+  void update();
+
+  void render_colour(cv::Mat3b& bgr);
+  /// \param depth_m z-depth along the optical axis, m; +inf for the background.
+  /// \param geom geom id in the model, -1 for the background. Both without multisampling.
+  void render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom);
+
+  double near_m() const;  ///< z of the near clipping plane
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lcs::sim

@@ -1,0 +1,74 @@
+#include "sim/camera/linear_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace lcs::sim {
+namespace {
+
+constexpr int kCodes = 256;
+/// Fine enough for the steepest part of the curve, where a code is 3e-4 wide.
+constexpr int kBins = 1 << 14;
+
+float linear_of(int code) {
+  const double v = code / 255.0;
+  return static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+}
+
+struct Curve {
+  std::array<float, kCodes> linear;
+  std::vector<std::uint8_t> code;  ///< nearest to the middle of each bin of [0, 1]
+
+  Curve() : code(kBins + 1) {
+    for (int c = 0; c < kCodes; ++c) linear[static_cast<std::size_t>(c)] = linear_of(c);
+    std::size_t nearest = 0;
+    for (int bin = 0; bin <= kBins; ++bin) {
+      const float value = static_cast<float>(bin) / kBins;
+      while (nearest + 1 < kCodes &&
+             std::abs(linear[nearest + 1] - value) <= std::abs(linear[nearest] - value)) {
+        ++nearest;
+      }
+      code[static_cast<std::size_t>(bin)] = static_cast<std::uint8_t>(nearest);
+    }
+  }
+};
+
+const Curve& curve() {
+  static const Curve it;
+  return it;
+}
+
+}  // namespace
+
+cv::Mat3f to_linear(const cv::Mat3b& picture) {
+  cv::Mat3f linear(picture.size());
+  const Curve& table = curve();
+  for (int y = 0; y < picture.rows; ++y) {
+    const cv::Vec3b* from = picture[y];
+    cv::Vec3f* to = linear[y];
+    for (int x = 0; x < picture.cols; ++x) {
+      for (int c = 0; c < 3; ++c) to[x][c] = table.linear[from[x][c]];
+    }
+  }
+  return linear;
+}
+
+void to_codes(const cv::Mat3f& linear, cv::Mat3b& picture) {
+  picture.create(linear.size());
+  const Curve& table = curve();
+  for (int y = 0; y < linear.rows; ++y) {
+    const cv::Vec3f* from = linear[y];
+    cv::Vec3b* to = picture[y];
+    for (int x = 0; x < linear.cols; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const float bin = std::clamp(from[x][c], 0.F, 1.F) * kBins + 0.5F;
+        to[x][c] = table.code[static_cast<std::size_t>(bin)];
+      }
+    }
+  }
+}
+
+}  // namespace lcs::sim

@@ -1,0 +1,37 @@
+/// \file
+/// Turns a rendered image into the camera's, by the scenario's section `image`: light and air,
+/// rain, blur and the sensor, then compression. The truth is unchanged: a corner on a raindrop
+/// counts as the surface behind the drop.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "scenarios/scenario.h"
+#include "sim/camera/illumination.h"
+#include "sim/camera/image_sensor.h"
+#include "sim/camera/rain.h"
+#include "sim/pose.h"
+
+namespace lcs::sim {
+
+class Photographer {
+ public:
+  Photographer(const scenario::Image& image, const Pinhole& camera, double rate_hz,
+               std::uint64_t scenario_seed);
+
+  /// Converts the rendered image of frame `k` in place. The result depends on the arguments alone;
+  /// frames in order of time are fastest.
+  void develop(cv::Mat3b& picture, const cv::Mat1f& depth_m, int k);
+
+ private:
+  double blur_px_;
+  std::optional<int> jpeg_quality_;
+  double rate_hz_;
+  Illumination illumination_;
+  std::optional<Rain> rain_;
+  ImageSensor sensor_;
+};
+
+}  // namespace lcs::sim

@@ -1,0 +1,79 @@
+#include "sim/imu/imu_noise.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace lcs::sim {
+namespace {
+
+double not_negative(double value, std::string_view what) {
+  if (std::isfinite(value) && value >= 0) return value;
+  throw std::invalid_argument(std::string(what) + " must be finite and not negative");
+}
+
+double positive_rate(double rate_hz) {
+  if (std::isfinite(rate_hz) && rate_hz > 0) return rate_hz;
+  throw std::invalid_argument("the rate of a sensor must be above 0 Hz");
+}
+
+std::string stream_name(std::string_view sensor, std::string_view part) {
+  return std::string(sensor).append(".").append(part);
+}
+
+Eigen::Vector3d normal3(RandomStream& stream) {
+  Eigen::Vector3d v;
+  for (double& x : v) x = stream.normal();
+  return v;
+}
+
+}  // namespace
+
+Noise3::Noise3(double density, double random_walk, double turn_on_bias, double rate_hz,
+               std::uint64_t seed, std::string_view name)
+    : white_step_(not_negative(density, "a noise density") * std::sqrt(positive_rate(rate_hz))),
+      walk_step_(not_negative(random_walk, "a random walk") / std::sqrt(rate_hz)),
+      white_(seed, stream_name(name, "white")),
+      walk_(seed, stream_name(name, "walk")) {
+  RandomStream turn_on(seed, stream_name(name, "turn_on"));
+  bias_ = not_negative(turn_on_bias, "a turn-on bias") * normal3(turn_on);
+}
+
+Eigen::Vector3d Noise3::corrupt(const Eigen::Vector3d& truth) {
+  if (started_) bias_ += walk_step_ * normal3(walk_);
+  started_ = true;
+  return truth + bias_ + white_step_ * normal3(white_);
+}
+
+ImuNoiseModel::ImuNoiseModel(const scenario::ImuNoise& noise, double rate_hz, std::uint64_t seed,
+                             std::string_view name)
+    : gyro_(noise.gyroscope_noise_density, noise.gyroscope_random_walk,
+            noise.gyroscope_turn_on_bias_radps, rate_hz, seed, stream_name(name, "gyro")),
+      accel_(noise.accelerometer_noise_density, noise.accelerometer_random_walk,
+             noise.accelerometer_turn_on_bias_mps2, rate_hz, seed, stream_name(name, "accel")) {}
+
+ImuSample ImuNoiseModel::corrupt(const ImuSample& truth) {
+  return {truth.t_ns, gyro_.corrupt(truth.gyro_radps), accel_.corrupt(truth.accel_mps2)};
+}
+
+OdometryNoiseModel::OdometryNoiseModel(const scenario::Odometry& odometry, std::uint64_t seed,
+                                       std::string_view name)
+    : noise_mps_(not_negative(odometry.noise_mps, "the odometry's noise")),
+      yaw_noise_radps_(not_negative(odometry.yaw_noise_radps, "the odometry's noise of yaw")),
+      white_(seed, stream_name(name, "white")),
+      yaw_white_(seed, stream_name(name, "yaw white")),
+      scale_(1 + not_negative(odometry.scale_error, "the odometry's scale error") *
+                     RandomStream(seed, stream_name(name, "scale")).normal()) {}
+
+OdometrySample OdometryNoiseModel::corrupt(const OdometrySample& truth) {
+  OdometrySample sample{truth.t_ns, Eigen::Vector3d::Zero()};
+  for (int axis : {0, 1}) {
+    sample.velocity_mps[axis] = scale_ * truth.velocity_mps[axis] + noise_mps_ * white_.normal();
+  }
+  if (truth.yaw_rate_radps) {
+    sample.yaw_rate_radps = scale_ * *truth.yaw_rate_radps + yaw_noise_radps_ * yaw_white_.normal();
+  }
+  return sample;
+}
+
+}  // namespace lcs::sim

@@ -1,0 +1,31 @@
+/// \file
+/// Rough ground: a height field over the scene's floor that shakes a wheeled rover.
+///
+/// The heights are a sum of plane waves with random directions and phases, and lengths of one to
+/// three times the scenario's wavelength. They lie 0 to 4 standard deviations above the floor, 2 on
+/// average, and fall to the floor at the edges. The holonomic rover has no contacts and drives
+/// through it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "scenarios/scenario.h"
+#include "sim/scene/model.h"
+#include "sim/scene/xml.h"
+
+namespace lcs::sim {
+
+/// Adds the height field, still flat, with the material of the scene's first plane.
+/// \param source the place of the `ground` section in the scenario, for errors.
+void add_ground(xml::Element& scene, const scenario::Ground& ground,
+                const Eigen::Vector2d& ego_start_m, const input::Source& source);
+
+/// Writes the heights into a model of that scene.
+void raise_ground(Model& model, const scenario::Ground& ground, std::uint64_t scenario_seed);
+
+/// Advice on which number to change where the wheels have more contacts with the ground than MuJoCo
+/// can hold. Bumps that are short and high for a wheel cause this.
+std::string less_contact(const scenario::Ground& ground);
+
+}  // namespace lcs::sim

@@ -1,0 +1,282 @@
+#include "sim/scene/limits.h"
+
+#include <fmt/format.h>
+#include <mujoco/mjxmacro.h>
+#include <strings.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/pictures/picture_file.h"
+#include "sim/scene/model.h"
+#include "tools/input/input_file.h"
+
+namespace lcs::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using xml::Element;
+
+/// The range of an attribute that MuJoCo 2.2.2 does not check, and whose excess the trial in a
+/// child process (sim/scene/trial.h) does not reveal.
+struct Limit {
+  std::string_view element, attribute;  // "nuser_*": all with this prefix
+  double least, most;
+  const char* reason;
+};
+constexpr Limit kLimits[] = {
+    {"size", "njmax", -1, 5000, "the solver's memory grows with its square: 1 GB"},
+    {"size", "nconmax", -1, 20'000, "more contacts are never solved in time"},
+    {"size", "nstack", -1, 1e8, "it is in numbers of 8 bytes: 800 MB"},
+    {"size", "nuserdata", 0, 1e6, "they are copied with every state"},
+    {"size", "nuser_*", -1, 1000, "an attribute 'user' holds no more"},
+    {"option", "timestep", 1e-6, 1, "the simulation takes steps of it, in seconds"},
+    {"option", "iterations", 0, 10'000, "each step may take so many"},
+    {"option", "noslip_iterations", 0, 10'000, "each step may take so many"},
+    {"option", "mpr_iterations", 0, 10'000, "each contact may take so many"},
+    {"quality", "numslices", 3, 512, "each round shape is drawn in numslices x numstacks pieces"},
+    {"quality", "numstacks", 3, 512, "each round shape is drawn in numslices x numstacks pieces"},
+    {"quality", "numquads", 1, 128, "each box is drawn in 6 x numquads x numquads pieces"},
+    {"statistic", "extent", kLeastExtent_m, kMostExtent_m,
+     "the clipping planes, 0.05 m and four extents, have no depth between them else"},
+    {"statistic", "meaninertia", 1e-12, 1e12, "the solver divides by it"},
+    {"texture", "width", 0, 8192, "software GL has no larger textures"},
+    {"texture", "height", 0, 6 * 8192.0, "software GL has no larger textures"},
+    {"numeric", "size", 1, 500, "MuJoCo has room for so many"},
+    {"skin", "subgrid", 0, 20, "each cell is divided into its square"},
+    {"user", "dim", 1, 1000, "each reading holds so many"},
+};
+
+// Limits of the compiled model.
+constexpr int kMostTextureSide_px = 8192;  // limit of software GL
+constexpr int kMostCubeSide_px = 4096;     // limit of software GL
+constexpr int kMostTextures = 1000;        // limit of MuJoCo's renderer
+constexpr double kMostTextureBytes = 1e9;
+constexpr int kMostHeightFieldSide = 2000;  // points; every image draws all of them
+
+constexpr input::FileKind kAssetFile{256 * input::kMebibyte,  // read into memory
+                                     "give a smaller file, of the kind that it is"};
+
+// Attributes with these prefixes are text, which may contain words like "inf" and "nan".
+constexpr std::array<std::string_view, 17> kTexts = {
+    "name", "class", "childclass", "file",   "texture", "material", "mesh",   "hfield",  "joint",
+    "site", "body",  "geom",       "target", "objname", "refname",  "tendon", "actuator"};
+
+// Lengths, m; limited to the size of a scene that the camera renders.
+constexpr std::array<std::string_view, 7> kLengths = {"pos",    "size",   "fromto", "vertex",
+                                                      "refpos", "offset", "spacing"};
+
+// Lists of any length: MuJoCo silently drops a word that does not parse, and all words after it.
+constexpr std::array<std::string_view, 4> kNumberLists = {"vertex", "normal", "texcoord",
+                                                          "vertweight"};
+constexpr std::array<std::string_view, 2> kIndexLists = {"face", "vertid"};
+
+// Attributes whose keywords may begin with a digit.
+constexpr std::array<std::string_view, 2> kKinds = {"type", "gridlayout"};
+
+constexpr std::size_t kMostShown = 40;  // characters of a value, in a message
+
+[[noreturn]] void refuse(const Element& e, const std::string& what) {
+  throw input::Error(xml::source_of(e), xml::tag(e) + ": " + what);
+}
+
+template <std::size_t N>
+bool is_one_of(const std::array<std::string_view, N>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<std::string> words(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+/// Parses a word as a number, including NaN and infinity; empty if it does not parse.
+std::optional<double> number(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (end != word.data() + word.size() || word.empty()) return std::nullopt;
+  if (error == std::errc::result_out_of_range) return std::numeric_limits<double>::infinity();
+  return error == std::errc() ? std::optional(value) : std::nullopt;
+}
+
+void check_words(const Element& e, std::string_view name, const std::string& text) {
+  const bool is_index = is_one_of(kIndexLists, name);
+  for (const std::string& word : words(text)) {
+    const auto complain = [&](const std::string& what) {
+      refuse(e, fmt::format("{} has '{}', {}", name, word.substr(0, kMostShown), what));
+    };
+    const std::optional<double> value = number(word);
+    if (is_index && word.find_first_not_of("+-0123456789") != word.npos) {
+      complain("which is no integer; correct it");
+    }
+    // MuJoCo parses "12abc" as 12; "2d" is a keyword
+    const std::size_t first = std::min(word.find_first_not_of("+-."), word.size() - 1);
+    const bool begins_as_number =
+        std::isdigit(static_cast<unsigned char>(word[first])) && !is_one_of(kKinds, name);
+    if (!value && (begins_as_number || is_one_of(kNumberLists, name))) {
+      complain("which is no number; correct it");
+    }
+    const bool may_be_open = value && std::isinf(*value) && name.ends_with("range");
+    if (value && !std::isfinite(*value) && !may_be_open)
+      complain("and takes finite numbers alone; correct it");
+    if (value && std::abs(*value) > kMostExtent_m && is_one_of(kLengths, name)) {
+      complain(fmt::format("and a camera sees no farther than {:g} m; give a smaller number",
+                           kMostExtent_m));
+    }
+  }
+}
+
+void check_range(const Element& e, std::string_view name, const std::string& text) {
+  for (const Limit& limit : kLimits) {
+    const bool is_named =
+        limit.attribute.ends_with('*')
+            ? name.starts_with(limit.attribute.substr(0, limit.attribute.size() - 1))
+            : name == limit.attribute;
+    if (e.Name() != limit.element || !is_named) continue;
+    const auto found = words(text);
+    const auto value = found.empty() ? std::nullopt : number(found.front());
+    if (value && *value >= limit.least && *value <= limit.most) continue;
+    refuse(e,
+           fmt::format("{} is {}, and can be {:.10g} to {:.10g} ({}); give a number within these",
+                       name, text.substr(0, kMostShown), limit.least, limit.most, limit.reason));
+  }
+}
+
+/// Checks the indices in the faces of a Wavefront file. MuJoCo reads a vertex from arbitrary memory
+/// for an index out of range, and the compiled model does not show it.
+void check_obj(const Element& e, const fs::path& file) {
+  constexpr std::array<std::string_view, 3> kLines = {"v", "vt", "vn"};
+  constexpr std::array<const char*, 3> kNames = {"vertex", "texture coordinate", "normal"};
+  std::array<std::size_t, 3> counts{};
+  struct Face {
+    std::string text;
+    int line;
+    std::array<std::size_t, 3> counts;  // before the face; negative indices count back from these
+  };
+  std::vector<Face> faces;
+  input::InputFile input(file, kAssetFile, xml::source_of(e));
+  for (std::string line; input.next_line(line);) {
+    const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
+    const std::string kind = line.substr(begin, line.find_first_of(" \t", begin) - begin);
+    for (std::size_t k = 0; k < kLines.size(); ++k) counts[k] += kind == kLines[k];
+    if (kind == "f") faces.push_back({line.substr(begin + 1), input.here().line, counts});
+  }
+  for (const Face& face : faces) {
+    for (const std::string& corner : words(face.text)) {
+      std::string_view rest = corner;
+      for (std::size_t k = 0; k < kLines.size(); ++k) {
+        const std::size_t slash = std::min(rest.find('/'), rest.size());
+        const std::string_view word = rest.substr(0, slash);
+        rest.remove_prefix(std::min(slash + 1, rest.size()));
+        if (word.empty() && k > 0 && counts[k] == 0) continue;
+        const double index = number(word).value_or(0);  // indices begin at 1
+        const double place = index < 0 ? static_cast<double>(face.counts[k]) + index : index - 1;
+        if (place >= 0 && place < static_cast<double>(counts[k])) continue;
+        refuse(e, fmt::format("'{}', line {}: '{}' names no {} of the file (there are {}); correct "
+                              "the file",
+                              file.string(), face.line, corner.substr(0, kMostShown), kNames[k],
+                              counts[k]));
+      }
+    }
+  }
+}
+
+/// \param file of an asset. MuJoCo would block on a pipe, and allocate any image size.
+void check_file(const Element& e, const fs::path& file) {
+  const std::string bytes = input::InputFile(file, kAssetFile, xml::source_of(e)).bytes();
+  const auto size = picture_size(bytes);
+  if (size && size->width > 0 && size->height > kMostPixels / size->width) {
+    refuse(e, fmt::format("'{}' is {} x {} pixels, and can have {} million in all; choose a "
+                          "smaller one",
+                          file.string(), size->width, size->height, kMostPixels / 1'000'000));
+  }
+  // MuJoCo recognises the format by the last three characters
+  const std::string name = file.string();
+  if (::strcasecmp(name.c_str() + std::max<std::size_t>(name.size(), 3) - 3, "obj") != 0) return;
+  if (e.Attribute("face")) refuse(e, "it has a file and faces too; remove one of the two");
+  check_obj(e, file);
+}
+
+void require_finite(const char*, const void*, std::int64_t) {}  // integer arrays
+/// \throws MujocoError
+void require_finite(const char* array, const float* values, std::int64_t count) {
+  if (std::all_of(values, values + count, [](float f) { return std::isfinite(f); })) return;
+  throw MujocoError(fmt::format("a file has a number that is not finite, for {}", array));
+}
+
+}  // namespace
+
+void check_limits(Element& root) {
+  xml::for_each(root, [](const Element& e) {
+    const Element* parent = e.Parent() ? e.Parent()->ToElement() : nullptr;
+    const std::string_view section = parent ? parent->Name() : "";
+    for (const auto* a = e.FirstAttribute(); a; a = a->Next()) {
+      const std::string_view name = a->Name();
+      if (section == "asset" && name.starts_with("file")) check_file(e, a->Value());
+      check_range(e, name, a->Value());
+      const bool is_text = std::any_of(kTexts.begin(), kTexts.end(),
+                                       [&](auto text) { return name.starts_with(text); });
+      const bool is_truth = section == "composite" && name == "texcoord";
+      if (is_text || is_truth || name.find(':') != name.npos ||
+          e.Name() == std::string_view("text"))
+        continue;
+      check_words(e, name, a->Value());
+    }
+  });
+}
+
+void check_compiled(const mjModel& m) {
+  const auto fail = [&](mjtObj kind, int id, const std::string& what) {
+    const char* name = mj_id2name(&m, kind, id);
+    throw MujocoError(fmt::format("{} '{}' {}", mju_type2Str(kind), name ? name : "", what));
+  };
+  const auto check_size = [&](mjtObj kind, int id, int rows, int columns, int most_rows,
+                              int most_columns) {
+    if (rows >= 1 && rows <= most_rows && columns >= 1 && columns <= most_columns) return;
+    fail(kind, id,
+         fmt::format("has {} x {} points, and can have {} x {}", columns, rows, most_columns,
+                     most_rows));
+  };
+  double bytes = 0;
+  for (int i = 0; i < m.ntex; ++i) {
+    const bool is_flat = m.tex_type[i] == mjTEXTURE_2D;
+    const int side = is_flat ? kMostTextureSide_px : kMostCubeSide_px;
+    check_size(mjOBJ_TEXTURE, i, m.tex_height[i], m.tex_width[i], is_flat ? side : 6 * side, side);
+    bytes += 3.0 * m.tex_width[i] * m.tex_height[i];
+    if (i < kMostTextures && bytes <= kMostTextureBytes) continue;
+    fail(mjOBJ_TEXTURE, i,
+         fmt::format("is one too many: with it there are {} textures of {:.0f} MB, and can be {} "
+                     "of {:.0f} MB",
+                     i + 1, bytes / 1e6, kMostTextures, kMostTextureBytes / 1e6));
+  }
+  for (int i = 0; i < m.nhfield; ++i) {
+    check_size(mjOBJ_HFIELD, i, m.hfield_nrow[i], m.hfield_ncol[i], kMostHeightFieldSide,
+               kMostHeightFieldSide);
+  }
+  for (int i = 0; i < m.nskin; ++i) {
+    const int* const face = m.skin_face + 3 * m.skin_faceadr[i];
+    const int* const end = face + 3 * m.skin_facenum[i];
+    const int vertices = m.skin_vertnum[i];
+    const auto wrong = std::find_if(face, end, [&](int v) { return v < 0 || v >= vertices; });
+    if (wrong == end) continue;
+    fail(mjOBJ_SKIN, i, fmt::format("has a face of vertex {}, and there are {}", *wrong, vertices));
+  }
+#define X(type, name, rows, columns) \
+  require_finite(#name, m.name, std::int64_t{m.rows} * (columns));
+  MJMODEL_POINTERS_PREAMBLE((&m))
+  MJMODEL_POINTERS
+#undef X
+}
+
+}  // namespace lcs::sim

@@ -1,0 +1,177 @@
+#include "sim/scene/refusal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+namespace lcs::sim {
+namespace {
+
+using Origin = xml::Printed::Origin;
+
+/// Remedies by a phrase of MuJoCo's message; the first match applies.
+struct Remedy {
+  std::string_view words, remedy;
+};
+constexpr Remedy kRemedies[] = {
+    {"repeated name", "give one of the two another name"},
+    {"repeated default class", "give one of the two another class"},
+    {"sizes must be positive", "give it a size of numbers above 0"},
+    {"size(3) must be positive", "give it a size whose third number is above 0"},
+    {"mass and inertia of moving bodies",
+     "give the body a geom with size and density, or an <inertial> with mass and diaginertia"},
+    {"mass is too small", "give its geoms a mass or density above 0"},
+    {"mass, inertia or density are negative", "make them positive"},
+    {"mass and inertia cannot be negative", "make them positive"},
+    {"qhull error",
+     "its points lie in a plane, on a line, or are too few: give it thickness, or use a box"},
+    {"mesh volume is too small",
+     "close the mesh, turn its faces outwards, or enlarge it (its unit is the metre)"},
+    {"mesh surface area is too small", "enlarge it: its unit is the metre"},
+    {"inconsistent orientation", "turn all faces outwards, or leave the faces to MuJoCo"},
+    {"mesh inertia", "close the mesh and turn its faces outwards"},
+    {"ASCII", "save it as binary STL"},
+    {"STL file", "save it anew as binary STL"},
+    {"OBJ file", "save it anew as OBJ"},
+    {"MSH file", "save it anew as binary STL"},
+    {"SKN file", "save it anew"},
+    {"PNG", "save the picture anew as PNG"},
+    {"Unknown mesh file type", "give an .stl, .obj or .msh file"},
+    {"Unknown skin file type", "give an .skn file"},
+    {"custom binary file format", "give a .png file"},
+    {"unrecognized attribute", "correct its spelling or take it away"},
+    {"unrecognized element", "correct its spelling, or put it where MJCF has it"},
+    {"invalid keyword", "give one of the words that MJCF has for it"},
+    {"required attribute missing", "add it"},
+    {"missing element", "add it"},
+    {"problem reading attribute", "give numbers that are written as such"},
+    {"does not have enough data", "give as many numbers as MJCF asks for"},
+    {"has too much data", "give as many numbers as MJCF asks for"},
+    {"unknown default", "define the class in <default>, or correct the name"},
+    {"not found", "define it, or correct the name"},
+    {"unknown element", "define it, or correct the name"},
+    {"unrecognized object", "define it, or correct the name"},
+    {"unknown body", "define it, or correct the name"},
+    {"plane and hfield only allowed in static bodies", "put it right into the worldbody"},
+    {"free joint can only", "put the body right into the worldbody, with this joint alone"},
+    {"nuser_", "raise it in <size>, or take numbers away from 'user'"},
+    {"contact buffer is full", "set <size nconmax=\"1000\"/>, or let fewer geoms touch"},
+    {"constraint buffer is full", "set <size njmax=\"2000\"/>, or let fewer geoms touch"},
+    {"ould not create mj",
+     "not enough memory: lower the numbers in <size>, or make textures and meshes smaller"},
+    {"points, and can have", "choose a smaller one"},
+    {"is one too many", "choose fewer or smaller ones"},
+    {"a face of vertex", "correct its faces"},
+    {"vertex index out of range", "correct its faces"},
+    {"not finite", "save the files of meshes, skins and height fields anew"},
+    {"ould not allocate", "not enough memory: make the scene smaller, or raise ulimit -v"},
+    {"too large", "make the scene smaller"},
+    {"at least 4 ver", "give four or more"},
+    {"incompatible size", "give one for each vertex"},
+    {"Invalid width or height", "give width and height above 0"},
+    {"unknown", "define it, or correct the name"},
+    {"unrecognized name", "define it, or correct the name"},
+    {"more than 6 dofs", "give it one joint of each direction at most, or a freejoint alone"},
+    {"simulation is unstable",
+     "look for huge masses, forces, stiffnesses, or bodies that begin inside each other"},
+};
+
+std::string remedy_of(std::string_view said) {
+  for (const Remedy& r : kRemedies) {
+    if (said.find(r.words) != std::string_view::npos) return std::string(r.remedy);
+  }
+  return "correct it";
+}
+
+/// The number after a phrase, or 0.
+int number_behind(std::string_view said, std::string_view words) {
+  const std::size_t at = said.rfind(words);
+  int number = 0;
+  if (at != std::string_view::npos) {
+    std::from_chars(said.data() + at + words.size(), said.data() + said.size(), number);
+  }
+  return number;
+}
+
+/// The text between the first pair of two marks; empty without a match.
+std::string_view between(std::string_view said, std::string_view before, std::string_view behind) {
+  const std::size_t begin = said.find(before);
+  if (begin == std::string_view::npos) return {};
+  const std::string_view rest = said.substr(begin + before.size());
+  const std::size_t end = rest.find(behind);
+  return end == std::string_view::npos ? std::string_view{} : rest.substr(0, end);
+}
+
+/// The element at fault: by its line number, else by a name in the message.
+const Origin* culprit(std::string_view said, const xml::Printed& scene) {
+  for (const std::string_view words : {", line = ", ", line "}) {  // MuJoCo 2, 3
+    const int line = number_behind(said, words);
+    if (const Origin* found = line > 0 ? scene.at_line(line) : nullptr) return found;
+  }
+  if (said.find(" in sensor '") != std::string_view::npos) {  // messages on sensors cite no line
+    return scene.within("sensor", number_behind(said, ", id = "));
+  }
+  for (const char* kind : {"texture", "hfield", "skin"}) {
+    const std::string_view name = between(said, std::string(kind) + " '", "'");
+    if (const Origin* found = name.empty() ? nullptr : scene.named(kind, name)) return found;
+  }
+  for (const std::string_view name :
+       {between(said, "Object name = ", ", id"), between(said, "'", "'")}) {
+    if (const Origin* found = name.empty() ? nullptr : scene.named("", name)) return found;
+  }
+  return nullptr;
+}
+
+/// Removes " (id = 5)", an index that the user cannot see, and " in geom ''".
+void take_out_numbers(std::string& text) {
+  for (std::size_t at; (at = text.find(" (id")) != std::string::npos;) {
+    const std::size_t end = text.find(')', at);
+    text.erase(at, end == std::string::npos ? end : end + 1 - at);
+  }
+  for (std::size_t end; (end = text.find(" ''")) != std::string::npos;) {
+    const std::size_t at = text.rfind(" in ", end);
+    const bool is_place = at != std::string::npos && text.find(' ', at + 4) == end;
+    text.erase(is_place ? at : end, end + 3 - (is_place ? at : end));
+  }
+}
+
+/// The message in one line, without MuJoCo's prefixes and suffixes.
+std::string plain(std::string_view said) {
+  for (const std::string_view prefix : {"XML Error", "Error"}) {
+    if (!said.starts_with(prefix)) continue;
+    said.remove_prefix(prefix.size());
+    break;
+  }
+  for (const std::string_view prefix : {": ", "Schema violation: ", "engine error: "}) {
+    if (said.starts_with(prefix)) said.remove_prefix(prefix.size());
+  }
+  said = said.substr(0, std::min(said.find("\nObject name = "), said.find("\nElement ")));
+  std::string text;
+  for (const char c : said) {
+    const bool space = static_cast<unsigned char>(c) <= ' ';
+    if (!space) text += c;
+    if (space && !text.empty() && text.back() != ' ') text += ' ';
+  }
+  take_out_numbers(text);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+input::Error refusal(const std::string& said, const xml::Printed& scene,
+                     const std::filesystem::path& file) {
+  const Origin* origin = culprit(said, scene);
+  return {
+      origin ? origin->source : input::Source{file.string(), 0},
+      fmt::format("MuJoCo refuses {}: {}", origin ? origin->tag : "the scene", in_one_line(said))};
+}
+
+std::string in_one_line(const std::string& said, const std::string& more) {
+  const std::string why = plain(said);
+  return fmt::format("{}{}; {}", why, more, remedy_of(why));
+}
+
+}  // namespace lcs::sim

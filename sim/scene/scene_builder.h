@@ -1,0 +1,41 @@
+/// \file
+/// Composes one MJCF document from a scenario: the scene and the fragments of rover and actors.
+///
+/// A scene is plain MJCF. A named body directly in its worldbody is an *object*, which a square
+/// should find. Geoms directly in the worldbody are the static setting. A fragment is MJCF with one
+/// body called `base` (x forward, z up, origin on the ground below its middle); its names get a
+/// prefix, so that names of scene, rover and actors cannot clash.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scenarios/scenario.h"
+#include "sim/scene/fragment.h"
+#include "sim/scene/xml.h"
+
+namespace lcs::sim {
+
+inline constexpr const char* kEgoBody = "ego/base";
+inline constexpr const char* kCamera = "ego/camera";
+
+/// A texture to fill from an image file after loading.
+struct PictureTexture {
+  std::string texture;
+  std::filesystem::path file;
+  input::Source source;
+};
+
+struct ComposedScene {
+  xml::Printed mjcf;
+  std::vector<std::string> actor_bodies;  ///< body of each actor, in the scenario's order
+  std::vector<PictureTexture> pictures;
+};
+
+/// \throws input::Error for missing files, files that are not MJCF, actors on bodies that the
+/// scene lacks or another actor moves, duplicate names, impossible sizes of a shape, and values
+/// beyond the limits (`sim/scene/limits.h`).
+ComposedScene compose(const scenario::Scenario& scenario);
+
+}  // namespace lcs::sim

@@ -1,0 +1,91 @@
+#include "sim/world/actor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+namespace lcs::sim {
+namespace {
+
+using scenario::Circular;
+using scenario::Line;
+using scenario::Still;
+using scenario::Waypoint;
+using scenario::Waypoints;
+
+Eigen::Vector2d direction(double heading_rad) {
+  return {std::cos(heading_rad), std::sin(heading_rad)};
+}
+
+/// Distance along a line; the speed stays 0 once it reaches 0.
+double distance(const Line& line, double t) {
+  const double a = line.acceleration_mps2;
+  if (a < 0) t = std::min(t, -line.speed_mps / a);
+  return line.speed_mps * t + a * t * t / 2;
+}
+
+PlanarPose at(const Still& still, const PlanarPose& home, double) {
+  return {still.position_m.value_or(home.position_m), still.heading_rad.value_or(home.heading_rad)};
+}
+
+PlanarPose at(const Line& line, const PlanarPose& home, double t) {
+  const double heading = line.heading_rad.value_or(home.heading_rad);
+  return {line.from_m.value_or(home.position_m) + distance(line, t) * direction(heading), heading};
+}
+
+/// Heading of the leg that ends at waypoint `end`. For a pause: of the last moving leg before it,
+/// or, at the beginning, of the first moving leg after it.
+double heading_on(const std::vector<Waypoint>& points, std::size_t end, double home_heading_rad) {
+  const auto leg = [&](std::size_t i) {
+    return Eigen::Vector2d(points[i].position_m - points[i - 1].position_m);
+  };
+  for (std::size_t i = end; i >= 1; --i) {
+    if (!leg(i).isZero()) return std::atan2(leg(i).y(), leg(i).x());
+  }
+  for (std::size_t i = end + 1; i < points.size(); ++i) {
+    if (!leg(i).isZero()) return std::atan2(leg(i).y(), leg(i).x());
+  }
+  return home_heading_rad;
+}
+
+PlanarPose at(const Waypoints& waypoints, const PlanarPose& home, double t) {
+  const auto& points = waypoints.points;
+  const auto later = std::upper_bound(points.begin(), points.end(), t,
+                                      [](double s, const Waypoint& p) { return s < p.at_s; });
+  // the leg at time t; the first leg before the first waypoint, the last leg after the last one
+  const auto end = static_cast<std::size_t>(
+      std::clamp<std::ptrdiff_t>(std::distance(points.begin(), later), 1, std::ssize(points) - 1));
+  const Waypoint& a = points[end - 1];
+  const Waypoint& b = points[end];
+  const double share = std::clamp((t - a.at_s) / (b.at_s - a.at_s), 0.0, 1.0);
+  return {a.position_m + share * (b.position_m - a.position_m),
+          heading_on(points, end, home.heading_rad)};
+}
+
+PlanarPose at(const Circular& circle, const PlanarPose&, double t) {
+  const double angle = circle.start_angle_rad + circle.speed_mps / circle.radius_m * t;
+  const double ahead = circle.speed_mps < 0 ? -std::numbers::pi / 2 : std::numbers::pi / 2;
+  return {circle.centre_m + circle.radius_m * direction(angle), angle + ahead};
+}
+
+}  // namespace
+
+PlanarPose pose_on(const scenario::Trajectory& trajectory, const PlanarPose& home, double seconds) {
+  const double t = std::max(0.0, seconds);
+  return std::visit([&](const auto& kind) { return at(kind, home, t); }, trajectory);
+}
+
+double Trigger::update(std::int64_t t_ns, double ego_distance_m) {
+  const double t = 1e-9 * static_cast<double>(t_ns);
+  if (!start_s_ && t >= conditions_.at_s) {
+    if (!conditions_.ego_within_m) {
+      start_s_ = conditions_.at_s;  // exact, independent of the time steps
+    } else if (ego_distance_m <= *conditions_.ego_within_m) {
+      start_s_ = t;
+    }
+  }
+  return start_s_ ? t - *start_s_ : -1.0;
+}
+
+}  // namespace lcs::sim

@@ -1,0 +1,273 @@
+#include "sim/world/rover.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "sim/scene/scene_builder.h"
+#include "sim/world/route.h"
+
+namespace lcs::sim {
+namespace {
+
+using scenario::EgoPhase;
+
+/// Indices of a rover joint into qpos and qvel.
+struct Joint {
+  int qpos, qvel;
+
+  Joint(const Model& model, const char* name) {
+    const int id = model.id(mjOBJ_JOINT, std::string(kEgoPrefix) + name);
+    qpos = model.m().jnt_qposadr[id];
+    qvel = model.m().jnt_dofadr[id];
+  }
+};
+
+int actuator(const Model& model, const char* name) {
+  return model.id(mjOBJ_ACTUATOR, std::string(kEgoPrefix) + name);
+}
+
+/// Two slides along W's x and y and a hinge about z, each with a stiff velocity actuator.
+class HolonomicRover : public Rover {
+ public:
+  HolonomicRover(const scenario::Ego& ego, const Model& model)
+      : ego_(ego),
+        command_(ego.phases),
+        route_(ego.waypoints.empty() ? std::nullopt : std::optional<Route>(ego)),
+        joints_{Joint(model, "x"), Joint(model, "y"), Joint(model, "yaw")},
+        actuators_{actuator(model, "x"), actuator(model, "y"), actuator(model, "yaw")} {}
+
+  void start(Model& model) override {
+    mjData& d = model.d();
+    const std::array<double, 3> position = {ego_.start_m.x(), ego_.start_m.y(), ego_.heading_rad};
+    for (std::size_t i = 0; i < 3; ++i) d.qpos[joints_[i].qpos] = position[i];
+    const std::array<double, 3> velocity = joint_rates(model, 0);
+    for (std::size_t i = 0; i < 3; ++i) d.qvel[joints_[i].qvel] = velocity[i];
+  }
+
+  void command(Model& model, std::int64_t t_ns) override {
+    const std::array<double, 3> velocity = joint_rates(model, t_ns);
+    for (std::size_t i = 0; i < 3; ++i) model.d().ctrl[actuators_[i]] = velocity[i];
+  }
+
+  PlanarVelocity odometry(const Model& model) const override {
+    const mjData& d = model.d();
+    const Eigen::Rotation2Dd R_BW(-d.qpos[joints_[2].qpos]);
+    const Eigen::Vector2d v_W(d.qvel[joints_[0].qvel], d.qvel[joints_[1].qvel]);
+    return {R_BW * v_W, d.qvel[joints_[2].qvel]};
+  }
+
+ private:
+  /// Rates of the joints: x and y in W, and yaw.
+  std::array<double, 3> joint_rates(const Model& model, std::int64_t t_ns) {
+    if (route_) {
+      const Route::Motion motion = route_->at(1e-9 * static_cast<double>(t_ns));
+      return {motion.velocity_W_mps.x(), motion.velocity_W_mps.y(), motion.yaw_rate_radps};
+    }
+    const PlanarVelocity v = command_.at(t_ns);
+    const Eigen::Vector2d v_W = Eigen::Rotation2Dd(model.d().qpos[joints_[2].qpos]) * v.linear_mps;
+    return {v_W.x(), v_W.y(), v.yaw_rate_radps};
+  }
+
+  scenario::Ego ego_;
+  SmoothCommand command_;
+  std::optional<Route> route_;  ///< replaces the command if the ego has waypoints
+  std::array<Joint, 3> joints_;
+  std::array<int, 3> actuators_;
+};
+
+/// Two driven wheels and two casters, with contacts.
+class WheeledRover : public Rover {
+ public:
+  WheeledRover(const scenario::Scenario& scenario, const Model& model)
+      : ego_(scenario.ego),
+        scene_{scenario.scene.string(), 0},
+        command_(scenario.ego.phases),
+        base_(model, "base"),
+        joints_{Joint(model, "left"), Joint(model, "right")},
+        actuators_{actuator(model, "left"), actuator(model, "right")} {
+    check(scenario);
+    const int left = model.id(mjOBJ_BODY, std::string(kEgoPrefix) + "left_wheel");
+    const int right = model.id(mjOBJ_BODY, std::string(kEgoPrefix) + "right_wheel");
+    const mjModel& m = model.m();
+    track_m_ = m.body_pos[3 * left + 1] - m.body_pos[3 * right + 1];
+    radius_m_ = m.geom_size[3 * m.body_geomadr[left]];
+  }
+
+  void start(Model& model) override {
+    mjModel& m = model.m();
+    mjData& d = model.d();
+    const Footing under = footing(model);
+    place(d, under.height_m + kDrop_m);
+    std::fill_n(d.ctrl, m.nu, 0.0);
+    m.opt.timestep = kSettlingStep_s;
+    for (int i = 0; i < static_cast<int>(kSettling_s / kSettlingStep_s); ++i) mj_step(&m, &d);
+
+    if (d.qpos[base_.qpos + 2] < under.height_m - kSunk_m) refuse_to_fall(model, under.geom);
+    // settled height, roll and pitch, but the start position and heading, already rolling
+    place(d, d.qpos[base_.qpos + 2]);
+    const PlanarVelocity v = command_.at(0);
+    const Eigen::Vector2d v_W = Eigen::Rotation2Dd(ego_.heading_rad) * v.linear_mps;
+    std::fill_n(d.qvel + base_.qvel, 6, 0.0);
+    d.qvel[base_.qvel] = v_W.x();
+    d.qvel[base_.qvel + 1] = v_W.y();
+    d.qvel[base_.qvel + 5] = v.yaw_rate_radps;
+    const std::array<double, 2> wheels = wheel_rates(v);
+    for (std::size_t i = 0; i < 2; ++i) d.qvel[joints_[i].qvel] = wheels[i];
+  }
+
+  void command(Model& model, std::int64_t t_ns) override {
+    const std::array<double, 2> wheels = wheel_rates(command_.at(t_ns));
+    for (std::size_t i = 0; i < 2; ++i) model.d().ctrl[actuators_[i]] = wheels[i];
+  }
+
+  PlanarVelocity odometry(const Model& model) const override {
+    const double left = model.d().qvel[joints_[0].qvel];
+    const double right = model.d().qvel[joints_[1].qvel];
+    return {{radius_m_ * (left + right) / 2, 0}, radius_m_ * (right - left) / track_m_};
+  }
+
+ private:
+  static constexpr double kDrop_m = 0.01;
+  static constexpr double kAbove_m = 1.5;  // below a ceiling, above rough ground
+  static constexpr double kSettling_s = 1.0;
+  static constexpr double kSettlingStep_s = 0.002;
+  static constexpr double kSunk_m = 0.1;  // the wheel radius: a supported rover sinks less
+
+  static void check(const scenario::Scenario& scenario) {
+    if (!scenario.ego.waypoints.empty()) {
+      throw input::Error(scenario.ego.source,
+                         "a wheeled rover slips, and cannot be at ego.waypoints at their times; "
+                         "make the drive holonomic, or give start, heading, speed and phases");
+    }
+    for (const EgoPhase& phase : scenario.ego.phases) {
+      constexpr double kTolerance = 1e-6;
+      if (std::abs(std::sin(phase.direction_rad)) > kTolerance) {
+        throw input::Error(
+            {scenario.file.string(), 0},
+            fmt::format(
+                "a wheeled rover cannot drive sideways: the ego's direction at {} s is {:g} "
+                "deg; make it 0 or 180 deg, or the drive holonomic",
+                phase.at_s, phase.direction_rad * 180 / std::numbers::pi));
+      }
+    }
+  }
+
+  /// The surface below the start; height 0 if there is none (geom -1).
+  struct Footing {
+    double height_m;
+    int geom;
+  };
+  Footing footing(Model& model) const {
+    mjData& d = model.d();
+    place(d, 2 * kAbove_m);  // out of the ray
+    mj_kinematics(&model.m(), &d);
+    const std::array<double, 3> from = {ego_.start_m.x(), ego_.start_m.y(), kAbove_m};
+    const std::array<double, 3> down = {0, 0, -1};
+    int geom = -1;
+    const double distance = mj::ray(model.m(), d, from.data(), down.data(), -1, geom);
+    return {geom < 0 ? 0.0 : kAbove_m - distance, geom};
+  }
+
+  [[noreturn]] void refuse_to_fall(const Model& model, int geom) const {
+    const mjModel& m = model.m();
+    const std::string start =
+        fmt::format("ego.start ({:g}, {:g}) m", ego_.start_m.x(), ego_.start_m.y());
+    const std::string_view name = geom < 0 ? "" : model.name(mjOBJ_GEOM, geom);
+    throw input::Error(
+        scene_,
+        geom < 0 ? fmt::format("nothing is under {}, so that a wheeled rover falls there; put a "
+                               "floor under it, or make ego.drive holonomic",
+                               start)
+                 : fmt::format("the geom{} under {} has contype {} and conaffinity {}, so that a "
+                               "wheeled rover falls through it; give it contype=\"1\" and "
+                               "conaffinity=\"1\" (and no <flag contact=\"disable\"/>), or make "
+                               "ego.drive holonomic",
+                               name.empty() ? "" : fmt::format(" '{}'", name), start,
+                               m.geom_contype[geom], m.geom_conaffinity[geom]));
+  }
+
+  void place(mjData& d, double z) const {
+    double* q = d.qpos + base_.qpos;
+    q[0] = ego_.start_m.x();
+    q[1] = ego_.start_m.y();
+    q[2] = z;
+    // turn to the start heading, but keep the roll and pitch of the ground
+    const Eigen::Quaterniond R(q[3], q[4], q[5], q[6]);
+    const Eigen::Vector3d x = R * Eigen::Vector3d::UnitX();
+    const Eigen::Quaterniond turned(
+        Eigen::AngleAxisd(ego_.heading_rad - std::atan2(x.y(), x.x()), Eigen::Vector3d::UnitZ()) *
+        R);
+    q[3] = turned.w();
+    q[4] = turned.x();
+    q[5] = turned.y();
+    q[6] = turned.z();
+  }
+
+  std::array<double, 2> wheel_rates(const PlanarVelocity& v) const {
+    const double half = v.yaw_rate_radps * track_m_ / 2;
+    return {(v.linear_mps.x() - half) / radius_m_, (v.linear_mps.x() + half) / radius_m_};
+  }
+
+  scenario::Ego ego_;
+  input::Source scene_;
+  SmoothCommand command_;
+  Joint base_;
+  std::array<Joint, 2> joints_;
+  std::array<int, 2> actuators_;
+  double track_m_ = 0;
+  double radius_m_ = 0;
+};
+
+}  // namespace
+
+PlanarVelocity commanded_velocity(const std::vector<EgoPhase>& phases, std::int64_t t_ns) {
+  const auto later = std::upper_bound(
+      phases.begin(), phases.end(), t_ns,
+      [](std::int64_t t, const EgoPhase& p) { return t < std::llround(p.at_s * 1e9); });
+  if (later == phases.begin()) return {};
+  const EgoPhase& phase = *std::prev(later);
+  const double since = 1e-9 * static_cast<double>(t_ns) - phase.at_s;
+  const double speed = std::max(0.0, phase.speed_mps + phase.acceleration_mps2 * since);
+  return {speed * Eigen::Vector2d(std::cos(phase.direction_rad), std::sin(phase.direction_rad)),
+          phase.yaw_rate_radps};
+}
+
+SmoothCommand::SmoothCommand(std::vector<EgoPhase> phases)
+    : phases_(std::move(phases)),
+      max_acceleration_mps2_(kMaxAcceleration_mps2),
+      now_(commanded_velocity(phases_, 0)) {
+  for (const EgoPhase& phase : phases_) {
+    max_acceleration_mps2_ = std::max(max_acceleration_mps2_, std::abs(phase.acceleration_mps2));
+  }
+}
+
+PlanarVelocity SmoothCommand::at(std::int64_t t_ns) {
+  const double dt = 1e-9 * static_cast<double>(t_ns - t_ns_);
+  t_ns_ = t_ns;
+  const PlanarVelocity target = commanded_velocity(phases_, t_ns);
+  const Eigen::Vector2d change = target.linear_mps - now_.linear_mps;
+  const double most = max_acceleration_mps2_ * dt;
+  now_.linear_mps = change.norm() <= most
+                        ? target.linear_mps
+                        : Eigen::Vector2d(now_.linear_mps + most * change.normalized());
+  const double most_yaw = kMaxYawAcceleration_radps2 * dt;
+  now_.yaw_rate_radps +=
+      std::clamp(target.yaw_rate_radps - now_.yaw_rate_radps, -most_yaw, most_yaw);
+  return now_;
+}
+
+std::unique_ptr<Rover> make_rover(const scenario::Scenario& scenario, const Model& model) {
+  if (model.has(mjOBJ_ACTUATOR, kEgoPrefix + std::string("left"))) {
+    return std::make_unique<WheeledRover>(scenario, model);
+  }
+  return std::make_unique<HolonomicRover>(scenario.ego, model);
+}
+
+}  // namespace lcs::sim

@@ -1,0 +1,101 @@
+/// \file
+/// Monitors a running world, without changing it, and counts physical faults: bodies that pass
+/// through each other, fall, or tip over.
+///
+/// The holonomic rover and the actors have no contacts, so the overlaps are those of visible geoms.
+/// Bodies may touch a floor (a plane that faces up, or a height field).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/scene/model.h"
+#include "sim/world/overlap.h"
+#include "sim/world/warnings.h"
+
+namespace lcs::sim {
+
+/// Whether the camera can see the geom.
+bool is_drawn(const mjModel& m, int geom);
+/// A plane that faces up, or a height field.
+bool is_floor(const Model& model, int geom);
+
+class Watch {
+ public:
+  enum class Kind { rover, actor, object, setting };
+
+  /// An object of the world.
+  struct Named {
+    std::string name;
+    int body = 0;
+    bool is_actor = false;
+  };
+
+  /// \param object_of_geom as `World::object_of_geom`; `objects[i]` is object i + 1.
+  Watch(const Model& model, int rover_body, const std::vector<Named>& objects,
+        const std::vector<int>& object_of_geom);
+
+  /// An overlap of two solids.
+  struct Meeting {
+    int traveller = 0;  ///< the rover (0), or an actor's object id
+    int other = 0;      ///< index of the other solid
+    Kind kind_b = Kind::setting;
+    std::string a, b;   ///< for example "actor 'car'"
+    std::string where;  ///< for example "(1.20, -0.40) m"
+    double depth_m = 0;
+  };
+  /// All present overlaps.
+  std::vector<Meeting> meetings(const Model& model);
+  /// Suppresses warnings of this overlap from now on.
+  void pass_over(const Meeting& meeting);
+
+  /// Call it after every step. It recomputes all overlaps once anything has moved by a few
+  /// centimetres.
+  void look(const Model& model, std::int64_t t_ns);
+
+  const Warnings& warnings() const { return warnings_; }
+
+ private:
+  /// A unit of the overlap check: the rover, an object, or a geom of the setting.
+  struct Solid {
+    Kind kind = Kind::setting;
+    std::string name;
+    int body = 0;
+    std::vector<int> geoms = {};  ///< visible geoms
+    Eigen::Vector3d centre_B = Eigen::Vector3d::Zero();
+    double radius_m = 0;  ///< of a bounding sphere around `centre_B`
+    double foot_m = 0;    ///< actors: lowest point at the start, over the body's origin
+    bool moves = false;   ///< as an actor or by the physics
+    bool is_low = false;  ///< below the ground, with a warning given
+  };
+  using Pair = std::pair<std::size_t, std::size_t>;
+
+  void add_solid(const Model& model, Solid solid);
+  bool is_step(const Model& model, const Solid& who, const Solid& what, int geom);
+  Overlap::Place meeting(const Model& model, const Solid& who, const Solid& what);
+  template <typename Found>
+  void find_meetings(const Model& model, const Found& found);
+  bool has_moved(const Model& model);
+  void note_contacts(const Model& model, std::int64_t t_ns);
+  void note_meeting(const Pair& pair, const Eigen::Vector3d& point, std::int64_t t_ns);
+  void note_falls(const Model& model, std::int64_t t_ns);
+  void note_attitude(const Model& model, std::int64_t t_ns);
+  double floor_m(const Model& model, const Eigen::Vector3d& at) const;
+
+  std::vector<Solid> solids_;  ///< the rover first
+  std::vector<int> solid_of_geom_;
+  std::vector<int> floors_;  ///< geoms that are floors, see `is_floor`
+  double lowest_m_ = 0;      ///< lowest height of the setting
+  double start_m_ = 0;       ///< height of the rover at the start
+  Overlap overlap_;
+  std::set<Pair> met_;
+  std::vector<Pose> last_;  ///< of the moving solids, at the last overlap check
+  bool is_tipped_ = false;
+  Warnings warnings_;
+};
+
+}  // namespace lcs::sim

@@ -1,0 +1,493 @@
+#include "sim/world/world.h"
+
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <system_error>
+
+#include "sim/pictures/picture_file.h"
+#include "sim/scene/ground.h"
+#include "sim/scene/limits.h"
+#include "sim/scene/refusal.h"
+#include "sim/scene/texture.h"
+
+namespace lcs::sim {
+namespace {
+
+constexpr std::int64_t kLongestStep_ns = 2'000'000;
+constexpr double kActorInside_m =
+    0.22;  // less is a graze; the leg of a pedestrian inside a crate is deeper
+
+/// Source of a geom or body of the scene, for errors of the compiled model.
+input::Source source_of(const scenario::Scenario& scenario, const ComposedScene& composed,
+                        std::string_view kind, std::string_view name) {
+  const xml::Printed::Origin* origin = name.empty() ? nullptr : composed.mjcf.named(kind, name);
+  return origin ? origin->source : input::Source{scenario.scene.string(), 0};
+}
+
+/// \throws input::Error if the extent of the scene is too large or too small for the camera; the
+/// error cites the farthest geom or its body.
+void check_extent(const scenario::Scenario& scenario, const ComposedScene& composed, Model& model) {
+  const mjModel& m = model.m();
+  if (m.stat.extent >= kLeastExtent_m && m.stat.extent <= kMostExtent_m) return;
+  mj_forward(&m, &model.d());
+  int farthest = 0;
+  double distance_m = -1;
+  for (int geom = 0; geom < m.ngeom; ++geom) {
+    const double reach_m = model.geom_pose(geom).p.norm() + m.geom_rbound[geom];
+    if (reach_m <= distance_m) continue;
+    distance_m = reach_m;
+    farthest = geom;
+    if (!std::isfinite(reach_m)) break;
+  }
+  const std::string geom(model.name(mjOBJ_GEOM, farthest));
+  const std::string body(model.name(mjOBJ_BODY, m.geom_bodyid[farthest]));
+  throw input::Error(
+      geom.empty() ? source_of(scenario, composed, "body", body)
+                   : source_of(scenario, composed, "geom", geom),
+      fmt::format(
+          "the scene is {:g} m large, and a camera sees scenes of {:g} to {:g} m: geom '{}' of "
+          "body '{}' reaches {:g} m from the middle of the world; correct its place and size",
+          m.stat.extent, kLeastExtent_m, kMostExtent_m, geom, body, distance_m));
+}
+
+Model load(const scenario::Scenario& scenario, const ComposedScene& composed) {
+  try {
+    Model model(composed.mjcf.text());
+    check_extent(scenario, composed, model);
+    return model;
+  } catch (const MujocoCrash& e) {
+    throw input::Error({scenario.scene.string(), 0}, e.what());
+  } catch (const MujocoError& e) {
+    throw refusal(e.what(), composed.mjcf, scenario.scene);
+  }
+}
+
+void fill_textures(Model& model, const scenario::Scenario& scenario,
+                   const ComposedScene& composed) {
+  fill_procedural_textures(model, scenario.seed);
+  for (const PictureTexture& picture : composed.pictures) {
+    cv::Mat image = read_picture(picture.file, picture.source, cv::IMREAD_COLOR);
+    cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
+    fill_texture(model, model.id(mjOBJ_TEXTURE, picture.texture), image);
+  }
+}
+
+/// The origin that the scene states; absent if it states none.
+std::optional<scenario::Origin> origin_of(const Model& model, const input::Source& where) {
+  if (!model.has(mjOBJ_TEXT, scenario::kOriginText)) return std::nullopt;
+  const mjModel& m = model.m();
+  const std::string_view text =
+      m.text_data + m.text_adr[model.id(mjOBJ_TEXT, scenario::kOriginText)];
+  const std::size_t space = std::min(text.rfind(' '), text.size());
+  scenario::Origin origin;
+  origin.source = where;
+  origin.family = text.substr(0, space);
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] =
+      std::from_chars(text.data() + std::min(space + 1, text.size()), end, origin.seed);
+  if (origin.family.empty() || error != std::errc() || stop != end) {
+    throw input::Error(where, fmt::format("the text '{}' is '{}', and names no world; write "
+                                          "family and seed, as in 'room 7', or remove it",
+                                          scenario::kOriginText, text));
+  }
+  return origin;
+}
+
+/// \throws input::Error if scenario and scene state different origins.
+std::optional<scenario::Origin> origin_of(const scenario::Scenario& scenario,
+                                          const ComposedScene& composed, const Model& model) {
+  const auto of_scene =
+      origin_of(model, source_of(scenario, composed, "text", scenario::kOriginText));
+  if (!scenario.origin || !of_scene) return scenario.origin ? scenario.origin : of_scene;
+  if (scenario.origin->is_same_world(*of_scene)) return scenario.origin;
+  throw input::Error(
+      scenario.origin->source,
+      fmt::format("origin is {} {}, but the scene {} was drawn as {} {}; remove origin, or give "
+                  "the scene that it is of",
+                  scenario.origin->family, scenario.origin->seed, scenario.scene.string(),
+                  of_scene->family, of_scene->seed));
+}
+
+double yaw(const Eigen::Matrix3d& R) {
+  return std::atan2(R(1, 0), R(0, 0));
+}
+
+Eigen::Quaterniond about_z(double angle_rad) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()));
+}
+
+/// Velocity of an element's frame, in W.
+struct Twist {
+  Eigen::Vector3d angular, linear;
+};
+
+Twist velocity(const Model& model, mjtObj type, int id) {
+  std::array<mjtNum, 6> v{};
+  mj_objectVelocity(&model.m(), &model.d(), type, id, v.data(), 0);
+  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+
+/// " (body 'ball')" if a warning cites a degree of freedom; else empty.
+std::string body_of_dof(const Model& model, const std::string& warning) {
+  for (const std::string words : {"in QVEL at DOF ", "in QACC at DOF "}) {
+    const std::size_t at = warning.find(words);
+    if (at == std::string::npos) continue;
+    const int dof = std::atoi(warning.c_str() + at + words.size());
+    if (dof < 0 || dof >= model.m().nv) continue;
+    return fmt::format(" (body '{}')", model.name(mjOBJ_BODY, model.m().dof_bodyid[dof]));
+  }
+  return "";
+}
+
+/// Whether a body that moves by the physics can have contacts.
+bool has_contacts(const mjModel& m) {
+  if (m.npair > 0) return true;
+  for (int geom = 0; geom < m.ngeom; ++geom) {
+    const bool touches = m.geom_contype[geom] != 0 || m.geom_conaffinity[geom] != 0;
+    if (touches && m.body_weldid[m.geom_bodyid[geom]] != 0) return true;
+  }
+  return false;
+}
+
+bool in_gap(const std::vector<scenario::TimeSpan>& gaps, std::int64_t t_ns) {
+  return std::any_of(gaps.begin(), gaps.end(), [&](const scenario::TimeSpan& gap) {
+    return t_ns >= std::llround(gap.from_s * 1e9) && t_ns < std::llround(gap.to_s * 1e9);
+  });
+}
+
+}  // namespace
+
+std::int64_t event_time_ns(std::int64_t k, double rate_hz) {
+  return std::llround(static_cast<double>(k) * 1e9 / rate_hz);
+}
+
+World::World(const scenario::Scenario& scenario, WrongStart wrong_start)
+    : World(scenario, compose(scenario), wrong_start) {}
+
+World::World(const scenario::Scenario& scenario, const ComposedScene& composed,
+             WrongStart wrong_start)
+    : scenario_(scenario),
+      model_(load(scenario, composed)),
+      imu_noise_(scenario.imu.noise, scenario.imu.rate_hz, scenario.seed),
+      odometry_noise_(scenario.odometry, scenario.seed),
+      camera_(model_.id(mjOBJ_CAMERA, kCamera)),
+      base_(model_.id(mjOBJ_BODY, kEgoBody)),
+      imu_site_(model_.id(mjOBJ_SITE, "ego/imu")),
+      accelerometer_(model_.m().sensor_adr[model_.id(mjOBJ_SENSOR, "ego/accelerometer")]),
+      gyro_(model_.m().sensor_adr[model_.id(mjOBJ_SENSOR, "ego/gyro")]) {
+  origin_ = origin_of(scenario_, composed, model_);
+  fill_textures(model_, scenario_, composed);
+  if (scenario_.ground) raise_ground(model_, *scenario_.ground, scenario_.seed);
+  set_options(composed);
+  rover_ = make_rover(scenario_, model_);
+  find_objects(composed);
+  guarded([&] {
+    mj_kinematics(&model_.m(), &model_.d());
+    find_actors(composed);
+    rover_->start(model_);
+    mj_kinematics(&model_.m(), &model_.d());
+    forward();
+    begin_watch(composed, wrong_start);
+  });
+}
+
+/// Sets the physics that the readings rely on, and overrides the scene's options.
+void World::set_options(const ComposedScene& composed) {
+  mjOption& option = model_.m().opt;
+  // the only integrator whose accelerometer is the difference of its velocities
+  option.integrator = mjINT_EULER;
+  option.disableflags &=
+      ~(mjDSBL_SENSOR | mjDSBL_ACTUATION | mjDSBL_CLAMPCTRL | mjDSBL_FILTERPARENT);
+  if (!has_contacts(model_.m())) option.disableflags |= mjDSBL_CONTACT;  // halves the run time
+  const mjtNum* g = option.gravity;
+  const bool upright = g[0] == 0 && g[1] == 0 && g[2] <= 0;
+  if (!upright) {
+    const xml::Printed::Origin* origin = composed.mjcf.last("option");
+    throw input::Error(origin ? origin->source : input::Source{scenario_.scene.string(), 0},
+                       "gravity must point along -z of the world; correct <option gravity>");
+  }
+  gravity_mps2_ = option.disableflags & mjDSBL_GRAVITY ? 0 : -g[2];
+}
+
+void World::find_objects(const ComposedScene& composed) {
+  const mjModel& m = model_.m();
+  const auto refuse = [&](const std::string& body, const std::string& what) {
+    throw input::Error(source_of(scenario_, composed, "body", body), what);
+  };
+  object_bodies_ = {0};
+  std::vector<int> object_of_body(static_cast<std::size_t>(m.nbody), 0);
+  for (int body = 1; body < m.nbody; ++body) {
+    const auto b = static_cast<std::size_t>(body);
+    const std::string name(model_.name(mjOBJ_BODY, body));
+    const bool moves = m.body_dofnum[body] > 0;
+    if (m.body_parentid[body] != 0) {
+      object_of_body[b] = object_of_body[static_cast<std::size_t>(m.body_parentid[body])];
+      if (moves && object_of_body[b] >= 0) {
+        refuse(name, fmt::format(
+                         "body '{}' has a joint inside another body; an object moves as one: take "
+                         "the joint away, or make it a body of the worldbody",
+                         name));
+      }
+    } else if (name == kEgoBody) {
+      object_of_body[b] = -1;
+    } else if (!name.empty()) {
+      object_of_body[b] = static_cast<int>(object_bodies_.size());
+      objects_.push_back({object_of_body[b], name});
+      object_bodies_.push_back(body);
+    } else if (moves) {
+      refuse("", "a body of the worldbody that can move needs a name; give it one");
+    }
+  }
+  for (int geom = 0; geom < m.ngeom; ++geom) {
+    const int object = object_of_body[static_cast<std::size_t>(m.geom_bodyid[geom])];
+    object_of_geom_.push_back(object);
+    if (object > 0 && (m.geom_type[geom] == mjGEOM_PLANE || m.geom_type[geom] == mjGEOM_HFIELD)) {
+      const std::string& body = objects_[static_cast<std::size_t>(object - 1)].name;
+      refuse(body, fmt::format("body '{}' has a plane or height field; these are setting: put them "
+                               "right into the worldbody",
+                               body));
+    }
+  }
+}
+
+void World::find_actors(const ComposedScene& composed) {
+  for (std::size_t i = 0; i < scenario_.actors.size(); ++i) {
+    const scenario::Actor& actor = scenario_.actors[i];
+    const int body = model_.id(mjOBJ_BODY, composed.actor_bodies[i]);
+    const Pose T_WA = model_.body_pose(body);
+    const PlanarPose home{T_WA.p.head<2>(), yaw(T_WA.R)};
+    actors_.push_back({model_.m().body_mocapid[body], T_WA.p.z(),
+                       about_z(-home.heading_rad) * Eigen::Quaterniond(T_WA.R), home,
+                       actor.trajectory, Trigger(actor.start)});
+    place(actors_.back(), pose_on(actor.trajectory, home, 0));
+  }
+}
+
+/// Rejects impossible overlaps at the start. Actors may start inside walls; an actor that only
+/// grazes an object gets a warning later.
+void World::begin_watch(const ComposedScene& composed, WrongStart wrong_start) {
+  const std::vector<std::string>& bodies = composed.actor_bodies;
+  const auto actor_of = [&](int object) {
+    const std::string& name = objects_[static_cast<std::size_t>(object - 1)].name;
+    return std::find(bodies.begin(), bodies.end(), name) - bodies.begin();
+  };
+  std::vector<Watch::Named> named;
+  for (const Object& object : objects_) {
+    named.push_back({object.name, body_of(object.id), actor_of(object.id) < std::ssize(bodies)});
+  }
+  watch_ = std::make_unique<Watch>(model_, base_, named, object_of_geom_);
+  for (const Watch::Meeting& meeting : watch_->meetings(model_)) {
+    const bool is_rover = meeting.traveller == 0;
+    const bool is_inside =
+        meeting.kind_b != Watch::Kind::setting && meeting.depth_m > kActorInside_m;
+    if (!is_rover && !is_inside) continue;
+    const input::Error error(
+        is_rover ? input::Source{scenario_.file.string(), 0}
+                 : scenario_.actors[static_cast<std::size_t>(actor_of(meeting.traveller))].source,
+        fmt::format("{}{} starts inside {}, at {}; move one of them", is_rover ? "ego.start: " : "",
+                    meeting.a, meeting.b, meeting.where));
+    if (wrong_start == WrongStart::refused) throw error;
+    wrong_at_start_.emplace_back(error.what());
+    watch_->pass_over(meeting);
+  }
+}
+
+void World::place(const MovingActor& actor, const PlanarPose& pose) {
+  mjtNum* p = model_.d().mocap_pos + 3 * actor.mocap;
+  mjtNum* q = model_.d().mocap_quat + 4 * actor.mocap;
+  const Eigen::Quaterniond attitude = about_z(pose.heading_rad) * actor.upright;
+  p[0] = pose.position_m.x();
+  p[1] = pose.position_m.y();
+  p[2] = actor.height_m;
+  q[0] = attitude.w();
+  q[1] = attitude.x();
+  q[2] = attitude.y();
+  q[3] = attitude.z();
+}
+
+void World::move_actors() {
+  const mjData& d = model_.d();
+  const Eigen::Map<const Eigen::Vector2d> ego(d.xpos + 3 * base_);
+  for (MovingActor& actor : actors_) {
+    const Eigen::Map<const Eigen::Vector2d> here(d.mocap_pos + 3 * actor.mocap);
+    const double since_start = actor.trigger.update(t_ns_, (here - ego).norm());
+    place(actor, pose_on(actor.trajectory, actor.home, since_start));
+  }
+}
+
+template <typename Action>
+void World::guarded(Action action) const {
+  std::string problem;
+  try {
+    action();
+    problem = take_warning();
+  } catch (const MujocoError& e) {
+    problem = e.what();
+  }
+  if (scenario_.ground && problem.find("buffer is full") != std::string::npos) {
+    throw PhysicsError(
+        input::Error({scenario_.file.string(), 0}, less_contact(*scenario_.ground)).what());
+  }
+  if (!problem.empty()) {
+    throw PhysicsError(fmt::format("{}: the physics failed at {:.4f} s of simulated time: {}",
+                                   scenario_.scene.string(), 1e-9 * static_cast<double>(t_ns_),
+                                   in_one_line(problem, body_of_dof(model_, problem))));
+  }
+}
+
+/// Computes all derived quantities at the present time.
+void World::forward() {
+  // from the nanosecond count, so that no rounding accumulates
+  model_.d().time = 1e-9 * static_cast<double>(t_ns_);
+  rover_->command(model_, t_ns_);
+  move_actors();
+  mj_forward(&model_.m(), &model_.d());
+}
+
+std::int64_t World::next_event_ns(std::int64_t until_ns) const {
+  std::int64_t next = std::min(until_ns, event_time_ns(imu_count_, scenario_.imu.rate_hz));
+  if (scenario_.odometry.enabled) {
+    next = std::min(next, event_time_ns(odometry_count_, scenario_.odometry.rate_hz));
+  }
+  for (const scenario::EgoPhase& phase : scenario_.ego.phases) {
+    const std::int64_t at = std::llround(phase.at_s * 1e9);
+    if (at > t_ns_) next = std::min(next, at);
+  }
+  return next;
+}
+
+void World::step_to(std::int64_t t_ns) {
+  const std::int64_t start_ns = t_ns_;
+  const std::int64_t span_ns = t_ns - start_ns;
+  const std::int64_t steps = (span_ns + kLongestStep_ns - 1) / kLongestStep_ns;
+  mjModel& m = model_.m();
+  m.opt.timestep = 1e-9 * static_cast<double>(span_ns) / static_cast<double>(steps);
+  // own count of steps, as MuJoCo resets its time to 0 when it diverges
+  for (std::int64_t i = 0; i < steps; ++i) {
+    guarded([&] {
+      rover_->command(model_, t_ns_);
+      move_actors();
+      mj_step(&m, &model_.d());
+      if (t_ns_ <= event_time_ns(scenario_.frames - 1, scenario_.camera.rate_hz)) {
+        watch_->look(model_, t_ns_);
+      }
+    });
+    t_ns_ = start_ns + span_ns * (i + 1) / steps;
+  }
+  guarded([&] { forward(); });
+}
+
+void World::read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample>& odometry,
+                         std::vector<ImuTruth>* imu_truth) {
+  const mjtNum* readings = model_.d().sensordata;
+  if (event_time_ns(imu_count_, scenario_.imu.rate_hz) == t_ns_) {
+    ++imu_count_;
+    // draw noise in a gap, too, so that later readings equal those of a run without gaps
+    const ImuSample reading =
+        imu_noise_.corrupt({t_ns_, Eigen::Map<const Eigen::Vector3d>(readings + gyro_),
+                            Eigen::Map<const Eigen::Vector3d>(readings + accelerometer_)});
+    if (!in_gap(scenario_.imu.gaps, t_ns_)) imu.push_back(reading);
+    if (imu_truth) {
+      imu_truth->push_back(
+          {t_ns_, T_WS(), v_WS_mps(), imu_noise_.gyro_bias_radps(), imu_noise_.accel_bias_mps2()});
+    }
+  }
+  if (scenario_.odometry.enabled &&
+      event_time_ns(odometry_count_, scenario_.odometry.rate_hz) == t_ns_) {
+    ++odometry_count_;
+    const PlanarVelocity v = rover_->odometry(model_);
+    odometry.push_back(odometry_noise_.corrupt(
+        {t_ns_, {v.linear_mps.x(), v.linear_mps.y(), 0}, v.yaw_rate_radps}));
+  }
+}
+
+void World::advance_to(std::int64_t t_ns, std::vector<ImuSample>& imu,
+                       std::vector<OdometrySample>& odometry, std::vector<ImuTruth>* imu_truth) {
+  read_sensors(imu, odometry, imu_truth);  // the readings at time 0, before the first step
+  while (t_ns_ < t_ns) {
+    step_to(next_event_ns(t_ns));
+    read_sensors(imu, odometry, imu_truth);
+  }
+}
+
+std::string World::saved(bool as_mjcf) {
+  mjModel& m = model_.m();
+  for (const MovingActor& actor : actors_) {
+    for (int body = 1; body < m.nbody; ++body) {
+      if (m.body_mocapid[body] != actor.mocap) continue;
+      std::copy_n(model_.d().mocap_pos + 3 * actor.mocap, 3, m.body_pos + 3 * body);
+      std::copy_n(model_.d().mocap_quat + 4 * actor.mocap, 4, m.body_quat + 4 * body);
+    }
+  }
+  const Pose T_WB = this->T_WB();
+  const Eigen::Quaterniond q(T_WB.R);
+  Eigen::Map<Eigen::Vector3d>(m.body_pos + 3 * base_) = T_WB.p;
+  Eigen::Map<Eigen::Vector4d>(m.body_quat + 4 * base_) << q.w(), q.x(), q.y(), q.z();
+  const int joint = m.body_jntadr[base_];
+  if (joint >= 0 && m.jnt_type[joint] == mjJNT_FREE) {
+    std::copy_n(model_.d().qpos + m.jnt_qposadr[joint], 7, m.qpos0 + m.jnt_qposadr[joint]);
+  }
+  if (!has_contacts(m)) m.opt.disableflags &= ~mjDSBL_CONTACT;  // for bodies that a user adds
+  // MuJoCo writes only to files, and ignores a full disk. This file is in memory.
+  const int file = ::memfd_create("world", MFD_CLOEXEC);
+  if (file < 0) throw std::system_error(errno, std::generic_category(), "memfd_create");
+  const std::string path = "/proc/self/fd/" + std::to_string(file);
+  std::array<char, 1000> message{};
+  if (as_mjcf) {
+    mj_saveLastXML(path.c_str(), &m, message.data(), static_cast<int>(message.size()));
+  } else {
+    mj_saveModel(&m, path.c_str(), nullptr, 0);
+  }
+  std::string bytes(static_cast<std::size_t>(std::max<off_t>(::lseek(file, 0, SEEK_END), 0)), '\0');
+  const ssize_t read = ::pread(file, bytes.data(), bytes.size(), 0);
+  ::close(file);
+  const std::string problem = as_mjcf ? message.data() : take_warning();
+  if (!problem.empty()) throw MujocoError(problem);
+  if (bytes.empty() || read != static_cast<ssize_t>(bytes.size())) {
+    throw MujocoError("the world cannot be saved");
+  }
+  return bytes;
+}
+
+Snapshot World::snapshot() const {
+  Snapshot s;
+  s.T_WC = model_.camera_pose(camera_);
+  s.T_WO.reserve(object_bodies_.size());
+  for (const int body : object_bodies_) s.T_WO.push_back(model_.body_pose(body));
+  return s;
+}
+
+Pose World::T_WB() const {
+  return model_.body_pose(base_);
+}
+Pose World::T_WS() const {
+  return model_.site_pose(imu_site_);
+}
+
+Eigen::Vector3d World::v_WB_mps() const {
+  return velocity(model_, mjOBJ_XBODY, base_).linear;
+}
+Eigen::Vector3d World::v_WS_mps() const {
+  return velocity(model_, mjOBJ_SITE, imu_site_).linear;
+}
+Eigen::Vector3d World::v_WC_mps() const {
+  return velocity(model_, mjOBJ_CAMERA, camera_).linear;
+}
+
+Eigen::Vector3d World::w_C_radps() const {
+  return model_.camera_pose(camera_).R.transpose() *
+         velocity(model_, mjOBJ_CAMERA, camera_).angular;
+}
+
+}  // namespace lcs::sim

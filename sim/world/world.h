@@ -1,0 +1,127 @@
+/// \file
+/// The physics of a run, without rendering: rover, actors and other moving bodies, and the readings
+/// of IMU and odometry. Needs no GL.
+///
+/// Events (frames, readings, phases of the ego) have exact times k / rate; the steps between two
+/// events are equal and at most 2 ms long. At each event MuJoCo's derived quantities are
+/// recomputed, so that readings are of exactly that time.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/scenario.h"
+#include "sim/imu/imu_noise.h"
+#include "sim/scene/model.h"
+#include "sim/scene/scene_builder.h"
+#include "sim/simulation.h"
+#include "sim/world/actor.h"
+#include "sim/world/rover.h"
+#include "sim/world/watch.h"
+
+namespace lcs::sim {
+
+/// Time of event k, counted from 0, of a process with `rate_hz` events per second.
+std::int64_t event_time_ns(std::int64_t k, double rate_hz);
+
+/// How to handle a body that starts inside another body.
+enum class WrongStart {
+  refused,  ///< throws input::Error
+  told,     ///< `World::wrong_at_start` lists it, for previews
+};
+
+class World {
+ public:
+  /// Loads the world and sets it to t = 0.
+  /// \throws input::Error, also if the rover starts inside anything, an actor starts inside an
+  /// object, or no ground supports a wheeled rover; PhysicsError
+  explicit World(const scenario::Scenario& scenario, WrongStart wrong_start = WrongStart::refused);
+
+  /// Advances to time `t_ns`, and appends the readings after the last time up to and including it.
+  /// The first call, with 0, yields the readings at time 0.
+  /// \param imu_truth if given, receives the truth at each IMU reading. \throws PhysicsError
+  void advance_to(std::int64_t t_ns, std::vector<ImuSample>& imu,
+                  std::vector<OdometrySample>& odometry,
+                  std::vector<ImuTruth>* imu_truth = nullptr);
+
+  Model& model() { return model_; }
+  const Model& model() const { return model_; }
+  int camera_id() const { return camera_; }
+  double gravity_mps2() const { return gravity_mps2_; }
+
+  /// The map origin that the scenario or its scene states; absent if neither does.
+  const std::optional<scenario::Origin>& origin() const { return origin_; }
+
+  const std::vector<Object>& objects() const { return objects_; }
+  /// Body of an object; index 0 is the world.
+  int body_of(int object) const { return object_bodies_.at(static_cast<std::size_t>(object)); }
+  /// The value of FrameTruth::object for pixels of a geom.
+  int object_of_geom(int geom) const { return object_of_geom_[static_cast<std::size_t>(geom)]; }
+
+  /// The warnings until now, or until the last frame.
+  const Warnings& warnings() const { return watch_->warnings(); }
+  /// The overlaps at the start, one line each, worded as in the error.
+  const std::vector<std::string>& wrong_at_start() const { return wrong_at_start_; }
+
+  /// The world as MJCF with rover and actors at their present poses, or as MuJoCo's binary. Call it
+  /// at t = 0: it changes the model, which must be the last model made in this process.
+  /// \throws MujocoError; std::system_error if memory is short.
+  std::string saved(bool as_mjcf);
+
+  Snapshot snapshot() const;
+  Pose T_WB() const;
+  Pose T_WS() const;
+  Eigen::Vector3d v_WB_mps() const;
+  Eigen::Vector3d v_WS_mps() const;
+  Eigen::Vector3d v_WC_mps() const;
+  Eigen::Vector3d w_C_radps() const;
+
+ private:
+  struct MovingActor {
+    int mocap = 0;
+    double height_m = 0;                                          ///< of the body's origin
+    Eigen::Quaterniond upright = Eigen::Quaterniond::Identity();  ///< attitude at heading 0
+    PlanarPose home;
+    scenario::Trajectory trajectory;
+    Trigger trigger;
+  };
+
+  World(const scenario::Scenario& scenario, const ComposedScene& composed, WrongStart wrong_start);
+  void set_options(const ComposedScene& composed);
+  void find_objects(const ComposedScene& composed);
+  void find_actors(const ComposedScene& composed);
+  void begin_watch(const ComposedScene& composed, WrongStart wrong_start);
+  void place(const MovingActor& actor, const PlanarPose& pose);
+  void move_actors();
+  void forward();
+  void step_to(std::int64_t t_ns);
+  template <typename Action>
+  void guarded(Action action) const;
+  std::int64_t next_event_ns(std::int64_t until_ns) const;
+  void read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample>& odometry,
+                    std::vector<ImuTruth>* imu_truth);
+
+  scenario::Scenario scenario_;
+  Model model_;
+  std::optional<scenario::Origin> origin_;
+  std::unique_ptr<Rover> rover_;
+  std::vector<MovingActor> actors_;
+  std::vector<Object> objects_;
+  std::vector<int> object_bodies_;
+  std::vector<int> object_of_geom_;
+  std::unique_ptr<Watch> watch_;
+  std::vector<std::string> wrong_at_start_;
+  ImuNoiseModel imu_noise_;
+  OdometryNoiseModel odometry_noise_;
+  int camera_, base_, imu_site_, accelerometer_, gyro_;
+  double gravity_mps2_ = 0;
+  std::int64_t t_ns_ = 0;
+  std::int64_t imu_count_ = 0;  ///< number of readings so far
+  std::int64_t odometry_count_ = 0;
+};
+
+}  // namespace lcs::sim

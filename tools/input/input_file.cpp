@@ -1,0 +1,136 @@
+#include "tools/input/input_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include "tools/input/inputs_read.h"
+
+namespace lcs::input {
+namespace {
+
+constexpr std::size_t kBlock = 1 << 16;
+/// Ten times a frame of 100,000 corners; only a file without line ends exceeds it.
+constexpr std::size_t kLongestLine = 256 * kMebibyte;
+
+std::string size_text(std::uint64_t bytes) {
+  return bytes % kGibibyte == 0 ? std::to_string(bytes / kGibibyte) + " GiB"
+                                : std::to_string(bytes / kMebibyte) + " MiB";
+}
+
+}  // namespace
+
+InputFile::InputFile(const std::filesystem::path& file, const FileKind& kind)
+    : InputFile(file, kind, {file.string(), 0}) {}
+
+InputFile::InputFile(const std::filesystem::path& file, const FileKind& kind, const Source& where)
+    : file_(file.string()), kind_(kind), where_(where) {
+  note_input(file);
+  struct stat status = {};
+  // Check before opening, too: opening alone wakes a pipe's writer, or moves a tape.
+  if (::stat(file_.c_str(), &status) != 0) fail(errno);
+  check(status);
+  // Without O_NONBLOCK, open would block on a pipe created since the check.
+  descriptor_ = ::open(file_.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  if (descriptor_ < 0) fail(errno);
+  try {
+    if (::fstat(descriptor_, &status) != 0) fail(errno);
+    check(status);
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
+}
+
+InputFile::~InputFile() {
+  ::close(descriptor_);
+}
+
+void InputFile::fail(const std::string& what, std::string_view remedy) const {
+  const std::string name = where_.file == file_ ? "" : "'" + file_ + "': ";
+  throw Error(where_, name + what + "; " + std::string(remedy));
+}
+
+void InputFile::fail(int error) const {
+  switch (error) {
+    case ENOENT:
+    case ENOTDIR:
+      fail("there is no such file", kind_.remedy);
+    case EACCES:
+    case EPERM:
+      fail("the file cannot be read", "check its permissions");
+    case EMFILE:
+    case ENFILE:
+      fail("the file cannot be opened beside so many others",
+           "raise the limit of open files (ulimit -n)");
+    default:
+      fail("the file cannot be read (" + std::generic_category().message(error) + ")",
+           kind_.remedy);
+  }
+}
+
+void InputFile::check(const struct stat& status) const {
+  if (S_ISREG(status.st_mode)) return check_size(static_cast<std::uint64_t>(status.st_size));
+  if (S_ISFIFO(status.st_mode)) {
+    fail("this is a pipe, which may never end", "write what comes out of it to a file first");
+  }
+  fail(S_ISDIR(status.st_mode)    ? "this is a folder"
+       : S_ISSOCK(status.st_mode) ? "this is a socket"
+                                  : "this is a device",
+       kind_.remedy);
+}
+
+void InputFile::check_size(std::uint64_t bytes) const {
+  if (bytes <= kind_.most_bytes) return;
+  fail("the file is larger than " + size_text(kind_.most_bytes), kind_.remedy);
+}
+
+bool InputFile::fill() {
+  buffer_.erase(0, used_);
+  used_ = 0;
+  const std::size_t before = buffer_.size();
+  buffer_.resize(before + kBlock);
+  ssize_t got = 0;
+  do {
+    got = ::read(descriptor_, buffer_.data() + before, kBlock);
+  } while (got < 0 && errno == EINTR);
+  const int error = errno;
+  buffer_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  if (got < 0) fail(error);
+  read_ += static_cast<std::uint64_t>(got);
+  check_size(read_);  // the file may have grown
+  return got > 0;
+}
+
+std::string InputFile::bytes() {
+  while (fill()) {
+  }
+  return std::move(buffer_);
+}
+
+bool InputFile::next_line(std::string& line) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  std::size_t end = buffer_.find('\n', used_);
+  while (end == std::string::npos) {
+    const std::size_t seen = buffer_.size() - used_;
+    if (seen > kLongestLine) fail("a line is longer than " + size_text(kLongestLine), kind_.remedy);
+    if (!fill()) break;
+    end = buffer_.find('\n', seen);
+  }
+  const bool is_last = end == std::string::npos;
+  if (is_last && used_ == buffer_.size()) return false;
+  const std::size_t stop = is_last ? buffer_.size() : end;
+  line.assign(buffer_, used_, stop - used_);
+  used_ = is_last ? stop : stop + 1;
+  if (++line_ == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
+  return true;
+}
+
+std::string read_file(const std::filesystem::path& file, const FileKind& kind) {
+  return InputFile(file, kind).bytes();
+}
+
+}  // namespace lcs::input

@@ -1,0 +1,17 @@
+/// \file
+/// The files and folders that this process has read, so that no output overwrites an input.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace lcs::input {
+
+/// Records an input. `InputFile` records each file that it opens; code that reads a whole folder
+/// must record it. Thread-safe.
+void note_input(const std::filesystem::path& path);
+
+/// Absolute paths without duplicates.
+std::vector<std::filesystem::path> inputs_read();
+
+}  // namespace lcs::input

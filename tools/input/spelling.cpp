@@ -1,0 +1,55 @@
+#include "tools/input/spelling.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace lcs::input {
+namespace {
+
+/// Insertions, deletions, replacements and swaps of neighbours (optimal string alignment).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, replaced});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  }
+  return d[a.size()][b.size()];
+}
+
+}  // namespace
+
+std::vector<std::string> nearest_first(std::string_view name, std::vector<std::string> names) {
+  std::vector<std::pair<std::size_t, std::string>> ranked;
+  for (std::string& known : names)
+    ranked.emplace_back(edit_distance(name, known), std::move(known));
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::transform(ranked.begin(), ranked.end(), names.begin(),
+                 [](auto& entry) { return std::move(entry.second); });
+  return names;
+}
+
+std::optional<std::string> nearest(std::string_view name, const std::vector<std::string>& names) {
+  std::optional<std::string> best;
+  // Up to a third of the letters wrong is a misspelling; beyond that it is another word.
+  std::size_t reach = std::max<std::size_t>(1, name.size() / 3) + 1;
+  for (const std::string& candidate : names) {
+    // The difference in length is a lower bound of the distance.
+    if (candidate.size() + reach <= name.size()) continue;
+    if (name.size() + reach <= candidate.size()) continue;
+    const std::size_t distance = edit_distance(name, candidate);
+    if (distance < reach && distance < candidate.size()) {
+      reach = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace lcs::input
