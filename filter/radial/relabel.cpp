@@ -24,7 +24,10 @@ const Relabel::Result& Relabel::step(const BothKinds<Edge>& edges,
                                      const CircleExpert::Result& circles,
                                      std::span<const double> odds, std::span<const int> joined,
                                      const MotionField& field, const TrustRanks& trust) {
-  auto& [to, to_circles, came, went] = result_;
+  // no structured binding: clang before version 16 captures none in a lambda
+  BothKinds<Edge>& to = result_.edges;
+  CircleExpert::Result& to_circles = result_.circles;
+  auto &came = result_.came, &went = result_.went;
   const auto& [normal, rebel] = circles.circles;
   const auto& of_normal = circles.of_edges.normal;
 
