@@ -70,6 +70,7 @@ struct File {};            ///< must exist
 struct FolderOrFile {};    ///< must exist
 struct StyleOrPicture {};  ///< name of a texture style, or a file ("brick.png")
 struct GroupNames {};      ///< one or more distinct group names
+struct GeomGroups {};      ///< one or more distinct numbers of geom groups
 struct FilterParameters {  ///< any key
   std::string& preset;
   input::Source& source;
@@ -135,7 +136,7 @@ void fields(Camera::Told& told, Visit&& visit) {
 
 template <class Visit>
 void fields(Camera& camera, Visit&& visit) {
-  auto& [width_px, height_px, fovy_rad, rate_hz, position_m, rotation_rad, told] = camera;
+  auto& [width_px, height_px, fovy_rad, rate_hz, position_m, rotation_rad, told, groups] = camera;
   Eigen::Vector2i size_px(width_px, height_px);
   visit({"size", "[width, height] in pixels"}, size_px, Whole{16, 8192});
   width_px = size_px.x();
@@ -158,6 +159,7 @@ void fields(Camera& camera, Visit&& visit) {
          "is given",
          "none"},
         told);
+  visit({"groups", "of geoms that are drawn: MuJoCo's `group`, 0 to 5"}, groups, GeomGroups{});
 }
 
 template <class Visit>

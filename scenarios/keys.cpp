@@ -152,6 +152,12 @@ Kind kind_of(GroupNames, const std::vector<std::string>&) {
           {{"type", "array"}, {"items", name}, {"minItems", 1}, {"uniqueItems", true}}};
 }
 
+Kind kind_of(GeomGroups, const std::vector<int>&) {
+  Kind groups = array_of(kind_of(Whole{0, 5}, 0), 1, 6);
+  groups.schema["uniqueItems"] = true;
+  return groups;
+}
+
 Kind kind_of(const FilterParameters&, const std::vector<FilterSetting>&) {
   return {
       "a map",

@@ -273,6 +273,23 @@ bool is_name(const std::string& text) {
   });
 }
 
+void read_value(const Item& item, GeomGroups, std::vector<int>& groups) {
+  groups.clear();
+  for (const input::Value& value : input::as_list(item.value, item.path)) {
+    const std::string path = item.at(groups.size(), value).path;
+    const int group = static_cast<int>(input::as_integer(value, path, 0, 5));
+    if (std::ranges::find(groups, group) != groups.end()) {
+      throw input::Error(value.where, path + " is '" + value.text + "' again; remove one");
+    }
+    groups.push_back(group);
+  }
+  if (groups.empty()) {
+    throw input::Error(item.value.where, item.path +
+                                             " is an empty list, and nothing would be "
+                                             "drawn; give one or more, or remove the key");
+  }
+}
+
 void read_value(const Item& item, GroupNames, std::vector<std::string>& groups) {
   groups.clear();
   for (const input::Value& value : input::as_list(item.value, item.path)) {

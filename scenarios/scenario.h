@@ -74,6 +74,7 @@ struct Camera {
     double height_error_m = 0;
     double pitch_error_rad = 0;
   } told;
+  std::vector<int> groups{0, 1, 2};  ///< MuJoCo's groups whose geoms are drawn, each once
 };
 
 /// Kalibr's noise model with a turn-on bias, see `sim/imu/imu_noise.h`. With all 0 the IMU is

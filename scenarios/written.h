@@ -36,6 +36,9 @@ template <std::integral T>
 input::Value written(const Whole&, T number) {
   return scalar(std::to_string(number));
 }
+inline input::Value written(GeomGroups, int group) {
+  return scalar(std::to_string(group));
+}
 inline input::Value written(Plain, std::uint64_t seed) {
   return scalar(std::to_string(seed));
 }

@@ -1,5 +1,7 @@
 #include "sim/observer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -14,7 +16,7 @@ std::vector<ConvexParts> outlines(const World& world) {
   const mjModel& m = world.model().m();
   for (int geom = 0; geom < m.ngeom; ++geom) {
     const int object = world.object_of_geom(geom);
-    if (object <= 0) continue;
+    if (object <= 0 || !world.is_drawn(geom)) continue;
     // at t = 0; the parts are constant, as bodies are rigid
     const Pose T_OW = world.model().body_pose(world.body_of(object)).inverse();
     const Pose T_OG = T_OW * world.model().geom_pose(geom);
@@ -38,7 +40,7 @@ Observer::Observer(const scenario::Scenario& scenario, WrongStart wrong_start)
     : scenario_(scenario),
       world_(scenario, wrong_start),
       renderer_(world_.model(), world_.camera_id(), scenario.camera.width_px,
-                scenario.camera.height_px),
+                scenario.camera.height_px, world_.groups()),
       parts_(outlines(world_)),
       calibration_(calibrate(world_, scenario.camera)),
       photographer_(photographer_of(scenario, calibration_.camera)),
@@ -61,7 +63,23 @@ Observation Observer::observe() {
   advance();
   o.truth.next = snapshot_;
   o.objects = visible_objects(o.truth);
+  for (const ObjectTruth& object : o.objects) seen_.insert(object.object);
+  if (++observed_ == scenario_.frames) note_unseen();
   return o;
+}
+
+/// Warns of actors that no frame of the whole scenario shows.
+void Observer::note_unseen() {
+  for (const scenario::Actor& actor : scenario_.actors) {
+    const Object& object =
+        *std::ranges::find(world_.objects(), actor.body.value_or(actor.name), &Object::name);
+    if (seen_.contains(object.id)) continue;
+    const bool is_drawn = !parts_[static_cast<std::size_t>(object.id)].empty();
+    world_.warnings().add(
+        Warning::actors_never_seen,
+        fmt::format("actor '{}' is in none of the {} pictures{}", actor.name, scenario_.frames,
+                    is_drawn ? "" : " (none of its geoms is in camera.groups and has an alpha)"));
+  }
 }
 
 void Observer::advance() {
@@ -76,11 +94,12 @@ void Observer::advance() {
 
 void Observer::render(Observation& o) {
   renderer_.update();
-  renderer_.render_colour(o.image);
-  renderer_.render_depth_and_geoms(o.truth.depth_m, geoms_);
+  renderer_.render_colour(o.rendered);
+  CameraRenderer::blur(o.rendered, o.image);
+  renderer_.render_depth_and_geoms(o.truth.depth_m, o.geom);
   photographer_.develop(o.image, o.truth.depth_m, o.index);
-  o.truth.object.create(geoms_.size());
-  std::transform(geoms_.begin(), geoms_.end(), o.truth.object.begin(),
+  o.truth.object.create(o.geom.size());
+  std::transform(o.geom.begin(), o.geom.end(), o.truth.object.begin(),
                  [&](int geom) { return geom < 0 ? -1 : world_.object_of_geom(geom); });
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <set>
 #include <vector>
 
 #include "sim/camera/camera_renderer.h"
@@ -35,6 +36,7 @@ class Observer {
  private:
   void render(Observation& o);
   std::vector<ObjectTruth> visible_objects(const FrameTruth& truth) const;
+  void note_unseen();
 
   scenario::Scenario scenario_;
   World world_;
@@ -47,7 +49,8 @@ class Observer {
   std::vector<OdometrySample> odometry_;
   std::vector<ImuTruth> imu_truth_;
   int next_index_ = 0;
-  cv::Mat1i geoms_;
+  int observed_ = 0;    ///< number of frames rendered
+  std::set<int> seen_;  ///< objects with a visible pixel in any of them
 };
 
 }  // namespace lcs::sim

@@ -19,9 +19,12 @@
 namespace lcs::sim {
 
 struct Observation {
-  int index = 0;               ///< k, from 0
-  std::int64_t t_ns = 0;       ///< k / rate, from 0
-  cv::Mat3b image;             ///< BGR
+  int index = 0;          ///< k, from 0
+  std::int64_t t_ns = 0;  ///< k / rate, from 0
+  cv::Mat3b image;        ///< BGR
+  /// BGR, before lens, light, weather and sensor: each pixel shows one surface, that of the truth.
+  cv::Mat3b rendered;
+  cv::Mat1i geom;  ///< the model's geom at each pixel of `rendered`; -1 for the sky
   std::vector<ImuSample> imu;  ///< t(k-1) < t <= t(k); the first frame has the sample at 0
   std::vector<OdometrySample> odometry;  ///< at the same times; empty if disabled
   std::vector<ImuTruth> imu_truth;       ///< at the times of `imu`, and in its gaps

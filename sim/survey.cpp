@@ -19,7 +19,8 @@ std::vector<Footprint> footprints(const World& world) {
   const Model& model = world.model();
   const mjModel& m = model.m();
   for (int geom = 0; geom < m.ngeom; ++geom) {
-    if (!is_drawn(m, geom) || is_floor(model, geom) || m.geom_type[geom] == mjGEOM_PLANE) continue;
+    if (!world.is_drawn(geom) || is_floor(model, geom) || m.geom_type[geom] == mjGEOM_PLANE)
+      continue;
     const Pose T_WG = model.geom_pose(geom);
     const Eigen::Matrix3Xd points = (T_WG.R * geom_hull(m, geom)).colwise() + T_WG.p;
     std::vector<cv::Point2f> seen, hull;
@@ -61,11 +62,10 @@ bool is_in(const Model& model, int geom, const Eigen::Vector3d& point_W) {
 void note_inside(const World& world, double t_s, std::set<std::string>& known,
                  std::vector<std::string>& lines) {
   const Model& model = world.model();
-  const mjModel& m = model.m();
   const Eigen::Vector3d eye = model.camera_pose(world.camera_id()).p;
-  for (int geom = 0; geom < m.ngeom; ++geom) {
+  for (int geom = 0; geom < model.m().ngeom; ++geom) {
     const int object = world.object_of_geom(geom);
-    if (object < 0 || !is_drawn(m, geom) || !is_in(model, geom, eye)) continue;
+    if (object < 0 || !world.is_drawn(geom) || !is_in(model, geom, eye)) continue;
     const std::string what =
         object > 0 ? fmt::format("'{}'", world.objects()[static_cast<std::size_t>(object - 1)].name)
                    : fmt::format("the setting's geom '{}'", model.name(mjOBJ_GEOM, geom));

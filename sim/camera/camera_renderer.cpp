@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "sim/camera/gl_context.h"
-#include "sim/scene/refusal.h"
 #include "sim/scene/trial.h"
 
 namespace lcs::sim {
@@ -22,8 +21,6 @@ constexpr double kNear = 0.05;     // m
 constexpr double kLeastFar = 100;  // m
 // Standard deviation of the lens's point spread.
 constexpr double kLensBlur_px = 0.6;
-// Capacity for MuJoCo's drawables besides the geoms of the model.
-constexpr int kSpareGeoms = 64;
 
 void prepare(mjModel& m, int width_px, int height_px) {
   m.vis.global.offwidth = width_px;
@@ -45,7 +42,7 @@ void prepare(mjModel& m, int width_px, int height_px) {
 
 /// Mesa crashes when it runs out of memory. \throws std::runtime_error if the memory limit (ulimit
 /// -v) is too small to render an image. Checks at the first renderer of the process only.
-void check_memory(Model& model, int camera, int width_px, int height_px) {
+void check_memory(Model& model, const GeomGroups& groups, int camera, int width_px, int height_px) {
   static std::atomic<bool> checked = false;
   struct rlimit memory = {};
   if (::getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY ||
@@ -56,7 +53,7 @@ void check_memory(Model& model, int camera, int width_px, int height_px) {
   const Trial trial = try_in_child([&] {
     memory.rlim_cur -= std::min(memory.rlim_cur, kForTheRest);
     ::setrlimit(RLIMIT_AS, &memory);
-    CameraRenderer renderer(model, camera, width_px, height_px);
+    CameraRenderer renderer(model, camera, width_px, height_px, groups);
     cv::Mat3b picture;
     cv::Mat1f depth;
     cv::Mat1i geoms;
@@ -79,25 +76,19 @@ struct CameraRenderer::Impl {
   Model& model;
   int width_px, height_px;
   GlContext gl;
-  mjvScene scene;
-  mjvOption option;
-  mjvPerturb perturb;
-  mjvCamera camera;
+  Drawables drawables;
+  mjvScene& scene = drawables.scene();
   mjrContext context;
   std::vector<unsigned char> rgb;
   std::vector<float> z;
 
-  Impl(Model& model_, int camera_id, int width_px_, int height_px_)
-      : model(model_), width_px(width_px_), height_px(height_px_) {
+  Impl(Model& model_, const GeomGroups& groups, int camera, int width_px_, int height_px_)
+      : model(model_),
+        width_px(width_px_),
+        height_px(height_px_),
+        drawables(model, groups, camera) {
     prepare(model.m(), width_px, height_px);
-    mjv_defaultScene(&scene);
     mjr_defaultContext(&context);
-    mjv_defaultOption(&option);
-    mjv_defaultPerturb(&perturb);
-    mjv_defaultCamera(&camera);
-    std::fill(std::begin(option.sitegroup), std::end(option.sitegroup), mjtByte{0});
-    camera.type = mjCAMERA_FIXED;
-    camera.fixedcamid = camera_id;
     try {
       start();
     } catch (...) {
@@ -108,11 +99,6 @@ struct CameraRenderer::Impl {
   ~Impl() { release(); }
 
   void start() {
-    mjv_makeScene(&model.m(), &scene, static_cast<int>(model.m().ngeom) + kSpareGeoms);
-    scene.flags[mjRND_SHADOW] = 0;
-    scene.flags[mjRND_REFLECTION] = 0;
-    scene.flags[mjRND_FOG] = 0;
-    scene.flags[mjRND_HAZE] = 0;
     std::string problem;
     try {
       mjr_makeContext(&model.m(), &context, mjFONTSCALE_100);
@@ -139,7 +125,6 @@ struct CameraRenderer::Impl {
   }
 
   void release() {
-    mjv_freeScene(&scene);
     try {
       gl.make_current();
     } catch (const std::runtime_error&) {
@@ -163,32 +148,20 @@ struct CameraRenderer::Impl {
   /// \param colour id colour by `mjRND_IDCOLOR`: index in the scene, from 1.
   int geom_of(int colour) const {
     const int index = colour - 1;
-    if (index < 0 || index >= scene.ngeom) return -1;
-    const mjvGeom& drawn = scene.geoms[index];
-    return drawn.objtype == mjOBJ_GEOM ? drawn.objid : -1;
+    return index < 0 || index >= scene.ngeom ? -1 : scene.geoms[index].objid;
   }
 };
 
-CameraRenderer::CameraRenderer(Model& model, int camera, int width_px, int height_px) {
-  check_memory(model, camera, width_px, height_px);
-  impl_ = std::make_unique<Impl>(model, camera, width_px, height_px);
+CameraRenderer::CameraRenderer(Model& model, int camera, int width_px, int height_px,
+                               const GeomGroups& groups) {
+  check_memory(model, groups, camera, width_px, height_px);
+  impl_ = std::make_unique<Impl>(model, groups, camera, width_px, height_px);
 }
 
 CameraRenderer::~CameraRenderer() = default;
 
 void CameraRenderer::update() {
-  Impl& s = *impl_;
-  mjv_updateScene(&s.model.m(), &s.model.d(), &s.option, &s.perturb, &s.camera, mjCAT_ALL,
-                  &s.scene);
-  // with a full buffer MuJoCo only warns, and then renders a part of the scene
-  const std::string warning = take_warning();
-  if (s.scene.ngeom >= s.scene.maxgeom) {
-    throw MujocoError(
-        fmt::format("the scene has more to draw than {} geoms and pieces of tendons; "
-                    "give its tendons fewer sites",
-                    s.scene.maxgeom));
-  }
-  if (!warning.empty()) throw MujocoError(in_one_line(warning));
+  impl_->drawables.update(impl_->model);
 }
 
 void CameraRenderer::render_colour(cv::Mat3b& bgr) {
@@ -200,7 +173,10 @@ void CameraRenderer::render_colour(cv::Mat3b& bgr) {
     cv::Vec3b* to = bgr[y];
     for (int x = 0; x < s.width_px; ++x, from += 3) to[x] = {from[2], from[1], from[0]};
   }
-  cv::GaussianBlur(bgr, bgr, {}, kLensBlur_px);
+}
+
+void CameraRenderer::blur(const cv::Mat3b& sharp, cv::Mat3b& picture) {
+  cv::GaussianBlur(sharp, picture, {}, kLensBlur_px);
 }
 
 void CameraRenderer::render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom) {

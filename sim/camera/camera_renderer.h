@@ -6,7 +6,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
-#include "sim/scene/model.h"
+#include "sim/camera/drawables.h"
 
 namespace lcs::sim {
 
@@ -17,16 +17,19 @@ class CameraRenderer {
   /// Writes buffer size, clipping planes and lights into the model.
   /// \param model must outlive the renderer; its textures must be complete: they are uploaded here.
   /// \throws std::runtime_error if GL does not start or cannot render images of this size.
-  CameraRenderer(Model& model, int camera, int width_px, int height_px);
+  CameraRenderer(Model& model, int camera, int width_px, int height_px,
+                 const GeomGroups& groups = kUsualGroups);
   ~CameraRenderer();
   CameraRenderer(const CameraRenderer&) = delete;
   CameraRenderer& operator=(const CameraRenderer&) = delete;
 
   /// Takes the poses of the model's last forward pass for the following renders.
-  /// \throws MujocoError if the scene has more geoms than the render buffer holds.
   void update();
 
+  /// The picture before the lens. Its pixels belong to the geoms of `render_depth_and_geoms`.
   void render_colour(cv::Mat3b& bgr);
+  /// The picture behind the lens, whose point spread mixes neighbouring pixels.
+  static void blur(const cv::Mat3b& sharp, cv::Mat3b& picture);
   /// \param depth_m z-depth along the optical axis, m; +inf for the background.
   /// \param geom geom id in the model, -1 for the background. Both without multisampling.
   void render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom);

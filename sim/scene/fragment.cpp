@@ -25,12 +25,6 @@ std::vector<double> numbers(const xml::Element& e, const char* key) {
   return mjcf::numbers(mjcf::effective(e, key));
 }
 
-Vector3d natural_size(xml::Element& root) {
-  const xml::Element* size = xml::child_named(xml::section(root, "custom"), "numeric", "size");
-  const std::vector<double> values = numbers(*size, "data");
-  return {values.at(0), values.at(1), values.at(2)};
-}
-
 /// Scale factors along the axes of a geom with rotation R in the body.
 Vector3d local_factors(const Matrix3d& R, const Vector3d& factor) {
   return (factor.asDiagonal() * R).colwise().norm();
@@ -188,6 +182,13 @@ void take_contacts_away(xml::Element& root) {
 
 }  // namespace
 
+Vector3d natural_size(xml::Element& root, const std::string& prefix) {
+  const xml::Element* size =
+      xml::child_named(xml::section(root, "custom"), "numeric", prefix + "size");
+  const std::vector<double> values = numbers(*size, "data");
+  return {values.at(0), values.at(1), values.at(2)};
+}
+
 bool has_picture(const scenario::Actor& actor) {
   return !actor.texture.empty() && !is_texture_style(actor.texture);
 }
@@ -202,7 +203,7 @@ xml::Document actor_fragment(const scenario::Actor& actor, const xml::Element& s
     if (actor.shape == Shape::cylinder && size.x() != size.y()) {
       throw input::Error(actor.source, "a cylinder is round: give the same length and width");
     }
-    const Vector3d factor = size.cwiseQuotient(natural_size(root));
+    const Vector3d factor = size.cwiseQuotient(natural_size(root, ""));
     xml::Element& base = *xml::child_named(xml::section(root, "worldbody"), "body", "base");
     if (!factor.isApproxToConstant(1)) Scaling(root, factor).scale_in(base, Matrix3d::Identity());
   }

@@ -5,6 +5,7 @@
 /// scene cannot change its meaning. Loading checks it (`sim/scene/fragment_contract.h`).
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 
 #include "scenarios/scenario.h"
@@ -18,6 +19,9 @@ inline constexpr const char* kEgoPrefix = "ego/";
 inline constexpr const char* kPictureTexture = "picture";
 
 bool has_picture(const scenario::Actor& actor);
+
+/// [length, width, height] of an actor as its file states it, m. \param prefix of the names.
+Eigen::Vector3d natural_size(xml::Element& root, const std::string& prefix);
 
 /// The fragment of an actor: scaled from its file's size to the requested size, painted, without
 /// contacts, with the actor's name as prefix of every name. Boxes, ellipsoids and meshes scale by

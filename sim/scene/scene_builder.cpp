@@ -93,6 +93,8 @@ void add_actor(xml::Element& scene, const Actor& actor, ComposedScene& composed)
   check_placed(actor);
   const xml::Document fragment = actor_fragment(actor, scene);
   const std::string prefix = actor.name + "/";
+  composed.actor_sizes_m.emplace_back(
+      actor.size_m.value_or(natural_size(*fragment->RootElement(), prefix)));
   xml::Element& body = base_of(*fragment, prefix);
   // the object's name is the actor's name
   body.SetAttribute("name", actor.name.c_str());
@@ -129,6 +131,7 @@ void add_actors(xml::Element& scene, const Scenario& scenario, ComposedScene& co
     }
     if (actor.body) {
       make_mocap(worldbody, actor);
+      composed.actor_sizes_m.emplace_back();
     } else {
       add_actor(scene, actor, composed);
     }

@@ -7,7 +7,9 @@
 /// prefix, so that names of scene, rover and actors cannot clash.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,8 @@ struct PictureTexture {
 struct ComposedScene {
   xml::Printed mjcf;
   std::vector<std::string> actor_bodies;  ///< body of each actor, in the scenario's order
+  /// Size of each actor, [length, width, height] in m; absent for a body of the scene.
+  std::vector<std::optional<Eigen::Vector3d>> actor_sizes_m;
   std::vector<PictureTexture> pictures;
 };
 

@@ -51,19 +51,25 @@ class HolonomicRover : public Rover {
     for (std::size_t i = 0; i < 3; ++i) d.qvel[joints_[i].qvel] = velocity[i];
   }
 
-  void command(Model& model, std::int64_t t_ns) override {
+  PlanarVelocity command(Model& model, std::int64_t t_ns) override {
     const std::array<double, 3> velocity = joint_rates(model, t_ns);
     for (std::size_t i = 0; i < 3; ++i) model.d().ctrl[actuators_[i]] = velocity[i];
+    return in_rover(model, velocity);
   }
 
   PlanarVelocity odometry(const Model& model) const override {
-    const mjData& d = model.d();
-    const Eigen::Rotation2Dd R_BW(-d.qpos[joints_[2].qpos]);
-    const Eigen::Vector2d v_W(d.qvel[joints_[0].qvel], d.qvel[joints_[1].qvel]);
-    return {R_BW * v_W, d.qvel[joints_[2].qvel]};
+    const double* rates = model.d().qvel;
+    return in_rover(model,
+                    {rates[joints_[0].qvel], rates[joints_[1].qvel], rates[joints_[2].qvel]});
   }
 
  private:
+  /// \param rates of the joints.
+  PlanarVelocity in_rover(const Model& model, const std::array<double, 3>& rates) const {
+    const Eigen::Rotation2Dd R_BW(-model.d().qpos[joints_[2].qpos]);
+    return {R_BW * Eigen::Vector2d(rates[0], rates[1]), rates[2]};
+  }
+
   /// Rates of the joints: x and y in W, and yaw.
   std::array<double, 3> joint_rates(const Model& model, std::int64_t t_ns) {
     if (route_) {
@@ -122,9 +128,11 @@ class WheeledRover : public Rover {
     for (std::size_t i = 0; i < 2; ++i) d.qvel[joints_[i].qvel] = wheels[i];
   }
 
-  void command(Model& model, std::int64_t t_ns) override {
-    const std::array<double, 2> wheels = wheel_rates(command_.at(t_ns));
+  PlanarVelocity command(Model& model, std::int64_t t_ns) override {
+    const PlanarVelocity v = command_.at(t_ns);
+    const std::array<double, 2> wheels = wheel_rates(v);
     for (std::size_t i = 0; i < 2; ++i) model.d().ctrl[actuators_[i]] = wheels[i];
+    return v;
   }
 
   PlanarVelocity odometry(const Model& model) const override {

@@ -50,8 +50,8 @@ class Rover {
   /// Sets the state at t = 0: at the start pose, settled on the ground, moving as commanded.
   /// \throws input::Error if no ground supports the rover
   virtual void start(Model& model) = 0;
-  /// Sets the controls for the next step.
-  virtual void command(Model& model, std::int64_t t_ns) = 0;
+  /// Sets the controls for the next step. \return the velocity that they ask for.
+  virtual PlanarVelocity command(Model& model, std::int64_t t_ns) = 0;
   /// Velocity of B by the wheels, without noise.
   virtual PlanarVelocity odometry(const Model& model) const = 0;
 };

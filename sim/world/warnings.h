@@ -17,6 +17,13 @@ enum class Warning : std::uint8_t {
   rover_collisions,
   actor_collisions,
   objects_below_ground,
+  rover_off_command,
+  actors_never_moved,
+  actors_never_seen,
+  actors_in_ground,
+  actors_of_other_size,
+  translucent_geoms,
+  undrawn_parts,
 };
 
 struct WarningText {
@@ -25,14 +32,22 @@ struct WarningText {
 };
 
 /// In the order of `Warning`.
-inline constexpr std::array<WarningText, 5> kWarnings{{
+inline constexpr std::array<WarningText, 12> kWarnings{{
     {"rover_below_ground", "give what it drives on contacts, or change its start or its path"},
     {"rover_tipped", "make it slower, or the ground smoother"},
     {"rover_collisions", "change its start or its path, or what stands there"},
     {"actor_collisions", "change its trajectory, or what stands there"},
     {"objects_below_ground", "give it contacts (contype, conaffinity), or take its joint away"},
+    {"rover_off_command", "correct its joints, wheels or actuators, or ask for less"},
+    {"actors_never_moved", "change its start or its speed, or the rover's path"},
+    {"actors_never_seen", "change its trajectory, its start, or the rover's path"},
+    {"actors_in_ground", "raise its geoms: an actor's origin is on the ground below its middle"},
+    {"actors_of_other_size", "correct the size in its file (<numeric name=\"size\">) or its geoms"},
+    {"translucent_geoms",
+     "a pixel has one true surface; give it alpha 1, or 0 for a geom that is not drawn"},
+    {"undrawn_parts", "the truth is that of geoms; give the body geoms for what is to be seen"},
 }};
-static_assert(kWarnings.size() == static_cast<std::size_t>(Warning::objects_below_ground) + 1);
+static_assert(kWarnings.size() == static_cast<std::size_t>(Warning::undrawn_parts) + 1);
 
 constexpr const WarningText& text_of(Warning warning) {
   return kWarnings[static_cast<std::size_t>(warning)];

@@ -29,6 +29,12 @@ constexpr double kTipped_rad = std::numbers::pi / 4;
 // A contact of the wheels with a flatter normal is with a wall. It is steeper than a step of half
 // the wheel radius, which the wheels could climb.
 constexpr double kSteep = 0.5;  // upward part of the normal
+// An actor's size may differ from its stated size by this factor.
+constexpr double kMostSize = 1.25;
+// A rover may differ from its command, over a second, by a share and by a little more, as its
+// wheels slip. Bumps of a height field turn it.
+constexpr double kDriveSpan_s = 1, kDriveShare = 0.2, kDrive_mps = 0.05;
+constexpr double kDrive_radps = 2 * std::numbers::pi / 180, kBump_radps = 5 * kDrive_radps;
 // Smaller motions since the last check are ignored: the rover and a pedestrian are some tenths of a
 // metre deep.
 constexpr double kStride_m = 0.05, kStride_rad = 0.1;
@@ -76,20 +82,14 @@ std::optional<double> field_m(const Model& model, int geom, const Vector3d& at) 
 
 }  // namespace
 
-bool is_drawn(const mjModel& m, int geom) {
-  constexpr int kGroups = 3;  // that MuJoCo draws by default
-  const int material = m.geom_matid[geom];
-  const float alpha = material >= 0 ? m.mat_rgba[4 * material + 3] : m.geom_rgba[4 * geom + 3];
-  return m.geom_group[geom] < kGroups && alpha > 0;
-}
-
 bool is_floor(const Model& model, int geom) {
   const int type = model.m().geom_type[geom];
   return type == mjGEOM_HFIELD || (type == mjGEOM_PLANE && model.geom_pose(geom).R(2, 2) > kSteep);
 }
 
 Watch::Watch(const Model& model, int rover_body, const std::vector<Named>& objects,
-             const std::vector<int>& object_of_geom) {
+             const std::vector<int>& object_of_geom, const std::vector<char>& is_drawn)
+    : last_T_WB_(model.body_pose(rover_body)) {
   const mjModel& m = model.m();
   std::vector<Solid> named(objects.size() + 1);
   named[0] = {.kind = Kind::rover, .name = "the rover", .body = rover_body, .moves = true};
@@ -107,18 +107,24 @@ Watch::Watch(const Model& model, int rover_body, const std::vector<Named>& objec
     const Pose T_WG = model.geom_pose(geom);
     if (is_floor(model, geom)) {
       floors_.push_back(geom);
+      has_field_ |= !is_plane(m, geom);
       lowest_m_ = std::min(lowest_m_, T_WG.p.z());
-    } else if (is_drawn(m, geom) && object == 0) {
+    } else if (!is_drawn[static_cast<std::size_t>(geom)]) {
+      continue;
+    } else if (object == 0) {
       lowest_m_ = std::min(lowest_m_, T_WG.p.z() - m.geom_rbound[geom]);
       setting.push_back(
           {.name = name_of(model, geom), .body = m.geom_bodyid[geom], .geoms = {geom}});
-    } else if (is_drawn(m, geom)) {
+    } else {
       named[static_cast<std::size_t>(std::max(object, 0))].geoms.push_back(geom);
     }
   }
   if (!std::isfinite(lowest_m_)) lowest_m_ = -lowest_m_;  // no setting to fall below
   solid_of_geom_.assign(static_cast<std::size_t>(m.ngeom), -1);
   for (Solid& solid : named) add_solid(model, std::move(solid));
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (objects[i].size_m) check_size(model, solids_[i + 1], *objects[i].size_m);
+  }
   for (Solid& solid : setting) add_solid(model, std::move(solid));
   start_m_ = model.body_pose(rover_body).p.z();
 }
@@ -288,15 +294,80 @@ double Watch::floor_m(const Model& model, const Vector3d& at) const {
 
 void Watch::note_falls(const Model& model, std::int64_t t_ns) {
   for (Solid& solid : solids_) {
-    const bool is_rover = solid.kind == Kind::rover;
-    if (!is_rover && !(solid.kind == Kind::object && solid.moves)) continue;
+    const bool is_rover = solid.kind == Kind::rover, is_actor = solid.kind == Kind::actor;
+    if (!is_rover && !is_actor && !(solid.kind == Kind::object && solid.moves)) continue;
     const Pose T_WB = model.body_pose(solid.body);
-    const Vector3d p = is_rover ? T_WB.p : T_WB * solid.centre_B;
-    const bool was_low = std::exchange(solid.is_low, p.z() < floor_m(model, p) - kSunk_m);
+    Vector3d p = is_rover ? T_WB.p : T_WB * solid.centre_B;
+    if (is_actor) p.z() = T_WB.p.z() + solid.foot_m;
+    const double sunk_m = floor_m(model, p) - p.z();
+    const bool was_low = std::exchange(solid.is_low, sunk_m > kSunk_m);
     if (was_low || !solid.is_low) continue;
-    warnings_.add(is_rover ? Warning::rover_below_ground : Warning::objects_below_ground,
-                  fmt::format("{} is below the ground {}", solid.name, at(t_ns, p)));
+    if (is_actor) {
+      warnings_.add(Warning::actors_in_ground, fmt::format("{} reaches {:.2f} m into the ground {}",
+                                                           solid.name, sunk_m, at(t_ns, p)));
+    } else {
+      warnings_.add(is_rover ? Warning::rover_below_ground : Warning::objects_below_ground,
+                    fmt::format("{} is below the ground {}", solid.name, at(t_ns, p)));
+    }
   }
+}
+
+/// Compares the extents of a body's visible geoms, along the body's axes, with its stated size.
+void Watch::check_size(const Model& model, const Solid& solid, const Vector3d& stated_m) {
+  const Pose T_BW = model.body_pose(solid.body).inverse();
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const int geom : solid.geoms) {
+    const Pose T_BG = T_BW * model.geom_pose(geom);
+    const Eigen::Matrix3Xd points = (T_BG.R * overlap_.hull(model, geom)).colwise() + T_BG.p;
+    low = low.cwiseMin(points.rowwise().minCoeff());
+    high = high.cwiseMax(points.rowwise().maxCoeff());
+  }
+  const Vector3d size_m = high - low;
+  const Vector3d ratio = size_m.cwiseQuotient(stated_m);
+  if (solid.geoms.empty() ||
+      ((ratio.array() < kMostSize).all() && (ratio.array() * kMostSize > 1).all()))
+    return;
+  const auto text = [](const Vector3d& size) {
+    return fmt::format("{:.2f} x {:.2f} x {:.2f} m", size.x(), size.y(), size.z());
+  };
+  warnings_.add(
+      Warning::actors_of_other_size,
+      fmt::format("{} is {} large, and should be {}", solid.name, text(size_m), text(stated_m)));
+}
+
+/// Compares each second of the rover's path with its commands.
+void Watch::note_drive(const Model& model, std::int64_t t_ns, const PlanarVelocity& asked) {
+  const Pose T_WB = model.body_pose(solids_.front().body);
+  const double dt_s = 1e-9 * static_cast<double>(t_ns - last_ns_);
+  const Pose T_LB = last_T_WB_.inverse() * T_WB;
+  drive_.asked.linear_mps += dt_s * asked.linear_mps;
+  drive_.asked.yaw_rate_radps += dt_s * asked.yaw_rate_radps;
+  drive_.done.linear_mps += T_LB.p.head<2>();
+  drive_.done.yaw_rate_radps += std::atan2(T_LB.R(1, 0), T_LB.R(0, 0));
+  last_T_WB_ = T_WB;
+  last_ns_ = t_ns;
+  const double span_s = 1e-9 * static_cast<double>(t_ns - drive_.from_ns);
+  if (span_s < kDriveSpan_s) return;
+  const PlanarVelocity& a = drive_.asked;
+  const PlanarVelocity& d = drive_.done;
+  const auto differ = [](double difference, double asked_for, double tolerance) {
+    return difference > tolerance + kDriveShare * std::abs(asked_for);
+  };
+  if (differ((d.linear_mps - a.linear_mps).norm(), a.linear_mps.norm(),
+             kDriveSpan_s * kDrive_mps) ||
+      differ(std::abs(d.yaw_rate_radps - a.yaw_rate_radps), a.yaw_rate_radps,
+             kDriveSpan_s * (has_field_ ? kBump_radps : kDrive_radps))) {
+    const auto text = [&](const PlanarVelocity& v) {
+      return fmt::format("({:.2f}, {:.2f}) m/s and {:.1f} deg/s", v.linear_mps.x() / span_s,
+                         v.linear_mps.y() / span_s,
+                         v.yaw_rate_radps / span_s * 180 / std::numbers::pi);
+    };
+    warnings_.add(Warning::rover_off_command,
+                  fmt::format("the rover drives {} from {:.1f} to {:.1f} s, where {} are asked",
+                              text(d), 1e-9 * static_cast<double>(drive_.from_ns),
+                              1e-9 * static_cast<double>(t_ns), text(a)));
+  }
+  drive_ = {.from_ns = t_ns, .asked = {}, .done = {}};
 }
 
 void Watch::note_attitude(const Model& model, std::int64_t t_ns) {
@@ -307,7 +378,8 @@ void Watch::note_attitude(const Model& model, std::int64_t t_ns) {
                 fmt::format("the rover has tipped over {}", at(t_ns, T_WB.p)));
 }
 
-void Watch::look(const Model& model, std::int64_t t_ns) {
+void Watch::look(const Model& model, std::int64_t t_ns, const PlanarVelocity& asked) {
+  note_drive(model, t_ns, asked);
   note_contacts(model, t_ns);
   if (!has_moved(model)) return;
   note_attitude(model, t_ns);

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -15,12 +16,11 @@
 
 #include "sim/scene/model.h"
 #include "sim/world/overlap.h"
+#include "sim/world/rover.h"
 #include "sim/world/warnings.h"
 
 namespace lcs::sim {
 
-/// Whether the camera can see the geom.
-bool is_drawn(const mjModel& m, int geom);
 /// A plane that faces up, or a height field.
 bool is_floor(const Model& model, int geom);
 
@@ -33,11 +33,13 @@ class Watch {
     std::string name;
     int body = 0;
     bool is_actor = false;
+    std::optional<Eigen::Vector3d> size_m = {};  ///< that its file or the scenario states
   };
 
   /// \param object_of_geom as `World::object_of_geom`; `objects[i]` is object i + 1.
+  /// \param is_drawn of each geom: whether the camera can see it.
   Watch(const Model& model, int rover_body, const std::vector<Named>& objects,
-        const std::vector<int>& object_of_geom);
+        const std::vector<int>& object_of_geom, const std::vector<char>& is_drawn);
 
   /// An overlap of two solids.
   struct Meeting {
@@ -55,8 +57,10 @@ class Watch {
 
   /// Call it after every step. It recomputes all overlaps once anything has moved by a few
   /// centimetres.
-  void look(const Model& model, std::int64_t t_ns);
+  /// \param asked the commanded velocity of the step. \param t_ns at the start of the step.
+  void look(const Model& model, std::int64_t t_ns, const PlanarVelocity& asked);
 
+  Warnings& warnings() { return warnings_; }
   const Warnings& warnings() const { return warnings_; }
 
  private:
@@ -70,7 +74,12 @@ class Watch {
     double radius_m = 0;  ///< of a bounding sphere around `centre_B`
     double foot_m = 0;    ///< actors: lowest point at the start, over the body's origin
     bool moves = false;   ///< as an actor or by the physics
-    bool is_low = false;  ///< below the ground, with a warning given
+    bool is_low = false;  ///< in or below the ground, with a warning given
+  };
+  /// The path of the rover over a second: as commanded, and as driven, in B.
+  struct Drive {
+    std::int64_t from_ns = 0;
+    PlanarVelocity asked, done;  ///< integrals: metres and radians
   };
   using Pair = std::pair<std::size_t, std::size_t>;
 
@@ -84,17 +93,23 @@ class Watch {
   void note_meeting(const Pair& pair, const Eigen::Vector3d& point, std::int64_t t_ns);
   void note_falls(const Model& model, std::int64_t t_ns);
   void note_attitude(const Model& model, std::int64_t t_ns);
+  void note_drive(const Model& model, std::int64_t t_ns, const PlanarVelocity& asked);
+  void check_size(const Model& model, const Solid& solid, const Eigen::Vector3d& stated_m);
   double floor_m(const Model& model, const Eigen::Vector3d& at) const;
 
   std::vector<Solid> solids_;  ///< the rover first
   std::vector<int> solid_of_geom_;
   std::vector<int> floors_;  ///< geoms that are floors, see `is_floor`
+  bool has_field_ = false;   ///< one of them is a height field
   double lowest_m_ = 0;      ///< lowest height of the setting
   double start_m_ = 0;       ///< height of the rover at the start
   Overlap overlap_;
   std::set<Pair> met_;
   std::vector<Pose> last_;  ///< of the moving solids, at the last overlap check
   bool is_tipped_ = false;
+  Drive drive_;
+  Pose last_T_WB_;            ///< of the rover, at the last step
+  std::int64_t last_ns_ = 0;  ///< its time
   Warnings warnings_;
 };
 

@@ -25,6 +25,7 @@ namespace lcs::sim {
 namespace {
 
 constexpr std::int64_t kLongestStep_ns = 2'000'000;
+constexpr double kMoves_m = 1e-7;  // least step of an actor that moves
 constexpr double kActorInside_m =
     0.22;  // less is a graze; the leg of a pedestrian inside a crate is deeper
 
@@ -269,7 +270,7 @@ void World::find_actors(const ComposedScene& composed) {
     const PlanarPose home{T_WA.p.head<2>(), yaw(T_WA.R)};
     actors_.push_back({model_.m().body_mocapid[body], T_WA.p.z(),
                        about_z(-home.heading_rad) * Eigen::Quaterniond(T_WA.R), home,
-                       actor.trajectory, Trigger(actor.start)});
+                       actor.trajectory, Trigger(actor.start), actor.name});
     place(actors_.back(), pose_on(actor.trajectory, home, 0));
   }
 }
@@ -277,6 +278,10 @@ void World::find_actors(const ComposedScene& composed) {
 /// Rejects impossible overlaps at the start. Actors may start inside walls; an actor that only
 /// grazes an object gets a warning later.
 void World::begin_watch(const ComposedScene& composed, WrongStart wrong_start) {
+  for (const int group : scenario_.camera.groups) groups_[static_cast<std::size_t>(group)] = true;
+  const std::vector<float> alpha = Drawables::alpha(model_, groups_, camera_);
+  std::transform(alpha.begin(), alpha.end(), std::back_inserter(is_drawn_),
+                 [](float a) { return a > 0; });
   const std::vector<std::string>& bodies = composed.actor_bodies;
   const auto actor_of = [&](int object) {
     const std::string& name = objects_[static_cast<std::size_t>(object - 1)].name;
@@ -284,9 +289,13 @@ void World::begin_watch(const ComposedScene& composed, WrongStart wrong_start) {
   };
   std::vector<Watch::Named> named;
   for (const Object& object : objects_) {
-    named.push_back({object.name, body_of(object.id), actor_of(object.id) < std::ssize(bodies)});
+    const auto actor = actor_of(object.id);
+    const bool is_actor = actor < std::ssize(bodies);
+    named.push_back({object.name, body_of(object.id), is_actor, {}});
+    if (is_actor) named.back().size_m = composed.actor_sizes_m[static_cast<std::size_t>(actor)];
   }
-  watch_ = std::make_unique<Watch>(model_, base_, named, object_of_geom_);
+  watch_ = std::make_unique<Watch>(model_, base_, named, object_of_geom_, is_drawn_);
+  note_looks(composed, alpha);
   for (const Watch::Meeting& meeting : watch_->meetings(model_)) {
     const bool is_rover = meeting.traveller == 0;
     const bool is_inside =
@@ -300,6 +309,27 @@ void World::begin_watch(const ComposedScene& composed, WrongStart wrong_start) {
     if (wrong_start == WrongStart::refused) throw error;
     wrong_at_start_.emplace_back(error.what());
     watch_->pass_over(meeting);
+  }
+}
+
+/// Warns of parts that look otherwise than in MuJoCo's own pictures. \param alpha of each geom.
+void World::note_looks(const ComposedScene& composed, const std::vector<float>& alpha) {
+  const auto warn = [&](Warning warning, const char* kind, std::string_view name,
+                        const std::string& what) {
+    warnings().add(warning, input::Error(source_of(scenario_, composed, kind, name), what).what());
+  };
+  for (int geom = 0; geom < model_.m().ngeom; ++geom) {
+    const float a = alpha[static_cast<std::size_t>(geom)];
+    if (a <= 0 || a >= 1) continue;
+    const std::string_view body = model_.name(mjOBJ_BODY, model_.m().geom_bodyid[geom]);
+    const std::string_view name = model_.name(mjOBJ_GEOM, geom);
+    warn(Warning::translucent_geoms, name.empty() ? "body" : "geom", name.empty() ? body : name,
+         fmt::format("a geom of body '{}' has alpha {:g} and is drawn opaque", body, a));
+  }
+  for (const auto& [type, id] : undrawn_parts(model_)) {
+    const std::string_view name = model_.name(type, id);
+    const char* kind = mju_type2Str(type);
+    warn(Warning::undrawn_parts, kind, name, fmt::format("{} '{}' is not drawn", kind, name));
   }
 }
 
@@ -321,8 +351,12 @@ void World::move_actors() {
   const Eigen::Map<const Eigen::Vector2d> ego(d.xpos + 3 * base_);
   for (MovingActor& actor : actors_) {
     const Eigen::Map<const Eigen::Vector2d> here(d.mocap_pos + 3 * actor.mocap);
-    const double since_start = actor.trigger.update(t_ns_, (here - ego).norm());
-    place(actor, pose_on(actor.trajectory, actor.home, since_start));
+    const double distance_m = (here - ego).norm();
+    actor.nearest_m = std::min(actor.nearest_m, distance_m);
+    const PlanarPose pose =
+        pose_on(actor.trajectory, actor.home, actor.trigger.update(t_ns_, distance_m));
+    actor.has_moved |= (pose.position_m - here).norm() > kMoves_m;
+    place(actor, pose);
   }
 }
 
@@ -355,6 +389,19 @@ void World::forward() {
   mj_forward(&model_.m(), &model_.d());
 }
 
+/// Warns, once, of actors that did not move until the last frame although they should.
+void World::end_watch() {
+  if (std::exchange(is_watch_over_, true)) return;
+  for (const MovingActor& actor : actors_) {
+    if (actor.has_moved || std::holds_alternative<scenario::Still>(actor.trajectory)) continue;
+    warnings().add(
+        Warning::actors_never_moved,
+        fmt::format("actor '{}' never moves: its start trigger does not fire within {:.1f} s (the "
+                    "rover comes as near as {:.2f} m), or its speed is 0",
+                    actor.name, scenario_.frames / scenario_.camera.rate_hz, actor.nearest_m));
+  }
+}
+
 std::int64_t World::next_event_ns(std::int64_t until_ns) const {
   std::int64_t next = std::min(until_ns, event_time_ns(imu_count_, scenario_.imu.rate_hz));
   if (scenario_.odometry.enabled) {
@@ -376,11 +423,13 @@ void World::step_to(std::int64_t t_ns) {
   // own count of steps, as MuJoCo resets its time to 0 when it diverges
   for (std::int64_t i = 0; i < steps; ++i) {
     guarded([&] {
-      rover_->command(model_, t_ns_);
+      const PlanarVelocity asked = rover_->command(model_, t_ns_);
       move_actors();
       mj_step(&m, &model_.d());
       if (t_ns_ <= event_time_ns(scenario_.frames - 1, scenario_.camera.rate_hz)) {
-        watch_->look(model_, t_ns_);
+        watch_->look(model_, t_ns_, asked);
+      } else {
+        end_watch();
       }
     });
     t_ns_ = start_ns + span_ns * (i + 1) / steps;

@@ -9,12 +9,14 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "sim/camera/drawables.h"
 #include "sim/imu/imu_noise.h"
 #include "sim/scene/model.h"
 #include "sim/scene/scene_builder.h"
@@ -61,9 +63,13 @@ class World {
   int body_of(int object) const { return object_bodies_.at(static_cast<std::size_t>(object)); }
   /// The value of FrameTruth::object for pixels of a geom.
   int object_of_geom(int geom) const { return object_of_geom_[static_cast<std::size_t>(geom)]; }
+  /// Whether the camera can see a geom: its group is chosen, and it is not transparent.
+  bool is_drawn(int geom) const { return is_drawn_[static_cast<std::size_t>(geom)] != 0; }
+  const GeomGroups& groups() const { return groups_; }
 
   /// The warnings until now, or until the last frame.
   const Warnings& warnings() const { return watch_->warnings(); }
+  Warnings& warnings() { return watch_->warnings(); }
   /// The overlaps at the start, one line each, worded as in the error.
   const std::vector<std::string>& wrong_at_start() const { return wrong_at_start_; }
 
@@ -88,6 +94,9 @@ class World {
     PlanarPose home;
     scenario::Trajectory trajectory;
     Trigger trigger;
+    std::string name;
+    double nearest_m = std::numeric_limits<double>::infinity();  ///< to the rover, between origins
+    bool has_moved = false;
   };
 
   World(const scenario::Scenario& scenario, const ComposedScene& composed, WrongStart wrong_start);
@@ -95,6 +104,8 @@ class World {
   void find_objects(const ComposedScene& composed);
   void find_actors(const ComposedScene& composed);
   void begin_watch(const ComposedScene& composed, WrongStart wrong_start);
+  void note_looks(const ComposedScene& composed, const std::vector<float>& alpha);
+  void end_watch();
   void place(const MovingActor& actor, const PlanarPose& pose);
   void move_actors();
   void forward();
@@ -113,7 +124,10 @@ class World {
   std::vector<Object> objects_;
   std::vector<int> object_bodies_;
   std::vector<int> object_of_geom_;
+  GeomGroups groups_{};
+  std::vector<char> is_drawn_;  ///< by geom
   std::unique_ptr<Watch> watch_;
+  bool is_watch_over_ = false;  ///< the last frame is past
   std::vector<std::string> wrong_at_start_;
   ImuNoiseModel imu_noise_;
   OdometryNoiseModel odometry_noise_;

@@ -350,7 +350,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Refused, WhenTheFileIsMissingAFolderOrHuge) {
   const ScenarioFolder folder;
   const auto message = [](const std::filesystem::path& file) {
-    return bench::refusal_of<Error>([&] { load(file); });
+    return bench::refusal_of<input::Error>([&] { load(file); });
   };
   const std::filesystem::path missing = folder.path() / "missing.yaml";
   EXPECT_EQ(message(missing),
@@ -404,14 +404,14 @@ TEST(Refused, WhatIsNotYamlWithItsLine) {
 
 TEST(Nearest, FindsAMisspellingAndNothingElse) {
   const std::vector<std::string> names = {"speed", "heading", "yaw_rate", "at"};
-  EXPECT_EQ(nearest("sped", names), "speed");
-  EXPECT_EQ(nearest("speeed", names), "speed");
-  EXPECT_EQ(nearest("yawrate", names), "yaw_rate");
-  EXPECT_EQ(nearest("haeding", names), "heading");
-  EXPECT_EQ(nearest("colour", names), std::nullopt);
-  EXPECT_EQ(nearest("x", names), std::nullopt);
-  EXPECT_EQ(nearest("", names), std::nullopt);
-  EXPECT_EQ(nearest("speed", {}), std::nullopt);
+  EXPECT_EQ(input::nearest("sped", names), "speed");
+  EXPECT_EQ(input::nearest("speeed", names), "speed");
+  EXPECT_EQ(input::nearest("yawrate", names), "yaw_rate");
+  EXPECT_EQ(input::nearest("haeding", names), "heading");
+  EXPECT_EQ(input::nearest("colour", names), std::nullopt);
+  EXPECT_EQ(input::nearest("x", names), std::nullopt);
+  EXPECT_EQ(input::nearest("", names), std::nullopt);
+  EXPECT_EQ(input::nearest("speed", {}), std::nullopt);
 }
 
 TEST(Refused, ASceneThatNoFileCanBeCalled) {

@@ -61,6 +61,7 @@ camera:
   position: [0.1 m, 0 m, 0.3 m]
   rotation: [1 deg, 0 deg, -3.1 deg]
   told: {height_error: 0.02 m, pitch_error: 0.5 deg}
+  groups: [0, 3]
 frames: 12
 imu:
   preset: tumvi
@@ -99,7 +100,8 @@ sweep: {ego.speed: [0.2 m/s, 0.4 m/s], camera.size: [[320, 240], [640, 480]]}
 )";
 
 std::map<std::string, std::string> read_and_written(const std::string& text) {
-  return flattened(parse_text(yaml_text(document_of(load_text(text))), {"written", 1}));
+  return input::flattened(
+      input::parse_text(input::yaml_text(document_of(load_text(text))), {"written", 1}));
 }
 
 /// The keys of a file without file names, because these are resolved paths.
@@ -110,10 +112,10 @@ std::map<std::string, std::string> without_files(std::map<std::string, std::stri
 
 TEST(Written, IsTheFileThatWasRead) {
   EXPECT_EQ(without_files(read_and_written(kSimulated)),
-            without_files(flattened(parse_text(kSimulated, {"text", 1}))));
+            without_files(input::flattened(input::parse_text(kSimulated, {"text", 1}))));
   const std::string way = "frames: 3\nego: {waypoints: [[0 s, 1 m, 2 m], [1 s, 1 m, 3 m]]}\n";
   EXPECT_EQ(without_files(read_and_written("scene: room.xml\n" + way)),
-            flattened(parse_text(way, {"text", 1})));
+            input::flattened(input::parse_text(way, {"text", 1})));
   const std::string recorded =
       "recording: {format: kitti, camera: cam1, fps: 25 Hz, every: 2, speed: 10 m/s, focal: 700 "
       "px, "
@@ -123,13 +125,13 @@ TEST(Written, IsTheFileThatWasRead) {
   std::string with_path = recorded;
   with_path.insert(with_path.find('{') + 1, "path: room.xml, ");
   EXPECT_EQ(without_files(read_and_written(with_path)),
-            flattened(parse_text(recorded, {"text", 1})));
+            input::flattened(input::parse_text(recorded, {"text", 1})));
 }
 
 TEST(Written, HasTheNoiseOfAnImuThatIsNoPreset) {
   const std::string own = smallest + "imu: {preset: esim, gyroscope_random_walk: 1.23e-5}\n";
   const Imu imu = load_text(own).imu;
-  std::string text = yaml_text(document_of(load_text(own)));
+  std::string text = input::yaml_text(document_of(load_text(own)));
   text.replace(text.find("scene: "), text.find('\n') - text.find("scene: "), "scene: room.xml");
   EXPECT_EQ(load_text(text).imu.noise, imu.noise) << text;
 }

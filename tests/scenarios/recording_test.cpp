@@ -24,7 +24,7 @@ class RecordingKeys : public testing::Test {
     return load(folder_.write("test.yaml", keys), options);
   }
   std::string refused(const std::string& keys) const {
-    return without_folder(bench::refusal_of<Error>([&] { loaded(keys); }), folder_);
+    return without_folder(bench::refusal_of<input::Error>([&] { loaded(keys); }), folder_);
   }
   const ScenarioFolder folder_;
 };

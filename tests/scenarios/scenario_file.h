@@ -45,7 +45,7 @@ inline std::string without_folder(std::string message, const ScenarioFolder& fol
 inline std::string refusal(const std::string& text, const LoadOptions& options = {}) {
   const ScenarioFolder folder;
   const auto file = folder.write("test.yaml", text);
-  return without_folder(bench::refusal_of<Error>([&] { load(file, options); }), folder);
+  return without_folder(bench::refusal_of<input::Error>([&] { load(file, options); }), folder);
 }
 
 }  // namespace lcs::scenario

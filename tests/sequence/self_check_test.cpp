@@ -10,6 +10,7 @@
 #include "scenarios/load.h"
 #include "sim/simulation.h"
 #include "tools/sequence/flow_code.h"
+#include "tools/sequence/objects.h"
 #include "tools/sequence/true_flow.h"
 
 namespace lcs::sequence {
@@ -33,16 +34,7 @@ class SelfCheck : public testing::Test {
   Agreement check(const cv::Mat2f& motion, const cv::Mat1b& seen) const {
     return check_flow(calibration_.camera, now_, next_, motion, seen);
   }
-  cv::Mat1b mask() const {
-    cv::Mat1b mask(now_.truth.object.size());
-    for (int y = 0; y < mask.rows; ++y) {
-      for (int x = 0; x < mask.cols; ++x) {
-        const int id = now_.truth.object(y, x);
-        mask(y, x) = static_cast<unsigned char>(id < 0 ? 254 : id);
-      }
-    }
-    return mask;
-  }
+  cv::Mat1w mask() const { return object_mask(now_.truth); }
   Agreement check_readings() const {
     return check_imu(scenario_.imu, calibration_.gravity_mps2, now_);
   }
@@ -117,9 +109,37 @@ TEST_F(SelfCheck, ABoxAPixelOffAnObjectWithoutABoxAndABoxWithoutAnObjectAreFound
   wrong = right;
   wrong.pop_back();
   EXPECT_THROW(check_masks(20, mask(), wrong, objects_), TruthError);
-  cv::Mat1b emptied = mask();
+  cv::Mat1w emptied = mask();
   emptied.setTo(0, emptied == right.front().object);
   EXPECT_THROW(check_masks(20, emptied, right, objects_), TruthError);
+}
+
+TEST_F(SelfCheck, ThePictureOfRealFramesMovesAsTheFlowSays) {
+  const Agreement agreement = check_picture(now_, next_, field());
+  EXPECT_GT(agreement.compared, 600) << "of 1200 blocks";
+  EXPECT_LT(agreement.worst, 0.1);
+}
+
+TEST_F(SelfCheck, APictureThatDoesNotMoveWithTheFlowIsFound) {
+  TrueFlow motion = field();
+  motion.full_px = motion.ego_px;  // as if the moving objects stood still
+  EXPECT_THROW(check_picture(now_, next_, motion), TruthError);
+}
+
+TEST_F(SelfCheck, TheOutlinesOfRealFramesAreWhereTheirMasksAre) {
+  const Agreement agreement = check_outlines(now_, mask());
+  EXPECT_GE(agreement.compared, 2) << "two objects cross";
+  EXPECT_LT(agreement.worst, 1.5);
+}
+
+TEST_F(SelfCheck, AMaskThatIsShiftedByTwoPixelsIsFound) {
+  for (const cv::Point by :
+       {cv::Point(2, 0), cv::Point(-2, 0), cv::Point(0, 2), cv::Point(0, -2), cv::Point(2, 2)}) {
+    cv::Mat1w shifted(mask().size(), std::uint16_t{0});
+    const cv::Rect all({0, 0}, shifted.size());
+    mask()((all - by) & all).copyTo(shifted((all + by) & all));
+    EXPECT_THROW(check_outlines(now_, shifted), TruthError) << by;
+  }
 }
 
 TEST_F(SelfCheck, TheReadingsOfTheImuLeadFromPoseToPoseWithinTheirNoise) {

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "sim/simulation.h"
 #include "sim/world/overlap.h"
 #include "sim/world/world.h"
 #include "tests/sim/support.h"
@@ -157,6 +160,89 @@ TEST(Watch, TellsAnObjectThatFallsThroughTheFloor) {
       "<geom size='.2' contype='0' conaffinity='0'/></body>";
   expect_told(driven(scenario_in_mjcf(floor_with(stone), 0, 20)), Warning::objects_below_ground,
               "object 'stone' is below the ground at 0.3");
+}
+
+TEST(Watch, TellsAnActorWhoseTriggerNeverFiresOrWhoseSpeedIsZero) {
+  auto scenario = scenario_in_mjcf(floor_with(""), 0, 20);
+  scenario.actors = {line_actor("walker", Shape::pedestrian, {6, 0}, 0, 1)};
+  EXPECT_EQ(counts(driven(scenario)), kNone);
+  scenario.actors.front().start.ego_within_m = 2;
+  expect_told(driven(scenario), Warning::actors_never_moved, "the rover comes as near as 6.00 m");
+  scenario.actors = {line_actor("walker", Shape::pedestrian, {6, 0}, 0, 0)};
+  expect_told(driven(scenario), Warning::actors_never_moved, "actor 'walker' never moves");
+}
+
+TEST(Watch, TellsAnActorThatNoPictureShows) {
+  auto scenario = scenario_in_mjcf(floor_with(""), 0, 3);
+  scenario.camera.width_px = 64;
+  scenario.camera.height_px = 48;
+  scenario.actors = {line_actor("ahead", Shape::box, {4, 0}, 0, 1),
+                     line_actor("behind", Shape::box, {-4, 0}, 0, 1)};
+  Simulation simulation(scenario);
+  while (simulation.next())
+    EXPECT_EQ(simulation.warnings().of(Warning::actors_never_seen).count, 0);
+  expect_told(simulation.warnings(), Warning::actors_never_seen,
+              "actor 'behind' is in none of the 3 pictures");
+}
+
+/// An actor's file with one box of half a metre.
+scenario::Actor box_in_file(double low_m, double stated_m) {
+  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / (test + "_box.xml");
+  std::ofstream(file) << fmt::format(
+      "<mujoco><custom><numeric name='size' data='{0} {0} {0}'/></custom><worldbody>"
+      "<body name='base'><geom type='box' size='.25 .25 .25' pos='0 0 {1}'/></body>"
+      "</worldbody></mujoco>",
+      stated_m, low_m + 0.25);
+  scenario::Actor actor = line_actor("crate", Shape::own, {4, 0}, 0, 0.5);
+  actor.shape_file = file;
+  return actor;
+}
+
+TEST(Watch, TellsAnActorInTheGround) {
+  auto scenario = scenario_in_mjcf(floor_with(""), 0, 10);
+  scenario.actors = {box_in_file(-0.05, 0.5)};
+  EXPECT_EQ(counts(driven(scenario)), kNone);
+  scenario.actors = {box_in_file(-0.6, 0.5)};
+  expect_told(driven(scenario), Warning::actors_in_ground,
+              "actor 'crate' reaches 0.60 m into the ground at 0.00 s");
+}
+
+TEST(Watch, TellsAnActorWhoseSizeIsNotThatOfItsGeoms) {
+  auto scenario = scenario_in_mjcf(floor_with(""), 0, 10);
+  scenario.actors = {box_in_file(0, 5)};
+  expect_told(driven(scenario), Warning::actors_of_other_size,
+              "actor 'crate' is 0.50 x 0.50 x 0.50 m large, and should be 5.00 x 5.00 x 5.00 m");
+  // scaling keeps the error
+  scenario.actors.front().size_m = {1, 2, 1};
+  expect_told(driven(scenario), Warning::actors_of_other_size, "should be 1.00 x 2.00 x 1.00 m");
+}
+
+TEST(Watch, TellsARoverThatDoesNotFollowItsCommand) {
+  // wheels on ice
+  auto scenario = scenario_in_mjcf(
+      R"(<mujoco><statistic extent="10" center="0 0 0"/><worldbody>
+        <geom type="plane" size="50 50 .1" friction=".001"/></worldbody></mujoco>)",
+      0.2, 31);
+  scenario.ego.drive = scenario::Drive::wheeled;
+  scenario.ego.phases.push_back({.at_s = 1, .speed_mps = 2});
+  const Warnings warnings = driven(scenario);
+  EXPECT_EQ(warnings.of(Warning::rover_off_command).count, 2) << "of three seconds, the later two";
+  EXPECT_NE(warnings.of(Warning::rover_off_command).first.find("where (2.00, 0.00) m/s and 0.0"),
+            std::string::npos)
+      << warnings.of(Warning::rover_off_command).first;
+}
+
+TEST(Watch, TellsTranslucentGeomsAndPartsThatAreNotDrawnAtTheirLine) {
+  const std::string parts =
+      "<geom name='pane' type='box' pos='4 0 1' size='.01 1 1' rgba='1 1 1 .3'/>\n"
+      "<geom type='box' pos='4 3 1' size='.01 1 1' rgba='1 1 1 0'/>\n"
+      "<site name='a' pos='3 0 1'/><site name='b' pos='3 1 1'/></worldbody>\n"
+      "<tendon><spatial name='rope'><site site='a'/><site site='b'/></spatial></tendon><worldbody>";
+  const Warnings warnings = driven(scenario_in_mjcf(floor_with(parts), 0, 2));
+  expect_told(warnings, Warning::translucent_geoms, ".xml:6: a geom of body 'world' has alpha 0.3");
+  expect_told(warnings, Warning::undrawn_parts, "tendon 'rope' is not drawn");
 }
 
 TEST(Watch, RoughGroundRampsAndRestingObjectsAreNothingToTell) {

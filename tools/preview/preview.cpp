@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <iterator>
 #include <opencv2/imgproc.hpp>
-#include <variant>
 
 #include "filter/detect/fast.h"
 #include "sim/pictures/picture_file.h"
@@ -59,7 +58,7 @@ scenario::Scenario looked_at(scenario::Scenario scenario) {
   return scenario;
 }
 
-std::vector<std::string> what_is_wrong(const scenario::Scenario& scenario, const Preview& p) {
+std::vector<std::string> what_is_wrong(const Preview& p) {
   std::vector<std::string> lines = p.survey.wrong_at_start;
   lines.insert(lines.end(), p.survey.inside.begin(), p.survey.inside.end());
   for (std::size_t i = 0; i < sim::kWarnings.size(); ++i) {
@@ -69,20 +68,11 @@ std::vector<std::string> what_is_wrong(const scenario::Scenario& scenario, const
     const std::int64_t more = met.count - 1 - std::ssize(met.next);
     if (more > 0) lines.back() += fmt::format(" (and {} more times)", more);
   }
-  for (std::size_t i = 0; i < p.movers.size(); ++i) {
-    const Mover& mover = p.movers[i];
-    if (mover.looks == 0) {
-      lines.push_back(
-          fmt::format("actor '{}' is in none of the {} pictures that were looked at: change its "
-                      "trajectory, its start, or the rover's way",
-                      mover.name, p.looks.size()));
-    }
-    if (!mover.moves && !std::holds_alternative<scenario::Still>(scenario.actors[i].trajectory)) {
-      lines.push_back(
-          fmt::format("actor '{}' never moves: its start trigger does not fire within {:.1f} s "
-                      "(the rover comes as near as {:.2f} m), or its speed is 0",
-                      mover.name, scenario.frames / scenario.camera.rate_hz, mover.nearest_m));
-    }
+  for (const Mover& mover : p.movers) {
+    if (mover.looks > 0) continue;
+    lines.push_back(fmt::format("actor '{}' is in none of the {} pictures that were looked at: {}",
+                                mover.name, p.looks.size(),
+                                sim::text_of(sim::Warning::actors_never_seen).remedy));
   }
   const auto has_few = [](const auto& corners) { return corners.size() < bench::kFewCorners; };
   const auto few = std::ranges::count_if(p.corners_px, has_few);
@@ -110,7 +100,7 @@ Preview preview(const scenario::Scenario& scenario, const std::function<void(int
   for (std::size_t i = 0; i < scenario.actors.size(); ++i) {
     p.movers.push_back(mover_of(scenario, p.survey, p.looks, i));
   }
-  p.wrong = what_is_wrong(scenario, p);
+  p.wrong = what_is_wrong(p);
   return p;
 }
 

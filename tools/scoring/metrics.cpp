@@ -360,6 +360,21 @@ std::vector<Metric> warning_metrics() {
        "than 0.2 m above their feet"},
       {"objects_below_ground",
        "times that the middle of an object with a joint fell over 0.1 m below the ground"},
+      {"rover_off_command",
+       "seconds in which the rover's mean velocity differed from its command by over 20 % and 0.05 "
+       "m/s, or its mean yaw rate by over 20 % and 2 deg/s, on height fields 10 deg/s"},
+      {"actors_never_moved",
+       "actors with a trajectory that did not move until the last frame: their start trigger did "
+       "not fire, or their speed is 0"},
+      {"actors_never_seen", "actors without a visible pixel in any frame"},
+      {"actors_in_ground",
+       "times that the lowest point of an actor came over 0.1 m below the ground"},
+      {"actors_of_other_size",
+       "actors whose visible geoms are larger or smaller than their stated size by over a quarter, "
+       "along any axis"},
+      {"translucent_geoms",
+       "geoms with an alpha between 0 and 1. They are drawn opaque (scenes/README.md)"},
+      {"undrawn_parts", "skins, tendons and flexes, which are not drawn (scenes/README.md)"},
       {"few_corners", "frames with fewer than 10 corners; 0 if not more than half"},
       {"runaway_speed", "frames with a told speed above 70 m/s. Of recordings alone"},
       {"turn_not_told",

@@ -3,11 +3,16 @@
 
 #include <vector>
 
+#include "tools/sequence/objects.h"
 #include "tools/sequence/png.h"
 #include "tools/sequence/writers.h"
 
 namespace lcs::sequence {
 namespace {
+
+// Pixel values of a mask: 0 is the static scene and the sky, then the objects, then the rover.
+constexpr std::size_t kMostObjects = 253;
+constexpr unsigned char kDavisVoid = 254;
 
 /// The palette of DAVIS and Pascal VOC: each three bits of an index set the next lower bits of the
 /// three colours, from the highest on.
@@ -26,12 +31,23 @@ std::vector<Rgb> palette() {
 
 class DavisWriter : public Writer {
  public:
-  explicit DavisWriter(const SequenceInfo& info) : name_(info.scenario.name) {}
+  explicit DavisWriter(const SequenceInfo& info) : name_(info.scenario.name) {
+    const std::size_t objects = info.objects.size();
+    if (objects <= kMostObjects) return;
+    throw input::Error({info.scenario.scene.string(), 0},
+                       fmt::format("the scene has {} objects, and a DAVIS mask of 8 bits has room "
+                                   "for {}; leave davis out of --formats, or take the names of "
+                                   "some bodies away",
+                                   objects, kMostObjects));
+  }
 
   void write(const FrameView& frame, FrameOutput& output) const override {
+    cv::Mat1b mask;
+    frame.mask.convertTo(mask, CV_8U);
+    mask.setTo(kDavisVoid, frame.mask == kVoid);
     output.files.push_back(
         {fmt::format("davis/Annotations/480p/{}/{:05}.png", name_, frame.now.index),
-         encode_png(frame.mask, palette_), ""});
+         encode_png(mask, palette_), ""});
   }
   std::vector<Document> documents() const override { return {}; }
 

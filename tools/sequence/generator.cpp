@@ -22,7 +22,6 @@
 namespace lcs::sequence {
 namespace {
 
-constexpr const char* kFlowFormat = "flow";
 constexpr const char* kScenarioFile = "scenario.yaml";
 
 std::vector<std::unique_ptr<Writer>> writers_of(const SequenceInfo& info,
@@ -37,26 +36,25 @@ std::vector<std::unique_ptr<Writer>> writers_of(const SequenceInfo& info,
 class FrameMaker {
  public:
   FrameMaker(const SequenceInfo& info, const GenerateOptions& options, const Journal& journal)
-      : info_(info), journal_(journal), writers_(writers_of(info, options)) {
-    has_flow_ = std::count(options.formats.begin(), options.formats.end(), kFlowFormat) > 0;
-  }
+      : info_(info), journal_(journal), writers_(writers_of(info, options)) {}
 
-  bool needs_next() const { return has_flow_; }
-
+  /// \param next null for the scenario's last frame, whose flow and goals are not checked.
   void make(const sim::Observation& now, const sim::Observation* next) const {
     Agreements checks;
     check_times(info_.scenario, now);
     checks["imu_share_of_tolerance"].add(
         check_imu(info_.scenario.imu, info_.calibration.gravity_mps2, now));
     std::optional<TrueFlow> motion;
-    if (has_flow_ && next != nullptr) {
+    if (next != nullptr) {
       motion =
           true_flow(info_.calibration.camera, now.truth, next->truth.depth_m, next->truth.object);
       checks["flow_px"].add(
           check_flow(info_.calibration.camera, now, *next, motion->full_px, motion->seen));
+      checks["picture_share_of_block"].add(check_picture(now, *next, *motion));
     }
-    const cv::Mat1b mask = object_mask(now.truth);
+    const cv::Mat1w mask = object_mask(now.truth);
     check_masks(now.index, mask, now.objects, static_cast<int>(info_.objects.size()));
+    checks["outline_contrast_ratio"].add(check_outlines(now, mask));
     FrameOutput output;
     for (const auto& writer : writers_) {
       writer->write({now, mask, motion ? &*motion : nullptr}, output);
@@ -68,7 +66,6 @@ class FrameMaker {
   const SequenceInfo& info_;
   const Journal& journal_;
   std::vector<std::unique_ptr<Writer>> writers_;
-  bool has_flow_ = false;
 };
 
 /// A document that collects the rows of one frame after the other.
@@ -197,7 +194,7 @@ sim::Warnings generate_frames(const scenario::Scenario& scenario, const Generate
     if (last) make(*last, &*now);
     last.reset();
     if (!is_missing) continue;
-    if (maker.needs_next() && k + 1 < scenario.frames) {
+    if (k + 1 < scenario.frames) {
       last = std::move(now);
     } else {
       make(*now, nullptr);

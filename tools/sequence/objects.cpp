@@ -1,10 +1,7 @@
 #include "tools/sequence/objects.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace lcs::sequence {
 namespace {
@@ -32,21 +29,13 @@ std::string category_of(const scenario::Scenario& scenario, const sim::Object& o
 
 }  // namespace
 
-cv::Mat1b object_mask(const sim::FrameTruth& truth) {
-  cv::Mat1b mask(truth.object.size());
-  for (int y = 0; y < mask.rows; ++y) {
-    const int* object = truth.object[y];
-    const float* depth = truth.depth_m[y];
-    unsigned char* to = mask[y];
-    for (int x = 0; x < mask.cols; ++x) {
-      if (object[x] > kMostObjects) {
-        throw std::out_of_range(
-            fmt::format("a mask has room for {} objects, and this scene has more", kMostObjects));
-      }
-      const bool is_rover = object[x] < 0 && !std::isinf(depth[x]);
-      to[x] = is_rover ? kVoid : static_cast<unsigned char>(std::max(object[x], 0));
-    }
-  }
+cv::Mat1w object_mask(const sim::FrameTruth& truth) {
+  cv::Mat1w mask(truth.object.size());
+  std::transform(truth.object.begin(), truth.object.end(), truth.depth_m.begin(), mask.begin(),
+                 [](int object, float depth_m) {
+                   const bool is_rover = object < 0 && !std::isinf(depth_m);
+                   return is_rover ? kVoid : static_cast<std::uint16_t>(std::max(object, 0));
+                 });
   return mask;
 }
 

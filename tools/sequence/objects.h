@@ -2,6 +2,7 @@
 /// Objects in the formats of data sets: a mask of ids, and the category of each object.
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <string>
 
@@ -10,14 +11,10 @@
 
 namespace lcs::sequence {
 
-/// \name Pixel values of a mask, as in DAVIS: 0 is the static scene and the sky, 1..253 objects.
-///@{
-inline constexpr unsigned char kVoid = 254;  ///< the rover itself: excluded from all counts
-inline constexpr int kMostObjects = 253;
-///@}
+inline constexpr std::uint16_t kVoid = 65535;  ///< in a mask: the rover itself, not counted
 
-/// \throws std::out_of_range for an id above `kMostObjects`.
-cv::Mat1b object_mask(const sim::FrameTruth& truth);
+/// Ids of objects by pixel; 0 is the static scene and the sky.
+cv::Mat1w object_mask(const sim::FrameTruth& truth);
 
 struct ObjectKind {
   std::string category;  ///< pedestrian, car, box, cylinder; object for all others

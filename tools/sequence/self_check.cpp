@@ -4,11 +4,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <vector>
 
 #include "tools/sequence/flow_code.h"
+#include "tools/sequence/objects.h"
 
 namespace lcs::sequence {
 namespace {
@@ -23,6 +28,15 @@ constexpr int kFlowStride = 4;
 constexpr double kFlatAbsolute = 6e-6;  // 1/m
 constexpr double kFlatRelative = 2e-5;
 constexpr double kDeviations = 6;
+// Tolerated difference of grey levels beyond those round the goal: mip levels of textures.
+constexpr double kGreyLevels = 12;
+constexpr int kBlock_px = 16;
+constexpr int kLeastCompared = 64;  // of the pixels of a block
+constexpr double kMostDiffering = 0.25;
+constexpr int kDisplaced_px = 3;
+constexpr int kLongOutline = 200;      // in pairs of neighbouring pixels
+constexpr double kMostContrast = 2;    // of a displaced outline, over that in place
+constexpr double kLeastContrast = 10;  // by which it must be larger, in grey levels
 
 template <class... Arguments>
 [[noreturn]] void disagree(int frame, fmt::format_string<Arguments...> what,
@@ -120,11 +134,123 @@ Agreement check_flow(const sim::Pinhole& camera, const sim::Observation& now,
   return agreement;
 }
 
-void check_masks(int frame, const cv::Mat1b& mask, std::span<const sim::ObjectTruth> objects,
+Agreement check_picture(const sim::Observation& now, const sim::Observation& next,
+                        const TrueFlow& flow) {
+  cv::Mat1b grey, next_grey, darkest, brightest;
+  cv::cvtColor(now.rendered, grey, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(next.rendered, next_grey, cv::COLOR_BGR2GRAY);
+  cv::erode(next_grey, darkest, {});
+  cv::dilate(next_grey, brightest, {});
+  cv::Mat1f geom, least_geom, most_geom;
+  next.geom.convertTo(geom, CV_32F);
+  cv::erode(geom, least_geom, {});
+  cv::dilate(geom, most_geom, {});
+
+  /// A compared pixel: its grey level, and the range of levels round its goal.
+  struct Compared {
+    double grey, low, high;
+  };
+  Agreement agreement;
+  std::vector<Compared> block;
+  std::vector<double> changes;
+  for (int top = 0; top < grey.rows; top += kBlock_px) {
+    for (int left = 0; left < grey.cols; left += kBlock_px) {
+      block.clear();
+      changes.clear();
+      const cv::Rect pixels =
+          cv::Rect(left, top, kBlock_px, kBlock_px) & cv::Rect({0, 0}, grey.size());
+      for (int y = pixels.y; y < pixels.br().y; ++y) {
+        for (int x = pixels.x; x < pixels.br().x; ++x) {
+          if (!flow.seen(y, x)) continue;
+          const cv::Point2f goal_px =
+              cv::Point2f(cv::Point(x, y)) + cv::Point2f(flow.full_px(y, x));
+          const cv::Rect goal(static_cast<int>(goal_px.x), static_cast<int>(goal_px.y), 2, 2);
+          if ((goal & cv::Rect({1, 1}, grey.size() - cv::Size(2, 2))) != goal) continue;
+          Compared pixel{static_cast<double>(grey(y, x)), 255, 0};
+          bool is_inside = true;
+          for (const cv::Point at : {goal.tl(), goal.tl() + cv::Point(1, 0),
+                                     goal.tl() + cv::Point(0, 1), goal.tl() + cv::Point(1, 1)}) {
+            is_inside &= least_geom(at) == most_geom(at) && next.geom(at) == now.geom(y, x);
+            pixel.low = std::min<double>(pixel.low, darkest(at));
+            pixel.high = std::max<double>(pixel.high, brightest(at));
+          }
+          if (!is_inside) continue;
+          block.push_back(pixel);
+          changes.push_back(pixel.grey - std::clamp(pixel.grey, pixel.low, pixel.high));
+        }
+      }
+      if (block.size() < kLeastCompared) continue;
+      const auto middle = changes.begin() + std::ssize(changes) / 2;
+      std::nth_element(changes.begin(), middle, changes.end());
+      const auto differ = std::count_if(block.begin(), block.end(), [&](const Compared& pixel) {
+        const double level = pixel.grey - *middle;
+        return level < pixel.low - kGreyLevels || level > pixel.high + kGreyLevels;
+      });
+      const double share = static_cast<double>(differ) / static_cast<double>(block.size());
+      agreement.add(share);
+      if (share > kMostDiffering) {
+        disagree(now.index,
+                 "{} of {} pixels in the block of {} px at ({}, {}) do not look as they do where "
+                 "the flow leads",
+                 differ, block.size(), kBlock_px, left, top);
+      }
+    }
+  }
+  return agreement;
+}
+
+Agreement check_outlines(const sim::Observation& frame, const cv::Mat1w& mask) {
+  constexpr int kSide = 2 * kDisplaced_px + 1;
+  struct Outline {
+    int pairs = 0;
+    std::array<double, kSide * kSide> contrast{};  ///< by displacement, sums over pairs
+  };
+  cv::Mat1b grey;
+  cv::cvtColor(frame.rendered, grey, cv::COLOR_BGR2GRAY);
+  std::map<int, Outline> outlines;  // by object
+  for (int y = kDisplaced_px; y + kDisplaced_px + 1 < grey.rows; ++y) {
+    for (int x = kDisplaced_px; x + kDisplaced_px + 1 < grey.cols; ++x) {
+      for (const cv::Point step : {cv::Point(1, 0), cv::Point(0, 1)}) {
+        const cv::Point a(x, y), b = a + step;
+        if (mask(a) == mask(b)) continue;
+        std::array<double, kSide * kSide> contrast{};
+        for (int i = 0; i < kSide * kSide; ++i) {
+          const cv::Point by(i % kSide - kDisplaced_px, i / kSide - kDisplaced_px);
+          contrast[static_cast<std::size_t>(i)] = std::abs(grey(a + by) - grey(b + by));
+        }
+        for (const int id : {mask(a), mask(b)}) {
+          if (id == 0 || id == kVoid) continue;
+          Outline& outline = outlines[id];
+          ++outline.pairs;
+          std::transform(contrast.begin(), contrast.end(), outline.contrast.begin(),
+                         outline.contrast.begin(), std::plus());
+        }
+      }
+    }
+  }
+  Agreement agreement;
+  for (const auto& [id, outline] : outlines) {
+    if (outline.pairs < kLongOutline) continue;
+    const double in_place = outline.contrast[kSide * kSide / 2] / outline.pairs;
+    const double best =
+        *std::max_element(outline.contrast.begin(), outline.contrast.end()) / outline.pairs;
+    if (best < kLeastContrast) continue;
+    agreement.add(best / std::max(in_place, 1.0));
+    if (best > kMostContrast * in_place && best > in_place + kLeastContrast) {
+      disagree(frame.index,
+               "the outline of object {} has a contrast of {:.1f} grey levels in its mask, and of "
+               "{:.1f} at another place",
+               id, in_place, best);
+    }
+  }
+  return agreement;
+}
+
+void check_masks(int frame, const cv::Mat1w& mask, std::span<const sim::ObjectTruth> objects,
                  int count) {
   cv::Mat1i ids(mask.size(), 0);
   std::transform(mask.begin(), mask.end(), ids.begin(),
-                 [&](unsigned char id) { return id <= count ? id : 0; });
+                 [&](std::uint16_t id) { return id <= count ? id : 0; });
   std::vector<sim::ObjectTruth> in_mask = sim::modal_boxes(ids, count);
   for (const sim::ObjectTruth& object : objects) {
     sim::ObjectTruth& seen = in_mask.at(static_cast<std::size_t>(object.object - 1));

@@ -11,6 +11,7 @@
 
 #include "scenarios/scenario.h"
 #include "sim/simulation.h"
+#include "tools/sequence/true_flow.h"
 
 namespace lcs::sequence {
 
@@ -43,10 +44,26 @@ Agreement check_flow(const sim::Pinhole& camera, const sim::Observation& now,
                      const sim::Observation& next, const cv::Mat2f& motion_px,
                      const cv::Mat1b& seen);
 
+/// Compares the picture with the flow: a pixel must find its grey level again at the goal of its
+/// flow, within the levels of the four pixels round the goal and their neighbours. Compares the
+/// pictures before lens and sensor, at the pixels that are seen again and whose goal lies within
+/// the same geom. A change of brightness that a whole block of 16 x 16 pixels shares is light, and
+/// is subtracted. \return shares of the compared pixels of a block that disagree. \throws
+/// TruthError for a block in which too many do: it shows what is not where depth, masks and motion
+/// say.
+Agreement check_picture(const sim::Observation& now, const sim::Observation& next,
+                        const TrueFlow& flow);
+
+/// Compares the picture before the lens with the mask: for each object with a long outline, the
+/// contrast across its outline in the mask must not be much smaller than across the same outline
+/// displaced by up to 3 px. \return the largest displaced contrast over that in place, for each
+/// object. \throws TruthError for an object whose mask is displaced.
+Agreement check_outlines(const sim::Observation& frame, const cv::Mat1w& mask);
+
 /// Compares boxes with masks: each object's box and pixel count must match the mask, and each
 /// object in the mask must have a box. \param mask ids of objects; ids over `count` are ignored.
 /// \throws TruthError
-void check_masks(int frame, const cv::Mat1b& mask, std::span<const sim::ObjectTruth> objects,
+void check_masks(int frame, const cv::Mat1w& mask, std::span<const sim::ObjectTruth> objects,
                  int count);
 
 /// Integrates the IMU's readings less their bias over the frame, and compares them with the poses.

@@ -95,10 +95,8 @@ TrueFlow true_flow(const sim::Pinhole& camera, const sim::FrameTruth& truth,
     for (int x = 0; x < size.width; ++x) {
       full[x] = ego[x] = {kNan, kNan};
       seen[x] = ego_seen[x] = 0;
-      const bool is_sky = std::isinf(depth[x]);
-      if (object[x] < 0 && !is_sky) continue;
-      // Divides the point by its depth, so that infinity needs no special case.
-      const double w = is_sky ? 0 : 1 / static_cast<double>(depth[x]);
+      if (object[x] < 0) continue;
+      const double w = 1 / static_cast<double>(depth[x]);
       const auto move = [&](std::size_t id, cv::Vec2f& motion, unsigned char& is_seen,
                             bool is_real) {
         const Eigen::Vector3d& t = carriers[id].T_NC.p;
@@ -111,7 +109,7 @@ TrueFlow true_flow(const sim::Pinhole& camera, const sim::FrameTruth& truth,
         is_seen = next.holds(u, v) &&
                   (!is_real || next.shows(u, v, static_cast<float>(z / w), object[x]));
       };
-      const auto id = static_cast<std::size_t>(std::max(object[x], 0));
+      const auto id = static_cast<std::size_t>(object[x]);
       move(0, ego[x], ego_seen[x], !carriers[id].moves);
       if (carriers[id].moves) {
         move(id, full[x], seen[x], true);

@@ -9,9 +9,8 @@
 
 namespace lcs::sequence {
 
-/// Forward flow in pixels. NaN if undefined: on the rover itself, which moves with the camera, and
-/// for points in or behind the camera plane at k+1. The sky is infinitely far: only the rotation
-/// moves it.
+/// Forward flow in pixels. NaN if undefined: on the rover itself, which moves with the camera, on
+/// the sky, which has no depth, and for points in or behind the camera plane at k+1.
 struct TrueFlow {
   cv::Mat2f full_px;  ///< of the point, moving with its body
   cv::Mat2f ego_px;   ///< of the same point fixed in the world: the camera's own part

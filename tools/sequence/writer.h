@@ -31,7 +31,7 @@ struct SequenceInfo {
 
 struct FrameView {
   const sim::Observation& now;
-  const cv::Mat1b& mask;  ///< of objects, `object_mask`
+  const cv::Mat1w& mask;             ///< of objects, `object_mask`
   const TrueFlow* motion = nullptr;  ///< to the next frame; null if not requested, or last
 };
 

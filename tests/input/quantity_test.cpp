@@ -8,7 +8,7 @@
 
 #include "tests/tools/refusal.h"
 
-namespace lcs::scenario {
+namespace lcs::input {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -100,4 +100,4 @@ TEST(Quantity, WhatIsNoFiniteNumberIsRefused) {
 }
 
 }  // namespace
-}  // namespace lcs::scenario
+}  // namespace lcs::input

@@ -15,7 +15,7 @@
 #include "tests/scenarios/scenario_file.h"
 #include "tests/tools/refusal.h"
 
-namespace lcs::scenario {
+namespace lcs::input {
 namespace {
 
 constexpr FileKind kKind{kMebibyte, "give a table"};
@@ -35,7 +35,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
 }
 
 TEST(InputFile, WhatMayNeverEndIsRefusedBeforeItIsRead) {
-  const ScenarioFolder folder;
+  const scenario::ScenarioFolder folder;
   const std::filesystem::path pipe = folder.path() / "pipe", socket = folder.path() / "socket";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);  // no process ever writes to it
   EXPECT_EQ(refusal(pipe),
@@ -64,7 +64,7 @@ TEST(InputFile, APipeOfAShellIsRefusedAndItsWriterIsNotDisturbed) {
 }
 
 TEST(InputFile, WhatIsMissingOrTooLargeIsTold) {
-  const ScenarioFolder folder;
+  const scenario::ScenarioFolder folder;
   const std::string missing = folder.path() / "none.csv";
   EXPECT_EQ(refusal(missing), missing + ": there is no such file; give a table");
   const auto large = folder.write("large.csv", "");
@@ -82,7 +82,7 @@ TEST(InputFile, TheLineThatNamesItIsBlamed) {
 }
 
 TEST(InputFile, HasItsLinesWhateverEndsTheLastOneAndWithoutAByteOrderMark) {
-  const ScenarioFolder folder;
+  const scenario::ScenarioFolder folder;
   using Lines = std::vector<std::string>;
   EXPECT_EQ(lines_of(folder.write("a", "")), Lines{});
   EXPECT_EQ(lines_of(folder.write("a", "\n")), Lines{""});
@@ -102,7 +102,7 @@ TEST(InputFile, HasItsLinesWhateverEndsTheLastOneAndWithoutAByteOrderMark) {
 
 #ifndef __SANITIZE_ADDRESS__  // which needs its own memory
 TEST(InputFileDeathTest, MemoryThatRunsOutIsNoEndOfFile) {
-  const ScenarioFolder folder;
+  const scenario::ScenarioFolder folder;
   const auto large = folder.write("large", "");
   std::filesystem::resize_file(large, kGibibyte);
   const auto read_with_little = [&] {
@@ -120,4 +120,4 @@ TEST(InputFileDeathTest, MemoryThatRunsOutIsNoEndOfFile) {
 #endif
 
 }  // namespace
-}  // namespace lcs::scenario
+}  // namespace lcs::input

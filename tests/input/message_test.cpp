@@ -7,7 +7,7 @@
 #include <new>
 #include <stdexcept>
 
-namespace lcs::scenario {
+namespace lcs::input {
 namespace {
 
 TEST(Message, WhatDoesNotShowIsEscaped) {
@@ -59,4 +59,4 @@ TEST(Message, OfALibrarySaysWhatToDo) {
 }
 
 }  // namespace
-}  // namespace lcs::scenario
+}  // namespace lcs::input
