@@ -333,7 +333,7 @@ void fields(StartTrigger& start, Visit&& visit) {
 
 template <class Visit>
 void fields(Actor& actor, Visit&& visit) {
-  auto& [name, source, body, shape, shape_file, size_m, texture, trajectory, start] = actor;
+  auto& [name, source, body, shape, shape_file, size_m, texture, kind, trajectory, start] = actor;
   std::optional<Shape> added;
   if (!body) added = shape;
   visit({"shape",
@@ -354,6 +354,12 @@ void fields(Actor& actor, Visit&& visit) {
          "`windows` and others of `sim/scene/texture.cpp`), or a `.png` file, relative to this one",
          "the shape's own"},
         texture, StyleOrPicture{});
+  visit({"class",
+         "in COCO and MOT: a name of MOTChallenge (`pedestrian`, `car`, `bicycle`, `motorbike`, "
+         "...), "
+         "or any other",
+         "the shape's; `object` of one's own shape and of a body"},
+        kind);
   visit({"trajectory", "how the actor moves", kRequired}, trajectory);
   visit({"start", "when it starts: both conditions hold", "at once"}, start);
 }

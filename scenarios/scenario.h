@@ -205,6 +205,7 @@ struct Actor {
   std::optional<Eigen::Vector3d>
       size_m;           ///< length (x), width (y), height (z); absent: the shape's default
   std::string texture;  ///< style of the procedural texture, or a PNG file; "": the shape's own
+  std::string kind;     ///< class in COCO and MOT; "": that of its shape
   Trajectory trajectory;
   StartTrigger start;
 };

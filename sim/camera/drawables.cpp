@@ -3,10 +3,48 @@
 #include <algorithm>
 
 #include "sim/scene/refusal.h"
+#include "sim/truth/silhouette.h"
 
 namespace lcs::sim {
+namespace {
 
-Drawables::Drawables(const Model& model, const GeomGroups& groups, int camera) {
+constexpr double kStain_m = 0.01;  // most distance of a stain from the surface behind it
+
+bool is_fixed(const mjModel& m, int geom) {
+  return m.body_weldid[m.geom_bodyid[geom]] == 0;
+}
+
+/// Whether a translucent geom lies on a surface: both are fixed in the world, and all points of its
+/// back are at most `kStain_m` from that surface, so that they have the same motion.
+bool lies_on_surface(const Model& model, int geom) {
+  const mjModel& m = model.m();
+  if (!is_fixed(m, geom) || m.geom_type[geom] == mjGEOM_PLANE ||
+      m.geom_type[geom] == mjGEOM_HFIELD) {
+    return false;
+  }
+  const Eigen::Matrix3Xd points = geom_hull(m, geom);
+  Eigen::Index thin = 0;
+  const Eigen::Vector3d low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
+  if ((high - low).minCoeff(&thin) > kStain_m) return false;
+  const Pose T_WG = model.geom_pose(geom);
+  const auto lies_behind = [&](double back, double side) {
+    constexpr double kBeyond_m = 1e-4;  // from the geom itself, which a ray would hit
+    const Eigen::Vector3d direction = side * T_WG.R.col(thin);
+    return std::ranges::all_of(points.colwise(), [&](Eigen::Vector3d p) {
+      p[thin] = back + side * kBeyond_m;
+      const Eigen::Vector3d from = T_WG * p;
+      int hit = -1;
+      const double distance_m = mj::ray(m, model.d(), from.data(), direction.data(), -1, hit);
+      return hit >= 0 && distance_m < kStain_m && is_fixed(m, hit);
+    });
+  };
+  return lies_behind(low[thin], -1) || lies_behind(high[thin], 1);
+}
+
+}  // namespace
+
+Drawables::Drawables(Model& model, const GeomGroups& groups, int camera)
+    : alpha_(static_cast<std::size_t>(model.m().ngeom)) {
   mjv_defaultScene(&scene_);
   mjv_defaultOption(&option_);
   mjv_defaultPerturb(&perturb_);
@@ -22,6 +60,16 @@ Drawables::Drawables(const Model& model, const GeomGroups& groups, int camera) {
   scene_.flags[mjRND_REFLECTION] = 0;
   scene_.flags[mjRND_FOG] = 0;
   scene_.flags[mjRND_HAZE] = 0;
+
+  collect(model);
+  for (int i = 0; i < scene_.ngeom; ++i) {
+    const mjvGeom& geom = scene_.geoms[i];
+    if (geom.objtype == mjOBJ_GEOM) alpha_[static_cast<std::size_t>(geom.objid)] = geom.rgba[3];
+  }
+  for (int geom = 0; geom < model.m().ngeom; ++geom) {
+    const bool is_translucent = alpha(geom) > 0 && alpha(geom) < 1;
+    if (is_translucent && lies_on_surface(model, geom)) stains_.insert(geom);
+  }
 }
 
 Drawables::~Drawables() {
@@ -43,24 +91,13 @@ void Drawables::update(Model& model) {
   for (int i = 0; i < scene_.ngeom; ++i) {
     mjvGeom& geom = scene_.geoms[i];
     if (geom.objtype != mjOBJ_GEOM || geom.rgba[3] <= 0) continue;
-    geom.rgba[3] = 1;
+    if (!is_stain(geom.objid)) geom.rgba[3] = 1;
     geom.specular = 0;
     geom.segid = count;
     if (count != i) scene_.geoms[count] = geom;
     ++count;
   }
   scene_.ngeom = count;
-}
-
-std::vector<float> Drawables::alpha(Model& model, const GeomGroups& groups, int camera) {
-  Drawables drawables(model, groups, camera);
-  drawables.collect(model);
-  std::vector<float> alpha(static_cast<std::size_t>(model.m().ngeom));
-  for (int i = 0; i < drawables.scene_.ngeom; ++i) {
-    const mjvGeom& geom = drawables.scene_.geoms[i];
-    if (geom.objtype == mjOBJ_GEOM) alpha[static_cast<std::size_t>(geom.objid)] = geom.rgba[3];
-  }
-  return alpha;
 }
 
 std::vector<std::pair<mjtObj, int>> undrawn_parts(const Model& model) {

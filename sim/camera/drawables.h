@@ -3,11 +3,13 @@
 ///
 /// Depth, masks and motion are those of geoms. MuJoCo also draws parts without such truth: rays of
 /// range finders, tendons, skins, flexes, sites and other aids. None of these is drawn here. A geom
-/// with an alpha between 0 and 1 would show a second surface in the same pixel; it is drawn opaque.
+/// with an alpha between 0 and 1 would show a second surface in the same pixel; it is drawn opaque,
+/// unless that surface is right behind it and as fixed as it is (a stain, a painted shadow).
 /// Highlights (`specular`) move over a surface with the camera; they are not drawn.
 #pragma once
 
 #include <array>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -23,8 +25,8 @@ inline constexpr GeomGroups kUsualGroups{true, true, true};
 /// MuJoCo's abstract scene of a model. Needs no GL.
 class Drawables {
  public:
-  /// \param camera of the model.
-  Drawables(const Model& model, const GeomGroups& groups, int camera);
+  /// \param model after a forward pass. \param camera of the model.
+  Drawables(Model& model, const GeomGroups& groups, int camera);
   ~Drawables();
   Drawables(const Drawables&) = delete;
   Drawables& operator=(const Drawables&) = delete;
@@ -33,12 +35,16 @@ class Drawables {
   void update(Model& model);
   mjvScene& scene() { return scene_; }
 
-  /// The alpha of each geom of the model, as its file has it; 0 for a geom that is not drawn.
-  static std::vector<float> alpha(Model& model, const GeomGroups& groups, int camera);
+  /// The alpha of a geom, as its file has it; 0 for a geom that is not drawn.
+  float alpha(int geom) const { return alpha_[static_cast<std::size_t>(geom)]; }
+  /// Whether a geom keeps its alpha.
+  bool is_stain(int geom) const { return stains_.contains(geom); }
 
  private:
   void collect(Model& model);
 
+  std::vector<float> alpha_;
+  std::set<int> stains_;
   mjvScene scene_;
   mjvOption option_;
   mjvPerturb perturb_;

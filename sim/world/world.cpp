@@ -279,9 +279,10 @@ void World::find_actors(const ComposedScene& composed) {
 /// grazes an object gets a warning later.
 void World::begin_watch(const ComposedScene& composed, WrongStart wrong_start) {
   for (const int group : scenario_.camera.groups) groups_[static_cast<std::size_t>(group)] = true;
-  const std::vector<float> alpha = Drawables::alpha(model_, groups_, camera_);
-  std::transform(alpha.begin(), alpha.end(), std::back_inserter(is_drawn_),
-                 [](float a) { return a > 0; });
+  const Drawables drawables(model_, groups_, camera_);
+  for (int geom = 0; geom < model_.m().ngeom; ++geom) {
+    is_drawn_.push_back(drawables.alpha(geom) > 0);
+  }
   const std::vector<std::string>& bodies = composed.actor_bodies;
   const auto actor_of = [&](int object) {
     const std::string& name = objects_[static_cast<std::size_t>(object - 1)].name;
@@ -295,7 +296,7 @@ void World::begin_watch(const ComposedScene& composed, WrongStart wrong_start) {
     if (is_actor) named.back().size_m = composed.actor_sizes_m[static_cast<std::size_t>(actor)];
   }
   watch_ = std::make_unique<Watch>(model_, base_, named, object_of_geom_, is_drawn_);
-  note_looks(composed, alpha);
+  note_looks(composed, drawables);
   for (const Watch::Meeting& meeting : watch_->meetings(model_)) {
     const bool is_rover = meeting.traveller == 0;
     const bool is_inside =
@@ -312,19 +313,19 @@ void World::begin_watch(const ComposedScene& composed, WrongStart wrong_start) {
   }
 }
 
-/// Warns of parts that look otherwise than in MuJoCo's own pictures. \param alpha of each geom.
-void World::note_looks(const ComposedScene& composed, const std::vector<float>& alpha) {
+/// Warns of parts that look otherwise than in MuJoCo's own pictures.
+void World::note_looks(const ComposedScene& composed, const Drawables& drawables) {
   const auto warn = [&](Warning warning, const char* kind, std::string_view name,
                         const std::string& what) {
     warnings().add(warning, input::Error(source_of(scenario_, composed, kind, name), what).what());
   };
   for (int geom = 0; geom < model_.m().ngeom; ++geom) {
-    const float a = alpha[static_cast<std::size_t>(geom)];
-    if (a <= 0 || a >= 1) continue;
+    const float alpha = drawables.alpha(geom);
+    if (alpha <= 0 || alpha >= 1 || drawables.is_stain(geom)) continue;
     const std::string_view body = model_.name(mjOBJ_BODY, model_.m().geom_bodyid[geom]);
     const std::string_view name = model_.name(mjOBJ_GEOM, geom);
     warn(Warning::translucent_geoms, name.empty() ? "body" : "geom", name.empty() ? body : name,
-         fmt::format("a geom of body '{}' has alpha {:g} and is drawn opaque", body, a));
+         fmt::format("a geom of body '{}' has alpha {:g} and is drawn opaque", body, alpha));
   }
   for (const auto& [type, id] : undrawn_parts(model_)) {
     const std::string_view name = model_.name(type, id);

@@ -104,7 +104,7 @@ class World {
   void find_objects(const ComposedScene& composed);
   void find_actors(const ComposedScene& composed);
   void begin_watch(const ComposedScene& composed, WrongStart wrong_start);
-  void note_looks(const ComposedScene& composed, const std::vector<float>& alpha);
+  void note_looks(const ComposedScene& composed, const Drawables& drawables);
   void end_watch();
   void place(const MovingActor& actor, const PlanarPose& pose);
   void move_actors();

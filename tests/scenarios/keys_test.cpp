@@ -85,6 +85,7 @@ actors:
     shape: box
     size: [0.5 m, 0.4 m, 0.6 m]
     texture: rects
+    class: parcel
     trajectory: {line: {from: [2 m, -2 m], heading: 90 deg, speed: 0 m/s, acceleration: 0.1 m/s^2}}
     start: {time: 1 s, ego_within: 4 m}
   walker: {shape: pedestrian, trajectory: {waypoints: [[0 s, 1 m, 2 m], [0.5 s, 3 m, 4 m]]}}

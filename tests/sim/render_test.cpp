@@ -142,6 +142,21 @@ TEST(Render, TranslucentGeomsAreDrawnOpaque) {
   EXPECT_FALSE(with_alpha(0) == with_alpha(1));
 }
 
+TEST(Render, AStainOnAFixedSurfaceKeepsItsAlpha) {
+  const auto stained = [](const char* place, double alpha) {
+    return Drawn(wall_and_pane(
+        fmt::format("<geom type='box' size='.5 .4 .001' rgba='0 0 0 {}' {}/>", alpha, place)));
+  };
+  const char* on_floor = "pos='3 0 .003'";
+  EXPECT_FALSE(stained(on_floor, 0.4) == stained(on_floor, 1));
+  const char* on_wall = "pos='5.898 0 1' euler='0 90 0'";
+  EXPECT_FALSE(stained(on_wall, 0.4) == stained(on_wall, 1));
+  const char* in_the_air = "pos='3 0 .05'";
+  EXPECT_TRUE(stained(in_the_air, 0.4) == stained(in_the_air, 1));
+  const char* over_the_edge = "pos='5.898 3 1' euler='0 90 0'";
+  EXPECT_TRUE(stained(over_the_edge, 0.4) == stained(over_the_edge, 1));
+}
+
 TEST(Render, GeomsWithoutAlphaAreNeitherInThePictureNorInTheMask) {
   const Drawn none(wall_and_pane(""));
   const std::string glass =

@@ -38,7 +38,7 @@ class CocoWriter : public Writer {
 
   std::vector<Document> documents() const override {
     nlohmann::json categories = nlohmann::json::array();
-    for (const char* name : kCategories) {
+    for (const std::string& name : categories_of(info_.scenario)) {
       categories.push_back({{"id", categories.size() + 1}, {"name", name}});
     }
     const nlohmann::json info = {{"description", info_.scenario.name}};

@@ -28,8 +28,8 @@ constexpr std::string_view kMot = R"(
 MOTChallenge (`--formats mot`); frames, ids and pixels count from 1:
 
 * `mot/<name>/gt/gt.txt`: `frame,id,left,top,width,height,conf,class,visibility`: the box of what is seen of
-  each object. `conf` is 0 (to be ignored) for objects that stand still all the time; `class` is 1 for pedestrians, 3 for cars, 8
-  (distractor) for everything else; `visibility` is the share of the full silhouette that is seen, parts
+  each object. `conf` is 0 (to be ignored) for objects that stand still all the time; `class` is MOTChallenge's (1 for
+  pedestrians, 3 for cars), 8 (distractor) for a class that it lacks; `visibility` is the share of the full silhouette that is seen, parts
   outside of the picture included in the full one.
 * `mot/<name>/seqinfo.ini`, `mot/<name>/img1/`: the pictures of `mav0/cam0/data` under other names.
 )";

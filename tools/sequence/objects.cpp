@@ -1,18 +1,24 @@
 #include "tools/sequence/objects.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 namespace lcs::sequence {
 namespace {
 
-constexpr int kMotPedestrian = 1, kMotCar = 3, kMotDistractor = 8;
+/// MOTChallenge's classes by their ids, from 1 (MOT16, table 4).
+constexpr std::array<std::string_view, 12> kMotClasses{
+    "pedestrian", "person on vehicle",      "car",           "bicycle",
+    "motorbike",  "non motorized vehicle",  "static person", "distractor",
+    "occluder",   "occluder on the ground", "occluder full", "reflection"};
+constexpr int kMotDistractor = 8;
 
-std::string category_of(const scenario::Scenario& scenario, const sim::Object& object) {
-  const auto actor = std::find_if(scenario.actors.begin(), scenario.actors.end(),
-                                  [&](const scenario::Actor& a) { return a.name == object.name; });
-  if (actor == scenario.actors.end() || actor->body) return "object";
-  switch (actor->shape) {
+std::string category_of(const scenario::Actor& actor) {
+  if (!actor.kind.empty()) return actor.kind;
+  if (actor.body) return "object";
+  switch (actor.shape) {
     case scenario::Shape::box:
       return "box";
     case scenario::Shape::cylinder:
@@ -27,7 +33,22 @@ std::string category_of(const scenario::Scenario& scenario, const sim::Object& o
   return "object";
 }
 
+/// Place in a list, from 1; 0 for none.
+template <class List>
+int place_of(const std::string& name, const List& list) {
+  const auto found = std::find(list.begin(), list.end(), name);
+  return found == list.end() ? 0 : static_cast<int>(found - list.begin()) + 1;
+}
+
 }  // namespace
+
+std::vector<std::string> categories_of(const scenario::Scenario& scenario) {
+  std::vector<std::string> all{"pedestrian", "car", "box", "cylinder", "object"};
+  for (const scenario::Actor& actor : scenario.actors) {
+    if (place_of(category_of(actor), all) == 0) all.push_back(category_of(actor));
+  }
+  return all;
+}
 
 cv::Mat1w object_mask(const sim::FrameTruth& truth) {
   cv::Mat1w mask(truth.object.size());
@@ -40,19 +61,15 @@ cv::Mat1w object_mask(const sim::FrameTruth& truth) {
 }
 
 ObjectKind kind_of(const scenario::Scenario& scenario, const sim::Object& object) {
-  ObjectKind kind;
-  kind.category = category_of(scenario, object);
-  const auto* place = std::find(std::begin(kCategories), std::end(kCategories), kind.category);
-  kind.coco = static_cast<int>(place - std::begin(kCategories)) + 1;
-  kind.mot = kind.category == "pedestrian" ? kMotPedestrian
-             : kind.category == "car"      ? kMotCar
-                                           : kMotDistractor;
-  kind.moves = std::any_of(scenario.actors.begin(), scenario.actors.end(),
-                           [&](const scenario::Actor& actor) {
-                             const std::string& body = actor.body ? *actor.body : actor.name;
-                             return (actor.name == object.name || body == object.name) &&
-                                    !std::holds_alternative<scenario::Still>(actor.trajectory);
-                           });
+  ObjectKind kind{.category = "object"};
+  for (const scenario::Actor& actor : scenario.actors) {
+    if (actor.body.value_or(actor.name) != object.name) continue;
+    kind.category = category_of(actor);
+    kind.moves = !std::holds_alternative<scenario::Still>(actor.trajectory);
+  }
+  kind.coco = place_of(kind.category, categories_of(scenario));
+  kind.mot = place_of(kind.category, kMotClasses);
+  if (kind.mot == 0) kind.mot = kMotDistractor;
   return kind;
 }
 

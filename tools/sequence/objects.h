@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <string>
+#include <vector>
 
 #include "scenarios/scenario.h"
 #include "sim/truth/truth.h"
@@ -17,15 +18,16 @@ inline constexpr std::uint16_t kVoid = 65535;  ///< in a mask: the rover itself,
 cv::Mat1w object_mask(const sim::FrameTruth& truth);
 
 struct ObjectKind {
-  std::string category;  ///< pedestrian, car, box, cylinder; object for all others
+  std::string category;  ///< the actor's class, or that of its shape; object for all others
   int coco = 0;          ///< category_id
-  int mot = 0;           ///< MOTChallenge's class: 1 pedestrian, 3 car, 8 distractor for the others
+  int mot = 0;           ///< MOTChallenge's class; 8, distractor, for a category that it lacks
   bool moves = false;    ///< an actor with a motion
 };
 
 ObjectKind kind_of(const scenario::Scenario& scenario, const sim::Object& object);
 
-/// The categories by their ids, from 1.
-inline constexpr const char* kCategories[] = {"pedestrian", "car", "box", "cylinder", "object"};
+/// The categories of a scenario by their ids, from 1: five that any scenario has, and the other
+/// classes of its actors in their order.
+std::vector<std::string> categories_of(const scenario::Scenario& scenario);
 
 }  // namespace lcs::sequence

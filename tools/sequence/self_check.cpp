@@ -29,10 +29,11 @@ constexpr double kFlatAbsolute = 6e-6;  // 1/m
 constexpr double kFlatRelative = 2e-5;
 constexpr double kDeviations = 6;
 // Tolerated difference of grey levels beyond those round the goal: mip levels of textures.
-constexpr double kGreyLevels = 12;
+constexpr double kGreyLevels = 36;
+constexpr double kMostScaling = 0.25;  // change of the flow between neighbouring pixels, px
 constexpr int kBlock_px = 16;
 constexpr int kLeastCompared = 64;  // of the pixels of a block
-constexpr double kMostDiffering = 0.25;
+constexpr double kMostDiffering = 0.1;
 constexpr int kDisplaced_px = 3;
 constexpr int kLongOutline = 200;      // in pairs of neighbouring pixels
 constexpr double kMostContrast = 2;    // of a displaced outline, over that in place
@@ -77,6 +78,15 @@ std::optional<double> flat_inverse_depth(const sim::FrameTruth& truth, const Vec
   const double fx = px.x() - x, fy = px.y() - y;
   return (1 - fy) * ((1 - fx) * centre + fx * w(x + 1, y)) +
          fy * ((1 - fx) * w(x, y + 1) + fx * w(x + 1, y + 1));
+}
+
+/// Whether the surface at a pixel is nearly as large in the next frame: textures keep their detail.
+bool is_steady(const cv::Mat2f& motion_px, int x, int y) {
+  const auto change_px = [&](int column, int row) {
+    return cv::norm(motion_px(row, column) - motion_px(y, x));
+  };
+  return x + 1 < motion_px.cols && y + 1 < motion_px.rows && change_px(x + 1, y) < kMostScaling &&
+         change_px(x, y + 1) < kMostScaling;
 }
 
 struct State {
@@ -161,7 +171,7 @@ Agreement check_picture(const sim::Observation& now, const sim::Observation& nex
           cv::Rect(left, top, kBlock_px, kBlock_px) & cv::Rect({0, 0}, grey.size());
       for (int y = pixels.y; y < pixels.br().y; ++y) {
         for (int x = pixels.x; x < pixels.br().x; ++x) {
-          if (!flow.seen(y, x)) continue;
+          if (!flow.seen(y, x) || !is_steady(flow.full_px, x, y)) continue;
           const cv::Point2f goal_px =
               cv::Point2f(cv::Point(x, y)) + cv::Point2f(flow.full_px(y, x));
           const cv::Rect goal(static_cast<int>(goal_px.x), static_cast<int>(goal_px.y), 2, 2);
