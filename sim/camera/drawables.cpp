@@ -14,8 +14,9 @@ bool is_fixed(const mjModel& m, int geom) {
   return m.body_weldid[m.geom_bodyid[geom]] == 0;
 }
 
-/// Whether a translucent geom lies on a surface: both are fixed in the world, and all points of its
-/// back are at most `kStain_m` from that surface, so that they have the same motion.
+/// Whether a translucent geom lies on a surface: both are fixed in the world, and most points of
+/// its back are at most `kStain_m` from that surface, so that they have the same motion. (A shadow
+/// that is painted on a road may reach into a kerb.)
 bool lies_on_surface(const Model& model, int geom) {
   const mjModel& m = model.m();
   if (!is_fixed(m, geom) || m.geom_type[geom] == mjGEOM_PLANE ||
@@ -28,15 +29,20 @@ bool lies_on_surface(const Model& model, int geom) {
   if ((high - low).minCoeff(&thin) > kStain_m) return false;
   const Pose T_WG = model.geom_pose(geom);
   const auto lies_behind = [&](double back, double side) {
-    constexpr double kBeyond_m = 1e-4;  // from the geom itself, which a ray would hit
+    constexpr double kBeyond_m = 1e-4;  // from a geom that a ray has hit, or starts from
     const Eigen::Vector3d direction = side * T_WG.R.col(thin);
-    return std::ranges::all_of(points.colwise(), [&](Eigen::Vector3d p) {
-      p[thin] = back + side * kBeyond_m;
-      const Eigen::Vector3d from = T_WG * p;
-      int hit = -1;
-      const double distance_m = mj::ray(m, model.d(), from.data(), direction.data(), -1, hit);
-      return hit >= 0 && distance_m < kStain_m && is_fixed(m, hit);
+    const auto near = std::ranges::count_if(points.colwise(), [&](Eigen::Vector3d p) {
+      p[thin] = back;
+      const Eigen::Vector3d start = T_WG * p;
+      for (double way_m = kBeyond_m; way_m < kStain_m; way_m += kBeyond_m) {
+        const Eigen::Vector3d from = start + way_m * direction;
+        int hit = -1;
+        way_m += mj::ray(m, model.d(), from.data(), direction.data(), -1, hit);
+        if (hit < 0 || is_fixed(m, hit)) return hit >= 0 && way_m < kStain_m;
+      }
+      return false;
     });
+    return 2 * near > points.cols();
   };
   return lies_behind(low[thin], -1) || lies_behind(high[thin], 1);
 }

@@ -181,7 +181,7 @@ TEST_F(RecordedScenario, OfTumRgbdHasTheMotionBetweenItsPosesAtTheTimesOfItsPict
   for (int i = -1; i < 5 * kFrames; ++i) {  // at other times, and more often
     truth += tum_line(100 + kDt_s * (0.2 * i + 0.1), pose(0.2 * i + 0.1));
   }
-  write(home() / "desk" / "rgb.txt", list);
+  write(home() / "desk" / "rgb.txt", list + "\v \f\n");  // a blank line
   write(home() / "desk" / "groundtruth.txt", "# ground truth trajectory\n# timestamp tx\n" + truth);
   Playback drive = playback("path: desk, focal: 517, camera_height: 1 m");
   const Seen seen = all_of(drive);

@@ -4,6 +4,9 @@
 
 #include <limits>
 
+#include "tests/tools/refusal.h"
+#include "tools/sequence/writer.h"
+
 namespace lcs::sequence {
 namespace {
 
@@ -58,6 +61,23 @@ TEST(Objects, TheMaskOfAFrameHoldsIdsBeyondEightBits) {
   EXPECT_EQ(mask(0, 1), 300);
   EXPECT_EQ(mask(0, 2), kVoid) << "the rover";
   EXPECT_EQ(mask(0, 3), 0) << "the sky";
+}
+
+TEST(Objects, OnlyMasksOfEightBitsLimitTheirNumber) {
+  scenario::Scenario scenario;
+  scenario.scene = "store.xml";
+  const sim::Calibration calibration;
+  const std::optional<scenario::Origin> origin;
+  std::vector<sim::Object> objects(253);
+  const SequenceInfo info{scenario, calibration, objects, origin};
+  for (const Format& format : formats()) EXPECT_NO_THROW(format.make(info)) << format.name;
+  objects.resize(254);
+  for (const Format& format : formats()) {
+    if (format.name != "davis") EXPECT_NO_THROW(format.make(info)) << format.name;
+  }
+  const std::string refusal = bench::refusal_of<input::Error>([&] { format("davis").make(info); });
+  EXPECT_TRUE(refusal.starts_with("store.xml: the scene has 254 objects")) << refusal;
+  EXPECT_NE(refusal.find("leave davis out of --formats"), std::string::npos) << refusal;
 }
 
 }  // namespace

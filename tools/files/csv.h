@@ -12,9 +12,9 @@
 
 namespace lcs::bench {
 
-/// The text without spaces, tabs and carriage returns at either end.
+/// The text without white space (as `std::isspace`, newlines apart) at either end.
 inline std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r";
+  constexpr std::string_view kBlank = " \t\r\v\f";
   const std::size_t first = text.find_first_not_of(kBlank);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);

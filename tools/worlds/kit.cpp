@@ -378,7 +378,6 @@ void Kit::decal(const Vector2d& at_m, double heading_rad, const Vector2d& size_m
 }
 
 void Kit::shadow(const Vector2d& at_m) {
-  tag("painted_shadow");
   const Vector2d size{draw.scaled(0.4, 2.5), draw.scaled(0.3, 1.2)};
   const double heading = draw.between(0, std::numbers::pi);
   const double darkness = draw.between(0.3, 0.65);
@@ -390,6 +389,12 @@ void Kit::shadow(const Vector2d& at_m) {
     outline.push_back(towards(a).cwiseProduct(size) * draw.between(0.8, 1.0));
   }
   const double lift = 0.003 + 0.0005 * (decals_++ % 8);
+  // it is level, and would reach into a slope
+  const bool is_level = std::ranges::all_of(outline, [&](const Vector2d& p) {
+    return std::abs(ground(at_m + Eigen::Rotation2Dd(heading) * p) - ground(at_m)) < lift;
+  });
+  if (!is_level) return;
+  tag("painted_shadow");
   fix({{prism({outline, 0.001, {0, 0, lift}, plain({0.02, 0.02, 0.03}, darkness)})},
        at_m,
        heading,
