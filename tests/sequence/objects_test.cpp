@@ -73,7 +73,8 @@ TEST(Objects, OnlyMasksOfEightBitsLimitTheirNumber) {
   for (const Format& format : formats()) EXPECT_NO_THROW(format.make(info)) << format.name;
   objects.resize(254);
   for (const Format& format : formats()) {
-    if (format.name != "davis") EXPECT_NO_THROW(format.make(info)) << format.name;
+    if (format.name == "davis") continue;
+    EXPECT_NO_THROW(format.make(info)) << format.name;
   }
   const std::string refusal = bench::refusal_of<input::Error>([&] { format("davis").make(info); });
   EXPECT_TRUE(refusal.starts_with("store.xml: the scene has 254 objects")) << refusal;
