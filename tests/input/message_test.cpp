@@ -28,6 +28,7 @@ TEST(Message, WhatDoesNotShowIsEscaped) {
 
 TEST(Message, IsOneLineThatEndsWithTheRemedy) {
   EXPECT_EQ(one_line("a\nb\n"), "a b");
+  EXPECT_EQ(one_line("re\tbel"), "re\\tbel");
   const std::string long_field(10'000'000, 'x');
   const std::string line = one_line("f.csv:3: the frame is '" + long_field + "'; give its number");
   EXPECT_LE(line.size(), 1000u);

@@ -81,9 +81,13 @@ std::string printable(std::string_view text) {
 
 std::string one_line(std::string_view text) {
   while (text.ends_with('\n')) text.remove_suffix(1);
-  std::string line = printable(text);
-  for (char& c : line) {
-    if (c == '\n') c = ' ';
+  std::string line;
+  for (const char c : printable(text)) {
+    if (c == '\t') {
+      line += "\\t";
+    } else {
+      line += c == '\n' ? ' ' : c;
+    }
   }
   if (line.size() <= kLongest) return line;
   std::size_t head = kHead, tail = line.size() - kTail;

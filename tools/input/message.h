@@ -12,8 +12,8 @@ namespace lcs::input {
 /// characters that change the direction of writing.
 std::string printable(std::string_view text);
 
-/// `printable` text in one line. Beyond 1000 bytes it omits the middle, because messages end with
-/// the remedy.
+/// `printable` text in one line, with tabs as \t. Beyond 1000 bytes it omits the middle, because
+/// messages end with the remedy.
 std::string one_line(std::string_view text);
 
 /// An exception's message in one line. For lack of memory, file errors and other system errors it
