@@ -97,7 +97,7 @@ void Drawables::update(Model& model) {
   for (int i = 0; i < scene_.ngeom; ++i) {
     mjvGeom& geom = scene_.geoms[i];
     if (geom.objtype != mjOBJ_GEOM || geom.rgba[3] <= 0) continue;
-    if (!is_stain(geom.objid)) geom.rgba[3] = 1;
+    if (geom.rgba[3] < 1 && !is_stain(geom.objid)) geom.rgba[3] = 1;
     geom.specular = 0;
     geom.segid = count;
     if (count != i) scene_.geoms[count] = geom;

@@ -136,12 +136,18 @@ TEST(Watch, AMeshIsItsSurfaceAndNotItsHull) {
   expect_told(driven(beside), Warning::rover_collisions, "object 'table'");
 }
 
-TEST(Watch, TellsAWheeledRoverThatPushesAgainstSomething) {
-  const std::string block =
-      "<body name='block' pos='1 0 .3'><geom type='box' size='.2 .6 .3'/></body>";
-  auto scenario = scenario_in_mjcf(floor_with(block), .5, 40);
+/// A wheeled rover at 0.5 m/s that reaches a block after 1.2 s, and pushes against it.
+scenario::Scenario against_a_block(int frames) {
+  auto scenario = scenario_in_mjcf(
+      floor_with("<body name='block' pos='1 0 .3'><geom type='box' size='.2 .6 .3'/></body>"), .5,
+      frames);
   scenario.ego.drive = scenario::Drive::wheeled;
-  expect_told(driven(scenario), Warning::rover_collisions, "the rover runs into object 'block'");
+  return scenario;
+}
+
+TEST(Watch, TellsAWheeledRoverThatPushesAgainstSomething) {
+  expect_told(driven(against_a_block(40)), Warning::rover_collisions,
+              "the rover runs into object 'block'");
 }
 
 TEST(Watch, TellsARoverThatDrivesOffTheFloorAndTipsOver) {
@@ -221,12 +227,7 @@ TEST(Watch, TellsAnActorWhoseSizeIsNotThatOfItsGeoms) {
 }
 
 TEST(Watch, TellsEachSecondInWhichARoverDoesNotFollowItsCommand) {
-  // it reaches the block after 1.2 s
-  const std::string block =
-      "<body name='block' pos='1 0 .3'><geom type='box' size='.2 .6 .3'/></body>";
-  auto scenario = scenario_in_mjcf(floor_with(block), .5, 41);
-  scenario.ego.drive = scenario::Drive::wheeled;
-  const Warnings warnings = driven(scenario);
+  const Warnings warnings = driven(against_a_block(41));
   EXPECT_EQ(warnings.of(Warning::rover_off_command).count, 3);
   EXPECT_NE(warnings.of(Warning::rover_off_command)
                 .first.find("from 1.0 to 2.0 s, where (0.50, 0.00) m/s and 0.0 deg/s are asked"),
