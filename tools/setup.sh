@@ -1,5 +1,5 @@
 # Functions for tools/run and tools/test that install packages and update build/:
-#   install_packages PACKAGE...   installs missing packages, or prints how and exits with 2
+#   install_packages PACKAGE...   installs missing packages and MuJoCo, or prints how and exits with 2
 #   build_release TARGET...       configures $preset and builds the targets in build/
 # Made for Debian 12, and also tested on Debian 13 and Ubuntu 24.04 (tests/systems).
 # shellcheck shell=bash
@@ -11,10 +11,20 @@ preset=release  # or ci, in the same folder
 # Packages for building and running. Without --no-install-recommends OpenCV would pull in a desktop.
 packages=(
   g++ cmake ninja-build pkg-config
-  libmujoco-dev libosmesa6-dev libopencv-dev libeigen3-dev
+  libosmesa6-dev libopencv-dev libeigen3-dev
   libyaml-cpp-dev libtinyxml2-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev
   libdeflate-dev libnlopt-cxx-dev libssl-dev
   pybind11-dev python3-dev python3-numpy
+  python3-pip  # to download MuJoCo
+)
+
+# MuJoCo's wheel, which has the library and its headers, and its hash on each kind of processor. All
+# systems get the same, so that physics and textures do not depend on the distribution.
+mujoco_version=3.17.0
+mujoco_python=311  # any that has wheels; nothing of Python is taken from it
+declare -A mujoco_sha256=(
+  [x86_64]=d66928d86a2d1b601bbaa4dc11db50214d17d5301bb8afd84721313b67ff0874
+  [aarch64]=91a70ed9979c383ff1f5c03f25cc2e1280a8254c1a8e558d5dd7f4184f01efc9
 )
 
 say() { printf '%s\n' "$*" >&2; }
@@ -47,7 +57,38 @@ warn_unless_tested() {
     say "This is made for Debian 12, and not tested as a whole on $PRETTY_NAME; trying all the same."
 }
 
+# Unpacks MuJoCo into .mujoco/VERSION, unless it is there or LCS_MUJOCO_ROOT names another.
+fetch_mujoco() {
+  local folder=$root/.mujoco/$mujoco_version machine
+  [[ -z ${LCS_MUJOCO_ROOT-} && ! -e $folder ]] || return 0
+  machine=$(uname -m)
+  local wheel="mujoco==$mujoco_version --hash=sha256:${mujoco_sha256[$machine]-none-for-$machine}"
+  local work
+  mkdir -p "$root/.mujoco"
+  work=$(mktemp -d "$root/.mujoco/part.XXXXXX")
+  say "Downloading MuJoCo $mujoco_version"
+  printf '%s\n' "$wheel" >"$work/wheel.txt"
+  if ! python3 -m pip download --quiet --disable-pip-version-check --require-hashes --no-deps \
+    --only-binary :all: --platform "manylinux_2_28_$machine" --python-version "$mujoco_python" \
+    --dest "$work" --requirement "$work/wheel.txt" >&2 ||
+    ! python3 -m zipfile --extract "$work"/mujoco-*.whl "$work/wheel" >&2; then
+    rm -rf "$work"
+    say "MuJoCo $mujoco_version was not downloaded, see above. Try again, or set LCS_MUJOCO_ROOT to a"
+    say "folder with include/ and libmujoco.so.*, as its release or its wheel for Python has them."
+    exit 2
+  fi
+  mkdir "$work/whole"
+  mv "$work"/wheel/mujoco/{include,libmujoco.so.*} "$work"/wheel/*.dist-info/licenses "$work/whole"
+  mv -T "$work/whole" "$folder" 2>/dev/null || [[ -e $folder ]]  # another process may have been first
+  rm -rf "$work"
+}
+
 install_packages() {
+  install_debian_packages "$@"
+  fetch_mujoco
+}
+
+install_debian_packages() {
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     warn_unless_tested
     say "There is no apt-get here; these have to be installed by other means: $*"

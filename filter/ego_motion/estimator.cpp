@@ -131,7 +131,6 @@ void EgoMotionEstimator::scale_past(double scale) {
   const Vector3d missed = (scale - 1) * dv_in_g_W_;
   now_.v_WS += missed;
   for (State& state : kept_) state.v_WS += missed;
-  last_->accel *= scale;
 }
 
 void EgoMotionEstimator::add_imu(std::int64_t t_ns, const Vector3d& gyro_radps,
@@ -140,34 +139,36 @@ void EgoMotionEstimator::add_imu(std::int64_t t_ns, const Vector3d& gyro_radps,
     diagnostics_.add(*fault);
     return;
   }
-  const bool was_like_g = watch_.in_g() > 0;
   const ImuWatch::Finding finding = watch_.look(gyro_radps, accel_mps2, diagnostics_);
-  const Reading reading{t_ns, gyro_radps, finding.accel_scale * accel_mps2};
+  const Vector3d accel = finding.accel_scale * accel_mps2;
   if (!last_) {
     // The start gives the velocity of the rover's origin; the lever arm adds the IMU's part.
     now_.v_WS += now_.R_WS * gyro_radps.cross(mounting_.R_BS.transpose() * mounting_.p_BS_m);
-    last_ = reading;
+    last_ = {t_ns, gyro_radps, accel};
     heard_ns_ = t_ns;
   }
   if (finding.begins_in_g) scale_past(finding.accel_scale);
-  // Both rates are interpolated linearly over the interval that ends with this reading.
-  last_->gyro = 0.5 * (last_->gyro + reading.gyro);
-  last_->accel = 0.5 * (last_->accel + reading.accel);
+  const std::int64_t since_ns = t_ns - last_->t_ns;
+  measure_period(since_ns);
+  // A reading is the mean over its period; what lies between it and a gap's begin is not measured.
+  if (is_gap(since_ns)) propagate_to(t_ns - period_ns_);
+  last_ = {t_ns, gyro_radps, accel};
   if (watch_.in_g() == 0 || watch_.in_g() == ImuWatch::kInG) {
     dv_in_g_W_.setZero();
-  } else {  // the reading before the run is in m/s^2
-    const Vector3d in_g = was_like_g ? last_->accel : Vector3d(0.5 * reading.accel);
-    dv_in_g_W_ += now_.R_WS * in_g * seconds_from(t_ns_, t_ns);
+  } else {
+    dv_in_g_W_ += now_.R_WS * accel * seconds_from(t_ns_, t_ns);
   }
-  measure_period(t_ns - last_->t_ns);
   propagate_to(t_ns);
-  last_ = reading;
   if (finding.believed) heard_ns_ = t_ns;
+}
+
+bool EgoMotionEstimator::is_gap(std::int64_t silent_ns) const {
+  return period_ns_ > 0 && silent_ns > kSilentPeriods * period_ns_;
 }
 
 /// Counts each gap once.
 void EgoMotionEstimator::note_gap(std::int64_t silent_ns) {
-  if (in_gap_ || period_ns_ == 0 || silent_ns <= kSilentPeriods * period_ns_) return;
+  if (in_gap_ || !is_gap(silent_ns)) return;
   in_gap_ = true;
   diagnostics_.add(Fault::imu_gap);
 }
@@ -188,7 +189,7 @@ void EgoMotionEstimator::propagate_to(std::int64_t t_ns) {
   const double dt = static_cast<double>(t_ns - t_ns_) * 1e-9;
   if (dt <= 0 || !last_) return;
   t_ns_ = t_ns;
-  const bool silent = period_ns_ > 0 && t_ns - heard_ns_ > kSilentPeriods * period_ns_;
+  const bool silent = is_gap(t_ns - heard_ns_);
   if (silent) unseen_turn_rad2_ += kUnseenTurn * kUnseenTurn * dt;
   propagate(now_, dt, silent);
   for (State& state : kept_) propagate(state, dt, silent);

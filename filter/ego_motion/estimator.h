@@ -67,7 +67,8 @@ class EgoMotionEstimator {
   /// \throws std::invalid_argument for negative or non-finite values and invalid rotations.
   EgoMotionEstimator(const Mounting& mounting, const EgoMotionNoise& noise, const Start& start);
 
-  /// A reading of the IMU in its frame S. Times do not decrease.
+  /// A reading of the IMU in its frame S: the mean over the time since the reading before. Times do
+  /// not decrease.
   void add_imu(std::int64_t t_ns, const Eigen::Vector3d& gyro_radps,
                const Eigen::Vector3d& accel_mps2);
 
@@ -103,6 +104,7 @@ class EgoMotionEstimator {
     Eigen::Vector3d displacement_W = Eigen::Vector3d::Zero();   ///< of the camera, since then
   };
   void measure_period(std::int64_t since_ns);
+  bool is_gap(std::int64_t silent_ns) const;
   void note_gap(std::int64_t silent_ns);
   void propagate_to(std::int64_t t_ns);
   void propagate(State& state, double dt, bool silent) const;

@@ -11,7 +11,15 @@
 
 namespace lcs::sim {
 
-/// One reading, in the IMU's frame S. At rest the accelerometer reads +9.81 m/s^2 upwards.
+/// One reading, in the IMU's frame S: the mean over the time since the reading before, as of a unit
+/// that integrates its rates. With R and v the attitude and velocity of S in W at two readings, dt
+/// apart, and g the gravity along -z,
+///
+///     gyro_k = Log(R_{k-1}^T R_k) / dt
+///     accel_k = R_m^T ((v_k - v_{k-1}) / dt + g z),   R_m = R_{k-1} Exp(gyro_k dt / 2)
+///
+/// plus noise, so that integration over (t_{k-1}, t_k] by the mid attitude is exact. The first
+/// reading, at 0, is of that instant. At rest the accelerometer reads +9.81 m/s^2 upwards.
 struct ImuSample {
   std::int64_t t_ns = 0;
   Eigen::Vector3d gyro_radps = Eigen::Vector3d::Zero();

@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using xml::Element;
 
-/// The range of an attribute that MuJoCo 2.2.2 does not check, and whose excess the trial in a
+/// The range of an attribute that MuJoCo does not check, and whose excess the trial in a
 /// child process (sim/scene/trial.h) does not reveal.
 struct Limit {
   std::string_view element, attribute;  // "nuser_*": all with this prefix
@@ -272,11 +272,14 @@ void check_compiled(const mjModel& m) {
     if (wrong == end) continue;
     fail(mjOBJ_SKIN, i, fmt::format("has a face of vertex {}, and there are {}", *wrong, vertices));
   }
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"  // in MuJoCo's macro
 #define X(type, name, rows, columns) \
   require_finite(#name, m.name, std::int64_t{m.rows} * (columns));
   MJMODEL_POINTERS_PREAMBLE((&m))
   MJMODEL_POINTERS
 #undef X
+#pragma GCC diagnostic pop
 }
 
 }  // namespace lcs::sim

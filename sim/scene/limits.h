@@ -1,5 +1,5 @@
 /// \file
-/// Limits on values of a scene that MuJoCo 2.2.2 does not check: divisors, loop counts, indices and
+/// Limits on values of a scene that MuJoCo does not check: divisors, loop counts, indices and
 /// sizes. The trial in a child process (sim/scene/trial.h) finds the values that crash MuJoCo or
 /// take too much memory or time during loading.
 #pragma once

@@ -31,13 +31,14 @@ using ModelAndData =
     std::pair<std::unique_ptr<mjModel, ModelDeleter>, std::unique_ptr<mjData, DataDeleter>>;
 
 ModelAndData load(const std::string& mjcf) {
-  // before version 3 the file system is 2 MB of name tables: too large for the stack
   const auto vfs = std::make_unique<mjVFS>();
   mj_defaultVFS(vfs.get());
   const auto release = [](mjVFS* v) { mj_deleteVFS(v); };
   const std::unique_ptr<mjVFS, decltype(release)> guard(vfs.get(), release);
   constexpr const char* kName = "scene.xml";
-  mj::add_to_vfs(*vfs, kName, mjcf);
+  if (mj_addBufferVFS(vfs.get(), kName, mjcf.data(), static_cast<int>(mjcf.size())) != 0) {
+    throw MujocoError("could not allocate the document");
+  }
 
   ModelAndData loaded;
   auto& [model, data] = loaded;

@@ -391,14 +391,14 @@ cv::Mat3b paint(std::string_view style, int width_px, int height_px, RandomStrea
 void fill_texture(Model& model, int texture, const cv::Mat3b& picture) {
   const mjModel& m = model.m();
   const int width = m.tex_width[texture];
-  const int channels = mj::texture_channels(m, texture);
+  const int channels = m.tex_nchannel[texture];
   const bool cube = m.tex_type[texture] != mjTEXTURE_2D;
   const int faces = cube ? m.tex_height[texture] / width : 1;
   const int face_height = m.tex_height[texture] / faces;
   cv::Mat3b scaled;
   cv::resize(picture, scaled, {width, face_height}, 0, 0, cv::INTER_AREA);
 
-  mjtByte* to = mj::texture_bytes(model.m(), texture);
+  mjtByte* to = m.tex_data + m.tex_adr[texture];
   for (int face = 0; face < faces; ++face) {
     const cv::Mat3b image = cube ? as_cube_face(scaled, face) : scaled;
     for (const Colour& pixel : image) {

@@ -184,9 +184,7 @@ World::World(const scenario::Scenario& scenario, const ComposedScene& composed,
       odometry_noise_(scenario.odometry, scenario.seed),
       camera_(model_.id(mjOBJ_CAMERA, kCamera)),
       base_(model_.id(mjOBJ_BODY, kEgoBody)),
-      imu_site_(model_.id(mjOBJ_SITE, "ego/imu")),
-      accelerometer_(model_.m().sensor_adr[model_.id(mjOBJ_SENSOR, "ego/accelerometer")]),
-      gyro_(model_.m().sensor_adr[model_.id(mjOBJ_SENSOR, "ego/gyro")]) {
+      imu_site_(model_.id(mjOBJ_SITE, "ego/imu")) {
   origin_ = origin_of(scenario_, composed, model_);
   fill_textures(model_, scenario_, composed);
   if (scenario_.ground) raise_ground(model_, *scenario_.ground, scenario_.seed);
@@ -206,10 +204,9 @@ World::World(const scenario::Scenario& scenario, const ComposedScene& composed,
 /// Sets the physics that the readings rely on, and overrides the scene's options.
 void World::set_options(const ComposedScene& composed) {
   mjOption& option = model_.m().opt;
-  // the only integrator whose accelerometer is the difference of its velocities
   option.integrator = mjINT_EULER;
-  option.disableflags &=
-      ~(mjDSBL_SENSOR | mjDSBL_ACTUATION | mjDSBL_CLAMPCTRL | mjDSBL_FILTERPARENT);
+  option.disableflags &= ~(mjDSBL_ACTUATION | mjDSBL_CLAMPCTRL | mjDSBL_FILTERPARENT);
+  option.disableflags |= mjDSBL_SENSOR;  // the IMU is calculated from the motion of its site
   if (!has_contacts(model_.m())) option.disableflags |= mjDSBL_CONTACT;  // halves the run time
   const mjtNum* g = option.gravity;
   const bool upright = g[0] == 0 && g[1] == 0 && g[2] <= 0;
@@ -438,20 +435,41 @@ void World::step_to(std::int64_t t_ns) {
   guarded([&] { forward(); });
 }
 
+ImuSample World::ideal_reading() {
+  ImuSample reading{t_ns_};
+  const Pose T_WS = this->T_WS();
+  const Eigen::Vector3d v_WS_mps = this->v_WS_mps();
+  if (imu_truth_.t_ns < t_ns_) {
+    const double span_s = 1e-9 * static_cast<double>(t_ns_ - imu_truth_.t_ns);
+    const Eigen::AngleAxisd turn(Eigen::Matrix3d(imu_truth_.T_WS.R.transpose() * T_WS.R));
+    const Eigen::Matrix3d R_middle =
+        imu_truth_.T_WS.R * Eigen::AngleAxisd(turn.angle() / 2, turn.axis());
+    reading.gyro_radps = turn.angle() / span_s * turn.axis();
+    reading.accel_mps2 =
+        R_middle.transpose() * ((v_WS_mps - imu_truth_.v_WS_mps) / span_s +
+                                gravity_mps2_ * Eigen::Vector3d::UnitZ());
+  } else {
+    Eigen::Matrix<mjtNum, 6, 1> motion;  // rotation, translation; acceleration includes gravity
+    mj_rnePostConstraint(&model_.m(), &model_.d());
+    mj_objectAcceleration(&model_.m(), &model_.d(), mjOBJ_SITE, imu_site_, motion.data(), 1);
+    reading.accel_mps2 = motion.tail<3>();
+    mj_objectVelocity(&model_.m(), &model_.d(), mjOBJ_SITE, imu_site_, motion.data(), 1);
+    reading.gyro_radps = motion.head<3>();
+  }
+  imu_truth_ = {t_ns_, T_WS, v_WS_mps};
+  return reading;
+}
+
 void World::read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample>& odometry,
                          std::vector<ImuTruth>* imu_truth) {
-  const mjtNum* readings = model_.d().sensordata;
   if (event_time_ns(imu_count_, scenario_.imu.rate_hz) == t_ns_) {
     ++imu_count_;
     // draw noise in a gap, too, so that later readings equal those of a run without gaps
-    const ImuSample reading =
-        imu_noise_.corrupt({t_ns_, Eigen::Map<const Eigen::Vector3d>(readings + gyro_),
-                            Eigen::Map<const Eigen::Vector3d>(readings + accelerometer_)});
+    const ImuSample reading = imu_noise_.corrupt(ideal_reading());
+    imu_truth_.gyro_bias_radps = imu_noise_.gyro_bias_radps();
+    imu_truth_.accel_bias_mps2 = imu_noise_.accel_bias_mps2();
     if (!in_gap(scenario_.imu.gaps, t_ns_)) imu.push_back(reading);
-    if (imu_truth) {
-      imu_truth->push_back(
-          {t_ns_, T_WS(), v_WS_mps(), imu_noise_.gyro_bias_radps(), imu_noise_.accel_bias_mps2()});
-    }
+    if (imu_truth) imu_truth->push_back(imu_truth_);
   }
   if (scenario_.odometry.enabled &&
       event_time_ns(odometry_count_, scenario_.odometry.rate_hz) == t_ns_) {

@@ -113,6 +113,7 @@ class World {
   template <typename Action>
   void guarded(Action action) const;
   std::int64_t next_event_ns(std::int64_t until_ns) const;
+  ImuSample ideal_reading();
   void read_sensors(std::vector<ImuSample>& imu, std::vector<OdometrySample>& odometry,
                     std::vector<ImuTruth>* imu_truth);
 
@@ -131,10 +132,11 @@ class World {
   std::vector<std::string> wrong_at_start_;
   ImuNoiseModel imu_noise_;
   OdometryNoiseModel odometry_noise_;
-  int camera_, base_, imu_site_, accelerometer_, gyro_;
+  int camera_, base_, imu_site_;
   double gravity_mps2_ = 0;
   std::int64_t t_ns_ = 0;
   std::int64_t imu_count_ = 0;  ///< number of readings so far
+  ImuTruth imu_truth_;          ///< at the last of them
   std::int64_t odometry_count_ = 0;
 };
 
