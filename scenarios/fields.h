@@ -333,7 +333,8 @@ void fields(StartTrigger& start, Visit&& visit) {
 
 template <class Visit>
 void fields(Actor& actor, Visit&& visit) {
-  auto& [name, source, body, shape, shape_file, size_m, texture, kind, trajectory, start] = actor;
+  auto& [name, source, body, shape, shape_file, size_m, texture, pose, kind, trajectory, start] =
+      actor;
   std::optional<Shape> added;
   if (!body) added = shape;
   visit({"shape",
@@ -354,6 +355,9 @@ void fields(Actor& actor, Visit&& visit) {
          "`windows` and others of `sim/scene/texture.cpp`), or a `.png` file, relative to this one",
          "the shape's own"},
         texture, StyleOrPicture{});
+  visit({"pose", "of a shape with joints: they stay as in this keyframe of its file, or at `zero`",
+         "it has no joints"},
+        pose);
   visit({"class",
          "in COCO and MOT: a name of MOTChallenge (`pedestrian`, `car`, `bicycle`, `motorbike`, "
          "...), "

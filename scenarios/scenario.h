@@ -195,6 +195,9 @@ struct StartTrigger {
 
 enum class Shape { box, cylinder, pedestrian, car, own };
 
+/// `Actor::pose` for all joints at zero, MuJoCo's reference.
+inline constexpr const char* kPoseZero = "zero";
+
 struct Actor {
   std::string name;
   input::Source source;
@@ -205,6 +208,7 @@ struct Actor {
   std::optional<Eigen::Vector3d>
       size_m;           ///< length (x), width (y), height (z); absent: the shape's default
   std::string texture;  ///< style of the procedural texture, or a PNG file; "": the shape's own
+  std::string pose;     ///< of its joints: a keyframe of its file, or `kPoseZero`; "": it has none
   std::string kind;     ///< class in COCO and MOT; "": that of its shape
   Trajectory trajectory;
   StartTrigger start;

@@ -11,11 +11,10 @@ preset=release  # or ci, in the same folder
 # Packages for building and running. Without --no-install-recommends OpenCV would pull in a desktop.
 packages=(
   g++ cmake ninja-build pkg-config
-  libosmesa6-dev libopencv-dev libeigen3-dev
+  libosmesa6 libegl1 libopencv-dev libeigen3-dev
   libyaml-cpp-dev libtinyxml2-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev
   libdeflate-dev libnlopt-cxx-dev libssl-dev
   pybind11-dev python3-dev python3-numpy
-  python3-pip  # to download MuJoCo
 )
 
 # MuJoCo's wheel, which has the library and its headers, and its hash on each kind of processor. All
@@ -59,11 +58,11 @@ warn_unless_tested() {
 
 # Unpacks MuJoCo into .mujoco/VERSION, unless it is there or LCS_MUJOCO_ROOT names another.
 fetch_mujoco() {
-  local folder=$root/.mujoco/$mujoco_version machine
+  local folder=$root/.mujoco/$mujoco_version machine wheel work
   [[ -z ${LCS_MUJOCO_ROOT-} && ! -e $folder ]] || return 0
   machine=$(uname -m)
-  local wheel="mujoco==$mujoco_version --hash=sha256:${mujoco_sha256[$machine]-none-for-$machine}"
-  local work
+  python3 -m pip --version >/dev/null 2>&1 || install_debian_packages python3-pip
+  wheel="mujoco==$mujoco_version --hash=sha256:${mujoco_sha256[$machine]-none-for-$machine}"
   mkdir -p "$root/.mujoco"
   work=$(mktemp -d "$root/.mujoco/part.XXXXXX")
   say "Downloading MuJoCo $mujoco_version"

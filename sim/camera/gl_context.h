@@ -1,5 +1,10 @@
 /// \file
-/// An OSMesa context: the software GL that MuJoCo renders with, without a display.
+/// An off-screen GL context that MuJoCo renders with, without a display.
+///
+/// The environment's LCS_GL chooses the library, which is loaded at the first context:
+///   osmesa  Mesa's software renderer, by OSMesa; the default where it is installed
+///   egl     the same renderer, by EGL without a surface: the same bits; the default elsewhere
+///   gpu     the first device that EGL offers; its bits are not promised
 #pragma once
 
 #include <memory>
@@ -7,8 +12,8 @@
 
 namespace lcs::sim {
 
-/// Current in the constructing thread from construction on. Its own buffer is tiny, because MuJoCo
-/// renders into its own frame buffer object.
+/// Current in the constructing thread from construction on. MuJoCo renders into its own frame
+/// buffer object.
 class GlContext {
  public:
   /// \throws std::runtime_error with a remedy.
@@ -23,9 +28,13 @@ class GlContext {
   /// For example "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6".
   std::string renderer() const;
 
+  /// A function of GL, to be cast to its type: glFinish. \throws std::runtime_error if missing.
+  void* function(const char* name) const;
+
+  class Library;  ///< of one kind of context
+
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<Library> library_;
 };
 
 }  // namespace lcs::sim

@@ -1,37 +1,36 @@
 /// \file
-/// Rovers and actors as MJCF fragments, ready to be merged into a scene.
+/// Rovers and actors from files of their own, ready to be attached to a scene.
 ///
-/// A fragment keeps its own folders, unit of angles and defaults (`sim/scene/mjcf.h`), so that a
-/// scene cannot change its meaning. Loading checks it (`sim/scene/fragment_contract.h`).
+/// A fragment is MJCF with one body called `base` (x forward, z up, origin on the ground below its
+/// middle). MuJoCo compiles it with its own unit of angles, folders and defaults, so that a scene
+/// cannot change its meaning. Loading checks it (`sim/scene/fragment_contract.h`).
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 
 #include "scenarios/scenario.h"
-#include "sim/scene/xml.h"
+#include "sim/scene/spec.h"
 
 namespace lcs::sim {
-
-inline constexpr const char* kEgoPrefix = "ego/";
 
 /// Name, within an actor's fragment, of the texture that a picture file fills.
 inline constexpr const char* kPictureTexture = "picture";
 
 bool has_picture(const scenario::Actor& actor);
 
-/// [length, width, height] of an actor as its file states it, m. \param prefix of the names.
-Eigen::Vector3d natural_size(xml::Element& root, const std::string& prefix);
+struct Fragment {
+  Spec spec;
+  mjsBody* base = nullptr;
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  ///< of an actor: [length, width, height]
+  int frozen_joints = 0;                             ///< of an actor, by `Actor::pose`
+};
 
-/// The fragment of an actor: scaled from its file's size to the requested size, painted, without
-/// contacts, with the actor's name as prefix of every name. Boxes, ellipsoids and meshes scale by
-/// any three factors; cylinders and capsules stay round.
-/// \param scene the scene that it will be merged into. \throws input::Error
-xml::Document actor_fragment(const scenario::Actor& actor, const xml::Element& scene);
+/// The fragment of an actor: posed, scaled from its file's size to the requested size, painted, and
+/// without contacts. Boxes, ellipsoids and meshes scale by any three factors along their own axes;
+/// cylinders and capsules stay round. \throws input::Error
+Fragment actor_fragment(const scenario::Actor& actor, SpecReader& reader);
 
-/// The fragment of the rover, with `kEgoPrefix` before every name. Only a wheeled rover keeps its
-/// contacts.
-/// \param scene the scene that it will be merged into. \throws input::Error
-xml::Document rover_fragment(const scenario::Ego& ego, const xml::Element& scene);
+/// The fragment of the rover. Only a wheeled rover keeps its contacts. \throws input::Error
+Fragment rover_fragment(const scenario::Ego& ego, SpecReader& reader);
 
 }  // namespace lcs::sim

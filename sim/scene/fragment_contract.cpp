@@ -9,260 +9,261 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/scene/mjcf.h"
-
 namespace lcs::sim {
 namespace {
 
 using Eigen::Vector3d;
-using xml::Element;
-using xml::is_kind;
 
 constexpr double kTolerance = 1e-6;
 
-[[noreturn]] void refuse(const Element& at, const std::string& what) {
-  throw input::Error(xml::source_of(at), what);
+/// Rejects an element that can move relative to the body `base`, at any depth.
+void require_fixed(mjsElement* e, const mjsBody& base, const SpecReader& reader) {
+  for (mjsBody* body = mjs_getParent(e); body && body != &base;
+       body = mjs_getParent(body->element)) {
+    if (!mjs_firstChild(body, mjOBJ_JOINT, 0)) continue;
+    reader.refuse(e, "TAG is in a body that moves; move it into 'base'");
+  }
 }
 
-Vector3d vector(const Element& e, const char* key, const Vector3d& otherwise) {
-  const std::vector<double> v = mjcf::numbers(mjcf::effective(e, key));
-  return v.size() == 3 ? Vector3d(v[0], v[1], v[2]) : otherwise;
+bool is_velocity_of(const mjsActuator& actuator, std::string_view joint) {
+  return actuator.type == mjACTUATOR_VELOCITY && actuator.trntype == mjTRN_JOINT &&
+         mjs_getString(actuator.target) == joint;
 }
 
-/// The first descendant of that kind and name; nullptr if missing.
-Element* find(Element& root, std::string_view kind, const std::string& name) {
-  Element* found = nullptr;
-  xml::for_each(root, [&](Element& e) {
-    if (!found && is_kind(e, kind) && xml::attribute(e, "name") == name) found = &e;
+/// Whether a name is a side, or a side and more: "left", "left_front".
+bool is_wheel(std::string_view name, std::string_view side) {
+  return name == side || (name.starts_with(side) && name[side.size()] == '_');
+}
+
+void check_actuator(const mjSpec& spec, mjsElement* e, const SpecReader& reader) {
+  const std::string name(name_of(e));
+  if (!is_velocity_of(*mjs_asActuator(e), name)) {
+    reader.refuse(e, fmt::format("the actuator '{0}' must give the joint '{0}' a velocity; give "
+                                 "<velocity name=\"{0}\" joint=\"{0}\" kv=\"...\"/>",
+                                 name));
+  }
+  if (!find(spec, mjOBJ_JOINT, name)) {
+    reader.refuse(e, fmt::format("there is no joint called '{}' for TAG; call it so", name));
+  }
+}
+
+/// The joint of a body itself with that name; nullptr without one.
+mjsElement* joint_of(const mjsBody& body, std::string_view name) {
+  mjsElement* found = nullptr;
+  for_each_in(body, mjOBJ_JOINT, false, [&](mjsElement* e) {
+    if (!found && name_of(e) == name) found = e;
   });
   return found;
 }
 
-void check_sections(Element& root) {
-  constexpr std::array kTaken{"default", "asset", "worldbody", "actuator", "sensor"};
-  constexpr std::array kLeftOut{"compiler", "option",    "size",    "visual",
-                                "custom",   "statistic", "keyframe"};
-  const auto is_in = [](const auto& kinds, const Element& e) {
-    return std::any_of(kinds.begin(), kinds.end(), [&](auto kind) { return is_kind(e, kind); });
-  };
-  for (Element* s = root.FirstChildElement(); s; s = s->NextSiblingElement()) {
-    if (is_in(kTaken, *s) || is_in(kLeftOut, *s)) continue;
-    refuse(*s, fmt::format("<{}> is nothing that a rover or an actor can have; take it away (they "
-                           "have {})",
-                           s->Name(), fmt::join(kTaken, ", ")));
-  }
-}
-
-/// Finds the body `base`. Removes lights and cameras beside it, and rejects all other elements.
-Element& check_base(Element& root) {
-  Element* worldbody = root.FirstChildElement("worldbody");
-  Element* base = worldbody ? xml::child_named(*worldbody, "body", "base") : nullptr;
-  if (!base) {
-    refuse(worldbody ? *worldbody : root,
-           "there is no body called 'base'; put all that a rover or an actor is into "
-           "<worldbody><body name=\"base\">");
-  }
-  for (Element *e = worldbody->FirstChildElement(), *next = nullptr; e; e = next) {
-    next = e->NextSiblingElement();
-    if (e == base) continue;
-    if (is_kind(*e, "light") || is_kind(*e, "camera")) {
-      worldbody->DeleteChild(e);
-    } else {
-      refuse(*e, fmt::format("{} stands in the worldbody beside the one body 'base' that a rover "
-                             "or an actor is; move it into 'base', or take it away",
-                             xml::tag(*e)));
-    }
-  }
-  if (!vector(*base, "pos", Vector3d::Zero()).isZero(0) ||
-      !mjcf::rotation(*base).isIdentity(kTolerance)) {
-    refuse(*base,
-           "the body 'base' has a place or rotation of its own; take it away and move what is in "
-           "it (its origin is on the ground below its middle, x is forward, z up)");
-  }
-  return *base;
-}
-
-void check_size(Element& root) {
-  const Element* size = xml::child_named(xml::section(root, "custom"), "numeric", "size");
-  const std::vector<double> values =
-      size ? mjcf::numbers(xml::attribute(*size, "data")) : std::vector<double>{};
-  if (values.size() == 3 &&
-      std::all_of(values.begin(), values.end(), [](double v) { return v > 0 && std::isfinite(v); }))
+/// \param R rotation of the joint's body in B.
+void check_axis(mjsElement* joint, mjtJoint type, const Eigen::Matrix3d& R, const Vector3d& axis,
+                const SpecReader& reader) {
+  const mjsJoint& is = *mjs_asJoint(joint);
+  const Vector3d given = R * Eigen::Map<const Vector3d>(is.axis);
+  if (is.type == type && given.normalized().isApprox(axis, kTolerance) &&
+      Eigen::Map<const Vector3d>(is.pos).isZero(kTolerance)) {
     return;
-  refuse(size ? *size : root,
-         fmt::format("an actor's file must state its natural size, which {}; give <custom><numeric "
-                     "name=\"size\" data=\"LENGTH WIDTH HEIGHT\"/></custom>, in m",
-                     size ? fmt::format("'{}' is not", xml::attribute(*size, "data"))
-                          : std::string("this one does not")));
-}
-
-/// \param where "in 'base'", or the required parent body, for the message.
-Element& require(Element& in, const char* kind, const char* name, const std::string& where,
-                 const std::string& remedy) {
-  if (Element* found = find(in, kind, name)) return *found;
-  refuse(in, fmt::format("there is no {} called '{}' {}; give {}", kind, name, where, remedy));
-}
-
-/// Rejects an element that can move relative to the body `base`, at any depth.
-void require_fixed(const Element& e, const Element& base) {
-  for (const auto* body = e.Parent()->ToElement(); body && body != &base;
-       body = body->Parent()->ToElement()) {
-    if (!body->FirstChildElement("joint") && !body->FirstChildElement("freejoint")) continue;
-    refuse(e, fmt::format("{} is in a body that moves; move it into 'base'", xml::tag(e)));
   }
+  reader.refuse(joint, fmt::format("TAG moves otherwise than its actuator says; give <joint "
+                                   "name=\"{}\" type=\"{}\" axis=\"...\"/> with the axis {} of "
+                                   "'base', through the origin of its body",
+                                   name_of(joint), type == mjJNT_SLIDE ? "slide" : "hinge",
+                                   fmt::join(axis.data(), axis.data() + 3, " ")));
 }
 
-void check_sensor(Element& root, const char* kind) {
-  const std::string remedy = fmt::format("<sensor><{0} name=\"{0}\" site=\"imu\"/></sensor>", kind);
-  const Element& sensor = require(root, kind, kind, "among the sensors", remedy);
-  if (xml::attribute(sensor, "site") != "imu") {
-    refuse(sensor, fmt::format("{} is not at the site 'imu'; give {}", xml::tag(sensor), remedy));
-  }
-}
-
-void check_actuator(Element& root, const Element& actuator) {
-  const std::string name = xml::attribute(actuator, "name");
-  const std::string remedy = fmt::format("<velocity name=\"{0}\" joint=\"{0}\" kv=\"...\"/>", name);
-  if (!is_kind(actuator, "velocity") || xml::attribute(actuator, "joint") != name) {
-    refuse(actuator, fmt::format("the actuator '{}' must give the joint '{}' a velocity; give {}",
-                                 name, name, remedy));
-  }
-  if (!find(root, "joint", name)) {
-    refuse(actuator, fmt::format("there is no joint called '{}' for {}; call it so", name,
-                                 xml::tag(actuator)));
-  }
-}
-
-void check_joint(Element& body, const char* name, const char* type, const Vector3d& axis) {
-  const std::string remedy = fmt::format("<joint name=\"{}\" type=\"{}\" axis=\"{}\"/>", name, type,
-                                         fmt::join(axis.data(), axis.data() + 3, " "));
-  Element* joint = xml::child_named(body, "joint", name);
+void check_joint(const mjsBody& body, const char* name, mjtJoint type, const Vector3d& axis,
+                 const SpecReader& reader) {
+  mjsElement* const joint = joint_of(body, name);
   if (!joint) {
-    refuse(body, fmt::format("{} has no joint '{}' of its own; give it {}", xml::tag(body), name,
-                             remedy));
+    reader.refuse(body.element, fmt::format("TAG has no joint '{}' of its own; give it one", name));
   }
-  const Vector3d given = mjcf::rotation(body) * vector(*joint, "axis", Vector3d::UnitZ());
-  if (mjcf::effective(*joint, "type") != type || !given.normalized().isApprox(axis, kTolerance)) {
-    refuse(*joint, fmt::format("{} moves otherwise than its actuator says; give {}",
-                               xml::tag(*joint), remedy));
-  }
+  check_axis(joint, type, Eigen::Matrix3d::Identity(), axis, reader);
 }
 
 /// The slides along the world's x and y must precede the hinge, which turns all later joints.
-void check_holonomic(Element& base) {
-  check_joint(base, "x", "slide", Vector3d::UnitX());
-  check_joint(base, "y", "slide", Vector3d::UnitY());
-  check_joint(base, "yaw", "hinge", Vector3d::UnitZ());
+void check_holonomic(const mjsBody& base, const SpecReader& reader) {
+  check_joint(base, "x", mjJNT_SLIDE, Vector3d::UnitX(), reader);
+  check_joint(base, "y", mjJNT_SLIDE, Vector3d::UnitY(), reader);
+  check_joint(base, "yaw", mjJNT_HINGE, Vector3d::UnitZ(), reader);
   std::vector<std::string> order;
-  for (const char* kind : {"joint", "freejoint"}) {
-    for (Element* e = base.FirstChildElement(kind); e; e = e->NextSiblingElement(kind)) {
-      order.push_back(xml::attribute(*e, "name"));
-    }
-  }
+  for_each_in(base, mjOBJ_JOINT, false, [&](mjsElement* e) { order.emplace_back(name_of(e)); });
   if (order != std::vector<std::string>{"x", "y", "yaw"}) {
-    refuse(base, fmt::format("the body 'base' of a holonomic rover has the joints {}; give it x, y "
-                             "and yaw in this order, and no other",
-                             fmt::join(order, ", ")));
+    reader.refuse(base.element,
+                  fmt::format("the body 'base' of a holonomic rover has the joints {}; give it x, "
+                              "y and yaw in this order, and no other",
+                              fmt::join(order, ", ")));
   }
 }
 
-Vector3d check_wheel(Element& base, const char* joint, const std::string& name) {
-  Element* wheel = xml::child_named(base, "body", name);
-  if (!wheel) {
-    refuse(base, fmt::format("there is no body called '{}' in 'base'; give the wheel one, with the "
-                             "joint '{}' and a geom whose first size is its radius",
-                             name, joint));
+struct Wheel {
+  Vector3d place_m;  ///< in B
+  double radius_m;
+};
+
+Wheel check_wheel(const mjsBody& base, mjsElement* joint, const SpecReader& reader) {
+  mjsBody* const body = mjs_getParent(joint);
+  Wheel wheel{Vector3d::Zero(), 0};
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  for (mjsBody* b = body; b && b != &base; b = mjs_getParent(b->element)) {
+    const Pose pose = pose_in_body(b->element);
+    wheel.place_m = pose * wheel.place_m;
+    R = pose.R * R;
   }
-  check_joint(*wheel, joint, "hinge", Vector3d::UnitY());
-  const Element* geom = wheel->FirstChildElement("geom");
-  const std::string type = geom ? mjcf::effective(*geom, "type") : "";
-  if (type != "sphere" && type != "cylinder" && type != "ellipsoid") {
-    refuse(geom ? *geom : *wheel,
-           fmt::format("the first geom of '{}' tells its radius, and {}; give it a sphere, "
-                       "cylinder or ellipsoid first",
-                       name, geom ? "is a " + type : "it has none"));
+  check_axis(joint, mjJNT_HINGE, R, Vector3d::UnitY(), reader);
+  mjsElement* const first = mjs_firstChild(body, mjOBJ_GEOM, 0);
+  const mjtGeom type = first ? mjs_asGeom(first)->type : mjGEOM_NONE;
+  if (type != mjGEOM_SPHERE && type != mjGEOM_CYLINDER && type != mjGEOM_ELLIPSOID) {
+    reader.refuse(
+        first ? first : body->element,
+        fmt::format("the first geom of the wheel with the joint '{}' tells its radius, and "
+                    "it {}; give it a sphere, cylinder or ellipsoid first",
+                    name_of(joint), first ? "has another type" : "has none"));
   }
-  return vector(*wheel, "pos", Vector3d::Zero());
+  wheel.radius_m = mjs_asGeom(first)->size[0];
+  return wheel;
 }
 
-void check_wheeled(Element& base) {
-  Element* joint = base.FirstChildElement("freejoint");
-  if (!joint) joint = xml::child_named(base, "joint", "base");
-  if (!joint || xml::attribute(*joint, "name") != "base" ||
-      (is_kind(*joint, "joint") && mjcf::effective(*joint, "type") != "free")) {
-    refuse(joint ? *joint : base,
-           "the body 'base' of a rover on wheels must be free, by a joint called like it; give "
-           "<freejoint name=\"base\"/>");
+void check_wheeled(const mjSpec& spec, const mjsBody& base, const SpecReader& reader) {
+  mjsElement* const free = mjs_firstChild(&base, mjOBJ_JOINT, 0);
+  if (!free || name_of(free) != "base" || mjs_asJoint(free)->type != mjJNT_FREE) {
+    reader.refuse(free ? free : base.element,
+                  "the body 'base' of a rover on wheels must be free, by a joint called like it; "
+                  "give <freejoint name=\"base\"/>");
   }
-  const Vector3d left = check_wheel(base, "left", "left_wheel");
-  const Vector3d right = check_wheel(base, "right", "right_wheel");
+  std::array<Vector3d, 2> middle{Vector3d::Zero(), Vector3d::Zero()};  // left, right
+  std::array<int, 2> count{};
+  double radius_m = 0;
+  mjsElement* last = nullptr;
+  for_each(spec, mjOBJ_ACTUATOR, [&](mjsElement* e) {
+    const std::size_t side = is_wheel(name_of(e), "left") ? 0 : 1;
+    if (side == 1 && !is_wheel(name_of(e), "right")) return;
+    last = find(spec, mjOBJ_JOINT, name_of(e));
+    const Wheel wheel = check_wheel(base, last, reader);
+    if (radius_m == 0) radius_m = wheel.radius_m;
+    if (std::abs(wheel.radius_m - radius_m) > kTolerance) {
+      reader.refuse(last,
+                    fmt::format("the wheel of TAG has a radius of {:g} m, and another one {:g} "
+                                "m; give all driven wheels the same",
+                                wheel.radius_m, radius_m));
+    }
+    middle[side] += wheel.place_m;
+    ++count[side];
+  });
+  for (const std::size_t side : {0, 1}) middle[side] /= count[side];
+  const auto& [left, right] = middle;
   if (left.y() > right.y() && std::abs(left.x()) + std::abs(right.x()) < kTolerance &&
       std::abs(left.y() + right.y()) < kTolerance) {
     return;
   }
-  refuse(*xml::child_named(base, "body", "left_wheel"),
-         fmt::format("the wheels stand at ({:g}, {:g}) and ({:g}, {:g}) m; put the left one at (0, "
-                     "y) and the right one at (0, -y), so that the rover turns about its origin",
-                     left.x(), left.y(), right.x(), right.y()));
+  reader.refuse(
+      mjs_getParent(last)->element,
+      fmt::format("the middles of the left and right wheels are at ({:g}, {:g}) and ({:g}, "
+                  "{:g}) m; put them at (0, y) and (0, -y), so that the rover turns about "
+                  "its origin",
+                  left.x(), left.y(), right.x(), right.y()));
 }
 
 }  // namespace
 
-void check_actor(Element& root) {
-  check_sections(root);
-  Element& base = check_base(root);
-  bool has_geom = false;
-  xml::for_each(base, [&](Element& e) {
-    if (is_kind(e, "joint") || is_kind(e, "freejoint")) {
-      refuse(e, fmt::format("{}: an actor is one rigid body, which its trajectory moves; take the "
-                            "joint away",
-                            xml::tag(e)));
-    }
-    if (!is_kind(e, "geom")) return;
-    has_geom = true;
-    const std::string type = mjcf::effective(e, "type");
-    if (type == "plane" || type == "hfield") {
-      refuse(e, fmt::format("{} is a {}, which only the setting can have; use a box or a mesh",
-                            xml::tag(e), type));
-    }
+mjsBody& check_base(const mjSpec& spec, const SpecReader& reader,
+                    const std::filesystem::path& file) {
+  const mjsBody& world = *mjs_findBody(&spec, "world");
+  mjsBody* const base = mjs_findBody(&spec, "base");
+  if (!base || mjs_getParent(base->element) != &world) {
+    mjsElement* const other = mjs_firstChild(&world, mjOBJ_BODY, 0);
+    throw input::Error(other ? reader.source(other) : input::Source{file.string(), 1},
+                       "there is no body called 'base'; put all that a rover or an actor is into "
+                       "<worldbody><body name=\"base\">");
+  }
+  for (const mjtObj type : {mjOBJ_BODY, mjOBJ_GEOM, mjOBJ_SITE}) {
+    for_each_in(world, type, false, [&](mjsElement* e) {
+      if (e == base->element) return;
+      reader.refuse(e,
+                    "TAG stands in the worldbody beside the one body 'base' that a rover or an "
+                    "actor is; move it into 'base', or take it away");
+    });
+  }
+  const Pose pose = pose_in_body(base->element);
+  if (!pose.p.isZero(0) || !pose.R.isIdentity(kTolerance)) {
+    reader.refuse(base->element,
+                  "the body 'base' has a place or rotation of its own; take it away and move what "
+                  "is in it (its origin is on the ground below its middle, x is forward, z up)");
+  }
+  return *base;
+}
+
+Vector3d check_actor(const Fragment& actor, const SpecReader& reader) {
+  for_each(*actor.spec, mjOBJ_JOINT, [&](mjsElement* e) {
+    reader.refuse(e,
+                  "TAG: an actor is one rigid body, which its trajectory moves; take the joint "
+                  "away, or give the actor a pose: a keyframe of its file, or zero");
   });
-  if (!has_geom) refuse(base, "the body 'base' has no geom, and so nobody sees it; give it one");
-  check_size(root);
+  bool has_geom = false;
+  for_each_in(*actor.base, mjOBJ_GEOM, true, [&](mjsElement* e) {
+    has_geom = true;
+    const mjtGeom type = mjs_asGeom(e)->type;
+    if (type != mjGEOM_PLANE && type != mjGEOM_HFIELD) return;
+    reader.refuse(e,
+                  fmt::format("TAG is a {}, which only the setting can have; use a box or a mesh",
+                              type == mjGEOM_PLANE ? "plane" : "height field"));
+  });
+  if (!has_geom) {
+    reader.refuse(actor.base->element,
+                  "the body 'base' has no geom, and so nobody sees it; give it one");
+  }
+  mjsElement* const numeric = find(*actor.spec, mjOBJ_NUMERIC, "size");
+  int count = 0;
+  const double* values = numeric ? mjs_getDouble(mjs_asNumeric(numeric)->data, &count) : nullptr;
+  if (count == 3 && std::all_of(values, values + 3, [](double v) { return v > 0; })) {
+    return Eigen::Map<const Vector3d>(values);
+  }
+  const std::string remedy = fmt::format(
+      "an actor's file must state its natural size, which {}; give <custom><numeric name=\"size\" "
+      "data=\"LENGTH WIDTH HEIGHT\"/></custom>, in m",
+      numeric ? fmt::format("'{}' is not", fmt::join(values, values + count, " "))
+              : std::string("this one does not"));
+  reader.refuse(numeric ? numeric : actor.base->element, remedy);
 }
 
-void check_rover(Element& root) {
-  check_sections(root);
-  Element& base = check_base(root);
-  require_fixed(require(base, "site", "imu", "in 'base'", "<site name=\"imu\" pos=\"...\"/>"),
-                base);
-  check_sensor(root, "accelerometer");
-  check_sensor(root, "gyro");
+void check_rover(const Fragment& rover, const SpecReader& reader) {
+  const mjSpec& spec = *rover.spec;
+  mjsElement* const imu = find(spec, mjOBJ_SITE, "imu");
+  if (!imu) {
+    reader.refuse(rover.base->element,
+                  "there is no site called 'imu' in 'base'; give <site name=\"imu\" pos=\"...\"/>");
+  }
+  require_fixed(imu, *rover.base, reader);
 
-  std::vector<std::string> driven;
-  const Element* actuators = root.FirstChildElement("actuator");
-  for (const auto* e = actuators ? actuators->FirstChildElement() : nullptr; e;
-       e = e->NextSiblingElement()) {
-    const std::string name = xml::attribute(*e, "name");
-    for (const std::string_view known : {"x", "y", "yaw", "left", "right"}) {
-      if (name != known) continue;
-      check_actuator(root, *e);
-      driven.push_back(name);
-    }
+  std::string driven;
+  mjsElement* first = nullptr;
+  int left = 0, right = 0, axes = 0;
+  for_each(spec, mjOBJ_ACTUATOR, [&](mjsElement* e) {
+    if (!first) first = e;
+    const std::string_view name = name_of(e);
+    const bool is_left = is_wheel(name, "left"), is_right = is_wheel(name, "right");
+    const bool is_axis = name == "x" || name == "y" || name == "yaw";
+    if (!is_left && !is_right && !is_axis) return;
+    check_actuator(spec, e, reader);
+    left += is_left;
+    right += is_right;
+    axes += is_axis;
+    driven += (driven.empty() ? "" : ", ") + std::string(name);
+  });
+  const bool is_holonomic = axes == 3 && left + right == 0;
+  if (!is_holonomic && (axes > 0 || left == 0 || right == 0)) {
+    const std::string what = fmt::format(
+        "of the actuators that say how the rover is driven, it has {}; give it "
+        "either x, y and yaw (it follows any command) or left and right (wheels; more "
+        "of them are called left_front and the like)",
+        driven.empty() ? "none" : driven);
+    reader.refuse(first ? first : rover.base->element, what);
   }
-  std::sort(driven.begin(), driven.end());
-  const bool is_holonomic = driven == std::vector<std::string>{"x", "y", "yaw"};
-  if (!is_holonomic && driven != std::vector<std::string>{"left", "right"}) {
-    refuse(actuators ? *actuators : root,
-           fmt::format("of the actuators that say how the rover is driven, it has {}; give it "
-                       "either x, y and yaw (it follows any command) or left and right (two "
-                       "wheels)",
-                       driven.empty() ? "none" : fmt::format("{}", fmt::join(driven, ", "))));
-  }
-  is_holonomic ? check_holonomic(base) : check_wheeled(base);
+  is_holonomic ? check_holonomic(*rover.base, reader) : check_wheeled(spec, *rover.base, reader);
 }
 
-bool is_wheeled(Element& root) {
-  return xml::child_named(xml::section(root, "actuator"), "velocity", "left") != nullptr;
+bool is_wheeled(const mjSpec& spec) {
+  return find(spec, mjOBJ_ACTUATOR, "x") == nullptr;
 }
 
 }  // namespace lcs::sim

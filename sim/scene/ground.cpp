@@ -7,9 +7,10 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "sim/random.h"
-#include "sim/scene/mjcf.h"
+#include "sim/scene/spec.h"
 
 namespace lcs::sim {
 namespace {
@@ -59,38 +60,37 @@ double rise(double from_edge_m, double wavelength_m) {
   return t * t * (3 - 2 * t);
 }
 
-std::string material_of_floor(xml::Element& worldbody) {
-  for (auto* geom = worldbody.FirstChildElement("geom"); geom;
-       geom = geom->NextSiblingElement("geom")) {
-    if (xml::attribute(*geom, "type") == "plane") return xml::attribute(*geom, "material");
-  }
-  return "";
+std::string material_of_floor(const mjsBody& world) {
+  std::string material;
+  for_each_in(world, mjOBJ_GEOM, false, [&](mjsElement* e) {
+    if (material.empty() && mjs_asGeom(e)->type == mjGEOM_PLANE) {
+      material = mjs_getString(mjs_asGeom(e)->material);
+    }
+  });
+  return material;
 }
 
 }  // namespace
 
-void add_ground(xml::Element& scene, const scenario::Ground& ground,
-                const Eigen::Vector2d& ego_start_m, const input::Source& source) {
+void add_ground(mjSpec& scene, const scenario::Ground& ground, const Eigen::Vector2d& ego_start_m) {
+  mjsHField& field = *mjs_addHField(&scene);
+  mjs_setName(field.element, kName);
+  field.nrow = points_along(ground.size_m.y(), ground.wavelength_m);
+  field.ncol = points_along(ground.size_m.x(), ground.wavelength_m);
+  const std::vector<float> flat(static_cast<std::size_t>(field.nrow * field.ncol));
+  mjs_setFloat(field.userdata, flat.data(), static_cast<int>(flat.size()));
   const Eigen::Vector2d half = ground.size_m / 2;
-  xml::Element* field = xml::section(scene, "asset").InsertNewChildElement("hfield");
-  xml::set_source(*field, source);
-  field->SetAttribute("name", kName);
-  field->SetAttribute("nrow", points_along(ground.size_m.y(), ground.wavelength_m));
-  field->SetAttribute("ncol", points_along(ground.size_m.x(), ground.wavelength_m));
-  mjcf::set_numbers(*field, "size", {half.x(), half.y(), kHighest * ground.roughness_m, kBase_m});
+  Eigen::Map<Eigen::Vector4d>(field.size) << half, kHighest * ground.roughness_m, kBase_m;
 
-  xml::Element& worldbody = xml::section(scene, "worldbody");
-  const std::string material = material_of_floor(worldbody);
-  const Eigen::Vector2d centre = ground.centre_m.value_or(ego_start_m);
-  xml::Element* geom = worldbody.InsertNewChildElement("geom");
-  xml::set_source(*geom, source);
-  geom->SetAttribute("name", kName);
-  geom->SetAttribute("type", "hfield");
-  geom->SetAttribute("hfield", kName);
-  mjcf::set_numbers(*geom, "pos", {centre.x(), centre.y(), 0});
-  geom->SetAttribute("contype", 1);
-  geom->SetAttribute("conaffinity", 1);
-  if (!material.empty()) geom->SetAttribute("material", material.c_str());
+  mjsBody& world = *mjs_findBody(&scene, "world");
+  const std::string material = material_of_floor(world);
+  mjsGeom& geom = *mjs_addGeom(&world, mjs_getSpecDefault(&scene));
+  mjs_setName(geom.element, kName);
+  geom.type = mjGEOM_HFIELD;
+  mjs_setString(geom.hfieldname, kName);
+  Eigen::Map<Eigen::Vector3d>(geom.pos) << ground.centre_m.value_or(ego_start_m), 0;
+  geom.contype = geom.conaffinity = 1;
+  if (!material.empty()) mjs_setString(geom.material, material.c_str());
 }
 
 void raise_ground(Model& model, const scenario::Ground& ground, std::uint64_t scenario_seed) {
@@ -116,8 +116,8 @@ void raise_ground(Model& model, const scenario::Ground& ground, std::uint64_t sc
 
 std::string less_contact(const scenario::Ground& ground) {
   return fmt::format(
-      "the rover touches more of the rough ground at once than there is room for; make "
-      "ground.wavelength "
+      "the rover sinks between the bumps of the rough ground, or touches more of them at once than "
+      "there is room for; make ground.wavelength "
       "({:g} m) longer or ground.roughness ({:g} m) less",
       ground.wavelength_m, ground.roughness_m);
 }

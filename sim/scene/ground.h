@@ -12,14 +12,11 @@
 
 #include "scenarios/scenario.h"
 #include "sim/scene/model.h"
-#include "sim/scene/xml.h"
 
 namespace lcs::sim {
 
 /// Adds the height field, still flat, with the material of the scene's first plane.
-/// \param source the place of the `ground` section in the scenario, for errors.
-void add_ground(xml::Element& scene, const scenario::Ground& ground,
-                const Eigen::Vector2d& ego_start_m, const input::Source& source);
+void add_ground(mjSpec& scene, const scenario::Ground& ground, const Eigen::Vector2d& ego_start_m);
 
 /// Writes the heights into a model of that scene.
 void raise_ground(Model& model, const scenario::Ground& ground, std::uint64_t scenario_seed);

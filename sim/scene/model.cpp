@@ -1,13 +1,9 @@
 #include "sim/scene/model.h"
 
 #include <Eigen/Core>
-#include <array>
-#include <mutex>
-#include <tuple>
 #include <utility>
 
 #include "sim/scene/limits.h"
-#include "sim/scene/trial.h"
 
 namespace lcs::sim {
 namespace {
@@ -27,33 +23,6 @@ Pose pose(const mjtNum* position, const mjtNum* rotation) {
           Eigen::Map<const Eigen::Vector3d>(position)};
 }
 
-using ModelAndData =
-    std::pair<std::unique_ptr<mjModel, ModelDeleter>, std::unique_ptr<mjData, DataDeleter>>;
-
-ModelAndData load(const std::string& mjcf) {
-  const auto vfs = std::make_unique<mjVFS>();
-  mj_defaultVFS(vfs.get());
-  const auto release = [](mjVFS* v) { mj_deleteVFS(v); };
-  const std::unique_ptr<mjVFS, decltype(release)> guard(vfs.get(), release);
-  constexpr const char* kName = "scene.xml";
-  if (mj_addBufferVFS(vfs.get(), kName, mjcf.data(), static_cast<int>(mjcf.size())) != 0) {
-    throw MujocoError("could not allocate the document");
-  }
-
-  ModelAndData loaded;
-  auto& [model, data] = loaded;
-  std::array<char, 2000> message{};
-  model.reset(mj_loadXML(kName, vfs.get(), message.data(), static_cast<int>(message.size())));
-  const std::string warning = take_warning();
-  if (message[0] != '\0') throw MujocoError(message.data());
-  if (!model) throw MujocoError("no reason is given");
-  if (!warning.empty()) throw MujocoError(warning);
-  check_compiled(*model);
-  data.reset(mj_makeData(model.get()));
-  if (!data) throw MujocoError("could not allocate the state of the scene");
-  return loaded;
-}
-
 }  // namespace
 
 void install_mujoco_handlers() {
@@ -65,26 +34,15 @@ std::string take_warning() {
   return std::exchange(first_warning, {});
 }
 
-Model::Model(const std::string& mjcf) {
+Model::Model(mjSpec& spec) {
   install_mujoco_handlers();
-  // MuJoCo holds its own lock during a load: no other thread may fork then
-  static std::mutex loading;
-  const std::lock_guard lock(loading);
-  const Trial trial = try_in_child([&] { load(mjcf); });
-  if (!trial.refused.empty()) throw MujocoError(trial.refused);
-  if (trial.crash.starts_with("signal")) {
-    throw MujocoCrash("MuJoCo crashes on this scene (" + trial.crash +
-                      "); take out what was changed last; meshes, skins and textures are the first "
-                      "to look at");
-  }
-  if (!trial.fine) {
-    const std::string what =
-        trial.crash == "memory" ? "too much memory" : "more than " + trial.crash;
-    throw MujocoCrash(
-        "MuJoCo needs " + what + " to load this scene; make it smaller (sizes in " +
-        "<size>, composites, textures, meshes), or raise ulimit -v where that is set");
-  }
-  std::tie(model_, data_) = load(mjcf);
+  model_.reset(mj_compile(&spec, nullptr));
+  const std::string warning = take_warning();
+  if (!model_) throw MujocoError(mjs_getError(&spec));
+  if (!warning.empty()) throw MujocoError(warning);
+  check_compiled(*model_);
+  data_.reset(mj_makeData(model_.get()));
+  if (!data_) throw MujocoError("could not allocate the state of the scene");
 }
 
 bool Model::has(mjtObj type, const std::string& name) const {

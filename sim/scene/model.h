@@ -19,12 +19,6 @@ class MujocoError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Thrown if MuJoCo crashes on a document or exceeds its time or memory.
-class MujocoCrash : public MujocoError {
- public:
-  using MujocoError::MujocoError;
-};
-
 /// Makes MuJoCo throw `MujocoError` where it would print and wait for a key, and keep its warnings
 /// for `take_warning`. Process-wide. All code here that uses MuJoCo calls it.
 void install_mujoco_handlers();
@@ -42,12 +36,8 @@ struct DataDeleter {
 /// Model and data, always together. Movable; moving keeps the addresses of `m()` and `d()`.
 class Model {
  public:
-  /// Loads the document in a child process first (sim/scene/trial.h), and here only if the child
-  /// survives. The child takes 40 ms of processor time for crossing.yaml, as much as the load
-  /// itself, out of 1.8 s for `lcs run scenarios/crossing.yaml --quiet --no-video`.
-  /// \param mjcf a complete document; its file paths must be absolute.
-  /// \throws MujocoError with MuJoCo's message; MujocoCrash with an explanation.
-  explicit Model(const std::string& mjcf);
+  /// \throws MujocoError with MuJoCo's message.
+  explicit Model(mjSpec& spec);
 
   mjModel& m() { return *model_; }
   const mjModel& m() const { return *model_; }

@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 
 namespace lcs::sim {
 namespace {
-
-using Origin = xml::Printed::Origin;
 
 /// Remedies by a phrase of MuJoCo's message; the first match applies.
 struct Remedy {
@@ -18,13 +15,14 @@ struct Remedy {
 constexpr Remedy kRemedies[] = {
     {"repeated name", "give one of the two another name"},
     {"repeated default class", "give one of the two another class"},
-    {"sizes must be positive", "give it a size of numbers above 0"},
-    {"size(3) must be positive", "give it a size whose third number is above 0"},
+    {" must be positive in geom", "give it a size of numbers above 0"},
+    {" must be positive in site", "give it a size of numbers above 0"},
     {"mass and inertia of moving bodies",
      "give the body a geom with size and density, or an <inertial> with mass and diaginertia"},
     {"mass is too small", "give its geoms a mass or density above 0"},
     {"mass, inertia or density are negative", "make them positive"},
     {"mass and inertia cannot be negative", "make them positive"},
+    {"coplanar vertices", "give it thickness, or use a box"},
     {"qhull error",
      "its points lie in a plane, on a line, or are too few: give it thickness, or use a box"},
     {"mesh volume is too small",
@@ -40,7 +38,7 @@ constexpr Remedy kRemedies[] = {
     {"PNG", "save the picture anew as PNG"},
     {"Unknown mesh file type", "give an .stl, .obj or .msh file"},
     {"Unknown skin file type", "give an .skn file"},
-    {"custom binary file format", "give a .png file"},
+    {"unsupported content type", "give a .png file"},
     {"unrecognized attribute", "correct its spelling or take it away"},
     {"unrecognized element", "correct its spelling, or put it where MJCF has it"},
     {"invalid keyword", "give one of the words that MJCF has for it"},
@@ -51,6 +49,7 @@ constexpr Remedy kRemedies[] = {
     {"has too much data", "give as many numbers as MJCF asks for"},
     {"unknown default", "define the class in <default>, or correct the name"},
     {"not found", "define it, or correct the name"},
+    {"could not find", "define it, or correct the name"},
     {"unknown element", "define it, or correct the name"},
     {"unrecognized object", "define it, or correct the name"},
     {"unknown body", "define it, or correct the name"},
@@ -64,7 +63,7 @@ constexpr Remedy kRemedies[] = {
     {"points, and can have", "choose a smaller one"},
     {"is one too many", "choose fewer or smaller ones"},
     {"a face of vertex", "correct its faces"},
-    {"vertex index out of range", "correct its faces"},
+    {"vertex index", "correct its faces"},
     {"not finite", "save the files of meshes, skins and height fields anew"},
     {"ould not allocate", "not enough memory: make the scene smaller, or raise ulimit -v"},
     {"too large", "make the scene smaller"},
@@ -83,45 +82,6 @@ std::string remedy_of(std::string_view said) {
     if (said.find(r.words) != std::string_view::npos) return std::string(r.remedy);
   }
   return "correct it";
-}
-
-/// The number after a phrase, or 0.
-int number_behind(std::string_view said, std::string_view words) {
-  const std::size_t at = said.rfind(words);
-  int number = 0;
-  if (at != std::string_view::npos) {
-    std::from_chars(said.data() + at + words.size(), said.data() + said.size(), number);
-  }
-  return number;
-}
-
-/// The text between the first pair of two marks; empty without a match.
-std::string_view between(std::string_view said, std::string_view before, std::string_view behind) {
-  const std::size_t begin = said.find(before);
-  if (begin == std::string_view::npos) return {};
-  const std::string_view rest = said.substr(begin + before.size());
-  const std::size_t end = rest.find(behind);
-  return end == std::string_view::npos ? std::string_view{} : rest.substr(0, end);
-}
-
-/// The element at fault: by its line number, else by a name in the message.
-const Origin* culprit(std::string_view said, const xml::Printed& scene) {
-  for (const std::string_view words : {", line = ", ", line "}) {  // MuJoCo 2, 3
-    const int line = number_behind(said, words);
-    if (const Origin* found = line > 0 ? scene.at_line(line) : nullptr) return found;
-  }
-  if (said.find(" in sensor '") != std::string_view::npos) {  // messages on sensors cite no line
-    return scene.within("sensor", number_behind(said, ", id = "));
-  }
-  for (const char* kind : {"texture", "hfield", "skin"}) {
-    const std::string_view name = between(said, std::string(kind) + " '", "'");
-    if (const Origin* found = name.empty() ? nullptr : scene.named(kind, name)) return found;
-  }
-  for (const std::string_view name :
-       {between(said, "Object name = ", ", id"), between(said, "'", "'")}) {
-    if (const Origin* found = name.empty() ? nullptr : scene.named("", name)) return found;
-  }
-  return nullptr;
 }
 
 /// Removes " (id = 5)", an index that the user cannot see, and " in geom ''".
@@ -155,19 +115,12 @@ std::string plain(std::string_view said) {
     if (space && !text.empty() && text.back() != ' ') text += ' ';
   }
   take_out_numbers(text);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+  while (!text.empty() && (text.back() == ' ' || text.back() == '.' || text.back() == ':'))
+    text.pop_back();
   return text;
 }
 
 }  // namespace
-
-input::Error refusal(const std::string& said, const xml::Printed& scene,
-                     const std::filesystem::path& file) {
-  const Origin* origin = culprit(said, scene);
-  return {
-      origin ? origin->source : input::Source{file.string(), 0},
-      fmt::format("MuJoCo refuses {}: {}", origin ? origin->tag : "the scene", in_one_line(said))};
-}
 
 std::string in_one_line(const std::string& said, const std::string& more) {
   const std::string why = plain(said);

@@ -4,17 +4,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <numbers>
 #include <set>
-#include <string_view>
 #include <utility>
 
 #include "sim/scene/fragment.h"
 #include "sim/scene/ground.h"
-#include "sim/scene/limits.h"
-#include "sim/scene/mjcf.h"
-#include "sim/scene/texture.h"
+#include "sim/scene/model.h"
 #include "tools/input/spelling.h"
 
 namespace lcs::sim {
@@ -23,11 +19,15 @@ namespace {
 using scenario::Actor;
 using scenario::Scenario;
 
-std::vector<std::string> body_names(xml::Element& worldbody) {
+mjsBody& world_of(const mjSpec& spec) {
+  return *mjs_findBody(&spec, "world");
+}
+
+std::vector<std::string> body_names(const mjSpec& scene) {
   std::vector<std::string> names;
-  for (auto* e = worldbody.FirstChildElement("body"); e; e = e->NextSiblingElement("body")) {
-    if (const std::string name = xml::attribute(*e, "name"); !name.empty()) names.push_back(name);
-  }
+  for_each_in(world_of(scene), mjOBJ_BODY, false, [&](mjsElement* e) {
+    if (!name_of(e).empty()) names.emplace_back(name_of(e));
+  });
   return names;
 }
 
@@ -45,32 +45,26 @@ std::vector<std::string> body_names(xml::Element& worldbody) {
                         actor.name, *actor.body, fmt::join(names, ", ")));
 }
 
-/// Makes a body of the scene kinematic: the simulation sets its pose.
-void make_mocap(xml::Element& worldbody, const Actor& actor) {
-  xml::Element* body = xml::child_named(worldbody, "body", *actor.body);
-  if (!actor.texture.empty() || actor.size_m) {
+/// Makes a body of the scene kinematic: the simulation sets its pose. What refers to its joints
+/// goes with them.
+void make_mocap(mjSpec& scene, const Actor& actor) {
+  if (!actor.texture.empty() || actor.size_m || !actor.pose.empty()) {
     throw input::Error(actor.source,
-                       fmt::format("actor '{}' moves a body of the scene, which has its size and "
-                                   "texture already; remove these keys",
+                       fmt::format("actor '{}' moves a body of the scene, which has its size, pose "
+                                   "and texture already; remove these keys",
                                    actor.name));
   }
-  for (const char* kind : {"joint", "freejoint"}) {
-    while (xml::Element* joint = body->FirstChildElement(kind)) body->DeleteChild(joint);
-  }
-  body->SetAttribute("mocap", "true");
+  mjsBody& body = *mjs_findBody(&scene, actor.body->c_str());
+  for_each_in(body, mjOBJ_JOINT, false, [&](mjsElement* e) { mjs_delete(&scene, e); });
+  body.mocap = 1;
 }
 
-/// Adds the sections of a fragment that a scene needs. Its custom size, options and visual settings
-/// are for a viewer only.
-void merge_fragment(xml::Element& scene, const xml::Element& fragment) {
-  constexpr std::array<const char*, 5> kParts = {"default", "asset", "worldbody", "actuator",
-                                                 "sensor"};
-  for (const char* kind : kParts) {
-    for (const auto* part = fragment.FirstChildElement(kind); part;
-         part = part->NextSiblingElement(kind)) {
-      xml::append_children(xml::section(scene, kind), *part);
-    }
-  }
+/// Adds a fragment to the scene. \return its body `base`.
+mjsBody& attach(mjSpec& scene, const Fragment& fragment, const std::string& prefix) {
+  mjsFrame* const frame = mjs_addFrame(&world_of(scene), nullptr);
+  mjsElement* const added = mjs_attach(frame->element, fragment.base->element, prefix.c_str(), "");
+  if (!added) throw MujocoError(mjs_getError(&scene));
+  return *mjs_asBody(added);
 }
 
 /// \throws input::Error if the trajectory of an added actor lacks its position.
@@ -84,30 +78,21 @@ void check_placed(const Actor& actor) {
   }
 }
 
-xml::Element& base_of(tinyxml2::XMLDocument& fragment, const std::string& prefix) {
-  xml::Element& worldbody = xml::section(*fragment.RootElement(), "worldbody");
-  return *xml::child_named(worldbody, "body", prefix + "base");
-}
-
-void add_actor(xml::Element& scene, const Actor& actor, ComposedScene& composed) {
+void add_actor(mjSpec& scene, const Actor& actor, ComposedScene& composed) {
   check_placed(actor);
-  const xml::Document fragment = actor_fragment(actor, scene);
+  const Fragment fragment = actor_fragment(actor, composed.reader);
   const std::string prefix = actor.name + "/";
-  composed.actor_sizes_m.emplace_back(
-      actor.size_m.value_or(natural_size(*fragment->RootElement(), prefix)));
-  xml::Element& body = base_of(*fragment, prefix);
-  // the object's name is the actor's name
-  body.SetAttribute("name", actor.name.c_str());
-  body.SetAttribute("mocap", "true");
-  merge_fragment(scene, *fragment->RootElement());
+  composed.actor_sizes_m.emplace_back(fragment.size_m);
+  mjsBody& body = attach(scene, fragment, prefix);
+  mjs_setName(body.element, actor.name.c_str());  // the object's name
+  body.mocap = 1;
   if (has_picture(actor)) {
     composed.pictures.push_back({prefix + kPictureTexture, actor.texture, actor.source});
   }
 }
 
-void add_actors(xml::Element& scene, const Scenario& scenario, ComposedScene& composed) {
-  xml::Element& worldbody = xml::section(scene, "worldbody");
-  const std::vector<std::string> bodies = body_names(worldbody);
+void add_actors(mjSpec& scene, const Scenario& scenario, ComposedScene& composed) {
+  const std::vector<std::string> bodies = body_names(scene);
   std::set<std::string> taken;
   for (const Actor& actor : scenario.actors) {
     const std::string object = actor.body.value_or(actor.name);
@@ -130,7 +115,7 @@ void add_actors(xml::Element& scene, const Scenario& scenario, ComposedScene& co
                          fmt::format("'{}' is moved by two actors; keep one of them", object));
     }
     if (actor.body) {
-      make_mocap(worldbody, actor);
+      make_mocap(scene, actor);
       composed.actor_sizes_m.emplace_back();
     } else {
       add_actor(scene, actor, composed);
@@ -152,66 +137,32 @@ Eigen::Matrix3d mujoco_camera_axes(const Eigen::Vector3d& rpy) {
          forward;
 }
 
-void add_camera(xml::Element& base, const scenario::Camera& camera) {
+void add_camera(mjsBody& base, const scenario::Camera& camera) {
   const Eigen::Matrix3d R = mujoco_camera_axes(camera.mount_rpy_rad);
-  const Eigen::Vector3d& p = camera.mount_position_m;
-  xml::Element* e = base.InsertNewChildElement("camera");
-  e->SetAttribute("name", kCamera);
-  mjcf::set_numbers(*e, "pos", {p.x(), p.y(), p.z()});
-  mjcf::set_numbers(*e, "xyaxes", {R(0, 0), R(1, 0), R(2, 0), R(0, 1), R(1, 1), R(2, 1)});
-  mjcf::set_numbers(*e, "fovy", {camera.fovy_rad * 180 / std::numbers::pi});
-}
-
-void add_ego(xml::Element& scene, const Scenario& scenario) {
-  const xml::Document fragment = rover_fragment(scenario.ego, scene);
-  add_camera(base_of(*fragment, kEgoPrefix), scenario.camera);
-  merge_fragment(scene, *fragment->RootElement());
-}
-
-/// Rejects procedural textures whose style is unknown, before loading.
-void check_styles(xml::Element& scene) {
-  for (auto* assets = scene.FirstChildElement("asset"); assets;
-       assets = assets->NextSiblingElement("asset")) {
-    for (auto* e = assets->FirstChildElement("texture"); e; e = e->NextSiblingElement("texture")) {
-      const std::filesystem::path file = xml::attribute(*e, "file");
-      const char* name = e->Attribute("name");
-      const std::string called = name ? name : file.stem().string();
-      const std::string style(procedural_style(called));
-      if (style.empty() || is_texture_style(style)) continue;
-      throw input::Error(xml::source_of(*e),
-                         fmt::format("no texture style is called '{}'; there are {}", style,
-                                     fmt::join(texture_styles(), ", ")));
-    }
-  }
-}
-
-/// Removes compiler settings that change bodies and names, the rover's mass, or the search path of
-/// files. Also removes keyframes, whose states lack the rover's joints.
-void set_compiler(xml::Element& scene) {
-  for (auto* c = scene.FirstChildElement("compiler"); c; c = c->NextSiblingElement("compiler")) {
-    for (const char* key : {"fusestatic", "discardvisual", "inertiafromgeom", "settotalmass",
-                            "boundmass", "boundinertia", "strippath"}) {
-      c->DeleteAttribute(key);
-    }
-  }
-  while (xml::Element* keys = scene.FirstChildElement("keyframe")) scene.DeleteChild(keys);
+  mjsCamera& added = *mjs_addCamera(&base, nullptr);
+  mjs_setName(added.element, kCamera);
+  Eigen::Map<Eigen::Vector3d>(added.pos) = camera.mount_position_m;
+  added.alt.type = mjORIENTATION_XYAXES;
+  Eigen::Map<Eigen::Matrix<double, 3, 2>>(added.alt.xyaxes) = R.leftCols<2>();
+  added.fovy = camera.fovy_rad * 180 / std::numbers::pi;
 }
 
 }  // namespace
 
 ComposedScene compose(const Scenario& scenario) {
   ComposedScene composed;
-  const xml::Document document = xml::load(scenario.scene, scenario.scene_source);
-  xml::Element& scene = *document->RootElement();
-  set_compiler(scene);
-  add_actors(scene, scenario, composed);
-  if (scenario.ground) {
-    add_ground(scene, *scenario.ground, scenario.ego.start_m, {scenario.file.string(), 0});
+  composed.spec =
+      composed.reader.read(scenario.scene, scenario.scene_source, SpecReader::Part::scene);
+  mjSpec& scene = *composed.spec;
+  mjs_setDeepCopy(&scene, 1);  // so that a fragment ends with its file
+  try {
+    add_actors(scene, scenario, composed);
+    if (scenario.ground) add_ground(scene, *scenario.ground, scenario.ego.start_m);
+    const Fragment rover = rover_fragment(scenario.ego, composed.reader);
+    add_camera(attach(scene, rover, kEgoPrefix), scenario.camera);
+  } catch (const MujocoError& e) {
+    throw composed.reader.refusal(e.what(), &scene);
   }
-  add_ego(scene, scenario);
-  check_limits(scene);
-  check_styles(scene);
-  composed.mjcf = xml::Printed(*document);
   return composed;
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// Composes one MJCF document from a scenario: the scene and the fragments of rover and actors.
+/// Composes one MuJoCo model from a scenario: the scene and the fragments of rover and actors.
 ///
 /// A scene is plain MJCF. A named body directly in its worldbody is an *object*, which a square
 /// should find. Geoms directly in the worldbody are the static setting. A fragment is MJCF with one
@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
-#include "sim/scene/fragment.h"
-#include "sim/scene/xml.h"
+#include "sim/scene/spec.h"
 
 namespace lcs::sim {
 
+inline constexpr const char* kEgoPrefix = "ego/";
 inline constexpr const char* kEgoBody = "ego/base";
 inline constexpr const char* kCamera = "ego/camera";
 
@@ -30,11 +30,17 @@ struct PictureTexture {
 };
 
 struct ComposedScene {
-  xml::Printed mjcf;
+  SpecReader reader;
+  Spec spec;
   std::vector<std::string> actor_bodies;  ///< body of each actor, in the scenario's order
   /// Size of each actor, [length, width, height] in m; absent for a body of the scene.
   std::vector<std::optional<Eigen::Vector3d>> actor_sizes_m;
   std::vector<PictureTexture> pictures;
+
+  /// Source of a named element; the scene's file without one.
+  input::Source source(mjtObj type, std::string_view name) const {
+    return reader.source(name.empty() ? nullptr : find(*spec, type, name));
+  }
 };
 
 /// \throws input::Error for missing files, files that are not MJCF, actors on bodies that the

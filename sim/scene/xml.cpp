@@ -25,13 +25,6 @@ using tinyxml2::XMLNode;
 constexpr std::array<const char*, 7> kFiles = {"file",     "fileright", "fileleft", "fileup",
                                                "filedown", "filefront", "fileback"};
 
-// Attributes that contain the name of another element.
-constexpr std::array kReferences = {
-    "texture", "material",  "class",      "childclass", "mesh",         "hfield",
-    "joint",   "site",      "body",       "body1",      "body2",        "geom1",
-    "geom2",   "target",    "objname",    "refname",    "tendon",       "actuator",
-    "geom",    "cranksite", "slidersite", "refsite",    "jointinparent"};
-
 // Contains "LINE FILE" of an element's source; no user's attribute has this name.
 constexpr const char* kSource = "lcs:source";
 
@@ -59,7 +52,7 @@ Document parse(const fs::path& file, const input::Source& where) {
     fail(file, root ? root->GetLineNum() : 1, "is not MJCF: its root element must be <mujoco>");
   }
   for_each(*document->RootElement(), [&](Element& e) {
-    set_source(e, {file.string(), e.GetLineNum()});
+    e.SetAttribute(kSource, fmt::format("{} {}", e.GetLineNum(), file.string()).c_str());
   });
   return document;
 }
@@ -151,48 +144,8 @@ void for_each(Element& element, const std::function<void(Element&)>& visit) {
     for_each(*e, visit);
 }
 
-void prefix_names(Element& root, const std::string& prefix) {
-  const auto put = [&](Element& e, const char* key) {
-    if (const char* value = e.Attribute(key)) e.SetAttribute(key, (prefix + value).c_str());
-  };
-  const auto rename = [&](Element& e) {
-    put(e, "name");
-    for (const char* key : kReferences) put(e, key);
-  };
-  for (Element* e = root.FirstChildElement(); e; e = e->NextSiblingElement()) for_each(*e, rename);
-}
-
-void remove_all(Element& root, const char* kind) {
-  for (Element *e = root.FirstChildElement(), *next = nullptr; e; e = next) {
-    next = e->NextSiblingElement();
-    if (is_kind(*e, kind)) {
-      root.DeleteChild(e);
-    } else {
-      remove_all(*e, kind);
-    }
-  }
-}
-
-void append_children(Element& to, const Element& from) {
-  for (const XMLNode* n = from.FirstChild(); n; n = n->NextSibling()) {
-    to.InsertEndChild(n->DeepClone(to.GetDocument()));
-  }
-}
-
-Element& section(Element& root, const char* kind) {
-  if (Element* found = root.FirstChildElement(kind)) return *found;
-  return *root.InsertNewChildElement(kind);
-}
-
 bool is_kind(const Element& element, std::string_view kind) {
   return element.Name() == kind;
-}
-
-Element* child_named(Element& parent, const char* kind, const std::string& name) {
-  for (Element* e = parent.FirstChildElement(kind); e; e = e->NextSiblingElement(kind)) {
-    if (attribute(*e, "name") == name) return e;
-  }
-  return nullptr;
 }
 
 std::string attribute(const Element& element, const char* name) {
@@ -212,67 +165,17 @@ input::Source source_of(const Element& element) {
   return {};
 }
 
-void set_source(Element& element, const input::Source& source) {
-  element.SetAttribute(kSource, fmt::format("{} {}", source.line, source.file).c_str());
+std::vector<input::Source> take_sources(Element& root) {
+  std::vector<input::Source> sources;
+  for_each(root, [&](Element& e) { sources.push_back(source_of(e)); });
+  for_each(root, [](Element& e) { e.DeleteAttribute(kSource); });
+  return sources;
 }
 
 std::string tag(const Element& element) {
   const std::string name = attribute(element, "name");
   return name.empty() ? fmt::format("<{}>", element.Name())
                       : fmt::format("<{} name=\"{}\">", element.Name(), name);
-}
-
-Printed::Printed(XMLDocument& document) {
-  std::vector<Origin> origins;  // in document order
-  for_each(*document.RootElement(), [&](Element& e) {
-    const Element* parent = e.Parent()->ToElement();
-    origins.push_back(
-        {source_of(e), tag(e), e.Name(), attribute(e, "name"), parent ? parent->Name() : ""});
-  });
-  for_each(*document.RootElement(), [](Element& e) { e.DeleteAttribute(kSource); });
-  tinyxml2::XMLPrinter printer;
-  document.Print(&printer);
-  text_ = printer.CStr();
-
-  // MuJoCo counts lines with the same parser
-  XMLDocument again;
-  if (again.Parse(text_.data(), text_.size()) != tinyxml2::XML_SUCCESS) {
-    throw input::Error({origins.front().source.file, 0},
-                       std::string("cannot be read once its parts are put together (") +
-                           XMLDocument::ErrorIDToName(again.ErrorID()) +
-                           "); nest its elements less deeply");
-  }
-  auto origin = origins.begin();
-  for_each(*again.RootElement(), [&](Element& e) {
-    if (origin != origins.end()) origins_.emplace(e.GetLineNum(), std::move(*origin++));
-  });
-}
-
-const Printed::Origin* Printed::at_line(int line) const {
-  const auto found = origins_.find(line);
-  return found == origins_.end() ? nullptr : &found->second;
-}
-
-const Printed::Origin* Printed::named(std::string_view kind, std::string_view name) const {
-  for (const auto& [line, origin] : origins_) {
-    if ((kind.empty() || origin.kind == kind) && origin.name == name) return &origin;
-  }
-  return nullptr;
-}
-
-const Printed::Origin* Printed::within(std::string_view section, int index) const {
-  for (const auto& [line, origin] : origins_) {
-    if (origin.section == section && index-- == 0) return &origin;
-  }
-  return nullptr;
-}
-
-const Printed::Origin* Printed::last(std::string_view kind) const {
-  const Origin* found = nullptr;
-  for (const auto& [line, origin] : origins_) {
-    if (origin.kind == kind) found = &origin;
-  }
-  return found;
 }
 
 }  // namespace lcs::sim::xml

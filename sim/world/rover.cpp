@@ -8,8 +8,11 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "sim/scene/ground.h"
 #include "sim/scene/scene_builder.h"
 #include "sim/world/route.h"
 
@@ -93,17 +96,27 @@ class WheeledRover : public Rover {
  public:
   WheeledRover(const scenario::Scenario& scenario, const Model& model)
       : ego_(scenario.ego),
+        ground_(scenario.ground),
+        file_{scenario.file.string(), 0},
         scene_{scenario.scene.string(), 0},
         command_(scenario.ego.phases),
-        base_(model, "base"),
-        joints_{Joint(model, "left"), Joint(model, "right")},
-        actuators_{actuator(model, "left"), actuator(model, "right")} {
+        base_(model, "base") {
     check(scenario);
-    const int left = model.id(mjOBJ_BODY, std::string(kEgoPrefix) + "left_wheel");
-    const int right = model.id(mjOBJ_BODY, std::string(kEgoPrefix) + "right_wheel");
     const mjModel& m = model.m();
-    track_m_ = m.body_pos[3 * left + 1] - m.body_pos[3 * right + 1];
-    radius_m_ = m.geom_size[3 * m.body_geomadr[left]];
+    std::array<double, 2> y_m{}, count{};  // left, right
+    for (int i = 0; i < m.nu; ++i) {
+      const std::string_view name = model.name(mjOBJ_ACTUATOR, i);
+      const std::string prefix = kEgoPrefix;
+      const bool is_right = name.starts_with(prefix + "right");
+      if (!is_right && !name.starts_with(prefix + "left")) continue;
+      const int joint = m.actuator_trnid[2 * i];
+      wheels_.push_back({i, m.jnt_dofadr[joint], is_right});
+      const int body = m.jnt_bodyid[joint];
+      radius_m_ = m.geom_size[3 * m.body_geomadr[body]];
+      y_m[is_right] += place_in_base(m, body).y();
+      ++count[is_right];
+    }
+    track_m_ = y_m[0] / count[0] - y_m[1] / count[1];
   }
 
   void start(Model& model) override {
@@ -124,24 +137,30 @@ class WheeledRover : public Rover {
     d.qvel[base_.qvel] = v_W.x();
     d.qvel[base_.qvel + 1] = v_W.y();
     d.qvel[base_.qvel + 5] = v.yaw_rate_radps;
-    const std::array<double, 2> wheels = wheel_rates(v);
-    for (std::size_t i = 0; i < 2; ++i) d.qvel[joints_[i].qvel] = wheels[i];
+    for (const Wheel& wheel : wheels_) d.qvel[wheel.qvel] = rate_of(wheel, v);
   }
 
   PlanarVelocity command(Model& model, std::int64_t t_ns) override {
     const PlanarVelocity v = command_.at(t_ns);
-    const std::array<double, 2> wheels = wheel_rates(v);
-    for (std::size_t i = 0; i < 2; ++i) model.d().ctrl[actuators_[i]] = wheels[i];
+    for (const Wheel& wheel : wheels_) model.d().ctrl[wheel.actuator] = rate_of(wheel, v);
     return v;
   }
 
   PlanarVelocity odometry(const Model& model) const override {
-    const double left = model.d().qvel[joints_[0].qvel];
-    const double right = model.d().qvel[joints_[1].qvel];
+    std::array<double, 2> sum{}, count{};  // left, right
+    for (const Wheel& wheel : wheels_) {
+      sum[wheel.is_right] += model.d().qvel[wheel.qvel];
+      ++count[wheel.is_right];
+    }
+    const double left = sum[0] / count[0], right = sum[1] / count[1];
     return {{radius_m_ * (left + right) / 2, 0}, radius_m_ * (right - left) / track_m_};
   }
 
  private:
+  struct Wheel {
+    int actuator, qvel;
+    bool is_right;
+  };
   static constexpr double kDrop_m = 0.01;
   static constexpr double kAbove_m = 1.5;  // below a ceiling, above rough ground
   static constexpr double kSettling_s = 1.0;
@@ -188,6 +207,9 @@ class WheeledRover : public Rover {
     const std::string start =
         fmt::format("ego.start ({:g}, {:g}) m", ego_.start_m.x(), ego_.start_m.y());
     const std::string_view name = geom < 0 ? "" : model.name(mjOBJ_GEOM, geom);
+    if (ground_ && geom >= 0 && m.geom_type[geom] == mjGEOM_HFIELD) {
+      throw input::Error(file_, less_contact(*ground_));
+    }
     throw input::Error(
         scene_,
         geom < 0 ? fmt::format("nothing is under {}, so that a wheeled rover falls there; put a "
@@ -218,17 +240,28 @@ class WheeledRover : public Rover {
     q[6] = turned.z();
   }
 
-  std::array<double, 2> wheel_rates(const PlanarVelocity& v) const {
+  double rate_of(const Wheel& wheel, const PlanarVelocity& v) const {
     const double half = v.yaw_rate_radps * track_m_ / 2;
-    return {(v.linear_mps.x() - half) / radius_m_, (v.linear_mps.x() + half) / radius_m_};
+    return (v.linear_mps.x() + (wheel.is_right ? half : -half)) / radius_m_;
+  }
+
+  /// Origin of a body in B, with all joints at their reference.
+  static Eigen::Vector3d place_in_base(const mjModel& m, int body) {
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    for (; m.body_parentid[body] != 0; body = m.body_parentid[body]) {
+      const mjtNum* q = m.body_quat + 4 * body;
+      place = Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * place +
+              Eigen::Map<const Eigen::Vector3d>(m.body_pos + 3 * body);
+    }
+    return place;
   }
 
   scenario::Ego ego_;
-  input::Source scene_;
+  std::optional<scenario::Ground> ground_;
+  input::Source file_, scene_;
   SmoothCommand command_;
   Joint base_;
-  std::array<Joint, 2> joints_;
-  std::array<int, 2> actuators_;
+  std::vector<Wheel> wheels_;
   double track_m_ = 0;
   double radius_m_ = 0;
 };
@@ -272,10 +305,10 @@ PlanarVelocity SmoothCommand::at(std::int64_t t_ns) {
 }
 
 std::unique_ptr<Rover> make_rover(const scenario::Scenario& scenario, const Model& model) {
-  if (model.has(mjOBJ_ACTUATOR, kEgoPrefix + std::string("left"))) {
-    return std::make_unique<WheeledRover>(scenario, model);
+  if (model.has(mjOBJ_ACTUATOR, kEgoPrefix + std::string("x"))) {
+    return std::make_unique<HolonomicRover>(scenario.ego, model);
   }
-  return std::make_unique<HolonomicRover>(scenario.ego, model);
+  return std::make_unique<WheeledRover>(scenario, model);
 }
 
 }  // namespace lcs::sim

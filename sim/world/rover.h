@@ -56,7 +56,7 @@ class Rover {
   virtual PlanarVelocity odometry(const Model& model) const = 0;
 };
 
-/// Wheeled if the rover has an actuator `left`, else holonomic.
+/// Holonomic if the rover has an actuator `x`, else wheeled.
 /// \throws input::Error for a command that the drive cannot execute (sideways on wheels).
 std::unique_ptr<Rover> make_rover(const scenario::Scenario& scenario, const Model& model);
 

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <system_error>
@@ -20,6 +21,7 @@
 #include "sim/scene/limits.h"
 #include "sim/scene/refusal.h"
 #include "sim/scene/texture.h"
+#include "sim/scene/trial.h"
 
 namespace lcs::sim {
 namespace {
@@ -29,16 +31,9 @@ constexpr double kMoves_m = 1e-7;  // least step of an actor that moves
 constexpr double kActorInside_m =
     0.22;  // less is a graze; the leg of a pedestrian inside a crate is deeper
 
-/// Source of a geom or body of the scene, for errors of the compiled model.
-input::Source source_of(const scenario::Scenario& scenario, const ComposedScene& composed,
-                        std::string_view kind, std::string_view name) {
-  const xml::Printed::Origin* origin = name.empty() ? nullptr : composed.mjcf.named(kind, name);
-  return origin ? origin->source : input::Source{scenario.scene.string(), 0};
-}
-
 /// \throws input::Error if the extent of the scene is too large or too small for the camera; the
 /// error cites the farthest geom or its body.
-void check_extent(const scenario::Scenario& scenario, const ComposedScene& composed, Model& model) {
+void check_extent(const ComposedScene& composed, Model& model) {
   const mjModel& m = model.m();
   if (m.stat.extent >= kLeastExtent_m && m.stat.extent <= kMostExtent_m) return;
   mj_forward(&m, &model.d());
@@ -54,23 +49,31 @@ void check_extent(const scenario::Scenario& scenario, const ComposedScene& compo
   const std::string geom(model.name(mjOBJ_GEOM, farthest));
   const std::string body(model.name(mjOBJ_BODY, m.geom_bodyid[farthest]));
   throw input::Error(
-      geom.empty() ? source_of(scenario, composed, "body", body)
-                   : source_of(scenario, composed, "geom", geom),
+      geom.empty() ? composed.source(mjOBJ_BODY, body) : composed.source(mjOBJ_GEOM, geom),
       fmt::format(
           "the scene is {:g} m large, and a camera sees scenes of {:g} to {:g} m: geom '{}' of "
           "body '{}' reaches {:g} m from the middle of the world; correct its place and size",
           m.stat.extent, kLeastExtent_m, kMostExtent_m, geom, body, distance_m));
 }
 
-Model load(const scenario::Scenario& scenario, const ComposedScene& composed) {
+/// Why a scene is not loaded that was tried in a child process.
+std::string reason_of(const std::string& crash) {
+  if (crash.starts_with("signal")) {
+    return "MuJoCo crashes on this scene (" + crash +
+           "); take out what was changed last; meshes, skins and textures are the first to look at";
+  }
+  return "MuJoCo needs " + (crash == "memory" ? "too much memory" : "more than " + crash) +
+         " to load this scene; make it smaller (sizes in <size>, composites, textures, meshes), or "
+         "raise ulimit -v where that is set";
+}
+
+Model compile(const ComposedScene& composed) {
   try {
-    Model model(composed.mjcf.text());
-    check_extent(scenario, composed, model);
+    Model model(*composed.spec);
+    check_extent(composed, model);
     return model;
-  } catch (const MujocoCrash& e) {
-    throw input::Error({scenario.scene.string(), 0}, e.what());
   } catch (const MujocoError& e) {
-    throw refusal(e.what(), composed.mjcf, scenario.scene);
+    throw composed.reader.refusal(e.what(), composed.spec.get());
   }
 }
 
@@ -108,8 +111,7 @@ std::optional<scenario::Origin> origin_of(const Model& model, const input::Sourc
 /// \throws input::Error if scenario and scene state different origins.
 std::optional<scenario::Origin> origin_of(const scenario::Scenario& scenario,
                                           const ComposedScene& composed, const Model& model) {
-  const auto of_scene =
-      origin_of(model, source_of(scenario, composed, "text", scenario::kOriginText));
+  const auto of_scene = origin_of(model, composed.source(mjOBJ_TEXT, scenario::kOriginText));
   if (!scenario.origin || !of_scene) return scenario.origin ? scenario.origin : of_scene;
   if (scenario.origin->is_same_world(*of_scene)) return scenario.origin;
   throw input::Error(
@@ -173,36 +175,56 @@ std::int64_t event_time_ns(std::int64_t k, double rate_hz) {
   return std::llround(static_cast<double>(k) * 1e9 / rate_hz);
 }
 
-World::World(const scenario::Scenario& scenario, WrongStart wrong_start)
-    : World(scenario, compose(scenario), wrong_start) {}
+/// Loads a scene in a child process first (sim/scene/trial.h), and here only if the child survives.
+/// The child takes as much processor time as the load itself.
+World::Loaded World::load(const scenario::Scenario& scenario) {
+  // MuJoCo holds its own lock during a load: no other thread may fork then
+  static std::mutex loading;
+  const std::lock_guard lock(loading);
+  const Trial trial = try_in_child([&] { compile(compose(scenario)); });
+  if (!trial.crash.empty()) {
+    throw input::Error({scenario.scene.string(), 0}, reason_of(trial.crash));
+  }
+  ComposedScene composed = compose(scenario);  // refuses what it refused in the child
+  Model model = compile(composed);
+  if (!trial.fine) {
+    throw input::Error({scenario.scene.string(), 0},
+                       "a first load failed and a second did not, as where memory is short (" +
+                           trial.refused + "); end other programs, or raise ulimit -v");
+  }
+  return {std::move(composed), std::move(model)};
+}
 
-World::World(const scenario::Scenario& scenario, const ComposedScene& composed,
-             WrongStart wrong_start)
+World::World(const scenario::Scenario& scenario, WrongStart wrong_start)
+    : World(scenario, load(scenario), wrong_start) {}
+
+World::World(const scenario::Scenario& scenario, Loaded loaded, WrongStart wrong_start)
     : scenario_(scenario),
-      model_(load(scenario, composed)),
+      composed_(std::move(loaded.composed)),
+      model_(std::move(loaded.model)),
       imu_noise_(scenario.imu.noise, scenario.imu.rate_hz, scenario.seed),
       odometry_noise_(scenario.odometry, scenario.seed),
       camera_(model_.id(mjOBJ_CAMERA, kCamera)),
       base_(model_.id(mjOBJ_BODY, kEgoBody)),
       imu_site_(model_.id(mjOBJ_SITE, "ego/imu")) {
-  origin_ = origin_of(scenario_, composed, model_);
-  fill_textures(model_, scenario_, composed);
+  origin_ = origin_of(scenario_, composed_, model_);
+  fill_textures(model_, scenario_, composed_);
   if (scenario_.ground) raise_ground(model_, *scenario_.ground, scenario_.seed);
-  set_options(composed);
+  set_options();
   rover_ = make_rover(scenario_, model_);
-  find_objects(composed);
+  find_objects();
   guarded([&] {
     mj_kinematics(&model_.m(), &model_.d());
-    find_actors(composed);
+    find_actors();
     rover_->start(model_);
     mj_kinematics(&model_.m(), &model_.d());
     forward();
-    begin_watch(composed, wrong_start);
+    begin_watch(wrong_start);
   });
 }
 
 /// Sets the physics that the readings rely on, and overrides the scene's options.
-void World::set_options(const ComposedScene& composed) {
+void World::set_options() {
   mjOption& option = model_.m().opt;
   option.integrator = mjINT_EULER;
   option.disableflags &= ~(mjDSBL_ACTUATION | mjDSBL_CLAMPCTRL | mjDSBL_FILTERPARENT);
@@ -211,17 +233,16 @@ void World::set_options(const ComposedScene& composed) {
   const mjtNum* g = option.gravity;
   const bool upright = g[0] == 0 && g[1] == 0 && g[2] <= 0;
   if (!upright) {
-    const xml::Printed::Origin* origin = composed.mjcf.last("option");
-    throw input::Error(origin ? origin->source : input::Source{scenario_.scene.string(), 0},
+    throw input::Error({scenario_.scene.string(), 0},
                        "gravity must point along -z of the world; correct <option gravity>");
   }
   gravity_mps2_ = option.disableflags & mjDSBL_GRAVITY ? 0 : -g[2];
 }
 
-void World::find_objects(const ComposedScene& composed) {
+void World::find_objects() {
   const mjModel& m = model_.m();
   const auto refuse = [&](const std::string& body, const std::string& what) {
-    throw input::Error(source_of(scenario_, composed, "body", body), what);
+    throw input::Error(composed_.source(mjOBJ_BODY, body), what);
   };
   object_bodies_ = {0};
   std::vector<int> object_of_body(static_cast<std::size_t>(m.nbody), 0);
@@ -259,10 +280,10 @@ void World::find_objects(const ComposedScene& composed) {
   }
 }
 
-void World::find_actors(const ComposedScene& composed) {
+void World::find_actors() {
   for (std::size_t i = 0; i < scenario_.actors.size(); ++i) {
     const scenario::Actor& actor = scenario_.actors[i];
-    const int body = model_.id(mjOBJ_BODY, composed.actor_bodies[i]);
+    const int body = model_.id(mjOBJ_BODY, composed_.actor_bodies[i]);
     const Pose T_WA = model_.body_pose(body);
     const PlanarPose home{T_WA.p.head<2>(), yaw(T_WA.R)};
     actors_.push_back({model_.m().body_mocapid[body], T_WA.p.z(),
@@ -274,13 +295,13 @@ void World::find_actors(const ComposedScene& composed) {
 
 /// Rejects impossible overlaps at the start. Actors may start inside walls; an actor that only
 /// grazes an object gets a warning later.
-void World::begin_watch(const ComposedScene& composed, WrongStart wrong_start) {
+void World::begin_watch(WrongStart wrong_start) {
   for (const int group : scenario_.camera.groups) groups_[static_cast<std::size_t>(group)] = true;
   const Drawables drawables(model_, groups_, camera_);
   for (int geom = 0; geom < model_.m().ngeom; ++geom) {
     is_drawn_.push_back(drawables.alpha(geom) > 0);
   }
-  const std::vector<std::string>& bodies = composed.actor_bodies;
+  const std::vector<std::string>& bodies = composed_.actor_bodies;
   const auto actor_of = [&](int object) {
     const std::string& name = objects_[static_cast<std::size_t>(object - 1)].name;
     return std::find(bodies.begin(), bodies.end(), name) - bodies.begin();
@@ -290,10 +311,10 @@ void World::begin_watch(const ComposedScene& composed, WrongStart wrong_start) {
     const auto actor = actor_of(object.id);
     const bool is_actor = actor < std::ssize(bodies);
     named.push_back({object.name, body_of(object.id), is_actor, {}});
-    if (is_actor) named.back().size_m = composed.actor_sizes_m[static_cast<std::size_t>(actor)];
+    if (is_actor) named.back().size_m = composed_.actor_sizes_m[static_cast<std::size_t>(actor)];
   }
   watch_ = std::make_unique<Watch>(model_, base_, named, object_of_geom_, is_drawn_);
-  note_looks(composed, drawables);
+  note_looks(drawables);
   for (const Watch::Meeting& meeting : watch_->meetings(model_)) {
     const bool is_rover = meeting.traveller == 0;
     const bool is_inside =
@@ -311,23 +332,24 @@ void World::begin_watch(const ComposedScene& composed, WrongStart wrong_start) {
 }
 
 /// Warns of parts that look otherwise than in MuJoCo's own pictures.
-void World::note_looks(const ComposedScene& composed, const Drawables& drawables) {
-  const auto warn = [&](Warning warning, const char* kind, std::string_view name,
+void World::note_looks(const Drawables& drawables) {
+  const auto warn = [&](Warning warning, mjtObj kind, std::string_view name,
                         const std::string& what) {
-    warnings().add(warning, input::Error(source_of(scenario_, composed, kind, name), what).what());
+    warnings().add(warning, input::Error(composed_.source(kind, name), what).what());
   };
   for (int geom = 0; geom < model_.m().ngeom; ++geom) {
     const float alpha = drawables.alpha(geom);
     if (alpha <= 0 || alpha >= 1 || drawables.is_stain(geom)) continue;
     const std::string_view body = model_.name(mjOBJ_BODY, model_.m().geom_bodyid[geom]);
     const std::string_view name = model_.name(mjOBJ_GEOM, geom);
-    warn(Warning::translucent_geoms, name.empty() ? "body" : "geom", name.empty() ? body : name,
+    warn(Warning::translucent_geoms, name.empty() ? mjOBJ_BODY : mjOBJ_GEOM,
+         name.empty() ? body : name,
          fmt::format("a geom of body '{}' has alpha {:g} and is drawn opaque", body, alpha));
   }
   for (const auto& [type, id] : undrawn_parts(model_)) {
     const std::string_view name = model_.name(type, id);
-    const char* kind = mju_type2Str(type);
-    warn(Warning::undrawn_parts, kind, name, fmt::format("{} '{}' is not drawn", kind, name));
+    warn(Warning::undrawn_parts, type, name,
+         fmt::format("{} '{}' is not drawn", mju_type2Str(type), name));
   }
 }
 
@@ -445,9 +467,8 @@ ImuSample World::ideal_reading() {
     const Eigen::Matrix3d R_middle =
         imu_truth_.T_WS.R * Eigen::AngleAxisd(turn.angle() / 2, turn.axis());
     reading.gyro_radps = turn.angle() / span_s * turn.axis();
-    reading.accel_mps2 =
-        R_middle.transpose() * ((v_WS_mps - imu_truth_.v_WS_mps) / span_s +
-                                gravity_mps2_ * Eigen::Vector3d::UnitZ());
+    reading.accel_mps2 = R_middle.transpose() * ((v_WS_mps - imu_truth_.v_WS_mps) / span_s +
+                                                 gravity_mps2_ * Eigen::Vector3d::UnitZ());
   } else {
     Eigen::Matrix<mjtNum, 6, 1> motion;  // rotation, translation; acceleration includes gravity
     mj_rnePostConstraint(&model_.m(), &model_.d());
@@ -513,7 +534,9 @@ std::string World::saved(bool as_mjcf) {
   const std::string path = "/proc/self/fd/" + std::to_string(file);
   std::array<char, 1000> message{};
   if (as_mjcf) {
-    mj_saveLastXML(path.c_str(), &m, message.data(), static_cast<int>(message.size()));
+    mjSpec* spec = composed_.spec.get();
+    mj_copyBack(spec, &m);
+    mj_saveXML(spec, path.c_str(), message.data(), static_cast<int>(message.size()));
   } else {
     mj_saveModel(&m, path.c_str(), nullptr, 0);
   }

@@ -74,7 +74,7 @@ class World {
   const std::vector<std::string>& wrong_at_start() const { return wrong_at_start_; }
 
   /// The world as MJCF with rover and actors at their present poses, or as MuJoCo's binary. Call it
-  /// at t = 0: it changes the model, which must be the last model made in this process.
+  /// at t = 0: it changes the model.
   /// \throws MujocoError; std::system_error if memory is short.
   std::string saved(bool as_mjcf);
 
@@ -99,12 +99,17 @@ class World {
     bool has_moved = false;
   };
 
-  World(const scenario::Scenario& scenario, const ComposedScene& composed, WrongStart wrong_start);
-  void set_options(const ComposedScene& composed);
-  void find_objects(const ComposedScene& composed);
-  void find_actors(const ComposedScene& composed);
-  void begin_watch(const ComposedScene& composed, WrongStart wrong_start);
-  void note_looks(const ComposedScene& composed, const Drawables& drawables);
+  struct Loaded {
+    ComposedScene composed;
+    Model model;
+  };
+  static Loaded load(const scenario::Scenario& scenario);
+  World(const scenario::Scenario& scenario, Loaded loaded, WrongStart wrong_start);
+  void set_options();
+  void find_objects();
+  void find_actors();
+  void begin_watch(WrongStart wrong_start);
+  void note_looks(const Drawables& drawables);
   void end_watch();
   void place(const MovingActor& actor, const PlanarPose& pose);
   void move_actors();
@@ -118,6 +123,7 @@ class World {
                     std::vector<ImuTruth>* imu_truth);
 
   scenario::Scenario scenario_;
+  ComposedScene composed_;
   Model model_;
   std::optional<scenario::Origin> origin_;
   std::unique_ptr<Rover> rover_;

@@ -1,7 +1,5 @@
 #include "tests/benchmark/raw_renderer.h"
 
-#include <GL/gl.h>
-
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
@@ -80,7 +78,7 @@ struct RawRenderer::Impl {
     if (settings.read_back) {
       mjr_readPixels(rgb, z, viewport, &context);
     } else {
-      glFinish();
+      reinterpret_cast<void (*)()>(gl.function("glFinish"))();
     }
   }
 

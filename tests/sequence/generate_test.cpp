@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -364,7 +365,7 @@ TEST_F(Generated, TheSameAgainIsCheckedAndLeftAlone) {
   EXPECT_EQ(bytes_in(folder()), before);
 }
 
-// ---- Refused commands
+// ---- Other commands
 
 class Generate : public testing::Test {
  protected:
@@ -383,6 +384,26 @@ TEST_F(Generate, OnlyWhatIsAskedForIsWritten) {
                     .contains(file))
         << file;
   }
+}
+
+TEST_F(Generate, EglGivesTheSameBytesAsOsmesa) {
+  const auto pictures_by = [&](const char* library) {
+    ::setenv("LCS_GL", library, 1);
+    const fs::path out = home_.path() / library;
+    const CommandResult result = generate({"--out", out, "--formats", "depth", "--quiet"});
+    ::unsetenv("LCS_GL");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return bytes_in(out);
+  };
+  const auto osmesa = pictures_by("osmesa"), egl = pictures_by("egl");
+  EXPECT_GT(osmesa.size(), 2 * kFrames);
+  EXPECT_EQ(osmesa, egl);
+
+  ::setenv("LCS_GL", "vulkan", 1);
+  const CommandResult wrong = generate({"--out", folder(), "--quiet"});
+  ::unsetenv("LCS_GL");
+  EXPECT_NE(wrong.exit_code, 0);
+  EXPECT_NE(wrong.err.find("set it to osmesa, egl or gpu"), std::string::npos) << wrong.err;
 }
 
 TEST_F(Generate, AFolderThatHoldsSomethingElseIsRefusedAndLeftAsItIs) {

@@ -1,5 +1,4 @@
 // Behaviour when GL fails: uses OSMesa itself, except for the calls that a test makes fail.
-#include <GL/osmesa.h>
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
@@ -25,16 +24,16 @@ Function* next(const char* name) {
 
 }  // namespace
 
-// The linker takes the program's symbols before the library's.
-extern "C" OSMesaContext OSMesaCreateContextExt(GLenum format, GLint depth_bits, GLint stencil_bits,
-                                                GLint accumulator_bits, OSMesaContext shared) {
+// A program's symbols come before those of its libraries.
+extern "C" void* OSMesaCreateContextExt(unsigned format, int depth_bits, int stencil_bits,
+                                        int accumulator_bits, void* shared) {
   if (fails_to_create) return nullptr;
   return next<decltype(OSMesaCreateContextExt)>("OSMesaCreateContextExt")(
       format, depth_bits, stencil_bits, accumulator_bits, shared);
 }
-extern "C" GLboolean OSMesaMakeCurrent(OSMesaContext context, void* buffer, GLenum type,
-                                       GLsizei width, GLsizei height) {
-  if (fails_to_make_current) return GL_FALSE;
+extern "C" unsigned char OSMesaMakeCurrent(void* context, void* buffer, unsigned type, int width,
+                                           int height) {
+  if (fails_to_make_current) return 0;
   return next<decltype(OSMesaMakeCurrent)>("OSMesaMakeCurrent")(context, buffer, type, width,
                                                                 height);
 }

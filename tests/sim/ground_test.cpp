@@ -103,14 +103,16 @@ TEST(Ground, DoesNotStopTheRover) {
     if (o->index == 0) first = o->truth.now.T_WC.p;
     last = o->truth.now.T_WC.p;
   }
-  EXPECT_NEAR((last - first).x(), 0.4 * 1.1, 0.08);
+  // over the bumps its way is longer, and its wheels slip: 0.36 of 0.44 m
+  EXPECT_GT((last - first).x(), 0.75 * 0.4 * 1.1);
+  EXPECT_LT((last - first).x(), 1.05 * 0.4 * 1.1);
 }
 
 /// The error message of driving on such bumps.
 std::string refusal_of(double roughness_m, double wavelength_m) {
   auto s = rough(roughness_m);
   s.ground->wavelength_m = wavelength_m;
-  return test::physics_error(s, 500'000'000);
+  return test::scenario_error([&] { World world(s); });
 }
 
 TEST(Ground, ThatTouchesTheRoverInTooManyPlacesSaysWhichNumberHelps) {

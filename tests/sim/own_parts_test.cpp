@@ -243,6 +243,37 @@ TEST_F(OwnActor, MeansTheSameInASceneOfOtherAnglesAndDefaults) {
   }
 }
 
+TEST_F(OwnActor, OfAnArticulatedModelKeepsThePoseAskedFor) {
+  // a leg of 1 m hangs from a hinge at 1 m above the ground; the keyframe turns it forward
+  write("dog.xml",
+        "<mujoco>\n<option timestep='.01'/><compiler angle='radian'/>\n<worldbody><body "
+        "name='trunk' pos='0 0 1'><freejoint/>\n<geom size='.01'/><body name='leg'><joint "
+        "name='hip' axis='0 1 0'/><geom type='capsule' fromto='0 0 0 0 0 -1' size='.05'/></body>"
+        "</body></worldbody>\n<actuator><position joint='hip'/></actuator>\n<keyframe><key "
+        "name='home' qpos='0 0 1 1 0 0 0 -1.5707963267948966'/></keyframe></mujoco>");
+  const fs::path truck = file({.asset = "<asset><model name='dog' file='dog.xml'/></asset>",
+                               .inside = "<attach model='dog' body='trunk' prefix='d/'/>"});
+  const auto posed = [&](const std::string& pose, const Vector3d& size) {
+    auto s = on_floor();
+    s.actors = {own_actor("truck", truck)};
+    s.actors[0].pose = pose;
+    s.actors[0].size_m = size;
+    return s;
+  };
+  const Vector3d natural(1, .5, 1);
+  const auto [hung_low, hung_high] = extent(World(posed("zero", natural)));
+  EXPECT_NEAR((hung_low - Vector3d(-.05, -.05, -.05)).norm(), 0, 1e-6) << hung_low.transpose();
+  const auto [low, high] = extent(World(posed("home", natural)));
+  EXPECT_NEAR((low - Vector3d(-.05, -.05, .95)).norm(), 0, 1e-6) << low.transpose();
+  EXPECT_NEAR((high - Vector3d(1.05, .05, 1.05)).norm(), 0, 1e-6) << high.transpose();
+  const auto [large_low, large_high] = extent(World(posed("home", 2 * natural)));
+  EXPECT_NEAR((large_high - 2 * high).norm(), 0, 1e-6) << large_high.transpose();
+  auto s = posed("sit", natural);
+  s.actors[0].source = {"test.yaml", 9};
+  expect_refused(s, "test.yaml", 9, {"'sit'", "zero, d/home"});
+  expect_refused(posed("", natural), folder_ / "dog.xml", 3, {"an actor is one rigid body"});
+}
+
 TEST_F(OwnActor, SeveralOfOneFileStandBesideEachOtherEachInItsOwnColours) {
   const fs::path truck =
       file({.asset = "<asset><texture name='t' type='cube' builtin='flat' width='32' height='192' "
@@ -303,20 +334,21 @@ TEST_F(OwnActor, HasNoContactsWhateverItsFileSays) {
 }
 
 TEST_F(OwnActor, IsRefusedWhereItBreaksTheContractNamingFileLineAndRemedy) {
-  expect({.base = "<body name='truck'>"}, 5, {"no body called 'base'", "<body name=\"base\">"});
+  expect({.base = "<body name='truck'>"}, 6, {"no body called 'base'", "<body name=\"base\">"});
   expect({.beside = "<geom name='floor' type='plane' size='1 1 1'/>"}, 5,
          {"<geom name=\"floor\">", "beside the one body 'base'", "move it into 'base'"});
   expect({.base = "<body name='base' pos='0 0 1'>"}, 6, {"place or rotation", "take it away"});
   expect({.base = "<body name='base' euler='0 0 90'>"}, 6, {"place or rotation"});
-  expect({.size = ""}, 1, {"natural size", "<numeric name=\"size\""});
+  expect({.size = ""}, 6, {"natural size", "<numeric name=\"size\""});
   expect({.size = "<custom><numeric name='size' data='1 1'/></custom>"}, 3, {"'1 1'", "in m"});
   expect({.size = "<custom><numeric name='size' data='1 0 1'/></custom>"}, 3, {"natural size"});
   expect({.inside = "<joint name='lift'/><geom size='.1'/>"}, 7,
-         {"<joint name=\"lift\">", "one rigid body", "take the joint away"});
-  expect({.inside = "<freejoint/><geom size='.1'/>"}, 7, {"<freejoint>", "rigid"});
+         {"<joint name=\"lift\">", "one rigid body", "take the joint away",
+          "or give the actor a pose"});
+  // MuJoCo tells no line of a <freejoint>: the line is its body's
+  expect({.inside = "<freejoint/><geom size='.1'/>"}, 6, {"rigid"});
   expect({.inside = "<geom type='plane' size='1 1 1'/>"}, 7, {"a plane", "use a box"});
   expect({.inside = ""}, 6, {"no geom", "give it one"});
-  expect({.top = "<tendon/>"}, 2, {"<tendon>", "take it away"});
   expect({}, 1, {"actor 'truck'", "'bricks'", "material 'paint'", "<material name=\"paint\""},
          "bricks");
   expect({.asset = "<asset><material name='paint' rgba='1 0 0 1'/></asset>"}, 4, {"'paint'"},
@@ -331,7 +363,7 @@ TEST_F(OwnActor, IsRefusedByMujocoAtItsOwnFileAndLine) {
          {(folder_ / "gone.obj").string(), "missing"});
   expect({.asset = "<asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 1 1 0'/></asset>",
           .inside = "<geom type='mesh' mesh='m'/>"},
-         4, {"qhull", "plane"});
+         4, {"coplanar", "thickness"});
   expect({.asset = "<asset><texture name='procedural:brocks' type='cube' builtin='flat' width='8' "
                    "height='48'/></asset>"},
          4, {"brocks", "bricks"});
@@ -345,12 +377,11 @@ TEST_F(OwnActor, IsRefusedByMujocoAtItsOwnFileAndLine) {
 class OwnRover : public OwnPart {
  protected:
   struct Parts {
-    // on lines 2, 4, 6, 8 and 10
+    // on lines 2, 4, 6 and 8
     std::string base = "<body name='base'>";
     std::string joints = kJoints;
     std::string inside = kInside;
     std::string actuator = kActuators;
-    std::string sensor = kSensors;
   };
   static constexpr const char* kJoints =
       "<joint name='x' type='slide' axis='1 0 0'/><joint name='y' type='slide' axis='0 1 0'/>"
@@ -360,8 +391,6 @@ class OwnRover : public OwnPart {
   static constexpr const char* kActuators =
       "<velocity name='x' joint='x' kv='2000'/><velocity name='y' joint='y' kv='2000'/>"
       "<velocity name='yaw' joint='yaw' kv='50'/>";
-  static constexpr const char* kSensors =
-      "<accelerometer name='accelerometer' site='imu'/><gyro name='gyro' site='imu'/>";
   static constexpr const char* kWheels =
       "<geom type='box' size='.2 .1 .05' pos='0 0 .12' mass='8' contype='0' conaffinity='0'/>"
       "<geom size='.03' pos='.17 0 .03' condim='1' friction='0 0 0' priority='1'/>"
@@ -377,8 +406,7 @@ class OwnRover : public OwnPart {
     return {.joints = "<freejoint name='base'/>", .inside = kWheels, .actuator = kWheelActuators};
   }
   static Parts with(Parts parts, const std::string& from, const std::string& to) {
-    for (std::string* text :
-         {&parts.base, &parts.joints, &parts.inside, &parts.actuator, &parts.sensor}) {
+    for (std::string* text : {&parts.base, &parts.joints, &parts.inside, &parts.actuator}) {
       const std::size_t at = text->find(from);
       if (at != std::string::npos) text->replace(at, from.size(), to);
     }
@@ -388,10 +416,9 @@ class OwnRover : public OwnPart {
   scenario::Scenario scenario(const Parts& p) const {
     auto s = on_floor();
     s.ego.drive = scenario::Drive::own;
-    s.ego.drive_file =
-        write("rover.xml", "<mujoco><worldbody>\n" + p.base + "\n\n" + p.joints + "\n\n" +
-                               p.inside + "</body></worldbody><actuator>" + "\n\n" + p.actuator +
-                               "</actuator><sensor>\n\n" + p.sensor + "</sensor></mujoco>");
+    s.ego.drive_file = write("rover.xml", "<mujoco><worldbody>\n" + p.base + "\n\n" + p.joints +
+                                              "\n\n" + p.inside + "</body></worldbody><actuator>" +
+                                              "\n\n" + p.actuator + "</actuator></mujoco>");
     return s;
   }
   void expect(const Parts& parts, int line, const std::vector<std::string>& words) const {
@@ -437,6 +464,34 @@ TEST_F(OwnRover, DrivesOnWheelsWhereItHasTheActuatorsForThem) {
             std::string::npos);
 }
 
+TEST_F(OwnRover, DrivesOnFourWheelsWithAnArmOnTop) {
+  std::string wheels =
+      "<geom type='box' size='.2 .1 .05' pos='0 0 .15' mass='8' contype='0' "
+      "conaffinity='0'/><site name='imu' pos='0 0 .2'/>"
+      "<body pos='0 0 .2'><joint name='arm' axis='0 1 0' damping='1'/><geom "
+      "type='box' size='.02 .02 .1' pos='0 0 .1' mass='.2'/></body>";
+  std::string actuators = "<position name='arm' joint='arm' kp='20'/>";
+  for (const char* side : {"left", "right"}) {
+    for (const char* end : {"front", "rear"}) {
+      const std::string name = std::string(side) + "_" + end;
+      const std::string place = std::string(end == std::string("front") ? ".15 " : "-.15 ") +
+                                (side == std::string("left") ? ".2" : "-.2");
+      wheels += "<body pos='" + place + " .12'><joint name='" + name +
+                "' axis='0 1 0' armature='.01'/><geom type='ellipsoid' size='.12 .03 .12' "
+                "mass='.5'/></body>";
+      actuators += "<velocity name='" + name + "' joint='" + name + "' kv='2'/>";
+    }
+  }
+  auto s =
+      scenario({.joints = "<freejoint name='base'/>", .inside = wheels, .actuator = actuators});
+  EXPECT_NEAR(driven(s).p.x(), 1, 0.06);
+  s.ego.phases[0].yaw_rate_radps = 0.3;
+  const Pose turned = driven(s);
+  const double heading = std::atan2(turned.R(1, 0), turned.R(0, 0));
+  EXPECT_GT(heading, 0.1) << "its wheels scrub, so that it turns less than the 0.6 rad asked for";
+  EXPECT_LT(heading, 0.65);
+}
+
 TEST_F(OwnRover, MayHaveACameraOfItsOwnForAViewer) {
   auto parts = Parts{};
   parts.inside += "<camera name='camera' pos='0 0 9'/>";
@@ -445,36 +500,33 @@ TEST_F(OwnRover, MayHaveACameraOfItsOwnForAViewer) {
 }
 
 TEST_F(OwnRover, IsRefusedWhereItBreaksTheContractNamingFileLineAndRemedy) {
-  expect({.base = "<body name='hull'>"}, 1, {"no body called 'base'"});
+  expect({.base = "<body name='hull'>"}, 2, {"no body called 'base'"});
   expect({.base = "<body name='base' pos='0 0 .1'>"}, 2, {"place or rotation"});
   expect(with({}, "<site name='imu' pos='0 0 .2'/>", ""), 2, {"no site called 'imu'", "<site"});
-  expect(with({}, "<accelerometer name='accelerometer' site='imu'/>", ""), 1,
-         {"no accelerometer called 'accelerometer'", "<sensor>"});
-  expect(with({}, "<gyro name='gyro'", "<gyro name='g'"), 1, {"no gyro called 'gyro'"});
-  expect(with({}, "<gyro name='gyro' site='imu'/>", "<gyro name='gyro' site='other'/>"), 10,
-         {"not at the site 'imu'"});
-  expect({.actuator = ""}, 6, {"has none", "x, y and yaw", "left and right"});
-  expect(with({}, "<velocity name='yaw' joint='yaw' kv='50'/>", ""), 6, {"it has x, y;"});
+  expect({.actuator = ""}, 2, {"has none", "x, y and yaw", "left and right"});
+  expect(with({}, "<velocity name='yaw' joint='yaw' kv='50'/>", ""), 8, {"it has x, y;"});
   expect({.actuator = std::string(kActuators) + kWheelActuators}, 8, {"'left'", "no joint"});
   expect(with({}, "<velocity name='y' joint='y'", "<velocity name='y' joint='x'"), 8,
          {"the actuator 'y'", "<velocity name=\"y\" joint=\"y\""});
   expect(with({}, "<velocity name='x' joint='x' kv='2000'/>", "<motor name='x' joint='x'/>"), 8,
          {"the actuator 'x'", "a velocity"});
-  expect(with({}, "axis='0 1 0'", "axis='1 0 0'"), 4, {"<joint name=\"y\">", "axis=\"0 1 0\""});
+  expect(with({}, "axis='0 1 0'", "axis='1 0 0'"), 4, {"<joint name=\"y\">", "the axis 0 1 0"});
   expect({.joints = "<joint name='yaw'/><joint name='x' type='slide' axis='1 0 0'/><joint name='y' "
                     "type='slide' axis='0 1 0'/>"},
          2, {"yaw, x, y", "in this order"});
 
   expect(with(wheeled(), "<freejoint name='base'/>", "<freejoint/>"), 4,
          {"<freejoint name=\"base\"/>"});
-  expect(with(wheeled(), "name='left_wheel'", "name='wheel'"), 2,
-         {"no body called 'left_wheel'", "radius"});
   expect(with(wheeled(), "pos='0 .2 .12'", "pos='.1 .2 .12'"), 6,
-         {"the wheels stand at (0.1, 0.2)", "(0, y)"});
+         {"wheels are at (0.1, 0.2)", "(0, y)"});
+  expect(with(wheeled(), "size='.12 .03 .12'", "size='.1 .03 .1'"), 6,
+         {"a radius of 0.12 m", "0.1 m", "the same"});
+  expect(with(wheeled(), "name='left' axis='0 1 0'", "name='left' axis='0 1 0' pos='.1 0 0'"), 6,
+         {"<joint name=\"left\">", "through the origin of its body"});
   expect(with(wheeled(), "name='left' axis='0 1 0'", "name='left' axis='1 0 0'"), 6,
-         {"<joint name=\"left\">", "axis=\"0 1 0\""});
+         {"<joint name=\"left\">", "the axis 0 1 0"});
   expect(with(wheeled(), "type='ellipsoid' size='.12 .03 .12'", "type='box' size='.1 .1 .1'"), 6,
-         {"'left_wheel' tells its radius", "is a box"});
+         {"'left' tells its radius", "another type"});
   expect(with(with(wheeled(), "<site name='imu' pos='0 0 .2'/>", ""), "armature='.01'/>",
               "/><site name='imu'/>"),
          6, {"in a body that moves"});

@@ -452,7 +452,7 @@ TEST(Physics, WhatTheEngineGivesUpOnIsToldWithTheSimulatedTime) {
   // too little memory for a step: an error of the engine, whereas divergence is a warning
   std::string mjcf =
       floor_with("<body name='ball' pos='3 0 1'><freejoint/><geom size='.1'/></body>");
-  mjcf.insert(mjcf.find("<statistic"), "<size nstack='300'/>");
+  mjcf.insert(mjcf.find("<statistic"), "<size memory='2K'/>");
   const std::string message = physics_error(scenario_in_mjcf(mjcf, 0, 1), 5'000'000'000);
   EXPECT_NE(message.find(" s of simulated time"), std::string::npos) << message;
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/scene/model.h"
+#include "tests/sim/model_of.h"
 #include "tests/sim/support.h"
 
 namespace lcs::sim {
@@ -20,8 +20,9 @@ constexpr double kNear = 0.05;
 
 /// Outline of a single MuJoCo geom, in the frame of its attributes.
 ConvexParts geom(const std::string& attributes, const std::string& assets = "") {
-  Model model("<mujoco><asset>" + assets + "</asset><worldbody><geom " + attributes +
-              "/></worldbody></mujoco>");
+  const std::string mjcf = "<mujoco><asset>" + assets + "</asset><worldbody><geom " + attributes +
+                           "/></worldbody></mujoco>";
+  Model model = test::model_of(mjcf);
   mj_kinematics(&model.m(), &model.d());
   const Pose T = model.geom_pose(0);
   return {(T.R * geom_hull(model.m(), 0)).colwise() + T.p};

@@ -37,7 +37,7 @@ fi
 
 mkdir -p "$root/lcs"
 find "$root/lcs" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
-tar -C "$source" --exclude='./build*' --exclude=./out --exclude=./.git -c . | tar -C "$root/lcs" -x
+tar -C "$source" --exclude='./build*' --exclude=./.mujoco --exclude=./out --exclude=./.git -c . | tar -C "$root/lcs" -x
 
 # The mounts are private to this process and end with it.
 unshare --mount --pid --fork bash -euc '

@@ -9,6 +9,7 @@
 #include "scenarios/load.h"
 #include "sim/pictures/picture_file.h"
 #include "sim/scene/model.h"
+#include "tests/sim/model_of.h"
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
@@ -135,7 +136,7 @@ TEST_F(PreviewCommand, TheWorldThatItWritesLoadsAgainAndStandsAsAtTheStart) {
       {.folder = folder_.path()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, "");
-  sim::Model model(read(folder_.path() / "world.xml"));
+  sim::Model model = sim::test::model_of(read(folder_.path() / "world.xml"));
   mj_forward(&model.m(), &model.d());
   const Eigen::Vector3d walker = model.body_pose(model.id(mjOBJ_BODY, "walker")).p;
   EXPECT_NEAR((walker.head<2>() - Eigen::Vector2d(3, -1)).norm(), 0, 1e-6);

@@ -1,0 +1,275 @@
+#include "sim/scene/spec.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "sim/scene/limits.h"
+#include "sim/scene/model.h"
+#include "sim/scene/refusal.h"
+#include "sim/scene/texture.h"
+
+namespace lcs::sim {
+namespace {
+
+using xml::Element;
+using xml::is_kind;
+
+/// Rejects procedural textures whose style is unknown.
+void check_styles(Element& root) {
+  xml::for_each(root, [](const Element& e) {
+    if (!is_kind(e, "texture")) return;
+    const char* name = e.Attribute("name");
+    const std::filesystem::path file = xml::attribute(e, "file");
+    const std::string style(procedural_style(name ? name : file.stem().string()));
+    if (style.empty() || is_texture_style(style)) return;
+    throw input::Error(xml::source_of(e),
+                       fmt::format("no texture style is called '{}'; there are {}", style,
+                                   fmt::join(texture_styles(), ", ")));
+  });
+}
+
+void remove_sections(Element& root, std::initializer_list<const char*> kinds) {
+  for (const char* kind : kinds) {
+    while (Element* section = root.FirstChildElement(kind)) root.DeleteChild(section);
+  }
+}
+
+/// Removes settings that would change other bodies, names, the rover's mass, or the search path of
+/// files, and keyframes of a scene, whose states lack the rover's joints.
+void prepare(Element& root, SpecReader::Part part) {
+  for (Element* c = root.FirstChildElement("compiler"); c; c = c->NextSiblingElement("compiler")) {
+    for (const char* key : {"fusestatic", "discardvisual", "inertiafromgeom", "settotalmass",
+                            "boundmass", "boundinertia", "strippath"}) {
+      c->DeleteAttribute(key);
+    }
+  }
+  if (part == SpecReader::Part::scene) {
+    remove_sections(root, {"keyframe"});
+  } else {
+    remove_sections(root, {"option", "size", "visual", "statistic"});
+  }
+  check_limits(root);
+  check_styles(root);
+}
+
+const mjString* info_of(mjsElement* e) {
+  switch (e->elemtype) {
+    case mjOBJ_BODY:
+      return mjs_asBody(e)->info;
+    case mjOBJ_JOINT:
+      return mjs_asJoint(e)->info;
+    case mjOBJ_GEOM:
+      return mjs_asGeom(e)->info;
+    case mjOBJ_SITE:
+      return mjs_asSite(e)->info;
+    case mjOBJ_ACTUATOR:
+      return mjs_asActuator(e)->info;
+    case mjOBJ_TENDON:
+      return mjs_asTendon(e)->info;
+    case mjOBJ_FLEX:
+      return mjs_asFlex(e)->info;
+    case mjOBJ_SKIN:
+      return mjs_asSkin(e)->info;
+    case mjOBJ_TEXTURE:
+      return mjs_asTexture(e)->info;
+    case mjOBJ_HFIELD:
+      return mjs_asHField(e)->info;
+    case mjOBJ_NUMERIC:
+      return mjs_asNumeric(e)->info;
+    case mjOBJ_TEXT:
+      return mjs_asText(e)->info;
+    default:
+      return nullptr;
+  }
+}
+
+/// The number after the last "line " of a text; 0 without one.
+int line_in(std::string_view text) {
+  constexpr std::string_view kLine = "line ";
+  const std::size_t at = text.rfind(kLine);
+  int line = 0;
+  if (at != text.npos) {
+    std::from_chars(text.data() + at + kLine.size(), text.data() + text.size(), line);
+  }
+  return line;
+}
+
+struct Placed {
+  double *pos, *quat;
+  mjsOrientation* alt;
+};
+
+Placed placed(mjsElement* e) {
+  if (mjsBody* body = mjs_asBody(e)) return {body->pos, body->quat, &body->alt};
+  if (mjsGeom* geom = mjs_asGeom(e)) return {geom->pos, geom->quat, &geom->alt};
+  if (mjsFrame* frame = mjs_asFrame(e)) return {frame->pos, frame->quat, &frame->alt};
+  mjsSite* site = mjs_asSite(e);
+  return {site->pos, site->quat, &site->alt};
+}
+
+Pose pose_in_frame(mjsElement* e) {
+  const Placed of = placed(e);
+  std::array<double, 4> q{};
+  std::copy_n(of.quat, 4, q.begin());
+  const mjsCompiler* compiler = mjs_getCompiler(e);
+  mjs_resolveOrientation(q.data(), compiler->degree, compiler->eulerseq, of.alt);
+  return {Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix(),
+          Eigen::Map<const Eigen::Vector3d>(of.pos)};
+}
+
+}  // namespace
+
+/// A document's text, from the next free line on.
+std::string SpecReader::numbered(Element& root) {
+  std::vector<std::string> tags;
+  xml::for_each(root, [&](const Element& e) { tags.push_back(xml::tag(e)); });
+  const std::vector<input::Source> sources = xml::take_sources(root);
+  tinyxml2::XMLPrinter printer;
+  root.Accept(&printer);
+  std::string text = std::string(static_cast<std::size_t>(lines_), '\n') + printer.CStr();
+
+  tinyxml2::XMLDocument again;  // MuJoCo counts lines with the same parser
+  if (again.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    throw input::Error({sources.front().file, 0},
+                       std::string("cannot be read once its parts are put together (") +
+                           tinyxml2::XMLDocument::ErrorIDToName(again.ErrorID()) +
+                           "); nest its elements less deeply");
+  }
+  std::size_t i = 0;
+  xml::for_each(*again.RootElement(), [&](const Element& e) {
+    origins_.emplace(e.GetLineNum(), Origin{sources[i], tags[i]});
+    ++i;
+  });
+  lines_ = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
+  return text;
+}
+
+/// Gives the files of <model> elements to MuJoCo.
+void SpecReader::add_models(Element& root, Part part, mjVFS& vfs, int depth) {
+  constexpr int kDeepest = 8, kMost = 100;
+  prepare(root, part);
+  for (Element* s = root.FirstChildElement("asset"); s; s = s->NextSiblingElement("asset")) {
+    for (Element* e = s->FirstChildElement("model"); e; e = e->NextSiblingElement("model")) {
+      const input::Source here = xml::source_of(*e);
+      if (depth == kDeepest || models_ == kMost) {
+        throw input::Error(here, "more models are in each other than a scene has");
+      }
+      if (!e->Attribute("file")) continue;  // MuJoCo reports it
+      const xml::Document model = xml::load(e->Attribute("file"), here);
+      add_models(*model->RootElement(), Part::fragment, vfs, depth + 1);
+      const std::string text = numbered(*model->RootElement());
+      const std::string name = fmt::format("model{}.xml", ++models_);
+      if (mj_addBufferVFS(&vfs, name.c_str(), text.data(), static_cast<int>(text.size())) != 0) {
+        throw MujocoError("could not allocate a <model>");
+      }
+      if (!e->Attribute("name")) {
+        e->SetAttribute("name", std::filesystem::path(e->Attribute("file")).stem().c_str());
+      }
+      e->SetAttribute("file", name.c_str());
+    }
+  }
+}
+
+Spec SpecReader::read(const std::filesystem::path& file, const input::Source& where, Part part,
+                      const std::function<void(Element& root)>& edit) {
+  if (first_file_.empty()) first_file_ = file;
+  install_mujoco_handlers();
+  mjVFS vfs;
+  mj_defaultVFS(&vfs);
+  const std::unique_ptr<mjVFS, void (*)(mjVFS*)> guard(&vfs, mj_deleteVFS);
+  const xml::Document document = xml::load(file, where);
+  if (edit) edit(*document->RootElement());
+  add_models(*document->RootElement(), part, vfs, 0);
+  const std::string text = numbered(*document->RootElement());
+  std::array<char, 2000> said{};
+  Spec spec;
+  try {
+    spec.reset(mj_parseXMLString(text.c_str(), &vfs, said.data(), static_cast<int>(said.size())));
+  } catch (const MujocoError& e) {
+    throw refusal(e.what(), nullptr);
+  }
+  const std::string warning = take_warning();
+  if (!spec) throw refusal(said.data(), nullptr);
+  if (!warning.empty()) throw refusal(warning, spec.get());
+  return spec;
+}
+
+const SpecReader::Origin* SpecReader::at(int line) const {
+  const auto found = origins_.find(line);
+  return found == origins_.end() ? nullptr : &found->second;
+}
+
+const SpecReader::Origin* SpecReader::origin(const mjsElement* element) const {
+  if (!element) return nullptr;
+  auto* e = const_cast<mjsElement*>(element);
+  const mjString* info = info_of(e);
+  const Origin* found = info ? at(line_in(mjs_getString(info))) : nullptr;
+  // MuJoCo knows no line of a <freejoint>
+  return found || e->elemtype != mjOBJ_JOINT ? found : origin(mjs_getParent(e)->element);
+}
+
+input::Source SpecReader::source(const mjsElement* element) const {
+  const Origin* found = origin(element);
+  return found ? found->source : input::Source{first_file_.string(), 0};
+}
+
+void SpecReader::refuse(const mjsElement* element, std::string what) const {
+  const Origin* found = origin(element);
+  constexpr std::string_view kTag = "TAG";
+  if (const std::size_t at = what.find(kTag); at != what.npos) {
+    what.replace(at, kTag.size(), found ? found->tag : "the element");
+  }
+  throw input::Error(source(element), what);
+}
+
+input::Error SpecReader::refusal(const std::string& said, const mjSpec* spec) const {
+  const Origin* found = at(line_in(said));
+  for (const mjtObj type : {mjOBJ_TEXTURE, mjOBJ_HFIELD, mjOBJ_SKIN}) {  // by `check_compiled`
+    const std::string before = fmt::format("{} '", mju_type2Str(type));
+    const std::size_t begin = said.find(before);
+    if (found || !spec || begin == said.npos) continue;
+    const std::string name = said.substr(begin + before.size());
+    found = origin(find(*spec, type, name.substr(0, name.find('\''))));
+  }
+  return {
+      found ? found->source : source(nullptr),
+      fmt::format("MuJoCo refuses {}: {}", found ? found->tag : "the scene", in_one_line(said))};
+}
+
+std::string_view name_of(const mjsElement* element) {
+  return mjs_getString(mjs_getName(const_cast<mjsElement*>(element)));
+}
+
+mjsElement* find(const mjSpec& spec, mjtObj type, std::string_view name) {
+  return mjs_findElement(&spec, type, std::string(name).c_str());
+}
+
+Pose pose_in_body(const mjsElement* element) {
+  auto* e = const_cast<mjsElement*>(element);
+  Pose pose = pose_in_frame(e);
+  for (mjsFrame* frame = mjs_getFrame(e); frame; frame = mjs_getFrame(frame->element)) {
+    pose = pose_in_frame(frame->element) * pose;
+  }
+  return pose;
+}
+
+void set_pose_in_body(mjsElement* element, const Pose& pose, const Eigen::Vector3d& scale) {
+  mjsFrame* frame = mjs_addFrame(mjs_getParent(element), nullptr);
+  const Eigen::Quaterniond q(pose.R);
+  Eigen::Map<Eigen::Vector3d>(frame->pos) = pose.p;
+  Eigen::Map<Eigen::Vector4d>(frame->quat) << q.w(), q.x(), q.y(), q.z();
+  Eigen::Map<Eigen::Vector3d>(frame->scale) = scale;
+  frame->scaling = mjSCALING_GEOMETRY;
+  const Placed of = placed(element);
+  mjs_defaultOrientation(of.alt);
+  std::fill_n(of.pos, 3, 0.0);
+  std::fill_n(of.quat, 4, 0.0);
+  of.quat[0] = 1;
+  mjs_setFrame(element, frame);
+}
+
+}  // namespace lcs::sim

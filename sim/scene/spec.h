@@ -1,0 +1,96 @@
+/// \file
+/// MJCF files as MuJoCo's editable models (`mjSpec`), whose elements still know the file and line
+/// that they come from.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "sim/pose.h"
+#include "sim/scene/mujoco.h"
+#include "sim/scene/xml.h"
+
+namespace lcs::sim {
+
+struct SpecDeleter {
+  void operator()(mjSpec* spec) const { mj_deleteSpec(spec); }
+};
+using Spec = std::unique_ptr<mjSpec, SpecDeleter>;
+
+/// Reads files so that each of their lines has a number of its own. MuJoCo keeps that number with
+/// an element, also when the element is attached to another model.
+class SpecReader {
+ public:
+  /// What the file is read for. Fragments lose their settings of the whole simulation.
+  enum class Part { scene, fragment };
+
+  /// \param where cited in the error if the file itself cannot be opened.
+  /// \param edit changes the document before MuJoCo reads it.
+  /// \throws input::Error with the user's file and line.
+  Spec read(const std::filesystem::path& file, const input::Source& where, Part part,
+            const std::function<void(xml::Element& root)>& edit = {});
+
+  /// Source of an element of any model that this reader has read, and of those that they were
+  /// attached to; the first file for an element that the program made, and for nullptr.
+  input::Source source(const mjsElement* element) const;
+
+  /// \throws input::Error at an element; "TAG" in the text is replaced by its tag.
+  [[noreturn]] void refuse(const mjsElement* element, std::string what) const;
+
+  /// MuJoCo's message as an error that names the user's file, line and element.
+  input::Error refusal(const std::string& said, const mjSpec* spec) const;
+
+ private:
+  struct Origin {
+    input::Source source;
+    std::string tag;  ///< `<geom name="wall">`
+  };
+  std::string numbered(xml::Element& root);
+  void add_models(xml::Element& root, Part part, mjVFS& vfs, int depth);
+  const Origin* at(int line) const;
+  const Origin* origin(const mjsElement* element) const;
+
+  std::filesystem::path first_file_;
+  std::map<int, Origin> origins_;  ///< by line
+  int lines_ = 0;                  ///< number of the last line of all files
+  int models_ = 0;                 ///< number of files that are given to MuJoCo as <model>
+};
+
+/// The name of an element; "" without one.
+std::string_view name_of(const mjsElement* element);
+
+/// The element of that type and name; nullptr if missing.
+mjsElement* find(const mjSpec& spec, mjtObj type, std::string_view name);
+
+/// Calls `visit(element)` for the elements of a type: all of a model, or those in a body, and in
+/// its descendants if `deep`. `visit` may delete the element.
+///@{
+template <typename Visit>
+void for_each(const mjSpec& spec, mjtObj type, const Visit& visit) {
+  for (mjsElement *e = mjs_firstElement(&spec, type), *next = nullptr; e; e = next) {
+    next = mjs_nextElement(&spec, e);
+    visit(e);
+  }
+}
+template <typename Visit>
+void for_each_in(const mjsBody& body, mjtObj type, bool deep, const Visit& visit) {
+  for (mjsElement *e = mjs_firstChild(&body, type, deep), *next = nullptr; e; e = next) {
+    next = mjs_nextChild(&body, e, deep);
+    visit(e);
+  }
+}
+///@}
+
+/// Pose of a body, geom or site in the body that has it, through the frames about it.
+Pose pose_in_body(const mjsElement* element);
+
+/// Takes frames and other notations away: the element has this pose in its body.
+/// \param scale of its shape along its own axes.
+void set_pose_in_body(mjsElement* element, const Pose& pose,
+                      const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
+
+}  // namespace lcs::sim
