@@ -5,7 +5,9 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
-#include <string_view>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "scenarios/scenes.h"
 #include "sim/scene/fragment_contract.h"
@@ -134,7 +136,7 @@ int freeze(Fragment& fragment, const scenario::Actor& actor, const SpecReader& r
   const auto remove_joints = [&](bool only_free) {
     for_each(spec, mjOBJ_JOINT, [&](mjsElement* e) {
       if (only_free && mjs_asJoint(e)->type != mjJNT_FREE) return;
-      mjs_delete(&spec, e);
+      remove(spec, e);
       ++joints;
     });
   };
@@ -162,11 +164,13 @@ int freeze(Fragment& fragment, const scenario::Actor& actor, const SpecReader& r
     return Pose{Eigen::Map<const Rotation>(data->xmat + 9 * body),
                 Eigen::Map<const Vector3d>(data->xpos + 3 * body)};
   };
+  std::vector<std::pair<mjsElement*, Pose>> posed;  // first, as an edit takes the ids away
   for_each(spec, mjOBJ_BODY, [&](mjsElement* e) {
     const int body = mjs_getId(e);
-    if (body <= 0 || mjs_asBody(e) == fragment.base) return;
-    set_pose_in_body(e, pose(model->body_parentid[body]).inverse() * pose(body));
+    if (body == 0 || mjs_asBody(e) == fragment.base) return;
+    posed.emplace_back(e, pose(model->body_parentid[body]).inverse() * pose(body));
   });
+  for (const auto& [body, in_parent] : posed) set_pose_in_body(body, in_parent);
   remove_joints(false);
   take_warning();  // of the joints' limits and the like
   return joints;

@@ -1,7 +1,5 @@
 #include "sim/scene/ground.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,8 +18,8 @@ constexpr int kWaves = 24;
 constexpr double kLongestOverShortest = 3;
 constexpr double kPointsAWave = 8;
 constexpr double kMostPoints = 400;  // along either side
-constexpr double kHighest = 4;       // standard deviations
-constexpr double kBase_m = 0.1;      // of solid ground below the lowest point
+constexpr double kHighest = kHighestGround;
+constexpr double kBase_m = 0.1;  // of solid ground below the lowest point
 
 int points_along(double length_m, double wavelength_m) {
   return static_cast<int>(std::clamp(length_m / wavelength_m * kPointsAWave, 4.0, kMostPoints));
@@ -112,14 +110,6 @@ void raise_ground(Model& model, const scenario::Ground& ground, std::uint64_t sc
       *height = static_cast<float>(window * deviations / kHighest);
     }
   }
-}
-
-std::string less_contact(const scenario::Ground& ground) {
-  return fmt::format(
-      "the rover sinks between the bumps of the rough ground, or touches more of them at once than "
-      "there is room for; make ground.wavelength "
-      "({:g} m) longer or ground.roughness ({:g} m) less",
-      ground.wavelength_m, ground.roughness_m);
 }
 
 }  // namespace lcs::sim

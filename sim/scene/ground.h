@@ -15,14 +15,13 @@
 
 namespace lcs::sim {
 
+/// Height of the highest bumps, in standard deviations.
+inline constexpr double kHighestGround = 4;
+
 /// Adds the height field, still flat, with the material of the scene's first plane.
 void add_ground(mjSpec& scene, const scenario::Ground& ground, const Eigen::Vector2d& ego_start_m);
 
 /// Writes the heights into a model of that scene.
 void raise_ground(Model& model, const scenario::Ground& ground, std::uint64_t scenario_seed);
-
-/// Advice on which number to change where the wheels have more contacts with the ground than MuJoCo
-/// can hold. Bumps that are short and high for a wheel cause this.
-std::string less_contact(const scenario::Ground& ground);
 
 }  // namespace lcs::sim

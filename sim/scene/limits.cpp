@@ -81,8 +81,8 @@ constexpr std::array<std::string_view, 4> kNumberLists = {"vertex", "normal", "t
                                                           "vertweight"};
 constexpr std::array<std::string_view, 2> kIndexLists = {"face", "vertid"};
 
-// Attributes whose keywords may begin with a digit.
-constexpr std::array<std::string_view, 2> kKinds = {"type", "gridlayout"};
+// Attributes whose words may begin with a digit: "2d", "10M".
+constexpr std::array<std::string_view, 3> kKinds = {"type", "gridlayout", "memory"};
 
 constexpr std::size_t kMostShown = 40;  // characters of a value, in a message
 

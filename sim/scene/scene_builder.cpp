@@ -55,7 +55,7 @@ void make_mocap(mjSpec& scene, const Actor& actor) {
                                    actor.name));
   }
   mjsBody& body = *mjs_findBody(&scene, actor.body->c_str());
-  for_each_in(body, mjOBJ_JOINT, false, [&](mjsElement* e) { mjs_delete(&scene, e); });
+  for_each_in(body, mjOBJ_JOINT, false, [&](mjsElement* e) { remove(scene, e); });
   body.mocap = 1;
 }
 

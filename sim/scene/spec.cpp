@@ -87,12 +87,12 @@ const mjString* info_of(mjsElement* e) {
   }
 }
 
-/// The number after the last "line " of a text; 0 without one.
+/// The first number after "line " in a text, of the innermost element; 0 without one.
 int line_in(std::string_view text) {
   constexpr std::string_view kLine = "line ";
-  const std::size_t at = text.rfind(kLine);
   int line = 0;
-  if (at != text.npos) {
+  for (std::size_t at = text.find(kLine); at != text.npos && line == 0;
+       at = text.find(kLine, at + 1)) {
     std::from_chars(text.data() + at + kLine.size(), text.data() + text.size(), line);
   }
   return line;
@@ -246,6 +246,43 @@ std::string_view name_of(const mjsElement* element) {
 
 mjsElement* find(const mjSpec& spec, mjtObj type, std::string_view name) {
   return mjs_findElement(&spec, type, std::string(name).c_str());
+}
+
+void remove(mjSpec& spec, mjsElement* element) {
+  const std::string name(name_of(element));
+  const auto is_it = [&](int type, const mjString* of) {
+    return type == element->elemtype && !name.empty() && mjs_getString(of) == name;
+  };
+  for_each(spec, mjOBJ_ACTUATOR, [&](mjsElement* e) {
+    const mjsActuator& a = *mjs_asActuator(e);
+    const bool is_of_joint = a.trntype == mjTRN_JOINT || a.trntype == mjTRN_JOINTINPARENT;
+    if (is_it(is_of_joint                 ? mjOBJ_JOINT
+              : a.trntype == mjTRN_TENDON ? mjOBJ_TENDON
+                                          : mjOBJ_UNKNOWN,
+              a.target)) {
+      remove(spec, e);
+    }
+  });
+  for_each(spec, mjOBJ_SENSOR, [&](mjsElement* e) {
+    const mjsSensor& s = *mjs_asSensor(e);
+    if (is_it(s.objtype, s.objname) || is_it(s.reftype, s.refname)) mjs_delete(&spec, e);
+  });
+  for_each(spec, mjOBJ_EQUALITY, [&](mjsElement* e) {
+    const mjsEquality& q = *mjs_asEquality(e);
+    const int type = q.type == mjEQ_JOINT    ? mjOBJ_JOINT
+                     : q.type == mjEQ_TENDON ? mjOBJ_TENDON
+                                             : q.objtype;
+    if (is_it(type, q.name1) || is_it(type, q.name2)) mjs_delete(&spec, e);
+  });
+  for_each(spec, mjOBJ_TENDON, [&](mjsElement* e) {
+    const mjsTendon* tendon = mjs_asTendon(e);
+    for (int i = 0; i < mjs_getWrapNum(tendon); ++i) {
+      if (mjs_getWrapTarget(mjs_getWrap(tendon, i)) != element) continue;
+      remove(spec, e);
+      return;
+    }
+  });
+  mjs_delete(&spec, element);
 }
 
 Pose pose_in_body(const mjsElement* element) {

@@ -85,6 +85,9 @@ void for_each_in(const mjsBody& body, mjtObj type, bool deep, const Visit& visit
 }
 ///@}
 
+/// Removes an element, and the actuators, sensors, constraints and tendons that refer to it.
+void remove(mjSpec& spec, mjsElement* element);
+
 /// Pose of a body, geom or site in the body that has it, through the frames about it.
 Pose pose_in_body(const mjsElement* element);
 

@@ -96,8 +96,7 @@ class WheeledRover : public Rover {
  public:
   WheeledRover(const scenario::Scenario& scenario, const Model& model)
       : ego_(scenario.ego),
-        ground_(scenario.ground),
-        file_{scenario.file.string(), 0},
+        sunk_m_(kSunk_m + (scenario.ground ? kHighestGround * scenario.ground->roughness_m : 0)),
         scene_{scenario.scene.string(), 0},
         command_(scenario.ego.phases),
         base_(model, "base") {
@@ -128,7 +127,7 @@ class WheeledRover : public Rover {
     m.opt.timestep = kSettlingStep_s;
     for (int i = 0; i < static_cast<int>(kSettling_s / kSettlingStep_s); ++i) mj_step(&m, &d);
 
-    if (d.qpos[base_.qpos + 2] < under.height_m - kSunk_m) refuse_to_fall(model, under.geom);
+    if (d.qpos[base_.qpos + 2] < under.height_m - sunk_m_) refuse_to_fall(model, under.geom);
     // settled height, roll and pitch, but the start position and heading, already rolling
     place(d, d.qpos[base_.qpos + 2]);
     const PlanarVelocity v = command_.at(0);
@@ -165,7 +164,7 @@ class WheeledRover : public Rover {
   static constexpr double kAbove_m = 1.5;  // below a ceiling, above rough ground
   static constexpr double kSettling_s = 1.0;
   static constexpr double kSettlingStep_s = 0.002;
-  static constexpr double kSunk_m = 0.1;  // the wheel radius: a supported rover sinks less
+  static constexpr double kSunk_m = 0.1;  // the wheel radius; between bumps their height is added
 
   static void check(const scenario::Scenario& scenario) {
     if (!scenario.ego.waypoints.empty()) {
@@ -207,9 +206,6 @@ class WheeledRover : public Rover {
     const std::string start =
         fmt::format("ego.start ({:g}, {:g}) m", ego_.start_m.x(), ego_.start_m.y());
     const std::string_view name = geom < 0 ? "" : model.name(mjOBJ_GEOM, geom);
-    if (ground_ && geom >= 0 && m.geom_type[geom] == mjGEOM_HFIELD) {
-      throw input::Error(file_, less_contact(*ground_));
-    }
     throw input::Error(
         scene_,
         geom < 0 ? fmt::format("nothing is under {}, so that a wheeled rover falls there; put a "
@@ -257,8 +253,8 @@ class WheeledRover : public Rover {
   }
 
   scenario::Ego ego_;
-  std::optional<scenario::Ground> ground_;
-  input::Source file_, scene_;
+  double sunk_m_;  ///< below the surface under it, more than a supported rover
+  input::Source scene_;
   SmoothCommand command_;
   Joint base_;
   std::vector<Wheel> wheels_;

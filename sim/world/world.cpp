@@ -389,10 +389,6 @@ void World::guarded(Action action) const {
   } catch (const MujocoError& e) {
     problem = e.what();
   }
-  if (scenario_.ground && problem.find("buffer is full") != std::string::npos) {
-    throw PhysicsError(
-        input::Error({scenario_.file.string(), 0}, less_contact(*scenario_.ground)).what());
-  }
   if (!problem.empty()) {
     throw PhysicsError(fmt::format("{}: the physics failed at {:.4f} s of simulated time: {}",
                                    scenario_.scene.string(), 1e-9 * static_cast<double>(t_ns_),

@@ -334,10 +334,10 @@ TEST_F(SceneFile, MayHaveFramesReplicatesAndAttachedModels) {
         "<mujoco>\n<worldbody><body name='shelf'>\n<geom colour='red'/></body>"
         "</worldbody></mujoco>");
   expect_at((folder_ / "shelf.xml").string() + ":3: ", refusal(s), {"<geom>", "'colour'"});
-  expect_at(scene_.string() + ":4: ", refusal(scenario({.asset = "<model file='gone.xml'/>"})),
-            {"gone.xml", "missing"});
   write("shelf.xml", "<mujoco>\n<asset>\n<model file='shelf.xml'/></asset></mujoco>");
   expect_at((folder_ / "shelf.xml").string() + ":3: ", refusal(s), {"more models"});
+  expect_at(scene_.string() + ":4: ", refusal(scenario({.asset = "<model file='gone.xml'/>"})),
+            {"gone.xml", "missing"});
 }
 
 TEST_F(SceneFile, MayDriveABodyThatAnActorMoves) {
