@@ -39,8 +39,8 @@ const std::map<std::string, std::set<std::string>> kWays{
     {R"(VideoCapture[\s(>&]*[a-z]*\()", {"sim/pictures/media.h", "sim/pictures/media_module.cpp"}},
     {R"(media\(\)\.read_video)", {"tools/output/video_reader.cpp"}},
     {R"(\.open\()", {}},
-    {R"(LoadFile|mj_loadModel|mj_parse)", {}},
-    {R"(mj_loadXML)", {"sim/scene/model.cpp"}},  // text in memory
+    {R"(LoadFile|mj_loadModel|mj_loadXML|mj_parse\b|mj_parseXML\b)", {}},
+    {R"(mj_parseXMLString)", {"sim/scene/spec.cpp"}},  // text in memory
     {R"([Jj]son::(parse|accept|sax_parse))", {"tools/files/json_node.h"}},
 };
 

@@ -32,18 +32,20 @@ Vector3d derivative(const std::function<Vector3d(double)>& f, double t) {
   return (f(t + h) - f(t - h)) / (2 * h);
 }
 
-Vector3d rate_S(const Path& path, const Mounting& m, double t) {
-  const double h = 1e-4;
-  const Matrix3d dR = path.R_WB(t - h).transpose() * path.R_WB(t + h);
-  const Eigen::AngleAxisd turn(dR);
-  return m.R_BS.transpose() * turn.axis() * turn.angle() / (2 * h);
-}
+struct Reading {
+  Vector3d rate, force;
+};
 
-Vector3d force_S(const Path& path, const Mounting& m, double t) {
+/// The means over (t - dt, t] in S, as a unit reads that integrates its rates.
+Reading reading(const Path& path, const Mounting& m, double t) {
+  const double dt = 1e-9 * kImuStep_ns;
+  const auto R_WS = [&](double s) -> Matrix3d { return path.R_WB(s) * m.R_BS; };
   const auto p_WS = [&](double s) -> Vector3d { return path.p_WB(s) + path.R_WB(s) * m.p_BS_m; };
-  const auto v_WS = [&](double s) -> Vector3d { return derivative(p_WS, s); };
-  const Vector3d a = derivative(v_WS, t) + Vector3d(0, 0, kGravity);
-  return (path.R_WB(t) * m.R_BS).transpose() * a;
+  const Eigen::AngleAxisd turn(Matrix3d(R_WS(t - dt).transpose() * R_WS(t)));
+  const Matrix3d R_middle = R_WS(t - dt) * Eigen::AngleAxisd(turn.angle() / 2, turn.axis());
+  const Vector3d change = derivative(p_WS, t) - derivative(p_WS, t - dt);
+  return {turn.axis() * turn.angle() / dt,
+          R_middle.transpose() * (change / dt + Vector3d(0, 0, kGravity))};
 }
 
 Mounting mounting() {
@@ -76,7 +78,8 @@ void expect_exact(const Path& path, double frame_hz, double rotation_rad, double
     const auto frame_ns = static_cast<std::int64_t>(std::llround(k * 1e9 / frame_hz));
     for (; t_ns <= frame_ns; t_ns += kImuStep_ns) {
       const double t = static_cast<double>(t_ns) * 1e-9;
-      estimator.add_imu(t_ns, rate_S(path, m, t), force_S(path, m, t));
+      const auto [rate, force] = reading(path, m, t);
+      estimator.add_imu(t_ns, rate, force);
     }
     const EgoMotion motion = estimator.frame(frame_ns);
     if (k == 0) continue;
@@ -140,7 +143,8 @@ TEST(EgoMotion, OdometryHoldsTheDriftOfABiasedImu) {
     EgoMotionEstimator estimator = start(path, m);
     for (std::int64_t t_ns = 0; t_ns <= 30'000'000'000; t_ns += kImuStep_ns) {
       const double t = static_cast<double>(t_ns) * 1e-9;
-      estimator.add_imu(t_ns, rate_S(path, m, t) + gyro_bias, force_S(path, m, t) + accel_bias);
+      const auto [rate, force] = reading(path, m, t);
+      estimator.add_imu(t_ns, rate + gyro_bias, force + accel_bias);
       if (way == alone || t_ns % 20'000'000 != 0) continue;
       estimator.add_odometry(t_ns, {0.03, 0, 0},
                              way == with_yaw_rate ? std::optional(0.0) : std::nullopt);
@@ -184,7 +188,8 @@ Slide slide(bool tells_yaw_rate) {
   Slide slide;
   for (std::int64_t t_ns = 0; t_ns <= 8'000'000'000; t_ns += kImuStep_ns) {
     const double t = static_cast<double>(t_ns) * 1e-9;
-    estimator.add_imu(t_ns, rate_S(path, m, t), force_S(path, m, t));
+    const auto [rate, force] = reading(path, m, t);
+    estimator.add_imu(t_ns, rate, force);
     if (t_ns % 20'000'000 != 0) continue;
     const Vector3d wheels(0.3 + noise(0.02), noise(0.02), 0);
     const double yaw_rate = noise(0.05);
@@ -223,7 +228,8 @@ TEST(EgoMotion, ACorrectionIsNoMotionOfTheFrame) {
   for (int k = 1; k <= 50; ++k) {
     for (; t_ns <= k * 100'000'000LL; t_ns += kImuStep_ns) {
       const double t = static_cast<double>(t_ns) * 1e-9;
-      estimator.add_imu(t_ns, rate_S(path, m, t), force_S(path, m, t));
+      const auto [rate, force] = reading(path, m, t);
+      estimator.add_imu(t_ns, rate, force);
       if (t_ns % 20'000'000 == 0) estimator.add_odometry(t_ns, {1.0, 0.05, 0});
     }
     const EgoMotion motion = estimator.frame(k * 100'000'000LL);
@@ -238,7 +244,7 @@ TEST(EgoMotion, BadReadingsAreDroppedAndCounted) {
                   [](double t) { return Vector3d(0.5 * t, 0, 0); }};
   const Mounting m = mounting();
   EgoMotionEstimator estimator = start(path, m);
-  const Vector3d up = force_S(path, m, 0);
+  const Vector3d up = reading(path, m, 0).force;
   estimator.add_imu(0, Vector3d::Zero(), up);
   estimator.add_imu(10'000'000, Vector3d::Zero(), up);
   estimator.add_imu(5'000'000, Vector3d::Zero(), up);  // older than the last reading
@@ -260,7 +266,8 @@ TEST(EgoMotion, TheGroundIsLevelThroughTheOriginOfARoverThatPitchesAndRolls) {
   EgoMotionEstimator estimator = start(path, m);
   for (std::int64_t t_ns = 0; t_ns <= 2'000'000'000; t_ns += kImuStep_ns) {
     const double t = static_cast<double>(t_ns) * 1e-9;
-    estimator.add_imu(t_ns, rate_S(path, m, t), force_S(path, m, t));
+    const auto [rate, force] = reading(path, m, t);
+    estimator.add_imu(t_ns, rate, force);
   }
   const EgoMotion motion = estimator.frame(2'000'000'000);
   ASSERT_TRUE(motion.ground);

@@ -48,7 +48,7 @@ case $5 in
     "$lcs" suite --group all --list >list.txt
     grep -q '^of_the_installed ' list.txt || fail "its suite is not of the scenarios installed"
     # Detects a program that loads its codecs from BUILD.
-    mv prefix/lib*/lcs prefix/codecs 2>/dev/null || mv prefix/lib/*/lcs prefix/codecs
+    find prefix -name 'liblcs_media.so' -delete
     ! "$lcs" run prefix/share/lcs/scenarios/crossing.yaml --set frames=3 --out none 2>error.txt ||
       fail "the run does without the codecs that were installed"
     grep -q 'cannot load liblcs_media.so' error.txt || fail "something else is missing: $(cat error.txt)"
@@ -57,5 +57,9 @@ case $5 in
     ! "$lcs" run prefix/share/lcs/scenarios/crossing.yaml --no-video --out none 2>error.txt ||
       fail "the run does without the rover that was installed"
     grep -q "prefix/share/lcs/scenes/ego" error.txt || fail "something else is missing: $(cat error.txt)"
+    # Detects a program that loads MuJoCo from SOURCE.
+    find prefix -name 'libmujoco.so*' -delete
+    [[ ! -e $source/.mujoco ]] || ! "$lcs" --version >none.txt 2>&1 ||
+      fail "the program does without the MuJoCo that was installed"
     ;;
 esac

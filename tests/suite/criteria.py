@@ -11,7 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-MEASURED_WITH = "MuJoCo 2.2.2", "Mesa 22.3.6", "OpenCV 4.6.0"
+MEASURED_WITH = "MuJoCo 3.17.0", "Mesa 22.3.6", "OpenCV 4.6.0"
 CRITERION_MISSED = 1  # the exit code of `lcs suite`
 
 

@@ -89,7 +89,7 @@ TEST_F(Kinematics, EveryFigureOfTheAnswerIsBorneOut) {
   const std::string text = read(study / "answer.txt");
   EXPECT_NE(result.out.find(text), std::string::npos);
   // Verdicts use the requested tolerance and the scenario's own frame rate and IMU.
-  EXPECT_NE(text.find("\nwithin 0.3 px: rotation, IMU, mount, drift; beyond: translation ("),
+  EXPECT_NE(text.find("\nwithin 0.3 px: rotation, IMU, mount, bumps, drift; beyond: translation ("),
             std::string::npos)
       << text;
   EXPECT_NE(text.find("at 10 frames/s, over 10 s"), std::string::npos) << text;
