@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -119,25 +121,53 @@ void take_contacts_away(const mjSpec& spec) {
            [](mjsElement* e) { mjs_asGeom(e)->contype = mjs_asGeom(e)->conaffinity = 0; });
 }
 
+/// A keyframe has the pose of a body with a free joint. Three slides and a ball have the same
+/// numbers in it, also in a body inside another, where MuJoCo allows no free joint.
+void split_free_joints(Element& root) {
+  xml::for_each(root, [&](Element& body) {
+    Element* joint = xml::is_kind(body, "body") ? body.FirstChildElement("freejoint") : nullptr;
+    if (xml::is_kind(body, "body") && !joint) {
+      joint = body.FirstChildElement("joint");
+      if (joint && xml::attribute(*joint, "type") != "free") joint = nullptr;
+    }
+    if (!joint) return;
+    for (const char* key : {"pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"}) {
+      body.DeleteAttribute(key);
+    }
+    tinyxml2::XMLNode* last = joint;
+    for (const char* axis : {"1 0 0", "0 1 0", "0 0 1", ""}) {
+      Element* part = root.GetDocument()->NewElement("joint");
+      part->SetAttribute("type", *axis ? "slide" : "ball");
+      if (*axis) part->SetAttribute("axis", axis);
+      part->SetAttribute("ref", 0);
+      last = body.InsertAfterChild(last, part);
+    }
+    body.DeleteChild(joint);
+  });
+}
+
 /// The keyframe of a name, also where <attach> gave it a prefix; nullptr without one.
 mjsElement* keyframe(const mjSpec& spec, const std::string& name) {
   mjsElement* found = nullptr;
   for_each(spec, mjOBJ_KEY, [&](mjsElement* e) {
-    if (!found && name_of(e).ends_with(name)) found = e;
+    const std::string_view is = name_of(e);
+    const std::size_t prefix = is.size() - std::min(name.size(), is.size());
+    const bool is_word = prefix == 0 || !std::isalnum(static_cast<unsigned char>(is[prefix - 1]));
+    if (!found && is.ends_with(name) && is_word) found = e;
   });
   return found;
 }
 
 /// Makes an actor rigid: its bodies keep the poses of a keyframe, and the joints go with all that
-/// refers to them. \return the number of joints.
-int freeze(Fragment& fragment, const scenario::Actor& actor, const SpecReader& reader) {
+/// refers to them. \return whether there were joints.
+bool freeze(Fragment& fragment, const scenario::Actor& actor, const SpecReader& reader) {
   mjSpec& spec = *fragment.spec;
-  int joints = 0;
+  bool has_joints = false;
   const auto remove_joints = [&](bool only_free) {
     for_each(spec, mjOBJ_JOINT, [&](mjsElement* e) {
       if (only_free && mjs_asJoint(e)->type != mjJNT_FREE) return;
       remove(spec, e);
-      ++joints;
+      has_joints = true;
     });
   };
   remove_joints(true);  // its trajectory moves it
@@ -173,7 +203,7 @@ int freeze(Fragment& fragment, const scenario::Actor& actor, const SpecReader& r
   for (const auto& [body, in_parent] : posed) set_pose_in_body(body, in_parent);
   remove_joints(false);
   take_warning();  // of the joints' limits and the like
-  return joints;
+  return has_joints;
 }
 
 }  // namespace
@@ -185,10 +215,14 @@ bool has_picture(const scenario::Actor& actor) {
 Fragment actor_fragment(const scenario::Actor& actor, SpecReader& reader) {
   Fragment fragment;
   const std::filesystem::path file = scenario::actor_file(actor);
+  const bool has_keyframe = !actor.pose.empty() && actor.pose != scenario::kPoseZero;
   fragment.spec = reader.read(file, actor.source, SpecReader::Part::fragment,
-                              [&](Element& root) { paint(root, actor); });
+                              [&](Element& root, bool is_model) {
+                                if (!is_model) paint(root, actor);
+                                if (has_keyframe) split_free_joints(root);
+                              });
   fragment.base = &check_base(*fragment.spec, reader, file);
-  if (!actor.pose.empty()) fragment.frozen_joints = freeze(fragment, actor, reader);
+  if (!actor.pose.empty()) fragment.is_frozen = freeze(fragment, actor, reader);
   const Vector3d natural_m = check_actor(fragment, reader);
   fragment.size_m = actor.size_m.value_or(natural_m);
   if (actor.shape == Shape::cylinder && fragment.size_m.x() != fragment.size_m.y()) {

@@ -22,7 +22,7 @@ struct Fragment {
   Spec spec;
   mjsBody* base = nullptr;
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  ///< of an actor: [length, width, height]
-  int frozen_joints = 0;                             ///< of an actor, by `Actor::pose`
+  bool is_frozen = false;  ///< an actor had joints, which keep `Actor::pose`
 };
 
 /// The fragment of an actor: posed, scaled from its file's size to the requested size, painted, and

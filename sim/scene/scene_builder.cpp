@@ -83,6 +83,7 @@ void add_actor(mjSpec& scene, const Actor& actor, ComposedScene& composed) {
   const Fragment fragment = actor_fragment(actor, composed.reader);
   const std::string prefix = actor.name + "/";
   composed.actor_sizes_m.emplace_back(fragment.size_m);
+  composed.is_frozen.push_back(fragment.is_frozen);
   mjsBody& body = attach(scene, fragment, prefix);
   mjs_setName(body.element, actor.name.c_str());  // the object's name
   body.mocap = 1;
@@ -117,6 +118,7 @@ void add_actors(mjSpec& scene, const Scenario& scenario, ComposedScene& composed
     if (actor.body) {
       make_mocap(scene, actor);
       composed.actor_sizes_m.emplace_back();
+      composed.is_frozen.push_back(false);
     } else {
       add_actor(scene, actor, composed);
     }

@@ -35,6 +35,7 @@ struct ComposedScene {
   std::vector<std::string> actor_bodies;  ///< body of each actor, in the scenario's order
   /// Size of each actor, [length, width, height] in m; absent for a body of the scene.
   std::vector<std::optional<Eigen::Vector3d>> actor_sizes_m;
+  std::vector<bool> is_frozen;  ///< each actor: its joints keep `Actor::pose`
   std::vector<PictureTexture> pictures;
 
   /// Source of a named element; the scene's file without one.

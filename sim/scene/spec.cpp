@@ -149,8 +149,9 @@ std::string SpecReader::numbered(Element& root) {
 }
 
 /// Gives the files of <model> elements to MuJoCo.
-void SpecReader::add_models(Element& root, Part part, mjVFS& vfs, int depth) {
+void SpecReader::add_models(Element& root, Part part, const Edit& edit, mjVFS& vfs, int depth) {
   constexpr int kDeepest = 8, kMost = 100;
+  if (edit) edit(root, depth > 0);
   prepare(root, part);
   for (Element* s = root.FirstChildElement("asset"); s; s = s->NextSiblingElement("asset")) {
     for (Element* e = s->FirstChildElement("model"); e; e = e->NextSiblingElement("model")) {
@@ -160,7 +161,7 @@ void SpecReader::add_models(Element& root, Part part, mjVFS& vfs, int depth) {
       }
       if (!e->Attribute("file")) continue;  // MuJoCo reports it
       const xml::Document model = xml::load(e->Attribute("file"), here);
-      add_models(*model->RootElement(), Part::fragment, vfs, depth + 1);
+      add_models(*model->RootElement(), Part::fragment, edit, vfs, depth + 1);
       const std::string text = numbered(*model->RootElement());
       const std::string name = fmt::format("model{}.xml", ++models_);
       if (mj_addBufferVFS(&vfs, name.c_str(), text.data(), static_cast<int>(text.size())) != 0) {
@@ -175,15 +176,14 @@ void SpecReader::add_models(Element& root, Part part, mjVFS& vfs, int depth) {
 }
 
 Spec SpecReader::read(const std::filesystem::path& file, const input::Source& where, Part part,
-                      const std::function<void(Element& root)>& edit) {
+                      const Edit& edit) {
   if (first_file_.empty()) first_file_ = file;
   install_mujoco_handlers();
   mjVFS vfs;
   mj_defaultVFS(&vfs);
   const std::unique_ptr<mjVFS, void (*)(mjVFS*)> guard(&vfs, mj_deleteVFS);
   const xml::Document document = xml::load(file, where);
-  if (edit) edit(*document->RootElement());
-  add_models(*document->RootElement(), part, vfs, 0);
+  add_models(*document->RootElement(), part, edit, vfs, 0);
   const std::string text = numbered(*document->RootElement());
   std::array<char, 2000> said{};
   Spec spec;

@@ -25,14 +25,16 @@ using Spec = std::unique_ptr<mjSpec, SpecDeleter>;
 /// an element, also when the element is attached to another model.
 class SpecReader {
  public:
+  using Edit = std::function<void(xml::Element& root, bool is_model)>;
+
   /// What the file is read for. Fragments lose their settings of the whole simulation.
   enum class Part { scene, fragment };
 
   /// \param where cited in the error if the file itself cannot be opened.
-  /// \param edit changes the document before MuJoCo reads it.
+  /// \param edit changes the file's document, and those of its <model>s, before MuJoCo reads them.
   /// \throws input::Error with the user's file and line.
   Spec read(const std::filesystem::path& file, const input::Source& where, Part part,
-            const std::function<void(xml::Element& root)>& edit = {});
+            const Edit& edit = {});
 
   /// Source of an element of any model that this reader has read, and of those that they were
   /// attached to; the first file for an element that the program made, and for nullptr.
@@ -50,7 +52,7 @@ class SpecReader {
     std::string tag;  ///< `<geom name="wall">`
   };
   std::string numbered(xml::Element& root);
-  void add_models(xml::Element& root, Part part, mjVFS& vfs, int depth);
+  void add_models(xml::Element& root, Part part, const Edit& edit, mjVFS& vfs, int depth);
   const Origin* at(int line) const;
   const Origin* origin(const mjsElement* element) const;
 

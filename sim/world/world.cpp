@@ -346,6 +346,12 @@ void World::note_looks(const Drawables& drawables) {
          name.empty() ? body : name,
          fmt::format("a geom of body '{}' has alpha {:g} and is drawn opaque", body, alpha));
   }
+  for (std::size_t i = 0; i < scenario_.actors.size(); ++i) {
+    if (!composed_.is_frozen[i]) continue;
+    const scenario::Actor& actor = scenario_.actors[i];
+    warnings().add(Warning::joints_frozen,
+                   fmt::format("actor '{}' keeps the pose '{}'", actor.name, actor.pose));
+  }
   for (const auto& [type, id] : undrawn_parts(model_)) {
     const std::string_view name = model_.name(type, id);
     warn(Warning::undrawn_parts, type, name,

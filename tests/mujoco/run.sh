@@ -7,34 +7,8 @@ set -euo pipefail
 source=$1 work=$2 cmake=$3 major=$4 wheel=$5
 frames=5
 
-skip() {
-  printf 'SKIPPED: %s\n' "$*"
-  exit 77
-}
-fail() {
-  printf 'FAILED: %s\n' "$*"
-  exit 1
-}
-
-# Downloads the wheel for this machine, or skips with the reason.
-download() {
-  python3 -m pip --version >/dev/null 2>&1 ||
-    skip "the download needs pip (Debian: python3-pip, which tools/test --all installs)"
-  rm -rf "$work/wheel" "$work/mujoco"
-  mkdir -p "$work/wheel"
-  local log=$work/pip.log
-  if ! python3 -m pip download --disable-pip-version-check --no-deps --only-binary :all: \
-    --retries 1 --timeout 30 --dest "$work/wheel" "$wheel" >"$log" 2>&1; then
-    cat "$log"
-    if grep -qE 'Retrying|Max retries|Connection|timed out|ProxyError|name resolution' "$log"; then
-      skip "the Python package registry is not reachable, so there is no MuJoCo $major to build against"
-    fi
-    fail "pip found no wheel of MuJoCo $major for this machine"
-  fi
-  python3 -m zipfile --extract "$work"/wheel/mujoco*.whl "$work/unpacked"
-  mv "$work/unpacked/mujoco" "$work/mujoco"
-  rm -rf "$work/unpacked"
-}
+# shellcheck source=tests/mujoco/wheels.sh
+. "$(dirname "${BASH_SOURCE[0]}")/wheels.sh"
 
 build() {
   "$cmake" -S "$source" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
@@ -58,6 +32,9 @@ run() {
 }
 
 mkdir -p "$work"
-download
+rm -rf "$work/unpacked" "$work/mujoco"
+download "$wheel" "$work" "$work/pip.log" ||
+  skip "the Python package registry is not reachable, so there is no MuJoCo $major to build against"
+mv "$work/unpacked/mujoco" "$work/mujoco"
 build
 run

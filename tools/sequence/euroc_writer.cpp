@@ -26,8 +26,7 @@ constexpr const char* kOdometryHeader =
     "#timestamp [ns],v_RB_B_x [m s^-1],v_RB_B_y [m s^-1],v_RB_B_z [m s^-1],"
     "w_RB_B_z [rad s^-1]\n";
 
-/// A loop, because GCC 13 warns within fmt 9 about `fmt::join` of numbers, as in
-/// sim/scene/mjcf.cpp.
+/// A loop, because GCC 13 warns within fmt 9 about `fmt::join` of numbers.
 std::string numbers(std::span<const double> values, const char* separator) {
   std::string text;
   for (const double value : values) {

@@ -40,7 +40,7 @@ std::string rotation_text(const Eigen::Quaterniond& q) {
   return fmt::format(" quat=\"{:.6f} {:.6f} {:.6f} {:.6f}\"", q.w(), q.x(), q.y(), q.z());
 }
 
-std::string geom_text(const Part& part) {
+std::string geom_text(const World& world, const Part& part) {
   std::string shape;
   switch (part.shape) {
     case Part::Shape::box:
@@ -66,9 +66,11 @@ std::string geom_text(const Part& part) {
   }
   const std::string place =
       part.position_m.isZero() ? "" : fmt::format(" pos=\"{}\"", numbers(part.position_m));
-  return fmt::format("<geom {}{}{}{} material=\"material_{}\"/>\n",
+  const Material& material = world.materials[static_cast<std::size_t>(part.material)];
+  const bool is_tiled = part.shape != Part::Shape::mesh && material.texture >= 0 && !material.cube;
+  return fmt::format("<geom {}{}{}{} material=\"{}_{}\"/>\n",
                      part.is_solid ? "class=\"solid\" " : "", shape, place,
-                     rotation_text(part.rotation), part.material);
+                     rotation_text(part.rotation), is_tiled ? "tiled" : "material", part.material);
 }
 
 std::string scene_text(const World& world) {
@@ -102,17 +104,18 @@ std::string scene_text(const World& world) {
   }
   for (std::size_t i = 0; i < world.materials.size(); ++i) {
     const Material& m = world.materials[i];
-    text += fmt::format("    <material name=\"material_{}\" rgba=\"{} {}\"", i, numbers(m.rgb),
-                        number(m.alpha));
-    if (m.emission > 0) text += fmt::format(" emission=\"{}\"", number(m.emission));
+    std::string look = fmt::format(" rgba=\"{} {}\"", numbers(m.rgb), number(m.alpha));
+    if (m.emission > 0) look += fmt::format(" emission=\"{}\"", number(m.emission));
     if (m.texture >= 0) {
-      text +=
+      look +=
           fmt::format(" texture=\"{}\"", world.textures[static_cast<std::size_t>(m.texture)].name);
-      if (!m.cube) {
-        text += fmt::format(" texrepeat=\"{0} {0}\" texuniform=\"true\"", number(1 / m.side_m));
-      }
     }
-    text += "/>\n";
+    text += fmt::format("    <material name=\"material_{}\"{}/>\n", i, look);
+    if (m.texture < 0 || m.cube) continue;
+    // primitives repeat a picture by their size, meshes by their own texture coordinates
+    text += fmt::format(
+        "    <material name=\"tiled_{0}\"{1} texrepeat=\"{2} {2}\" texuniform=\"true\"/>\n", i,
+        look, number(1 / m.side_m));
   }
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {
     text += fmt::format("    <mesh name=\"mesh_{0}\" file=\"mesh_{0}.obj\"/>\n", i);
@@ -125,11 +128,11 @@ std::string scene_text(const World& world) {
         "specular=\"0 0 0\" castshadow=\"false\"/>\n",
         direction, number(world.diffuse * (first ? 1 : 0.5)));
   }
-  for (const Part& part : world.setting) text += "    " + geom_text(part);
+  for (const Part& part : world.setting) text += "    " + geom_text(world, part);
   for (const Body& body : world.bodies) {
     text += fmt::format("    <body name=\"{}\" pos=\"{}\"{}>\n", body.name,
                         numbers(body.position_m), rotation_text(body.rotation));
-    for (const Part& part : body.parts) text += "      " + geom_text(part);
+    for (const Part& part : body.parts) text += "      " + geom_text(world, part);
     text += "    </body>\n";
   }
   return text + "  </worldbody>\n</mujoco>\n";

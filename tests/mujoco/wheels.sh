@@ -1,0 +1,28 @@
+# Functions for tests that need Python packages: skip, fail, download.
+# shellcheck shell=bash
+
+skip() {
+  printf 'SKIPPED: %s\n' "$*"
+  exit 77
+}
+fail() {
+  printf 'FAILED: %s\n' "$*"
+  exit 1
+}
+
+# download PACKAGE WORK LOG unpacks the newest wheel into WORK/unpacked; fails if the registry is not
+# reachable, and ends the test if it has no such wheel.
+download() {
+  local package=$1 work=$2 log=$3
+  python3 -m pip --version >/dev/null 2>&1 ||
+    skip "the download needs pip (Debian: python3-pip, which tools/test --all installs)"
+  rm -rf "$work/wheel"
+  mkdir -p "$work/wheel"
+  if ! python3 -m pip download --disable-pip-version-check --no-deps --only-binary :all: \
+    --retries 1 --timeout 30 --dest "$work/wheel" "$package" >"$log" 2>&1; then
+    cat "$log"
+    grep -qE 'Retrying|Max retries|Connection|timed out|ProxyError|name resolution' "$log" && return 1
+    fail "pip found no wheel of $package for this machine"
+  fi
+  python3 -m zipfile --extract "$work"/wheel/*.whl "$work/unpacked"
+}
