@@ -99,12 +99,7 @@ class Egl : public GlContext::Library {
     if (is_software) ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
     if (!load({"libEGL.so.1"})) fail("loading libEGL.so.1");
     constexpr unsigned kSurfaceless = 0x31DD, kDevice = 0x313F, kOpengl = 0x30A2;
-    void* device = nullptr;
-    int count = 1;
-    if (!is_software) {
-      const auto query = extension<unsigned(int, void**, int*)>("eglQueryDevicesEXT");
-      if (!query(1, &device, &count) || count == 0) fail("eglQueryDevicesEXT (no device)");
-    }
+    void* const device = is_software ? nullptr : graphics_card();
     const auto display_of =
         extension<void*(unsigned, void*, const int*)>("eglGetPlatformDisplayEXT");
     display_ = display_of(is_software ? kSurfaceless : kDevice, device, nullptr);
@@ -137,6 +132,25 @@ class Egl : public GlContext::Library {
   }
 
  private:
+  /// The first device that is no software.
+  void* graphics_card() const {
+    std::array<void*, 16> devices{};
+    int count = 0;
+    extension<unsigned(int, void**, int*)>("eglQueryDevicesEXT")(static_cast<int>(devices.size()),
+                                                                 devices.data(), &count);
+    const auto text = extension<const char*(void*, int)>("eglQueryDeviceStringEXT");
+    constexpr int kExtensions = 0x3055;
+    for (int i = 0; i < count; ++i) {
+      const char* extensions = text(devices[static_cast<std::size_t>(i)], kExtensions);
+      const std::string_view words = extensions ? extensions : "";
+      if (words.find("EGL_MESA_device_software") == words.npos) {
+        return devices[static_cast<std::size_t>(i)];
+      }
+    }
+    throw std::runtime_error(
+        "LCS_GL is gpu, and EGL finds no graphics card; set it to osmesa or egl");
+  }
+
   template <typename Function>
   Function* extension(const char* name) const {
     void* found = function(name);
