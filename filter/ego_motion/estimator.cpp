@@ -150,7 +150,7 @@ void EgoMotionEstimator::add_imu(std::int64_t t_ns, const Vector3d& gyro_radps,
   if (finding.begins_in_g) scale_past(finding.accel_scale);
   const std::int64_t since_ns = t_ns - last_->t_ns;
   measure_period(since_ns);
-  // A reading is the mean over its period; what lies between it and a gap's begin is not measured.
+  // A reading is the mean over its period. The rest of a gap before it is not measured.
   if (is_gap(since_ns)) propagate_to(t_ns - period_ns_);
   last_ = {t_ns, gyro_radps, accel};
   if (watch_.in_g() == 0 || watch_.in_g() == ImuWatch::kInG) {

@@ -4,7 +4,7 @@
 /// The environment's LCS_GL chooses the library, which is loaded at the first context:
 ///   osmesa  Mesa's software renderer, by OSMesa; the default where it is installed
 ///   egl     the same renderer, by EGL without a surface: the same bits; the default elsewhere
-///   gpu     the first device that EGL offers; its bits are not promised
+///   gpu     the first graphics card that EGL offers; its bits are not promised
 #pragma once
 
 #include <memory>

@@ -185,7 +185,7 @@ World::Loaded World::load(const scenario::Scenario& scenario) {
   if (!trial.crash.empty()) {
     throw input::Error({scenario.scene.string(), 0}, reason_of(trial.crash));
   }
-  ComposedScene composed = compose(scenario);  // refuses what it refused in the child
+  ComposedScene composed = compose(scenario);  // throws the error that the child threw
   Model model = compile(composed);
   if (!trial.fine) {
     throw input::Error({scenario.scene.string(), 0},

@@ -7,8 +7,8 @@ set -euo pipefail
 source=$1 work=$2 cmake=$3 major=$4 wheel=$5
 frames=5
 
-# shellcheck source=tests/mujoco/wheels.sh
-. "$(dirname "${BASH_SOURCE[0]}")/wheels.sh"
+# shellcheck source=tests/long_test.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../long_test.sh"
 
 build() {
   "$cmake" -S "$source" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \

@@ -7,10 +7,8 @@
 set -euo pipefail
 source=$1 work=$2 lcs=$3
 
-skip() {
-  printf 'SKIPPED: %s\n' "$*"
-  exit 77
-}
+# shellcheck source=tests/long_test.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../long_test.sh"
 
 rm -rf "$work"
 mkdir -p "$work"
@@ -20,11 +18,10 @@ python3 -m venv venv 2>/dev/null ||
 if ! venv/bin/pip install --disable-pip-version-check --retries 1 --timeout 30 "$source/tools/python" \
   >pip.log 2>&1; then
   cat pip.log
-  if grep -qE 'Retrying|Max retries|Connection|timed out|ProxyError|name resolution' pip.log; then
+  if is_offline pip.log; then
     skip "the Python package registry is not reachable, so there is nothing to build with"
   fi
-  printf 'FAILED: pip does not install the package\n'
-  exit 1
+  fail "pip does not install the package"
 fi
 
 # Detects a package that reads its scene from SOURCE.

@@ -6,8 +6,8 @@
 # if a download fails.
 set -euo pipefail
 lcs=$1 work=$2
-# shellcheck source=tests/mujoco/wheels.sh
-. "$(dirname "${BASH_SOURCE[0]}")/../mujoco/wheels.sh"
+# shellcheck source=tests/long_test.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../long_test.sh"
 
 # name, file in a package, body to attach, size, pose, groups that are drawn
 robots=(

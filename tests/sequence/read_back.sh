@@ -9,14 +9,8 @@ lcs=$1 scenarios=$2 work=$3
 here=$(dirname "${BASH_SOURCE[0]}")
 frames=30
 
-skip() {
-  printf 'SKIPPED: %s\n' "$*"
-  exit 77
-}
-fail() {
-  printf 'FAILED: %s\n' "$*"
-  exit 1
-}
+# shellcheck source=tests/long_test.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../long_test.sh"
 
 # Releases of TrackEval before 1.3 use names that NumPy 1.24 removed.
 install_tools() {
@@ -26,7 +20,7 @@ install_tools() {
   if ! "$work/venv/bin/pip" install --disable-pip-version-check --retries 1 --timeout 30 --quiet \
     --only-binary :all: evo pycocotools 'trackeval>=1.3' pillow pyyaml >"$log" 2>&1; then
     cat "$log"
-    if grep -qE 'Retrying|Max retries|Connection|timed out|ProxyError|name resolution' "$log"; then
+    if is_offline "$log"; then
       skip "the Python package registry is not reachable, so there are no tools to read with"
     fi
     fail "pip does not install evo, pycocotools and trackeval"

