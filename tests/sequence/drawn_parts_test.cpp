@@ -76,8 +76,8 @@ void expect_only_default_pictures_to_fail(const scenario::Scenario& scenario) {
   sim::Simulation simulation(scenario);
   for (int k = 0; k < kFrame; ++k) simulation.skip();
   sim::Observation now = *simulation.next(), next = *simulation.next();
-  const TrueFlow flow =
-      true_flow(simulation.calibration().camera, now.truth, next.truth.depth_m, next.truth.object);
+  const TrueFlow flow = true_flow(simulation.calibration().camera, now.truth, now.geom,
+                                  {next.truth.depth_m, next.geom});
   EXPECT_LT(check_picture(now, next, flow).worst, 0.05);
   now.rendered = drawn_by_default(scenario, kFrame);
   next.rendered = drawn_by_default(scenario, kFrame + 1);

@@ -163,8 +163,8 @@ TEST_F(Generated, ReadingsAndPosesAreThoseOfTheSimulationToTheLastBit) {
 
 TEST_F(Generated, FlowReadByOpenCvIsTheMotionOfThePixels) {
   for (std::size_t k = 0; k + 1 < frames_.size(); ++k) {
-    const TrueFlow motion = true_flow(camera_, frames_[k].truth, frames_[k + 1].truth.depth_m,
-                                      frames_[k + 1].truth.object);
+    const TrueFlow motion = true_flow(camera_, frames_[k].truth, frames_[k].geom,
+                                      {frames_[k + 1].truth.depth_m, frames_[k + 1].geom});
     const auto check = [&](const std::string& kind, const cv::Mat2f& truth, const cv::Mat1b& seen) {
       const cv::Mat flo =
           cv::readOpticalFlow(folder() / kind / "middlebury" / fmt::format("{:06}.flo", k));

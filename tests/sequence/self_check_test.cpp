@@ -29,7 +29,7 @@ class SelfCheck : public testing::Test {
   }
 
   TrueFlow field() const {
-    return true_flow(calibration_.camera, now_.truth, next_.truth.depth_m, next_.truth.object);
+    return true_flow(calibration_.camera, now_.truth, now_.geom, {next_.truth.depth_m, next_.geom});
   }
   Agreement check(const cv::Mat2f& motion, const cv::Mat1b& seen) const {
     return check_flow(calibration_.camera, now_, next_, motion, seen);

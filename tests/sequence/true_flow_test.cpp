@@ -34,7 +34,9 @@ struct PanelBeforeWall {
     const double moved_px = camera.focal_px * (panel_m - ego_m) / kPanel_m;
     draw(static_cast<int>(std::lround(moved_px)), next_depth, next_object);
   }
-  TrueFlow field() const { return true_flow(camera, truth, next_depth, next_object); }
+  TrueFlow field() const {
+    return true_flow(camera, truth, truth.object, {next_depth, next_object});
+  }
 
  private:
   static void draw(int shift, cv::Mat1f& depth, cv::Mat1i& object) {
@@ -71,6 +73,17 @@ TEST(TrueFlow, MarksWhatIsHiddenInTheNextFrameAndWhatLeavesThePicture) {
   EXPECT_NEAR(leaving.full_px(40, 10)[0], -25, 1e-4) << "its motion is known all the same";
 }
 
+TEST(TrueFlow, OfAThinBodyWithoutAPixelInTheNextFrameIsNotSeenThere) {
+  PanelBeforeWall scene(0, 0);
+  cv::Mat1i surfaces = scene.truth.object.clone();
+  surfaces(40, 20) = 7;  // a wire on the wall, of the same body and depth
+  const TrueFlow field =
+      true_flow(scene.camera, scene.truth, surfaces, {scene.next_depth, scene.next_object});
+  EXPECT_EQ(field.seen(40, 20), 0);
+  EXPECT_EQ(field.seen(40, 21), 1);
+  EXPECT_FALSE(std::isnan(field.full_px(40, 20)[0])) << "its motion is known all the same";
+}
+
 TEST(TrueFlow, IsUndefinedOnTheSkyAndOnTheRover) {
   PanelBeforeWall scene(0.5, 0);
   for (cv::Mat1f* depth : {&scene.truth.depth_m, &scene.next_depth}) {
@@ -105,7 +118,8 @@ TEST(TrueFlow, OfRenderedFramesIsTheTruthOfCornersThere) {
   for (int k = 0; k < 20; ++k) simulation.skip();  // until both movers are in view
   const std::optional<sim::Observation> now = simulation.next(), next = simulation.next();
   const sim::Pinhole& camera = simulation.calibration().camera;
-  const TrueFlow field = true_flow(camera, now->truth, next->truth.depth_m, next->truth.object);
+  const TrueFlow field =
+      true_flow(camera, now->truth, now->geom, {next->truth.depth_m, next->geom});
   std::vector<Eigen::Vector2f> places;
   for (int y = 1; y < camera.height_px - 1; y += 3) {
     for (int x = 1; x < camera.width_px - 1; x += 3) {

@@ -35,22 +35,19 @@ std::vector<Carrier> carriers_of(const sim::FrameTruth& truth) {
 }
 
 /// The rendered frame k+1.
-struct NextView {
-  const cv::Mat1f& depth_m;
-  const cv::Mat1i& object;
-
+struct NextView : Surfaces {
   bool holds(double x, double y) const {
     return x >= 0 && y >= 0 && x <= depth_m.cols - 1 && y <= depth_m.rows - 1;
   }
-  /// Whether the surface of `id` at depth z is visible at a position: one of the four pixels round
-  /// it shows that body, and the depth lies between theirs.
-  bool shows(double x, double y, float z, int id) const {
+  /// Whether a surface at depth z is visible at a position: one of the four pixels round
+  /// it shows that surface, and the depth lies between theirs.
+  bool shows(double x, double y, float z, int surface) const {
     const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
     const auto is_within = [z](float least, float most) {
       return z >= least * (1 - kDepthSlack) && z <= most * (1 + kDepthSlack);
     };
     // Usually the upper left pixel suffices.
-    if (const float here = depth_m(y0, x0); object(y0, x0) == id && is_within(here, here)) {
+    if (const float here = depth_m(y0, x0); this->id(y0, x0) == surface && is_within(here, here)) {
       return true;
     }
     const int x1 = std::min(x0 + 1, depth_m.cols - 1), y1 = std::min(y0 + 1, depth_m.rows - 1);
@@ -61,7 +58,7 @@ struct NextView {
         const float depth = depth_m(row, column);
         nearest = std::min(nearest, depth);
         farthest = std::max(farthest, depth);
-        is_there |= object(row, column) == id;
+        is_there |= this->id(row, column) == surface;
       }
     }
     return is_there && is_within(nearest, farthest);
@@ -71,9 +68,9 @@ struct NextView {
 }  // namespace
 
 TrueFlow true_flow(const sim::Pinhole& camera, const sim::FrameTruth& truth,
-                   const cv::Mat1f& next_depth_m, const cv::Mat1i& next_object) {
+                   const cv::Mat1i& surface_id, const Surfaces& next_surfaces) {
   const std::vector<Carrier> carriers = carriers_of(truth);
-  const NextView next{next_depth_m, next_object};
+  const NextView next{next_surfaces};
   const cv::Size size = truth.depth_m.size();
   TrueFlow field{cv::Mat2f(size), cv::Mat2f(size), cv::Mat1b(size), cv::Mat1b(size)};
   const double f = camera.focal_px, cx = camera.centre_px.x(), cy = camera.centre_px.y();
@@ -88,6 +85,7 @@ TrueFlow true_flow(const sim::Pinhole& camera, const sim::FrameTruth& truth,
     }
     const float* depth = truth.depth_m[y];
     const int* object = truth.object[y];
+    const int* surface = surface_id[y];
     cv::Vec2f* full = field.full_px[y];
     cv::Vec2f* ego = field.ego_px[y];
     unsigned char* seen = field.seen[y];
@@ -107,7 +105,7 @@ TrueFlow true_flow(const sim::Pinhole& camera, const sim::FrameTruth& truth,
         const double v = scale * (row_start[id].y() + x * step[id].y() + w * t.y()) + cy;
         motion = {static_cast<float>(u - x), static_cast<float>(v - y)};
         is_seen = next.holds(u, v) &&
-                  (!is_real || next.shows(u, v, static_cast<float>(z / w), object[x]));
+                  (!is_real || next.shows(u, v, static_cast<float>(z / w), surface[x]));
       };
       const auto id = static_cast<std::size_t>(object[x]);
       move(0, ego[x], ego_seen[x], !carriers[id].moves);

@@ -21,8 +21,15 @@ struct TrueFlow {
   cv::Mat1b ego_seen;
 };
 
-/// \param next_depth_m,next_object of frame k+1, as in `sim::FrameTruth`.
+/// The surfaces of a frame: `sim::Observation::geom`, or any other number of each surface.
+struct Surfaces {
+  const cv::Mat1f& depth_m;
+  const cv::Mat1i& id;
+};
+
+/// \param surface_id of frame k. A point is visible in frame k+1 only on its own surface: a thin
+/// body may have no pixel there, and the depth of the ground behind it may be like its own.
 TrueFlow true_flow(const sim::Pinhole& camera, const sim::FrameTruth& truth,
-                   const cv::Mat1f& next_depth_m, const cv::Mat1i& next_object);
+                   const cv::Mat1i& surface_id, const Surfaces& next);
 
 }  // namespace lcs::sequence
