@@ -26,13 +26,11 @@ std::string line(std::string_view head, const Metrics& metrics, bool with_undefi
   return text + '\n';
 }
 
-}  // namespace
-
-std::string table(const Metrics& metrics) {
-  std::string text;
-  text += line("rebels", metrics, true,
-               {"rebel.precision", "rebel.recall", "rebel.f1", "rebel.f1_clear",
-                "rebel.f1_distinct", "rebel.recall_radial"});
+/// The lines of figures that need a truth.
+std::string scores(const Metrics& metrics) {
+  std::string text = line("rebels", metrics, true,
+                          {"rebel.precision", "rebel.recall", "rebel.f1", "rebel.f1_clear",
+                           "rebel.f1_distinct", "rebel.recall_radial"});
   constexpr double kPoor = 0.7;
   if (value(metrics, "rebel.f1").value_or(1) < kPoor) {
     text += line("F1 lost", metrics, true,
@@ -45,6 +43,20 @@ std::string table(const Metrics& metrics) {
   text += line("squares", metrics, true,
                {"square.precision_50", "square.recall_50", "square.recall_50_movers",
                 "square.recall_50_static", "square.mean_iou", "square.mask_mean_iou"});
+  return text;
+}
+
+}  // namespace
+
+std::string table(const Metrics& metrics) {
+  std::string text;
+  if (!value(metrics, "truth.fixed_corners")) {  // no truth to score against
+    text += line("found", metrics, true,
+                 {"dimension.corners_mean", "found.rebels_per_frame", "found.movers_per_frame"});
+  } else {
+    text += scores(metrics);
+  }
+
   if (value(metrics, "labels.frames")) {
     text += line("labels", metrics, true,
                  {"labels.frames", "labels.boxes", "labels.found", "labels.boxed_50",

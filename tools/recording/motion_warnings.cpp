@@ -4,9 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace lcs::bench {
@@ -115,8 +117,31 @@ bool goes_straight(const EgoMotion& told) {
          side <= 0.2 * std::abs(told.v_C_mps.z());
 }
 
-double time_of(const FrameRecord& frame) {
-  return 1e-9 * static_cast<double>(frame.t_ns);
+/// Seconds since the first frame.
+double time_of(const FrameRecord& frame, const Recording& recording) {
+  return 1e-9 * static_cast<double>(frame.t_ns - recording.frames.front().t_ns);
+}
+
+/// Parts of the picture, of 16, in which most corners are rebels; and those with corners.
+std::pair<int, int> rebel_parts(const FrameRecord& frame) {
+  constexpr int kSide = 4, kFew = 3;
+  std::array<std::array<int, 2>, kSide * kSide> counts{};  // corners, rebels
+  Eigen::Vector2f most = Eigen::Vector2f::Ones();
+  for (const Eigen::Vector2f& px : frame.corners_px) most = most.cwiseMax(px);
+  for (std::size_t i = 0; i < frame.corners_px.size(); ++i) {
+    const Eigen::Vector2f at = frame.corners_px[i].cwiseQuotient(most) * (kSide - 0.01F);
+    auto& [corners, rebels] =
+        counts[static_cast<std::size_t>(at.y()) * kSide + static_cast<std::size_t>(at.x())];
+    ++corners;
+    rebels += frame.verdicts[i] == Verdict::rebel;
+  }
+  std::pair<int, int> parts;
+  for (const auto& [corners, rebels] : counts) {
+    if (corners < kFew) continue;
+    parts.first += 2 * rebels > corners;
+    ++parts.second;
+  }
+  return parts;
 }
 
 MotionWarning runaway_speed(const Recording& recording) {
@@ -128,7 +153,7 @@ MotionWarning runaway_speed(const Recording& recording) {
     warning.text = fmt::format(
         "the camera is told to move at {:.0f} m/s at {:.2f} s: give the IMU's biases by a time at "
         "rest, a start with its speed, or readings in m/s",
-        speed_mps, time_of(frame));
+        speed_mps, time_of(frame, recording));
   }
   return warning;
 }
@@ -141,7 +166,7 @@ MotionWarning turn_not_told(const Recording& recording) {
     const FrameRecord& frame = recording.frames[k];
     if (!goes_straight(frame.motion) || !shifted(recording.frames[k - 1], frame)) continue;
     ++warning.count;
-    if (!first_s) first_s = time_of(frame);
+    if (!first_s) first_s = time_of(frame, recording);
   }
   if (warning.count < kFewest) return {warning.word, 0, ""};
   warning.text = fmt::format(
@@ -165,7 +190,7 @@ MotionWarning still_camera(const Recording& recording) {
     ++steps;
     if (stands(recording.frames[from], frame)) {
       ++warning.count;
-      if (!first_s) first_s = time_of(frame);
+      if (!first_s) first_s = time_of(frame, recording);
     }
     from = k;
     gone_m = 0;
@@ -183,6 +208,7 @@ MotionWarning still_camera(const Recording& recording) {
 MotionWarning many_rebels(const Recording& recording) {
   MotionWarning warning{"many_rebels", 0, ""};
   std::optional<double> first_s;
+  int rebel_cells = 0, cells = 0;
   std::int64_t frames = 0;
   for (const FrameRecord& frame : recording.frames) {
     if (frame.index < kSightings || frame.verdicts.size() < kFewestCorners) continue;
@@ -192,13 +218,21 @@ MotionWarning many_rebels(const Recording& recording) {
       continue;
     }
     ++warning.count;
-    if (!first_s) first_s = time_of(frame);
+    if (!first_s) first_s = time_of(frame, recording);
+    const auto [rebel, all] = rebel_parts(frame);
+    rebel_cells += rebel;
+    cells += all;
   }
   if (2 * warning.count <= frames) return {warning.word, 0, ""};
+  constexpr double kWhole = 0.7;
+  const double share = cells > 0 ? static_cast<double>(rebel_cells) / cells : 0;
   warning.text = fmt::format(
-      "{:.0f} % and more of the corners are rebels in {} of {} frames, first at {:.2f} s: the "
-      "motion or the focal length that is told is not the camera's",
-      100 * kManyRebels, warning.count, frames, *first_s);
+      "{:.0f} % and more of the corners are rebels in {} of {} frames, first at {:.2f} s, and most "
+      "corners in {:.0f} % of the picture's parts: {}",
+      100 * kManyRebels, warning.count, frames, *first_s, 100 * share,
+      share > kWhole ? "the motion or the focal length that is told is not the camera's"
+                     : "bodies that move may fill the view; else the motion or the focal length "
+                       "that is told is not the camera's");
   return warning;
 }
 

@@ -27,7 +27,8 @@ Warned few_corners(const Recording& recording) {
   warned.text = fmt::format(
       "fewer than {} corners are in {} of {} frames, first at {:.2f} s: see what the camera sees "
       "(video.mp4), or lower corners.threshold",
-      kFewCorners, few, frames.size(), 1e-9 * static_cast<double>(first->t_ns));
+      kFewCorners, few, frames.size(),
+      1e-9 * static_cast<double>(first->t_ns - frames.front().t_ns));
   return warned;
 }
 

@@ -39,7 +39,8 @@ class Row {
   std::string header_, values_;
 };
 
-Row row_of(const FrameRecord& frame, const RebelCounts& rebels, bool layered) {
+/// \param rebels absent: the truth is unknown.
+Row row_of(const FrameRecord& frame, const std::optional<RebelCounts>& rebels, bool layered) {
   const Layers& layers = frame.layers;
   Row row;
   row("frame", frame.index)("t_s", static_cast<double>(frame.t_ns) * 1e-9);
@@ -53,9 +54,15 @@ Row row_of(const FrameRecord& frame, const RebelCounts& rebels, bool layered) {
   row("rebel_circles", layers.rebel_circles.size());
   row("squares", layers.squares.size());
   row("dimension", layered ? std::optional<double>(layers.dimension()) : std::nullopt);
-  row("true_rebels", rebels.true_rebels)("false_rebels", rebels.false_rebels);
-  row("found_rebels", rebels.found_rebels)("missed_rebels", rebels.missed_rebels);
-  row("precision", rebels.precision())("recall", rebels.recall());
+  const auto count = [&](int RebelCounts::*number) {
+    return rebels ? std::optional<double>((*rebels).*number) : std::nullopt;
+  };
+  row("true_rebels", count(&RebelCounts::true_rebels));
+  row("false_rebels", count(&RebelCounts::false_rebels));
+  row("found_rebels", count(&RebelCounts::found_rebels));
+  row("missed_rebels", count(&RebelCounts::missed_rebels));
+  row("precision", rebels ? rebels->precision() : std::nullopt);
+  row("recall", rebels ? rebels->recall() : std::nullopt);
   for (const Stage& stage : kStages) {
     const double ms = frame.times ? (*frame.times).*stage.time_ms : 0;
     const bool is_known = ms > 0 && (layered || !stage.is_layer);
@@ -88,11 +95,12 @@ Metrics read_metrics(const std::filesystem::path& path) {
 
 void write_frames(const std::filesystem::path& path, const Recording& recording) {
   const std::vector<RebelCounts> rebels = score_frames(recording);
-  const bool layered = recording.detector.layered;
+  const bool layered = recording.detector.layered, is_known = recording.truth != Truth::unknown;
   OutputFile file(path);
   file.write(row_of(FrameRecord{}, RebelCounts{}, layered).header() + '\n');
   for (std::size_t i = 0; i < recording.frames.size(); ++i) {
-    file.write(row_of(recording.frames[i], rebels[i], layered).values() + '\n');
+    const auto counts = is_known ? std::optional(rebels[i]) : std::nullopt;
+    file.write(row_of(recording.frames[i], counts, layered).values() + '\n');
   }
   file.close();
 }

@@ -218,6 +218,36 @@ std::vector<Metric> label_metrics() {
   };
 }
 
+// ---- Findings, right or wrong
+
+/// Mean over the frames of a count in each.
+template <class Count>
+Figure mean_of(const Scores& s, const Count& count) {
+  std::vector<double> counts;
+  for (const FrameRecord& frame : s.recording.frames) {
+    counts.push_back(static_cast<double>(count(frame)));
+  }
+  return mean(counts);
+}
+
+std::vector<Metric> found_metrics() {
+  return {
+      {"found.rebels_per_frame",
+       [](auto& s) {
+         return mean_of(
+             s, [](auto& frame) { return std::ranges::count(frame.verdicts, Verdict::rebel); });
+       },
+       neutral("per frame", 1), "rebels",
+       "corners that the detector calls rebels, right or wrong. Mean over frames"},
+      {"found.movers_per_frame",
+       [](auto& s) {
+         return mean_of(
+             s, [](auto& frame) { return std::ranges::count_if(frame.layers.squares, may_move); });
+       },
+       neutral("per frame", 2), "movers", "squares that move, right or wrong. Mean over frames"},
+  };
+}
+
 // ---- Sizes, ego-motion
 
 /// For each frame, the number of corners in the last `length` frames including itself.
@@ -414,6 +444,7 @@ const std::vector<Metric>& metrics() {
     add(rebel_metrics(), Truth::nothing_moves);
     add(square_metrics(), Truth::all);
     add(label_metrics());
+    add(found_metrics());
     add(other_metrics());
     add(time_metrics());
     add(warning_metrics());

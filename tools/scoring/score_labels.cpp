@@ -55,11 +55,6 @@ bool is_off(const Circle& circle, const FrameRecord& frame, const std::vector<La
                       });
 }
 
-/// Whether the square moves. A square without circles, of a user's detector, counts as moving.
-bool may_move(const Square& square) {
-  return square.rebel_circles > 0 || square.circles == 0;
-}
-
 /// The number of boxes matched one to one by squares. List positions break ties.
 int count_boxed(const FrameRecord& frame, const std::vector<Labelled>& labels) {
   std::vector<BoxPair> pairs;
@@ -75,6 +70,10 @@ int count_boxed(const FrameRecord& frame, const std::vector<Labelled>& labels) {
 }
 
 }  // namespace
+
+bool may_move(const Square& square) {
+  return square.rebel_circles > 0 || square.circles == 0;
+}
 
 LabelScore score_labels(const Recording& recording) {
   LabelScore score;

@@ -18,4 +18,7 @@ struct LabelScore {
 
 LabelScore score_labels(const Recording& recording);
 
+/// Whether the square moves. A square without circles, of a user's detector, counts as moving.
+bool may_move(const Square& square);
+
 }  // namespace lcs::bench
