@@ -374,17 +374,46 @@ inline constexpr std::array<const char*, 3> kSplits{"train", "validate", "test"}
 // --- recorded frames
 
 template <class Visit>
+void fields(Recorded::Topics& topics, Visit&& visit) {
+  auto& [image, camera_info, imu, poses, odometry, world] = topics;
+  constexpr const char* kOnly = "the only one of its kind";
+  visit({"image", "of `sensor_msgs/Image` or `CompressedImage`",
+         "required of a bag; the message lists its topics"},
+        image);
+  visit({"camera_info", "of `sensor_msgs/CameraInfo`", "that beside the images"}, camera_info);
+  visit({"imu", "of `sensor_msgs/Imu`", kOnly}, imu);
+  visit({"poses",
+         "of `PoseStamped`, `PoseWithCovarianceStamped`, `TransformStamped`, `nav_msgs/Odometry` "
+         "or tf, in place of an IMU",
+         "none, or the only one if there is no IMU"},
+        poses);
+  visit({"odometry", "of `nav_msgs/Odometry`: its velocities beside the IMU", "none"}, odometry);
+  visit({"world", "frame of poses that come from tf, as `map`", "none"}, world);
+}
+
+template <class Visit>
 void fields(Recorded& recorded, Visit&& visit) {
-  auto& [source, path, format, camera, fps, every, poses, imu, odometry, speed_mps, focal_px,
-         centre_px, distortion, camera_height_m, mount_rpy_rad, mask, at_rest_s, labels,
-         nothing_moves, split] = recorded;
-  visit({"path", "a folder, or a video", kRequired}, path, FolderOrFile{});
+  auto& [source, path, format, camera, topics, fps, times, time_unit, every, poses, imu, odometry,
+         speed_mps, calibration, imu_calibration, focal_px, centre_px, distortion, bayer, bits,
+         camera_height_m, mount_rpy_rad, mask, at_rest_s, labels, labels_video, nothing_moves,
+         split] = recorded;
+  visit({"path", "a folder, a video or a ROS bag", kRequired}, path, FolderOrFile{});
   visit({"format", "the layout of the files", "recognised from the files"}, format,
         Words{{kRecordingFormats.begin(), kRecordingFormats.end()}});
   visit({"camera", "one of several, as `cam1`, `image_02`, `mono_rear`", "the layout's first"},
         camera);
-  visit({"fps", "pictures a second, where the layout has no times", "a video's own"}, fps,
+  visit({"topics", "of a ROS bag"}, topics);
+  visit({"fps", "pictures a second, where the layout has no times", "a video's own times"}, fps,
         kSensorRate);
+  visit({"times",
+         "when the pictures of a video or folder were taken: a time a line, or a table with a "
+         "column of times; one row a picture, in their order or with their names",
+         "the layout's own"},
+        times, File{});
+  visit.at_most_one_of({"fps", "times"});
+  visit({"time_unit", "of times in tables and in names of pictures",
+         "by the header, or by the rates that the recording states"},
+        time_unit, Words{{"s", "ms", "us", "ns"}});
   visit({"every", "only every n-th picture is a frame"}, every, Whole{1, 10000});
   visit({"poses",
          "how the camera moved: lines of TUM (`t x y z qx qy qz qw`) or of KITTI odometry (12 "
@@ -407,6 +436,14 @@ void fields(Recorded& recorded, Visit&& visit) {
          "none"},
         speed_mps, kSignedSpeed);
   for (const char* key : {"imu", "odometry", "speed"}) visit.at_most_one_of({"poses", key});
+  visit({"calibration",
+         "of the camera, in place of the layout's: YAML of Kalibr (camchain), OpenCV, ROS "
+         "(`camera_info`), ORB-SLAM3, VINS-Fusion or OpenVINS; with `camera` one of several",
+         "the layout's own"},
+        calibration, File{});
+  visit({"imu_calibration", "noise densities of the IMU, as Kalibr's `imu.yaml` has them",
+         "the layout's own, or that of an ADIS16448"},
+        imu_calibration, File{});
   visit({"focal", "focal length; the layout's calibration is then left aside", "the layout's own"},
         focal_px, kFocal);
   visit({"centre", "principal point", "the calibration's, with `focal` the middle"}, centre_px,
@@ -415,6 +452,11 @@ void fields(Recorded& recorded, Visit&& visit) {
          "`[k1, k2, p1, p2, k3]`, or `{equidistant: [k1, k2, k3, k4]}`, as OpenCV has them",
          "the calibration's, with `focal` none"},
         distortion);
+  visit({"bayer", "pattern of raw pictures, from the top left pixel on", "they are not raw"}, bayer,
+        Words{{"rggb", "bggr", "grbg", "gbrg"}});
+  visit({"bits", "that the values of 16-bit pictures use",
+         "the least of 8, 10, 12, 14 and 16 that all pictures keep to"},
+        bits, Whole{8, 16});
   visit({"camera_height", "of the camera above the ground", "not known"}, camera_height_m,
         kDistance);
   visit({"mount",
@@ -431,8 +473,12 @@ void fields(Recorded& recorded, Visit&& visit) {
          "how long the camera stands at the start: with `imu` this gives biases and the vertical",
          "as long as the readings are still, if that is a second at least and there is no `speed`"},
         at_rest_s, kDuration);
-  visit({"labels", "boxes of all that moves: MOTChallenge's `gt.txt`, or COCO's JSON", "none"},
+  visit({"labels",
+         "boxes of all that moves: MOTChallenge's `gt.txt`, COCO's JSON, or KITTI tracking's",
+         "none"},
         labels, File{});
+  visit({"labels_video", "of the videos in a file of labels, by its name", "the only one"},
+        labels_video);
   visit({"nothing_moves", "in place of `labels`: every rebel is false"}, nothing_moves);
   if (nothing_moves) visit.at_most_one_of({"labels", "nothing_moves"});
   visit({"split", "the use of its figures; a group of that name has the scenario, too", "none"},

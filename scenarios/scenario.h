@@ -215,8 +215,10 @@ struct Actor {
 };
 
 /// The names of the on-disk layouts of recordings (`tools/replay/recorded.h` reads them).
-inline constexpr std::array<const char*, 8> kRecordingFormats{
-    "euroc", "kitti", "kitti_odometry", "robotcar", "tum_rgbd", "mot", "video", "pictures"};
+inline constexpr std::array<const char*, 12> kRecordingFormats{
+    "euroc",     "kitti",    "kitti_odometry", "kitti_tracking",
+    "kitti_360", "robotcar", "tum_rgbd",       "listed",
+    "mot",       "bag",      "video",          "pictures"};
 
 /// Frames of a real camera, instead of a simulation's. The layout supplies values that are absent
 /// here; others are unknown, never invented. Camera frame: x right, y down, z forward.
@@ -227,27 +229,40 @@ struct Recorded {
     std::vector<double> coefficients;  ///< k1 k2 p1 p2 k3, or k1 k2 k3 k4 if `equidistant`
   };
   enum class Split { train, validate, test };
+  /// Of a ROS bag; "": the only one of its kind.
+  struct Topics {
+    std::string image, camera_info, imu, poses, odometry;
+    std::string world;  ///< frame of poses that come from tf
+  };
 
   input::Source source;
-  std::filesystem::path path;  ///< a folder or a video file; exists
+  std::filesystem::path path;  ///< a folder, a video or a bag; exists
   std::string format;          ///< of `kRecordingFormats`; "": detected
   std::string camera;          ///< name of a camera; "": the layout's first
-  std::optional<double> fps;   ///< images per second
-  int every = 1;               ///< a frame is each n-th image, from the first image on
+  Topics topics;
+  std::optional<double> fps;                   ///< images per second
+  std::optional<std::filesystem::path> times;  ///< of the images: a table, exists
+  std::string time_unit;  ///< of tables: s, ms, us or ns; "": as they state it themselves
+  int every = 1;          ///< a frame is each n-th image, from the first image on
   /// \name Motion of the camera; each file exists. @{
   std::optional<std::filesystem::path> poses;     ///< T_WC, in lines of TUM or of KITTI odometry
   std::optional<std::filesystem::path> imu;       ///< columns as in EuRoC
   std::optional<std::filesystem::path> odometry;  ///< velocity, in EuRoC's style; needs an IMU
   std::optional<double> speed_mps;                ///< along the optical axis; 0: at rest
   ///@}
+  std::optional<std::filesystem::path> calibration;      ///< of the camera; exists
+  std::optional<std::filesystem::path> imu_calibration;  ///< noise, as Kalibr has it; exists
   std::optional<double> focal_px;
   std::optional<Eigen::Vector2d> centre_px;
   std::optional<Distortion> distortion;
+  std::string bayer;        ///< pattern of raw images from the top left, as "rggb"; "": none
+  std::optional<int> bits;  ///< in use of 16-bit images
   std::optional<double> camera_height_m;         ///< above the ground
   std::optional<Eigen::Vector3d> mount_rpy_rad;  ///< as `Camera::mount_rpy_rad`
   std::optional<std::filesystem::path> mask;     ///< an image: white is the vehicle itself
   std::optional<double> at_rest_s;               ///< duration of rest from the start on
   std::optional<std::filesystem::path> labels;   ///< boxes of the moving objects
+  std::string labels_video;                      ///< of several in the file; "": the only one
   bool nothing_moves = false;
   std::optional<Split> split;  ///< purpose of its figures
 };

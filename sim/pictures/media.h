@@ -3,6 +3,7 @@
 /// (GDAL, FFmpeg, GTK) they are most of the time in which a program starts.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/highgui.hpp>
@@ -12,11 +13,26 @@
 
 namespace lcs::sim {
 
+/// The formats of videos that FFmpeg may open, as its option format_whitelist.
+inline constexpr const char* kVideoFormats =
+    "mov,avi,matroska,mpeg,mpegts,flv,asf,ogg,h264,hevc,mjpeg";
+
+/// The times of all pictures of a video, in the order in which they are shown.
+struct VideoTimes {
+  std::vector<std::int64_t> t_ns;
+  /// By the file. Bare streams of pictures state none; where videos were joined, times go back.
+  bool are_stated = false;
+  std::int64_t counted = 0;  ///< pictures by the file's header; 0: it does not count them
+};
+
 /// Functions of OpenCV's imgcodecs and videoio. The objects' virtual functions need no linking.
 struct Media {
   bool (*imencode)(const cv::String& extension, cv::InputArray picture, std::vector<uchar>& bytes,
                    const std::vector<int>& parameters);
   cv::Mat (*imdecode)(cv::InputArray bytes, int flags);
+  /// Without decoding a picture. OpenCV has a picture's time only after it is decoded, and loses
+  /// that of the last ones. Empty if the file is no video.
+  VideoTimes (*video_times)(const std::string& file);
   /// By FFmpeg; not opened if it cannot. \param codec four characters.
   std::unique_ptr<cv::VideoCapture> (*read_video)(const std::string& file);
   std::unique_ptr<cv::VideoWriter> (*write_video)(const std::string& file, const char* codec,

@@ -1,13 +1,76 @@
 /// \file
 /// The library that `media()` loads.
+extern "C" {
+#include <libavformat/avformat.h>
+}
+
+#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 
 #include "sim/pictures/media.h"
+
+namespace {
+
+constexpr AVRational kNanoseconds{1, 1'000'000'000};
+
+/// The first stream of pictures, as OpenCV takes it; null if there is none.
+const AVStream* first_video(const AVFormatContext& format) {
+  for (unsigned i = 0; i < format.nb_streams; ++i) {
+    if (format.streams[i]->codecpar->codec_type == AVMEDIA_TYPE_VIDEO) return format.streams[i];
+  }
+  return nullptr;
+}
+
+/// Whether times go back only as far as pictures are decoded before they are shown. Parts of a
+/// stream that were joined begin anew.
+bool are_in_order(const std::vector<std::int64_t>& t_ns) {
+  constexpr std::size_t kMostReordered = 32;
+  std::int64_t before = INT64_MIN;  // the latest of all but the last pictures
+  for (std::size_t i = 0; i < t_ns.size(); ++i) {
+    if (i >= kMostReordered) before = std::max(before, t_ns[i - kMostReordered]);
+    if (t_ns[i] < before) return false;
+  }
+  return true;
+}
+
+lcs::sim::VideoTimes video_times(const std::string& file) {
+  lcs::sim::VideoTimes times;
+  AVDictionary* options = nullptr;
+  av_dict_set(&options, "protocol_whitelist", "file", 0);
+  av_dict_set(&options, "format_whitelist", lcs::sim::kVideoFormats, 0);
+  AVFormatContext* format = nullptr;
+  const int opened = avformat_open_input(&format, file.c_str(), nullptr, &options);
+  av_dict_free(&options);
+  if (opened < 0) return times;
+  const bool is_known = avformat_find_stream_info(format, nullptr) >= 0;
+  const AVStream* stream = is_known ? first_video(*format) : nullptr;
+  times.are_stated = stream && (format->iformat->flags & AVFMT_NOTIMESTAMPS) == 0;
+  times.counted = stream ? stream->nb_frames : 0;
+  AVPacket* packet = av_packet_alloc();
+  while (stream && packet && av_read_frame(format, packet) >= 0) {
+    if (packet->stream_index == stream->index && (packet->flags & AV_PKT_FLAG_DISCARD) == 0) {
+      // AVI has the order of decoding alone, which is that of showing there.
+      const std::int64_t time = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
+      times.are_stated = times.are_stated && time != AV_NOPTS_VALUE;
+      times.t_ns.push_back(
+          time == AV_NOPTS_VALUE ? 0 : av_rescale_q(time, stream->time_base, kNanoseconds));
+    }
+    av_packet_unref(packet);
+  }
+  av_packet_free(&packet);
+  avformat_close_input(&format);
+  times.are_stated = times.are_stated && are_in_order(times.t_ns);
+  std::sort(times.t_ns.begin(), times.t_ns.end());
+  return times;
+}
+
+}  // namespace
 
 extern "C" const lcs::sim::Media lcs_media_functions;
 const lcs::sim::Media lcs_media_functions = {
     &cv::imencode,
     &cv::imdecode,
+    &video_times,
     [](const std::string& file) {
       return std::make_unique<cv::VideoCapture>(file, cv::CAP_FFMPEG);
     },

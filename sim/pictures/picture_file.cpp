@@ -121,6 +121,22 @@ Size tiff_size(std::string_view bytes) {
   return size;
 }
 
+/// Image size in the first chunk of a WebP file: lossy, lossless, or extended.
+Size webp_size(std::string_view bytes) {
+  constexpr Integer kSide = 0x3fff;
+  const std::string_view chunk = bytes.substr(std::min<std::size_t>(12, bytes.size()), 4);
+  const auto number = [&](std::size_t at, int length) {
+    return number_at(bytes, at, length, false);
+  };
+  if (chunk == "VP8 ") return cv::Size2l(number(26, 2) & kSide, number(28, 2) & kSide);
+  if (chunk == "VP8L") {
+    const Integer sides = number(21, 4);
+    return cv::Size2l((sides & kSide) + 1, (sides >> 14 & kSide) + 1);
+  }
+  if (chunk == "VP8X") return cv::Size2l(number(24, 3) + 1, number(27, 3) + 1);
+  return std::nullopt;
+}
+
 /// Captures stderr during its lifetime. libpng and libjpeg report only there, and their text would
 /// appear beside our own message. One instance at a time.
 class Overheard {
@@ -174,6 +190,9 @@ std::optional<cv::Size2l> picture_size(std::string_view bytes) {
   if (bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6') {
     return pnm_size(bytes);
   }
+  if (bytes.starts_with("RIFF") && bytes.size() > 12 && bytes.substr(8, 4) == "WEBP") {
+    return webp_size(bytes);
+  }
   constexpr std::string_view kLittle("II*\0", 4), kBig("MM\0*", 4);
   if (bytes.starts_with(kLittle) || bytes.starts_with(kBig)) return tiff_size(bytes);
   return std::nullopt;
@@ -183,7 +202,7 @@ cv::Mat decode_picture(std::string_view bytes, int flags) {
   const Size size = picture_size(bytes);
   if (!size) {
     throw PictureError(
-        "this is no picture that can be read; give a PNG, JPEG, BMP, TIFF, PGM or "
+        "this is no picture that can be read; give a PNG, JPEG, BMP, TIFF, WebP, PGM or "
         "PPM");
   }
   // divided, because the product of two 32-bit sides may overflow

@@ -24,8 +24,8 @@ class PictureError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The size in the header of a PNG, JPEG, BMP, PGM, PPM or TIFF; absent for other formats. For a
-/// TIFF: the size of its tiles or strips where they exceed the image.
+/// The size in the header of a PNG, JPEG, BMP, PGM, PPM, WebP or TIFF; absent for other formats.
+/// For a TIFF: the size of its tiles or strips where they exceed the image.
 std::optional<cv::Size2l> picture_size(std::string_view bytes);
 
 /// \param flags of `cv::imdecode`. \return never empty.

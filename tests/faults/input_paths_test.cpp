@@ -38,6 +38,8 @@ const std::map<std::string, std::set<std::string>> kWays{
       "sim/camera/photograph.cpp"}},  // its own bytes
     {R"(VideoCapture[\s(>&]*[a-z]*\()", {"sim/pictures/media.h", "sim/pictures/media_module.cpp"}},
     {R"(media\(\)\.read_video)", {"tools/output/video_reader.cpp"}},
+    {R"(avformat_open|media\(\)\.video_times)",
+     {"sim/pictures/media_module.cpp", "tools/replay/pictures_reader.cpp"}},
     {R"(\.open\()", {}},
     {R"(LoadFile|mj_loadModel|mj_loadXML|mj_parse\b|mj_parseXML\b)", {}},
     {R"(mj_parseXMLString)", {"sim/scene/spec.cpp"}},  // text in memory

@@ -49,6 +49,20 @@ constexpr const char* kFiles[] = {
     "img1/000002.jpg",
     "0.png",
     "1.png",
+    "mav0/mocap0/data.csv",
+    "mav0/cam0/data/1403636579763555584.png",
+    "image_02/0000/000000.png",
+    "image_02/0000/000001.png",
+    "calib/0000.txt",
+    "oxts/0000.txt",
+    "image_00/timestamps.txt",
+    "image_00/data_rect/0000000000.png",
+    "images.txt",
+    "images/00000.jpg",
+    "images/00001.jpg",
+    "asked_times.csv",
+    "asked_calibration.yaml",
+    "asked_imu_calibration.yaml",
     "asked_poses.txt",
     "asked_imu.csv",
     "asked_odometry.csv",
@@ -71,6 +85,10 @@ scenario::Scenario asked(const fs::path& folder, std::uint8_t bits) {
   recording.poses = file("asked_poses.txt");
   if (!recording.poses) recording.imu = file("asked_imu.csv");
   if (recording.imu) recording.odometry = file("asked_odometry.csv");
+  recording.times = file("asked_times.csv");
+  recording.calibration = file("asked_calibration.yaml");
+  recording.imu_calibration = file("asked_imu_calibration.yaml");
+  if (bits & 32) recording.time_unit = "ms";
   if (bits & 128 && !recording.poses) recording.speed_mps = 1;
   return scenario;
 }

@@ -2,6 +2,7 @@
 // scores against them.
 #include "tools/recording/labels.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -25,6 +26,13 @@ class LabelsFile : public testing::Test {
     std::ofstream(path_, std::ios::binary) << text;
     return read_labels(path_);
   }
+  /// Those of a recording with pictures 0.png, 1.png, ...
+  static Labels joined(Labels all, int pictures, const std::string& ending = ".png") {
+    std::vector<Labels::Recorded> recorded;
+    for (int i = 0; i < pictures; ++i) recorded.push_back({i, std::to_string(i) + ending});
+    all.told = all.join(recorded);
+    return all;
+  }
   /// The error message after the folder's name.
   std::string refusal(const std::string& text) const {
     const std::string what = refusal_of<input::Error>([&] { labels(text); });
@@ -45,42 +53,111 @@ void expect_box(const LabelledBox& box, int id, double left, double top, double 
 }
 
 TEST_F(LabelsFile, MotCountsFramesAndPixelsFromOne) {
-  const Labels all = labels(
-      "\xEF\xBB\xBF"
-      "1,7,1,1,10,20,1,1,1\r\n\n3, 7 ,912.5,484,97,109,0,7,0.5\n3,-1,5,6,7,8\n");
-  EXPECT_EQ(all.pictures(), 2u);
-  ASSERT_NE(all.of(0, ""), nullptr);
-  ASSERT_EQ(all.of(0, "")->size(), 1u);
-  expect_box(all.of(0, "")->front(), 7, 0, 0, 10, 20);
-  EXPECT_FALSE(all.of(0, "")->front().ignored);
-  EXPECT_EQ(all.of(1, "000002.jpg"), nullptr) << "nobody looked at it";
-  ASSERT_NE(all.of(2, "000003.jpg"), nullptr);
-  ASSERT_EQ(all.of(2, "")->size(), 2u);
-  expect_box(all.of(2, "")->at(0), 7, 911.5, 483, 1008.5, 592);
-  EXPECT_TRUE(all.of(2, "")->at(0).ignored);
-  expect_box(all.of(2, "")->at(1), -1, 4, 5, 11, 13);
-  EXPECT_FALSE(all.of(2, "")->at(1).ignored) << "considered, unless it says otherwise";
+  const Labels all =
+      joined(labels("\xEF\xBB\xBF"
+                    "1,7,1,1,10,20,1,1,1\r\n\n3, 7 ,912.5,484,97,109,0,7,0.5\n3,-1,5,6,7,8\n"),
+             4);
+  ASSERT_NE(all.of(0), nullptr);
+  ASSERT_EQ(all.of(0)->size(), 1u);
+  expect_box(all.of(0)->front(), 7, 0, 0, 10, 20);
+  EXPECT_FALSE(all.of(0)->front().ignored);
+  EXPECT_EQ(all.of(1), nullptr) << "nobody looked at it";
+  ASSERT_NE(all.of(2), nullptr);
+  ASSERT_EQ(all.of(2)->size(), 2u);
+  expect_box(all.of(2)->at(0), 7, 911.5, 483, 1008.5, 592);
+  EXPECT_TRUE(all.of(2)->at(0).ignored);
+  expect_box(all.of(2)->at(1), -1, 4, 5, 11, 13);
+  EXPECT_FALSE(all.of(2)->at(1).ignored) << "considered, unless it says otherwise";
+  EXPECT_EQ(all.told.back(),
+            "labels: 2 of 2 labelled pictures, with 3 of 3 boxes, belong to the 4 pictures of the "
+            "recording");
 }
 
-TEST_F(LabelsFile, CocoNamesPicturesOrNumbersThem) {
-  const Labels all = labels(R"(
-    {"images": [{"id": 5, "file_name": "left/0012.png"}, {"id": 9, "file_name": "0013.png"},
-                {"id": 11, "file_name": "a.mp4", "frame_id": 30}],
+TEST_F(LabelsFile, MotWithAFrameZeroCountsFromZero) {
+  const Labels all = joined(labels("0,1,1,1,5,5\n2,1,1,1,6,6\n"), 3);
+  ASSERT_NE(all.of(2), nullptr);
+  expect_box(all.of(2)->front(), 1, 0, 0, 6, 6);
+  EXPECT_EQ(all.told.front(), "labels: their frames count from 0, not from 1");
+}
+
+constexpr const char* kCoco = R"(
+    {"images": [{"id": 5.0, "file_name": "left/0.png"}, {"id": 9, "file_name": "1.png"}],
      "annotations": [
-       {"id": 1, "image_id": 5, "bbox": [0, 0.5, 10, 20], "track_id": 4, "iscrowd": 0},
-       {"id": 2, "image_id": 5, "bbox": [-3, 0, 8, 9], "iscrowd": 1},
-       {"id": 3, "image_id": 11, "bbox": [1, 2, 3, 4]}]})");
-  EXPECT_EQ(all.pictures(), 3u);
-  ASSERT_NE(all.of(0, "0012.png"), nullptr);
-  ASSERT_EQ(all.of(0, "0012.png")->size(), 2u);
-  expect_box(all.of(0, "0012.png")->at(0), 4, 0, 0.5, 10, 20.5);
-  expect_box(all.of(0, "0012.png")->at(1), -1, -3, 0, 5, 9);
-  EXPECT_TRUE(all.of(0, "0012.png")->at(1).ignored);
-  ASSERT_NE(all.of(1, "0013.png"), nullptr);
-  EXPECT_TRUE(all.of(1, "0013.png")->empty()) << "looked at, and nothing moves in it";
-  EXPECT_EQ(all.of(1, "0014.png"), nullptr);
-  ASSERT_NE(all.of(30, ""), nullptr);
-  expect_box(all.of(30, "")->front(), -1, 1, 2, 4, 6);
+       {"id": 1, "image_id": 5, "bbox": [0, 0.5, 10, 20], "track_id": 4.0, "iscrowd": false},
+       {"id": 2, "image_id": 5, "bbox": [-3, 0, 8, 9], "iscrowd": 1}]})";
+
+TEST_F(LabelsFile, CocoNamesPictures) {
+  const Labels all = joined(labels(kCoco), 3);
+  ASSERT_NE(all.of(0), nullptr);
+  ASSERT_EQ(all.of(0)->size(), 2u);
+  expect_box(all.of(0)->at(0), 4, 0, 0.5, 10, 20.5);
+  EXPECT_FALSE(all.of(0)->at(0).ignored);
+  expect_box(all.of(0)->at(1), -1, -3, 0, 5, 9);
+  EXPECT_TRUE(all.of(0)->at(1).ignored);
+  ASSERT_NE(all.of(1), nullptr);
+  EXPECT_TRUE(all.of(1)->empty()) << "looked at, and nothing moves in it";
+  EXPECT_EQ(all.of(2), nullptr);
+}
+
+TEST_F(LabelsFile, NamesWithOtherEndingsAreFoundAndTold) {
+  const Labels all = joined(labels(kCoco), 3, ".jpg");
+  ASSERT_NE(all.of(0), nullptr);
+  EXPECT_EQ(all.told.front(), "labels: they name pictures with other endings than the recording");
+}
+
+/// \param first frame_id of the first of three pictures.
+std::string numbered(int first, const std::string& name) {
+  std::string images, boxes;
+  for (int i = 0; i < 3; ++i) {
+    images += fmt::format(R"({}{{"id": {}, "file_name": "{}", "frame_id": {}}})", i ? "," : "", i,
+                          fmt::format(fmt::runtime(name), i), first + i);
+    boxes += fmt::format(R"({}{{"image_id": {}, "bbox": [{}, 0, 1, 1]}})", i ? "," : "", i, i);
+  }
+  return fmt::format(R"({{"images": [{}], "annotations": [{}]}})", images, boxes);
+}
+
+TEST_F(LabelsFile, ANameCountsMoreThanAFrameIdThatBeginsAtOne) {
+  const Labels all = joined(labels(numbered(1, "{}.png")), 3);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(all.of(i)->front().left, i);
+}
+
+TEST_F(LabelsFile, FrameIdsOfAVideoCountFromOneIfTheyEndWithTheCountOfPictures) {
+  const Labels from_one = joined(labels(numbered(1, "a.mp4")), 3, "");
+  EXPECT_EQ(from_one.of(0)->front().left, 0);
+  EXPECT_EQ(from_one.told.front(), "labels: frame_id is taken to count from 1");
+  const Labels from_zero = joined(labels(numbered(0, "a.mp4")), 3, "");
+  EXPECT_EQ(from_zero.of(0)->front().left, 0);
+  EXPECT_EQ(from_zero.told.front(), "labels: frame_id is taken to count from 0");
+}
+
+TEST_F(LabelsFile, OfSeveralVideosOneIsNamed) {
+  const std::string text = R"(
+    {"videos": [{"id": 1, "name": "a"}, {"id": 2, "name": "b"}],
+     "images": [{"id": 1, "video_id": 1, "frame_id": 0, "file_name": "a/0.png"},
+                {"id": 2, "video_id": 2, "frame_id": 0, "file_name": "b/0.png"}],
+     "annotations": [{"image_id": 1, "bbox": [1, 0, 1, 1]}, {"image_id": 2, "bbox": [2, 0, 1, 1]}]})";
+  EXPECT_NE(refusal(text).find("it has several videos: a, b; name one (labels_video)"),
+            std::string::npos)
+      << refusal(text);
+  EXPECT_EQ(joined(read_labels(path_, "b"), 1).of(0)->front().left, 2);
+  EXPECT_THROW(read_labels(path_, "c"), input::Error);
+}
+
+TEST_F(LabelsFile, OfKittiTrackingCountFromZero) {
+  const Labels all =
+      joined(labels("0 -1 DontCare -1 -1 -10 1 2 3 4 -1 -1 -1 -1000 -1000 -1000 -10\n"
+                    "1 3 Car 0 0 1.5 10.5 20 30.5 40 1.4 1.6 4 2 1 9 -1.5\n"),
+             2);
+  EXPECT_TRUE(all.of(0)->front().ignored);
+  expect_box(all.of(1)->front(), 3, 10.5, 20, 30.5, 40);
+}
+
+TEST_F(LabelsFile, ThatMatchNoPictureAreRefused) {
+  const Labels all = labels("372,1,1,1,5,5\n");
+  const std::string what = refusal_of<std::invalid_argument>([&] { joined(all, 40); });
+  EXPECT_EQ(what,
+            "0 of 1 labelled pictures, with 0 of 1 boxes, belong to the 40 pictures of the "
+            "recording: the first labels are of picture 372, and the recording begins with 0.png");
 }
 
 TEST_F(LabelsFile, WhatIsNoneIsRefusedAtItsLine) {
@@ -89,7 +166,8 @@ TEST_F(LabelsFile, WhatIsNoneIsRefusedAtItsLine) {
       {" \n\n", "gt.txt: is empty"},
       {"1,1,0,0,5,5\n2,1,0,0,5\n",
        "gt.txt:2: 5 fields are too few for FRAME,ID,LEFT,TOP,WIDTH,HEIGHT"},
-      {"0,1,0,0,5,5\n", "gt.txt:1: the frame is '0', which is not a whole number from 1"},
+      {"-1,1,0,0,5,5\n", "gt.txt:1: the frame is '-1', which is not a whole number from 0"},
+      {"0 1 Car 0 0 0 1 2 3\n", "gt.txt:1: 9 fields are too few for FRAME ID TYPE"},
       {"1.5,1,0,0,5,5\n", "the frame is '1.5', which is not a whole number"},
       {"1,a,0,0,5,5\n", "the id is 'a', which is no number"},
       {"1,1,nan,0,5,5\n", "the left side is 'nan', which is no number"},

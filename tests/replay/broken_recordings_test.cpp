@@ -209,7 +209,7 @@ TEST_F(BrokenRecording, YawRatesByTheWheelsAreThoseOfRowsThatHaveThem) {
     write(file, text);
     Tally tally;
     std::vector<std::optional<double>> all;
-    for (const sim::OdometrySample& sample : read_odometry_csv(file, tally)) {
+    for (const sim::OdometrySample& sample : read_odometry_csv(file, {"ns", {}, {}}, tally)) {
       all.push_back(sample.yaw_rate_radps);
     }
     return all;
@@ -233,6 +233,20 @@ TEST_F(BrokenRecording, EscapeCodesOfDataAreNotForTheTerminal) {
   EXPECT_EQ(result.err.find('\x1b'), std::string::npos) << result.err;
 }
 
+TEST_F(BrokenRecording, WithoutTheCamerasPlaceOnTheImuIsRefused) {
+  fs::remove(sequence() / "lcs.json");
+  const fs::path sensor = sequence() / "mav0/cam0/sensor.yaml";
+  std::string text = read(sensor);
+  text.replace(text.find("T_BS:"), 5, "was: ");
+  write(sensor, text);
+  const CommandResult result = replay();
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("does not say where the camera is on the IMU (T_BS or T_cam_imu in a "
+                            "calibration, or mount);"),
+            std::string::npos)
+      << result.err;
+}
+
 TEST_F(BrokenRecording, WhatCannotBeReplayedIsToldInOneLineAndNothingIsWritten) {
   const auto refused = [&](const std::string& expected) {
     fs::remove_all(home_.path() / "out");
@@ -246,7 +260,7 @@ TEST_F(BrokenRecording, WhatCannotBeReplayedIsToldInOneLineAndNothingIsWritten) 
   write(csv("imu0"), lines_of(imu).front() + "\n");
   refused("holds no reading of an IMU");
   write(csv("imu0"), "#timestamp [ns],x,y,z\n1,2,3,4\n");
-  refused("names no column w_RS_S_x");
+  refused("the header does not name three angular rates and three accelerations");
   std::string in_g;
   for (const std::string& line : lines_of(imu)) {
     in_g +=
@@ -289,7 +303,8 @@ TEST_F(BrokenRecording, WhatCannotBeReplayedIsToldInOneLineAndNothingIsWritten) 
   fs::remove(sequence() / "lcs.json");
   const std::string lens =
       "resolution: [640, 480]\nintrinsics: [500, 500, 320, 240]\ndistortion_model: radtan\n"
-      "distortion_coefficients: [0.1, 0, 0, 0]\n";
+      "distortion_coefficients: [0.1, 0, 0, 0]\n"
+      "T_BS: [0, 0, 1, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, 1]\n";
   const auto refused_lens = [&](const std::string& from, const std::string& to,
                                 const std::string& expected) {
     std::string text = lens;
@@ -301,12 +316,12 @@ TEST_F(BrokenRecording, WhatCannotBeReplayedIsToldInOneLineAndNothingIsWritten) 
   refused("sensor.yaml:");
   write(sensor, "rate_hz: often\n" + lens);
   refused("sensor.yaml:1: rate_hz: 'often' is not a number; ");
-  refused_lens("[500, 500", "[0, 500", "2: intrinsics.0 is '0'; it must be at least 1");
-  refused_lens("[500, 500", "[1e-300, 500", "2: intrinsics.0 is '1e-300'; it must be at least 1");
+  refused_lens("[500, 500", "[0, 500", "1: a focal length of 0, 500 px");
+  refused_lens("[500, 500", "[1e-300, 500", "1: a focal length of 1e-300, 500 px");
   refused_lens("[0.1, 0", "[1e300, 0", "4: distortion_coefficients is '1e300'; it must be");
   refused_lens("[0.1, 0", "[900, 0", "1: by its intrinsics and distortion the lens sees less than");
   refused_lens("[640, 480]", "[8192, 8192]", "1: the calibration is of 8192 x 8192 pixels, and");
-  refused_lens("radtan", "fish", "3: distortion_model is 'fish'; give none, ");
+  refused_lens("radtan", "fish", "1: the distortion 'fish' is not supported; give ");
 }
 
 }  // namespace

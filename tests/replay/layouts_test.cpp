@@ -13,7 +13,6 @@
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
 #include "tools/replay/navigation.h"
-#include "tools/replay/picture_folder.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/rectifier.h"
 
@@ -191,7 +190,7 @@ TEST_F(Layouts, RawPicturesOfRobotCarHaveTheirColours) {
     raw_pictures.camera = camera;
     raw_pictures.mount_rpy_rad = Eigen::Vector3d::Zero();
     const Recorded recorded = read_robotcar(raw_pictures, false);
-    PictureReader reader(recorded.demosaic);
+    PictureReader reader(recorded.format);
     const auto picture = reader.read(recorded.frames[0].picture);
     ASSERT_TRUE(picture);
     EXPECT_EQ((*picture)(16, 24), colour) << camera;
@@ -262,18 +261,6 @@ TEST(Rectifier, LeavesAPinholeAloneAndStraightensABarrel) {
   const cv::Moments moments = cv::moments(grey);
   EXPECT_NEAR(moments.m10 / moments.m00, 99.5 + 200, 1.5);
   EXPECT_NEAR(moments.m01 / moments.m00, 120, 1);
-}
-
-TEST(PictureFolder, TakesPicturesByTheirNumbersAndLeavesTheRest) {
-  const bench::TemporaryFolder folder;
-  for (const char* name : {"a10.png", "a2.png", "a1.JPG", "b02.png", "cover.png", "log.txt"}) {
-    std::ofstream(folder.path() / name) << name;
-  }
-  const PictureFolder pictures(folder.path());
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < pictures.size(); ++i) names.push_back(pictures.file(i).filename());
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"cover.png", "a1.JPG", "a2.png", "b02.png", "a10.png"}));
 }
 
 }  // namespace

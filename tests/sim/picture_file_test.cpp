@@ -50,6 +50,9 @@ std::map<std::string, std::string> pictures(int width, int height) {
       {"ppm", encoded(".ppm", colours)},
       {"pgm as text", encoded(".pgm", grey, {cv::IMWRITE_PXM_BINARY, 0})},
       {"pbm", encoded(".pbm", grey)},
+      {"webp", encoded(".webp", colours, {cv::IMWRITE_WEBP_QUALITY, 80})},
+      {"lossless webp", encoded(".webp", colours, {cv::IMWRITE_WEBP_QUALITY, 101})},
+      {"clear webp", encoded(".webp", clear, {cv::IMWRITE_WEBP_QUALITY, 80})},
       {"tiff", encoded(".tiff", colours)},
       {"deep tiff", encoded(".tiff", deep, {cv::IMWRITE_TIFF_COMPRESSION, 1})},
   };
@@ -139,10 +142,10 @@ TEST(Picture, OfAnotherFormatIsRefusedWithThoseThatAreRead) {
   const cv::Mat3b colours = drawn(37, 21);
   for (const std::string& bytes :
        {std::string(), std::string("no picture"), std::string("GIF89a\x10\x00\x10\x00", 10),
-        std::string("\xff\xd8\xff"), std::string("P5"), std::string("BM"),
-        encoded(".webp", colours), encoded(".ras", colours), encoded(".hdr", colours)}) {
+        std::string("\xff\xd8\xff"), std::string("P5"), std::string("BM"), encoded(".ras", colours),
+        encoded(".hdr", colours)}) {
     EXPECT_EQ(refusal(bytes),
-              "this is no picture that can be read; give a PNG, JPEG, BMP, TIFF, PGM or PPM");
+              "this is no picture that can be read; give a PNG, JPEG, BMP, TIFF, WebP, PGM or PPM");
   }
 }
 

@@ -65,11 +65,12 @@ std::vector<Listed> listed(const std::string& help) {
 }
 
 /// Options that name inputs. Any other option with a path must be an output.
-const std::set<std::string> kInputs{"run --recorded",     "run --detections", "suite --recorded",
-                                    "suite --detections", "suite --baseline", "score --detections",
-                                    "replay --poses",     "replay --imu",     "replay --odometry",
-                                    "replay --mask",      "replay --labels",  "kinematics --config",
-                                    "world --pictures",   "tune --validate"};
+const std::set<std::string> kInputs{
+    "run --recorded",       "run --detections",         "suite --recorded",    "suite --detections",
+    "suite --baseline",     "score --detections",       "replay --poses",      "replay --times",
+    "replay --calibration", "replay --imu-calibration", "replay --imu",        "replay --odometry",
+    "replay --mask",        "replay --labels",          "kinematics --config", "world --pictures",
+    "tune --validate"};
 
 class Outputs : public testing::Test {
  protected:

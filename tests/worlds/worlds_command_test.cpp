@@ -256,7 +256,7 @@ TEST_P(WorldOfSplit, StaysOneOfItAsARecording) {
   fs::rename(folder_.path() / "again", folder_.path() / "s");
   expect_refused_or_not("an earlier run of a sequence");
   bench::write(recorded,
-               "recording: {path: ../seq/mav0/cam0/data, fps: 10 Hz, focal: 300 px, speed: 0 m/s, "
+               "recording: {path: ../seq/mav0/cam0/data, focal: 300 px, speed: 0 m/s, "
                "nothing_moves: true}\n");
   make_suite("recorded");
   expect_refused_or_not("pictures of a sequence");

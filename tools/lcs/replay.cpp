@@ -28,6 +28,9 @@ constexpr const char* kHelp =
   lcs replay freiburg1_xyz --focal 517            TUM RGB-D
   lcs replay 2014-05-19-13-20-57 --focal 983      RobotCar: likewise, raw pictures in colour
   lcs replay road.mp4 --speed 0 --focal 700       a video of a camera that stands
+  lcs replay drive.mcap                           a ROS bag: lists its topics
+  lcs replay drive.mcap --image-topic /cam/image_raw --imu-topic /imu     and reads them
+  lcs replay drive.mp4 --times frames.csv --imu imu.csv --calibration camchain-imucam.yaml
   lcs replay pictures --fps 1 --speed 0.03 --focal 600       pictures of a robot that drives ahead
   lcs replay pictures --fps 10 --imu imu.csv --focal 600     likewise, with an IMU (columns as EuRoC's)
   lcs replay pictures --poses poses.txt --focal 600 --write mine.yaml
@@ -53,7 +56,15 @@ struct KeyOption {
 };
 constexpr KeyOption kKeys[] = {
     {"camera", "NAME", "Which camera, where the layout has several, as cam1 (EuRoC)"},
+    {"topics.image", "TOPIC", "Of a ROS bag: its pictures; without it the topics are listed"},
+    {"topics.camera_info", "TOPIC", "Of a ROS bag: the calibration, if not beside the pictures"},
+    {"topics.imu", "TOPIC", "Of a ROS bag: an IMU"},
+    {"topics.poses", "TOPIC", "Of a ROS bag: poses, in place of the IMU"},
+    {"topics.odometry", "TOPIC", "Of a ROS bag: velocities beside the IMU"},
+    {"topics.world", "FRAME", "Of a ROS bag: the frame of poses that come from tf"},
     {"fps", "HZ", "Pictures a second, where the layout does not say"},
+    {"times", "FILE", "When the pictures were taken: a time a line, or a table with their names"},
+    {"time_unit", "UNIT", "Of times in tables and names of pictures: s, ms, us or ns"},
     {"every", "N", "Take every N-th picture only"},
     {"poses", "FILE",
      "Poses of the camera: lines of TUM (t x y z qx qy qz qw) or KITTI (12 numbers)"},
@@ -64,6 +75,9 @@ constexpr KeyOption kKeys[] = {
     {"odometry", "FILE", "Velocities by the wheels beside them, CSV as EuRoC's"},
     {"speed", "M/S", "Of the camera, ahead, in m/s; 0 where it stands"},
     {"at_rest", "S", "It stands for as long at the start, in s"},
+    {"calibration", "FILE",
+     "Of the camera: YAML of Kalibr, OpenCV, ROS (camera_info), ORB-SLAM3, VINS or OpenVINS"},
+    {"imu_calibration", "FILE", "Noise of the IMU, as Kalibr's imu.yaml has it"},
     {"focal", "PX", "Focal length in pixels"},
     {"centre", "X,Y", "Principal point in pixels, as 319.5,239.5; the middle if not given"},
     {"distortion", "K1,K2,P1,P2,K3", "Of the lens, as OpenCV has it"},
@@ -71,13 +85,23 @@ constexpr KeyOption kKeys[] = {
     {"camera_height", "M", "Of the camera above the ground, in m"},
     {"mount", "R,P,Y",
      "Where the camera looks: roll, pitch (down), yaw (left) from straight ahead, in degrees"},
+    {"bayer", "PATTERN", "Raw pictures: rggb, bggr, grbg or gbrg, from the top left pixel on"},
+    {"bits", "N", "In use where pictures have 16; if not given, as their values show"},
     {"mask", "FILE", "A picture of the camera's size, white where the vehicle itself is seen"},
-    {"labels", "FILE", "Boxes of what moves: MOTChallenge's gt.txt, or COCO's JSON"},
+    {"labels", "FILE",
+     "Boxes of all that moves: MOTChallenge's gt.txt, COCO's JSON, KITTI tracking's labels"},
+    {"labels_video", "NAME", "The video of these labels, where their file has several"},
     {"split", "NAME", "What its figures are for: train, validate or test"},
 };
 
+constexpr std::string_view kTopics = "topics.";
+
+/// --fps for fps, --image-topic for topics.image, --world-frame for topics.world.
 std::string flag_of(const std::string& key) {
   std::string flag = "--" + key;
+  if (key.starts_with(kTopics)) {
+    flag = "--" + key.substr(kTopics.size()) + (key.ends_with("world") ? "-frame" : "-topic");
+  }
   std::replace(flag.begin(), flag.end(), '_', '-');
   return flag;
 }
@@ -107,7 +131,7 @@ void put(Value& map, const std::string& key, Value value) {
 }
 
 Value recording_of(const ReplayOptions& options) {
-  Value recording(Value::Kind::map, {options.path, 0});
+  Value recording(Value::Kind::map, {options.path, 0}), topics(Value::Kind::map, {options.path, 0});
   put(recording, "path", {Value::Kind::scalar, {"lcs replay", 0}, options.path});
   for (const auto& [key, text] : options.recording) {
     const std::string flag = flag_of(key);
@@ -115,11 +139,14 @@ Value recording_of(const ReplayOptions& options) {
       Value fisheye(Value::Kind::map, {flag, 0});
       put(fisheye, key, list_of(flag, text));
       put(recording, "distortion", std::move(fisheye));
+    } else if (key.starts_with(kTopics)) {
+      put(topics, key.substr(kTopics.size()), scalar(flag, text));
     } else {
       const bool is_list = key == "centre" || key == "mount" || key == "distortion";
       put(recording, key, is_list ? list_of(flag, text) : scalar(flag, text));
     }
   }
+  if (!topics.entries.empty()) put(recording, "topics", std::move(topics));
   return recording;
 }
 
@@ -163,7 +190,8 @@ std::string name_of(const fs::path& path) {
 /// Makes all paths absolute, because a scenario's paths are relative to its file.
 void make_absolute(Value& recording) {
   for (input::Entry& entry : recording.entries) {
-    for (const char* key : {"path", "poses", "imu", "odometry", "mask", "labels"}) {
+    for (const char* key : {"path", "times", "poses", "imu", "odometry", "calibration",
+                            "imu_calibration", "mask", "labels"}) {
       if (entry.key == key) entry.value.text = fs::absolute(entry.value.text).lexically_normal();
     }
   }
@@ -182,7 +210,8 @@ void write_scenario(Value document, bench::Output&& file) {
 CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
   CLI::App& command =
       *app.add_subcommand("replay", "Run the LCS filter (or a comparator) on a recording");
-  command.add_option("--images,PATH", options.path, "The recording: a folder, or a video")
+  command
+      .add_option("--images,PATH", options.path, "The recording: a folder, a video, or a ROS bag")
       ->required()
       ->type_name("");
   std::string about = "Layout of the recording; if not given, told from what is there:";

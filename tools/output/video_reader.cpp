@@ -1,5 +1,7 @@
 #include "tools/output/video_reader.h"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <optional>
 #include <string>
@@ -11,9 +13,6 @@ namespace {
 
 /// Options that OpenCV passes to `avformat_open_input`; it reads them at each opening.
 constexpr const char* kOptionsVariable = "OPENCV_FFMPEG_CAPTURE_OPTIONS";
-constexpr const char* kOptions =
-    "protocol_whitelist;file|format_whitelist;mov,avi,matroska,mpeg,mpegts,flv,asf,ogg";
-
 /// Sets an environment variable for its lifetime, then restores it.
 class Variable {
  public:
@@ -41,7 +40,9 @@ class Variable {
 std::unique_ptr<cv::VideoCapture> open_video(const std::filesystem::path& file) {
   // Silences FFmpeg's messages, as errors are reported here. FFmpeg reads it once, at first use.
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
-  const Variable options(kOptionsVariable, kOptions);
+  const Variable options(
+      kOptionsVariable,
+      fmt::format("protocol_whitelist;file|format_whitelist;{}", sim::kVideoFormats).c_str());
   // An absolute path cannot be mistaken for a protocol.
   return sim::media().read_video(std::filesystem::absolute(file).string());
 }

@@ -1,13 +1,13 @@
 /// \file
 /// Boxes that people drew round all moving objects, in all or some images of a recording. They are
-/// read from MOTChallenge's `gt.txt` or a COCO file.
+/// read from MOTChallenge's `gt.txt`, a COCO file, or KITTI tracking's labels.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace lcs::bench {
@@ -27,33 +27,52 @@ class Labels {
  public:
   using Boxes = std::vector<LabelledBox>;
 
-  /// \return the boxes of an image; null if it was not labelled.
-  /// \param number index of the image in the recording, from 0.
-  /// \param name of its file, without folders; "" if it has no file.
-  const Boxes* of(int number, const std::string& name) const;
+  /// An image as the file of labels states it.
+  struct Picture {
+    std::optional<int> number;  ///< counts from `first`
+    std::string name;           ///< of its file, without folders; "": not given
+    Boxes boxes;
+  };
 
-  std::size_t pictures() const { return by_number_.size() + by_name_.size(); }
+  /// An image of the recording.
+  struct Recorded {
+    int number;        ///< among all images of the recording, from 0
+    std::string name;  ///< of its file, without folders; "" if it has no file
+  };
 
-  /// \name The boxes of an image; the call marks it as labelled. @{
-  Boxes& at(int number) { return by_number_[number]; }
-  Boxes& at(const std::string& name) { return by_name_[name]; }
-  ///@}
+  std::vector<Picture> pictures;
+  std::optional<int> first;       ///< number of the recording's first image; absent: not stated
+  std::vector<std::string> told;  ///< remarks on the file, a line each
+
+  /// Joins the labels with the images of a recording: by their names, by their names without
+  /// endings, or by their numbers; the first of these that finds an image decides. Where `first` is
+  /// not stated, numbers count from 1 if the least is 1 and the greatest the count of images.
+  /// \return lines: how many labelled images and boxes belong to the recording, and by which rule.
+  /// \throws std::invalid_argument if none does.
+  std::vector<std::string> join(const std::vector<Recorded>& recorded);
+
+  /// \return the boxes of an image of the recording; null if it was not labelled. \pre joined
+  const Boxes* of(int number) const;
 
  private:
-  std::map<int, Boxes> by_number_;
-  std::map<std::string, Boxes, std::less<>> by_name_;
+  std::map<int, std::size_t> picture_of_;  ///< by number in the recording
 };
 
-/// Reads one of two formats, recognised by the first character:
+/// Reads one of three formats, recognised by the first line:
 ///
-/// MOTChallenge: rows FRAME,ID,LEFT,TOP,WIDTH,HEIGHT[,CONSIDERED[,...]], frames and pixels from 1.
-/// A row with 0 for CONSIDERED is ignored. An image without a row was not labelled.
+/// MOTChallenge: rows FRAME,ID,LEFT,TOP,WIDTH,HEIGHT[,CONSIDERED[,...]], frames and pixels from 1;
+/// frames from 0 if there is a 0. A row with 0 for CONSIDERED is ignored. An image without a row
+/// was not labelled.
 ///
-/// COCO: `images` with `id`, `file_name` and, for videos, `frame_id` (from 0); `annotations` with
-/// `image_id`, `bbox` and, where objects are tracked, `track_id`. Boxes with 1 for `iscrowd` are
+/// COCO: `images` with `id`, `file_name` and, for videos, `frame_id` and `video_id`; `annotations`
+/// with `image_id`, `bbox` and, where objects are tracked, `track_id`. Boxes with `iscrowd` are
 /// ignored. Every listed image was labelled.
 ///
+/// KITTI tracking: rows "FRAME ID TYPE TRUNCATED OCCLUDED ALPHA LEFT TOP RIGHT BOTTOM ...", frames
+/// and pixels from 0. DontCare is ignored. These are boxes of all objects, also of those at rest.
+///
+/// \param video of several in a COCO file, by its name; "": the only one.
 /// \throws input::Error with file and line (COCO: the entry), and the remedy.
-Labels read_labels(const std::filesystem::path& file);
+Labels read_labels(const std::filesystem::path& file, const std::string& video = "");
 
 }  // namespace lcs::bench

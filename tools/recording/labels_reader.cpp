@@ -15,7 +15,8 @@ namespace lcs::bench {
 namespace {
 
 constexpr input::FileKind kLabelsFile{
-    256 * input::kMebibyte, "give boxes as gt.txt of MOTChallenge has them, or COCO's JSON"};
+    256 * input::kMebibyte,
+    "give boxes as gt.txt of MOTChallenge has them, COCO's JSON, or KITTI tracking's labels"};
 
 constexpr double kFarthest_px = 1e6;
 constexpr int kMostPictures = 100'000'000;
@@ -45,13 +46,15 @@ class Ids {
   std::set<std::pair<std::string, int>> seen_;
 };
 
-class MotRow {
+/// Fields of a text row.
+class LabelRow {
  public:
-  explicit MotRow(std::string_view line) : fields_(fields_of(line)) {
-    require(
-        fields_.size() >= 6,
-        fmt::format("{} fields are too few for FRAME,ID,LEFT,TOP,WIDTH,HEIGHT", fields_.size()));
+  LabelRow(std::vector<std::string_view> fields, std::size_t least, const char* format)
+      : fields_(std::move(fields)) {
+    require(fields_.size() >= least,
+            fmt::format("{} fields are too few for {}", fields_.size(), format));
   }
+  std::string_view text(std::size_t field) const { return fields_[field]; }
   double number(std::size_t field, const char* what) const {
     const std::optional<double> number = number_in<double>(fields_[field]);
     require(number.has_value(),
@@ -72,30 +75,80 @@ class MotRow {
   std::vector<std::string_view> fields_;
 };
 
-void read_mot_row(std::string_view line, Labels& labels, Ids& ids) {
-  const MotRow row(line);
-  const int picture = row.whole(0, "the frame", 1, kMostPictures);
+/// Images by the number in their rows.
+class Numbered {
+ public:
+  void add(int number, const LabelledBox& box) {
+    ids_.add(std::to_string(number), box.id);
+    boxes_[number].push_back(box);
+  }
+  Labels labels(int first) const {
+    Labels labels;
+    labels.first = first;
+    for (const auto& [number, boxes] : boxes_) labels.pictures.push_back({number, "", boxes});
+    return labels;
+  }
+  bool has_zero() const { return boxes_.contains(0); }
+
+ private:
+  std::map<int, Labels::Boxes> boxes_;
+  Ids ids_;
+};
+
+void read_mot_row(std::string_view line, Numbered& numbered) {
+  const LabelRow row(fields_of(line), 6, "FRAME,ID,LEFT,TOP,WIDTH,HEIGHT");
+  const int picture = row.whole(0, "the frame", 0, kMostPictures);
   const int id = row.whole(1, "the id", -1, kMostPictures);
   LabelledBox box = box_of(id, row.number(2, "the left side") - 1, row.number(3, "the top") - 1,
                            row.number(4, "the width"), row.number(5, "the height"));
   box.ignored = row.has(6) && row.number(6, "the seventh field") == 0;
-  ids.add(std::to_string(picture), id);
-  labels.at(picture - 1).push_back(box);
+  numbered.add(picture, box);
 }
 
-Labels read_mot(const std::filesystem::path& file) {
+void read_kitti_row(std::string_view line, Numbered& numbered) {
+  std::vector<std::string_view> fields;
+  for (std::string_view rest = trimmed(line); !rest.empty(); rest = trimmed(rest)) {
+    fields.push_back(rest.substr(0, rest.find_first_of(" \t")));
+    rest.remove_prefix(fields.back().size());
+  }
+  const LabelRow row(fields, 10, "FRAME ID TYPE TRUNCATED OCCLUDED ALPHA LEFT TOP RIGHT BOTTOM");
+  const double left = row.number(6, "the left side"), top = row.number(7, "the top");
+  LabelledBox box =
+      box_of(row.whole(1, "the id", -1, kMostPictures), left, top,
+             row.number(8, "the right side") - left, row.number(9, "the bottom") - top);
+  box.ignored = row.text(2) == "DontCare";
+  numbered.add(row.whole(0, "the frame", 0, kMostPictures), box);
+}
+
+template <class ReadRow>
+Numbered read_rows(const std::filesystem::path& file, const ReadRow& read_row) {
   input::InputFile input(file, kLabelsFile);
-  Labels labels;
-  Ids ids;
+  Numbered numbered;
   for (std::string line; input.next_line(line);) {
     if (trimmed(line).empty()) continue;
     try {
-      read_mot_row(line, labels, ids);
+      read_row(line, numbered);
     } catch (const std::invalid_argument& error) {
       throw input::Error(input.here(),
                          input::printable(fmt::format("{}; {}", error.what(), kLabelsFile.remedy)));
     }
   }
+  return numbered;
+}
+
+Labels read_mot(const std::filesystem::path& file) {
+  const Numbered numbered = read_rows(file, read_mot_row);
+  Labels labels = numbered.labels(numbered.has_zero() ? 0 : 1);
+  if (numbered.has_zero())
+    labels.told.emplace_back("labels: their frames count from 0, not from 1");
+  return labels;
+}
+
+Labels read_kitti(const std::filesystem::path& file) {
+  Labels labels = read_rows(file, read_kitti_row).labels(0);
+  labels.told.emplace_back(
+      "labels: KITTI's boxes are of all objects, also of those at rest, which then count as "
+      "missed");
   return labels;
 }
 
@@ -104,68 +157,168 @@ std::string file_name_of(const std::string& path) {
   return path.substr(path.find_last_of('/') + 1);
 }
 
-std::map<std::uint64_t, Labels::Boxes*> read_images(const JsonNode& images, Labels& labels) {
-  std::map<std::uint64_t, Labels::Boxes*> by_id;
-  images.each([&](const JsonNode& image) {
-    const std::size_t before = labels.pictures();
-    const bool is_numbered = image.has("frame_id");
-    Labels::Boxes& boxes = is_numbered ? labels.at(image["frame_id"].natural<int>())
-                                       : labels.at(file_name_of(image["file_name"].text()));
-    image[is_numbered ? "frame_id" : "file_name"].require(labels.pictures() > before,
-                                                          "one that no other image has");
-    const bool is_new = by_id.emplace(image["id"].natural(), &boxes).second;
-    image["id"].require(is_new, "one that no other image has");
-  });
-  return by_id;
+/// A whole number, also as 3.0; some converters write floats.
+std::uint64_t id_in(const JsonNode& node, double most = 1e15) {
+  const double number = node.number();
+  node.require(number >= 0 && number <= most && number == std::floor(number),
+               "a whole number from 0");
+  return static_cast<std::uint64_t>(number);
+}
+int count_in(const JsonNode& node) {
+  return static_cast<int>(id_in(node, kMostPictures));
 }
 
-void read_annotation(const JsonNode& annotation,
-                     const std::map<std::uint64_t, Labels::Boxes*>& images, Ids& ids) {
-  const std::uint64_t image = annotation["image_id"].natural();
-  const auto found = images.find(image);
-  annotation["image_id"].require(found != images.end(), "the id of an image in the list");
-  const int id = annotation.has("track_id") ? annotation["track_id"].natural<int>() : -1;
-  const auto [left, top, width, height] = annotation["bbox"].numbers<4>();
-  try {
-    LabelledBox box = box_of(id, left, top, width, height);
-    box.ignored = annotation.has("iscrowd") && annotation["iscrowd"].natural() != 0;
-    ids.add(std::to_string(image), id);
-    found->second->push_back(box);
-  } catch (const std::invalid_argument& error) {
-    annotation["bbox"].require(false, fmt::format("that of a mover: {}", error.what()));
+/// The id of the video whose labels are read; absent if the file has only one, or none.
+std::optional<std::uint64_t> video_in(const JsonNode& json, const std::string& video) {
+  std::map<std::string, std::uint64_t> ids;
+  if (json.has("videos")) {
+    json["videos"].each([&](const JsonNode& one) {
+      const std::string name = one.has("name")        ? one["name"].text()
+                               : one.has("file_name") ? one["file_name"].text()
+                                                      : std::to_string(id_in(one["id"]));
+      ids[name] = id_in(one["id"]);
+    });
   }
+  std::string names;
+  for (const auto& [name, id] : ids) names += (names.empty() ? "" : ", ") + name;
+  if (const auto found = ids.find(video); found != ids.end()) return found->second;
+  if (!video.empty()) {
+    throw JsonNode::Error(fmt::format("there is no video {}, but {}", video, names));
+  }
+  if (ids.size() < 2) return std::nullopt;
+  throw JsonNode::Error(fmt::format("it has several videos: {}; name one (labels_video)", names));
 }
 
-Labels read_coco(const std::filesystem::path& file) {
-  return read_json(file, kLabelsFile, [](const JsonNode& json) {
+Labels read_coco(const std::filesystem::path& file, const std::string& video) {
+  return read_json(file, kLabelsFile, [&](const JsonNode& json) {
     Labels labels;
     Ids ids;
-    const auto images = read_images(json["images"], labels);
-    json["annotations"].each(
-        [&](const JsonNode& annotation) { read_annotation(annotation, images, ids); });
+    const std::optional<std::uint64_t> only = video_in(json, video);
+    std::map<std::uint64_t, std::optional<std::size_t>>
+        places;  // by image id; of other videos none
+    std::set<std::pair<std::string, int>> seen;
+    json["images"].each([&](const JsonNode& image) {
+      const bool is_other = only && image.has("video_id") && id_in(image["video_id"]) != *only;
+      const auto place = is_other ? std::nullopt : std::optional(labels.pictures.size());
+      image["id"].require(places.emplace(id_in(image["id"]), place).second,
+                          "one that no other image has");
+      if (is_other) return;
+      Labels::Picture picture;
+      const bool is_numbered = image.has("frame_id");
+      if (is_numbered) picture.number = count_in(image["frame_id"]);
+      if (!is_numbered || image.has("file_name")) {
+        picture.name = file_name_of(image["file_name"].text());
+      }
+      const bool is_new = seen.emplace(picture.name, picture.number.value_or(-1)).second;
+      image[is_numbered ? "frame_id" : "file_name"].require(is_new, "one that no other image has");
+      labels.pictures.push_back(picture);
+    });
+    json["annotations"].each([&](const JsonNode& annotation) {
+      const std::uint64_t image = id_in(annotation["image_id"]);
+      const auto found = places.find(image);
+      annotation["image_id"].require(found != places.end(), "the id of an image in the list");
+      if (!found->second) return;
+      const int id = annotation.has("track_id") ? count_in(annotation["track_id"]) : -1;
+      const auto [left, top, width, height] = annotation["bbox"].numbers<4>();
+      try {
+        LabelledBox box = box_of(id, left, top, width, height);
+        const auto is_crowd = [](const JsonNode& flag) {
+          return flag.is_flag() ? flag.flag() : flag.number() != 0;
+        };
+        box.ignored = annotation.has("iscrowd") && is_crowd(annotation["iscrowd"]);
+        ids.add(std::to_string(image), id);
+        labels.pictures[*found->second].boxes.push_back(box);
+      } catch (const std::invalid_argument& error) {
+        annotation["bbox"].require(false, fmt::format("that of a mover: {}", error.what()));
+      }
+    });
     return labels;
   });
 }
 
-/// The first character other than blanks and line ends; a byte order mark is skipped.
-char first_of(const std::filesystem::path& file) {
+/// The first line with a character; a byte order mark is skipped.
+std::string first_line(const std::filesystem::path& file) {
   input::InputFile input(file, kLabelsFile);
   for (std::string line; input.next_line(line);) {
-    if (!trimmed(line).empty()) return trimmed(line).front();
+    if (!trimmed(line).empty()) return std::string(trimmed(line));
   }
   throw input::Error({file.string(), 0}, fmt::format("is empty; {}", kLabelsFile.remedy));
 }
 
-}  // namespace
-
-const Labels::Boxes* Labels::of(int number, const std::string& name) const {
-  if (const auto found = by_name_.find(name); found != by_name_.end()) return &found->second;
-  const auto found = by_number_.find(number);
-  return found != by_number_.end() ? &found->second : nullptr;
+std::string stem_of(const std::string& name) {
+  return std::filesystem::path(name).stem().string();
 }
 
-Labels read_labels(const std::filesystem::path& file) {
-  return first_of(file) == '{' ? read_coco(file) : read_mot(file);
+}  // namespace
+
+std::vector<std::string> Labels::join(const std::vector<Recorded>& recorded) {
+  picture_of_.clear();
+  const auto join_by = [&](const auto& key_of_recorded, const auto& key_of_label) {
+    std::map<std::string, int> numbers;  // -1: of several images
+    for (const Recorded& image : recorded) {
+      const auto [at, is_new] = numbers.emplace(key_of_recorded(image), image.number);
+      if (!is_new) at->second = -1;
+    }
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      const auto found = numbers.find(key_of_label(pictures[i]));
+      if (found == numbers.end() || found->first.empty() || found->second < 0) continue;
+      picture_of_.emplace(found->second, i);
+    }
+    return !picture_of_.empty();
+  };
+  const auto name = [](const auto& image) { return image.name; };
+  const auto stem = [](const auto& image) { return stem_of(image.name); };
+  std::vector<std::string> lines = told;
+  std::vector<int> stated;
+  for (const Picture& picture : pictures) {
+    if (picture.number) stated.push_back(*picture.number);
+  }
+  if (!join_by(name, name)) {
+    if (join_by(stem, stem)) {
+      lines.emplace_back("labels: they name pictures with other endings than the recording");
+    } else if (!stated.empty()) {
+      const auto [least, most] = std::minmax_element(stated.begin(), stated.end());
+      const int last = recorded.empty() ? -1 : recorded.back().number;
+      const int from = first.value_or(*least == 1 && *most == last + 1 ? 1 : 0);
+      if (!first) lines.push_back(fmt::format("labels: frame_id is taken to count from {}", from));
+      join_by([](const Recorded& image) { return std::to_string(image.number); },
+              [&](const Picture& picture) {
+                return picture.number ? std::to_string(*picture.number - from) : "";
+              });
+    }
+  }
+  std::size_t boxes = 0, all = 0;
+  for (const Picture& picture : pictures) all += picture.boxes.size();
+  for (const auto& [number, place] : picture_of_) boxes += pictures[place].boxes.size();
+  const std::string count = fmt::format(
+      "{} of {} labelled pictures, with {} of {} boxes, belong to the {} pictures of "
+      "the recording",
+      picture_of_.size(), pictures.size(), boxes, all, recorded.size());
+  if (picture_of_.empty()) {
+    const auto called = [](const std::string& of, std::optional<int> number) {
+      return of.empty() ? fmt::format("picture {}", number.value_or(0)) : of;
+    };
+    throw std::invalid_argument(
+        pictures.empty() || recorded.empty()
+            ? count
+            : fmt::format("{}: the first labels are of {}, and the recording begins with {}", count,
+                          called(pictures[0].name, pictures[0].number),
+                          called(recorded[0].name, recorded[0].number + first.value_or(0))));
+  }
+  lines.push_back("labels: " + count);
+  return lines;
+}
+
+const Labels::Boxes* Labels::of(int number) const {
+  const auto found = picture_of_.find(number);
+  return found == picture_of_.end() ? nullptr : &pictures[found->second].boxes;
+}
+
+Labels read_labels(const std::filesystem::path& file, const std::string& video) {
+  const std::string line = first_line(file);
+  if (line.front() == '{') return read_coco(file, video);
+  return line.find(',') == line.npos && line.find(' ') != line.npos ? read_kitti(file)
+                                                                    : read_mot(file);
 }
 
 }  // namespace lcs::bench

@@ -95,6 +95,7 @@ std::size_t still_parts(const std::vector<Part>& parts, double gravity_mps2) {
 Rest rest_of(std::span<const sim::ImuSample> readings, double gravity_mps2) {
   const Part all = part_of(readings);
   Rest rest;
+  rest.from_ns = readings.front().t_ns;
   rest.until_ns = all.end_ns;
   rest.gyro_bias_radps = all.gyro;
   if (all.accel.norm() > 0) {
@@ -131,7 +132,7 @@ std::optional<Rest> rest_at_start(std::span<const sim::ImuSample> readings,
 
 void tell_rest(const Rest& rest, Tally& tally) {
   const std::string until =
-      fmt::format("until {:.2f} s", 1e-9 * static_cast<double>(rest.until_ns));
+      fmt::format("of {:.2f} s", 1e-9 * static_cast<double>(rest.until_ns - rest.from_ns));
   tally.add("times at rest at the start give the IMU's biases and what is upright", until);
   if (rest.moved) {
     tally.add("times that at_rest names are not at rest, as the IMU says; shorten it", until);

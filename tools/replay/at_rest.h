@@ -13,7 +13,7 @@
 namespace lcs::replay {
 
 struct Rest {
-  std::int64_t until_ns = 0;  ///< end of the rest, which begins at the first reading
+  std::int64_t from_ns = 0, until_ns = 0;  ///< the first reading, and the end of the rest
   Eigen::Vector3d gyro_bias_radps = Eigen::Vector3d::Zero();
   /// Along gravity only: a bias across it is indistinguishable from a tilt, and is taken for one.
   Eigen::Vector3d accel_bias_mps2 = Eigen::Vector3d::Zero();

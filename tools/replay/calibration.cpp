@@ -1,13 +1,15 @@
-#include "tools/replay/sensor_yaml.h"
+#include "tools/replay/calibration.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "tools/input/input_file.h"
 #include "tools/input/reader.h"
-#include "tools/sequence/pose_text.h"
+#include "tools/replay/poses_file.h"
 
 namespace lcs::replay {
 namespace {
@@ -18,143 +20,408 @@ using input::Quantity;
 using input::Reader;
 using input::Value;
 
-constexpr input::FileKind kSensorFile{input::kMebibyte, "give a sensor.yaml with Kalibr's keys"};
+constexpr input::FileKind kCalibrationFile{
+    input::kMebibyte,
+    "give the YAML of Kalibr, OpenCV, ROS (camera_info), ORB-SLAM, VINS or OpenVINS"};
 
 // Generous limits, which exclude impossible cameras and IMUs only.
-constexpr Quantity kOfTransform{Dimension::number, {-10000, 10000}};
+constexpr Quantity kAny{Dimension::number, {-1e7, 1e7}};
 constexpr Quantity kRate{Dimension::frequency, {0, 100000, true}};
-constexpr Quantity kFocal_px{Dimension::number, {1, 1000000}};
-constexpr Quantity kCentre_px{Dimension::number, {-100000, 100000}};
-constexpr Quantity kCoefficient{Dimension::number, {-1000, 1000}};
 constexpr Quantity kNoise{Dimension::number, {0, 1000}};
 constexpr int kMostPixels = 65536;
 
-/// Comments out "%YAML:1.0": OpenCV's FileStorage requires it, YAML does not allow its colon.
-std::string without_directive(std::string text) {
+/// OpenCV's FileStorage requires "%YAML:1.0", whose colon YAML does not allow, and marks its
+/// matrices by a tag.
+Value parse(const std::filesystem::path& file) {
+  std::string text = input::read_file(file, kCalibrationFile);
   if (text.starts_with("%YAML:")) text.front() = '#';
-  return text;
+  constexpr std::string_view kTag = "!!opencv-matrix";
+  for (std::size_t at = 0; (at = text.find(kTag, at)) != text.npos;) {
+    text.replace(at, kTag.size(), std::string(kTag.size(), ' '));
+  }
+  const input::Source top{file.string(), 1};
+  Value yaml = input::parse_text(text, top);
+  if (yaml.kind != Value::Kind::map) {
+    throw Error(top, fmt::format("this is no map of keys; {}", kCalibrationFile.remedy));
+  }
+  return yaml;
 }
 
-void append_numbers(const Value& list, const std::string& path, const Quantity& quantity,
-                    std::vector<double>& numbers) {
+void append(const Value& list, const std::string& path, std::vector<double>& numbers) {
   for (const Value& item : input::as_list(list, path)) {
     if (item.kind == Value::Kind::list) {
-      append_numbers(item, path, quantity, numbers);
+      append(item, path, numbers);
     } else {
-      numbers.push_back(input::as_quantity(item, path, quantity));
+      numbers.push_back(input::as_quantity(item, path, kAny));
     }
   }
 }
 
-sim::Pose read_pose(const Value& value) {
-  // EuRoC has {cols, rows, data}, Kalibr a list of rows.
-  std::vector<double> flat;
+/// A list, a list of rows, or a matrix of OpenCV or EuRoC with its numbers in `data`.
+std::vector<double> numbers_in(const Value& value, const std::string& path) {
+  std::vector<double> numbers;
   if (value.kind == Value::Kind::map) {
-    Reader reader(value, "T_BS");
-    const Value* data = reader.find("data");
-    if (!data) throw Error(value.where, "T_BS has no data; give its 16 numbers, row by row");
-    append_numbers(*data, "T_BS.data", kOfTransform, flat);
+    Reader matrix(value, path);
+    const Value* data = matrix.find("data");
+    if (!data) throw Error(value.where, path + " has no data; give its numbers, row by row");
+    append(*data, path + ".data", numbers);
   } else {
-    append_numbers(value, "T_BS", kOfTransform, flat);
+    append(value, path, numbers);
   }
-  std::array<double, 16> matrix{};
-  if (flat.size() != matrix.size()) {
+  return numbers;
+}
+
+sim::Pose pose_in(const Value& value, const std::string& path) {
+  const std::vector<double> numbers = numbers_in(value, path);
+  constexpr std::size_t kRows = 12, kWhole = 16;
+  if (numbers.size() != kWhole && numbers.size() != kRows) {
     throw Error(value.where,
-                "T_BS has " + std::to_string(flat.size()) + " numbers; give 16, row by row");
+                fmt::format("{} has {} numbers; give 16, row by row", path, numbers.size()));
   }
-  std::copy(flat.begin(), flat.end(), matrix.begin());
-  try {
-    return sequence::pose_of(matrix);
-  } catch (const std::invalid_argument& error) {
-    throw Error(value.where, std::string("T_BS ") + error.what() +
-                                 "; give a rotation and a translation, and 0 0 0 1 below");
+  const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> rows(numbers.data());
+  const auto R = rotation_of(rows.leftCols<3>());
+  const bool is_rigid = numbers.size() == kRows || (numbers[12] == 0 && numbers[13] == 0 &&
+                                                    numbers[14] == 0 && numbers[15] == 1);
+  if (!R || !is_rigid) {
+    throw Error(value.where, path +
+                                 " is no rigid transform; give a rotation and a translation, "
+                                 "and 0 0 0 1 below");
   }
+  return {*R, rows.col(3)};
 }
 
-void read_distortion(Reader& reader, Lens& lens) {
-  const std::vector<std::string> models{"none", "radial-tangential", "radtan", "equidistant"};
-  const std::size_t model = reader.choice("distortion_model", models).value_or(0);
-  if (model == 0) return;
-  const bool is_equidistant = models[model] == "equidistant";
-  lens.distortion =
-      is_equidistant ? Lens::Distortion::equidistant : Lens::Distortion::radial_tangential;
-  const Value* list = reader.find("distortion_coefficients");
-  if (!list) {
-    throw Error(reader.where(),
-                "there are no distortion_coefficients for the distortion_model; "
-                "give four, or 'distortion_model: none'");
-  }
-  append_numbers(*list, "distortion_coefficients", kCoefficient, lens.coefficients);
-  const std::size_t count = lens.coefficients.size();
-  const bool is_known =
-      count == 4 || (!is_equidistant && (count == 5 || count == 8 || count == 12 || count == 14));
-  if (!is_known) {
-    throw Error(list->where, "distortion_coefficients are " + std::to_string(count) +
-                                 "; give four" +
-                                 (is_equidistant ? "" : ", or 5, 8, 12 or 14 as OpenCV has them"));
-  }
-}
+/// Reads keys of one map under any of their names.
+class Keys {
+ public:
+  Keys(const Value& map, const std::string& path) : reader_(map, path) {}
 
-Lens read_lens(Reader& reader, const Value& intrinsics) {
-  Lens lens;
-  lens.source = intrinsics.where;
-  reader.choice("camera_model", {"pinhole"});
-  const std::vector<Value>& list = input::as_list(intrinsics, "intrinsics", 4);
-  const auto number = [&](std::size_t i, const Quantity& quantity) {
-    return input::as_quantity(list[i], "intrinsics." + std::to_string(i), quantity);
+  const input::Source& where() const { return reader_.where(); }
+  bool has(std::string_view key) { return reader_.find(key) != nullptr; }
+  /// The first of the names that is a key; null if none is.
+  const Value* any_of(std::initializer_list<const char*> names) {
+    for (const char* name : names) {
+      if (const Value* value = reader_.find(name)) {
+        found_ = name;
+        return value;
+      }
+    }
+    return nullptr;
+  }
+  std::optional<double> number(std::initializer_list<const char*> names,
+                               const Quantity& quantity = kAny) {
+    const Value* value = any_of(names);
+    if (!value) return std::nullopt;
+    return input::as_quantity(*value, path(), quantity);
+  }
+  double require(const std::string& name) {
+    const Value* value = any_of({name.c_str()});
+    if (!value) throw Error(where(), fmt::format("{} is missing; give it", name));
+    return input::as_quantity(*value, path(), kAny);
+  }
+  std::vector<double> list(std::initializer_list<const char*> names) {
+    const Value* value = any_of(names);
+    return value ? numbers_in(*value, path()) : std::vector<double>{};
+  }
+  std::string text(std::initializer_list<const char*> names) {
+    const Value* value = any_of(names);
+    return value ? input::as_text(*value, path()) : "";
+  }
+  std::optional<sim::Pose> pose(std::initializer_list<const char*> names) {
+    const Value* value = any_of(names);
+    if (!value) return std::nullopt;
+    return pose_in(*value, path());
+  }
+  /// Of the key that was found last.
+  std::string path() const { return reader_.path_of(found_); }
+
+ private:
+  Reader reader_;
+  std::string found_;
+};
+
+void set_size(Keys& keys, std::initializer_list<const char*> widths,
+              std::initializer_list<const char*> heights, Lens& lens) {
+  const auto pixels = [&](std::initializer_list<const char*> names) {
+    const Value* value = keys.any_of(names);
+    return value ? static_cast<int>(input::as_integer(*value, keys.path(), 1, kMostPixels)) : 0;
   };
-  lens.fu_px = number(0, kFocal_px);
-  lens.fv_px = number(1, kFocal_px);
-  lens.cu_px = number(2, kCentre_px);
-  lens.cv_px = number(3, kCentre_px);
-  if (const Value* size = reader.find("resolution")) {
-    const std::vector<Value>& pair = input::as_list(*size, "resolution", 2);
-    const auto pixels = [&](std::size_t i) {
-      return static_cast<int>(
-          input::as_integer(pair[i], "resolution." + std::to_string(i), 1, kMostPixels));
-    };
-    lens.width_px = pixels(0);
-    lens.height_px = pixels(1);
+  lens.width_px = pixels(widths);
+  lens.height_px = pixels(heights);
+}
+
+/// \param model a tool's name of a distortion. \throws input::Error for one that is not supported.
+void set_distortion(std::string model, std::vector<double> coefficients, const input::Source& where,
+                    Lens& lens) {
+  std::transform(model.begin(), model.end(), model.begin(), [](unsigned char c) {
+    return c == '-' ? '_' : static_cast<char>(std::tolower(c));
+  });
+  const auto is_one_of = [&](std::initializer_list<const char*> names) {
+    return std::find(names.begin(), names.end(), model) != names.end();
+  };
+  const bool is_bent =
+      std::any_of(coefficients.begin(), coefficients.end(), [](double k) { return k != 0; });
+  const std::size_t count = coefficients.size();
+  if (is_one_of({"", "none"})) {
+    if (is_bent) {
+      throw Error(where, "its distortion has coefficients and no model; give distortion_model");
+    }
+    return;
+  }
+  const bool is_fisheye = is_one_of({"equidistant", "fisheye", "kannala_brandt", "kannalabrandt8"});
+  if (!is_fisheye &&
+      !is_one_of({"radial_tangential", "radtan", "plumb_bob", "rational_polynomial", "pinhole"})) {
+    throw Error(where, fmt::format("the distortion '{}' is not supported; give radtan (plumb_bob), "
+                                   "rational_polynomial, equidistant or none",
+                                   model));
+  }
+  if (count == 0 && model == "plumb_bob") return;  // ROS's rectified cameras
+  const bool is_known =
+      count == 4 || (!is_fisheye && (count == 5 || count == 8 || count == 12 || count == 14));
+  if (!is_known) {
+    throw Error(where, fmt::format("the distortion has {} coefficients; give four{}", count,
+                                   is_fisheye ? "" : ", or 5, 8, 12 or 14 as OpenCV has them"));
+  }
+  lens.distortion =
+      is_fisheye ? Lens::Distortion::equidistant : Lens::Distortion::radial_tangential;
+  lens.coefficients = std::move(coefficients);
+}
+
+/// EuRoC's sensor.yaml, and a camera of Kalibr's or OpenVINS's camchain.
+void read_listed(Keys& keys, SensorCalibration& calibration) {
+  calibration.rate_hz = keys.number({"rate_hz", "update_rate"}, kRate);
+  calibration.T_BS = keys.pose({"T_BS", "T_imu_cam"});
+  if (const auto T_CS = keys.pose({"T_cam_imu"}); T_CS && !calibration.T_BS) {
+    calibration.T_BS = T_CS->inverse();
+  }
+  const Value* intrinsics = keys.any_of({"intrinsics"});
+  if (!intrinsics) return;
+  std::vector<double> numbers = numbers_in(*intrinsics, keys.path());
+  Lens& lens = calibration.lens.emplace();
+  lens.source = intrinsics->where;
+  const std::string model = keys.text({"camera_model"});
+  std::size_t before = 0;
+  if (model == "omni") {
+    before = 1;
+  } else if (model == "ds") {
+    before = 2;
+  } else if (model != "" && model != "pinhole") {
+    throw Error(intrinsics->where, fmt::format("the camera_model '{}' is not supported; give a "
+                                               "pinhole, omni or ds",
+                                               model));
+  }
+  if (numbers.size() != before + 4) {
+    throw Error(intrinsics->where,
+                fmt::format("intrinsics are {} numbers; give {}fu, fv, cu, cv", numbers.size(),
+                            before == 0   ? ""
+                            : before == 1 ? "xi, "
+                                          : "xi, alpha, "));
+  }
+  if (before > 0) lens.xi = numbers[0];
+  if (before > 1) lens.alpha = numbers[1];
+  lens.fu_px = numbers[before];
+  lens.fv_px = numbers[before + 1];
+  lens.cu_px = numbers[before + 2];
+  lens.cv_px = numbers[before + 3];
+  if (const Value* size = keys.any_of({"resolution"})) {
+    const std::vector<Value>& pair = input::as_list(*size, keys.path(), 2);
+    lens.width_px = static_cast<int>(input::as_integer(pair[0], keys.path(), 1, kMostPixels));
+    lens.height_px = static_cast<int>(input::as_integer(pair[1], keys.path(), 1, kMostPixels));
     lens.source = size->where;
   }
-  read_distortion(reader, lens);
-  return lens;
+  const std::vector<double> coefficients =
+      keys.list({"distortion_coefficients", "distortion_coeffs"});
+  set_distortion(keys.text({"distortion_model"}), coefficients, keys.where(), lens);
 }
 
-scenario::ImuNoise read_noise(Reader& reader) {
-  scenario::ImuNoise noise;
-  const auto read = [&](const char* key, double& value) {
-    if (!reader.find(key)) {
-      throw Error(reader.where(), std::string(key) + " is missing; give all four of Kalibr's");
-    }
-    reader.read(key, kNoise, value);
+/// Kalibr's camchain: cam0, cam1, ..., each beside the one before it if it has no IMU.
+void read_camchain(const Value& root, Keys& cameras, const std::string& camera,
+                   SensorCalibration& calibration) {
+  const std::string name = camera.starts_with("cam") ? camera : "cam0";
+  const Value* value = cameras.any_of({name.c_str()});
+  if (!value) {
+    throw Error(root.where, fmt::format("holds no camera {}; name one of its own (camera)", name));
+  }
+  Keys keys(*value, name);
+  read_listed(keys, calibration);
+  if (calibration.T_BS) return;
+  const auto T_CP = keys.pose({"T_cn_cnm1"});  // of the camera before, P, in this one
+  if (!T_CP || !name.starts_with("cam") || name.size() != 4 || name.back() < '1') return;
+  std::string before = name;
+  --before.back();
+  SensorCalibration neighbour;
+  read_camchain(root, cameras, before, neighbour);
+  if (neighbour.T_BS) calibration.T_BS = *neighbour.T_BS * T_CP->inverse();
+}
+
+/// OpenCV's FileStorage with its matrix, and ROS's camera_info.
+void read_matrix(Keys& keys, const Value& matrix, SensorCalibration& calibration) {
+  const std::vector<double> K = numbers_in(matrix, keys.path());
+  if (K.size() != 9) {
+    throw Error(matrix.where, fmt::format("the camera's matrix has {} numbers; give 9", K.size()));
+  }
+  Lens& lens = calibration.lens.emplace();
+  lens.source = matrix.where;
+  lens.fu_px = K[0];
+  lens.fv_px = K[4];
+  lens.cu_px = K[2];
+  lens.cv_px = K[5];
+  set_size(keys, {"image_width", "image_Width", "width"},
+           {"image_height", "image_Height", "height"}, lens);
+  const std::vector<double> coefficients =
+      keys.list({"distortion_coefficients", "Distortion_Coefficients", "distCoeffs", "dist_coeffs",
+                 "distortion", "D", "d"});
+  // OpenCV does not name its model, but has a flag for the fisheye.
+  const std::string model = keys.text({"distortion_model"});
+  const bool is_fisheye = keys.number({"fisheye_model"}).value_or(0) != 0;
+  set_distortion(!model.empty() ? model
+                 : is_fisheye   ? "equidistant"
+                                : "plumb_bob",
+                 coefficients, keys.where(), lens);
+}
+
+/// ORB-SLAM2 and 3: Camera.fx, or Camera1.fx, and a type.
+void read_orb_slam(Keys& keys, const std::string& prefix, SensorCalibration& calibration) {
+  const auto number = [&](const char* name) { return keys.require(prefix + name); };
+  const auto optional = [&](const char* name) {
+    return keys.number({(prefix + name).c_str()}).value_or(0);
   };
-  read("gyroscope_noise_density", noise.gyroscope_noise_density);
-  read("gyroscope_random_walk", noise.gyroscope_random_walk);
-  read("accelerometer_noise_density", noise.accelerometer_noise_density);
-  read("accelerometer_random_walk", noise.accelerometer_random_walk);
+  Lens& lens = calibration.lens.emplace();
+  lens.source = keys.where();
+  lens.fu_px = number("fx");
+  lens.fv_px = number("fy");
+  lens.cu_px = number("cx");
+  lens.cv_px = number("cy");
+  set_size(keys, {"Camera.width"}, {"Camera.height"}, lens);
+  const std::string type = keys.text({"Camera.type"});
+  if (type == "KannalaBrandt8") {
+    set_distortion("equidistant", {optional("k1"), optional("k2"), optional("k3"), optional("k4")},
+                   keys.where(), lens);
+  } else if (type == "" || type == "PinHole") {
+    set_distortion("radtan",
+                   {optional("k1"), optional("k2"), optional("p1"), optional("p2"), optional("k3")},
+                   keys.where(), lens);
+  } else if (type != "Rectified") {
+    throw Error(keys.where(), fmt::format("the Camera.type '{}' is not supported; give PinHole, "
+                                          "KannalaBrandt8 or Rectified",
+                                          type));
+  }
+  if (prefix == "Camera2.") return;  // its place is beside Camera1
+  calibration.T_BS = keys.pose({"IMU.T_b_c1", "Tbc"});
+}
+
+/// camodocal, as in VINS: a model_type with its parameters.
+void read_camodocal(Keys& keys, const std::string& type, SensorCalibration& calibration) {
+  const auto part = [&](const char* name) {
+    const Value* value = keys.any_of({name});
+    if (!value) throw Error(keys.where(), fmt::format("{} is missing; give it", name));
+    return Keys(*value, name);
+  };
+  Lens& lens = calibration.lens.emplace();
+  lens.source = keys.where();
+  set_size(keys, {"image_width"}, {"image_height"}, lens);
+  Keys projection = part("projection_parameters");
+  const auto set = [&](const char* fu, const char* fv, const char* cu, const char* cv) {
+    lens.fu_px = projection.require(fu);
+    lens.fv_px = projection.require(fv);
+    lens.cu_px = projection.require(cu);
+    lens.cv_px = projection.require(cv);
+  };
+  const auto radtan = [&] {
+    Keys distortion = part("distortion_parameters");
+    set_distortion("radtan",
+                   {distortion.require("k1"), distortion.require("k2"), distortion.require("p1"),
+                    distortion.require("p2")},
+                   keys.where(), lens);
+  };
+  if (type == "PINHOLE") {
+    set("fx", "fy", "cx", "cy");
+    radtan();
+  } else if (type == "MEI") {
+    set("gamma1", "gamma2", "u0", "v0");
+    lens.xi = part("mirror_parameters").require("xi");
+    radtan();
+  } else if (type == "KANNALA_BRANDT") {
+    set("mu", "mv", "u0", "v0");
+    set_distortion("equidistant",
+                   {projection.require("k2"), projection.require("k3"), projection.require("k4"),
+                    projection.require("k5")},
+                   keys.where(), lens);
+  } else {
+    throw Error(keys.where(), fmt::format("the model_type '{}' is not supported; give PINHOLE, MEI "
+                                          "or KANNALA_BRANDT",
+                                          type));
+  }
+}
+
+/// Four densities of Kalibr, VINS or ORB-SLAM; absent if there is none of them.
+std::optional<scenario::ImuNoise> read_noise(Keys& keys) {
+  scenario::ImuNoise noise;
+  const struct {
+    std::initializer_list<const char*> names;
+    double& value;
+  } densities[] = {
+      {{"gyroscope_noise_density", "gyr_n", "IMU.NoiseGyro"}, noise.gyroscope_noise_density},
+      {{"gyroscope_random_walk", "gyr_w", "IMU.GyroWalk"}, noise.gyroscope_random_walk},
+      {{"accelerometer_noise_density", "acc_n", "IMU.NoiseAcc"}, noise.accelerometer_noise_density},
+      {{"accelerometer_random_walk", "acc_w", "IMU.AccWalk"}, noise.accelerometer_random_walk},
+  };
+  int count = 0;
+  const char* missing = nullptr;
+  for (const auto& [names, value] : densities) {
+    if (const auto number = keys.number(names, kNoise)) {
+      value = *number;
+      ++count;
+    } else {
+      missing = *names.begin();
+    }
+  }
+  if (count == 0) return std::nullopt;
+  if (missing) throw Error(keys.where(), fmt::format("{} is missing; give all four", missing));
   return noise;
 }
 
 }  // namespace
 
-SensorYaml read_sensor_yaml(const std::filesystem::path& file) {
-  const input::Source top{file.string(), 1};
-  const Value yaml = input::parse_text(without_directive(input::read_file(file, kSensorFile)), top);
-  if (yaml.kind != Value::Kind::map) {
-    throw Error(top, "this is no map of keys; " + std::string(kSensorFile.remedy));
+SensorCalibration read_calibration(const std::filesystem::path& file, const std::string& camera) {
+  const Value yaml = parse(file);
+  SensorCalibration calibration;
+  for (const input::Entry& entry : yaml.entries) calibration.keys[entry.key] = entry.where;
+  Keys keys(yaml, "");  // further keys may be present; they are ignored
+  const std::string second = camera == "cam1" ? "Camera2.fx" : "";
+  const std::string own_file =
+      keys.text({camera == "cam1" ? "cam1_calib" : "cam0_calib"});  // VINS-Fusion
+  if (const Value* imu = keys.any_of({"imu0"})) {
+    Keys inner(*imu, "imu0");
+    calibration.noise = read_noise(inner);
+    calibration.rate_hz = inner.number({"update_rate"}, kRate);
+  } else {
+    calibration.noise = read_noise(keys);
   }
-  // Further keys may be present; they are ignored.
-  Reader reader(yaml, "");
-  SensorYaml sensor;
-  for (const input::Entry& entry : yaml.entries) sensor.keys[entry.key] = entry.where;
-  if (const Value* pose = reader.find("T_BS")) sensor.T_BS = read_pose(*pose);
-  reader.read("rate_hz", kRate, sensor.rate_hz);
-  if (const Value* intrinsics = reader.find("intrinsics")) {
-    sensor.lens = read_lens(reader, *intrinsics);
+  if (keys.has("cam0")) {
+    read_camchain(yaml, keys, camera, calibration);
+  } else if (!own_file.empty()) {
+    calibration.lens = read_calibration(file.parent_path() / own_file).lens;
+    calibration.T_BS = keys.pose({camera == "cam1" ? "body_T_cam1" : "body_T_cam0"});
+  } else if (const std::string type = keys.text({"model_type"}); !type.empty()) {
+    read_camodocal(keys, type, calibration);
+    calibration.T_BS = keys.pose({"body_T_cam0"});
+  } else if (!second.empty() && keys.has(second)) {
+    read_orb_slam(keys, "Camera2.", calibration);
+  } else if (keys.has("Camera1.fx")) {
+    read_orb_slam(keys, "Camera1.", calibration);
+  } else if (keys.has("Camera.fx")) {
+    read_orb_slam(keys, "Camera.", calibration);
+  } else if (const Value* matrix =
+                 keys.any_of({"camera_matrix", "Camera_Matrix", "cameraMatrix", "K", "k"})) {
+    read_matrix(keys, *matrix, calibration);
+  } else {
+    read_listed(keys, calibration);
   }
-  if (reader.find("gyroscope_noise_density")) sensor.noise = read_noise(reader);
-  return sensor;
+  if (!calibration.lens && !calibration.noise && !calibration.T_BS && !calibration.rate_hz) {
+    throw Error({file.string(), 1},
+                fmt::format("holds no calibration that is known; {}", kCalibrationFile.remedy));
+  }
+  return calibration;
 }
 
 }  // namespace lcs::replay

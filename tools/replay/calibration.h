@@ -1,5 +1,6 @@
 /// \file
-/// `sensor.yaml` in EuRoC's ASL format, with Kalibr's keys.
+/// Calibrations of a camera and an IMU, as several tools write them: EuRoC's sensor.yaml, Kalibr's
+/// and OpenVINS's camchain and IMU, ROS's camera_info, OpenCV, ORB-SLAM, VINS (camodocal).
 #pragma once
 
 #include <filesystem>
@@ -13,15 +14,19 @@
 
 namespace lcs::replay {
 
-struct SensorYaml {
-  sim::Pose T_BS;
+struct SensorCalibration {
+  std::optional<Lens> lens;  ///< of a camera
+  /// Pose of the sensor in the body frame B: EuRoC's T_BS; of a camera also Kalibr's T_cam_imu,
+  /// inverted, OpenVINS's T_imu_cam, ORB-SLAM's T_b_c1, and VINS's body_T_cam0. Then B is the IMU.
+  std::optional<sim::Pose> T_BS;
   std::optional<double> rate_hz;
-  std::optional<Lens> lens;                        ///< of a camera
   std::optional<scenario::ImuNoise> noise;         ///< of an IMU; turn-on biases are 0
   std::map<std::string, input::Source> keys = {};  ///< top-level keys and their places
 };
 
-/// \throws input::Error with file and line.
-SensorYaml read_sensor_yaml(const std::filesystem::path& file);
+/// \param camera one of several in a file, by its name there, as "cam1"; another name: the first.
+/// \throws input::Error with file and line, also if it is of none of the known kinds.
+SensorCalibration read_calibration(const std::filesystem::path& file,
+                                   const std::string& camera = "");
 
 }  // namespace lcs::replay

@@ -7,8 +7,11 @@
 #include <memory>
 #include <utility>
 
+#include "sim/rotation.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/at_rest.h"
+#include "tools/replay/calibration.h"
+#include "tools/replay/frame_list.h"
 #include "tools/replay/in_order.h"
 #include "tools/replay/navigation.h"
 #include "tools/replay/poses_file.h"
@@ -23,14 +26,35 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr const char* kNoTimes = "when its pictures were taken (fps)";
+constexpr const char* kNoTimes = "when its pictures were taken (fps, or times)";
+constexpr std::size_t kMostPictures = 100'000'000;
+
+/// The median rate of pictures with times; absent for fewer than two.
+std::optional<double> usual_rate_hz(const std::vector<RecordedFrame>& frames) {
+  std::vector<std::int64_t> periods;
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    periods.push_back(frames[i].t_ns - frames[i - 1].t_ns);
+  }
+  if (periods.empty()) return std::nullopt;
+  const auto middle = periods.begin() + std::ssize(periods) / 2;
+  std::nth_element(periods.begin(), middle, periods.end());
+  return 1e9 / static_cast<double>(*middle);
+}
 
 /// \return whether the frames' times are known, not only their order.
 bool set_times(const scenario::Recorded& asked, Recorded& recorded) {
+  if (asked.times) {
+    time_by_table(*asked.times, asked.time_unit, recorded);
+    return true;
+  }
   if (recorded.timed) {
-    if (!asked.fps) return true;
+    constexpr double kSame = 0.05;
+    const std::optional<double> own_hz = usual_rate_hz(recorded.frames);
+    if (!asked.fps || (own_hz && std::abs(*own_hz / *asked.fps - 1) < kSame)) return true;
     throw input::Error(asked.source,
-                       "the recording itself says when its pictures were taken; remove fps");
+                       fmt::format("the recording itself says when its pictures were taken, {:.3g} "
+                                   "a second, and fps says {:.3g}; remove fps",
+                                   own_hz.value_or(0), *asked.fps));
   }
   const std::optional<double> fps = asked.fps ? asked.fps : recorded.fps;
   if (fps) time_by(*fps, recorded);
@@ -51,15 +75,22 @@ void leave_out_without_pose(std::size_t poses, Recorded& recorded) {
   const auto first = std::find_if(frames.begin(), frames.end(),
                                   [&](const auto& frame) { return frame.number >= poses; });
   if (first == frames.end()) return;
-  recorded.tally.add("pictures have no pose and are left out",
-                     recorded.video.empty() ? first->picture.filename().string()
-                                            : fmt::format("picture {}", first->number),
+  recorded.tally.add("pictures have no pose and are left out", first->name(),
                      static_cast<int>(frames.end() - first));
   std::erase_if(frames, [&](const auto& frame) { return frame.number >= poses; });
 }
 
-/// Pose k belongs to picture k: in KITTI's format, and in TUM's for pictures without times.
-std::vector<PosesMotion::CameraPose> poses_by_number(const PosesFile& file, Recorded& recorded) {
+/// Line k belongs to picture k, or to the one that it states.
+std::vector<PosesMotion::CameraPose> poses_by_number(const PosesFile& stated, Recorded& recorded) {
+  PosesFile file;
+  for (const auto& line : stated.lines) {
+    if (!line || !line->number) {
+      file.lines.push_back(line);
+    } else if (*line->number < kMostPictures) {
+      file.lines.resize(std::max(file.lines.size(), *line->number + 1));
+      file.lines[*line->number] = line;
+    }
+  }
   leave_out_without_pose(file.lines.size(), recorded);
   std::vector<PosesMotion::CameraPose> poses;
   std::erase_if(recorded.frames, [&](RecordedFrame& frame) {
@@ -83,35 +114,27 @@ std::vector<PosesMotion::CameraPose> poses_by_time(const PosesFile& file, bool o
   return poses;
 }
 
-void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& recorded) {
-  const PosesFile file = read_poses(*asked.poses, recorded.tally);
-  const bool by_number = !file.timed || !times_known;
-  if (!times_known && !file.timed) return;  // the missing times are reported elsewhere
-  if (!times_known) {
-    if (file.lines.size() != recorded.frames.size()) {
-      recorded.lacks.push_back(
-          fmt::format("which of {} poses belong to its {} pictures (fps, if the first pose belongs "
-                      "to the first picture)",
-                      file.lines.size(), recorded.frames.size()));
-      return;
-    }
+/// The pose of the camera on the body or the IMU, if a calibration or a mount states it.
+std::optional<sim::Pose> camera_on_body(const scenario::Recorded& asked) {
+  if (asked.mount_rpy_rad) {
+    return sim::Pose{camera_mount(*asked.mount_rpy_rad), Vector3d::Zero()};
   }
-  auto poses = by_number ? poses_by_number(file, recorded) : poses_by_time(file, !recorded.timed);
-  if (poses.empty()) {
+  if (!asked.calibration) return std::nullopt;
+  return read_calibration(*asked.calibration, asked.camera).T_BS;
+}
+
+/// Turns poses of the body into those of the camera.
+void join_camera(const scenario::Recorded& asked, PosesFile& file, const Recorded& recorded) {
+  std::optional<sim::Pose> T_BC = camera_on_body(asked);
+  if (!T_BC) T_BC = recorded.T_BC;
+  if (!T_BC) {
     throw input::Error({asked.poses->string(), 0},
-                       "none of the poses belongs to a picture; give a line for each picture");
+                       "its poses are those of the body (p_RS_R_x); give the camera's place on it, "
+                       "by a calibration with T_BS or T_cam_imu, or by mount");
   }
-  sort_by_time(poses, "poses", asked.poses->string(), recorded.tally);
-  if (!times_known) {
-    sort_by_time(recorded.frames, "pictures", asked.poses->string(), recorded.tally);
+  for (auto& line : file.lines) {
+    if (line) line->T_WC = line->T_WC * *T_BC;
   }
-  // KITTI's world frame is that of the first camera.
-  const auto level = file.timed ? std::nullopt : std::optional(Vector3d(0, -1, 0));
-  const auto up_W = up_of_world(asked, poses.front().T_WC, level);
-  auto motion = std::make_unique<PosesMotion>(std::move(poses), up_W);
-  keep_within(motion->first_ns(), motion->last_ns(),
-              "pictures are outside of the poses' time and are left out", recorded);
-  recorded.motion = std::move(motion);
 }
 
 /// Removes biases and tilt by a given or detected time at rest. A non-zero start speed rules out an
@@ -129,39 +152,80 @@ void calibrate_at_rest(const scenario::Recorded& asked, SensorReadings& readings
   tell_rest(*rest, tally);
 }
 
-/// The IMU's axes are those of the vehicle, which starts upright.
+/// Refuses readings whose axes are not the vehicle's, by where the accelerometer says up is.
+void require_vehicle_axes(const std::vector<sim::ImuSample>& readings,
+                          const scenario::Recorded& asked) {
+  constexpr double kUpright = 0.7;  // cosine of the angle to z, for any slope
+  Vector3d force = Vector3d::Zero();
+  for (const sim::ImuSample& sample : readings) force += sample.accel_mps2;
+  const Vector3d up = force.normalized();
+  if (up.z() > kUpright) return;
+  const std::string file = asked.imu->string();
+  if (up.z() < -kUpright) {
+    throw input::Error({file, 0},
+                       "its accelerations point down, along -z, and those of an "
+                       "accelerometer at rest point up; change their sign, or turn the "
+                       "axes so that z is up");
+  }
+  throw input::Error(
+      {file, 0},
+      fmt::format(
+          "its axes are not the vehicle's (x ahead, y left, z up): up is ({:.2f}, {:.2f}, "
+          "{:.2f}) by its accelerations; turn them, or give the camera's place on the IMU by "
+          "a calibration with T_BS or T_cam_imu",
+          up.x(), up.y(), up.z()));
+}
+
+/// The IMU's axes are those of the vehicle, which starts upright; or any, with a calibration.
 void move_by_imu(const scenario::Recorded& asked, Recorded& recorded) {
   SensorReadings readings;
-  readings.imu = read_imu_csv(*asked.imu, recorded.tally);
-  if (asked.odometry) readings.odometry = read_odometry_csv(*asked.odometry, recorded.tally);
-  recorded.settings.odometry.enabled = !readings.odometry.empty();
-  // Pictures without a clock begin at the first reading.
-  const std::int64_t first_reading_ns = readings.imu.front().t_ns;
-  std::int64_t start_ns = first_reading_ns;
-  if (recorded.timed) {
-    start_ns = std::max(start_ns, recorded.frames.front().t_ns);
-    keep_within(start_ns, readings.imu.back().t_ns + kBehindReadings_ns,
-                "pictures are outside of the IMU's time and are left out", recorded);
-    for (RecordedFrame& frame : recorded.frames) frame.t_ns -= start_ns;
+  const TableTimes of_imu{asked.time_unit, {kSlowestImu_hz, kFastestImu_hz, {}}, kNanosecond_ns};
+  readings.imu = read_imu_csv(*asked.imu, of_imu, recorded.tally);
+  if (asked.odometry) {
+    constexpr double kSlowest_hz = 1, kFastest_hz = 990;
+    readings.odometry = read_odometry_csv(
+        *asked.odometry, {asked.time_unit, {kSlowest_hz, kFastest_hz, {}}, kNanosecond_ns},
+        recorded.tally);
   }
+  recorded.settings.odometry.enabled = !readings.odometry.empty();
+  take_imu_noise(asked, recorded);
+  // Pictures without a clock begin at the first reading.
+  const std::int64_t first_ns = readings.imu.front().t_ns;
+  const std::int64_t zero_ns = recorded.has_own_clock ? first_ns : 0;
+  for (RecordedFrame& frame : recorded.frames) frame.t_ns += zero_ns;
+  const std::int64_t start_ns = std::max(first_ns, recorded.frames.front().t_ns);
+  keep_within(start_ns, readings.imu.back().t_ns + kBehindReadings_ns,
+              "pictures are outside of the IMU's time and are left out", recorded);
+  for (RecordedFrame& frame : recorded.frames) frame.t_ns -= start_ns;
   begin_at(start_ns, readings);
   sim::Calibration calibration;
-  calibration.T_BC.R = camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero()));
+  const auto T_BC = asked.calibration ? camera_on_body(asked) : std::nullopt;
+  calibration.T_BC.R =
+      T_BC ? T_BC->R : camera_mount(asked.mount_rpy_rad.value_or(Vector3d::Zero()));
+  if (T_BC && !asked.mount_rpy_rad) {
+    calibration.T_BC.p = T_BC->p;
+    calibration.T_WB_start.R =
+        sim::least_rotation(readings.imu.front().accel_mps2, Vector3d::UnitZ()).toRotationMatrix();
+  } else {
+    require_vehicle_axes(readings.imu, asked);
+  }
   calibration.v_WB_start_mps =
-      asked.speed_mps.value_or(0) * calibration.T_BC.R.col(2);  // along the optical axis
+      asked.speed_mps.value_or(0) * (calibration.T_WB_start.R * calibration.T_BC.R.col(2)).eval();
   calibrate_at_rest(asked, readings, calibration, recorded.tally);
   recorded.motion =
       std::make_unique<SensorMotion>(recorded.settings, calibration, std::move(readings));
 }
 
-void set_motion(const scenario::Recorded& asked, bool times_known, Recorded& recorded) {
+/// \param is_told whether the layout told already which of its motion's inputs it lacks.
+void set_motion(const scenario::Recorded& asked, bool times_known, bool is_told,
+                Recorded& recorded) {
   if (asked.poses) {
     move_by_poses(asked, times_known, recorded);
   } else if (asked.imu) {
-    move_by_imu(asked, recorded);
+    if (times_known) move_by_imu(asked, recorded);
   } else if (asked.speed_mps) {
     recorded.motion = std::make_unique<SteadyMotion>(*asked.speed_mps, asked.mount_rpy_rad);
-  } else if (!recorded.motion) {
+  } else if (!recorded.motion && !is_told) {
     recorded.lacks.emplace_back("how the camera moved (poses, imu, or speed: 0 where it stands)");
   }
 }
@@ -183,6 +247,13 @@ void require_lens(const Lens& lens) {
 }
 
 void set_lens(const scenario::Recorded& asked, Recorded& recorded) {
+  if (asked.calibration) {
+    recorded.lens = read_calibration(*asked.calibration, asked.camera).lens;
+    if (!recorded.lens) {
+      throw input::Error({asked.calibration->string(), 0},
+                         "holds no calibration of a camera; give one with intrinsics");
+    }
+  }
   if (asked.focal_px) {
     Lens& lens = recorded.lens.emplace();
     lens.fu_px = lens.fv_px = *asked.focal_px;
@@ -232,6 +303,49 @@ std::optional<scenario::Origin> origin_of(const std::filesystem::path& pictures)
 
 }  // namespace
 
+void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& recorded) {
+  PosesFile file = read_poses(*asked.poses, asked.time_unit, recorded.tally);
+  if (file.of_body) join_camera(asked, file, recorded);
+  const bool by_number = !file.timed || !times_known;
+  if (!times_known && !file.timed) return;  // the missing times are reported elsewhere
+  if (!times_known) {
+    if (file.lines.size() != recorded.frames.size()) {
+      recorded.lacks.push_back(
+          fmt::format("which of {} poses belong to its {} pictures (fps, if the first pose belongs "
+                      "to the first picture)",
+                      file.lines.size(), recorded.frames.size()));
+      return;
+    }
+  }
+  auto poses =
+      by_number ? poses_by_number(file, recorded) : poses_by_time(file, recorded.has_own_clock);
+  if (poses.empty()) {
+    throw input::Error({asked.poses->string(), 0},
+                       "none of the poses belongs to a picture; give a line for each picture");
+  }
+  sort_by_time(poses, "poses", asked.poses->string(), recorded.tally);
+  if (!times_known) {
+    sort_by_time(recorded.frames, "pictures", asked.poses->string(), recorded.tally);
+  }
+  // KITTI's world frame is that of the first camera.
+  const auto level = file.timed ? std::nullopt : std::optional(Vector3d(0, -1, 0));
+  const auto up_W = up_of_world(asked, poses.front().T_WC, level);
+  auto motion = std::make_unique<PosesMotion>(std::move(poses), up_W);
+  keep_within(motion->first_ns(), motion->last_ns(),
+              "pictures are outside of the poses' time and are left out", recorded);
+  recorded.motion = std::move(motion);
+}
+
+void take_imu_noise(const scenario::Recorded& asked, Recorded& recorded) {
+  if (!asked.imu_calibration) return;
+  const auto noise = read_calibration(*asked.imu_calibration).noise;
+  if (!noise) {
+    throw input::Error({asked.imu_calibration->string(), 0},
+                       "holds no noise densities; give those of Kalibr's imu.yaml");
+  }
+  recorded.settings.imu.noise = *noise;
+}
+
 void time_by(double fps, Recorded& recorded) {
   for (RecordedFrame& frame : recorded.frames) {
     const double t_ns = static_cast<double>(frame.number) * 1e9 / fps;
@@ -242,6 +356,25 @@ void time_by(double fps, Recorded& recorded) {
     }
     frame.t_ns = std::llround(t_ns);
   }
+  recorded.has_own_clock = true;
+}
+
+/// The properties of the pictures, with the user's in place of those that they show.
+void set_format(const scenario::Recorded& asked, Recorded& recorded) {
+  std::vector<std::filesystem::path> files;
+  for (const RecordedFrame& frame : recorded.frames) files.push_back(frame.picture);
+  if (recorded.video.empty()) {
+    const auto demosaic = recorded.format.demosaic;
+    recorded.format = common_format(files);
+    recorded.format.demosaic = demosaic;
+  }
+  if (!asked.bayer.empty()) recorded.format.demosaic = demosaic_of(asked.bayer);
+  if (asked.bits) {
+    recorded.format.bits = *asked.bits;
+  } else if (recorded.format.bits > 8 && recorded.format.bits < 16) {
+    recorded.tally.add("pictures of 16 bits use fewer, and are scaled by these (bits)",
+                       fmt::format("{} bits", recorded.format.bits));
+  }
 }
 
 Recorded read_recorded(const scenario::Scenario& scenario) {
@@ -249,9 +382,10 @@ Recorded read_recorded(const scenario::Scenario& scenario) {
   Recorded recorded =
       layout_of(asked).read(asked, scenario.ego_motion == scenario::EgoMotionSource::truth);
   recorded.settings.origin = origin_of(asked.path);
+  const bool is_told = !recorded.lacks.empty();
   const bool times_known = set_times(asked, recorded);
   if (!times_known && !asked.poses) recorded.lacks.emplace_back(kNoTimes);
-  set_motion(asked, times_known, recorded);
+  set_motion(asked, times_known, is_told, recorded);
   if (!times_known && asked.poses && !recorded.motion && recorded.lacks.empty()) {
     recorded.lacks.emplace_back(kNoTimes);
   }
@@ -266,6 +400,7 @@ Recorded read_recorded(const scenario::Scenario& scenario) {
   if (recorded.frames.empty()) {
     throw input::Error(asked.source, "no picture is left; give a smaller every");
   }
+  set_format(asked, recorded);
   return recorded;
 }
 

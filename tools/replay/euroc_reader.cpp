@@ -9,9 +9,10 @@
 #include "sim/rotation.h"
 #include "tools/recording/recording_io.h"
 #include "tools/replay/at_rest.h"
+#include "tools/replay/calibration.h"
+#include "tools/replay/navigation.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/sensor_csv.h"
-#include "tools/replay/sensor_yaml.h"
 #include "tools/replay/times.h"
 #include "tools/sequence/replay_settings.h"
 
@@ -22,6 +23,7 @@ namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
 constexpr const char* kTruth = "state_groundtruth_estimate0";
+constexpr const char* kMotionCapture = "mocap0";  // of TUM-VI
 constexpr double kGravity_mps2 = 9.81;
 // A recording without truth is assumed to be at rest for this time at its start.
 constexpr std::int64_t kStill_ns = 500'000'000;
@@ -31,11 +33,27 @@ fs::path mav_of(const fs::path& folder) {
   return fs::is_directory(folder / "mav0") ? folder / "mav0" : folder;
 }
 
-std::vector<RecordedFrame> read_frames(const fs::path& camera, Tally& tally) {
-  const TextTable table = read_table(camera / "data.csv", ',');
+/// The sensor's calibration in its folder; empty if it has none.
+SensorCalibration calibration_in(const fs::path& sensor) {
+  const fs::path file = sensor / "sensor.yaml";
+  return fs::exists(file) ? read_calibration(file) : SensorCalibration{};
+}
+
+/// EuRoC's tables have ns, unless something else is stated.
+TableTimes times_of(const fs::path& sensor, const SensorCalibration& calibration,
+                    const scenario::Recorded& asked, double least_hz, double most_hz) {
+  return {asked.time_unit,
+          {least_hz, most_hz, calibration.rate_hz, (sensor / "sensor.yaml").string()},
+          kNanosecond_ns};
+}
+
+std::vector<RecordedFrame> read_frames(const fs::path& camera, const TableTimes& times,
+                                       Tally& tally) {
+  const TextTable table = read_table(camera / "data.csv");
+  const std::int64_t unit_ns = times.unit_ns(table, 0, tally);
   std::vector<RecordedFrame> frames;
   for (const TextTable::Row& row : table.rows) {
-    const auto t_ns = time_in(row.fields[0], 1);
+    const auto t_ns = time_in(row.fields[0], unit_ns);
     if (!t_ns) {
       tally.add("rows cannot be read and are left out", table.at(row));
       continue;
@@ -125,7 +143,7 @@ void require_same(const fs::path& mav, const sequence::ReplaySettings& exact) {
   const auto read = [&](const char* sensor, const sim::Pose& T_BS, const auto& check) {
     const fs::path file = mav / sensor / "sensor.yaml";
     if (!fs::exists(file)) return;
-    const SensorYaml said = read_sensor_yaml(file);
+    const SensorCalibration said = read_calibration(file);
     const auto require = [&](bool same, const char* key) {
       if (same) return;
       const auto at = said.keys.find(key);
@@ -136,28 +154,31 @@ void require_same(const fs::path& mav, const sequence::ReplaySettings& exact) {
               "{1} away to replay it by its other files alone",
               key, sequence::kSettingsFile));
     };
-    require(said.T_BS.R.isApprox(T_BS.R, 1e-9) && (said.T_BS.p - T_BS.p).norm() < 1e-9, "T_BS");
+    require(
+        said.T_BS && said.T_BS->R.isApprox(T_BS.R, 1e-9) && (said.T_BS->p - T_BS.p).norm() < 1e-9,
+        "T_BS");
     check(said, require);
   };
-  const auto nothing_else = [](const SensorYaml&, const auto&) {};
+  const auto nothing_else = [](const SensorCalibration&, const auto&) {};
   const sim::Calibration& told = exact.calibration;
-  read("cam0", told.T_BS.inverse() * told.T_BC, [&](const SensorYaml& said, const auto& require) {
-    const double rate_hz = exact.scenario.camera.rate_hz;
-    require(is_same(said.rate_hz.value_or(rate_hz), rate_hz), "rate_hz");
-    if (!said.lens) return;
-    const Lens& lens = *said.lens;
-    const sim::Pinhole& camera = told.camera;
-    require(is_same(lens.fu_px, camera.focal_px) && is_same(lens.fv_px, camera.focal_px) &&
-                is_same(lens.cu_px, camera.centre_px.x()) &&
-                is_same(lens.cv_px, camera.centre_px.y()),
-            "intrinsics");
-    const cv::Size size_px(lens.width_px, lens.height_px);
-    require(size_px.empty() || size_px == cv::Size(camera.width_px, camera.height_px),
-            "resolution");
-    require(std::ranges::all_of(lens.coefficients, [](double c) { return c == 0; }),
-            "distortion_coefficients");
-  });
-  read("imu0", {}, [&](const SensorYaml& said, const auto& require) {
+  read("cam0", told.T_BS.inverse() * told.T_BC,
+       [&](const SensorCalibration& said, const auto& require) {
+         const double rate_hz = exact.scenario.camera.rate_hz;
+         require(is_same(said.rate_hz.value_or(rate_hz), rate_hz), "rate_hz");
+         if (!said.lens) return;
+         const Lens& lens = *said.lens;
+         const sim::Pinhole& camera = told.camera;
+         require(is_same(lens.fu_px, camera.focal_px) && is_same(lens.fv_px, camera.focal_px) &&
+                     is_same(lens.cu_px, camera.centre_px.x()) &&
+                     is_same(lens.cv_px, camera.centre_px.y()),
+                 "intrinsics");
+         const cv::Size size_px(lens.width_px, lens.height_px);
+         require(size_px.empty() || size_px == cv::Size(camera.width_px, camera.height_px),
+                 "resolution");
+         require(std::ranges::all_of(lens.coefficients, [](double c) { return c == 0; }),
+                 "distortion_coefficients");
+       });
+  read("imu0", {}, [&](const SensorCalibration& said, const auto& require) {
     if (!said.noise) return;
     for (const auto& [key, member] : sequence::kImuNoise) {
       if (!said.keys.contains(key)) continue;  // turn-on biases, which Kalibr lacks
@@ -171,10 +192,11 @@ void require_same(const fs::path& mav, const sequence::ReplaySettings& exact) {
 /// Sets the motion of a generated sequence from its own settings: the same bits as in the run.
 void move_as_run(const fs::path& mav, const sequence::ReplaySettings& exact, Recorded& recorded) {
   SensorReadings readings;
-  readings.imu = read_imu_csv(mav / "imu0" / "data.csv", recorded.tally);
+  const TableTimes times{"ns", {}, {}};
+  readings.imu = read_imu_csv(mav / "imu0" / "data.csv", times, recorded.tally);
   if (exact.scenario.odometry.enabled) {
     const fs::path file = mav / "odometry0" / "data.csv";
-    readings.odometry = read_odometry_csv(file, recorded.tally);
+    readings.odometry = read_odometry_csv(file, times, recorded.tally);
     if (readings.odometry.empty()) {
       throw input::Error({file.string(), 0},
                          fmt::format("holds no reading of the odometry that {} says there is; "
@@ -196,13 +218,46 @@ void move_as_run(const fs::path& mav, const sequence::ReplaySettings& exact, Rec
       std::make_unique<SensorMotion>(recorded.settings, exact.calibration, std::move(readings));
 }
 
-/// Sets the motion from EuRoC's own files. The body frame is B.
-void move_by_files(const fs::path& mav, const sim::Pose& T_BC, bool exact_motion,
-                   std::optional<double> at_rest_s, Recorded& recorded) {
-  std::vector<TrueState> truth;
-  if (fs::exists(mav / kTruth / "data.csv")) {
-    truth = read_truth_csv(mav / kTruth / "data.csv", recorded.tally);
+std::vector<TrueState> read_truth(const fs::path& mav, const scenario::Recorded& asked,
+                                  Tally& tally) {
+  constexpr double kSlowest_hz = 1, kFastest_hz = 990;
+  for (const char* name : {kTruth, kMotionCapture}) {
+    const fs::path file = mav / name / "data.csv";
+    if (!fs::exists(file)) continue;
+    const SensorCalibration calibration = calibration_in(mav / name);
+    const TableTimes times = times_of(mav / name, calibration, asked, kSlowest_hz, kFastest_hz);
+    return name == kTruth ? read_truth_csv(file, times, tally)
+                          : read_body_poses_csv(file, times, tally);
   }
+  return {};
+}
+
+/// The accelerometer measures the acceleration against gravity: at rest it points up.
+void require_gravity_down(const Start& start, const std::vector<sim::ImuSample>& imu,
+                          const fs::path& file) {
+  constexpr double kSpan_s = 1;
+  Vector3d force_S = Vector3d::Zero();
+  for (const sim::ImuSample& sample : imu) {
+    const double since_s = 1e-9 * static_cast<double>(sample.t_ns - start.t_ns);
+    if (since_s >= 0 && since_s <= kSpan_s) force_S += sample.accel_mps2;
+  }
+  if ((start.T_WS.R * force_S).z() >= 0) return;
+  throw input::Error({file.string(), 0},
+                     "by the attitude of the truth its accelerations point down, and those of an "
+                     "accelerometer at rest point up; change their sign");
+}
+
+/// Sets the motion from EuRoC's own files. The body frame is B.
+/// \param T_BC_known pose of the camera, if anything states it.
+void move_by_files(const fs::path& mav, const std::optional<sim::Pose>& T_BC_known,
+                   bool exact_motion, const scenario::Recorded& asked, Recorded& recorded) {
+  if (!T_BC_known) {
+    recorded.lacks.emplace_back(
+        "where the camera is on the IMU (T_BS or T_cam_imu in a calibration, or mount)");
+    return;
+  }
+  const sim::Pose T_BC = *T_BC_known;
+  const std::vector<TrueState> truth = read_truth(mav, asked, recorded.tally);
   if (exact_motion) {
     if (truth.size() < 2) {
       throw std::runtime_error(fmt::format(
@@ -214,11 +269,14 @@ void move_by_files(const fs::path& mav, const sim::Pose& T_BC, bool exact_motion
     return;
   }
   SensorReadings readings;
-  readings.imu = read_imu_csv(mav / "imu0" / "data.csv", recorded.tally);
-  const SensorYaml imu = read_sensor_yaml(mav / "imu0" / "sensor.yaml");
+  const fs::path imu_file = mav / "imu0" / "data.csv";
+  const SensorCalibration imu = calibration_in(mav / "imu0");
+  const TableTimes times = times_of(mav / "imu0", imu, asked, kSlowestImu_hz, kFastestImu_hz);
+  readings.imu = read_imu_csv(imu_file, times, recorded.tally);
   if (imu.noise) recorded.settings.imu.noise = *imu.noise;
+  take_imu_noise(asked, recorded);
   sim::Calibration calibration;
-  calibration.T_BS = imu.T_BS;
+  calibration.T_BS = imu.T_BS.value_or(sim::Pose{});  // the body frame is that of the IMU
   calibration.T_BC = T_BC;
   calibration.gravity_mps2 = kGravity_mps2;
   // The truth is of the body; it may begin after the first picture.
@@ -227,13 +285,18 @@ void move_by_files(const fs::path& mav, const sim::Pose& T_BC, bool exact_motion
   keep_within(first_ns, readings.imu.back().t_ns + kBehindReadings_ns,
               "pictures are from before the truth or outside of the IMU's time", recorded);
   const Start start = truth.empty()
-                          ? start_at_rest(readings.imu, first_ns, at_rest_s, recorded.tally)
+                          ? start_at_rest(readings.imu, first_ns, asked.at_rest_s, recorded.tally)
                           : start_by_truth(truth, first_ns);
+  if (!truth.empty()) require_gravity_down(start, readings.imu, imu_file);
   calibration.T_WB_start.R = start.T_WS.R;
   calibration.v_WB_start_mps = start.v_WS_mps;
   if (fs::exists(mav / "odometry0" / "data.csv")) {
     const fs::path file = mav / "odometry0" / "data.csv";
-    readings.odometry = read_odometry_csv(file, recorded.tally);
+    readings.odometry = read_odometry_csv(file, times, recorded.tally);
+    const sim::Pose T_BO = calibration_in(mav / "odometry0").T_BS.value_or(sim::Pose{});
+    for (sim::OdometrySample& sample : readings.odometry) {
+      sample.velocity_mps = T_BO.R * sample.velocity_mps;
+    }
     if (readings.odometry.empty()) {
       recorded.tally.add("tables of odometry hold no reading and are not used", file.string());
     }
@@ -254,19 +317,27 @@ void move_by_files(const fs::path& mav, const sim::Pose& T_BC, bool exact_motion
 }  // namespace
 
 bool is_euroc(const fs::path& folder) {
-  return fs::exists(mav_of(folder) / "cam0" / "data.csv");
+  const fs::path camera = mav_of(folder) / "cam0";
+  return fs::exists(camera / "data.csv") || fs::is_directory(camera / "data");
 }
 
 Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion) {
   const fs::path mav = mav_of(asked.path);
   const std::string camera = asked.camera.empty() ? "cam0" : asked.camera;
   const fs::path camera_folder = mav / camera;
-  if (!fs::exists(camera_folder / "data.csv")) {
-    throw input::Error(asked.source, fmt::format("{} is not there; name another camera",
-                                                 (camera_folder / "data.csv").string()));
+  if (!fs::is_directory(camera_folder)) {
+    throw input::Error(asked.source,
+                       fmt::format("{} is not there; name another camera", camera_folder.string()));
   }
+  const SensorCalibration sensor = calibration_in(camera_folder);
   Recorded recorded;
-  recorded.frames = read_frames(camera_folder, recorded.tally);
+  if (fs::exists(camera_folder / "data.csv")) {
+    recorded.frames = read_frames(
+        camera_folder, times_of(camera_folder, sensor, asked, kSlowestCamera_hz, kFastestCamera_hz),
+        recorded.tally);
+  } else {
+    take_pictures(camera_folder / "data", asked.time_unit, recorded);
+  }
   const fs::path settings_file = asked.path / sequence::kSettingsFile;
   if (fs::exists(settings_file)) {
     const sequence::ReplaySettings exact = sequence::read_settings(settings_file);
@@ -282,11 +353,16 @@ Recorded read_euroc(const scenario::Recorded& asked, bool exact_motion) {
     if (!motion_is_asked(asked)) move_as_run(mav, exact, recorded);
     return recorded;
   }
-  const SensorYaml sensor = read_sensor_yaml(camera_folder / "sensor.yaml");
   recorded.lens = sensor.lens;
-  if (!motion_is_asked(asked)) {
-    move_by_files(mav, sensor.T_BS, exact_motion, asked.at_rest_s, recorded);
+  recorded.T_BC = sensor.T_BS;
+  if (motion_is_asked(asked)) return recorded;
+  std::optional<sim::Pose> T_BC = sensor.T_BS;
+  if (asked.calibration) {
+    const auto T_BC_asked = read_calibration(*asked.calibration, camera).T_BS;
+    if (T_BC_asked) T_BC = T_BC_asked;
   }
+  if (asked.mount_rpy_rad) T_BC = {camera_mount(*asked.mount_rpy_rad), Vector3d::Zero()};
+  move_by_files(mav, T_BC, exact_motion, asked, recorded);
   return recorded;
 }
 

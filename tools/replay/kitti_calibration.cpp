@@ -23,11 +23,13 @@ KittiCalibration::KittiCalibration(const std::filesystem::path& file) : file_(fi
   int unnamed = 0;
   for (std::string line; input.next_line(line);) {
     if (bench::trimmed(line).empty()) continue;
-    const std::size_t colon = line.find(':');
-    const bool is_named = colon != line.npos;
-    std::istringstream words(is_named ? line.substr(colon + 1) : line);
+    const std::string_view text = bench::trimmed(line);
+    const std::size_t end = text.find_first_of(": ");  // KITTI tracking names some without a colon
+    const bool is_named =
+        end != text.npos && !bench::number_in<double>(text.substr(0, end)).has_value();
+    std::istringstream words{std::string(is_named ? text.substr(end + 1) : text)};
     std::vector<double>& numbers =
-        values_[is_named ? line.substr(0, colon) : fmt::format("P{}", unnamed++)];
+        values_[is_named ? std::string(text.substr(0, end)) : fmt::format("P{}", unnamed++)];
     for (double number; words >> number;) numbers.push_back(number);
   }
 }
@@ -52,6 +54,18 @@ Eigen::Matrix3d KittiCalibration::rotation(const std::string& name) const {
   return *R;
 }
 
+sim::Pose KittiCalibration::pose(const std::string& name) const {
+  constexpr std::size_t kRows = 12;
+  const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> rows(
+      numbers(name, kRows).data());
+  const auto R = rotation_of(rows.leftCols<3>());
+  if (!R) {
+    throw input::Error({file_.string(), 0},
+                       fmt::format("{} has no rotation; {}", name, kCalibration.remedy));
+  }
+  return {*R, rows.col(3)};
+}
+
 sim::Pose KittiCalibration::pose() const {
   return {rotation("R"), Eigen::Map<const Eigen::Vector3d>(numbers("T", 3).data())};
 }
@@ -64,6 +78,13 @@ Lens KittiCalibration::lens(const std::string& name) const {
   lens.cu_px = P[2];
   lens.cv_px = P[6];
   lens.source = {file_.string(), 0};
+  constexpr std::string_view kRectified = "P_rect_";
+  if (!name.starts_with(kRectified)) return lens;
+  const std::string size = "S_rect_" + name.substr(kRectified.size());
+  if (values_.contains(size)) {
+    lens.width_px = static_cast<int>(numbers(size, 2)[0]);
+    lens.height_px = static_cast<int>(numbers(size, 2)[1]);
+  }
   return lens;
 }
 

@@ -23,9 +23,12 @@ class KittiCalibration {
   const std::vector<double>& numbers(const std::string& name, std::size_t count) const;
   /// \throws input::Error also for a matrix that is no rotation.
   Eigen::Matrix3d rotation(const std::string& name) const;
+  /// The transform of a line with 12 numbers, three rows of a matrix.
+  sim::Pose pose(const std::string& name) const;
   /// The transform of the lines R and T.
   sim::Pose pose() const;
-  /// K of the projection [K | K t] of rectified pictures, in pixels.
+  /// K of the projection [K | K t] of rectified pictures, in pixels, with their size if S_rect_NN
+  /// states it.
   Lens lens(const std::string& name) const;
   /// t of that projection: transforms points from the common rectified frame to the camera.
   sim::Pose beside(const std::string& name) const;

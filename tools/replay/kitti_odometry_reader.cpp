@@ -30,7 +30,7 @@ std::string camera_in(const scenario::Recorded& asked) {
 
 /// Line k belongs to picture k.
 void read_times(const fs::path& file, Recorded& recorded) {
-  const TextTable table = read_table(file, ' ');
+  const TextTable table = read_table(file);
   std::vector<RecordedFrame> timed;
   for (const RecordedFrame& frame : recorded.frames) {
     if (frame.number >= table.rows.size()) {
@@ -39,7 +39,7 @@ void read_times(const fs::path& file, Recorded& recorded) {
       continue;
     }
     const TextTable::Row& row = table.rows[frame.number];
-    if (const auto t_ns = seconds_in(row.fields.front())) {
+    if (const auto t_ns = time_in(row.fields.front(), kSecond_ns)) {
       timed.push_back({*t_ns, frame.picture, frame.number});
     } else {
       recorded.tally.add("rows cannot be read and are left out", table.at(row));
@@ -63,7 +63,7 @@ fs::path poses_of(const fs::path& folder) {
 /// Line k is the pose of camera 0 at picture k; y of its world frame points down.
 void read_motion(const scenario::Recorded& asked, const fs::path& file, const sim::Pose& T_C0C,
                  Recorded& recorded) {
-  const PosesFile poses = read_poses(file, recorded.tally);
+  const PosesFile poses = read_poses(file, asked.time_unit, recorded.tally);
   std::vector<PosesMotion::CameraPose> at_frames;
   for (const RecordedFrame& frame : recorded.frames) {
     if (frame.number >= poses.lines.size() || !poses.lines[frame.number]) continue;
@@ -95,7 +95,7 @@ Recorded read_kitti_odometry(const scenario::Recorded& asked, bool) {
                                                  (asked.path / camera).string()));
   }
   Recorded recorded;
-  recorded.frames = frames_in(asked.path / camera);
+  take_pictures(asked.path / camera, "", recorded);
   recorded.timed = fs::exists(asked.path / "times.txt");
   if (recorded.timed) read_times(asked.path / "times.txt", recorded);
   const std::string projection = fmt::format("P{}", camera.substr(kPrefix.size()));

@@ -1,4 +1,6 @@
 // KITTI raw: image_0X/ and oxts/ of one drive; the date's folder holds the calibration files.
+// KITTI tracking: image_02/NNNN/, oxts/NNNN.txt and calib/NNNN.txt in training/ or testing/.
+// KITTI-360: data_2d_raw/DRIVE/image_0X/data_rect/, beside calibration/ and data_poses/DRIVE/.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +29,7 @@ constexpr input::FileKind kSmallText{input::kMebibyte, "give the file as KITTI h
 
 /// Line k belongs to item k; absent if malformed.
 std::vector<std::optional<std::int64_t>> read_times(const fs::path& file, Tally& tally) {
-  const TextTable table = read_table(file, ' ');
+  const TextTable table = read_table(file);
   std::vector<std::optional<std::int64_t>> times;
   for (const TextTable::Row& row : table.rows) {
     times.push_back(row.fields.size() == 2 ? calendar_time_in(row.fields[0], row.fields[1])
@@ -37,31 +39,43 @@ std::vector<std::optional<std::int64_t>> read_times(const fs::path& file, Tally&
   return times;
 }
 
-/// 30 numbers a file: lat lon alt roll pitch yaw vn ve vf vl vu ...; world frame east, north, up.
-std::vector<NavigationState> read_oxts(const fs::path& folder, Tally& tally) {
+/// The state of 30 numbers, at no time; absent if malformed.
+std::optional<NavigationState> state_in(std::istream& words) {
   constexpr std::size_t kNumbers = 30;
   enum Column : std::size_t { kRoll = 3, kPitch, kYaw, kNorth, kEast, kUp = 10 };
+  std::vector<double> numbers;
+  for (std::string word; words >> word;) {
+    if (const auto number = bench::number_in<double>(word)) numbers.push_back(*number);
+  }
+  if (numbers.size() != kNumbers || !is_speed(numbers[kEast], numbers[kNorth], numbers[kUp])) {
+    return std::nullopt;
+  }
+  return NavigationState{0,
+                         from_rpy(numbers[kRoll], numbers[kPitch], numbers[kYaw]),
+                         {numbers[kEast], numbers[kNorth], numbers[kUp]}};
+}
+
+/// 30 numbers a file: lat lon alt roll pitch yaw vn ve vf vl vu ...; world frame east, north, up.
+std::vector<NavigationState> read_oxts(const fs::path& folder, Tally& tally) {
   const auto times = read_times(folder / "timestamps.txt", tally);
   std::vector<NavigationState> states;
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (!times[i]) continue;
     const fs::path file = folder / "data" / fmt::format("{:010}.txt", i);
-    std::vector<double> numbers;
+    std::string text;
     try {
-      std::istringstream words(input::read_file(file, kSmallText));
-      for (std::string word; words >> word;) {
-        if (const auto number = bench::number_in<double>(word)) numbers.push_back(*number);
-      }
+      text = input::read_file(file, kSmallText);
     } catch (const input::Error&) {
-      numbers.clear();  // an empty list is counted as a fault below
+      text.clear();  // counted below
     }
-    if (numbers.size() != kNumbers || !is_speed(numbers[kEast], numbers[kNorth], numbers[kUp])) {
+    std::istringstream words(text);
+    auto state = state_in(words);
+    if (!state) {
       tally.add("states of the navigation unit are missing or cannot be read", file.string());
       continue;
     }
-    states.push_back({*times[i],
-                      from_rpy(numbers[kRoll], numbers[kPitch], numbers[kYaw]),
-                      {numbers[kEast], numbers[kNorth], numbers[kUp]}});
+    state->t_ns = *times[i];
+    states.push_back(*state);
   }
   return states;
 }
@@ -110,7 +124,7 @@ fs::path picture_of(const fs::path& data, std::size_t number) {
 bool is_kitti(const fs::path& folder) {
   scenario::Recorded asked;
   asked.path = folder;
-  return fs::is_directory(folder / "oxts") && fs::is_directory(folder / camera_in(asked));
+  return fs::is_directory(folder / "oxts" / "data") && fs::is_directory(folder / camera_in(asked));
 }
 
 Recorded read_kitti(const scenario::Recorded& asked, bool) {
@@ -139,6 +153,135 @@ Recorded read_kitti(const scenario::Recorded& asked, bool) {
   }
   if (motion_is_asked(asked)) return recorded;
   move_by_navigation(read_oxts(asked.path / "oxts", recorded.tally), T_BC, recorded);
+  return recorded;
+}
+
+namespace {
+
+/// A sequence of KITTI tracking: ROOT/image_02/NNNN.
+struct Tracked {
+  fs::path root, pictures;
+  std::string camera, number;
+
+  fs::path file(const char* folder) const { return root / folder / (number + ".txt"); }
+};
+
+/// The sequence whose pictures a folder holds, or the only one of ROOT.
+std::optional<Tracked> tracked_in(const fs::path& folder) {
+  const fs::path whole = fs::weakly_canonical(folder);
+  const Tracked own{whole.parent_path().parent_path(), whole,
+                    whole.parent_path().filename().string(), whole.filename().string()};
+  if (own.camera.starts_with("image_") && fs::exists(own.file("calib"))) return own;
+  std::optional<Tracked> only;
+  std::error_code error;
+  for (fs::directory_iterator entry(whole / "image_02", error), end; !error && entry != end;
+       entry.increment(error)) {
+    const Tracked one{whole, entry->path(), "image_02", entry->path().filename().string()};
+    if (!entry->is_directory() || !fs::exists(one.file("calib"))) continue;
+    if (only) {
+      throw std::runtime_error(fmt::format("{} holds several sequences; give one of them, as {}",
+                                           folder.string(), one.pictures.string()));
+    }
+    only = one;
+  }
+  return only;
+}
+
+/// The folder DRIVE/image_0X/data_rect of KITTI-360, as its pictures are rectified.
+fs::path rectified_in(const fs::path& drive, const std::string& camera) {
+  return drive / (camera.empty() ? "image_00" : camera) / "data_rect";
+}
+
+}  // namespace
+
+bool is_kitti_tracking(const fs::path& folder) {
+  return fs::is_directory(folder) && tracked_in(folder).has_value();
+}
+
+Recorded read_kitti_tracking(const scenario::Recorded& asked, bool) {
+  const std::optional<Tracked> sequence = tracked_in(asked.path);
+  if (!sequence) {
+    throw input::Error(asked.source, fmt::format("{} is no sequence of KITTI tracking; give "
+                                                 "training/image_02/NNNN beside training/calib",
+                                                 asked.path.string()));
+  }
+  constexpr double kRate_hz = 10;  // all of KITTI is triggered at this rate
+  Recorded recorded;
+  take_pictures(sequence->pictures, "", recorded);
+  recorded.timed = false;
+  recorded.fps = kRate_hz;
+  if (!asked.fps && !asked.times) {
+    recorded.tally.add("sequences have no times: KITTI's rate of 10 Hz is taken", sequence->number);
+  }
+  const std::string projection = fmt::format("P{}", sequence->camera.back());
+  const KittiCalibration calibration(sequence->file("calib"));
+  recorded.lens = calibration.lens(projection);
+  const fs::path oxts = sequence->file("oxts");
+  if (motion_is_asked(asked) || !fs::exists(oxts)) return recorded;
+  if (asked.times) {
+    recorded.lacks.emplace_back("how the camera moved at the times of the table (poses or imu)");
+    return recorded;
+  }
+  time_by(asked.fps.value_or(kRate_hz), recorded);
+  std::vector<NavigationState> states;
+  input::InputFile file(oxts, kSmallText);
+  for (std::string line; file.next_line(line);) {
+    std::istringstream words(line);
+    const std::size_t place = static_cast<std::size_t>(file.here().line - 1);
+    auto state = state_in(words);
+    if (!state || place >= recorded.frames.size()) {
+      recorded.tally.add("states of the navigation unit have no picture or cannot be read",
+                         fmt::format("{}:{}", oxts.string(), place + 1));
+      continue;
+    }
+    state->t_ns = recorded.frames[place].t_ns;
+    states.push_back(*state);
+  }
+  const sim::Pose rectify{calibration.rotation("R_rect"), Vector3d::Zero()};
+  const sim::Pose T_cam_velo = calibration.pose("Tr_velo_cam");
+  const sim::Pose T_velo_imu = calibration.pose("Tr_imu_velo");
+  const sim::Pose T_BC =
+      (calibration.beside(projection) * (rectify * (T_cam_velo * T_velo_imu))).inverse();
+  move_by_navigation(std::move(states), T_BC, recorded);
+  return recorded;
+}
+
+bool is_kitti_360(const fs::path& folder) {
+  return fs::is_directory(rectified_in(folder, ""));
+}
+
+Recorded read_kitti_360(const scenario::Recorded& asked, bool) {
+  const std::string camera = asked.camera.empty() ? "image_00" : asked.camera;
+  const fs::path pictures = rectified_in(asked.path, camera);
+  if (!fs::is_directory(pictures)) {
+    throw input::Error(asked.source, fmt::format("{} is not there; name a camera, as image_00",
+                                                 pictures.string()));
+  }
+  Recorded recorded;
+  const fs::path clock = pictures.parent_path() / "timestamps.txt";
+  const auto times = read_times(clock, recorded.tally);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (times[i]) recorded.frames.push_back({*times[i], picture_of(pictures, i), i});
+  }
+  put_in_order(recorded.frames, clock, recorded.tally);
+  const fs::path whole = fs::weakly_canonical(asked.path);
+  const fs::path root = whole.parent_path().parent_path();
+  const fs::path calibration = root / "calibration" / "perspective.txt";
+  if (fs::exists(calibration)) {
+    recorded.lens =
+        KittiCalibration(calibration).lens("P_rect_" + camera.substr(camera.size() - 2));
+  }
+  // Poses of the rectified camera 0: line k states its picture.
+  const fs::path poses = root / "data_poses" / whole.filename() / "cam0_to_world.txt";
+  if (motion_is_asked(asked) || !fs::exists(poses)) return recorded;
+  if (camera != "image_00") {
+    recorded.lacks.push_back(
+        fmt::format("how {} moved (poses; {} is of image_00)", camera, poses.string()));
+    return recorded;
+  }
+  scenario::Recorded by_poses = asked;
+  by_poses.poses = poses;
+  move_by_poses(by_poses, true, recorded);
   return recorded;
 }
 

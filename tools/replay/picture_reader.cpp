@@ -1,14 +1,13 @@
-#include "tools/replay/picture_folder.h"
+#include "tools/replay/picture_reader.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <bit>
+#include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <set>
-#include <stdexcept>
-#include <tuple>
+#include <utility>
 
 #include "sim/pictures/picture_file.h"
 
@@ -17,49 +16,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_picture(const fs::path& file) {
-  static const std::set<std::string> kKinds = {".png", ".jpg",  ".jpeg", ".bmp",
-                                               ".tif", ".tiff", ".pgm",  ".ppm"};
-  std::string kind = file.extension().string();
-  std::transform(kind.begin(), kind.end(), kind.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return kKinds.contains(kind);
+/// \return a picture of 8 or 16 bits. \throws input::Error
+cv::Mat decode(const fs::path& file, bool is_raw) {
+  const int flags = is_raw ? cv::IMREAD_GRAYSCALE : cv::IMREAD_COLOR;
+  cv::Mat picture = sim::read_picture(file, {file.string(), 0}, flags | cv::IMREAD_ANYDEPTH);
+  if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
+    picture = sim::read_picture(file, {file.string(), 0}, flags);
+  }
+  return picture;
 }
 
-/// The last number in the name, without leading zeros. Comparing length first, then text, compares
-/// such numbers of any size.
-std::string last_number(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  std::size_t end = stem.size();
-  while (end > 0 && !digit(stem[end - 1])) --end;
-  std::size_t begin = end;
-  while (begin > 0 && digit(stem[begin - 1])) --begin;
-  while (begin + 1 < end && stem[begin] == '0') ++begin;
-  return stem.substr(begin, end - begin);
+/// The upper 8 of the bits in use.
+cv::Mat to_8_bits(const cv::Mat& picture, int bits) {
+  if (picture.depth() == CV_8U) return picture;
+  cv::Mat out(picture.size(), CV_MAKETYPE(CV_8U, picture.channels()));
+  for (int y = 0; y < picture.rows; ++y) {
+    const auto* from = picture.ptr<std::uint16_t>(y);
+    std::transform(from, from + picture.cols * picture.channels(), out.ptr<unsigned char>(y),
+                   [bits](std::uint16_t value) {
+                     return static_cast<unsigned char>(std::min(value >> (bits - 8), 255));
+                   });
+  }
+  return out;
 }
 
 }  // namespace
 
-PictureFolder::PictureFolder(const fs::path& folder) {
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (entry->is_regular_file() && is_picture(entry->path())) files_.push_back(entry->path());
-  }
-  if (error) {
-    throw std::runtime_error(
-        fmt::format("{}: {}; give a folder of pictures", folder.string(), error.message()));
-  }
-  if (files_.empty()) {
-    throw std::runtime_error(
-        fmt::format("{} holds no pictures; give a folder of PNG, JPEG, BMP, TIFF, PGM or PPM",
-                    folder.string()));
-  }
-  std::sort(files_.begin(), files_.end(), [](const fs::path& a, const fs::path& b) {
-    const std::string na = last_number(a), nb = last_number(b);
-    return std::tuple(na.size(), na, a.string()) < std::tuple(nb.size(), nb, b.string());
-  });
+int demosaic_of(const std::string& pattern) {
+  // OpenCV names a pattern by its second row.
+  static const std::map<std::string, int> kPatterns{{"rggb", cv::COLOR_BayerBG2BGR},
+                                                    {"bggr", cv::COLOR_BayerRG2BGR},
+                                                    {"grbg", cv::COLOR_BayerGB2BGR},
+                                                    {"gbrg", cv::COLOR_BayerGR2BGR}};
+  return kPatterns.at(pattern);
 }
 
 std::optional<cv::Mat3b> PictureReader::read(const fs::path& file) {
@@ -71,20 +60,47 @@ std::optional<cv::Mat3b> PictureReader::read(const fs::path& file) {
   if (!fs::exists(file, error)) return skip(fmt::format("{} is missing", file.string()));
   cv::Mat picture;
   try {
-    picture = sim::read_picture(file, {file.string(), 0},
-                                demosaic_ ? cv::IMREAD_GRAYSCALE : cv::IMREAD_COLOR);
+    picture = decode(file, format_.demosaic.has_value());
   } catch (const input::Error& refused) {
     return skip(refused.what());
   }
-  if (size_.empty()) size_ = picture.size();
-  if (picture.size() != size_) {
-    return skip(fmt::format("{} is {}x{}, not {}x{} as those before it", file.string(),
-                            picture.cols, picture.rows, size_.width, size_.height));
+  if (format_.size_px.empty()) format_.size_px = picture.size();
+  if (picture.size() != format_.size_px) {
+    return skip(fmt::format("{} is {}x{}, not {}x{} as the others", file.string(), picture.cols,
+                            picture.rows, format_.size_px.width, format_.size_px.height));
   }
-  if (!demosaic_) return cv::Mat3b(picture);
+  picture = to_8_bits(picture, format_.bits);
+  if (!format_.demosaic) return cv::Mat3b(picture);
   cv::Mat3b image;
-  cv::cvtColor(picture, image, *demosaic_);
+  cv::cvtColor(picture, image, *format_.demosaic);
   return image;
+}
+
+PictureFormat common_format(const std::vector<fs::path>& files) {
+  constexpr std::size_t kSample = 15;
+  std::map<std::pair<int, int>, int> sizes;
+  int most = 0;
+  PictureFormat format{.size_px = {}, .bits = 8, .demosaic = {}};
+  const std::size_t step = std::max<std::size_t>(1, files.size() / kSample);
+  for (std::size_t i = 0; i < files.size(); i += step) {
+    if (std::error_code error; !fs::exists(files[i], error)) continue;
+    try {
+      const cv::Mat picture = decode(files[i], false);
+      const int count = ++sizes[{picture.cols, picture.rows}];
+      if (count > most) {
+        most = count;
+        format.size_px = picture.size();
+      }
+      if (picture.depth() != CV_16U) continue;
+      double brightest = 0;
+      cv::minMaxLoc(picture.reshape(1), nullptr, &brightest);
+      const auto used = static_cast<int>(std::bit_width(static_cast<unsigned>(brightest)));
+      format.bits = std::max(format.bits, used + used % 2);
+    } catch (const input::Error&) {
+      continue;  // told when its turn comes
+    }
+  }
+  return format;
 }
 
 }  // namespace lcs::replay

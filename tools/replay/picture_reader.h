@@ -1,5 +1,5 @@
 /// \file
-/// Reads pictures from files, and a folder of pictures as a sequence of frames.
+/// Reads pictures of one size from files.
 #pragma once
 
 #include <filesystem>
@@ -10,37 +10,34 @@
 
 namespace lcs::replay {
 
-/// Reads pictures of one common size.
+/// The properties that the pictures of a recording have in common.
+struct PictureFormat {
+  cv::Size size_px;             ///< empty: that of the first picture
+  int bits = 16;                ///< in use where a picture has 16
+  std::optional<int> demosaic;  ///< OpenCV's colour conversion of raw pictures, with one channel
+};
+
+/// OpenCV's conversion for a pattern, from the top left pixel on: rggb, bggr, grbg or gbrg.
+int demosaic_of(const std::string& pattern);
+
 class PictureReader {
  public:
-  /// \param demosaic OpenCV's colour conversion if the pictures are raw, with one channel.
-  explicit PictureReader(std::optional<int> demosaic = {}) : demosaic_(demosaic) {}
+  explicit PictureReader(const PictureFormat& format) : format_(format) {}
 
-  /// \return the BGR picture; absent if the file is missing, unreadable or of another size than
-  /// those before it. `skipped` then gives the reason.
+  /// \return the BGR picture, of 8 bits; absent if the file is missing, unreadable or of another
+  /// size. `skipped` then gives the reason.
   std::optional<cv::Mat3b> read(const std::filesystem::path& file);
 
   /// One line for each skipped picture.
   const std::vector<std::string>& skipped() const { return skipped_; }
 
  private:
-  std::optional<int> demosaic_;
+  PictureFormat format_;
   std::vector<std::string> skipped_;
-  cv::Size size_;
 };
 
-/// The pictures of a folder (PNG, JPEG, BMP, TIFF, PGM, PPM), sorted by the last number in their
-/// names, then by name: frame2.png precedes frame10.png.
-class PictureFolder {
- public:
-  /// \throws std::runtime_error for a folder that cannot be read or has no picture.
-  explicit PictureFolder(const std::filesystem::path& folder);
-
-  std::size_t size() const { return files_.size(); }
-  const std::filesystem::path& file(std::size_t index) const { return files_.at(index); }
-
- private:
-  std::vector<std::filesystem::path> files_;
-};
+/// The most frequent size of some of the files, spread over all, and the least of 8, 10, 12, 14 and
+/// 16 bits that their values keep to; the size is empty if none can be read.
+PictureFormat common_format(const std::vector<std::filesystem::path>& files);
 
 }  // namespace lcs::replay

@@ -7,7 +7,7 @@
 namespace lcs::replay {
 
 PictureStream::PictureStream(const Recorded& recorded)
-    : video_(recorded.video), files_(recorded.demosaic) {
+    : video_(recorded.video), files_(recorded.format) {
   if (!video_.empty()) capture_ = bench::open_video(video_);
 }
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/replay/picture_folder.h"
+#include "tools/replay/picture_reader.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {

@@ -1,17 +1,19 @@
 // Pictures that the user describes: a folder, a video, a sequence of MOTChallenge.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <opencv2/videoio.hpp>
 #include <stdexcept>
 
+#include "sim/pictures/media.h"
 #include "sim/pictures/picture_file.h"
 #include "tools/files/csv.h"
 #include "tools/input/input_file.h"
 #include "tools/output/video_reader.h"
-#include "tools/replay/picture_folder.h"
+#include "tools/replay/frame_list.h"
+#include "tools/replay/in_order.h"
+#include "tools/replay/picture_names.h"
 #include "tools/replay/recorded.h"
 
 namespace lcs::replay {
@@ -47,11 +49,50 @@ std::optional<double> rate_in(std::string_view text) {
   return number && *number > 0 && *number <= kFastest_hz ? number : std::nullopt;
 }
 
+/// The pictures in the order of their numbers, or by name if that order is not certain.
+void take_unordered(const fs::path& folder, Recorded& recorded) {
+  try {
+    take_pictures(folder, "", recorded);
+  } catch (const input::Error&) {
+    const std::vector<fs::path> files = pictures_in(folder);
+    for (std::size_t i = 0; i < files.size(); ++i) recorded.frames.push_back({0, files[i], i});
+  }
+  recorded.timed = false;
+}
+
+/// The first of the usual lists of times that is in a folder; "" if none is.
+fs::path list_in(const fs::path& folder) {
+  for (const char* name : {"times.txt", "images.txt", "timestamps.txt", "times.csv"}) {
+    if (fs::exists(folder / name)) return folder / name;
+  }
+  return "";
+}
+
+/// The folder of the pictures beside such a list; "" if there is none.
+fs::path pictures_of_list(const fs::path& folder) {
+  for (const char* name : {"images", "img", "undistorted_images/cam0", "distorted_images/cam0",
+                           "cam0", "frames", "rgb", "."}) {
+    if (fs::is_directory(folder / name) && is_pictures(folder / name)) return folder / name;
+  }
+  return "";
+}
+
+/// Gives each picture of a video its own time, from 0 on.
+void time_by_video(const std::vector<std::int64_t>& times_ns, Recorded& recorded) {
+  recorded.frames.clear();
+  for (std::size_t i = 0; i < times_ns.size(); ++i) {
+    recorded.frames.push_back({times_ns[i] - times_ns.front(), {}, i});
+  }
+  sort_by_time(recorded.frames, "pictures", recorded.video.string(), recorded.tally);
+  recorded.timed = true;
+  recorded.has_own_clock = true;
+}
+
 }  // namespace
 
 bool is_pictures(const fs::path& folder) {
   try {
-    return PictureFolder(folder).size() > 0;
+    return !pictures_in(folder).empty();
   } catch (const std::runtime_error&) {
     return false;
   }
@@ -59,8 +100,29 @@ bool is_pictures(const fs::path& folder) {
 
 Recorded read_pictures(const scenario::Recorded& asked, bool) {
   Recorded recorded;
-  recorded.frames = frames_in(asked.path);
-  recorded.timed = false;
+  if (asked.times) {  // perhaps it names the pictures, whose order is then of no matter
+    take_unordered(asked.path, recorded);
+  } else {
+    take_pictures(asked.path, asked.time_unit, recorded);
+  }
+  return recorded;
+}
+
+bool is_listed(const fs::path& folder) {
+  return !list_in(folder).empty() && !pictures_of_list(folder).empty();
+}
+
+Recorded read_listed(const scenario::Recorded& asked, bool) {
+  const fs::path list = list_in(asked.path), pictures = pictures_of_list(asked.path);
+  if (list.empty() || pictures.empty()) {
+    throw input::Error(asked.source,
+                       fmt::format("{} has no list of times or no pictures; give times.txt or "
+                                   "images.txt beside a folder of pictures",
+                                   asked.path.string()));
+  }
+  Recorded recorded;
+  take_unordered(pictures, recorded);
+  if (!asked.times) time_by_table(list, asked.time_unit, recorded);
   return recorded;
 }
 
@@ -75,7 +137,7 @@ Recorded read_mot(const scenario::Recorded& asked, bool) {
     return found == info.end() ? std::string(otherwise) : found->second;
   };
   Recorded recorded;
-  recorded.frames = frames_in(asked.path / text("imDir", "img1"));
+  take_pictures(asked.path / text("imDir", "img1"), "", recorded);
   recorded.timed = false;
   recorded.fps = rate_in(text("frameRate", ""));
   const auto listed = bench::number_in<std::size_t>(text("seqLength", ""));
@@ -98,16 +160,7 @@ Recorded read_video(const scenario::Recorded& asked, bool) {
     throw input::Error(asked.source,
                        fmt::format("{} {}; {}", asked.path.string(), what, kVideo.remedy));
   };
-  const double count = video->isOpened() ? video->get(cv::CAP_PROP_FRAME_COUNT) : 0;
-  if (!(count >= 1)) refuse("is no video that says how many pictures it has");
-  // All frames are listed before the first one is read. The shortest one takes its place in the
-  // file, its length and a few bits.
-  constexpr double kMostPictures = 1e7, kLeastBytes = 8;
-  const auto bytes = static_cast<double>(fs::file_size(asked.path));
-  if (count > std::min(kMostPictures, bytes / kLeastBytes)) {
-    refuse(fmt::format("says that it has {:.0f} pictures, and one of {:.0f} bytes can have {:.0f}",
-                       count, bytes, std::min(kMostPictures, bytes / kLeastBytes)));
-  }
+  if (!video->isOpened()) refuse("is no video that can be read");
   const double width = video->get(cv::CAP_PROP_FRAME_WIDTH);
   const double height = video->get(cv::CAP_PROP_FRAME_HEIGHT);
   if (width * height > static_cast<double>(sim::kMostPixels)) {
@@ -117,9 +170,33 @@ Recorded read_video(const scenario::Recorded& asked, bool) {
   Recorded recorded;
   recorded.video = asked.path;
   recorded.timed = false;
-  recorded.fps = rate_in(fmt::format("{}", video->get(cv::CAP_PROP_FPS)));
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    recorded.frames.push_back({0, {}, i});
+  const sim::VideoTimes times = sim::media().video_times(fs::absolute(asked.path).string());
+  if (times.t_ns.empty()) refuse("has no picture that can be read");
+  for (std::size_t i = 0; i < times.t_ns.size(); ++i) recorded.frames.push_back({0, {}, i});
+  if (times.counted > std::ssize(times.t_ns)) {
+    recorded.tally.tell(fmt::format("the video ends after {} of the {} pictures of its header",
+                                    times.t_ns.size(), times.counted));
+  }
+  const double span_s = 1e-9 * static_cast<double>(times.t_ns.back() - times.t_ns.front());
+  const double own_hz = static_cast<double>(times.t_ns.size() - 1) / span_s;
+  const auto differs = [&](double hz) {
+    constexpr double kSame = 0.05;
+    return span_s > 0 && std::abs(hz / own_hz - 1) > kSame;
+  };
+  if (asked.times || !times.are_stated) return recorded;
+  if (asked.fps) {
+    if (differs(*asked.fps)) {
+      recorded.tally.tell(fmt::format(
+          "fps gives the pictures {:g} Hz, and by the video's own times they have {:.4g} Hz",
+          *asked.fps, own_hz));
+    }
+    return recorded;
+  }
+  time_by_video(times.t_ns, recorded);
+  if (const double nominal_hz = video->get(cv::CAP_PROP_FPS); differs(nominal_hz)) {
+    recorded.tally.tell(fmt::format(
+        "the video states {:.4g} Hz, and its pictures have {:.4g} Hz; each has its own time",
+        nominal_hz, own_hz));
   }
   return recorded;
 }

@@ -37,7 +37,23 @@ Playback::Playback(const scenario::Scenario& asked)
   take_settings();
   look_at_first_picture();
   read_mask();
-  if (asked.recording->labels) labels_ = bench::read_labels(*asked.recording->labels);
+  read_labels();
+}
+
+void Playback::read_labels() {
+  const scenario::Recorded& asked = scenario_.recording.value();
+  if (!asked.labels) return;
+  labels_ = bench::read_labels(*asked.labels, asked.labels_video);
+  std::vector<bench::Labels::Recorded> pictures;
+  for (const RecordedFrame& frame : recorded_.frames) {
+    pictures.push_back({static_cast<int>(frame.number), frame.picture.filename().string()});
+  }
+  try {
+    for (std::string& line : labels_.join(pictures)) recorded_.tally.tell(std::move(line));
+  } catch (const std::invalid_argument& error) {
+    throw input::Error({asked.labels->string(), 0},
+                       fmt::format("{}; give the labels of this recording", error.what()));
+  }
 }
 
 /// Takes the detection settings of a generated sequence's run.
@@ -77,6 +93,22 @@ void Playback::look_at_first_picture() {
         fmt::format("the calibration is of {} x {} pixels, and the pictures have {} x {}; give "
                     "that of these pictures, or focal",
                     lens.width_px, lens.height_px, size_px.width, size_px.height));
+  }
+  // A calibration that states no size has its principal point near the middle of its pictures.
+  const auto is_near = [](double centre, int side) {
+    constexpr double kShare = 0.25;
+    return std::abs(centre - 0.5 * (side - 1)) < kShare * side;
+  };
+  if (lens.width_px == 0 && !lens.centred && !asked.centre_px &&
+      !(is_near(lens.cu_px, size_px.width) && is_near(lens.cv_px, size_px.height))) {
+    throw input::Error(
+        lens.source,
+        fmt::format(
+            "the principal point is ({:.1f}, {:.1f}), near the middle of a picture of {:.0f} "
+            "x {:.0f} pixels, and the pictures have {} x {}; give the calibration of these "
+            "pictures, or focal, or centre if they were cut out",
+            lens.cu_px, lens.cv_px, 2 * lens.cu_px + 1, 2 * lens.cv_px + 1, size_px.width,
+            size_px.height));
   }
   if (lens.centred) {
     lens.cu_px = 0.5 * (size_px.width - 1);
@@ -171,8 +203,7 @@ void Playback::label(bench::FrameRecord& frame) {
   } else {
     bench::set_corner_truth(truth_, frame);
   }
-  const std::string name = recorded.picture.filename().string();
-  const bench::Labels::Boxes* boxes = labels_.of(static_cast<int>(recorded.number), name);
+  const bench::Labels::Boxes* boxes = labels_.of(static_cast<int>(recorded.number));
   if (!boxes) return;
   frame.labels = *boxes;
   for (bench::LabelledBox& box : *frame.labels) {

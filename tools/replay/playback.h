@@ -44,6 +44,7 @@ class Playback : public bench::FrameSource {
   void take_settings();
   void look_at_first_picture();
   void read_mask();
+  void read_labels();
   void label_by_truth(const RecordedFrame& recorded, bench::FrameRecord& frame);
 
   scenario::Scenario scenario_;

@@ -14,7 +14,7 @@
 namespace lcs::replay {
 namespace {
 
-constexpr std::size_t kTumFields = 8, kKittiFields = 12;
+constexpr std::size_t kTumFields = 8, kRows = 12, kMatrix = 16;
 /// Tolerance for poses with few digits, or computed in single precision.
 constexpr double kTolerance = 1e-2;
 /// Farther from the origin, a position has no precise digits left.
@@ -24,36 +24,73 @@ bool is_place(const Eigen::Vector3d& p) {
   return p.allFinite() && p.cwiseAbs().maxCoeff() <= kFarthest_m;
 }
 
-template <std::size_t N>
-std::optional<std::array<double, N>> numbers_in(const std::vector<std::string>& fields,
-                                                std::size_t first) {
-  std::array<double, N> numbers{};
-  if (fields.size() != first + N) return std::nullopt;
-  for (std::size_t i = 0; i < N; ++i) {
-    const auto number = bench::number_in<double>(fields[first + i]);
+/// The places of t x y z qx qy qz qw in a row.
+using Places = std::array<std::size_t, 8>;
+constexpr Places kTumPlaces{0, 1, 2, 3, 4, 5, 6, 7};
+
+std::optional<std::vector<double>> numbers_in(const TextTable::Row& row, std::size_t first,
+                                              std::size_t count) {
+  std::vector<double> numbers;
+  if (row.fields.size() != first + count) return std::nullopt;
+  for (std::size_t i = first; i < row.fields.size(); ++i) {
+    const auto number = bench::number_in<double>(row.fields[i]);
     if (!number) return std::nullopt;
-    numbers[i] = *number;
+    numbers.push_back(*number);
   }
   return numbers;
 }
 
-std::optional<PosesFile::Line> tum_line(const std::vector<std::string>& fields) {
-  const auto t_ns = seconds_in(fields[0]);
-  const auto n = numbers_in<kTumFields - 1>(fields, 1);
-  if (!t_ns || !n) return std::nullopt;
-  const Eigen::Vector3d p((*n)[0], (*n)[1], (*n)[2]);
-  const Eigen::Quaterniond q((*n)[6], (*n)[3], (*n)[4], (*n)[5]);
-  if (!is_place(p) || !(std::abs(q.norm() - 1) <= kTolerance)) return std::nullopt;
-  return PosesFile::Line{*t_ns, {q.normalized().toRotationMatrix(), p}};
+std::optional<PosesFile::Line> quaternion_line(const TextTable::Row& row, const Places& at,
+                                               std::int64_t unit_ns) {
+  const auto t_ns = time_in(TextTable::field(row, at[0]), unit_ns);
+  std::array<double, 7> n{};
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    const auto number = bench::number_in<double>(TextTable::field(row, at[i + 1]));
+    if (!number) return std::nullopt;
+    n[i] = *number;
+  }
+  const Eigen::Vector3d p(n[0], n[1], n[2]);
+  const Eigen::Quaterniond q(n[6], n[3], n[4], n[5]);
+  if (!t_ns || !is_place(p) || !(std::abs(q.norm() - 1) <= kTolerance)) return std::nullopt;
+  return PosesFile::Line{t_ns, {}, {q.normalized().toRotationMatrix(), p}};
 }
 
-std::optional<PosesFile::Line> kitti_line(const std::vector<std::string>& fields) {
-  const auto n = numbers_in<kKittiFields>(fields, 0);
+/// \param first place of a matrix of 12 or 16 numbers; the number of the picture is before it.
+std::optional<PosesFile::Line> matrix_line(const TextTable::Row& row, std::size_t first,
+                                           std::size_t count) {
+  const auto n = numbers_in(row, first, count);
   if (!n) return std::nullopt;
   const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> rows(n->data());
   const auto R = rotation_of(rows.leftCols<3>());
   if (!is_place(rows.col(3)) || !R) return std::nullopt;
-  return PosesFile::Line{std::nullopt, {*R, rows.col(3)}};
+  PosesFile::Line line{{}, {}, {*R, rows.col(3)}};
+  if (first > 0) {
+    line.number = bench::number_in<std::size_t>(row.fields[0]);
+    if (!line.number) return std::nullopt;
+  }
+  return line;
+}
+
+/// The columns by the names in the header; absent if it does not name all.
+std::optional<Places> named_places(const TextTable& table) {
+  static const std::array<std::vector<const char*>, 7> kNames{{
+      {"p_RS_R_x", "x", "tx", "px", "p_x", "pos_x", "field.pose.position.x"},
+      {"p_RS_R_y", "y", "ty", "py", "p_y", "pos_y", "field.pose.position.y"},
+      {"p_RS_R_z", "z", "tz", "pz", "p_z", "pos_z", "field.pose.position.z"},
+      {"q_RS_x", "qx", "q_x", "quat_x", "field.pose.orientation.x"},
+      {"q_RS_y", "qy", "q_y", "quat_y", "field.pose.orientation.y"},
+      {"q_RS_z", "qz", "q_z", "quat_z", "field.pose.orientation.z"},
+      {"q_RS_w", "qw", "q_w", "quat_w", "field.pose.orientation.w"},
+  }};
+  const auto time = table.time_column();
+  Places places{time.value_or(0)};
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    std::optional<std::size_t> found;
+    for (const char* name : kNames[i]) found = found ? found : table.find(name);
+    if (!found || !time) return std::nullopt;
+    places[i + 1] = *found;
+  }
+  return places;
 }
 
 }  // namespace
@@ -65,25 +102,48 @@ std::optional<Eigen::Matrix3d> rotation_of(const Eigen::Matrix3d& R) {
   return Eigen::Quaterniond(R).normalized().toRotationMatrix();
 }
 
-PosesFile read_poses(const std::filesystem::path& file, Tally& tally) {
-  const TextTable table = read_table(file, ' ');
+PosesFile read_poses(const std::filesystem::path& file, const std::string& time_unit,
+                     Tally& tally) {
+  const TextTable table = read_table(file);
+  const auto refuse = [&](int line, const std::string& why) {
+    throw input::Error({file.string(), line}, why);
+  };
+  if (table.rows.empty()) refuse(0, "holds no pose; give a line for each");
+  const TextTable::Row& first = table.rows.front();
+  const std::size_t fields = first.fields.size();
+  const std::optional<Places> named = named_places(table);
   PosesFile poses;
-  if (!table.rows.empty()) {
-    const std::size_t fields = table.rows.front().fields.size();
-    poses.timed = fields == kTumFields;
-    if (fields != kTumFields && fields != kKittiFields) {
-      throw input::Error(
-          {file.string(), table.rows.front().line},
-          fmt::format("a pose has 8 numbers (TUM: t x y z qx qy qz qw) or 12 (KITTI: three rows of "
-                      "a matrix), and this has {}; give a file of one of these",
-                      fields));
-    }
+  poses.of_body = table.find("p_RS_R_x").has_value();
+  poses.timed = named || fields == kTumFields;
+  if (!poses.timed && fields != kRows && fields != kMatrix && fields != kMatrix + 1) {
+    refuse(
+        first.line,
+        fmt::format("a pose has 8 numbers (TUM: t x y z qx qy qz qw), 12 or 16 (KITTI: rows of a "
+                    "matrix) or 17 (KITTI-360), and this has {}; give a file of one of these, or "
+                    "a header with time, x, y, z, qx, qy, qz, qw",
+                    fields));
+  }
+  if (!named && fields == kTumFields && table.separator == ',') {
+    refuse(first.line,
+           "a table with commas has EuRoC's order of a quaternion, w first, or TUM's, w "
+           "last; give it a header, as time, x, y, z, qx, qy, qz, qw");
+  }
+  constexpr double kSlowest_hz = 0.6, kFastest_hz = 590;
+  std::int64_t unit_ns = kSecond_ns;
+  if (poses.timed) {
+    unit_ns =
+        time_unit_of(table, named ? (*named)[0] : 0, time_unit, {kSlowest_hz, kFastest_hz, {}},
+                     poses.of_body ? kNanosecond_ns : kSecond_ns, tally);
   }
   bool any = false;
   for (const TextTable::Row& row : table.rows) {
-    const bool is_whole = row.fields.size() == (poses.timed ? kTumFields : kKittiFields);
     auto& line = poses.lines.emplace_back();
-    if (is_whole) line = poses.timed ? tum_line(row.fields) : kitti_line(row.fields);
+    if (poses.timed) {
+      if (row.fields.size() == fields)
+        line = quaternion_line(row, named.value_or(kTumPlaces), unit_ns);
+    } else {
+      line = matrix_line(row, fields > kMatrix ? 1 : 0, fields > kMatrix ? kMatrix : fields);
+    }
     if (!line) tally.add("rows cannot be read and are left out", table.at(row));
     any |= line.has_value();
   }

@@ -7,7 +7,7 @@
 
 #include "tools/input/inputs_read.h"
 #include "tools/replay/in_order.h"
-#include "tools/replay/picture_folder.h"
+#include "tools/replay/picture_names.h"
 
 namespace lcs::replay {
 
@@ -22,11 +22,15 @@ void Tally::add(const std::string& what, const std::string& example, int count) 
 }
 
 std::vector<std::string> Tally::lines() const {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = told_;
   for (const Entry& entry : entries_) {
     lines.push_back(fmt::format("{} {} (the first: {})", entry.count, entry.what, entry.example));
   }
   return lines;
+}
+
+std::string RecordedFrame::name() const {
+  return picture.empty() ? fmt::format("picture {}", number) : picture.filename().string();
 }
 
 const std::vector<Layout>& layouts() {
@@ -36,10 +40,18 @@ const std::vector<Layout>& layouts() {
        read_kitti},
       {"kitti_odometry", "image_X, calib.txt, times.txt, poses.txt: a sequence of KITTI odometry",
        is_kitti_odometry, read_kitti_odometry},
+      {"kitti_tracking", "image_02/NNNN, calib/NNNN.txt, oxts, label_02: of KITTI tracking",
+       is_kitti_tracking, read_kitti_tracking},
+      {"kitti_360", "data_2d_raw/DRIVE/image_00: a drive of KITTI-360", is_kitti_360,
+       read_kitti_360},
       {"robotcar", "stereo or mono_*, gps/ins.csv (Oxford RobotCar); needs focal", is_robotcar,
        read_robotcar},
       {"tum_rgbd", "rgb.txt, groundtruth.txt (TUM RGB-D); needs focal", is_tum_rgbd, read_tum_rgbd},
+      {"listed", "times.txt or images.txt beside pictures (TUM-mono, 4Seasons, UZH-FPV)", is_listed,
+       read_listed},
       {"mot", "seqinfo.ini, img1 (MOTChallenge); needs a motion and focal", is_mot, read_mot},
+      {"bag", "a ROS 1 bag, a rosbag2 (.db3) or an .mcap; needs its topics and PyPI's rosbags",
+       is_bag, read_bag},
       {"video", "a file that FFmpeg reads, as .mp4 or .avi; needs a motion and focal", is_video,
        read_video},
       {"pictures", "a folder of pictures; needs fps, a motion and focal", is_pictures,
@@ -65,11 +77,16 @@ bool motion_is_asked(const scenario::Recorded& asked) {
   return asked.poses || asked.imu || asked.speed_mps;
 }
 
-std::vector<RecordedFrame> frames_in(const std::filesystem::path& folder) {
-  const PictureFolder pictures(folder);
-  std::vector<RecordedFrame> frames;
-  for (std::size_t i = 0; i < pictures.size(); ++i) frames.push_back({0, pictures.file(i), i});
-  return frames;
+void take_pictures(const std::filesystem::path& folder, const std::string& time_unit,
+                   Recorded& recorded) {
+  OrderedPictures pictures = in_order(pictures_in(folder), time_unit);
+  recorded.timed = !pictures.t_ns.empty();
+  recorded.frames.clear();
+  for (std::size_t i = 0; i < pictures.files.size(); ++i) {
+    recorded.frames.push_back(
+        {recorded.timed ? pictures.t_ns[i] : 0, std::move(pictures.files[i]), i});
+  }
+  if (recorded.timed) put_in_order(recorded.frames, folder, recorded.tally);
 }
 
 void put_in_order(std::vector<RecordedFrame>& frames, const std::filesystem::path& list,
@@ -89,7 +106,7 @@ void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what,
   };
   const auto first = std::find_if(frames.begin(), frames.end(), is_outside);
   if (first == frames.end()) return;
-  const std::string example = first->picture.filename().string();
+  const std::string example = first->name();
   const auto count = std::erase_if(frames, is_outside);
   recorded.tally.add(what, example, static_cast<int>(count));
   if (frames.empty()) {

@@ -13,6 +13,7 @@
 #include "scenarios/scenario.h"
 #include "tools/recording/recording.h"
 #include "tools/replay/motion_source.h"
+#include "tools/replay/picture_reader.h"
 
 namespace lcs::replay {
 
@@ -22,6 +23,8 @@ class Tally {
   /// \param what a plural phrase, as "pictures that the list names are missing".
   /// \param example of it; only the first one is reported.
   void add(const std::string& what, const std::string& example, int count = 1);
+  /// A line that stands for itself.
+  void tell(std::string line) { told_.push_back(std::move(line)); }
   /// Lines such as "3 pictures that ... are missing (the first: 12.png)".
   std::vector<std::string> lines() const;
 
@@ -31,6 +34,7 @@ class Tally {
     int count;
   };
   std::vector<Entry> entries_;
+  std::vector<std::string> told_;
 };
 
 /// A calibrated camera, in pixels with (0, 0) at the centre of the top-left one.
@@ -39,25 +43,32 @@ struct Lens {
   double fu_px = 0, fv_px = 0, cu_px = 0, cv_px = 0;
   Distortion distortion = Distortion::none;
   std::vector<double> coefficients;  ///< in OpenCV's order
-  bool centred = false;              ///< the principal point is the centre of the picture
-  int width_px = 0, height_px = 0;   ///< picture size of the calibration; 0: unknown
-  input::Source source = {};         ///< place to name if the picture size differs
+  /// The rays pass a unit sphere before the pinhole. Mei and Rives, ICRA 2007 (omni): xi, with
+  /// `alpha` 0. Usenko et al., 3DV 2018 (double sphere): xi and alpha. 0, 0: a pinhole alone.
+  double xi = 0, alpha = 0;
+  bool centred = false;             ///< the principal point is the centre of the picture
+  int width_px = 0, height_px = 0;  ///< picture size of the calibration; 0: unknown
+  input::Source source = {};        ///< place to name if the picture size differs
 };
 
 struct RecordedFrame {
   std::int64_t t_ns = 0;
   std::filesystem::path picture;  ///< empty: in the video
   std::size_t number = 0;         ///< index among all pictures of the recording, from 0
+
+  std::string name() const;  ///< for people: the file's, or "picture 7"
 };
 
 struct Recorded {
   /// At least one. If `timed` is false, they are in order and their times are unknown.
   std::vector<RecordedFrame> frames;
-  bool timed = true;            ///< sorted by time, without duplicate times
-  std::optional<double> fps;    ///< of an untimed recording, if the layout has it
-  std::filesystem::path video;  ///< contains the pictures; empty: they are files
-  std::optional<Lens> lens;     ///< absent: the layout has no calibration
-  std::optional<int> demosaic;  ///< OpenCV's colour conversion for raw pictures
+  bool timed = true;              ///< sorted by time, without duplicate times
+  bool has_own_clock = false;     ///< times count from the first picture: sensors begin with it
+  std::optional<double> fps;      ///< of an untimed recording, if the layout has it
+  std::filesystem::path video;    ///< contains the pictures; empty: they are files
+  std::optional<Lens> lens;       ///< absent: the layout has no calibration
+  std::optional<sim::Pose> T_BC;  ///< of the camera on the body, if the layout states it
+  PictureFormat format;           ///< of the files
   /// Detection, filter, noise. Defaults apply where the recording has no setting, except that each
   /// picture determines the corner threshold.
   scenario::Scenario settings = [] {
@@ -71,6 +82,7 @@ struct Recorded {
   std::unique_ptr<MotionSource> motion;  ///< null: the layout has no motion of the camera
   std::vector<std::string> lacks;        ///< inputs that only the user can provide, and their keys
   Tally tally;
+  std::shared_ptr<void> keep = {};  ///< files that are read from, and removed with the recording
 };
 
 /// A layout of a recording on disk.
@@ -113,17 +125,30 @@ bool is_tum_rgbd(const std::filesystem::path& folder);
 Recorded read_tum_rgbd(const scenario::Recorded& asked, bool exact_motion);
 bool is_mot(const std::filesystem::path& folder);
 Recorded read_mot(const scenario::Recorded& asked, bool exact_motion);
+bool is_kitti_tracking(const std::filesystem::path& folder);
+Recorded read_kitti_tracking(const scenario::Recorded& asked, bool exact_motion);
+bool is_kitti_360(const std::filesystem::path& folder);
+Recorded read_kitti_360(const scenario::Recorded& asked, bool exact_motion);
+bool is_listed(const std::filesystem::path& folder);
+Recorded read_listed(const scenario::Recorded& asked, bool exact_motion);
+bool is_bag(const std::filesystem::path& path);
+Recorded read_bag(const scenario::Recorded& asked, bool exact_motion);
 bool is_video(const std::filesystem::path& file);
 Recorded read_video(const scenario::Recorded& asked, bool exact_motion);
 bool is_pictures(const std::filesystem::path& folder);
 Recorded read_pictures(const scenario::Recorded& asked, bool exact_motion);
 ///@}
 
+/// Takes the noise densities of `asked.imu_calibration`, if given. \throws input::Error
+void take_imu_noise(const scenario::Recorded& asked, Recorded& recorded);
+
 /// Gives the pictures times at a constant rate, beginning at 0.
 void time_by(double fps, Recorded& recorded);
 
-/// The pictures of a folder by the numbers in their names, without times.
-std::vector<RecordedFrame> frames_in(const std::filesystem::path& folder);
+/// Sets the frames to the pictures of a folder in the order of the numbers in their names, with the
+/// times that the names state, if they do.
+void take_pictures(const std::filesystem::path& folder, const std::string& time_unit,
+                   Recorded& recorded);
 
 /// Sorts frames by time, and removes all but the first of those with the same time; counts both.
 /// \param list file of the frames. \throws input::Error if it has none.
@@ -136,6 +161,10 @@ void keep_within(std::int64_t first_ns, std::int64_t last_ns, const char* what, 
 
 /// Largest time of a picture after the last reading, which is held until then.
 inline constexpr std::int64_t kBehindReadings_ns = 500'000'000;
+
+/// Sets the motion from `asked.poses`. \param times_known of the pictures.
+/// \throws input::Error for unreadable poses, and for those of a body without the camera's place.
+void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& recorded);
 
 /// Sets the motion from a navigation unit's states: sorts them, removes duplicate times, and
 /// removes frames outside their time span. \throws std::runtime_error for fewer than two states.

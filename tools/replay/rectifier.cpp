@@ -1,6 +1,7 @@
 #include "tools/replay/rectifier.h"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -17,15 +18,19 @@ Rectifier::Rectifier(const Lens& lens, cv::Size size_px)
     : is_equidistant_(lens.distortion == Lens::Distortion::equidistant),
       from_(lens.fu_px, 0, lens.cu_px, 0, lens.fv_px, lens.cv_px, 0, 0, 1),
       coefficients_(lens.coefficients, true),
-      camera_{0.5 * (lens.fu_px + lens.fv_px),
+      xi_(lens.xi),
+      alpha_(lens.alpha),
+      camera_{0.5 * (lens.fu_px + lens.fv_px) / (1 + lens.xi),
               {lens.cu_px, lens.cv_px},
               size_px.width,
               size_px.height} {
   const bool is_straight = std::all_of(lens.coefficients.begin(), lens.coefficients.end(),
                                        [](double c) { return c == 0; });
   to_ = cv::Matx33d(camera_.focal_px, 0, lens.cu_px, 0, camera_.focal_px, lens.cv_px, 0, 0, 1);
-  if (lens.fu_px == lens.fv_px && is_straight && !is_equidistant_) return;
-  if (is_equidistant_) {
+  if (lens.fu_px == lens.fv_px && is_straight && !is_equidistant_ && !is_spherical()) return;
+  if (is_spherical()) {
+    map_by_points();
+  } else if (is_equidistant_) {
     cv::fisheye::initUndistortRectifyMap(from_, coefficients_, cv::Matx33d::eye(), to_, size_px,
                                          CV_32FC1, map_x_, map_y_);
   } else {
@@ -37,6 +42,37 @@ Rectifier::Rectifier(const Lens& lens, cv::Size size_px)
                        "by its intrinsics and distortion the lens sees less than a tenth of its "
                        "own picture; correct them");
   }
+}
+
+/// The point at depth 1 of the inner pinhole, behind one sphere or two, for a ray.
+Eigen::Vector3d Rectifier::onto_sphere(const Eigen::Vector3d& ray) const {
+  const double z = xi_ * ray.norm() + ray.z();
+  const double second = std::sqrt(ray.head<2>().squaredNorm() + z * z);
+  const double depth = alpha_ * second + (1 - alpha_) * z;
+  return {ray.x() / depth, ray.y() / depth, 1};
+}
+
+/// The ray of a point at depth 1 of the inner pinhole; NaN if it has none.
+Eigen::Vector3d Rectifier::from_sphere(double x, double y) const {
+  const double r2 = x * x + y * y;
+  const double z =
+      (1 - alpha_ * alpha_ * r2) / (alpha_ * std::sqrt(1 - (2 * alpha_ - 1) * r2) + 1 - alpha_);
+  const double scale = (z * xi_ + std::sqrt(z * z + (1 - xi_ * xi_) * r2)) / (z * z + r2);
+  return {scale * x, scale * y, scale * z - xi_};
+}
+
+void Rectifier::map_by_points() {
+  const cv::Size size_px(camera_.width_px, camera_.height_px);
+  std::vector<cv::Point2f> pixels;
+  for (int y = 0; y < size_px.height; ++y) {
+    for (int x = 0; x < size_px.width; ++x) {
+      pixels.emplace_back(static_cast<float>(x), static_cast<float>(y));
+    }
+  }
+  const std::vector<cv::Point2f> places = bent(pixels);
+  const cv::Mat maps(size_px, CV_32FC2, const_cast<cv::Point2f*>(places.data()));
+  cv::extractChannel(maps, map_x_, 0);
+  cv::extractChannel(maps, map_y_, 1);
 }
 
 /// Share of the pinhole's pixels that lie within the original picture.
@@ -58,7 +94,16 @@ std::vector<cv::Point2f> Rectifier::straight(const std::vector<cv::Point2f>& ben
     cv::fisheye::undistortPoints(bent, points, from_, coefficients_, cv::Matx33d::eye(), to_);
   } else {
     const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 1e-9);
-    cv::undistortPoints(bent, points, from_, coefficients_, cv::noArray(), to_, until);
+    const cv::Matx33d inner = is_spherical() ? cv::Matx33d::eye() : to_;
+    cv::undistortPoints(bent, points, from_, coefficients_, cv::noArray(), inner, until);
+    if (!is_spherical()) return points;
+    for (cv::Point2f& point : points) {
+      const Eigen::Vector3d ray = from_sphere(point.x, point.y);
+      const Eigen::Vector2d px = camera_.project(ray / ray.z());
+      constexpr float kOutside = -1;
+      point = ray.z() > 0 ? cv::Point2f(static_cast<float>(px.x()), static_cast<float>(px.y()))
+                          : cv::Point2f(kOutside, kOutside);
+    }
   }
   return points;
 }
@@ -74,7 +119,8 @@ std::vector<cv::Point2f> Rectifier::bent(const std::vector<cv::Point2f>& straigh
   }
   std::vector<cv::Point3f> rays;
   for (const cv::Point2f& px : straight) {
-    const Eigen::Vector3d ray = camera_.back_project({px.x, px.y}, 1);
+    Eigen::Vector3d ray = camera_.back_project({px.x, px.y}, 1);
+    if (is_spherical()) ray = onto_sphere(ray);
     rays.emplace_back(static_cast<float>(ray.x()), static_cast<float>(ray.y()), 1.0F);
   }
   cv::projectPoints(rays, cv::Vec3d::zeros(), cv::Vec3d::zeros(), from_, coefficients_, points);

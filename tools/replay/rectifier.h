@@ -35,9 +35,15 @@ class Rectifier {
   std::vector<cv::Point2f> straight(const std::vector<cv::Point2f>& bent) const;
   std::vector<cv::Point2f> bent(const std::vector<cv::Point2f>& straight) const;
 
+  bool is_spherical() const { return xi_ != 0 || alpha_ != 0; }
+  Eigen::Vector3d onto_sphere(const Eigen::Vector3d& ray) const;
+  Eigen::Vector3d from_sphere(double x, double y) const;
+  void map_by_points();
+
   bool is_equidistant_;
   cv::Matx33d from_, to_;
   cv::Mat coefficients_;
+  double xi_, alpha_;  ///< as in `Lens`
   sim::Pinhole camera_;
   cv::Mat map_x_, map_y_;  ///< empty for a pinhole lens
 };

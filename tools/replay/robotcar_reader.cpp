@@ -19,8 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
-constexpr std::int64_t kMicrosecond_ns = 1000;
-
 struct CameraKind {
   const char* name;
   int demosaic;  ///< OpenCV names a pattern by its second row: its BG is RGGB elsewhere
@@ -71,7 +69,7 @@ const CameraKind& camera_of(const scenario::Recorded& asked) {
 /// Converts from the unit's axes (north, east, down; ahead, right, down) to ours (east, north, up;
 /// ahead, left, up).
 std::vector<NavigationState> read_ins(const fs::path& file, Tally& tally) {
-  const TextTable table = read_table(file, ',');
+  const TextTable table = read_table(file);
   if (table.header.empty()) {
     throw std::runtime_error(
         fmt::format("{} has no header to find its columns by; give the file as RobotCar has it",
@@ -118,8 +116,8 @@ bool is_robotcar(const fs::path& folder) {
 Recorded read_robotcar(const scenario::Recorded& asked, bool) {
   const CameraKind& camera = camera_of(asked);
   Recorded recorded;
-  recorded.demosaic = camera.demosaic;
-  const TextTable list = read_table(list_of(asked.path, camera), ' ');
+  recorded.format.demosaic = camera.demosaic;
+  const TextTable list = read_table(list_of(asked.path, camera));
   for (const TextTable::Row& row : list.rows) {
     if (const auto t_ns = time_in(row.fields[0], kMicrosecond_ns)) {
       const auto place = static_cast<std::size_t>(&row - list.rows.data());

@@ -4,8 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <functional>
+#include <initializer_list>
+#include <numbers>
 #include <optional>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -22,48 +27,68 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kStandardGravity_mps2 = 9.80665;
+
 /// A time and the numbers of the requested columns.
 struct NumberRow {
   std::int64_t t_ns = 0;
   std::vector<double> numbers;
 };
 
-/// \param names of columns in a header; without one they follow the time in this order.
-/// \param last name of an optional further column.
-std::vector<NumberRow> read_numbers(const std::filesystem::path& file,
-                                    std::span<const char* const> names, Tally& tally,
-                                    std::optional<std::string_view> last = std::nullopt) {
-  const TextTable table = read_table(file, ',');
-  std::vector<std::size_t> columns;
-  for (const char* name : names) columns.push_back(table.column(name, columns.size() + 1));
-  std::optional<std::size_t> last_column;
-  if (last && (table.header.empty() ||
-               std::find(table.header.begin(), table.header.end(), *last) != table.header.end())) {
-    last_column = table.column(*last, columns.size() + 1);
+/// A column of times, and perhaps one of nanoseconds beside seconds, as ROS has them.
+struct TimeColumn {
+  std::size_t column = 0;
+  std::int64_t unit_ns = 1;
+  std::optional<std::size_t> nanoseconds = {};
+
+  std::optional<std::int64_t> of(const TextTable::Row& row) const {
+    const auto t_ns = time_in(TextTable::field(row, column), unit_ns);
+    if (!nanoseconds) return t_ns;
+    const auto rest = time_in(TextTable::field(row, *nanoseconds), kNanosecond_ns);
+    return t_ns && rest ? std::optional(*t_ns + *rest) : std::nullopt;
   }
+};
+
+/// \param last an optional further column.
+std::vector<NumberRow> rows_of(const TextTable& table, const TimeColumn& time,
+                               std::span<const std::size_t> columns,
+                               std::optional<std::size_t> last, Tally& tally) {
   std::vector<NumberRow> rows;
   for (const TextTable::Row& row : table.rows) {
-    const auto text = [&](std::size_t column) -> std::string_view {
-      return column < row.fields.size() ? std::string_view(row.fields[column]) : "";
-    };
-    const auto t_ns = time_in(text(0), 1);
+    const auto t_ns = time.of(row);
     NumberRow read{t_ns.value_or(0), {}};
     const auto take = [&](std::size_t column) {
-      if (const auto number = bench::number_in<double>(text(column))) {
+      if (const auto number = bench::number_in<double>(TextTable::field(row, column))) {
         read.numbers.push_back(*number);
       }
     };
     for (const std::size_t column : columns) take(column);
     const bool whole = t_ns && read.numbers.size() == columns.size();
-    if (last_column) take(*last_column);
+    if (last) take(*last);
     if (whole) {
       rows.push_back(std::move(read));
     } else {
       tally.add("rows cannot be read and are left out", table.at(row));
     }
   }
-  sort_by_time(rows, "rows", file.string(), tally);
+  sort_by_time(rows, "rows", table.file.string(), tally);
   return rows;
+}
+
+/// \param names of columns in a header; without one they follow the time in this order.
+/// \param last name of an optional further column.
+std::vector<NumberRow> read_numbers(const std::filesystem::path& file,
+                                    std::span<const char* const> names, const TableTimes& times,
+                                    Tally& tally,
+                                    std::optional<std::string_view> last = std::nullopt) {
+  const TextTable table = read_table(file);
+  std::vector<std::size_t> columns;
+  for (const char* name : names) columns.push_back(table.column(name, columns.size() + 1));
+  std::optional<std::size_t> last_column;
+  if (last && (table.header.empty() || table.find(*last))) {
+    last_column = table.column(*last, columns.size() + 1);
+  }
+  return rows_of(table, {0, times.unit_ns(table, 0, tally)}, columns, last_column, tally);
 }
 
 Vector3d vector_at(const NumberRow& row, std::size_t first) {
@@ -78,43 +103,229 @@ T median(std::vector<T> values) {
   return *middle;
 }
 
-/// Gravity dominates an accelerometer's readings, at rest and in motion.
-/// \throws std::runtime_error if the readings are in g.
-void check_units(const std::vector<sim::ImuSample>& samples, const std::filesystem::path& file) {
-  std::vector<double> sizes;
-  for (const sim::ImuSample& sample : samples) sizes.push_back(sample.accel_mps2.norm());
-  const double usual = median(std::move(sizes));
-  if (usual < ImuWatch::kLeast_g || usual > ImuWatch::kMost_g) return;
-  throw std::runtime_error(
-      fmt::format("{}: accelerations have a size of {:.2f}, gravity in g; multiply them by 9.80665 "
-                  "to have m/s^2 "
-                  "(and see whether rates are in rad/s)",
-                  file.string(), usual));
+/// The words of a column's name in lower case: "gyroRotationX" is gyro, rotation, x.
+std::vector<std::string> words_in(const std::string& name) {
+  std::vector<std::string> words;
+  char before = ' ';
+  for (const char c : name) {
+    const bool is_letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
+    const bool begins = std::isupper(static_cast<unsigned char>(c)) != 0 &&
+                        std::islower(static_cast<unsigned char>(before)) != 0;
+    const bool was_letter = std::isalpha(static_cast<unsigned char>(before)) != 0;
+    if (is_letter && (begins || !was_letter)) words.emplace_back();
+    if (is_letter) {
+      words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    before = c;
+  }
+  return words;
+}
+
+/// 0 to 2 for x, y, z of the angular rates, 3 to 5 for those of the accelerations; absent for a
+/// column that is of neither.
+std::optional<std::size_t> place_of(const std::string& name) {
+  static const std::set<std::string> kRates{"gyro", "gyr", "gyroscope", "gyros", "omega",
+                                            "w",    "g",   "angular",   "ang",   "rotation"};
+  static const std::set<std::string> kForces{"acc",           "accel", "acceleration",
+                                             "accelerometer", "alpha", "a"};
+  static const std::set<std::string> kOthers{"covariance", "b",    "bias", "orientation", "user",
+                                             "motion",     "temp", "raw",  "magnetic"};
+  std::vector<std::string> words = words_in(name);
+  if (words.empty()) return std::nullopt;
+  const char axis = words.back().back();
+  if (axis < 'x' || axis > 'z') return std::nullopt;
+  words.back().pop_back();
+  const auto any = [&](const std::set<std::string>& of) {
+    return std::any_of(words.begin(), words.end(),
+                       [&](const std::string& word) { return of.contains(word); });
+  };
+  if (any(kOthers) || any(kRates) == any(kForces)) return std::nullopt;
+  return static_cast<std::size_t>(axis - 'x') + (any(kForces) ? 3 : 0);
+}
+
+/// The factor to rad/s or m/s^2 of a unit in a header. \throws input::Error for an unknown one.
+double factor_of(const TextTable& table, std::size_t column, bool is_rate) {
+  const std::string& unit = table.header[column].unit;
+  const auto has = [&](const char* text) { return unit.find(text) != unit.npos; };
+  if (unit.empty()) return 1;
+  if (is_rate && (has("deg") || has("°") || has("dps"))) return std::numbers::pi / 180;
+  if (is_rate && has("rad")) return 1;
+  if (!is_rate && (has("m/s") || has("m s") || has("m*s"))) return 1;
+  if (!is_rate && (unit == "g" || unit == "G")) return kStandardGravity_mps2;
+  throw input::Error(
+      {table.file.string(), 1},
+      fmt::format("the unit '{}' of {} is not known; give {}", unit, table.header[column].name,
+                  is_rate ? "rad/s or deg/s" : "m/s^2 or g"));
+}
+
+struct ImuColumns {
+  TimeColumn time;
+  std::array<std::size_t, 6> places{1, 2, 3, 4, 5, 6};
+  std::array<double, 6> factors{1, 1, 1, 1, 1, 1};
+};
+
+TimeColumn find_time(const TextTable& table, const TableTimes& times, Tally& tally) {
+  const auto ending_in = [&](std::initializer_list<const char*> words) {
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; i < table.header.size() && !found; ++i) {
+      const std::vector<std::string> own = words_in(table.header[i].name);
+      const bool ends =
+          !own.empty() && std::find(words.begin(), words.end(), own.back()) != words.end();
+      if (ends) found = i;
+    }
+    return found;
+  };
+  const auto seconds = ending_in({"sec", "secs"}), rest = ending_in({"nsec", "nsecs", "nanosec"});
+  if (seconds && rest) return {*seconds, kSecond_ns, rest};
+  const std::size_t column = table.time_column().value_or(0);
+  return {column, times.unit_ns(table, column, tally)};
+}
+
+/// \throws input::Error for a header without the six columns.
+ImuColumns find_columns(const TextTable& table, const TableTimes& times, Tally& tally) {
+  ImuColumns columns{find_time(table, times, tally)};
+  if (table.header.empty()) return columns;
+  std::array<bool, 6> is_found{};
+  const auto refuse = [&](const std::string& why) {
+    throw input::Error({table.file.string(), 1},
+                       why +
+                           "; give the time, and w_RS_S_x, w_RS_S_y, w_RS_S_z [rad/s], a_RS_S_x, "
+                           "a_RS_S_y, a_RS_S_z [m/s^2]");
+  };
+  for (std::size_t i = 0; i < table.header.size(); ++i) {
+    const auto place = place_of(table.header[i].name);
+    if (!place) continue;
+    if (is_found[*place]) {
+      refuse(fmt::format("the columns {} and {} both may be one of the IMU's",
+                         table.header[columns.places[*place]].name, table.header[i].name));
+    }
+    is_found[*place] = true;
+    columns.places[*place] = i;
+    columns.factors[*place] = factor_of(table, i, *place < 3);
+  }
+  if (!std::all_of(is_found.begin(), is_found.end(), [](bool found) { return found; })) {
+    refuse("the header does not name three angular rates and three accelerations");
+  }
+  return columns;
+}
+
+/// Median angle, rad, by which the accelerometer's direction at the end of a second is off that at
+/// its start, turned by the gyroscope. \param factor of the angular rates.
+double tilt_error_rad(const std::vector<sim::ImuSample>& samples, double factor) {
+  constexpr double kSpan_s = 1;
+  constexpr std::size_t kMost = 20'000, kMean = 20;
+  std::vector<double> errors;
+  const auto force = [&](std::size_t from) {
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t i = from; i < std::min(from + kMean, samples.size()); ++i) {
+      sum += samples[i].accel_mps2;
+    }
+    return sum;
+  };
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i < std::min(samples.size(), kMost); ++i) {
+    const double dt_s = 1e-9 * static_cast<double>(samples[i].t_ns - samples[i - 1].t_ns);
+    const Vector3d turn = factor * dt_s * samples[i].gyro_radps;
+    if (turn.norm() > 0) q = q * Eigen::AngleAxisd(turn.norm(), turn.normalized());
+    if (1e-9 * static_cast<double>(samples[i].t_ns - samples[begin].t_ns) < kSpan_s) continue;
+    const Vector3d predicted = q.conjugate() * force(begin);
+    errors.push_back(std::atan2(predicted.cross(force(i)).norm(), predicted.dot(force(i))));
+    q.setIdentity();
+    begin = i;
+  }
+  return errors.empty() ? 0 : median(std::move(errors));
+}
+
+/// Refuses readings that no IMU on a camera has. Gravity dominates an accelerometer's readings, at
+/// rest and in motion; no camera turns at 10 rad/s for long.
+void require_possible(const std::vector<sim::ImuSample>& samples,
+                      const std::filesystem::path& file) {
+  constexpr double kLeast_mps2 = 6, kMost_mps2 = 25, kFastTurn_radps = 10, kShare = 0.05;
+  constexpr double kTilted_rad = 0.25, kBetter = 0.25, kDegree = std::numbers::pi / 180;
+  const auto refuse = [&](const std::string& why) { throw input::Error({file.string(), 0}, why); };
+  std::vector<double> forces, rates;
+  for (const sim::ImuSample& sample : samples) {
+    forces.push_back(sample.accel_mps2.norm());
+    rates.push_back(sample.gyro_radps.norm());
+  }
+  const auto fast =
+      rates.begin() + std::llround((1 - kShare) * static_cast<double>(rates.size() - 1));
+  std::nth_element(rates.begin(), fast, rates.end());
+  const double often_radps = *fast, usual_radps = median(rates), usual = median(std::move(forces));
+  if (usual_radps > kLeast_mps2 && usual_radps < kMost_mps2 && usual < kLeast_mps2) {
+    refuse(
+        fmt::format("its angular rates have a size of {:.2f} and its accelerations of {:.2f}: "
+                    "the two seem interchanged; name the columns in a header",
+                    usual_radps, usual));
+  }
+  if (usual >= ImuWatch::kLeast_g && usual <= ImuWatch::kMost_g) {
+    refuse(
+        fmt::format("accelerations have a size of {:.2f}, gravity in g; multiply them by 9.80665 "
+                    "to have m/s^2 (and see whether rates are in rad/s), or put their unit into "
+                    "the header, as a_RS_S_x [g]",
+                    usual));
+  }
+  if (usual < kLeast_mps2 || usual > kMost_mps2) {
+    refuse(
+        fmt::format("accelerations have a size of {:.3g}, and those of an IMU have that of "
+                    "gravity, 9.81 m/s^2; give what the accelerometer measures, gravity "
+                    "included, in m/s^2",
+                    usual));
+  }
+  const double tilt_rad = tilt_error_rad(samples, 1);
+  const bool is_tilted =
+      tilt_rad > kTilted_rad && tilt_error_rad(samples, kDegree) < kBetter * tilt_rad;
+  if (often_radps > kFastTurn_radps || is_tilted) {
+    refuse(
+        fmt::format("its angular rates exceed {:.3g} rad/s for a twentieth of the time, which no "
+                    "camera does for long{}; if they are in deg/s, put that into the header, as "
+                    "w_RS_S_x [deg/s]",
+                    often_radps, is_tilted ? ", and contradict the accelerometer" : ""));
+  }
+}
+
+constexpr std::array<const char*, 16> kTruthNames{
+    "p_RS_R_x",   "p_RS_R_y",   "p_RS_R_z",   "q_RS_w",    "q_RS_x",     "q_RS_y",
+    "q_RS_z",     "v_RS_R_x",   "v_RS_R_y",   "v_RS_R_z",  "b_w_RS_S_x", "b_w_RS_S_y",
+    "b_w_RS_S_z", "b_a_RS_S_x", "b_a_RS_S_y", "b_a_RS_S_z"};
+
+/// The quaternion behind the place; absent, and counted, if it is not of length 1.
+std::optional<Eigen::Quaterniond> attitude_in(const NumberRow& row,
+                                              const std::filesystem::path& file, Tally& tally) {
+  constexpr double kUnit = 1e-2;  // largest error in the length of a rounded quaternion
+  const Eigen::Quaterniond q(row.numbers[3], row.numbers[4], row.numbers[5], row.numbers[6]);
+  if (std::abs(q.norm() - 1) <= kUnit) return q.normalized();
+  tally.add("rows have no unit quaternion and are left out", file.string());
+  return std::nullopt;
 }
 
 }  // namespace
 
-std::vector<sim::ImuSample> read_imu_csv(const std::filesystem::path& file, Tally& tally) {
-  static constexpr std::array<const char*, 6> kNames{"w_RS_S_x", "w_RS_S_y", "w_RS_S_z",
-                                                     "a_RS_S_x", "a_RS_S_y", "a_RS_S_z"};
+std::vector<sim::ImuSample> read_imu_csv(const std::filesystem::path& file, const TableTimes& times,
+                                         Tally& tally) {
+  const TextTable table = read_table(file);
+  const ImuColumns columns = find_columns(table, times, tally);
   std::vector<sim::ImuSample> samples;
-  for (const NumberRow& row : read_numbers(file, kNames, tally)) {
-    samples.push_back({row.t_ns, vector_at(row, 0), vector_at(row, 3)});
+  for (const NumberRow& row : rows_of(table, columns.time, columns.places, {}, tally)) {
+    std::array<double, 6> n{};
+    std::transform(row.numbers.begin(), row.numbers.end(), columns.factors.begin(), n.begin(),
+                   std::multiplies());
+    samples.push_back({row.t_ns, {n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
   }
   if (samples.empty()) {
-    throw std::runtime_error(
-        fmt::format("{} holds no reading of an IMU; give a row for each", file.string()));
+    throw input::Error({file.string(), 0}, "holds no reading of an IMU; give a row for each");
   }
-  check_units(samples, file);
+  require_possible(samples, file);
   count_gaps(samples, tally);
   return samples;
 }
 
 std::vector<sim::OdometrySample> read_odometry_csv(const std::filesystem::path& file,
-                                                   Tally& tally) {
+                                                   const TableTimes& times, Tally& tally) {
   static constexpr std::array<const char*, 3> kNames{"v_RB_B_x", "v_RB_B_y", "v_RB_B_z"};
   std::vector<sim::OdometrySample> samples;
-  for (const NumberRow& row : read_numbers(file, kNames, tally, "w_RB_B_z")) {
+  for (const NumberRow& row : read_numbers(file, kNames, times, tally, "w_RB_B_z")) {
     samples.push_back({row.t_ns, vector_at(row, 0)});
     if (row.numbers.size() > kNames.size()) samples.back().yaw_rate_radps = row.numbers.back();
   }
@@ -126,7 +337,7 @@ std::vector<SensorReadings::CameraPose> read_pose_csv(const std::filesystem::pat
   static constexpr std::array<const char*, 12> kNames{
       "R_00", "R_01", "R_02", "p_x", "R_10", "R_11", "R_12", "p_y", "R_20", "R_21", "R_22", "p_z"};
   std::vector<SensorReadings::CameraPose> poses;
-  for (const NumberRow& row : read_numbers(file, kNames, tally)) {
+  for (const NumberRow& row : read_numbers(file, kNames, {"ns", {}, {}}, tally)) {
     std::array<double, 16> matrix{};
     std::copy(row.numbers.begin(), row.numbers.end(), matrix.begin());
     matrix[15] = 1;
@@ -139,31 +350,47 @@ std::vector<SensorReadings::CameraPose> read_pose_csv(const std::filesystem::pat
   return poses;
 }
 
-std::vector<TrueState> read_truth_csv(const std::filesystem::path& file, Tally& tally) {
-  static constexpr std::array<const char*, 16> kNames{
-      "p_RS_R_x",   "p_RS_R_y",   "p_RS_R_z",   "q_RS_w",    "q_RS_x",     "q_RS_y",
-      "q_RS_z",     "v_RS_R_x",   "v_RS_R_y",   "v_RS_R_z",  "b_w_RS_S_x", "b_w_RS_S_y",
-      "b_w_RS_S_z", "b_a_RS_S_x", "b_a_RS_S_y", "b_a_RS_S_z"};
-  constexpr double kUnit = 1e-2;  // largest error in the length of a rounded quaternion
+std::vector<TrueState> read_truth_csv(const std::filesystem::path& file, const TableTimes& times,
+                                      Tally& tally) {
   std::vector<TrueState> states;
-  for (const NumberRow& row : read_numbers(file, kNames, tally)) {
-    TrueState& truth = states.emplace_back();
-    truth.t_ns = truth.state.t_ns = row.t_ns;
-    const Eigen::Quaterniond q(row.numbers[3], row.numbers[4], row.numbers[5], row.numbers[6]);
-    if (!(std::abs(q.norm() - 1) <= kUnit)) {
-      states.pop_back();
-      tally.add("rows have no unit quaternion and are left out", file.string());
-      continue;
-    }
+  for (const NumberRow& row : read_numbers(file, kTruthNames, times, tally)) {
     if (!is_speed(row.numbers[7], row.numbers[8], row.numbers[9])) {
-      states.pop_back();
       tally.add("rows have a speed above 1000 m/s and are left out", file.string());
       continue;
     }
-    truth.state.q_WB = q.normalized();
-    truth.state.v_WB_mps = vector_at(row, 7);
-    truth.gyro_bias_radps = vector_at(row, 10);
-    truth.accel_bias_mps2 = vector_at(row, 13);
+    const auto q_WB = attitude_in(row, file, tally);
+    if (!q_WB) continue;
+    states.push_back(
+        {row.t_ns, {row.t_ns, *q_WB, vector_at(row, 7)}, vector_at(row, 10), vector_at(row, 13)});
+  }
+  return states;
+}
+
+std::vector<TrueState> read_body_poses_csv(const std::filesystem::path& file,
+                                           const TableTimes& times, Tally& tally) {
+  constexpr std::size_t kNumbers = 7;
+  constexpr std::int64_t kHalfSpan_ns = 25'000'000;  // longer than the noise of a marker's place
+  std::vector<TrueState> states;
+  std::vector<Vector3d> places_m;
+  for (const NumberRow& row :
+       read_numbers(file, std::span(kTruthNames).first(kNumbers), times, tally)) {
+    const auto q_WB = attitude_in(row, file, tally);
+    if (!q_WB) continue;
+    states.push_back({row.t_ns, {row.t_ns, *q_WB, Vector3d::Zero()}});
+    places_m.push_back(vector_at(row, 0));
+  }
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    std::size_t a = i, b = i;
+    while (a > 0 && states[i].t_ns - states[a].t_ns < kHalfSpan_ns) --a;
+    while (b + 1 < states.size() && states[b].t_ns - states[i].t_ns < kHalfSpan_ns) ++b;
+    const double span_s = 1e-9 * static_cast<double>(states[b].t_ns - states[a].t_ns);
+    if (span_s > 0) states[i].state.v_WB_mps = (places_m[b] - places_m[a]) / span_s;
+  }
+  if (!states.empty()) {
+    tally.add(
+        "truths have poses alone: velocities are their differences, the IMU's biases count as "
+        "0",
+        file.string());
   }
   return states;
 }

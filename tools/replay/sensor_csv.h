@@ -3,21 +3,41 @@
 /// out of order sorted, and duplicate times used once; all of this is counted.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "sim/imu/imu.h"
 #include "tools/replay/motion_source.h"
 #include "tools/replay/recorded.h"
 #include "tools/replay/text_table.h"
+#include "tools/replay/times.h"
 
 namespace lcs::replay {
 
-/// \throws std::runtime_error if the file is unreadable or has no reading.
-std::vector<sim::ImuSample> read_imu_csv(const std::filesystem::path& file, Tally& tally);
+/// The unit of a table's times, as far as it is known before the table is read.
+struct TableTimes {
+  std::string unit;  ///< s, ms, us or ns; "": as the table states it
+  ExpectedRate rate;
+  std::optional<std::int64_t> usual;  ///< unit in ns that its layout has
+
+  std::int64_t unit_ns(const TextTable& table, std::size_t column, Tally& tally) const {
+    return time_unit_of(table, column, unit, rate, usual, tally);
+  }
+};
+
+/// Columns are those of EuRoC, or have other usual names (ROS, Kalibr, loggers of phones), with
+/// units in the header; without a header: time, angular rates in rad/s, accelerations in m/s^2.
+/// \throws input::Error if the file is unreadable, has no reading, or has readings that no IMU can
+/// have: rates in deg/s, accelerations in g or without gravity, the two interchanged.
+std::vector<sim::ImuSample> read_imu_csv(const std::filesystem::path& file, const TableTimes& times,
+                                         Tally& tally);
 
 /// Yaw rates are in an optional fifth column.
-std::vector<sim::OdometrySample> read_odometry_csv(const std::filesystem::path& file, Tally& tally);
+std::vector<sim::OdometrySample> read_odometry_csv(const std::filesystem::path& file,
+                                                   const TableTimes& times, Tally& tally);
 
 /// Exact poses of the camera, as written by `lcs generate`.
 std::vector<SensorReadings::CameraPose> read_pose_csv(const std::filesystem::path& file,
@@ -30,7 +50,12 @@ struct TrueState {
   Eigen::Vector3d gyro_bias_radps = Eigen::Vector3d::Zero();
   Eigen::Vector3d accel_bias_mps2 = Eigen::Vector3d::Zero();
 };
-std::vector<TrueState> read_truth_csv(const std::filesystem::path& file, Tally& tally);
+std::vector<TrueState> read_truth_csv(const std::filesystem::path& file, const TableTimes& times,
+                                      Tally& tally);
+/// As above, from poses alone (columns of EuRoC up to q_RS_z): velocities are their differences,
+/// biases are 0; both is told.
+std::vector<TrueState> read_body_poses_csv(const std::filesystem::path& file,
+                                           const TableTimes& times, Tally& tally);
 
 /// Counts gaps between readings that exceed four of their usual periods.
 void count_gaps(const std::vector<sim::ImuSample>& samples, Tally& tally);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <sstream>
-#include <stdexcept>
 
 #include "tools/files/csv.h"
 #include "tools/input/input_file.h"
@@ -13,23 +12,60 @@
 namespace lcs::replay {
 namespace {
 
+/// The first of the separators in a line; ' ' stands for any number of blanks.
+char separator_in(std::string_view line) {
+  for (const char separator : {';', ',', '\t'}) {
+    if (line.find(separator) != line.npos) return separator;
+  }
+  return ' ';
+}
+
 std::vector<std::string> split(std::string_view line, char separator) {
   std::vector<std::string> fields;
-  if (separator == ',') {
-    for (const std::string_view field : bench::fields_of(line)) fields.emplace_back(field);
+  if (separator == ' ') {
+    std::istringstream words{std::string(line)};
+    for (std::string word; words >> word;) fields.push_back(word);
     return fields;
   }
-  std::istringstream words{std::string(line)};
-  for (std::string word; words >> word;) fields.push_back(word);
+  for (std::size_t end = 0; end != line.npos; line.remove_prefix(std::min(end + 1, line.size()))) {
+    end = line.find(separator);
+    fields.emplace_back(bench::trimmed(line.substr(0, end)));
+    // Tables with semicolons come from countries that write 0,5.
+    if (separator == ';') std::replace(fields.back().begin(), fields.back().end(), ',', '.');
+  }
   return fields;
 }
 
-/// A column's name: "timestamp" for "#timestamp [ns]".
-std::string name_of(std::string_view field) {
-  const std::size_t unit = field.find('[');
-  std::string_view name = bench::trimmed(field.substr(0, unit));
-  while (name.starts_with('#')) name = bench::trimmed(name.substr(1));
-  return std::string(name);
+/// Removes the blanks before and inside brackets: "time [s] x [m s^-1]" has two fields.
+std::string with_units_joined(std::string_view line) {
+  std::string joined;
+  int depth = 0;
+  for (const char c : line) {
+    if (c == '[' || c == '(') {
+      while (!joined.empty() && joined.back() == ' ') joined.pop_back();
+      ++depth;
+    }
+    joined += depth > 0 && c == ' ' ? '~' : c;
+    if ((c == ']' || c == ')') && depth > 0) --depth;
+  }
+  return joined;
+}
+
+std::vector<TextTable::Column> columns_in(std::string_view line, char separator) {
+  while (!line.empty() && std::string_view("#% \t").find(line.front()) != std::string_view::npos) {
+    line.remove_prefix(1);
+  }
+  std::vector<TextTable::Column> columns;
+  for (const std::string& field : split(with_units_joined(line), separator)) {
+    const std::size_t unit = field.find_first_of("[(");
+    const std::size_t end = field.find_first_of("])", std::min(unit, field.size()));
+    TextTable::Column column{std::string(bench::trimmed(field.substr(0, unit))), ""};
+    while (column.name.starts_with('#')) column.name = bench::trimmed(column.name.substr(1));
+    if (unit != field.npos) column.unit = field.substr(unit + 1, end - unit - 1);
+    std::replace(column.unit.begin(), column.unit.end(), '~', ' ');
+    columns.push_back(column);
+  }
+  return columns;
 }
 
 bool begins_with_number(std::string_view line) {
@@ -43,35 +79,66 @@ std::string TextTable::at(const Row& row) const {
   return fmt::format("{}:{}", file.string(), row.line);
 }
 
-std::size_t TextTable::column(std::string_view name, std::size_t otherwise) const {
-  if (header.empty()) return otherwise;
-  const auto found = std::find(header.begin(), header.end(), name);
-  if (found == header.end()) {
-    throw input::Error({file.string(), 1},
-                       fmt::format("the header names no column {}; give each column the name "
-                                   "that the layout has for it",
-                                   name));
-  }
+std::string_view TextTable::field(const Row& row, std::size_t column) {
+  return column < row.fields.size() ? std::string_view(row.fields[column]) : "";
+}
+
+std::optional<std::size_t> TextTable::find(std::string_view name) const {
+  const auto found = std::find_if(header.begin(), header.end(),
+                                  [&](const Column& column) { return column.name == name; });
+  if (found == header.end()) return std::nullopt;
   return static_cast<std::size_t>(found - header.begin());
 }
 
-TextTable read_table(const std::filesystem::path& file, char separator) {
+std::optional<std::size_t> TextTable::time_column() const {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < header.size(); ++i) {
+    std::string name = header[i].name;
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const bool is_stamp = name.ends_with("header.stamp");
+    const bool is_time =
+        is_stamp || name.find("time") != name.npos || name == "t" || name.starts_with("stamp");
+    if (is_stamp || (is_time && !found)) found = i;
+    if (is_stamp) break;
+  }
+  return found;
+}
+
+std::size_t TextTable::column(std::string_view name, std::size_t otherwise) const {
+  if (header.empty()) return otherwise;
+  if (const auto found = find(name)) return *found;
+  throw input::Error({file.string(), 1},
+                     fmt::format("the header names no column {}; give each column the name "
+                                 "that the layout has for it",
+                                 name));
+}
+
+TextTable read_table(const std::filesystem::path& file) {
   // An hour of a 1 kHz IMU takes 400 MB.
   constexpr input::FileKind kSensorTable{input::kGibibyte,
                                          "give a table of rows, as the layout has it"};
   input::InputFile input(file, kSensorTable);
-  TextTable table{file, {}, {}};
+  TextTable table{file, ' ', {}, {}};
+  std::vector<std::string> before;  // lines before the first row
   for (std::string text; input.next_line(text);) {
     const std::string_view line = bench::trimmed(text);
     if (line.empty()) continue;
-    const bool is_first = table.rows.empty() && table.header.empty();
-    if (is_first && !begins_with_number(line)) {
-      for (const std::string& field : split(line, separator)) {
-        table.header.push_back(name_of(field));
-      }
-    } else if (!line.starts_with('#')) {
-      table.rows.push_back({input.here().line, split(line, separator)});
+    if (table.rows.empty() && !begins_with_number(line)) {
+      before.emplace_back(line);
+      continue;
     }
+    if (line.starts_with('#')) continue;
+    if (table.rows.empty()) table.separator = separator_in(line);
+    table.rows.push_back({input.here().line, split(line, table.separator)});
+  }
+  if (before.empty()) return table;
+  if (table.rows.empty()) table.separator = separator_in(before.back());
+  for (const std::string& line : before) {
+    std::vector<TextTable::Column> columns = columns_in(line, table.separator);
+    const bool is_bare = !line.starts_with('#');
+    const bool fits = !table.rows.empty() && columns.size() == table.rows[0].fields.size();
+    if (fits || is_bare || table.rows.empty()) table.header = std::move(columns);
   }
   return table;
 }

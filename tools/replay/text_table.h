@@ -1,10 +1,10 @@
 /// \file
-/// Text tables from other tools: any line ends, spaces round fields, an optional header.
+/// Text tables from other tools: any line ends, any of the usual separators, an optional header.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <span>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,27 +12,37 @@
 namespace lcs::replay {
 
 struct TextTable {
-  std::filesystem::path file;
-  /// Names of columns, without '#', units in brackets and spaces; empty if there is no header.
-  std::vector<std::string> header;
+  struct Column {
+    std::string name;  ///< without '#', '%', unit and blanks round it
+    std::string unit;  ///< in brackets behind the name, as "rad s^-1"; "": none stated
+  };
   struct Row {
     int line = 0;  ///< from 1
     std::vector<std::string> fields;
   };
+
+  std::filesystem::path file;
+  char separator = ' ';        ///< comma, semicolon, tab; ' ': any number of blanks
+  std::vector<Column> header;  ///< empty if there is no header
   std::vector<Row> rows;
 
   /// "file:line"
   std::string at(const Row& row) const;
+  /// The field of a row; "" if the row is shorter.
+  static std::string_view field(const Row& row, std::size_t column);
 
+  std::optional<std::size_t> find(std::string_view name) const;
+  /// The column that the header calls a time: that of a ROS header's stamp, or the first one.
+  std::optional<std::size_t> time_column() const;
   /// Index of the column called `name`, or `otherwise` without a header.
-  /// \throws std::runtime_error if there is a header without it.
+  /// \throws input::Error if there is a header without it.
   std::size_t column(std::string_view name, std::size_t otherwise) const;
 };
 
-/// Skips empty lines. A first line that does not begin with a number is the header; further lines
-/// that begin with '#' are skipped.
-/// \param separator ',', or ' ' for any number of spaces and tabs.
+/// Reads fields between commas, semicolons (with decimal commas), tabs or blanks, whichever the
+/// first row of numbers has. Of the lines before that row the last one that has as many fields is
+/// the header; empty lines and further lines that begin with '#' are skipped.
 /// \throws input::Error if the file cannot be read.
-TextTable read_table(const std::filesystem::path& file, char separator);
+TextTable read_table(const std::filesystem::path& file);
 
 }  // namespace lcs::replay

@@ -1,8 +1,16 @@
 #include "tools/replay/times.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
-#include <string>
+#include <map>
+
+#include "tools/files/csv.h"
+#include "tools/input/error.h"
+#include "tools/replay/recorded.h"
 
 namespace lcs::replay {
 namespace {
@@ -50,31 +58,84 @@ std::optional<std::chrono::nanoseconds> time_of_day_in(std::string_view clock) {
          std::chrono::nanoseconds(std::llround(*second * kNanosecondsASecond));
 }
 
+struct TimeUnit {
+  const char* name;
+  std::int64_t ns;
+};
+constexpr std::array<TimeUnit, 4> kTimeUnits{
+    {{"s", kSecond_ns}, {"ms", kMillisecond_ns}, {"us", kMicrosecond_ns}, {"ns", kNanosecond_ns}}};
+
+/// The unit of a column of times: in brackets, or the last word of a name as "timestamp_ns".
+std::string unit_in(const TextTable::Column& column) {
+  if (!column.unit.empty()) return column.unit;
+  const std::size_t last = column.name.find_last_of("_ ");
+  const std::string word = last == column.name.npos ? "" : column.name.substr(last + 1);
+  return time_unit_named(word) ? word : "";
+}
+
+/// The median difference of consecutive times in their own unit; absent for fewer than two.
+std::optional<double> usual_period(const TextTable& table, std::size_t column) {
+  constexpr std::size_t kSuffices = 2000;
+  std::vector<double> periods;
+  std::optional<long double> last;  // a double has too few digits for epoch times
+  for (std::size_t i = 0; i < table.rows.size() && i < kSuffices; ++i) {
+    const auto time = bench::number_in<long double>(TextTable::field(table.rows[i], column));
+    if (time && last && *time > *last) periods.push_back(static_cast<double>(*time - *last));
+    if (time) last = time;
+  }
+  if (periods.empty()) return std::nullopt;
+  const auto middle = periods.begin() + std::ssize(periods) / 2;
+  std::nth_element(periods.begin(), middle, periods.end());
+  return *middle;
+}
+
 bool is_digits(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
 }
 
 }  // namespace
 
-std::optional<std::int64_t> seconds_in(std::string_view text) {
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
-  constexpr std::size_t kDigits = 9;
+std::optional<std::int64_t> time_unit_named(std::string_view name) {
+  static const std::map<std::string_view, std::int64_t> kUnits{{"s", kSecond_ns},
+                                                               {"sec", kSecond_ns},
+                                                               {"secs", kSecond_ns},
+                                                               {"second", kSecond_ns},
+                                                               {"seconds", kSecond_ns},
+                                                               {"ms", kMillisecond_ns},
+                                                               {"msec", kMillisecond_ns},
+                                                               {"millis", kMillisecond_ns},
+                                                               {"milliseconds", kMillisecond_ns},
+                                                               {"us", kMicrosecond_ns},
+                                                               {"usec", kMicrosecond_ns},
+                                                               {"microseconds", kMicrosecond_ns},
+                                                               {"µs", kMicrosecond_ns},
+                                                               {"ns", kNanosecond_ns},
+                                                               {"nsec", kNanosecond_ns},
+                                                               {"nsecs", kNanosecond_ns},
+                                                               {"nanoseconds", kNanosecond_ns}};
+  const auto found = kUnits.find(name);
+  return found == kUnits.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<std::int64_t> time_in(std::string_view text, std::int64_t unit_ns) {
   const std::size_t point = text.find('.');
   const std::string_view fraction = point == text.npos ? "" : text.substr(point + 1);
-  if (is_digits(text.substr(0, point)) && (fraction.empty() || is_digits(fraction))) {
+  std::string_view whole = text.substr(0, point);
+  const bool is_negative = whole.starts_with('-');
+  if (is_negative) whole.remove_prefix(1);
+  if (is_digits(whole) && (fraction.empty() || is_digits(fraction))) {
     // not through a double, whose precision at such times is above a nanosecond
-    std::string digits(fraction.substr(0, kDigits));
-    digits.resize(kDigits, '0');
-    const auto seconds = time_in(text.substr(0, point), kSecond_ns);
-    const auto rest = bench::number_in<std::int64_t>(digits);
-    return seconds && rest && is_time(*seconds + *rest) ? std::optional(*seconds + *rest)
-                                                        : std::nullopt;
+    const auto units = bench::number_in<std::int64_t>(whole);
+    if (!units || *units > kFarthest_ns / unit_ns) return std::nullopt;
+    std::int64_t t_ns = *units * unit_ns, place_ns = unit_ns;
+    for (const char digit : fraction) t_ns += (digit - '0') * (place_ns /= 10);
+    if (!is_time(t_ns)) return std::nullopt;
+    return is_negative ? -t_ns : t_ns;
   }
   const auto number = bench::number_in<double>(text);
-  if (!number || std::abs(*number) * kNanosecondsASecond >= static_cast<double>(kFarthest_ns)) {
-    return std::nullopt;
-  }
-  return std::llround(*number * kNanosecondsASecond);
+  const double t_ns = number.value_or(0) * static_cast<double>(unit_ns);
+  if (!number || std::abs(t_ns) >= static_cast<double>(kFarthest_ns)) return std::nullopt;
+  return std::llround(t_ns);
 }
 
 std::optional<std::int64_t> calendar_time_in(std::string_view date, std::string_view clock) {
@@ -82,6 +143,77 @@ std::optional<std::int64_t> calendar_time_in(std::string_view date, std::string_
   const auto time_of_day = time_of_day_in(clock);
   if (!day || !time_of_day) return std::nullopt;
   return std::chrono::nanoseconds(day->time_since_epoch() + *time_of_day).count();
+}
+
+std::vector<std::optional<std::int64_t>> times_in(const TextTable& table, std::size_t column,
+                                                  std::int64_t unit_ns) {
+  std::vector<std::optional<std::int64_t>> times;
+  for (const TextTable::Row& row : table.rows) {
+    times.push_back(time_in(TextTable::field(row, column), unit_ns));
+  }
+  return times;
+}
+
+std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std::string& asked,
+                          const ExpectedRate& expected, std::optional<std::int64_t> usual,
+                          Tally& tally) {
+  const std::optional<double> period = usual_period(table, column);
+  const auto rate_hz = [&](std::int64_t unit_ns) {
+    return static_cast<double>(kSecond_ns) / (*period * static_cast<double>(unit_ns));
+  };
+  const auto fits = [&](std::int64_t unit_ns) {
+    if (!period) return true;
+    constexpr double kFactor = 30;  // pictures may be left out of a recording
+    const double hz = rate_hz(unit_ns);
+    if (!expected.stated_hz) return hz > expected.least_hz && hz < expected.most_hz;
+    return hz < kFactor * *expected.stated_hz && kFactor * hz > *expected.stated_hz;
+  };
+  const auto chosen = [&](std::int64_t unit_ns) {
+    constexpr double kSame = 0.2;
+    const double hz = period ? rate_hz(unit_ns) : 0;
+    if (expected.stated_hz && period && std::abs(hz / *expected.stated_hz - 1) > kSame) {
+      tally.tell(fmt::format("{} has {:.3g} rows a second, and {} states {:g} Hz",
+                             table.file.string(), hz, expected.stated_by, *expected.stated_hz));
+    }
+    return unit_ns;
+  };
+  const auto fitting = std::find_if(kTimeUnits.begin(), kTimeUnits.end(),
+                                    [&](const TimeUnit& unit) { return fits(unit.ns); });
+  const std::string file = table.file.string();
+  const std::string rate =
+      expected.stated_hz ? fmt::format("{} states {:g} Hz", expected.stated_by, *expected.stated_hz)
+                         : fmt::format("a sensor of its kind has {:g} to {:g} Hz",
+                                       expected.least_hz, expected.most_hz);
+  const auto contradict = [&](const std::string& by, std::int64_t unit_ns) {
+    throw input::Error(
+        {file, table.rows.front().line},
+        fmt::format("its times are {}, which gives {:.3g} rows a second, and {}; {}", by,
+                    rate_hz(unit_ns), rate,
+                    fitting == kTimeUnits.end()
+                        ? "correct one of the two"
+                        : fmt::format("if they are in {0}, give time_unit: {0}", fitting->name)));
+  };
+  if (const auto unit_ns = time_unit_named(asked)) {
+    if (expected.stated_hz && !fits(*unit_ns))
+      contradict("in " + asked + " by time_unit", *unit_ns);
+    return chosen(*unit_ns);
+  }
+  const std::string stated = column < table.header.size() ? unit_in(table.header[column]) : "";
+  if (const auto unit_ns = time_unit_named(stated)) {
+    if (!fits(*unit_ns)) contradict("in " + stated + " by its header", *unit_ns);
+    return chosen(*unit_ns);
+  }
+  if (usual && fits(*usual)) return chosen(*usual);
+  if (fitting == kTimeUnits.end()) {
+    throw input::Error(
+        {file, table.rows.front().line},
+        fmt::format("no unit of time gives its rows the rate that they can have: {}; "
+                    "give time_unit (s, ms, us or ns)",
+                    rate));
+  }
+  tally.add("tables of times do not state their unit, and are read in that which fits their rate",
+            fmt::format("{} in {}: {:.3g} Hz", file, fitting->name, rate_hz(fitting->ns)));
+  return chosen(fitting->ns);
 }
 
 }  // namespace lcs::replay

@@ -5,11 +5,15 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
-#include "tools/files/csv.h"
+#include "tools/replay/text_table.h"
 
 namespace lcs::replay {
+
+class Tally;
 
 /// The largest distance from the clock's zero (146 years), so that differences do not overflow.
 inline constexpr std::int64_t kFarthest_ns = std::numeric_limits<std::int64_t>::max() / 2;
@@ -18,22 +22,40 @@ inline bool is_time(std::int64_t t_ns) {
   return t_ns >= -kFarthest_ns && t_ns <= kFarthest_ns;
 }
 
-/// Parses a whole number of units as a time; absent if malformed or too far from zero.
-inline std::optional<std::int64_t> time_in(std::string_view text, std::int64_t unit_ns) {
-  const auto units = bench::number_in<std::int64_t>(text);
-  if (!units || *units > kFarthest_ns / unit_ns || *units < -kFarthest_ns / unit_ns) {
-    return std::nullopt;
-  }
-  return *units * unit_ns;
-}
+/// \name Units of time, in ns. @{
+inline constexpr std::int64_t kNanosecond_ns = 1, kMicrosecond_ns = 1000,
+                              kMillisecond_ns = 1'000'000, kSecond_ns = 1'000'000'000;
+/// \param name s, ms, us or ns, or a longer form of it; absent for another.
+std::optional<std::int64_t> time_unit_named(std::string_view name);
+///@}
 
-/// Parses seconds, as "1305031102.175304" or "1.5e-01"; absent if malformed or too far from zero.
-/// Fraction digits after the ninth are dropped.
-std::optional<std::int64_t> seconds_in(std::string_view text);
+/// Parses a number of units, as "1305031102.175304" or "1.5e-01"; absent if malformed or too far
+/// from zero. Exact to the nanosecond; further digits are dropped.
+std::optional<std::int64_t> time_in(std::string_view text, std::int64_t unit_ns);
 
 /// Parses UTC, as "2011-09-26" and "13:02:25.964389445", to nanoseconds since 1970, rounded; absent
 /// for an invalid time or a date outside the years 1900 to 2099. A leap second becomes the first
 /// second of the next minute.
 std::optional<std::int64_t> calendar_time_in(std::string_view date, std::string_view clock);
+
+/// The rate of the rows of a table, as far as it is known without their times.
+struct ExpectedRate {
+  double least_hz, most_hz;         ///< that such a sensor can have
+  std::optional<double> stated_hz;  ///< by the recording
+  std::string stated_by = {};       ///< file that states it
+};
+inline constexpr double kSlowestCamera_hz = 0.4, kFastestCamera_hz = 390;
+inline constexpr double kSlowestImu_hz = 12, kFastestImu_hz = 11'000;
+
+/// The unit of the times in a column of a table, in ns: `asked` (s, ms, us, ns), or that of the
+/// header, or the only one that gives the expected rate; this last is told, unless it is `usual`.
+/// \throws input::Error if a stated unit contradicts the rate, or no unit gives it.
+std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std::string& asked,
+                          const ExpectedRate& expected, std::optional<std::int64_t> usual,
+                          Tally& tally);
+
+/// The times of a column, by rows; absent where unreadable.
+std::vector<std::optional<std::int64_t>> times_in(const TextTable& table, std::size_t column,
+                                                  std::int64_t unit_ns);
 
 }  // namespace lcs::replay

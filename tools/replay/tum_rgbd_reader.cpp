@@ -14,7 +14,7 @@ constexpr const char* kPictures = "rgb.txt";
 constexpr const char* kTruth = "groundtruth.txt";
 
 void read_motion(const scenario::Recorded& asked, const fs::path& file, Recorded& recorded) {
-  const PosesFile file_poses = read_poses(file, recorded.tally);
+  const PosesFile file_poses = read_poses(file, asked.time_unit, recorded.tally);
   if (!file_poses.timed) {
     throw input::Error({file.string(), 0},
                        "its poses have no times; give them as TUM has them, or poses of your own");
@@ -39,9 +39,9 @@ bool is_tum_rgbd(const fs::path& folder) {
 
 Recorded read_tum_rgbd(const scenario::Recorded& asked, bool) {
   Recorded recorded;
-  const TextTable list = read_table(asked.path / kPictures, ' ');
+  const TextTable list = read_table(asked.path / kPictures);
   for (const TextTable::Row& row : list.rows) {
-    const auto t_ns = seconds_in(row.fields.front());
+    const auto t_ns = time_in(row.fields.front(), kSecond_ns);
     if (!t_ns || row.fields.size() < 2) {
       recorded.tally.add("rows cannot be read and are left out", list.at(row));
       continue;

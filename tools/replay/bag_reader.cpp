@@ -1,0 +1,128 @@
+// ROS 1 bags, rosbag2 (.db3) and MCAP. read_bag.py writes them as a folder in EuRoC's layout, by
+// PyPI's rosbags, and that folder is read.
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <memory>
+#include <set>
+#include <system_error>
+
+#include "scenarios/shipped.h"
+#include "tools/files/json_node.h"
+#include "tools/input/input_file.h"
+#include "tools/input/message.h"
+#include "tools/process/child.h"
+#include "tools/replay/recorded.h"
+
+namespace lcs::replay {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPosesFile = "poses.txt";
+constexpr input::FileKind kMessages{input::kMebibyte, "run it again"};
+
+/// A folder that is removed with all that is in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "lcs-bag-XXXXXX").string();
+    if (!::mkdtemp(name.data())) {
+      throw std::system_error(errno, std::generic_category(), name + " cannot be made");
+    }
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code error;
+    fs::remove_all(path_, error);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// Runs read_bag.py. \throws input::Error with its message if it fails.
+void run_reader(std::vector<std::string> arguments, const fs::path& errors, int out,
+                const input::Source& where) {
+  const char* python = std::getenv("LCS_PYTHON");
+  const fs::path script = scenario::shipped_folder("tools/replay") / "read_bag.py";
+  arguments.insert(arguments.begin(), {"env", python ? python : "python3", script.string()});
+  std::FILE* file = std::fopen(errors.c_str(), "wb");
+  if (!file) throw std::system_error(errno, std::generic_category(), errors.string());
+  const pid_t child =
+      process::start_child("/usr/bin/env", arguments, {.out = out, .err = ::fileno(file)},
+                           {.when_parent_ends = SIGTERM});
+  std::fclose(file);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  std::string said = input::read_file(errors, kMessages);
+  constexpr std::string_view kPrefix = "error: ";
+  if (said.starts_with(kPrefix)) said.erase(0, kPrefix.size());
+  throw input::Error(where, said.empty() ? "the bag was not read to its end; run it again"
+                                         : input::one_line(said));
+}
+
+}  // namespace
+
+bool is_bag(const fs::path& path) {
+  static const std::set<std::string> kEndings{".bag", ".mcap", ".db3"};
+  if (fs::is_regular_file(path)) return kEndings.contains(path.extension().string());
+  std::error_code error;
+  return std::any_of(fs::directory_iterator(path, error), {}, [](const fs::directory_entry& entry) {
+    return entry.path().extension() == ".mcap" || entry.path().extension() == ".db3";
+  });
+}
+
+Recorded read_bag(const scenario::Recorded& asked, bool exact_motion) {
+  const auto folder = std::make_shared<TemporaryFolder>();
+  const fs::path errors = folder->path() / "errors.txt", made = folder->path() / "recording";
+  const scenario::Recorded::Topics& topics = asked.topics;
+  std::vector<std::string> arguments{fs::absolute(asked.path).string()};
+  if (topics.image.empty()) {
+    run_reader(arguments, errors, STDOUT_FILENO, asked.source);
+    throw input::Error(asked.source,
+                       fmt::format("{} is a bag with the topics above; name that of its pictures "
+                                   "(topics.image, or --image-topic), and of an IMU or poses",
+                                   asked.path.string()));
+  }
+  const std::pair<const char*, const std::string&> options[] = {
+      {"--image-topic", topics.image},       {"--camera-info-topic", topics.camera_info},
+      {"--imu-topic", topics.imu},           {"--poses-topic", topics.poses},
+      {"--odometry-topic", topics.odometry}, {"--world-frame", topics.world},
+  };
+  for (const auto& [option, topic] : options) {
+    if (!topic.empty()) arguments.push_back(fmt::format("{}={}", option, topic));
+  }
+  arguments.push_back("--out=" + made.string());
+  run_reader(arguments, errors, -1, asked.source);
+
+  scenario::Recorded inner = asked;
+  inner.path = made;
+  inner.camera.clear();
+  const bool by_poses = !motion_is_asked(asked) && fs::exists(made / kPosesFile) &&
+                        (!topics.poses.empty() || !fs::exists(made / "mav0" / "imu0"));
+  const bool has_motion = by_poses || motion_is_asked(asked) || fs::exists(made / "mav0" / "imu0");
+  if (by_poses || !has_motion) inner.poses = made / kPosesFile;  // EuRoC's own motion is not read
+  Recorded recorded = read_euroc(inner, exact_motion);
+  if (by_poses) move_by_poses(inner, true, recorded);
+  recorded.keep = folder;
+  bench::read_json(made / "bag.json", kMessages, [&](const bench::JsonNode& json) {
+    json["told"].each([&](const bench::JsonNode& line) { recorded.tally.tell(line.text()); });
+    if (json.has("bayer")) recorded.format.demosaic = demosaic_of(json["bayer"].text());
+    return 0;
+  });
+  return recorded;
+}
+
+}  // namespace lcs::replay
