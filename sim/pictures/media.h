@@ -15,7 +15,7 @@ namespace lcs::sim {
 
 /// The formats of videos that FFmpeg may open, as its option format_whitelist.
 inline constexpr const char* kVideoFormats =
-    "mov,avi,matroska,mpeg,mpegts,flv,asf,ogg,h264,hevc,mjpeg";
+    "mov,avi,matroska,mpeg,mpegts,flv,asf,ogg,h264,hevc,mjpeg,jpeg_pipe";
 
 /// The times of all pictures of a video, in the order in which they are shown.
 struct VideoTimes {

@@ -6,6 +6,8 @@ extern "C" {
 
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
+#include <string_view>
+#include <vector>
 
 #include "sim/pictures/media.h"
 
@@ -19,6 +21,11 @@ const AVStream* first_video(const AVFormatContext& format) {
     if (format.streams[i]->codecpar->codec_type == AVMEDIA_TYPE_VIDEO) return format.streams[i];
   }
   return nullptr;
+}
+
+/// Whether a format is a stream of pictures alone, for which FFmpeg invents a rate.
+bool is_bare(std::string_view format) {
+  return format == "h264" || format == "hevc" || format == "mjpeg" || format == "jpeg_pipe";
 }
 
 /// Whether times go back only as far as pictures are decoded before they are shown. Parts of a
@@ -44,18 +51,29 @@ lcs::sim::VideoTimes video_times(const std::string& file) {
   if (opened < 0) return times;
   const bool is_known = avformat_find_stream_info(format, nullptr) >= 0;
   const AVStream* stream = is_known ? first_video(*format) : nullptr;
-  times.are_stated = stream && (format->iformat->flags & AVFMT_NOTIMESTAMPS) == 0;
-  times.counted = stream ? stream->nb_frames : 0;
+  times.are_stated = stream && !is_bare(format->iformat->name);
+  std::int64_t left_out = 0;  // by a list of edits
+  std::vector<std::int64_t> pts, dts;
   AVPacket* packet = av_packet_alloc();
   while (stream && packet && av_read_frame(format, packet) >= 0) {
-    if (packet->stream_index == stream->index && (packet->flags & AV_PKT_FLAG_DISCARD) == 0) {
-      // AVI has the order of decoding alone, which is that of showing there.
-      const std::int64_t time = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
-      times.are_stated = times.are_stated && time != AV_NOPTS_VALUE;
-      times.t_ns.push_back(
-          time == AV_NOPTS_VALUE ? 0 : av_rescale_q(time, stream->time_base, kNanoseconds));
+    if (packet->stream_index == stream->index) {
+      if ((packet->flags & AV_PKT_FLAG_DISCARD) != 0) {
+        ++left_out;
+      } else {
+        pts.push_back(packet->pts);
+        dts.push_back(packet->dts);
+      }
     }
     av_packet_unref(packet);
+  }
+  if (stream) times.counted = stream->nb_frames - left_out;
+  // AVI and MPEG's program streams lack some times of showing. Those of decoding are as far apart.
+  const auto is_missing = [](std::int64_t time) { return time == AV_NOPTS_VALUE; };
+  if (std::ranges::any_of(pts, is_missing)) pts = dts;
+  times.are_stated = times.are_stated && std::ranges::none_of(pts, is_missing);
+  for (const std::int64_t time : pts) {
+    times.t_ns.push_back(times.are_stated ? av_rescale_q(time, stream->time_base, kNanoseconds)
+                                          : 0);
   }
   av_packet_free(&packet);
   avformat_close_input(&format);

@@ -33,6 +33,12 @@ if [[ ! -f $root/.whole ]]; then
   touch "$root/.whole"
 fi
 
+# Where this machine reaches the package registry by settings and certificates of its own, the other
+# system needs them, too.
+for file in /etc/pip.conf /etc/ssl/certs/ca-certificates.crt; do
+  [[ ! -f $file ]] || cp --dereference "$file" "$root$file"
+done
+
 mkdir -p "$root/lcs"
 find "$root/lcs" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
 tar -C "$source" --exclude='./build*' --exclude=./.mujoco --exclude=./out --exclude=./.git -c . | tar -C "$root/lcs" -x

@@ -69,6 +69,7 @@ void run_reader(std::vector<std::string> arguments, const fs::path& errors, int 
   std::string said = input::read_file(errors, kMessages);
   constexpr std::string_view kPrefix = "error: ";
   if (said.starts_with(kPrefix)) said.erase(0, kPrefix.size());
+  if (said.starts_with(where.file + ": ")) said.erase(0, where.file.size() + 2);
   throw input::Error(where, said.empty() ? "the bag was not read to its end; run it again"
                                          : input::one_line(said));
 }
