@@ -129,6 +129,108 @@ TEST_F(Layouts, KittiRawRefusesACalibrationThatTurnsNothing) {
   }
 }
 
+TEST_F(Layouts, KittiTrackingHasItsStatesInOneFileAndTenPicturesASecond) {
+  const fs::path root = home_.path() / "training", pictures = root / "image_02/0004";
+  std::string states;
+  for (int k = 0; k < 6; ++k) {
+    const double t = 0.1 * k;
+    states += fmt::format("49.0 8.4 116 0 0 {} {} {} 5 0 0{}\n", Circle::yaw(t), Circle::north(t),
+                          Circle::east(t), " 0 0 9.8 0 0 9.8 0 0 0.2 0 0 0.2 0.1 0.05 4 10 4 4 0");
+    bench::write_picture(pictures / fmt::format("{:06}.png", k), cv::Mat1b(375, 1242, uchar{0}));
+  }
+  write(root / "oxts/0004.txt", states);
+  std::string calibration;
+  for (int k = 0; k < 4; ++k) {
+    calibration += fmt::format("P{}: 700 0 600 0 0 700 180 0 0 0 1 0\n", k);
+  }
+  write(root / "calib/0004.txt", calibration +
+                                     "R_rect 1 0 0 0 1 0 0 0 1\n"
+                                     "Tr_velo_cam 0 -1 0 0 0 0 -1 0 1 0 0 0\n"
+                                     "Tr_imu_velo 1 0 0 0 0 1 0 0 0 0 1 0\n");
+  for (const fs::path& path : {pictures, root}) {
+    EXPECT_EQ(layout_of(asked(path)).name, "kitti_tracking") << path;
+    Recorded recorded = read_kitti_tracking(asked(path), false);
+    ASSERT_EQ(recorded.frames.size(), 6u);
+    EXPECT_EQ(recorded.lens->cu_px, 600);
+    expect_circle(recorded, 0.1);
+  }
+  bench::write_picture(root / "image_02/0005/000000.png", cv::Mat1b(375, 1242, uchar{0}));
+  write(root / "calib/0005.txt", calibration);
+  EXPECT_NE(bench::refusal_of<std::runtime_error>([&] {
+              layout_of(asked(root));
+            }).find("holds several sequences"),
+            std::string::npos);
+}
+
+TEST_F(Layouts, Kitti360HasPosesOfSomePictures) {
+  const fs::path root = home_.path(), drive = root / "data_2d_raw/2013_05_28_drive_0000_sync";
+  std::string times, poses;
+  for (int k = 0; k < 9; ++k) {
+    times += fmt::format("2013-05-28 08:46:02.{}00000000\n", k);
+    // At 5 m/s, and not of each picture; x right, y down, z ahead.
+    if (k % 4 == 0) poses += fmt::format("{} 1 0 0 0 0 1 0 0 0 0 1 {} 0 0 0 1\n", k, 0.5 * k);
+  }
+  write(drive / "image_00/timestamps.txt", times);
+  bench::write_picture(drive / "image_00/data_rect/0000000000.png", cv::Mat1b(9, 9, uchar{0}));
+  write(root / "calibration/perspective.txt",
+        "P_rect_00: 552 0 682 0 0 552 238 0 0 0 1 0\nS_rect_00: 1408 376\n");
+  write(root / "data_poses" / drive.filename() / "cam0_to_world.txt", poses);
+  EXPECT_EQ(layout_of(asked(drive)).name, "kitti_360");
+  Recorded recorded = read_kitti_360(asked(drive), false);
+  ASSERT_EQ(recorded.frames.size(), 9u);
+  EXPECT_EQ(recorded.lens->width_px, 1408);
+  recorded.motion->at(recorded.frames[0].t_ns);
+  for (std::size_t k = 1; k < 9; ++k) {
+    EXPECT_NEAR(recorded.motion->at(recorded.frames[k].t_ns).v_C_mps.z(), 5, 1e-9);
+  }
+}
+
+TEST_F(Layouts, OfListedPicturesHaveTheTimesOfTheirList) {
+  for (int k = 0; k < 3; ++k) {
+    bench::write_picture(home_.path() / fmt::format("img/image_0_{}.png", k),
+                         cv::Mat1b(9, 9, uchar{0}));
+  }
+  write(home_.path() / "images.txt",
+        "# id timestamp image_name\n0 1545305824.900 img/image_0_0.png\n"
+        "1 1545305824.933 img/image_0_1.png\n2 1545305824.967 img/image_0_2.png\n");
+  EXPECT_EQ(layout_of(asked(home_.path())).name, "listed");
+  const Recorded recorded = read_listed(asked(home_.path()), false);
+  ASSERT_EQ(recorded.frames.size(), 3u);
+  EXPECT_EQ(recorded.frames[2].t_ns, 1'545'305'824'967'000'000);
+}
+
+TEST_F(Layouts, EurocOfTumViHasMotionCaptureAndNamesThatAreTimes) {
+  constexpr std::int64_t kStart_ns = 1'520'530'308'000'000'000;
+  const fs::path mav = home_.path() / "mav0";
+  std::string imu =
+      "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y,w_RS_S_z,a_RS_S_x,a_RS_S_y,a_RS_S_z\n";
+  std::string mocap =
+      "#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], "
+      "q_RS_z []\n";
+  for (int k = 0; k < 200; ++k) {
+    imu += fmt::format("{},0,0,0,0,0,9.81\n", kStart_ns + 5'000'000 * k);
+    mocap += fmt::format("{},{},0,0,1,0,0,0\n", kStart_ns + 5'000'000 * k, 0.01 * k);  // 2 m/s
+    if (k % 10 == 0) {
+      bench::write_picture(mav / fmt::format("cam0/data/{}.png", kStart_ns + 5'000'000 * k),
+                           cv::Mat1b(9, 9, uchar{0}));
+    }
+  }
+  write(mav / "imu0/data.csv", imu);
+  write(mav / "mocap0/data.csv", mocap);
+  EXPECT_EQ(layout_of(asked(home_.path())).name, "euroc");
+  scenario::Recorded ahead = asked(home_.path());
+  EXPECT_FALSE(read_euroc(ahead, false).lacks.empty()) << "where the camera is on the IMU";
+  ahead.mount_rpy_rad = Eigen::Vector3d::Zero();
+  Recorded recorded = read_euroc(ahead, false);
+  ASSERT_EQ(recorded.frames.size(), 20u);
+  for (const RecordedFrame& frame : recorded.frames) {
+    const EgoMotion motion = recorded.motion->at(frame.t_ns);
+    if (motion.dt_s > 0) {
+      EXPECT_NEAR(motion.v_C_mps.z(), 2, 1e-6);
+    }
+  }
+}
+
 TEST_F(Layouts, RobotCarGivesTheMotionOfItsInertialUnitFromNorthEastDown) {
   const fs::path run = home_.path() / "2014-05-19";
   std::string list,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -27,7 +28,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr const char* kNoTimes = "when its pictures were taken (fps, or times)";
-constexpr std::size_t kMostPictures = 100'000'000;
 
 /// The median rate of pictures with times; absent for fewer than two.
 std::optional<double> usual_rate_hz(const std::vector<RecordedFrame>& frames) {
@@ -80,17 +80,8 @@ void leave_out_without_pose(std::size_t poses, Recorded& recorded) {
   std::erase_if(frames, [&](const auto& frame) { return frame.number >= poses; });
 }
 
-/// Line k belongs to picture k, or to the one that it states.
-std::vector<PosesMotion::CameraPose> poses_by_number(const PosesFile& stated, Recorded& recorded) {
-  PosesFile file;
-  for (const auto& line : stated.lines) {
-    if (!line || !line->number) {
-      file.lines.push_back(line);
-    } else if (*line->number < kMostPictures) {
-      file.lines.resize(std::max(file.lines.size(), *line->number + 1));
-      file.lines[*line->number] = line;
-    }
-  }
+/// Line k belongs to picture k; pictures without a line are left out.
+std::vector<PosesMotion::CameraPose> poses_by_line(const PosesFile& file, Recorded& recorded) {
   leave_out_without_pose(file.lines.size(), recorded);
   std::vector<PosesMotion::CameraPose> poses;
   std::erase_if(recorded.frames, [&](RecordedFrame& frame) {
@@ -99,6 +90,19 @@ std::vector<PosesMotion::CameraPose> poses_by_number(const PosesFile& stated, Re
     if (line) frame.t_ns = poses.back().t_ns;
     return !line;
   });
+  return poses;
+}
+
+/// Each line states its picture; between them the motion is linear.
+std::vector<PosesMotion::CameraPose> poses_by_number(const PosesFile& file,
+                                                     const Recorded& recorded) {
+  std::map<std::size_t, std::int64_t> times_ns;
+  for (const RecordedFrame& frame : recorded.frames) times_ns[frame.number] = frame.t_ns;
+  std::vector<PosesMotion::CameraPose> poses;
+  for (const auto& line : file.lines) {
+    const auto found = line ? times_ns.find(*line->number) : times_ns.end();
+    if (found != times_ns.end()) poses.push_back({found->second, line->T_WC});
+  }
   return poses;
 }
 
@@ -306,7 +310,7 @@ std::optional<scenario::Origin> origin_of(const std::filesystem::path& pictures)
 void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& recorded) {
   PosesFile file = read_poses(*asked.poses, asked.time_unit, recorded.tally);
   if (file.of_body) join_camera(asked, file, recorded);
-  const bool by_number = !file.timed || !times_known;
+  const bool by_line = !file.timed || !times_known;
   if (!times_known && !file.timed) return;  // the missing times are reported elsewhere
   if (!times_known) {
     if (file.lines.size() != recorded.frames.size()) {
@@ -317,8 +321,9 @@ void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& 
       return;
     }
   }
-  auto poses =
-      by_number ? poses_by_number(file, recorded) : poses_by_time(file, recorded.has_own_clock);
+  auto poses = file.numbered ? poses_by_number(file, recorded)
+               : by_line     ? poses_by_line(file, recorded)
+                             : poses_by_time(file, recorded.has_own_clock);
   if (poses.empty()) {
     throw input::Error({asked.poses->string(), 0},
                        "none of the poses belongs to a picture; give a line for each picture");

@@ -115,6 +115,7 @@ PosesFile read_poses(const std::filesystem::path& file, const std::string& time_
   PosesFile poses;
   poses.of_body = table.find("p_RS_R_x").has_value();
   poses.timed = named || fields == kTumFields;
+  poses.numbered = !poses.timed && fields == kMatrix + 1;
   if (!poses.timed && fields != kRows && fields != kMatrix && fields != kMatrix + 1) {
     refuse(
         first.line,

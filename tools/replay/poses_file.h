@@ -17,12 +17,13 @@ namespace lcs::replay {
 struct PosesFile {
   struct Line {
     std::optional<std::int64_t> t_ns;   ///< if `timed`
-    std::optional<std::size_t> number;  ///< of the picture, if the line states it (KITTI-360)
+    std::optional<std::size_t> number;  ///< of the picture, if `numbered`
     sim::Pose T_WC;                     ///< `of_body`: T_WB
   };
   /// In file order; an unreadable line is empty, so that the others keep their index.
   std::vector<std::optional<Line>> lines;
   bool timed = false;
+  bool numbered = false;  ///< each line states its picture (KITTI-360)
   bool of_body = false;  ///< EuRoC's columns p_RS_R_x ...: poses of the body, not of the camera
 };
 
