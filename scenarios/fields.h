@@ -416,8 +416,9 @@ void fields(Recorded& recorded, Visit&& visit) {
         time_unit, Words{{"s", "ms", "us", "ns"}});
   visit({"every", "only every n-th picture is a frame"}, every, Whole{1, 10000});
   visit({"poses",
-         "how the camera moved: lines of TUM (`t x y z qx qy qz qw`) or of KITTI odometry (12 "
-         "numbers, line k of picture k); x right, y down, z ahead",
+         "how the camera moved: lines of TUM (`t x y z qx qy qz qw`), of KITTI odometry (12 "
+         "numbers, line k of picture k) or others (tools/replay/README.md); x right, y down, z "
+         "ahead",
          "the layout's own"},
         poses, File{});
   visit({"odometry",
@@ -426,8 +427,9 @@ void fields(Recorded& recorded, Visit&& visit) {
          "none"},
         odometry, File{});
   visit({"imu",
-         "in place of `poses`: readings, CSV with EuRoC's columns; axes are the vehicle's (x "
-         "ahead, y left, z up), which starts upright",
+         "in place of `poses`: a table of readings (tools/replay/README.md); axes are the "
+         "vehicle's (x ahead, y left, z up), which starts upright, or any if `calibration` states "
+         "the camera's place on the IMU",
          odometry ? kRequired : "the layout's own"},
         imu, File{});
   visit({"speed",

@@ -67,11 +67,11 @@ constexpr KeyOption kKeys[] = {
     {"time_unit", "UNIT", "Of times in tables and names of pictures: s, ms, us or ns"},
     {"every", "N", "Take every N-th picture only"},
     {"poses", "FILE",
-     "Poses of the camera: lines of TUM (t x y z qx qy qz qw) or KITTI (12 numbers)"},
+     "Poses of the camera: lines of TUM (t x y z qx qy qz qw) or KITTI (12 numbers), or a table"},
     {"imu", "FILE",
-     "Readings of an IMU, CSV as EuRoC's; where pictures have no clock the first one belongs to "
-     "the "
-     "first picture, --speed is the speed then"},
+     "Readings of an IMU, a table with a header as EuRoC's, ROS's or a phone's; where pictures "
+     "have "
+     "no clock the first one belongs to the first picture, --speed is the speed then"},
     {"odometry", "FILE", "Velocities by the wheels beside them, CSV as EuRoC's"},
     {"speed", "M/S", "Of the camera, ahead, in m/s; 0 where it stands"},
     {"at_rest", "S", "It stands for as long at the start, in s"},
