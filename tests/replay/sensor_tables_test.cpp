@@ -179,6 +179,15 @@ TEST_F(SensorTable, OfPosesHasTheColumnsOfItsFormat) {
   EXPECT_EQ(named.lines[1]->t_ns, 200'000'000);
   EXPECT_EQ(poses("1 0 0 4 0 1 0 5 0 0 1 6 0 0 0 1\n").lines[0]->T_WC.p.y(), 5);
   EXPECT_EQ(poses("7 1 0 0 4 0 1 0 5 0 0 1 6 0 0 0 1\n").lines[0]->number, 7u);
+  const std::string state =
+      "#timestamp,p_RS_R_x,p_RS_R_y,p_RS_R_z,q_RS_w,q_RS_x,q_RS_y,q_RS_z,v_RS_R_x,v_RS_R_y,"
+      "v_RS_R_z\n";
+  EXPECT_NO_THROW(
+      poses(state + "1000000000,0,0,0,1,0,0,0,9,0,0\n1500000000,4.5,0,0,1,0,0,0,9,0,0\n"));
+  EXPECT_NE(refusal_of<input::Error>([&] {
+              poses(state + "1000000000,0,0,0,1,0,0,0,9,0,0\n1500000000,0,0,0,1,0,0,0,9,0,0\n");
+            }).find("its positions move by 0 m in all, and its velocities by 4.5 m"),
+            std::string::npos);
   EXPECT_NE(refusal_of<input::Error>([&] { poses("1,0,0,0,1,0,0,0\n"); }).find("give it a header"),
             std::string::npos);
 }

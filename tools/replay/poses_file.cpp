@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -93,6 +94,40 @@ std::optional<Places> named_places(const TextTable& table) {
   return places;
 }
 
+/// Refuses positions that contradict the velocities of the same table, as EuRoC's truth has them.
+void require_velocities(const TextTable& table, const PosesFile& poses) {
+  const auto column = table.find("v_RS_R_x");
+  if (!column) return;
+  constexpr double kLeast_m = 1, kFactor = 2;
+  double by_places_m = 0, by_velocities_m = 0;
+  const PosesFile::Line* before = nullptr;
+  for (std::size_t i = 0; i < poses.lines.size(); ++i) {
+    const auto& line = poses.lines[i];
+    Eigen::Vector3d v_mps;
+    bool is_whole = line.has_value();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto number = bench::number_in<double>(TextTable::field(table.rows[i], *column + axis));
+      is_whole = is_whole && number;
+      v_mps[static_cast<Eigen::Index>(axis)] = number.value_or(0);
+    }
+    if (!is_whole) continue;
+    if (before) {
+      by_places_m += (line->T_WC.p - before->T_WC.p).norm();
+      by_velocities_m += 1e-9 * static_cast<double>(*line->t_ns - *before->t_ns) * v_mps.norm();
+    }
+    before = &*line;
+  }
+  if (std::max(by_places_m, by_velocities_m) < kLeast_m ||
+      (by_places_m < kFactor * by_velocities_m && by_velocities_m < kFactor * by_places_m)) {
+    return;
+  }
+  throw input::Error(
+      {table.file.string(), 0},
+      fmt::format("its positions move by {:.3g} m in all, and its velocities by {:.3g} m; correct "
+                  "one of the two, or give other poses",
+                  by_places_m, by_velocities_m));
+}
+
 }  // namespace
 
 std::optional<Eigen::Matrix3d> rotation_of(const Eigen::Matrix3d& R) {
@@ -148,6 +183,7 @@ PosesFile read_poses(const std::filesystem::path& file, const std::string& time_
     if (!line) tally.add("rows cannot be read and are left out", table.at(row));
     any |= line.has_value();
   }
+  require_velocities(table, poses);
   if (any) return poses;
   throw input::Error({file.string(), 0},
                      "holds no pose; give a line of 8 numbers (TUM) or 12 (KITTI) for each");
