@@ -63,6 +63,8 @@ TEST(PictureNames, ThatAreTimesGiveThem) {
   const std::vector<std::int64_t> epoch{1'403'636'579'763'555'584, 1'403'636'579'813'555'456};
   EXPECT_EQ(ordered({"1403636579763555584.png", "1403636579813555456.png"}).t_ns, epoch);
   EXPECT_EQ(ordered({"1403636579763555.584.png", "1403636579813555.456.png"}, "us").t_ns, epoch);
+  EXPECT_EQ(ordered({"1403636579_763555584.png", "1403636580_000000001.png"}).t_ns[1],
+            1'403'636'580'000'000'001);
   EXPECT_EQ(ordered({"img_1700000000100.jpg", "img_1700000000200.jpg"}).t_ns[1],
             1'700'000'000'200'000'000);
   EXPECT_TRUE(ordered({"000001.png", "000002.png"}).t_ns.empty());

@@ -112,6 +112,23 @@ bool is_calendar(const Name& name) {
       .has_value();
 }
 
+constexpr std::int64_t kFirstEpoch_s = 1'000'000'000, kLastEpoch_s = 2'000'000'000;  // 2001, 2033
+
+/// Seconds since 1970 and nanoseconds, as ROS names pictures: 1403636579_763555584. Absent for
+/// other numbers.
+std::optional<std::int64_t> seconds_and_nanoseconds(const Name& name) {
+  if (name.numbers.size() != 2 || name.digits.size() != name.numbers[0].whole.size() + 9) {
+    return std::nullopt;
+  }
+  const auto seconds = time_in(name.numbers[0].text(), kSecond_ns);
+  const auto rest = time_in(name.numbers[1].text(), kNanosecond_ns);
+  if (!seconds || !rest || *seconds / kSecond_ns < kFirstEpoch_s ||
+      *seconds / kSecond_ns > kLastEpoch_s) {
+    return std::nullopt;
+  }
+  return *seconds + *rest;
+}
+
 /// Sorts by one number first, then by the others from the first one on.
 void sort_by(std::vector<Name>& names, std::size_t first) {
   std::stable_sort(names.begin(), names.end(), [&](const Name& a, const Name& b) {
@@ -151,6 +168,9 @@ void sort_by_numbers(std::vector<Name>& names) {
                       [](const Name& a, const Name& b) { return a.file == b.file; });
     if (differ.first == names.end()) continue;
     if (std::all_of(names.begin(), names.end(), is_calendar)) return;
+    if (std::all_of(names.begin(), names.end(),
+                    [](const Name& name) { return seconds_and_nanoseconds(name).has_value(); }))
+      return;
     refuse(names.front(),
            fmt::format("{} of {} numbers in the names vary, and another one gives another order: "
                        "{} may be the next",
@@ -195,6 +215,10 @@ std::vector<std::int64_t> times_of(const std::vector<Name>& names, std::size_t p
   std::vector<std::int64_t> times;
   for (const Name& name : names) {
     const Number& number = name.numbers[place];
+    if (const auto both = seconds_and_nanoseconds(name); both && time_unit.empty()) {
+      times.push_back(*both);
+      continue;
+    }
     const auto unit_ns = unit_of(number, time_unit);
     const auto t_ns = unit_ns ? time_in(number.text(), *unit_ns) : std::nullopt;
     if (!t_ns) return {};

@@ -20,8 +20,8 @@ struct OrderedPictures {
 };
 
 /// Sorts pictures by the numbers in their names: frame2.png precedes frame10.png. A number may have
-/// a fraction. Names are times if they are seconds with a fraction, or ms, us or ns since 1970, at
-/// the rate of a camera; or if `time_unit` (s, ms, us or ns) is given.
+/// a fraction. Names are times if they are seconds with a fraction, seconds and nanoseconds, or ms,
+/// us or ns since 1970, at the rate of a camera; or if `time_unit` (s, ms, us or ns) is given.
 /// \throws input::Error that names the folder if two orders are possible: two numbers vary
 /// independently, two names have the same numbers, or only some names have numbers.
 OrderedPictures in_order(std::vector<std::filesystem::path> files, const std::string& time_unit);

@@ -62,7 +62,7 @@ void take_unordered(const fs::path& folder, Recorded& recorded) {
 
 /// The first of the usual lists of times that is in a folder; "" if none is.
 fs::path list_in(const fs::path& folder) {
-  for (const char* name : {"times.txt", "images.txt", "timestamps.txt", "times.csv"}) {
+  for (const char* name : {"times.txt", "images.txt", "timestamps.txt", "times.csv", "color.txt"}) {
     if (fs::exists(folder / name)) return folder / name;
   }
   return "";
@@ -71,7 +71,7 @@ fs::path list_in(const fs::path& folder) {
 /// The folder of the pictures beside such a list; "" if there is none.
 fs::path pictures_of_list(const fs::path& folder) {
   for (const char* name : {"images", "img", "undistorted_images/cam0", "distorted_images/cam0",
-                           "cam0", "frames", "rgb", "."}) {
+                           "cam0", "frames", "rgb", "color", "."}) {
     if (fs::is_directory(folder / name) && is_pictures(folder / name)) return folder / name;
   }
   return "";

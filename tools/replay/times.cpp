@@ -211,7 +211,7 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
                     "give time_unit (s, ms, us or ns)",
                     rate));
   }
-  tally.add("tables of times do not state their unit, and are read in that which fits their rate",
+  tally.add("tables of times do not state their unit, and are read in the unit that fits their rate",
             fmt::format("{} in {}: {:.3g} Hz", file, fitting->name, rate_hz(fitting->ns)));
   return chosen(fitting->ns);
 }
