@@ -11,15 +11,12 @@ import argparse
 import contextlib
 import json
 import math
-import os
 import shutil
-import statistics
-import struct
 import sys
-from array import array
 from bisect import bisect_left
+from functools import partial
 from pathlib import Path
-from typing import Any, Callable, Iterator, NamedTuple
+from typing import Any, Callable, Iterable, Iterator, NamedTuple, NoReturn
 
 try:
     import numpy as np
@@ -30,8 +27,6 @@ try:
     HAS_ROSBAGS = True
 except ImportError:
     HAS_ROSBAGS = False
-except KeyboardInterrupt:
-    sys.exit(130)
 
 SECOND_NS = 10**9
 TF = ("tf2_msgs/msg/TFMessage", "tf/msg/tfMessage")
@@ -43,12 +38,6 @@ KINDS = {
               "geometry_msgs/msg/TransformStamped", "nav_msgs/msg/Odometry", *TF),
     "odometry": ("nav_msgs/msg/Odometry",),
 }  # fmt: skip
-REMEDIES = {
-    ".bag": "'rosbag reindex' repairs a bag that was cut short",
-    ".mcap": "'mcap recover' repairs a file that was cut short",
-    ".db3": "'sqlite3 FILE .recover' saves the rows that are whole",
-    "": "'ros2 bag reindex' makes its metadata.yaml anew",
-}
 # Encoding: channels, those of red, green and blue (or of grey), bytes of a channel.
 ENCODINGS = {
     "mono8": (1, [0], 1), "8UC1": (1, [0], 1), "mono16": (1, [0], 2), "16UC1": (1, [0], 2),
@@ -56,14 +45,15 @@ ENCODINGS = {
     "rgba8": (4, [0, 1, 2], 1), "bgra8": (4, [2, 1, 0], 1),
     **{f"bayer_{pattern}8": (1, [0], 1) for pattern in ("rggb", "bggr", "gbrg", "grbg")},
 }  # fmt: skip
-JPEG, PNG = b"\xff\xd8\xff", b"\x89PNG\r\n\x1a\n"
-IMU_HEADER = (
-    "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
-    "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]"
-)
-ODOMETRY_HEADER = (
-    "#timestamp [ns],v_RB_B_x [m s^-1],v_RB_B_y [m s^-1],v_RB_B_z [m s^-1],w_RB_B_z [rad s^-1]"
-)
+MAGIC = {b"P5\n": "pgm", b"P6\n": "ppm", b"\xff\xd8\xff": "jpg", b"\x89PNG\r\n\x1a\n": "png"}
+DISTORTIONS = dict.fromkeys(("plumb_bob", "rational_polynomial"), "radial-tangential")
+DISTORTIONS |= dict.fromkeys(("equidistant", "fisheye"), "equidistant")
+HEADERS = {
+    "imu": "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
+           "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]",
+    "odometry": "#timestamp [ns],v_RB_B_x [m s^-1],v_RB_B_y [m s^-1],v_RB_B_z [m s^-1],"
+                "w_RB_B_z [rad s^-1]",
+}  # fmt: skip
 
 
 class Refusal(Exception):
@@ -82,25 +72,19 @@ class Pose(NamedTuple):
     q: np.ndarray
     p: np.ndarray
 
-    def rotation(self) -> np.ndarray:
-        w, x, y, z = self.q
-        return np.array([
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ])  # fmt: skip
+    def turned(self, vectors: np.ndarray) -> np.ndarray:
+        """A vector of B, or one in each row, in A's axes."""
+        w, v = self.q[0], self.q[1:]
+        return vectors + 2 * np.cross(v, w * vectors + np.cross(v, vectors))
 
     def __matmul__(self, other: Pose) -> Pose:
         w, v, other_w, other_v = self.q[0], self.q[1:], other.q[0], other.q[1:]
-        q = np.array([w * other_w - v @ other_v, *(w * other_v + other_w * v + np.cross(v, other_v))])
-        return Pose(q, self.p + self.rotation() @ other.p)
+        vector = w * other_v + other_w * v + np.cross(v, other_v)
+        return Pose(np.array([w * other_w - v @ other_v, *vector]), self.p + self.turned(other.p))
 
     def inverse(self) -> Pose:
-        turn = Pose(self.q * [1, -1, -1, -1], np.zeros(3))
-        return turn._replace(p=-(turn.rotation() @ self.p))
-
-
-Edge = tuple  # (A, B) of a T_AB in tf: names of the parent and the child
+        turn = Pose(self.q * [1, -1, -1, -1], self.p)
+        return turn._replace(p=-turn.turned(self.p))
 
 
 def identity() -> Pose:
@@ -124,10 +108,6 @@ def fault_of(fault: BaseException) -> str:
     return one_line(fault)[:150].rstrip(". ") or type(fault).__name__
 
 
-def shown(type_: str) -> str:
-    return one_line(type_).replace("/msg/", "/")
-
-
 def frame_of(name: str) -> str:
     """Old releases of tf begin a name with a slash, new ones do not."""
     return name.lstrip("/")
@@ -135,266 +115,186 @@ def frame_of(name: str) -> str:
 
 def stamp_of(header: Any) -> int:
     """The header's time in ns."""
-    if header.stamp.sec < 0 or not 0 <= header.stamp.nanosec < SECOND_NS:
-        raise ValueError("the header's stamp is no time")
     return header.stamp.sec * SECOND_NS + header.stamp.nanosec
 
 
 class Bag:
-    """The messages of a bag, in the order of their receive times. A fault that leaves some of them
-    out, and whatever is assumed, becomes a line of `told`."""
+    """The messages of a bag. `told` has a line on each that is left out, and on all assumptions."""
 
-    def __init__(self, path: Path, stack: contextlib.ExitStack) -> None:
+    def __init__(self, path: Path) -> None:
         self.told: list[str] = []
-        self._readers: list[Any] = []
-        self._stores: dict[str, Any] = {}
+        self._is_ros1 = path.suffix == ".bag"
+        parts = [path]
+        if path.is_dir() and not (path / "metadata.yaml").exists():
+            files = [file for file in path.iterdir() if file.suffix in (".db3", ".mcap")]
+            parts = sorted(files, key=lambda file: (len(file.name), file.name)) or [path]
+        self._readers = [(Reader1 if self._is_ros1 else Reader2)(part) for part in parts]
+        for reader in self._readers:
+            reader.open()
+        self._connections = [c for reader in self._readers for c in reader.connections]
         counts: dict[tuple[str, str], int] = {}
-        parts = self._parts(path)
-        try:
-            for part in parts:
-                reader = Reader1(part) if part.suffix == ".bag" else Reader2(part)
-                self._readers.append(stack.enter_context(reader))
-                wal = Path(f"{part}-wal")
-                if wal.is_file() and wal.stat().st_size:
-                    self.tell(f"the messages in {wal.name} are left out: SQLite has not joined them")
-            self._connections = [(r, c) for r in self._readers for c in r.connections]
-            for _, c in self._connections:
-                key = (str(c.topic), str(c.msgtype))
-                counts[key] = counts.get(key, 0) + int(c.msgcount)
-        except Exception as fault:  # of any kind: rosbags passes those of its libraries on
-            remedy = REMEDIES["" if path.is_dir() else path.suffix]
-            raise Refusal(f"cannot be read as a bag: {fault_of(fault)}; {remedy}") from None
+        for c in self._connections:
+            counts[c.topic, c.msgtype] = counts.get((c.topic, c.msgtype), 0) + c.msgcount
         self.topics = [Topic(*key, count) for key, count in sorted(counts.items())]
-
-    @staticmethod
-    def _parts(path: Path) -> list[Path]:
-        if not path.exists():
-            raise Refusal("there is no such file; give a .bag, .db3, .mcap or a folder of rosbag2")
-        if not path.is_dir():
-            if path.suffix in REMEDIES and path.suffix:
-                return [path]
-            raise Refusal("its name ends in none of .bag, .db3, .mcap; give one of these")
-        if (path / "metadata.yaml").exists():
-            return [path]
-        files = [file for file in path.iterdir() if file.suffix in (".db3", ".mcap")]
-        if not files:
-            raise Refusal("the folder has no metadata.yaml, .db3 or .mcap; give one of rosbag2")
-        return sorted(files, key=lambda file: (len(file.name), file.name))
 
     def tell(self, line: str) -> None:
         if one_line(line) not in self.told:
             self.told.append(one_line(line))
 
-    def messages(self, topics: list[Topic], start_ns: int | None = None) -> Iterator[tuple]:
-        """Topic, receive time in ns and bytes of each message; ends where the bag cannot be read."""
+    def messages(self, topics: Iterable[Topic]) -> Iterator[tuple[Topic, int, bytes]]:
+        """Topic, receive time in ns and bytes of each message; ends where the bag is damaged."""
         wanted = {topic[:2]: topic for topic in topics}
         for reader in self._readers:
-            mine = [c for r, c in self._connections if r is reader and (c.topic, c.msgtype) in wanted]
+            mine = [c for c in reader.connections if (c.topic, c.msgtype) in wanted]
             try:
-                for c, t_ns, data in reader.messages(mine, start=start_ns) if mine else ():
-                    if isinstance(t_ns, int):
-                        yield wanted[(c.topic, c.msgtype)], t_ns, data
-                    else:  # SQLite's columns can hold any type
-                        self.tell(f"messages of {c.topic} have no receive time and are left out")
-            except Exception as fault:
+                for c, t_ns, data in reader.messages(mine) if mine else ():  # of none it gives all
+                    yield wanted[c.topic, c.msgtype], t_ns, data
+            except Exception as fault:  # of any kind: rosbags passes those of its libraries on
                 self.tell(f"the bag is read up to a fault, and no further: {fault_of(fault)}")
 
-    def _parse(self, topic: Topic, data: bytes) -> Any:
-        is_ros1 = isinstance(self._readers[0], Reader1)
-        if topic.type not in self._stores:
-            self._stores[topic.type] = self._store_of(topic, is_ros1)
-        store = self._stores[topic.type]
-        return (store.deserialize_ros1 if is_ros1 else store.deserialize_cdr)(data, topic.type)
+    def _parser(self, type_: str) -> Callable[[bytes, str], Any]:
+        """Of the bag's definition of a type, or if there is none of ROS's."""
+        store = get_typestore(Stores.ROS1_NOETIC if self._is_ros1 else Stores.ROS2_HUMBLE)
+        for c in self._connections:
+            if c.msgtype == type_ and c.msgdef.format.name == "MSG":
+                with contextlib.suppress(Exception):  # the definition is damaged
+                    own = get_typestore(Stores.EMPTY)
+                    own.register(get_types_from_msg(c.msgdef.data, type_))
+                    own.get_msgdef(type_)
+                    store = own
+        return store.deserialize_ros1 if self._is_ros1 else store.deserialize_cdr
 
-    def _store_of(self, topic: Topic, is_ros1: bool) -> Any:
-        """The bag's definition of a type, or that of ROS."""
-        for _, connection in self._connections:
-            if connection.msgtype != topic.type or connection.msgdef.format.name != "MSG":
-                continue
+    def read(self, readers: list[tuple[Topic, Callable[[Any, int], None]]]) -> None:
+        """Passes each message and its receive time to its readers, and tells the damaged ones."""
+        parsers = {topic: self._parser(topic.type) for topic, _ in readers}
+        left_out: dict[Topic, list[str]] = {topic: [] for topic in parsers}
+        for topic, t_ns, data in self.messages(parsers):
             try:
-                store = get_typestore(Stores.EMPTY)
-                store.register(get_types_from_msg(connection.msgdef.data, topic.type))
-                store.get_msgdef(topic.type)
-                return store
-            except Exception:
-                self.tell(f"the bag's definition of {shown(topic.type)} is damaged; ROS's is used")
-        return get_typestore(Stores.ROS1_NOETIC if is_ros1 else Stores.ROS2_HUMBLE)
-
-    def read(self, handlers: dict[Topic, Callable[[Any, int], Any]]) -> None:
-        """Passes each message and its receive time to its topic's handler. Counts and leaves out
-        those that are damaged: rosbags or the handler raises."""
-        left_out: dict[Topic, tuple[int, str]] = {}
-        for topic, t_ns, data in self.messages(list(handlers)):
-            try:
-                handlers[topic](self._parse(topic, data), t_ns)
+                message = parsers[topic](data, topic.type)
+                for wanted, read in readers:
+                    if wanted == topic:
+                        read(message, t_ns)
             except (Refusal, OSError):
                 raise
             except Exception as fault:
-                count, first = left_out.get(topic, (0, f"at {t_ns} ns: {fault_of(fault)}"))
-                left_out[topic] = (count + 1, first)
-        for topic, (count, first) in left_out.items():
-            self.tell(f"{count} messages of {topic.name} are unreadable and left out, first {first}")
-
-    def span_ns(self, topic: Topic) -> int:
-        """Time from the first message to the last; seeks the last in ever longer ends of the bag."""
-        first = next((t_ns for _, t_ns, _ in self.messages([topic])), 0)
-        end = max(reader.end_time for reader in self._readers)
-        back, last = SECOND_NS, None
-        while last is None and end - back > first:
-            last = max((t_ns for _, t_ns, _ in self.messages([topic], end - back)), default=None)
-            back *= 16
-        if last is None:
-            last = max((t_ns for _, t_ns, _ in self.messages([topic])), default=first)
-        return last - first
-
-
-def transforms_in(message: Any) -> Iterator[tuple[Edge, int, Pose]]:
-    """Frames, stamp in ns and T_AB of each valid transform."""
-    for one in message.transforms:
-        with contextlib.suppress(ValueError):
-            T_AB = pose_of(one.transform.translation, one.transform.rotation)
-            edge = (frame_of(one.header.frame_id), frame_of(one.child_frame_id))
-            yield edge, stamp_of(one.header), T_AB
+                left_out[topic].append(f"first at {t_ns} ns: {fault_of(fault)}")
+        for topic, faults in left_out.items():
+            if faults:
+                self.tell(f"{len(faults)} messages of {topic.name} are unreadable and left out, "
+                          f"{faults[0]}")  # fmt: skip
 
 
 class Frames:
-    """The transforms of tf: the static ones, and the first and the moving of the others."""
+    """T_AB by the frames (A, B) of tf: the pose at each time if `keeps_all`, else the first."""
 
-    def __init__(self, bag: Bag) -> None:
-        self._bag = bag
-        self._static: dict[Edge, Pose] = {}
-        self._timed: dict[Edge, Pose] = {}
-        self._moving: set[Edge] = set()
+    def __init__(self, bag: Bag, by_stamp: bool, keeps_all: bool) -> None:
+        self._by_stamp, self._keeps_all = by_stamp, keeps_all
+        self._poses: dict[tuple, dict[int, Pose]] = {}
+        self._static: set[tuple] = set()
+        self._moving: set[tuple] = set()
         topics = [topic for topic in bag.topics if topic.type in TF]
-        bag.read({t: self._fix if t.name.endswith("tf_static") else self._watch for t in topics})
+        bag.read([(t, partial(self._read, t.name.endswith("tf_static"))) for t in topics])
+        self._moving -= self._static
+        self._first = {edge: next(iter(poses.values())) for edge, poses in self._poses.items()}
+        self._times = {edge: sorted(poses) for edge, poses in self._poses.items()}
 
-    def _fix(self, message: Any, _: int) -> None:
-        for edge, _, T_AB in transforms_in(message):
-            self._static[edge] = T_AB
+    def _read(self, is_static: bool, message: Any, t_ns: int) -> None:
+        for one in message.transforms:
+            with contextlib.suppress(ValueError):
+                T_AB = pose_of(one.transform.translation, one.transform.rotation)
+                edge = (frame_of(one.header.frame_id), frame_of(one.child_frame_id))
+                if is_static:
+                    self._static.add(edge)
+                    self._poses[edge] = {}  # of several the last holds
+                poses = self._poses.setdefault(edge, {})
+                first = next(iter(poses.values()), T_AB)
+                if max(abs(first.p - T_AB.p)) > 1e-6 or abs(first.q @ T_AB.q) < 1 - 1e-12:
+                    self._moving.add(edge)
+                if self._keeps_all or not poses:
+                    poses.setdefault(stamp_of(one.header) if self._by_stamp else t_ns, T_AB)
 
-    def _watch(self, message: Any, _: int) -> None:
-        for edge, _, T_AB in transforms_in(message):
-            first = self._timed.setdefault(edge, T_AB)
-            if max(abs(first.p - T_AB.p)) > 1e-6 or abs(first.q @ T_AB.q) < 1 - 1e-12:
-                self._moving.add(edge)
-
-    def path(self, start: str, goal: str, rigid: bool) -> list[tuple[Edge, bool]] | None:
-        """The edges from start to goal, each with whether it leads from parent to child."""
-        near: dict[str, list] = {}
-        for edge in {**self._timed, **self._static}:
-            if not rigid or edge in self._static or edge not in self._moving:
-                near.setdefault(edge[0], []).append((edge[1], (edge, True)))
-                near.setdefault(edge[1], []).append((edge[0], (edge, False)))
-        paths: dict[str, list] = {start: []}
-        queue = [start]
+    def _path(self, a: str, b: str, edges: Iterable[tuple]) -> list[tuple[tuple, bool]] | None:
+        """The edges from frame a to b, each with whether it leads from parent to child."""
+        paths: dict[str, list] = {frame_of(a): []}
+        queue = [frame_of(a)]
         for frame in queue:  # grows in the loop
-            for other, step in near.get(frame, []):
-                if other not in paths:
-                    paths[other] = paths[frame] + [step]
-                    queue.append(other)
-        return paths.get(goal)
+            for parent, child in edges:
+                for here, there in ((parent, child), (child, parent)):
+                    if here == frame and there not in paths:
+                        paths[there] = [*paths[frame], ((parent, child), here == parent)]
+                        queue.append(there)
+        return paths.get(frame_of(b))
 
     def rigid(self, a: str, b: str) -> Pose | None:
         """T_AB, absent unless transforms that never change link the two."""
-        path = self.path(a, b, rigid=True) if a and b else None
-        return None if path is None else along(path, {**self._timed, **self._static}.get)
+        path = self._path(a, b, self._poses.keys() - self._moving)
+        return None if path is None else along(path, self._first.__getitem__)
 
-    def poses(self, world: str | None, camera: str, by_stamp: bool) -> list[tuple[int, Pose]]:
+    def poses(self, world: str | None, camera: str) -> Iterator[tuple[int, Pose]]:
         """Times in ns and T_WC, at the times of the fastest moving transform between the two."""
         if world is None:
-            roots = sorted({a for a, _ in self._timed} - {b for _, b in self._timed})
-            raise Refusal(f"tf has many frames; give --world-frame, perhaps {' or '.join(roots[:5])}")
-        path = self.path(frame_of(world), camera, rigid=False) or []
+            roots = sorted({a for a, _ in self._poses} - {b for _, b in self._poses})
+            raise Refusal(f"tf has many frames; give --world-frame, perhaps {' or '.join(roots)}")
+        path = self._path(world, camera, self._poses) or []
         timed = [edge for edge, _ in path if edge not in self._static]
         if not timed:
             raise Refusal(f"no moving transform of tf links the frames {world!r} and {camera!r} "
                           "(camera); give another --world-frame")  # fmt: skip
-        series: dict[Edge, dict[int, Pose]] = {edge: {} for edge in timed}
+        pace = max(timed, key=lambda edge: (edge in self._moving, len(self._times[edge])))
+        for t_ns in self._times[pace]:
+            with contextlib.suppress(LookupError):
+                yield t_ns, along(path, partial(self._pose_at, t_ns))
 
-        def read(message: Any, t_ns: int) -> None:
-            for edge, stamp, T_AB in transforms_in(message):
-                if edge in series:
-                    series[edge].setdefault(stamp if by_stamp else t_ns, T_AB)
+    def _pose_at(self, t_ns: int, edge: tuple) -> Pose:
+        """T_AB at a time. Raises LookupError outside the times."""
+        poses, times = self._poses[edge], self._times[edge]
+        if edge not in self._moving or t_ns in poses:
+            return poses.get(t_ns, self._first[edge])
+        after = bisect_left(times, t_ns)
+        if after in (0, len(times)):
+            raise LookupError
+        one, two = poses[times[after - 1]], poses[times[after]]
+        b = (t_ns - times[after - 1]) / (times[after] - times[after - 1])
+        a, cosine = 1 - b, one.q @ two.q
+        turns = math.acos(min(abs(cosine), 1.0)) / math.pi
+        q = a * np.sinc(a * turns) * one.q + math.copysign(b, cosine) * np.sinc(b * turns) * two.q
+        return Pose(q / np.linalg.norm(q), a * one.p + b * two.p)
 
-        self._bag.read({topic: read for topic in self._bag.topics if topic.type in TF})
-        times = {edge: sorted(poses) for edge, poses in series.items()}
-        fixed = {**self._timed, **self._static}
-        pace = max(timed, key=lambda edge: (edge in self._moving, len(times[edge])))
 
-        def T_at(t_ns: int) -> Pose | None:
-            return along(path, lambda edge: between(times[edge], series[edge], t_ns)
-                         if edge in timed and edge in self._moving else fixed[edge])  # fmt: skip
-
-        return [(t_ns, T_WC) for t_ns in times[pace] if (T_WC := T_at(t_ns)) is not None]
-
-
-def along(path: list[tuple[Edge, bool]], T_of: Callable[[Edge], Pose | None]) -> Pose | None:
+def along(path: list[tuple[tuple, bool]], T_of: Callable[[tuple], Pose]) -> Pose:
     T = identity()
     for edge, is_forward in path:
-        step = T_of(edge)
-        if step is None:
-            return None
-        T = T @ (step if is_forward else step.inverse())
+        T = T @ (T_of(edge) if is_forward else T_of(edge).inverse())
     return T
-
-
-def between(times: list[int], poses: dict[int, Pose], t_ns: int) -> Pose | None:
-    """The pose at a time, absent outside the times."""
-    if t_ns in poses:
-        return poses[t_ns]
-    after = bisect_left(times, t_ns)
-    if after in (0, len(times)):
-        return None
-    before_ns, after_ns = times[after - 1], times[after]
-    share = (t_ns - before_ns) / (after_ns - before_ns)
-    one, two = poses[before_ns], poses[after_ns]
-    cosine = one.q @ two.q
-    angle = math.acos(min(abs(cosine), 1.0))
-    a, b = 1 - share, share
-    if angle > 1e-6:
-        a, b = math.sin(a * angle), math.sin(b * angle)
-    q = a * one.q + math.copysign(b, cosine) * two.q
-    return Pose(q / np.linalg.norm(q), (1 - share) * one.p + share * two.p)
 
 
 class Series:
     """The rows of a topic's messages with both times of each in ns, and the frames they name."""
 
-    def __init__(self, topic: Topic, row_of: Callable[[Any], tuple]) -> None:
+    def __init__(self, topic: Topic, row_of: Callable[[Any], Any]) -> None:
         self.topic, self._row_of = topic, row_of
-        self.stamps, self.received, self._numbers = array("q"), array("q"), array("d")
+        self.stamps: list[int] = []
+        self.received: list[int] = []
+        self.times = self.stamps
+        self.rows: list[Any] = []
         self.frame = ""
         self.child: str | None = None  # absent from messages of a type without it
 
     def read(self, message: Any, t_ns: int) -> None:
-        self.add(message, t_ns, self._row_of(message))
-
-    def add(self, message: Any, t_ns: int, row: tuple) -> None:
-        child = getattr(message, "child_frame_id", None)
-        frames = frame_of(message.header.frame_id), child if child is None else frame_of(child)
-        stamp, numbers = array("q", [stamp_of(message.header)]), array("d", row)
-        received = array("q", [t_ns])
-        if not self.stamps:
-            self.frame, self.child = frames
-        elif frames != (self.frame, self.child):
+        frames = message.header.frame_id, getattr(message, "child_frame_id", None)
+        if self.rows and frames != (self.frame, self.child):
             raise ValueError("it is of another frame than the first message")
-        self.stamps += stamp
-        self.received += received
-        self._numbers += numbers
-
-    def times(self, by_stamp: bool) -> array:
-        return self.stamps if by_stamp else self.received
-
-    def rows(self) -> Iterator[array]:
-        width = len(self._numbers) // max(len(self.stamps), 1)
-        return (self._numbers[i : i + width] for i in range(0, len(self._numbers), width or 1))
+        self.rows.append(self._row_of(message))
+        self.stamps.append(stamp_of(message.header))
+        self.received.append(t_ns)
+        self.frame, self.child = frames
 
 
-def imu_row(message: Any, topic: str) -> tuple:
+def imu_row(message: Any) -> tuple:
     """Angular rate in rad/s and acceleration in m/s^2, in the IMU's frame."""
     for name in ("angular_velocity", "linear_acceleration"):
         if getattr(message, f"{name}_covariance")[0] == -1:
-            raise Refusal(f"{topic} does not measure its {name}, whose covariance is -1; "
+            raise Refusal(f"the IMU does not measure its {name}, whose covariance is -1; "
                           "give another --imu-topic")  # fmt: skip
     w, a = message.angular_velocity, message.linear_acceleration
     return w.x, w.y, w.z, a.x, a.y, a.z
@@ -406,151 +306,60 @@ def odometry_row(message: Any) -> tuple:
     return twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.z
 
 
-def pose_row(message: Any) -> tuple:
-    """The pose of the child in the header's frame: quaternion w x y z and metres."""
+def pose_row(message: Any) -> Pose:
+    """The pose of the child in the header's frame."""
     if hasattr(message, "transform"):
-        pose = pose_of(message.transform.translation, message.transform.rotation)
-    else:
-        pose = getattr(message.pose, "pose", message.pose)
-        pose = pose_of(pose.position, pose.orientation)
-    return (*pose.q, *pose.p)
-
-
-def png_or_jpeg_size(data: bytes) -> tuple[int, int] | None:
-    """Width and height in pixels."""
-    if data.startswith(PNG):
-        return struct.unpack(">II", data[16:24]) if len(data) >= 24 else None
-    at = 2
-    while at + 9 <= len(data):
-        marker, length = struct.unpack(">xBH", data[at : at + 4])
-        if 0xC0 <= marker <= 0xCF and marker not in (0xC4, 0xC8, 0xCC):
-            height, width = struct.unpack(">HH", data[at + 5 : at + 9])
-            return width, height
-        at += 1 if marker == 0xFF else 2 + length
-    return None
+        return pose_of(message.transform.translation, message.transform.rotation)
+    pose = getattr(message.pose, "pose", message.pose)
+    return pose_of(pose.position, pose.orientation)
 
 
 def netpbm(message: Any) -> bytes:
     """A PGM or PPM of a sensor_msgs/Image whose encoding is known."""
     channels, order, size = ENCODINGS[message.encoding]
     width, height, step = message.width, message.height, message.step
-    row_bytes = width * channels * size
-    data = np.frombuffer(message.data, np.uint8)
-    if not (row_bytes and height and step >= row_bytes):
-        raise ValueError(f"{width}x{height} pixels have rows of {step} bytes")
-    if data.size < step * (height - 1) + row_bytes:
-        raise ValueError(f"{data.size} bytes are too few for {width}x{height} pixels")
-    rows = np.lib.stride_tricks.as_strided(data, (height, row_bytes), (step, 1))
-    if size == 2:
-        pixels = np.ascontiguousarray(rows).view(">u2" if message.is_bigendian else "<u2").astype(">u2")
-    else:
-        pixels = rows.reshape(height, width, channels)[:, :, order]
-    magic, most = ("P6" if len(order) == 3 else "P5"), (255 if size == 1 else 65535)
-    return f"{magic}\n{width} {height}\n{most}\n".encode() + pixels.tobytes()
+    if not (width and height and step * height <= len(message.data)):
+        raise ValueError(f"{len(message.data)} bytes are too few for {width}x{height} pixels")
+    rows = np.frombuffer(message.data, np.uint8)[: step * height].reshape(height, step)
+    pixels = np.ascontiguousarray(rows[:, : width * channels * size])
+    pixels = pixels.view(f"{'>' if message.is_bigendian else '<'}u{size}")
+    pixels = pixels.reshape(height, width, channels)[:, :, order].astype(f">u{size}")
+    magic = "P6" if len(order) == 3 else "P5"
+    return f"{magic}\n{width} {height}\n{256**size - 1}\n".encode() + pixels.tobytes()
 
 
-class Pictures(Series):
-    """Writes each picture when it comes; its name is its place until the clock is known."""
-
-    def __init__(self, topic: Topic, folder: Path) -> None:
-        super().__init__(topic, lambda _: ())
-        self._folder, self.encoding = folder, ""
-        self._kinds: list[str] = []
-        self.size: tuple[int, int] | None = None
-        folder.mkdir(parents=True)
-
-    def read(self, message: Any, t_ns: int) -> None:
-        if self.topic.type.endswith("/Image"):
-            if message.encoding not in ENCODINGS:
-                self._refuse(f"encoding {message.encoding!r}", ENCODINGS)
-            encoding, data, size = message.encoding, netpbm(message), (message.width, message.height)
-            kind = "ppm" if data.startswith(b"P6") else "pgm"
-        else:
-            encoding, data = "", message.data.tobytes()
-            if not data.startswith((JPEG, PNG)):
-                self._refuse(f"format {message.format!r}", ("JPEG", "PNG"))
-            kind, size = ("png" if data.startswith(PNG) else "jpg"), png_or_jpeg_size(data)
-        self.add(message, t_ns, ())
-        if not self._kinds:
-            self.encoding, self.size = encoding, size
-        (self._folder / f"{len(self._kinds)}.part").write_bytes(data)
-        self._kinds.append(kind)
-
-    def _refuse(self, what: str, known: Any) -> None:
-        if self._kinds:
-            raise ValueError(f"the {what} cannot be read")
-        raise Refusal(f"{self.topic.name} has pictures of the {what}; give one of {', '.join(known)}")
-
-    def write(self, by_stamp: bool, bag: Bag) -> None:
-        """Names the files by their times."""
-        names: dict[int, str] = {}
-        for i, (t_ns, kind) in enumerate(zip(self.times(by_stamp), self._kinds)):
-            part = self._folder / f"{i}.part"
-            if t_ns in names:
-                part.unlink()
-            else:
-                names[t_ns] = part.rename(self._folder / f"{t_ns}.{kind}").name
-        if len(names) < len(self._kinds):
-            count = len(self._kinds) - len(names)
-            bag.tell(f"{count} pictures have the time of one before and are left out")
-        rows = [f"{t_ns},{name}\n" for t_ns, name in names.items()]
-        (self._folder.parent / "data.csv").write_text("#timestamp [ns],filename\n" + "".join(rows))
+def write_picture(folder: Path, written: Series, message: Any) -> tuple[Path, str]:
+    """Its file, whose name is a number until the clock is known, and its encoding."""
+    is_raw = written.topic.type.endswith("/Image")
+    encoding = message.encoding if is_raw else ""
+    data = b"" if is_raw else message.data.tobytes()
+    if encoding in ENCODINGS:
+        data = netpbm(message)
+    kind = next((MAGIC[magic] for magic in MAGIC if data.startswith(magic)), "")
+    if not kind:
+        refusal = ValueError if written.rows else Refusal  # an odd one among others is left out
+        raise refusal(f"pictures of the format {encoding or message.format!r} cannot be read; "
+                      f"give JPEG, PNG or one of {', '.join(ENCODINGS)}")  # fmt: skip
+    file = folder / f"part{len(written.rows)}.{kind}"
+    file.write_bytes(data)
+    return file, encoding
 
 
-class Lens(NamedTuple):
-    """A calibration: the numbers of a CameraInfo."""
-
-    frame: str
-    size: tuple[int, int]
-    model: str
-    K: list[float]
-    P: list[float]
-    D: list[float]
-
-    @staticmethod
-    def of(info: Any) -> Lens:
-        names = [name if hasattr(info, name) else name.lower() for name in "KPD"]  # of ROS 1 or 2
-        numbers = [[float(value) for value in getattr(info, name)] for name in names]
-        frame = frame_of(info.header.frame_id)
-        return Lens(frame, (info.width, info.height), info.distortion_model.lower(), *numbers)
-
-    def yaml(self, topic: str, pictures: Pictures, bag: Bag) -> list[str]:
-        """Lines of a sensor.yaml; none for a camera that is not calibrated."""
-        if pictures.size and pictures.size != self.size:
-            width, height = pictures.size
-            raise Refusal(f"{topic} is of {self.size[0]}x{self.size[1]} pixels, the pictures have "
-                          f"{width}x{height}; give another --camera-info-topic")  # fmt: skip
-        K, P, D = self.K, self.P, self.D
-        is_rectified = "image_rect" in pictures.topic.name
-        intrinsics = [P[0], P[5], P[2], P[6]] if is_rectified else [K[0], K[4], K[2], K[5]]
-        if not (all(map(math.isfinite, intrinsics + D)) and min(intrinsics[:2]) > 0):
-            bag.tell(f"{topic}: the camera is not calibrated, its matrix has no focal length")
-            return []
-        lines = [f"resolution: {list(self.size)}", "camera_model: pinhole", f"intrinsics: {intrinsics}"]
-        if self.model in ("plumb_bob", "rational_polynomial") and len(D) in (4, 5, 8, 12, 14):
-            model = "radial-tangential"
-        elif self.model in ("equidistant", "fisheye") and len(D) == 4:
-            model = "equidistant"
-        elif is_rectified or not any(D):
-            model = "none"
-        else:
-            bag.tell(f"{topic}: no calibration for the distortion {self.model!r} of {len(D)} numbers")
-            return []
-        if is_rectified or not D:
-            return [*lines, "distortion_model: none"]
-        return [*lines, f"distortion_model: {model}", f"distortion_coefficients: {D}"]
-
-
-def sensor_yaml(kind: str, T_BS: Pose | None, times: array) -> list[str]:
-    lines = [f"sensor_type: {kind}"]
-    if T_BS is not None:
-        matrix = np.eye(4)
-        matrix[:3, :3], matrix[:3, 3] = T_BS.rotation(), T_BS.p
-        lines += ["T_BS:", "  cols: 4", "  rows: 4", f"  data: {matrix.ravel().tolist()}"]
-    periods = [after - before for before, after in zip(times, times[1:]) if after > before]
-    if periods:
-        lines.append(f"rate_hz: {round(SECOND_NS / statistics.median(periods), 6)}")
-    return lines
+def lens_yaml(is_rectified: bool, bag: Bag, info: Any) -> tuple[str, ...]:
+    """Lines of a sensor.yaml by a CameraInfo; none for a camera that is not calibrated."""
+    names = [name if hasattr(info, name) else name.lower() for name in "KPD"]  # of ROS 1 or 2
+    K, P, D = (getattr(info, name).tolist() for name in names)
+    intrinsics = [P[0], P[5], P[2], P[6]] if is_rectified else [K[0], K[4], K[2], K[5]]
+    model = DISTORTIONS.get(info.distortion_model.lower()) if D else None
+    if is_rectified or (model is None and not any(D)):
+        model = "none"
+    if not (model and all(map(math.isfinite, intrinsics + D)) and min(intrinsics[:2]) > 0):
+        bag.tell(f"the camera is not calibrated: its focal lengths are {intrinsics[:2]} pixels, "
+                 f"its distortion is {info.distortion_model!r}")  # fmt: skip
+        return ()
+    distortion = [] if model == "none" else [f"distortion_coefficients: {D}"]
+    return (f"resolution: [{info.width}, {info.height}]", "camera_model: pinhole",
+            f"intrinsics: {intrinsics}", f"distortion_model: {model}", *distortion)  # fmt: skip
 
 
 def found(bag: Bag, kind: str) -> list[Topic]:
@@ -558,278 +367,233 @@ def found(bag: Bag, kind: str) -> list[Topic]:
 
 
 def names_of(topics: list[Topic]) -> str:
-    return one_line("  ".join(topic.name for topic in topics))
+    return one_line("  ".join(topic.name for topic in topics)) or "(none in this bag)"
 
 
-def named(bag: Bag, kind: str, name: str | None) -> Topic | None:
-    if name is None:
-        return None
-    topics = found(bag, kind)
-    for topic in topics:
-        if frame_of(topic.name) == frame_of(name):
-            return topic
-    have = f"one of {names_of(topics)}" if topics else "another bag, as this one has none of its types"
-    raise Refusal(f"has no messages {name} of {', '.join(map(shown, KINDS[kind]))}; give {have}")
-
-
-def only(bag: Bag, kind: str) -> Topic | None:
-    """The one topic of a kind; of tf only a named one counts."""
-    topics = [topic for topic in found(bag, kind) if topic.type not in TF]
+def chosen(bag: Bag, kind: str, name: str | None, others: list[Topic]) -> Topic | None:
+    """The topic of that name, or if there is none the only one of the others."""
+    topics = others
+    if name is not None:
+        every = found(bag, kind)
+        topics = [topic for topic in every if frame_of(topic.name) == frame_of(name)]
+        if not topics:
+            types = ", ".join(KINDS[kind]).replace("/msg/", "/")
+            raise Refusal(f"has no messages {name} of {types}; give one of {names_of(every)}")
     if len(topics) > 1:
-        print_topics(bag)
-        raise Refusal(f"has several topics that fit; give --{kind}-topic, one of {names_of(topics)}")
-    for topic in topics:
-        bag.tell(f"--{kind}-topic is {topic.name}, the only one")
+        raise Refusal(f"has several topics; give --{kind}-topic, one of {names_of(topics)}")
+    if topics and name is None:
+        bag.tell(f"--{kind}-topic is {topics[0].name}, the only one that fits")
     return topics[0] if topics else None
 
 
-def beside(bag: Bag, image: Topic) -> Topic | None:
-    """The calibration beside the pictures, by ROS's convention."""
-    parent = image.name.rpartition("/")[0]
-    places = {f"{parent}/camera_info"}
-    if image.name.endswith("/compressed"):
-        places.add(f"{parent.rpartition('/')[0]}/camera_info")
-    every = found(bag, "camera-info")
-    topics = [topic for topic in every if topic.name in places]
-    if len(topics) > 1:
-        raise Refusal(f"has several calibrations; give --camera-info-topic, one of {names_of(topics)}")
-    if not topics:
-        others = f"; --camera-info-topic can be {names_of(every)}" if every else ""
-        bag.tell(f"no camera_info is beside {image.name}{others}")
-    return topics[0] if topics else None
+def write_lines(file: Path, lines: Iterable[str]) -> None:
+    file.parent.mkdir(parents=True, exist_ok=True)
+    with file.open("w") as out:
+        out.writelines(f"{line}\n" for line in lines)
 
 
-def uses_stamps(pictures: Pictures, others: list[Series], bag: Bag) -> bool:
-    """Whether times are those of the headers. All topics have the same clock."""
-    for series in [pictures, *others]:
-        if not any(series.stamps):
-            fault = "are all 0"
-        elif series is pictures and any(b <= a for a, b in zip(series.stamps, series.stamps[1:])):
-            fault = "do not increase"
-        else:
-            continue
-        bag.tell(f"the header stamps of {series.topic.name} {fault}: all times are receive times")
-        return False
-    return True
-
-
-@contextlib.contextmanager
-def whole_or_nothing(out: Path) -> Iterator[None]:
-    """Empties a new or empty folder again if the block fails."""
-    is_there = out.exists()
-    if is_there and (not out.is_dir() or any(out.iterdir())):
-        raise Refusal(f"{out} is there already; give a new or empty folder as --out")
-    out.mkdir(parents=True, exist_ok=True)
-    try:
-        yield
-    except BaseException:
-        for child in out.iterdir():
-            shutil.rmtree(child) if child.is_dir() else child.unlink()
-        if not is_there:
-            out.rmdir()
-        raise
+def sensor_yaml(kind: str, T_BS: Pose | None, times: list[int]) -> list[str]:
+    lines = [f"sensor_type: {kind}"]
+    if T_BS is not None:
+        matrix = np.eye(4)
+        matrix[:3, :3], matrix[:3, 3] = T_BS.turned(np.eye(3)).T, T_BS.p
+        lines += ["T_BS:", "  cols: 4", "  rows: 4", f"  data: {matrix.ravel().tolist()}"]
+    periods = np.diff(times)
+    if any(periods > 0):
+        lines.append(f"rate_hz: {round(SECOND_NS / float(np.median(periods[periods > 0])), 6)}")
+    return lines
 
 
 class Recording:
     """The topics of a bag that make a recording, and the folder of it."""
 
     def __init__(self, bag: Bag, asked: argparse.Namespace) -> None:
-        self.bag, self.asked, self.mav = bag, asked, asked.out / "mav0"
-        image = named(bag, "image", asked.image_topic) or only(bag, "image")
+        self.bag, self.out, self.world = bag, asked.out, asked.world_frame
+        image = chosen(bag, "image", asked.image_topic, found(bag, "image"))
         if image is None:
             raise Refusal("has no topic of sensor_msgs/Image or CompressedImage; give one that has")
-        imu = named(bag, "imu", asked.imu_topic)
-        self.pose_topic = named(bag, "poses", asked.poses_topic)
-        odometry = named(bag, "odometry", asked.odometry_topic)
-        if not imu and not self.pose_topic:
-            imu = only(bag, "imu")
-            self.pose_topic = None if imu else only(bag, "poses")
-            if not imu and not self.pose_topic:
-                bag.tell("no topic says how the camera moves")
-        self.image = image
-        self.info_topic = named(bag, "camera-info", asked.camera_info_topic) or beside(bag, image)
-        self.imu = Series(imu, lambda message: imu_row(message, imu.name)) if imu else None
+        names = (image.name, image.name.removesuffix("/compressed"))
+        places = [f"{name.rpartition('/')[0]}/camera_info" for name in names]  # ROS's convention
+        infos = [topic for topic in found(bag, "camera-info") if topic.name in places]
+        info = chosen(bag, "camera-info", asked.camera_info_topic, infos)
+        imu = chosen(bag, "imu", asked.imu_topic, [] if asked.poses_topic else found(bag, "imu"))
+        no_tf = [topic for topic in found(bag, "poses") if topic.type not in TF]
+        poses = chosen(bag, "poses", asked.poses_topic, [] if imu else no_tf)
+        odometry = chosen(bag, "odometry", asked.odometry_topic, [])
+        self.camera = self.out / "mav0" / "cam0"
+        self.pictures = Series(image, lambda message: write_picture(
+            self.camera / "data", self.pictures, message))  # fmt: skip
+        is_rectified = "image_rect" in image.name
+        self.lens = Series(info, partial(lens_yaml, is_rectified, bag)) if info else None
+        self.imu = Series(imu, imu_row) if imu else None
         self.odometry = Series(odometry, odometry_row) if odometry else None
-        is_series = self.pose_topic and self.pose_topic.type not in TF
-        self.poses = Series(self.pose_topic, pose_row) if is_series else None
-        self.lens: Lens | None = None
+        self.poses = Series(poses, pose_row) if poses and poses.type not in TF else None
+        self.has_tf_poses = bool(poses and not self.poses)
 
     def write(self) -> None:
-        pictures = Pictures(self.image, self.mav / "cam0" / "data")
-        others = [series for series in (self.imu, self.odometry, self.poses) if series]
-        self._read(pictures, others)
-        by_stamp = uses_stamps(pictures, others, self.bag)
-        frames = Frames(self.bag)
-        camera = pictures.frame or (self.lens.frame if self.lens else "")
-        if "optical" not in camera:
-            self.bag.tell(f"the frame {camera!r} is taken as the optical one: x right, z ahead")
-        pictures.write(by_stamp, self.bag)
-        self._write_camera(pictures, self._T_SX(frames, camera, "camera"), by_stamp)
-        if self.imu:
-            self._write_rows(self.imu, "imu", IMU_HEADER, identity(), by_stamp)
+        (self.camera / "data").mkdir(parents=True)
+        every = [one for one in (self.pictures, self.imu, self.odometry, self.poses) if one]
+        self._read(every)
+        if self.lens and not self.pictures.frame:
+            self.pictures.frame = self.lens.frame
+        frames = Frames(self.bag, self._takes_stamps(every), keeps_all=self.has_tf_poses)
+        self._write_camera(frames)
+        self._write_rows("imu", self.imu, identity())
         if self.odometry:
             T_SB = self._T_SX(frames, self.odometry.child or "", "odometry")
-            self._write_rows(self.odometry, "odometry", ODOMETRY_HEADER, T_SB, by_stamp)
-        self._write_poses(frames, camera, by_stamp)
-        is_bayer = pictures.encoding.startswith("bayer_")
-        summary = {
-            "told": self.bag.told,
-            **({"bayer": pictures.encoding[6:10]} if is_bayer else {}),
-        }
-        (self.asked.out / "bag.json").write_text(json.dumps(summary, indent=2) + "\n")
+            self._write_rows("odometry", self.odometry, T_SB)
+        if self.poses:
+            self._write_poses(self._camera_poses(self.poses, frames))
+        if self.has_tf_poses:
+            self._write_poses(frames.poses(self.world, self.pictures.frame))
+        encoding = self.pictures.rows[0][1]
+        bayer = {"bayer": encoding[6:10]} if encoding.startswith("bayer_") else {}
+        write_lines(self.out / "bag.json", [json.dumps({"told": self.bag.told, **bayer}, indent=2)])
 
-    def _read(self, pictures: Pictures, others: list[Series]) -> None:
-        readers: dict[Topic, list[Callable[[Any, int], None]]] = {}
-        for series in [pictures, *others]:
-            readers.setdefault(series.topic, []).append(series.read)
-        if self.info_topic:
-            readers[self.info_topic] = [self._keep_lens]
+    def _read(self, every: list[Series]) -> None:
+        told = len(self.bag.told)
+        self.bag.read([(one.topic, one.read) for one in (*every, self.lens) if one])
+        why = ", ".join(self.bag.told[told:]) or "there is none"
+        for series in every:
+            if not series.rows:
+                raise Refusal(f"no message of {series.topic.name} can be read ({why}); "
+                              "give another topic")  # fmt: skip
 
-        def reader(topic: Topic) -> Callable[[Any, int], Any]:
-            return lambda message, t_ns: [read(message, t_ns) for read in readers[topic]]
-
-        self.bag.read({topic: reader(topic) for topic in readers})
-        for series in [pictures, *others]:
-            if not series.stamps:
-                name = series.topic.name
-                faults = (f" {name} are unreadable", "read up to a fault")
-                lines = [line for line in self.bag.told if any(fault in line for fault in faults)]
-                why = (lines or ["there is none"])[0]
-                raise Refusal(f"no message of {name} can be read ({why}); give another topic")
-        if pictures.encoding == "8UC3":
-            self.bag.tell(f"{pictures.topic.name}: 8UC3 is taken as BGR")
-
-    def _keep_lens(self, message: Any, _: int) -> None:
-        lens = Lens.of(message)
-        self.lens = self.lens or lens
-        if str(lens) != str(self.lens):
-            self.bag.tell(f"{self.info_topic.name} changes; its first calibration is used")
+    def _takes_stamps(self, every: list[Series]) -> bool:
+        """Takes all times from the headers, or if some are of no use from the receiver's clock."""
+        bad = [series.topic for series in every if not any(series.stamps)]
+        if self.pictures.topic not in bad and any(np.diff(self.pictures.stamps) <= 0):
+            bad.append(self.pictures.topic)
+        if bad:
+            self.bag.tell(f"the header stamps of {names_of(bad)} are all 0 or do not increase: "
+                          "all times are receive times")  # fmt: skip
+            for series in every:
+                series.times = series.received
+        return not bad
 
     def _T_SX(self, frames: Frames, other: str, what: str) -> Pose | None:
         """The pose of a sensor's frame X in the IMU's frame S."""
-        T_SX = frames.rigid(self.imu.frame, other) if self.imu else None
+        T_SX = frames.rigid(self.imu.frame, other) if self.imu and other else None
         if self.imu and T_SX is None:
             self.bag.tell(f"no fixed transform of tf links the frames {self.imu.frame!r} (IMU) and "
                           f"{other!r} ({what}): it has no T_BS")  # fmt: skip
         return T_SX
 
-    def _write_camera(self, pictures: Pictures, T_SC: Pose | None, by_stamp: bool) -> None:
-        if not self.lens and T_SC is None:
-            return
-        lens = self.lens.yaml(self.info_topic.name, pictures, self.bag) if self.lens else []
-        lines = sensor_yaml("camera", T_SC, pictures.times(by_stamp)) + lens
-        (self.mav / "cam0" / "sensor.yaml").write_text("\n".join(lines) + "\n")
+    def _write_camera(self, frames: Frames) -> None:
+        if "optical" not in self.pictures.frame:
+            self.bag.tell(f"{self.pictures.frame!r} is taken as an optical frame: z looks ahead")
+        names = {}
+        for t_ns, (file, _) in zip(self.pictures.times, self.pictures.rows):
+            names[t_ns] = file.rename(file.with_stem(str(t_ns))).name
+        rows = (f"{t_ns},{name}" for t_ns, name in names.items())
+        write_lines(self.camera / "data.csv", ["#timestamp [ns],filename", *rows])
+        T_SC = self._T_SX(frames, self.pictures.frame, "camera")
+        lenses = self.lens.rows if self.lens else []
+        if len(set(lenses)) > 1:
+            self.bag.tell("the calibration changes; its first is used")
+        if lenses or T_SC:
+            lines = [*sensor_yaml("camera", T_SC, self.pictures.times), *(lenses or [()])[0]]
+            write_lines(self.camera / "sensor.yaml", lines)
 
-    def _write_rows(self, series: Series, kind: str, header: str, T_BS: Pose | None,
-                    by_stamp: bool) -> None:  # fmt: skip
-        folder = self.mav / f"{kind}0"
-        folder.mkdir()
-        with (folder / "data.csv").open("w") as out:
-            out.write(header + "\n")
-            for t_ns, row in zip(series.times(by_stamp), series.rows()):
-                out.write(f"{t_ns},{','.join(map(repr, row))}\n")
-        lines = sensor_yaml(kind, T_BS, series.times(by_stamp))
-        (folder / "sensor.yaml").write_text("\n".join(lines) + "\n")
+    def _write_rows(self, kind: str, series: Series | None, T_BS: Pose | None) -> None:
+        if series:
+            folder = self.out / "mav0" / f"{kind}0"
+            rows = (f"{t},{','.join(map(repr, row))}" for t, row in zip(series.times, series.rows))
+            write_lines(folder / "data.csv", (HEADERS[kind], *rows))
+            write_lines(folder / "sensor.yaml", sensor_yaml(kind, T_BS, series.times))
 
-    def _write_poses(self, frames: Frames, camera: str, by_stamp: bool) -> None:
-        if not self.pose_topic:
-            return
-        poses = (self._camera_poses(frames, camera, by_stamp) if self.poses
-                 else frames.poses(self.asked.world_frame, camera, by_stamp))  # fmt: skip
-        with (self.asked.out / "poses.txt").open("w") as out:
-            for t_ns, (q, p) in poses:
-                numbers = " ".join(map(repr, [*p.tolist(), *q[1:].tolist(), float(q[0])]))
-                out.write(f"{t_ns // SECOND_NS}.{t_ns % SECOND_NS:09d} {numbers}\n")
-
-    def _camera_poses(self, frames: Frames, camera: str, by_stamp: bool) -> list[tuple[int, Pose]]:
+    def _camera_poses(self, poses: Series, frames: Frames) -> list[tuple[int, Pose]]:
         """Times in ns and T_WC by the poses T_FB of messages."""
-
-        def link(a: str, b: str) -> Pose:
-            T_AB = frames.rigid(a, b)
-            if T_AB is None:
-                raise Refusal(f"{self.poses.topic.name}: no fixed transform of tf links the frames "
-                              f"{a!r} and {b!r}; give other poses, or a bag with it")  # fmt: skip
-            return T_AB
-
-        T_BC, T_WF = identity(), identity()
-        if self.poses.child is None:
-            name = self.poses.topic.name
+        name, camera = poses.topic.name, self.pictures.frame
+        if poses.child is None:
             self.bag.tell(f"{name} names no child frame: its poses are taken as the camera's")
-        else:
-            T_BC = link(self.poses.child, camera)
-        if self.asked.world_frame:
-            T_WF = link(frame_of(self.asked.world_frame), self.poses.frame)
-        rows = zip(self.poses.times(by_stamp), self.poses.rows())
-        return [(t, T_WF @ Pose(np.array(row[:4]), np.array(row[4:])) @ T_BC) for t, row in rows]
+        body = camera if poses.child is None else poses.child
+        T_WF = frames.rigid(self.world or poses.frame, poses.frame)
+        T_BC = frames.rigid(body, camera)
+        if T_WF is None or T_BC is None:
+            a, b = (body, camera) if T_BC is None else (self.world, poses.frame)
+            raise Refusal(f"{name}: no fixed transform of tf links the frames {a!r} and {b!r}; "
+                          "give other poses, or a bag with it")  # fmt: skip
+        return [(t_ns, T_WF @ T_FB @ T_BC) for t_ns, T_FB in zip(poses.times, poses.rows)]
+
+    def _write_poses(self, poses: Iterable[tuple[int, Pose]]) -> None:
+        lines = []
+        for t_ns, (q, p) in poses:
+            numbers = " ".join(map(repr, [*p.tolist(), *q[1:].tolist(), float(q[0])]))
+            lines.append(f"{t_ns // SECOND_NS}.{t_ns % SECOND_NS:09d} {numbers}")
+        write_lines(self.out / "poses.txt", lines)
 
 
 def print_topics(bag: Bag) -> None:
-    rows = [("topic", "type", "messages", "seconds", "Hz")]
+    times: dict[Topic, list[int]] = {}
+    for topic, t_ns, _ in bag.messages(bag.topics):
+        times.setdefault(topic, [t_ns, t_ns])[1] = t_ns
+    rows = [("topic", "type", "messages", "  seconds", "      Hz")]
     for topic in bag.topics:
-        seconds = bag.span_ns(topic) / SECOND_NS
-        rate = f"{(topic.messages - 1) / seconds:.2f}" if seconds > 0 else "-"
-        rows.append((one_line(topic.name), shown(topic.type), str(topic.messages), f"{seconds:.3f}", rate))
+        first, last = times.get(topic, (0, 0))
+        seconds = (last - first) / SECOND_NS
+        rate = f"{(topic.messages - 1) / seconds:8.2f}" if seconds > 0 else f"{'-':>8}"
+        name, type_ = one_line(topic.name), one_line(topic.type).replace("/msg/", "/")
+        rows.append((name, type_, f"{topic.messages:8}", f"{seconds:9.3f}", rate))
     widths = [max(map(len, column)) for column in zip(*rows)]
     for row in rows:
-        padded = [cell.ljust(n) for cell, n in zip(row[:2], widths)]
-        padded += [cell.rjust(n) for cell, n in zip(row[2:], widths[2:])]
-        print("  ".join(padded))
+        print("  ".join(map(str.ljust, row, widths)))
     print("\nA replay can take:")
     for kind in KINDS:
-        print(f"  --{kind + '-topic':18} {names_of(found(bag, kind)) or '(none in this bag)'}")
+        print(f"  --{kind + '-topic':18} {names_of(found(bag, kind))}")
     for line in bag.told:
         print(f"note: {line}")
 
 
 class Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> None:
+    def error(self, message: str) -> NoReturn:
         self.exit(2, f"error: {self.prog}: {one_line(message)}; --help lists the options\n")
 
 
 def arguments_of(words: list[str]) -> argparse.Namespace:
     parser = Parser(description=__doc__.splitlines()[0], allow_abbrev=False)
     parser.add_argument("bag", type=Path, help=".bag, .db3, .mcap or a folder of rosbag2")
-    parser.add_argument("--out", type=Path, help="new folder for the recording; else prints the topics")
+    parser.add_argument("--out", type=Path, help="new folder of the recording; else prints topics")
     for kind in KINDS:
         parser.add_argument(f"--{kind}-topic", metavar="T")
-    parser.add_argument("--world-frame", metavar="F", help="frame of the poses; needed for those of tf")
+    parser.add_argument("--world-frame", metavar="F", help="frame of the poses; tf's need it")
     return parser.parse_args(words)
 
 
-def main(words: list[str]) -> int:
-    for stream in (sys.stdout, sys.stderr):
-        stream.reconfigure(errors="backslashreplace")
-    asked = arguments_of(words)
-
-    def refuse(why: str, code: int = 2) -> int:
-        print(f"error: {one_line(asked.bag)}: {one_line(why)}", file=sys.stderr)
-        return code
-
+def run(asked: argparse.Namespace) -> None:
     if not HAS_ROSBAGS:
-        return refuse("reading bags needs the Python package rosbags; install it with: "
-                      f"{sys.executable} -m pip install rosbags", 3)  # fmt: skip
+        raise Refusal("reading bags needs the Python package rosbags; install it with: "
+                      f"{sys.executable} -m pip install rosbags")  # fmt: skip
     np.seterr(all="ignore")  # checks of the results follow; a warning would be a second line
+    bag = Bag(asked.bag)
+    if not asked.out:
+        return print_topics(bag)
+    recording = Recording(bag, asked)
+    asked.out.mkdir(parents=True)
     try:
-        with contextlib.ExitStack() as stack:
-            bag = Bag(asked.bag, stack)
-            if asked.out:
-                recording = Recording(bag, asked)
-                with whole_or_nothing(asked.out):
-                    recording.write()
-            else:
-                print_topics(bag)
-            sys.stdout.flush()
+        recording.write()
+    except BaseException:
+        shutil.rmtree(asked.out, ignore_errors=True)
+        raise
+
+
+def main(words: list[str]) -> int:
+    asked = arguments_of(words)
+    try:
+        run(asked)
+        return 0
     except KeyboardInterrupt:
         return 130
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except Refusal as refusal:
-        return refuse(str(refusal))
+        why = str(refusal)
     except OSError as fault:
-        return refuse(f"{fault}; make room, or give another folder as --out")
-    except Exception as fault:  # of a damaged file, in a place that no other rule names
-        return refuse(f"reading fails ({type(fault).__name__}: {fault_of(fault)}); give another bag")
-    return 0
+        why = f"{fault}; give a bag that can be read, and a new folder with room as --out"
+    except Exception as fault:  # of any kind: rosbags passes those of its libraries on
+        why = (f"cannot be read ({type(fault).__name__}: {fault_of(fault)}); give a whole .bag, "
+               ".db3, .mcap or folder of rosbag2 ('rosbag reindex', 'mcap recover' and "
+               "'ros2 bag reindex' repair them)")  # fmt: skip
+    print(f"error: {one_line(asked.bag)}: {one_line(why)}", file=sys.stderr)
+    return 2 if HAS_ROSBAGS else 3
 
 
 if __name__ == "__main__":
