@@ -523,6 +523,16 @@ TEST_F(RecordedScenario, OfAVideoWithATableOfTimesHasThem) {
   EXPECT_EQ(t_ms, (std::vector<std::int64_t>{5000, 5100, 5350, 5400}));
 }
 
+TEST_F(RecordedScenario, AUnitOfTimeIsThatOfTheImuWherePicturesHaveARate) {
+  draw(home() / "pictures", "{:06}.png");
+  std::string imu = "t,w_x,w_y,w_z,a_x,a_y,a_z\n";
+  for (int i = 0; i < 100; ++i) imu += fmt::format("{},0,0,0,0,0,9.81\n", 5 * i);
+  write(home() / "imu.csv", imu);
+  Playback timed =
+      playback("path: pictures, fps: 10, focal: 300, imu: imu.csv, speed: 1, time_unit: ms");
+  EXPECT_EQ(all_of(timed).frames.size(), static_cast<std::size_t>(kFrames));
+}
+
 TEST_F(RecordedScenario, OfPicturesOfTwoSizesTakesThatOfMost) {
   draw(home() / "pictures", "{}.png");
   bench::write_picture(home() / "pictures" / "0.png", cv::Mat1b(20, 20, uchar{255}));

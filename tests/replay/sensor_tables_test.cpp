@@ -126,6 +126,7 @@ TEST_F(SensorTable, WithAUnitThatContradictsTheRateIsRefused) {
             std::string::npos)
       << refusal(header, row);
   expect_still(read(header, row, "ms"), kPeriod_ns);
+  expect_still(read("t [ms],w_x,w_y,w_z,a_x,a_y,a_z", row, "ns"), kPeriod_ns);
 }
 
 TEST_F(SensorTable, WithAnotherRateThanIsStatedIsToldSo) {

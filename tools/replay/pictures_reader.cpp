@@ -103,7 +103,8 @@ Recorded read_pictures(const scenario::Recorded& asked, bool) {
   if (asked.times) {  // perhaps it names the pictures, whose order is then of no matter
     take_unordered(asked.path, recorded);
   } else {
-    take_pictures(asked.path, asked.time_unit, recorded);
+    // With fps the unit is that of a table beside the pictures.
+    take_pictures(asked.path, asked.fps ? "" : asked.time_unit, recorded);
   }
   return recorded;
 }

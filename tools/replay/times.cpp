@@ -193,16 +193,15 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
                         ? "correct one of the two"
                         : fmt::format("if they are in {0}, give time_unit: {0}", fitting->name)));
   };
-  if (const auto unit_ns = time_unit_named(asked)) {
-    if (expected.stated_hz && !fits(*unit_ns))
-      contradict("in " + asked + " by time_unit", *unit_ns);
-    return chosen(*unit_ns);
-  }
+  // The user's unit may be that of another table: then this one's own fits.
   const std::string stated = column < table.header.size() ? unit_in(table.header[column]) : "";
-  if (const auto unit_ns = time_unit_named(stated)) {
-    if (!fits(*unit_ns)) contradict("in " + stated + " by its header", *unit_ns);
-    return chosen(*unit_ns);
+  const auto by_user = time_unit_named(asked), by_header = time_unit_named(stated);
+  for (const auto& unit_ns : {by_user, by_header, by_user ? usual : std::nullopt}) {
+    if (unit_ns && fits(*unit_ns)) return chosen(*unit_ns);
   }
+  if (by_user && !expected.stated_hz) return *by_user;
+  if (by_user) contradict("in " + asked + " by time_unit", *by_user);
+  if (by_header) contradict("in " + stated + " by its header", *by_header);
   if (usual && fits(*usual)) return chosen(*usual);
   if (fitting == kTimeUnits.end()) {
     throw input::Error(
@@ -211,8 +210,9 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
                     "give time_unit (s, ms, us or ns)",
                     rate));
   }
-  tally.add("tables of times do not state their unit, and are read in the unit that fits their rate",
-            fmt::format("{} in {}: {:.3g} Hz", file, fitting->name, rate_hz(fitting->ns)));
+  tally.add(
+      "tables of times do not state their unit, and are read in the unit that fits their rate",
+      fmt::format("{} in {}: {:.3g} Hz", file, fitting->name, rate_hz(fitting->ns)));
   return chosen(fitting->ns);
 }
 

@@ -47,8 +47,9 @@ struct ExpectedRate {
 inline constexpr double kSlowestCamera_hz = 0.4, kFastestCamera_hz = 390;
 inline constexpr double kSlowestImu_hz = 12, kFastestImu_hz = 11'000;
 
-/// The unit of the times in a column of a table, in ns: `asked` (s, ms, us, ns), or that of the
-/// header, or the only one that gives the expected rate; this last is told, unless it is `usual`.
+/// The unit of the times in a column of a table, in ns: the first that gives the expected rate of
+/// `asked` (s, ms, us, ns), that of the header, and `usual`; else the only one that gives it, which
+/// is told.
 /// \throws input::Error if a stated unit contradicts the rate, or no unit gives it.
 std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std::string& asked,
                           const ExpectedRate& expected, std::optional<std::int64_t> usual,
