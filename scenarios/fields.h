@@ -444,7 +444,7 @@ void fields(Recorded& recorded, Visit&& visit) {
          "the layout's own"},
         calibration, File{});
   visit({"imu_calibration", "noise densities of the IMU, as Kalibr's `imu.yaml` has them",
-         "the layout's own, or that of an ADIS16448"},
+         "the layout's own, else none; told"},
         imu_calibration, File{});
   visit({"focal", "focal length; the layout's calibration is then left aside", "the layout's own"},
         focal_px, kFocal);

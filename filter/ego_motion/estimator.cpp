@@ -58,7 +58,8 @@ double slip_after(double slip, double since_s, double miss2) {
   // log likelihood ratio of two normals whose variances differ by the factor k
   const double evidence =
       0.5 * (miss2 * (1 - 1 / kSlipVariance) - kValues * std::log(kSlipVariance));
-  return before / (before + (1 - before) * std::exp(-evidence));
+  // For a large error at the very start both terms below would be 0.
+  return before > 0 ? before / (before + (1 - before) * std::exp(-evidence)) : 0;
 }
 
 void check(const Mounting& mounting, const EgoMotionNoise& noise,

@@ -205,6 +205,16 @@ Slide slide(bool tells_yaw_rate) {
   return slide;
 }
 
+TEST(EgoMotion, WheelsThatContradictTheStartAtOnceLeaveFiniteNumbers) {
+  const Path still{[](double) { return Matrix3d::Identity(); },
+                   [](double) { return Vector3d::Zero(); }};
+  const Mounting m = mounting();
+  EgoMotionEstimator estimator = start(still, m);
+  estimator.add_imu(0, Vector3d::Zero(), reading(still, m, 0).force);
+  estimator.add_odometry(0, {9, 0, 0}, 0.5);
+  EXPECT_TRUE(estimator.R_WS().allFinite());
+}
+
 TEST(EgoMotion, WheelsThatSlipAreNotBelieved) {
   // Without a yaw rate the estimator follows the wheels and attributes the IMU's contradiction to
   // its bias.

@@ -342,6 +342,9 @@ void move_by_poses(const scenario::Recorded& asked, bool times_known, Recorded& 
 }
 
 void take_imu_noise(const scenario::Recorded& asked, Recorded& recorded) {
+  if (!asked.imu_calibration && recorded.settings.imu.noise == scenario::ImuNoise{}) {
+    recorded.tally.tell("the noise of the IMU is not stated, and counts as none: imu_calibration");
+  }
   if (!asked.imu_calibration) return;
   const auto noise = read_calibration(*asked.imu_calibration).noise;
   if (!noise) {
