@@ -111,10 +111,10 @@ Recorded read_bag(const scenario::Recorded& asked, bool exact_motion) {
   scenario::Recorded inner = asked;
   inner.path = made;
   inner.camera.clear();
-  const bool by_poses = !motion_is_asked(asked) && fs::exists(made / kPosesFile) &&
-                        (!topics.poses.empty() || !fs::exists(made / "mav0" / "imu0"));
-  const bool has_motion = by_poses || motion_is_asked(asked) || fs::exists(made / "mav0" / "imu0");
-  if (by_poses || !has_motion) inner.poses = made / kPosesFile;  // EuRoC's own motion is not read
+  const bool by_imu = topics.poses.empty() && fs::exists(made / "mav0" / "imu0");
+  const bool by_poses = !motion_is_asked(asked) && !by_imu && fs::exists(made / kPosesFile);
+  // With poses EuRoC's own motion is not read; without any motion there is none to read.
+  if (!motion_is_asked(asked) && !by_imu) inner.poses = made / kPosesFile;
   Recorded recorded = read_euroc(inner, exact_motion);
   if (by_poses) move_by_poses(inner, true, recorded);
   recorded.keep = folder;

@@ -29,18 +29,6 @@ using Eigen::Vector3d;
 
 constexpr const char* kNoTimes = "when its pictures were taken (fps, or times)";
 
-/// The median rate of pictures with times; absent for fewer than two.
-std::optional<double> usual_rate_hz(const std::vector<RecordedFrame>& frames) {
-  std::vector<std::int64_t> periods;
-  for (std::size_t i = 1; i < frames.size(); ++i) {
-    periods.push_back(frames[i].t_ns - frames[i - 1].t_ns);
-  }
-  if (periods.empty()) return std::nullopt;
-  const auto middle = periods.begin() + std::ssize(periods) / 2;
-  std::nth_element(periods.begin(), middle, periods.end());
-  return 1e9 / static_cast<double>(*middle);
-}
-
 /// \return whether the frames' times are known, not only their order.
 bool set_times(const scenario::Recorded& asked, Recorded& recorded) {
   if (asked.times) {
@@ -49,7 +37,9 @@ bool set_times(const scenario::Recorded& asked, Recorded& recorded) {
   }
   if (recorded.timed) {
     constexpr double kSame = 0.05;
-    const std::optional<double> own_hz = usual_rate_hz(recorded.frames);
+    std::vector<std::int64_t> times_ns;
+    for (const RecordedFrame& frame : recorded.frames) times_ns.push_back(frame.t_ns);
+    const std::optional<double> own_hz = usual_rate_hz(times_ns);
     if (!asked.fps || (own_hz && std::abs(*own_hz / *asked.fps - 1) < kSame)) return true;
     throw input::Error(asked.source,
                        fmt::format("the recording itself says when its pictures were taken, {:.3g} "

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
-#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <tuple>
@@ -224,13 +223,9 @@ std::vector<std::int64_t> times_of(const std::vector<Name>& names, std::size_t p
     if (!t_ns) return {};
     times.push_back(*t_ns);
   }
-  if (!time_unit.empty() || times.size() < 2) return times;
-  std::vector<std::int64_t> periods;
-  std::adjacent_difference(times.begin(), times.end(), std::back_inserter(periods));
-  const auto middle = periods.begin() + std::ssize(periods) / 2;
-  std::nth_element(periods.begin() + 1, std::max(middle, periods.begin() + 1), periods.end());
-  const double rate_hz = 1e9 / static_cast<double>(*std::max(middle, periods.begin() + 1));
-  const bool is_camera = rate_hz > kSlowestCamera_hz && rate_hz < kFastestCamera_hz;
+  const std::optional<double> rate_hz = usual_rate_hz(times);
+  if (!time_unit.empty() || !rate_hz) return times;
+  const bool is_camera = *rate_hz > kSlowestCamera_hz && *rate_hz < kFastestCamera_hz;
   return is_camera ? times : std::vector<std::int64_t>{};
 }
 

@@ -79,9 +79,8 @@ fs::path pictures_of_list(const fs::path& folder) {
 
 /// Gives each picture of a video its own time, from 0 on.
 void time_by_video(const std::vector<std::int64_t>& times_ns, Recorded& recorded) {
-  recorded.frames.clear();
-  for (std::size_t i = 0; i < times_ns.size(); ++i) {
-    recorded.frames.push_back({times_ns[i] - times_ns.front(), {}, i});
+  for (RecordedFrame& frame : recorded.frames) {
+    frame.t_ns = times_ns[frame.number] - times_ns.front();
   }
   sort_by_time(recorded.frames, "pictures", recorded.video.string(), recorded.tally);
   recorded.timed = true;

@@ -95,14 +95,6 @@ Vector3d vector_at(const NumberRow& row, std::size_t first) {
   return {row.numbers[first], row.numbers[first + 1], row.numbers[first + 2]};
 }
 
-/// The upper median for an even number of values. \pre not empty
-template <typename T>
-T median(std::vector<T> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// The words of a column's name in lower case: "gyroRotationX" is gyro, rotation, x.
 std::vector<std::string> words_in(const std::string& name) {
   std::vector<std::string> words;
@@ -234,7 +226,7 @@ double tilt_error_rad(const std::vector<sim::ImuSample>& samples, double factor)
     q.setIdentity();
     begin = i;
   }
-  return errors.empty() ? 0 : median(std::move(errors));
+  return usual(std::move(errors)).value_or(0);
 }
 
 /// Refuses readings that no IMU on a camera has. Gravity dominates an accelerometer's readings, at
@@ -252,26 +244,27 @@ void require_possible(const std::vector<sim::ImuSample>& samples,
   const auto fast =
       rates.begin() + std::llround((1 - kShare) * static_cast<double>(rates.size() - 1));
   std::nth_element(rates.begin(), fast, rates.end());
-  const double often_radps = *fast, usual_radps = median(rates), usual = median(std::move(forces));
-  if (usual_radps > kLeast_mps2 && usual_radps < kMost_mps2 && usual < kLeast_mps2) {
+  const double often_radps = *fast, usual_radps = *usual(rates);
+  const double usual_mps2 = *usual(std::move(forces));
+  if (usual_radps > kLeast_mps2 && usual_radps < kMost_mps2 && usual_mps2 < kLeast_mps2) {
     refuse(
         fmt::format("its angular rates have a size of {:.2f} and its accelerations of {:.2f}: "
                     "the two seem interchanged; name the columns in a header",
-                    usual_radps, usual));
+                    usual_radps, usual_mps2));
   }
-  if (usual >= ImuWatch::kLeast_g && usual <= ImuWatch::kMost_g) {
+  if (usual_mps2 >= ImuWatch::kLeast_g && usual_mps2 <= ImuWatch::kMost_g) {
     refuse(
         fmt::format("accelerations have a size of {:.2f}, gravity in g; multiply them by 9.80665 "
                     "to have m/s^2 (and see whether rates are in rad/s), or put their unit into "
                     "the header, as a_RS_S_x [g]",
-                    usual));
+                    usual_mps2));
   }
-  if (usual < kLeast_mps2 || usual > kMost_mps2) {
+  if (usual_mps2 < kLeast_mps2 || usual_mps2 > kMost_mps2) {
     refuse(
         fmt::format("accelerations have a size of {:.3g}, and those of an IMU have that of "
                     "gravity, 9.81 m/s^2; give what the accelerometer measures, gravity "
                     "included, in m/s^2",
-                    usual));
+                    usual_mps2));
   }
   const double tilt_rad = tilt_error_rad(samples, 1);
   const bool is_tilted =
@@ -401,10 +394,9 @@ void count_gaps(const std::vector<sim::ImuSample>& samples, Tally& tally) {
   for (std::size_t i = 1; i < samples.size(); ++i) {
     periods.push_back(samples[i].t_ns - samples[i - 1].t_ns);
   }
-  if (periods.empty()) return;
-  const std::int64_t usual = median(periods);
+  const auto period_ns = usual(periods);
   for (std::size_t i = 0; i < periods.size(); ++i) {
-    if (periods[i] / kSilentPeriods > usual) {
+    if (periods[i] / kSilentPeriods > *period_ns) {
       tally.add("gaps are in the readings of the IMU, in which the last one is held",
                 fmt::format("{:.3f} s after {} ns", static_cast<double>(periods[i]) * 1e-9,
                             samples[i].t_ns));

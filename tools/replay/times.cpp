@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "tools/files/csv.h"
 #include "tools/input/error.h"
@@ -83,10 +84,7 @@ std::optional<double> usual_period(const TextTable& table, std::size_t column) {
     if (time && last && *time > *last) periods.push_back(static_cast<double>(*time - *last));
     if (time) last = time;
   }
-  if (periods.empty()) return std::nullopt;
-  const auto middle = periods.begin() + std::ssize(periods) / 2;
-  std::nth_element(periods.begin(), middle, periods.end());
-  return *middle;
+  return usual(std::move(periods));
 }
 
 bool is_digits(std::string_view text) {
@@ -145,17 +143,16 @@ std::optional<std::int64_t> calendar_time_in(std::string_view date, std::string_
   return std::chrono::nanoseconds(day->time_since_epoch() + *time_of_day).count();
 }
 
-std::vector<std::optional<std::int64_t>> times_in(const TextTable& table, std::size_t column,
-                                                  std::int64_t unit_ns) {
-  std::vector<std::optional<std::int64_t>> times;
-  for (const TextTable::Row& row : table.rows) {
-    times.push_back(time_in(TextTable::field(row, column), unit_ns));
-  }
-  return times;
+std::optional<double> usual_rate_hz(const std::vector<std::int64_t>& t_ns) {
+  std::vector<std::int64_t> periods;
+  for (std::size_t i = 1; i < t_ns.size(); ++i) periods.push_back(t_ns[i] - t_ns[i - 1]);
+  const auto period_ns = usual(std::move(periods));
+  if (!period_ns) return std::nullopt;
+  return 1e9 / static_cast<double>(*period_ns);
 }
 
 std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std::string& asked,
-                          const ExpectedRate& expected, std::optional<std::int64_t> usual,
+                          const ExpectedRate& expected, std::optional<std::int64_t> layouts,
                           Tally& tally) {
   const std::optional<double> period = usual_period(table, column);
   const auto rate_hz = [&](std::int64_t unit_ns) {
@@ -196,13 +193,13 @@ std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std:
   // The user's unit may be that of another table: then this one's own fits.
   const std::string stated = column < table.header.size() ? unit_in(table.header[column]) : "";
   const auto by_user = time_unit_named(asked), by_header = time_unit_named(stated);
-  for (const auto& unit_ns : {by_user, by_header, by_user ? usual : std::nullopt}) {
+  for (const auto& unit_ns : {by_user, by_header, by_user ? layouts : std::nullopt}) {
     if (unit_ns && fits(*unit_ns)) return chosen(*unit_ns);
   }
   if (by_user && !expected.stated_hz) return *by_user;
   if (by_user) contradict("in " + asked + " by time_unit", *by_user);
   if (by_header) contradict("in " + stated + " by its header", *by_header);
-  if (usual && fits(*usual)) return chosen(*usual);
+  if (layouts && fits(*layouts)) return chosen(*layouts);
   if (fitting == kTimeUnits.end()) {
     throw input::Error(
         {file, table.rows.front().line},

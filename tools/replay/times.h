@@ -2,7 +2,9 @@
 /// Times of recordings: nanoseconds of a clock with any zero.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
@@ -48,15 +50,22 @@ inline constexpr double kSlowestCamera_hz = 0.4, kFastestCamera_hz = 390;
 inline constexpr double kSlowestImu_hz = 12, kFastestImu_hz = 11'000;
 
 /// The unit of the times in a column of a table, in ns: the first that gives the expected rate of
-/// `asked` (s, ms, us, ns), that of the header, and `usual`; else the only one that gives it, which
-/// is told.
-/// \throws input::Error if a stated unit contradicts the rate, or no unit gives it.
+/// `asked` (s, ms, us, ns), that of the header, and `layouts`; else the only one that gives it,
+/// which is told. \throws input::Error if a stated unit contradicts the rate, or no unit gives it.
 std::int64_t time_unit_of(const TextTable& table, std::size_t column, const std::string& asked,
-                          const ExpectedRate& expected, std::optional<std::int64_t> usual,
+                          const ExpectedRate& expected, std::optional<std::int64_t> layouts,
                           Tally& tally);
 
-/// The times of a column, by rows; absent where unreadable.
-std::vector<std::optional<std::int64_t>> times_in(const TextTable& table, std::size_t column,
-                                                  std::int64_t unit_ns);
+/// The upper median; absent for an empty list.
+template <class Number>
+std::optional<Number> usual(std::vector<Number> values) {
+  if (values.empty()) return std::nullopt;
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The rate of times in ns by their usual difference; absent for fewer than two.
+std::optional<double> usual_rate_hz(const std::vector<std::int64_t>& t_ns);
 
 }  // namespace lcs::replay
