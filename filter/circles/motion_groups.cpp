@@ -26,12 +26,16 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
       std::sqrt(1 - (1 - parameters_.upward * parameters_.upward) * up.squaredNorm());
   of_edge_.clear();
   sums_.clear();
+  values_.clear();
+  variances_.clear();
   reach_px_.clear();
   points_.clear();
   const auto seen = static_cast<std::size_t>(
       std::ranges::count_if(edges, [](const Edge& edge) { return edge.corner >= 0; }));
   make_room(of_edge_, seen);
   make_room(sums_, seen);
+  make_room(values_, seen);
+  make_room(variances_, seen);
   make_room(reach_px_, seen);
   make_room(points_, seen);
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -49,7 +53,10 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
       sigma = edge.depth_ratio_sigma / field.reference_depth_m();
       reach_px_.push_back(parameters_.gap_m * value.x() * camera_.focal_px);
     }
-    sums_.emplace_back(h, value, std::hypot(sigma, parameters_.roughness * value.norm()));
+    const double deviation = std::hypot(sigma, parameters_.roughness * value.norm());
+    sums_.emplace_back(h, value, deviation);
+    values_.push_back(value);
+    variances_.push_back(deviation * deviation);
     of_edge_.push_back(static_cast<int>(i));
     points_.emplace_back(cross(axis, edge.location), upward * axis.dot(edge.location));
   }
@@ -74,6 +81,8 @@ void MotionGroups::link() {
       [&](int i, int j, double apart2_px2) {
         const double reach_px = std::min(reach_px_[i], reach_px_[j]);
         const double apart2 = apart2_px2 / (reach_px * reach_px);
+        const double spread2 = variances_[i] + variances_[j];
+        if (!((values_[i] - values_[j]).squaredNorm() < kFar * kFar * spread2)) return;
         if (apart2 < kFar * kFar) {
           links_.emplace_back(0.5 * apart2, std::min(i, j), std::max(i, j));
         }

@@ -61,6 +61,8 @@ class MotionGroups {
   bool rebel_ = false, ground_known_ = false;
   PlanePrior ground_;
   std::vector<int> of_edge_;       // index of each node's edge
+  std::vector<Vec2> values_;        // of each node: what is measured, and its variance
+  std::vector<double> variances_;
   std::vector<PlaneSums> sums_;    // of each node; a root holds its group's sums
   std::vector<double> of_ground_;  // ground_evidence of these sums
   std::vector<double> reach_px_;   // of each node: distance scale to others of its body

@@ -87,18 +87,74 @@ void Association::offer(const Pair& pair) {
   pairs_[i] = pair;
 }
 
-void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, double dt_s) {
-  const double reach = reach_px(dt_s);
-  const double near = parameters_.neighbour_reach_px;
-  const bool looks = !chi.signatures.empty();
-  places_.clear();
-  for (const Track& track : predicted) places_.push_back(track.place_px);
-  tracks_.build(places_, near);
-  signatures_.clear();
-  for (std::size_t i = 0; i < predicted.size(); ++i) {
-    signatures_.push_back(predicted[tracks_.index_at(i)].signature);
+void Association::Sought::clear() {
+  places.clear();
+  tracks.clear();
+}
+
+void Association::Sought::build(std::span<const Track> predicted, double cell_px) {
+  grid.build(places, cell_px);
+  refill(signatures, places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    signatures[i] = predicted[tracks[grid.index_at(i)]].signature;
   }
-  refill(alike_, predicted.size());
+}
+
+/// Sorts the tracks by how far they are looked for.
+void Association::seek(std::span<const Track> predicted, double dt_s) {
+  followed_.clear();
+  recent_.clear();
+  followed_.reach_px = std::min(parameters_.neighbour_reach_px, reach_px(dt_s));
+  recent_.reach_px = reach_px(dt_s);
+  for (std::size_t t = 0; t < predicted.size(); ++t) {
+    const Track& track = predicted[t];
+    const bool is_followed = track.sightings >= 3;
+    Sought& sought = is_followed ? followed_ : recent_;
+    sought.places.push_back(!is_followed       ? track.place_px
+                            : track.belief > 0 ? track.as_moving.place_px
+                                               : track.as_static.place_px);
+    sought.tracks.push_back(static_cast<int>(t));
+  }
+  followed_.build(predicted, followed_.reach_px);
+  recent_.build(predicted, parameters_.neighbour_reach_px);
+}
+
+/// Adds the pairs of a corner, the last in `first_`, with the tracks that are sought.
+/// \param signature null if there is none.
+/// \return whether it certainly continues one of them: near its prediction, with a signature of
+///   which few bits differ.
+bool Association::find_pairs(const Vec2& x_px, const Signature* signature, const Sought& sought) {
+  bool is_sure = false;
+  sought.grid.visit_runs(x_px, sought.reach_px, [&](std::size_t first, std::size_t last) {
+    std::size_t count = last - first;
+    if (signature != nullptr) {
+      count = find_alike(*signature, {&sought.signatures[first], count}, most_bits_, alike_);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t place = first + (signature != nullptr ? alike_[i].place : i);
+      if (sought.grid.distance2(place, x_px) > sought.reach_px * sought.reach_px) continue;
+      const double likeness = signature != nullptr ? likeness_[alike_[i].bits] : 0.0;
+      const int t = sought.tracks[sought.grid.index_at(place)];
+      const Expected& track = expected_[t];
+      const double still = track.still.ln(x_px), moving = track.moving.ln(x_px);
+      // Far from both predictions only the uniform density is left.
+      const double ln_density =
+          std::max(still, moving) < kNone + track.ln_anywhere
+              ? track.ln_anywhere
+              : std::log(std::exp(still) + std::exp(moving) + track.anywhere_ppx2);
+      is_sure = is_sure || (signature != nullptr && 2 * alike_[i].bits <= most_bits_ &&
+                            std::max(still - track.still.ln_most, moving - track.moving.ln_most) >
+                                -0.5 * kFar * kFar);
+      offer({ln_density + likeness, t, static_cast<float>(likeness)});
+    }
+  });
+  return is_sure;
+}
+
+/// Finds the pairs of all corners.
+/// \return how many corners certainly continue a followed track.
+int Association::find_pairs(const Chi& chi) {
+  refill(alike_, expected_.size());
   pairs_.clear();
   // Reserves the most pairs that this number of corners can have, so that no later frame allocates.
   pairs_.reserve(chi.size() * kCrowd);
@@ -110,30 +166,18 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
   crowd_.clear();
   ln_clutter_.clear();
   ln_likest_.clear();
+  int sure = 0;
   for (std::size_t c = 0; c < chi.size(); ++c) {
     const Vec2& x = chi.locations[c];
-    int round = 1;
-    tracks_.visit_within(x, near, [&](int, double) { ++round; });
-    tracks_.visit_runs(x, reach, [&](std::size_t first, std::size_t last) {
-      std::size_t count = last - first;
-      if (looks) {
-        count = find_alike(chi.signatures[c], {&signatures_[first], count}, most_bits_, alike_);
-      }
-      for (std::size_t i = 0; i < count; ++i) {
-        const double likeness = looks ? likeness_[alike_[i].bits] : 0.0;
-        const int t = tracks_.index_at(first + (looks ? alike_[i].place : i));
-        const Expected& track = expected_[t];
-        if ((track.track_px - x).squaredNorm() > reach * reach) continue;
-        const double still = track.still.ln(x), moving = track.moving.ln(x);
-        // Far from both predictions only the uniform density is left.
-        const double ln_density =
-            std::max(still, moving) < kNone + track.ln_anywhere
-                ? track.ln_anywhere
-                : std::log(std::exp(still) + std::exp(moving) + track.anywhere_ppx2);
-        offer({ln_density + likeness, t, static_cast<float>(likeness)});
-      }
-    });
-    crowd_.push_back(round);
+    const Signature* signature = chi.signatures.empty() ? nullptr : &chi.signatures[c];
+    const bool is_sure = find_pairs(x, signature, followed_);
+    sure += is_sure;
+    if (!is_sure || followed_.reach_px == recent_.reach_px) find_pairs(x, signature, recent_);
+    int crowd = 1;
+    for (const Sought* sought : {&followed_, &recent_}) {
+      sought->grid.visit_within(x, parameters_.neighbour_reach_px, [&](int, double) { ++crowd; });
+    }
+    crowd_.push_back(crowd);
     const double ln_clutter = ln_clutter_.emplace_back(std::log(clutter_ppx2(c)));
     ln_likest_.push_back(kNone);
     for (std::size_t p = first_.back(); p < pairs_.size(); ++p) {
@@ -147,6 +191,7 @@ void Association::find_pairs(const Chi& chi, std::span<const Track> predicted, d
     }
     first_.push_back(pairs_.size());
   }
+  return sure;
 }
 
 /// Variance on an axis of the difference between the steps of neighbours on one body.
@@ -189,7 +234,14 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
   refill(chance_ppx2_, chi.size());
   if (predicted.empty() || chi.size() == 0) return track_of_;
   expect(predicted, noise2_px2, dt_s);
-  find_pairs(chi, predicted, dt_s);
+  seek(predicted, dt_s);
+  const auto seen = std::ranges::count_if(
+      predicted, [](const Track& track) { return track.sightings >= 3 && track.unseen == 0; });
+  if (2 * find_pairs(chi) < seen) {
+    // The predictions are wrong, as the told motion may be.
+    followed_.reach_px = recent_.reach_px;
+    find_pairs(chi);
+  }
   const double near = parameters_.neighbour_reach_px;
   // The least that a vote can spread: without a step.
   const double ln_least = std::log(2 * kPi * step_variance_px2(noise2_px2, 0));

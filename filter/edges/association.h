@@ -1,6 +1,10 @@
 /// \file
 /// Assigns corners to tracks, one to one.
 ///
+/// A track with three sightings is looked for near its prediction, any other within reach of the
+/// fastest mover. A corner that certainly continues a track of the first kind is not compared with
+/// the others.
+///
 /// A pair's weight is its likelihood ratio against clutter: density of the track's prediction over
 /// density of tracks there, times the likelihood ratio of the signatures. Neighbouring corners vote
 /// with the same ratio for the same step. Many votes for one step make a chance match unlikely. A
@@ -83,8 +87,22 @@ class Association {
     double anywhere_ppx2, ln_anywhere;
   };
 
+  /// Tracks that are looked for within the same distance.
+  struct Sought {
+    PointGrid grid;
+    std::vector<Vec2> places;
+    std::vector<int> tracks;            // of the places
+    std::vector<Signature> signatures;  // in the order of the grid
+    double reach_px = 0;
+
+    void clear();
+    void build(std::span<const Track> predicted, double cell_px);
+  };
+
   void expect(std::span<const Track> predicted, double noise2_px2, double dt_s);
-  void find_pairs(const Chi& chi, std::span<const Track> predicted, double dt_s);
+  void seek(std::span<const Track> predicted, double dt_s);
+  bool find_pairs(const Vec2& x_px, const Signature* signature, const Sought& sought);
+  int find_pairs(const Chi& chi);
   void offer(const Pair& pair);
   double clutter_ppx2(std::size_t corner) const;
   double step_variance_px2(double noise2_px2, double step2_px2) const;
@@ -95,9 +113,7 @@ class Association {
   int most_bits_ = -1;                // with a likeness of at least 0
 
   // Scratch storage of the current frame; members, so that a frame need not allocate.
-  PointGrid tracks_;
-  std::vector<Vec2> places_;
-  std::vector<Signature> signatures_;             // of the tracks in the order of the grid
+  Sought followed_, recent_;                      // tracks with three sightings; with fewer
   std::vector<Alike> alike_;                      // to a corner's signature
   std::vector<Expected> expected_;                // of each track
   std::vector<Pair> pairs_;                       // by corner

@@ -68,6 +68,11 @@ class PointGrid {
   /// Index of the point at a place in the order of the cells.
   int index_at(std::size_t place) const { return placed_[place].index; }
 
+  /// px^2: squared distance of x from the point at a place in the order of the cells.
+  double distance2(std::size_t place, const Vec2& x) const {
+    return (placed_[place].location - x).squaredNorm();
+  }
+
   /// Calls `visit(first, last)` for ranges of places in the order of the cells that hold all points
   /// within `radius_px` of x, px, and few others.
   template <typename Visit>

@@ -529,6 +529,46 @@ TEST(Association, ReachesNoFartherThanTheFastest) {
   EXPECT_EQ(match(parameters, chi_of({{300, 200}}), {}), (std::vector<int>{-1}));
 }
 
+/// Tracks of four distinct signatures, seen three times, and corners that lie `off_px` from them.
+struct Followed {
+  explicit Followed(const std::array<Vec2, 4>& off_px) {
+    for (std::size_t i = 0; i < off_px.size(); ++i) {
+      const Vec2 x(150.0 + 100.0 * static_cast<double>(i), 200);
+      Track& track = tracks.emplace_back(track_at(x, Signature{1ULL << i}));
+      track.sightings = 3;
+      track.as_moving = OwnMotion::first(x, x, kNoise2_px2, kDt_s);
+      signatures.push_back(track.signature);
+      corners.push_back(x + off_px[i]);
+    }
+  }
+  std::vector<int> matched() const { return match(kUsual, chi_of(corners, signatures), tracks); }
+  std::vector<Track> tracks;
+  std::vector<Signature> signatures;
+  std::vector<Vec2> corners;
+};
+
+TEST(Association, LooksForATrackOfThreeSightingsNearItsPrediction) {
+  const double near_px = kUsual.neighbour_reach_px;
+  EXPECT_EQ(Followed({Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(near_px - 1, 0)}).matched(),
+            (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(Followed({Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(near_px + 1, 0)}).matched(),
+            (std::vector<int>{0, 1, 2, -1}));
+}
+
+TEST(Association, LooksWithinTheReachOfTheFastestWhereMostTracksLeaveTheirPredictions) {
+  const Vec2 far_px(kUsual.neighbour_reach_px + 20, 0);
+  EXPECT_EQ(Followed({far_px, far_px, far_px, far_px}).matched(), (std::vector<int>{0, 1, 2, 3}));
+}
+
+TEST(Association, DoesNotCompareACornerThatSurelyContinuesATrackWithNewTracks) {
+  Followed one({Vec2(1, 0), Vec2(0, 0), Vec2(0, 0), Vec2(0, 0)});
+  // A track seen once at the corner's very place, with its very signature.
+  one.tracks.push_back(track_at(one.corners[0], one.signatures[0]));
+  EXPECT_EQ(one.matched(), (std::vector<int>{0, 1, 2, 3}));
+  one.tracks[0].sightings = 2;
+  EXPECT_EQ(one.matched()[0], 4) << "or the test says nothing";
+}
+
 // ---- Coupling
 
 Coupling::Node node(double x, double log_odds, const Vec2& step = Vec2::Zero()) {
