@@ -7,7 +7,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 namespace lcs {
 
@@ -28,12 +27,5 @@ inline int distance(const Signature& a, const Signature& b) {
 struct Alike {
   int place, bits;
 };
-
-/// Finds the signatures of a list that are at most `most_bits` from one, by the machine's own
-/// instruction for it where it has one.
-/// \param found room for as many as `many`.
-/// \return how many were found.
-std::size_t find_alike(const Signature& one, std::span<const Signature> many, int most_bits,
-                       std::span<Alike> found);
 
 }  // namespace lcs

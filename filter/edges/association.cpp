@@ -7,6 +7,7 @@
 #include "filter/edges/gauss.h"
 #include "filter/kinematics/geometry.h"
 #include "filter/matching/refill.h"
+#include "filter/vectors/vectors.h"
 
 namespace lcs {
 namespace {
@@ -128,7 +129,8 @@ bool Association::find_pairs(const Vec2& x_px, const Signature* signature, const
   sought.grid.visit_runs(x_px, sought.reach_px, [&](std::size_t first, std::size_t last) {
     std::size_t count = last - first;
     if (signature != nullptr) {
-      count = find_alike(*signature, {&sought.signatures[first], count}, most_bits_, alike_);
+      count =
+          loops().alike(*signature, &sought.signatures[first], count, most_bits_, alike_.data());
     }
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t place = first + (signature != nullptr ? alike_[i].place : i);

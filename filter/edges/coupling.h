@@ -38,19 +38,22 @@ class Coupling {
                                     double noise2_px2);
 
  private:
+  void place(std::span<const Node> nodes, const Neighbourhood& around);
+  void tie(const PointGrid& grid, double noise2_px2);
   void follow(std::span<const Node> nodes, const PointGrid& grid);
-  double weight(int i, int j, std::span<const Node> nodes, double distance2_px2,
-                double noise2_px2) const;
 
   EdgeParameters parameters_;
-  std::vector<double> reach_px_;  // of each node
-  struct Tie {
-    int a, b;
-    double weight;
-  };
-  std::vector<Tie> ties_;
-  std::vector<double> sums_, pulls_;  // of each node: sum of weights, weighted sum of tanh
-  std::vector<double> tanh_, beliefs_;
+  std::vector<double> reach_px_, beliefs_;  // of each node
+
+  // The nodes in the order of the grid, as columns for `Loops`. A node that does not tell has
+  // a negative `reach2_px2_`, and no ties.
+  std::vector<float> x_px_, y_px_, step_x_px_, step_y_px_, reach2_px2_, length2_px2_, variance_px2_;
+  std::vector<float> log_odds_, coupled_, tanh_;
+  std::vector<float> sums_, pulls_;  // sum of weights, weighted sum of tanh
+  // The ties of each node, from `first_` of its place on, to nodes after it.
+  std::vector<std::size_t> first_;
+  std::vector<int> others_;
+  std::vector<float> weights_;
 };
 
 }  // namespace lcs

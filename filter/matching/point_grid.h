@@ -65,6 +65,8 @@ class PointGrid {
     }
   }
 
+  std::size_t size() const { return placed_.size(); }
+
   /// Index of the point at a place in the order of the cells.
   int index_at(std::size_t place) const { return placed_[place].index; }
 
@@ -92,27 +94,33 @@ class PointGrid {
     });
   }
 
+  /// Calls `visit(first, last)` for ranges of places after `place` that hold all points after it
+  /// within `radius_px` of it, px, and few others.
+  template <typename Visit>
+  void visit_runs_after(std::size_t place, double radius_px, Visit&& visit) const {
+    const Vec2& x = placed_[place].location;
+    const int here = row(x.y()), bottom = row(x.y() + radius_px);
+    const std::size_t end = run(x, radius_px, here).second;
+    if (place + 1 < end) visit(place + 1, end);
+    for (int r = here + 1; r <= bottom; ++r) {
+      const auto [first, last] = run(x, radius_px, r);
+      if (first < last) visit(first, last);
+    }
+  }
+
   /// Calls `visit(i, j, squared distance)` once for each pair with j within `radius_px(i)` of i,
   /// where i precedes j in the grid. With unequal radii, check that i is also within that of j. In
   /// dense areas the radius shrinks to hold about `crowd` points.
   template <typename Radius, typename Visit>
   void visit_pairs(double crowd, Radius&& radius_px, Visit&& visit) const {
-    for (int r = 0; r < rows_; ++r) {
-      for (std::size_t i = first_[cell(0, r)]; i < first_[cell(columns_ - 1, r) + 1]; ++i) {
-        const Placed& here = placed_[i];
-        const Vec2& x = here.location;
-        const double radius = std::min<double>(radius_px(here.index), crowd_radius(x, crowd));
-        const auto visit_from = [&](std::size_t first, std::size_t last) {
-          visit_near(first, last, x, radius * radius,
-                     [&](int j, double distance2) { visit(here.index, j, distance2); });
-        };
-        const int bottom = row(x.y() + radius);
-        visit_from(i + 1, run(x, radius, r).second);
-        for (int below = r + 1; below <= bottom; ++below) {
-          const auto [first, last] = run(x, radius, below);
-          visit_from(first, last);
-        }
-      }
+    for (std::size_t place = 0; place < placed_.size(); ++place) {
+      const Placed& here = placed_[place];
+      const double radius =
+          std::min<double>(radius_px(here.index), crowd_radius(here.location, crowd));
+      visit_runs_after(place, radius, [&](std::size_t first, std::size_t last) {
+        visit_near(first, last, here.location, radius * radius,
+                   [&](int j, double distance2) { visit(here.index, j, distance2); });
+      });
     }
   }
 

@@ -38,7 +38,7 @@ std::set<std::string> constants() {
     const fs::path file = entry.path().lexically_relative(kFilter);
     const std::string room = file.begin()->string();
     if (!entry.is_regular_file() || file.extension() == ".md" || room == "paper" ||
-        room == "detect" || room == "ego_motion") {
+        room == "detect" || room == "ego_motion" || room == "vectors") {
       continue;
     }
     const std::string text = bench::read(entry.path());

@@ -250,33 +250,6 @@ TEST(Couples, AreSortedByCostThenByIndex) {
 }
 
 /// The machine's instruction and the plain sums count the same bits.
-TEST(Signatures, AreFoundByTheirDistance) {
-  Random random(5);
-  std::vector<Signature> many(50);
-  for (Signature& signature : many) {
-    for (std::uint64_t& word : signature) {
-      for (int bit = 0; bit < 64; ++bit) word = word << 1 | (random.uniform(0, 1) < 0.5);
-    }
-  }
-  const Signature one = many[7];
-  std::vector<Alike> found(many.size());
-  for (const int most : {-1, 0, 120, 128, 256}) {
-    std::vector<std::pair<int, int>> expected, in_order;
-    for (int i = 0; i < 50; ++i) {
-      int bits = 0;
-      for (int k = 0; k < 256; ++k)
-        bits += static_cast<int>(((one[k / 64] ^ many[i][k / 64]) >> (k % 64)) & 1);
-      EXPECT_EQ(distance(one, many[i]), bits);
-      if (bits <= most) expected.emplace_back(i, bits);
-    }
-    const std::size_t count = find_alike(one, many, most, found);
-    for (const Alike& here : std::span(found).first(count)) {
-      in_order.emplace_back(here.place, here.bits);
-    }
-    EXPECT_EQ(in_order, expected) << most;
-  }
-  EXPECT_EQ(find_alike(one, {}, 256, found), 0u);
-}
 
 }  // namespace
 }  // namespace lcs

@@ -1,0 +1,63 @@
+/// \file
+/// Loops over columns of numbers, by the vector instructions that the machine has. The results have
+/// the same bits on each machine: each is compiled from one source (`loops.inl`), without fused
+/// multiplication, and sums have a fixed order.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "filter/matching/refill.h"
+#include "filter/signature.h"
+
+namespace lcs {
+
+/// Items that a loop takes at once. Columns that a loop reads or writes have room for as many more.
+inline constexpr std::size_t kLanes = 8;
+
+/// Sets the column to `size` zeros, with room behind them for a loop.
+template <typename T>
+void refill_column(std::vector<T>& column, std::size_t size) {
+  refill(column, size + kLanes);
+}
+
+/// Columns of nodes that may be tied (MODEL.md (19)), padded.
+struct TieColumns {
+  const float *x_px, *y_px, *step_x_px, *step_y_px;
+  const float* reach2_px2;   ///< r^2; negative for a node without ties
+  const float* length2_px2;  ///< square of the step, times the share by which steps may differ
+  const float* variance_px2;
+  float far2;  ///< bound of the exponent, and of the squared distance in units of `reach2_px2`
+};
+
+struct Loops {
+  /// Finds the points of a range that are within a radius of a point.
+  /// \param found, distance2_px2 room for all of the range and `kLanes` more.
+  /// \return how many were found.
+  std::size_t (*within)(const float* x_px, const float* y_px, std::size_t first, std::size_t last,
+                        float x0_px, float y0_px, float radius2_px2, int* found,
+                        float* distance2_px2);
+  std::size_t (*count_within)(const float* x_px, const float* y_px, std::size_t first,
+                              std::size_t last, float x0_px, float y0_px, float radius2_px2);
+  /// Finds the nodes of a range that are tied to a node.
+  /// \param exponents the bracket of (19).
+  std::size_t (*ties)(const TieColumns& nodes, std::size_t node, float noise2_px2,
+                      std::size_t first, std::size_t last, int* found, float* exponents);
+  /// values[i] = e^(factor values[i])
+  void (*exponentials)(float* values, std::size_t count, float factor);
+  /// tanh(m/2)
+  void (*half_tanh)(const float* m, float* result, std::size_t count);
+  /// Finds the signatures of a list that are at most `most_bits` from one.
+  /// \param found room for all.
+  std::size_t (*alike)(const Signature& one, const Signature* many, std::size_t count,
+                       int most_bits, Alike* found);
+};
+
+/// The loops by this machine's instructions.
+const Loops& loops();
+
+/// The loops by the instructions that all machines have; for tests.
+const Loops& plain_loops();
+
+}  // namespace lcs

@@ -1,0 +1,151 @@
+/// The loops over columns: against the formula, and this machine's against plain ones, bit by bit.
+#include "filter/vectors/vectors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "filter/signature.h"
+#include "tests/filter/world.h"
+
+namespace lcs {
+namespace {
+
+using testing::Random;
+
+const std::vector<const Loops*> kWays = {&loops(), &plain_loops()};
+
+/// A column of numbers, with room behind them that holds anything.
+std::vector<float> column(Random& random, std::size_t count, double low, double high) {
+  std::vector<float> values;
+  for (std::size_t i = 0; i < count + kLanes; ++i) {
+    values.push_back(static_cast<float>(random.uniform(low, high)));
+  }
+  return values;
+}
+
+TEST(Loops, FindAndCountThePointsOfARangeWithinARadius) {
+  Random random(1);
+  const std::vector<float> x = column(random, 50, 0, 100), y = column(random, 50, 0, 100);
+  for (const auto& [first, last] :
+       std::vector<std::pair<std::size_t, std::size_t>>{{0, 0}, {3, 4}, {0, 8}, {5, 22}, {0, 50}}) {
+    for (const float radius2 : {0.0F, 900.0F, 1e6F}) {
+      std::vector<int> expected;
+      std::vector<float> distances;
+      for (std::size_t i = first; i < last; ++i) {
+        const float off_x = x[i] - 40, off_y = y[i] - 60;
+        const float apart2 = off_x * off_x + off_y * off_y;
+        if (apart2 > radius2) continue;
+        expected.push_back(static_cast<int>(i));
+        distances.push_back(apart2);
+      }
+      for (const Loops* way : kWays) {
+        std::vector<int> found(last - first + kLanes);
+        std::vector<float> distance2(last - first + kLanes);
+        const std::size_t count = way->within(x.data(), y.data(), first, last, 40, 60, radius2,
+                                              found.data(), distance2.data());
+        found.resize(count);
+        distance2.resize(count);
+        EXPECT_EQ(found, expected);
+        EXPECT_EQ(distance2, distances);
+        EXPECT_EQ(way->count_within(x.data(), y.data(), first, last, 40, 60, radius2), count);
+      }
+    }
+  }
+}
+
+TEST(Loops, ExponentialsAreThoseOfTheLibrary) {
+  for (const Loops* way : kWays) {
+    std::vector<float> values;
+    for (int i = -860; i <= 870; ++i) values.push_back(0.1F * static_cast<float>(i));
+    const std::vector<float> x = values;
+    values.resize(values.size() + kLanes);
+    way->exponentials(values.data(), x.size(), -0.5F);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      EXPECT_NEAR(values[i] / std::exp(-0.5 * x[i]), 1, 2e-7) << x[i];
+    }
+  }
+}
+
+TEST(Loops, TanhIsThatOfTheLibrary) {
+  for (const Loops* way : kWays) {
+    std::vector<float> m, found(400 + kLanes);
+    for (std::size_t i = 0; i < 400 + kLanes; ++i) {
+      m.push_back(0.25F * static_cast<float>(i) - 50);
+    }
+    way->half_tanh(m.data(), found.data(), 400);
+    for (std::size_t i = 0; i < 400; ++i)
+      EXPECT_NEAR(found[i], std::tanh(0.5 * m[i]), 2e-7) << m[i];
+  }
+}
+
+TEST(Loops, HaveTheSameBitsOnAnyMachine) {
+  Random random(2);
+  constexpr std::size_t kCount = 203;
+  const std::vector<float> x = column(random, kCount, 0, 200), y = column(random, kCount, 0, 200);
+  const std::vector<float> step_x = column(random, kCount, -9, 9);
+  const std::vector<float> step_y = column(random, kCount, -9, 9);
+  const std::vector<float> reach2 = column(random, kCount, 100, 900);
+  const std::vector<float> length2 = column(random, kCount, 0, 10);
+  const std::vector<float> variance = column(random, kCount, 0, 2);
+  const TieColumns nodes = {x.data(),      y.data(),       step_x.data(),   step_y.data(),
+                            reach2.data(), length2.data(), variance.data(), 9};
+  std::vector<std::vector<int>> found;
+  std::vector<std::vector<float>> exponents, powers, tanhs;
+  for (const Loops* way : kWays) {
+    found.emplace_back(kCount + kLanes);
+    exponents.emplace_back(kCount + kLanes);
+    const std::size_t count =
+        way->ties(nodes, 7, 0.3F, 8, kCount, found.back().data(), exponents.back().data());
+    EXPECT_GT(count, 5u);
+    found.back().resize(count);
+    exponents.back().resize(count);
+    powers.push_back(step_x);
+    way->exponentials(powers.back().data(), kCount, 3);
+    powers.back().resize(kCount);
+    tanhs.emplace_back(kCount + kLanes);
+    way->half_tanh(step_y.data(), tanhs.back().data(), kCount);
+    tanhs.back().resize(kCount);
+  }
+  EXPECT_EQ(found[0], found[1]);
+  EXPECT_EQ(exponents[0], exponents[1]);
+  EXPECT_EQ(powers[0], powers[1]);
+  EXPECT_EQ(tanhs[0], tanhs[1]);
+}
+
+TEST(Loops, AreFoundByTheirDistance) {
+  Random random(5);
+  std::vector<Signature> many(50);
+  for (Signature& signature : many) {
+    for (std::uint64_t& word : signature) {
+      for (int bit = 0; bit < 64; ++bit) word = word << 1 | (random.uniform(0, 1) < 0.5);
+    }
+  }
+  const Signature one = many[7];
+  std::vector<Alike> found(many.size());
+  for (const int most : {-1, 0, 120, 128, 256}) {
+    std::vector<std::pair<int, int>> expected;
+    for (int i = 0; i < 50; ++i) {
+      int bits = 0;
+      for (int k = 0; k < 256; ++k)
+        bits += static_cast<int>(((one[k / 64] ^ many[i][k / 64]) >> (k % 64)) & 1);
+      EXPECT_EQ(distance(one, many[i]), bits);
+      if (bits <= most) expected.emplace_back(i, bits);
+    }
+    for (const Loops* way : {&loops(), &plain_loops()}) {
+      std::vector<std::pair<int, int>> in_order;
+      const std::size_t count = way->alike(one, many.data(), many.size(), most, found.data());
+      for (const Alike& here : std::span(found).first(count)) {
+        in_order.emplace_back(here.place, here.bits);
+      }
+      EXPECT_EQ(in_order, expected) << most;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lcs
