@@ -11,6 +11,8 @@ namespace {
 
 /// Log odds that two edges at one place belong to one body.
 constexpr double kNear = 2;
+/// Cost of the links that are tried first; has no effect on the result. One unit of distance.
+const float kShort = 0.5;
 
 }  // namespace
 
@@ -106,27 +108,61 @@ double MotionGroups::evidence(const PlaneSums& sums, double scale, double ground
   return ground_known_ ? std::max(body, ground) : body;
 }
 
-void MotionGroups::merge() {
-  sets_.reset(points_.size());
-  refill(of_ground_, points_.size());
-  if (ground_known_) {
-    for (std::size_t i = 0; i < sums_.size(); ++i) of_ground_[i] = ground_evidence(sums_[i]);
-  }
-  sort_couples(links_, sorted_);
-  for (const Couple& link : links_) {
+/// Whether the two groups were compared before, and have not grown since. The links grow costlier,
+/// so that the answer was and stays no.
+bool MotionGroups::is_refused(int a, int b) const {
+  const Refusal& last = refused_[a];
+  return last.other == b && last.size == sizes_[a] && last.other_size == sizes_[b];
+}
+
+/// Merges groups along links, cheapest first.
+void MotionGroups::merge(std::vector<Couple>& links) {
+  sort_couples(links, sorted_);
+  for (const Couple& link : links) {
     const int a = sets_.root(link.a), b = sets_.root(link.b);
-    if (a == b) continue;
+    if (a == b || is_refused(a, b) || is_refused(b, a)) continue;
     PlaneSums both = sums_[a];
     both += sums_[b];
     const double scale = both.magnitude();
     const double ground = ground_known_ ? ground_evidence(both) : 0;
     const double gain = evidence(both, scale, ground) - evidence(sums_[a], scale, of_ground_[a]) -
                         evidence(sums_[b], scale, of_ground_[b]) + kNear - link.cost;
-    if (!(gain > 0)) continue;
+    if (!(gain > 0)) {
+      refused_[a] = {b, sizes_[a], sizes_[b]};
+      refused_[b] = {a, sizes_[b], sizes_[a]};
+      continue;
+    }
     sets_.join(a, b);
     sums_[a] = both;
     of_ground_[a] = ground;
+    sizes_[a] += sizes_[b];
   }
+}
+
+void MotionGroups::merge() {
+  sets_.reset(points_.size());
+  refill(of_ground_, points_.size());
+  refill(sizes_, points_.size(), 1);
+  refill(refused_, points_.size());
+  if (ground_known_) {
+    for (std::size_t i = 0; i < sums_.size(); ++i) of_ground_[i] = ground_evidence(sums_[i]);
+  }
+  // Most links lie within a group that the short ones make, and need not be sorted.
+  make_room(short_links_, links_.size());
+  short_links_.clear();
+  std::size_t kept = 0;
+  for (const Couple& link : links_) {
+    if (link.cost < kShort) {
+      short_links_.push_back(link);
+    } else {
+      links_[kept++] = link;
+    }
+  }
+  links_.erase(links_.begin() + static_cast<std::ptrdiff_t>(kept), links_.end());
+  merge(short_links_);
+  std::erase_if(links_,
+                [&](const Couple& link) { return sets_.root(link.a) == sets_.root(link.b); });
+  merge(links_);
 }
 
 const std::vector<MotionGroups::Group>& MotionGroups::group(const std::vector<Edge>& edges,

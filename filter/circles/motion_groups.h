@@ -48,6 +48,8 @@ class MotionGroups {
  private:
   void gather(const std::vector<Edge>& edges, const MotionField& field);
   void link();
+  bool is_refused(int a, int b) const;
+  void merge(std::vector<Couple>& links);
   void merge();
   double body_evidence(const PlaneSums& sums, double scale) const;
   double ground_evidence(const PlaneSums& sums) const;
@@ -60,16 +62,22 @@ class MotionGroups {
   // Scratch storage of the current call; members, so that a call need not allocate.
   bool rebel_ = false, ground_known_ = false;
   PlanePrior ground_;
-  std::vector<int> of_edge_;       // index of each node's edge
-  std::vector<Vec2> values_;        // of each node: what is measured, and its variance
+  std::vector<int> of_edge_;  // index of each node's edge
+  std::vector<Vec2> values_;  // of each node: what is measured, and its variance
   std::vector<double> variances_;
   std::vector<PlaneSums> sums_;    // of each node; a root holds its group's sums
   std::vector<double> of_ground_;  // ground_evidence of these sums
   std::vector<double> reach_px_;   // of each node: distance scale to others of its body
   std::vector<Vec2> points_;       // of each node: coordinates along the horizon and upwards
   PointGrid grid_;
-  std::vector<Couple> links_;
+  std::vector<Couple> links_, short_links_;
   std::vector<Couple> sorted_;  // scratch storage
+  /// The group with which a group was not merged last, and the sizes of both then.
+  struct Refusal {
+    int other = -1, size = 0, other_size = 0;
+  };
+  std::vector<Refusal> refused_;  // of each root
+  std::vector<int> sizes_;        // of each root
   DisjointSets sets_;
   SetMembers members_;
   std::vector<int> grouped_;

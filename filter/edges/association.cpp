@@ -175,11 +175,9 @@ int Association::find_pairs(const Chi& chi) {
     const bool is_sure = find_pairs(x, signature, followed_);
     sure += is_sure;
     if (!is_sure || followed_.reach_px == recent_.reach_px) find_pairs(x, signature, recent_);
-    int crowd = 1;
-    for (const Sought* sought : {&followed_, &recent_}) {
-      sought->grid.visit_within(x, parameters_.neighbour_reach_px, [&](int, double) { ++crowd; });
-    }
-    crowd_.push_back(crowd);
+    const double near = parameters_.neighbour_reach_px;
+    crowd_.push_back(1 + static_cast<int>(followed_.grid.count_within(x, near) +
+                                          recent_.grid.count_within(x, near)));
     const double ln_clutter = ln_clutter_.emplace_back(std::log(clutter_ppx2(c)));
     ln_likest_.push_back(kNone);
     for (std::size_t p = first_.back(); p < pairs_.size(); ++p) {

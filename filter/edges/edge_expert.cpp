@@ -48,9 +48,8 @@ void EdgeExpert::predict_tracks(const MotionField& field) {
     next.since_s += field.dt_s();
     next.displacement_C_m = field.R_cur_prev() * track.displacement_C_m + field.displacement_C_m();
     if (!track.has_motion()) {
-      next.as_static =
-          StaticPoint::seen_once(next.place_px, camera_, field, next.displacement_C_m,
-                                 last_noise2_px2_);
+      next.as_static = StaticPoint::seen_once(next.place_px, camera_, field, next.displacement_C_m,
+                                              last_noise2_px2_);
     } else {
       next.as_static = track.as_static.predicted(camera_, field, parameters_.ego_share);
       next.as_moving = track.as_moving.predicted(field, parameters_.turnover_ps);
@@ -327,7 +326,8 @@ const EdgeExpert::Result& EdgeExpert::step(const Chi& chi, const MotionField& to
   MotionField field = velocity_error_.without(*given);
   if (!predicted_.empty() && motion != UsedMotion::none) {
     find_residuals(field, chi, *track_of, started);
-    const MotionFix off = motion_fix(camera_, field, residuals_, velocity_error_.covariance());
+    const MotionFix off =
+        motion_finder_.find(camera_, field, residuals_, velocity_error_.covariance());
     field = field.corrected(off.turn_rad, velocity_error_.see(off));
     predict_tracks(field);
     // In the second frame no depth is known that could contradict the motion. It is checked only if

@@ -76,6 +76,7 @@ class EdgeExpert {
   Neighbourhood around_;                         // of this frame's corners
   Association association_;
   Coupling coupling_;
+  MotionFinder motion_finder_;
   VelocityError velocity_error_;
   std::vector<Track> tracks_;     // of the last frame; tracks with a corner first, by chi
   std::vector<Track> predicted_;  // the same, predicted to this frame

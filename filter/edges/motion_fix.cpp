@@ -2,10 +2,13 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "filter/edges/gauss.h"
 #include "filter/matching/point_grid.h"
+#include "filter/matching/refill.h"
+#include "filter/vectors/vectors.h"
 
 namespace lcs {
 namespace {
@@ -18,55 +21,91 @@ constexpr double kLeave = 0.8;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// px per rad and m/s: derivative of the image motion by a small turn and a change of velocity.
-Eigen::Matrix<double, 2, 6> jacobian(const Intrinsics& camera, const Residual& residual,
-                                     double dt_s) {
-  const Vec2 h = (residual.place_px - camera.centre_px) / camera.focal_px;
-  Eigen::Matrix<double, 2, 6> J;
-  J.leftCols<3>() << h.x() * h.y(), -(1 + h.x() * h.x()), h.y(), 1 + h.y() * h.y(), -h.x() * h.y(),
-      -h.x();
-  J.rightCols<3>() << -1, 0, h.x(), 0, -1, h.y();
-  J.rightCols<3>() *= residual.inverse_depth_pm * dt_s;
-  return camera.focal_px * J;
+/// Lower triangle of a Cholesky factor, row by row; zeros where the matrix is singular.
+std::array<double, 21> root_of(const Matrix6& covariance) {
+  std::array<double, 21> root{};
+  const auto at = [&](int row, int column) -> double& {
+    return root[row * (row + 1) / 2 + column];
+  };
+  for (int column = 0; column < 6; ++column) {
+    double rest = covariance(column, column);
+    for (int k = 0; k < column; ++k) rest -= at(column, k) * at(column, k);
+    if (!(rest > 1e-14 * covariance(column, column))) continue;
+    at(column, column) = std::sqrt(rest);
+    for (int row = column + 1; row < 6; ++row) {
+      double entry = covariance(row, column);
+      for (int k = 0; k < column; ++k) entry -= at(row, k) * at(column, k);
+      at(row, column) = entry / at(column, column);
+    }
+  }
+  return root;
 }
 
 }  // namespace
 
-/// Iterated weighted least squares. A residual's weight is the probability of a static point, given
-/// the residual and the covariance of the current fix.
-MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
-                     std::span<const Residual> residuals,
-                     const Eigen::Matrix3d& velocity_covariance) {
-  const double dt = told.dt_s();
+/// Puts the residuals into columns.
+void MotionFinder::place(const Intrinsics& camera, const MotionField& told,
+                         std::span<const Residual> residuals, double velocity_variance_m2ps2) {
+  const double dt = told.dt_s(), per_depth_px_m = camera.focal_px * dt;
+  const std::array columns = {&h_x_,      &h_y_,      &motion_s_,      &off_x_px_,
+                              &off_y_px_, &S_xx_px2_, &S_xy_px2_,      &S_yy_px2_,
+                              &voice_,    &stands_,   &otherwise_ppx2_};
+  for (std::vector<double>* column : columns) {
+    column->clear();
+    make_room(*column, residuals.size() + kLanes);
+  }
+  for (const Residual& residual : residuals) {
+    // The effect of a change of velocity on a point is as uncertain as the point's depth.
+    Eigen::Matrix2d S =
+        residual.covariance_px2 + residual.by_depth_px * residual.by_depth_px.transpose();
+    S.diagonal().array() += per_depth_px_m * per_depth_px_m * velocity_variance_m2ps2 *
+                            residual.inverse_depth_variance_pm2;
+    // The precision across a segment of a million pixels is lost in rounding.
+    if (!(S.determinant() > 1e-12 * S.trace() * S.trace())) continue;
+    const Vec2 h = (residual.place_px - camera.centre_px) / camera.focal_px;
+    h_x_.push_back(h.x());
+    h_y_.push_back(h.y());
+    motion_s_.push_back(residual.inverse_depth_pm * dt);
+    off_x_px_.push_back(residual.off_px.x());
+    off_y_px_.push_back(residual.off_px.y());
+    S_xx_px2_.push_back(S(0, 0));
+    S_xy_px2_.push_back(S(0, 1));
+    S_yy_px2_.push_back(S(1, 1));
+    voice_.push_back(residual.voice);
+    stands_.push_back(residual.stands);
+    otherwise_ppx2_.push_back(residual.otherwise_ppx2);
+  }
+  for (std::vector<double>* column : columns) {
+    const bool is_variance = column == &S_xx_px2_ || column == &S_yy_px2_;
+    column->resize(column->size() + kLanes, is_variance || column == &otherwise_ppx2_ ? 1 : 0);
+  }
+}
+
+MotionFix MotionFinder::find(const Intrinsics& camera, const MotionField& told,
+                             std::span<const Residual> residuals,
+                             const Eigen::Matrix3d& velocity_covariance) {
   const double turn = std::hypot(kTurn_rad, told.unseen_turn_rad());
-  const double velocity_variance = velocity_covariance.trace() / 3;
   Matrix6 prior = Matrix6::Zero();  // not inverted: 0 if the motion is exact
   prior.topLeftCorner<3, 3>().diagonal().setConstant(turn * turn);
   prior.bottomRightCorner<3, 3>() = velocity_covariance;
+  place(camera, told, residuals, velocity_covariance.trace() / 3);
+  const ResidualColumns columns = {
+      h_x_.data(),      h_y_.data(),      motion_s_.data(),       off_x_px_.data(),
+      off_y_px_.data(), S_xx_px2_.data(), S_xy_px2_.data(),       S_yy_px2_.data(),
+      voice_.data(),    stands_.data(),   otherwise_ppx2_.data(), camera.focal_px};
   Matrix6 left_open = prior, covariance = prior;
   Vector6 fix = Vector6::Zero();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    Matrix6 information = Matrix6::Zero();
-    Vector6 pull = Vector6::Zero();
-    for (const Residual& residual : residuals) {
-      const Eigen::Matrix<double, 2, 6> J = jacobian(camera, residual, dt);
-      // The effect of a change of velocity on a point is as uncertain as the point's depth.
-      Eigen::Matrix2d S =
-          residual.covariance_px2 + residual.by_depth_px * residual.by_depth_px.transpose();
-      S.diagonal().array() += camera.focal_px * camera.focal_px * dt * dt * velocity_variance *
-                              residual.inverse_depth_variance_pm2;
-      // The precision across a segment of a million pixels is lost in rounding.
-      if (!(S.determinant() > 1e-12 * S.trace() * S.trace())) continue;
-      const Vec2 left = residual.off_px - J * fix;
-      const double stands = residual.stands * gauss(left, S + J * left_open * J.transpose());
-      const double weight = residual.voice * stands / (stands + residual.otherwise_ppx2);
-      const Eigen::Matrix2d precision = weight * S.inverse();
-      const Eigen::Matrix<double, 6, 2> weighed = J.transpose() * precision;
-      information += weighed * J;
-      pull += weighed * residual.off_px;
+    NormalSums sums;
+    loops().normal_sums(columns, h_x_.size() - kLanes, fix.data(), root_of(left_open).data(), sums);
+    Matrix6 information;
+    for (int row = 0, entry = 0; row < 6; ++row) {
+      for (int column = row; column < 6; ++column, ++entry) {
+        information(row, column) = information(column, row) = sums.information[entry];
+      }
     }
     covariance = (Matrix6::Identity() + prior * information).inverse() * prior;
-    fix = covariance * pull;
+    fix = covariance * Eigen::Map<const Vector6>(sums.pull);
     // Wrong matches pull the first rounds far off; later rounds search closer.
     left_open = covariance + prior * std::pow(kFar, -2 * (iteration + 1));
   }

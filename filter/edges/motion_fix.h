@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <vector>
 
 #include "filter/kinematics/camera.h"
 #include "filter/kinematics/motion_field.h"
@@ -29,10 +30,21 @@ struct MotionFix {
   Eigen::Matrix3d velocity_covariance;  ///< of the corrected velocity, (m/s)^2
 };
 
-/// \param velocity_covariance prior covariance of the error of `told`'s velocity, (m/s)^2.
-MotionFix motion_fix(const Intrinsics& camera, const MotionField& told,
-                     std::span<const Residual> residuals,
-                     const Eigen::Matrix3d& velocity_covariance);
+/// Finds the correction by iterated weighted least squares. Keeps its memory.
+class MotionFinder {
+ public:
+  /// \param velocity_covariance prior covariance of the error of `told`'s velocity, (m/s)^2.
+  MotionFix find(const Intrinsics& camera, const MotionField& told,
+                 std::span<const Residual> residuals, const Eigen::Matrix3d& velocity_covariance);
+
+ private:
+  void place(const Intrinsics& camera, const MotionField& told, std::span<const Residual> residuals,
+             double velocity_variance_m2ps2);
+
+  /// Columns for `Loops`.
+  std::vector<double> h_x_, h_y_, motion_s_, off_x_px_, off_y_px_, S_xx_px2_, S_xy_px2_, S_yy_px2_,
+      voice_, stands_, otherwise_ppx2_;
+};
 
 /// Whether static tracks are at least half of all, and most of them left their predictions: then
 /// the motion is wrong.

@@ -2,7 +2,11 @@
 /// The nearest corners of each corner of a frame, found once for all steps that ask.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -17,33 +21,63 @@ class Neighbourhood {
   /// \param count neighbours of each point, fewer if there are fewer points.
   void build(std::span<const Vec2> points, double cell_px, int count) {
     grid_.build(points, cell_px);
-    make_room(first_, points.size() + 1);
+    const std::size_t others = std::max<std::size_t>(points.size(), 1) - 1;
+    count_ = std::min(static_cast<std::size_t>(count), others);
     make_room(nearest_, points.size() * static_cast<std::size_t>(count));
-    first_.assign(1, 0);
-    nearest_.clear();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      grid_.nearest(
-          points[i], std::numeric_limits<double>::infinity(), static_cast<std::size_t>(count),
-          [&](int other) { return other != static_cast<int>(i); }, found_);
-      nearest_.insert(nearest_.end(), found_.begin(), found_.end());
-      first_.push_back(nearest_.size());
+    nearest_.resize(points.size() * count_);
+    if (count_ == 0) return;
+    double radius_px = grid_.crowd_radius(points[grid_.index_at(0)], count);
+    for (std::size_t place = 0; place < points.size(); ++place) {
+      const int here = grid_.index_at(place);
+      const Vec2& x = points[here];
+      // It reaches about as far as the last one.
+      if (place > 0) radius_px = 1.2 * reach_px(grid_.index_at(place - 1));
+      std::size_t near = grid_.find_within(x, radius_px, near_);
+      for (; near <= count_; near = grid_.find_within(x, radius_px, near_)) radius_px *= 1.4;
+      keys_.assign(count_, std::numeric_limits<std::uint64_t>::max());
+      for (std::size_t k = 0; k < near; ++k) {
+        const auto other = static_cast<std::size_t>(near_.places[k]);
+        if (other != place) insert(key(near_.distance2_px2[k], grid_.index_at(other)));
+      }
+      Neighbour* next = &nearest_[static_cast<std::size_t>(here) * count_];
+      for (const std::uint64_t key : keys_) {
+        *next++ = {std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)),
+                   static_cast<int>(key & 0xffffffff)};
+      }
     }
   }
 
   const PointGrid& grid() const { return grid_; }
   /// The neighbours of a point, nearest first.
   std::span<const Neighbour> of(std::size_t point) const {
-    return {nearest_.data() + first_[point], first_[point + 1] - first_[point]};
+    return {nearest_.data() + point * count_, count_};
   }
   /// px: distance to the farthest of these neighbours; 0 without any.
   double reach_px(std::size_t point) const {
-    return of(point).empty() ? 0 : std::sqrt(of(point).back().distance2);
+    return count_ == 0 ? 0 : std::sqrt(of(point).back().distance2);
   }
 
  private:
+  /// A number that rises with the distance, then with the index: the bits of floats that are not
+  /// negative have the floats' order.
+  static std::uint64_t key(float distance2_px2, int index) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(distance2_px2)} << 32 |
+           static_cast<std::uint32_t>(index);
+  }
+
+  /// Inserts a key into the sorted list, in place of its last one.
+  void insert(std::uint64_t key) {
+    std::uint64_t* place = &keys_.back();
+    if (key >= *place) return;
+    for (; place > keys_.data() && key < place[-1]; --place) *place = place[-1];
+    *place = key;
+  }
+
   PointGrid grid_;
-  std::vector<Neighbour> found_, nearest_;
-  std::vector<std::size_t> first_{0};
+  PointGrid::Found near_;
+  std::vector<std::uint64_t> keys_;
+  std::vector<Neighbour> nearest_;  // `count_` of each point
+  std::size_t count_ = 0;
 };
 
 }  // namespace lcs

@@ -12,6 +12,7 @@
 
 #include "filter/kinematics/camera.h"
 #include "filter/matching/refill.h"
+#include "filter/vectors/vectors.h"
 
 namespace lcs {
 
@@ -63,6 +64,12 @@ class PointGrid {
     for (std::size_t i = 0; i < points.size(); ++i) {
       placed_[first_[cell_of_[i] + 1]++] = {points[i], static_cast<int>(i)};
     }
+    refill_column(x_px_, points.size());
+    refill_column(y_px_, points.size());
+    for (std::size_t place = 0; place < placed_.size(); ++place) {
+      x_px_[place] = static_cast<float>(placed_[place].location.x());
+      y_px_[place] = static_cast<float>(placed_[place].location.y());
+    }
   }
 
   std::size_t size() const { return placed_.size(); }
@@ -73,6 +80,38 @@ class PointGrid {
   /// px^2: squared distance of x from the point at a place in the order of the cells.
   double distance2(std::size_t place, const Vec2& x) const {
     return (placed_[place].location - x).squaredNorm();
+  }
+
+  /// Places of points and their squared distances from another, px^2; room for a search.
+  struct Found {
+    std::vector<int> places;
+    std::vector<float> distance2_px2;
+  };
+
+  /// Finds the points within `radius_px` of x, px, in single precision. \return their number.
+  std::size_t find_within(const Vec2& x, double radius_px, Found& found) const {
+    const std::size_t room = placed_.size() + kLanes;
+    if (found.places.size() < room) {
+      refill(found.places, room);
+      refill(found.distance2_px2, room);
+    }
+    std::size_t count = 0;
+    visit_runs(x, radius_px, [&](std::size_t first, std::size_t last) {
+      count += loops().within(x_px_.data(), y_px_.data(), first, last, static_cast<float>(x.x()),
+                              static_cast<float>(x.y()), static_cast<float>(radius_px * radius_px),
+                              found.places.data() + count, found.distance2_px2.data() + count);
+    });
+    return count;
+  }
+  /// The number of points within `radius_px` of x, px, in single precision.
+  std::size_t count_within(const Vec2& x, double radius_px) const {
+    std::size_t count = 0;
+    visit_runs(x, radius_px, [&](std::size_t first, std::size_t last) {
+      count += loops().count_within(x_px_.data(), y_px_.data(), first, last,
+                                    static_cast<float>(x.x()), static_cast<float>(x.y()),
+                                    static_cast<float>(radius_px * radius_px));
+    });
+    return count;
   }
 
   /// Calls `visit(first, last)` for ranges of places in the order of the cells that hold all points
@@ -237,6 +276,7 @@ class PointGrid {
   }
 
   std::vector<Placed> placed_;            // sorted by cell, then by index
+  std::vector<float> x_px_, y_px_;        // of these
   std::vector<std::size_t> first_{0, 0};  // start of each cell in placed_, and the end
   std::vector<std::size_t> cell_of_;
   Vec2 low_ = Vec2::Zero();

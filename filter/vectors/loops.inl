@@ -2,6 +2,8 @@
 // Uses no inline function of a header, which would be compiled for one set and linked for all.
 
 using Floats = float __attribute__((vector_size(4 * kLanes)));
+using Doubles = double __attribute__((vector_size(4 * kLanes)));
+using Longs = std::int64_t __attribute__((vector_size(4 * kLanes)));
 using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
 
 namespace {
@@ -79,6 +81,39 @@ inline __attribute__((always_inline)) Floats exp_of(const Floats& argument) {
   return p * (Floats)power;
 }
 
+inline __attribute__((always_inline)) Doubles load(const double* from) {
+  Doubles values;
+  __builtin_memcpy(&values, from, sizeof values);
+  return values;
+}
+
+inline __attribute__((always_inline)) Doubles root_of(const Doubles& x) {
+#ifdef __AVX2__
+  return (Doubles)_mm256_sqrt_pd((__m256d)x);
+#else
+  return Doubles{__builtin_sqrt(x[0]), __builtin_sqrt(x[1]), __builtin_sqrt(x[2]),
+                 __builtin_sqrt(x[3])};
+#endif
+}
+
+/// e^x, with a relative error below 2e-7, for -700 < x < 700; at the bounds beyond them.
+inline __attribute__((always_inline)) Doubles exp_of(const Doubles& argument) {
+  Doubles x = argument < -700.0 ? Doubles{} - 700.0 : argument;
+  x = x > 700.0 ? Doubles{} + 700.0 : x;
+  // 1.5 * 2^52 is added to round to an integer, whose bits are then the last ones.
+  const Doubles shifted = x * 1.4426950408889634 + 6755399441055744.0;
+  const Doubles n = shifted - 6755399441055744.0;
+  const Doubles r = x - n * 0.6931471805599453;
+  Doubles p = 1.9875691500e-4 * r + 1.3981999507e-3;
+  p = p * r + 8.3334519073e-3;
+  p = p * r + 4.1665795894e-2;
+  p = p * r + 1.6666665459e-1;
+  p = p * r + 5.0000001201e-1;
+  p = p * r * r + r + 1.0;
+  const Longs power = ((Longs)shifted + 1023) << 52;
+  return p * (Doubles)power;
+}
+
 std::size_t within(const float* x_px, const float* y_px, std::size_t first, std::size_t last,
                    float x0_px, float y0_px, float radius2_px2, int* found, float* distance2_px2) {
   std::size_t count = 0;
@@ -140,6 +175,63 @@ void half_tanh(const float* m, float* result, std::size_t count) {
   }
 }
 
+void normal_sums(const ResidualColumns& residuals, std::size_t count, const double* fix,
+                 const double* root, NormalSums& sums) {
+  Doubles information[21] = {}, pull[6] = {};
+  for (std::size_t k = 0; k < count; k += 4) {
+    const Doubles hx = load(residuals.h_x + k), hy = load(residuals.h_y + k);
+    const Doubles motion = load(residuals.motion_s + k) * residuals.focal_px;
+    const double f = residuals.focal_px;
+    const Doubles J[2][6] = {
+        {f * hx * hy, -f * (1.0 + hx * hx), f * hy, -motion, Doubles{}, motion * hx},
+        {f * (1.0 + hy * hy), -f * hx * hy, -f * hx, Doubles{}, -motion, motion * hy}};
+    const Doubles off[2] = {load(residuals.off_x_px + k), load(residuals.off_y_px + k)};
+    Doubles left[2] = {off[0], off[1]};
+    // Covariance of the residual, and with that of the fix: J root (J root)^T.
+    const Doubles S_xx = load(residuals.S_xx_px2 + k), S_xy = load(residuals.S_xy_px2 + k);
+    const Doubles S_yy = load(residuals.S_yy_px2 + k);
+    Doubles T_xx = S_xx, T_xy = S_xy, T_yy = S_yy;
+    for (int column = 0; column < 6; ++column) {
+      Doubles spread[2] = {};
+      for (int row = column; row < 6; ++row) {
+        const double entry = root[row * (row + 1) / 2 + column];
+        spread[0] += J[0][row] * entry;
+        spread[1] += J[1][row] * entry;
+      }
+      T_xx += spread[0] * spread[0];
+      T_xy += spread[0] * spread[1];
+      T_yy += spread[1] * spread[1];
+      left[0] -= J[0][column] * fix[column];
+      left[1] -= J[1][column] * fix[column];
+    }
+    const Doubles T_det = T_xx * T_yy - T_xy * T_xy;
+    const Doubles distance2 =
+        (left[0] * left[0] * T_yy - 2.0 * left[0] * left[1] * T_xy + left[1] * left[1] * T_xx) /
+        T_det;
+    const Doubles stands = load(residuals.stands + k) * exp_of(-0.5 * distance2) /
+                           (6.283185307179586 * root_of(T_det));
+    const Doubles weight =
+        load(residuals.voice + k) * stands / (stands + load(residuals.otherwise_ppx2 + k));
+    const Doubles precision = weight / (S_xx * S_yy - S_xy * S_xy);
+    const Doubles P_xx = S_yy * precision, P_xy = -S_xy * precision, P_yy = S_xx * precision;
+    for (int row = 0, entry = 0; row < 6; ++row) {
+      const Doubles weighed[2] = {P_xx * J[0][row] + P_xy * J[1][row],
+                                  P_xy * J[0][row] + P_yy * J[1][row]};
+      for (int column = row; column < 6; ++column, ++entry) {
+        information[entry] += weighed[0] * J[0][column] + weighed[1] * J[1][column];
+      }
+      pull[row] += weighed[0] * off[0] + weighed[1] * off[1];
+    }
+  }
+  for (int i = 0; i < 21; ++i) {
+    sums.information[i] =
+        (information[i][0] + information[i][1]) + (information[i][2] + information[i][3]);
+  }
+  for (int i = 0; i < 6; ++i) {
+    sums.pull[i] = (pull[i][0] + pull[i][1]) + (pull[i][2] + pull[i][3]);
+  }
+}
+
 std::size_t alike(const Signature& one, const Signature* many, std::size_t count, int most_bits,
                   Alike* found) {
   const auto* a = reinterpret_cast<const std::uint64_t*>(&one);
@@ -154,6 +246,6 @@ std::size_t alike(const Signature& one, const Signature* many, std::size_t count
   return kept;
 }
 
-constexpr Loops kLoops = {within, count_within, ties, exponentials, half_tanh, alike};
+constexpr Loops kLoops = {within, count_within, ties, exponentials, half_tanh, normal_sums, alike};
 
 }  // namespace

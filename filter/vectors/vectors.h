@@ -31,6 +31,23 @@ struct TieColumns {
   float far2;  ///< bound of the exponent, and of the squared distance in units of `reach2_px2`
 };
 
+/// Columns of residuals of static tracks (MODEL.md (8)), padded by residuals of weight 0.
+struct ResidualColumns {
+  const double *h_x, *h_y;  ///< rays of the places
+  const double* motion_s;   ///< inverse depth times the frame's time, by which a velocity acts, s/m
+  const double *off_x_px, *off_y_px;
+  const double *S_xx_px2, *S_xy_px2, *S_yy_px2;  ///< covariance of the residual
+  const double* voice;
+  const double *stands, *otherwise_ppx2;  ///< as in `Residual`
+  double focal_px;
+};
+
+/// Sums of weighted least squares for six unknowns, row by row.
+struct NormalSums {
+  double information[21];  ///< upper triangle
+  double pull[6];
+};
+
 struct Loops {
   /// Finds the points of a range that are within a radius of a point.
   /// \param found, distance2_px2 room for all of the range and `kLanes` more.
@@ -48,6 +65,11 @@ struct Loops {
   void (*exponentials)(float* values, std::size_t count, float factor);
   /// tanh(m/2)
   void (*half_tanh)(const float* m, float* result, std::size_t count);
+  /// Sums of the equations of (9) for the turn and the velocity.
+  /// \param fix present estimate.
+  /// \param root lower triangle of a Cholesky factor of the estimate's covariance, row by row.
+  void (*normal_sums)(const ResidualColumns& residuals, std::size_t count, const double* fix,
+                      const double* root, NormalSums& sums);
   /// Finds the signatures of a list that are at most `most_bits` from one.
   /// \param found room for all.
   std::size_t (*alike)(const Signature& one, const Signature* many, std::size_t count,

@@ -731,7 +731,7 @@ TEST(MotionFix, FindsWhatTheToldMotionIsOffByAmongWrongMatches) {
       misled.residuals[i].off_px = 30 * random.vector(1).head<2>();
     }
     const double before = misled.worst_across(misled.told);
-    const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
+    const MotionFix fix = MotionFinder().find(vga(), misled.told, misled.residuals, kWrong);
     const double after = misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps));
     EXPECT_GT(before, 0.6);
     // The worst of 200 places. A turn and a sideways velocity look alike at known depths, and each
@@ -749,7 +749,7 @@ TEST(MotionFix, FindsALargeTurnThatNoGyroSawAmongWrongMatches) {
     for (std::size_t i = 0; i < misled.residuals.size(); i += 2) {
       misled.residuals[i].off_px = Vec2(50, -100) + 50 * random.vector(1).head<2>();
     }
-    const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
+    const MotionFix fix = MotionFinder().find(vga(), misled.told, misled.residuals, kWrong);
     // The fix is linear in the turn.
     EXPECT_LT((fix.turn_rad - turn).norm(), 1e-3 + turn.squaredNorm() / 2) << "seed " << seed;
   }
@@ -762,7 +762,7 @@ TEST(MotionFix, TakesNothingFromWhatADepthExplains) {
   for (Residual& residual : misled.residuals) {
     residual.off_px += 3 * misled.told.direction(residual.place_px);
   }
-  const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
+  const MotionFix fix = MotionFinder().find(vga(), misled.told, misled.residuals, kWrong);
   EXPECT_LT(fix.turn_rad.norm(), 2e-4);
   EXPECT_LT(misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps)), 0.3);
 }
@@ -775,7 +775,7 @@ TEST(MotionFix, TakesLittleFromWhatIsKnownToMove) {
     misled.residuals[i].stands = 0.01;
     misled.residuals[i].otherwise_ppx2 = 0.2;
   }
-  const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
+  const MotionFix fix = MotionFinder().find(vga(), misled.told, misled.residuals, kWrong);
   EXPECT_LT(misled.worst_across(misled.told.corrected(fix.turn_rad, fix.velocity_mps)), 0.3);
 }
 
@@ -785,7 +785,7 @@ TEST(MotionFix, SaysNothingWhereNobodyTellsAndMoreTheMoreTell) {
   double turn = 0;
   for (const int residuals : {0, 20, 200}) {
     const Misled misled({1e-3, 0, 0}, Vector3d::Zero(), residuals, random);
-    const MotionFix fix = motion_fix(vga(), misled.told, misled.residuals, kWrong);
+    const MotionFix fix = MotionFinder().find(vga(), misled.told, misled.residuals, kWrong);
     if (residuals == 0) {
       EXPECT_EQ(fix.turn_rad.norm(), 0);
       EXPECT_TRUE(fix.velocity_covariance.isApprox(kWrong));

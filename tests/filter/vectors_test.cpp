@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -96,6 +97,17 @@ TEST(Loops, HaveTheSameBitsOnAnyMachine) {
                             reach2.data(), length2.data(), variance.data(), 9};
   std::vector<std::vector<int>> found;
   std::vector<std::vector<float>> exponents, powers, tanhs;
+  std::vector<std::vector<double>> columns(11);
+  for (std::vector<double>& column : columns) {
+    for (std::size_t i = 0; i < kCount + kLanes; ++i) column.push_back(random.uniform(0.1, 1));
+  }
+  for (double& xy : columns[6]) xy *= 0.1;  // the variances are 0.1 at least
+  const ResidualColumns residuals = {columns[0].data(), columns[1].data(),  columns[2].data(),
+                                     columns[3].data(), columns[4].data(),  columns[5].data(),
+                                     columns[6].data(), columns[7].data(),  columns[8].data(),
+                                     columns[9].data(), columns[10].data(), 400};
+  const std::vector<double> fix(6, 1e-3), root(21, 1e-3);
+  std::vector<std::vector<double>> sums;
   for (const Loops* way : kWays) {
     found.emplace_back(kCount + kLanes);
     exponents.emplace_back(kCount + kLanes);
@@ -110,7 +122,13 @@ TEST(Loops, HaveTheSameBitsOnAnyMachine) {
     tanhs.emplace_back(kCount + kLanes);
     way->half_tanh(step_y.data(), tanhs.back().data(), kCount);
     tanhs.back().resize(kCount);
+    NormalSums sum;
+    way->normal_sums(residuals, kCount, fix.data(), root.data(), sum);
+    sums.emplace_back(std::begin(sum.information), std::end(sum.information));
+    sums.back().insert(sums.back().end(), std::begin(sum.pull), std::end(sum.pull));
+    EXPECT_GT(sum.information[0], 0);
   }
+  EXPECT_EQ(sums[0], sums[1]);
   EXPECT_EQ(found[0], found[1]);
   EXPECT_EQ(exponents[0], exponents[1]);
   EXPECT_EQ(powers[0], powers[1]);
