@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "filter/edges/gauss.h"
 #include "filter/kinematics/geometry.h"
@@ -14,12 +13,6 @@ namespace {
 
 /// ln of the least ratio that counts; anything less is lost in rounding.
 const double kNone = std::log(std::numeric_limits<float>::epsilon());
-
-/// ln(1 + e^x).
-double softplus(double x) {
-  if (x < kNone) return 0;
-  return x > -kNone ? x : std::log1p(std::exp(x));
-}
 
 }  // namespace
 
@@ -76,7 +69,8 @@ void Association::expect(std::span<const Track> predicted, double noise2_px2, do
 
 /// Keeps the pair if it is among the likeliest of the last corner in `first_`.
 void Association::offer(const Pair& pair) {
-  if (pairs_.size() < first_.back() + kCrowd) {
+  const std::size_t first = first_.back();
+  if (pairs_.size() < first + kCrowd) {
     pairs_.push_back(pair);
   } else if (pair < pairs_.back()) {
     pairs_.back() = pair;
@@ -84,7 +78,7 @@ void Association::offer(const Pair& pair) {
     return;
   }
   std::size_t i = pairs_.size() - 1;
-  for (; i > first_.back() && pair < pairs_[i - 1]; --i) pairs_[i] = pairs_[i - 1];
+  for (; i > first && pair < pairs_[i - 1]; --i) pairs_[i] = pairs_[i - 1];
   pairs_[i] = pair;
 }
 
@@ -160,9 +154,9 @@ int Association::find_pairs(const Chi& chi) {
   pairs_.clear();
   // Reserves the most pairs that this number of corners can have, so that no later frame allocates.
   pairs_.reserve(chi.size() * kCrowd);
-  const auto most = static_cast<Eigen::Index>(chi.size() * kCrowd);
+  const std::size_t most = chi.size() * kCrowd + kLanes;
   if (step_x_.size() < most) {
-    for (Eigen::ArrayXf* list : {&step_x_, &step_y_, &likeness_of_}) list->resize(most);
+    for (std::vector<float>* column : {&step_x_, &step_y_, &likeness_of_}) column->resize(most);
   }
   first_.assign(1, 0);
   crowd_.clear();
@@ -178,8 +172,9 @@ int Association::find_pairs(const Chi& chi) {
     const double near = parameters_.neighbour_reach_px;
     crowd_.push_back(1 + static_cast<int>(followed_.grid.count_within(x, near) +
                                           recent_.grid.count_within(x, near)));
-    const double ln_clutter = ln_clutter_.emplace_back(std::log(clutter_ppx2(c)));
-    ln_likest_.push_back(kNone);
+    const float ln_clutter =
+        ln_clutter_.emplace_back(static_cast<float>(std::log(clutter_ppx2(c))));
+    ln_likest_.push_back(static_cast<float>(kNone));
     for (std::size_t p = first_.back(); p < pairs_.size(); ++p) {
       Pair& pair = pairs_[p];
       pair.weight -= ln_clutter;
@@ -187,9 +182,9 @@ int Association::find_pairs(const Chi& chi) {
       step_x_[p] = static_cast<float>(step.x());
       step_y_[p] = static_cast<float>(step.y());
       likeness_of_[p] = pair.likeness;
-      ln_likest_.back() = std::max<double>(ln_likest_.back(), pair.likeness - ln_clutter);
+      ln_likest_.back() = std::max(ln_likest_.back(), pair.likeness - ln_clutter);
     }
-    first_.push_back(pairs_.size());
+    first_.push_back(static_cast<std::uint32_t>(pairs_.size()));
   }
   return sure;
 }
@@ -199,32 +194,53 @@ double Association::step_variance_px2(double noise2_px2, double step2_px2) const
   return 4 * noise2_px2 + parameters_.step_share * parameters_.step_share * step2_px2;
 }
 
-/// Weight of a pair plus the votes of its neighbours. A vote is ln((1 + ratio) / 2): the neighbour
-/// is detected again at even odds.
-/// \return may stop early with any value below `least`.
-double Association::asked(std::size_t pair, double noise2_px2, double least) const {
-  const float x = step_x_[pair], y = step_y_[pair];
-  const double variance = step_variance_px2(noise2_px2, x * x + y * y);
-  const double ln_spread = std::log(2 * kPi * variance);
-  const auto per_px2 = static_cast<float>(-0.5 / variance);
-  double most = 0;  // upper bound of the votes still to come
-  for (const Voice& voice : voices_) most += voice.at_most(ln_spread);
-  double weight = pairs_[pair].weight;
-  for (const Voice& voice : voices_) {
-    if (weight + most < least) break;
-    most -= voice.at_most(ln_spread);
-    const std::size_t first = first_[voice.corner], count = first_[voice.corner + 1] - first;
-    double agrees = kNone;  // ln
-    if (count > 0) {
-      agrees = (per_px2 * ((step_x_.segment(first, count) - x).square() +
-                           (step_y_.segment(first, count) - y).square()) +
-                likeness_of_.segment(first, count))
-                   .maxCoeff() -
-               ln_spread - ln_clutter_[voice.corner];
-    }
-    weight += voice.weight * (softplus(agrees) - std::numbers::ln2);
+/// Sets the weight of each voice.
+void Association::weigh_voices(const Neighbourhood& around) {
+  const double near = parameters_.neighbour_reach_px;
+  voices_.clear();
+  refill_column(voice_weights_, around.all().size());
+  refill_column(voice_clutter_, around.all().size());
+  for (const Neighbour& other : around.all()) {
+    const std::size_t voice = voices_.size();
+    voice_weights_[voice] = static_cast<float>(other.distance2);
+    voice_clutter_[voice] = ln_clutter_[static_cast<std::size_t>(other.index)];
+    voices_.push_back(other.index);
   }
-  return weight;
+  loops().exponentials(voice_weights_.data(), voices_.size(),
+                       static_cast<float>(-0.5 / (near * near)));
+}
+
+/// The pair of a corner with the largest weight, the votes of its neighbours included. A vote is
+/// ln((1 + ratio) / 2): the neighbour is detected again at even odds.
+Association::Match Association::best_pair(std::size_t corner, std::span<const Neighbour> voices,
+                                          double noise2_px2) const {
+  const double far2_px2 = std::pow(kFar * parameters_.neighbour_reach_px, 2);
+  const std::size_t first_voice = corner * voices.size();
+  // The least that a vote can spread: without a step.
+  const double ln_least = std::log(2 * kPi * step_variance_px2(noise2_px2, 0));
+  std::size_t count = 0;
+  double most = 0;  // that the voices can add to any pair
+  for (; count < voices.size() && voices[count].distance2 <= far2_px2; ++count) {
+    most += voice_weights_[first_voice + count] *
+            std::max(0.0, ln_likest_[static_cast<std::size_t>(voices[count].index)] - ln_least);
+  }
+  const PairColumns pairs = {step_x_.data(), step_y_.data(), likeness_of_.data(), first_.data()};
+  Match best{0, static_cast<int>(corner), -1, 0};
+  for (std::size_t p = first_[corner]; p < first_[corner + 1]; ++p) {
+    if (pairs_[p].weight + most < best.weight) break;
+    const float x = step_x_[p], y = step_y_[p];
+    const double variance = step_variance_px2(noise2_px2, x * x + y * y);
+    const AskedStep step = {x, y, static_cast<float>(-0.5 / variance),
+                            static_cast<float>(std::log(2 * kPi * variance))};
+    const double weight =
+        pairs_[p].weight + loops().votes(pairs, voices_.data() + first_voice,
+                                         voice_weights_.data() + first_voice,
+                                         voice_clutter_.data() + first_voice, count, step);
+    if (weight > best.weight || (weight == best.weight && pairs_[p].track < best.track)) {
+      best = {weight, best.corner, pairs_[p].track, likeness_of_[p]};
+    }
+  }
+  return best;
 }
 
 const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& around,
@@ -242,29 +258,11 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
     followed_.reach_px = recent_.reach_px;
     find_pairs(chi);
   }
-  const double near = parameters_.neighbour_reach_px;
-  // The least that a vote can spread: without a step.
-  const double ln_least = std::log(2 * kPi * step_variance_px2(noise2_px2, 0));
+  weigh_voices(around);
   matches_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {
     if (first_[c] == first_[c + 1]) continue;
-    voices_.clear();
-    for (const Neighbour& other : around.of(c)) {
-      if (other.distance2 > kFar * near * kFar * near) break;
-      voices_.push_back({static_cast<std::size_t>(other.index),
-                         std::exp(-0.5 * other.distance2 / (near * near)),
-                         ln_likest_[static_cast<std::size_t>(other.index)]});
-    }
-    Match best{0, static_cast<int>(c), -1, 0};
-    double most = 0;  // that the voices can add to any pair
-    for (const Voice& voice : voices_) most += voice.at_most(ln_least);
-    for (std::size_t p = first_[c]; p < first_[c + 1]; ++p) {
-      if (pairs_[p].weight + most < best.weight) break;
-      const double weight = asked(p, noise2_px2, best.weight);
-      if (weight > best.weight || (weight == best.weight && pairs_[p].track < best.track)) {
-        best = {weight, best.corner, pairs_[p].track, likeness_of_[p]};
-      }
-    }
+    const Match best = best_pair(c, around.of(c), noise2_px2);
     if (best.track >= 0) matches_.push_back(best);
   }
   std::sort(matches_.begin(), matches_.end(), [](const Match& a, const Match& b) {

@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -57,14 +58,11 @@ class Association {
     }
   };
 
-  /// A neighbouring corner and the weight of its vote.
-  struct Voice {
-    std::size_t corner;
+  /// The heaviest pair of a corner.
+  struct Match {
     double weight;
-    double ln_likest;
-
-    /// The most that it can add to a pair. \param ln_spread of the area where it can agree, px^2.
-    double at_most(double ln_spread) const { return weight * std::max(0.0, ln_likest - ln_spread); }
+    int corner, track;
+    double signature;
   };
 
   /// A normal density times a probability; 0 if not set.
@@ -106,28 +104,26 @@ class Association {
   void offer(const Pair& pair);
   double clutter_ppx2(std::size_t corner) const;
   double step_variance_px2(double noise2_px2, double step2_px2) const;
-  double asked(std::size_t pair, double noise2_px2, double least) const;
+  void weigh_voices(const Neighbourhood& around);
+  Match best_pair(std::size_t corner, std::span<const Neighbour> voices, double noise2_px2) const;
 
   EdgeParameters parameters_;
   std::array<double, 257> likeness_;  // ln of the ratio, by the number of differing bits
   int most_bits_ = -1;                // with a likeness of at least 0
 
   // Scratch storage of the current frame; members, so that a frame need not allocate.
-  Sought followed_, recent_;                      // tracks with three sightings; with fewer
-  std::vector<Alike> alike_;                      // to a corner's signature
-  std::vector<Expected> expected_;                // of each track
-  std::vector<Pair> pairs_;                       // by corner
-  std::vector<std::size_t> first_;                // index of each corner's first pair
-  Eigen::ArrayXf step_x_, step_y_, likeness_of_;  // of the pairs; arrays for vectorised sums
-  std::vector<int> crowd_;                        // of each corner
-  std::vector<double> ln_clutter_;                // of the density of tracks at each corner
-  std::vector<double> ln_likest_;                 // of each corner: largest likeness over clutter
-  std::vector<Voice> voices_;                     // nearest first
-  struct Match {
-    double weight;
-    int corner, track;
-    double signature;
-  };
+  Sought followed_, recent_;                          // tracks with three sightings; with fewer
+  std::vector<Alike> alike_;                          // to a corner's signature
+  std::vector<Expected> expected_;                    // of each track
+  std::vector<Pair> pairs_;                           // by corner
+  std::vector<std::uint32_t> first_;                  // index of each corner's first pair
+  std::vector<float> step_x_, step_y_, likeness_of_;  // of the pairs
+  std::vector<int> crowd_;                            // of each corner
+  std::vector<float> ln_clutter_;                     // of the density of tracks at each corner
+  std::vector<float> ln_likest_;  // of each corner: largest likeness over clutter
+  // The voices of each corner, nearest first: its neighbours, with weights and ln_clutter.
+  std::vector<int> voices_;
+  std::vector<float> voice_weights_, voice_clutter_;
   std::vector<Match> matches_;
   std::vector<char> taken_;
   std::vector<int> track_of_;

@@ -63,6 +63,14 @@ inline __attribute__((always_inline)) Ints before(std::size_t first, std::size_t
   return kLane < static_cast<std::int32_t>(last - first);
 }
 
+inline __attribute__((always_inline)) Floats larger(const Floats& a, const Floats& b) {
+#ifdef __AVX2__
+  return (Floats)_mm256_max_ps((__m256)a, (__m256)b);
+#else
+  return a > b ? a : b;
+#endif
+}
+
 /// e^x, with a relative error below 2e-7, for -87 < x < 88; at the bounds beyond them.
 inline __attribute__((always_inline)) Floats exp_of(const Floats& argument) {
   Floats x = argument < -87.0F ? Floats{} - 87.0F : argument;
@@ -175,6 +183,51 @@ void half_tanh(const float* m, float* result, std::size_t count) {
   }
 }
 
+/// ln(1 + e^x), with an error below 2e-7 times itself and 1e-7.
+inline __attribute__((always_inline)) Floats softplus(const Floats& x) {
+  // ln(1 + t) for 0 < t <= 1 by s = t / (2 + t): 2 (s + s^3/3 + s^5/5 + ...), |s| <= 1/3.
+  const Floats t = exp_of(x < 0.0F ? x : -x);
+  const Floats s = t / (2.0F + t), s2 = s * s;
+  Floats sum = s2 * (1.0F / 15) + 1.0F / 13;
+  sum = sum * s2 + 1.0F / 11;
+  sum = sum * s2 + 1.0F / 9;
+  sum = sum * s2 + 1.0F / 7;
+  sum = sum * s2 + 1.0F / 5;
+  sum = sum * s2 + 1.0F / 3;
+  sum = sum * s2 + 1.0F;
+  return (x > 0.0F ? x : Floats{}) + 2.0F * s * sum;
+}
+
+float votes(const PairColumns& pairs, const int* neighbours, const float* weights,
+            const float* ln_clutter, std::size_t count, const AskedStep& step) {
+  constexpr float kNever = -1e30F;
+  Floats sum = {};
+  for (std::size_t voice = 0; voice < count; voice += kLanes) {
+    float agrees[kLanes];  // ln V, before what is common to all pairs of a corner
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      agrees[lane] = kNever;
+      if (voice + lane >= count) continue;
+      const std::uint32_t* const first = pairs.first + neighbours[voice + lane];
+      const std::size_t end = first[1];
+      Floats best = Floats{} + kNever;
+      for (std::size_t p = first[0]; p < end; p += kLanes) {
+        const Floats x = load(pairs.step_x_px + p) - step.x_px;
+        const Floats y = load(pairs.step_y_px + p) - step.y_px;
+        const Floats here = step.per_px2 * (x * x + y * y) + load(pairs.likeness + p);
+        best = larger(best, before(p, end) ? here : Floats{} + kNever);
+      }
+      best = larger(best, __builtin_shufflevector(best, best, 4, 5, 6, 7, 0, 1, 2, 3));
+      best = larger(best, __builtin_shufflevector(best, best, 2, 3, 0, 1, 6, 7, 4, 5));
+      best = larger(best, __builtin_shufflevector(best, best, 1, 0, 3, 2, 5, 4, 7, 6));
+      agrees[lane] = best[0];
+    }
+    const Floats ln_ratio = load(agrees) - step.ln_spread - load(ln_clutter + voice);
+    const Floats vote = load(weights + voice) * (softplus(ln_ratio) - 0.6931471805599453F);
+    sum += before(voice, count) ? vote : Floats{};
+  }
+  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+}
+
 void normal_sums(const ResidualColumns& residuals, std::size_t count, const double* fix,
                  const double* root, NormalSums& sums) {
   Doubles information[21] = {}, pull[6] = {};
@@ -246,6 +299,7 @@ std::size_t alike(const Signature& one, const Signature* many, std::size_t count
   return kept;
 }
 
-constexpr Loops kLoops = {within, count_within, ties, exponentials, half_tanh, normal_sums, alike};
+constexpr Loops kLoops = {within,    count_within, ties,        exponentials,
+                          half_tanh, votes,        normal_sums, alike};
 
 }  // namespace

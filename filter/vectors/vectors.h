@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,19 @@ struct TieColumns {
   const float* length2_px2;  ///< square of the step, times the share by which steps may differ
   const float* variance_px2;
   float far2;  ///< bound of the exponent, and of the squared distance in units of `reach2_px2`
+};
+
+/// Columns of candidate pairs of corners and tracks, padded; those of a corner lie together.
+struct PairColumns {
+  const float *step_x_px, *step_y_px, *likeness;
+  const std::uint32_t* first;  ///< of each corner's pairs, and the end
+};
+
+/// A step for which neighbouring corners vote (MODEL.md (7)).
+struct AskedStep {
+  float x_px, y_px;
+  float per_px2;    ///< factor of the squared difference of two steps in the logarithm of V
+  float ln_spread;  ///< subtracted from that logarithm
 };
 
 /// Columns of residuals of static tracks (MODEL.md (8)), padded by residuals of weight 0.
@@ -65,6 +79,10 @@ struct Loops {
   void (*exponentials)(float* values, std::size_t count, float factor);
   /// tanh(m/2)
   void (*half_tanh)(const float* m, float* result, std::size_t count);
+  /// Sum of the votes of neighbours for a step: of the weight times ln((1 + V) / 2).
+  /// \param neighbours corners. \param weights, ln_clutter of each; padded.
+  float (*votes)(const PairColumns& pairs, const int* neighbours, const float* weights,
+                 const float* ln_clutter, std::size_t count, const AskedStep& step);
   /// Sums of the equations of (9) for the turn and the velocity.
   /// \param fix present estimate.
   /// \param root lower triangle of a Cholesky factor of the estimate's covariance, row by row.
