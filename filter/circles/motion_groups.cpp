@@ -5,6 +5,7 @@
 
 #include "filter/kinematics/geometry.h"
 #include "filter/matching/refill.h"
+#include "filter/vectors/vectors.h"
 
 namespace lcs {
 namespace {
@@ -72,23 +73,49 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
       std::max(1e-6, field.ground_slack() / field.reference_depth_m());
 }
 
+/// Links each two nodes that are near each other and have like values.
 void MotionGroups::link() {
   grid_.build(points_, edge_parameters_.neighbour_reach_px);
+  const std::size_t count = points_.size();
+  for (auto* column : {&x_px_, &y_px_, &reach2_px2_, &value_x_, &value_y_, &variance_}) {
+    refill_column(*column, count);
+  }
+  refill_column(found_, count);
+  refill_column(distance2_, count);
+  for (std::size_t place = 0; place < count; ++place) {
+    const int node = grid_.index_at(place);
+    x_px_[place] = static_cast<float>(points_[node].x());
+    y_px_[place] = static_cast<float>(points_[node].y());
+    reach2_px2_[place] = static_cast<float>(reach_px_[node] * reach_px_[node]);
+    value_x_[place] = static_cast<float>(values_[node].x());
+    value_y_[place] = static_cast<float>(values_[node].y());
+    variance_[place] = static_cast<float>(variances_[node]);
+  }
+  const LinkColumns nodes = {x_px_.data(),
+                             y_px_.data(),
+                             reach2_px2_.data(),
+                             value_x_.data(),
+                             value_y_.data(),
+                             variance_.data(),
+                             static_cast<float>(kFar * kFar)};
   links_.clear();
-  // `visit_pairs` visits each pair once.
-  make_room(links_, kCrowd / 2 * points_.size());
-  make_room(sorted_, kCrowd / 2 * points_.size());
-  grid_.visit_pairs(
-      kCrowd, [&](int i) { return kFar * reach_px_[i]; },
-      [&](int i, int j, double apart2_px2) {
-        const double reach_px = std::min(reach_px_[i], reach_px_[j]);
-        const double apart2 = apart2_px2 / (reach_px * reach_px);
-        const double spread2 = variances_[i] + variances_[j];
-        if (!((values_[i] - values_[j]).squaredNorm() < kFar * kFar * spread2)) return;
-        if (apart2 < kFar * kFar) {
-          links_.emplace_back(0.5 * apart2, std::min(i, j), std::max(i, j));
-        }
-      });
+  // Reserves the most links, so that no later frame allocates.
+  make_room(links_, kCrowd / 2 * count);
+  make_room(sorted_, kCrowd / 2 * count);
+  for (std::size_t place = 0; place < count; ++place) {
+    const int i = grid_.index_at(place);
+    const double radius_px =
+        std::min<double>(kFar * reach_px_[i], grid_.crowd_radius(points_[i], kCrowd));
+    grid_.visit_runs_after(place, radius_px, [&](std::size_t first, std::size_t last) {
+      const std::size_t found =
+          loops().links(nodes, place, static_cast<float>(radius_px * radius_px), first, last,
+                        found_.data(), distance2_.data());
+      for (std::size_t k = 0; k < found; ++k) {
+        const int j = grid_.index_at(static_cast<std::size_t>(found_[k]));
+        links_.emplace_back(0.5F * distance2_[k], std::min(i, j), std::max(i, j));
+      }
+    });
+  }
 }
 
 /// Evidence of a body whose values have the size `scale`. Velocities may vary by their own size

@@ -70,6 +70,10 @@ class MotionGroups {
   std::vector<double> reach_px_;   // of each node: distance scale to others of its body
   std::vector<Vec2> points_;       // of each node: coordinates along the horizon and upwards
   PointGrid grid_;
+  // The nodes in the order of the grid, as columns for `Loops`.
+  std::vector<float> x_px_, y_px_, reach2_px2_, value_x_, value_y_, variance_;
+  std::vector<int> found_;
+  std::vector<float> distance2_;
   std::vector<Couple> links_, short_links_;
   std::vector<Couple> sorted_;  // scratch storage
   /// The group with which a group was not merged last, and the sizes of both then.

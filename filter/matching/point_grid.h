@@ -147,22 +147,6 @@ class PointGrid {
     }
   }
 
-  /// Calls `visit(i, j, squared distance)` once for each pair with j within `radius_px(i)` of i,
-  /// where i precedes j in the grid. With unequal radii, check that i is also within that of j. In
-  /// dense areas the radius shrinks to hold about `crowd` points.
-  template <typename Radius, typename Visit>
-  void visit_pairs(double crowd, Radius&& radius_px, Visit&& visit) const {
-    for (std::size_t place = 0; place < placed_.size(); ++place) {
-      const Placed& here = placed_[place];
-      const double radius =
-          std::min<double>(radius_px(here.index), crowd_radius(here.location, crowd));
-      visit_runs_after(place, radius, [&](std::size_t first, std::size_t last) {
-        visit_near(first, last, here.location, radius * radius,
-                   [&](int j, double distance2) { visit(here.index, j, distance2); });
-      });
-    }
-  }
-
   /// px: radius that holds `count` points at the mean density of the cells round x. A search within
   /// it takes a time that does not depend on the density.
   double crowd_radius(const Vec2& x, double count) const {

@@ -32,6 +32,15 @@ struct TieColumns {
   float far2;  ///< bound of the exponent, and of the squared distance in units of `reach2_px2`
 };
 
+/// Columns of edges that may be linked (MODEL.md (23)), padded.
+struct LinkColumns {
+  const float *x_px, *y_px;
+  const float* reach2_px2;         ///< square of the unit of distance
+  const float *value_x, *value_y;  ///< measured
+  const float* variance;           ///< of each value
+  float far2;  ///< bound of squared distances, in units and in deviations of the values
+};
+
 /// Columns of candidate pairs of corners and tracks, padded; those of a corner lie together.
 struct PairColumns {
   const float *step_x_px, *step_y_px, *likeness;
@@ -75,6 +84,10 @@ struct Loops {
   /// \param exponents the bracket of (19).
   std::size_t (*ties)(const TieColumns& nodes, std::size_t node, float noise2_px2,
                       std::size_t first, std::size_t last, int* found, float* exponents);
+  /// Finds the nodes of a range that are linked to a node, within a radius of it.
+  /// \param distances2 in units.
+  std::size_t (*links)(const LinkColumns& nodes, std::size_t node, float radius2_px2,
+                       std::size_t first, std::size_t last, int* found, float* distances2);
   /// values[i] = e^(factor values[i])
   void (*exponentials)(float* values, std::size_t count, float factor);
   /// tanh(m/2)

@@ -110,36 +110,53 @@ TEST(PointGrid, KnowsWhetherThereIsAnyWithinTheRadius) {
   EXPECT_FALSE(any_within({0, 0}, 100));
 }
 
-TEST(PointGrid, VisitsEachPairWithinTheRadiusOfItsFirstOnce) {
+TEST(PointGrid, VisitsEachPairOnceFromThePlaceOfItsFirst) {
   Random random(8);
   PointGrid grid;
   for (const double cell : {1.0, 16.0, 300.0}) {
     const std::vector<Vec2> points = random_points(random, 300);
-    const auto radius = [](int i) { return 20.0 + i % 50; };
     grid.build(points, cell);
-    std::map<std::pair<int, int>, int> visits;
-    grid.visit_pairs(1e6, radius, [&](int i, int j, double distance2) {
-      EXPECT_EQ(distance2, (points[i] - points[j]).squaredNorm());
-      EXPECT_LE(std::sqrt(distance2), radius(i));
-      ++visits[std::minmax(i, j)];
-    });
-    for (int i = 0; i < 300; ++i) {
-      for (int j = i + 1; j < 300; ++j) {
-        const double distance = (points[i] - points[j]).norm();
-        const int times = visits.contains({i, j}) ? visits[{i, j}] : 0;
-        ASSERT_LE(times, 1);
-        // The grid decides which of the two comes first.
-        if (distance <= std::min(radius(i), radius(j))) {
-          ASSERT_EQ(times, 1);
-        } else if (distance > std::max(radius(i), radius(j))) {
-          ASSERT_EQ(times, 0);
+    ASSERT_EQ(grid.size(), points.size());
+    for (std::size_t place = 0; place < grid.size(); ++place) {
+      const double radius = 20.0 + static_cast<double>(place % 50);
+      const Vec2& x = points[grid.index_at(place)];
+      std::vector<int> visits(points.size());
+      grid.visit_runs_after(place, radius, [&](std::size_t first, std::size_t last) {
+        ASSERT_GT(first, place);
+        for (; first < last; ++first) ++visits[grid.index_at(first)];
+      });
+      for (std::size_t other = place + 1; other < grid.size(); ++other) {
+        const int i = grid.index_at(other);
+        EXPECT_LE(visits[i], 1);
+        if ((points[i] - x).norm() <= radius) {
+          EXPECT_EQ(visits[i], 1);
         }
       }
     }
   }
   grid.build({}, 20);
-  grid.visit_pairs(
-      1e6, [](int) { return 100; }, [](int, int, double) { FAIL(); });
+  EXPECT_EQ(grid.size(), 0u);
+}
+
+TEST(PointGrid, FindsInSinglePrecisionWhatItFindsInDouble) {
+  Random random(9);
+  PointGrid grid;
+  std::vector<Vec2> points = random_points(random, 300);
+  for (Vec2& x : points) x = x.array().round();  // so that squares are exact
+  grid.build(points, 30);
+  PointGrid::Found found;
+  for (const double radius : {0.0, 5.0, 50.0, 2000.0}) {
+    for (const Vec2& x : points) {
+      std::map<int, double> expected, seen;
+      grid.visit_within(x, radius, [&](int i, double distance2) { expected[i] = distance2; });
+      const std::size_t count = grid.find_within(x, radius, found);
+      for (std::size_t k = 0; k < count; ++k) {
+        seen[grid.index_at(static_cast<std::size_t>(found.places[k]))] = found.distance2_px2[k];
+      }
+      EXPECT_EQ(seen, expected);
+      EXPECT_EQ(grid.count_within(x, radius), expected.size());
+    }
+  }
 }
 
 /// Points on a regular grid with a spacing of `apart_px`.
@@ -164,20 +181,6 @@ TEST(PointGrid, KnowsHowFarSoManyReach) {
   const std::vector<Vec2> alone = {{10, 10}, {600, 400}};
   grid.build(alone, 50);
   EXPECT_GT(grid.crowd_radius({10, 10}, 40), 500);
-}
-
-TEST(PointGrid, LooksAtNoMorePairsHoweverClosePointsLie) {
-  constexpr double kCrowd = 64;
-  PointGrid grid;
-  for (const double apart : {2.0, 4.0, 8.0}) {
-    const std::vector<Vec2> points = even_points(apart);
-    grid.build(points, 24);
-    std::size_t looks = 0;
-    grid.visit_pairs(
-        kCrowd, [](int) { return 200.0; }, [&](int, int, double) { ++looks; });
-    EXPECT_LT(looks, kCrowd * static_cast<double>(points.size())) << apart;
-    EXPECT_GT(looks, kCrowd / 4 * static_cast<double>(points.size())) << apart;
-  }
 }
 
 TEST(CheapestFirst, SettlesInOrderWhatIsNotSettledYet) {

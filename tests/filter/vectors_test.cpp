@@ -95,7 +95,10 @@ TEST(Loops, HaveTheSameBitsOnAnyMachine) {
   const std::vector<float> variance = column(random, kCount, 0, 2);
   const TieColumns nodes = {x.data(),      y.data(),       step_x.data(),   step_y.data(),
                             reach2.data(), length2.data(), variance.data(), 9};
-  std::vector<std::vector<int>> found;
+  const LinkColumns edges = {x.data(),        y.data(), reach2.data(), step_x.data(), step_y.data(),
+                             variance.data(), 9};
+  std::vector<std::vector<int>> found, linked;
+  std::vector<std::vector<float>> distances;
   std::vector<std::vector<float>> exponents, powers, tanhs;
   std::vector<std::vector<double>> columns(11);
   for (std::vector<double>& column : columns) {
@@ -116,6 +119,13 @@ TEST(Loops, HaveTheSameBitsOnAnyMachine) {
     EXPECT_GT(count, 5u);
     found.back().resize(count);
     exponents.back().resize(count);
+    linked.emplace_back(kCount + kLanes);
+    distances.emplace_back(kCount + kLanes);
+    const std::size_t links =
+        way->links(edges, 7, 900, 8, kCount, linked.back().data(), distances.back().data());
+    EXPECT_GT(links, 0u);
+    linked.back().resize(links);
+    distances.back().resize(links);
     powers.push_back(step_x);
     way->exponentials(powers.back().data(), kCount, 3);
     powers.back().resize(kCount);
@@ -129,6 +139,8 @@ TEST(Loops, HaveTheSameBitsOnAnyMachine) {
     EXPECT_GT(sum.information[0], 0);
   }
   EXPECT_EQ(sums[0], sums[1]);
+  EXPECT_EQ(linked[0], linked[1]);
+  EXPECT_EQ(distances[0], distances[1]);
   EXPECT_EQ(found[0], found[1]);
   EXPECT_EQ(exponents[0], exponents[1]);
   EXPECT_EQ(powers[0], powers[1]);
