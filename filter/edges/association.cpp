@@ -116,7 +116,7 @@ void Association::seek(std::span<const Track> predicted, double dt_s) {
 
 /// Adds the pairs of a corner, the last in `first_`, with the tracks that are sought.
 /// \param signature null if there is none.
-/// \return whether it certainly continues one of them: near its prediction, with a signature of
+/// \return whether it surely continues one of them: near its prediction, with a signature of
 ///   which few bits differ.
 bool Association::find_pairs(const Vec2& x_px, const Signature* signature, const Sought& sought) {
   bool is_sure = false;
@@ -129,9 +129,11 @@ bool Association::find_pairs(const Vec2& x_px, const Signature* signature, const
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t place = first + (signature != nullptr ? alike_[i].place : i);
       if (sought.grid.distance2(place, x_px) > sought.reach_px * sought.reach_px) continue;
-      const double likeness = signature != nullptr ? likeness_[alike_[i].bits] : 0.0;
       const int t = sought.tracks[sought.grid.index_at(place)];
       const Expected& track = expected_[t];
+      // Static points are not followed at steps that are too large for movers, either.
+      if ((track.track_px - x_px).squaredNorm() > recent_.reach_px * recent_.reach_px) continue;
+      const double likeness = signature != nullptr ? likeness_[alike_[i].bits] : 0.0;
       const double still = track.still.ln(x_px), moving = track.moving.ln(x_px);
       // Far from both predictions only the uniform density is left.
       const double ln_density =
@@ -148,8 +150,9 @@ bool Association::find_pairs(const Vec2& x_px, const Signature* signature, const
 }
 
 /// Finds the pairs of all corners.
-/// \return how many corners certainly continue a followed track.
-int Association::find_pairs(const Chi& chi) {
+/// \param spares whether a sure corner is compared with followed tracks only.
+/// \return how many corners surely continue a followed track.
+int Association::find_pairs(const Chi& chi, bool spares) {
   refill(alike_, expected_.size());
   pairs_.clear();
   // Reserves the most pairs that this number of corners can have, so that no later frame allocates.
@@ -168,7 +171,7 @@ int Association::find_pairs(const Chi& chi) {
     const Signature* signature = chi.signatures.empty() ? nullptr : &chi.signatures[c];
     const bool is_sure = find_pairs(x, signature, followed_);
     sure += is_sure;
-    if (!is_sure || followed_.reach_px == recent_.reach_px) find_pairs(x, signature, recent_);
+    if (!is_sure || !spares) find_pairs(x, signature, recent_);
     const double near = parameters_.neighbour_reach_px;
     crowd_.push_back(1 + static_cast<int>(followed_.grid.count_within(x, near) +
                                           recent_.grid.count_within(x, near)));
@@ -253,10 +256,10 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
   seek(predicted, dt_s);
   const auto seen = std::ranges::count_if(
       predicted, [](const Track& track) { return track.sightings >= 3 && track.unseen == 0; });
-  if (2 * find_pairs(chi) < seen) {
+  if (2 * find_pairs(chi, true) < seen) {
     // The predictions are wrong, as the told motion may be.
     followed_.reach_px = recent_.reach_px;
-    find_pairs(chi);
+    find_pairs(chi, false);
   }
   weigh_voices(around);
   matches_.clear();

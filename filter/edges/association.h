@@ -1,9 +1,9 @@
 /// \file
 /// Assigns corners to tracks, one to one.
 ///
-/// A track with three sightings is looked for near its prediction, any other within reach of the
-/// fastest mover. A corner that certainly continues a track of the first kind is not compared with
-/// the others.
+/// A track with three sightings is followed: it is looked for near its prediction, any other within
+/// reach of the fastest mover. A corner that surely continues a followed track is compared with
+/// followed tracks only.
 ///
 /// A pair's weight is its likelihood ratio against clutter: density of the track's prediction over
 /// density of tracks there, times the likelihood ratio of the signatures. Neighbouring corners vote
@@ -100,7 +100,7 @@ class Association {
   void expect(std::span<const Track> predicted, double noise2_px2, double dt_s);
   void seek(std::span<const Track> predicted, double dt_s);
   bool find_pairs(const Vec2& x_px, const Signature* signature, const Sought& sought);
-  int find_pairs(const Chi& chi);
+  int find_pairs(const Chi& chi, bool spares);
   void offer(const Pair& pair);
   double clutter_ppx2(std::size_t corner) const;
   double step_variance_px2(double noise2_px2, double step2_px2) const;

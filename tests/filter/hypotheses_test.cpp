@@ -555,6 +555,15 @@ TEST(Association, LooksForATrackOfThreeSightingsNearItsPrediction) {
             (std::vector<int>{0, 1, 2, -1}));
 }
 
+TEST(Association, FollowsNoTrackFartherThanTheFastestGoes) {
+  Followed one({Vec2(0, 0), Vec2(0, 0), Vec2(0, 0), Vec2(0, 0)});
+  for (const double off_px : {89.0, 91.0}) {  // of the 90 px in 0.1 s
+    const Vec2 place = one.tracks[3].place_px + Vec2(0, off_px);
+    one.tracks[3].as_static.place_px = one.tracks[3].as_moving.place_px = one.corners[3] = place;
+    EXPECT_EQ(one.matched()[3], off_px < 90 ? 3 : -1) << off_px;
+  }
+}
+
 TEST(Association, LooksWithinTheReachOfTheFastestWhereMostTracksLeaveTheirPredictions) {
   const Vec2 far_px(kUsual.neighbour_reach_px + 20, 0);
   EXPECT_EQ(Followed({far_px, far_px, far_px, far_px}).matched(), (std::vector<int>{0, 1, 2, 3}));
