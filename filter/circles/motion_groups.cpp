@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "filter/kinematics/geometry.h"
 #include "filter/matching/refill.h"
@@ -89,7 +90,8 @@ void MotionGroups::link() {
     reach2_px2_[place] = static_cast<float>(reach_px_[node] * reach_px_[node]);
     value_x_[place] = static_cast<float>(values_[node].x());
     value_y_[place] = static_cast<float>(values_[node].y());
-    variance_[place] = static_cast<float>(variances_[node]);
+    variance_[place] =
+        rebel_ ? std::numeric_limits<float>::infinity() : static_cast<float>(variances_[node]);
   }
   const LinkColumns nodes = {x_px_.data(),
                              y_px_.data(),
