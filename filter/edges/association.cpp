@@ -95,23 +95,23 @@ void Association::Sought::build(std::span<const Track> predicted, double cell_px
   }
 }
 
-/// Sorts the tracks by how far they are looked for.
+/// Places the tracks where they are looked for.
 void Association::seek(std::span<const Track> predicted, double dt_s) {
   followed_.clear();
-  recent_.clear();
+  all_.clear();
   followed_.reach_px = std::min(parameters_.neighbour_reach_px, reach_px(dt_s));
-  recent_.reach_px = reach_px(dt_s);
+  all_.reach_px = reach_px(dt_s);
   for (std::size_t t = 0; t < predicted.size(); ++t) {
     const Track& track = predicted[t];
-    const bool is_followed = track.sightings >= 3;
-    Sought& sought = is_followed ? followed_ : recent_;
-    sought.places.push_back(!is_followed       ? track.place_px
-                            : track.belief > 0 ? track.as_moving.place_px
-                                               : track.as_static.place_px);
-    sought.tracks.push_back(static_cast<int>(t));
+    all_.places.push_back(track.place_px);
+    all_.tracks.push_back(static_cast<int>(t));
+    if (track.sightings < 3) continue;
+    followed_.places.push_back(track.belief > 0 ? track.as_moving.place_px
+                                                : track.as_static.place_px);
+    followed_.tracks.push_back(static_cast<int>(t));
   }
-  followed_.build(predicted, followed_.reach_px);
-  recent_.build(predicted, parameters_.neighbour_reach_px);
+  followed_.build(predicted, parameters_.neighbour_reach_px);
+  all_.build(predicted, parameters_.neighbour_reach_px);
 }
 
 /// Adds the pairs of a corner, the last in `first_`, with the tracks that are sought.
@@ -132,7 +132,7 @@ bool Association::find_pairs(const Vec2& x_px, const Signature* signature, const
       const int t = sought.tracks[sought.grid.index_at(place)];
       const Expected& track = expected_[t];
       // Static points are not followed at steps that are too large for movers, either.
-      if ((track.track_px - x_px).squaredNorm() > recent_.reach_px * recent_.reach_px) continue;
+      if ((track.track_px - x_px).squaredNorm() > all_.reach_px * all_.reach_px) continue;
       const double likeness = signature != nullptr ? likeness_[alike_[i].bits] : 0.0;
       const double still = track.still.ln(x_px), moving = track.moving.ln(x_px);
       // Far from both predictions only the uniform density is left.
@@ -140,9 +140,10 @@ bool Association::find_pairs(const Vec2& x_px, const Signature* signature, const
           std::max(still, moving) < kNone + track.ln_anywhere
               ? track.ln_anywhere
               : std::log(std::exp(still) + std::exp(moving) + track.anywhere_ppx2);
+      // Half as far as a pair may be, in deviations and in bits.
+      const double ln_off = std::max(still - track.still.ln_most, moving - track.moving.ln_most);
       is_sure = is_sure || (signature != nullptr && 2 * alike_[i].bits <= most_bits_ &&
-                            std::max(still - track.still.ln_most, moving - track.moving.ln_most) >
-                                -0.5 * kFar * kFar);
+                            ln_off > -0.5 * (0.5 * kFar) * (0.5 * kFar));
       offer({ln_density + likeness, t, static_cast<float>(likeness)});
     }
   });
@@ -150,9 +151,7 @@ bool Association::find_pairs(const Vec2& x_px, const Signature* signature, const
 }
 
 /// Finds the pairs of all corners.
-/// \param spares whether a sure corner is compared with followed tracks only.
-/// \return how many corners surely continue a followed track.
-int Association::find_pairs(const Chi& chi, bool spares) {
+void Association::find_pairs(const Chi& chi) {
   refill(alike_, expected_.size());
   pairs_.clear();
   // Reserves the most pairs that this number of corners can have, so that no later frame allocates.
@@ -165,16 +164,15 @@ int Association::find_pairs(const Chi& chi, bool spares) {
   crowd_.clear();
   ln_clutter_.clear();
   ln_likest_.clear();
-  int sure = 0;
   for (std::size_t c = 0; c < chi.size(); ++c) {
     const Vec2& x = chi.locations[c];
     const Signature* signature = chi.signatures.empty() ? nullptr : &chi.signatures[c];
-    const bool is_sure = find_pairs(x, signature, followed_);
-    sure += is_sure;
-    if (!is_sure || !spares) find_pairs(x, signature, recent_);
-    const double near = parameters_.neighbour_reach_px;
-    crowd_.push_back(1 + static_cast<int>(followed_.grid.count_within(x, near) +
-                                          recent_.grid.count_within(x, near)));
+    if (!find_pairs(x, signature, followed_)) {
+      pairs_.resize(first_.back());
+      find_pairs(x, signature, all_);
+    }
+    crowd_.push_back(1 +
+                     static_cast<int>(all_.grid.count_within(x, parameters_.neighbour_reach_px)));
     const float ln_clutter =
         ln_clutter_.emplace_back(static_cast<float>(std::log(clutter_ppx2(c))));
     ln_likest_.push_back(static_cast<float>(kNone));
@@ -189,7 +187,6 @@ int Association::find_pairs(const Chi& chi, bool spares) {
     }
     first_.push_back(static_cast<std::uint32_t>(pairs_.size()));
   }
-  return sure;
 }
 
 /// Variance on an axis of the difference between the steps of neighbours on one body.
@@ -254,13 +251,7 @@ const std::vector<int>& Association::match(const Chi& chi, const Neighbourhood& 
   if (predicted.empty() || chi.size() == 0) return track_of_;
   expect(predicted, noise2_px2, dt_s);
   seek(predicted, dt_s);
-  const auto seen = std::ranges::count_if(
-      predicted, [](const Track& track) { return track.sightings >= 3 && track.unseen == 0; });
-  if (2 * find_pairs(chi, true) < seen) {
-    // The predictions are wrong, as the told motion may be.
-    followed_.reach_px = recent_.reach_px;
-    find_pairs(chi, false);
-  }
+  find_pairs(chi);
   weigh_voices(around);
   matches_.clear();
   for (std::size_t c = 0; c < chi.size(); ++c) {

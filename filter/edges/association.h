@@ -1,9 +1,8 @@
 /// \file
 /// Assigns corners to tracks, one to one.
 ///
-/// A track with three sightings is followed: it is looked for near its prediction, any other within
-/// reach of the fastest mover. A corner that surely continues a followed track is compared with
-/// followed tracks only.
+/// A corner that surely continues a track, by the track's prediction and signature, is compared
+/// only with the tracks that are predicted near it; any other corner with all tracks within reach.
 ///
 /// A pair's weight is its likelihood ratio against clutter: density of the track's prediction over
 /// density of tracks there, times the likelihood ratio of the signatures. Neighbouring corners vote
@@ -100,7 +99,7 @@ class Association {
   void expect(std::span<const Track> predicted, double noise2_px2, double dt_s);
   void seek(std::span<const Track> predicted, double dt_s);
   bool find_pairs(const Vec2& x_px, const Signature* signature, const Sought& sought);
-  int find_pairs(const Chi& chi, bool spares);
+  void find_pairs(const Chi& chi);
   void offer(const Pair& pair);
   double clutter_ppx2(std::size_t corner) const;
   double step_variance_px2(double noise2_px2, double step2_px2) const;
@@ -112,11 +111,12 @@ class Association {
   int most_bits_ = -1;                // with a likeness of at least 0
 
   // Scratch storage of the current frame; members, so that a frame need not allocate.
-  Sought followed_, recent_;                          // tracks with three sightings; with fewer
-  std::vector<Alike> alike_;                          // to a corner's signature
-  std::vector<Expected> expected_;                    // of each track
-  std::vector<Pair> pairs_;                           // by corner
-  std::vector<std::uint32_t> first_;                  // index of each corner's first pair
+  Sought followed_;                   // tracks with three sightings, near their predictions
+  Sought all_;                        // all tracks, about their rotated places
+  std::vector<Alike> alike_;          // to a corner's signature
+  std::vector<Expected> expected_;    // of each track
+  std::vector<Pair> pairs_;           // by corner
+  std::vector<std::uint32_t> first_;  // index of each corner's first pair
   std::vector<float> step_x_, step_y_, likeness_of_;  // of the pairs
   std::vector<int> crowd_;                            // of each corner
   std::vector<float> ln_clutter_;                     // of the density of tracks at each corner
