@@ -30,7 +30,7 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
       std::sqrt(1 - (1 - parameters_.upward * parameters_.upward) * up.squaredNorm());
   of_edge_.clear();
   sums_.clear();
-  values_.clear();
+  depths_.clear();
   variances_.clear();
   reach_px_.clear();
   points_.clear();
@@ -38,7 +38,7 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
       std::ranges::count_if(edges, [](const Edge& edge) { return edge.corner >= 0; }));
   make_room(of_edge_, seen);
   make_room(sums_, seen);
-  make_room(values_, seen);
+  make_room(depths_, seen);
   make_room(variances_, seen);
   make_room(reach_px_, seen);
   make_room(points_, seen);
@@ -59,8 +59,10 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
     }
     const double deviation = std::hypot(sigma, parameters_.roughness * value.norm());
     sums_.emplace_back(h, value, deviation);
-    values_.push_back(value);
-    variances_.push_back(deviation * deviation);
+    // Parts of a near body that overtakes have unlike velocities; only depths are compared.
+    depths_.push_back(value.x());
+    variances_.push_back(edge.rebel ? std::numeric_limits<double>::infinity()
+                                    : deviation * deviation);
     of_edge_.push_back(static_cast<int>(i));
     points_.emplace_back(cross(axis, edge.location), upward * axis.dot(edge.location));
   }
@@ -74,32 +76,23 @@ void MotionGroups::gather(const std::vector<Edge>& edges, const MotionField& fie
       std::max(1e-6, field.ground_slack() / field.reference_depth_m());
 }
 
-/// Links each two nodes that are near each other and have like values.
+/// Links each two nodes that are near each other and, if they are normal, have like depths.
 void MotionGroups::link() {
   grid_.build(points_, edge_parameters_.neighbour_reach_px);
   const std::size_t count = points_.size();
-  for (auto* column : {&x_px_, &y_px_, &reach2_px2_, &value_x_, &value_y_, &variance_}) {
+  for (auto* column : {&reach2_px2_, &depth_, &variance_}) {
     refill_column(*column, count);
   }
   refill_column(found_, count);
   refill_column(distance2_, count);
   for (std::size_t place = 0; place < count; ++place) {
     const int node = grid_.index_at(place);
-    x_px_[place] = static_cast<float>(points_[node].x());
-    y_px_[place] = static_cast<float>(points_[node].y());
     reach2_px2_[place] = static_cast<float>(reach_px_[node] * reach_px_[node]);
-    value_x_[place] = static_cast<float>(values_[node].x());
-    value_y_[place] = static_cast<float>(values_[node].y());
-    variance_[place] =
-        rebel_ ? std::numeric_limits<float>::infinity() : static_cast<float>(variances_[node]);
+    depth_[place] = static_cast<float>(depths_[node]);
+    variance_[place] = static_cast<float>(variances_[node]);
   }
-  const LinkColumns nodes = {x_px_.data(),
-                             y_px_.data(),
-                             reach2_px2_.data(),
-                             value_x_.data(),
-                             value_y_.data(),
-                             variance_.data(),
-                             static_cast<float>(kFar * kFar)};
+  const LinkColumns nodes = {grid_.x_px(),  grid_.y_px(),     reach2_px2_.data(),
+                             depth_.data(), variance_.data(), static_cast<float>(kFar * kFar)};
   links_.clear();
   // Reserves the most links, so that no later frame allocates.
   make_room(links_, kCrowd / 2 * count);

@@ -63,15 +63,15 @@ class MotionGroups {
   bool rebel_ = false, ground_known_ = false;
   PlanePrior ground_;
   std::vector<int> of_edge_;  // index of each node's edge
-  std::vector<Vec2> values_;  // of each node: what is measured, and its variance
-  std::vector<double> variances_;
+  // Of each node: inverse depth and its variance, which is infinite for rebels.
+  std::vector<double> depths_, variances_;
   std::vector<PlaneSums> sums_;    // of each node; a root holds its group's sums
   std::vector<double> of_ground_;  // ground_evidence of these sums
   std::vector<double> reach_px_;   // of each node: distance scale to others of its body
   std::vector<Vec2> points_;       // of each node: coordinates along the horizon and upwards
   PointGrid grid_;
   // The nodes in the order of the grid, as columns for `Loops`.
-  std::vector<float> x_px_, y_px_, reach2_px2_, value_x_, value_y_, variance_;
+  std::vector<float> reach2_px2_, depth_, variance_;
   std::vector<int> found_;
   std::vector<float> distance2_;
   std::vector<Couple> links_, short_links_;

@@ -17,8 +17,8 @@ const double kBeyond = std::exp(-0.5 * kFar * kFar);
 
 /// Puts the nodes into columns.
 void Coupling::place(std::span<const Node> nodes, const Neighbourhood& around) {
-  for (auto* column : {&x_px_, &y_px_, &step_x_px_, &step_y_px_, &reach2_px2_, &length2_px2_,
-                       &variance_px2_, &log_odds_, &tanh_, &sums_}) {
+  for (auto* column : {&step_x_px_, &step_y_px_, &reach2_px2_, &length2_px2_, &variance_px2_,
+                       &log_odds_, &tanh_, &sums_}) {
     refill_column(*column, nodes.size());
   }
   refill(reach_px_, nodes.size());
@@ -28,8 +28,6 @@ void Coupling::place(std::span<const Node> nodes, const Neighbourhood& around) {
     const auto i = static_cast<std::size_t>(around.grid().index_at(k));
     const Node& node = nodes[i];
     reach_px_[i] = around.reach_px(i);
-    x_px_[k] = static_cast<float>(node.place_px.x());
-    y_px_[k] = static_cast<float>(node.place_px.y());
     step_x_px_[k] = static_cast<float>(node.step_px.x());
     step_y_px_[k] = static_cast<float>(node.step_px.y());
     reach2_px2_[k] = node.tells ? static_cast<float>(reach_px_[i] * reach_px_[i]) : -1;
@@ -41,7 +39,7 @@ void Coupling::place(std::span<const Node> nodes, const Neighbourhood& around) {
 
 /// Finds the ties, and their weights.
 void Coupling::tie(const PointGrid& grid, double noise2_px2) {
-  const TieColumns nodes = {x_px_.data(),         y_px_.data(),
+  const TieColumns nodes = {grid.x_px(),          grid.y_px(),
                             step_x_px_.data(),    step_y_px_.data(),
                             reach2_px2_.data(),   length2_px2_.data(),
                             variance_px2_.data(), static_cast<float>(kFar * kFar)};

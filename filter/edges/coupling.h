@@ -47,7 +47,7 @@ class Coupling {
 
   // The nodes in the order of the grid, as columns for `Loops`. A node that does not tell has
   // a negative `reach2_px2_`, and no ties.
-  std::vector<float> x_px_, y_px_, step_x_px_, step_y_px_, reach2_px2_, length2_px2_, variance_px2_;
+  std::vector<float> step_x_px_, step_y_px_, reach2_px2_, length2_px2_, variance_px2_;
   std::vector<float> log_odds_, coupled_, tanh_;
   std::vector<float> sums_, pulls_;  // sum of weights, weighted sum of tanh
   // The ties of each node, from `first_` of its place on, to nodes after it.

@@ -74,6 +74,10 @@ class PointGrid {
 
   std::size_t size() const { return placed_.size(); }
 
+  /// The points in the order of the cells, as padded columns for `Loops`.
+  const float* x_px() const { return x_px_.data(); }
+  const float* y_px() const { return y_px_.data(); }
+
   /// Index of the point at a place in the order of the cells.
   int index_at(std::size_t place) const { return placed_[place].index; }
 

@@ -174,19 +174,16 @@ std::size_t ties(const TieColumns& nodes, std::size_t node, float noise2_px2, st
 std::size_t links(const LinkColumns& nodes, std::size_t node, float radius2_px2, std::size_t first,
                   std::size_t last, int* found, float* distances2) {
   const float x = nodes.x_px[node], y = nodes.y_px[node], reach2 = nodes.reach2_px2[node];
-  const float value_x = nodes.value_x[node], value_y = nodes.value_y[node];
-  const float variance = nodes.variance[node];
+  const float value = nodes.value[node], variance = nodes.variance[node];
   std::size_t count = 0;
   for (; first < last; first += kLanes) {
     const Floats off_x = load(nodes.x_px + first) - x, off_y = load(nodes.y_px + first) - y;
     const Floats apart2 = off_x * off_x + off_y * off_y;
-    const Floats unlike_x = load(nodes.value_x + first) - value_x;
-    const Floats unlike_y = load(nodes.value_y + first) - value_y;
+    const Floats unlike = load(nodes.value + first) - value;
     const Floats reaches2 = load(nodes.reach2_px2 + first);
     const Floats distance2 = apart2 / (reaches2 < reach2 ? reaches2 : Floats{} + reach2);
     const Ints kept = (apart2 <= radius2_px2) & (distance2 < nodes.far2) &
-                      (unlike_x * unlike_x + unlike_y * unlike_y <
-                       nodes.far2 * (load(nodes.variance + first) + variance)) &
+                      (unlike * unlike < nodes.far2 * (load(nodes.variance + first) + variance)) &
                       before(first, last);
     count += append(kept, distance2, first, found + count, distances2 + count);
   }

@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "filter/matching/refill.h"
@@ -35,9 +34,9 @@ struct TieColumns {
 /// Columns of edges that may be linked (MODEL.md (23)), padded.
 struct LinkColumns {
   const float *x_px, *y_px;
-  const float* reach2_px2;         ///< square of the unit of distance
-  const float *value_x, *value_y;  ///< measured
-  const float* variance;           ///< of each value
+  const float* reach2_px2;  ///< square of the unit of distance
+  const float* value;       ///< measured
+  const float* variance;    ///< of the value; infinite where values are not compared
   float far2;  ///< bound of squared distances, in units and in deviations of the values
 };
 

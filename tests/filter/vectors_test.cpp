@@ -95,11 +95,13 @@ TEST(Loops, HaveTheSameBitsOnAnyMachine) {
   const std::vector<float> variance = column(random, kCount, 0, 2);
   const TieColumns nodes = {x.data(),      y.data(),       step_x.data(),   step_y.data(),
                             reach2.data(), length2.data(), variance.data(), 9};
-  const LinkColumns edges = {x.data(),        y.data(), reach2.data(), step_x.data(), step_y.data(),
-                             variance.data(), 9};
-  std::vector<std::vector<int>> found, linked;
-  std::vector<std::vector<float>> distances;
-  std::vector<std::vector<float>> exponents, powers, tanhs;
+  const LinkColumns edges = {x.data(), y.data(), reach2.data(), step_x.data(), variance.data(), 9};
+  const std::vector<std::uint32_t> first = {0, 3, 3, 14, 21};  // of four corners' pairs
+  const PairColumns pairs = {step_x.data(), step_y.data(), length2.data(), first.data()};
+  const std::vector<int> voices = {3, 0, 1, 2, 0, 2, 3, 1, 2};
+  std::vector<std::pair<std::vector<int>, std::vector<float>>> tied, linked;
+  std::vector<std::vector<float>> powers, tanhs;
+  std::vector<float> votes;
   std::vector<std::vector<double>> columns(11);
   for (std::vector<double>& column : columns) {
     for (std::size_t i = 0; i < kCount + kLanes; ++i) column.push_back(random.uniform(0.1, 1));
@@ -112,20 +114,24 @@ TEST(Loops, HaveTheSameBitsOnAnyMachine) {
   const std::vector<double> fix(6, 1e-3), root(21, 1e-3);
   std::vector<std::vector<double>> sums;
   for (const Loops* way : kWays) {
-    found.emplace_back(kCount + kLanes);
-    exponents.emplace_back(kCount + kLanes);
-    const std::size_t count =
-        way->ties(nodes, 7, 0.3F, 8, kCount, found.back().data(), exponents.back().data());
-    EXPECT_GT(count, 5u);
-    found.back().resize(count);
-    exponents.back().resize(count);
-    linked.emplace_back(kCount + kLanes);
-    distances.emplace_back(kCount + kLanes);
-    const std::size_t links =
-        way->links(edges, 7, 900, 8, kCount, linked.back().data(), distances.back().data());
-    EXPECT_GT(links, 0u);
-    linked.back().resize(links);
-    distances.back().resize(links);
+    // What a search finds: places and values.
+    const auto found = [&](auto&& search) {
+      std::pair hits(std::vector<int>(kCount + kLanes), std::vector<float>(kCount + kLanes));
+      const std::size_t count = search(hits.first.data(), hits.second.data());
+      hits.first.resize(count);
+      hits.second.resize(count);
+      return hits;
+    };
+    tied.push_back(found([&](int* places, float* exponents) {
+      return way->ties(nodes, 7, 0.3F, 8, kCount, places, exponents);
+    }));
+    linked.push_back(found([&](int* places, float* distances2) {
+      return way->links(edges, 7, 900, 8, kCount, places, distances2);
+    }));
+    EXPECT_GT(tied.back().first.size(), 5u);
+    EXPECT_GT(linked.back().first.size(), 0u);
+    votes.push_back(way->votes(pairs, voices.data(), length2.data(), variance.data(), voices.size(),
+                               {1, -2, -0.1F, 3}));
     powers.push_back(step_x);
     way->exponentials(powers.back().data(), kCount, 3);
     powers.back().resize(kCount);
@@ -140,14 +146,13 @@ TEST(Loops, HaveTheSameBitsOnAnyMachine) {
   }
   EXPECT_EQ(sums[0], sums[1]);
   EXPECT_EQ(linked[0], linked[1]);
-  EXPECT_EQ(distances[0], distances[1]);
-  EXPECT_EQ(found[0], found[1]);
-  EXPECT_EQ(exponents[0], exponents[1]);
+  EXPECT_EQ(tied[0], tied[1]);
+  EXPECT_EQ(votes[0], votes[1]);
   EXPECT_EQ(powers[0], powers[1]);
   EXPECT_EQ(tanhs[0], tanhs[1]);
 }
 
-TEST(Loops, AreFoundByTheirDistance) {
+TEST(Loops, FindSignaturesByTheirDistance) {
   Random random(5);
   std::vector<Signature> many(50);
   for (Signature& signature : many) {
