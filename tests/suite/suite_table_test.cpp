@@ -57,7 +57,7 @@ TEST(Summary, OfAGroupWeighsItsScenariosAlikeHoweverManySeeds) {
   EXPECT_DOUBLE_EQ(*over_group(suite, "short", "rebel.f1"), 0.6);
   EXPECT_DOUBLE_EQ(*over_group(suite, "night", "rebel.f1"), 0.3);
   EXPECT_FALSE(over_group(suite, "rain", "rebel.f1"));
-  EXPECT_EQ(groups_of(suite), (std::vector<std::string>{"short", "night"}));
+  EXPECT_EQ(groups_of(suite), (std::vector<std::string>{"all", "short", "night"}));
 }
 
 TEST(Summary, AnOutcomeIsTheWorstOfItsRuns) {

@@ -36,7 +36,8 @@ TEST(Verdict, CountsScenariosAgainstABaselineAndCriteriaInOneLine) {
   const SuiteResult before = with(0.8, 0.2);
   SuiteResult after = with(0.6, 0.4);
   EXPECT_EQ(verdict_against({after, {}}, {before, {}}).line,
-            "1 regressed, 1 improved, 1 as before");
+            "not regressed: of 1 means 0 regressed, 0 improved; of single scenarios 1 regressed, 1 "
+            "improved, 1 as before");
   // A criterion missed with both seeds counts once.
   for (RunResult& run : after.scenarios[2].runs) {
     run.criteria = {criterion(false), criterion(true), criterion(false, false)};
@@ -45,11 +46,12 @@ TEST(Verdict, CountsScenariosAgainstABaselineAndCriteriaInOneLine) {
   after.scenarios.push_back(scenario_with("d", "rebel.f1", {0.5}));
   const Verdict verdict = verdict_against({after, {}}, {before, {}});
   EXPECT_EQ(verdict.line,
-            "1 regressed, 1 improved, 1 as before, 1 not compared, 1 criterion missed, 1 missed "
+            "not regressed: of 1 means 0 regressed, 0 improved; of single scenarios 1 regressed, 1 "
+            "improved, 1 as before, 1 not compared, 1 criterion missed, 1 missed "
             "that is not required");
   ASSERT_EQ(verdict.remarks.size(), 3u);
   EXPECT_EQ(
-      verdict.remarks[1].reasons,
+      verdict.remarks[0].reasons,
       std::vector<std::string>{"seed 1: rebel.f1 is 0.4, must be at least 0.5 (2 seeds miss it)"});
 }
 
@@ -69,8 +71,9 @@ TEST(Verdict, WithoutABaselineCountsCriteriaAndErrors) {
 
 TEST(Verdict, TheWorstComesFirstWithItsReasons) {
   const auto with = [](double a, double b, double c) {
-    return suite_with({scenario_with("a", "rebel.f1", {a}), scenario_with("b", "rebel.f1", {b}),
-                       scenario_with("c", "rebel.f1", {c})});
+    return suite_with({scenario_with("a", "rebel.f1", {a, a}), scenario_with("b", "rebel.f1", {b}),
+                       scenario_with("c", "rebel.f1", {c, c}),
+                       scenario_with("d", "rebel.f1", {a})});
   };
   const SuiteResult before = with(0.8, 0.8, 0.8);
   SuiteResult after = with(0.9, 0.7, 0.3);
@@ -78,16 +81,20 @@ TEST(Verdict, TheWorstComesFirstWithItsReasons) {
   after.scenarios[1].runs[0].outcome = Outcome::failed;
   EXPECT_EQ(
       text_of(verdict_against({after, {}}, {before, {}})),
-      "regressed: c\n"
-      "  rebel.f1 0.800 -> 0.300\n"
-      "regressed: b\n"
+      "failed: b\n"
       "  rebel.f1 0.800 -> 0.700\n"
       "  seed 1: rebel.f1 is 0.4, must be at least 0.5\n"
-      "improved: a\n"
+      "regressed: c\n"
+      "  rebel.f1 0.800 -> 0.300 [-0.500, -0.500]\n"
+      "changed: d\n"
       "  rebel.f1 0.800 -> 0.900\n"
-      "some figures are of a single seed that both have, whose noise is unknown: their "
-      "differences are plain ones\n"
-      "2 regressed, 1 improved, 0 as before, 1 criterion missed\n");
+      "improved: a\n"
+      "  rebel.f1 0.800 -> 0.900 [+0.100, +0.100]\n"
+      "each figure of a single scenario is judged by its own interval: of 2, chance alone changes "
+      "up to 1; single scenarios with one seed have an unknown noise and no verdict; --seeds gives "
+      "more\n"
+      "not regressed: of 1 means 0 regressed, 0 improved; of single scenarios 1 regressed, 1 "
+      "improved, 0 as before, 2 unknown, 1 criterion missed\n");
 }
 
 class VerdictOnRules : public testing::Test {

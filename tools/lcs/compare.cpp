@@ -21,12 +21,14 @@ constexpr const char* kHelp = R"(Examples:
   lcs compare out/before out/after
   lcs compare out/before out/after --metric 'rebel\.f1' --all
 
-A figure has changed when the 95 % interval of its change, over the seeds that both suites have, lies
-beyond the least change that matters (tools/suite/README.md). Times are never judged.
+The verdict is on the means over all scenarios and over each group. A mean has changed when its change is
+beyond the least that matters by more than chance explains, given how many means are judged
+(tools/suite/README.md). Each is printed with the 95 % interval of its change. Single scenarios are listed
+below; one with a single seed has no verdict. Times are never judged.
 
 Exit codes:
-  0  nothing regressed
-  1  a figure regressed, or a run that had figures before ended with an error
+  0  no mean regressed
+  1  a mean regressed, or a run that had figures before ended with an error
   2  a suite cannot be read, or the two have nothing in common
 )";
 

@@ -80,7 +80,8 @@ Files written to the folder, all or none:
 
 Exit codes:
   0  fine
-  1  a required criterion is not met; with --fail-on-regression also: something regressed
+  1  a required criterion is not met; with --fail-on-regression also: a mean regressed, or a run
+     that had figures before ended with an error
   2  a run ended with an error, or nothing could be run
   130  interrupted (Ctrl-C): nothing was written, an earlier suite is as it was
 )";
@@ -149,6 +150,7 @@ void print_changes(const suite::Verdict& verdict, const suite::Comparison& compa
   for (const std::string& what : comparison.incomparable) {
     print_out("not compared: {}\n", input::printable(what));
   }
+  print_out("{}", input::printable(suite::means_text(comparison, false)));
   print_out("{}", input::printable(suite::text_of(verdict)));
 }
 
@@ -395,7 +397,7 @@ ExitCode suite(const SuiteOptions& options) {
   }
   const bool is_worse = comparison && comparison->has_regressed();
   if (!is_worse || !options.fail_on_regression) return exit_code(outcome);
-  tell(fmt::format("regressed against {}: {}", options.baseline, verdict.line));
+  tell(fmt::format("against {}: {}", options.baseline, verdict.line));
   return outcome == suite::Outcome::error ? kError : kRegressed;
 }
 

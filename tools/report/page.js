@@ -38,7 +38,7 @@ function figureCell(name, figure) {
   return cell;
 }
 
-const OUTCOMES = { passed: '✓ passed', failed: '✗ failed', error: '! error', regressed: '▼ regressed', improved: '▲ improved' };
+const OUTCOMES = { passed: '✓ passed', failed: '✗ failed', error: '! error', regressed: '▼ regressed', changed: '? changed', improved: '▲ improved' };
 const badge = (outcome) => el('span', { class: 'badge ' + outcome }, OUTCOMES[outcome]);
 
 // ---- The head

@@ -34,7 +34,6 @@ using suite::SuiteResult;
 
 constexpr std::array<const char*, 3> kOutcomes{"passed", "failed", "error"};
 constexpr std::array<const char*, 3> kFamilies{"rebels", "circles", "squares"};
-constexpr std::array<const char*, 4> kChanges{"improved", "regressed", "moved", "none"};
 
 /// The plotted columns of frames.csv.
 constexpr std::array<const char*, 10> kColumns{
@@ -75,7 +74,7 @@ void add_change(Json& figure, const DifferenceOf& differences, const std::string
   figure["before"] = difference.before;
   figure["change"] = difference.change.mean;
   figure["half"] = json_of(difference.change.half);
-  figure["verdict"] = kChanges[static_cast<std::size_t>(difference.verdict)];
+  figure["verdict"] = suite::word_of(difference.verdict);
 }
 
 Json figures_of(const ScenarioResult& scenario, const DifferenceOf& differences) {

@@ -70,7 +70,9 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
   std::vector<std::string> command{"lcs"};
   command.insert(command.end(), arguments.begin(), arguments.end());
   err_ = ::memfd_create("stderr", MFD_CLOEXEC);
-  if (err_ < 0) throw std::system_error(errno, std::generic_category(), "no process can be started (memfd_create)");
+  if (err_ < 0)
+    throw std::system_error(errno, std::generic_category(),
+                            "no process can be started (memfd_create)");
   try {
     // Unlike the program's path, a rebuild does not replace this.
     pid_ = process::start_child("/proc/self/exe", command, {.err = err_},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -56,6 +57,7 @@ class Comparer {
     for (const std::string& group : groups_of(after_)) {
       for (const bench::Metric* metric : compared_) compare_group(group, *metric);
     }
+    judge_means();
     return result_;
   }
 
@@ -99,14 +101,12 @@ class Comparer {
   void compare(const std::string& scenario, const bench::Metric& metric,
                const std::vector<RunPair>& pairs) {
     std::vector<double> before, after, changes;
-    std::vector<std::optional<double>> by_pair;
     std::vector<std::uint64_t> lost, gained;  // seeds with the figure only before, only after
     for (const RunPair& pair : pairs) {
       const std::optional<double> was = figure_of(*pair.before, metric.key);
       const std::optional<double> is = figure_of(*pair.after, metric.key);
       if (was && !is) lost.push_back(pair.before->seed);
       if (!was && is) gained.push_back(pair.before->seed);
-      by_pair.push_back(was && is ? std::optional(*is - *was) : std::nullopt);
       if (!was || !is) continue;
       before.push_back(*was);
       after.push_back(*is);
@@ -118,58 +118,81 @@ class Comparer {
     }
     if (changes.empty()) return;
 
+    const Interval change = interval_of(changes);
     result_.differences.push_back(
-        difference_of(scenario, metric, *bench::mean(before), *bench::mean(after), changes));
-    changes_[{scenario, metric.key}] = std::move(by_pair);
+        difference_of(scenario, metric, *bench::mean(before), *bench::mean(after), change));
+    result_.differences.back().pairs = static_cast<int>(changes.size());
+    Difference& difference = result_.differences.back();
+    if (chance_beyond(difference.change, least_of(difference)) <= 0.05) {
+      difference.verdict = direction_of(difference);
+    } else if (!difference.change.half && difference.weight > 1) {
+      difference.verdict = Change::unknown;
+    }
+    changes_[{scenario, metric.key}] = std::move(changes);
     result_.judged += metric.scale.better != bench::Direction::neutral;
-    result_.single_seeds |= changes.size() == 1;
   }
 
   /// Worlds are a random sample, so each world's change is a sample. The project's own scenarios
-  /// are a fixed set, so a sample is the mean change over the scenarios for one seed.
+  /// are a fixed set: the noise of their mean is that of their seeds.
   void compare_group(const std::string& group, const bench::Metric& metric) {
-    std::vector<double> before, after;
-    std::vector<std::vector<double>> samples;
+    std::vector<double> before, after, by_world;
+    std::vector<std::vector<double>> strata;
     for (const Difference& one : result_.differences) {
-      const ScenarioResult* scenario = find(after_, one.scenario);
-      if (one.metric != metric.key || !scenario || !is_in(*scenario, group)) continue;
+      if (one.metric != metric.key) continue;
+      if (!is_in(*find(after_, one.scenario), group)) continue;
       before.push_back(one.before);
       after.push_back(one.after);
-      if (by_world_) {
-        samples.push_back({one.change.mean});
-        continue;
-      }
-      const auto& changes = changes_.at({one.scenario, one.metric});
-      samples.resize(std::max(samples.size(), changes.size()));
-      for (std::size_t i = 0; i < changes.size(); ++i) {
-        if (changes[i]) samples[i].push_back(*changes[i]);
-      }
+      by_world.push_back(one.change.mean);
+      strata.push_back(changes_.at({one.scenario, one.metric}));
     }
     if (before.empty()) return;
-    std::vector<double> changes;
-    for (const std::vector<double>& sample : samples) {
-      if (const auto mean = bench::mean(sample)) changes.push_back(*mean);
-    }
     result_.groups.push_back(
-        difference_of(group, metric, *bench::mean(before), *bench::mean(after), changes));
+        difference_of(group, metric, *bench::mean(before), *bench::mean(after),
+                      by_world_ ? interval_of(by_world) : interval_of_strata(strata)));
+    result_.groups.back().pairs = static_cast<int>(before.size());
   }
 
-  /// A change is real if its whole interval lies beyond the least change that matters.
+  /// The means have one verdict in common, so that many figures do not make a false alarm likely.
+  void judge_means() {
+    std::vector<Difference*> judged;
+    std::vector<double> chances;
+    for (Difference& mean : result_.groups) {
+      if (!mean.change.half) {
+        if (mean.weight > 1) mean.verdict = Change::unknown;
+        continue;
+      }
+      if (mean.better == bench::Direction::neutral) continue;
+      judged.push_back(&mean);
+      chances.push_back(chance_beyond(mean.change, least_of(mean)));
+    }
+    const std::vector<bool> real = real_among(chances);
+    for (std::size_t i = 0; i < judged.size(); ++i) {
+      if (real[i]) judged[i]->verdict = direction_of(*judged[i]);
+    }
+    result_.judged_means = static_cast<int>(judged.size());
+  }
+
+  static double least_of(const Difference& difference) {
+    return least_change(bench::metric(difference.metric).scale, difference.before);
+  }
+
+  static Change direction_of(const Difference& difference) {
+    const int sign = sign_of_change(difference.better, difference.before, difference.after);
+    return sign > 0 ? Change::improved : sign < 0 ? Change::regressed : Change::moved;
+  }
+
+  /// Without a verdict.
   static Difference difference_of(const std::string& name, const bench::Metric& metric,
-                                  double before, double after, const std::vector<double>& changes) {
+                                  double before, double after, const Interval& change) {
     Difference difference{.scenario = name,
                           .metric = metric.key,
                           .better = metric.scale.better,
                           .before = before,
                           .after = after,
-                          .change = interval_of(changes),
-                          .seeds = static_cast<int>(changes.size())};
-    const double certain = std::abs(difference.change.mean) - difference.change.half.value_or(0);
-    const double least = least_change(metric.scale, before);
-    if (certain <= least) return difference;
-    const int sign = sign_of_change(metric.scale.better, before, after);
-    difference.verdict = sign > 0 ? Change::improved : sign < 0 ? Change::regressed : Change::moved;
-    difference.weight = least > 0 ? certain / least : 1;
+                          .change = change};
+    const double certain = std::max(0.0, std::abs(change.mean) - change.half.value_or(0));
+    const double least = least_of(difference);
+    difference.weight = least > 0 ? certain / least : certain > 0 ? 2 : 0;
     return difference;
   }
 
@@ -177,7 +200,7 @@ class Comparer {
   const SuiteResult& after_;
   bool by_world_;
   std::vector<const bench::Metric*> compared_;
-  std::map<std::pair<std::string, std::string>, std::vector<std::optional<double>>> changes_;
+  std::map<std::pair<std::string, std::string>, std::vector<double>> changes_;
   Comparison result_;
 };
 
@@ -201,42 +224,70 @@ std::string interval_text(const Interval& change) {
                      signed_number(change.mean + *change.half));
 }
 
-std::string line_of(const Difference& difference, std::size_t scenario_width,
-                    std::size_t metric_width) {
-  return fmt::format("  {:<{}}  {:<{}}  {:>7} -> {:>7}  {:>7}  {}\n", difference.scenario,
-                     scenario_width, difference.metric, metric_width, number(difference.before),
-                     number(difference.after), signed_number(difference.change.mean),
-                     interval_text(difference.change));
-}
-
-std::string section(const Comparison& comparison, Change verdict, const char* title) {
-  if (comparison.count(verdict) == 0) return "";
+/// Lines with aligned columns.
+std::string lines_of(const std::vector<const Difference*>& differences) {
   std::size_t scenario_width = 0, metric_width = 0;
-  for (const Difference& difference : comparison.differences) {
-    if (difference.verdict != verdict) continue;
-    scenario_width = std::max(scenario_width, difference.scenario.size());
-    metric_width = std::max(metric_width, difference.metric.size());
+  for (const Difference* difference : differences) {
+    scenario_width = std::max(scenario_width, difference->scenario.size());
+    metric_width = std::max(metric_width, difference->metric.size());
   }
-  std::string text = fmt::format("{}:\n", title);
-  for (const Difference& difference : comparison.differences) {
-    if (difference.verdict != verdict) continue;
-    text += line_of(difference, scenario_width, metric_width);
+  std::string text;
+  for (const Difference* difference : differences) {
+    text += fmt::format("  {:<{}}  {:<{}}  {:>7} -> {:>7}  {:>7}  {}", difference->scenario,
+                        scenario_width, difference->metric, metric_width,
+                        number(difference->before), number(difference->after),
+                        signed_number(difference->change.mean), interval_text(difference->change));
+    const bool is_real =
+        difference->verdict == Change::regressed || difference->verdict == Change::improved;
+    text += fmt::format("{}\n", is_real ? fmt::format("  {}", word_of(difference->verdict)) : "");
   }
   return text;
 }
 
+std::string section(const Comparison& comparison, Change verdict, const std::string& title) {
+  std::vector<const Difference*> found;
+  for (const Difference& difference : comparison.differences) {
+    if (difference.verdict == verdict) found.push_back(&difference);
+  }
+  return found.empty() ? "" : fmt::format("{}:\n{}", title, lines_of(found));
+}
+
+int count_of(const std::vector<Difference>& differences, Change verdict) {
+  return static_cast<int>(std::ranges::count(differences, verdict, &Difference::verdict));
+}
+
 }  // namespace
 
+const char* word_of(Change change) {
+  constexpr std::array<const char*, 5> kWords{"improved", "regressed", "moved", "none", "unknown"};
+  return kWords.at(static_cast<std::size_t>(change));
+}
+
 int Comparison::count(Change verdict) const {
-  return static_cast<int>(
-      std::count_if(differences.begin(), differences.end(),
-                    [&](const Difference& difference) { return difference.verdict == verdict; }));
+  return count_of(differences, verdict);
+}
+
+int Comparison::count_means(Change verdict) const {
+  return count_of(groups, verdict);
 }
 
 std::string Comparison::note() const {
-  return single_seeds ? "some figures are of a single seed that both have, whose noise is unknown: "
-                        "their differences are plain ones"
-                      : "";
+  std::string text;
+  const auto singles = std::ranges::count_if(differences, [](const Difference& difference) {
+    return difference.better != bench::Direction::neutral && !difference.change.half;
+  });
+  if (const auto known = judged - static_cast<int>(singles); known > 0) {
+    text += fmt::format(
+        "each figure of a single scenario is judged by its own interval: of {}, chance alone "
+        "changes up to {}",
+        known, (known + 19) / 20);
+  }
+  if (singles > 0) {
+    text += fmt::format(
+        "{}single scenarios with one seed have an unknown noise and no verdict; --seeds gives more",
+        text.empty() ? "" : "; ");
+  }
+  return text;
 }
 
 std::optional<Change> Comparison::of_scenario(const std::string& name) const {
@@ -245,14 +296,17 @@ std::optional<Change> Comparison::of_scenario(const std::string& name) const {
   for (const Difference& difference : differences) {
     if (difference.scenario != name) continue;
     if (difference.verdict == Change::regressed) return Change::regressed;
-    if (difference.verdict == Change::improved) worst = Change::improved;
+    if (difference.verdict == Change::unknown) worst = Change::unknown;
+    if (difference.verdict == Change::improved && worst != Change::unknown) {
+      worst = Change::improved;
+    }
     if (!worst) worst = Change::none;
   }
   return worst;
 }
 
 bool Comparison::has_regressed() const {
-  return !lost.empty() || count(Change::regressed) > 0;
+  return !lost.empty() || count_means(Change::regressed) > 0;
 }
 
 Comparison compare(const SuiteResult& before, const SuiteResult& after,
@@ -260,9 +314,26 @@ Comparison compare(const SuiteResult& before, const SuiteResult& after,
   return Comparer(before, after, is_wanted).compare();
 }
 
+std::string means_text(const Comparison& comparison, bool all) {
+  const auto largest = std::ranges::max_element(comparison.groups, {}, &Difference::pairs);
+  std::vector<const Difference*> shown;
+  for (const Difference& mean : comparison.groups) {
+    const bool is_main =
+        mean.scenario == largest->scenario
+            ? std::ranges::find(tabled_metrics(), mean.metric) != tabled_metrics().end()
+            : mean.metric == "rebel.f1";
+    const bool has_changed = mean.verdict == Change::regressed || mean.verdict == Change::improved;
+    if (all || is_main || has_changed) shown.push_back(&mean);
+  }
+  if (shown.empty()) return "";
+  return "means, with the 95 % interval of each change:\n" + lines_of(shown);
+}
+
 std::string text_of(const Comparison& comparison, bool all) {
-  std::string text = section(comparison, Change::regressed, "regressed");
-  text += section(comparison, Change::improved, "improved");
+  std::string text = means_text(comparison, all);
+  text += section(comparison, Change::regressed, "single scenarios that regressed");
+  text += section(comparison, Change::improved, "single scenarios that improved");
+  text += section(comparison, Change::unknown, "single scenarios that changed, by unknown noise");
   if (all) {
     text += section(comparison, Change::moved, "moved (neither way is better)");
     text += section(comparison, Change::none, "no real change");
@@ -271,12 +342,7 @@ std::string text_of(const Comparison& comparison, bool all) {
     text += "not compared:\n";
     for (const std::string& what : comparison.incomparable) text += fmt::format("  {}\n", what);
   }
-  if (comparison.single_seeds) text += comparison.note() + '\n';
-  const int improved = comparison.count(Change::improved);
-  const int regressed = comparison.count(Change::regressed);
-  text +=
-      fmt::format("{} figures judged: {} regressed, {} improved, {} as before\n", comparison.judged,
-                  regressed, improved, comparison.judged - improved - regressed);
+  if (const std::string note = comparison.note(); !note.empty()) text += note + '\n';
   return text;
 }
 

@@ -17,7 +17,16 @@
 
 namespace lcs::suite {
 
-enum class Change { improved, regressed, moved, none };  ///< moved: a neutral figure changed
+enum class Change {
+  improved,
+  regressed,
+  moved,  ///< a neutral figure changed
+  none,
+  unknown,  ///< it changed by more than matters, in a single pair, whose noise is unknown
+};
+
+/// The word for the user, such as "regressed".
+const char* word_of(Change change);
 
 struct Difference {
   std::string scenario;  ///< name of the scenario or group
@@ -25,7 +34,7 @@ struct Difference {
   bench::Direction better = bench::Direction::neutral;
   double before = 0, after = 0;  ///< means over the seeds that both sides have
   Interval change;  ///< of after - before, paired by seed; for a group of worlds by world
-  int seeds = 0;    ///< number of pairs, >= 1
+  int pairs = 0;    ///< of runs; for a group of scenarios or worlds, >= 1
   Change verdict = Change::none;
   /// (|mean| - half) of the change, over the least change that matters; above 1 if real.
   double weight = 0;
@@ -33,23 +42,27 @@ struct Difference {
 
 struct Comparison {
   std::vector<Difference> differences;  ///< all compared figures, also unchanged ones
-  std::vector<Difference> groups;       ///< likewise for the means over each group
+  /// Likewise for the means over each group, and over all scenarios if no group has them all. Their
+  /// verdicts hold together: at most one in twenty comparisons of equals has any that is real.
+  std::vector<Difference> groups;
   /// Messages on data of only one side: scenarios, seeds, figures that the other side leaves
   /// undefined, runs that have no figures on the other side.
   std::vector<std::string> incomparable;
   std::vector<std::string> scenarios;  ///< names of those on both sides
   int judged = 0;                      ///< number of differences of figures that are not neutral
-  bool single_seeds = false;           ///< whether a difference rests on one seed
+  int judged_means = 0;                ///< likewise of `groups`, those with known noise
   /// Scenarios with a run that had figures before and has none now. Each counts as a regression,
   /// whatever its other figures are.
   std::set<std::string> lost;
 
-  int count(Change verdict) const;  ///< in `differences`
-  std::string note() const;         ///< a caveat if `single_seeds`, else empty
+  int count(Change verdict) const;        ///< in `differences`
+  int count_means(Change verdict) const;  ///< in `groups`
+  std::string note() const;               ///< the caveats on single scenarios; may be empty
 
-  /// Regressed if a figure is or a run is lost; else improved if a figure is; else none.
-  /// Absent for a scenario without any compared figure.
+  /// Regressed if a figure is or a run is lost; else unknown, else improved if a figure is; else
+  /// none. Absent for a scenario without any compared figure.
   std::optional<Change> of_scenario(const std::string& name) const;
+  /// Whether a mean has regressed or a run is lost. Single scenarios do not count.
   bool has_regressed() const;
 };
 
@@ -57,8 +70,13 @@ struct Comparison {
 Comparison compare(const SuiteResult& before, const SuiteResult& after,
                    const std::function<bool(std::string_view metric)>& is_wanted);
 
-/// A report for the user: the regressions, the improvements, the data that could not be compared,
-/// and the number of judged figures.
+/// The means with their changes and intervals: over the largest group the figures of the suite's
+/// table and F1 over every other group; all others only if they have changed.
+/// \param all all of them.
+std::string means_text(const Comparison& comparison, bool all);
+
+/// A report for the user: the means, the single scenarios' regressions and improvements, and the
+/// data that could not be compared.
 /// \param all also unchanged figures and figures that are neutral.
 std::string text_of(const Comparison& comparison, bool all);
 

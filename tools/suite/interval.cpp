@@ -3,36 +3,104 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "tools/scoring/statistics.h"
 
 namespace lcs::suite {
+namespace {
 
-double student_t_95(int degrees_of_freedom) {
-  // Table values below ten degrees. Above, the expansion in 1 / degrees (Abramowitz and Stegun,
-  // 26.7.5) is accurate enough.
-  constexpr std::array<double, 9> kExact{12.7062, 4.3027, 3.1824, 2.7764, 2.5706,
-                                         2.4469,  2.3646, 2.3060, 2.2622};
-  if (degrees_of_freedom <= static_cast<int>(kExact.size()))
-    return kExact.at(degrees_of_freedom - 1);
-  constexpr double kNormal = 1.959964;
-  const double z2 = kNormal * kNormal, n = degrees_of_freedom;
-  const double first = (z2 + 1) / 4, second = ((5 * z2 + 16) * z2 + 3) / 96;
-  const double third = (((3 * z2 + 19) * z2 + 17) * z2 - 15) / 384;
-  return kNormal * (1 + first / n + second / (n * n) + third / (n * n * n));
+constexpr double kConfidence = 0.95;
+
+}  // namespace
+
+double student_t_beyond(double t, int degrees_of_freedom) {
+  const double angle = std::atan(t / std::sqrt(degrees_of_freedom));
+  const double sine = std::sin(angle), cosine = std::cos(angle);
+  const bool is_odd = degrees_of_freedom % 2 == 1;
+  double term = is_odd ? cosine : 1, sum = 0;
+  for (int k = is_odd ? 3 : 2; k <= degrees_of_freedom; k += 2) {
+    sum += term;
+    term *= cosine * cosine * (k - 1) / k;
+  }
+  const double within = is_odd ? (angle + sine * sum) * 2 / std::numbers::pi : sine * sum;
+  return std::max(0.0, 1 - within);
 }
 
-Interval interval_of(const std::vector<double>& values) {
-  Interval interval{bench::mean(values).value(), std::nullopt};
-  if (values.size() < 2) return interval;
+double student_t_95(int degrees_of_freedom) {
+  double low = 0, high = 13;  // 12.706 for one degree of freedom
+  for (int i = 0; i < 50; ++i) {
+    const double middle = (low + high) / 2;
+    (student_t_beyond(middle, degrees_of_freedom) > 1 - kConfidence ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+namespace {
+
+Interval interval_with(double mean, double error, int degrees_of_freedom) {
+  return {mean, student_t_95(degrees_of_freedom) * error, error, degrees_of_freedom};
+}
+
+/// The square of the standard error of the mean of a sample of at least two values.
+double squared_error(const std::vector<double>& values, double mean) {
   double squares = 0;
-  for (const double value : values) squares += std::pow(value - interval.mean, 2);
+  for (const double value : values) squares += std::pow(value - mean, 2);
   const auto count = static_cast<double>(values.size());
-  const double deviation = std::sqrt(squares / (count - 1));
-  interval.half = student_t_95(static_cast<int>(values.size()) - 1) * deviation / std::sqrt(count);
-  return interval;
+  return squares / (count - 1) / count;
+}
+
+}  // namespace
+
+Interval interval_of(const std::vector<double>& values) {
+  const double mean = bench::mean(values).value();
+  if (values.size() < 2) return {.mean = mean, .half = std::nullopt};
+  return interval_with(mean, std::sqrt(squared_error(values, mean)),
+                       static_cast<int>(values.size()) - 1);
+}
+
+Interval interval_of_strata(const std::vector<std::vector<double>>& strata) {
+  std::vector<double> means;
+  bool has_noise = true;
+  for (const std::vector<double>& values : strata) {
+    means.push_back(bench::mean(values).value());
+    has_noise &= values.size() >= 2;
+  }
+  if (!has_noise) return interval_of(means);
+  double sum = 0, weighed = 0;
+  int degrees = 0;
+  for (std::size_t i = 0; i < strata.size(); ++i) {
+    const double squared = squared_error(strata[i], means[i]);
+    const auto own = static_cast<int>(strata[i].size()) - 1;
+    sum += squared;
+    weighed += squared * squared / own;
+    degrees += own;
+  }
+  if (weighed > 0) degrees = std::max(1, static_cast<int>(sum * sum / weighed));
+  return interval_with(bench::mean(means).value(),
+                       std::sqrt(sum) / static_cast<double>(strata.size()), degrees);
+}
+
+double chance_beyond(const Interval& interval, double least) {
+  const double beyond = std::abs(interval.mean) - least;
+  if (!interval.half || beyond <= 0) return 1;
+  if (interval.error == 0) return 0;
+  return student_t_beyond(beyond / interval.error, interval.degrees_of_freedom);
+}
+
+std::vector<bool> real_among(const std::vector<double>& chances) {
+  std::vector<std::size_t> order(chances.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(chances[i], i); });
+  std::vector<bool> real(chances.size(), false);
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    if (chances[order[rank]] > (1 - kConfidence) / static_cast<double>(order.size() - rank)) break;
+    real[order[rank]] = true;
+  }
+  return real;
 }
 
 std::string half_text(double half, int decimals) {

@@ -1,5 +1,5 @@
 /// \file
-/// Confidence intervals of means.
+/// Confidence intervals of means, and the probability that chance alone gives such a mean.
 #pragma once
 
 #include <optional>
@@ -8,17 +8,37 @@
 
 namespace lcs::suite {
 
-/// The two-sided 95 % quantile of Student's t. \param degrees_of_freedom >= 1. Error below 0.0005.
+/// The probability that |t| exceeds `t`, for Student's t (Abramowitz and Stegun, 26.7.3
+/// and 26.7.4). \param t >= 0. \param degrees_of_freedom >= 1.
+double student_t_beyond(double t, int degrees_of_freedom);
+
+/// The two-sided 95 % quantile of Student's t. \param degrees_of_freedom >= 1.
 double student_t_95(int degrees_of_freedom);
 
 /// A mean with its 95 % confidence interval, which assumes normally distributed values.
 struct Interval {
   double mean = 0;
   std::optional<double> half;  ///< half width; absent for a single value, whose noise is unknown
+  double error = 0;            ///< the standard error of the mean, if `half` is known
+  int degrees_of_freedom = 0;  ///< of `error`, if `half` is known
 };
 
-/// \param values at least one value.
+/// The mean of a random sample. \param values at least one value.
 Interval interval_of(const std::vector<double>& values);
+
+/// The mean over a fixed set of strata, each a random sample, with equal weights. The noise is that
+/// within the strata (degrees of freedom by Welch and Satterthwaite, rounded down). If a stratum
+/// has one value, the strata's means are taken for a random sample: this overestimates the noise.
+/// \param strata at least one, none empty.
+Interval interval_of_strata(const std::vector<std::vector<double>>& strata);
+
+/// The probability of a mean at least so far beyond `least`, on both sides, if the true mean is not
+/// beyond it; 1 for a mean whose noise is unknown.
+double chance_beyond(const Interval& interval, double least);
+
+/// Holm's rule: which of the results are real, if at most one in twenty families of results may
+/// have any that chance made. \param chances the probability of each under chance.
+std::vector<bool> real_among(const std::vector<double>& chances);
 
 /// The half width after a number with this many decimals: "±.05", padded to at least four columns;
 /// blank if it rounds to zero.

@@ -21,17 +21,14 @@ struct Column {
   int width = 4;  ///< of the mean, in characters
 };
 const std::vector<Column>& columns() {
-  static const std::vector<Column> all{{bench::metric("rebel.precision")},
-                                       {bench::metric("rebel.recall")},
-                                       {bench::metric("rebel.f1")},
-                                       {bench::metric("rebel.f1_distinct")},
-                                       {bench::metric("rebel.latency_frames_median")},
-                                       {bench::metric("rebel.object_recall")},
-                                       {bench::metric("rebel.false_objects_per_100_frames"), 5},
-                                       {bench::metric("square.recall_50")},
-                                       {bench::metric("square.precision_50")},
-                                       {bench::metric(bench::kSizeShare)},
-                                       {bench::metric("time.filter_over_fast")}};
+  static const std::vector<Column> all = [] {
+    std::vector<Column> made;
+    for (const std::string_view key : tabled_metrics()) {
+      made.push_back({bench::metric(key)});
+      if (key == "rebel.false_objects_per_100_frames") made.back().width = 5;
+    }
+    return made;
+  }();
   return all;
 }
 constexpr const char* kWorldsLegend = "±, of a group: the 95 % interval of its mean over worlds\n";
@@ -163,7 +160,8 @@ std::string suite_table(const SuiteResult& suite, bool worst_first) {
   const bool with_spreads = of_worlds || std::any_of(rows.begin(), rows.end(), [](const auto* row) {
                               return row->runs.size() > 1;
                             });
-  const std::vector<std::string> groups = groups_of(suite);
+  std::vector<std::string> groups = groups_of(suite);
+  if (rows.size() == 1) std::erase(groups, kAll);  // the row of the scenario itself
   std::size_t longest = std::string_view("scenario").size();
   for (const ScenarioResult* row : rows) longest = std::max(longest, marked(*row).size());
   for (const std::string& group : groups) {

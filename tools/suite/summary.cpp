@@ -28,6 +28,21 @@ const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed) {
   return found == scenario.runs.end() ? nullptr : &*found;
 }
 
+const std::vector<std::string_view>& tabled_metrics() {
+  static const std::vector<std::string_view> all{"rebel.precision",
+                                                 "rebel.recall",
+                                                 "rebel.f1",
+                                                 "rebel.f1_distinct",
+                                                 "rebel.latency_frames_median",
+                                                 "rebel.object_recall",
+                                                 "rebel.false_objects_per_100_frames",
+                                                 "square.recall_50",
+                                                 "square.precision_50",
+                                                 bench::kSizeShare,
+                                                 "time.filter_over_fast"};
+  return all;
+}
+
 std::optional<double> figure_of(const RunResult& run, std::string_view name) {
   if (name != bench::kSizeShare) return metric_of(run, name);
   const std::optional<double> size = metric_of(run, "dimension.mean");
@@ -68,7 +83,7 @@ std::optional<double> over_group(const SuiteResult& suite, const std::string& gr
 }
 
 bool is_in(const ScenarioResult& scenario, const std::string& group) {
-  return std::find(scenario.groups.begin(), scenario.groups.end(), group) != scenario.groups.end();
+  return group == kAll || std::ranges::find(scenario.groups, group) != scenario.groups.end();
 }
 
 std::int64_t count_in(const SuiteResult& suite, const std::string& group) {
@@ -83,6 +98,14 @@ std::vector<std::string> groups_of(const SuiteResult& suite) {
       if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
     }
   }
+  const auto has_all = [&](const std::string& group) {
+    return std::ranges::all_of(suite.scenarios, [&](const ScenarioResult& scenario) {
+      return is_in(scenario, group) || std::ranges::all_of(scenario.runs, [](const auto& run) {
+               return run.metrics.empty();
+             });
+    });
+  };
+  if (std::ranges::none_of(groups, has_all)) groups.insert(groups.begin(), kAll);
   return groups;
 }
 

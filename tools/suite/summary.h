@@ -16,6 +16,9 @@ namespace lcs::suite {
 const ScenarioResult* find(const SuiteResult& suite, const std::string& name);
 const RunResult* find(const ScenarioResult& scenario, std::uint64_t seed);
 
+/// The metrics in the tables of suites, by their keys, in the order of the columns.
+const std::vector<std::string_view>& tabled_metrics();
+
 /// A metric of a run, or `bench::kSizeShare`. Absent if undefined, unknown or without figures.
 std::optional<double> figure_of(const RunResult& run, std::string_view name);
 
@@ -44,7 +47,11 @@ bool is_in(const ScenarioResult& scenario, const std::string& group);
 /// The number of scenarios in a group.
 std::int64_t count_in(const SuiteResult& suite, const std::string& group);
 
-/// The groups in the order of their first appearance.
+/// The group of all scenarios, in suites where no other group has them all.
+inline constexpr const char* kAll = "all";
+
+/// The groups in the order of their first appearance, after `kAll`. Scenarios without any figures
+/// do not count.
 std::vector<std::string> groups_of(const SuiteResult& suite);
 
 /// Whether all scenarios are worlds drawn from seeds: a random sample, whose mean has an interval.

@@ -24,7 +24,8 @@ constexpr std::size_t kMostFigures = 4;
 /// New corners of a rule are not named as a reason up to this many or a twentieth of the earlier.
 constexpr int kLeastNew = 2;
 
-constexpr std::array<const char*, 4> kStandings{"error", "regressed", "failed", "improved"};
+constexpr std::array<const char*, 5> kStandings{"error", "failed", "regressed", "changed",
+                                                "improved"};
 
 // ---- Rules
 
@@ -126,8 +127,16 @@ std::string line_of(const SuiteResult& suite, const Comparison* comparison) {
     for (const ScenarioResult& scenario : suite.scenarios) {
       count[std::nullopt] += !common.contains(scenario.name);
     }
-    line = fmt::format("{} regressed, {} improved, {} as before", count[Change::regressed],
-                       count[Change::improved], count[Change::none]);
+    const auto counts = [](int worse, int better) {
+      return fmt::format("{} regressed, {} improved", worse, better);
+    };
+    line = fmt::format(
+        "{}: of {} means {}; of single scenarios {}, {} as before",
+        comparison->has_regressed() ? "regressed" : "not regressed", comparison->judged_means,
+        counts(comparison->count_means(Change::regressed),
+               comparison->count_means(Change::improved)),
+        counts(count[Change::regressed], count[Change::improved]), count[Change::none]);
+    if (count[Change::unknown] > 0) line += fmt::format(", {} unknown", count[Change::unknown]);
     if (count[std::nullopt] > 0) line += fmt::format(", {} not compared", count[std::nullopt]);
     if (criteria.met + criteria.missed > 0) {
       line += fmt::format(", {}", counted(criteria.missed, "criterion missed", "criteria missed"));
@@ -215,19 +224,24 @@ std::optional<Weighed> weighed(const SuiteInFolder& after, const SuiteInFolder* 
         found.remark.reasons.push_back(fmt::format("seed {}: {}", run.seed, run.error));
       }
     }
-  } else if (change == Change::regressed) {
-    found.remark.standing = Standing::regressed;
   } else if (outcome == Outcome::failed) {
     found.remark.standing = Standing::failed;
+  } else if (change == Change::regressed) {
+    found.remark.standing = Standing::regressed;
+  } else if (change == Change::unknown) {
+    found.remark.standing = Standing::changed;
   } else if (change != Change::improved) {
     return std::nullopt;
   }
-  if (comparison) add_changes(*comparison, scenario.name, Change::regressed, found);
+  if (comparison) {
+    add_changes(*comparison, scenario.name, Change::regressed, found);
+    add_changes(*comparison, scenario.name, Change::unknown, found);
+  }
   add_missed_criteria(scenario, found);
   if (found.remark.standing != Standing::improved) {
-    // without a regression all misses count, not only new ones
-    add_rules(after, change == Change::regressed ? before : nullptr, scenario,
-              found.remark.reasons);
+    // without a change all misses count, not only new ones
+    const bool has_changed = change == Change::regressed || change == Change::unknown;
+    add_rules(after, has_changed ? before : nullptr, scenario, found.remark.reasons);
   } else {
     add_changes(*comparison, scenario.name, Change::improved, found);
   }

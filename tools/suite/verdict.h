@@ -18,7 +18,8 @@ struct SuiteInFolder {
   std::filesystem::path folder;
 };
 
-enum class Standing { error, regressed, failed, improved };  ///< worst first
+/// Worst first. changed: by more than matters, with one seed, so that the noise is unknown.
+enum class Standing { error, failed, regressed, changed, improved };
 
 struct Remark {
   std::string scenario;
@@ -27,8 +28,8 @@ struct Remark {
 };
 
 struct Verdict {
-  /// Such as "1 regressed, 0 improved, 42 as before, 1 criterion missed", counted by scenarios;
-  /// without a baseline "43 criteria met, 1 missed".
+  /// Such as "not regressed: of 280 means 0 regressed, 1 improved; of single scenarios 1 regressed,
+  /// 0 improved, 42 as before, 1 criterion missed"; without a baseline "43 criteria met, 1 missed".
   std::string line;
   std::string note;             ///< a caveat on the line; may be empty
   std::vector<Remark> remarks;  ///< worst first; only scenarios with reasons
@@ -44,7 +45,7 @@ Verdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
 /// The remarks, the note and, at the end, the line.
 std::string text_of(const Verdict& verdict);
 
-/// The word for the user: "error", "regressed", "failed", "improved".
+/// The word for the user: such as "regressed".
 const char* word_of(Standing standing);
 
 }  // namespace lcs::suite
