@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "sim/camera/camera_renderer.h"
@@ -26,6 +27,7 @@ class Observer {
   /// The world at the time of the next frame.
   const World& world() const { return world_; }
   int next_index() const { return next_index_; }  ///< of the next frame
+  std::string gl_renderer() const { return renderer_.gl_renderer(); }
 
   /// Renders the next frame, even beyond the scenario's number of frames. \throws PhysicsError
   Observation observe();

@@ -36,6 +36,10 @@ const std::optional<scenario::Origin>& Simulation::origin() const {
   return impl_->world().origin();
 }
 
+Versions Simulation::versions() const {
+  return {mj_versionString(), impl_->gl_renderer()};
+}
+
 const Warnings& Simulation::warnings() const {
   return impl_->world().warnings();
 }

@@ -24,7 +24,7 @@ struct Observation {
   cv::Mat3b image;        ///< BGR
   /// BGR, before lens, light, weather and sensor: each pixel shows one surface, that of the truth.
   cv::Mat3b rendered;
-  cv::Mat1i geom;  ///< the model's geom at each pixel of `rendered`; -1 for the sky
+  cv::Mat1i geom;              ///< the model's geom at each pixel of `rendered`; -1 for the sky
   std::vector<ImuSample> imu;  ///< t(k-1) < t <= t(k); the first frame has the sample at 0
   std::vector<OdometrySample> odometry;  ///< at the same times; empty if disabled
   std::vector<ImuTruth> imu_truth;       ///< at the times of `imu`, and in its gaps
@@ -53,6 +53,14 @@ class PhysicsError : public std::runtime_error {
 /// \throws input::Error for a scenario of recorded frames: it has no world to simulate.
 const scenario::Scenario& require_scene(const scenario::Scenario& scenario);
 
+/// Versions of the libraries that results depend on.
+struct Versions {
+  std::string mujoco;       ///< of the loaded library
+  std::string gl_renderer;  ///< for example "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6"
+};
+/// For `lcs --version` and manifests. Starts GL to query its version.
+Versions versions();
+
 /// Owns the world and the GL context; use it only from the thread that constructed it. Two runs of
 /// one scenario give bitwise equal results.
 class Simulation {
@@ -67,6 +75,9 @@ class Simulation {
   const std::vector<Object>& objects() const;
   /// The map origin that the scenario or its scene states; absent if neither does.
   const std::optional<scenario::Origin>& origin() const;
+
+  /// The versions in use.
+  Versions versions() const;
 
   /// The warnings until now, or until the last frame.
   const Warnings& warnings() const;
@@ -83,12 +94,5 @@ class Simulation {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// Versions in use, for `lcs --version` and manifests. Starts GL to query its version.
-struct Versions {
-  std::string mujoco;       ///< of the loaded library
-  std::string gl_renderer;  ///< for example "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6"
-};
-Versions versions();
 
 }  // namespace lcs::sim

@@ -207,6 +207,10 @@ void CameraRenderer::render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom)
   }
 }
 
+std::string CameraRenderer::gl_renderer() const {
+  return impl_->gl.renderer();
+}
+
 double CameraRenderer::near_m() const {
   return impl_->scene.camera[0].frustum_near;
 }

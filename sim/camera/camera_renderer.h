@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <opencv2/core.hpp>
+#include <string>
 
 #include "sim/camera/drawables.h"
 
@@ -34,7 +35,8 @@ class CameraRenderer {
   /// \param geom geom id in the model, -1 for the background. Both without multisampling.
   void render_depth_and_geoms(cv::Mat1f& depth_m, cv::Mat1i& geom);
 
-  double near_m() const;  ///< z of the near clipping plane
+  double near_m() const;            ///< z of the near clipping plane
+  std::string gl_renderer() const;  ///< as `GlContext::renderer`
 
  private:
   struct Impl;

@@ -71,6 +71,46 @@ TEST_F(OutputTest, NothingIsLeftWhenItIsNotCommitted) {
 }
 
 /// Between the making of a staging folder and its lock it looks like that of a killed process.
+TEST_F(OutputTest, AnUnfinishedResultIsKeptOnRequestAndTheNextGoesOnThere) {
+  const auto begin = [&] {
+    return std::make_unique<Output>(top_ / "run", kFiles, Unfinished::kept);
+  };
+  begin();
+  EXPECT_EQ(entries(top_), std::set<std::string>{}) << "nothing was kept";
+  auto first = begin();
+  write(first->staging() / "metrics.json", "{}");
+  first->keep();
+  first.reset();
+  EXPECT_EQ(entries(top_), std::set<std::string>{"run.unfinished"});
+
+  begin();
+  auto next = begin();
+  EXPECT_EQ(read(next->staging() / "metrics.json"), "{}") << "also after one that did nothing";
+  const std::string busy = refusal_of<OutputError>([&] { begin(); });
+  EXPECT_NE(busy.find("would go into each other"), std::string::npos) << busy;
+  next->commit();
+  next.reset();
+  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+
+  first = begin();
+  write(first->staging() / "metrics.json", "[]");
+  first->keep();
+  first.reset();
+  next = begin();
+  next->empty();
+  EXPECT_TRUE(fs::is_empty(next->staging()));
+  next.reset();
+  EXPECT_EQ(entries(top_), std::set<std::string>{"run"});
+}
+
+TEST_F(OutputTest, AFolderInThePlaceOfTheUnfinishedResultIsRefusedAndUntouched) {
+  write(top_ / "run.unfinished" / "notes.txt", "mine");
+  const std::string refused =
+      refusal_of<OutputError>([&] { Output(top_ / "run", kFiles, Unfinished::kept); });
+  EXPECT_NE(refused.find("is in the way"), std::string::npos) << refused;
+  EXPECT_EQ(read(top_ / "run.unfinished" / "notes.txt"), "mine");
+}
+
 TEST_F(OutputTest, BeginsWhileAnotherProcessTidiesUp) {
   const fs::path target = top_ / "out";
   std::atomic<bool> stops = false;

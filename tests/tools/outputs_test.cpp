@@ -66,11 +66,11 @@ std::vector<Listed> listed(const std::string& help) {
 
 /// Options that name inputs. Any other option with a path must be an output.
 const std::set<std::string> kInputs{
-    "run --recorded",       "run --detections",         "suite --recorded",    "suite --detections",
-    "suite --baseline",     "score --detections",       "replay --poses",      "replay --times",
-    "replay --calibration", "replay --imu-calibration", "replay --imu",        "replay --odometry",
-    "replay --mask",        "replay --labels",          "kinematics --config", "world --pictures",
-    "tune --validate"};
+    "run --recorded",      "run --detections",  "suite --recorded",     "suite --detections",
+    "suite --baseline",    "suite --times",     "merge --baseline",     "score --detections",
+    "replay --poses",      "replay --times",    "replay --calibration", "replay --imu-calibration",
+    "replay --imu",        "replay --odometry", "replay --mask",        "replay --labels",
+    "kinematics --config", "world --pictures",  "tune --validate"};
 
 class Outputs : public testing::Test {
  protected:
@@ -90,6 +90,8 @@ class Outputs : public testing::Test {
     for (const Arguments& arguments :
          {Arguments{"run", "scenarios/mine.yaml", "--out", "run", "--no-video", "--quiet"},
           Arguments{"suite", "scenarios/mine.yaml", "--seeds", "1", "--out", "suite", "--quiet"},
+          Arguments{"suite", "scenarios/mine.yaml", "--seeds", "1", "--shard", "1/1", "--out",
+                    "part", "--quiet"},
           Arguments{"score", "run", "--write-detections", "said.csv", "--quiet"}}) {
       const CommandResult result = run_lcs(arguments, {.folder = home});
       ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -138,6 +140,7 @@ class Outputs : public testing::Test {
           "--quiet"}},
         {"score", {"score", "run", "--detections", "said.csv", "--quiet"}},
         {"suite", {"suite", "scenarios/mine.yaml", "--seeds", "1", "--quiet"}},
+        {"merge", {"merge", "part", "--quiet"}},
         {"generate", {"generate", "scenarios/mine.yaml", "--formats", "tum", "--quiet"}},
         {"kinematics", {"kinematics", "--config", "scenarios/mine.yaml", "--quick", "--quiet"}},
         {"world", {"world", "room", "--pictures", "pictures", "--quiet"}},
@@ -281,6 +284,7 @@ TEST_F(Outputs, AreNoInputsNorLieInsideOrRoundThem) {
       {"replay", {"pictures", "pictures/deep/out"}},
       {"score", {"said.csv", "run", "run/figures.json"}},
       {"suite", {"scenarios/mine.yaml", "scenarios"}},
+      {"merge", {"part", "part/deep/out"}},
       {"generate", {"scenarios/mine.yaml", "scenarios"}},
       {"kinematics", {"scenarios/mine.yaml", "scenarios"}},
       {"world", {"pictures", "pictures/deep/world"}},

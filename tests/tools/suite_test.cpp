@@ -60,7 +60,7 @@ TEST_F(Suite, RunsEveryScenarioOfAFolderWithItsSeedsAndSumsThemUp) {
   ASSERT_EQ(command.exit_code, 0) << command.err;
   EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"suite"});
   EXPECT_EQ(entries(out_),
-            (std::set<std::string>{"suite.json", "junit.xml", "report.html", "runs"}));
+            (std::set<std::string>{"suite.json", "junit.xml", "report.html", "runs", "run.json"}));
 
   const SuiteResult suite = result();
   EXPECT_EQ(suite.detector, "lcs");
@@ -243,7 +243,7 @@ TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
   const auto* of_klt = junit.RootElement()->FirstChildElement()->LastChildElement();
   EXPECT_STREQ(of_klt->Attribute("name"), "klt: frames max, seed 2");
   EXPECT_EQ(entries(out_), (std::set<std::string>{"suite.json", "junit.xml", "report.html", "runs",
-                                                  "beside", "standing.md"}));
+                                                  "run.json", "beside", "standing.md"}));
   EXPECT_NE(command.err.find("[2/2] near seed "), std::string::npos) << command.err;
   EXPECT_EQ(result().detector, "lcs");
   for (const std::string name : {"klt", "homography"}) {
@@ -260,7 +260,7 @@ TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
         << "not the same frames";
   }
   // It can be used like any earlier suite.
-  EXPECT_EQ(run({"--seeds", "1"}).exit_code, 0) << "klt is not asked";
+  EXPECT_EQ(run({"--seeds", "2"}).exit_code, 0) << "klt is not asked";
   EXPECT_FALSE(fs::exists(out_ / "beside"));
 }
 
@@ -370,7 +370,11 @@ TEST_F(Suite, AnEarlierSuiteIsReplacedAsAWhole) {
   scenario("near");
   scenario("far");
   ASSERT_EQ(run({"--seeds", "1"}).exit_code, 0);
-  ASSERT_EQ(run({"--seeds", "1", "--filter", "near"}).exit_code, 0);
+  const CommandResult fewer = run({"--seeds", "1", "--filter", "near"});
+  EXPECT_EQ(fewer.exit_code, 2);
+  EXPECT_NE(fewer.err.find("holds a result of 2 runs, and this one has 1"), std::string::npos)
+      << fewer.err;
+  ASSERT_EQ(run({"--seeds", "2", "--filter", "near"}).exit_code, 0);
   EXPECT_EQ(result().scenarios.size(), 1u);
   EXPECT_EQ(entries(out_ / "runs"), std::set<std::string>{"near"});
   EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"suite"});
@@ -416,6 +420,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"no_seeds", {"--seeds", "0"}, "--seeds"},
                     Mistake{"no_baseline", {"--fail-on-regression"}, "--baseline"},
                     Mistake{"no_jobs", {"--jobs", "0"}, "--jobs"},
+                    Mistake{"no_such_part", {"--shard", "3/2"}, "--shard"},
+                    Mistake{"more_parts_than_runs", {"--shard", "1/9"}, "only 3 runs"},
                     Mistake{"unknown_detector", {"--detector", "yolo"}, "yolo"},
                     Mistake{"unwritable_folder", {"--out", "/proc/lcs"}, "/proc/lcs"}),
     [](const auto& test) { return test.param.name; });
@@ -538,6 +544,88 @@ TEST_P(SuiteInterrupted, EndsItsChildrenLeavesTheEarlierSuiteAndExitsWith130) {
   for (const pid_t child : children) EXPECT_NE(::kill(child, 0), 0) << "a child is left";
   EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"suite"});
   EXPECT_EQ(read(out_ / kSuiteFile), before);
+}
+
+TEST_P(SuiteInterrupted, KeepsFinishedRunsAndGoesOnByTheSameCommand) {
+  for (const char* name : {"a", "b", "c"}) scenario(name, "", name[0] == 'a' ? 4 : 100'000);
+  const std::vector<std::string> arguments{"suite", "scenarios", "--jobs", "3", "--seeds", "1"};
+  bench::Command command(arguments, {.folder = folder_.path()});
+  const fs::path kept = folder_.path() / "out" / "suite.unfinished" / "in";
+  while (command.is_running() && !fs::exists(kept / "runs/a/seed-1/metrics.json")) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the parent has seen its end
+  command.send(GetParam());
+  const CommandResult interrupted = command.wait();
+  EXPECT_EQ(interrupted.exit_code, 130);
+  EXPECT_NE(interrupted.err.find("1 of 3 runs are kept"), std::string::npos) << interrupted.err;
+
+  const std::string first = read(kept / "runs/a/seed-1/run.json");
+  const CommandResult other = run({"--jobs", "3", "--seeds", "1", "--set", "frames=5"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("its settings differ"), std::string::npos) << other.err;
+  EXPECT_EQ(read(kept / "runs/a/seed-1/run.json"), first) << "a refusal loses nothing";
+  for (const char* name : {"b", "c"}) scenario(name);
+  EXPECT_NE(run({"--seeds", "1"}).err.find("its scenarios differ"), std::string::npos);
+
+  EXPECT_EQ(run({"--seeds", "1", "--anew"}).exit_code, 0);
+  EXPECT_NE(read(out_ / "runs/a/seed-1/run.json"), first);
+  EXPECT_EQ(entries(folder_.path() / "out"), std::set<std::string>{"suite"});
+}
+
+TEST_F(SuiteProcesses, PartsThatWereKilledAndWentOnMergeToTheWholeSuite) {
+  for (const char* name : {"a", "b", "c", "d"})
+    scenario(name, "criteria: [{metric: frames, min: 9}]\n");
+  const std::vector<std::string> what{"--seeds", "2", "--jobs", "1", "--beside", "klt", "--quiet"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), what.begin(), what.end());
+    return more;
+  };
+  ASSERT_EQ(run(with({"--out", "whole"})).exit_code, 1);
+  for (const std::string part : {"1", "2", "3"}) {
+    std::vector<std::string> arguments = with({"--shard", part + "/3", "--out", "part" + part});
+    std::vector<std::string> all{"suite", "scenarios"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    bench::Command command(all, {.folder = folder_.path()});
+    const fs::path runs = folder_.path() / ("part" + part + ".unfinished") / "in/runs";
+    const auto is_whole = [&] {
+      if (!fs::exists(runs)) return false;
+      for (const auto& entry : fs::recursive_directory_iterator(runs)) {
+        if (entry.path().filename() == "metrics.json") return true;
+      }
+      return false;
+    };
+    while (command.is_running() && !is_whole()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    command.send(SIGKILL);
+    command.wait();
+    ASSERT_EQ(run(arguments).exit_code, 1) << "a criterion is not met";
+  }
+  const auto merge = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "merge");
+    return bench::run_lcs(arguments, {.folder = folder_.path()});
+  };
+  const CommandResult lacks = merge({"part1", "part3"});
+  EXPECT_EQ(lacks.exit_code, 2);
+  EXPECT_NE(lacks.err.find("there is no part 2 of 3"), std::string::npos) << lacks.err;
+  EXPECT_NE(merge({"part1", "whole"}).err.find("whole is a whole suite"), std::string::npos);
+  ASSERT_EQ(merge({"part2", "part1", "part3", "--out", "merged", "--quiet"}).exit_code, 1);
+
+  const auto file = [&](const std::string& name) { return folder_.path() / name; };
+  EXPECT_EQ(timeless(file("merged/suite.json")), timeless(file("whole/suite.json")));
+  EXPECT_EQ(timeless(file("merged/beside/klt/suite.json")),
+            timeless(file("whole/beside/klt/suite.json")));
+  const auto names = [&](const std::string& folder) {
+    std::set<std::string> all;
+    for (const auto& entry : fs::recursive_directory_iterator(file(folder))) {
+      all.insert(entry.path().lexically_relative(file(folder)));
+    }
+    return all;
+  };
+  EXPECT_EQ(names("merged"), names("whole"));
+  EXPECT_EQ(read(file("merged/runs/b/seed-2/truth.jsonl")),
+            read(file("whole/runs/b/seed-2/truth.jsonl")));
 }
 
 TEST_F(SuiteProcesses, AChildThatCrashesIsAnErrorThatNamesTheSignal) {

@@ -50,7 +50,7 @@ std::vector<const Output*>& under_way() {
 
 /// The staging folder of a target is `TARGET.partial-PROCESS/`. It contains the marker, the folder
 /// "in" for the new result, and the folder "out" for the earlier result.
-constexpr std::string_view kPartial = ".partial-";
+constexpr std::string_view kPartial = ".partial-", kUnfinished = ".unfinished";
 constexpr std::string_view kMarker = ".lcs-partial", kIn = "in", kOut = "out";
 
 std::string marker_text(std::string_view folder_name) {
@@ -135,8 +135,9 @@ bool is_just_begun(const fs::path& folder) {
     if (!text.starts_with(beginning(entry->path(), text.size() + 1))) return false;
   }
   const std::string name = folder.filename().string();
+  if (error || name.ends_with(kUnfinished)) return !error;
   const std::string process = name.substr(name.rfind(kPartial) + kPartial.size());
-  return !error && process.find_first_not_of("0123456789-") == std::string::npos;
+  return process.find_first_not_of("0123456789-") == std::string::npos;
 }
 
 /// \return 0, or the error.
@@ -287,7 +288,8 @@ struct Output::Move {
   }
 };
 
-Output::Output(const fs::path& target, ResultNames names) : names_(std::move(names)) {
+Output::Output(const fs::path& target, ResultNames names, Unfinished unfinished)
+    : names_(std::move(names)), unfinished_(unfinished) {
   target_ = output_path(target);
   prepare();
 }
@@ -332,7 +334,18 @@ void Output::prepare() {
 Output::~Output() {
   if (pipe_ >= 0) ::close(pipe_);
   std::erase(under_way(), this);
-  if (!committed_) remove_all_made();
+  if (!committed_ && !is_kept_) remove_all_made();
+}
+
+void Output::empty() {
+  remove_own(own_, names_);
+  if (fs::exists(own_)) {
+    throw OutputError(
+        fmt::format("{} holds files that lcs did not write; move them away", own_.string()));
+  }
+  lock_.reset();
+  make_staging();
+  is_kept_ = false;
 }
 
 void Output::remove_all_made() const {
@@ -428,14 +441,38 @@ void Output::make_staging() {
   std::error_code error;
   for (int attempt = 0; !lock_; ++attempt) {
     own_ = target_;
-    own_ += fmt::format("{}{}", kPartial, ::getpid());
-    if (attempt > 0) own_ += fmt::format("-{}", attempt);
-    if (fs::create_directory(own_, error)) lock_.emplace(own_);
+    if (unfinished_ == Unfinished::kept) {
+      own_ += kUnfinished;
+      fs::create_directory(own_, error);
+      lock_.emplace(own_);
+      if (lock_->is_of_another()) {
+        throw OutputError(
+            fmt::format("{}: another process writes it; wait for it, or choose "
+                        "another place",
+                        target_.string()));
+      }
+      if (!lock_->is_held()) lock_.reset();
+      if (lock_ && !has_marker(own_) && !is_just_begun(own_)) {
+        throw OutputError(
+            fmt::format("{} is in the way, and lcs did not make it; {}", own_.string(), kAnother));
+      }
+      // A process was killed while it moved its result: before the end, or after.
+      rename_by(own_ / kOut, target_, RENAME_NOREPLACE);
+      if (lock_ && fs::exists(own_ / kOut)) {
+        remove_own(own_, names_);
+        lock_.reset();
+      }
+    } else {
+      own_ += fmt::format("{}{}", kPartial, ::getpid());
+      if (attempt > 0) own_ += fmt::format("-{}", attempt);
+      if (fs::create_directory(own_, error)) lock_.emplace(own_);
+      if (lock_ && (lock_->is_of_another() || !fs::exists(own_))) lock_.reset();
+    }
     if (error) fail_to("create", own_, error);
-    if (lock_ && (lock_->is_of_another() || !fs::exists(own_))) lock_.reset();
   }
   write_file(own_ / kMarker, marker_text(own_.filename().string()));
   staging_ = own_ / kIn;
+  is_kept_ = fs::exists(staging_);
   fs::create_directory(staging_, error);
   if (!error && !is_folder()) fs::create_directory(own_ / kOut, error);
   if (error) fail_to("create", staging_, error);

@@ -54,6 +54,12 @@ enum class Overwrite {
   any_file        ///< any regular file, as `--force` asks for
 };
 
+/// What remains of a folder of results if its command ends before `commit`.
+enum class Unfinished {
+  removed,
+  kept,  ///< TARGET.unfinished, after `Output::keep`: the next command goes on there
+};
+
 /// Results are written into a staging folder beside the target and finally moved to the target.
 /// Even if the process is killed, the target is either the earlier result or the new one.
 class Output {
@@ -62,7 +68,9 @@ class Output {
   /// \param names of all files that a result can have. A folder is not replaced if it holds any
   ///   other file, or a file that this program did not write, or that was changed since.
   /// \throws OutputError, also as `output_path`, and for the working folder and those above it.
-  Output(const std::filesystem::path& target, ResultNames names);
+  ///   With `Unfinished::kept` also if another process works on the target.
+  Output(const std::filesystem::path& target, ResultNames names,
+         Unfinished unfinished = Unfinished::removed);
   /// A single file. Terminals, pipes that are read, and other character devices such as /dev/null
   /// are written to directly.
   Output(const std::filesystem::path& target, Overwrite overwrite);
@@ -74,6 +82,11 @@ class Output {
 
   /// Write the results here: into an existing folder, or as a new file.
   const std::filesystem::path& staging() const { return staging_; }
+  /// Keeps the staging folder from now on, also if this command does not commit it. What an earlier
+  /// command kept is kept anyway.
+  void keep() { is_kept_ = true; }
+  /// Removes what an earlier command kept in the staging folder.
+  void empty();
   /// Where the results will be.
   const std::filesystem::path& target() const { return target_; }
 
@@ -98,6 +111,7 @@ class Output {
 
   ResultNames names_;
   std::optional<Overwrite> overwrite_;  ///< nullopt for a folder
+  Unfinished unfinished_ = Unfinished::removed;
   std::filesystem::path target_;
   std::filesystem::path own_;      ///< beside the target: the marker, and `staging_`
   std::filesystem::path staging_;  ///< in `own_`
@@ -105,6 +119,7 @@ class Output {
   std::optional<FolderLock> lock_;                   ///< on `own_`
   bool is_direct_ = false;                           ///< a device or a pipe
   int pipe_ = -1;  ///< held open, so that its reader does not see an end too early
+  bool is_kept_ = false;
   bool committed_ = false;
 };
 

@@ -27,6 +27,7 @@
 #include "tools/sequence/manifest.h"
 #include "tools/sequence/writer.h"
 #include "tools/suite/child_process.h"
+#include "tools/suite/shard.h"
 
 namespace lcs::tools {
 namespace {
@@ -180,18 +181,6 @@ CLI::App& add_generate_command(CLI::App& app, GenerateOptions& options) {
   return command;
 }
 
-std::pair<int, int> shard_of(const std::string& text) {
-  const std::size_t slash = text.find('/');
-  const std::string_view all = text;
-  const auto i = bench::number_in<int>(all.substr(0, slash));
-  const auto n = bench::number_in<int>(slash == text.npos ? "" : all.substr(slash + 1));
-  if (!i || !n || *i < 1 || *i > *n) {
-    throw std::invalid_argument(
-        fmt::format("--shard is '{}'; it takes a part of all, from 1/N to N/N, as 3/16", text));
-  }
-  return {*i, *n};
-}
-
 std::vector<std::string> sequence_command(const GenerateOptions& options,
                                           const std::string& scenario, const std::string& out) {
   std::vector<std::string> command{"generate", scenario, "--out", out, "--quiet"};
@@ -219,7 +208,7 @@ ExitCode generate(const GenerateOptions& options) {
   bench::filter_parameters(scenario);  // a sequence keeps them for its replay: they must be valid
   const sequence::GenerateOptions what{formats_of(options), options.sets, program_text()};
   const bool is_part = !options.shard.empty();
-  const auto [part, parts] = is_part ? shard_of(options.shard) : std::pair(1, 1);
+  const auto [part, parts] = is_part ? suite::shard_of(options.shard) : suite::Shard{};
   const sequence::FrameRange range = sequence::part_of(scenario.frames, part, parts);
   const std::string plan = sequence::plan_of(scenario, what);
   std::optional<bench::FolderLock> turn;

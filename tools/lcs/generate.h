@@ -42,7 +42,4 @@ ExitCode generate_suite(const GenerateOptions& options);
 std::vector<std::string> sequence_command(const GenerateOptions& options,
                                           const std::string& scenario, const std::string& out);
 
-/// Parses "i/n" to i and n. \throws std::invalid_argument unless 1 <= i <= n.
-std::pair<int, int> shard_of(const std::string& text);
-
 }  // namespace lcs::tools

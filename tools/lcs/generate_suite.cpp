@@ -9,6 +9,7 @@
 #include "tools/lcs/terminal.h"
 #include "tools/suite/child_process.h"
 #include "tools/suite/plan.h"
+#include "tools/suite/shard.h"
 
 namespace lcs::tools {
 namespace {
@@ -20,7 +21,8 @@ struct PlannedSequence {
 
 /// The sequences of this shard. Reports broken scenarios on stderr and sets `is_broken`.
 std::vector<PlannedSequence> plan_sequences(const GenerateOptions& options, bool& is_broken) {
-  const auto [part, parts] = options.shard.empty() ? std::pair(1, 1) : shard_of(options.shard);
+  const auto [part, parts] =
+      options.shard.empty() ? suite::Shard{} : suite::shard_of(options.shard);
   const std::filesystem::path folder = options.out.empty() ? "data" : options.out;
   std::vector<PlannedSequence> mine;
   std::size_t place = 0;

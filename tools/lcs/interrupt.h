@@ -3,12 +3,13 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace lcs::tools {
 
 class Interrupted : public std::runtime_error {
  public:
-  explicit Interrupted(const char* what = "interrupted; nothing was written")
+  explicit Interrupted(const std::string& what = "interrupted; nothing was written")
       : std::runtime_error(what) {}
 };
 

@@ -17,8 +17,10 @@
 #include "tools/lcs/compare.h"
 #include "tools/lcs/exit_codes.h"
 #include "tools/lcs/generate.h"
+#include "tools/lcs/how_made.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/kinematics.h"
+#include "tools/lcs/merge.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/preview.h"
 #include "tools/lcs/replay.h"
@@ -41,6 +43,7 @@ through its camera and IMU, and the simulator's truth scores what the filter say
   lcs run scenarios/crossing.yaml     run a scenario; results are in out/crossing
   lcs preview SCENARIO                look at one before it is run: its plan, what is wrong
   lcs suite                           run all short scenarios, with several seeds each
+  lcs merge part1 part2               join the parts of a suite that several machines made
   lcs compare out/before out/suite    what two suites differ in, beyond noise
   lcs generate SCENARIO               a sequence of pictures and truth that other tools read
   lcs replay PATH                     the filter on EuRoC, KITTI, TUM RGB-D, MOT, a video, pictures
@@ -84,6 +87,7 @@ int run_command_line(int argc, char** argv) {
   ReplayOptions replay_options;
   ScoreOptions score_options;
   SuiteOptions suite_options;
+  MergeOptions merge_options;
   CompareOptions compare_options;
   GenerateOptions generate_options;
   KinematicsOptions kinematics_options;
@@ -98,6 +102,7 @@ int run_command_line(int argc, char** argv) {
       {add_replay_command(app, replay_options), [&] { return replay(replay_options); }},
       {add_score_command(app, score_options), [&] { return score(score_options); }},
       {add_suite_command(app, suite_options), [&] { return suite(suite_options); }},
+      {add_merge_command(app, merge_options), [&] { return merge(merge_options); }},
       {add_generate_command(app, generate_options), [&] { return generate(generate_options); }},
       {add_compare_command(app, compare_options), [&] { return compare(compare_options); }},
       {add_kinematics_command(app, kinematics_options),
@@ -128,6 +133,7 @@ int main(int argc, char** argv) {
   cv::setNumThreads(0);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   open_standard_descriptors();
+  command_line().assign(argv + 1, argv + argc);
   try {
     const int exit_code = run_command_line(argc, argv);
     finish_out();

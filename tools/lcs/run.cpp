@@ -7,6 +7,7 @@
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <span>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "tools/bench/earlier_run.h"
 #include "tools/comparators/detectors.h"
 #include "tools/lcs/detector_option.h"
+#include "tools/lcs/how_made.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
@@ -56,6 +58,7 @@ Files written to the folder, all or none:
   layers.jsonl   a line a frame: corners, verdicts, every layer
   truth.jsonl    a line a frame: the truth of every corner and object
   camera.json    the camera, as detectors are told of it
+  run.json       how it was made: command, program, settings, seed, versions, date
   warnings.json  what should not be: the rover or an actor ran into something, fell, tipped over
   video.mp4      the paper's four panels: corners, edges, circles, squares
   events.json    with --events or --report: the worst misses and false alarms, with the rules that the corners
@@ -102,6 +105,7 @@ Intrinsics camera_of(const scenario::Scenario& scenario) {
 struct Frames {
   Intrinsics camera;
   bench::Recording recording;                 ///< without frames
+  sim::Versions versions = {};                ///< empty if nothing is simulated
   const bench::Recording* earlier = nullptr;  ///< the earlier run's recording; null: none
   const bench::FramePictures* pictures = nullptr;
   std::vector<std::string> missing = {};  ///< warnings about data that the earlier run lacks
@@ -112,6 +116,7 @@ Frames simulated(const scenario::Scenario& scenario) {
   const auto simulation = std::make_shared<sim::Simulation>(scenario);
   return {.camera = bench::intrinsics(simulation->calibration().camera),
           .recording = bench::begin_recording(scenario, *simulation),
+          .versions = simulation->versions(),
           .run = [&scenario, simulation](std::span<const bench::Watcher> watchers) {
             return bench::run(scenario, *simulation, watchers);
           }};
@@ -201,9 +206,10 @@ std::vector<Watching> watching(const RunOptions& options, const scenario::Scenar
   return all;
 }
 
-/// Writes the report page of the run as a suite with a single run.
-void write_page(const RunOptions& options, const scenario::Scenario& scenario, const Watching& own,
-                const std::filesystem::path& folder, const bench::Metrics& metrics) {
+/// The command that repeats the run of one of the detectors, without its place.
+std::string command_of(const RunOptions& options, const scenario::Scenario& scenario,
+                       const Watching& watching, bool is_own) {
+  if (options.scenario.empty()) return suite::shell_line(command_line());  // lcs replay
   std::vector<std::string> command{"run", options.scenario, "--seed",
                                    std::to_string(scenario.seed)};
   const auto add = [&](const std::string& option, const std::string& value) {
@@ -211,13 +217,34 @@ void write_page(const RunOptions& options, const scenario::Scenario& scenario, c
   };
   for (const std::string& set : options.sets) add("--set", set);
   add("--frames", options.frames);
-  if (own.spec.name != "lcs") add("--detector", own.spec.name);
+  if (watching.spec.name != "lcs") add("--detector", watching.spec.name);
   add("--recorded", options.recorded);
-  add("--detections", options.detector.detections);
-  std::ranges::move(arguments_of(options.detector), std::back_inserter(command));
+  if (is_own) {
+    add("--detections", options.detector.detections);
+    std::ranges::move(arguments_of(options.detector), std::back_inserter(command));
+  }
+  return suite::shell_line(command);
+}
+
+/// Writes run.json.
+void write_how_made(const RunOptions& options, const scenario::Scenario& scenario,
+                    const Frames& frames, const Watching& watching, bool is_own) {
+  tools::write_how_made(watching.result->output().staging(),
+                        command_of(options, scenario, watching, is_own), frames.versions,
+                        {{"scenario", scenario.name},
+                         {"seed", scenario.seed},
+                         {"frames", watching.recording.frames.size()},
+                         {"detector", watching.spec.name},
+                         {"settings", options.sets},
+                         {"recorded", options.recorded}});
+}
+
+/// Writes the report page of the run as a suite with a single run.
+void write_page(const RunOptions& options, const scenario::Scenario& scenario, const Watching& own,
+                const std::filesystem::path& folder, const bench::Metrics& metrics) {
   suite::RunResult run{.seed = scenario.seed,
                        .outcome = suite::Outcome::passed,
-                       .command = suite::shell_line(command),
+                       .command = command_of(options, scenario, own, true),
                        .error = {},
                        .metrics = metrics,
                        .criteria = {},
@@ -317,6 +344,10 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   std::optional<View> view;
   if (options.view) view.emplace(scenario.name, scenario.camera.rate_hz);
   for (Watching& one : all) {
+    if (scenario.frames > 0) {
+      note_longer(one.target, &one != &own || !options.out.empty(), "frames",
+                  static_cast<std::size_t>(scenario.frames));
+    }
     one.detector = comparators::make(one.spec, {.camera = frames.camera,
                                                 .scenario = one.scenario,
                                                 .recorded = frames.earlier,
@@ -367,6 +398,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   std::vector<bench::Output*> outputs;
   for (Watching& one : all) {
     metrics.push_back(one.result->finish(one.recording));
+    write_how_made(options, scenario, frames, one, &one == &own);
     outputs.push_back(&one.result->output());
   }
   check_interrupted();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -14,26 +15,23 @@
 #include "scenarios/scenes.h"
 #include "tools/bench/detector.h"
 #include "tools/comparators/detectors.h"
+#include "tools/files/json_node.h"
 #include "tools/files/output.h"
-#include "tools/files/output_file.h"
+#include "tools/files/sha256.h"
 #include "tools/input/inputs_read.h"
 #include "tools/input/message.h"
 #include "tools/lcs/detector_option.h"
+#include "tools/lcs/how_made.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/suite_progress.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/version.h"
-#include "tools/report/report_page.h"
+#include "tools/output/result.h"
 #include "tools/scoring/criteria.h"
-#include "tools/suite/beside_table.h"
-#include "tools/suite/comparison.h"
-#include "tools/suite/junit.h"
+#include "tools/suite/pattern.h"
 #include "tools/suite/plan.h"
 #include "tools/suite/suite_run.h"
-#include "tools/suite/suite_table.h"
-#include "tools/suite/summary.h"
-#include "tools/suite/verdict.h"
 
 namespace lcs::tools {
 namespace {
@@ -59,6 +57,8 @@ constexpr const char* kHelp = R"(Examples:
   lcs suite --worlds train --count 60             worlds drawn from seeds, one run each
   lcs suite --worlds test --count 60 --beside klt --beside dis --beside lcs:lab
                                                   how far the filter is from its yardsticks, by family
+  lcs suite --worlds train --count 1000 --shard 2/16 --out part2
+                                                  a part, on one of 16 machines; lcs merge joins them
   lcs compare out/before out/suite                what two suites differ in, beyond noise
 
 Worlds are kept in out/worlds/ and drawn anew only where the generator changed. A kept world that was edited is
@@ -67,7 +67,10 @@ refused. Those of the split `test` are for stating figures: nothing is chosen by
 Seeds are the scenario's own and those that follow. Each run is a process of its own; one that
 crashes, or a scenario that is broken, is an error, and the others still run.
 
+A suite that was interrupted or killed goes on by the same command: finished runs are kept in DIR.unfinished/.
+
 Files written to the folder, all or none:
+  run.json      how it was made: command, program, settings, versions, date
   suite.json    every figure and criterion of every run
   report.html   all of it to look at: figures against the baseline, plots, and for each miss and
                 false alarm the reasons and a strip of pictures; open it in a browser
@@ -83,7 +86,7 @@ Exit codes:
   1  a required criterion is not met; with --fail-on-regression also: a mean regressed, or a run
      that had figures before ended with an error
   2  a run ended with an error, or nothing could be run
-  130  interrupted (Ctrl-C): nothing was written, an earlier suite is as it was
+  130  interrupted (Ctrl-C): finished runs are kept, an earlier suite is as it was
 )";
 
 namespace fs = std::filesystem;
@@ -143,17 +146,6 @@ std::vector<std::string> seldom_meant(const std::vector<suite::PlannedScenario>&
   return lines;
 }
 
-/// Prints the changes, worst first. The verdict comes last, where the terminal ends.
-void print_changes(const suite::Verdict& verdict, const suite::Comparison& comparison,
-                   const std::string& baseline) {
-  print_out("Against {}:\n", baseline);
-  for (const std::string& what : comparison.incomparable) {
-    print_out("not compared: {}\n", input::printable(what));
-  }
-  print_out("{}", input::printable(suite::means_text(comparison, false)));
-  print_out("{}", input::printable(suite::text_of(verdict)));
-}
-
 /// The suite's own detector and those of `--beside`. \throws std::invalid_argument for duplicates.
 std::set<std::string> names_of_all(const SuiteOptions& options, const std::string& own) {
   std::set<std::string> names{own};
@@ -172,11 +164,6 @@ std::vector<scenario::Criterion> criteria_of(const std::vector<suite::PlannedSce
     if (planned.scenario) std::ranges::copy(planned.scenario->criteria, std::back_inserter(all));
   }
   return all;
-}
-
-/// The folder of a detector's results, relative to the suite's folder.
-fs::path part_of(const std::string& detector, const std::string& own) {
-  return detector == own ? fs::path() : fs::path("beside") / detector;
 }
 
 /// \throws std::runtime_error that lists all missing files of detections.
@@ -202,16 +189,135 @@ void require_detections(const fs::path& folder, const std::vector<suite::Planned
       folder.string(), missing.size(), fmt::join(missing, ", ")));
 }
 
-ExitCode exit_code(suite::Outcome outcome) {
-  switch (outcome) {
-    case suite::Outcome::passed:
-      return kFine;
-    case suite::Outcome::failed:
-      return kCriterionFailed;
-    case suite::Outcome::error:
-      return kError;
+/// The planned runs, and of which whole they are a part.
+struct Planned {
+  std::vector<suite::PlannedScenario> plan;
+  std::optional<suite::PartOf> part_of;
+};
+
+/// Leaves only the runs of the requested part.
+/// \param whole all runs: scenarios with their seeds. \param seconds of each run.
+suite::PartOf choose_part(const SuiteOptions& options,
+                          std::vector<std::pair<std::string, std::vector<std::uint64_t>>> whole,
+                          const std::vector<double>& seconds,
+                          std::set<std::pair<std::string, std::uint64_t>>& chosen) {
+  const suite::Shard shard = suite::shard_of(options.shard);
+  if (static_cast<std::size_t>(shard.parts) > seconds.size()) {
+    throw std::invalid_argument(fmt::format("--shard {}: there are only {} runs; make fewer parts",
+                                            options.shard, seconds.size()));
   }
-  return kError;
+  const std::vector<int> parts = suite::parts_of(seconds, shard.parts);
+  std::size_t next = 0;
+  for (const auto& [name, seeds] : whole) {
+    for (const std::uint64_t seed : seeds) {
+      if (parts[next++] == shard.part) chosen.emplace(name, seed);
+    }
+  }
+  return {shard, std::move(whole)};
+}
+
+/// Worlds are chosen before they are drawn, so that only those of this part are drawn.
+Planned plan_worlds(const SuiteOptions& options, int seeds,
+                    const std::optional<suite::SuiteResult>& former) {
+  std::vector<worlds::Kept> chosen = chosen_worlds(options.worlds);
+  const suite::Pattern filter(options.filter, "--filter", "^room");
+  std::erase_if(chosen, [&](const auto& one) { return !filter.is_in(one.file.stem().string()); });
+  if (chosen.empty()) throw std::runtime_error("no world fits --filter; its names are as room_7");
+  Planned planned;
+  std::set<std::pair<std::string, std::uint64_t>> runs;
+  if (!options.shard.empty()) {
+    std::vector<std::pair<std::string, std::vector<std::uint64_t>>> whole;
+    std::vector<double> seconds;
+    for (const worlds::Kept& one : chosen) {
+      auto& [name, own] = whole.emplace_back(one.file.stem().string(), 0);
+      for (int k = 0; k < seeds; ++k) {
+        own.push_back(one.choice.seed + static_cast<std::uint64_t>(k));
+        const auto known = former ? suite::former_seconds(*former, name, own.back()) : std::nullopt;
+        seconds.push_back(known.value_or(1));
+      }
+    }
+    planned.part_of = choose_part(options, std::move(whole), seconds, runs);
+    std::erase_if(chosen, [&](const worlds::Kept& one) {
+      const auto first = runs.lower_bound({one.file.stem().string(), 0});
+      return first == runs.end() || first->first != one.file.stem();
+    });
+  }
+  draw_worlds(chosen, jobs_at_once(options));
+  std::vector<fs::path> files;
+  for (const worlds::Kept& one : chosen) files.push_back(one.file);
+  planned.plan = suite::plan(
+      {.paths = files, .group = options.group, .filter = {}, .sets = options.sets, .seeds = seeds});
+  if (planned.part_of) suite::keep_runs(planned.plan, runs);
+  return planned;
+}
+
+Planned plan_scenarios(const SuiteOptions& options, int seeds,
+                       const std::optional<suite::SuiteResult>& former) {
+  Planned planned;
+  planned.plan = suite::plan({.paths = {options.paths.begin(), options.paths.end()},
+                              .group = options.group,
+                              .filter = options.filter,
+                              .sets = options.sets,
+                              .seeds = seeds});
+  if (options.shard.empty()) return planned;
+  std::vector<std::pair<std::string, std::vector<std::uint64_t>>> whole;
+  for (const suite::PlannedScenario& one : planned.plan) whole.emplace_back(one.name, one.seeds);
+  std::set<std::pair<std::string, std::uint64_t>> runs;
+  planned.part_of =
+      choose_part(options, std::move(whole), suite::estimated_seconds(planned.plan, former), runs);
+  suite::keep_runs(planned.plan, runs);
+  return planned;
+}
+
+/// What the runs of a suite depend on. If any of it changes, kept runs do not fit.
+nlohmann::ordered_json request_of(const SuiteOptions& options, const Planned& planned,
+                                  const std::string& version) {
+  nlohmann::ordered_json runs = nlohmann::ordered_json::array();
+  std::size_t count = 0;
+  for (const suite::PlannedScenario& one : planned.plan) {
+    const auto digest = [](const fs::path& file) {
+      return bench::sha256_of_file(file).value_or("none");
+    };
+    runs.push_back({{"name", one.name},
+                    {"seeds", one.seeds},
+                    {"scenario_sha256", digest(one.file)},
+                    {"scene_sha256", one.scenario ? digest(one.scenario->scene) : ""}});
+    count += one.seeds.size();
+  }
+  return {{"detector", tools::spec_of(options.detector).name},
+          {"arguments", arguments_of(options.detector)},
+          {"detections", options.detector.detections},
+          {"beside", options.beside},
+          {"settings", options.sets},
+          {"recorded", options.recorded},
+          {"shard", options.shard},
+          {"program_sha256", program_sha256()},
+          {"versions", version},
+          {"runs", count},
+          {"scenarios", runs}};
+}
+
+/// Goes on with an unfinished suite of the same request, or begins anew.
+/// \throws std::runtime_error if there is an unfinished suite of another request.
+void begin(bench::Output& folder, const nlohmann::ordered_json& request, bool anew) {
+  const fs::path file = folder.staging() / bench::kHowMadeFile;
+  if (fs::exists(file) && !anew) {
+    constexpr input::FileKind kKind{bench::kMostJsonBytes, "give --anew to begin again"};
+    const auto kept = bench::parse_json<nlohmann::ordered_json>(input::read_file(file, kKind));
+    for (const auto& [key, value] : request.items()) {
+      if (kept.contains(key) && kept.at(key) == value) continue;
+      throw std::runtime_error(fmt::format(
+          "{} holds the runs of an unfinished suite, and its {} differ: finish it by its own "
+          "command, {}; or give --anew to drop its runs",
+          folder.staging().parent_path().string(), key,
+          kept.contains("command") && kept.at("command").is_string()
+              ? kept.at("command").get<std::string>()
+              : ""));
+    }
+    return;
+  }
+  if (!fs::is_empty(folder.staging())) folder.empty();
+  write_how_made(folder.staging(), suite::shell_line(command_line()), {}, request);
 }
 
 }  // namespace
@@ -262,19 +368,22 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
       ->type_name("NAME")
       ->allow_extra_args(false);
   add_set_option(command, options.sets, "Set a value in every scenario, as \"camera.rate=5 Hz\"");
-  add_out_option(command, options.out, "out/suite");
-  CLI::Option* baseline =
-      command
-          .add_option("--baseline", options.baseline,
-                      "An earlier suite.json or its folder, to show changes against")
-          ->type_name("FILE");
   command
-      .add_flag("--fail-on-regression", options.fail_on_regression,
-                "Exit with 1 where something regressed against the baseline, as lcs compare does")
-      ->needs(baseline);
-  command.add_flag("--worst-first", options.worst_first, "Sort the table by F1");
+      .add_option(
+          "--shard", options.shard,
+          "Only a part of the runs, as 2/5, on one of several machines; lcs merge joins the "
+          "parts")
+      ->type_name("I/N");
+  command
+      .add_option("--times", options.times,
+                  "With --shard: an earlier suite, whose times balance the parts; the same for "
+                  "all parts")
+      ->type_name("FILE")
+      ->needs("--shard");
+  add_suite_end_options(command, options.end);
+  command.add_flag("--anew", options.anew,
+                   "Drop the runs of an unfinished suite in the same place, and begin again");
   command.add_flag("--list", options.list, "Only list what would be run");
-  add_quiet_option(command, options.quiet);
   command.footer(kHelp);
   return command;
 }
@@ -290,23 +399,26 @@ ExitCode suite(const SuiteOptions& options) {
     recorded = fmt::format("{}, {}", options.recorded, suite::read_suite(options.recorded).version);
   }
   const bool of_worlds = !options.worlds.split.empty();
-  const std::vector<std::string> paths =
-      of_worlds ? make_worlds(options.worlds, jobs_at_once(options)) : options.paths;
-  const std::vector<suite::PlannedScenario> plan =
-      suite::plan({.paths = {paths.begin(), paths.end()},
-                   .group = options.group,
-                   .filter = options.filter,
-                   .sets = options.sets,
-                   .seeds = options.seeds.value_or(of_worlds ? 1 : 3)});
+  std::optional<suite::SuiteResult> times;
+  if (!options.times.empty()) times = suite::read_suite(options.times);
+  const int seeds = options.seeds.value_or(of_worlds ? 1 : 3);
+  const Planned planned =
+      of_worlds ? plan_worlds(options, seeds, times) : plan_scenarios(options, seeds, times);
+  const std::vector<suite::PlannedScenario>& plan = planned.plan;
   if (options.list) return list_plan(plan);
   if (!options.detector.detections.empty()) require_detections(options.detector.detections, plan);
   warn(seldom_meant(plan, spec));
   warn(bench::not_asked(criteria_of(plan), watching));
-  std::optional<suite::SuiteResult> baseline;
-  if (!options.baseline.empty()) baseline = suite::read_suite(options.baseline);
+  const std::optional<suite::SuiteResult> baseline = baseline_of(options.end);
+  const std::string version = version_line();
+  const nlohmann::ordered_json request = request_of(options, planned, version);
+  note_longer(options.end.out, options.end.is_named(), "runs",
+              request.at("runs").get<std::size_t>());
 
-  bench::Output folder(options.out, suite::suite_files());
-  SuiteProgress progress(options.quiet);
+  bench::Output folder(options.end.out, suite::suite_files(), bench::Unfinished::kept);
+  begin(folder, request, options.anew);
+  SuiteProgress progress(options.end.quiet);
+  std::size_t whole = 0, total = 0;
   const auto run = [&](const std::vector<std::string>& detectors, const fs::path& recordings) {
     const bool with_own = detectors.front() == own;
     std::vector<suite::SuiteWatcher> watchers;
@@ -315,6 +427,10 @@ ExitCode suite(const SuiteOptions& options) {
       watchers.push_back({name, folder.staging() / part_of(name, own), is_own});
       fs::create_directories(watchers.back().folder);
     }
+    whole = suite::count_whole(plan, watchers);
+    if (whole > 0) {
+      if (!options.end.quiet) tell(fmt::format("{} runs are there already", whole));
+    }
     std::vector<suite::SuiteResult> results = suite::run_suite(
         plan,
         {.watchers = watchers,
@@ -322,22 +438,29 @@ ExitCode suite(const SuiteOptions& options) {
          .detections = with_own ? options.detector.detections : "",
          .sets = options.sets,
          .recorded = recordings,
-         .version = version_line(),
+         .version = version,
          .jobs = jobs_at_once(options),
          .former = former_suite(folder.target() / part_of(detectors.front(), own)),
          .on_run =
              [&](const suite::SuiteProgress& done, const std::string& scenario,
                  std::span<const suite::RunResult* const> runs) {
+               folder.keep();
+               whole = done.done;
+               total = done.total;
                progress.finished(done, scenario, detectors, runs);
              },
          .on_tick =
              [&](const suite::SuiteProgress& now) {
+               total = now.total;
                check_interrupted();
                progress.show(now);
              }});
     check_interrupted();
-    if (of_worlds) {
-      for (suite::SuiteResult& result : results) add_origins(result);
+    for (suite::SuiteResult& result : results) {
+      result.part_of = planned.part_of;
+      if (!of_worlds) continue;
+      result.split = options.worlds.split;
+      add_origins(result);
     }
     return results;
   };
@@ -347,58 +470,23 @@ ExitCode suite(const SuiteOptions& options) {
     const bool looks = comparators::spec_of(name).detector.sees_pictures;
     (looks && !options.recorded.empty() ? apart : beside_own).push_back(name);
   }
-  std::vector<suite::SuiteResult> others = run(beside_own, options.recorded);
-  suite::SuiteResult result = std::move(others.front());
-  others.erase(others.begin());
-  if (!apart.empty()) std::ranges::move(run(apart, ""), std::back_inserter(others));
-  for (const suite::SuiteResult& other : others) {
-    suite::write_suite(folder.staging() / part_of(other.detector, own) / suite::kSuiteFile, other);
+  try {
+    std::vector<suite::SuiteResult> others = run(beside_own, options.recorded);
+    suite::SuiteResult result = std::move(others.front());
+    others.erase(others.begin());
+    if (!apart.empty()) std::ranges::move(run(apart, ""), std::back_inserter(others));
+    progress.wipe();
+    result.recorded = recorded;
+    for (const suite::SuiteResult& other : others) result.beside.push_back(other.detector);
+    if (of_worlds) write_sheets(folder.staging(), plan, result);
+    return finish_suite(folder, options.end, result, others, baseline);
+  } catch (const Interrupted&) {
+    progress.wipe();
+    if (whole == 0) throw;
+    throw Interrupted(
+        fmt::format("interrupted; {} of {} runs are kept, and the same command goes on from there",
+                    whole, total));
   }
-  progress.wipe();
-  result.recorded = recorded;
-  suite::write_suite(folder.staging() / suite::kSuiteFile, result);
-  suite::write_junit(folder.staging() / suite::kJunitFile, result, others);
-  if (!others.empty()) {
-    bench::write_file(folder.staging() / suite::kStandingFile,
-                      suite::standing_table(result, others));
-  }
-  const suite::SuiteInFolder made{result, folder.staging()};
-  std::optional<suite::SuiteInFolder> before;
-  std::optional<suite::Comparison> comparison;
-  if (baseline) {
-    before.emplace(suite::SuiteInFolder{*baseline, suite::folder_of(options.baseline)});
-    comparison = suite::compare(*baseline, result, [](std::string_view) { return true; });
-  }
-  const suite::SuiteInFolder* beside = before ? &*before : nullptr;
-  const suite::Verdict verdict =
-      suite::verdict_of(made, beside, comparison ? &*comparison : nullptr);
-  std::optional<report::Against> against;
-  if (before) against.emplace(report::Against{*before, *comparison});
-  report::write_report(folder.staging() / report::kReportFile, made, verdict,
-                       against ? &*against : nullptr);
-  if (of_worlds) write_worlds(folder.staging(), options.worlds, plan, result, others);
-  folder.commit();
-
-  if (!options.quiet) {
-    print_out("{}\n", suite::suite_table(result, options.worst_first));
-    if (!others.empty()) print_out("{}\n", suite::beside_table(result, others));
-    if (of_worlds) print_out("{}", told_of_worlds(options.worlds, result));
-    if (comparison) print_changes(verdict, *comparison, options.baseline);
-    print_out("{}; results in {}\n", suite::totals(result), folder.target().string());
-  }
-  warn(suite::warnings(result));
-  suite::Outcome outcome = suite::outcome_of(result);
-  for (const std::string& problem : suite::problems(result)) tell(problem);
-  for (const suite::SuiteResult& other : others) {
-    outcome = std::max(outcome, suite::outcome_of(other));
-    for (const std::string& problem : suite::problems(other)) {
-      tell(fmt::format("{}: {}", other.detector, problem));
-    }
-  }
-  const bool is_worse = comparison && comparison->has_regressed();
-  if (!is_worse || !options.fail_on_regression) return exit_code(outcome);
-  tell(fmt::format("against {}: {}", options.baseline, verdict.line));
-  return outcome == suite::Outcome::error ? kError : kRegressed;
 }
 
 }  // namespace lcs::tools

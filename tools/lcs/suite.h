@@ -9,6 +9,7 @@
 
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/exit_codes.h"
+#include "tools/lcs/suite_end.h"
 #include "tools/lcs/suite_worlds.h"
 
 namespace lcs::tools {
@@ -24,19 +25,18 @@ struct SuiteOptions {
   std::vector<std::string> sets;    ///< "key=value"
   std::vector<std::string> beside;  ///< further detectors on the same frames
   std::string recorded;             ///< earlier suite's folder, for its frames; "": simulate
-  std::string out = "out/suite";    ///< folder
-  std::string baseline;             ///< suite.json or its folder; "": none
-  bool fail_on_regression = false;  ///< exit with kRegressed if worse than the baseline
-  bool worst_first = false;
+  std::string shard;                ///< "2/5": only the second of five parts; "": all
+  std::string times;                ///< earlier suite whose durations balance the parts; "": none
+  bool anew = false;                ///< drop the runs of an unfinished suite
   bool list = false;
-  bool quiet = false;
+  SuiteEndOptions end;
 };
 
 /// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options);
 
 /// \throws bench::OutputError, Interrupted, std::exception; then no suite is written, and an
-///   earlier suite is unchanged.
+///   earlier suite is unchanged. Finished runs are kept, and the same command goes on from there.
 ExitCode suite(const SuiteOptions& options);
 
 }  // namespace lcs::tools

@@ -48,23 +48,22 @@ std::optional<worlds::Shots> recorded_shots(const fs::path& run, cv::Size image_
 void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
                  const suite::ScenarioResult& scenario) {
   constexpr int kQuality = 85, kColumns = 4;
-  for (const suite::RunResult& run : scenario.runs) {
-    if (run.folder.empty() || !planned.scenario) continue;
-    const auto shots = recorded_shots(folder / run.folder, {planned.scenario->camera.width_px,
-                                                            planned.scenario->camera.height_px});
-    if (!shots) continue;
-    const fs::path plan = scenario.file.parent_path() / worlds::kPlanFile;
-    cv::Mat3b above;
-    try {
-      above = sim::read_picture(plan, {plan.string(), 0}, cv::IMREAD_COLOR);
-    } catch (const input::Error& error) {  // keep the runs without this picture
-      warn({error.what()});
-    }
-    const auto bytes = sim::encode_jpeg(worlds::contact_sheet(*shots, above, kColumns), kQuality);
-    bench::write_file(folder / report::sheet_path(scenario),
-                      {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    return;
+  // Always of the world's own seed, so that the parts of a suite have the pictures of the whole.
+  const suite::RunResult& run = scenario.runs.front();
+  if (run.folder.empty() || !planned.scenario || run.seed != planned.scenario->seed) return;
+  const auto shots = recorded_shots(
+      folder / run.folder, {planned.scenario->camera.width_px, planned.scenario->camera.height_px});
+  if (!shots) return;
+  const fs::path plan = scenario.file.parent_path() / worlds::kPlanFile;
+  cv::Mat3b above;
+  try {
+    above = sim::read_picture(plan, {plan.string(), 0}, cv::IMREAD_COLOR);
+  } catch (const input::Error& error) {  // keep the runs without this picture
+    warn({error.what()});
   }
+  const auto bytes = sim::encode_jpeg(worlds::contact_sheet(*shots, above, kColumns), kQuality);
+  bench::write_file(folder / report::sheet_path(scenario),
+                    {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace
@@ -85,16 +84,21 @@ CLI::Option* add_worlds_options(CLI::App& command, WorldsOptions& options) {
   return split;
 }
 
-std::vector<std::string> make_worlds(const WorldsOptions& options, std::size_t jobs) {
+std::vector<worlds::Kept> chosen_worlds(const WorldsOptions& options) {
   std::vector<worlds::Choice> choices =
       worlds::choose(options.split, options.count, options.family);
   std::stable_sort(choices.begin(), choices.end(),
                    [](const auto& a, const auto& b) { return a.family < b.family; });
-  std::vector<std::string> files;
-  std::vector<std::vector<std::string>> commands;
+  std::vector<worlds::Kept> chosen;
   for (const worlds::Choice& choice : choices) {
-    const std::filesystem::path file = worlds::kept_world(kFolder, choice);
-    files.push_back(file.string());
+    chosen.push_back({choice, worlds::kept_world(kFolder, choice)});
+  }
+  return chosen;
+}
+
+void draw_worlds(const std::vector<worlds::Kept>& chosen, std::size_t jobs) {
+  std::vector<std::vector<std::string>> commands;
+  for (const auto& [choice, file] : chosen) {
     const fs::path world = file.parent_path();
     if (fs::exists(world) && !fs::is_empty(world)) {
       const std::string what = bench::first_difference(world);
@@ -102,9 +106,9 @@ std::vector<std::string> make_worlds(const WorldsOptions& options, std::size_t j
       throw bench::OutputError(fmt::format(
           "{}: {}; remove that folder, so that the world is drawn anew", world.string(), what));
     }
-    std::filesystem::create_directories(file.parent_path().parent_path());
+    fs::create_directories(world.parent_path());
     commands.push_back({"world", choice.family, "--seed", std::to_string(choice.seed), "--out",
-                        file.parent_path().string(), "--quiet"});
+                        world.string(), "--quiet"});
   }
   suite::run_all(
       commands, jobs,
@@ -114,7 +118,6 @@ std::vector<std::string> make_worlds(const WorldsOptions& options, std::size_t j
         }
       },
       [&](const std::vector<std::size_t>&) { check_interrupted(); });
-  return files;
 }
 
 void add_origins(suite::SuiteResult& result) {
@@ -129,27 +132,23 @@ void add_origins(suite::SuiteResult& result) {
   }
 }
 
-std::string told_of_worlds(const WorldsOptions& options, const suite::SuiteResult& result) {
+std::string told_of_worlds(const suite::SuiteResult& result) {
   const std::int64_t again = suite::drawn_again(result);
   std::string text =
       fmt::format("{} {} drawn again\n", again, again == 1 ? "world was" : "worlds were");
-  if (options.split == "test") {
-    text += fmt::format("The split test is {}\n", worlds::split(options.split).purpose);
+  if (result.split == "test") {
+    text += fmt::format("The split test is {}\n", worlds::split(result.split).purpose);
   }
   return text;
 }
 
-void write_worlds(const fs::path& folder, const WorldsOptions& options,
-                  const std::vector<suite::PlannedScenario>& plan, const suite::SuiteResult& result,
-                  std::span<const suite::SuiteResult> others) {
+void write_sheets(const fs::path& folder, const std::vector<suite::PlannedScenario>& plan,
+                  const suite::SuiteResult& result) {
   fs::create_directories(folder / report::kSheetsFolder);
   for (std::size_t i = 0; i < plan.size(); ++i) {
     check_interrupted();
     write_sheet(folder, plan[i], result.scenarios[i]);
   }
-  const worlds::Split& split = worlds::split(options.split);
-  report::write_worlds_page(folder, fmt::format("The split {} is {}.", split.name, split.purpose),
-                            result, others);
 }
 
 }  // namespace lcs::tools

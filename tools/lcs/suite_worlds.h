@@ -4,12 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "tools/suite/plan.h"
 #include "tools/suite/suite_result.h"
+#include "tools/worlds/worlds.h"
 
 namespace lcs::tools {
 
@@ -22,22 +22,25 @@ struct WorldsOptions {
 /// Adds `--worlds`, `--count` and `--family`. \return the option `--worlds`.
 CLI::Option* add_worlds_options(CLI::App& command, WorldsOptions& options);
 
-/// Draws the missing worlds into out/worlds/, each in its own process, `jobs` at a time.
-/// \return the scenario files of all worlds, ordered by family.
-/// \throws std::invalid_argument for an unknown split or family, Interrupted, std::runtime_error.
-std::vector<std::string> make_worlds(const WorldsOptions& options, std::size_t jobs);
+/// The chosen worlds, ordered by family, without drawing them.
+/// \throws std::invalid_argument for an unknown split or family.
+std::vector<worlds::Kept> chosen_worlds(const WorldsOptions& options);
+
+/// Draws the worlds that are missing in out/worlds/, each in its own process, `jobs` at a time.
+/// \throws bench::OutputError for a world that was edited, Interrupted, std::runtime_error.
+void draw_worlds(const std::vector<worlds::Kept>& chosen, std::size_t jobs);
 
 /// Adds to `result` how each world was drawn, from the worlds' scenario files.
 void add_origins(suite::SuiteResult& result);
 
 /// Text lines for the user: the number of redraws, and for the split `test` its purpose.
-std::string told_of_worlds(const WorldsOptions& options, const suite::SuiteResult& result);
+std::string told_of_worlds(const suite::SuiteResult& result);
 
-/// Writes worlds.html and worlds/ into the folder of a suite, with pictures from its runs.
+/// Writes worlds/ into the folder of a suite: a picture of each world, from its first run.
 /// \param plan the plan that `result` came from, in the same order.
 /// \throws bench::OutputError, Interrupted; std::runtime_error if a run's files cannot be read.
-void write_worlds(const std::filesystem::path& folder, const WorldsOptions& options,
-                  const std::vector<suite::PlannedScenario>& plan, const suite::SuiteResult& result,
-                  std::span<const suite::SuiteResult> others);
+void write_sheets(const std::filesystem::path& folder,
+                  const std::vector<suite::PlannedScenario>& plan,
+                  const suite::SuiteResult& result);
 
 }  // namespace lcs::tools

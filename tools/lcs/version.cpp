@@ -5,6 +5,8 @@
 #include <opencv2/core/utility.hpp>
 
 #include "sim/simulation.h"
+#include "tools/files/sha256.h"
+#include "tools/input/input_file.h"
 #include "tools/lcs/commit.h"
 
 namespace lcs::tools {
@@ -21,6 +23,11 @@ std::string version_line() {
     text.replace(i, 1, ", ");
   }
   return text;
+}
+
+std::string program_sha256() {
+  constexpr input::FileKind kProgram{input::kGibibyte, "install the program again"};
+  return bench::sha256(input::read_file("/proc/self/exe", kProgram));  // also after a rebuild
 }
 
 std::string program_text() {

@@ -17,4 +17,7 @@ std::string version_line();
 /// the commit is "unknown".
 std::string program_text();
 
+/// The SHA-256 of the running program's file.
+std::string program_sha256();
+
 }  // namespace lcs::tools

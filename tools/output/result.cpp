@@ -11,7 +11,7 @@ namespace lcs::bench {
 
 ResultNames result_files() {
   return {kMetricsFile,  kFramesFile, kLayersFile, kTruthFile,    kCameraFile,
-          kWarningsFile, kVideoFile,  kEventsFile, kPicturesFile, "report.html"};
+          kWarningsFile, kVideoFile,  kEventsFile, kPicturesFile, "report.html", kHowMadeFile};
 }
 
 Result::Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,

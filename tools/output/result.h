@@ -18,6 +18,9 @@
 
 namespace lcs::bench {
 
+/// How a folder of results was made; written by the commands (tools/lcs/how_made.h).
+inline constexpr const char* kHowMadeFile = "run.json";
+
 /// All files that the folder of a run may contain.
 ResultNames result_files();
 

@@ -197,6 +197,16 @@ std::vector<PlannedScenario> plan(const PlanOptions& options) {
   return chosen;
 }
 
+void keep_runs(std::vector<PlannedScenario>& plan,
+               const std::set<std::pair<std::string, std::uint64_t>>& runs) {
+  for (PlannedScenario& planned : plan) {
+    std::erase_if(planned.seeds, [&](std::uint64_t seed) {
+      return !runs.contains({planned.name, seed});
+    });
+  }
+  std::erase_if(plan, [](const PlannedScenario& planned) { return planned.seeds.empty(); });
+}
+
 double work(const scenario::Scenario& scenario) {
   constexpr int kUsualRecording = 300;
   const int frames = scenario.frames > 0 ? scenario.frames : kUsualRecording;

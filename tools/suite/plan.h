@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +41,10 @@ struct PlannedScenario {
 /// \throws std::runtime_error for paths that are missing or hold no scenario, an invalid filter,
 ///   two files with the same scenario name, and an empty plan.
 std::vector<PlannedScenario> plan(const PlanOptions& options);
+
+/// Removes all other runs from a plan, and scenarios without any. \param runs names and seeds.
+void keep_runs(std::vector<PlannedScenario>& plan,
+               const std::set<std::pair<std::string, std::uint64_t>>& runs);
 
 /// The estimated work of a run, in frames times pixels; a guess for a recording.
 double work(const scenario::Scenario& scenario);

@@ -75,6 +75,12 @@ Json to_json(const ScenarioResult& scenario) {
   return json;
 }
 
+Json to_json(const PartOf& part) {
+  Json whole = Json::array();
+  for (const auto& [name, seeds] : part.whole) whole.push_back({{"name", name}, {"seeds", seeds}});
+  return {{"part", part.shard.part}, {"parts", part.shard.parts}, {"whole", whole}};
+}
+
 // ---- Reading
 
 using Node = bench::JsonNode;
@@ -144,6 +150,18 @@ ScenarioResult scenario_of(const Node& node) {
   return scenario;
 }
 
+PartOf part_of(const Node& node) {
+  PartOf part;
+  const std::uint64_t number = node["part"].natural(), parts = node["parts"].natural();
+  node.require(1 <= number && number <= parts && parts <= 1'000'000, "a part of its parts");
+  part.shard = {static_cast<int>(number), static_cast<int>(parts)};
+  node["whole"].each([&](const Node& item) {
+    std::vector<std::uint64_t>& seeds = part.whole.emplace_back(item["name"].text(), 0).second;
+    item["seeds"].each([&](const Node& seed) { seeds.push_back(seed.natural()); });
+  });
+  return part;
+}
+
 SuiteResult suite_of(const Node& node) {
   const std::uint64_t format = node["format"].natural();
   if (format != kFormat) {
@@ -154,6 +172,9 @@ SuiteResult suite_of(const Node& node) {
   suite.sets = node["sets"].texts();
   suite.version = node["version"].text();
   if (node.has("recorded")) suite.recorded = node["recorded"].text();
+  if (node.has("beside")) suite.beside = node["beside"].texts();
+  if (node.has("split")) suite.split = node["split"].text();
+  if (node.has("part_of")) suite.part_of = part_of(node["part_of"]);
   std::set<std::string> names;
   node["scenarios"].each([&](const Node& item) {
     suite.scenarios.push_back(scenario_of(item));
@@ -168,9 +189,15 @@ SuiteResult suite_of(const Node& node) {
 void write_suite(const std::filesystem::path& file, const SuiteResult& suite) {
   Json scenarios = Json::array();
   for (const ScenarioResult& scenario : suite.scenarios) scenarios.push_back(to_json(scenario));
-  const Json json{{"format", kFormat},          {"detector", suite.detector},
-                  {"sets", suite.sets},         {"version", suite.version},
-                  {"recorded", suite.recorded}, {"scenarios", scenarios}};
+  Json json{{"format", kFormat},
+            {"detector", suite.detector},
+            {"sets", suite.sets},
+            {"version", suite.version},
+            {"recorded", suite.recorded}};
+  if (!suite.beside.empty()) json["beside"] = suite.beside;
+  if (!suite.split.empty()) json["split"] = suite.split;
+  if (suite.part_of) json["part_of"] = to_json(*suite.part_of);
+  json["scenarios"] = std::move(scenarios);
   // A child's stderr may be invalid UTF-8, which JSON forbids.
   bench::write_file(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
 }

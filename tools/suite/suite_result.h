@@ -13,6 +13,7 @@
 #include "tools/recording/warnings.h"
 #include "tools/scoring/criteria.h"
 #include "tools/scoring/scoring.h"
+#include "tools/suite/shard.h"
 
 namespace lcs::suite {
 
@@ -54,6 +55,13 @@ struct ScenarioResult {
   std::optional<Drawn> drawn = {};                         ///< only for a world
 };
 
+/// A part of a suite, made by `lcs suite --shard`.
+struct PartOf {
+  Shard shard;
+  /// The runs of the whole suite: scenarios in order, with their seeds.
+  std::vector<std::pair<std::string, std::vector<std::uint64_t>>> whole;
+};
+
 struct SuiteResult {
   std::string detector;           ///< its name: lcs, lcs:lab, klt and so on
   std::vector<std::string> sets;  ///< "key=value", as given
@@ -61,6 +69,9 @@ struct SuiteResult {
   /// The earlier suite that provided the frames, and the program that simulated them; empty if this
   /// suite simulated them.
   std::string recorded = {};
+  std::vector<std::string> beside = {};  ///< the detectors in beside/, in order
+  std::string split = {};                ///< of its worlds; "": no worlds
+  std::optional<PartOf> part_of = {};    ///< absent for a whole suite
   std::vector<ScenarioResult> scenarios;
 };
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <numeric>
 
+#include "tools/files/json_node.h"
 #include "tools/input/message.h"
 #include "tools/output/result.h"
 #include "tools/scoring/criteria.h"
@@ -85,33 +86,16 @@ std::vector<std::string> command_of(const PlannedScenario& planned, std::uint64_
   return command;
 }
 
-std::optional<double> former_seconds(const std::optional<SuiteResult>& former,
-                                     const std::string& name, std::uint64_t seed) {
-  const ScenarioResult* scenario = former ? find(*former, name) : nullptr;
-  const RunResult* run = scenario ? find(*scenario, seed) : nullptr;
-  return run && run->outcome != Outcome::error ? std::optional(run->wall_s) : std::nullopt;
-}
-
 /// All runs, longest first, so that the processors are busy until shortly before the end.
 std::vector<Job> jobs_of(const std::vector<PlannedScenario>& plan,
                          const std::optional<SuiteResult>& former) {
+  const std::vector<double> seconds = estimated_seconds(plan, former);
   std::vector<Job> jobs;
-  std::vector<bool> is_known;
-  double known_seconds = 0, known_work = 0;
+  std::size_t next = 0;
   for (std::size_t i = 0; i < plan.size(); ++i) {
-    if (!plan[i].scenario) continue;
-    for (std::size_t k = 0; k < plan[i].seeds.size(); ++k) {
-      const auto seconds = former_seconds(former, plan[i].name, plan[i].seeds[k]);
-      jobs.push_back({i, k, seconds.value_or(work(*plan[i].scenario))});
-      is_known.push_back(seconds.has_value());
-      if (!seconds) continue;
-      known_seconds += *seconds;
-      known_work += work(*plan[i].scenario);
+    for (std::size_t k = 0; k < plan[i].seeds.size(); ++k, ++next) {
+      if (plan[i].scenario) jobs.push_back({i, k, seconds[next]});
     }
-  }
-  const double seconds_per_work = known_work > 0 ? known_seconds / known_work : kSecondsPerWork;
-  for (std::size_t j = 0; j < jobs.size(); ++j) {
-    if (!is_known[j]) jobs[j].seconds *= seconds_per_work;
   }
   std::stable_sort(jobs.begin(), jobs.end(),
                    [](const Job& a, const Job& b) { return a.seconds > b.seconds; });
@@ -137,19 +121,40 @@ ScenarioResult begin_scenario(const PlannedScenario& planned, const SuiteWatcher
   return result;
 }
 
-void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteWatcher& watcher,
-                RunResult& run) {
-  run.wall_s = exit.wall_s;
-  const bool has_figures = exit.signal == 0 && (exit.code == 0 || exit.code == 1);
-  if (!has_figures) {
-    run.error = complaint_of(exit);
-    bench::remove_abandoned(watcher.folder / folder_of(planned, run.seed), bench::result_files());
+bool is_whole(const PlannedScenario& planned, std::uint64_t seed,
+              const std::vector<SuiteWatcher>& watchers) {
+  return std::ranges::all_of(watchers, [&](const SuiteWatcher& watcher) {
+    return fs::exists(watcher.folder / folder_of(planned, seed) / bench::kMetricsFile);
+  });
+}
+
+/// The duration of an earlier run, as its run.json states it; 0 if it has none.
+double seconds_of(const fs::path& folder) {
+  constexpr input::FileKind kKind{bench::kMostJsonBytes, "run the suite again"};
+  double seconds = 0;
+  try {
+    bench::read_json(folder / bench::kHowMadeFile, kKind, [&](const bench::JsonNode& node) {
+      seconds = node["wall_s"].figure().value_or(0);
+    });
+  } catch (const std::exception&) {
+  }
+  return seconds;
+}
+
+/// Takes the figures of a run from its folder. \param exit absent for a run of an earlier process.
+void finish_run(const PlannedScenario& planned, const std::optional<Exit>& exit,
+                const SuiteWatcher& watcher, RunResult& run) {
+  const fs::path folder = watcher.folder / folder_of(planned, run.seed);
+  run.wall_s = exit ? exit->wall_s : seconds_of(folder);
+  if (exit && (exit->signal != 0 || exit->code < 0 || exit->code > 1)) {
+    run.error = complaint_of(*exit);
+    bench::remove_abandoned(folder, bench::result_files());
     return;
   }
   run.folder = folder_of(planned, run.seed);
   try {
-    run.metrics = bench::read_metrics(watcher.folder / run.folder / bench::kMetricsFile);
-    const fs::path warnings = watcher.folder / run.folder / bench::kWarningsFile;
+    run.metrics = bench::read_metrics(folder / bench::kMetricsFile);
+    const fs::path warnings = folder / bench::kWarningsFile;
     if (fs::exists(warnings)) run.warnings = bench::read_warnings(warnings);
     std::erase_if(run.warnings, [](const bench::Warned& w) { return w.count.value_or(0) == 0; });
     run.outcome = Outcome::passed;
@@ -163,13 +168,9 @@ void finish_run(const PlannedScenario& planned, const Exit& exit, const SuiteWat
 }  // namespace
 
 bench::ResultNames suite_files() {
-  bench::ResultNames names{kSuiteFile,
-                           kJunitFile,
-                           "report.html",
-                           "worlds.html",
-                           "worlds/*.jpg",
-                           kStandingFile,
-                           std::string("beside/*/") + kSuiteFile};
+  bench::ResultNames names{
+      kSuiteFile,     kJunitFile,          "report.html", "worlds.html",
+      "worlds/*.jpg", bench::kHowMadeFile, kStandingFile, std::string("beside/*/") + kSuiteFile};
   for (const std::string& file : bench::result_files()) {
     for (const char* suite : {"", "beside/*/"}) {
       names.push_back(fmt::format("{}runs/*/seed-*/{}", suite, file));
@@ -180,6 +181,45 @@ bench::ResultNames suite_files() {
 
 fs::path detections_of(const std::string& scenario, std::uint64_t seed) {
   return fs::path(scenario) / fmt::format("seed-{}.csv", seed);
+}
+
+std::optional<double> former_seconds(const SuiteResult& former, const std::string& name,
+                                     std::uint64_t seed) {
+  const ScenarioResult* scenario = find(former, name);
+  const RunResult* run = scenario ? find(*scenario, seed) : nullptr;
+  return run && run->outcome != Outcome::error ? std::optional(run->wall_s) : std::nullopt;
+}
+
+std::vector<double> estimated_seconds(const std::vector<PlannedScenario>& plan,
+                                      const std::optional<SuiteResult>& former) {
+  std::vector<double> seconds;
+  std::vector<bool> is_known;
+  double known_seconds = 0, known_work = 0;
+  for (const PlannedScenario& planned : plan) {
+    const double own_work = planned.scenario ? work(*planned.scenario) : 0;
+    for (const std::uint64_t seed : planned.seeds) {
+      const auto known = former ? former_seconds(*former, planned.name, seed) : std::nullopt;
+      seconds.push_back(known.value_or(own_work));
+      is_known.push_back(known.has_value());
+      if (!known) continue;
+      known_seconds += *known;
+      known_work += own_work;
+    }
+  }
+  const double seconds_per_work = known_work > 0 ? known_seconds / known_work : kSecondsPerWork;
+  for (std::size_t i = 0; i < seconds.size(); ++i) {
+    if (!is_known[i]) seconds[i] *= seconds_per_work;
+  }
+  return seconds;
+}
+
+std::size_t count_whole(const std::vector<PlannedScenario>& plan,
+                        const std::vector<SuiteWatcher>& watchers) {
+  std::size_t count = 0;
+  for (const PlannedScenario& planned : plan) {
+    for (const std::uint64_t seed : planned.seeds) count += is_whole(planned, seed, watchers);
+  }
+  return count;
 }
 
 std::string shell_line(const std::vector<std::string>& arguments) {
@@ -208,7 +248,17 @@ std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
     }
   }
 
-  const std::vector<Job> jobs = jobs_of(plan, options.former);
+  std::vector<Job> jobs = jobs_of(plan, options.former);
+  const std::size_t total = jobs.size();
+  std::erase_if(jobs, [&](const Job& job) {
+    const PlannedScenario& planned = plan[job.scenario];
+    if (!is_whole(planned, planned.seeds[job.run], options.watchers)) return false;
+    for (std::size_t i = 0; i < suites.size(); ++i) {
+      finish_run(planned, std::nullopt, options.watchers[i],
+                 suites[i].scenarios[job.scenario].runs[job.run]);
+    }
+    return true;
+  });
   std::vector<std::vector<std::string>> commands;
   for (const Job& job : jobs) {
     const PlannedScenario& planned = plan[job.scenario];
@@ -220,7 +270,8 @@ std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
   }
 
   SuiteProgress progress;
-  progress.total = jobs.size();
+  progress.total = total;
+  progress.done = total - jobs.size();
   const double all_seconds = std::accumulate(
       jobs.begin(), jobs.end(), 0.0, [](double sum, const Job& job) { return sum + job.seconds; });
   double done_seconds = 0;

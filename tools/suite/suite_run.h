@@ -45,13 +45,22 @@ struct SuiteRunOptions {
   std::string version;
   std::size_t jobs = 1;               ///< concurrent runs, >= 1
   std::optional<SuiteResult> former;  ///< earlier result, to estimate durations
-  /// Called when a run ends, with its result for each watcher.
+  /// Called when a run of this process ends, with its result for each watcher.
   std::function<void(const SuiteProgress&, const std::string& scenario,
                      std::span<const RunResult* const>)>
       on_run;
   /// Called several times a second. An exception ends the suite and its children.
   std::function<void(const SuiteProgress&)> on_tick;
 };
+
+/// The duration of an earlier run in s; absent if it is unknown or ended with an error.
+std::optional<double> former_seconds(const SuiteResult& former, const std::string& name,
+                                     std::uint64_t seed);
+
+/// The estimated duration of each planned run, in the order of the plan and its seeds, in s; 0 for
+/// a broken scenario. \param former an earlier result with the durations of some runs.
+std::vector<double> estimated_seconds(const std::vector<PlannedScenario>& plan,
+                                      const std::optional<SuiteResult>& former);
 
 /// The file of a run's detections: NAME/seed-N.csv.
 std::filesystem::path detections_of(const std::string& scenario, std::uint64_t seed);
@@ -62,7 +71,12 @@ std::string shell_line(const std::vector<std::string>& arguments);
 /// Sets the run's criteria and outcome from its figures.
 void judge_run(const std::vector<scenario::Criterion>& criteria, RunResult& run);
 
-/// Runs all planned scenarios. \return a result for each watcher.
+/// The number of planned runs whose results are in the folders of all watchers already.
+std::size_t count_whole(const std::vector<PlannedScenario>& plan,
+                        const std::vector<SuiteWatcher>& watchers);
+
+/// Runs all planned scenarios. Runs whose results are there already are not repeated.
+/// \return a result for each watcher.
 std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
                                    const SuiteRunOptions& options);
 

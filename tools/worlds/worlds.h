@@ -41,6 +41,12 @@ struct Choice {
 /// \throws std::invalid_argument for an unknown split or family.
 std::vector<Choice> choose(std::string_view split, int count, const std::string& family = "");
 
+/// A world in a folder of worlds, drawn or to be drawn.
+struct Kept {
+  Choice choice;
+  std::filesystem::path file;  ///< its scenario; the stem is its name, as "room_7"
+};
+
 /// Whether the world has no movers: one in four.
 bool is_static(const Choice& choice);
 

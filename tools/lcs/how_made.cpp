@@ -1,0 +1,65 @@
+#include "tools/lcs/how_made.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <opencv2/core/utility.hpp>
+
+#include "tools/files/json_node.h"
+#include "tools/files/output_file.h"
+#include "tools/lcs/terminal.h"
+#include "tools/lcs/version.h"
+#include "tools/output/result.h"
+
+namespace lcs::tools {
+namespace {
+
+const std::time_t kStart = std::time(nullptr);
+const auto kStartClock = std::chrono::steady_clock::now();
+
+}  // namespace
+
+std::vector<std::string>& command_line() {
+  static std::vector<std::string> line;
+  return line;
+}
+
+void note_longer(const std::filesystem::path& folder, bool is_named, const char* what,
+                 std::size_t count) {
+  std::size_t before = 0;
+  try {
+    // Not as an input of this command, which may replace it.
+    const auto json = bench::parse_json<nlohmann::ordered_json>(
+        bench::beginning(folder / bench::kHowMadeFile, 1 << 24));
+    before = bench::JsonNode(json, "")[what].natural();
+  } catch (const std::exception&) {  // of another kind, or made before there was this file
+    return;
+  }
+  if (before <= count) return;
+  const std::string text = fmt::format("{} holds a result of {} {}, and this one has {}",
+                                       folder.string(), before, what, count);
+  if (is_named) return warn({text + ", which will replace it"});
+  throw bench::OutputError(text + "; name a place by --out, or remove that folder");
+}
+
+void write_how_made(const std::filesystem::path& folder, const std::string& command,
+                    const sim::Versions& versions, const nlohmann::ordered_json& about) {
+  nlohmann::ordered_json json{{"command", command}};
+  json.update(about);
+  json["program"] = program_text();
+  if (!versions.mujoco.empty()) json["mujoco"] = versions.mujoco;
+  if (!versions.gl_renderer.empty()) json["renderer"] = versions.gl_renderer;
+  json["opencv"] = cv::getVersionString();
+  json["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(kStart));
+  json["wall_s"] =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - kStartClock).count();
+  json["cpu_s"] = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  bench::write_file(
+      folder / bench::kHowMadeFile,
+      json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
+}
+
+}  // namespace lcs::tools

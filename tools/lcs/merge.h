@@ -1,0 +1,25 @@
+/// \file
+/// `lcs merge`: joins the parts of a suite that `lcs suite --shard` made.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/lcs/exit_codes.h"
+#include "tools/lcs/suite_end.h"
+
+namespace lcs::tools {
+
+struct MergeOptions {
+  std::vector<std::string> parts;  ///< folders
+  SuiteEndOptions end;
+};
+
+/// Adds the sub-command to `app`. \param options filled in by parsing.
+CLI::App& add_merge_command(CLI::App& app, MergeOptions& options);
+
+/// \throws bench::OutputError, Interrupted, std::exception; then nothing is written.
+ExitCode merge(const MergeOptions& options);
+
+}  // namespace lcs::tools
