@@ -71,6 +71,24 @@ TEST_F(OutputTest, NothingIsLeftWhenItIsNotCommitted) {
 }
 
 /// Between the making of a staging folder and its lock it looks like that of a killed process.
+TEST_F(OutputTest, ACompressedTextIsReadByOtherPrograms) {
+  TextFile text(top_ / "text", true);
+  std::string all;
+  for (int i = 0; i < 300'000; ++i) {  // more than one member
+    all += fmt::format("{}\n", i);
+    text.write(fmt::format("{}\n", i));
+  }
+  text.close();
+  write(top_ / "plain", all);
+  const std::string shell = "cd " + top_.string() + " && ";
+  EXPECT_EQ(std::system((shell + "zcat text.gz | cmp - plain").c_str()), 0);
+  EXPECT_EQ(std::system((shell + "python3 -c 'import gzip; assert gzip.open(\"text.gz\").read() == "
+                                 "open(\"plain\", \"rb\").read()'")
+                            .c_str()),
+            0);
+  EXPECT_LT(fs::file_size(top_ / "text.gz"), all.size() / 2);
+}
+
 TEST_F(OutputTest, AnUnfinishedResultIsKeptOnRequestAndTheNextGoesOnThere) {
   const auto begin = [&] {
     return std::make_unique<Output>(top_ / "run", kFiles, Unfinished::kept);

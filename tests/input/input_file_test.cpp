@@ -8,11 +8,13 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <new>
 #include <vector>
 
 #include "tests/scenarios/scenario_file.h"
+#include "tests/tools/files.h"
 #include "tests/tools/refusal.h"
 
 namespace lcs::input {
@@ -101,6 +103,32 @@ TEST(InputFile, HasItsLinesWhateverEndsTheLastOneAndWithoutAByteOrderMark) {
 }
 
 #ifndef __SANITIZE_ADDRESS__  // which needs its own memory
+TEST(InputFile, ACompressedOneIsReadLikeItsText) {
+  const scenario::ScenarioFolder folder;
+  const std::filesystem::path plain = folder.write("table", "one\ntwo\n"),
+                              compressed = plain.string() + ".gz";
+  // Members of several programs behind each other, as gzip allows.
+  const std::string shell = "cd " + folder.path().string() + " && ";
+  ASSERT_EQ(std::system((shell + "gzip -9 -k table && python3 -c 'import gzip, sys; "
+                                 "sys.stdout.buffer.write(gzip.compress(b\"three\"))' >> table.gz")
+                            .c_str()),
+            0);
+  EXPECT_EQ(lines_of(compressed), (std::vector<std::string>{"one", "two", "three"}));
+
+  const std::string bytes = bench::read(compressed);
+  bench::write(compressed, bytes.substr(0, bytes.size() - 3));
+  EXPECT_EQ(refusal(compressed),
+            compressed.string() + ": this is no whole gzip file; give a table");
+  bench::write(compressed, "one\n");
+  EXPECT_EQ(refusal(compressed),
+            compressed.string() + ": this is no whole gzip file; give a table");
+  bench::write(compressed, "");
+  EXPECT_NE(refusal(compressed).find("the file is empty"), std::string::npos);
+  ASSERT_EQ(std::system((shell + "head -c 3000000 /dev/zero | gzip > table.gz").c_str()), 0);
+  EXPECT_EQ(refusal(compressed),
+            compressed.string() + ": the file is larger than 1 MiB; give a table");
+}
+
 TEST(InputFileDeathTest, MemoryThatRunsOutIsNoEndOfFile) {
   const scenario::ScenarioFolder folder;
   const auto large = folder.write("large", "");

@@ -73,7 +73,8 @@ TEST_P(ShippedScenario, LeavesWholeFilesThatAgreeWithEachOther) {
   const fs::path out = folder_.path() / "out" / name;
   EXPECT_EQ(entries(out),
             (std::set<std::string>{"camera.json", "metrics.json", "frames.csv", "layers.jsonl",
-                                   "truth.jsonl", "video.mp4", "warnings.json"}));
+                                   "truth.jsonl", "detector.json", "run.json", "video.mp4",
+                                   "warnings.json"}));
 
   EXPECT_EQ(lines(read(out / kFramesFile)), 1 + kFrames);
   const Recording recording = read_recording(out);

@@ -168,7 +168,7 @@ TEST_F(Suite, ASweepIsOneScenarioAPoint) {
     names.insert(point.name);
     ASSERT_EQ(point.point.size(), 2u);
     EXPECT_EQ(point.point[0].first, "ego.speed");
-    figures.insert(read(run_folder(point, 0) / "truth.jsonl"));
+    figures.insert(read(run_folder(point, 0) / "truth.jsonl.gz"));
   }
   EXPECT_EQ(names, (std::set<std::string>{"speeds@0.1mps,5Hz", "speeds@0.1mps,10Hz",
                                           "speeds@0.9mps,5Hz", "speeds@0.9mps,10Hz"}));
@@ -254,10 +254,9 @@ TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
     ASSERT_EQ(other.scenarios[0].runs.size(), 2u);
     const RunResult& run = other.scenarios[0].runs[1];
     EXPECT_EQ(run.outcome, name == "klt" ? Outcome::failed : Outcome::passed);
-    const auto frames = [](const std::string& truth) { return truth.substr(truth.find('\n')); };
-    EXPECT_TRUE(frames(read(folder_.path() / beside / run.folder / "truth.jsonl")) ==
-                frames(read(run_folder(result().scenarios[0], 1) / "truth.jsonl")))
-        << "not the same frames";
+    EXPECT_TRUE(fs::equivalent(folder_.path() / beside / run.folder / "truth.jsonl.gz",
+                               run_folder(result().scenarios[0], 1) / "truth.jsonl.gz"))
+        << "one file has the truth of both";
   }
   // It can be used like any earlier suite.
   EXPECT_EQ(run({"--seeds", "2"}).exit_code, 0) << "klt is not asked";
@@ -277,9 +276,9 @@ TEST_F(Suite, APresetBesideHasTheFiguresOfTheFilterWithThatPresetAlone) {
   const fs::path plain =
       folder_.path() / "plain" / result("plain").scenarios.at(0).runs.at(0).folder;
   const fs::path own = out_ / "beside" / "lcs:lab" / lab.scenarios.at(0).runs.at(0).folder;
-  EXPECT_TRUE(read(own / "layers.jsonl") == read(plain / "layers.jsonl"));
-  EXPECT_FALSE(read(own / "layers.jsonl") ==
-               read(out_ / lab.scenarios.at(0).runs.at(0).folder / "layers.jsonl"));
+  EXPECT_TRUE(read(own / "layers.jsonl.gz") == read(plain / "layers.jsonl.gz"));
+  EXPECT_FALSE(read(own / "layers.jsonl.gz") ==
+               read(out_ / lab.scenarios.at(0).runs.at(0).folder / "layers.jsonl.gz"));
 }
 
 TEST_F(Suite, ADetectorBesideThatIsUnknownOrRunAlreadyIsRefused) {
@@ -313,6 +312,32 @@ TEST_F(Suite, HasTheSameFiguresHoweverManyRunAtATime) {
   const auto one = timeless(folder_.path() / "one" / kSuiteFile);
   EXPECT_EQ(one, timeless(folder_.path() / "three" / kSuiteFile));
   EXPECT_TRUE(one["scenarios"][0]["runs"][0]["metrics"].contains("dimension.mean"));
+}
+
+TEST_F(Suite, KeepsNoMoreThanIsAskedForWithTheSameFigures) {
+  scenario("near");
+  ASSERT_EQ(run({"--seeds", "1", "--out", "all", "--beside", "klt"}).exit_code, 0);
+  ASSERT_EQ(run({"--seeds", "1", "--out", "few", "--beside", "klt", "--keep", "events"}).exit_code,
+            0);
+  ASSERT_EQ(
+      run({"--seeds", "1", "--out", "none", "--beside", "klt", "--keep", "figures"}).exit_code, 0);
+  EXPECT_EQ(entries(folder_.path() / "few/runs/near/seed-1"),
+            (std::set<std::string>{"events.json", "frames.csv", "metrics.json", "run.json",
+                                   "warnings.json"}));
+  EXPECT_EQ(entries(folder_.path() / "none"),
+            (std::set<std::string>{"beside", "junit.xml", "report.html", "run.json", "standing.md",
+                                   "suite.json"}));
+  EXPECT_EQ(entries(folder_.path() / "none/beside/klt"), std::set<std::string>{"suite.json"});
+  for (const char* suite : {"few", "none"}) {
+    SCOPED_TRACE(suite);
+    const auto figures = [&](const std::string& folder) {
+      return timeless(folder_.path() / folder / kSuiteFile)["scenarios"][0]["runs"][0]["metrics"];
+    };
+    EXPECT_EQ(figures(suite), figures("all"));
+    const CommandResult again = run({"--seeds", "1", "--recorded", suite, "--out", "again"});
+    EXPECT_EQ(again.exit_code, 2);
+    EXPECT_NE(again.err.find("--keep all"), std::string::npos) << again.err;
+  }
 }
 
 TEST_F(Suite, SettingsReachEveryRunAndAreWrittenDown) {
@@ -420,6 +445,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"no_seeds", {"--seeds", "0"}, "--seeds"},
                     Mistake{"no_baseline", {"--fail-on-regression"}, "--baseline"},
                     Mistake{"no_jobs", {"--jobs", "0"}, "--jobs"},
+                    Mistake{"no_such_kind", {"--keep", "half"}, "figures, events or all"},
                     Mistake{"no_such_part", {"--shard", "3/2"}, "--shard"},
                     Mistake{"more_parts_than_runs", {"--shard", "1/9"}, "only 3 runs"},
                     Mistake{"unknown_detector", {"--detector", "yolo"}, "yolo"},
@@ -624,8 +650,8 @@ TEST_F(SuiteProcesses, PartsThatWereKilledAndWentOnMergeToTheWholeSuite) {
     return all;
   };
   EXPECT_EQ(names("merged"), names("whole"));
-  EXPECT_EQ(read(file("merged/runs/b/seed-2/truth.jsonl")),
-            read(file("whole/runs/b/seed-2/truth.jsonl")));
+  EXPECT_EQ(read(file("merged/runs/b/seed-2/truth.jsonl.gz")),
+            read(file("whole/runs/b/seed-2/truth.jsonl.gz")));
 }
 
 TEST_F(SuiteProcesses, AChildThatCrashesIsAnErrorThatNamesTheSignal) {

@@ -19,6 +19,8 @@
 #include "tests/tools/files.h"
 #include "tests/tools/refusal.h"
 #include "tests/tools/temporary_folder.h"
+#include "tools/files/output_file.h"
+#include "tools/input/input_file.h"
 #include "tools/suite/suite_result.h"
 #include "tools/tune/journal.h"
 #include "tools/tune/search.h"
@@ -383,13 +385,16 @@ TEST_F(TuneCommand, RefusesAJournalOfOtherRunsOrOfAnotherProgramAndLeavesItAsItW
   fs::rename(old, suite());
   EXPECT_EQ(tune(command).exit_code, 0) << "all is as it was";
   // A difference in a single byte counts, too.
-  for (const char* name : {"layers.jsonl", "truth.jsonl", "camera.json"}) {
+  for (const char* name : {"layers.jsonl.gz", "truth.jsonl.gz", "camera.json"}) {
     const fs::path file =
         suite() / suite::read_suite(suite()).scenarios.front().runs.front().folder / name;
     const std::string bytes = bench::read(file);
-    std::string changed = bytes;
+    std::string changed = input::read_file(file, {input::kGibibyte, ""});
     changed.insert(changed.find(','), " ");
-    bench::write(file, changed);
+    const bool is_gzip = file.extension() == ".gz";
+    bench::TextFile text(is_gzip ? fs::path(file).replace_extension() : file, is_gzip);
+    text.write(changed);
+    text.close();
     refused({}, "recordings: SHA-256 ");
     bench::write(file, bytes);
   }

@@ -60,9 +60,11 @@ void require_same(const fs::path& folder, const Recording& recorded,
 EarlierRun::EarlierRun(const fs::path& folder, const scenario::Scenario& scenario,
                        const Intrinsics& camera)
     : camera_(camera) {
-  if (!fs::exists(folder / kLayersFile)) {
-    throw std::runtime_error(
-        fmt::format("there is no run in {}; name a folder that lcs run has left", folder.string()));
+  if (!fs::exists(stored(folder, kLayersFile))) {
+    throw std::runtime_error(fmt::format(
+        "there is no run in {} with its frames; name a folder that was made with --keep all, which "
+        "is the default",
+        folder.string()));
   }
   recorded_ = without_detections(read_recording(folder));
   require_same(folder, recorded_, scenario);

@@ -2,11 +2,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <libdeflate.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <new>
 
 namespace lcs::bench {
 namespace {
@@ -67,6 +69,33 @@ void OutputFile::flush() {
 
 void OutputFile::close() {
   if (std::fclose(file_.release()) != 0) fail_to("write", path_, errno);
+}
+
+TextFile::TextFile(std::filesystem::path path, bool compressed)
+    : compressed_(compressed), file_(compressed ? path += ".gz" : path) {}
+
+void TextFile::write(std::string_view text) {
+  if (!compressed_) return file_.write(text);
+  constexpr std::size_t kMember = 1 << 20;
+  pending_ += text;
+  if (pending_.size() >= kMember) flush();
+}
+
+void TextFile::flush() {
+  constexpr int kLevel = 4;  // higher levels save little, and take longer than the filter
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> gzip(
+      libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
+  if (!gzip) throw std::bad_alloc();
+  std::string member(libdeflate_gzip_compress_bound(gzip.get(), pending_.size()), '\0');
+  member.resize(libdeflate_gzip_compress(gzip.get(), pending_.data(), pending_.size(),
+                                         member.data(), member.size()));
+  file_.write(member);
+  pending_.clear();
+}
+
+void TextFile::close() {
+  if (compressed_) flush();
+  file_.close();
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {

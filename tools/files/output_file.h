@@ -48,6 +48,25 @@ class OutputFile {
   std::unique_ptr<std::FILE, Closer> file_;
 };
 
+/// A text file that may be compressed: as gzip members of about a mebibyte, so that neither memory
+/// nor the loss by a broken byte grows with the file.
+class TextFile {
+ public:
+  /// \param compressed appends ".gz" to the path. \throws OutputError
+  TextFile(std::filesystem::path path, bool compressed);
+  /// \throws OutputError
+  void write(std::string_view text);
+  /// \throws OutputError
+  void close();
+
+ private:
+  void flush();
+
+  bool compressed_;
+  OutputFile file_;
+  std::string pending_;  ///< not yet compressed
+};
+
 /// Writes a whole file. \throws OutputError
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 

@@ -1,11 +1,15 @@
 #include "tools/input/input_file.h"
 
 #include <fcntl.h>
+#include <libdeflate.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <memory>
+#include <new>
 #include <system_error>
+#include <utility>
 
 #include "tools/input/inputs_read.h"
 
@@ -27,7 +31,7 @@ InputFile::InputFile(const std::filesystem::path& file, const FileKind& kind)
     : InputFile(file, kind, {file.string(), 0}) {}
 
 InputFile::InputFile(const std::filesystem::path& file, const FileKind& kind, const Source& where)
-    : file_(file.string()), kind_(kind), where_(where) {
+    : file_(file.string()), kind_(kind), where_(where), is_gzip_(file.extension() == ".gz") {
   note_input(file);
   struct stat status = {};
   // Check before opening, too: opening alone wakes a pipe's writer, or moves a tape.
@@ -91,6 +95,43 @@ void InputFile::check_size(std::uint64_t bytes) const {
 bool InputFile::fill() {
   buffer_.erase(0, used_);
   used_ = 0;
+  if (!is_gzip_) return read_block();
+  if (compressed_.empty()) {
+    while (read_block()) {
+    }
+    compressed_ = std::exchange(buffer_, {});
+    read_ = 0;
+    if (compressed_.empty()) fail("the file is empty, which no gzip file is", kind_.remedy);
+  }
+  return decompress();
+}
+
+bool InputFile::decompress() {
+  if (decompressed_ == compressed_.size()) return false;
+  const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> gzip(
+      libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
+  if (!gzip) throw std::bad_alloc();
+  const std::size_t before = buffer_.size();
+  std::size_t taken = 0, given = 0;
+  for (std::size_t room = 4 * kMebibyte;; room *= 2) {
+    buffer_.resize(before + room);
+    const libdeflate_result result = libdeflate_gzip_decompress_ex(
+        gzip.get(), compressed_.data() + decompressed_, compressed_.size() - decompressed_,
+        buffer_.data() + before, room, &taken, &given);
+    if (result == LIBDEFLATE_SUCCESS) break;
+    if (result != LIBDEFLATE_INSUFFICIENT_SPACE) {
+      fail("this is no whole gzip file", kind_.remedy);
+    }
+    check_size(read_ + room);
+  }
+  buffer_.resize(before + given);
+  decompressed_ += taken;
+  read_ += given;
+  check_size(read_);
+  return true;
+}
+
+bool InputFile::read_block() {
   const std::size_t before = buffer_.size();
   buffer_.resize(before + kBlock);
   ssize_t got = 0;

@@ -1,7 +1,8 @@
 /// \file
 /// The only way to open an input file. Pipes, devices, sockets and folders are rejected before
 /// reading, because reading might never end. Files beyond the size limit of their kind are
-/// rejected, too. Exhausted memory throws `std::bad_alloc` and is never an end of file.
+/// rejected, too. A file NAME.gz is decompressed (gzip). Exhausted memory throws `std::bad_alloc`
+/// and is never an end of file.
 #pragma once
 
 #include <sys/stat.h>
@@ -45,7 +46,9 @@ class InputFile {
   Source here() const { return {file_, line_}; }
 
  private:
-  bool fill();  ///< reads a block; false at the end
+  bool fill();        ///< reads a block; false at the end
+  bool read_block();  ///< of the file
+  bool decompress();  ///< the next member of a gzip file; false at the end
   [[noreturn]] void fail(const std::string& what, std::string_view remedy) const;
   [[noreturn]] void fail(int error) const;
   void check(const struct stat& status) const;
@@ -57,6 +60,9 @@ class InputFile {
   int descriptor_ = -1;
   int line_ = 0;
   std::uint64_t read_ = 0;
+  bool is_gzip_ = false;
+  std::string compressed_;        ///< a gzip file's bytes, once they are read
+  std::size_t decompressed_ = 0;  ///< number of these bytes used
   std::string buffer_;
   std::size_t used_ = 0;  ///< bytes of the buffer already returned
 };

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@
 
 #include "tools/files/output.h"
 #include "tools/input/reader.h"
+#include "tools/output/result.h"
 
 namespace lcs::tools {
 
@@ -127,6 +129,27 @@ inline void add_result_options(CLI::App& command, bool& no_video, bool& events) 
   command.add_flag("--no-video", no_video, "Write no video.mp4");
   command.add_flag("--events", events,
                    "Write events.json: where rebels were missed or false, why, and pictures of it");
+}
+
+/// Adds `--keep`.
+inline CLI::Option* add_keep_option(CLI::App& command, bench::Keep& keep) {
+  return command
+      .add_option_function<std::string>(
+          "--keep",
+          [&keep](const std::string& text) {
+            const std::map<std::string, bench::Keep> kinds{{"figures", bench::Keep::figures},
+                                                           {"events", bench::Keep::events},
+                                                           {"all", bench::Keep::all}};
+            const auto found = kinds.find(text);
+            if (found == kinds.end()) {
+              throw std::invalid_argument("--keep is '" + text +
+                                          "'; it takes figures, events or all");
+            }
+            keep = found->second;
+          },
+          "What each run leaves: figures; events: also a row a frame and the events; all: also "
+          "layers, truth and pictures, for --recorded")
+      ->type_name("WHAT");
 }
 
 inline void add_quiet_option(CLI::App& command, bool& quiet) {

@@ -57,6 +57,7 @@ Files written to the folder, all or none:
   frames.csv     a row a frame: sizes of all layers, precision, recall, times
   layers.jsonl   a line a frame: corners, verdicts, every layer
   truth.jsonl    a line a frame: the truth of every corner and object
+  detector.json  the detector's name
   camera.json    the camera, as detectors are told of it
   run.json       how it was made: command, program, settings, seed, versions, date
   warnings.json  what should not be: the rover or an actor ran into something, fell, tipped over
@@ -309,6 +310,8 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
       ->needs(recorded)
       ->excludes(command.get_option("--detector-command"));
   add_result_options(command, options.no_video, options.events);
+  add_keep_option(command, options.keep);
+  command.add_flag("--gzip", options.gzip, "Compress layers.jsonl and truth.jsonl (.gz)");
   command.add_flag("--report", options.report,
                    "Write report.html too, a page of the run with its video, and events.json");
   command.add_flag(
@@ -359,6 +362,8 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   }
   for (Watching& one : all) {
     bench::ResultOptions what;
+    what.keep = options.keep;
+    what.compressed = options.gzip;
     if (&one == &own) {
       if (!options.no_video) what.video_frames_per_second = scenario.camera.rate_hz;
       if (view) what.show = [&](const cv::Mat3b& sheet) { return view->show(sheet); };
@@ -398,6 +403,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   std::vector<bench::Output*> outputs;
   for (Watching& one : all) {
     metrics.push_back(one.result->finish(one.recording));
+    if (&one != &own) one.result->share_truth(*own.result);
     write_how_made(options, scenario, frames, one, &one == &own);
     outputs.push_back(&one.result->output());
   }

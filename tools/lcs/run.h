@@ -24,6 +24,8 @@ struct RunOptions {
   DetectorOptions detector;
   std::vector<std::string> beside;  ///< "detector=folder": further detectors on the same frames
   std::string recorded;  ///< folder of an earlier run that provides the frames; "": simulate
+  bench::Keep keep = bench::Keep::all;
+  bool gzip = false;  ///< compress layers and truth
   bool no_video = false;
   bool events = false;
   bool report = false;  ///< write report.html, and with it events.json

@@ -57,6 +57,7 @@ constexpr const char* kHelp = R"(Examples:
   lcs suite --worlds train --count 60             worlds drawn from seeds, one run each
   lcs suite --worlds test --count 60 --beside klt --beside dis --beside lcs:lab
                                                   how far the filter is from its yardsticks, by family
+  lcs suite --worlds train --count 1000 --keep figures    a thousandth of the disk
   lcs suite --worlds train --count 1000 --shard 2/16 --out part2
                                                   a part, on one of 16 machines; lcs merge joins them
   lcs compare out/before out/suite                what two suites differ in, beyond noise
@@ -290,6 +291,7 @@ nlohmann::ordered_json request_of(const SuiteOptions& options, const Planned& pl
           {"beside", options.beside},
           {"settings", options.sets},
           {"recorded", options.recorded},
+          {"keep", options.keep},
           {"shard", options.shard},
           {"program_sha256", program_sha256()},
           {"versions", version},
@@ -318,6 +320,13 @@ void begin(bench::Output& folder, const nlohmann::ordered_json& request, bool an
   }
   if (!fs::is_empty(folder.staging())) folder.empty();
   write_how_made(folder.staging(), suite::shell_line(command_line()), {}, request);
+}
+
+void remove_runs(const fs::path& folder, suite::SuiteResult& result) {
+  for (suite::ScenarioResult& scenario : result.scenarios) {
+    for (suite::RunResult& run : scenario.runs) run.folder.clear();
+  }
+  fs::remove_all(folder / "runs");
 }
 
 }  // namespace
@@ -368,6 +377,7 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
       ->type_name("NAME")
       ->allow_extra_args(false);
   add_set_option(command, options.sets, "Set a value in every scenario, as \"camera.rate=5 Hz\"");
+  add_keep_option(command, options.keep);
   command
       .add_option(
           "--shard", options.shard,
@@ -436,6 +446,7 @@ ExitCode suite(const SuiteOptions& options) {
         {.watchers = watchers,
          .own_detector = with_own ? arguments_of(options.detector) : std::vector<std::string>{},
          .detections = with_own ? options.detector.detections : "",
+         .keep = options.keep,
          .sets = options.sets,
          .recorded = recordings,
          .version = version,
@@ -476,6 +487,12 @@ ExitCode suite(const SuiteOptions& options) {
     others.erase(others.begin());
     if (!apart.empty()) std::ranges::move(run(apart, ""), std::back_inserter(others));
     progress.wipe();
+    if (options.keep == bench::Keep::figures) {  // suite.json has them
+      remove_runs(folder.staging() / part_of(own, own), result);
+      for (suite::SuiteResult& other : others) {
+        remove_runs(folder.staging() / part_of(other.detector, own), other);
+      }
+    }
     result.recorded = recorded;
     for (const suite::SuiteResult& other : others) result.beside.push_back(other.detector);
     if (of_worlds) write_sheets(folder.staging(), plan, result);

@@ -25,9 +25,10 @@ struct SuiteOptions {
   std::vector<std::string> sets;    ///< "key=value"
   std::vector<std::string> beside;  ///< further detectors on the same frames
   std::string recorded;             ///< earlier suite's folder, for its frames; "": simulate
-  std::string shard;                ///< "2/5": only the second of five parts; "": all
-  std::string times;                ///< earlier suite whose durations balance the parts; "": none
-  bool anew = false;                ///< drop the runs of an unfinished suite
+  bench::Keep keep = bench::Keep::all;
+  std::string shard;  ///< "2/5": only the second of five parts; "": all
+  std::string times;  ///< earlier suite whose durations balance the parts; "": none
+  bool anew = false;  ///< drop the runs of an unfinished suite
   bool list = false;
   SuiteEndOptions end;
 };

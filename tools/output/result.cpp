@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
+#include <system_error>
 
 #include "tools/output/event_pictures.h"
 #include "tools/recording/warnings.h"
@@ -10,19 +12,26 @@
 namespace lcs::bench {
 
 ResultNames result_files() {
-  return {kMetricsFile,  kFramesFile, kLayersFile, kTruthFile,    kCameraFile,
-          kWarningsFile, kVideoFile,  kEventsFile, kPicturesFile, "report.html", kHowMadeFile};
+  const std::string compressed = ".gz";
+  return {kMetricsFile,  kFramesFile,
+          kLayersFile,   kLayersFile + compressed,
+          kTruthFile,    kTruthFile + compressed,
+          kDetectorFile, kCameraFile,
+          kWarningsFile, kVideoFile,
+          kEventsFile,   kPicturesFile,
+          "report.html", kHowMadeFile};
 }
 
 Result::Result(const std::filesystem::path& target, const Recording& run, cv::Size image_px,
                const ResultOptions& options)
     : folder_(target, result_files()),
-      writer_(folder_.staging(), run),
+      keep_(options.keep),
       painter_(image_px, run),
       show_(options.show),
       events_(options.events),
       kept_(options.kept),
       add_page_(options.add_page) {
+  if (keep_ == Keep::all) writer_.emplace(folder_.staging(), run, options.compressed);
   if (options.video_frames_per_second) {
     video_.emplace(folder_.staging() / kVideoFile, painter_.size_px(),
                    *options.video_frames_per_second);
@@ -30,7 +39,7 @@ Result::Result(const std::filesystem::path& target, const Recording& run, cv::Si
 }
 
 void Result::add(const FrameRecord& frame, const cv::Mat3b& image) {
-  writer_.write(frame);
+  if (writer_) writer_->write(frame);
   if (video_ || show_) {
     const cv::Mat3b sheet = painter_.paint(frame, image);
     if (video_) video_->write(sheet);
@@ -40,11 +49,11 @@ void Result::add(const FrameRecord& frame, const cv::Mat3b& image) {
 }
 
 Metrics Result::finish(const Recording& run) {
-  writer_.close();
+  if (writer_) writer_->close();
   if (video_) video_->close();
   Metrics metrics = score(run);
   write_metrics(folder_.staging() / kMetricsFile, metrics);
-  write_frames(folder_.staging() / kFramesFile, run);
+  if (keep_ != Keep::figures) write_frames(folder_.staging() / kFramesFile, run);
   if (run.warnings) write_warnings(folder_.staging() / kWarningsFile, warnings_of(run));
   if (events_) {
     const FramePictures& pictures = kept_ ? *kept_ : own_pictures_;
@@ -54,12 +63,22 @@ Metrics Result::finish(const Recording& run) {
     keep_worst(events, kMostEvents);
     if (pictures.size() > 0) {
       paint_events(run, pictures, events);
-      pictures.write(folder_.staging() / kPicturesFile);
+      if (keep_ == Keep::all) pictures.write(folder_.staging() / kPicturesFile);
     }
     write_events(folder_.staging() / kEventsFile, events, sums);
   }
   if (add_page_) add_page_(folder_.staging(), metrics);
   return metrics;
+}
+
+void Result::share_truth(const Result& other) {
+  const std::filesystem::path own = stored(folder_.staging(), kTruthFile);
+  const std::filesystem::path theirs = stored(other.folder_.staging(), kTruthFile);
+  if (!writer_ || !other.writer_ || own.filename() != theirs.filename()) return;
+  const std::filesystem::path link = own.parent_path() / "truth.jsonl.link";
+  std::error_code error;
+  std::filesystem::create_hard_link(theirs, link, error);
+  if (!error) std::filesystem::rename(link, own);  // on another file system it keeps its own
 }
 
 }  // namespace lcs::bench

@@ -24,8 +24,17 @@ inline constexpr const char* kHowMadeFile = "run.json";
 /// All files that the folder of a run may contain.
 ResultNames result_files();
 
+/// How much of a run is kept.
+enum class Keep {
+  figures,  ///< metrics and warnings
+  events,   ///< also the rows of all frames, and events if there are any
+  all,      ///< also layers, truth and pictures, from which `--recorded` runs again
+};
+
 /// Optional contents of a result.
 struct ResultOptions {
+  Keep keep = Keep::all;
+  bool compressed = false;                        ///< layers and truth
   std::optional<double> video_frames_per_second;  ///< absent: no video
   bool events = false;  ///< write the run's errors with pictures, and all pictures
   /// Pictures of these frames from an earlier run; `events` then stores none.
@@ -50,11 +59,15 @@ class Result {
   /// output is committed. \throws OutputError
   Metrics finish(const Recording& run);
 
+  /// After `finish`: takes the truth of the same frames from `other`, as one file for both.
+  void share_truth(const Result& other);
+
   Output& output() { return folder_; }
 
  private:
   Output folder_;
-  RecordingWriter writer_;
+  Keep keep_;
+  std::optional<RecordingWriter> writer_;
   FramePainter painter_;
   std::optional<Video> video_;
   decltype(ResultOptions::show) show_;

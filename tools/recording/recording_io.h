@@ -1,9 +1,10 @@
 /// \file
 /// A recording on disk, without its times: `layers.jsonl` holds the detector's input and output,
 /// `truth.jsonl` the truth. Each frame is a JSON object on its own line; `truth.jsonl` begins with
-/// a header line on the run and its detector. `told_motion` in the first file is the motion given
-/// to the detector, `true_motion` in the second the exact one. Lists of items are stored by column,
-/// as {"id": [1, 2], "x": [3.5, 4]}.
+/// a header line on the run. Both may be compressed (`layers.jsonl.gz`). `detector.json` names the
+/// detector, so that the truth of several detectors is the same file. `told_motion` in the first
+/// file is the motion given to the detector, `true_motion` in the second the exact one. Lists of
+/// items are stored by column, as {"id": [1, 2], "x": [3.5, 4]}.
 ///
 /// If the detector was given signatures, `layers.jsonl` has "signatures": 32 bytes for each corner
 /// in corner order and ORB's bit order, as hexadecimal digits (Python:
@@ -30,6 +31,10 @@ namespace lcs::bench {
 inline constexpr const char* kLayersFile = "layers.jsonl";
 inline constexpr const char* kTruthFile = "truth.jsonl";
 inline constexpr const char* kCameraFile = "camera.json";
+inline constexpr const char* kDetectorFile = "detector.json";
+
+/// The path of a file in the folder of a run: NAME, or NAME.gz if only that is there.
+std::filesystem::path stored(const std::filesystem::path& folder, const char* name);
 
 /// JSON lines of one frame, without line end. \throws std::invalid_argument for any other
 /// non-finite number, with frame and field.
@@ -53,11 +58,12 @@ Recording read_seen(const std::filesystem::path& file);
 std::string camera_json(const Intrinsics& camera);
 
 /// Writes both files frame by frame into an existing folder, and `camera.json`: the camera as given
-/// to detectors.
+/// to detectors, and `detector.json`.
 class RecordingWriter {
  public:
   /// \param run provides the header; its frames are not written here. \throws OutputError
-  RecordingWriter(const std::filesystem::path& folder, const Recording& run);
+  RecordingWriter(const std::filesystem::path& folder, const Recording& run,
+                  bool compressed = false);
 
   /// \throws OutputError; std::invalid_argument as `layers_line`.
   void write(const FrameRecord& frame);
@@ -65,8 +71,8 @@ class RecordingWriter {
   void close();
 
  private:
-  OutputFile layers_;
-  OutputFile truth_;
+  TextFile layers_;
+  TextFile truth_;
 };
 
 /// Reads both files, and the warnings beside them if present. \throws std::runtime_error with file

@@ -321,12 +321,16 @@ void read_truth(const Json& json, FrameRecord& frame) {
   if (json.contains("labels")) frame.labels = read_columns<LabelledBox>(json, "labels");
 }
 
+void read_detector(const Json& json, DetectorInfo& detector) {
+  read_member(json, "detector", detector.name);
+  read_member(json, "layered", detector.layered);
+  read_member(json, "circles", detector.circles);
+}
+
 void read_header(const Json& json, Recording& recording) {
   read_member(json, "scenario", recording.scenario);
   read_member(json, "seed", recording.seed);
-  read_member(json, "detector", recording.detector.name);
-  read_member(json, "layered", recording.detector.layered);
-  read_member(json, "circles", recording.detector.circles);
+  if (json.contains("detector")) read_detector(json, recording.detector);  // before detector.json
   if (json.contains("world")) {
     const Json& world = json.at("world");
     within(".world", [&] {
@@ -375,15 +379,32 @@ class LineReader {
   std::string text_;
 };
 
+void read_detector_of(const std::filesystem::path& folder, Recording& recording) {
+  if (!std::filesystem::exists(folder / kDetectorFile)) return;
+  LineReader file(folder / kDetectorFile);
+  if (!file.next([&](const Json& json) { read_detector(json, recording.detector); })) {
+    file.fail("is empty");
+  }
+}
+
 }  // namespace
+
+std::filesystem::path stored(const std::filesystem::path& folder, const char* name) {
+  const std::filesystem::path plain = folder / name;
+  std::filesystem::path compressed = plain;
+  compressed += ".gz";
+  return !std::filesystem::exists(plain) && std::filesystem::exists(compressed) ? compressed
+                                                                                : plain;
+}
 
 Recording read_recording(const std::filesystem::path& folder) {
   Recording recording;
   input::note_input(folder);
-  LineReader layers(folder / kLayersFile);
-  LineReader truth(folder / kTruthFile);
+  LineReader layers(stored(folder, kLayersFile));
+  LineReader truth(stored(folder, kTruthFile));
   const bool has_header = truth.next([&](const Json& json) { read_header(json, recording); });
   if (!has_header) truth.fail("is empty");
+  read_detector_of(folder, recording);
   recording.warnings = world_warnings(folder);
   if (std::filesystem::exists(folder / kCameraFile)) {
     LineReader file(folder / kCameraFile);
@@ -416,8 +437,9 @@ Recording read_recording(const std::filesystem::path& folder) {
 
 Recording read_without_frames(const std::filesystem::path& folder) {
   Recording recording;
-  LineReader truth(folder / kTruthFile);
+  LineReader truth(stored(folder, kTruthFile));
   if (!truth.next([&](const Json& json) { read_header(json, recording); })) truth.fail("is empty");
+  read_detector_of(folder, recording);
   return recording;
 }
 
@@ -448,7 +470,7 @@ Recording read_seen(const std::filesystem::path& file) {
 
 std::vector<std::vector<sim::ObjectTruth>> read_object_truth(const std::filesystem::path& folder,
                                                              std::span<const int> frames) {
-  LineReader truth(folder / kTruthFile);
+  LineReader truth(stored(folder, kTruthFile));
   std::vector<std::vector<sim::ObjectTruth>> objects;
   int next = -1;  // the header line
   for (const int frame : frames) {

@@ -245,12 +245,6 @@ std::string header_line(const Recording& run) {
   append(out, run.scenario);
   append_key(out, "seed");
   append(out, run.seed);
-  append_key(out, "detector");
-  append(out, run.detector.name);
-  append_key(out, "layered");
-  append(out, run.detector.layered);
-  append_key(out, "circles");
-  append(out, run.detector.circles);
   if (!run.world.empty()) {
     append_key(out, "world");
     out += '{';
@@ -357,9 +351,24 @@ std::string camera_json(const Intrinsics& camera) {
   return out;
 }
 
-RecordingWriter::RecordingWriter(const std::filesystem::path& folder, const Recording& run)
-    : layers_(folder / kLayersFile), truth_(folder / kTruthFile) {
+/// {"detector": name, "layered": whether it has the filter's layers, "circles": whether it has
+/// circles}
+static std::string detector_json(const DetectorInfo& detector) {
+  std::string out = "{";
+  append_key(out, "detector");
+  append(out, detector.name);
+  append_key(out, "layered");
+  append(out, detector.layered);
+  append_key(out, "circles");
+  append(out, detector.circles);
+  return out + '}';
+}
+
+RecordingWriter::RecordingWriter(const std::filesystem::path& folder, const Recording& run,
+                                 bool compressed)
+    : layers_(folder / kLayersFile, compressed), truth_(folder / kTruthFile, compressed) {
   truth_.write(header_line(run) + '\n');
+  write_file(folder / kDetectorFile, detector_json(run.detector) + '\n');
   if (run.camera) write_file(folder / kCameraFile, camera_json(*run.camera) + '\n');
 }
 

@@ -287,7 +287,7 @@ std::optional<scenario::Origin> origin_of(const std::filesystem::path& pictures)
       const auto made = sequence::read_settings(folder / sequence::kSettingsFile).scenario;
       return stated(made.origin, made.name);
     }
-    if (std::error_code none; fs::exists(folder / bench::kLayersFile, none)) {
+    if (std::error_code none; fs::exists(bench::stored(folder, bench::kLayersFile), none)) {
       const bench::Recording run = bench::read_without_frames(folder);
       return stated(run.origin, run.scenario);
     }

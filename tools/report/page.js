@@ -43,13 +43,10 @@ const badge = (outcome) => el('span', { class: 'badge ' + outcome }, OUTCOMES[ou
 
 // ---- The head
 
-const COLUMNS = ['rebel.f1', 'rebel.precision', 'rebel.recall', 'rebel.f1_distinct', 'rebel.f1_clear', 'rebel.latency_frames_median',
-  'rebel.object_recall', 'rebel.false_objects_per_100_frames', 'square.recall_50', 'square.precision_50', 'square.mask_mean_iou',
-  'size_share', 'time.filter_over_fast'];
 const F1 = data.metrics['rebel.f1'].label;
 
 /** Columns in which at least one scenario has a figure; recordings have no times. */
-const SHOWN_COLUMNS = COLUMNS.filter((name) => data.scenarios.some((scenario) => scenario.figures[name]));
+const SHOWN_COLUMNS = data.columns.filter((name) => data.scenarios.some((scenario) => scenario.figures[name]));
 
 /** The verdict, and below it the suite or run. */
 function head() {
@@ -88,7 +85,8 @@ function worst() {
   const folded = (title, content) => content.length === 0 ? null
     : el('details', null, el('summary', null, title), side(content));
   return el('section', { id: 'worst' }, bad.length ? el('h2', null, 'Worst first') : null, side(bad.slice(0, SHOWN)),
-    folded((bad.length - SHOWN) + ' more', bad.slice(SHOWN)), folded(good.length + ' improved', good),
+    folded((bad.length - SHOWN) + ' more', bad.slice(SHOWN)),
+    data.more_remarks > 0 ? el('p', { class: 'quiet small' }, 'and ' + data.more_remarks + ' scenarios less bad, in the table') : null, folded(good.length + ' improved', good),
     folded('Not compared', data.not_compared.map((what) => el('p', { class: 'small' }, what))));
 }
 
@@ -362,13 +360,14 @@ function commandLine(command) {
     } }, 'copy'));
 }
 
-function runBody(run) {
+function runBody(run, isWhole) {
   return el('div', null,
     el('p', { class: 'quiet small' }, 'To run it again:'), commandLine(run.command),
     run.error ? el('p', { class: 'message' }, run.error) : null,
     ...run.warnings.map((warning) => el('p', { class: 'message' }, 'warning: ' + warning)),
     run.before && run.before.error ? el('p', { class: 'message' }, 'baseline: ' + run.before.error) : null,
-    run.outcome === 'error' ? null : [el('h3', null, 'Over time'), overTime(run),
+    run.folder && !data.is_run ? el('p', { class: 'quiet small' }, 'Its files: ', el('a', { href: run.folder + '/' }, run.folder)) : null,
+    run.outcome === 'error' || !isWhole ? null : [el('h3', null, 'Over time'), overTime(run),
       el('h3', null, 'Misses and false alarms'), eventList(run)]);
 }
 
@@ -378,14 +377,15 @@ function scenarioBody(scenario) {
     'seed ' + run.seed + (run.outcome === 'passed' ? '' : ' ' + OUTCOMES[run.outcome])));
   const show = (run) => {
     buttons.forEach((button, i) => button.setAttribute('aria-pressed', String(scenario.runs[i] === run)));
-    place.replaceChildren(runBody(run));
+    place.replaceChildren(runBody(run, scenario.is_whole));
   };
   if (scenario.runs.length > 0) show(scenario.runs[0]);
   return el('div', { class: 'body' },
     el('div', { class: 'facts small' }, el('span', null, 'file ', el('code', null, scenario.file)),
       el('span', null, 'groups ' + scenario.groups.join(', ')),
       ...scenario.point.map(([key, value]) => el('span', null, key + ' ', el('b', null, value)))),
-    el('h3', null, 'Criteria'), criteriaTable(scenario), allFigures(scenario),
+    scenario.is_whole ? null : el('p', { class: 'nothing' }, 'Not among the worst: curves and events are left out. Its files have them.'),
+    el('h3', null, 'Criteria'), criteriaTable(scenario), scenario.is_whole ? allFigures(scenario) : null,
     data.is_run ? null : el('div', { class: 'tabs', role: 'group', 'aria-label': 'Seed' }, ...buttons), place);
 }
 

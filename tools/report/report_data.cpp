@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -34,6 +35,26 @@ using suite::SuiteResult;
 
 constexpr std::array<const char*, 3> kOutcomes{"passed", "failed", "error"};
 constexpr std::array<const char*, 3> kFamilies{"rebels", "circles", "squares"};
+
+/// So many scenarios are shown as a whole, with curves and events; the others with the figures of
+/// the table and a link to their files.
+constexpr std::size_t kMostWhole = 60;
+constexpr std::ptrdiff_t kMostRemarks = 300;
+
+/// The figures in the page's tables.
+constexpr std::array<std::string_view, 13> kTable{"rebel.f1",
+                                                  "rebel.precision",
+                                                  "rebel.recall",
+                                                  "rebel.f1_distinct",
+                                                  "rebel.f1_clear",
+                                                  "rebel.latency_frames_median",
+                                                  "rebel.object_recall",
+                                                  "rebel.false_objects_per_100_frames",
+                                                  "square.recall_50",
+                                                  "square.precision_50",
+                                                  "square.mask_mean_iou",
+                                                  bench::kSizeShare,
+                                                  "time.filter_over_fast"};
 
 /// The plotted columns of frames.csv.
 constexpr std::array<const char*, 10> kColumns{
@@ -77,9 +98,11 @@ void add_change(Json& figure, const DifferenceOf& differences, const std::string
   figure["verdict"] = suite::word_of(difference.verdict);
 }
 
-Json figures_of(const ScenarioResult& scenario, const DifferenceOf& differences) {
+/// \param whole all figures; else only those of the table.
+Json figures_of(const ScenarioResult& scenario, const DifferenceOf& differences, bool whole) {
   Json figures = Json::object();
   for (const bench::Metric& metric : bench::metrics()) {
+    if (!whole && std::ranges::find(kTable, metric.key) == kTable.end()) continue;
     const auto now = suite::over_seeds(scenario, metric.key);
     if (!now) continue;
     Json& figure = figures[metric.key] = {{"mean", now->mean}};
@@ -238,8 +261,9 @@ Json before_json(const fs::path& folder, const Events& events, Json& events_now)
   return before;
 }
 
+/// \param whole with figures, curves and events.
 Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
-              const ScenarioResult& scenario, const RunResult& run) {
+              const ScenarioResult& scenario, const RunResult& run, bool whole) {
   Json json = {{"seed", run.seed},
                {"outcome", kOutcomes[static_cast<std::size_t>(run.outcome)]},
                {"error", run.error},
@@ -247,10 +271,12 @@ Json run_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
                {"command", run.command},
                {"criteria", criteria_of(run)},
                {"warnings", bench::lines_of(run.warnings)},
+               {"folder", run.folder.generic_string()},
                {"metrics", Json::object()},
                {"frames", nullptr},
                {"events", nullptr},
                {"before", nullptr}};
+  if (!whole) return json;
   for (const bench::Metric& metric : bench::metrics()) {
     const auto figure = suite::figure_of(run, metric.key);
     if (figure) json["metrics"][metric.key] = *figure;
@@ -306,20 +332,21 @@ void keep_to_budget(Json& scenarios, std::size_t budget) {
 }
 
 Json scenario_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
-                   const DifferenceOf& differences, const ScenarioResult& scenario) {
+                   const DifferenceOf& differences, const ScenarioResult& scenario, bool whole) {
   Json json = {{"name", scenario.name},
                {"purpose", scenario.purpose},
                {"file", scenario.file.generic_string()},
                {"groups", scenario.groups},
                {"point", Json::array()},
                {"outcome", kOutcomes[static_cast<std::size_t>(suite::outcome_of(scenario))]},
-               {"figures", figures_of(scenario, differences)},
+               {"figures", figures_of(scenario, differences, whole)},
+               {"is_whole", whole},
                {"runs", Json::array()}};
   for (const auto& [key, value] : scenario.point) {
     json["point"].push_back(Json::array({key, value}));
   }
   for (const RunResult& run : scenario.runs) {
-    json["runs"].push_back(run_json(suite, baseline, scenario, run));
+    json["runs"].push_back(run_json(suite, baseline, scenario, run, whole));
   }
   return json;
 }
@@ -327,11 +354,31 @@ Json scenario_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
 Json remarks_of(const suite::Verdict& verdict) {
   Json remarks = Json::array();
   for (const suite::Remark& remark : verdict.remarks) {
+    if (std::ssize(remarks) == kMostRemarks) break;
     remarks.push_back({{"scenario", remark.scenario},
                        {"standing", suite::word_of(remark.standing)},
                        {"reasons", remark.reasons}});
   }
   return remarks;
+}
+
+/// The names of the scenarios that the page shows as a whole: those with remarks, worst first, then
+/// those with the lowest F1.
+std::set<std::string> shown_whole(const SuiteResult& suite, const suite::Verdict& verdict) {
+  std::vector<std::pair<double, std::string>> order;
+  for (const ScenarioResult& scenario : suite.scenarios) {
+    const auto remark = std::ranges::find(verdict.remarks, scenario.name, &suite::Remark::scenario);
+    const auto f1 = suite::over_seeds(scenario, "rebel.f1");
+    const auto rank = static_cast<double>(remark - verdict.remarks.end());
+    const double place = rank < 0 ? rank : f1 ? f1->mean : 2;  // no F1 is below 0
+    order.emplace_back(place, scenario.name);
+  }
+  std::ranges::stable_sort(order, {}, &std::pair<double, std::string>::first);
+  std::set<std::string> names;
+  for (const auto& [place, name] : order) {
+    if (names.size() < kMostWhole) names.insert(name);
+  }
+  return names;
 }
 
 /// The page's data. The budget limits only the pictures.
@@ -341,19 +388,22 @@ Json data_of(const SuiteInFolder& suite, const suite::Verdict& verdict, const Ag
   const suite::Comparison* comparison = against ? &against->comparison : nullptr;
   const DifferenceOf of_groups = comparison ? by_name(comparison->groups) : DifferenceOf{};
   const DifferenceOf of_scenarios = comparison ? by_name(comparison->differences) : DifferenceOf{};
-  Json data = {{"verdict", verdict.line},
-               {"note", verdict.note},
-               {"remarks", remarks_of(verdict)},
-               {"not_compared", Json::array()},
-               {"detector", suite.suite.detector},
-               {"version", suite.suite.version},
-               {"sets", suite.suite.sets},
-               {"recorded", suite.suite.recorded},
-               {"baseline", nullptr},
-               {"is_run", false},
-               {"metrics", metrics_json()},
-               {"groups", groups_of(suite.suite, of_groups)},
-               {"scenarios", Json::array()}};
+  Json data = {
+      {"verdict", verdict.line},
+      {"note", verdict.note},
+      {"remarks", remarks_of(verdict)},
+      {"more_remarks", std::max<std::ptrdiff_t>(0, std::ssize(verdict.remarks) - kMostRemarks)},
+      {"not_compared", Json::array()},
+      {"detector", suite.suite.detector},
+      {"version", suite.suite.version},
+      {"sets", suite.suite.sets},
+      {"recorded", suite.suite.recorded},
+      {"baseline", nullptr},
+      {"is_run", false},
+      {"metrics", metrics_json()},
+      {"columns", kTable},
+      {"groups", groups_of(suite.suite, of_groups)},
+      {"scenarios", Json::array()}};
   if (baseline) {
     data["not_compared"] = comparison->incomparable;
     data["baseline"] = {{"detector", baseline->suite.detector},
@@ -361,8 +411,10 @@ Json data_of(const SuiteInFolder& suite, const suite::Verdict& verdict, const Ag
                         {"sets", baseline->suite.sets},
                         {"folder", baseline->folder.generic_string()}};
   }
+  const std::set<std::string> whole = shown_whole(suite.suite, verdict);
   for (const ScenarioResult& scenario : suite.suite.scenarios) {
-    data["scenarios"].push_back(scenario_json(suite, baseline, of_scenarios, scenario));
+    data["scenarios"].push_back(
+        scenario_json(suite, baseline, of_scenarios, scenario, whole.contains(scenario.name)));
   }
   keep_to_budget(data["scenarios"], budget);
   return data;

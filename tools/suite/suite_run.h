@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tools/files/output.h"
+#include "tools/output/result.h"
 #include "tools/suite/plan.h"
 #include "tools/suite/suite_result.h"
 
@@ -40,6 +41,7 @@ struct SuiteRunOptions {
   std::vector<std::string> own_detector;  ///< further `lcs run` options of the first one
   /// Folder with the first one's stored results (`detections_of`); "": the detector is run.
   std::filesystem::path detections = {};
+  bench::Keep keep = bench::Keep::all;  ///< of each run; layers and truth are compressed
   std::vector<std::string> sets;
   std::filesystem::path recorded;  ///< earlier suite's folder, for its frames; "": simulate
   std::string version;

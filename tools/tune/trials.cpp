@@ -35,10 +35,11 @@ bench::Recording asked(const bench::Recording& seen, const Parameters& parameter
 std::string digest_of(const std::filesystem::path& run) {
   constexpr input::FileKind kRunFile{64 * input::kGibibyte, "run the suite again"};
   std::string digests;
-  for (const char* name :
-       {bench::kLayersFile, bench::kTruthFile, bench::kCameraFile, bench::kWarningsFile}) {
-    const bool is_there = std::filesystem::exists(run / name);
-    digests += is_there ? bench::sha256(input::read_file(run / name, kRunFile)) : "none";
+  for (const char* name : {bench::kLayersFile, bench::kTruthFile, bench::kDetectorFile,
+                           bench::kCameraFile, bench::kWarningsFile}) {
+    const std::filesystem::path file = bench::stored(run, name);
+    digests +=
+        std::filesystem::exists(file) ? bench::sha256(input::read_file(file, kRunFile)) : "none";
   }
   return bench::sha256(digests);
 }
