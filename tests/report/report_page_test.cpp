@@ -453,6 +453,36 @@ TEST_F(Report, ASuiteOfFortyScenariosStaysSmall) {
   EXPECT_GT(html.size(), kPictureBudget - 100'000);
 }
 
+TEST_F(Report, AThousandScenariosAreLinksApartFromTheWorst) {
+  std::vector<ScenarioResult> scenarios;
+  for (int s = 0; s < 1000; ++s) {
+    std::vector<RunResult> runs;
+    for (std::uint64_t seed : {1, 2, 3}) {
+      RunResult run = run_with(seed, s == 700 ? 0.1 : 0.8);
+      for (const bench::Metric& metric : bench::metrics())
+        run.metrics.emplace_back(metric.key, 0.123456789012345);
+      if (s == 700 || s == 999) {
+        run.folder = run_folder(std::to_string(s) + "-" + std::to_string(seed),
+                                std::vector<bench::Event>(5, event_with(40, 60'000)));
+      }
+      runs.push_back(run);
+    }
+    scenarios.push_back(scenario_with("scenario" + std::to_string(s), runs));
+  }
+  const SuiteResult suite = suite_of(scenarios);
+  EXPECT_LT(page(suite).size(), 15'000'000u);
+  const json all = data(suite);
+  int whole = 0;
+  for (const json& scenario : all.at("scenarios")) whole += scenario.at("is_whole").get<bool>();
+  EXPECT_EQ(whole, 60);
+  const json &worst = all["scenarios"][700], &other = all["scenarios"][999];
+  EXPECT_TRUE(worst.at("is_whole"));
+  EXPECT_EQ(worst["runs"][0].at("events").size(), 5u);
+  EXPECT_TRUE(other["runs"][0].at("events").is_null());
+  EXPECT_NEAR(other["figures"]["rebel.f1"].at("mean"), 0.8, 1e-12);
+  EXPECT_EQ(other["runs"][0].at("folder"), "runs/999-1");
+}
+
 TEST_F(Report, ReplacesAnOlderPageAndLeavesNothingBeside) {
   page(suite_of({}));
   const std::string html = page(suite_of({scenario_with("later", {})}));

@@ -82,7 +82,7 @@ void TextFile::write(std::string_view text) {
 }
 
 void TextFile::flush() {
-  constexpr int kLevel = 4;  // higher levels save little, and take longer than the filter
+  constexpr int kLevel = 1;  // 4 saves 7 % of the bytes, and takes a fifth of a suite's time
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> gzip(
       libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
   if (!gzip) throw std::bad_alloc();
