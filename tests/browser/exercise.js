@@ -116,7 +116,7 @@
         await plotsAreDrawn(section, row.dataset.scenario);
         expect(row.dataset.scenario + ' has the baseline beside', data.baseline === null ||
           [...section.querySelectorAll('.u-legend th')].some((label) => label.textContent === 'before'));
-        expect(row.dataset.scenario + ' has no figure that is none', !/NaN|undefined/.test(section.innerHTML.replace(/base64,[^"]*/g, '')));
+        expect(row.dataset.scenario + ' has no figure that is none', !/NaN|undefined/.test(section.innerHTML.replace(/(base64,|title=")[^"]*/g, '')));
         expect(row.dataset.scenario + ' has its command', section.querySelector('.command code').textContent.startsWith('lcs run '));
         for (const picture of section.querySelectorAll('.strip img')) {
           await until(() => picture.complete);

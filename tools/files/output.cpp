@@ -196,6 +196,7 @@ FolderLock::FolderLock(const fs::path& folder)
     : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)) {
   is_held_ = file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) == 0;
   is_of_another_ = file_ >= 0 && !is_held_ && errno == EWOULDBLOCK;
+  is_possible_ = file_ < 0 || is_held_ || (errno != ENOSYS && errno != ENOTSUP && errno != ENOLCK);
   // Until it was locked, its holder may have removed it, and another have made one of its name.
   struct stat locked {
   }, named{};
@@ -451,7 +452,7 @@ void Output::make_staging() {
                         "another place",
                         target_.string()));
       }
-      if (!lock_->is_held()) lock_.reset();
+      if (!lock_->is_held() && lock_->is_possible()) lock_.reset();
       if (lock_ && !has_marker(own_) && !is_just_begun(own_)) {
         throw OutputError(
             fmt::format("{} is in the way, and lcs did not make it; {}", own_.string(), kAnother));

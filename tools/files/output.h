@@ -25,11 +25,14 @@ class FolderLock {
 
   bool is_held() const { return is_held_; }
   bool is_of_another() const { return is_of_another_; }
+  /// False if the file system has no such locks. Then nobody can hold one.
+  bool is_possible() const { return is_possible_; }
 
  private:
   int file_ = -1;
   bool is_held_ = false;
   bool is_of_another_ = false;
+  bool is_possible_ = true;
 };
 
 /// Paths within a folder of results. A name may start or end with `*`, which matches anything:

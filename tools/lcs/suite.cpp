@@ -214,7 +214,14 @@ suite::PartOf choose_part(const SuiteOptions& options,
       if (parts[next++] == shard.part) chosen.emplace(name, seed);
     }
   }
-  return {shard, std::move(whole)};
+  return {.shard = shard, .whole = std::move(whole)};
+}
+
+void note_digests(Planned& planned) {
+  if (!planned.part_of) return;
+  for (const suite::PlannedScenario& one : planned.plan) {
+    planned.part_of->scenario_sha256[one.name] = bench::sha256_of_file(one.file).value_or("none");
+  }
 }
 
 /// Worlds are chosen before they are drawn, so that only those of this part are drawn.
@@ -249,6 +256,7 @@ Planned plan_worlds(const SuiteOptions& options, int seeds,
   planned.plan = suite::plan(
       {.paths = files, .group = options.group, .filter = {}, .sets = options.sets, .seeds = seeds});
   if (planned.part_of) suite::keep_runs(planned.plan, runs);
+  note_digests(planned);
   return planned;
 }
 
@@ -267,6 +275,7 @@ Planned plan_scenarios(const SuiteOptions& options, int seeds,
   planned.part_of =
       choose_part(options, std::move(whole), suite::estimated_seconds(planned.plan, former), runs);
   suite::keep_runs(planned.plan, runs);
+  note_digests(planned);
   return planned;
 }
 
@@ -439,7 +448,8 @@ ExitCode suite(const SuiteOptions& options) {
     }
     whole = suite::count_whole(plan, watchers);
     if (whole > 0) {
-      if (!options.end.quiet) tell(fmt::format("{} runs are there already", whole));
+      if (!options.end.quiet)
+        tell(fmt::format("going on, with {} of the runs there already", whole));
     }
     std::vector<suite::SuiteResult> results = suite::run_suite(
         plan,

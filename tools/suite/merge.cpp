@@ -17,7 +17,7 @@ namespace {
 /// \throws std::runtime_error
 void require_same(const SuiteInFolder& first, const SuiteInFolder& other) {
   const SuiteResult &a = first.suite, &b = other.suite;
-  const auto require = [&](bool is_same, const char* what, const std::string& one,
+  const auto require = [&](bool is_same, const std::string& what, const std::string& one,
                            const std::string& two) {
     if (is_same) return;
     throw std::runtime_error(
@@ -42,6 +42,7 @@ void require_same(const SuiteInFolder& first, const SuiteInFolder& other) {
 }  // namespace
 
 SuiteResult merge(std::span<const SuiteInFolder> parts) {
+  std::map<std::string, std::pair<std::string, const SuiteInFolder*>> digests;
   for (const SuiteInFolder& part : parts) {
     if (!part.suite.part_of) {
       throw std::runtime_error(
@@ -49,6 +50,13 @@ SuiteResult merge(std::span<const SuiteInFolder> parts) {
                       part.folder.string()));
     }
     require_same(parts.front(), part);
+    for (const auto& [name, digest] : part.suite.part_of->scenario_sha256) {
+      const auto known = digests.emplace(name, std::pair(digest, &part)).first->second;
+      if (known.first == digest) continue;
+      throw std::runtime_error(
+          fmt::format("{} and {} are no parts of one suite: the files of the scenario {} differ",
+                      known.second->folder.string(), part.folder.string(), name));
+    }
   }
   const SuiteResult& first = parts.front().suite;
   SuiteResult whole = first;

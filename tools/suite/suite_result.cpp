@@ -78,7 +78,10 @@ Json to_json(const ScenarioResult& scenario) {
 Json to_json(const PartOf& part) {
   Json whole = Json::array();
   for (const auto& [name, seeds] : part.whole) whole.push_back({{"name", name}, {"seeds", seeds}});
-  return {{"part", part.shard.part}, {"parts", part.shard.parts}, {"whole", whole}};
+  return {{"part", part.shard.part},
+          {"parts", part.shard.parts},
+          {"whole", whole},
+          {"scenario_sha256", part.scenario_sha256}};
 }
 
 // ---- Reading
@@ -158,6 +161,9 @@ PartOf part_of(const Node& node) {
   node["whole"].each([&](const Node& item) {
     std::vector<std::uint64_t>& seeds = part.whole.emplace_back(item["name"].text(), 0).second;
     item["seeds"].each([&](const Node& seed) { seeds.push_back(seed.natural()); });
+  });
+  node["scenario_sha256"].each_entry([&](const std::string& name, const Node& digest) {
+    part.scenario_sha256[name] = digest.text();
   });
   return part;
 }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -60,6 +61,8 @@ struct PartOf {
   Shard shard;
   /// The runs of the whole suite: scenarios in order, with their seeds.
   std::vector<std::pair<std::string, std::vector<std::uint64_t>>> whole;
+  /// SHA-256 of the scenario files of this part, by the scenarios' names.
+  std::map<std::string, std::string> scenario_sha256 = {};
 };
 
 struct SuiteResult {
