@@ -502,13 +502,17 @@ void fields(Origin& origin, Visit&& visit) {
 
 template <class Visit>
 void fields(Criterion& criterion, Visit&& visit) {
-  auto& [metric, min, max, required, source, detector] = criterion;
+  auto& [metric, min, max, required, source, detector, over] = criterion;
   visit({"metric", "a key of `metrics.json`", kRequired}, metric);
   visit({"min", "least value; `min`, `max` or both are given", "none"}, min, kBound);
   visit({"max", "largest value", "none"}, max, kBound);
   visit({"required", "`lcs run` exits with 1 when the criterion does not hold"}, required);
   visit({"detector", "the detector of the run that is judged, by its name", "the run's own"},
         detector);
+  visit({"over",
+         "`seed`: each run is judged; `mean`: the mean over a suite's seeds; `interval`: the 95 % "
+         "interval of that mean, all of which has to keep the bounds"},
+        over, Words{{kOver.begin(), kOver.end()}});
 }
 
 struct CornerKeys {

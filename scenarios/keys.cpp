@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "scenarios/written.h"
@@ -195,7 +196,8 @@ Kind kind_of(const OrWord<Form>& form, const std::optional<T>&) {
 
 template <class Form, class T>
 Kind kind_of(const Form& form, const std::vector<T>&) {
-  const Kind item = kind_of(form, T{});
+  const auto usual = std::make_unique<T>();  // GCC 12 warns of a temporary's destructor
+  const Kind item = kind_of(form, *usual);
   return {"a list", array_of(item, 0).schema, rows_in(item.rows, "N")};
 }
 

@@ -282,7 +282,12 @@ struct Criterion {
   bool required = true;
   input::Source source;
   std::string detector = {};  ///< name in the run of the tested detector; "": the run's own
+  std::string over = "seed";  ///< one of `kOver`
 };
+
+/// How a suite judges a criterion: each seed's figure, their mean, or the 95 % interval of the
+/// mean.
+inline constexpr std::array<const char*, 3> kOver{"seed", "mean", "interval"};
 
 /// A key that a sweep gives several values; each is YAML text as for `--set`.
 struct SweptKey {

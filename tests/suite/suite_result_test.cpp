@@ -34,8 +34,9 @@ SuiteResult full_suite() {
   run.outcome = Outcome::failed;
   run.folder = "runs/near/seed-1";
   run.wall_s = 2.25;
-  run.criteria = {{"rebel.f1", 0.5, std::nullopt, 0.1, false, false, "rebel.f1 is 0.1"},
-                  {"frames", std::nullopt, 60, std::nullopt, true, true, ""}};
+  run.criteria = {
+      {"rebel.f1", 0.5, std::nullopt, 0.1, false, false, "mean", "near.yaml:3", "rebel.f1 is 0.1"},
+      {"frames", std::nullopt, 60, std::nullopt, true, true, "seed", "", ""}};
   near.runs[1].outcome = Outcome::error;
   near.runs[1].error = "scenario.yaml:3: no such key";
   near.runs[1].metrics.clear();

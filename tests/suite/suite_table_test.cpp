@@ -131,11 +131,45 @@ TEST(SuiteTable, MarksFailuresAndErrorsAndPutsTheWorstFirstOnRequest) {
   EXPECT_EQ(order(true), (std::vector<std::string>{"E broken", "F poor", "  fine", "  static"}));
 }
 
+/// A scenario with one criterion over its seeds.
+ScenarioResult asked_over(const std::string& over, std::vector<std::optional<double>> values,
+                          std::optional<double> min, std::optional<double> max = {}) {
+  ScenarioResult scenario = scenario_with("near", "rebel.f1", values);
+  for (RunResult& run : scenario.runs) {
+    run.criteria = {{.metric = "rebel.f1",
+                     .min = min,
+                     .max = max,
+                     .value = {},
+                     .over = over,
+                     .place = "near.yaml:3"}};
+  }
+  judge_over_seeds(scenario);
+  return scenario;
+}
+
+TEST(CriteriaOverSeeds, AreOfTheMeanOrOfItsWholeInterval) {
+  const auto outcome = [](const ScenarioResult& scenario) { return outcome_of(scenario); };
+  // Mean 0.8, 95 % interval 0.8 +- 4.303 * 0.02 / sqrt(3): from 0.7503 to 0.8497.
+  const std::vector<std::optional<double>> values{0.78, 0.80, 0.82};
+  EXPECT_EQ(outcome(asked_over("mean", values, 0.79)), Outcome::passed) << "a seed is below";
+  EXPECT_EQ(outcome(asked_over("mean", values, 0.81)), Outcome::failed);
+  EXPECT_EQ(outcome(asked_over("interval", values, 0.75, 0.85)), Outcome::passed);
+  EXPECT_EQ(outcome(asked_over("interval", values, 0.76)), Outcome::failed);
+  EXPECT_EQ(outcome(asked_over("interval", values, {}, 0.84)), Outcome::failed);
+  EXPECT_EQ(outcome(asked_over("interval", {0.8}, 0.1)), Outcome::failed) << "noise unknown";
+  EXPECT_EQ(outcome(asked_over("mean", {0.8, std::nullopt}, 0.1)), Outcome::failed);
+  EXPECT_EQ(
+      problems(suite_with({asked_over("interval", values, 0.76)})),
+      (std::vector<std::string>{"failed: near: near.yaml:3: rebel.f1 is from 0.7503 to 0.8497, "
+                                "the 95 % interval of the mean over 3 seeds, must be at least "
+                                "0.76"}));
+}
+
 TEST(Problems, TellAnErrorOfSeveralSeedsOnce) {
   SuiteResult suite = suite_with({scenario("near", {0.5}), broken("broken")});
   suite.scenarios[0].runs[0].criteria = {
-      {"rebel.f1", 0.6, {}, 0.5, true, false, "rebel.f1 is 0.5, must be at least 0.6"},
-      {"rebel.f1", 0.4, {}, 0.5, true, true, ""}};
+      {"rebel.f1", 0.6, {}, 0.5, true, false, "seed", "", "rebel.f1 is 0.5, must be at least 0.6"},
+      {"rebel.f1", 0.4, {}, 0.5, true, true, "seed", "", ""}};
   EXPECT_EQ(problems(suite),
             (std::vector<std::string>{"failed: near seed 1: rebel.f1 is 0.5, must be at least 0.6",
                                       "error: broken seed 1, 2: it fell over"}));

@@ -137,6 +137,23 @@ TEST_F(Suite, ACriterionThatIsNotMetIsAFailureAndExitsWithOne) {
   EXPECT_EQ(result().scenarios[0].runs[0].outcome, Outcome::passed);
 }
 
+TEST_F(Suite, ACriterionOverSeedsIsJudgedOnceForAllOfThem) {
+  scenario("near",
+           "criteria: [{metric: frames, min: 5, over: mean}, {metric: frames, min: 4, over: "
+           "interval}]\n");
+  const CommandResult command = run({"--seeds", "2", "--quiet"});
+  EXPECT_EQ(command.exit_code, 1);
+  EXPECT_NE(command.err.find("failed: near: scenarios/near.yaml:6: frames is 4, the mean over 2 "
+                             "seeds, must be at least 5\n"),
+            std::string::npos)
+      << command.err;
+  EXPECT_EQ(std::count(command.err.begin(), command.err.end(), '\n'), 1) << command.err;
+  const CommandResult single = bench::run_lcs(
+      {"run", "scenarios/near.yaml", "--no-video", "--quiet"}, {.folder = folder_.path()});
+  EXPECT_EQ(single.exit_code, 0);
+  EXPECT_NE(single.err.find("not judged: criteria over seeds"), std::string::npos) << single.err;
+}
+
 TEST_F(Suite, ABrokenScenarioIsAnErrorAndTheOthersStillRun) {
   scenario("broken", "camra: {}\n");
   scenario("falling", "actors: {ghost: {body: nobody, trajectory: {still: {}}}}\n");

@@ -383,6 +383,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   std::set<std::string> names;
   for (const Watching& one : all) names.insert(one.spec.name);
   warn(bench::not_asked(scenario.criteria, names));
+  warn(bench::not_judged(scenario.criteria));
   warn(frames.missing);
   std::vector<Diagnostics> diagnostics;
   {

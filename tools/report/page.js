@@ -334,7 +334,7 @@ function criteriaTable(scenario) {
       ...with_.map((run) => el('th', null, 'seed ' + run.seed)))),
     el('tbody', null, ...with_[0].criteria.map((c, i) => el('tr', null,
       el('td', null, el('code', null, c.metric), c.required ? null : el('span', { class: 'quiet small' }, ' not required')),
-      el('td', null, bound(c)),
+      el('td', null, bound(c), c.over === 'seed' ? null : el('span', { class: 'quiet small' }, ' over seeds: ' + c.over)),
       ...with_.map((run) => el('td', null, el('span', { class: 'badge ' + (run.criteria[i].met ? 'met' : 'unmet') },
         (run.criteria[i].met ? '✓ ' : '✗ ') + digits(run.criteria[i].value)))))))));
 }

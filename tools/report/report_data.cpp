@@ -137,6 +137,7 @@ Json criteria_of(const RunResult& run) {
                         {"min", json_of(criterion.min)},
                         {"max", json_of(criterion.max)},
                         {"value", json_of(criterion.value)},
+                        {"over", criterion.over},
                         {"required", criterion.required},
                         {"met", criterion.met}});
   }

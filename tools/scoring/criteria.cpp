@@ -18,20 +18,20 @@ std::string place(const input::Source& source) {
   return source.line > 0 ? fmt::format("{}:{}", source.file, source.line) : source.file;
 }
 
-std::string bounds(const scenario::Criterion& criterion) {
-  std::string text;
-  if (criterion.min) text += fmt::format("at least {}", *criterion.min);
-  if (criterion.min && criterion.max) text += " and ";
-  if (criterion.max) text += fmt::format("at most {}", *criterion.max);
-  return text;
-}
-
 bool is_met(const scenario::Criterion& criterion, std::optional<double> figure) {
   return figure && (!criterion.min || *figure >= *criterion.min) &&
          (!criterion.max || *figure <= *criterion.max);
 }
 
 }  // namespace
+
+std::string bounds(std::optional<double> min, std::optional<double> max) {
+  std::string text;
+  if (min) text += fmt::format("at least {}", *min);
+  if (min && max) text += " and ";
+  if (max) text += fmt::format("at most {}", *max);
+  return text;
+}
 
 void require_known_metrics(const std::vector<scenario::Criterion>& criteria) {
   std::vector<std::string> names;
@@ -74,19 +74,34 @@ std::vector<std::string> not_asked(const std::vector<scenario::Criterion>& crite
   return lines;
 }
 
+std::vector<std::string> not_judged(const std::vector<scenario::Criterion>& criteria) {
+  const auto found =
+      std::ranges::find_if(criteria, [](const auto& one) { return one.over != "seed"; });
+  if (found == criteria.end()) return {};
+  return {fmt::format("not judged: criteria over seeds, as at {}; lcs suite judges them",
+                      place(found->source))};
+}
+
 std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& criteria,
                                    const Metrics& metrics) {
   std::vector<JudgedCriterion> judged;
   for (const scenario::Criterion& criterion : criteria) {
     const std::optional<double> figure = value(metrics, criterion.metric);
     const bool met = is_met(criterion, figure);
-    JudgedCriterion& one = judged.emplace_back(JudgedCriterion{
-        criterion.metric, criterion.min, criterion.max, figure, criterion.required, met, ""});
-    if (met) continue;
+    JudgedCriterion& one =
+        judged.emplace_back(JudgedCriterion{.metric = criterion.metric,
+                                            .min = criterion.min,
+                                            .max = criterion.max,
+                                            .value = figure,
+                                            .required = criterion.required,
+                                            .met = met || criterion.over != "seed",
+                                            .over = criterion.over,
+                                            .place = place(criterion.source)});
+    if (one.met) continue;
     const std::string of = criterion.detector.empty() ? "" : " of " + criterion.detector;
-    one.message =
-        fmt::format("{}: {}{} is {}, must be {}", place(criterion.source), criterion.metric, of,
-                    figure ? fmt::format("{:.4g}", *figure) : "undefined", bounds(criterion));
+    one.message = fmt::format("{}: {}{} is {}, must be {}", one.place, criterion.metric, of,
+                              figure ? fmt::format("{:.4g}", *figure) : "undefined",
+                              bounds(criterion.min, criterion.max));
   }
   return judged;
 }

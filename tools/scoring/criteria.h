@@ -26,17 +26,25 @@ std::vector<scenario::Criterion> asked_of(const std::string& detector, bool is_o
 std::vector<std::string> not_asked(const std::vector<scenario::Criterion>& criteria,
                                    const std::set<std::string>& detectors);
 
+/// A line if there are criteria over seeds, which a single run cannot judge.
+std::vector<std::string> not_judged(const std::vector<scenario::Criterion>& criteria);
+
 struct JudgedCriterion {
   std::string metric;
   std::optional<double> min, max;
   std::optional<double> value;  ///< absent: undefined, which meets no bound
   bool required = true;
   bool met = false;
-  std::string message;  ///< such as "crossing.yaml:31: rebel.f1 is 0.41, must be at least 0.6";
-                        ///< empty if met
+  std::string over = "seed";  ///< as `scenario::Criterion::over`; if not "seed", a suite judges it
+  std::string place = {};     ///< such as "crossing.yaml:31"
+  std::string message = {};   ///< such as "crossing.yaml:31: rebel.f1 is 0.41, must be at least
+                             ///< 0.6"; empty if met
 };
 
-/// Judges all criteria, in the scenario's order.
+/// "at least 0.6 and at most 0.9".
+std::string bounds(std::optional<double> min, std::optional<double> max);
+
+/// Judges all criteria of single runs, in the scenario's order. Those over seeds are not judged.
 std::vector<JudgedCriterion> judge(const std::vector<scenario::Criterion>& criteria,
                                    const Metrics& metrics);
 

@@ -48,6 +48,7 @@ std::string name_of(const bench::JudgedCriterion& criterion, std::uint64_t seed,
   if (criterion.min) name += " min";
   if (criterion.max) name += " max";
   if (!criterion.required) name += " (not required)";
+  if (criterion.over != "seed") name += fmt::format(" of the {} over seeds", criterion.over);
   if (const int number = ++times[name]; number > 1) name += fmt::format(" #{}", number);
   return name + fmt::format(", seed {}", seed);
 }

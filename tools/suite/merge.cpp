@@ -86,6 +86,7 @@ SuiteResult merge(std::span<const SuiteInFolder> parts) {
       }
       missing += owner == nullptr;
     }
+    judge_over_seeds(joined);
     whole.scenarios.push_back(std::move(joined));
   }
   if (missing > 0) {

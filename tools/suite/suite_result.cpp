@@ -32,6 +32,7 @@ Json to_json(const bench::JudgedCriterion& criterion) {
   return {{"metric", criterion.metric},     {"min", to_json(criterion.min)},
           {"max", to_json(criterion.max)},  {"value", to_json(criterion.value)},
           {"required", criterion.required}, {"met", criterion.met},
+          {"over", criterion.over},         {"place", criterion.place},
           {"message", criterion.message}};
 }
 
@@ -107,6 +108,8 @@ bench::JudgedCriterion criterion_of(const Node& node) {
           .value = node["value"].figure(),
           .required = node["required"].flag(),
           .met = node["met"].flag(),
+          .over = node.has("over") ? node["over"].text() : "seed",
+          .place = node.has("place") ? node["place"].text() : "",
           .message = node["message"].text()};
 }
 

@@ -308,6 +308,7 @@ std::vector<SuiteResult> run_suite(const std::vector<PlannedScenario>& plan,
   };
   run_all(commands, options.jobs, on_exit, on_tick);
 
+  for (SuiteResult& suite : suites) std::ranges::for_each(suite.scenarios, judge_over_seeds);
   std::error_code ignored;  // removes folders of scenarios without any result
   for (const SuiteWatcher& watcher : options.watchers) {
     for (const PlannedScenario& planned : plan) {

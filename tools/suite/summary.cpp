@@ -1,9 +1,12 @@
 #include "tools/suite/summary.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "tools/scoring/metrics.h"
 #include "tools/scoring/statistics.h"
+#include "tools/suite/interval.h"
 
 namespace lcs::suite {
 namespace {
@@ -119,6 +122,69 @@ std::int64_t drawn_again(const SuiteResult& suite) {
   return std::count_if(
       suite.scenarios.begin(), suite.scenarios.end(),
       [](const ScenarioResult& scenario) { return scenario.drawn && scenario.drawn->again > 0; });
+}
+
+namespace {
+
+/// \param values of the seeds; one of them undefined meets no bound.
+void judge_over_seeds(bench::JudgedCriterion& criterion,
+                      const std::vector<std::optional<double>>& values) {
+  std::vector<double> defined;
+  for (const std::optional<double>& value : values) {
+    if (value) defined.push_back(*value);
+  }
+  criterion.value.reset();
+  criterion.met = false;
+  std::string found = "undefined";
+  if (defined.size() == values.size()) {
+    const Interval mean = interval_of(defined);
+    const bool is_interval = criterion.over == "interval";
+    const double half = is_interval ? mean.half.value_or(0) : 0;
+    criterion.value = mean.mean;
+    criterion.met = (!is_interval || mean.half) &&
+                    (!criterion.min || mean.mean - half >= *criterion.min) &&
+                    (!criterion.max || mean.mean + half <= *criterion.max);
+    found = fmt::format("{:.4g}", mean.mean);
+    if (is_interval) {
+      found = mean.half ? fmt::format("from {:.4g} to {:.4g}", mean.mean - half, mean.mean + half)
+                        : found + " with unknown noise";
+    }
+  }
+  criterion.message =
+      criterion.met ? ""
+                    : fmt::format("{}: {} is {}, the {} over {} seed{}, must be {}",
+                                  criterion.place, criterion.metric, found,
+                                  criterion.over == "mean" ? "mean" : "95 % interval of the mean",
+                                  values.size(), values.size() == 1 ? "" : "s",
+                                  bench::bounds(criterion.min, criterion.max));
+}
+
+}  // namespace
+
+void judge_over_seeds(ScenarioResult& scenario) {
+  std::size_t most = 0;
+  for (const RunResult& run : scenario.runs) most = std::max(most, run.criteria.size());
+  for (std::size_t i = 0; i < most; ++i) {
+    std::vector<std::optional<double>> values;
+    const bench::JudgedCriterion* first = nullptr;
+    for (const RunResult& run : scenario.runs) {
+      if (i >= run.criteria.size()) continue;  // it ended with an error
+      first = first ? first : &run.criteria[i];
+      values.push_back(figure_of(run, run.criteria[i].metric));
+    }
+    if (first->over == "seed") continue;
+    bench::JudgedCriterion judged = *first;
+    judge_over_seeds(judged, values);
+    for (RunResult& run : scenario.runs) {
+      if (i < run.criteria.size()) run.criteria[i] = judged;
+    }
+  }
+  for (RunResult& run : scenario.runs) {
+    if (run.outcome == Outcome::error) continue;
+    const bool failed = std::ranges::any_of(
+        run.criteria, [](const auto& criterion) { return criterion.required && !criterion.met; });
+    run.outcome = failed ? Outcome::failed : Outcome::passed;
+  }
 }
 
 Outcome outcome_of(const ScenarioResult& scenario) {

@@ -61,6 +61,10 @@ bool is_of_worlds(const SuiteResult& suite);
 /// The number of redraws over all worlds.
 std::int64_t drawn_again(const SuiteResult& suite);
 
+/// Judges the criteria over seeds by the figures of all runs, and the runs' outcomes by all
+/// criteria. Each run of the scenario has the same verdict of such a criterion.
+void judge_over_seeds(ScenarioResult& scenario);
+
 /// The worst outcome of the runs; `error` without runs.
 Outcome outcome_of(const ScenarioResult& scenario);
 Outcome outcome_of(const SuiteResult& suite);

@@ -202,9 +202,12 @@ void add_missed_criteria(const ScenarioResult& scenario, Weighed& to) {
     }
   }
   for (const auto& [i, runs] : missed) {
-    std::string reason =
-        fmt::format("seed {}: {}", runs.front()->seed, runs.front()->criteria[i].message);
-    if (runs.size() > 1) reason += fmt::format(" ({} seeds miss it)", runs.size());
+    const bench::JudgedCriterion& criterion = runs.front()->criteria[i];
+    const bool is_of_run = criterion.over == "seed";
+    std::string reason = is_of_run
+                             ? fmt::format("seed {}: {}", runs.front()->seed, criterion.message)
+                             : criterion.message;
+    if (is_of_run && runs.size() > 1) reason += fmt::format(" ({} seeds miss it)", runs.size());
     to.remark.reasons.push_back(std::move(reason));
   }
   to.weight = std::max<double>(to.weight, count);
