@@ -9,6 +9,7 @@
 #include "tests/tools/command.h"
 #include "tests/tools/files.h"
 #include "tests/tools/temporary_folder.h"
+#include "tools/input/input_file.h"
 #include "tools/suite/suite_result.h"
 
 namespace lcs::worlds {
@@ -276,7 +277,7 @@ TEST_P(WorldOfSplit, OfOldIsKnownByItsName) {
   const fs::path truth = folder_.path() / "s" /
                          suite::read_suite(folder_.path() / "s").scenarios[0].runs[0].folder /
                          "truth.jsonl";
-  std::string text = bench::read(truth);
+  std::string text = input::read_file(truth.string() + ".gz", {input::kGibibyte, ""});
   const std::string origin = ",\"origin\":{\"family\":\"corridor\",\"seed\":" + seed() + "}";
   const std::size_t at = text.find(origin);
   ASSERT_NE(at, std::string::npos);
