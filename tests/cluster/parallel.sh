@@ -38,7 +38,7 @@ finished=$(tail -n +2 parts.log | wc -l)
 echo "Killed with $finished finished parts, and $(has_run parts/3 | wc -l) finished runs of part 3"
 
 bash -c "$line" >again.log 2>&1 || fail "the same line does not go on: $(tail again.log)"
-grep 'are there already' again.log || fail "part 3 began anew"
+grep 'there already' again.log || fail "part 3 began anew"
 (($(grep -c '; results in ' again.log) == 4 - finished)) || fail "finished parts were repeated"
 status=0
 lcs merge parts/? --out merged >merge.log 2>&1 || status=$?

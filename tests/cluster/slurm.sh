@@ -118,7 +118,7 @@ status=0
 wait $submitted || status=$?
 submitted=
 grep 'requeue job' "$state/slurmctld.log" || fail "Slurm has not started part 2 again"
-grep 'are there already' merged.parts/2.log || fail "part 2 began anew"
+grep 'there already' merged.parts/2.log || fail "part 2 began anew"
 require_merged $status
 
 echo "Part 3 is lost, and submitted alone"
