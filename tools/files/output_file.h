@@ -67,6 +67,10 @@ class TextFile {
   std::string pending_;  ///< not yet compressed
 };
 
+/// Makes `to` the same file as `from`, or a copy on another file system.
+/// \throws std::filesystem::filesystem_error
+void link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// Writes a whole file. \throws OutputError
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 

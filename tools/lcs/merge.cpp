@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "tools/files/output_file.h"
 #include "tools/lcs/how_made.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/report/worlds_page.h"
@@ -28,13 +29,6 @@ stay as they are. On one file system their runs are linked, not copied.
 Exit codes: as of lcs suite. 2 also where a part is missing or is of another suite.
 )";
 
-/// Makes `to` the same file as `from`, or a copy on another file system.
-void link_or_copy(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::create_hard_link(from, to, error);
-  if (error) fs::copy_file(from, to);
-}
-
 /// Takes the files of a part's runs, of all detectors, and its pictures of worlds.
 void take_files(const fs::path& part, const suite::SuiteResult& suite, const fs::path& to) {
   for (const suite::ScenarioResult& scenario : suite.scenarios) {
@@ -43,14 +37,14 @@ void take_files(const fs::path& part, const suite::SuiteResult& suite, const fs:
       if (run.folder.empty()) continue;
       fs::create_directories(to / run.folder);
       for (const fs::directory_entry& file : fs::directory_iterator(part / run.folder)) {
-        link_or_copy(file.path(), to / run.folder / file.path().filename());
+        bench::link_or_copy(file.path(), to / run.folder / file.path().filename());
       }
     }
   }
   if (!fs::exists(part / report::kSheetsFolder)) return;
   fs::create_directories(to / report::kSheetsFolder);
   for (const fs::directory_entry& file : fs::directory_iterator(part / report::kSheetsFolder)) {
-    link_or_copy(file.path(), to / report::kSheetsFolder / file.path().filename());
+    bench::link_or_copy(file.path(), to / report::kSheetsFolder / file.path().filename());
   }
 }
 

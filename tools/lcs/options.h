@@ -4,10 +4,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -137,17 +137,14 @@ inline CLI::Option* add_keep_option(CLI::App& command, bench::Keep& keep) {
       .add_option_function<std::string>(
           "--keep",
           [&keep](const std::string& text) {
-            const std::map<std::string, bench::Keep> kinds{{"figures", bench::Keep::figures},
-                                                           {"events", bench::Keep::events},
-                                                           {"all", bench::Keep::all}};
-            const auto found = kinds.find(text);
-            if (found == kinds.end()) {
+            const auto found = std::ranges::find(bench::kKeepWords, text);
+            if (found == bench::kKeepWords.end()) {
               throw std::invalid_argument("--keep is '" + text +
                                           "'; it takes figures, events or all");
             }
-            keep = found->second;
+            keep = static_cast<bench::Keep>(found - bench::kKeepWords.begin());
           },
-          "What each run leaves: figures; events: also a row a frame and the events; all: also "
+          "The files of each run: figures; events: also a row a frame and the events; all: also "
           "layers, truth and pictures, for --recorded")
       ->type_name("WHAT");
 }

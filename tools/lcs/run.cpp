@@ -364,6 +364,7 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
     bench::ResultOptions what;
     what.keep = options.keep;
     what.compressed = options.gzip;
+    what.truth_of_other = &one != &own;
     if (&one == &own) {
       if (!options.no_video) what.video_frames_per_second = scenario.camera.rate_hz;
       if (view) what.show = [&](const cv::Mat3b& sheet) { return view->show(sheet); };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 #include <string>
-#include <system_error>
 
 #include "tools/output/event_pictures.h"
 #include "tools/recording/warnings.h"
@@ -31,7 +30,9 @@ Result::Result(const std::filesystem::path& target, const Recording& run, cv::Si
       events_(options.events),
       kept_(options.kept),
       add_page_(options.add_page) {
-  if (keep_ == Keep::all) writer_.emplace(folder_.staging(), run, options.compressed);
+  if (keep_ == Keep::all) {
+    writer_.emplace(folder_.staging(), run, options.compressed, !options.truth_of_other);
+  }
   if (options.video_frames_per_second) {
     video_.emplace(folder_.staging() / kVideoFile, painter_.size_px(),
                    *options.video_frames_per_second);
@@ -72,13 +73,9 @@ Metrics Result::finish(const Recording& run) {
 }
 
 void Result::share_truth(const Result& other) {
-  const std::filesystem::path own = stored(folder_.staging(), kTruthFile);
+  if (!writer_ || !other.writer_) return;
   const std::filesystem::path theirs = stored(other.folder_.staging(), kTruthFile);
-  if (!writer_ || !other.writer_ || own.filename() != theirs.filename()) return;
-  const std::filesystem::path link = own.parent_path() / "truth.jsonl.link";
-  std::error_code error;
-  std::filesystem::create_hard_link(theirs, link, error);
-  if (!error) std::filesystem::rename(link, own);  // on another file system it keeps its own
+  link_or_copy(theirs, folder_.staging() / theirs.filename());
 }
 
 }  // namespace lcs::bench

@@ -2,11 +2,13 @@
 /// Writes the files of a run frame by frame; the result is complete or absent.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/files/output.h"
@@ -31,10 +33,14 @@ enum class Keep {
   all,      ///< also layers, truth and pictures, from which `--recorded` runs again
 };
 
+/// The words of `--keep`, in the order of `Keep`.
+inline constexpr std::array<std::string_view, 3> kKeepWords{"figures", "events", "all"};
+
 /// Optional contents of a result.
 struct ResultOptions {
   Keep keep = Keep::all;
   bool compressed = false;                        ///< layers and truth
+  bool truth_of_other = false;                    ///< `share_truth` provides the truth
   std::optional<double> video_frames_per_second;  ///< absent: no video
   bool events = false;  ///< write the run's errors with pictures, and all pictures
   /// Pictures of these frames from an earlier run; `events` then stores none.
@@ -59,7 +65,8 @@ class Result {
   /// output is committed. \throws OutputError
   Metrics finish(const Recording& run);
 
-  /// After `finish`: takes the truth of the same frames from `other`, as one file for both.
+  /// After `finish` of both: takes the truth of the same frames from `other`, as one file for both.
+  /// On another file system as a copy. \throws std::filesystem::filesystem_error
   void share_truth(const Result& other);
 
   Output& output() { return folder_; }

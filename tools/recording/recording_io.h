@@ -19,6 +19,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -63,7 +64,7 @@ class RecordingWriter {
  public:
   /// \param run provides the header; its frames are not written here. \throws OutputError
   RecordingWriter(const std::filesystem::path& folder, const Recording& run,
-                  bool compressed = false);
+                  bool compressed = false, bool with_truth = true);
 
   /// \throws OutputError; std::invalid_argument as `layers_line`.
   void write(const FrameRecord& frame);
@@ -72,7 +73,7 @@ class RecordingWriter {
 
  private:
   TextFile layers_;
-  TextFile truth_;
+  std::optional<TextFile> truth_;
 };
 
 /// Reads both files, and the warnings beside them if present. \throws std::runtime_error with file

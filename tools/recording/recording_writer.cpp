@@ -365,21 +365,24 @@ static std::string detector_json(const DetectorInfo& detector) {
 }
 
 RecordingWriter::RecordingWriter(const std::filesystem::path& folder, const Recording& run,
-                                 bool compressed)
-    : layers_(folder / kLayersFile, compressed), truth_(folder / kTruthFile, compressed) {
-  truth_.write(header_line(run) + '\n');
+                                 bool compressed, bool with_truth)
+    : layers_(folder / kLayersFile, compressed) {
+  if (with_truth) {
+    truth_.emplace(folder / kTruthFile, compressed);
+    truth_->write(header_line(run) + '\n');
+  }
   write_file(folder / kDetectorFile, detector_json(run.detector) + '\n');
   if (run.camera) write_file(folder / kCameraFile, camera_json(*run.camera) + '\n');
 }
 
 void RecordingWriter::write(const FrameRecord& frame) {
   layers_.write(layers_line(frame) + '\n');
-  truth_.write(truth_line(frame) + '\n');
+  if (truth_) truth_->write(truth_line(frame) + '\n');
 }
 
 void RecordingWriter::close() {
   layers_.close();
-  truth_.close();
+  if (truth_) truth_->close();
 }
 
 }  // namespace lcs::bench

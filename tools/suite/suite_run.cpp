@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <numeric>
 
@@ -24,9 +23,6 @@ namespace fs = std::filesystem;
 
 /// Rough estimate for runs without any known duration, in s.
 constexpr double kSecondsPerWork = 1e-7;
-
-/// The values of `lcs run --keep`.
-constexpr std::array<const char*, 3> kKeeps{"figures", "events", "all"};
 
 /// One run: its indices in the plan and its estimated duration.
 struct Job {
@@ -79,9 +75,10 @@ std::vector<std::string> command_of(const PlannedScenario& planned, std::uint64_
                                     const SuiteRunOptions& options) {
   const SuiteWatcher& first = options.watchers.front();
   std::vector<std::string> command = run_of(planned, seed, first.detector, first.is_own, options);
-  command.insert(command.end(), {"--out", (first.folder / folder_of(planned, seed)).string(),
-                                 "--no-video", "--quiet", "--gzip", "--keep",
-                                 kKeeps.at(static_cast<std::size_t>(options.keep))});
+  command.insert(command.end(),
+                 {"--out", (first.folder / folder_of(planned, seed)).string(), "--no-video",
+                  "--quiet", "--gzip", "--keep",
+                  std::string(bench::kKeepWords.at(static_cast<std::size_t>(options.keep)))});
   if (options.keep != bench::Keep::figures) command.emplace_back("--events");
   for (std::size_t i = 1; i < options.watchers.size(); ++i) {
     const SuiteWatcher& other = options.watchers[i];
