@@ -244,7 +244,8 @@ struct Recorded {
   std::optional<std::filesystem::path> times;  ///< of the images: a table, exists
   std::string time_unit;  ///< of tables: s, ms, us or ns; "": as they state it themselves
   int every = 1;          ///< a frame is each n-th image, from the first image on
-  /// \name Motion of the camera; each file exists. @{
+  /// \name Motion of the camera; each file exists.
+  ///@{
   std::optional<std::filesystem::path> poses;     ///< T_WC, in lines of TUM or of KITTI odometry
   std::optional<std::filesystem::path> imu;       ///< columns as in EuRoC
   std::optional<std::filesystem::path> odometry;  ///< velocity, in EuRoC's style; needs an IMU

@@ -8,11 +8,11 @@
 
 namespace lcs::input {
 
-/// Escapes (as \x1b) invalid UTF-8, control characters other than tabs and line ends, and
+/// Escapes (as `\x1b`) invalid UTF-8, control characters other than tabs and line ends, and
 /// characters that change the direction of writing.
 std::string printable(std::string_view text);
 
-/// `printable` text in one line, with tabs as \t. Beyond 1000 bytes it omits the middle, because
+/// `printable` text in one line, with tabs as `\t`. Beyond 1000 bytes it omits the middle, because
 /// messages end with the remedy.
 std::string one_line(std::string_view text);
 

@@ -21,7 +21,7 @@ struct ReplayOptions {
   std::vector<std::string> sets;                 ///< filter settings, "key=value"
   DetectorOptions detector;
   std::vector<std::string> beside;  ///< as in `RunOptions`
-  std::string out;                  ///< folder; "" is out/<name of the recording>
+  std::string out;                  ///< folder; "" is `out/<name of the recording>`
   std::string write;                ///< scenario file to write instead of running; "": run
   bool force = false;
   bool no_video = false;

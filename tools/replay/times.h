@@ -24,7 +24,8 @@ inline bool is_time(std::int64_t t_ns) {
   return t_ns >= -kFarthest_ns && t_ns <= kFarthest_ns;
 }
 
-/// \name Units of time, in ns. @{
+/// \name Units of time, in ns.
+///@{
 inline constexpr std::int64_t kNanosecond_ns = 1, kMicrosecond_ns = 1000,
                               kMillisecond_ns = 1'000'000, kSecond_ns = 1'000'000'000;
 /// \param name s, ms, us or ns, or a longer form of it; absent for another.

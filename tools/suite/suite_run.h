@@ -30,7 +30,7 @@ struct SuiteProgress {
 /// A detector and the folder of its results.
 struct SuiteWatcher {
   std::string detector;
-  std::filesystem::path folder;  ///< gets runs/<name>/seed-<n>/
+  std::filesystem::path folder;  ///< gets `runs/<name>/seed-<n>/`
   bool is_own = true;            ///< the suite's detector; criteria without a detector apply to it
 };
 
