@@ -141,6 +141,7 @@ class Outputs : public testing::Test {
         {"score", {"score", "run", "--detections", "said.csv", "--quiet"}},
         {"suite", {"suite", "scenarios/mine.yaml", "--seeds", "1", "--quiet"}},
         {"merge", {"merge", "part", "--quiet"}},
+        {"compare", {"compare", "suite", "suite"}},
         {"generate", {"generate", "scenarios/mine.yaml", "--formats", "tum", "--quiet"}},
         {"kinematics", {"kinematics", "--config", "scenarios/mine.yaml", "--quick", "--quiet"}},
         {"world", {"world", "room", "--pictures", "pictures", "--quiet"}},
@@ -152,7 +153,8 @@ class Outputs : public testing::Test {
   }
   static Arguments naming(const Option& option, const std::string& target) {
     Arguments all = use_of(option);
-    if (option.name != "--out" && option.command != "score" && option.name != "--write") {
+    if (option.name != "--out" && option.command != "score" && option.command != "compare" &&
+        option.name != "--write") {
       all.insert(all.end(), {"--out", option.command == "preview" ? "other.html" : "other"});
     }
     all.insert(all.end(), {option.name, option.type == "NAME=DIR" ? "klt=" + target : target});

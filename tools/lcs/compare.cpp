@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <stdexcept>
 #include <string_view>
 
+#include "tools/files/output.h"
 #include "tools/input/message.h"
+#include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
 #include "tools/suite/comparison.h"
+#include "tools/suite/merge_request.h"
 #include "tools/suite/pattern.h"
 #include "tools/suite/suite_result.h"
 #include "tools/suite/verdict.h"
@@ -15,11 +19,14 @@
 namespace lcs::tools {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr const char* kHelp = R"(Examples:
   lcs suite --out out/before
   lcs suite --out out/after --set filter.hypotheses.prior=0.05
   lcs compare out/before out/after
   lcs compare out/before out/after --metric 'rebel\.f1' --all
+  lcs compare out/before out/after --markdown out/summary        for a pull request
 
 The verdict is on the means over all scenarios and over each group. A mean has changed when its change is
 beyond the least that matters by more than chance explains, given how many means are judged
@@ -37,6 +44,11 @@ void print_suite(const char* when, const std::string& path, const suite::SuiteRe
       "{} {}: {}\n", when, path,
       input::one_line(fmt::format("{}{}{}", suite.detector, suite.sets.empty() ? "" : " with ",
                                   fmt::join(suite.sets, ", "))));
+}
+
+/// \param path a suite.json, or the folder of a suite.
+fs::path folder_of(const fs::path& path) {
+  return fs::is_directory(path) ? path : path.parent_path();
 }
 
 }  // namespace
@@ -58,6 +70,17 @@ CLI::App& add_compare_command(CLI::App& app, CompareOptions& options) {
       "--fail-on-regression", [] {},
       "Exit with 1 where something regressed: this command always does, lcs suite only where it is "
       "asked");
+  command
+      .add_option("--markdown", options.markdown,
+                  "Folder for summary.md, for the discussion of a merge request, and two pictures "
+                  "of the event that grew most")
+      ->type_name("DIR")
+      ->group(kOutputs);
+  command
+      .add_option("--pictures-at", options.pictures_at,
+                  "Address where the pictures will be; beside summary.md if not given")
+      ->type_name("URL")
+      ->needs("--markdown");
   command.footer(kHelp);
   return command;
 }
@@ -73,6 +96,13 @@ ExitCode compare(const CompareOptions& options) {
         fmt::format("{} and {} have no scenario in common; give two suites of the same "
                     "scenarios",
                     options.before, options.after));
+  }
+  if (!options.markdown.empty()) {
+    bench::Output folder(options.markdown,
+                         {suite::kSummaryFile, suite::kBeforePicture, suite::kAfterPicture});
+    suite::write_merge_request(folder.staging(), {before, folder_of(options.before)},
+                               {after, folder_of(options.after)}, comparison, options.pictures_at);
+    folder.commit();
   }
   print_suite("before", options.before, before);
   print_suite("after ", options.after, after);

@@ -13,6 +13,8 @@ struct CompareOptions {
   std::string before, after;  ///< suite.json, or its folder
   std::string metric;         ///< regular expression; "": every metric
   bool all = false;
+  std::string markdown;     ///< folder for the summary of a merge request; "": none
+  std::string pictures_at;  ///< address of its pictures; "": beside it
 };
 
 /// Adds the sub-command to `app`. \param options filled in by parsing.

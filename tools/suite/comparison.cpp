@@ -314,7 +314,7 @@ Comparison compare(const SuiteResult& before, const SuiteResult& after,
   return Comparer(before, after, is_wanted).compare();
 }
 
-std::string means_text(const Comparison& comparison, bool all) {
+std::vector<const Difference*> shown_means(const Comparison& comparison, bool all) {
   const auto largest = std::ranges::max_element(comparison.groups, {}, &Difference::pairs);
   std::vector<const Difference*> shown;
   for (const Difference& mean : comparison.groups) {
@@ -325,6 +325,11 @@ std::string means_text(const Comparison& comparison, bool all) {
     const bool has_changed = mean.verdict == Change::regressed || mean.verdict == Change::improved;
     if (all || is_main || has_changed) shown.push_back(&mean);
   }
+  return shown;
+}
+
+std::string means_text(const Comparison& comparison, bool all) {
+  const auto shown = shown_means(comparison, all);
   if (shown.empty()) return "";
   return "means, with the 95 % interval of each change:\n" + lines_of(shown);
 }

@@ -70,9 +70,12 @@ struct Comparison {
 Comparison compare(const SuiteResult& before, const SuiteResult& after,
                    const std::function<bool(std::string_view metric)>& is_wanted);
 
-/// The means with their changes and intervals: over the largest group the figures of the suite's
-/// table and F1 over every other group; all others only if they have changed.
+/// The means to show: over the largest group the figures of the suite's table, and F1 over every
+/// other group; all others only if they have changed.
 /// \param all all of them.
+std::vector<const Difference*> shown_means(const Comparison& comparison, bool all);
+
+/// `shown_means` with their changes and intervals, a line each.
 std::string means_text(const Comparison& comparison, bool all);
 
 /// A report for the user: the means, the single scenarios' regressions and improvements, and the

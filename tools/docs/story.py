@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+"""Measures the paper's claims in simulation, and writes filter/paper/STORY.md with its pictures.
+
+    tools/docs/story.py            after tools/run; takes about five minutes
+
+Needs python3-opencv, for the pictures.
+"""
+
+import csv
+import datetime
+import json
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = ROOT / "filter/paper/STORY.md"
+
+# name: scenario, frames, settings
+RUNS = {
+    "lab": ("scenarios/lab.yaml", None, ["filter.preset=lab"]),
+    "lab, no psi": ("scenarios/lab.yaml", None, ["filter.preset=lab", "filter.line.ignore=false"]),
+    "lab, default": ("scenarios/lab.yaml", None, []),
+    "street": ("scenarios/suite/street_drive.yaml", 600, ["filter.preset=cars"]),
+    "street, no psi": ("scenarios/suite/street_drive.yaml", 600, ["filter.preset=cars", "filter.line.ignore=false"]),
+    "street, default": ("scenarios/suite/street_drive.yaml", 600, []),
+    "crossing": ("scenarios/crossing.yaml", None, ["filter.preset=lab"]),
+    "crossing, no psi": ("scenarios/crossing.yaml", None, ["filter.preset=lab", "filter.line.ignore=false"]),
+    "crossing, default": ("scenarios/crossing.yaml", None, []),
+}
+KINDS = ("normal_edges", "rebel_edges", "normal_circles", "rebel_circles", "squares")
+
+
+class Run:
+    def __init__(self, folder, scenario, frames, settings):
+        command = [str(ROOT / "build/lcs"), "run", str(ROOT / scenario), "--out", str(folder), "--quiet"]
+        for setting in settings:
+            command += ["--set", setting]
+        if frames:
+            command += ["--frames", str(frames)]
+        if subprocess.run(command, check=False).returncode not in (0, 1):  # 1: a criterion is missed
+            sys.exit(f"failed: {' '.join(command)}")
+        self.folder = folder
+        with open(folder / "frames.csv", newline="") as stream:
+            self.rows = list(csv.DictReader(stream))
+        self.metrics = json.loads((folder / "metrics.json").read_text())
+
+    def column(self, name):
+        return [float(row[name]) for row in self.rows]
+
+    def mean(self, name):
+        """Mean over the frames after the first ten, when the filter has settled."""
+        return statistics.mean(self.column(name)[10:])
+
+    def time_ms(self):
+        return statistics.median(self.column("filter_ms")[10:])
+
+    def stored(self, frames):
+        """Corners of the last so many frames, which the paper compares with; mean."""
+        corners = self.column("corners")
+        return statistics.mean(sum(corners[k - frames + 1:k + 1]) for k in range(10, len(corners)))
+
+    def picture(self, frame, width):
+        video = cv2.VideoCapture(str(self.folder / "video.mp4"))
+        video.set(cv2.CAP_PROP_POS_FRAMES, frame)
+        good, picture = video.read()
+        if not good:
+            sys.exit(f"no frame {frame} in {self.folder}/video.mp4")
+        return cv2.resize(picture, (width, round(picture.shape[0] * width / picture.shape[1])), interpolation=cv2.INTER_AREA)
+
+
+def figure(value, decimals=2):
+    if value is None:
+        return "-"
+    return f"{value:.{decimals}f}".removeprefix("0") if decimals == 2 and abs(value) < 1 else f"{value:.{decimals}f}"
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def page(runs):
+    lab, street = runs["lab"], runs["street"]
+    frames = table(
+        ["frame", "corners", "ignored in psi", "normal edges", "rebel edges", "normal circles", "rebel circles", "squares"],
+        [[str(k)] + [lab.rows[k][name] for name in ("corners", "ignored_corners", *KINDS)] for k in (0, 1, 2, 4, 14, 25, 36)])
+    memory = table(
+        ["drive", "corners a frame", "items", "numbers in the items", "corners of 5 frames", "of 8 frames", "numbers in those"],
+        [[name, f"{run.mean('corners'):.0f}", f"{run.mean('dimension'):.0f}",
+          f"{sum(run.mean(kind) for kind in KINDS) * 6 + run.mean('squares'):.0f}", f"{run.stored(5):.0f}",
+          f"{run.stored(8):.0f}", f"{2 * run.stored(5):.0f}; {2 * run.stored(8):.0f}"]
+         for name, run in (("`lab.yaml`, preset `lab`", lab), ("`lab.yaml`, default", runs["lab, default"]),
+                           ("`street_drive.yaml`, preset `cars`", street), ("`street_drive.yaml`, default", runs["street, default"]))])
+    psi = table(
+        ["drive", "corners ignored", "items with, without psi", "filter's time with, without, ms", "recall of rebels with, without"],
+        [[f"`{file}`", f"{100 * run.mean('ignored_corners') / run.mean('corners'):.0f} %",
+          f"{run.mean('dimension'):.0f}, {without.mean('dimension'):.0f}", f"{run.time_ms():.2f}, {without.time_ms():.2f}",
+          f"{figure(run.metrics['rebel.recall'])}, {figure(without.metrics['rebel.recall'])}"]
+         for file, run, without in (("lab.yaml", lab, runs["lab, no psi"]), ("street_drive.yaml", street, runs["street, no psi"]),
+                                    ("crossing.yaml", runs["crossing"], runs["crossing, no psi"]))])
+    truth = table(
+        ["drive", "filter", "precision", "recall", "F1", "false objects in 100 frames", "boxes of movers found"],
+        [[f"`{file}`", words] + [figure(runs[name].metrics[key], decimals) for key, decimals in (
+            ("rebel.precision", 2), ("rebel.recall", 2), ("rebel.f1", 2), ("rebel.false_objects_per_100_frames", 0),
+            ("square.recall_50_movers", 2))]
+         for file, words, name in (
+             ("crossing.yaml", "the paper's, `lab`", "crossing"), ("crossing.yaml", "default", "crossing, default"),
+             ("street_drive.yaml", "the paper's, `cars`", "street"), ("street_drive.yaml", "default", "street, default"),
+             ("lab.yaml", "the paper's, `lab`", "lab"), ("lab.yaml", "default", "lab, default"))])
+    return f"""# The paper's story, measured
+
+Written on {datetime.date.today()} by `tools/docs/story.py`. The figures are of simulated drives, for which the truth is known. Figures per frame
+are means over the frames from the tenth on. `street_drive.yaml` is cut to its first 600 frames.
+
+## Line, Circle, Square: one run
+
+The paper's first experiment is a robot that drives at 3 cm/s through a laboratory and takes a picture each second. `scenarios/lab.yaml`
+simulates it; nothing moves by itself. With `filter.preset=lab` the paper's rules run with the numbers of its Table 1:
+
+![Frames 4, 14 and 25 of lab.yaml with the preset lab](story_lab.jpg)
+
+*Frames 4, 14 and 25, as in the paper. Corners with ignored regions psi; edges; circles; squares.*
+
+* **Line.** FAST finds the corners. The Line expert drops the corners inside psi, and groups the others by the collectors lambda.
+* **Circle.** A corner near the predicted place of an edge confirms it, and its trust rises. Edges with similar direction and velocity form a
+  circle. A corner that no edge explains starts a row of alpha; three sightings in line make a rebel edge.
+* **Square.** Couples of similar circles become a square.
+* **Back to Line.** A circle or square with the highest trust becomes a region of psi. In the next frame its corners are ignored.
+
+{frames}
+
+## Memory
+
+The paper counts the items of the filter: edges, circles and squares. It compares them with the corners of the last 5 frames (laboratory) and
+of the last 8 (cars). It reports about 100 items for the laboratory, less than half of the corners of 5 frames, and about 360 for cars, with
+thousands in 8 frames. Here:
+
+{memory}
+
+Counted in items, the filter does remember less than 5 or 8 frames of corners. An item holds six numbers in the paper's notation (two for the
+place, speed, direction, radius, trust; a square has seven), a corner two. Counted in numbers, the saving is smaller.
+
+## psi
+
+{psi}
+
+psi spares the Circle expert the ignored corners. The cost: nothing inside a region is looked at in that frame, so a mover there is seen late,
+and its chain of three sightings breaks.
+
+## What the rules reach by truth
+
+The paper shows pictures and counts items. It gives no recall, no precision and no time. By the truth of the simulation:
+
+{truth}
+
+![Frame 20 of crossing.yaml: the paper's rules above, the default below](story_crossing.jpg)
+
+*Frame 20 of `crossing.yaml`: above with `filter.preset=lab`, below the default. Cyan: boxes of movers by truth.*
+
+In 60 worlds of the split `test`, F1 is in the row `lcs:lab` of [the results](../../tools/comparators/RESULTS.md).
+
+**Why the paper reported success.** Its measures are the number of items and the look of single frames. Both are good: items are few, and
+circles and squares lie on objects. Three of its rules keep the recall of rebels low, which only truth shows:
+
+* A rebel needs three sightings in line, each off the motion field by a margin. Slow movers and short sightings never get there.
+* The rule for an edge's velocity does not settle at the true value (`PaperVelocity` tests; [EQUATIONS.md](../EQUATIONS.md)). Edges at other
+  depths than Z_ref lose trust within three frames, and their corners start new rows.
+* Corners are told apart by place alone. Where corners are dense, a corner of a mover supports a static edge nearby.
+
+## What of the paper is in the default
+
+| of the paper | in the default filter |
+|---|---|
+| order Line, Circle, Square; edges, rebels, circles, squares | kept |
+| motion field, exact rotation, focus of expansion | kept |
+| ranks of trust | kept |
+| psi, lambda | left out: each corner is looked at in each frame |
+| xi, alpha | replaced by log odds of two hypotheses, static and moving, with signatures for the association |
+| circles by direction and velocity | replaced by groups that one plane explains |
+| squares by couples of circles | replaced by the box of a circle |
+
+[MODEL.md](../MODEL.md) has the default's formulas, [ABLATION.md](../ABLATION.md) the contribution of each part.
+"""
+
+
+def main():
+    if len(sys.argv) > 1:
+        sys.exit(__doc__)
+    with tempfile.TemporaryDirectory() as work:
+        runs = {}
+        for name, (scenario, frames, settings) in RUNS.items():
+            print(name, flush=True)
+            runs[name] = Run(Path(work) / name.replace(", ", "_").replace(" ", "_"), scenario, frames, settings)
+        lab = np.vstack([runs["lab"].picture(frame, 800) for frame in (4, 14, 25)])
+        crossing = np.vstack([runs[name].picture(20, 800) for name in ("crossing", "crossing, default")])
+        for name, picture in (("lab", lab), ("crossing", crossing)):
+            cv2.imwrite(str(PAGE.parent / f"story_{name}.jpg"), picture, [cv2.IMWRITE_JPEG_QUALITY, 80])
+        PAGE.write_text(page(runs))
+
+
+if __name__ == "__main__":
+    main()

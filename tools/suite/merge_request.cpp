@@ -1,0 +1,203 @@
+#include "tools/suite/merge_request.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "tools/files/output_file.h"
+#include "tools/scoring/events.h"
+#include "tools/scoring/metrics.h"
+#include "tools/suite/summary.h"
+
+namespace lcs::suite {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Scenarios that are listed; the others are counted.
+constexpr std::size_t kMostRemarks = 10;
+
+std::string bytes_of(const std::string& base64) {
+  std::string bytes(base64.size() / 4 * 3, '\0');
+  const int size = EVP_DecodeBlock(reinterpret_cast<unsigned char*>(bytes.data()),
+                                   reinterpret_cast<const unsigned char*>(base64.data()),
+                                   static_cast<int>(base64.size()));
+  const auto padding = std::ranges::count(base64, '=');
+  bytes.resize(static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, size - padding)));
+  return bytes;
+}
+
+/// Text in a cell of a table.
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find_first_of("|<\n", at)) != text.npos; at += 2) {
+    text[at] == '\n' ? text.replace(at, 1, "  ") : text.insert(at, 1, '\\');
+  }
+  return text;
+}
+
+// ---- The event that grew most
+
+struct Grown {
+  std::string run;  ///< such as "rain seed 2"
+  bench::Event after;
+  std::optional<bench::Event>
+      before;  ///< of the same family and object, in some of the same frames
+};
+
+/// Corners, circles or frames, which are compared only within a family.
+int cost_of(const bench::Event& event) {
+  switch (family_of(event.kind)) {
+    case bench::EventFamily::rebels:
+      return event.corners;
+    case bench::EventFamily::circles:
+      return event.circles;
+    case bench::EventFamily::squares:
+      return event.frames;
+  }
+  return 0;
+}
+
+std::vector<bench::Event> events_of(const SuiteInFolder& suite, const RunResult& run) {
+  const fs::path file = suite.folder / run.folder / bench::kEventsFile;
+  if (run.folder.empty() || !fs::exists(file)) return {};
+  return bench::read_events(file);
+}
+
+const bench::Event* former(const bench::Event& event, const std::vector<bench::Event>& before) {
+  const bench::Event* worst = nullptr;
+  for (const bench::Event& other : before) {
+    if (family_of(other.kind) != family_of(event.kind) || other.object != event.object ||
+        other.first_frame > event.last_frame || other.last_frame < event.first_frame) {
+      continue;
+    }
+    if (worst == nullptr || cost_of(other) > cost_of(*worst)) worst = &other;
+  }
+  return worst;
+}
+
+/// Absent if no event has grown. A rebel event is preferred to one of circles or squares.
+std::optional<Grown> most_grown(const SuiteInFolder& before, const SuiteInFolder& after) {
+  std::optional<Grown> most;
+  std::pair<bool, int> most_growth{false, 0};
+  for (const ScenarioResult& scenario : after.suite.scenarios) {
+    const ScenarioResult* earlier = find(before.suite, scenario.name);
+    for (const RunResult& run : scenario.runs) {
+      const RunResult* same = earlier ? find(*earlier, run.seed) : nullptr;
+      if (same == nullptr || same->metrics.empty()) continue;
+      const std::vector<bench::Event> then = events_of(before, *same);
+      for (bench::Event& event : events_of(after, run)) {
+        const bench::Event* was = former(event, then);
+        const std::pair growth{family_of(event.kind) == bench::EventFamily::rebels,
+                               cost_of(event) - (was ? cost_of(*was) : 0)};
+        if (growth.second <= 0 || growth <= most_growth) continue;
+        most_growth = growth;
+        most = Grown{fmt::format("{} seed {}", scenario.name, run.seed), std::move(event),
+                     was ? std::optional(*was) : std::nullopt};
+      }
+    }
+  }
+  return most;
+}
+
+/// The view with a picture that is nearest to a frame; null without one.
+const bench::EventView* view_near(const bench::Event& event, int frame) {
+  const bench::EventView* nearest = nullptr;
+  for (const bench::EventView& view : event.views) {
+    if (view.jpeg_base64.empty()) continue;
+    if (nearest == nullptr || std::abs(view.frame - frame) < std::abs(nearest->frame - frame)) {
+      nearest = &view;
+    }
+  }
+  return nearest;
+}
+
+std::string unit_of(const bench::Event& event) {
+  constexpr const char* kUnits[] = {"corners", "circles", "frames"};
+  return kUnits[static_cast<std::size_t>(family_of(event.kind))];
+}
+
+/// One side's picture, as a cell of the table.
+std::string picture(const fs::path& folder, const std::string& name, const bench::Event* event,
+                    int frame, const std::string& pictures_at) {
+  if (event == nullptr) return "no such event in these frames";
+  const bench::EventView* view = view_near(*event, frame);
+  if (view == nullptr) return "the suite keeps no pictures";
+  bench::write_file(folder / name, bytes_of(view->jpeg_base64));
+  return fmt::format("![frame {}]({}{}{})", view->frame, pictures_at,
+                     pictures_at.empty() || pictures_at.ends_with('/') ? "" : "/", name);
+}
+
+std::string event_text(const fs::path& folder, const Grown& grown, const std::string& pictures_at) {
+  const bench::Event& event = grown.after;
+  const int middle = (event.first_frame + event.last_frame) / 2;
+  const bench::EventView* shown = view_near(event, middle);
+  const int frame = shown ? shown->frame : middle;
+  const int was = grown.before ? cost_of(*grown.before) : 0;
+  const std::string object =
+      event.object_name.empty() ? "" : fmt::format(" `{}`", cell(event.object_name));
+  std::string text = fmt::format(
+      "\n**The event that grew most**: {}, frames {} to {}: {}{}, {} {} (before: {}).\n\n",
+      cell(grown.run), event.first_frame, event.last_frame, text_of(event.kind).meaning, object,
+      cost_of(event), unit_of(event), was);
+  text += "| before | after |\n|---|---|\n";
+  text += fmt::format(
+      "| {} | {} |\n",
+      picture(folder, kBeforePicture, grown.before ? &*grown.before : nullptr, frame, pictures_at),
+      picture(folder, kAfterPicture, &event, frame, pictures_at));
+  return text;
+}
+
+// ---- Figures
+
+std::string means_table(const Comparison& comparison) {
+  std::string text =
+      "\n| mean over | figure | before | after | change, 95 % interval | "
+      "|\n|---|---|---|---|---|---|\n";
+  for (const Difference* mean : shown_means(comparison, false)) {
+    const bool is_real = mean->verdict == Change::regressed || mean->verdict == Change::improved;
+    const std::string half =
+        mean->change.half ? fmt::format(" ± {:.3g}", *mean->change.half) : ", noise unknown";
+    text += fmt::format("| {} ({}) | {} | {:.3g} | {:.3g} | {:+.3g}{} | {} |\n",
+                        cell(mean->scenario), mean->pairs, bench::metric(mean->metric).heading(),
+                        mean->before, mean->after, mean->change.mean, half,
+                        is_real ? fmt::format("**{}**", word_of(mean->verdict)) : "");
+  }
+  return text;
+}
+
+std::string remarks_text(const Verdict& verdict) {
+  if (verdict.remarks.empty()) return "";
+  std::string text = "\n<details><summary>Scenarios, worst first</summary>\n\n";
+  for (std::size_t i = 0; i < std::min(kMostRemarks, verdict.remarks.size()); ++i) {
+    const Remark& remark = verdict.remarks[i];
+    text += fmt::format("* `{}` {}: {}\n", cell(remark.scenario), word_of(remark.standing),
+                        cell(fmt::format("{}", fmt::join(remark.reasons, "; "))));
+  }
+  if (verdict.remarks.size() > kMostRemarks) {
+    text += fmt::format("* and {} more\n", verdict.remarks.size() - kMostRemarks);
+  }
+  return text + "\n</details>\n";
+}
+
+}  // namespace
+
+void write_merge_request(const fs::path& folder, const SuiteInFolder& before,
+                         const SuiteInFolder& after, const Comparison& comparison,
+                         const std::string& pictures_at) {
+  const Verdict verdict = verdict_of(after, &before, &comparison);
+  std::string text =
+      fmt::format("### {} {}\n\n{}\n", comparison.has_regressed() ? "🔴" : "🟢",
+                  comparison.has_regressed() ? "Regressed" : "Not regressed", cell(verdict.line));
+  text += means_table(comparison);
+  if (const auto grown = most_grown(before, after)) text += event_text(folder, *grown, pictures_at);
+  text += remarks_text(verdict);
+  bench::write_file(folder / kSummaryFile, text);
+}
+
+}  // namespace lcs::suite
