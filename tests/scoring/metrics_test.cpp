@@ -7,7 +7,8 @@
 #include <fstream>
 #include <map>
 #include <set>
-#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "tests/tools/files.h"
 #include "tools/recording/warnings.h"
@@ -56,37 +57,48 @@ TEST(Metrics, TheLeastChangeIsAbsoluteForSharesAndRelativeForLargeCounts) {
   EXPECT_DOUBLE_EQ(least_change(false_objects, 200), 10);
 }
 
-/// "higher, by 0.01", "lower, by 0.1 and 5 %"; empty for a neutral metric.
-std::string better_text(const Scale& scale) {
-  if (scale.better == Direction::neutral) return "";
-  const char* better = scale.better == Direction::higher ? "higher" : "lower";
-  const std::string share =
-      scale.least_share > 0 ? fmt::format(" and {:g} %", 100 * scale.least_share) : "";
-  return fmt::format("{}, by {:g}{}", better, scale.least_change, share);
+/// "(per frame, ↓ 0.1)", "(↑)": unit, better direction, and the least change unless it is 0.01;
+/// empty without any.
+std::string scale_text(const Scale& scale) {
+  std::string text(scale.unit);
+  if (scale.better != Direction::neutral) {
+    if (!text.empty()) text += ", ";
+    text += scale.better == Direction::higher ? "↑" : "↓";
+    if (scale.least_change != 0.01) text += fmt::format(" {:g}", scale.least_change);
+  }
+  return text.empty() ? "" : " (" + text + ")";
 }
 
-/// The table in Markdown. Metrics of the same meaning share a row.
-std::string markdown() {
-  using Row = std::tuple<std::string, std::string, std::string>;
-  std::vector<Row> rows;
-  std::map<Row, std::string> keys;
+/// SCORING.md states these amounts once.
+TEST(Metrics, OfOneDirectionHaveTheSameShareAsLeastChange) {
   for (const Metric& metric : metrics()) {
-    const Row row{metric.scale.unit, better_text(metric.scale), metric.meaning};
-    std::string& shared = keys[row];
-    if (shared.empty()) rows.push_back(row);
+    const Scale& scale = metric.scale;
+    if (scale.better == Direction::neutral) continue;
+    EXPECT_EQ(scale.least_share, scale.better == Direction::lower ? 0.05 : 0) << metric.key;
+  }
+}
+
+/// The list in Markdown. Metrics of the same meaning share an entry.
+std::string markdown() {
+  using Entry = std::pair<std::string, std::string>;
+  std::vector<Entry> entries;
+  std::map<Entry, std::string> keys;
+  for (const Metric& metric : metrics()) {
+    const Entry entry{scale_text(metric.scale), metric.meaning};
+    std::string& shared = keys[entry];
+    if (shared.empty()) entries.push_back(entry);
     if (!shared.empty()) shared += ", ";
     shared += fmt::format("`{}`", metric.key);
     if (!metric.label.empty()) shared += fmt::format(" \"{}\"", metric.label);
   }
-  std::string text = "| key \"label\" | unit | better | meaning |\n|---|---|---|---|\n";
-  for (const Row& row : rows) {
-    const auto& [unit, better, meaning] = row;
-    text += fmt::format("| {} | {} | {} | {} |\n", keys[row], unit, better, meaning);
+  std::string text;
+  for (const Entry& entry : entries) {
+    text += fmt::format("* {}{}: {}\n", keys[entry], entry.first, entry.second);
   }
   return text;
 }
 
-TEST(Metrics, AreAllInTheTableOfScoringMd) {
+TEST(Metrics, AreAllInTheListOfScoringMd) {
   std::string document = read(LCS_SCORING_MD);
   const std::string begin = "<!-- metrics -->\n", end = "<!-- end of metrics -->";
   const std::size_t first = document.find(begin) + begin.size();
