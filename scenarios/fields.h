@@ -1,6 +1,6 @@
 /// \file
 /// The single list of all keys of a scenario file. Reading (`load.cpp`), writing (`written.h`), the
-/// tables of README.md and `scenario.schema.json` (both `keys.cpp`) use it.
+/// text of `lcs run --keys` and `scenario.schema.json` (both `keys.cpp`) use it.
 ///
 /// Each `fields` lists the keys of one map: it calls `visit(key, member, form)` for each key in the
 /// order of output. A form is needed where the member's type does not determine the accepted
@@ -558,9 +558,9 @@ void fields(Scenario& scenario, Visit&& visit) {
          "a scene of `scenes/` by its name, or a path ending in `.xml`, relative to this file",
          kOneOfThese},
         scene, SceneName{scene_source});
-  visit({"recording", "recorded frames, below, in place of a scene and all that belongs to it",
-         kOneOfThese},
-        recording);
+  visit(
+      {"recording", "recorded frames in place of a scene and all that belongs to it", kOneOfThese},
+      recording);
   visit.exactly_one_of({"scene", "recording"});
   visit({"origin",
          "`{family: room, seed: 7, again: 0, features: [slope]}`: the world that `lcs world` drew "
@@ -573,8 +573,8 @@ void fields(Scenario& scenario, Visit&& visit) {
          "of textures, bumps, rain, IMU noise, odometry and the camera's noise; each draws from a "
          "stream of its own"},
         seed);
-  visit({"ego", "the rover, below", recording ? "none" : kRequired}, ego);
-  visit({"camera", "below"}, camera);
+  visit({"ego", "the rover", recording ? "none" : kRequired}, ego);
+  visit({"camera", "the rover's camera"}, camera);
   std::optional<int> count;
   if (frames > 0) count = frames;
   visit({"frames", "of the camera; frame k is at k / rate", kOneOfThese}, count,
@@ -584,10 +584,10 @@ void fields(Scenario& scenario, Visit&& visit) {
         FramesBefore{camera.rate_hz});
   if (!recording) visit.exactly_one_of({"frames", "duration"});
   frames = before.value_or(count.value_or(0));
-  visit({"imu", "below"}, imu);
+  visit({"imu", "the rover's IMU"}, imu);
   std::optional<Odometry> measured;
   if (odometry.enabled) measured = odometry;
-  visit({"odometry", "of the wheels, below", "none"}, measured);
+  visit({"odometry", "of the wheels", "none"}, measured);
   if (measured) {
     odometry = *measured;
     odometry.enabled = true;
@@ -595,9 +595,9 @@ void fields(Scenario& scenario, Visit&& visit) {
   TruthKeys truth{truth_min_depth_m};
   visit({"truth", "how the truth is made"}, truth);
   truth_min_depth_m = truth.min_depth_m;
-  visit({"image", "what the camera makes of the scene, below", "a real sensor's noise"}, image);
-  visit({"ground", "bumps on the floor, below", "level"}, ground);
-  visit({"actors", "who else moves, by name, below", "none"}, actors);
+  visit({"image", "what the camera makes of the scene", "a real sensor's noise"}, image);
+  visit({"ground", "bumps on the floor", "level"}, ground);
+  visit({"actors", "who else moves, by name", "none"}, actors);
   visit.in_place_of("recording", {"scene", "origin", "seed", "ego", "camera", "duration", "imu",
                                   "odometry", "truth", "image", "ground", "actors"});
   visit({"ego_motion",
@@ -607,10 +607,10 @@ void fields(Scenario& scenario, Visit&& visit) {
   CornerKeys corners{fast_threshold};
   visit({"corners", "how corners are found"}, corners);
   fast_threshold = corners.threshold;
-  visit({"filter", "parameters of the filter, below", "its own"}, filter,
+  visit({"filter", "parameters of the filter", "its own"}, filter,
         FilterParameters{filter_preset, filter_preset_source});
-  visit({"criteria", "bounds on the metrics, below", "none"}, criteria);
-  visit({"sweep", "keys and the values that a suite runs them with, below: to 1000 points", "none"},
+  visit({"criteria", "bounds on the metrics", "none"}, criteria);
+  visit({"sweep", "keys and the values that a suite runs them with: to 1000 points", "none"},
         sweep);
 }
 

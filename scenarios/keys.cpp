@@ -306,28 +306,16 @@ void print(const Json& json, std::size_t indent, std::string& text) {
   text += fmt::format("\n{:{}}{}", "", indent, json.is_array() ? "]" : "}");
 }
 
-/// The section whose table has the key, and the key's name there: "size" for "actors.NAME.size".
-std::pair<std::string_view, std::string_view> place_of(std::string_view key) {
-  const std::size_t dot = key.find('.');
-  const std::string_view section = key.substr(0, dot);
-  if (dot == key.npos || std::ranges::count(kSections, section) == 0) return {"", key};
-  key.remove_prefix(dot + 1);
-  for (const std::string_view of_item : {"N.", "NAME."}) {
-    if (key.starts_with(of_item)) key.remove_prefix(of_item.size());
-  }
-  return {section, key};
-}
-
 }  // namespace
 
-std::string keys_table(std::string_view section) {
-  std::string table = "| key | meaning | default | values |\n|---|---|---|---|\n";
+std::string keys_text() {
+  std::string text;
   for (const Row& row : kind_of(Plain{}, default_scenario()).rows) {
-    const auto [place, name] = place_of(row.key);
-    if (place != section) continue;
-    table += fmt::format("| `{}` | {} | {} | {} |\n", name, row.meaning, row.without, row.takes);
+    text += fmt::format("{}: {}\n", row.key, row.meaning);
+    if (!row.without.empty()) text += fmt::format("    default: {}\n", row.without);
+    if (!row.takes.empty()) text += fmt::format("    values: {}\n", row.takes);
   }
-  return table;
+  return text;
 }
 
 std::string schema_text() {

@@ -3,6 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "scenarios/save.h"
 #include "tests/scenarios/scenario_file.h"
 #include "tests/tools/files.h"
@@ -13,30 +21,15 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path kScenarios = fs::path(LCS_SOURCE_DIR) / "scenarios";
 
-/// Writes the correct content of a differing file into the build folder, for copying.
-void expect_file(const std::string& name, const std::string& right) {
-  if (bench::read(kScenarios / name) == right) return;
-  const fs::path made = fs::path(LCS_BUILD_DIR) / name;
-  bench::write(made, right);
-  FAIL() << "scenarios/" << name << " does not follow scenarios/fields.h; cp " << made << " "
-         << kScenarios / name << ", which has:\n"
-         << right;
-}
-
-TEST(Keys, TheTablesOfTheReadmeFollowTheList) {
-  std::string readme = bench::read(kScenarios / "README.md");
-  for (const std::string_view section : kSections) {
-    const std::string name = section.empty() ? "the top level" : std::string(section);
-    const std::string begin = "<!-- keys of " + name + " -->\n";
-    const std::size_t from = readme.find(begin), to = readme.find("<!-- end -->", from);
-    ASSERT_NE(to, std::string::npos) << "there is no " << begin;
-    readme.replace(from, to - from, begin + keys_table(section));
-  }
-  expect_file("README.md", readme);
-}
-
+/// Writes the correct schema into the build folder, for copying, if the shipped one differs.
 TEST(Keys, TheSchemaFollowsTheList) {
-  expect_file("scenario.schema.json", schema_text());
+  const std::string right = schema_text();
+  if (bench::read(kScenarios / "scenario.schema.json") == right) return;
+  const fs::path made = fs::path(LCS_BUILD_DIR) / "scenario.schema.json";
+  bench::write(made, right);
+  FAIL() << "scenarios/scenario.schema.json does not follow scenarios/fields.h; cp " << made << " "
+         << kScenarios << ", which has:\n"
+         << right;
 }
 
 /// Every value in its base unit, in the order of the list, none at its default.
@@ -100,6 +93,13 @@ criteria: [{metric: a, min: 0.5, max: 2, required: false, detector: klt}]
 sweep: {ego.speed: [0.2 m/s, 0.4 m/s], camera.size: [[320, 240], [640, 480]]}
 )";
 
+constexpr const char* kRecorded =
+    "recording: {format: kitti, camera: cam1, fps: 25 Hz, every: 2, speed: 10 m/s, focal: 700 "
+    "px, "
+    "centre: [320 px, 240 px], distortion: {equidistant: [0.1, 0, 0, 0]}, camera_height: 1.65 m, "
+    "mount: [0 deg, 3 deg, 180 deg], at_rest: 2 s, nothing_moves: true, split: test}\n"
+    "corners: {threshold: 30}\ngroups: [real, test]\n";
+
 std::map<std::string, std::string> read_and_written(const std::string& text) {
   return input::flattened(
       input::parse_text(input::yaml_text(document_of(load_text(text))), {"written", 1}));
@@ -117,12 +117,7 @@ TEST(Written, IsTheFileThatWasRead) {
   const std::string way = "frames: 3\nego: {waypoints: [[0 s, 1 m, 2 m], [1 s, 1 m, 3 m]]}\n";
   EXPECT_EQ(without_files(read_and_written("scene: room.xml\n" + way)),
             input::flattened(input::parse_text(way, {"text", 1})));
-  const std::string recorded =
-      "recording: {format: kitti, camera: cam1, fps: 25 Hz, every: 2, speed: 10 m/s, focal: 700 "
-      "px, "
-      "centre: [320 px, 240 px], distortion: {equidistant: [0.1, 0, 0, 0]}, camera_height: 1.65 m, "
-      "mount: [0 deg, 3 deg, 180 deg], at_rest: 2 s, nothing_moves: true, split: test}\n"
-      "corners: {threshold: 30}\ngroups: [real, test]\n";
+  const std::string recorded = kRecorded;
   std::string with_path = recorded;
   with_path.insert(with_path.find('{') + 1, "path: room.xml, ");
   EXPECT_EQ(without_files(read_and_written(with_path)),
@@ -141,6 +136,30 @@ TEST(Written, SaysNothingOfDefaults) {
   const std::map<std::string, std::string> keys{{"frames", "3"}, {"ego.speed", "0.5 m/s"}};
   EXPECT_EQ(without_files(read_and_written(smallest + "odometry: {}\n")).erase("odometry"), 1u);
   EXPECT_EQ(without_files(read_and_written(smallest)), keys);
+}
+
+TEST(Keys, AreAllInTheTextForTheTerminal) {
+  std::set<std::string> keys;
+  std::istringstream text(keys_text());
+  for (std::string line; std::getline(text, line);) {
+    if (!line.starts_with(' ')) keys.insert(line.substr(0, line.find(": ")));
+  }
+  const std::vector<std::pair<std::regex, const char*>> any{
+      {std::regex(R"(^(actors)\.\w+)"), "$1.NAME"},
+      {std::regex(R"(^(filter|sweep)\..*)"), "$1"},      // these have keys of their own
+      {std::regex(R"((\.equidistant)?(\.\d+)+$)"), ""},  // numbers of one value
+      {std::regex(R"(\.\d+)"), ".N"}};
+  for (const char* const scenario : {kSimulated, kRecorded}) {
+    for (const auto& [written, value] :
+         input::flattened(input::parse_text(scenario, {"text", 1}))) {
+      std::string key = written;
+      for (const auto& [one, name] : any) key = std::regex_replace(key, one, std::string(name));
+      EXPECT_TRUE(keys.contains(key)) << key;
+    }
+  }
+  EXPECT_NE(keys_text().find("camera.fovy: vertical field of view\n"
+                             "    default: `60 deg`\n    values: above 0 and below 180 deg\n"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "scenarios/scenes.h"
 #include "scenarios/sweep.h"
 #include "tests/scenarios/scenario_file.h"
+#include "tests/tools/files.h"
 
 namespace lcs::scenario {
 namespace {
@@ -563,21 +564,42 @@ TEST(Shipped, EveryScenarioOfTheSuiteHasASizeAndANameOfItsOwn) {
   EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
 }
 
-// Newcomers copy the first block of YAML in scenarios/README.md.
-TEST(Shipped, TheFirstScenarioOfTheReadmeLoads) {
-  std::ifstream stream(std::filesystem::path(LCS_SOURCE_DIR) / "scenarios/README.md");
-  const std::string readme{std::istreambuf_iterator<char>(stream), {}};
+/// The blocks of YAML of scenarios/README.md, from `begin` to `end`, as one text.
+std::string yaml_of_the_readme(const std::string& begin, const std::string& end) {
+  const std::string readme =
+      bench::read(std::filesystem::path(LCS_SOURCE_DIR) / "scenarios/README.md");
+  const std::size_t from = readme.find(begin), to = readme.find(end, from);
+  EXPECT_NE(to, std::string::npos) << begin << " to " << end;
   const std::string fence = "```yaml\n";
-  const std::size_t begin = readme.find(fence) + fence.size();
-  ASSERT_GE(begin, fence.size());
+  std::string yaml;
+  for (std::size_t at = readme.find(fence, from); at < to; at = readme.find(fence, at)) {
+    at += fence.size();
+    yaml += readme.substr(at, readme.find("```", at) - at);
+  }
+  return yaml;
+}
+
+TEST(Shipped, TheFirstScenarioOfTheReadmeLoads) {
   const ScenarioFolder folder;
-  const std::string yaml = readme.substr(begin, readme.find("```", begin) - begin);
-  const Scenario s = load(folder.write("first.yaml", yaml),
-                          {.sets = {"ego.speed=0.7", "actors.my_box.start.time=2 s"}, .seed = {}});
+  const Scenario s =
+      load(folder.write("first.yaml", yaml_of_the_readme("## A first scenario", "## Your own")),
+           {.sets = {"ego.speed=0.7", "actors.my_box.start.time=2 s"}, .seed = {}});
   EXPECT_EQ(s.frames, 60);
   EXPECT_EQ(s.ego.phases[0].speed_mps, 0.7);
   ASSERT_EQ(s.actors.size(), 1u);
   EXPECT_EQ(s.actors[0].start.at_s, 2);
+}
+
+TEST(Shipped, TheExamplesOfTheReadmesSectionsLoadTogether) {
+  const ScenarioFolder folder;
+  const Scenario s =
+      load(folder.write("sections.yaml", yaml_of_the_readme("## The sections", "### `recording`")));
+  EXPECT_EQ(s.actors.size(), 3u);
+  EXPECT_EQ(s.ego.phases.size(), 3u);
+  EXPECT_EQ(s.criteria.size(), 3u);
+  EXPECT_EQ(s.sweep.size(), 2u);
+  EXPECT_TRUE(s.odometry.enabled);
+  EXPECT_TRUE(s.ground.has_value());
 }
 
 TEST(Shipped, TheLabRunIsThePapers) {

@@ -636,6 +636,14 @@ TEST(Program, NamesTheVersionsOfWhatItRunsOn) {
   }
 }
 
+TEST(Program, PrintsTheKeysOfAScenario) {
+  const CommandResult result = lcs_with({"run", "--keys"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const char* part : {"\ncamera.fovy: ", "\nego.phases.N.at: ", "\nactors.NAME.shape: "}) {
+    EXPECT_NE(result.out.find(part), std::string::npos) << part << " in\n" << result.out;
+  }
+}
+
 TEST(Program, HelpTeachesExamplesFilesAndExitCodes) {
   const CommandResult top = lcs_with({"--help"});
   EXPECT_EQ(top.exit_code, 0);

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "scenarios/keys.h"
 #include "scenarios/load.h"
 #include "scenarios/scenes.h"
 #include "sim/simulation.h"
@@ -288,6 +289,8 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
   command.add_option("SCENARIO", options.scenario, "The scenario, a YAML file")
       ->required()
       ->type_name("");
+  command.set_version_flag("--keys", scenario::keys_text,
+                           "Print every key of a scenario file: meaning, default, values");
   add_out_option(command, options.out, "out/<scenario>");
   add_seed_option(command, options.seed);
   command.add_option("--frames", options.frames, "Frames to run, instead of the scenario's")
