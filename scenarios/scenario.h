@@ -2,8 +2,8 @@
 /// The typed form of a scenario file: the complete description of a run.
 ///
 /// Loading validates a `Scenario` (`scenarios/load.h`); it does not change afterwards. All values
-/// are SI with angles in radians, independent of the units in the YAML file; `scenarios/README.md`
-/// lists keys and units.
+/// are SI with angles in radians, independent of the units in the YAML file. `scenarios/README.md`
+/// explains the sections and units, and `fields.h` lists the keys.
 ///
 /// World frame W: z up, right-handed, metres. Rover frame B: x forward, y left, z up, origin on the
 /// ground below the middle of the rover.
