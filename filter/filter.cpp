@@ -64,7 +64,7 @@ EgoMotion Filter::Impl::last_motion_over(const EgoMotion& told) const {
 const FrameResult& Filter::Impl::step(std::span<const Eigen::Vector2f> corners_px,
                                       std::span<const Signature> signatures, const EgoMotion& told,
                                       GapView* view) {
-  Stopwatch watch;
+  Stopwatch<> watch;
   std::optional<EgoMotion> motion = intake.take(told, diagnostics);
   if (!motion) {
     edge_expert.forget();

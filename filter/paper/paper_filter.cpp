@@ -44,7 +44,7 @@ struct PaperFilter::Impl {
 const FrameResult& PaperFilter::Impl::step(std::span<const Eigen::Vector2f> corners_px,
                                            std::span<const Signature> signatures,
                                            const EgoMotion& told) {
-  Stopwatch watch;
+  Stopwatch<> watch;
   const std::optional<EgoMotion> motion = intake.take(told, diagnostics);
   if (!motion) {
     edge_expert.forget();

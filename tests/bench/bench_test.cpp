@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <opencv2/imgproc.hpp>
+#include <thread>
 
 #include "filter/detect/describe.h"
 #include "scenarios/load.h"
+#include "tools/bench/timed.h"
 #include "tools/scoring/scoring.h"
 
 namespace lcs::bench {
@@ -140,6 +143,16 @@ TEST(FilterParameters, AreThePresetWithTheScenariosSettingsOnTop) {
   EXPECT_THROW(load({"filter.circle.gap=wide"}), input::Error);
   // Each value is in its range, but their order is wrong.
   EXPECT_THROW(load({"filter.circle.Tr_c=9", "filter.circle.Tr_m=5"}), input::Error);
+}
+
+TEST(Timed, ADetectorsTimeIsThatOfItsThreadAndLeavesOutWhatItWaits) {
+  double cpu_ms = -1, wall_ms = -1;
+  timed<std::chrono::steady_clock>(wall_ms, [&] {
+    timed(cpu_ms, [] { std::this_thread::sleep_for(std::chrono::milliseconds(20)); });
+  });
+  EXPECT_GE(wall_ms, 20);
+  EXPECT_GE(cpu_ms, 0);
+  EXPECT_LT(cpu_ms, wall_ms - 10) << "sleeping takes no time of a processor";
 }
 
 }  // namespace

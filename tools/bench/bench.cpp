@@ -16,7 +16,9 @@ SimulatedFrames::SimulatedFrames(const scenario::Scenario& scenario, sim::Simula
       ego_motion_(scenario, simulation.calibration()) {}
 
 bool SimulatedFrames::next(FrameRecord& frame, cv::Mat3b& image) {
-  observation_ = timed(frame.times.value().simulate_ms, [&] { return simulation_.next(); });
+  // The renderer and MuJoCo have threads of their own.
+  observation_ = timed<std::chrono::steady_clock>(frame.times.value().simulate_ms,
+                                                  [&] { return simulation_.next(); });
   if (!observation_) return false;
   frame.index = observation_->index;
   frame.t_ns = observation_->t_ns;
@@ -81,10 +83,13 @@ Recording begin_recording(const scenario::Scenario& scenario, const sim::Simulat
 
 void ask(Detector& detector, const cv::Mat3b& image, const cv::Mat1b& grey, FrameRecord& frame) {
   double step_ms = 0;
-  const FrameResult& said = timed(step_ms, [&]() -> const FrameResult& {
+  const auto step = [&]() -> const FrameResult& {
     return detector.step({image, grey, frame.corners_px, frame.motion, frame.signatures,
                           frame.index, frame.t_ns, frame.gaps ? &*frame.gaps : nullptr});
-  });
+  };
+  const bool is_process = detector.step_time() == &FrameTimes::process_ms;
+  const FrameResult& said =
+      is_process ? timed<std::chrono::steady_clock>(step_ms, step) : timed(step_ms, step);
   note(said, detector.step_time(), step_ms, frame);
   frame.masks = detector.masks();
 }

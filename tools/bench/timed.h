@@ -1,20 +1,22 @@
 /// \file
-/// Measures the wall time of a call.
+/// Measures the time of a call.
 #pragma once
 
 #include <chrono>
 
+#include "filter/stopwatch.h"
+
 namespace lcs::bench {
 
-/// Runs `work` and stores its wall time in `ms`, also if it throws.
-template <class Work>
+/// Runs `work` and stores its time in `ms`, also if it throws: the CPU time of this thread, or by
+/// `std::chrono::steady_clock` the wall time.
+template <class Clock = ThreadClock, class Work>
 decltype(auto) timed(double& ms, Work&& work) {
-  using Clock = std::chrono::steady_clock;
-  struct Stopwatch {
+  struct Timer {
     double& ms;
-    Clock::time_point start = Clock::now();
-    ~Stopwatch() { ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
-  } stopwatch{ms};
+    Stopwatch<Clock> watch = {};
+    ~Timer() { ms = watch.lap_ms(); }
+  } timer{ms};
   return work();
 }
 
