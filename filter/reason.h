@@ -23,6 +23,10 @@ enum class Reason : std::uint8_t {
   normal_edge,
   rebel_edge,
 
+  // The default filter: the corner's neighbours outvoted its own track (MODEL.md (18)).
+  normal_neighbours,
+  rebel_neighbours,
+
   // The default filter: the corner has a track that moves as a static point does.
   comer,
   goer,
@@ -55,15 +59,17 @@ struct ReasonText {
 };
 
 /// In the order of `Reason`, each with the verdict that it implies.
-inline constexpr std::array<ReasonText, 24> kReasons{{
+inline constexpr std::array<ReasonText, 26> kReasons{{
     {"unknown", "no reason given"},
     {"not_finite", "its place is not a number"},                                         // pending
     {"outside", "outside of the picture"},                                               // pending
     {"too_many", "farther out than the most corners that are looked at"},                // pending
     {"in_psi", "inside a region psi that was not looked at"},                            // ignored
     {"no_time", "no time has passed since the frame before"},                            // pending
-    {"normal_edge", "taken by a normal edge"},                                           // normal
-    {"rebel_edge", "taken by a rebel edge"},                                             // rebel
+    {"normal_edge", "its track moved as a static point may"},                            // normal
+    {"rebel_edge", "its track moved as no static point does"},                           // rebel
+    {"normal_neighbours", "its track spoke for a rebel, but none near it moves alike"},  // normal
+    {"rebel_neighbours", "its track was in doubt, and rebels near it move alike"},       // rebel
     {"comer", "of a body that floats above the ground, as one does that approaches"},    // rebel
     {"goer", "of a body that stands on rebels below the ground's bound"},                // rebel
     {"inherited", "likely a rebel by those round it"},                                   // rebel

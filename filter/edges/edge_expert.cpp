@@ -220,12 +220,15 @@ void EdgeExpert::decide(const Chi& chi, const MotionField& field) {
     const bool rebel = track.belief > 0;
     if (track.corner >= 0) {
       const auto c = static_cast<std::size_t>(track.corner);
+      const bool by_itself = (track.log_odds > 0) == rebel;
       if (rebel) {
         verdicts[c] = Verdict::rebel;
-        reasons[c] = track.has_motion() ? Reason::rebel_edge : Reason::inherited;
+        reasons[c] = !track.has_motion() ? Reason::inherited
+                     : by_itself         ? Reason::rebel_edge
+                                         : Reason::rebel_neighbours;
       } else if (track.has_motion()) {
         verdicts[c] = Verdict::normal;
-        reasons[c] = Reason::normal_edge;
+        reasons[c] = by_itself ? Reason::normal_edge : Reason::normal_neighbours;
       } else {
         reasons[c] = Reason::first_sighting;
       }

@@ -113,8 +113,10 @@ TEST(Reasons, OfACornerInsideARegionThatIsNotLookedAt) {
 
 /// The reasons allowed with each verdict; a frame has no other pairs.
 TEST(Reasons, GoWithTheirVerdicts) {
-  const std::set<Reason> of_rebels = {Reason::rebel_edge, Reason::inherited, Reason::alpha_third};
-  const std::set<Reason> of_normals = {Reason::normal_edge, Reason::xi_2, Reason::xi_3};
+  const std::set<Reason> of_rebels = {Reason::rebel_edge, Reason::rebel_neighbours,
+                                      Reason::inherited, Reason::alpha_third};
+  const std::set<Reason> of_normals = {Reason::normal_edge, Reason::normal_neighbours, Reason::xi_2,
+                                       Reason::xi_3};
   for (const std::string& name : preset_names()) {
     SCOPED_TRACE(name);
     World world = sparse_world(3, 14);

@@ -146,15 +146,16 @@ thousands in 8 frames. Here:
 
 {memory}
 
-Counted in items, the filter does remember less than 5 or 8 frames of corners. An item holds six numbers in the paper's notation (two for the
-place, speed, direction, radius, trust; a square has seven), a corner two. Counted in numbers, the saving is smaller.
+Counted in items, the filter remembers less than 5 or 8 frames of corners, as the paper says. But an item holds six numbers in the paper's
+notation (two for the place, speed, direction, radius, trust; a square has seven), and a corner two. Counted in numbers, the paper's filter needs
+about as much as 5 frames of corners.
 
 ## psi
 
 {psi}
 
-psi spares the Circle expert the ignored corners. The cost: nothing inside a region is looked at in that frame, so a mover there is seen late,
-and its chain of three sightings breaks.
+psi spares the Circle expert the ignored corners, and some of its time. It does not reduce the items, since ignored edges are kept and wait. The cost: the
+filter looks at nothing inside a region in that frame, so a mover there breaks its chain of three sightings, and fewer rebels are found.
 
 ## What the rules reach by truth
 

@@ -39,22 +39,24 @@ class Reason(IntEnum):
     NO_TIME = 5
     NORMAL_EDGE = 6
     REBEL_EDGE = 7
-    COMER = 8
-    GOER = 9
-    INHERITED = 10
-    FIRST_SIGHTING = 11
-    ALPHA_FIRST = 12
-    XI_5 = 13
-    XI_4 = 14
-    OUTBID = 15
-    XI_1 = 16
-    ALPHA_SECOND = 17
-    ALPHA_BEND = 18
-    ALPHA_ON_FIELD = 19
-    ALPHA_TAKEN = 20
-    ALPHA_THIRD = 21
-    XI_3 = 22
-    XI_2 = 23
+    NORMAL_NEIGHBOURS = 8
+    REBEL_NEIGHBOURS = 9
+    COMER = 10
+    GOER = 11
+    INHERITED = 12
+    FIRST_SIGHTING = 13
+    ALPHA_FIRST = 14
+    XI_5 = 15
+    XI_4 = 16
+    OUTBID = 17
+    XI_1 = 18
+    ALPHA_SECOND = 19
+    ALPHA_BEND = 20
+    ALPHA_ON_FIELD = 21
+    ALPHA_TAKEN = 22
+    ALPHA_THIRD = 23
+    XI_3 = 24
+    XI_2 = 25
 
 @final
 class Camera:
