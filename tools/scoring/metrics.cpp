@@ -30,6 +30,11 @@ constexpr Scale neutral(std::string_view unit, int decimals) {
 
 // ---- Rebels
 
+/// Defined where recall and F1 are, so that means of the three are over the same scenarios.
+Figure precision_of(const RebelCounts& counts) {
+  return counts.recall() ? Figure(counts.precision().value_or(0)) : std::nullopt;
+}
+
 Figure lost_f1(const Scores& s, Difficulty difficulty) {
   const Figure without = s.corners.without[static_cast<std::size_t>(difficulty)].f1();
   const Figure f1 = s.corners.overall.f1();
@@ -55,20 +60,22 @@ Figure ratio_of_circles(const Scores& s, double part, double whole) {
 
 std::vector<Metric> rebel_metrics() {
   return {
-      {"rebel.precision", [](auto& s) { return s.corners.overall.precision(); }, kShare,
-       "precision", "true rebels / (true + false rebels). After the warm-up"},
+      {"rebel.precision", [](auto& s) { return precision_of(s.corners.overall); }, kShare,
+       "precision",
+       "true rebels / (true + false rebels). After the warm-up; null where recall is, as in static "
+       "scenes, else 0 without a true rebel"},
       {"rebel.recall", [](auto& s) { return s.corners.overall.recall(); }, kShare, "recall",
        "share of the rebel corners with verdict rebel. Counted from frame k0 + N of their object "
        "on, whatever else the verdict is"},
       {"rebel.f1", [](auto& s) { return s.corners.overall.f1(); }, kShare, "F1",
        "harmonic mean of precision and recall. 0 where recall is 0, null where recall is"},
-      {"rebel.precision_distinct", [](auto& s) { return s.corners.distinct.precision(); }, kShare,
+      {"rebel.precision_distinct", [](auto& s) { return precision_of(s.corners.distinct); }, kShare,
        "", "precision without radial corners"},
       {"rebel.recall_distinct", [](auto& s) { return s.corners.distinct.recall(); }, kShare, "",
        "recall without radial corners"},
       {"rebel.f1_distinct", [](auto& s) { return s.corners.distinct.f1(); }, kShare, "F1 dist.",
        "F1 without radial corners, which move as nearer static ones would"},
-      {"rebel.precision_clear", [](auto& s) { return s.corners.clear.precision(); }, kShare, "",
+      {"rebel.precision_clear", [](auto& s) { return precision_of(s.corners.clear); }, kShare, "",
        "precision without corners at outlines. Recall is the same, as no rebel is at an outline"},
       {"rebel.f1_clear", [](auto& s) { return s.corners.clear.f1(); }, kShare, "F1 clear",
        "F1 without the fixed corners at outlines of movers. Its distance from 1 is what better "
@@ -76,19 +83,21 @@ std::vector<Metric> rebel_metrics() {
       {"rebel.recall_radial", [](auto& s) { return s.corners.radial.recall(); }, kShare,
        "radial recall", "recall over radial corners alone"},
       {"rebel.f1_lost_outline", [](auto& s) { return lost_f1(s, Difficulty::outline); }, kLostShare,
-       "", "gain of F1 if all verdicts on corners at outlines were right"},
+       "at outlines", "gain of F1 if all verdicts on corners at outlines were right"},
       {"rebel.f1_lost_radial", [](auto& s) { return lost_f1(s, Difficulty::radial); }, kLostShare,
-       "", "gain of F1 if all verdicts on radial corners were right"},
+       "on radial corners", "gain of F1 if all verdicts on radial corners were right"},
       {"rebel.f1_lost_first_seen",
-       [](auto& s) { return lost_f1_by_sighting(s, Difficulty::first_seen); }, kLostShare, "",
+       [](auto& s) { return lost_f1_by_sighting(s, Difficulty::first_seen); }, kLostShare,
+       "on corners seen first",
        "gain of F1 if all verdicts on corners seen for the first time were right. By the reasons "
        "first_sighting and inherited; null for detectors without these"},
       {"rebel.f1_lost_tracked", [](auto& s) { return lost_f1_by_sighting(s, Difficulty::tracked); },
-       kLostShare, "", "gain of F1 if all verdicts on other corners were right. null likewise"},
+       kLostShare, "on others",
+       "gain of F1 if all verdicts on other corners were right. null likewise"},
       {"rebel.false_corners_per_frame",
        [](auto& s) { return ratio(s.corners.overall.false_rebels, s.objects.frames); },
-       lower("per frame", 0.1, 1), "",
-       "false rebels. For static scenes, where precision is 0 or undefined"},
+       lower("per frame", 0.1, 1), "false corners",
+       "false rebels. For static scenes, which have no precision"},
       {"rebel.object_recall", [](auto& s) { return ratio(s.objects.found, s.objects.objects); },
        kShare, "found",
        "share of the movers that are found. A mover is found if 3 or more of its corners are "
