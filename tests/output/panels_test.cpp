@@ -154,6 +154,32 @@ TEST_P(Panels, CornersAreYellowAndIgnoredOnesRedInTheFirstPanelOnly) {
   }
 }
 
+TEST_P(Panels, LegendsNameOnlyWhatThereIs) {
+  scene_.corners = {{100, 100}};
+  scene_.verdicts = {Verdict::normal};
+  /// Whether the legend of a panel has a sample of the colour.
+  const auto names = [&](Panel panel, const cv::Scalar& colour) {
+    const cv::Mat3b drawn = scene_.draw(sheet_);
+    const Vec2 corner = sheet_.at(panel, Vec2(-0.5, GetParam().height - 0.5));
+    const cv::Mat3b legend =
+        drawn(cv::Rect(static_cast<int>(corner.x()) + 1, static_cast<int>(corner.y()) + 2,
+                       sheet_.size_px().width / 2 - 4, PanelSheet::kLegend_px - 4));
+    return std::any_of(legend.begin(), legend.end(),
+                       [&](const cv::Vec3b& pixel) { return difference(pixel, colour) < 8; });
+  };
+  EXPECT_TRUE(names(Panel::corners, colour::kCorner));
+  EXPECT_FALSE(names(Panel::corners, colour::kIgnoredCorner));
+  EXPECT_FALSE(names(Panel::circles, colour::kIgnoreRegion));
+  EXPECT_FALSE(names(Panel::squares, colour::kIgnoreRegion));
+  scene_.verdicts = {Verdict::ignored};
+  scene_.layers.ignored = {
+      {.shape = IgnoreRegion::Shape::circle, .location = {300, 100}, .size = {40, 0}},
+      {.shape = IgnoreRegion::Shape::rectangle, .location = {250, 150}, .size = {30, 60}}};
+  EXPECT_TRUE(names(Panel::corners, colour::kIgnoredCorner));
+  EXPECT_TRUE(names(Panel::circles, colour::kIgnoreRegion));
+  EXPECT_TRUE(names(Panel::squares, colour::kIgnoreRegion));
+}
+
 TEST_P(Panels, CollectorsAreWhiteCirclesAtTheirRadius) {
   scene_.layers.collectors = {{.location = {200, 150}, .radius = 50}};
   const cv::Mat3b drawn = scene_.draw(sheet_);

@@ -20,7 +20,7 @@ constexpr int kLayerLine = 2;
 constexpr double kMarkReach = 4.5;
 constexpr double kDiamondReach = 7;
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
-constexpr double kTextSize = 0.42, kNameSize = 0.4, kTitleSize = 0.5;
+constexpr double kTextSize = 0.42, kNameSize = 0.4, kTitleSize = 0.5, kLeastTextSize = 0.25;
 
 int even(double length) {
   return std::max(16, 2 * static_cast<int>(std::lround(length / 2)));
@@ -175,7 +175,6 @@ using Sample = Word::Sample;
 
 const Word kMissedWord{colour::kMissed, "missed", Sample::ring};
 const Word kFalseWord{colour::kFalse, "false", Sample::cross};
-const Word kRadialWord{colour::kMovingTruth, "radial", Sample::diamond};
 
 /// Text above and below a panel.
 struct PanelText {
@@ -201,7 +200,7 @@ void write_legend(cv::Mat3b& band, const std::vector<Word>& words) {
     for (const Word& word : words) sum += kSample + kGap + width_of(word.text, size) + kApart;
     return sum;
   };
-  while (length() > band.cols && size > 0.25) size -= 0.02;
+  while (length() > band.cols && size > kLeastTextSize) size -= 0.02;
   int x = kGap;
   for (const Word& word : words) {
     const cv::Point middle(x + kSample / 2, band.rows / 2);
@@ -229,13 +228,36 @@ void write_legend(cv::Mat3b& band, const std::vector<Word>& words) {
   }
 }
 
-/// ": 5 found, 3 missed, 2 false"; empty if the truth is unknown.
-std::string tally(std::span<const Mark> marks, bool with_missed) {
+/// ": 5 found, 2 false, 1 not counted"; empty if the truth is unknown.
+std::string tally(std::span<const Mark> marks) {
   if (marks.empty()) return "";
-  const auto number = [&](Mark mark) { return std::count(marks.begin(), marks.end(), mark); };
-  return fmt::format(": {} found, {}{} false", number(Mark::found),
-                     with_missed ? fmt::format("{} missed, ", number(Mark::missed)) : "",
-                     number(Mark::wrong));
+  std::string text = fmt::format(": {} found, {} false", std::ranges::count(marks, Mark::found),
+                                 std::ranges::count(marks, Mark::wrong));
+  const auto rest = std::ranges::count(marks, Mark::none);
+  return rest > 0 ? text + fmt::format(", {} not counted", rest) : text;
+}
+
+/// "; 92 rebel corners: 61 found, 24 false, 7 of unsure motion; 3 missed"; empty if the truth is
+/// unknown. Corners and edges differ in number: an edge may have lost its corner, and a corner seen
+/// once has no edge.
+std::string tally_of_corners(const PanelContent& content) {
+  const std::span<const Mark> marks = content.corner_marks;
+  if (marks.empty()) return "";
+  const auto rebels = std::ranges::count(content.verdicts, Verdict::rebel);
+  const auto found = std::ranges::count(marks, Mark::found);
+  const auto wrong = std::ranges::count(marks, Mark::wrong);
+  std::string text = fmt::format("; {} rebel corners: {} found, {} false", rebels, found, wrong);
+  if (const auto rest = rebels - found - wrong; rest > 0) {
+    text += fmt::format(", {} of unsure motion", rest);  // by less than 1 px, or without a label
+  }
+  return text + fmt::format("; {} missed", std::ranges::count(marks, Mark::missed));
+}
+
+/// Only where there is a region psi: the default filter makes none.
+void add_psi(std::size_t regions, PanelText& text) {
+  if (regions == 0) return;
+  text.legend.push_back(
+      {colour::kIgnoreRegion, fmt::format("psi: {} not looked at", regions), Sample::line});
 }
 
 PanelText draw_corners(Pen& pen, const PanelContent& content) {
@@ -249,12 +271,18 @@ PanelText draw_corners(Pen& pen, const PanelContent& content) {
     pen.dot(content.corners_px[i].cast<double>(),
             skipped ? colour::kIgnoredCorner : colour::kCorner);
   }
-  return {
-      fmt::format("{} corners, {} ignored, {} collectors (lambda)",
-                  content.corners_px.size() - ignored, ignored, content.layers.collectors.size()),
-      {{colour::kCorner, "corner"},
-       {colour::kIgnoredCorner, "ignored"},
-       {colour::kCollector, "collector lambda: where a circle looks for corners", Sample::line}}};
+  PanelText text{fmt::format("{} corners", content.corners_px.size() - ignored),
+                 {{colour::kCorner, "corner"}}};
+  if (ignored > 0) {
+    text.caption += fmt::format(", {} ignored", ignored);
+    text.legend.push_back({colour::kIgnoredCorner, "ignored"});
+  }
+  if (const std::size_t collectors = content.layers.collectors.size(); collectors > 0) {
+    text.caption += fmt::format(", {} collectors (lambda)", collectors);
+    text.legend.push_back(
+        {colour::kCollector, "collector lambda: where a circle looks for corners", Sample::line});
+  }
+  return text;
 }
 
 PanelText draw_edges(Pen& pen, const PanelContent& content) {
@@ -274,15 +302,18 @@ PanelText draw_edges(Pen& pen, const PanelContent& content) {
   for (std::size_t i = 0; i < content.corner_marks.size(); ++i) {
     pen.mark(content.corners_px[i].cast<double>(), content.corner_marks[i]);
   }
-  PanelText text{fmt::format("{} normal edges, {} rebels{}", layers.normal_edges.size(),
-                             layers.rebel_edges.size(), tally(content.corner_marks, true)),
+  PanelText text{fmt::format("{} normal edges, {} rebel{}", layers.normal_edges.size(),
+                             layers.rebel_edges.size(), tally_of_corners(content)),
                  {{colour::kNormalEdge, "normal", Sample::line},
                   {colour::kRebel, "rebel: moves by itself", Sample::line},
                   {colour::kPredicted, "predicted", Sample::line}}};
   if (!content.corner_marks.empty()) {
     text.legend.insert(text.legend.end(), {kMissedWord, kFalseWord});
   }
-  if (!content.radial_px.empty()) text.legend.push_back(kRadialWord);
+  if (const std::size_t radial = content.radial_px.size(); radial > 0) {
+    text.legend.push_back(
+        {colour::kMovingTruth, fmt::format("{} radial: may look static", radial), Sample::diamond});
+  }
   return text;
 }
 
@@ -299,12 +330,11 @@ PanelText draw_circles(Pen& pen, const PanelContent& content) {
     }
   }
   const std::size_t ignored = draw_ignored(pen, layers.ignored, IgnoreRegion::Shape::circle);
-  PanelText text{
-      fmt::format("{} normal circles, {} rebel{}", layers.normal_circles.size(),
-                  layers.rebel_circles.size(), tally(content.rebel_circle_marks, false)),
-      {{colour::kNormalCircle, "normal: edges of like motion", Sample::line},
-       {colour::kRebel, "rebel", Sample::line},
-       {colour::kIgnoreRegion, fmt::format("psi: {} not looked at", ignored), Sample::line}}};
+  PanelText text{fmt::format("{} normal circles, {} rebel{}", layers.normal_circles.size(),
+                             layers.rebel_circles.size(), tally(content.rebel_circle_marks)),
+                 {{colour::kNormalCircle, "normal: edges of like motion", Sample::line},
+                  {colour::kRebel, "rebel", Sample::line}}};
+  add_psi(ignored, text);
   if (!content.rebel_circle_marks.empty()) {
     text.legend.push_back({colour::kFalse, "false: nothing moves there", Sample::cross});
   }
@@ -336,11 +366,10 @@ PanelText draw_squares(Pen& pen, const PanelContent& content) {
       pen.name({box.min_px.x(), box.max_px.y()}, box.name, colour::kMissed);
     }
   }
-  PanelText text{
-      fmt::format("{} squares{}", layers.squares.size(), tally(content.square_marks, false)),
-      {{colour::kSquare, "square: an object, #id", Sample::line},
-       {colour::kOutline, "outline of its edges", Sample::line},
-       {colour::kIgnoreRegion, fmt::format("psi: {} not looked at", ignored), Sample::line}}};
+  PanelText text{fmt::format("{} squares{}", layers.squares.size(), tally(content.square_marks)),
+                 {{colour::kSquare, "square: an object, #id", Sample::line},
+                  {colour::kOutline, "outline of its edges", Sample::line}}};
+  add_psi(ignored, text);
   if (!content.square_marks.empty()) {
     text.caption += fmt::format(", {} objects missed", missed);
     text.legend.insert(text.legend.end(),
@@ -409,7 +438,9 @@ cv::Mat3b PanelSheet::draw(const PanelContent& content) const {
     cv::rectangle(sheet, at, cv::Scalar::all(0), 1);
     cv::Mat3b caption = sheet(cv::Rect(at.x, at.y - kCaption_px, at.width, kCaption_px));
     caption = cv::Vec3b(60, 60, 60);
-    write(caption, text.caption, 5);
+    double size = kTextSize;
+    while (5 + width_of(text.caption, size) > caption.cols && size > kLeastTextSize) size -= 0.02;
+    write(caption, text.caption, 5, size);
     cv::Mat3b legend = sheet(cv::Rect(at.x, at.y + at.height, at.width, kLegend_px));
     write_legend(legend, text.legend);
   };

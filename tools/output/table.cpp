@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "tools/scoring/metrics.h"
+#include "tools/scoring/score_rebels.h"
 
 namespace lcs::bench {
 namespace {
@@ -26,20 +27,44 @@ std::string line(std::string_view head, const Metrics& metrics, bool with_undefi
   return text + '\n';
 }
 
+/// A line that explains the one above it.
+std::string remark(std::string_view text) {
+  return fmt::format("  {:<8} {}\n", "", text);
+}
+
 /// The lines of figures that need a truth.
 std::string scores(const Metrics& metrics) {
-  std::string text = line("rebels", metrics, true,
-                          {"rebel.precision", "rebel.recall", "rebel.f1", "rebel.f1_clear",
-                           "rebel.f1_distinct", "rebel.recall_radial"});
-  constexpr double kPoor = 0.7;
+  std::string text;
+  if (!value(metrics, "rebel.f1")) {
+    text += line("rebels", metrics, true, {"rebel.false_corners_per_frame"});
+    text += remark("nothing to find: no corner moves by itself for long enough");
+  } else {
+    text += line("rebels", metrics, true,
+                 {"rebel.precision", "rebel.recall", "rebel.f1", "rebel.f1_clear",
+                  "rebel.f1_distinct", "rebel.recall_radial"});
+  }
+  constexpr double kPoor = 0.7, kMuch = 0.1;
   if (value(metrics, "rebel.f1").value_or(1) < kPoor) {
     text += line("F1 lost", metrics, true,
                  {"rebel.f1_lost_radial", "rebel.f1_lost_outline", "rebel.f1_lost_first_seen",
                   "rebel.f1_lost_tracked"});
   }
+  if (value(metrics, "rebel.f1_lost_radial").value_or(0) > kMuch) {
+    text += remark(
+        "radial: a mover along the line of sight, whose image moves as that of a static point may "
+        "(filter/MODEL.md#limits)");
+  }
   text += line("objects", metrics, true,
                {"truth.rebel_objects", "rebel.object_recall", "rebel.latency_frames_median",
                 "rebel.false_objects_per_100_frames"});
+  if (value(metrics, "rebel.object_recall").value_or(0) -
+          value(metrics, "rebel.recall").value_or(0) >
+      0.5) {
+    text +=
+        remark(fmt::format("a mover is found by {} of its corners in one frame; recall counts "
+                           "all of its corners in all frames",
+                           kCornersToFind));
+  }
   text += line("squares", metrics, true,
                {"square.precision_50", "square.recall_50", "square.recall_50_movers",
                 "square.recall_50_static", "square.mean_iou", "square.mask_mean_iou"});
@@ -62,9 +87,12 @@ std::string table(const Metrics& metrics) {
                  {"labels.frames", "labels.boxes", "labels.found", "labels.boxed_50",
                   "labels.rebels_off_per_frame", "labels.circles_off_per_100_frames"});
   }
-  text += line("size", metrics, true,
-               {"dimension.mean", "dimension.five_frame_mean", "dimension.eight_frame_mean",
-                "dimension.accumulative_final"});
+  const auto size = [&](const char* key) { return metric(key).number(value(metrics, key)); };
+  text += fmt::format(
+      "  size     {} items (edges, circles, squares) are kept from frame to frame; a store of "
+      "corners has {} for 5 frames, {} for 8, {} for all\n",
+      size("dimension.mean"), size("dimension.five_frame_mean"), size("dimension.eight_frame_mean"),
+      size("dimension.accumulative_final"));
   text += line("time", metrics, false,
                {"time.filter_ms_median", "time.line_ms_median", "time.circle_ms_median",
                 "time.square_ms_median", "time.filter_ms_p99", "time.process_ms_median",
