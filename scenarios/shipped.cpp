@@ -1,5 +1,7 @@
 #include "scenarios/shipped.h"
 
+#include <stdexcept>
+#include <string>
 #include <system_error>
 
 namespace lcs::scenario {
@@ -12,6 +14,23 @@ fs::path shipped_folder(const fs::path& name) {
   const fs::path installed = (program.parent_path() / LCS_DATA / name).lexically_normal();
   if (!error && fs::is_directory(installed, error)) return installed;
   return fs::path(LCS_SOURCES) / name;
+}
+
+std::optional<fs::path> shipped_scenario(const fs::path& name) {
+  if (name.has_extension() || name.has_parent_path() || name.empty()) return std::nullopt;
+  fs::path file = name;
+  file += ".yaml";
+  for (const auto& entry : fs::recursive_directory_iterator(shipped_folder("scenarios"))) {
+    if (entry.path().filename() != file) continue;
+    for (const fs::path& here : {name, file}) {
+      if (!fs::exists(here) || fs::equivalent(here, entry.path())) continue;
+      throw std::runtime_error("'" + name.string() + "' is a scenario of the project, and " +
+                               here.string() + " is here too; give ./" + here.string() + " or " +
+                               entry.path().string());
+    }
+    return entry.path();
+  }
+  return std::nullopt;
 }
 
 }  // namespace lcs::scenario

@@ -3,11 +3,17 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 namespace lcs::scenario {
 
 /// The folder `name` of the installation of the running program (PREFIX/share/lcs/ for
 /// PREFIX/bin/lcs), or of the source tree for a program that is not installed.
 std::filesystem::path shipped_folder(const std::filesystem::path& name);
+
+/// The scenario file of the project with this name, such as "crossing"; absent if there is none or
+/// the name has a folder or an extension. \throws std::runtime_error if a file or folder called so,
+/// or so with .yaml, is in the current folder too: it would be unclear which is meant.
+std::optional<std::filesystem::path> shipped_scenario(const std::filesystem::path& name);
 
 }  // namespace lcs::scenario

@@ -409,6 +409,13 @@ TEST(Nearest, FindsAMisspellingAndNothingElse) {
   EXPECT_EQ(input::nearest("yawrate", names), "yaw_rate");
   EXPECT_EQ(input::nearest("haeding", names), "heading");
   EXPECT_EQ(input::nearest("colour", names), std::nullopt);
+  const std::vector<std::string> nested{"circle.gap", "hypotheses.coupling", "rebel.f1",
+                                        "rebel.f1_clear"};
+  EXPECT_EQ(input::nearest("coupling", nested), "hypotheses.coupling");
+  EXPECT_EQ(input::nearest("copling", nested), "hypotheses.coupling");
+  EXPECT_EQ(input::nearest_first("coupling", nested).front(), "hypotheses.coupling");
+  EXPECT_EQ(input::nearest("rebel.f1_score", nested), "rebel.f1");
+  EXPECT_EQ(input::nearest("rebel.f1_claer", nested), "rebel.f1_clear");
   EXPECT_EQ(input::nearest("x", names), std::nullopt);
   EXPECT_EQ(input::nearest("", names), std::nullopt);
   EXPECT_EQ(input::nearest("speed", {}), std::nullopt);

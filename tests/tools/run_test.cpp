@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
+#include <regex>
 #include <set>
 #include <thread>
 
@@ -71,10 +72,9 @@ TEST_P(ShippedScenario, LeavesWholeFilesThatAgreeWithEachOther) {
   EXPECT_EQ(result.err + result.out, "") << "--quiet";
   EXPECT_EQ(entries(folder_.path()), std::set<std::string>{"out"});
   const fs::path out = folder_.path() / "out" / name;
-  EXPECT_EQ(entries(out),
-            (std::set<std::string>{"camera.json", "metrics.json", "frames.csv", "layers.jsonl",
-                                   "truth.jsonl", "detector.json", "run.json", "video.mp4",
-                                   "warnings.json"}));
+  EXPECT_EQ(entries(out), (std::set<std::string>{"camera.json", "metrics.json", "frames.csv",
+                                                 "layers.jsonl", "truth.jsonl", "detector.json",
+                                                 "run.json", "video.mp4", "warnings.json"}));
 
   EXPECT_EQ(lines(read(out / kFramesFile)), 1 + kFrames);
   const Recording recording = read_recording(out);
@@ -187,6 +187,23 @@ TEST_F(Run, RefusesAParameterThatOnlyTheFilterOfAnotherPresetHas) {
                                      "'circle.mu_0', which is of lab, cars; "),
             std::string::npos);
   EXPECT_EQ(with("lab").exit_code, 0);
+}
+
+TEST_F(Run, FindsAScenarioOfTheProjectByItsNameUnlessAFileHereIsCalledSo) {
+  const CommandResult found = run({"night", "--frames", "2", "--no-video", "--quiet"});
+  EXPECT_EQ(found.exit_code, 1) << "two frames do not meet its criteria";
+  EXPECT_NE(found.err.find("night is " + (kScenarios / "suite" / "night.yaml").string() + "\n"),
+            std::string::npos)
+      << found.err;
+  EXPECT_TRUE(fs::exists(folder_.path() / "out" / "night" / kMetricsFile));
+  for (const char* name : {"night.yaml", "night"}) {
+    std::ofstream(folder_.path() / name) << "scene: lab\n";
+    const CommandResult unclear = run({"night"});
+    EXPECT_EQ(unclear.exit_code, 2);
+    EXPECT_NE(unclear.err.find("give ./" + std::string(name) + " or "), std::string::npos)
+        << unclear.err;
+    fs::remove(folder_.path() / name);
+  }
 }
 
 TEST_F(Run, AnotherSeedIsAnotherRun) {
@@ -655,14 +672,38 @@ TEST(Program, HelpTeachesExamplesFilesAndExitCodes) {
   }
 }
 
-TEST(Program, WithoutOrWithAnUnknownSubCommandSaysHowToGetHelp) {
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{}, std::vector<std::string>{"ruin"}}) {
+TEST(Program, SaysWhatIsMeantByMistakesOnTheCommandLine) {
+  const std::string crossing = kScenarios / "crossing.yaml";
+  const std::pair<std::vector<std::string>, const char*> mistakes[] = {
+      {{}, "see lcs --help"},
+      {{"runn", "x"}, "there is no command 'runn'; did you mean 'run'?"},
+      {{"x"}, "there is no command 'x'; the commands are run, "},
+      {{"run", "no_such_scenario"}, "no_such_scenario: there is no such file"},
+      {{"run", crossing, "--set", "filter.coupling=3"}, "the nearest is 'hypotheses.coupling'"},
+      {{"run", crossing, "--set", "criteria=[{metric: rebel.f1_score, min: 0}]"},
+       "did you mean 'rebel.f1'?"},
+      {{"suite", "--group", "nigth"}, "no scenario is of the group 'nigth'; did you mean 'night'?"},
+      {{"suite", "--worlds", "train", "--shard", "1/4", "a.yaml"}, "leave one of them out"},
+      {{"suite", "--times", "x.json"}, "give both, or leave the first out"},
+  };
+  for (const auto& [arguments, message] : mistakes) {
     const CommandResult result = lcs_with(arguments);
-    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.exit_code, 2) << message;
     EXPECT_EQ(lines(result.err), 1) << result.err;
-    EXPECT_NE(result.err.find("--help"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find(message), std::string::npos) << message << " in\n" << result.err;
   }
+}
+
+TEST(Program, TheHelpOfToolsRunNamesAllOptionsOfLcsRun) {
+  const std::string help = read(kScenarios / ".." / "tools" / "run");
+  const std::string own = lcs_with({"run", "--help"}).out;
+  const std::regex option(R"(\n  (--[a-z-]+))");
+  int options = 0;
+  for (std::sregex_iterator found(own.begin(), own.end(), option), end; found != end; ++found) {
+    EXPECT_NE(help.find((*found)[1].str() + " "), std::string::npos) << (*found)[1];
+    ++options;
+  }
+  EXPECT_GT(options, 10);
 }
 
 }  // namespace

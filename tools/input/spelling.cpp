@@ -22,12 +22,26 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
+/// The least edit distance of a name from a known one, from the last part of a known nested key,
+/// such as "prior" of "hypotheses.prior", and from a known name with a word more or less at its
+/// end. A word counts as three letters at most, the outer part of a key as one.
+std::size_t distance(std::string_view name, std::string_view known) {
+  const std::size_t whole = edit_distance(name, known);
+  const auto has_more = [](std::string_view longer, std::string_view shorter) {
+    return !shorter.empty() && longer.starts_with(shorter) &&
+           longer.substr(shorter.size(), 1) == "_";
+  };
+  if (has_more(name, known) || has_more(known, name)) return std::min<std::size_t>(whole, 3);
+  const std::size_t dot = known.rfind('.');
+  if (dot == known.npos || name.find('.') != name.npos) return whole;
+  return std::min(whole, edit_distance(name, known.substr(dot + 1)) + 1);
+}
+
 }  // namespace
 
 std::vector<std::string> nearest_first(std::string_view name, std::vector<std::string> names) {
   std::vector<std::pair<std::size_t, std::string>> ranked;
-  for (std::string& known : names)
-    ranked.emplace_back(edit_distance(name, known), std::move(known));
+  for (std::string& known : names) ranked.emplace_back(distance(name, known), std::move(known));
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::transform(ranked.begin(), ranked.end(), names.begin(),
@@ -40,12 +54,9 @@ std::optional<std::string> nearest(std::string_view name, const std::vector<std:
   // Up to a third of the letters wrong is a misspelling; beyond that it is another word.
   std::size_t reach = std::max<std::size_t>(1, name.size() / 3) + 1;
   for (const std::string& candidate : names) {
-    // The difference in length is a lower bound of the distance.
-    if (candidate.size() + reach <= name.size()) continue;
-    if (name.size() + reach <= candidate.size()) continue;
-    const std::size_t distance = edit_distance(name, candidate);
-    if (distance < reach && distance < candidate.size()) {
-      reach = distance;
+    const std::size_t off = distance(name, candidate);
+    if (off < reach && off < candidate.size()) {
+      reach = off;
       best = candidate;
     }
   }

@@ -64,8 +64,8 @@ fs::path target_of(const GenerateOptions& options, const scenario::Scenario& sce
 }
 
 scenario::Scenario load(const GenerateOptions& options) {
-  scenario::Scenario scenario =
-      scenario::load(options.paths.front(), {.sets = options.sets, .seed = options.seed});
+  scenario::Scenario scenario = scenario::load(scenario_file(options.paths.front()),
+                                               {.sets = options.sets, .seed = options.seed});
   sim::require_scene(scenario);
   if (options.frames > 0) scenario.frames = std::min(scenario.frames, options.frames);
   return scenario;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "tools/input/message.h"
+#include "tools/input/spelling.h"
 #include "tools/lcs/compare.h"
 #include "tools/lcs/exit_codes.h"
 #include "tools/lcs/generate.h"
@@ -74,6 +76,18 @@ int fail(const std::string& message) {
   return kError;
 }
 
+/// The message for a first argument that is no command; "" if it is one, or none is given.
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || *argv[1] == '-') return "";
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::ranges::find(names, argv[1]) != names.end()) return "";
+  const auto near = lcs::input::nearest(argv[1], names);
+  return fmt::format("there is no command '{}'; {}", argv[1],
+                     near ? fmt::format("did you mean '{}'?", *near)
+                          : fmt::format("the commands are {}", fmt::join(names, ", ")));
+}
+
 int run_command_line(int argc, char** argv) {
   CLI::App app("Test bench for the Line-Circle-Square filter", "lcs");
   app.formatter(std::make_shared<Help>());
@@ -115,7 +129,14 @@ int run_command_line(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
+  } catch (const CLI::ExcludesError& error) {
+    return fail(fmt::format("{}: the two do not go together; leave one of them out", error.what()));
+  } catch (const CLI::RequiresError& error) {
+    return fail(fmt::format("{}; give both, or leave the first out", error.what()));
   } catch (const CLI::ParseError& error) {
+    if (const std::string unknown = unknown_command(app, argc, argv); !unknown.empty()) {
+      return fail(unknown);
+    }
     const auto named = app.get_subcommands();  // the sub-command in use, if any
     const std::string command = named.empty() ? "" : named.front()->get_name() + " ";
     return fail(fmt::format("{}; see lcs {}--help", error.what(), command));

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -13,8 +14,10 @@
 #include <utility>
 #include <vector>
 
+#include "scenarios/shipped.h"
 #include "tools/files/output.h"
 #include "tools/input/reader.h"
+#include "tools/lcs/terminal.h"
 #include "tools/output/result.h"
 
 namespace lcs::tools {
@@ -76,6 +79,14 @@ inline void refuse_empty_options(CLI::App& app) {
       if (option->get_items_expected_max() > 0) option->check(complaint, "");
     }
   }
+}
+
+/// The scenario file that an argument names: its path, or of the project's scenarios the name. The
+/// latter is told. \throws std::runtime_error as `scenario::shipped_scenario`.
+inline std::filesystem::path scenario_file(const std::string& named) {
+  const auto shipped = scenario::shipped_scenario(named);
+  if (shipped) tell(named + " is " + shipped->string());
+  return shipped.value_or(named);
 }
 
 /// Adds `--set`. It takes one value, so that a positional argument may follow it.

@@ -66,7 +66,9 @@ void print_preview(const scenario::Scenario& scenario, const preview::Preview& p
 CLI::App& add_preview_command(CLI::App& app, PreviewOptions& options) {
   CLI::App& command = *app.add_subcommand(
       "preview", "Show a scenario before it is run: its plan, three pictures, what is wrong");
-  command.add_option("SCENARIO", options.scenario, "The scenario, a YAML file")
+  command
+      .add_option("SCENARIO", options.scenario,
+                  "The scenario: a YAML file, or the name of one of the project, as night")
       ->required()
       ->type_name("");
   add_output_file_option(command, "--out", options.out, options.force,
@@ -82,7 +84,7 @@ CLI::App& add_preview_command(CLI::App& app, PreviewOptions& options) {
 
 ExitCode preview(const PreviewOptions& options) {
   const scenario::Scenario scenario =
-      scenario::load(options.scenario, {.sets = options.sets, .seed = options.seed});
+      scenario::load(scenario_file(options.scenario), {.sets = options.sets, .seed = options.seed});
   bench::Output page(options.out.empty() ? fs::path("out") / "preview" / (scenario.name + ".html")
                                          : fs::path(options.out),
                      overwrite(options.force));

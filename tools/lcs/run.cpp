@@ -286,7 +286,9 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
       "run",
       "Simulate a scenario, or read its recording, run the LCS filter (or a comparator) on it, and "
       "score it by the truth");
-  command.add_option("SCENARIO", options.scenario, "The scenario, a YAML file")
+  command
+      .add_option("SCENARIO", options.scenario,
+                  "The scenario: a YAML file, or the name of one of the project, as night")
       ->required()
       ->type_name("");
   command.set_version_flag("--keys", scenario::keys_text,
@@ -329,8 +331,9 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
 ExitCode run(const RunOptions& options) {
   std::vector<std::string> sets = options.sets;
   if (!options.frames.empty()) sets.push_back("frames=" + options.frames);
-  return run_scenario(options,
-                      scenario::load(options.scenario, {.sets = sets, .seed = options.seed}));
+  RunOptions named = options;
+  named.scenario = scenario_file(options.scenario).string();
+  return run_scenario(named, scenario::load(named.scenario, {.sets = sets, .seed = options.seed}));
 }
 
 ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {

@@ -46,11 +46,30 @@ Exit codes:
   2  error: file and line, what is wrong, what to do; nothing was written
 )";
 
+/// \throws std::runtime_error that names a run in the folder, if it is none itself.
+void refuse_folder_of_runs(const std::filesystem::path& folder) {
+  constexpr int kDeepest = 3;  // SUITE/runs/NAME/seed-N
+  const auto is_run = [](const std::filesystem::path& one) {
+    return std::filesystem::exists(bench::stored(one, bench::kLayersFile));
+  };
+  if (is_run(folder)) return;
+  std::filesystem::recursive_directory_iterator entries(folder), end;
+  for (; entries != end; ++entries) {
+    if (entries.depth() + 1 >= kDeepest) entries.disable_recursion_pending();
+    if (!entries->is_directory() || !is_run(entries->path())) continue;
+    throw std::runtime_error(
+        fmt::format("{} is a folder of runs, as {}; name one of these, or the folder of a suite, "
+                    "with its suite.json, to have all of its runs scored",
+                    folder.string(), entries->path().string()));
+  }
+}
+
 bench::Recording read_run(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) {
     throw std::runtime_error(
         fmt::format("{} is no folder; name one that lcs run has left", folder.string()));
   }
+  refuse_folder_of_runs(folder);
   bench::Recording recording = bench::read_recording(folder);
   // The file is optional; without it the recording has no times.
   const std::filesystem::path frames_csv = folder / bench::kFramesFile;

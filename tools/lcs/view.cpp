@@ -71,7 +71,8 @@ void Player::after_last_frame() {
 }
 
 View::View(const std::string& title, double frames_per_second)
-    : title_(title), player_([this](int wait_ms) { return key(wait_ms); }, frames_per_second) {
+    : title_(title + ": space pauses, . goes on by one frame, q closes"),
+      player_([this](int wait_ms) { return key(wait_ms); }, frames_per_second) {
   require_display(title_);
   sim::windows().named_window(title_,
                               cv::WINDOW_NORMAL | cv::WINDOW_KEEPRATIO | cv::WINDOW_GUI_NORMAL);

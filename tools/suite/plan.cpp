@@ -13,6 +13,7 @@
 #include "scenarios/sweep.h"
 #include "tools/input/inputs_read.h"
 #include "tools/input/message.h"
+#include "tools/input/spelling.h"
 #include "tools/scoring/criteria.h"
 #include "tools/suite/pattern.h"
 
@@ -63,6 +64,8 @@ std::vector<File> files_of(std::vector<fs::path> paths) {
       add_folder(path, files);
     } else if (fs::exists(path)) {
       files.push_back({path, false});
+    } else if (const auto shipped = scenario::shipped_scenario(path)) {
+      files.push_back({as_people_write(*shipped), false});
     } else {
       throw std::runtime_error(fmt::format(
           "there is no file or folder {}; give scenario files or folders of them", path.string()));
@@ -163,14 +166,14 @@ void make_names_unique(std::vector<PlannedScenario>& all) {
   }
 }
 
-std::string group_names(const std::vector<PlannedScenario>& all) {
+std::vector<std::string> group_names(const std::vector<PlannedScenario>& all) {
   std::set<std::string> names;
   for (const PlannedScenario& planned : all) {
     if (planned.scenario) {
       names.insert(planned.scenario->groups.begin(), planned.scenario->groups.end());
     }
   }
-  return fmt::format("{}", fmt::join(names, ", "));
+  return {names.begin(), names.end()};
 }
 
 }  // namespace
@@ -187,11 +190,20 @@ std::vector<PlannedScenario> plan(const PlanOptions& options) {
       all.push_back(std::move(planned));
     }
   }
+  const std::vector<std::string> groups = group_names(all);
+  if (options.group && *options.group != kAnyGroup &&
+      std::ranges::find(groups, *options.group) == groups.end()) {
+    const auto near = input::nearest(*options.group, groups);
+    throw std::runtime_error(
+        fmt::format("no scenario is of the group '{}'; {}", *options.group,
+                    near ? fmt::format("did you mean '{}'?", *near)
+                         : fmt::format("the groups are {}", fmt::join(groups, ", "))));
+  }
   if (chosen.empty()) {
     throw std::runtime_error(fmt::format(
         "none of the {} scenarios is in the group and fits the filter; the groups are {}; see "
         "lcs suite --group all --list",
-        all.size(), group_names(all)));
+        all.size(), fmt::join(groups, ", ")));
   }
   make_names_unique(chosen);
   return chosen;
