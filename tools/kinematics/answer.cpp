@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRounding_px = 1e-6;  // a smaller error comes from rounding alone
+constexpr double kLeastTurn_px = 0.1;  // of the picture in a frame; less is no turn
 constexpr double kLargest_deg = 10;    // of the sweep of rotations
 constexpr int kAxes[] = {1, 0, 2};     // pan, tilt, roll
 
@@ -39,6 +40,9 @@ const DriveRow& drive_row(const Study& study, std::string_view drive, const Mode
 
 std::string verdict_on_rotation(const Study& study, RotationModel rotation) {
   const DriveRow& row = drive_row(study, "configured", {rotation, DepthSource::truth});
+  if (row.turn_max_rad * study.config.camera.focal_px < kLeastTurn_px) {
+    return "untried: this drive does not turn";
+  }
   return verdict_on(study, row.error.p95_px, "(95 %) on the configured drive");
 }
 
@@ -278,16 +282,17 @@ std::string subject(const StudyConfig& config) {
 }
 
 std::string bottom_line(const StudyConfig& config, const std::vector<Statement>& statements) {
-  std::string within, beyond;
+  std::string within, beyond, untried;
   for (const Statement& s : statements) {
     if (!s.is_own) continue;
     const bool holds = s.verdict.starts_with("yes");
-    std::string& list = holds ? within : beyond;
+    std::string& list = holds ? within : s.verdict.starts_with("untried") ? untried : beyond;
     list += (list.empty() ? "" : ", ") + s.topic;
     if (!holds) list += fmt::format(" ({})", s.verdict.substr(s.verdict.find(':') + 2));
   }
-  return fmt::format("within {:g} px: {}; beyond: {}", config.tolerance_px,
-                     within.empty() ? "nothing" : within, beyond.empty() ? "nothing" : beyond);
+  return fmt::format("within {:g} px: {}; beyond: {}{}", config.tolerance_px,
+                     within.empty() ? "nothing" : within, beyond.empty() ? "nothing" : beyond,
+                     untried.empty() ? "" : "; untried: " + untried);
 }
 
 std::string text_of(const StudyConfig& config, const std::vector<Statement>& statements) {

@@ -67,7 +67,7 @@ document.getElementById('head').append(el('h1', null, 'When does the kinematics 
 document.getElementById('page').append(
   section('The answer', 'Is each part of the model within ' + data.tolerance_px + ' px?',
     table(['', '', ''], data.statements.map((s) => [s.topic, s.text, el('span', null, el('span',
-      { class: 'badge ' + (s.verdict.startsWith('yes') ? 'met' : 'unmet') }, s.verdict.split(':')[0]), s.verdict.replace(/^\w+:/, ''))])),
+      { class: 'badge ' + ({ yes: 'met', no: 'unmet' }[s.verdict.split(':')[0]] || 'new') }, s.verdict.split(':')[0]), s.verdict.replace(/^\w+:/, ''))])),
     el('details', null, el('summary', null, 'Each figure beside the one that theory expects'),
       table(['figure', 'measured', 'expected', 'unit'], tables.answer.map((f) => [f.figure, figure(f.value), figure(f.expected), f.unit])))),
   section('Rendered drives', 'The filter’s own landmarks compared with the simulator’s truth: end-point error, px, median and (95 in 100).',

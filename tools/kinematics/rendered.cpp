@@ -83,9 +83,11 @@ DriveResult rendered_drive(const StudyConfig& config, const std::string& name,
   DriveResult result;
   std::vector<double> reference_px;  // by theory, for the reference depth
   std::vector<Landmark> landmarks;   // of the previous frame
+  double turn_max_rad = 0;
   const int every = std::max(1, scenario.frames / kStillFrames);
   while (const auto frame = simulation.next()) {
     const bench::EgoMotionFeed::Motions motions = feed.next(*frame);
+    turn_max_rad = std::max(turn_max_rad, Eigen::AngleAxisd(motions.exact.R_cur_prev).angle());
     for (Case& each : cases) {
       const EgoMotion& motion = each.told == "truth" ? motions.exact : motions.told;
       append(each.errors_px,
@@ -110,7 +112,8 @@ DriveResult rendered_drive(const StudyConfig& config, const std::string& name,
                              each.model.rotation == RotationModel::homography &&
                              each.model.depth == DepthSource::reference;
     result.rows.push_back({name, each.told, each.model, summary(std::move(each.errors_px)),
-                           is_expected ? summary(reference_px).median_px : std::nan("")});
+                           is_expected ? summary(reference_px).median_px : std::nan(""),
+                           turn_max_rad});
   }
   return result;
 }

@@ -20,6 +20,7 @@ struct DriveRow {
   ErrorSummary error;
   /// For the reference depth with true motion: V_v t_f |Z_ref / Z - 1|; NaN for others.
   double expected_median_px = 0;
+  double turn_max_rad = 0;  ///< the camera's largest true turn from a frame to the next
 };
 
 struct DriveResult {
