@@ -48,6 +48,8 @@
       expect('the plots follow the video', first().every((text) => text === '0'));
       throw null;
     }
+    /** The element that a link within the page points to. */
+    const at = (link) => document.getElementById(decodeURIComponent(link.getAttribute('href').slice(1)));
     const table = document.getElementById('scenarios');
     const rows = () => [...table.tBodies[0].rows];
     const names = () => rows().map((row) => row.dataset.scenario);
@@ -56,12 +58,12 @@
     expect('a row a scenario', rows().length === data.scenarios.length && rows().length >= 2);
 
     // The worst results precede the tables and link to their sections.
-    expect('regressions are told', data.baseline === null || data.remarks.some((r) => r.standing === 'regressed'));
+    expect('regressions are told', data.baseline === null || data.remarks.some((r) => r.standings.includes('regressed')));
     for (const remark of document.querySelectorAll('#worst .remark')) {
       const link = remark.querySelector('a');
       link.click();
       expect(link.textContent + ' has reasons and a section', remark.querySelectorAll('li').length > 0 &&
-        document.querySelector(link.getAttribute('href')).open);
+        at(link).open);
     }
 
     // Headings sort, first upwards, then downwards; undefined figures stay last.
@@ -105,7 +107,7 @@
     let pictures = 0;
     for (const row of rows()) {
       row.querySelector('a').click();
-      const section = document.querySelector(row.querySelector('a').getAttribute('href'));
+      const section = at(row.querySelector('a'));
       expect(row.dataset.scenario + ' opens', section.open);
       await until(() => section.querySelector('.body'));
       for (const [i, button] of section.querySelectorAll('.tabs button').entries()) {
@@ -126,6 +128,14 @@
       }
     }
     expect('there are pictures', pictures >= 3);
+
+    // The address of an event, by names, shows it.
+    const { name, runs } = data.scenarios[0], run = `${name}/seed-${runs.at(-1).seed}`;
+    location.hash = '#' + run.split('/').map(encodeURIComponent).join('/');
+    await until(() => document.getElementById(run));
+    expect('an address shows its run', document.getElementById(run) !== null);
+    const ids = [...document.getElementById(run).querySelectorAll('.event')].map((event) => event.id);
+    expect('events have names', ids.length > 0 && new Set(ids).size === ids.length && ids.every((id) => id.startsWith(run + '/')));
     expect('false objects are events where there are some', data.scenarios.every((s) => s.runs.every((run) =>
       run.events.some((event) => event.family === 'circles') === run.metrics['rebel.false_objects_per_100_frames'] > 0)));
     expect('reasons are told', document.querySelectorAll('.reason').length > 0);

@@ -179,7 +179,7 @@ TEST_F(Report, OfWorldsIsWellFormedAndHasEachWithTheFiguresOfAllDetectors) {
   ASSERT_EQ(document.Parse(markup(html).c_str()), tinyxml2::XML_SUCCESS) << document.ErrorStr();
   for (const char* part :
        {"<td>0.80</td>", "<td>0.60</td>", "drawn again 2 times", "<b>1</b> drawn again",
-        "src=\"worlds/room_1.jpg\"", "href=\"runs/room_1/seed-1/\"", "report.html#scenario-0",
+        "src=\"worlds/room_1.jpg\"", "href=\"runs/room_1/seed-1/\"", "report.html#room_1/seed-1",
         "<span class=\"feature\">slope</span>"}) {
     EXPECT_NE(html.find(part), html.npos) << part;
   }
@@ -267,11 +267,13 @@ TEST_F(Report, CallsAChangeRealWhereACompareDoes) {
   EXPECT_EQ(noisy.at("verdict"), "none");
   EXPECT_EQ(sure.at("verdict"), "regressed");
   EXPECT_EQ(all.at("verdict"),
-            "not regressed: of 2 means 0 regressed, 0 improved; of single scenarios 1 regressed, 0 "
-            "improved, 1 as before, 0 criteria missed");
+            "not regressed: of 2 means 0 regressed, 0 improved; of 2 scenarios 1 regressed, 0 "
+            "improved, 1 as before; 4 of 4 criteria met, 0 failed");
   ASSERT_EQ(all.at("remarks").size(), 1u);
   EXPECT_EQ(all["remarks"][0].at("scenario"), "sure");
-  EXPECT_EQ(all["remarks"][0].at("standing"), "regressed");
+  EXPECT_EQ(all["remarks"][0].at("standings"), (json{"passed", "regressed"}));
+  EXPECT_EQ(all["scenarios"][1].at("standings"), (json{"passed", "regressed"}));
+  EXPECT_EQ(all["scenarios"][0].at("standings"), json{"passed"});
   EXPECT_EQ(all["remarks"][0].at("reasons")[0], "rebel.f1 0.700 -> 0.600 [-0.100, -0.100]");
 }
 
@@ -391,7 +393,7 @@ TEST_F(Report, OfARunHasItsVideoWithin) {
   const json all = json::parse(run_report_data(in_folder(suite)));
   EXPECT_EQ(all.at("video"), "ZmlsbQ==");
   EXPECT_EQ(all.at("is_run"), true);
-  EXPECT_EQ(all.at("verdict"), "1 criterion met, 0 missed");
+  EXPECT_EQ(all.at("verdict"), "1 of 1 criteria met, 0 failed");
   // A video that is too large for a page is named.
   fs::resize_file(folder_.path() / bench::kVideoFile, kVideoBudget + 1'000'000);
   const json large = json::parse(run_report_data(in_folder(suite)));

@@ -292,6 +292,23 @@ TEST(Compare, ARunThatEndsWithAnErrorNowIsNamedAndIsARegression) {
   EXPECT_FALSE(gained.has_regressed());
 }
 
+TEST(Compare, ALostShareOfF1IsNotBetterWhereF1Falls) {
+  const auto with = [](double f1, double lost) {
+    ScenarioResult scenario = scenario_with("near", "rebel.f1", {f1, f1});
+    for (RunResult& run : scenario.runs) run.metrics.emplace_back("rebel.f1_lost_outline", lost);
+    return suite_with({scenario});
+  };
+  const auto verdict = [](const SuiteResult& before, const SuiteResult& after) {
+    const Comparison comparison = compare_all(before, after);
+    EXPECT_EQ(comparison.differences.at(1).metric, "rebel.f1_lost_outline");
+    EXPECT_EQ(comparison.groups.at(1).verdict, comparison.differences[1].verdict);
+    return comparison.differences[1].verdict;
+  };
+  EXPECT_EQ(verdict(with(0.8, 0.1), with(0.3, 0.05)), Change::moved);
+  EXPECT_EQ(verdict(with(0.8, 0.1), with(0.85, 0.05)), Change::improved);
+  EXPECT_EQ(verdict(with(0.8, 0.05), with(0.75, 0.1)), Change::regressed);
+}
+
 // ---- Text output
 
 TEST(ComparisonText, TellsWhatRegressedAndImprovedWithTheInterval) {
@@ -303,8 +320,8 @@ TEST(ComparisonText, TellsWhatRegressedAndImprovedWithTheInterval) {
                                         scenario_with("same", "rebel.f1", {0.5, 0.5})});
   const std::string text = text_of(compare_all(before, after), false);
   EXPECT_EQ(text,
-            "means, with the 95 % interval of each change:\n"
-            "  short  rebel.f1    0.500 ->   0.500   +0.000  [+0.000, +0.000]\n"
+            "means over so many scenarios, with the 95 % interval of each change:\n"
+            "  short (3)  rebel.f1    0.500 ->   0.500   +0.000  [+0.000, +0.000]\n"
             "single scenarios that regressed:\n"
             "  far  rebel.f1    0.500 ->   0.250   -0.250  [-0.250, -0.250]  regressed\n"
             "single scenarios that improved:\n"

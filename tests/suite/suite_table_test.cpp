@@ -6,6 +6,7 @@
 
 #include "tests/tools/suites.h"
 #include "tools/scoring/metrics.h"
+#include "tools/suite/judgement.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::suite {
@@ -95,6 +96,13 @@ TEST(SuiteTable, ShowsMeansWithHalfTheirSpreadGroupsAndADashForWhatIsUndefined) 
   EXPECT_NE(single.find(" - "), std::string::npos) << single;
 }
 
+TEST(SuiteTable, PrecisionRecallAndF1OfAGroupAreOverTheScenariosInWhichSomethingMoves) {
+  const std::string text =
+      suite_table(suite_with({scenario("near", {0.5}), scenario("static", {std::nullopt})}), false);
+  EXPECT_NE(text.find("= short (2, 1 with F1)"), std::string::npos) << text;
+  EXPECT_NE(text.find("0.50"), std::string::npos) << text;
+}
+
 TEST(SuiteTable, OfWorldsHasTheIntervalOfTheMeanOfEachGroup) {
   SuiteResult suite =
       suite_with({scenario("a", {0.5}, {"world", "room"}), scenario("b", {0.6}, {"world", "room"}),
@@ -173,7 +181,7 @@ TEST(Problems, TellAnErrorOfSeveralSeedsOnce) {
   EXPECT_EQ(problems(suite),
             (std::vector<std::string>{"failed: near seed 1: rebel.f1 is 0.5, must be at least 0.6",
                                       "error: broken seed 1, 2: it fell over"}));
-  EXPECT_EQ(totals(suite), "1 passed, 0 failed, 2 errors");
+  EXPECT_EQ(run_counts(suite), "3 runs of 2 scenarios: 1 passed, 0 failed, 2 with an error");
 }
 
 TEST(Warnings, AreToldOnceAScenarioWithTheSeedsAndNotWhereNothingHappened) {

@@ -36,9 +36,10 @@ TEST(Verdict, CountsScenariosAgainstABaselineAndCriteriaInOneLine) {
   const SuiteResult before = with(0.8, 0.2);
   SuiteResult after = with(0.6, 0.4);
   EXPECT_EQ(verdict_against({after, {}}, {before, {}}).line,
-            "not regressed: of 1 means 0 regressed, 0 improved; of single scenarios 1 regressed, 1 "
-            "improved, 1 as before");
-  // A criterion missed with both seeds counts once.
+            "not regressed: of 1 mean 0 regressed, 0 improved; of 3 scenarios 1 regressed, 1 "
+            "improved, 1 as before; 6 runs without an error, no criteria asked for");
+  EXPECT_TRUE(verdict_against({after, {}}, {before, {}}).is_good);
+  // A criterion counts once a seed.
   for (RunResult& run : after.scenarios[2].runs) {
     run.criteria = {criterion(false), criterion(true), criterion(false, false)};
     run.outcome = Outcome::failed;
@@ -46,26 +47,30 @@ TEST(Verdict, CountsScenariosAgainstABaselineAndCriteriaInOneLine) {
   after.scenarios.push_back(scenario_with("d", "rebel.f1", {0.5}));
   const Verdict verdict = verdict_against({after, {}}, {before, {}});
   EXPECT_EQ(verdict.line,
-            "not regressed: of 1 means 0 regressed, 0 improved; of single scenarios 1 regressed, 1 "
-            "improved, 1 as before, 1 not compared, 1 criterion missed, 1 missed "
-            "that is not required");
+            "not regressed: of 1 mean 0 regressed, 0 improved; of 4 scenarios 1 regressed, 1 "
+            "improved, 1 as before, 1 not compared; 7 of 11 criteria met, 2 failed, 2 missed but "
+            "not required")
+      << "2 of the third scenario, and a run without criteria for each of the 5 others";
+  EXPECT_FALSE(verdict.is_good);
   ASSERT_EQ(verdict.remarks.size(), 3u);
   EXPECT_EQ(
       verdict.remarks[0].reasons,
-      std::vector<std::string>{"seed 1: rebel.f1 is 0.4, must be at least 0.5 (2 seeds miss it)"});
+      std::vector<std::string>{"failed criterion, seed 1, rebel.f1 is 0.4, must be at least 0.5 "
+                               "(fails with 2 of 2 seeds)"});
 }
 
 TEST(Verdict, WithoutABaselineCountsCriteriaAndErrors) {
   SuiteResult suite = suite_with({scenario_with("a", "rebel.f1", {0.5})});
-  EXPECT_EQ(verdict_of({suite, {}}, nullptr, nullptr).line, "no criteria asked for");
+  EXPECT_EQ(verdict_of({suite, {}}, nullptr, nullptr).line,
+            "1 run without an error, no criteria asked for");
   suite.scenarios[0].runs[0].criteria = {criterion(true), criterion(true)};
   suite.scenarios.push_back(scenario_with("b", "rebel.f1", {0.5}));
   suite.scenarios[1].runs[0] = {};
   suite.scenarios[1].runs[0].error = "no such scene";
   const Verdict verdict = verdict_of({suite, {}}, nullptr, nullptr);
-  EXPECT_EQ(verdict.line, "2 criteria met, 0 missed, 1 run ended with an error");
+  EXPECT_EQ(verdict.line, "2 of 3 criteria met, 0 failed, 1 run with an error");
   ASSERT_EQ(verdict.remarks.size(), 1u);
-  EXPECT_EQ(verdict.remarks[0].standing, Standing::error);
+  EXPECT_EQ(verdict.remarks[0].standings, std::vector{Standing::error});
   EXPECT_EQ(verdict.remarks[0].reasons, std::vector<std::string>{"seed 0: no such scene"});
 }
 
@@ -81,20 +86,18 @@ TEST(Verdict, TheWorstComesFirstWithItsReasons) {
   after.scenarios[1].runs[0].outcome = Outcome::failed;
   EXPECT_EQ(
       text_of(verdict_against({after, {}}, {before, {}})),
-      "failed: b\n"
+      "failed, changed: b\n"
+      "  failed criterion, seed 1, rebel.f1 is 0.4, must be at least 0.5\n"
       "  rebel.f1 0.800 -> 0.700\n"
-      "  seed 1: rebel.f1 is 0.4, must be at least 0.5\n"
-      "regressed: c\n"
+      "passed, regressed: c\n"
       "  rebel.f1 0.800 -> 0.300 [-0.500, -0.500]\n"
-      "changed: d\n"
+      "passed, changed: d\n"
       "  rebel.f1 0.800 -> 0.900\n"
-      "improved: a\n"
+      "passed, improved: a\n"
       "  rebel.f1 0.800 -> 0.900 [+0.100, +0.100]\n"
       "each figure of a single scenario is judged by its own interval: of 2, chance alone changes "
       "up to 1; single scenarios with one seed have an unknown noise and no verdict; --seeds gives "
-      "more\n"
-      "not regressed: of 1 means 0 regressed, 0 improved; of single scenarios 1 regressed, 1 "
-      "improved, 0 as before, 2 unknown, 1 criterion missed\n");
+      "more\n");
 }
 
 class VerdictOnRules : public testing::Test {
@@ -134,10 +137,12 @@ TEST_F(VerdictOnRules, TheRuleThatTookMostNewRebelsIsNamed) {
   EXPECT_EQ(verdict.remarks[0].reasons,
             (std::vector<std::string>{
                 "rebel.f1 0.800 -> 0.600",
-                "most new misses by normal_edge (taken by a normal edge): 2 -> 25 corners",
+                "most new misses by normal_edge (its track moved as a static point may): 2 -> 25 "
+                "corners",
                 "most new false rebels by inherited (likely a rebel by those round it): 0 -> "
                 "9 corners",
-                "most new wrong squares by square_split (several squares on it): 0 -> 40 frames"}));
+                "most new wrong squares by square_split (several squares on it): 0 -> 40 "
+                "object-frames"}));
 }
 
 TEST_F(VerdictOnRules, EventsThatAreNotThereOrCannotBeReadExplainNothing) {

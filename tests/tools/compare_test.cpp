@@ -1,6 +1,10 @@
 // `lcs compare` from its command line to its exit codes.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <stdlib.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "tests/tools/command.h"
@@ -34,12 +38,46 @@ TEST_F(CompareCommand, ExitsWithZeroForTheSameAndForTheBetter) {
   const CommandResult same = compare({"a", "a/suite.json"});
   EXPECT_EQ(same.exit_code, 0) << same.err;
   EXPECT_TRUE(
-      same.out.ends_with("\nnot regressed: of 1 means 0 regressed, 0 improved; of single "
-                         "scenarios 0 regressed, 0 improved, 1 as before\n"))
+      same.out.ends_with("\nnot regressed: of 1 mean 0 regressed, 0 improved; of 1 scenario 0 "
+                         "regressed, 0 improved, 1 as before; 2 runs without an error, no criteria "
+                         "asked for\n"))
       << same.out;
   const CommandResult better = compare({"a", "b"});
   EXPECT_EQ(better.exit_code, 0) << better.err;
   EXPECT_NE(better.out.find("improved:\n  near  rebel.f1"), std::string::npos) << better.out;
+}
+
+/// The output of a command on a terminal.
+std::string on_terminal(const std::vector<std::string>& arguments,
+                        const std::filesystem::path& folder) {
+  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
+  EXPECT_EQ(::grantpt(terminal), 0);
+  EXPECT_EQ(::unlockpt(terminal), 0);
+  const std::string name = ::ptsname(terminal);
+  const int held = ::open(name.c_str(), O_RDWR | O_NOCTTY);  // else the output is lost at the end
+  bench::run_lcs(arguments, {.folder = folder, .out = name});
+  std::string text(4096, ' ');
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(terminal, &text[0], 4096))));
+  ::close(held);
+  ::close(terminal);
+  return text;
+}
+
+TEST_F(CompareCommand, TheVerdictIsGreenOrRedOnATerminalUnlessNoColourIsAskedFor) {
+  suite("a", {0.7, 0.8});
+  suite("b", {0.5, 0.6});
+  ::setenv("TERM", "xterm", 1);
+  ::unsetenv("NO_COLOR");
+  EXPECT_NE(on_terminal({"compare", "a", "a"}, folder_.path()).find("\x1b[32mnot regressed: "),
+            std::string::npos);
+  EXPECT_NE(on_terminal({"compare", "a", "b"}, folder_.path()).find("\x1b[31mregressed: "),
+            std::string::npos);
+  EXPECT_EQ(compare({"a", "b"}).out.find("\x1b["), std::string::npos) << "a pipe";
+  ::setenv("NO_COLOR", "1", 1);
+  const std::string plain = on_terminal({"compare", "a", "b"}, folder_.path());
+  EXPECT_EQ(plain.find("\x1b["), std::string::npos);
+  EXPECT_NE(plain.find("regressed: "), std::string::npos);
+  ::unsetenv("NO_COLOR");
 }
 
 TEST_F(CompareCommand, ExitsWithOneForARegressionAmongTheFiguresAskedFor) {

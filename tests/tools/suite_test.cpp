@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -80,10 +81,11 @@ TEST_F(Suite, RunsEveryScenarioOfAFolderWithItsSeedsAndSumsThemUp) {
     EXPECT_GT(near.runs[i].wall_s, 0);
     EXPECT_EQ(near.runs[i].metrics, bench::read_metrics(run_folder(near, i) / bench::kMetricsFile));
   }
-  for (const char* part : {"near", "far", "= short (2)", "4 passed, 0 failed, 0 errors"}) {
+  for (const char* part : {"near", "far", "= short (2, 0 with F1)", "4 runs without an error",
+                           "4 runs of 2 scenarios: 4 passed, 0 failed"}) {
     EXPECT_NE(command.out.find(part), std::string::npos) << part << " in\n" << command.out;
   }
-  EXPECT_NE(command.err.find("[4/4]"), std::string::npos) << command.err;
+  EXPECT_NE(command.err.find("[run 4/4]"), std::string::npos) << command.err;
 }
 
 TEST_F(Suite, AFilterAGroupAndANamedFileChooseWhatIsRun) {
@@ -261,7 +263,7 @@ TEST_F(Suite, RunsOtherDetectorsBesideOnTheSameFramesAndLeavesTheirsAsSuites) {
   EXPECT_STREQ(of_klt->Attribute("name"), "klt: frames max, seed 2");
   EXPECT_EQ(entries(out_), (std::set<std::string>{"suite.json", "junit.xml", "report.html", "runs",
                                                   "run.json", "beside", "standing.md"}));
-  EXPECT_NE(command.err.find("[2/2] near seed "), std::string::npos) << command.err;
+  EXPECT_NE(command.err.find("[run 2/2] near seed "), std::string::npos) << command.err;
   EXPECT_EQ(result().detector, "lcs");
   for (const std::string name : {"klt", "homography"}) {
     const fs::path beside = fs::path("out") / "suite" / "beside" / name;
@@ -394,7 +396,8 @@ TEST_F(Suite, ABaselineShowsChangesAndAnUnreadableOneIsRefusedBeforeAnyRun) {
                                          "before",  "--baseline", "better"};
   const CommandResult worse = run(against);
   EXPECT_EQ(worse.exit_code, 0) << "it is not asked to fail";
-  EXPECT_NE(worse.out.find("regressed: near\n  dimension.mean "), std::string::npos) << worse.out;
+  EXPECT_NE(worse.out.find("passed, regressed: near\n  dimension.mean "), std::string::npos)
+      << worse.out;
   EXPECT_NE(worse.out.find("\nregressed: of "), std::string::npos) << worse.out;
   std::vector<std::string> strict = against;
   strict.insert(strict.end(), {"--fail-on-regression", "--quiet"});
@@ -481,6 +484,50 @@ TEST_F(Suite, TwoScenariosOfOneNameAreRefused) {
 
 // ---- JUnit
 
+TEST_F(Suite, ConsoleReportAndJUnitGiveTheSameCounts) {
+  scenario("broken", "camra: {}\n");
+  scenario("calm");
+  scenario("near",
+           "criteria:\n  - {metric: frames, min: 4}\n  - {metric: frames, min: 5}\n"
+           "  - {metric: frames, min: 6, required: false}\n"
+           "  - {metric: frames, min: 7, over: mean}\n"
+           "  - {metric: frames, max: 3, detector: klt}\n");
+  const CommandResult command = run({"--seeds", "2", "--beside", "klt"});
+  EXPECT_EQ(command.exit_code, 2) << command.err;
+  // Each of two seeds meets one, fails one and one of klt, and misses one; one fails over seeds;
+  // two runs are calm, and one is broken.
+  const std::string line =
+      "4 of 12 criteria met, 5 failed, 2 missed but not required, 1 run with "
+      "an error";
+  const std::string runs = "5 runs of 3 scenarios: 2 passed, 2 failed, 1 with an error";
+  EXPECT_NE(command.out.find("\n" + line + "\n" + runs + "; results in "), std::string::npos)
+      << command.out;
+  EXPECT_EQ(command.out.find("\x1b["), std::string::npos) << "no colour without a terminal";
+
+  const std::string page = read(out_ / "report.html");
+  const std::string before = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t begin = page.find(before) + before.size();
+  const auto data =
+      nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  EXPECT_EQ(data.at("verdict"), line);
+  EXPECT_EQ(data.at("run_counts"), runs);
+  EXPECT_EQ(data.at("is_good"), false);
+  std::map<std::string, int> badges;
+  for (const auto& one : data.at("scenarios")) ++badges[one.at("standings").at(0)];
+  EXPECT_EQ(badges, (std::map<std::string, int>{{"error", 1}, {"failed", 1}, {"passed", 1}}));
+
+  tinyxml2::XMLDocument junit;
+  ASSERT_EQ(junit.LoadFile((out_ / kJunitFile).c_str()), tinyxml2::XML_SUCCESS);
+  EXPECT_EQ(junit.RootElement()->IntAttribute("tests"), 12);
+  EXPECT_EQ(junit.RootElement()->IntAttribute("failures"), 5);
+  EXPECT_EQ(junit.RootElement()->IntAttribute("skipped"), 2);
+  EXPECT_EQ(junit.RootElement()->IntAttribute("errors"), 1);
+
+  EXPECT_NE(
+      read(out_ / "standing.md").find("Means over 3 scenarios; F1 and recall over the 0 with F1"),
+      std::string::npos);
+}
+
 TEST_F(Suite, JUnitHasACaseACriterionWithFailuresAndErrorsApart) {
   scenario("broken", "camra: {}\n");
   scenario("calm");
@@ -527,7 +574,14 @@ TEST_F(Suite, JUnitHasACaseACriterionWithFailuresAndErrorsApart) {
   EXPECT_NE(std::string(failed->FirstChildElement("failure")->Attribute("message"))
                 .find("frames is 4, must be at least 5 and at most 9"),
             std::string::npos);
-  EXPECT_NE(failed->NextSiblingElement()->FirstChildElement("system-out"), nullptr);
+  EXPECT_NE(std::string(failed->FirstChildElement("failure")->GetText())
+                .find("\nreport.html#near/seed-1"),
+            std::string::npos);
+  EXPECT_NE(failed->NextSiblingElement()->FirstChildElement("skipped"), nullptr);
+  EXPECT_EQ(root->IntAttribute("skipped"), 2);
+  // Each criterion of a run has an equal share of its time.
+  EXPECT_GT(failed->DoubleAttribute("time"), 0);
+  EXPECT_EQ(failed->DoubleAttribute("time"), near->FirstChildElement()->DoubleAttribute("time"));
 }
 
 TEST(JUnit, EscapesWhatXmlCannotHold) {
@@ -546,7 +600,7 @@ TEST(JUnit, EscapesWhatXmlCannotHold) {
   EXPECT_STREQ(error->Attribute("message"), R"(bad <byte> \xff, control \x1b[K, letter )"
                                             "\xc3\xa9");
   EXPECT_STREQ(error->GetText(), R"(bad <byte> \xff, control \x1b[K, letter )"
-                                 "\xc3\xa9\nmore");
+                                 "\xc3\xa9\nmore\nreport.html#a%3Cb%20&%20%22c%22/seed-0");
 }
 
 // ---- Failures of processes

@@ -107,7 +107,8 @@ ExitCode compare(const CompareOptions& options) {
   print_suite("before", options.before, before);
   print_suite("after ", options.after, after);
   print_out("{}", input::printable(suite::text_of(comparison, options.all)));
-  print_out("{}\n", suite::verdict_of({after, {}}, nullptr, &comparison).line);
+  const suite::Verdict verdict = suite::verdict_of({after, {}}, nullptr, &comparison);
+  print_out("{}\n", coloured(verdict.line, verdict.is_good));
   return comparison.has_regressed() ? kRegressed : kFine;
 }
 

@@ -15,6 +15,7 @@
 #include "tools/report/worlds_page.h"
 #include "tools/suite/beside_table.h"
 #include "tools/suite/comparison.h"
+#include "tools/suite/judgement.h"
 #include "tools/suite/junit.h"
 #include "tools/suite/suite_table.h"
 #include "tools/suite/summary.h"
@@ -25,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Prints the changes, worst first. The verdict comes last, where the terminal ends.
+/// Prints the changes, worst first.
 void print_changes(const suite::Verdict& verdict, const suite::Comparison& comparison,
                    const std::string& baseline) {
   print_out("Against {}:\n", baseline);
@@ -97,7 +98,7 @@ ExitCode finish_suite(bench::Output& folder, const SuiteEndOptions& options,
   }
   const suite::SuiteInFolder* beside = before ? &*before : nullptr;
   const suite::Verdict verdict =
-      suite::verdict_of(made, beside, comparison ? &*comparison : nullptr);
+      suite::verdict_of(made, beside, comparison ? &*comparison : nullptr, others);
   std::optional<report::Against> against;
   if (before) against.emplace(report::Against{*before, *comparison});
   report::write_report(folder.staging() / report::kReportFile, made, verdict,
@@ -116,7 +117,9 @@ ExitCode finish_suite(bench::Output& folder, const SuiteEndOptions& options,
     if (!others.empty()) print_out("{}\n", suite::beside_table(result, others));
     if (!result.split.empty()) print_out("{}", told_of_worlds(result));
     if (comparison) print_changes(verdict, *comparison, options.baseline);
-    print_out("{}; results in {}\n", suite::totals(result), folder.target().string());
+    // The verdict comes last, where the terminal ends.
+    print_out("{}\n{}; results in {}\n", coloured(input::printable(verdict.line), verdict.is_good),
+              suite::run_counts(result), folder.target().string());
   }
   warn(suite::warnings(result));
   suite::Outcome outcome = suite::outcome_of(result);

@@ -64,8 +64,8 @@ void SuiteProgress::finished(const suite::SuiteProgress& progress, const std::st
     const std::string label = figures.empty() ? metric.label + " " : "";
     figures += fmt::format(", {}{}{}", label, by, metric.number(f1));
   }
-  tell(fmt::format("[{}/{}] {} seed {}: {}{}, {:.1f} s", progress.done, progress.total, scenario,
-                   own.seed, outcome_text(own), figures, own.wall_s));
+  tell(fmt::format("[run {}/{}] {} seed {}: {}{}, {:.1f} s", progress.done, progress.total,
+                   scenario, own.seed, outcome_text(own), figures, own.wall_s));
   shown_ = {};
 }
 
@@ -74,7 +74,7 @@ void SuiteProgress::show(const suite::SuiteProgress& progress) {
   if (quiet_ || !is_terminal_ || now - shown_ < kPeriod) return;
   shown_ = now;
   wipe();
-  std::string line = fmt::format("[{}/{}]", progress.done, progress.total);
+  std::string line = fmt::format("[run {}/{}]", progress.done, progress.total);
   if (progress.left_s) line += fmt::format(" {:.0f} s left,", *progress.left_s);
   line += fmt::format(" running {}", fmt::join(progress.running, ", "));
   line = input::one_line(line);

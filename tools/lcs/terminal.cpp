@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <climits>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 
 #include "tools/files/output_file.h"
@@ -78,6 +79,17 @@ void tell(std::string_view message) {
 
 void warn(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) tell("warning: " + line);
+}
+
+std::string coloured(const std::string& text, bool is_good) {
+  const auto is = [](const char* variable, auto&& test) {
+    const char* value = std::getenv(variable);
+    return value != nullptr && test(std::string_view(value));
+  };
+  const bool is_plain = ::isatty(STDOUT_FILENO) == 0 ||
+                        is("NO_COLOR", [](auto value) { return !value.empty(); }) ||
+                        is("TERM", [](auto value) { return value == "dumb"; });
+  return is_plain ? text : fmt::format("\x1b[{}m{}\x1b[0m", is_good ? 32 : 31, text);
 }
 
 void finish_out() {

@@ -35,6 +35,10 @@ void print_err(fmt::format_string<Args...> format, Args&&... args) {
   write_err(fmt::format(format, std::forward<Args>(args)...));
 }
 
+/// The text in green or red, if standard output is a terminal and the environment neither sets
+/// NO_COLOR (no-color.org) nor says that the terminal is dumb.
+std::string coloured(const std::string& text, bool is_good);
+
 /// Flushes std::cout and stdout. \throws as `write_out`.
 void finish_out();
 

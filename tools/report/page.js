@@ -38,8 +38,8 @@ function figureCell(name, figure) {
   return cell;
 }
 
-const OUTCOMES = { passed: '✓ passed', failed: '✗ failed', error: '! error', regressed: '▼ regressed', changed: '? changed', improved: '▲ improved' };
-const badge = (outcome) => el('span', { class: 'badge ' + outcome }, OUTCOMES[outcome]);
+const STANDINGS = { passed: '✓ passed', failed: '✗ failed', error: '! error', regressed: '▼ regressed', changed: '? changed', improved: '▲ improved' };
+const badges = (standings) => standings.flatMap((standing) => [el('span', { class: 'badge ' + standing }, STANDINGS[standing]), ' ']);
 
 // ---- The head
 
@@ -48,15 +48,19 @@ const F1 = data.metrics['rebel.f1'].label;
 /** Columns in which at least one scenario has a figure; recordings have no times. */
 const SHOWN_COLUMNS = data.columns.filter((name) => data.scenarios.some((scenario) => scenario.figures[name]));
 
+/** F1, or of a scenario in which nothing is to be found the false corners. */
+function mainFigure(scenario) {
+  const f1 = scenario.figures['rebel.f1'], false_ = scenario.figures['rebel.false_corners_per_frame'];
+  return f1 ? F1 + ' ' + digits(f1.mean) : false_ ? digits(false_.mean) + ' false corners a frame' : '';
+}
+
 /** The verdict, and below it the suite or run. */
 function head() {
-  const count = (number, what) => number + ' ' + what + (number === 1 ? '' : 's');
   const runs = data.scenarios.flatMap((s) => s.runs);
   const what = data.is_run ? data.scenarios[0].name + ' by ' + data.detector + ', seed ' + runs[0].seed
-    : 'Suite by ' + data.detector + ': ' + count(data.scenarios.length, 'scenario') + ', ' + count(runs.length, 'run');
-  const f1 = data.is_run && runs[0].metrics['rebel.f1'];
+    : 'Suite by ' + data.detector + ', ' + data.run_counts;
   document.getElementById('head').append(
-    el('h1', null, (isNumber(f1) ? F1 + ' ' + digits(f1) + ', ' : '') + data.verdict),
+    el('h1', { class: data.is_good ? 'good' : 'bad' }, (data.is_run ? mainFigure(data.scenarios[0]) + ', ' : '') + data.verdict),
     el('p', { class: 'quiet' }, what + (hasBaseline ? ', against ' + data.baseline.folder : '') +
       (data.sets.length ? ', with ' + data.sets.join(', ') : ''), data.note ? [el('br'), data.note] : null));
 }
@@ -74,13 +78,14 @@ const SHOWN = 8;
 
 function remarkOf(remark) {
   const scenario = data.scenarios.find((s) => s.name === remark.scenario);
-  return el('article', { class: 'remark' }, badge(remark.standing), ' ', data.is_run ? null : link(scenario),
+  return el('article', { class: 'remark' }, ...badges(remark.standings), data.is_run ? null : link(scenario),
     el('ul', null, ...remark.reasons.map((reason) => el('li', null, reason))));
 }
 
 function worst() {
-  const bad = data.remarks.filter((r) => r.standing !== 'improved').map(remarkOf);
-  const good = data.remarks.filter((r) => r.standing === 'improved').map(remarkOf);
+  const isGood = (remark) => remark.standings.every((standing) => ['passed', 'improved'].includes(standing));
+  const bad = data.remarks.filter((r) => !isGood(r)).map(remarkOf);
+  const good = data.remarks.filter(isGood).map(remarkOf);
   const side = (content) => el('div', { class: 'side' }, ...content);
   const folded = (title, content) => content.length === 0 ? null
     : el('details', null, el('summary', null, title), side(content));
@@ -102,9 +107,10 @@ function groupTable() {
   if (data.groups.length === 0) return null;
   return el('section', null,
     el('h2', null, 'Means of the groups'),
+    el('p', { class: 'quiet small' }, 'Over so many scenarios; precision, recall and F1 over those with F1, in which something moves.'),
     el('div', { class: 'scroll' }, el('table', { id: 'groups' }, headerRow('Group'),
       el('tbody', null, ...data.groups.map((group) => el('tr', null,
-        el('td', null, group.name + ' ', el('span', { class: 'quiet small' }, String(group.scenarios))),
+        el('td', null, group.label),
         ...SHOWN_COLUMNS.map((name) => figureCell(name, group.figures[name]))))))));
 }
 
@@ -116,21 +122,31 @@ function runTable() {
 
 // ---- The table of scenarios
 
-const anchor = (scenario) => 'scenario-' + data.scenarios.indexOf(scenario);
+/** The anchor of a scenario, of its run with a seed, and of an event in that: by names, so that links outlive other results. */
+const anchor = (scenario, run, event) => scenario.name + (run ? '/seed-' + run.seed : '') + (event ? '/' + event.id : '');
+const address = (id) => '#' + id.split('/').map(encodeURIComponent).join('/');
 
-/** A link to the scenario's section, which it opens. */
-function link(scenario) {
-  return el('a', { href: '#' + anchor(scenario), title: scenario.purpose, onclick: (event) => {
-    event.preventDefault();
-    const section = document.getElementById(anchor(scenario));
+/** A link that opens and shows the section, run or event. */
+const linkTo = (id, text, title) => el('a', { href: address(id), title, onclick: () => openAt(id) }, text);
+const link = (scenario) => linkTo(anchor(scenario), scenario.name, scenario.purpose);
+
+function openAt(id) {
+  const scenario = data.scenarios.find((s) => id === s.name || id.startsWith(s.name + '/seed-'));
+  if (!scenario) return;
+  const section = document.getElementById(scenario.name);
+  if (section) {
     section.open = true;
-    section.scrollIntoView();
-  } }, scenario.name);
+    section.fill();
+  }
+  const run = scenario.runs.find((r) => (id + '/').startsWith(anchor(scenario, r) + '/'));
+  if (run && section) section.show(run);
+  const target = document.getElementById(id) || section;
+  if (target) target.scrollIntoView();
 }
 
 function scenarioRow(scenario) {
   const row = el('tr', { 'data-scenario': scenario.name },
-    el('td', null, link(scenario), scenario.outcome === 'passed' ? null : el('span', null, ' ', badge(scenario.outcome))),
+    el('td', null, link(scenario), scenario.standings.join() === 'passed' ? null : el('span', null, ' ', ...badges(scenario.standings))),
     ...SHOWN_COLUMNS.map((name) => figureCell(name, scenario.figures[name])));
   row.scenario = scenario;
   return row;
@@ -173,7 +189,7 @@ function scenarioTable() {
       let count = 0;
       for (const row of rows) {
         const s = row.scenario;
-        const text = [s.name, s.purpose, s.outcome, ...s.groups].join(' ').toLowerCase();
+        const text = [s.name, s.purpose, ...s.standings, ...s.groups].join(' ').toLowerCase();
         row.hidden = !words.every((word) => text.includes(word));
         document.getElementById(anchor(s)).hidden = row.hidden;
         count += !row.hidden;
@@ -302,7 +318,17 @@ const FAMILIES = {
   squares: ['Squares', 'Magenta boxes are squares, white their outlines; thin ones objects, the orange one is the object that is meant.'],
 };
 
-function eventList(run) {
+/** Names each event of a run by its kind, object and first frame; alike ones are numbered. */
+function nameEvents(run) {
+  const times = new Map();
+  for (const event of run.events || []) {
+    const name = [event.kind, event.object, event.first].filter((part) => part !== '').join('-');
+    times.set(name, (times.get(name) || 0) + 1);
+    event.id = name + (times.get(name) > 1 ? '-' + times.get(name) : '');
+  }
+}
+
+function eventList(scenario, run) {
   if (!run.events) return el('p', { class: 'nothing' }, 'The run left no events.json.');
   const gone = run.before && run.before.gone.length > 0 ? el('div', null, el('h4', null, 'Gone: among the worst of the baseline, no longer here'),
     el('ul', null, ...run.before.gone.map((event) => el('li', null, headline(event))))) : null;
@@ -315,9 +341,10 @@ function eventList(run) {
     ...Object.entries(FAMILIES).map(([family, [title, note]]) => {
       const events = run.events.filter((event) => event.family === family);
       return events.length === 0 ? null : el('section', null, el('h4', null, title),
-        note && el('p', { class: 'small quiet' }, note), ...events.map((event) => el('article', { class: 'event' },
+        note && el('p', { class: 'small quiet' }, note), ...events.map((event) => el('article', { class: 'event', id: anchor(scenario, run, event) },
           el('h5', null, event.is_new ? el('span', { class: 'badge new', title: 'not among the worst of the baseline' }, 'new') : null,
-            (event.is_new ? ' ' : '') + headline(event)), strip(event), reasonBars(event))));
+            (event.is_new ? ' ' : '') + headline(event) + ' ', linkTo(anchor(scenario, run, event), '#', 'link to this event')),
+          strip(event), reasonBars(event))));
     }), gone);
 }
 
@@ -360,43 +387,54 @@ function commandLine(command) {
     } }, 'copy'));
 }
 
-function runBody(run, isWhole) {
-  return el('div', null,
+function runBody(scenario, run) {
+  nameEvents(run);
+  return el('div', { id: anchor(scenario, run) },
     el('p', { class: 'quiet small' }, 'To run it again:'), commandLine(run.command),
     run.error ? el('p', { class: 'message' }, run.error) : null,
     ...run.warnings.map((warning) => el('p', { class: 'message' }, 'warning: ' + warning)),
     run.before && run.before.error ? el('p', { class: 'message' }, 'baseline: ' + run.before.error) : null,
     run.folder && !data.is_run ? el('p', { class: 'quiet small' }, 'Its files: ', el('a', { href: run.folder + '/' }, run.folder)) : null,
-    run.outcome === 'error' || !isWhole ? null : [el('h3', null, 'Over time'), overTime(run),
-      el('h3', null, 'Misses and false alarms'), eventList(run)]);
+    run.outcome === 'error' || !scenario.is_whole ? null : [el('h3', null, 'Over time'), overTime(run),
+      el('h3', null, 'Misses and false alarms'), notes(run), eventList(scenario, run)]);
 }
 
+/** Names the share of F1 that is lost on radial corners, if it is large, and how movers can be found by few corners. */
+function notes(run) {
+  const lost = run.metrics['rebel.f1_lost_radial'];
+  const radial = lost > 0.1 ? 'F1 lost on radial corners: ' + digits(lost)
+    + '. They lie on a mover along the line of sight, whose image moves as that of a static point may. ' : '';
+  const few = run.metrics['rebel.object_recall'] - run.metrics['rebel.recall'] > 0.5
+    ? 'A mover is found by 3 of its corners in one frame; recall counts all of its corners in all frames.' : '';
+  return radial + few === '' ? null : el('p', { class: 'small' }, radial + few);
+}
+
+/** \return the element, with a function that shows a run. */
 function scenarioBody(scenario) {
   const place = el('div');
   const buttons = scenario.runs.map((run) => el('button', { type: 'button', onclick: () => show(run) },
-    'seed ' + run.seed + (run.outcome === 'passed' ? '' : ' ' + OUTCOMES[run.outcome])));
+    'seed ' + run.seed + (run.outcome === 'passed' ? '' : ' ' + STANDINGS[run.outcome])));
   const show = (run) => {
     buttons.forEach((button, i) => button.setAttribute('aria-pressed', String(scenario.runs[i] === run)));
-    place.replaceChildren(runBody(run, scenario.is_whole));
+    place.replaceChildren(runBody(scenario, run));
   };
   if (scenario.runs.length > 0) show(scenario.runs[0]);
-  return el('div', { class: 'body' },
+  return Object.assign(el('div', { class: 'body' },
     el('div', { class: 'facts small' }, el('span', null, 'file ', el('code', null, scenario.file)),
       el('span', null, 'groups ' + scenario.groups.join(', ')),
       ...scenario.point.map(([key, value]) => el('span', null, key + ' ', el('b', null, value)))),
     scenario.is_whole ? null : el('p', { class: 'nothing' }, 'Not among the worst: curves and events are left out. Its files have them.'),
     el('h3', null, 'Criteria'), criteriaTable(scenario), scenario.is_whole ? allFigures(scenario) : null,
-    data.is_run ? null : el('div', { class: 'tabs', role: 'group', 'aria-label': 'Seed' }, ...buttons), place);
+    data.is_run ? null : el('div', { class: 'tabs', role: 'group', 'aria-label': 'Seed' }, ...buttons), place), { show });
 }
 
 function scenarioSection(scenario) {
-  const f1 = scenario.figures['rebel.f1'];
-  const section = el('details', { class: 'scenario', id: anchor(scenario), ontoggle: () => {
-    if (section.open && !section.querySelector('.body')) section.append(scenarioBody(scenario));
-  } }, el('summary', null, el('span', { class: 'name' }, scenario.name),
+  let body = null;
+  const fill = () => { if (!body) section.append(body = scenarioBody(scenario)); };
+  const section = el('details', { class: 'scenario', id: anchor(scenario), ontoggle: () => { if (section.open) fill(); } }, el('summary', null, el('span', { class: 'name' }, scenario.name),
     el('span', { class: 'quiet' }, scenario.purpose),
-    el('span', { class: 'right' }, f1 ? F1 + ' ' + digits(f1.mean) + ' ' : '', badge(scenario.outcome))));
-  return section;
+    el('span', { class: 'right' }, mainFigure(scenario) + ' ', ...badges(scenario.standings))));
+  return Object.assign(section, { fill, show: (run) => body.show(run) });
 }
 
 // ---- Sweeps
@@ -482,10 +520,8 @@ document.getElementById('page').append(...(data.is_run ? [worst(), runTable(), s
   worst(), groupTable(), scenarioTable(), sweepSection(),
   el('section', null, el('h2', null, 'Each scenario'), ...data.scenarios.map(scenarioSection)),
 ]).filter(Boolean), foot());
-// Opens the section that the page's address points to.
-const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
-if (target && target.tagName === 'DETAILS') {
-  target.open = true;
-  target.scrollIntoView();
-}
+// Opens the place that the page's address points to.
+const openAddress = () => openAt(decodeURIComponent(location.hash.slice(1)));
+addEventListener('hashchange', openAddress);
+openAddress();
 })();

@@ -21,6 +21,7 @@
 #include "tools/scoring/events.h"
 #include "tools/scoring/figures_file.h"
 #include "tools/scoring/metrics.h"
+#include "tools/suite/judgement.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::report {
@@ -122,8 +123,10 @@ Json groups_of(const SuiteResult& suite, const DifferenceOf& differences) {
       figures[metric.key] = {{"mean", json_of(now)}};
       add_change(figures[metric.key], differences, group, metric.key);
     }
-    groups.push_back(
-        {{"name", group}, {"scenarios", suite::count_in(suite, group)}, {"figures", figures}});
+    groups.push_back({{"name", group},
+                      {"label", suite::counted_group(suite, group)},
+                      {"scenarios", suite::count_in(suite, group)},
+                      {"figures", figures}});
   }
   return groups;
 }
@@ -352,12 +355,18 @@ Json scenario_json(const SuiteInFolder& suite, const SuiteInFolder* baseline,
   return json;
 }
 
+Json words_of(const std::vector<suite::Standing>& standings) {
+  Json words = Json::array();
+  for (const suite::Standing standing : standings) words.push_back(suite::word_of(standing));
+  return words;
+}
+
 Json remarks_of(const suite::Verdict& verdict) {
   Json remarks = Json::array();
   for (const suite::Remark& remark : verdict.remarks) {
     if (std::ssize(remarks) == kMostRemarks) break;
     remarks.push_back({{"scenario", remark.scenario},
-                       {"standing", suite::word_of(remark.standing)},
+                       {"standings", words_of(remark.standings)},
                        {"reasons", remark.reasons}});
   }
   return remarks;
@@ -391,6 +400,8 @@ Json data_of(const SuiteInFolder& suite, const suite::Verdict& verdict, const Ag
   const DifferenceOf of_scenarios = comparison ? by_name(comparison->differences) : DifferenceOf{};
   Json data = {
       {"verdict", verdict.line},
+      {"is_good", verdict.is_good},
+      {"run_counts", suite::run_counts(suite.suite)},
       {"note", verdict.note},
       {"remarks", remarks_of(verdict)},
       {"more_remarks", std::max<std::ptrdiff_t>(0, std::ssize(verdict.remarks) - kMostRemarks)},
@@ -416,6 +427,7 @@ Json data_of(const SuiteInFolder& suite, const suite::Verdict& verdict, const Ag
   for (const ScenarioResult& scenario : suite.suite.scenarios) {
     data["scenarios"].push_back(
         scenario_json(suite, baseline, of_scenarios, scenario, whole.contains(scenario.name)));
+    data["scenarios"].back()["standings"] = words_of(suite::standings_of(scenario, comparison));
   }
   keep_to_budget(data["scenarios"], budget);
   return data;

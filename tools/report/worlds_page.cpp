@@ -12,6 +12,7 @@
 #include "tools/scoring/metrics.h"
 #include "tools/scoring/statistics.h"
 #include "tools/suite/interval.h"
+#include "tools/suite/judgement.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::report {
@@ -157,7 +158,8 @@ class WorldsPage : public TextPage {
   }
 
   void article(const ScenarioResult& world) {
-    add("<article id=\"{0}\">\n<h3>{0}", escaped(world.name));
+    add("<article id=\"{0}\">\n<h3>{0} <a href=\"#{1}\">#</a>", escaped(world.name),
+        escaped(suite::anchor_of(world.name)));
     say({&world}, kFrames, "frames");
     say({&world}, kCorners, "corners a frame");
     if (suite::is_in(world, "static")) {
@@ -188,8 +190,8 @@ class WorldsPage : public TextPage {
   void links(const ScenarioResult& world, const suite::RunResult& run) {
     add("<p><code>lcs run {} --seed {}</code>", escaped(world.file.generic_string()), run.seed);
     if (!run.error.empty()) add(" <span class=\"error\">{}</span>", escaped(run.error));
-    const auto place = &world - suite_.scenarios.data();
-    add(" <a href=\"{}#scenario-{}\">report</a>", kReportFile, place);
+    add(" <a href=\"{}#{}\">report</a>", kReportFile,
+        escaped(suite::anchor_of(world.name, run.seed)));
     if (!run.folder.empty()) {
       add(" <a href=\"{}/\">files</a>", escaped(run.folder.generic_string()));
     }

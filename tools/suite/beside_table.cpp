@@ -10,6 +10,7 @@
 #include "tools/scoring/metrics.h"
 #include "tools/scoring/statistics.h"
 #include "tools/suite/interval.h"
+#include "tools/suite/judgement.h"
 #include "tools/suite/summary.h"
 
 namespace lcs::suite {
@@ -218,6 +219,10 @@ std::string standing_table(const SuiteResult& suite, std::span<const SuiteResult
   };
   add(suite);
   for (const SuiteResult& other : others) add(other);
+  text += fmt::format("\nMeans over {}; {} and {} over the {} with {}.\n",
+                      counted(std::ssize(suite.scenarios), "scenario"), bench::metric(kF1).label,
+                      bench::metric("rebel.recall").label,
+                      std::ssize(figures_of_group(suite, kAll, kF1)), bench::metric(kF1).label);
   return text;
 }
 

@@ -14,6 +14,8 @@
 namespace lcs::suite {
 namespace {
 
+constexpr std::string_view kF1 = "rebel.f1";
+
 struct RunPair {
   const RunResult* before;
   const RunResult* after;
@@ -100,7 +102,7 @@ class Comparer {
 
   void compare(const std::string& scenario, const bench::Metric& metric,
                const std::vector<RunPair>& pairs) {
-    std::vector<double> before, after, changes;
+    std::vector<double> before, after, changes, f1_changes;
     std::vector<std::uint64_t> lost, gained;  // seeds with the figure only before, only after
     for (const RunPair& pair : pairs) {
       const std::optional<double> was = figure_of(*pair.before, metric.key);
@@ -111,6 +113,9 @@ class Comparer {
       before.push_back(*was);
       after.push_back(*is);
       changes.push_back(*is - *was);
+      const std::optional<double> f1_was = figure_of(*pair.before, kF1);
+      const std::optional<double> f1_is = figure_of(*pair.after, kF1);
+      if (f1_was && f1_is) f1_changes.push_back(*f1_is - *f1_was);
     }
     if (!lost.empty()) note("{}: {} undefined after, {}", scenario, metric.key, seed_list(lost));
     if (!gained.empty()) {
@@ -124,11 +129,12 @@ class Comparer {
     result_.differences.back().pairs = static_cast<int>(changes.size());
     Difference& difference = result_.differences.back();
     if (chance_beyond(difference.change, least_of(difference)) <= 0.05) {
-      difference.verdict = direction_of(difference);
+      difference.verdict = direction_of(difference, bench::mean(f1_changes));
     } else if (!difference.change.half && difference.weight > 1) {
       difference.verdict = Change::unknown;
     }
     changes_[{scenario, metric.key}] = std::move(changes);
+    if (!f1_changes.empty()) f1_changes_[scenario] = *bench::mean(f1_changes);
     result_.judged += metric.scale.better != bench::Direction::neutral;
   }
 
@@ -167,7 +173,7 @@ class Comparer {
     }
     const std::vector<bool> real = real_among(chances);
     for (std::size_t i = 0; i < judged.size(); ++i) {
-      if (real[i]) judged[i]->verdict = direction_of(*judged[i]);
+      if (real[i]) judged[i]->verdict = direction_of(*judged[i], f1_change(judged[i]->scenario));
     }
     result_.judged_means = static_cast<int>(judged.size());
   }
@@ -176,8 +182,19 @@ class Comparer {
     return least_change(bench::metric(difference.metric).scale, difference.before);
   }
 
-  static Change direction_of(const Difference& difference) {
+  std::optional<double> f1_change(const std::string& group) const {
+    std::vector<double> changes;
+    for (const auto& [scenario, change] : f1_changes_) {
+      if (is_in(*find(after_, scenario), group)) changes.push_back(change);
+    }
+    return bench::mean(changes);
+  }
+
+  /// A share of F1 that is lost also falls where F1 itself falls. That is not better.
+  static Change direction_of(const Difference& difference, std::optional<double> f1_change) {
     const int sign = sign_of_change(difference.better, difference.before, difference.after);
+    const bool is_lost_share = difference.metric.starts_with("rebel.f1_lost_");
+    if (sign > 0 && is_lost_share && f1_change.value_or(0) < 0) return Change::moved;
     return sign > 0 ? Change::improved : sign < 0 ? Change::regressed : Change::moved;
   }
 
@@ -201,6 +218,7 @@ class Comparer {
   bool by_world_;
   std::vector<const bench::Metric*> compared_;
   std::map<std::pair<std::string, std::string>, std::vector<double>> changes_;
+  std::map<std::string, double> f1_changes_;  // means over the seeds, by scenario
   Comparison result_;
 };
 
@@ -225,15 +243,19 @@ std::string interval_text(const Interval& change) {
 }
 
 /// Lines with aligned columns.
-std::string lines_of(const std::vector<const Difference*>& differences) {
+/// \param of_groups whether to add the number of scenarios to each name.
+std::string lines_of(const std::vector<const Difference*>& differences, bool of_groups = false) {
+  const auto name_of = [&](const Difference& one) {
+    return of_groups ? fmt::format("{} ({})", one.scenario, one.pairs) : one.scenario;
+  };
   std::size_t scenario_width = 0, metric_width = 0;
   for (const Difference* difference : differences) {
-    scenario_width = std::max(scenario_width, difference->scenario.size());
+    scenario_width = std::max(scenario_width, name_of(*difference).size());
     metric_width = std::max(metric_width, difference->metric.size());
   }
   std::string text;
   for (const Difference* difference : differences) {
-    text += fmt::format("  {:<{}}  {:<{}}  {:>7} -> {:>7}  {:>7}  {}", difference->scenario,
+    text += fmt::format("  {:<{}}  {:<{}}  {:>7} -> {:>7}  {:>7}  {}", name_of(*difference),
                         scenario_width, difference->metric, metric_width,
                         number(difference->before), number(difference->after),
                         signed_number(difference->change.mean), interval_text(difference->change));
@@ -331,7 +353,8 @@ std::vector<const Difference*> shown_means(const Comparison& comparison, bool al
 std::string means_text(const Comparison& comparison, bool all) {
   const auto shown = shown_means(comparison, all);
   if (shown.empty()) return "";
-  return "means, with the 95 % interval of each change:\n" + lines_of(shown);
+  return "means over so many scenarios, with the 95 % interval of each change:\n" +
+         lines_of(shown, true);
 }
 
 std::string text_of(const Comparison& comparison, bool all) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <string_view>
 
@@ -143,7 +142,7 @@ void add(std::vector<Repeated>& messages, const std::string& key, const std::str
 }
 
 std::string group_row_name(const SuiteResult& suite, const std::string& group) {
-  return fmt::format("= {} ({})", group, count_in(suite, group));
+  return "= " + counted_group(suite, group);
 }
 
 }  // namespace
@@ -233,15 +232,6 @@ std::vector<std::string> warnings(const SuiteResult& suite) {
     }
   }
   return lines;
-}
-
-std::string totals(const SuiteResult& suite) {
-  std::map<Outcome, int> counts;
-  for (const ScenarioResult& scenario : suite.scenarios) {
-    for (const RunResult& run : scenario.runs) ++counts[run.outcome];
-  }
-  return fmt::format("{} passed, {} failed, {} errors", counts[Outcome::passed],
-                     counts[Outcome::failed], counts[Outcome::error]);
 }
 
 }  // namespace lcs::suite

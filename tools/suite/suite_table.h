@@ -21,7 +21,4 @@ std::vector<std::string> problems(const SuiteResult& suite);
 /// first seed's.
 std::vector<std::string> warnings(const SuiteResult& suite);
 
-/// The counts of the runs' outcomes, such as "12 passed, 1 failed, 0 errors".
-std::string totals(const SuiteResult& suite);
-
 }  // namespace lcs::suite

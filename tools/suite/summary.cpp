@@ -94,6 +94,13 @@ std::int64_t count_in(const SuiteResult& suite, const std::string& group) {
                        [&](const ScenarioResult& scenario) { return is_in(scenario, group); });
 }
 
+std::string counted_group(const SuiteResult& suite, const std::string& group) {
+  const auto all = count_in(suite, group);
+  const auto with_f1 = std::ssize(figures_of_group(suite, group, "rebel.f1"));
+  return with_f1 == all ? fmt::format("{} ({})", group, all)
+                        : fmt::format("{} ({}, {} with F1)", group, all, with_f1);
+}
+
 std::vector<std::string> groups_of(const SuiteResult& suite) {
   std::vector<std::string> groups;
   for (const ScenarioResult& scenario : suite.scenarios) {

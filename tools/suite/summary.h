@@ -46,6 +46,9 @@ std::optional<double> over_group(const SuiteResult& suite, const std::string& gr
 bool is_in(const ScenarioResult& scenario, const std::string& group);
 /// The number of scenarios in a group.
 std::int64_t count_in(const SuiteResult& suite, const std::string& group);
+/// The group with the numbers of scenarios that its means are over, such as "short (43, 39 with
+/// F1)": those with F1 also have precision and recall.
+std::string counted_group(const SuiteResult& suite, const std::string& group);
 
 /// The group of all scenarios, in suites where no other group has them all.
 inline constexpr const char* kAll = "all";

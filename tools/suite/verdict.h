@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,19 +20,27 @@ struct SuiteInFolder {
 };
 
 /// Worst first. changed: by more than matters, with one seed, so that the noise is unknown.
-enum class Standing { error, failed, regressed, changed, improved };
+enum class Standing { error, failed, regressed, changed, improved, passed };
+
+/// How a scenario stands: by its criteria (error, failed or passed), then by its change if it has
+/// any. \param comparison null without a baseline.
+std::vector<Standing> standings_of(const ScenarioResult& scenario, const Comparison* comparison);
 
 struct Remark {
   std::string scenario;
-  Standing standing;
+  std::vector<Standing> standings;   ///< as `standings_of`
   std::vector<std::string> reasons;  ///< texts, worst first
 };
 
 struct Verdict {
-  /// Such as "not regressed: of 280 means 0 regressed, 1 improved; of single scenarios 1 regressed,
-  /// 0 improved, 42 as before, 1 criterion missed"; without a baseline "43 criteria met, 1 missed".
+  /// Such as "not regressed: of 280 means 0 regressed, 1 improved; of 43 scenarios 1 regressed, 0
+  /// improved, 42 as before; 43 of 44 criteria met, 1 failed"; without a baseline the criteria
+  /// alone
+  /// (`text_of(CriteriaCounts)`).
   std::string line;
-  std::string note;             ///< a caveat on the line; may be empty
+  bool is_good =
+      true;          ///< false if a criterion failed, a run ended with an error or a mean regressed
+  std::string note;  ///< a caveat on the line; may be empty
   std::vector<Remark> remarks;  ///< worst first; only scenarios with reasons
 };
 
@@ -39,10 +48,11 @@ struct Verdict {
 /// and false rebels, or behind most of those that are new since the baseline. The rule comes from
 /// all events of the runs, if they have any.
 /// \param before,comparison null without a baseline.
+/// \param others the results of the detectors of `--beside`, whose criteria the line counts too.
 Verdict verdict_of(const SuiteInFolder& after, const SuiteInFolder* before,
-                   const Comparison* comparison);
+                   const Comparison* comparison, std::span<const SuiteResult> others = {});
 
-/// The remarks, the note and, at the end, the line.
+/// The remarks and the note, without the line.
 std::string text_of(const Verdict& verdict);
 
 /// The word for the user: such as "regressed".
