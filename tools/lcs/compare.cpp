@@ -2,15 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
-#include <string_view>
-
 #include "tools/input/message.h"
 #include "tools/lcs/terminal.h"
-#include "tools/suite/comparison.h"
-#include "tools/suite/pattern.h"
-#include "tools/suite/suite_result.h"
-#include "tools/suite/verdict.h"
 
 namespace lcs::tools {
 namespace {
@@ -44,12 +37,12 @@ void print_suite(const char* when, const std::string& path, const suite::SuiteRe
 CLI::App& add_compare_command(CLI::App& app, CompareOptions& options) {
   CLI::App& command = *app.add_subcommand(
       "compare", "Tell what got better and what got worse between two suites, beyond noise");
-  command.add_option("BEFORE", options.before, "A suite.json, or the folder of a suite")
+  command.add_option("BEFORE", options.request.before, "A suite.json, or the folder of a suite")
       ->required()
       ->type_name("");
-  command.add_option("AFTER", options.after, "Another one")->required()->type_name("");
+  command.add_option("AFTER", options.request.after, "Another one")->required()->type_name("");
   command
-      .add_option("--metric", options.metric,
+      .add_option("--metric", options.request.metric,
                   "Only figures with this regular expression in their name")
       ->type_name("REGEX");
   command.add_flag("--all", options.all,
@@ -63,21 +56,11 @@ CLI::App& add_compare_command(CLI::App& app, CompareOptions& options) {
 }
 
 ExitCode compare(const CompareOptions& options) {
-  const suite::Pattern wanted(options.metric, "--metric", "rebel.*f1");
-  const suite::SuiteResult before = suite::read_suite(options.before);
-  const suite::SuiteResult after = suite::read_suite(options.after);
-  const suite::Comparison comparison =
-      suite::compare(before, after, [&](std::string_view metric) { return wanted.is_in(metric); });
-  if (comparison.scenarios.empty()) {
-    throw std::runtime_error(
-        fmt::format("{} and {} have no scenario in common; give two suites of the same "
-                    "scenarios",
-                    options.before, options.after));
-  }
-  print_suite("before", options.before, before);
-  print_suite("after ", options.after, after);
+  const auto [before, after, comparison, verdict] = app::compare(options.request);
+  print_suite("before", options.request.before, before);
+  print_suite("after ", options.request.after, after);
   print_out("{}", input::printable(suite::text_of(comparison, options.all)));
-  print_out("{}\n", suite::verdict_of({after, {}}, nullptr, &comparison).line);
+  print_out("{}\n", verdict.line);
   return comparison.has_regressed() ? kRegressed : kFine;
 }
 

@@ -3,23 +3,21 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <string>
 
+#include "tools/app/compare.h"
 #include "tools/lcs/exit_codes.h"
 
 namespace lcs::tools {
 
 struct CompareOptions {
-  std::string before, after;  ///< suite.json, or its folder
-  std::string metric;         ///< regular expression; "": every metric
+  app::CompareRequest request;
   bool all = false;
 };
 
 /// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_compare_command(CLI::App& app, CompareOptions& options);
 
-/// \return kRegressed for a regression. \throws std::runtime_error if a suite cannot be read or
-///   the two have no scenario in common.
+/// \return kRegressed for a regression. \throws as `app::compare`.
 ExitCode compare(const CompareOptions& options);
 
 }  // namespace lcs::tools

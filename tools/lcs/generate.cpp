@@ -14,6 +14,7 @@
 #include "scenarios/load.h"
 #include "scenarios/scenes.h"
 #include "sim/simulation.h"
+#include "tools/app/version.h"
 #include "tools/bench/detector.h"
 #include "tools/files/csv.h"
 #include "tools/files/output.h"
@@ -21,7 +22,6 @@
 #include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
 #include "tools/lcs/terminal.h"
-#include "tools/lcs/version.h"
 #include "tools/recording/warnings.h"
 #include "tools/sequence/generator.h"
 #include "tools/sequence/manifest.h"
@@ -206,7 +206,7 @@ ExitCode generate(const GenerateOptions& options) {
   }
   const scenario::Scenario scenario = load(options);
   bench::filter_parameters(scenario);  // a sequence keeps them for its replay: they must be valid
-  const sequence::GenerateOptions what{formats_of(options), options.sets, program_text()};
+  const sequence::GenerateOptions what{formats_of(options), options.sets, app::program_text()};
   const bool is_part = !options.shard.empty();
   const auto [part, parts] = is_part ? suite::shard_of(options.shard) : suite::Shard{};
   const sequence::FrameRange range = sequence::part_of(scenario.frames, part, parts);

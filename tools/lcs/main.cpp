@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "tools/app/version.h"
 #include "tools/input/message.h"
 #include "tools/lcs/compare.h"
 #include "tools/lcs/exit_codes.h"
 #include "tools/lcs/generate.h"
-#include "tools/lcs/how_made.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/kinematics.h"
 #include "tools/lcs/merge.h"
@@ -29,7 +29,6 @@
 #include "tools/lcs/suite.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/tune.h"
-#include "tools/lcs/version.h"
 #include "tools/lcs/world.h"
 
 namespace {
@@ -78,7 +77,7 @@ int run_command_line(int argc, char** argv) {
   CLI::App app("Test bench for the Line-Circle-Square filter", "lcs");
   app.formatter(std::make_shared<Help>());
   app.set_version_flag(
-      "--version", version_text,
+      "--version", lcs::app::version_text,
       "Print the versions of this program (with its commit), MuJoCo, the renderer and OpenCV");
   app.require_subcommand(1);
   app.footer(kHelp);
@@ -133,7 +132,6 @@ int main(int argc, char** argv) {
   cv::setNumThreads(0);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   open_standard_descriptors();
-  command_line().assign(argv + 1, argv + argc);
   try {
     const int exit_code = run_command_line(argc, argv);
     finish_out();

@@ -3,23 +3,22 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <string>
-#include <vector>
 
+#include "tools/app/merge.h"
 #include "tools/lcs/exit_codes.h"
 #include "tools/lcs/suite_end.h"
 
 namespace lcs::tools {
 
 struct MergeOptions {
-  std::vector<std::string> parts;  ///< folders
+  app::MergeRequest request;
   SuiteEndOptions end;
 };
 
 /// Adds the sub-command to `app`. \param options filled in by parsing.
 CLI::App& add_merge_command(CLI::App& app, MergeOptions& options);
 
-/// \throws bench::OutputError, Interrupted, std::exception; then nothing is written.
+/// \throws as `app::merge`.
 ExitCode merge(const MergeOptions& options);
 
 }  // namespace lcs::tools

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "scenarios/load.h"
+#include "tools/app/command_line.h"
 #include "tools/files/csv.h"
 #include "tools/files/output.h"
 #include "tools/input/document.h"
@@ -94,6 +95,7 @@ constexpr KeyOption kKeys[] = {
     {"split", "NAME", "What its figures are for: train, validate or test"},
 };
 
+constexpr const char* kNothingMoves = "nothing_moves";
 constexpr std::string_view kTopics = "topics.";
 
 /// --fps for fps, --image-topic for topics.image, --world-frame for topics.world.
@@ -179,6 +181,26 @@ Value document_of(const ReplayOptions& options) {
   return root;
 }
 
+std::vector<std::string> arguments_of(const ReplayOptions& options) {
+  app::CommandLine line({"replay", options.path});
+  for (const auto& [key, text] : options.recording) {
+    if (key == kNothingMoves) {
+      line.add_flag("--nothing-moves", true);
+    } else {
+      line.add(flag_of(key).c_str(), text);
+    }
+  }
+  line.add("--ego-motion", options.ego_motion);
+  line.add("--fast-threshold", options.fast_threshold);
+  line.add("--detector", options.detector.name);
+  line.add(arguments_of(options.detector));
+  line.add("--preset", options.preset);
+  line.add_each("--set", options.sets);
+  line.add_each("--beside", options.beside);
+  line.add("--out", options.out);
+  return line.words();
+}
+
 /// The name of the recording's folder, or of its video without the extension.
 std::string name_of(const fs::path& path) {
   // A path with a trailing slash has an empty filename.
@@ -226,7 +248,7 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
   add_key("format", about)->type_name("NAME");
   for (const KeyOption& key : kKeys) add_key(key.key, key.about)->type_name(key.type);
   command.add_flag_callback(
-      "--nothing-moves", [&options] { options.recording["nothing_moves"] = "true"; },
+      "--nothing-moves", [&options] { options.recording[kNothingMoves] = "true"; },
       "Nothing but the camera moves: every rebel is false");
   command
       .add_option("--ego-motion", options.ego_motion,
@@ -270,7 +292,8 @@ ExitCode replay(const ReplayOptions& options) {
                        .recorded = {},
                        .no_video = options.no_video,
                        .events = options.events,
-                       .quiet = options.quiet},
+                       .quiet = options.quiet,
+                       .command = arguments_of(options)},
                       std::move(scenario));
 }
 

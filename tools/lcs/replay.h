@@ -19,7 +19,7 @@ struct ReplayOptions {
   std::string fast_threshold;                    ///< "": the recording's default
   std::string preset;                            ///< "": the recording's default
   std::vector<std::string> sets;                 ///< filter settings, "key=value"
-  DetectorOptions detector;
+  app::DetectorChoice detector;
   std::vector<std::string> beside;  ///< as in `RunOptions`
   std::string out;                  ///< folder; "" is out/<name of the recording>
   std::string write;                ///< scenario file to write instead of running; "": run

@@ -15,17 +15,17 @@
 #include "scenarios/load.h"
 #include "scenarios/scenes.h"
 #include "sim/simulation.h"
+#include "tools/app/how_made.h"
+#include "tools/app/version.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/detector.h"
 #include "tools/bench/earlier_run.h"
 #include "tools/comparators/detectors.h"
 #include "tools/lcs/detector_option.h"
-#include "tools/lcs/how_made.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
 #include "tools/lcs/terminal.h"
-#include "tools/lcs/version.h"
 #include "tools/lcs/view.h"
 #include "tools/output/result.h"
 #include "tools/output/table.h"
@@ -210,7 +210,7 @@ std::vector<Watching> watching(const RunOptions& options, const scenario::Scenar
 /// The command that repeats the run of one of the detectors, without its place.
 std::string command_of(const RunOptions& options, const scenario::Scenario& scenario,
                        const Watching& watching, bool is_own) {
-  if (options.scenario.empty()) return suite::shell_line(command_line());  // lcs replay
+  if (!options.command.empty()) return suite::shell_line(options.command);
   std::vector<std::string> command{"run", options.scenario, "--seed",
                                    std::to_string(scenario.seed)};
   const auto add = [&](const std::string& option, const std::string& value) {
@@ -230,14 +230,14 @@ std::string command_of(const RunOptions& options, const scenario::Scenario& scen
 /// Writes run.json.
 void write_how_made(const RunOptions& options, const scenario::Scenario& scenario,
                     const Frames& frames, const Watching& watching, bool is_own) {
-  tools::write_how_made(watching.result->output().staging(),
-                        command_of(options, scenario, watching, is_own), frames.versions,
-                        {{"scenario", scenario.name},
-                         {"seed", scenario.seed},
-                         {"frames", watching.recording.frames.size()},
-                         {"detector", watching.spec.name},
-                         {"settings", options.sets},
-                         {"recorded", options.recorded}});
+  app::write_how_made(watching.result->output().staging(),
+                      command_of(options, scenario, watching, is_own), frames.versions,
+                      {{"scenario", scenario.name},
+                       {"seed", scenario.seed},
+                       {"frames", watching.recording.frames.size()},
+                       {"detector", watching.spec.name},
+                       {"settings", options.sets},
+                       {"recorded", options.recorded}});
 }
 
 /// Writes the report page of the run as a suite with a single run.
@@ -254,7 +254,7 @@ void write_page(const RunOptions& options, const scenario::Scenario& scenario, c
   suite::judge_run(bench::asked_of(own.spec.name, true, scenario.criteria), run);
   suite::SuiteResult suite{.detector = own.spec.name,
                            .sets = options.sets,
-                           .version = version_line(),
+                           .version = app::version_line(),
                            .recorded = options.recorded,
                            .scenarios = {}};
   if (!options.frames.empty()) suite.sets.push_back("frames=" + options.frames);
@@ -332,6 +332,7 @@ ExitCode run(const RunOptions& options) {
 
 ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   // Validate the whole request before any output is begun.
+  Terminal terminal(options.quiet);
   std::optional<replay::Playback> playback;
   if (scenario.recording) scenario = playback.emplace(scenario).scenario();
   std::vector<Watching> all = watching(options, scenario);
@@ -348,8 +349,8 @@ ExitCode run_scenario(const RunOptions& options, scenario::Scenario scenario) {
   if (options.view) view.emplace(scenario.name, scenario.camera.rate_hz);
   for (Watching& one : all) {
     if (scenario.frames > 0) {
-      note_longer(one.target, &one != &own || !options.out.empty(), "frames",
-                  static_cast<std::size_t>(scenario.frames));
+      app::note_longer(one.target, &one != &own || !options.out.empty(), "frames",
+                       static_cast<std::size_t>(scenario.frames), terminal);
     }
     one.detector = comparators::make(one.spec, {.camera = frames.camera,
                                                 .scenario = one.scenario,

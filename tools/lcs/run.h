@@ -21,7 +21,7 @@ struct RunOptions {
   std::optional<std::uint64_t> seed;
   std::vector<std::string> sets;  ///< "key=value"
   std::string frames = {};        ///< number of frames; "": as in the scenario
-  DetectorOptions detector;
+  app::DetectorChoice detector;
   std::vector<std::string> beside;  ///< "detector=folder": further detectors on the same frames
   std::string recorded;  ///< folder of an earlier run that provides the frames; "": simulate
   bench::Keep keep = bench::Keep::all;
@@ -31,6 +31,7 @@ struct RunOptions {
   bool report = false;  ///< write report.html, and with it events.json
   bool view = false;    ///< show the run in a window
   bool quiet = false;
+  std::vector<std::string> command = {};  ///< of a request that is carried out as this one
 };
 
 /// As `run`, for a loaded scenario: `options.seed` is ignored; `options.scenario`, `sets` and

@@ -14,6 +14,7 @@
 #include "tools/files/output_file.h"
 #include "tools/input/message.h"
 #include "tools/lcs/interrupt.h"
+#include "tools/lcs/progress.h"
 
 namespace lcs::tools {
 namespace {
@@ -78,6 +79,19 @@ void tell(std::string_view message) {
 
 void warn(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) tell("warning: " + line);
+}
+
+void Terminal::check() {
+  check_interrupted();
+}
+
+void Terminal::note(const std::string& line) {
+  if (!quiet_) tools::tell(line);
+}
+
+std::unique_ptr<app::Progress> Terminal::progress(const std::string& name, int total,
+                                                  const std::string& unit) {
+  return std::make_unique<Progress>(name, total, quiet_, unit);
 }
 
 void finish_out() {

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tools/app/version.h"
 #include "tools/bench/detector.h"
 #include "tools/files/output.h"
 #include "tools/files/sha256.h"
@@ -22,7 +23,6 @@
 #include "tools/lcs/options.h"
 #include "tools/lcs/progress.h"
 #include "tools/lcs/terminal.h"
-#include "tools/lcs/version.h"
 #include "tools/suite/suite_result.h"
 #include "tools/tune/journal.h"
 #include "tools/tune/record.h"
@@ -119,7 +119,7 @@ std::vector<tune::Fact> facts_of(const TuneOptions& options, const tune::Trials&
                                  const tune::SearchOptions& search) {
   constexpr input::FileKind kProgram{input::kGibibyte, "start lcs by its path"};
   std::vector<tune::Fact> facts{
-      {"program", fmt::format("{}, SHA-256 {}", program_text(),
+      {"program", fmt::format("{}, SHA-256 {}", app::program_text(),
                               bench::sha256(input::read_file("/proc/self/exe", kProgram)))},
       {"recordings", fmt::format("SHA-256 {}", trials.digest())},
       {"suites", about(options.suites, trials)},
@@ -236,7 +236,7 @@ ExitCode tune(const TuneOptions& options) {
   }
   check_interrupted();
   const tune::Circumstances circumstances{
-      fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))), program_text(),
+      fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))), app::program_text(),
       command_of(options)};
   const std::string record = tune::record_text(found, stated, circumstances);
   bench::write_file(preset_file.staging(),

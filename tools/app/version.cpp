@@ -1,15 +1,15 @@
-#include "tools/lcs/version.h"
+#include "tools/app/version.h"
 
 #include <fmt/format.h>
 
 #include <opencv2/core/utility.hpp>
 
 #include "sim/simulation.h"
+#include "tools/app/commit.h"
 #include "tools/files/sha256.h"
 #include "tools/input/input_file.h"
-#include "tools/lcs/commit.h"
 
-namespace lcs::tools {
+namespace lcs::app {
 
 std::string version_text() {
   const sim::Versions versions = sim::versions();
@@ -34,4 +34,4 @@ std::string program_text() {
   return fmt::format("{} ({})", LCS_VERSION, LCS_COMMIT);
 }
 
-}  // namespace lcs::tools
+}  // namespace lcs::app
