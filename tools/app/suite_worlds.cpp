@@ -9,6 +9,7 @@
 
 #include "scenarios/load.h"
 #include "sim/pictures/picture_file.h"
+#include "tools/app/world.h"
 #include "tools/files/output_file.h"
 #include "tools/files/written.h"
 #include "tools/output/frame_pictures.h"
@@ -85,8 +86,9 @@ void draw_worlds(const std::vector<worlds::Kept>& chosen, std::size_t jobs, Call
           "{}: {}; remove that folder, so that the world is drawn anew", world.string(), what));
     }
     fs::create_directories(world.parent_path());
-    commands.push_back({"world", choice.family, "--seed", std::to_string(choice.seed), "--out",
-                        world.string(), "--quiet"});
+    commands.push_back(arguments_of(
+        WorldRequest{.family = choice.family, .seed = choice.seed, .out = world.string()}));
+    commands.back().emplace_back("--quiet");
   }
   suite::run_all(
       commands, jobs,
