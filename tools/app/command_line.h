@@ -2,11 +2,23 @@
 /// The command line that makes a request. `suite::shell_line` quotes it.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace lcs::app {
+
+/// Splits "key=value", a filter setting given by `--set`.
+/// \throws std::invalid_argument if there is no '='.
+inline std::pair<std::string, std::string> key_and_value(const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos) {
+    throw std::invalid_argument("--set takes KEY=VALUE, as hypotheses.prior=0.05, not '" + setting +
+                                "'");
+  }
+  return {setting.substr(0, equals), setting.substr(equals + 1)};
+}
 
 class CommandLine {
  public:

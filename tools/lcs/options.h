@@ -10,7 +10,6 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tools/files/output.h"
@@ -84,17 +83,6 @@ inline void add_set_option(CLI::App& command, std::vector<std::string>& sets,
   command.add_option("--set", sets, about + "; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-}
-
-/// Splits "key=value", a filter setting given by `--set`.
-/// \throws std::invalid_argument if there is no '='.
-inline std::pair<std::string, std::string> key_and_value(const std::string& setting) {
-  const std::size_t equals = setting.find('=');
-  if (equals == std::string::npos) {
-    throw std::invalid_argument("--set takes KEY=VALUE, as hypotheses.prior=0.05, not '" + setting +
-                                "'");
-  }
-  return {setting.substr(0, equals), setting.substr(equals + 1)};
 }
 
 /// Help heading of all options that name output files. Each such path goes through

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tools/app/command_line.h"
 #include "tools/app/version.h"
 #include "tools/bench/detector.h"
 #include "tools/files/output.h"
@@ -94,7 +95,7 @@ std::string about(std::vector<std::string> names, const tune::Trials& trials) {
 Parameters start_of(const std::vector<std::string>& sets) {
   scenario::Scenario settings;
   for (const std::string& setting : sets) {
-    const auto [key, value] = key_and_value(setting);
+    const auto [key, value] = app::key_and_value(setting);
     settings.filter.push_back({key, value, {"--set " + setting, 0}});
   }
   return std::get<Parameters>(bench::filter_parameters(settings));
