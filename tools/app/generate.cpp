@@ -122,7 +122,7 @@ std::vector<std::string> sequence_command(const GenerateRequest& request,
 
 Generated generate(const GenerateRequest& request, Caller& caller) {
   if (request.paths.size() != 1) {
-    throw std::invalid_argument("give one scenario, or --suite; see lcs generate --help");
+    throw std::invalid_argument("give one scenario, --suite or --worlds; see lcs generate --help");
   }
   if (request.jobs > 1 && !request.shard.empty()) {
     throw std::invalid_argument(

@@ -10,6 +10,7 @@
 
 #include "scenarios/scenario.h"
 #include "tools/app/caller.h"
+#include "tools/app/suite_worlds.h"
 #include "tools/sequence/generator.h"
 
 namespace lcs::app {
@@ -17,6 +18,7 @@ namespace lcs::app {
 struct GenerateRequest {
   std::vector<std::string> paths;    ///< one scenario file; with `suite`: files and folders
   bool suite = false;                ///< one sequence for each scenario and seed
+  WorldsChoice worlds;               ///< a sequence for each world, in place of `paths`
   std::string out;                   ///< folder; "" is data/<scenario's name>, data with `suite`
   std::vector<std::string> formats;  ///< empty: all
   std::optional<std::uint64_t> seed;
@@ -27,6 +29,9 @@ struct GenerateRequest {
   std::optional<std::string> group;  ///< with `suite`: as in `SuiteRequest`
   std::string filter;                ///< as in `SuiteRequest`
   int seeds = 1;                     ///< per scenario, with `suite`
+
+  /// Whether `generate_suite` makes it.
+  bool is_of_many() const { return suite || !worlds.split.empty(); }
 };
 
 /// A sequence, or a part of one.
@@ -49,7 +54,8 @@ struct SequencesMade {
   std::vector<std::string> errors;  ///< of scenarios and sequences that could not be made
 };
 
-/// Makes the sequences of a suite, each in a process of its own. \throws as `generate`.
+/// Makes the sequences of a suite or of worlds, each in a process of its own. Of worlds, only those
+/// of the shard are drawn. \throws as `generate`.
 SequencesMade generate_suite(const GenerateRequest& request, Caller& caller);
 
 /// The arguments of a child process that makes one sequence or a part of it.

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <stdexcept>
 
 #include "tools/app/generate.h"
 #include "tools/suite/child_process.h"
@@ -17,20 +18,39 @@ struct PlannedSequence {
   std::vector<std::string> command;
 };
 
+/// Draws the worlds of a shard. \return their scenario files.
+std::vector<std::filesystem::path> draw_part(const GenerateRequest& request,
+                                             const suite::Shard& shard, Caller& caller) {
+  std::vector<worlds::Kept> chosen = chosen_worlds(request.worlds, request.filter);
+  if (static_cast<std::size_t>(shard.parts) > chosen.size()) {
+    throw std::invalid_argument(fmt::format(
+        "--shard {}: there are only {} worlds; make fewer parts", request.shard, chosen.size()));
+  }
+  int place = 0;
+  std::erase_if(chosen, [&](const auto&) { return place++ % shard.parts != shard.part - 1; });
+  draw_worlds(chosen, jobs_at_once(request.jobs), caller);
+  std::vector<std::filesystem::path> files;
+  for (const worlds::Kept& one : chosen) files.push_back(one.file);
+  return files;
+}
+
 /// The sequences of this shard. Adds an error for each broken scenario.
 std::vector<PlannedSequence> plan_sequences(const GenerateRequest& request, SequencesMade& made,
                                             Caller& caller) {
-  const auto [part, parts] =
-      request.shard.empty() ? suite::Shard{} : suite::shard_of(request.shard);
+  suite::Shard shard = request.shard.empty() ? suite::Shard{} : suite::shard_of(request.shard);
+  std::vector<std::filesystem::path> paths(request.paths.begin(), request.paths.end());
+  if (!request.worlds.split.empty()) {
+    paths = draw_part(request, shard, caller);
+    shard = {};
+  }
   const std::filesystem::path folder = request.out.empty() ? "data" : request.out;
   std::vector<PlannedSequence> mine;
   std::size_t place = 0;
-  for (const suite::PlannedScenario& planned :
-       suite::plan({.paths = {request.paths.begin(), request.paths.end()},
-       .group = request.group,
-       .filter = request.filter,
-       .sets = request.sets,
-       .seeds = request.seeds})) {
+  for (const suite::PlannedScenario& planned : suite::plan({.paths = paths,
+                                               .group = request.group,
+                                               .filter = request.filter,
+                                               .sets = request.sets,
+                                               .seeds = request.seeds})) {
     if (!planned.scenario) {
       caller.tell("error: " + planned.error);
       made.errors.push_back(planned.error);
@@ -38,7 +58,8 @@ std::vector<PlannedSequence> plan_sequences(const GenerateRequest& request, Sequ
     }
     for (const std::uint64_t seed : planned.seeds) {
       // Round robin balances the shards: neighbouring sequences have similar lengths.
-      if (static_cast<int>(place++ % static_cast<std::size_t>(parts)) != part - 1) continue;
+      if (static_cast<int>(place++ % static_cast<std::size_t>(shard.parts)) != shard.part - 1)
+        continue;
       GenerateRequest one = request;
       one.sets = planned.sets;
       one.seed = seed;

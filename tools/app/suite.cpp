@@ -9,7 +9,6 @@
 #include <set>
 #include <span>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include "scenarios/scenes.h"
@@ -25,7 +24,6 @@
 #include "tools/input/message.h"
 #include "tools/output/result.h"
 #include "tools/scoring/criteria.h"
-#include "tools/suite/pattern.h"
 #include "tools/suite/plan.h"
 #include "tools/suite/suite_run.h"
 
@@ -33,11 +31,6 @@ namespace lcs::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::size_t jobs_at_once(const SuiteRequest& request) {
-  if (request.jobs > 0) return static_cast<std::size_t>(request.jobs);
-  return std::max(1U, std::thread::hardware_concurrency());
-}
 
 /// The earlier suite at the target, if it is readable. Its times only help to schedule the runs.
 std::optional<suite::SuiteResult> former_suite(const fs::path& target) {
@@ -144,10 +137,7 @@ void note_digests(SuitePlan& planned) {
 /// Worlds are chosen before they are drawn, so that only those of this part are drawn.
 SuitePlan plan_worlds(const SuiteRequest& request, int seeds,
                       const std::optional<suite::SuiteResult>& former, Caller& caller) {
-  std::vector<worlds::Kept> chosen = chosen_worlds(request.worlds);
-  const suite::Pattern filter(request.filter, "--filter", "^room");
-  std::erase_if(chosen, [&](const auto& one) { return !filter.is_in(one.file.stem().string()); });
-  if (chosen.empty()) throw std::runtime_error("no world fits --filter; its names are as room_7");
+  std::vector<worlds::Kept> chosen = chosen_worlds(request.worlds, request.filter);
   SuitePlan planned;
   std::set<std::pair<std::string, std::uint64_t>> runs;
   if (!request.shard.empty()) {
@@ -167,7 +157,7 @@ SuitePlan plan_worlds(const SuiteRequest& request, int seeds,
       return first == runs.end() || first->first != one.file.stem();
     });
   }
-  draw_worlds(chosen, jobs_at_once(request), caller);
+  draw_worlds(chosen, jobs_at_once(request.jobs), caller);
   std::vector<fs::path> files;
   for (const worlds::Kept& one : chosen) files.push_back(one.file);
   planned.plan = suite::plan(
@@ -337,7 +327,7 @@ SuiteMade suite(const SuiteRequest& request, Caller& caller, SuiteWatch& watch) 
          .sets = request.sets,
          .recorded = recordings,
          .version = version,
-         .jobs = jobs_at_once(request),
+         .jobs = jobs_at_once(request.jobs),
          .former = former_suite(folder.target() / part_of(detectors.front(), own)),
          .on_run =
              [&](const suite::SuiteProgress& done, const std::string& scenario,

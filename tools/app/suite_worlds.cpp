@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 
 #include "scenarios/load.h"
 #include "sim/pictures/picture_file.h"
@@ -16,6 +17,7 @@
 #include "tools/recording/recording_io.h"
 #include "tools/report/worlds_page.h"
 #include "tools/suite/child_process.h"
+#include "tools/suite/pattern.h"
 #include "tools/worlds/sheet.h"
 #include "tools/worlds/worlds.h"
 
@@ -64,15 +66,23 @@ void write_sheet(const fs::path& folder, const suite::PlannedScenario& planned,
 
 }  // namespace
 
-std::vector<worlds::Kept> chosen_worlds(const WorldsChoice& choice) {
+std::vector<worlds::Kept> chosen_worlds(const WorldsChoice& choice, const std::string& filter) {
+  const suite::Pattern wanted(filter, "--filter", "^room");
   std::vector<worlds::Choice> choices = worlds::choose(choice.split, choice.count, choice.family);
   std::stable_sort(choices.begin(), choices.end(),
                    [](const auto& a, const auto& b) { return a.family < b.family; });
   std::vector<worlds::Kept> chosen;
   for (const worlds::Choice& one : choices) {
-    chosen.push_back({one, worlds::kept_world(kFolder, one)});
+    const fs::path file = worlds::kept_world(kFolder, one);
+    if (wanted.is_in(file.stem().string())) chosen.push_back({one, file});
   }
+  if (chosen.empty()) throw std::runtime_error("no world fits --filter; its names are as room_7");
   return chosen;
+}
+
+std::size_t jobs_at_once(int jobs) {
+  return jobs > 0 ? static_cast<std::size_t>(jobs)
+                  : std::max(1U, std::thread::hardware_concurrency());
 }
 
 void draw_worlds(const std::vector<worlds::Kept>& chosen, std::size_t jobs, Caller& caller) {

@@ -15,14 +15,19 @@ namespace lcs::app {
 
 /// Worlds of a split.
 struct WorldsChoice {
-  std::string split;  ///< train, validate or test; "": no worlds
+  std::string split = {};  ///< train, validate or test; "": no worlds
   int count = 60;
-  std::string family;  ///< "": all families
+  std::string family = {};  ///< "": all families
 };
 
 /// The chosen worlds, ordered by family, without drawing them.
-/// \throws std::invalid_argument for an unknown split or family.
-std::vector<worlds::Kept> chosen_worlds(const WorldsChoice& choice);
+/// \param filter regular expression that a part of the name matches; "": any.
+/// \throws std::invalid_argument for an unknown split or family; std::runtime_error for an invalid
+///   filter and if no world fits.
+std::vector<worlds::Kept> chosen_worlds(const WorldsChoice& choice, const std::string& filter);
+
+/// The number of jobs; for 0 that of the processors.
+std::size_t jobs_at_once(int jobs);
 
 /// Draws the worlds that are missing in out/worlds/, each in its own process, `jobs` at a time.
 /// \throws bench::OutputError for a world that was edited, std::runtime_error.

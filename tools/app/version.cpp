@@ -4,6 +4,7 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "scenarios/shipped.h"
 #include "sim/simulation.h"
 #include "tools/app/commit.h"
 #include "tools/files/sha256.h"
@@ -27,7 +28,7 @@ std::string version_line() {
 
 std::string program_sha256() {
   constexpr input::FileKind kProgram{input::kGibibyte, "install the program again"};
-  return bench::sha256(input::read_file("/proc/self/exe", kProgram));  // also after a rebuild
+  return bench::sha256(input::read_file(scenario::program(), kProgram));
 }
 
 std::string program_text() {

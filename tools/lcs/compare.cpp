@@ -1,12 +1,21 @@
-#include "tools/lcs/compare.h"
-
+/// \file
+/// `lcs compare`: the differences between two suites beyond the noise of their seeds.
 #include <fmt/format.h>
 
+#include <memory>
+
+#include "tools/app/compare.h"
 #include "tools/input/message.h"
+#include "tools/lcs/commands.h"
 #include "tools/lcs/terminal.h"
 
 namespace lcs::tools {
 namespace {
+
+struct CompareOptions {
+  app::CompareRequest request;
+  bool all = false;
+};
 
 constexpr const char* kHelp = R"(Examples:
   lcs suite --out out/before
@@ -32,9 +41,20 @@ void print_suite(const char* when, const std::string& path, const suite::SuiteRe
                                   fmt::join(suite.sets, ", "))));
 }
 
+ExitCode compare(const CompareOptions& options) {
+  const auto [before, after, comparison, verdict] = app::compare(options.request);
+  print_suite("before", options.request.before, before);
+  print_suite("after ", options.request.after, after);
+  print_out("{}", input::printable(suite::text_of(comparison, options.all)));
+  print_out("{}\n", verdict.line);
+  return comparison.has_regressed() ? kRegressed : kFine;
+}
+
 }  // namespace
 
-CLI::App& add_compare_command(CLI::App& app, CompareOptions& options) {
+Command add_compare_command(CLI::App& app) {
+  const auto owned = std::make_shared<CompareOptions>();
+  CompareOptions& options = *owned;
   CLI::App& command = *app.add_subcommand(
       "compare", "Tell what got better and what got worse between two suites, beyond noise");
   command.add_option("BEFORE", options.request.before, "A suite.json, or the folder of a suite")
@@ -52,16 +72,7 @@ CLI::App& add_compare_command(CLI::App& app, CompareOptions& options) {
       "Exit with 1 where something regressed: this command always does, lcs suite only where it is "
       "asked");
   command.footer(kHelp);
-  return command;
-}
-
-ExitCode compare(const CompareOptions& options) {
-  const auto [before, after, comparison, verdict] = app::compare(options.request);
-  print_suite("before", options.request.before, before);
-  print_suite("after ", options.request.after, after);
-  print_out("{}", input::printable(suite::text_of(comparison, options.all)));
-  print_out("{}\n", verdict.line);
-  return comparison.has_regressed() ? kRegressed : kFine;
+  return {command, [owned] { return compare(*owned); }};
 }
 
 }  // namespace lcs::tools

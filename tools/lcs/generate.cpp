@@ -1,13 +1,23 @@
-#include "tools/lcs/generate.h"
-
+/// \file
+/// `lcs generate`: writes scenarios as sequences of pictures and truth for other tools.
 #include <fmt/format.h>
 
+#include <memory>
+
+#include "tools/app/generate.h"
+#include "tools/lcs/commands.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
+#include "tools/lcs/worlds_option.h"
 #include "tools/sequence/writer.h"
 
 namespace lcs::tools {
 namespace {
+
+struct GenerateOptions {
+  app::GenerateRequest request;
+  bool quiet = false;
+};
 
 constexpr const char* kHelp = R"(Examples:
   lcs generate scenarios/crossing.yaml --out data/crossing
@@ -15,6 +25,7 @@ constexpr const char* kHelp = R"(Examples:
   lcs replay data/crossing                       the filter on it: the verdicts of lcs run
   lcs generate --suite --jobs 2 --out data       every short scenario: data/NAME-seedN
   lcs generate --suite --shard 3/16 --out data   the third of 16 parts, as a batch system has it
+  lcs generate --worlds train --count 100 --out data       worlds drawn from seeds: data/NAME-seedN
   parallel lcs generate --suite --out data --shard {}/4 ::: 1 2 3 4
 
 Each frame is checked before it is written: flow against depth and poses, boxes against masks, IMU
@@ -33,9 +44,37 @@ Exit codes:
 constexpr int kMostJobs = 1024, kMostSeeds = 1000;
 constexpr int kMostFrames = 100'000'000;
 
+ExitCode generate(const GenerateOptions& options) {
+  Terminal terminal(options.quiet);
+  if (options.request.is_of_many()) {
+    return app::generate_suite(options.request, terminal).errors.empty() ? kFine : kError;
+  }
+  const app::Generated made = app::generate(options.request, terminal);
+  if (options.quiet) return kFine;
+  switch (made.state) {
+    case app::Generated::State::complete_before:
+      print_out("{} is complete, and every file is as its manifest says\n", made.folder.string());
+      break;
+    case app::Generated::State::part:
+      print_out(
+          "{}: frames {} to {} are whole; when all parts are, the same command without "
+          "--shard puts the sequence together\n",
+          made.scenario.name, made.range.first, made.range.last - 1);
+      break;
+    case app::Generated::State::whole:
+      print_out("{}: {} frames, seed {}\n", made.scenario.name, made.scenario.frames,
+                made.scenario.seed);
+      for (const std::string& note : made.notes) print_out("  {}\n", note);
+      print_out("  files    {}\n", made.folder.string());
+  }
+  return kFine;
+}
+
 }  // namespace
 
-CLI::App& add_generate_command(CLI::App& app, GenerateOptions& options) {
+Command add_generate_command(CLI::App& app) {
+  const auto owned = std::make_shared<GenerateOptions>();
+  GenerateOptions& options = *owned;
   CLI::App& command = *app.add_subcommand(
       "generate", "Simulate a scenario and write it as a sequence that other tools read");
   command
@@ -43,6 +82,7 @@ CLI::App& add_generate_command(CLI::App& app, GenerateOptions& options) {
                   "The scenario, a YAML file; with --suite files and folders, or the project's own")
       ->type_name("");
   command.add_flag("--suite", options.request.suite, "A sequence for each of many scenarios");
+  add_worlds_options(command, options.request.worlds)->excludes("SCENARIO");
   command
       .add_option(
           "--out", options.request.out,
@@ -81,33 +121,7 @@ CLI::App& add_generate_command(CLI::App& app, GenerateOptions& options) {
       ->type_name("N");
   add_quiet_option(command, options.quiet);
   command.footer(kHelp);
-  return command;
-}
-
-ExitCode generate(const GenerateOptions& options) {
-  Terminal terminal(options.quiet);
-  if (options.request.suite) {
-    return app::generate_suite(options.request, terminal).errors.empty() ? kFine : kError;
-  }
-  const app::Generated made = app::generate(options.request, terminal);
-  if (options.quiet) return kFine;
-  switch (made.state) {
-    case app::Generated::State::complete_before:
-      print_out("{} is complete, and every file is as its manifest says\n", made.folder.string());
-      break;
-    case app::Generated::State::part:
-      print_out(
-          "{}: frames {} to {} are whole; when all parts are, the same command without "
-          "--shard puts the sequence together\n",
-          made.scenario.name, made.range.first, made.range.last - 1);
-      break;
-    case app::Generated::State::whole:
-      print_out("{}: {} frames, seed {}\n", made.scenario.name, made.scenario.frames,
-                made.scenario.seed);
-      for (const std::string& note : made.notes) print_out("  {}\n", note);
-      print_out("  files    {}\n", made.folder.string());
-  }
-  return kFine;
+  return {command, [owned] { return generate(*owned); }};
 }
 
 }  // namespace lcs::tools

@@ -1,9 +1,19 @@
-#include "tools/lcs/merge.h"
+/// \file
+/// `lcs merge`: joins the parts of a suite that `lcs suite --shard` made.
+#include <memory>
 
+#include "tools/app/merge.h"
+#include "tools/lcs/commands.h"
+#include "tools/lcs/suite_end.h"
 #include "tools/lcs/terminal.h"
 
 namespace lcs::tools {
 namespace {
+
+struct MergeOptions {
+  app::MergeRequest request;
+  SuiteEndOptions end;
+};
 
 constexpr const char* kHelp = R"(Examples:
   lcs suite --worlds train --count 1000 --shard 1/2 --out part1     on one machine
@@ -16,9 +26,16 @@ stay as they are. On one file system their runs are linked, not copied.
 Exit codes: as of lcs suite. 2 also where a part is missing or is of another suite.
 )";
 
+ExitCode merge(const MergeOptions& options) {
+  Terminal terminal(options.end.quiet);
+  return show_suite(app::merge(options.request, terminal), options.request.place, options.end);
+}
+
 }  // namespace
 
-CLI::App& add_merge_command(CLI::App& app, MergeOptions& options) {
+Command add_merge_command(CLI::App& app) {
+  const auto owned = std::make_shared<MergeOptions>();
+  MergeOptions& options = *owned;
   CLI::App& command = *app.add_subcommand(
       "merge", "Join the parts of a suite that several machines made (lcs suite --shard)");
   command.add_option("DIR", options.request.parts, "The folders of all parts")
@@ -26,12 +43,7 @@ CLI::App& add_merge_command(CLI::App& app, MergeOptions& options) {
       ->type_name("");
   add_suite_end_options(command, options.request.place, options.end);
   command.footer(kHelp);
-  return command;
-}
-
-ExitCode merge(const MergeOptions& options) {
-  Terminal terminal(options.end.quiet);
-  return show_suite(app::merge(options.request, terminal), options.request.place, options.end);
+  return {command, [owned] { return merge(*owned); }};
 }
 
 }  // namespace lcs::tools

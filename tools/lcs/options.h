@@ -123,15 +123,7 @@ inline void add_result_options(CLI::App& command, bool& no_video, bool& events) 
 inline CLI::Option* add_keep_option(CLI::App& command, bench::Keep& keep) {
   return command
       .add_option_function<std::string>(
-          "--keep",
-          [&keep](const std::string& text) {
-            const auto found = std::ranges::find(bench::kKeepWords, text);
-            if (found == bench::kKeepWords.end()) {
-              throw std::invalid_argument("--keep is '" + text +
-                                          "'; it takes figures, events or all");
-            }
-            keep = static_cast<bench::Keep>(found - bench::kKeepWords.begin());
-          },
+          "--keep", [&keep](const std::string& text) { keep = bench::keep_of(text); },
           "The files of each run: figures; events: also a row a frame and the events; all: also "
           "layers, truth and pictures, for --recorded")
       ->type_name("WHAT");

@@ -1,7 +1,12 @@
-#include "tools/lcs/replay.h"
-
+/// \file
+/// `lcs replay`: runs a detector on a recording that options describe instead of a scenario file.
 #include <fmt/format.h>
 
+#include <memory>
+#include <string>
+
+#include "tools/app/replay.h"
+#include "tools/lcs/commands.h"
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/run.h"
@@ -10,6 +15,13 @@
 
 namespace lcs::tools {
 namespace {
+
+struct ReplayOptions {
+  app::ReplayRequest request;
+  std::string write;  ///< scenario file to write instead of running; "": run
+  bool force = false;
+  bool quiet = false;
+};
 
 using app::flag_of;
 using app::kNothingMoves;
@@ -87,9 +99,20 @@ constexpr KeyOption kKeys[] = {
     {"split", "NAME", "What its figures are for: train, validate or test"},
 };
 
+ExitCode replay(const ReplayOptions& options) {
+  if (!options.write.empty()) {
+    app::write_scenario(options.request, options.write, overwrite(options.force));
+    return kFine;
+  }
+  Terminal terminal(options.quiet);
+  return show_run(app::replay(options.request, terminal), options.quiet);
+}
+
 }  // namespace
 
-CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
+Command add_replay_command(CLI::App& app) {
+  const auto owned = std::make_shared<ReplayOptions>();
+  ReplayOptions& options = *owned;
   CLI::App& command =
       *app.add_subcommand("replay", "Run the LCS filter (or a comparator) on a recording");
   command
@@ -134,16 +157,7 @@ CLI::App& add_replay_command(CLI::App& app, ReplayOptions& options) {
   add_result_options(command, options.request.no_video, options.request.events);
   add_quiet_option(command, options.quiet);
   command.footer(kHelp);
-  return command;
-}
-
-ExitCode replay(const ReplayOptions& options) {
-  if (!options.write.empty()) {
-    app::write_scenario(options.request, options.write, overwrite(options.force));
-    return kFine;
-  }
-  Terminal terminal(options.quiet);
-  return show_run(app::replay(options.request, terminal), options.quiet);
+  return {command, [owned] { return replay(*owned); }};
 }
 
 }  // namespace lcs::tools

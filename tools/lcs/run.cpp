@@ -1,3 +1,5 @@
+/// \file
+/// `lcs run`: simulates a scenario, runs a detector on its frames, scores it and reports.
 #include "tools/lcs/run.h"
 
 #include <fmt/format.h>
@@ -6,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "tools/lcs/commands.h"
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
@@ -15,6 +18,12 @@
 
 namespace lcs::tools {
 namespace {
+
+struct RunOptions {
+  app::RunRequest request;
+  bool view = false;  ///< show the run in a window
+  bool quiet = false;
+};
 
 constexpr const char* kHelp = R"(Examples:
   lcs run scenarios/crossing.yaml
@@ -80,7 +89,39 @@ bool report_missed(const std::vector<bench::JudgedCriterion>& criteria) {
 
 }  // namespace
 
-CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
+ExitCode show_run(const app::RunMade& made, bool quiet) {
+  if (!quiet) {
+    for (const app::DetectorMade& one : made.detectors) {
+      print_result(made.scenario, one.name, one.metrics, made.pictures_skipped, one.folder);
+    }
+  }
+  bool failed = false;
+  for (const app::DetectorMade& one : made.detectors) failed |= report_missed(one.criteria);
+  return failed ? kCriterionFailed : kFine;
+}
+
+namespace {
+
+ExitCode run(const RunOptions& options) {
+  Terminal terminal(options.quiet);
+  app::RunRequest request = options.request;
+  std::shared_ptr<View> view;
+  if (options.view) {
+    request.view = [&](const scenario::Scenario& scenario) {
+      view = std::make_shared<View>(scenario.name, scenario.camera.rate_hz);
+      return [view](const cv::Mat3b& sheet) { return view->show(sheet); };
+    };
+  }
+  const ExitCode code = show_run(app::run(request, terminal), options.quiet);
+  if (view) view->hold();
+  return code;
+}
+
+}  // namespace
+
+Command add_run_command(CLI::App& app) {
+  const auto owned = std::make_shared<RunOptions>();
+  RunOptions& options = *owned;
   CLI::App& command = *app.add_subcommand(
       "run",
       "Simulate a scenario, or read its recording, run the LCS filter (or a comparator) on it, and "
@@ -122,33 +163,7 @@ CLI::App& add_run_command(CLI::App& app, RunOptions& options) {
       "pauses and goes on, . goes on by one frame, q closes the window");
   add_quiet_option(command, options.quiet);
   command.footer(kHelp);
-  return command;
-}
-
-ExitCode run(const RunOptions& options) {
-  Terminal terminal(options.quiet);
-  app::RunRequest request = options.request;
-  std::shared_ptr<View> view;
-  if (options.view) {
-    request.view = [&](const scenario::Scenario& scenario) {
-      view = std::make_shared<View>(scenario.name, scenario.camera.rate_hz);
-      return [view](const cv::Mat3b& sheet) { return view->show(sheet); };
-    };
-  }
-  const ExitCode code = show_run(app::run(request, terminal), options.quiet);
-  if (view) view->hold();
-  return code;
-}
-
-ExitCode show_run(const app::RunMade& made, bool quiet) {
-  if (!quiet) {
-    for (const app::DetectorMade& one : made.detectors) {
-      print_result(made.scenario, one.name, one.metrics, made.pictures_skipped, one.folder);
-    }
-  }
-  bool failed = false;
-  for (const app::DetectorMade& one : made.detectors) failed |= report_missed(one.criteria);
-  return failed ? kCriterionFailed : kFine;
+  return {command, [owned] { return run(*owned); }};
 }
 
 }  // namespace lcs::tools

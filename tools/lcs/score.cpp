@@ -1,13 +1,16 @@
-#include "tools/lcs/score.h"
-
+/// \file
+/// `lcs score`: computes a run's figures from its files, for its own or another detector.
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tools/files/output.h"
 #include "tools/input/message.h"
+#include "tools/lcs/commands.h"
 #include "tools/lcs/interrupt.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
@@ -21,6 +24,15 @@
 
 namespace lcs::tools {
 namespace {
+
+struct ScoreOptions {
+  std::string sequence;          ///< folder of a run
+  std::string detections;        ///< CSV file; "": score the run's own detector
+  std::string out;               ///< file for the figures; "": none
+  std::string write_detections;  ///< CSV file for the verdicts; "": none
+  bool force = false;
+  bool quiet = false;
+};
 
 constexpr const char* kHelp = R"(Examples:
   lcs score out/crossing                                    a run's figures again
@@ -80,27 +92,6 @@ ExitCode score_suite(const ScoreOptions& options) {
   return kFine;
 }
 
-}  // namespace
-
-CLI::App& add_score_command(CLI::App& app, ScoreOptions& options) {
-  CLI::App& command = *app.add_subcommand(
-      "score", "Score a run by its files, or someone else's detector on the same frames");
-  command.add_option("--sequence,DIR", options.sequence, "Folder of a run, or of a suite")
-      ->required()
-      ->type_name("");
-  command
-      .add_option("--detections", options.detections,
-                  "Score what this CSV file says instead of the run's own detector")
-      ->type_name("FILE");
-  add_output_file_option(command, "--out", options.out, options.force,
-                         "Write the figures to this file, as metrics.json has them");
-  add_output_file_option(command, "--write-detections", options.write_detections, options.force,
-                         "Write the verdicts and boxes that are scored to this CSV file");
-  add_quiet_option(command, options.quiet);
-  command.footer(kHelp);
-  return command;
-}
-
 ExitCode score(const ScoreOptions& options) {
   if (std::filesystem::exists(std::filesystem::path(options.sequence) / suite::kSuiteFile)) {
     return score_suite(options);
@@ -131,6 +122,29 @@ ExitCode score(const ScoreOptions& options) {
               bench::table(metrics));
   }
   return kFine;
+}
+
+}  // namespace
+
+Command add_score_command(CLI::App& app) {
+  const auto owned = std::make_shared<ScoreOptions>();
+  ScoreOptions& options = *owned;
+  CLI::App& command = *app.add_subcommand(
+      "score", "Score a run by its files, or someone else's detector on the same frames");
+  command.add_option("--sequence,DIR", options.sequence, "Folder of a run, or of a suite")
+      ->required()
+      ->type_name("");
+  command
+      .add_option("--detections", options.detections,
+                  "Score what this CSV file says instead of the run's own detector")
+      ->type_name("FILE");
+  add_output_file_option(command, "--out", options.out, options.force,
+                         "Write the figures to this file, as metrics.json has them");
+  add_output_file_option(command, "--write-detections", options.write_detections, options.force,
+                         "Write the verdicts and boxes that are scored to this CSV file");
+  add_quiet_option(command, options.quiet);
+  command.footer(kHelp);
+  return {command, [owned] { return score(*owned); }};
 }
 
 }  // namespace lcs::tools

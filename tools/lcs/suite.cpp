@@ -1,18 +1,29 @@
-#include "tools/lcs/suite.h"
-
+/// \file
+/// `lcs suite`: runs many scenarios with several seeds each in parallel and prints one table.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <memory>
+
 #include <algorithm>
 
+#include "tools/app/suite.h"
+#include "tools/lcs/commands.h"
 #include "tools/lcs/detector_option.h"
 #include "tools/lcs/options.h"
+#include "tools/lcs/suite_end.h"
 #include "tools/lcs/suite_progress.h"
 #include "tools/lcs/terminal.h"
 #include "tools/lcs/worlds_option.h"
 
 namespace lcs::tools {
 namespace {
+
+struct SuiteOptions {
+  app::SuiteRequest request;
+  bool list = false;
+  SuiteEndOptions end;
+};
 
 constexpr int kMostJobs = 1024;
 constexpr int kMostSeeds = 1000;
@@ -87,9 +98,19 @@ ExitCode list_plan(const std::vector<suite::PlannedScenario>& plan) {
   return is_broken ? kError : kFine;
 }
 
+ExitCode suite(const SuiteOptions& options) {
+  Terminal terminal(options.end.quiet);
+  if (options.list) return list_plan(app::plan_suite(options.request, terminal).plan);
+  SuiteProgress progress(options.end.quiet);
+  return show_suite(app::suite(options.request, terminal, progress), options.request.place,
+                    options.end);
+}
+
 }  // namespace
 
-CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
+Command add_suite_command(CLI::App& app) {
+  const auto owned = std::make_shared<SuiteOptions>();
+  SuiteOptions& options = *owned;
   CLI::App& command = *app.add_subcommand(
       "suite", "Run many scenarios with several seeds each, in parallel, and sum them up");
   command
@@ -154,15 +175,7 @@ CLI::App& add_suite_command(CLI::App& app, SuiteOptions& options) {
                    "Drop the runs of an unfinished suite in the same place, and begin again");
   command.add_flag("--list", options.list, "Only list what would be run");
   command.footer(kHelp);
-  return command;
-}
-
-ExitCode suite(const SuiteOptions& options) {
-  Terminal terminal(options.end.quiet);
-  if (options.list) return list_plan(app::plan_suite(options.request, terminal).plan);
-  SuiteProgress progress(options.end.quiet);
-  return show_suite(app::suite(options.request, terminal, progress), options.request.place,
-                    options.end);
+  return {command, [owned] { return suite(*owned); }};
 }
 
 }  // namespace lcs::tools

@@ -1,14 +1,23 @@
-#include "tools/lcs/world.h"
-
+/// \file
+/// `lcs world`: draws a scenario and its scene at random from a seed.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <memory>
+
+#include "tools/app/world.h"
+#include "tools/lcs/commands.h"
 #include "tools/lcs/options.h"
 #include "tools/lcs/terminal.h"
 #include "tools/worlds/worlds.h"
 
 namespace lcs::tools {
 namespace {
+
+struct WorldOptions {
+  app::WorldRequest request;
+  bool quiet = false;
+};
 
 constexpr const char* kHelp = R"(Examples:
   lcs world room --seed 7 --out my/room          my/room/room_7.yaml, and what it is made of
@@ -32,9 +41,22 @@ Exit codes:
   130  interrupted (Ctrl-C): likewise
 )";
 
+ExitCode world(const WorldOptions& options) {
+  Terminal terminal(options.quiet);
+  const auto [drawn, folder] = app::world(options.request, terminal);
+  if (!options.quiet) {
+    print_out("{}: {} objects, {} movers, drawn again {} times\n  has      {}\n  files    {}\n",
+              worlds::name_of(drawn), drawn.bodies.size(), drawn.scenario.actors.size(),
+              drawn.attempt, fmt::join(drawn.features, ", "), folder.string());
+  }
+  return kFine;
+}
+
 }  // namespace
 
-CLI::App& add_world_command(CLI::App& app, WorldOptions& options) {
+Command add_world_command(CLI::App& app) {
+  const auto owned = std::make_shared<WorldOptions>();
+  WorldOptions& options = *owned;
   CLI::App& command =
       *app.add_subcommand("world", "Draw a scenario and its scene from a seed, and write them");
   command
@@ -52,18 +74,7 @@ CLI::App& add_world_command(CLI::App& app, WorldOptions& options) {
                    "Write sheet.png too: first, middle and last picture, and the plan from above");
   add_quiet_option(command, options.quiet);
   command.footer(kHelp);
-  return command;
-}
-
-ExitCode world(const WorldOptions& options) {
-  Terminal terminal(options.quiet);
-  const auto [drawn, folder] = app::world(options.request, terminal);
-  if (!options.quiet) {
-    print_out("{}: {} objects, {} movers, drawn again {} times\n  has      {}\n  files    {}\n",
-              worlds::name_of(drawn), drawn.bodies.size(), drawn.scenario.actors.size(),
-              drawn.attempt, fmt::join(drawn.features, ", "), folder.string());
-  }
-  return kFine;
+  return {command, [owned] { return world(*owned); }};
 }
 
 }  // namespace lcs::tools

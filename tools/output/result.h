@@ -39,6 +39,9 @@ constexpr std::string_view word_of(Keep keep) {
   return kKeepWords.at(static_cast<std::size_t>(keep));
 }
 
+/// \throws std::invalid_argument for another word.
+Keep keep_of(const std::string& word);
+
 /// Optional contents of a result.
 struct ResultOptions {
   Keep keep = Keep::all;
