@@ -1,4 +1,4 @@
-"""Test bench for the Line-Circle-Square filter: sequences with their truth, the filter, scores.
+"""Test bench for the Line-Circle-Square filter: sequences with their truth, the filter, comparators, scores, suites.
 
     import lcs
 
@@ -25,6 +25,7 @@ from . import _core
 from ._core import (
     Camera,
     Detections,
+    Detector,
     Error,
     Filter,
     Frame,
@@ -38,12 +39,24 @@ from ._core import (
     Truth,
     Verdict,
     __version__,
+    compare,
+    detectors,
+    generate,
+    kinematics,
+    merge,
+    replay,
+    run,
+    suite,
+    tune,
+    world,
+    worlds,
 )
 
 __all__ = [
     "SCENARIOS",
     "Camera",
     "Detections",
+    "Detector",
     "Error",
     "Filter",
     "Frame",
@@ -57,15 +70,26 @@ __all__ = [
     "Truth",
     "Verdict",
     "__version__",
+    "compare",
+    "detectors",
+    "generate",
+    "kinematics",
+    "merge",
+    "replay",
+    "run",
     "score",
     "simulate",
+    "suite",
+    "tune",
+    "world",
+    "worlds",
 ]
 
-_folder = _Path(__file__).parent
-_core._use_scenes(_folder / "scenes")
+# The program runs suites in processes of its own, and knows where the scenes are.
+_core._use_program(_Path(__file__).parent / "bin" / "lcs")
 
 #: Folder of the project's own scenarios, as `lcs.SCENARIOS / "suite" / "night.yaml"`.
-SCENARIOS: _Path = _folder / "scenarios"
+SCENARIOS: _Path = _Path(_core._shipped_folder("scenarios"))
 
 
 def simulate(scenario: Scenario) -> Simulation:
