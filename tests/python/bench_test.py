@@ -149,25 +149,25 @@ class Suites(InAFolder):
 
 class Interrupting(InAFolder):
     def test_ctrl_c_ends_a_suite_and_the_same_call_goes_on(self):
-        over = threading.Event()
+        one_is_done = threading.Event()
 
-        def interrupt():
-            while not list(Path().glob("out/**/metrics.json")):
-                if over.wait(0.01):
-                    return
+        def interrupt():  # runs meanwhile: the GIL is free
+            one_is_done.wait()
             signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
 
-        request = {"paths": "small.yaml", "seeds": 40, "jobs": 1, "keep": "figures"}
-        thread = threading.Thread(target=interrupt)  # runs meanwhile: the GIL is free
+        request = {"paths": "small.yaml", "seeds": 6, "jobs": 1, "keep": "figures"}
+        thread = threading.Thread(target=interrupt)
         thread.start()
-        with self.assertRaises(KeyboardInterrupt):
-            lcs.suite(**request)
-        over.set()
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                lcs.suite(**request, progress=lambda done, total: one_is_done.set())
+        finally:
+            one_is_done.set()
         thread.join()
         self.assertFalse(Path("out/suite/suite.json").exists())
         with self.assertRaisesRegex(lcs.Error, "unfinished suite"):
             lcs.suite(**{**request, "seeds": 3})
-        self.assertEqual(len(lcs.suite(**{**request, "seeds": 3}, anew=True)["runs"]), 3)
+        self.assertEqual(len(lcs.suite(**request)["runs"]), 6)
 
     def test_what_one_call_has_read_another_may_replace(self):
         lcs.suite("small.yaml", seeds=1, out="out/again")
@@ -197,6 +197,14 @@ class Runs(InAFolder):
                 self.assertEqual(detector.finish(), [])
                 made = lcs.run("small.yaml", detector=name, out=f"out/{name}")["detectors"][name]
                 self.assertEqual(without_times(metrics), without_times(made["metrics"]))
+
+    def test_a_stored_run_is_scored_again(self):
+        made = lcs.run("small.yaml", out="out/stored")["detectors"]["lcs"]
+        self.assertEqual(lcs.score("out/stored"), made["metrics"])
+        Path("none.csv").write_text("0,circle\n", encoding="utf-8")
+        self.assertEqual(lcs.score(Path("out/stored"), detections="none.csv")["rebel.recall"], 0)
+        with self.assertRaisesRegex(lcs.Error, "nowhere is no folder"):
+            lcs.score("nowhere")
 
     def test_a_program_is_a_detector(self):
         Path("still.py").write_text(STILL, encoding="utf-8")

@@ -35,7 +35,7 @@ def generated():
         text = (Path(folder) / "lcs" / "__init__.pyi").read_text(encoding="utf-8")
     # Calling __new__ raises, and names with _ are not of the interface.
     text = re.sub(r"    @staticmethod\n    def __new__\(type,.*?\n        \"\"\"\n.*?\"\"\"\n", "", text, flags=re.DOTALL)
-    text = re.sub(r"^_\w+: .*\n", "", text, flags=re.MULTILINE)
+    text = re.sub(r"^_(?!_)\w+: .*\n", "", text, flags=re.MULTILINE)
     text = text.replace(
         "import typing\n",
         "from numpy.typing import ArrayLike as _ArrayLike\n"

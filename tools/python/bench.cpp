@@ -17,6 +17,7 @@
 #include "tools/app/kinematics.h"
 #include "tools/app/merge.h"
 #include "tools/app/replay.h"
+#include "tools/app/score.h"
 #include "tools/app/suite.h"
 #include "tools/app/tune.h"
 #include "tools/app/world.h"
@@ -418,6 +419,17 @@ void bind_runs(py::module_& module) {
       "beside: \"DETECTOR=FOLDER\" each. The others are as those of suite.\n"
       "Returns a dict: scenario, seed, detectors (by name a dict of metrics, criteria, folder), "
       "messages.");
+  module.def(
+      "_score_files",
+      [](const fs::path& folder, const fs::path& detections) {
+        PythonCaller caller;
+        const app::Scored scored = carry_out([&] {
+          return app::score({folder.string(), detections.string()}, caller);
+        });
+        if (scored.suite) throw py::value_error("a suite has many runs; give the folder of one");
+        return dict_of(scored.metrics);
+      },
+      "folder"_a, "detections"_a = "", "The figures of a stored run, as lcs score computes them.");
   module.def(
       "replay",
       [](const fs::path& path, const std::string& out, const py::object& recording,

@@ -19,12 +19,14 @@ from collections.abc import Iterable as _Iterable
 import enum
 import numpy
 import os
+from os import PathLike as _PathLike
 import pathlib
 from pathlib import Path as _Path
 from numpy.typing import ArrayLike as _ArrayLike
 import typing
 from typing import Optional as _Optional, Union as _Union
 from . import _core
+__all__: list = ['SCENARIOS', 'Camera', 'Detections', 'Detector', 'Error', 'Filter', 'Frame', 'Label', 'Motion', 'Reason', 'Result', 'Scenario', 'Scorer', 'Simulation', 'Truth', 'Verdict', '__version__', 'compare', 'detectors', 'generate', 'kinematics', 'merge', 'replay', 'run', 'score', 'simulate', 'suite', 'tune', 'world', 'worlds']
 class Camera:
     """
     A pinhole with square pixels and no distortion: x right, y down, z forward, pixels with
@@ -692,12 +694,13 @@ def run(scenario: str | os.PathLike[str], *, out: str = '', seed: int | None = N
     beside: "DETECTOR=FOLDER" each. The others are as those of suite.
     Returns a dict: scenario, seed, detectors (by name a dict of metrics, criteria, folder), messages.
     """
-def score(said: _Iterable[tuple[Frame, _Union[Result, Detections, _ArrayLike]]]) -> dict[str, _Optional[float]]:
+def score(said: _Union[str, _PathLike[str], _Iterable[tuple[Frame, _Union[Result, Detections, _ArrayLike]]]], *, detections: _Union[str, _PathLike[str]] = '') -> dict[str, _Optional[float]]:
     """
     The figures of metrics.json, by name; None where undefined.
 
-        said: pairs of a Frame and what a detector says of it: a Result of the filter, Detections, or
-        N bool, which of frame.corners are rebels. All frames of one run, in order.
+        said: pairs of a Frame and what a detector says of it: a Result, Detections, or N bool, which of
+        frame.corners are rebels. All frames of one run, in order. Or the folder of a stored run;
+        detections: then a CSV file of another detector (tools/recording/DETECTIONS.md).
 
     """
 def simulate(scenario: Scenario) -> Simulation:
@@ -750,3 +753,4 @@ def worlds(split: str, count: int = 60, *, family: str = '', jobs: int = 0) -> l
     chosen. Those that are missing in out/worlds/ are drawn, jobs at a time.
     """
 SCENARIOS: pathlib.Path
+__version__: str
