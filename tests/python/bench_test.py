@@ -6,6 +6,7 @@ import signal
 import subprocess
 import tempfile
 import threading
+import time
 import unittest
 import warnings
 from pathlib import Path
@@ -199,7 +200,10 @@ class Runs(InAFolder):
                 self.assertEqual(without_times(metrics), without_times(made["metrics"]))
 
     def test_a_stored_run_is_scored_again(self):
+        begun = time.monotonic()
         made = lcs.run("small.yaml", out="out/stored")["detectors"]["lcs"]
+        how = json.loads(Path("out/stored/run.json").read_text(encoding="utf-8"))
+        self.assertLessEqual(how["wall_s"], time.monotonic() - begun)  # not since the import
         self.assertEqual(lcs.score("out/stored"), made["metrics"])
         Path("none.csv").write_text("0,circle\n", encoding="utf-8")
         self.assertEqual(lcs.score(Path("out/stored"), detections="none.csv")["rebel.recall"], 0)

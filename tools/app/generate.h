@@ -38,7 +38,7 @@ struct GenerateRequest {
 struct Generated {
   std::filesystem::path folder;
   sequence::FrameRange range;      ///< of the part
-  std::vector<std::string> notes;  ///< what the writers say of their files
+  std::vector<std::string> notes;  ///< remarks of the writers on their files
   enum class State { whole, part, complete_before } state = State::whole;
   scenario::Scenario scenario = {};
 };

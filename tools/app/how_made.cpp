@@ -16,10 +16,19 @@
 namespace lcs::app {
 namespace {
 
-const std::time_t kStart = std::time(nullptr);
-const auto kStartClock = std::chrono::steady_clock::now();
+/// The start of the request: of the process, unless `note_start` was called.
+struct Start {
+  std::time_t date = std::time(nullptr);
+  std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
+  std::clock_t cpu = std::clock();
+};
+Start start;
 
 }  // namespace
+
+void note_start() {
+  start = {};
+}
 
 void note_longer(const std::filesystem::path& folder, bool is_named, const char* what,
                  std::size_t count, Caller& caller) {
@@ -47,10 +56,10 @@ void write_how_made(const std::filesystem::path& folder, const std::string& comm
   if (!versions.mujoco.empty()) json["mujoco"] = versions.mujoco;
   if (!versions.gl_renderer.empty()) json["renderer"] = versions.gl_renderer;
   json["opencv"] = cv::getVersionString();
-  json["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(kStart));
+  json["started"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(start.date));
   json["wall_s"] =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - kStartClock).count();
-  json["cpu_s"] = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start.wall).count();
+  json["cpu_s"] = static_cast<double>(std::clock() - start.cpu) / CLOCKS_PER_SEC;
   bench::write_file(
       folder / bench::kHowMadeFile,
       json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');

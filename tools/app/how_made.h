@@ -19,6 +19,9 @@ namespace lcs::app {
 void write_how_made(const std::filesystem::path& folder, const std::string& command,
                     const sim::Versions& versions, const nlohmann::ordered_json& about);
 
+/// Begins the times of the next `write_how_made`, in a process that carries out several requests.
+void note_start();
+
 /// Warns that a shorter result will replace a longer one. \param what "frames" or "runs", an entry
 /// of `about`. \param is_named whether the user named the folder, which is no default.
 /// \throws bench::OutputError if the earlier result in a default folder has more than `count`.

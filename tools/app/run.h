@@ -54,8 +54,8 @@ struct RunMade {
   scenario::Scenario scenario = {};     ///< as it was run
 };
 
-/// \throws input::Error, bench::OutputError, sim::PhysicsError, std::exception, and what
-///   `caller.check` throws; then no output is written, and earlier output is unchanged.
+/// \throws input::Error, bench::OutputError, sim::PhysicsError, std::exception, and an
+///   exception of `caller.check`; then no output is written, and earlier output is unchanged.
 RunMade run(const RunRequest& request, Caller& caller);
 
 /// As `run`, for a loaded scenario: `request.seed` is ignored; `request.scenario`, `sets` and

@@ -33,7 +33,7 @@ struct TuneMade {
   std::filesystem::path folder;
 };
 
-/// \throws std::exception, and what `caller.check` throws. All finished evaluations are kept.
+/// \throws std::exception, and an exception of `caller.check`. All finished evaluations are kept.
 TuneMade tune(const TuneRequest& request, Caller& caller);
 
 }  // namespace lcs::app

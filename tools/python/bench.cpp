@@ -14,6 +14,7 @@
 #include "tools/app/command_line.h"
 #include "tools/app/compare.h"
 #include "tools/app/generate.h"
+#include "tools/app/how_made.h"
 #include "tools/app/kinematics.h"
 #include "tools/app/merge.h"
 #include "tools/app/replay.h"
@@ -111,6 +112,7 @@ class PythonCaller : public app::Caller, public app::SuiteWatch {
 template <class Work>
 auto carry_out(const Work& work) {
   require_no_fork();
+  app::note_start();
   input::forget_inputs();  // an earlier call's inputs may be this one's outputs
   const py::gil_scoped_release others_may_run;
   const OneThread one_thread;
@@ -315,7 +317,8 @@ void bind_suites(py::module_& module) {
       "means: a\n"
       "dict for each detector, group and metric of the program's tables, with mean, half (of the "
       "95 %\n"
-      "interval, of worlds; None where unknown) and count; table: what the program prints; "
+      "interval, of worlds; None where unknown) and count; table: the text that the program "
+      "prints; "
       "verdict;\n"
       "comparison with the baseline, as of compare; messages.\n"
       "Finished runs are kept if it raises or is interrupted, and the same call goes on from "
@@ -344,8 +347,8 @@ void bind_suites(py::module_& module) {
       "with group\n"
       "or scenario, metric, before, after, change, half (of its 95 % interval; None where "
       "unknown), pairs,\n"
-      "verdict (improved, regressed, moved, unknown, or none); incomparable; text: what the "
-      "program prints.\n"
+      "verdict (improved, regressed, moved, unknown, or none); incomparable; text: as the "
+      "program prints it.\n"
       "Raises Error for suites that cannot be read, or have nothing in common.");
 }
 
@@ -577,7 +580,7 @@ void bind_studies(py::module_& module) {
       "config: a scenario's file; crossing.yaml if not given. tolerance: of a prediction, px.\n"
       "Returns a dict: folder; answer: for each topic a dict of text, figures (name, value, unit, "
       "expected,\n"
-      "NaN without theory) and verdict; text: what the program prints.");
+      "NaN without theory) and verdict; text: as the program prints it.");
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ void bind_detector(py::module_& module) {
            }),
            py::arg("scenario"), py::arg("name") = "", py::kw_only(), py::arg("command") = "",
            py::arg("timeout") = app::DetectorChoice{}.timeout_s,
-           "name: of the detector; lcs if not given, with command what the program is called in "
+           "name: of the detector; lcs if not given, with command the name of the program in "
            "results.\n"
            "command: starts the program, as 'python3 mine.py'. timeout: of each of its answers, "
            "s.\n"
@@ -102,7 +102,7 @@ void bind_detector(py::module_& module) {
         }
         return names;
       },
-      "The names of the bench's detectors, and what each of them is.");
+      "The names of the bench's detectors, with a line on each.");
 }
 
 }  // namespace lcs::python

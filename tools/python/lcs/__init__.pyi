@@ -99,7 +99,7 @@ class Detector:
     """
     def __init__(self, scenario: Scenario, name: str = '', *, command: str = '', timeout: float = 30.0) -> None:
         """
-        name: of the detector; lcs if not given, with command what the program is called in results.
+        name: of the detector; lcs if not given, with command the name of the program in results.
         command: starts the program, as 'python3 mine.py'. timeout: of each of its answers, s.
         Raises ValueError for an unknown name, Error for a program that does not start.
         """
@@ -651,12 +651,12 @@ def compare(before: str | os.PathLike[str], after: str | os.PathLike[str], *, me
     before, after: folders, or their suite.json. metric: a regular expression.
     Returns a dict: verdict, a line; regressed; means and scenarios: a dict for each figure, with group
     or scenario, metric, before, after, change, half (of its 95 % interval; None where unknown), pairs,
-    verdict (improved, regressed, moved, unknown, or none); incomparable; text: what the program prints.
+    verdict (improved, regressed, moved, unknown, or none); incomparable; text: as the program prints it.
     Raises Error for suites that cannot be read, or have nothing in common.
     """
 def detectors() -> dict:
     """
-    The names of the bench's detectors, and what each of them is.
+    The names of the bench's detectors, with a line on each.
     """
 def generate(paths: typing.Any = None, *, out: str = '', worlds: str = '', count: int = 60, family: str = '', suite: bool = False, formats: list[str] = [], frames: int = 0, seed: int | None = None, seeds: int = 1, set: typing.Any = None, jobs: int = 1, shard: str = '', progress: typing.Any = None) -> dict:
     """
@@ -673,7 +673,7 @@ def kinematics(config: str = '', *, set: typing.Any = None, tolerance: float = 1
 
     config: a scenario's file; crossing.yaml if not given. tolerance: of a prediction, px.
     Returns a dict: folder; answer: for each topic a dict of text, figures (name, value, unit, expected,
-    NaN without theory) and verdict; text: what the program prints.
+    NaN without theory) and verdict; text: as the program prints it.
     """
 def merge(parts: typing.Any, *, out: str | os.PathLike[str] = 'out/suite', baseline: str = '') -> dict:
     """
@@ -726,7 +726,7 @@ def suite(paths: typing.Any = None, *, worlds: str = '', count: int = 60, family
     Returns a dict: folder; outcome (passed, failed, error); runs: a dict each, with detector,
     scenario, seed, family, outcome, error, metrics (by name), criteria, folder, command; means: a
     dict for each detector, group and metric of the program's tables, with mean, half (of the 95 %
-    interval, of worlds; None where unknown) and count; table: what the program prints; verdict;
+    interval, of worlds; None where unknown) and count; table: the text that the program prints; verdict;
     comparison with the baseline, as of compare; messages.
     Finished runs are kept if it raises or is interrupted, and the same call goes on from there.
     """
